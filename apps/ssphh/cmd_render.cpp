@@ -1,0 +1,7 @@
+#include "command.h"
+
+namespace ssphh::app {
+
+void add_render_command(CLI::App&, Context&) {}
+
+}  // namespace ssphh::app

@@ -1,0 +1,43 @@
+#include "command.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace ssphh::app {
+
+void Context::result(const nlohmann::ordered_json& object, const std::string& text) const {
+  const std::string out =
+      json ? object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) : text;
+  if (std::fputs(out.c_str(), stdout) < 0 || std::fputc('\n', stdout) == EOF || std::fflush(stdout) != 0) {
+    throw Error("stdout", "cannot write the result");
+  }
+}
+
+CLI::App* add_command(CLI::App& parent, Context& context, const std::string& name, const std::string& description,
+                      std::function<void()> action) {
+  CLI::App* command = parent.add_subcommand(name, description);
+  const std::string group = "Common";
+  command->add_flag("--json", context.json, "Print one JSON object on stdout and nothing else there")->group(group);
+  command->add_option("--seed", context.seed, "Seed of all random numbers; the same seed gives the same bits")
+      ->capture_default_str()
+      ->group(group);
+  command->add_option("--threads", context.threads, "Worker threads; 0: all. Does not change results")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str()
+      ->group(group);
+  command->add_option("--progress", context.progress, "Progress on stderr: auto, bar, plain, json or none")
+      ->check(CLI::IsMember({"auto", "bar", "plain", "json", "none"}))
+      ->capture_default_str()
+      ->group(group);
+  command->callback([&context, action = std::move(action)] { context.run = action; });
+  return command;
+}
+
+CLI::App* add_group(CLI::App& parent, const std::string& name, const std::string& description) {
+  CLI::App* group = parent.add_subcommand(name, description);
+  group->require_subcommand(1);
+  return group;
+}
+
+}  // namespace ssphh::app

@@ -1,0 +1,44 @@
+#pragma once
+/// How a command of the tool is made: one file cmd_<name>.cpp per command, one line in the table of main.cpp.
+
+#include <ssphh/core/control.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace ssphh::app {
+
+/// What every command shares.
+struct Context {
+  bool json = false;
+  std::uint64_t seed = 0;
+  int threads = 0;
+  std::string progress = "auto";
+  Control control;            ///< progress on stderr, cancelled by Ctrl-C
+  std::function<void()> run;  ///< set by the chosen command while options are parsed
+
+  /// The command's result: with --json the object alone on stdout, else `text`.
+  void result(const nlohmann::ordered_json& object, const std::string& text) const;
+};
+
+/// A leaf command with the common options (--json, --seed, --threads, --progress). `action` runs after parsing;
+/// it throws Error for bad input.
+CLI::App* add_command(CLI::App& parent, Context& context, const std::string& name, const std::string& description,
+                      std::function<void()> action);
+
+/// A command that only groups subcommands ("sh project", "probe info").
+CLI::App* add_group(CLI::App& parent, const std::string& name, const std::string& description);
+
+void add_scene_commands(CLI::App& app, Context& context);
+void add_render_command(CLI::App& app, Context& context);
+void add_bake_command(CLI::App& app, Context& context);
+void add_hier_command(CLI::App& app, Context& context);
+void add_probe_commands(CLI::App& app, Context& context);
+void add_sh_commands(CLI::App& app, Context& context);
+void add_cubemap_commands(CLI::App& app, Context& context);
+void add_compare_command(CLI::App& app, Context& context);
+
+}  // namespace ssphh::app

@@ -1,0 +1,81 @@
+#include "command.h"
+#include "stderr_progress.h"
+
+#include <ssphh/core/log.h>
+#include <ssphh/core/parallel.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <new>
+
+namespace ssphh::app {
+namespace {
+
+CancelToken cancel_token;
+
+// The first Ctrl-C asks the work to stop cleanly; a second one ends the process at once.
+extern "C" void on_signal(int signal) {
+  if (cancel_token.requested()) std::_Exit(128 + signal);
+  cancel_token.request();
+}
+
+enum ExitCode { success = 0, failure = 1, usage = 2 };
+
+int fail(const Context& context, const std::string& message) {
+  log(LogLevel::error, message);
+  if (context.json) context.result({{"error", message}}, "");
+  return failure;
+}
+
+int run(int argc, char** argv) {
+  Context context;
+  CLI::App app{"ssphh: global illumination from hierarchies of spherical-harmonics light probes"};
+  app.set_version_flag("--version", std::string("ssphh ") + SSPHH_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "SCENE is a file (.glb .gltf .obj) or builtin:NAME (see `ssphh scene list`).\n"
+      "Exit codes: 0 success, 1 failure (bad input, cancelled), 2 wrong usage.");
+
+  add_scene_commands(app, context);
+  add_render_command(app, context);
+  add_bake_command(app, context);
+  add_hier_command(app, context);
+  add_probe_commands(app, context);
+  add_sh_commands(app, context);
+  add_cubemap_commands(app, context);
+  add_compare_command(app, context);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? success : usage;
+  }
+
+  StderrProgress progress(progress_style(context.progress));
+  context.control = {&progress, &cancel_token};
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  std::signal(SIGPIPE, SIG_IGN);
+  set_thread_count(context.threads);
+  try {
+    context.run();
+    return success;
+  } catch (const Cancelled&) {
+    return fail(context, "cancelled");
+  } catch (const std::bad_alloc&) {
+    return fail(context, "out of memory");
+  } catch (const std::exception& e) {
+    return fail(context, e.what());
+  }
+}
+
+}  // namespace
+}  // namespace ssphh::app
+
+int main(int argc, char** argv) {
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
+    ssphh::log(ssphh::LogLevel::error, "this build needs a CPU with AVX2 and FMA (configure with -DSSPHH_ARCH=x86-64)");
+    return 1;
+  }
+  return ssphh::app::run(argc, argv);
+}

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <ssphh/core/control.h>
+
+#include <chrono>
+#include <mutex>
+
+namespace ssphh::app {
+
+enum class ProgressStyle { none, bar, plain, json };
+
+/// "auto" is a bar on a terminal and plain lines otherwise.
+ProgressStyle progress_style(const std::string& name);
+
+/// Progress with rate and estimated time on stderr: a redrawn bar, or a line at most every few seconds.
+class StderrProgress final : public Progress {
+ public:
+  explicit StderrProgress(ProgressStyle style) : style_(style) {}
+  void begin(const std::string& stage, std::uint64_t total, const std::string& unit) override;
+  void advance(std::uint64_t count) override;
+  void end() override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void print(bool last);
+
+  ProgressStyle style_;
+  std::mutex mutex_;
+  std::string stage_, unit_;
+  std::uint64_t total_ = 0, done_ = 0;
+  Clock::time_point start_, printed_;
+};
+
+}  // namespace ssphh::app

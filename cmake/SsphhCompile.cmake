@@ -1,0 +1,13 @@
+# Compile options shared by every target of this project; not exported to users of the installed package.
+add_library(ssphh_compile_options INTERFACE)
+target_compile_options(ssphh_compile_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual
+  -Werror=return-type -fno-math-errno -march=${SSPHH_ARCH})
+option(SSPHH_WARNINGS_AS_ERRORS "Treat warnings as errors" OFF)
+if(SSPHH_WARNINGS_AS_ERRORS)
+  target_compile_options(ssphh_compile_options INTERFACE -Werror)
+endif()
+if(SSPHH_SANITIZE)
+  target_compile_options(ssphh_compile_options INTERFACE -fsanitize=${SSPHH_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(ssphh_compile_options INTERFACE -fsanitize=${SSPHH_SANITIZE})
+endif()

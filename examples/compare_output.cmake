@@ -1,0 +1,5 @@
+execute_process(COMMAND ${PROGRAM} OUTPUT_VARIABLE output RESULT_VARIABLE code)
+file(READ ${EXPECTED} expected)
+if(NOT code EQUAL 0 OR NOT output STREQUAL expected)
+  message(FATAL_ERROR "exit code ${code}; printed:\n${output}\nexpected:\n${expected}")
+endif()

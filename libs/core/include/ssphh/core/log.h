@@ -1,0 +1,33 @@
+#pragma once
+/// Messages for people, on stderr (stdout belongs to results).
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <string>
+
+namespace ssphh {
+
+enum class LogLevel { debug, info, warning, error };
+
+/// Receives every message at or above the threshold; called under a lock.
+using LogSink = std::function<void(LogLevel, const std::string&)>;
+
+void set_log_level(LogLevel threshold);
+
+/// Replaces the stderr sink; an empty function restores it. Returns the sink that was there before.
+LogSink set_log_sink(LogSink sink);
+
+void log(LogLevel level, const std::string& message);
+
+template <class... Args>
+void log_info(fmt::format_string<Args...> format, Args&&... args) {
+  log(LogLevel::info, fmt::format(format, std::forward<Args>(args)...));
+}
+
+template <class... Args>
+void log_warning(fmt::format_string<Args...> format, Args&&... args) {
+  log(LogLevel::warning, fmt::format(format, std::forward<Args>(args)...));
+}
+
+}  // namespace ssphh

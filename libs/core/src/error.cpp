@@ -1,0 +1,29 @@
+#include <ssphh/core/error.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+namespace ssphh {
+namespace {
+
+std::string message(const std::string& where, const std::string& problem, const std::string& hint) {
+  std::string text = where.empty() ? problem : where + ": " + problem;
+  if (!hint.empty()) text += " (" + hint + ")";
+  return text;
+}
+
+}  // namespace
+
+Error::Error(std::string where, std::string problem, std::string hint)
+    : std::runtime_error(message(where, problem, hint)),
+      where_(std::move(where)),
+      problem_(std::move(problem)),
+      hint_(std::move(hint)) {}
+
+void check_failed(const char* expression, const char* file, int line) {
+  std::fprintf(stderr, "%s:%d: internal error, please report: check failed: %s\n", file, line, expression);
+  std::abort();
+}
+
+}  // namespace ssphh

@@ -1,0 +1,113 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <ssphh/core/error.h>
+#include <ssphh/core/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+namespace ssphh {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const char* action, int error) {
+  throw Error(path.string(), fmt::format("cannot {}: {}", action, std::strerror(error)));
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return fd_; }
+  int close() {
+    const int result = ::close(fd_);
+    fd_ = -1;
+    return result;
+  }
+
+ private:
+  int fd_;
+};
+
+template <class Container>
+Container read_whole(const std::filesystem::path& path, std::uint64_t limit) {
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.get() < 0) fail(path, "open", errno);
+  struct stat status {};
+  if (::fstat(file.get(), &status) != 0) fail(path, "read", errno);
+  if (S_ISDIR(status.st_mode)) fail(path, "read", EISDIR);
+  if (!S_ISREG(status.st_mode)) throw Error(path.string(), "is not a regular file");
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  if (size > limit) {
+    throw Error(path.string(), fmt::format("is too large: {} bytes, the limit is {}", size, limit));
+  }
+  Container data(size, {});
+  std::uint64_t done = 0;
+  while (done < size) {
+    const ssize_t got = ::read(file.get(), data.data() + done, size - done);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail(path, "read", errno);
+    if (got == 0) throw Error(path.string(), "became shorter while it was read");
+    done += static_cast<std::uint64_t>(got);
+  }
+  return data;
+}
+
+// Returns 0 or the system's error number.
+int write_all(int fd, std::span<const std::byte> data) {
+  std::size_t done = 0;
+  while (done < data.size()) {
+    const ssize_t put = ::write(fd, data.data() + done, data.size() - done);
+    if (put < 0 && errno == EINTR) continue;
+    if (put <= 0) return put < 0 ? errno : ENOSPC;
+    done += static_cast<std::size_t>(put);
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t limit) {
+  return read_whole<std::vector<std::byte>>(path, limit);
+}
+
+std::string read_text_file(const std::filesystem::path& path, std::uint64_t limit) {
+  return read_whole<std::string>(path, limit);
+}
+
+void write_file(const std::filesystem::path& path, std::span<const std::byte> data) {
+  // A device or pipe has no old content to keep and must not be replaced by a file.
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
+    if (S_ISDIR(status.st_mode)) fail(path, "write", EISDIR);
+    Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    if (device.get() < 0) fail(path, "write", errno);
+    if (const int error = write_all(device.get(), data)) fail(path, "write", error);
+    return;
+  }
+  std::string temporary = path.string() + ".XXXXXX.part";
+  Descriptor file(::mkostemps(temporary.data(), 5, O_CLOEXEC));
+  if (file.get() < 0) fail(path, "write", errno);
+  const auto abandon = [&](int error) {
+    ::unlink(temporary.c_str());
+    fail(path, "write", error);
+  };
+  if (const int error = write_all(file.get(), data)) abandon(error);
+  // mkostemps makes the file private; an ordinary output has the umask's mode.
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  if (::fchmod(file.get(), 0666 & ~mask) != 0 || ::fsync(file.get()) != 0 || file.close() != 0) abandon(errno);
+  if (::rename(temporary.c_str(), path.c_str()) != 0) abandon(errno);
+}
+
+void write_file(const std::filesystem::path& path, std::string_view text) {
+  write_file(path, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+}  // namespace ssphh

@@ -1,0 +1,60 @@
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <ssphh/core/log.h>
+
+#include <mutex>
+
+namespace ssphh {
+namespace {
+
+struct State {
+  std::mutex mutex;
+  LogLevel threshold = LogLevel::info;
+  LogSink sink;
+  spdlog::logger fallback{"ssphh", std::make_shared<spdlog::sinks::stderr_sink_st>()};
+
+  State() {
+    fallback.set_pattern("%v");
+    fallback.flush_on(spdlog::level::trace);
+  }
+};
+
+State& state() {
+  static State instance;
+  return instance;
+}
+
+const char* prefix(LogLevel level) {
+  switch (level) {
+    case LogLevel::debug: return "debug: ";
+    case LogLevel::info: return "";
+    case LogLevel::warning: return "warning: ";
+    case LogLevel::error: return "error: ";
+  }
+  return "";
+}
+
+}  // namespace
+
+void set_log_level(LogLevel threshold) {
+  std::lock_guard lock(state().mutex);
+  state().threshold = threshold;
+}
+
+LogSink set_log_sink(LogSink sink) {
+  std::lock_guard lock(state().mutex);
+  std::swap(state().sink, sink);
+  return sink;
+}
+
+void log(LogLevel level, const std::string& message) {
+  std::lock_guard lock(state().mutex);
+  if (level < state().threshold) return;
+  if (state().sink) {
+    state().sink(level, message);
+  } else {
+    state().fallback.info("{}{}", prefix(level), message);
+  }
+}
+
+}  // namespace ssphh

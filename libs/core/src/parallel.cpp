@@ -1,0 +1,48 @@
+#include <ssphh/core/parallel.h>
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace ssphh {
+namespace {
+
+std::unique_ptr<tbb::global_control>& limit() {
+  static std::unique_ptr<tbb::global_control> instance;
+  return instance;
+}
+
+}  // namespace
+
+void set_thread_count(int count) {
+  SSPHH_CHECK(count >= 0);
+  limit().reset();
+  if (count > 0) {
+    limit() = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                    static_cast<std::size_t>(count));
+  }
+}
+
+int thread_count() {
+  const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  return static_cast<int>(std::min<std::size_t>(allowed, static_cast<std::size_t>(tbb::info::default_concurrency())));
+}
+
+void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body,
+                  const Control& control) {
+  SSPHH_CHECK(grain > 0);
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, (count + grain - 1) / grain, 1),
+      [&](const tbb::blocked_range<std::size_t>& chunks) {
+        for (std::size_t chunk = chunks.begin(); chunk != chunks.end(); ++chunk) {
+          control.check();
+          body(chunk * grain, std::min(count, (chunk + 1) * grain));
+        }
+      },
+      tbb::simple_partitioner());
+}
+
+}  // namespace ssphh

@@ -1,0 +1,70 @@
+#pragma once
+/// Pure functions over a Scene.
+
+#include <ssphh/core/hash.h>
+#include <ssphh/scene/scene.h>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace ssphh::scene {
+
+/// World matrix of every node with all animations at `time` seconds (clamped to each channel's keys).
+std::vector<mat4> world_matrices(const Scene& scene, float time = 0);
+
+struct Bounds {
+  vec3 min{std::numeric_limits<float>::infinity()}, max{-std::numeric_limits<float>::infinity()};
+  bool empty() const { return !(min.x <= max.x); }
+  vec3 center() const { return 0.5f * (min + max); }
+  /// Radius of the sphere around the box.
+  float radius() const { return empty() ? 0 : 0.5f * glm::length(max - min); }
+  void add(const vec3& p) { min = glm::min(min, p), max = glm::max(max, p); }
+};
+
+/// Of all instances' vertices in world space.
+Bounds world_bounds(const Scene& scene, const std::vector<mat4>& world);
+
+/// Triangles counted once per instance.
+std::uint64_t triangle_count(const Scene& scene);
+
+/// Material index that an instance shades with; −1: the default Material{}.
+int instance_material(const Scene& scene, const Instance& instance);
+
+/// Names of all light groups, in order of first use (lights, emissive instances, environment). At most 256; further
+/// groups are merged into a last one named "other".
+std::vector<std::string> light_groups(const Scene& scene);
+
+/// Index into `groups` of one emitter's group.
+int light_group_index(const std::vector<std::string>& groups, const std::string& name);
+std::string light_group(const Light& light);
+std::string light_group(const Environment& environment);
+std::string light_group(const Scene& scene, const Instance& instance);
+
+/// Camera by name, or the first when `name` is empty. Throws Error that lists the names there are. A scene without
+/// cameras gets one that looks at its bounds from the front.
+Camera find_camera(const Scene& scene, const std::string& name);
+
+struct CameraPose {
+  mat4 world;  ///< camera to world
+  Camera camera;
+};
+CameraPose camera_pose(const Scene& scene, const std::string& name, float time = 0);
+
+/// World positions of the enabled SPHLs.
+struct SphlPlace {
+  std::string name;
+  vec3 position;
+  float radius;
+};
+std::vector<SphlPlace> sphl_places(const Scene& scene, float time = 0);
+
+/// Content hash of everything that can change a picture.
+Hash128 scene_hash(const Scene& scene);
+
+/// Throws Error naming the object for an index out of range, a NaN or infinite number, or an array of wrong length.
+/// Degenerate triangles and unnormalised normals are repaired; returns a line for each kind of repair.
+std::vector<std::string> validate(Scene& scene);
+
+}  // namespace ssphh::scene

@@ -1,0 +1,39 @@
+#pragma once
+/// Reflection of a surface point. All directions are unit and in the local frame whose z axis is the shading normal;
+/// wo points to the known (viewer's) side, wi to the sampled (light's) side. Reflection only: values are zero unless
+/// wo.z > 0 and wi.z > 0.
+
+#include <ssphh/core/math.h>
+
+#include <optional>
+
+namespace ssphh::shading {
+
+/// The material at one point, textures already looked up (see surface.h).
+struct BsdfParams {
+  vec3 diffuse{0.8f};            ///< diffuse albedo: base colour × (1 − metallic)
+  vec3 f0{0.04f};                ///< specular reflectance at normal incidence, specular weight included
+  float diffuse_roughness = 0;   ///< bipolar, see scene::Material
+  float specular_roughness = 1;  ///< bipolar
+};
+
+/// f(wo, wi) · cos θ_i, cosine included [sr⁻¹].
+vec3 eval_bsdf(const BsdfParams& params, const vec3& wo, const vec3& wi);
+
+/// Density with which sample_bsdf returns wi, in solid angle [sr⁻¹].
+float pdf_bsdf(const BsdfParams& params, const vec3& wo, const vec3& wi);
+
+struct BsdfSample {
+  vec3 wi;
+  vec3 weight;  ///< f · cos θ_i / pdf
+  float pdf;    ///< as pdf_bsdf(params, wo, wi)
+};
+
+/// `u_lobe` in [0, 1) chooses the lobe, `u` in [0, 1)² the direction. Empty when wo is below the surface or the sampled
+/// direction is: the path ends there.
+std::optional<BsdfSample> sample_bsdf(const BsdfParams& params, const vec3& wo, float u_lobe, const vec2& u);
+
+/// Whether all of the reflection is Lambertian: diffuse_roughness = 0 and f0 = 0.
+bool is_lambertian(const BsdfParams& params);
+
+}  // namespace ssphh::shading

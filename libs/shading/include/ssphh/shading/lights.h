@@ -1,0 +1,88 @@
+#pragma once
+/// All emitters of a posed scene as one sampling distribution, with the group each belongs to.
+
+#include <ssphh/scene/query.h>
+#include <ssphh/scene/scene.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ssphh::shading {
+
+/// One way from a surface point to a light.
+struct LightSample {
+  vec3 wi;          ///< unit, world space, from the point toward the light
+  float distance;   ///< metres to the light; infinity for distant ones
+  vec3 radiance;    ///< incident radiance (not divided by pdf); for delta lights the incident irradiance on a
+                    ///< plane that faces wi
+  float pdf;        ///< solid-angle density times the probability of choosing this light; delta: that probability
+  bool delta;       ///< cannot be hit by a scattered ray: no MIS
+  int group;
+};
+
+/// What a ray that hits a sphere light, or escapes, finds.
+struct EmitterHit {
+  float distance;
+  vec3 radiance;
+  float pdf;   ///< the density with which sample() would have chosen this direction from the ray's origin
+  int group;
+};
+
+class LightSet {
+ public:
+  /// Reads all lights, emissive instances and the environment of `scene` posed by `world`.
+  LightSet(const scene::Scene& scene, const std::vector<mat4>& world);
+  ~LightSet();
+  LightSet(LightSet&&) noexcept;
+  LightSet& operator=(LightSet&&) noexcept;
+
+  bool empty() const;
+  const std::vector<std::string>& groups() const;
+
+  /// Chooses a light and a point on it as seen from `position`. `u_choice` in [0, 1), `u` in [0, 1)². Empty when there
+  /// is no light or the chosen one cannot light the point.
+  std::optional<LightSample> sample(const vec3& position, float u_choice, const vec2& u) const;
+
+  /// Density of sample() for the point of an emissive triangle hit by a ray: `instance` and `triangle` as in the scene,
+  /// `cos_light` the absolute cosine at the light, `distance` from `position`. Zero when the triangle is not a light.
+  float pdf_triangle(const vec3& position, int instance, std::uint32_t triangle, float distance, float cos_light) const;
+
+  /// Group of an emissive instance; −1 when the instance does not emit.
+  int instance_group(int instance) const;
+
+  /// All sphere lights that the ray meets before max_distance (they neither block nor reflect). Calls
+  /// visit(EmitterHit) for each.
+  template <class Visit>
+  void intersect_spheres(const vec3& origin, const vec3& direction, float max_distance, Visit&& visit) const {
+    for (int i = 0; i < sphere_count(); ++i) {
+      if (const auto hit = intersect_sphere(i, origin, direction, max_distance)) visit(*hit);
+    }
+  }
+
+  /// Environment and distant discs (a sun with angular radius) in a direction. Calls visit(EmitterHit) for each.
+  template <class Visit>
+  void escaped(const vec3& direction, Visit&& visit) const {
+    for (int i = 0; i < distant_count(); ++i) {
+      if (const auto hit = distant(i, direction)) visit(*hit);
+    }
+  }
+
+ private:
+  int sphere_count() const;
+  std::optional<EmitterHit> intersect_sphere(int i, const vec3& origin, const vec3& direction, float max_distance) const;
+  int distant_count() const;
+  std::optional<EmitterHit> distant(int i, const vec3& direction) const;
+
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+/// Power heuristic (β = 2) of multiple importance sampling.
+inline float power_heuristic(float pdf, float other_pdf) {
+  const float a = pdf * pdf, b = other_pdf * other_pdf;
+  return a > 0 ? a / (a + b) : 0;
+}
+
+}  // namespace ssphh::shading

@@ -1,0 +1,42 @@
+#pragma once
+/// Unidirectional path tracer over Embree: next-event estimation with MIS, light groups, progressive passes. The same
+/// bits for any number of threads.
+
+#include <ssphh/scene/radiance_source.h>
+#include <ssphh/scene/scene.h>
+#include <ssphh/trace/render_state.h>
+
+#include <memory>
+
+namespace ssphh::trace {
+
+/// Geometry and lights of a scene at one time, ready for rays. Keeps a reference to the scene.
+class PathTracer final : public scene::RadianceSource {
+ public:
+  /// Throws Error when the geometry does not fit into memory.
+  explicit PathTracer(const scene::Scene& scene, float time = 0);
+  ~PathTracer() override;
+
+  const std::vector<std::string>& light_groups() const override;
+  std::vector<image::CubeMap> incident_radiance(const scene::CubeRequest& request,
+                                                const Control& control) const override;
+  std::vector<image::CubeMap> ghost_radiance(const scene::CubeRequest& request,
+                                             std::span<const scene::GhostSphere> ghosts, const GhostSink& sink,
+                                             const Control& control) const override;
+  bool visible(const vec3& a, const vec3& b) const override;
+  std::uint64_t rays_traced() const override;
+
+  /// Adds passes to `state` until it holds params.path.passes. After a Cancelled, `state` holds the passes finished so
+  /// far and can be continued.
+  void render(const RenderParams& params, RenderState& state, const Control& control = {}) const;
+
+  /// Path traced direct light, indirect light looked up from probes at the first hit.
+  void render_with(const scene::IndirectLight& indirect, const RenderParams& params, RenderState& state,
+                   const Control& control = {}) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace ssphh::trace
