@@ -1,8 +1,8 @@
 #include "command.h"
 
-#include <fmt/format.h>
-
 #include <cstdio>
+
+#include <fmt/format.h>
 
 namespace ssphh::app {
 
@@ -14,11 +14,12 @@ void Context::result(const nlohmann::ordered_json& object, const std::string& te
   }
 }
 
-CLI::App* add_command(CLI::App& parent, Context& context, const std::string& name, const std::string& description,
-                      std::function<void()> action) {
+CLI::App* add_command(CLI::App& parent, Context& context, const std::string& name,
+                      const std::string& description, std::function<void()> action) {
   CLI::App* command = parent.add_subcommand(name, description);
   const std::string group = "Common";
-  command->add_flag("--json", context.json, "Print one JSON object on stdout and nothing else there")->group(group);
+  command->add_flag("--json", context.json, "Print one JSON object on stdout and nothing else there")
+      ->group(group);
   command->add_option("--seed", context.seed, "Seed of all random numbers; the same seed gives the same bits")
       ->capture_default_str()
       ->group(group);

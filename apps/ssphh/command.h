@@ -1,13 +1,14 @@
 #pragma once
 /// How a command of the tool is made: one file cmd_<name>.cpp per command, one line in the table of main.cpp.
 
-#include <ssphh/core/control.h>
-
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <ssphh/core/control.h>
 
 namespace ssphh::app {
 
@@ -24,10 +25,10 @@ struct Context {
   void result(const nlohmann::ordered_json& object, const std::string& text) const;
 };
 
-/// A leaf command with the common options (--json, --seed, --threads, --progress). `action` runs after parsing;
-/// it throws Error for bad input.
-CLI::App* add_command(CLI::App& parent, Context& context, const std::string& name, const std::string& description,
-                      std::function<void()> action);
+/// A leaf command with the common options (--json, --seed, --threads, --progress). `action` runs after
+/// parsing; it throws Error for bad input.
+CLI::App* add_command(CLI::App& parent, Context& context, const std::string& name,
+                      const std::string& description, std::function<void()> action);
 
 /// A command that only groups subcommands ("sh project", "probe info").
 CLI::App* add_group(CLI::App& parent, const std::string& name, const std::string& description);

@@ -1,12 +1,12 @@
-#include "command.h"
-#include "stderr_progress.h"
+#include <csignal>
+#include <cstdlib>
+#include <new>
 
 #include <ssphh/core/log.h>
 #include <ssphh/core/parallel.h>
 
-#include <csignal>
-#include <cstdlib>
-#include <new>
+#include "command.h"
+#include "stderr_progress.h"
 
 namespace ssphh::app {
 namespace {
@@ -74,7 +74,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
-    ssphh::log(ssphh::LogLevel::error, "this build needs a CPU with AVX2 and FMA (configure with -DSSPHH_ARCH=x86-64)");
+    ssphh::log(ssphh::LogLevel::error,
+               "this build needs a CPU with AVX2 and FMA (configure with -DSSPHH_ARCH=x86-64)");
     return 1;
   }
   return ssphh::app::run(argc, argv);

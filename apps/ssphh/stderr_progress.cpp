@@ -1,11 +1,11 @@
 #include "stderr_progress.h"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 namespace ssphh::app {
 namespace {
@@ -19,7 +19,8 @@ std::string scaled(double value) {
 
 std::string clock_text(double seconds) {
   const auto s = static_cast<long>(seconds + 0.5);
-  return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60) : fmt::format("{}:{:02}", s / 60, s % 60);
+  return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60)
+                   : fmt::format("{}:{:02}", s / 60, s % 60);
 }
 
 }  // namespace
@@ -40,7 +41,8 @@ void StderrProgress::begin(const std::string& stage, std::uint64_t total, const 
 void StderrProgress::advance(std::uint64_t count) {
   std::lock_guard lock(mutex_);
   done_ += count;
-  const auto interval = style_ == ProgressStyle::bar ? std::chrono::milliseconds(100) : std::chrono::milliseconds(2000);
+  const auto interval =
+      style_ == ProgressStyle::bar ? std::chrono::milliseconds(100) : std::chrono::milliseconds(2000);
   if (Clock::now() - printed_ >= interval) print(false);
 }
 
@@ -53,19 +55,22 @@ void StderrProgress::print(bool last) {
   printed_ = Clock::now();
   if (style_ == ProgressStyle::none) return;
   const double seconds = std::chrono::duration<double>(printed_ - start_).count();
-  const double fraction = total_ ? std::min(1.0, static_cast<double>(done_) / static_cast<double>(total_)) : 1.0;
+  const double fraction =
+      total_ ? std::min(1.0, static_cast<double>(done_) / static_cast<double>(total_)) : 1.0;
   const double rate = seconds > 0 ? static_cast<double>(done_) / seconds : 0;
   const double eta = rate > 0 && total_ > done_ ? static_cast<double>(total_ - done_) / rate : 0;
   if (style_ == ProgressStyle::json) {
-    const nlohmann::ordered_json line = {{"stage", stage_}, {"done", done_},       {"total", total_}, {"unit", unit_},
-                                         {"rate", rate},    {"seconds", seconds}, {"eta", eta}};
+    const nlohmann::ordered_json line = {{"stage", stage_}, {"done", done_}, {"total", total_},
+                                         {"unit", unit_},   {"rate", rate},  {"seconds", seconds},
+                                         {"eta", eta}};
     fmt::print(stderr, "{}\n", line.dump());
     return;
   }
   const std::string text =
-      last ? fmt::format("{}: {} {} in {:.1f} s, {} {}/s", stage_, scaled(static_cast<double>(done_)), unit_, seconds,
-                         scaled(rate), unit_)
-           : fmt::format("{}: {:3.0f} %, {} {}/s, {} left", stage_, 100 * fraction, scaled(rate), unit_, clock_text(eta));
+      last ? fmt::format("{}: {} {} in {:.1f} s, {} {}/s", stage_, scaled(static_cast<double>(done_)), unit_,
+                         seconds, scaled(rate), unit_)
+           : fmt::format("{}: {:3.0f} %, {} {}/s, {} left", stage_, 100 * fraction, scaled(rate), unit_,
+                         clock_text(eta));
   if (style_ == ProgressStyle::bar) {
     constexpr int cells = 24;
     const int full = static_cast<int>(fraction * cells);

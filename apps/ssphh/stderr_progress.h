@@ -1,9 +1,9 @@
 #pragma once
 
-#include <ssphh/core/control.h>
-
 #include <chrono>
 #include <mutex>
+
+#include <ssphh/core/control.h>
 
 namespace ssphh::app {
 

@@ -1,12 +1,12 @@
 #pragma once
 /// The folder of real scenes, which is no part of the project: $SSPHH_SCENES or ../shared/scenes.
 
-#include <gtest/gtest.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
+
+#include <gtest/gtest.h>
 
 namespace ssphh::test {
 
@@ -21,8 +21,8 @@ inline std::optional<std::filesystem::path> shared_scenes() {
 }  // namespace ssphh::test
 
 /// Declares `variable` as the path of a real scene, or skips the test and says so.
-#define SSPHH_SHARED_SCENE(variable, relative)                                                      \
-  const auto variable##_folder = ::ssphh::test::shared_scenes();                                    \
-  if (!variable##_folder || !std::filesystem::exists(*variable##_folder / (relative)))              \
-    GTEST_SKIP() << "real scene absent: " << (relative) << " (set SSPHH_SCENES to the folder)";     \
+#define SSPHH_SHARED_SCENE(variable, relative)                                                  \
+  const auto variable##_folder = ::ssphh::test::shared_scenes();                                \
+  if (!variable##_folder || !std::filesystem::exists(*variable##_folder / (relative)))          \
+    GTEST_SKIP() << "real scene absent: " << (relative) << " (set SSPHH_SCENES to the folder)"; \
   const std::filesystem::path variable = *variable##_folder / (relative)

@@ -1,8 +1,8 @@
-#include <ssphh/core/error.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <utility>
+
+#include <ssphh/core/error.h>
 
 namespace ssphh {
 namespace {

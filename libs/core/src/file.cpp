@@ -1,13 +1,14 @@
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <ssphh/core/error.h>
-#include <ssphh/core/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/core/file.h>
 
 namespace ssphh {
 namespace {
@@ -102,7 +103,8 @@ void write_file(const std::filesystem::path& path, std::span<const std::byte> da
   // mkostemps makes the file private; an ordinary output has the umask's mode.
   const mode_t mask = ::umask(0);
   ::umask(mask);
-  if (::fchmod(file.get(), 0666 & ~mask) != 0 || ::fsync(file.get()) != 0 || file.close() != 0) abandon(errno);
+  if (::fchmod(file.get(), 0666 & ~mask) != 0 || ::fsync(file.get()) != 0 || file.close() != 0)
+    abandon(errno);
   if (::rename(temporary.c_str(), path.c_str()) != 0) abandon(errno);
 }
 

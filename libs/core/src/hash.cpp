@@ -1,19 +1,24 @@
 #define XXH_STATIC_LINKING_ONLY
 #include <fmt/format.h>
+#include <xxhash.h>
+
 #include <ssphh/core/error.h>
 #include <ssphh/core/hash.h>
-#include <xxhash.h>
 
 namespace ssphh {
 
-std::string Hash128::hex() const { return fmt::format("{:016x}{:016x}", high, low); }
+std::string Hash128::hex() const {
+  return fmt::format("{:016x}{:016x}", high, low);
+}
 
 Hasher::Hasher() : state_(XXH3_createState()) {
   SSPHH_CHECK(state_ != nullptr);
   XXH3_128bits_reset(static_cast<XXH3_state_t*>(state_));
 }
 
-Hasher::~Hasher() { XXH3_freeState(static_cast<XXH3_state_t*>(state_)); }
+Hasher::~Hasher() {
+  XXH3_freeState(static_cast<XXH3_state_t*>(state_));
+}
 
 Hasher& Hasher::bytes(std::span<const std::byte> data) {
   XXH3_128bits_update(static_cast<XXH3_state_t*>(state_), data.data(), data.size());

@@ -1,11 +1,12 @@
-#include <ssphh/core/parallel.h>
+#include <algorithm>
+#include <memory>
+
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
-#include <memory>
+#include <ssphh/core/parallel.h>
 
 namespace ssphh {
 namespace {
@@ -28,11 +29,12 @@ void set_thread_count(int count) {
 
 int thread_count() {
   const std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  return static_cast<int>(std::min<std::size_t>(allowed, static_cast<std::size_t>(tbb::info::default_concurrency())));
+  return static_cast<int>(
+      std::min<std::size_t>(allowed, static_cast<std::size_t>(tbb::info::default_concurrency())));
 }
 
-void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body,
-                  const Control& control) {
+void parallel_for(std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t, std::size_t)>& body, const Control& control) {
   SSPHH_CHECK(grain > 0);
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, (count + grain - 1) / grain, 1),

@@ -24,8 +24,8 @@ std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
   return reverse_bits(owen_scramble_reversed(reverse_bits(x), seed));
 }
 
-// Second Sobol dimension, bit-reversed: its generator matrix is Pascal's triangle modulo 2, which factors into
-// five shifts.
+// Second Sobol dimension, bit-reversed: its generator matrix is Pascal's triangle modulo 2, which factors
+// into five shifts.
 std::uint32_t sobol1_reversed(std::uint32_t index) {
   index ^= (index >> 16) & 0x0000ffffu;
   index ^= (index >> 8) & 0x00ff00ffu;

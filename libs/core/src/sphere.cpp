@@ -1,25 +1,33 @@
+#include <cmath>
+
 #include <ssphh/core/error.h>
 #include <ssphh/core/sphere.h>
-
-#include <cmath>
 
 namespace ssphh {
 
 vec3 cube_direction_unnormalized(const CubePoint& point) {
   const float s = 2 * point.s - 1, t = 2 * point.t - 1;
   switch (static_cast<CubeFace>(point.face)) {
-    case CubeFace::positive_x: return {1, -t, -s};
-    case CubeFace::negative_x: return {-1, -t, s};
-    case CubeFace::positive_y: return {s, 1, t};
-    case CubeFace::negative_y: return {s, -1, -t};
-    case CubeFace::positive_z: return {s, -t, 1};
-    case CubeFace::negative_z: return {-s, -t, -1};
+    case CubeFace::positive_x:
+      return {1, -t, -s};
+    case CubeFace::negative_x:
+      return {-1, -t, s};
+    case CubeFace::positive_y:
+      return {s, 1, t};
+    case CubeFace::negative_y:
+      return {s, -1, -t};
+    case CubeFace::positive_z:
+      return {s, -t, 1};
+    case CubeFace::negative_z:
+      return {-s, -t, -1};
   }
   SSPHH_CHECK(!"cube face 0..5");
   return {};
 }
 
-vec3 cube_direction(const CubePoint& point) { return glm::normalize(cube_direction_unnormalized(point)); }
+vec3 cube_direction(const CubePoint& point) {
+  return glm::normalize(cube_direction_unnormalized(point));
+}
 
 CubePoint cube_point(const vec3& d) {
   const vec3 a = glm::abs(d);
@@ -37,7 +45,8 @@ CubePoint cube_point(const vec3& d) {
 
 vec3 texel_direction(int face, int x, int y, int size) {
   const float scale = 1.0f / static_cast<float>(size);
-  return cube_direction({face, (static_cast<float>(x) + 0.5f) * scale, (static_cast<float>(y) + 0.5f) * scale});
+  return cube_direction(
+      {face, (static_cast<float>(x) + 0.5f) * scale, (static_cast<float>(y) + 0.5f) * scale});
 }
 
 double texel_solid_angle(int x, int y, int size) {

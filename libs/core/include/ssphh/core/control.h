@@ -1,11 +1,11 @@
 #pragma once
 /// Progress and cancellation of long work.
 
-#include <ssphh/core/error.h>
-
 #include <atomic>
 #include <cstdint>
 #include <string>
+
+#include <ssphh/core/error.h>
 
 namespace ssphh {
 
@@ -45,7 +45,8 @@ struct Control {
 /// Begins a stage on construction and ends it on destruction; does nothing without a Progress.
 class ProgressStage {
  public:
-  ProgressStage(const Control& control, const std::string& stage, std::uint64_t total, const std::string& unit)
+  ProgressStage(const Control& control, const std::string& stage, std::uint64_t total,
+                const std::string& unit)
       : progress_(control.progress) {
     if (progress_) progress_->begin(stage, total, unit);
   }

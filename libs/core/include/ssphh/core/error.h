@@ -1,6 +1,6 @@
 #pragma once
-/// The kinds of failure: `Error` for bad input (what, where, what to do), `Cancelled` for a stop that was asked for,
-/// `SSPHH_CHECK` for a programmer's mistake. "None" is a std::optional, never an exception.
+/// The kinds of failure: `Error` for bad input (what, where, what to do), `Cancelled` for a stop that was
+/// asked for, `SSPHH_CHECK` for a programmer's mistake. "None" is a std::optional, never an exception.
 
 #include <stdexcept>
 #include <string>
@@ -10,7 +10,8 @@ namespace ssphh {
 /// Bad input or a failing environment. `what()` reads "WHERE: PROBLEM (HINT)".
 class Error : public std::runtime_error {
  public:
-  /// `where`: file and place, option or object at fault; `problem`: what is wrong; `hint`: what the user can do.
+  /// `where`: file and place, option or object at fault; `problem`: what is wrong; `hint`: what the user can
+  /// do.
   Error(std::string where, std::string problem, std::string hint = {});
 
   const std::string& where() const { return where_; }

@@ -13,11 +13,12 @@ namespace ssphh {
 
 /// Reads a file whole. Throws Error when it is missing, unreadable, a directory or larger than `limit` bytes
 /// (checked before memory is taken).
-std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t limit = std::uint64_t{4} << 30);
+std::vector<std::byte> read_file(const std::filesystem::path& path,
+                                 std::uint64_t limit = std::uint64_t{4} << 30);
 std::string read_text_file(const std::filesystem::path& path, std::uint64_t limit = std::uint64_t{256} << 20);
 
-/// Writes to "PATH.XXXX.part" beside the target and renames it on success, so that an existing file stays whole when
-/// the disk is full or the process dies. Throws Error with the system's reason.
+/// Writes to "PATH.XXXX.part" beside the target and renames it on success, so that an existing file stays
+/// whole when the disk is full or the process dies. Throws Error with the system's reason.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> data);
 void write_file(const std::filesystem::path& path, std::string_view text);
 

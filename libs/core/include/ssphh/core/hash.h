@@ -30,8 +30,7 @@ class Hasher {
   /// Length and characters.
   Hasher& text(std::string_view text);
   template <class T>
-    requires(std::is_arithmetic_v<T> || std::is_enum_v<T>)
-  Hasher& value(const T& v) {
+  requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) Hasher& value(const T& v) {
     return bytes(std::as_bytes(std::span<const T>(&v, 1)));
   }
   /// Size and elements of a vector of trivially copyable values without padding.

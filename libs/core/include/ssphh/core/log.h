@@ -1,10 +1,10 @@
 #pragma once
 /// Messages for people, on stderr (stdout belongs to results).
 
-#include <fmt/format.h>
-
 #include <functional>
 #include <string>
+
+#include <fmt/format.h>
 
 namespace ssphh {
 

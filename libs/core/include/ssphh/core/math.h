@@ -19,12 +19,18 @@ inline constexpr float pi = 3.14159265358979323846f;
 inline constexpr double pi_d = 3.14159265358979323846;
 
 /// Rec.709 luminance of a linear colour.
-inline float luminance(const vec3& rgb) { return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z; }
+inline float luminance(const vec3& rgb) {
+  return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z;
+}
 
-inline float max_component(const vec3& v) { return glm::max(v.x, glm::max(v.y, v.z)); }
+inline float max_component(const vec3& v) {
+  return glm::max(v.x, glm::max(v.y, v.z));
+}
 
 /// Whether all three components are neither infinite nor NaN.
-inline bool is_finite(const vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+inline bool is_finite(const vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 /// Orthonormal basis around a unit normal (Duff et al., Building an Orthonormal Basis, Revisited, JCGT 2017).
 /// The local z axis is the normal.

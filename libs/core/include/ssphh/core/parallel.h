@@ -1,11 +1,11 @@
 #pragma once
-/// Data-parallel loops. Results must not depend on the number of threads: let each range write its own outputs and
-/// reduce them afterwards in index order.
-
-#include <ssphh/core/control.h>
+/// Data-parallel loops. Results must not depend on the number of threads: let each range write its own
+/// outputs and reduce them afterwards in index order.
 
 #include <cstddef>
 #include <functional>
+
+#include <ssphh/core/control.h>
 
 namespace ssphh {
 
@@ -13,10 +13,10 @@ namespace ssphh {
 void set_thread_count(int count);
 int thread_count();
 
-/// Calls body(begin, end) for disjoint ranges of at most `grain` indices that cover [0, count), on all threads.
-/// Exceptions from the body are rethrown here. Throws Cancelled when `control` is cancelled before the loop is done
-/// (ranges that have begun are finished).
-void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body,
-                  const Control& control = {});
+/// Calls body(begin, end) for disjoint ranges of at most `grain` indices that cover [0, count), on all
+/// threads. Exceptions from the body are rethrown here. Throws Cancelled when `control` is cancelled before
+/// the loop is done (ranges that have begun are finished).
+void parallel_for(std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t, std::size_t)>& body, const Control& control = {});
 
 }  // namespace ssphh

@@ -2,9 +2,9 @@
 /// Deterministic random numbers: hashing, PCG32, and Owen-scrambled Sobol points whose value depends only on
 /// (seed, pixel, sample, dimension), never on the order of evaluation.
 
-#include <ssphh/core/math.h>
-
 #include <cstdint>
+
+#include <ssphh/core/math.h>
 
 namespace ssphh {
 
@@ -16,10 +16,14 @@ constexpr std::uint64_t mix64(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-constexpr std::uint64_t hash_combine(std::uint64_t a, std::uint64_t b) { return mix64(a ^ mix64(b)); }
+constexpr std::uint64_t hash_combine(std::uint64_t a, std::uint64_t b) {
+  return mix64(a ^ mix64(b));
+}
 
 /// Uniform in [0, 1) from the top 24 bits.
-constexpr float to_unit_float(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
+constexpr float to_unit_float(std::uint32_t bits) {
+  return static_cast<float>(bits >> 8) * 0x1p-24f;
+}
 
 /// PCG32 (O'Neill 2014), for places where a stratified sequence has no use.
 class Pcg32 {
@@ -51,9 +55,9 @@ class Pcg32 {
   std::uint64_t increment_;
 };
 
-/// One sample of a padded, shuffled and Owen-scrambled (0,2)-sequence (Burley, Practical Hash-based Owen Scrambling,
-/// JCGT 2020). Samples index 0..2^k−1 of one `pixel_seed` are well distributed in every consecutive pair of
-/// dimensions; different pixel seeds are independent.
+/// One sample of a padded, shuffled and Owen-scrambled (0,2)-sequence (Burley, Practical Hash-based Owen
+/// Scrambling, JCGT 2020). Samples index 0..2^k−1 of one `pixel_seed` are well distributed in every
+/// consecutive pair of dimensions; different pixel seeds are independent.
 class SampleSequence {
  public:
   SampleSequence(std::uint64_t pixel_seed, std::uint32_t index) : seed_(pixel_seed), index_(index) {}
@@ -70,7 +74,8 @@ class SampleSequence {
 };
 
 /// Seed of a pixel or texel from the user's seed and its position.
-constexpr std::uint64_t pixel_seed(std::uint64_t seed, std::uint32_t x, std::uint32_t y, std::uint32_t face = 0) {
+constexpr std::uint64_t pixel_seed(std::uint64_t seed, std::uint32_t x, std::uint32_t y,
+                                   std::uint32_t face = 0) {
   return hash_combine(hash_combine(seed, (std::uint64_t{x} << 32) | y), face);
 }
 

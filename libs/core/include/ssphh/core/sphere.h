@@ -30,7 +30,8 @@ vec3 texel_direction(int face, int x, int y, int size);
 /// Exact solid angle [sr] of texel (x, y), the same on every face; those of all 6·size² texels sum to 4π.
 double texel_solid_angle(int x, int y, int size);
 
-/// Point i of n of the spherical Fibonacci set (Keinert et al., Spherical Fibonacci Mapping, 2015), nearly uniform.
+/// Point i of n of the spherical Fibonacci set (Keinert et al., Spherical Fibonacci Mapping, 2015), nearly
+/// uniform.
 vec3 spherical_fibonacci(int i, int n);
 
 /// Uniform on the unit sphere from u in [0, 1)²; pdf 1/4π.

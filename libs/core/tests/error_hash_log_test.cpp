@@ -1,0 +1,49 @@
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/core/hash.h>
+#include <ssphh/core/log.h>
+
+namespace ssphh {
+namespace {
+
+TEST(Error, SaysWhereWhatAndWhatToDo) {
+  EXPECT_STREQ(Error("a.glb", "is broken", "export it again").what(), "a.glb: is broken (export it again)");
+  EXPECT_STREQ(Error("", "is broken").what(), "is broken");
+}
+
+TEST(CheckDeathTest, AbortsWithThePlace) {
+  EXPECT_DEATH(SSPHH_CHECK(1 > 2), "check failed: 1 > 2");
+}
+
+// XXH3-128 of the empty input, from the xxHash specification.
+TEST(Hasher, EmptyInputHasThePublishedValue) {
+  EXPECT_EQ(Hasher().finish().hex(), "99aa06d3014798d86001c324468d497f");
+}
+
+TEST(Hasher, DependsOnValuesOrderAndBoundaries) {
+  const auto hash = [](auto&&... texts) {
+    Hasher hasher;
+    (hasher.text(texts), ...);
+    return hasher.finish();
+  };
+  EXPECT_EQ(hash("ab", "c"), hash("ab", "c"));
+  EXPECT_NE(hash("ab", "c"), hash("a", "bc"));
+  EXPECT_NE(hash("a", "b"), hash("b", "a"));
+  EXPECT_NE(Hasher().value(1).finish(), Hasher().value(2).finish());
+  EXPECT_NE(Hasher().array(std::vector<float>{}).finish(), Hasher().finish());
+}
+
+TEST(Log, SinkReceivesWhatReachesTheThreshold) {
+  std::vector<std::string> lines;
+  LogSink old = set_log_sink([&](LogLevel, const std::string& line) { lines.push_back(line); });
+  log(LogLevel::debug, "hidden");
+  log_warning("{} and {}", 1, 2);
+  set_log_sink(old);
+  EXPECT_EQ(lines, std::vector<std::string>{"1 and 2"});
+}
+
+}  // namespace
+}  // namespace ssphh

@@ -1,0 +1,55 @@
+#include <atomic>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <ssphh/core/parallel.h>
+
+namespace ssphh {
+namespace {
+
+TEST(ParallelFor, CoversEveryIndexOnceInRangesOfAtMostTheGrain) {
+  for (const std::size_t count : {0, 1, 7, 64, 1000}) {
+    std::vector<std::atomic<int>> seen(count);
+    std::atomic<bool> too_long = false;
+    parallel_for(count, 7, [&](std::size_t begin, std::size_t end) {
+      if (end - begin > 7) too_long = true;
+      for (std::size_t i = begin; i < end; ++i) ++seen[i];
+    });
+    for (const auto& times : seen) EXPECT_EQ(times, 1);
+    EXPECT_FALSE(too_long);
+  }
+}
+
+TEST(ParallelFor, RethrowsTheBodysException) {
+  EXPECT_THROW(parallel_for(100, 1,
+                            [](std::size_t i, std::size_t) {
+                              if (i == 50) throw Error("here", "broken");
+                            }),
+               Error);
+}
+
+TEST(ParallelFor, StopsWhenCancelled) {
+  CancelToken token;
+  std::atomic<int> calls = 0;
+  const Control control{nullptr, &token};
+  EXPECT_THROW(parallel_for(
+                   100000, 1,
+                   [&](std::size_t, std::size_t) {
+                     ++calls;
+                     token.request();
+                   },
+                   control),
+               Cancelled);
+  EXPECT_LT(calls, 100000);
+}
+
+TEST(Threads, CountCanBeLimitedAndRestored) {
+  set_thread_count(1);
+  EXPECT_EQ(thread_count(), 1);
+  set_thread_count(0);
+  EXPECT_GE(thread_count(), 1);
+}
+
+}  // namespace
+}  // namespace ssphh

@@ -1,0 +1,83 @@
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include <ssphh/core/random.h>
+
+namespace ssphh {
+namespace {
+
+TEST(SampleSequence, EveryPairOfDimensionsIsAZeroTwoNet) {
+  // Every elementary interval of area 1/256 holds exactly one of 256 points.
+  constexpr int log_n = 8, n = 1 << log_n;
+  for (int pair = 0; pair < 3; ++pair) {
+    for (int split = 0; split <= log_n; ++split) {
+      const int columns = 1 << split, rows = n / columns;
+      std::set<int> cells;
+      for (std::uint32_t i = 0; i < n; ++i) {
+        SampleSequence sequence(42, i);
+        vec2 u = sequence.next2();
+        for (int skip = 0; skip < pair; ++skip) u = sequence.next2();
+        cells.insert(static_cast<int>(u.x * static_cast<float>(columns)) * rows +
+                     static_cast<int>(u.y * static_cast<float>(rows)));
+      }
+      EXPECT_EQ(cells.size(), static_cast<std::size_t>(n))
+          << "pair " << pair << ", " << columns << " columns";
+    }
+  }
+}
+
+TEST(SampleSequence, OneDimensionIsStratified) {
+  std::set<int> cells;
+  for (std::uint32_t i = 0; i < 64; ++i) cells.insert(static_cast<int>(SampleSequence(7, i).next() * 64));
+  EXPECT_EQ(cells.size(), 64u);
+}
+
+TEST(SampleSequence, DimensionsAndPixelsAreUncorrelated) {
+  // Correlation of n independent uniforms has standard deviation 1/√n; 4.5 σ is 7e-6 two-sided, four tests.
+  constexpr int n = 4096;
+  double across_dimensions = 0, across_pixels = 0, across_pair = 0, one_against_two = 0;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    SampleSequence a(1, i), b(2, i), c(1, i);
+    const vec2 first = a.next2(), second = a.next2(), other = b.next2();
+    const float one = c.next();
+    across_pair += (first.x - 0.5) * (first.y - 0.5);
+    across_dimensions += (first.x - 0.5) * (second.x - 0.5);
+    across_pixels += (first.x - 0.5) * (other.x - 0.5);
+    one_against_two += (one - 0.5) * (second.y - 0.5);
+  }
+  const double limit = 4.5 / 12 / std::sqrt(n) * n;
+  EXPECT_LT(std::abs(across_pair), limit);
+  EXPECT_LT(std::abs(across_dimensions), limit);
+  EXPECT_LT(std::abs(across_pixels), limit);
+  EXPECT_LT(std::abs(one_against_two), limit);
+}
+
+TEST(Pcg32, MomentsOfTheUniformDistribution) {
+  constexpr int n = 100000;
+  Pcg32 rng(5);
+  double sum = 0, squares = 0;
+  for (int i = 0; i < n; ++i) {
+    const double u = rng.uniform();
+    ASSERT_GE(u, 0);
+    ASSERT_LT(u, 1);
+    sum += u;
+    squares += u * u;
+  }
+  EXPECT_NEAR(sum / n, 0.5, 4.5 * std::sqrt(1.0 / 12 / n));  // 4.5 σ: 7e-6
+  EXPECT_NEAR(squares / n, 1.0 / 3, 4.5 * std::sqrt(4.0 / 45 / n));
+}
+
+TEST(Pcg32, SeedsAndStreamsDiffer) {
+  EXPECT_NE(Pcg32(1).next(), Pcg32(2).next());
+  EXPECT_NE(Pcg32(1, 0).next(), Pcg32(1, 1).next());
+  EXPECT_EQ(Pcg32(3, 4).next(), Pcg32(3, 4).next());
+}
+
+TEST(ToUnitFloat, NeverReachesOne) {
+  EXPECT_LT(to_unit_float(0xffffffffu), 1.0f);
+}
+
+}  // namespace
+}  // namespace ssphh
