@@ -43,6 +43,13 @@ struct CubeRequest {
   PathParams path;
 };
 
+/// Radiance arriving at a point from one light group, in two fields, so that no light is counted twice: a surface that
+/// also gets direct light must look up `reflected` only; a viewer of the probe sees the sum.
+struct GroupRadiance {
+  image::CubeMap emitted;    ///< depth 0: the group's emitters seen directly (area and sphere lights, environment)
+  image::CubeMap reflected;  ///< depth 1..max_depth: light that a surface scattered toward the point
+};
+
 class RadianceSource {
  public:
   virtual ~RadianceSource() = default;
@@ -50,8 +57,8 @@ class RadianceSource {
   /// Names of the light groups, in the order of incident_radiance's result.
   virtual const std::vector<std::string>& light_groups() const = 0;
 
-  /// Radiance arriving at a point as one cube map per light group.
-  virtual std::vector<image::CubeMap> incident_radiance(const CubeRequest& request, const Control& control) const = 0;
+  /// Radiance arriving at a point, one entry per light group.
+  virtual std::vector<GroupRadiance> incident_radiance(const CubeRequest& request, const Control& control) const = 0;
 
   /// Radiance arriving at a point from each ghost sphere, all other emitters off: one cube map per sphere.
   /// When `sink` is set it receives every path; it is called from several threads, with `chunk` in

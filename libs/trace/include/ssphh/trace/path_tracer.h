@@ -18,8 +18,8 @@ class PathTracer final : public scene::RadianceSource {
   ~PathTracer() override;
 
   const std::vector<std::string>& light_groups() const override;
-  std::vector<image::CubeMap> incident_radiance(const scene::CubeRequest& request,
-                                                const Control& control) const override;
+  std::vector<scene::GroupRadiance> incident_radiance(const scene::CubeRequest& request,
+                                                      const Control& control) const override;
   std::vector<image::CubeMap> ghost_radiance(const scene::CubeRequest& request,
                                              std::span<const scene::GhostSphere> ghosts, const GhostSink& sink,
                                              const Control& control) const override;
