@@ -71,6 +71,10 @@ class RadianceSource {
   /// Whether nothing blocks the open segment between two points.
   virtual bool visible(const vec3& a, const vec3& b) const = 0;
 
+  /// Fraction of the directions around a point whose first hit is the back of a surface: near 1 inside a closed body,
+  /// where a probe is of no use. 0 where the source cannot tell.
+  virtual float backface_fraction(const vec3& /*position*/) const { return 0; }
+
   /// Rays traced so far by this object.
   virtual std::uint64_t rays_traced() const = 0;
 };
