@@ -1,18 +1,25 @@
 #pragma once
 /// Pure functions over a Scene.
 
-#include <ssphh/core/hash.h>
-#include <ssphh/scene/scene.h>
-
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include <ssphh/core/hash.h>
+#include <ssphh/scene/scene.h>
+
 namespace ssphh::scene {
 
 /// World matrix of every node with all animations at `time` seconds (clamped to each channel's keys).
 std::vector<mat4> world_matrices(const Scene& scene, float time = 0);
+
+/// Time of the last key of any animation [s]; 0 without animations.
+float animation_duration(const Scene& scene);
+
+/// Sets `movable` of every node that is animated or stands below an animated one, and clears it on all
+/// others.
+void mark_movable(Scene& scene);
 
 struct Bounds {
   vec3 min{std::numeric_limits<float>::infinity()}, max{-std::numeric_limits<float>::infinity()};
@@ -32,8 +39,8 @@ std::uint64_t triangle_count(const Scene& scene);
 /// Material index that an instance shades with; −1: the default Material{}.
 int instance_material(const Scene& scene, const Instance& instance);
 
-/// Names of all light groups, in order of first use (lights, emissive instances, environment). At most 256; further
-/// groups are merged into a last one named "other".
+/// Names of all light groups, in order of first use (lights, emissive instances, environment). At most 256;
+/// further groups are merged into a last one named "other".
 std::vector<std::string> light_groups(const Scene& scene);
 
 /// Index into `groups` of one emitter's group.
@@ -42,8 +49,8 @@ std::string light_group(const Light& light);
 std::string light_group(const Environment& environment);
 std::string light_group(const Scene& scene, const Instance& instance);
 
-/// Camera by name, or the first when `name` is empty. Throws Error that lists the names there are. A scene without
-/// cameras gets one that looks at its bounds from the front.
+/// Camera by name, or the first when `name` is empty. Throws Error that lists the names there are. A scene
+/// without cameras gets one that looks at its bounds from the front.
 Camera find_camera(const Scene& scene, const std::string& name);
 
 struct CameraPose {
@@ -63,8 +70,10 @@ std::vector<SphlPlace> sphl_places(const Scene& scene, float time = 0);
 /// Content hash of everything that can change a picture.
 Hash128 scene_hash(const Scene& scene);
 
-/// Throws Error naming the object for an index out of range, a NaN or infinite number, or an array of wrong length.
-/// Degenerate triangles and unnormalised normals are repaired; returns a line for each kind of repair.
+/// Throws Error naming the object for an index out of range, a NaN or infinite number, or an array of wrong
+/// length. Repaired are: degenerate triangles (removed), normals and tangents that are not unit vectors,
+/// rotations, material values out of their range, objects at node −1 (they get a root node), a matrix on an
+/// animated node (decomposed). Also sets `movable`. Returns a line for each kind of repair.
 std::vector<std::string> validate(Scene& scene);
 
 }  // namespace ssphh::scene

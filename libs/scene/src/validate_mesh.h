@@ -1,0 +1,12 @@
+#pragma once
+
+#include <ssphh/scene/scene.h>
+
+#include "repairs.h"
+
+namespace ssphh::scene {
+
+/// The part of validate() for one mesh. `where` names it in errors.
+void validate_mesh(Mesh& mesh, const std::string& where, Repairs& repairs);
+
+}  // namespace ssphh::scene
