@@ -1,0 +1,163 @@
+// What a user types wrong, what a disk or a file does wrong: a clear message, the right exit code, nothing
+// lost.
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "temp_dir.h"
+#include "tool.h"
+
+namespace ssphh {
+namespace {
+
+using test::run_tool;
+using test::TempDir;
+using test::ToolProcess;
+using test::ToolResult;
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string read(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write(const std::filesystem::path& path, const std::string& content) {
+  std::ofstream(path, std::ios::binary) << content;
+}
+
+void expect_failure(const std::vector<std::string>& arguments, const std::string& message,
+                    int exit_code = 1) {
+  const ToolResult result = run_tool(arguments);
+  EXPECT_EQ(result.exit_code, exit_code) << testing::PrintToString(arguments) << "\n" << result.err;
+  EXPECT_THAT(result.err + result.out, HasSubstr(message)) << testing::PrintToString(arguments);
+}
+
+const std::vector<std::string> small = {"--width", "16", "--height", "9", "--spp", "1"};
+
+std::vector<std::string> with(std::vector<std::string> arguments,
+                              const std::vector<std::string>& more = small) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(BadInput, WrongUsageIsExitCode2) {
+  expect_failure({}, "subcommand", 2);
+  expect_failure({"nonsense"}, "nonsense", 2);
+  expect_failure({"render", "builtin:box"}, "--output", 2);
+  expect_failure({"render", "builtin:box", "-o", "x.exr", "--spp", "0"}, "--spp", 2);
+  expect_failure({"sh", "eval", "--degree", "11", "--direction", "0", "0", "1"}, "11", 2);
+  expect_failure({"bake", "builtin:box", "-o", "x.sphl", "--degree", "11"}, "11", 2);
+}
+
+TEST(BadInput, UnknownNamesListTheKnownOnes) {
+  expect_failure({"scene", "info", "builtin:nowhere"}, "cornell");
+  const TempDir dir;
+  expect_failure(with({"render", "builtin:two-rooms", "--camera", "nobody", "-o", dir / "x.png"}), "room-a");
+}
+
+TEST(BadInput, ErrorsAreJsonWhenAskedFor) {
+  const ToolResult result = run_tool({"scene", "info", "builtin:nowhere", "--json"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_TRUE(nlohmann::json::parse(result.out).contains("error"));
+}
+
+TEST(BadInput, BrokenScenesNameFileAndPlace) {
+  const TempDir dir;
+  expect_failure({"scene", "info", dir / "none.glb"}, "none.glb");
+  write(dir / "empty.glb", "");
+  expect_failure({"scene", "info", dir / "empty.glb"}, "empty.glb");
+  write(dir / "cut.glb", std::string("glTF\2\0\0\0\xff\xff\xff\xff", 12));
+  expect_failure({"scene", "info", dir / "cut.glb"}, "cut.glb");
+  write(dir / "index.gltf", R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":7}]})");
+  expect_failure({"scene", "info", dir / "index.gltf"}, "nodes");
+  write(dir / "nan.obj", "v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
+  expect_failure({"scene", "info", dir / "nan.obj"}, "nan.obj");
+  write(dir / "text.xyz", "hello");
+  expect_failure({"scene", "info", dir / "text.xyz"}, "text.xyz");
+}
+
+TEST(BadInput, WarningsDoNotStopTheWork) {
+  const TempDir dir;
+  write(dir / "plain.obj", "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 1 2 4\n");
+  const ToolResult no_lights = run_tool(with({"render", dir / "plain.obj", "-o", dir / "x.exr"}));
+  EXPECT_EQ(no_lights.exit_code, 0) << no_lights.err;
+  EXPECT_THAT(no_lights.err, AllOf(HasSubstr("warning"), HasSubstr("no lights"), HasSubstr("gone.mtl")));
+}
+
+TEST(BadInput, BakeWithoutProbesSaysHowToAddThem) {
+  const TempDir dir;
+  write(dir / "plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  expect_failure({"bake", dir / "plain.obj", "-o", dir / "x.sphl"}, "SPHL");
+}
+
+TEST(BadInput, SsphhWithoutProbesSaysHowToBake) {
+  const TempDir dir;
+  expect_failure(with({"render", "builtin:box", "--method", "ssphh", "-o", dir / "x.exr"}), "ssphh bake");
+}
+
+TEST(BadInput, BrokenProbeFilesAndImages) {
+  const TempDir dir;
+  write(dir / "a.sphl", "not a probe file");
+  write(dir / "a.sphl.json", R"({"version": 99})");
+  write(dir / "a.exr", "v/1\1");
+  write(dir / "a.hdr", "#?RADIANCE\n");
+  write(dir / "a.json", R"({"degree": 2, "coefficients": [[1,2,3]]})");
+  expect_failure({"probe", "info", dir / "a.sphl"}, "a.sphl");
+  expect_failure({"probe", "info", dir / "a.sphl.json"}, "version");
+  expect_failure({"sh", "project", dir / "a.exr", "--layout", "equirect", "--degree", "2"}, "a.exr");
+  expect_failure({"compare", dir / "a.hdr", dir / "a.hdr"}, "a.hdr");
+  expect_failure({"sh", "irradiance", dir / "a.json", "--normal", "0", "0", "1"}, "a.json");
+}
+
+TEST(BadInput, UnwritableOutputAndFullDisk) {
+  const TempDir dir;
+  expect_failure(with({"render", "builtin:box", "-o", dir / "no/such/folder/x.exr"}), "folder");
+  std::filesystem::create_symlink("/dev/full", dir / "full.exr");
+  expect_failure(with({"render", "builtin:box", "-o", dir / "full.exr"}), "No space left on device");
+  std::filesystem::create_symlink("/dev/full", dir / "full.sphl");
+  expect_failure(
+      {"bake", "builtin:box", "-o", dir / "full.sphl", "--face", "4", "--spp", "1", "--viz", "off"},
+      "No space left on device");
+}
+
+TEST(BadInput, CtrlCLeavesTheOldOutputAndResumeGivesTheSameBits) {
+  const TempDir dir;
+  const std::string cut = dir / "cut.exr", whole = dir / "whole.exr";
+  const std::vector<std::string> effort = {"--width", "64", "--height", "64", "--spp", "4", "--passes", "60"};
+  write(cut, "the old file");
+  ToolProcess process(with({"render", "builtin:cornell", "-o", cut, "--progress", "json"}, effort));
+  ASSERT_TRUE(process.wait_for_stderr("\"done\"")) << process.stderr_so_far();
+  process.signal(SIGINT);
+  const ToolResult stopped = process.wait();
+  EXPECT_EQ(stopped.exit_code, 1);
+  EXPECT_THAT(stopped.err, HasSubstr("cancelled"));
+  EXPECT_EQ(read(cut), "the old file");
+
+  ASSERT_EQ(run_tool(with({"render", "builtin:cornell", "-o", cut, "--resume"}, effort)).exit_code, 0);
+  ASSERT_EQ(run_tool(with({"render", "builtin:cornell", "-o", whole, "--threads", "1"}, effort)).exit_code,
+            0);
+  EXPECT_EQ(read(cut), read(whole));
+}
+
+TEST(BadInput, AKilledBakeResumesToTheSameBits) {
+  const TempDir dir;
+  const std::string cut = dir / "cut.sphl", whole = dir / "whole.sphl";
+  const std::vector<std::string> effort = {"--face",      "16", "--spp",    "64",
+                                           "--max-depth", "8",  "--degree", "3"};
+  ToolProcess process(with({"bake", "builtin:cornell", "-o", cut, "--progress", "json"}, effort));
+  ASSERT_TRUE(process.wait_for_stderr("\"done\"")) << process.stderr_so_far();
+  process.signal(SIGKILL);
+  EXPECT_EQ(process.wait().exit_code, 128 + SIGKILL);
+  EXPECT_FALSE(std::filesystem::exists(cut));
+
+  ASSERT_EQ(run_tool(with({"bake", "builtin:cornell", "-o", cut}, effort)).exit_code, 0);
+  ASSERT_EQ(run_tool(with({"bake", "builtin:cornell", "-o", whole}, effort)).exit_code, 0);
+  EXPECT_EQ(read(cut), read(whole));
+}
+
+}  // namespace
+}  // namespace ssphh

@@ -1,0 +1,80 @@
+#pragma once
+/// Runs the ssphh tool as a user would and captures what it prints.
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "temp_dir.h"
+
+namespace ssphh::test {
+
+struct ToolResult {
+  int exit_code = -1;  ///< 128 + signal when killed
+  std::string out, err;
+};
+
+/// A running tool; its output goes to files, so it never blocks on a pipe.
+class ToolProcess {
+ public:
+  explicit ToolProcess(const std::vector<std::string>& arguments) {
+    pid_ = ::fork();
+    if (pid_ == 0) {
+      redirect(dir_ / "out", STDOUT_FILENO);
+      redirect(dir_ / "err", STDERR_FILENO);
+      ::close(STDIN_FILENO);
+      std::vector<char*> argv = {const_cast<char*>(SSPHH_TOOL)};
+      for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+      argv.push_back(nullptr);
+      ::execv(SSPHH_TOOL, argv.data());
+      ::_exit(127);
+    }
+  }
+  void signal(int number) const { ::kill(pid_, number); }
+  std::string stderr_so_far() const { return slurp(dir_ / "err"); }
+  /// Polls until stderr holds `text` or ten seconds have passed.
+  bool wait_for_stderr(const std::string& text) const {
+    for (int i = 0; i < 1000; ++i) {
+      if (stderr_so_far().find(text) != std::string::npos) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+  }
+  ToolResult wait() {
+    int status = 0;
+    ::waitpid(pid_, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), slurp(dir_ / "out"),
+            slurp(dir_ / "err")};
+  }
+
+ private:
+  static void redirect(const std::filesystem::path& path, int fd) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    ::dup2(file, fd);
+  }
+  static std::string slurp(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+  TempDir dir_;
+  pid_t pid_;
+};
+
+inline ToolResult run_tool(const std::vector<std::string>& arguments) {
+  return ToolProcess(arguments).wait();
+}
+
+}  // namespace ssphh::test
