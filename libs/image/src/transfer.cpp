@@ -1,7 +1,7 @@
-#include <ssphh/image/transfer.h>
-
 #include <array>
 #include <cmath>
+
+#include <ssphh/image/transfer.h>
 
 namespace ssphh::image {
 
@@ -31,6 +31,8 @@ std::uint8_t unit_to_8bit(float x) {
   return x >= 1 ? 255 : static_cast<std::uint8_t>(255 * x + 0.5f);
 }
 
-std::uint8_t linear_to_srgb8(float linear) { return linear > 0 ? unit_to_8bit(linear_to_srgb(linear)) : 0; }
+std::uint8_t linear_to_srgb8(float linear) {
+  return linear > 0 ? unit_to_8bit(linear_to_srgb(linear)) : 0;
+}
 
 }  // namespace ssphh::image

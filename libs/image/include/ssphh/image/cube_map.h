@@ -1,10 +1,10 @@
 #pragma once
 /// Cube maps: six square faces in the order and orientation of ssphh::CubeFace.
 
+#include <array>
+
 #include <ssphh/core/sphere.h>
 #include <ssphh/image/image.h>
-
-#include <array>
 
 namespace ssphh::image {
 

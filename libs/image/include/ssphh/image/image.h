@@ -1,17 +1,17 @@
 #pragma once
 /// Float images: scene-linear Rec.709, row 0 on top.
 
-#include <ssphh/core/error.h>
-#include <ssphh/core/math.h>
-
 #include <span>
 #include <string>
 #include <vector>
 
+#include <ssphh/core/error.h>
+#include <ssphh/core/math.h>
+
 namespace ssphh::image {
 
-/// width × height × channels floats, interleaved, row-major from the top left. channels is 1 (scalar), 3 (RGB) or
-/// 4 (RGB and alpha, not premultiplied).
+/// width × height × channels floats, interleaved, row-major from the top left. channels is 1 (scalar), 3
+/// (RGB) or 4 (RGB and alpha, not premultiplied).
 struct Image {
   int width = 0, height = 0, channels = 3;
   std::vector<float> pixels;

@@ -1,17 +1,19 @@
 #pragma once
-/// Images of the whole sphere around a point: equirectangular and angular map. In both, u runs right and v down, each
-/// from 0 to 1 over the image. Directions point away from the centre, toward what is seen.
+/// Images of the whole sphere around a point: equirectangular and angular map. In both, u runs right and v
+/// down, each from 0 to 1 over the image. Directions point away from the centre, toward what is seen.
 ///
-/// Equirectangular (three.js's convention): v = θ/π with θ the angle from +y; u = 0.5 + atan2(z, x)/2π. So the image's
-/// centre looks along +x, u = 0.75 along +z, u = 0 and 1 along −x, u = 0.25 along −z; the top row is +y.
+/// Equirectangular (three.js's convention): v = θ/π with θ the angle from +y; u = 0.5 + atan2(z, x)/2π. So
+/// the image's centre looks along +x, u = 0.75 along +z, u = 0 and 1 along −x, u = 0.25 along −z; the top row
+/// is +y.
 ///
-/// Angular map (Debevec's old "light probe" images): the centre looks along −z, right is +x, up is +y; the distance from
-/// the centre (1 at the edge's middle) is the angle from −z divided by π. Outside that disc nothing is defined.
+/// Angular map (Debevec's old "light probe" images): the centre looks along −z, right is +x, up is +y; the
+/// distance from the centre (1 at the edge's middle) is the angle from −z divided by π. Outside that disc
+/// nothing is defined.
+
+#include <optional>
 
 #include <ssphh/core/math.h>
 #include <ssphh/image/image.h>
-
-#include <optional>
 
 namespace ssphh::image {
 

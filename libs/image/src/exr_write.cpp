@@ -1,0 +1,69 @@
+#include <array>
+#include <cstring>
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfOutputFile.h>
+
+#include <ssphh/image/io.h>
+
+namespace ssphh::image {
+namespace {
+
+class MemoryOutput final : public Imf::OStream {
+ public:
+  MemoryOutput() : OStream("memory") {}
+
+  void write(const char* data, int count) override {
+    const auto size = static_cast<std::size_t>(count);
+    if (position_ + size > data_.size()) data_.resize(position_ + size);
+    std::memcpy(data_.data() + position_, data, size);
+    position_ += size;
+  }
+  std::uint64_t tellp() override { return position_; }
+  void seekp(std::uint64_t position) override { position_ = position; }
+  std::vector<std::byte> take() { return std::move(data_); }
+
+ private:
+  std::vector<std::byte> data_;
+  std::uint64_t position_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::byte> encode_exr(const Image& image, std::span<const NamedChannel> extra) {
+  SSPHH_CHECK(!image.empty() && (image.channels == 1 || image.channels == 3 || image.channels == 4));
+  const std::size_t pixel_count =
+      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  Imf::Header header(image.width, image.height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  Imf::FrameBuffer buffer;
+  const auto add = [&](const std::string& name, const float* values, std::size_t stride) {
+    SSPHH_CHECK(!header.channels().findChannel(name));
+    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    // OpenEXR reads through a non-const pointer.
+    char* base = reinterpret_cast<char*>(const_cast<float*>(values));
+    const std::size_t pixel = stride * sizeof(float);
+    buffer.insert(name, Imf::Slice(Imf::FLOAT, base, pixel, pixel * static_cast<std::size_t>(image.width)));
+  };
+  static constexpr std::array<const char*, 4> rgba{"R", "G", "B", "A"};
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t c = 0; c < channels; ++c) {
+    add(channels == 1 ? "Y" : rgba[c], image.pixels.data() + c, channels);
+  }
+  for (const NamedChannel& channel : extra) {
+    SSPHH_CHECK(channel.values.size() == pixel_count);
+    add(channel.name, channel.values.data(), 1);
+  }
+  MemoryOutput stream;
+  {
+    Imf::OutputFile file(stream, header, 0);
+    file.setFrameBuffer(buffer);
+    file.writePixels(image.height);
+  }
+  return stream.take();
+}
+
+}  // namespace ssphh::image
