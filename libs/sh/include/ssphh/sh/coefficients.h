@@ -1,24 +1,30 @@
 #pragma once
-/// Spherical harmonics coefficients as values. Basis, index and irradiance conventions: docs/conventions.md#spherical-harmonics.
+/// Spherical harmonics coefficients as values. Basis, index and irradiance conventions:
+/// docs/conventions.md#spherical-harmonics.
+
+#include <vector>
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/math.h>
-
-#include <vector>
 
 namespace ssphh::sh {
 
 inline constexpr int max_degree = 10;
 
 /// Number of coefficients of all bands 0..degree.
-constexpr int coefficient_count(int degree) { return (degree + 1) * (degree + 1); }
+constexpr int coefficient_count(int degree) {
+  return (degree + 1) * (degree + 1);
+}
 inline constexpr int max_coefficient_count = coefficient_count(max_degree);
 
 /// Index of Y_lm, l = 0..degree, m = −l..l.
-constexpr int coefficient_index(int l, int m) { return l * (l + 1) + m; }
+constexpr int coefficient_index(int l, int m) {
+  return l * (l + 1) + m;
+}
 
-/// RGB coefficients of a spherical function, in coefficient_index order. `Quantity` keeps radiance [W sr⁻¹ m⁻²] and
-/// irradiance [W m⁻²] apart: one becomes the other only by irradiance_from_radiance (cosine convolution, A_l).
+/// RGB coefficients of a spherical function, in coefficient_index order. `Quantity` keeps radiance [W sr⁻¹
+/// m⁻²] and irradiance [W m⁻²] apart: one becomes the other only by irradiance_from_radiance (cosine
+/// convolution, A_l).
 template <class Quantity>
 struct RgbSh {
   std::vector<vec3> values;

@@ -1,0 +1,73 @@
+#include <array>
+
+#include <ssphh/sh/evaluate.h>
+#include <ssphh/sh/operators.h>
+
+namespace ssphh::sh {
+namespace {
+
+constexpr float inverse_root_4pi = 0.28209479177387814f;
+
+}  // namespace
+
+vec3 mean(const RadianceSh& radiance) {
+  return radiance.empty() ? vec3(0) : radiance[0] * inverse_root_4pi;
+}
+
+RadianceSh add(const RadianceSh& a, const RadianceSh& b) {
+  RadianceSh sum = a;
+  sum += b;
+  return sum;
+}
+
+void add_coefficient_product(RadianceSh& sum, const RadianceSh& response, const RadianceSh& source) {
+  const std::size_t count = sum.values.size();
+  SSPHH_CHECK(response.values.size() == count && source.values.size() == count);
+  for (std::size_t k = 0; k < count; ++k) {
+    sum.values[k] += inverse_root_4pi * response.values[k] * source.values[k];
+  }
+}
+
+void add_mean_product(RadianceSh& sum, const RadianceSh& response, const RadianceSh& source) {
+  const std::size_t count = sum.values.size();
+  SSPHH_CHECK(response.values.size() == count && !source.empty());
+  const vec3 level = mean(source);
+  for (std::size_t k = 0; k < count; ++k) sum.values[k] += response.values[k] * level;
+}
+
+TransferMatrix::TransferMatrix(int arriving_degree_, int emitted_degree_)
+    : arriving_degree(arriving_degree_), emitted_degree(emitted_degree_) {
+  SSPHH_CHECK(arriving_degree >= 0 && arriving_degree <= max_degree);
+  SSPHH_CHECK(emitted_degree >= 0 && emitted_degree <= max_degree);
+  values.assign(
+      static_cast<std::size_t>(coefficient_count(arriving_degree) * coefficient_count(emitted_degree)),
+      vec3(0));
+}
+
+TransferMatrix& TransferMatrix::operator+=(const TransferMatrix& other) {
+  SSPHH_CHECK(arriving_degree == other.arriving_degree && emitted_degree == other.emitted_degree);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] += other.values[i];
+  return *this;
+}
+
+void add_path(TransferMatrix& transfer, const vec3& throughput, const vec3& arriving, const vec3& emitted) {
+  std::array<float, max_coefficient_count> rows, columns;
+  eval_basis(transfer.arriving_degree, arriving, rows);
+  eval_basis(transfer.emitted_degree, emitted, columns);
+  vec3* value = transfer.values.data();
+  const auto column_count = static_cast<std::size_t>(coefficient_count(transfer.emitted_degree));
+  for (std::size_t k = 0; k < static_cast<std::size_t>(coefficient_count(transfer.arriving_degree)); ++k) {
+    const vec3 row = throughput * rows[k];
+    for (std::size_t j = 0; j < column_count; ++j) *value++ += row * columns[j];
+  }
+}
+
+void add_matrix_product(RadianceSh& sum, const TransferMatrix& transfer, const RadianceSh& source) {
+  SSPHH_CHECK(sum.degree() == transfer.arriving_degree && source.degree() == transfer.emitted_degree);
+  const vec3* value = transfer.values.data();
+  for (vec3& target : sum.values) {
+    for (const vec3& s : source.values) target += *value++ * s;
+  }
+}
+
+}  // namespace ssphh::sh
