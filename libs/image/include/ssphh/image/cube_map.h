@@ -18,4 +18,11 @@ struct CubeMap {
   }
 };
 
+/// Colour of texel (x, y) of a face, which may lie up to one texel outside: then it is the texel of the
+/// neighbouring face there, and beyond a corner, where there is none, the mean of the three texels that meet.
+vec3 cube_texel(const CubeMap& cube, int face, int x, int y);
+
+/// Bilinear without seams at the edges; `direction` of any length but zero.
+vec3 sample_cube(const CubeMap& cube, const vec3& direction);
+
 }  // namespace ssphh::image
