@@ -1,0 +1,16 @@
+#pragma once
+/// The makers behind the table of builtin.cpp.
+
+#include <ssphh/scene/scene.h>
+
+namespace ssphh::scene {
+
+Scene make_cornell();
+Scene make_furnace();
+Scene make_glowing_box();
+Scene make_two_rooms();
+Scene make_gallery1();
+Scene make_gallery2();
+Scene make_gallery3();
+
+}  // namespace ssphh::scene
