@@ -1,0 +1,16 @@
+#pragma once
+/// GEN: the light that arrives at each probe, path traced and projected to spherical harmonics per light
+/// group.
+
+#include <ssphh/gi/probe_set.h>
+#include <ssphh/scene/radiance_source.h>
+
+namespace ssphh::gi {
+
+/// S_i^g of one place, for every light group g of the source: cube maps of request.face_size² × 6 texels,
+/// projected with exact texel solid angles. `emitted` is left empty where it is zero. Throws Error when the
+/// source answers with a number that is not finite.
+std::vector<GroupLight> gen(const scene::RadianceSource& source, const scene::CubeRequest& request,
+                            int degree, const Control& control = {});
+
+}  // namespace ssphh::gi

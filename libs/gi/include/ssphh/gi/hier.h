@@ -1,0 +1,28 @@
+#pragma once
+/// HIER: S'_i = S_i ⊕ Σ_j H_{j→i} ⊗ S_j over the strongest neighbours (paper §3, Algorithm 1). What ⊗ can
+/// mean, and what each meaning is worth, is in docs/methods/ssphh.md:
+///   coefficient  (1/√4π) H[k]·S_j[k]: the paper's; depends on the axes of the scene
+///   mean         H[k]·S_j[0]/√4π: H keeps its directions, S_j gives only its mean
+///   matrix       T_{j→i} S_j: exact for SPHLs that are lights; needs a bake with the transfer matrices
+
+#include <ssphh/gi/probe_set.h>
+
+namespace ssphh::gi {
+
+struct HierParams {
+  HierOperator op = HierOperator::coefficient;
+  int neighbors = -1;   ///< N′: at most so many neighbours per probe, those with the largest P; −1: all
+  float threshold = 0;  ///< and only those with P above it
+};
+
+/// Indices into probe.edges of the neighbours that HIER uses, by P descending, ties by index of the
+/// neighbour.
+std::vector<int> select_neighbors(const Probe& probe, const HierParams& params);
+
+/// Adds the neighbours' light to every probe: fills set.hierarchy. Memory of an existing hierarchy is used
+/// again, so that a call per frame does not allocate. S_j is `self`: emitters seen directly and reflected
+/// light. Returns the number of edges used. Throws Error for parameters out of range, and for `matrix` on a
+/// set baked without matrices.
+std::size_t hier(ProbeSet& set, const HierParams& params);
+
+}  // namespace ssphh::gi

@@ -1,0 +1,14 @@
+#pragma once
+/// INIT: where the SPHLs stand.
+
+#include <ssphh/gi/probe_set.h>
+#include <ssphh/scene/query.h>
+
+namespace ssphh::gi {
+
+/// A set without light: one probe per enabled SPHL of the scene, posed at `time` seconds, in scene order.
+/// `degree` is 0..max_degree. A place that is not finite or has no positive radius is an Error; so is a scene
+/// without SPHLs.
+ProbeSet init_from_scene(const scene::Scene& scene, int degree, float time = 0);
+
+}  // namespace ssphh::gi

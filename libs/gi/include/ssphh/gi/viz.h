@@ -1,0 +1,25 @@
+#pragma once
+/// VIZ: how much light of SPHL j reaches probe i, for all j in one pass per i: N passes, not N².
+
+#include <ssphh/gi/probe_set.h>
+#include <ssphh/scene/radiance_source.h>
+
+namespace ssphh::gi {
+
+/// P_ij = H_{j→i}[0]/√4π as Rec.709 luminance: the mean over directions of the unit radiance seen at i. Not
+/// clamped.
+float transfer_coefficient(const sh::RadianceSh& h);
+
+struct VizParams {
+  bool matrix = false;  ///< also T_{j→i}: K² RGB numbers per edge (120 kB at degree 9)
+};
+
+/// Edges i ← j of probe i: every other probe is a sphere of its radius with radiance 1, and H_{j→i} is what
+/// arrives at i from sphere j, itself and everything it lights. Edges with P ≤ 0 are left out; a P over 1 (i
+/// inside j's sphere, and light reflected back) is stored as 1 with a line in `warnings`. P_ii = 1 is
+/// implied. `request.position` is ignored.
+std::vector<Edge> viz(const scene::RadianceSource& source, const ProbeSet& set, std::size_t i,
+                      const scene::CubeRequest& request, const VizParams& params,
+                      std::vector<std::string>& warnings, const Control& control = {});
+
+}  // namespace ssphh::gi

@@ -1,0 +1,44 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <ssphh/gi/gen.h>
+
+#include "project_cube_map.h"
+
+namespace ssphh::gi {
+namespace {
+
+bool is_zero(const sh::RadianceSh& function) {
+  return std::all_of(function.values.begin(), function.values.end(),
+                     [](const vec3& v) { return v == vec3(0); });
+}
+
+void check_finite(const sh::RadianceSh& function, const scene::CubeRequest& request,
+                  const std::string& group) {
+  if (std::all_of(function.values.begin(), function.values.end(), [](const vec3& v) { return is_finite(v); }))
+    return;
+  throw Error(fmt::format("probe at ({:g}, {:g}, {:g}), light group \"{}\"", request.position.x,
+                          request.position.y, request.position.z, group),
+              "the traced radiance is not finite");
+}
+
+}  // namespace
+
+std::vector<GroupLight> gen(const scene::RadianceSource& source, const scene::CubeRequest& request,
+                            int degree, const Control& control) {
+  const std::vector<scene::GroupRadiance> radiance = source.incident_radiance(request, control);
+  SSPHH_CHECK(radiance.size() == source.light_groups().size());
+  const sh::CubeProjector projector(degree, request.face_size);
+  std::vector<GroupLight> groups(radiance.size());
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    groups[g].emitted = project_cube_map(projector, radiance[g].emitted);
+    groups[g].reflected = project_cube_map(projector, radiance[g].reflected);
+    check_finite(groups[g].emitted, request, source.light_groups()[g]);
+    check_finite(groups[g].reflected, request, source.light_groups()[g]);
+    if (is_zero(groups[g].emitted)) groups[g].emitted = {};
+  }
+  return groups;
+}
+
+}  // namespace ssphh::gi

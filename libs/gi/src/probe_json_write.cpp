@@ -1,0 +1,144 @@
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <ssphh/gi/probe_file.h>
+
+#include "json_number.h"
+
+namespace ssphh::gi {
+namespace {
+
+class Writer {
+ public:
+  explicit Writer(const ProbeSet& set) : set_(set) {}
+
+  std::string run() {
+    const GeneratorInfo& g = set_.generator;
+    put("{{\"format\":\"ssphh-probes\",\"version\":{},\n\"degree\":{},\n", probe_file_version, set_.degree);
+    put("\"generator\":{{\"gen\":\"{}\",\"max_depth\":{},\"passes\":{},\"spp\":{},\"face_size\":{},\"seed\":"
+        "\"{:x}\",",
+        to_string(g.gen), g.max_depth, g.passes, g.spp, g.face_size, g.seed);
+    put("\"scene\":{},\"scene_hash\":\"{}\",\"time\":{}}},\n", quoted(g.scene), g.scene_hash.hex(),
+        exact(g.time));
+    put("\"light_groups\":[");
+    for (std::size_t i = 0; i < set_.light_groups.size(); ++i) {
+      const LightGroup& group = set_.light_groups[i];
+      put("{}\n{{\"name\":{},\"scale\":{}}}", comma(i), quoted(group.name), exact(group.scale));
+    }
+    put("],\n\"probes\":[");
+    for (std::size_t i = 0; i < set_.probes.size(); ++i) probe(i);
+    put("]");
+    if (set_.hierarchy) {
+      const Hierarchy& h = *set_.hierarchy;
+      put(",\n\"hierarchy\":{{\"operator\":\"{}\",\"neighbors\":{},\"threshold\":{}}}", to_string(h.op),
+          h.neighbors, exact(h.threshold));
+    }
+    put("}}\n");
+    return std::move(out_);
+  }
+
+ private:
+  template <class... Args>
+  void put(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
+  }
+  static const char* comma(std::size_t i) { return i == 0 ? "" : ","; }
+  static std::string quoted(const std::string& text) {
+    return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  }
+  static std::string exact(float value) { return fmt::format("{}", value + 0.0f); }  // + 0: no negative zero
+  static std::string exact(const vec3& v) {
+    return fmt::format("[{},{},{}]", exact(v.x), exact(v.y), exact(v.z));
+  }
+
+  void numbers(std::span<const vec3> values) {
+    out_ += '[';
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      for (int c = 0; c < 3; ++c) {
+        if (k + static_cast<std::size_t>(c) > 0) out_ += ',';
+        append_five_digits(out_, values[k][c]);
+      }
+    }
+    out_ += ']';
+  }
+
+  void probe(std::size_t i) {
+    const Probe& p = set_.probes[i];
+    put("{}\n{{\"name\":{},\"position\":{},\"radius\":{},\n\"groups\":[", comma(i), quoted(p.name),
+        exact(p.position), exact(p.radius));
+    for (std::size_t g = 0; g < p.groups.size(); ++g) {
+      put("{}\n{{\"emitted\":", comma(g));
+      numbers(p.groups[g].emitted.values);
+      put(",\n\"reflected\":");
+      numbers(p.groups[g].reflected.values);
+      put("}}");
+    }
+    put("],\n\"edges\":[");
+    for (std::size_t e = 0; e < p.edges.size(); ++e) {
+      const Edge& edge = p.edges[e];
+      put("{}\n{{\"from\":{},\"transfer\":", comma(e), edge.from);
+      append_five_digits(out_, edge.transfer);
+      put(",\"h\":");
+      numbers(edge.h.values);
+      if (!edge.matrix.values.empty()) {
+        put(",\n\"matrix\":");
+        numbers(edge.matrix.values);
+      }
+      put("}}");
+    }
+    put("]");
+    if (set_.hierarchy) {
+      put(",\n\"neighbor\":");
+      numbers(set_.hierarchy->neighbor[i].values);
+    }
+    put("}}");
+  }
+
+  const ProbeSet& set_;
+  std::string out_;
+};
+
+}  // namespace
+
+void append_five_digits(std::string& out, float value) {
+  // Smaller values lose digits as denormal floats and would not survive a second round trip.
+  if (!(std::abs(value) >= 1e-35f)) {
+    out += '0';
+    return;
+  }
+  // Decimal mantissa "d.dddd" and exponent, then the shorter of fixed and scientific notation.
+  char text[32];
+  *fmt::format_to_n(text, sizeof(text) - 1, "{:.4e}", std::abs(value)).out = '\0';
+  std::string digits{text[0]};
+  digits.append(text + 2, 4);
+  const int exponent = std::atoi(text + 7);
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (value < 0) out += '-';
+  const int count = static_cast<int>(digits.size());
+  if (exponent >= 0 && exponent <= 6) {
+    // 12345, 1.2345, 1234500
+    if (count <= exponent + 1) {
+      out += digits + std::string(static_cast<std::size_t>(exponent + 1 - count), '0');
+    } else {
+      digits.insert(static_cast<std::size_t>(exponent + 1), 1, '.');
+      out += digits;
+    }
+  } else if (exponent < 0 && exponent >= -2) {
+    // 0.012345
+    out += "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + digits;
+  } else {
+    // 1.2345e-3
+    if (count > 1) digits.insert(1, 1, '.');
+    fmt::format_to(std::back_inserter(out), "{}e{}", digits, exponent);
+  }
+}
+
+std::string probes_to_json(const ProbeSet& set) {
+  validate(set, "probe set");
+  return Writer(set).run();
+}
+
+}  // namespace ssphh::gi

@@ -1,0 +1,75 @@
+#include <array>
+#include <string_view>
+
+#include <ssphh/gi/probe_set.h>
+
+#include "probe_limits.h"
+
+namespace ssphh::gi {
+namespace {
+
+constexpr std::array<const char*, 2> gen_mode_names = {"full", "local"};
+constexpr std::array<const char*, 3> operator_names = {"coefficient", "mean", "matrix"};
+
+template <class Enum, std::size_t N>
+std::optional<Enum> parse(const std::array<const char*, N>& names, std::string_view name) {
+  for (std::size_t i = 0; i < N; ++i)
+    if (name == names[i]) return static_cast<Enum>(i);
+  return std::nullopt;
+}
+
+void add_scaled(sh::RadianceSh& sum, const sh::RadianceSh& term, const vec3& scale) {
+  for (std::size_t k = 0; k < term.values.size(); ++k) sum.values[k] += scale * term.values[k];
+}
+
+}  // namespace
+
+void merge_groups(ProbeSet& set) {
+  for (Probe& probe : set.probes) {
+    probe.reflected = sh::RadianceSh(set.degree);
+    probe.self = sh::RadianceSh(set.degree);
+    for (std::size_t g = 0; g < probe.groups.size(); ++g) {
+      add_scaled(probe.reflected, probe.groups[g].reflected, set.light_groups[g].scale);
+      add_scaled(probe.self, probe.groups[g].emitted, set.light_groups[g].scale);
+    }
+    probe.self += probe.reflected;
+  }
+}
+
+void relight(ProbeSet& set, const std::string& group, const vec3& scale) {
+  if (!is_finite(scale) || glm::any(glm::lessThan(scale, vec3(0))) || max_component(scale) > limits::scale) {
+    throw Error("light group \"" + group + "\"", "its scale must be three numbers in 0..1e6");
+  }
+  std::string known;
+  for (LightGroup& candidate : set.light_groups) {
+    known += (known.empty() ? "\"" : ", \"") + candidate.name + "\"";
+    if (candidate.name != group) continue;
+    candidate.scale = scale;
+    merge_groups(set);
+    set.hierarchy.reset();
+    return;
+  }
+  throw Error("light group \"" + group + "\"", "no such group in the probe set",
+              known.empty() ? "the set has no light groups" : "there are: " + known);
+}
+
+std::size_t edge_count(const ProbeSet& set) {
+  std::size_t count = 0;
+  for (const Probe& probe : set.probes) count += probe.edges.size();
+  return count;
+}
+
+const char* to_string(GenMode mode) {
+  return gen_mode_names[static_cast<std::size_t>(mode)];
+}
+const char* to_string(HierOperator op) {
+  return operator_names[static_cast<std::size_t>(op)];
+}
+std::optional<GenMode> parse_gen_mode(const std::string& name) {
+  return parse<GenMode>(gen_mode_names, name);
+}
+std::optional<HierOperator> parse_hier_operator(const std::string& name) {
+  return parse<HierOperator>(operator_names, name);
+}
+
+}  // namespace ssphh::gi

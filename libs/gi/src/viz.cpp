@@ -1,0 +1,100 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <ssphh/gi/viz.h>
+
+#include "project_cube_map.h"
+
+namespace ssphh::gi {
+namespace {
+
+/// T_{j→i} of all j, summed per chunk of the source's work and reduced in chunk order: the same bits for any
+/// number of threads.
+class MatrixAccumulator {
+ public:
+  MatrixAccumulator(std::size_t emitter_count, int degree) : emitter_count_(emitter_count), degree_(degree) {}
+
+  scene::RadianceSource::GhostSink sink() {
+    const auto k = static_cast<std::size_t>(sh::coefficient_count(degree_));
+    constexpr std::size_t memory_limit = std::size_t{4} << 30;
+    if (scene::RadianceSource::ghost_chunk_count * emitter_count_ * k * k * sizeof(vec3) > memory_limit) {
+      throw Error("VIZ", "the transfer matrices of that many probes do not fit into 4 GiB",
+                  "use a lower degree or fewer probes");
+    }
+    chunks_.resize(scene::RadianceSource::ghost_chunk_count);
+    return [this](int chunk, const scene::GhostPath& path) {
+      // Only one thread at a time works on a chunk, so it may make its matrices when the first path comes.
+      std::vector<sh::TransferMatrix>& matrices = chunks_[static_cast<std::size_t>(chunk)];
+      if (matrices.empty()) matrices.resize(emitter_count_);
+      sh::TransferMatrix& matrix = matrices[static_cast<std::size_t>(path.emitter)];
+      if (matrix.values.empty()) matrix = sh::TransferMatrix(degree_, degree_);
+      sh::add_path(matrix, path.throughput, path.direction, path.emission);
+    };
+  }
+
+  sh::TransferMatrix reduce(std::size_t emitter) const {
+    sh::TransferMatrix sum(degree_, degree_);
+    for (const auto& chunk : chunks_) {
+      if (!chunk.empty() && !chunk[emitter].values.empty()) sum += chunk[emitter];
+    }
+    return sum;
+  }
+
+ private:
+  std::size_t emitter_count_;
+  int degree_;
+  std::vector<std::vector<sh::TransferMatrix>> chunks_;
+};
+
+}  // namespace
+
+float transfer_coefficient(const sh::RadianceSh& h) {
+  return luminance(sh::mean(h));
+}
+
+std::vector<Edge> viz(const scene::RadianceSource& source, const ProbeSet& set, std::size_t i,
+                      const scene::CubeRequest& request, const VizParams& params,
+                      std::vector<std::string>& warnings, const Control& control) {
+  // Light every other probe's sphere.
+  std::vector<scene::GhostSphere> ghosts;
+  std::vector<int> from;
+  for (std::size_t j = 0; j < set.probes.size(); ++j) {
+    if (j == i) continue;
+    ghosts.push_back({set.probes[j].position, set.probes[j].radius});
+    from.push_back(static_cast<int>(j));
+  }
+  if (ghosts.empty()) return {};
+
+  // Trace once from probe i; each sphere has its own cube map.
+  scene::CubeRequest at_probe = request;
+  at_probe.position = set.probes[i].position;
+  MatrixAccumulator matrices(ghosts.size(), set.degree);
+  const std::vector<image::CubeMap> cubes =
+      source.ghost_radiance(at_probe, ghosts, params.matrix ? matrices.sink() : nullptr, control);
+  SSPHH_CHECK(cubes.size() == ghosts.size());
+
+  // Project, and keep the edges that carry light.
+  const sh::CubeProjector projector(set.degree, request.face_size);
+  std::vector<Edge> edges;
+  for (std::size_t g = 0; g < ghosts.size(); ++g) {
+    Edge edge;
+    edge.from = from[g];
+    edge.h = project_cube_map(projector, cubes[g]);
+    const float transfer = transfer_coefficient(edge.h);
+    if (!std::isfinite(transfer))
+      throw Error("VIZ of probe \"" + set.probes[i].name + "\"", "the traced light is not finite");
+    if (transfer <= 0) continue;
+    if (transfer > 1) {
+      warnings.push_back(fmt::format(
+          "P({} <- {}) = {:.3g} is stored as 1: probe \"{}\" lies inside or close to the sphere of \"{}\"", i,
+          edge.from, transfer, set.probes[i].name, set.probes[static_cast<std::size_t>(edge.from)].name));
+    }
+    edge.transfer = std::min(transfer, 1.0f);
+    if (params.matrix) edge.matrix = matrices.reduce(g);
+    edges.push_back(std::move(edge));
+  }
+  return edges;
+}
+
+}  // namespace ssphh::gi
