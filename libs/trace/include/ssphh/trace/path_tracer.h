@@ -1,12 +1,12 @@
 #pragma once
-/// Unidirectional path tracer over Embree: next-event estimation with MIS, light groups, progressive passes. The same
-/// bits for any number of threads.
+/// Unidirectional path tracer over Embree: next-event estimation with MIS, light groups, progressive passes.
+/// The same bits for any number of threads.
+
+#include <memory>
 
 #include <ssphh/scene/radiance_source.h>
 #include <ssphh/scene/scene.h>
 #include <ssphh/trace/render_state.h>
-
-#include <memory>
 
 namespace ssphh::trace {
 
@@ -20,14 +20,18 @@ class PathTracer final : public scene::RadianceSource {
   const std::vector<std::string>& light_groups() const override;
   std::vector<scene::GroupRadiance> incident_radiance(const scene::CubeRequest& request,
                                                       const Control& control) const override;
+  /// A ray that meets a ghost sphere before a surface, or starts inside one, sees its radiance. The caller
+  /// leaves out the probe's own sphere.
   std::vector<image::CubeMap> ghost_radiance(const scene::CubeRequest& request,
-                                             std::span<const scene::GhostSphere> ghosts, const GhostSink& sink,
-                                             const Control& control) const override;
+                                             std::span<const scene::GhostSphere> ghosts,
+                                             const GhostSink& sink, const Control& control) const override;
   bool visible(const vec3& a, const vec3& b) const override;
+  /// From 128 rays; a miss and a double-sided material count as front.
+  float backface_fraction(const vec3& position) const override;
   std::uint64_t rays_traced() const override;
 
-  /// Adds passes to `state` until it holds params.path.passes. After a Cancelled, `state` holds the passes finished so
-  /// far and can be continued.
+  /// Adds passes to `state` until it holds params.path.passes. After a Cancelled, `state` holds the passes
+  /// finished so far and can be continued.
   void render(const RenderParams& params, RenderState& state, const Control& control = {}) const;
 
   /// Path traced direct light, indirect light looked up from probes at the first hit.

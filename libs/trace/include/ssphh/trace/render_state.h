@@ -1,12 +1,12 @@
 #pragma once
 /// Parameters and accumulated result of a progressive render: plain data.
 
+#include <filesystem>
+#include <vector>
+
 #include <ssphh/core/hash.h>
 #include <ssphh/image/image.h>
 #include <ssphh/scene/radiance_source.h>
-
-#include <filesystem>
-#include <vector>
 
 namespace ssphh::trace {
 
@@ -15,8 +15,8 @@ enum class Projection { pinhole, orthographic, equirect, cube_strip };
 struct RenderParams {
   int width = 1280, height = 720;
   scene::CameraPose camera;
-  /// From the scene's camera, or the whole sphere around its position: equirect, or a 6×1 cube strip (height = face
-  /// size, width = 6·height) in world axes.
+  /// From the scene's camera, or the whole sphere around its position: equirect, or a 6×1 cube strip (height
+  /// = face size, width = 6·height) in world axes.
   Projection projection = Projection::pinhole;
   scene::PathParams path;
   bool per_group = false;  ///< keep one image per light group as well
@@ -27,18 +27,29 @@ struct RenderState {
   int passes_done = 0;
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;
-  image::Image color;                ///< radiance
-  image::Image direct, indirect;     ///< split of color: depth ≤ 1, depth ≥ 2
-  image::Image albedo, normal;       ///< of the first hit; normal in world space, −1..1
-  image::Image depth;                ///< 1 channel: mean distance along the view axis of the samples that hit
-  std::vector<image::Image> groups;  ///< radiance by light group, when asked for
-  Hash128 key;                       ///< of scene and parameters without `passes`: guards a resumed state
+  image::Image color;             ///< radiance
+  image::Image direct, indirect;  ///< split of color: depth ≤ 1, depth ≥ 2
+  image::Image albedo, normal;    ///< of the first hit; normal in world space, −1..1
+  /// 1 channel [m]: mean distance along the view axis (from the eye for whole-sphere projections) of the
+  /// samples that hit; 0 where none did.
+  image::Image depth;
+  image::Image coverage;  ///< 1 channel: share of the samples that hit a surface
+  /// Radiance by light group, when asked for: their sum in order is `color`, bit by bit. A render with probes
+  /// keeps the direct light of each group only.
+  std::vector<image::Image> groups;
+  Hash128 key;  ///< of scene and parameters without `passes`: guards a resumed state; set by the first render
+                ///< if zero
 };
 
-/// Mean of an accumulated image.
+/// Identity of a render: everything that decides its pixels but the number of passes. `scene_hash` as
+/// scene::scene_hash. Who renders with probes folds their hash into `scene_hash`.
+Hash128 render_key(const Hash128& scene_hash, float time, const RenderParams& params);
+
+/// Mean of an accumulated image; zeros when no pass is done.
 image::Image resolve(const image::Image& sum, int passes_done);
 
-/// Checkpoint files: everything above at full precision. Loading throws Error for a damaged file or another `key`.
+/// Checkpoint files: everything above at full precision. Loading throws Error for a damaged file or another
+/// `key`.
 void save_state(const RenderState& state, const std::filesystem::path& path);
 RenderState load_state(const std::filesystem::path& path, const Hash128& key);
 

@@ -1,0 +1,15 @@
+#pragma once
+/// Indirect light from probes, reflected at the first hit.
+
+#include <ssphh/scene/radiance_source.h>
+#include <ssphh/shading/surface.h>
+
+namespace ssphh::trace {
+
+/// Radiance toward wo: with e the directional albedo of the specular lobe, ρ_d (1 − e)/π · E(x, n) plus e
+/// times the probes' radiance around the mirror direction (split sum: Karis, Real Shading in Unreal Engine 4,
+/// 2013). Exact under constant light, as the layered BSDF reflects it.
+vec3 reflected_indirect(const scene::IndirectLight& indirect, const shading::Surface& surface,
+                        const vec3& wo);
+
+}  // namespace ssphh::trace

@@ -1,0 +1,138 @@
+#include <cmath>
+
+#include <ssphh/core/log.h>
+#include <ssphh/core/sphere.h>
+#include <ssphh/trace/path_tracer.h>
+
+#include "tracer_data.h"
+
+namespace ssphh::trace {
+namespace {
+
+std::atomic<RayRecording*> ray_recording{nullptr};
+
+bool has_found_by_rays(const scene::Scene& scene) {
+  if (scene.environment) return true;
+  for (const scene::Light& light : scene.lights) {
+    if (light.type == scene::LightType::sphere) return true;
+    if (light.type == scene::LightType::directional && light.angular_radius > 0) return true;
+  }
+  for (const scene::Instance& instance : scene.instances) {
+    if (instance.mesh < 0) continue;
+    const int material = scene::instance_material(scene, instance);
+    if (material >= 0 && scene.materials[static_cast<std::size_t>(material)].emissive()) return true;
+  }
+  return false;
+}
+
+unsigned next_shard() {
+  static std::atomic<unsigned> next{0};
+  return next.fetch_add(1, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+void set_ray_recording(RayRecording* recording) {
+  ray_recording = recording;
+}
+
+void SharedCount::add(std::uint64_t n) noexcept {
+  thread_local const unsigned shard = next_shard();
+  shards_[shard % shards_.size()].value.fetch_add(n, std::memory_order_relaxed);
+}
+
+std::uint64_t SharedCount::total() const noexcept {
+  std::uint64_t sum = 0;
+  for (const Shard& shard : shards_) sum += shard.value.load(std::memory_order_relaxed);
+  return sum;
+}
+
+TracerData::TracerData(const scene::Scene& scene_in, float time_in)
+    : scene(scene_in),
+      time(time_in),
+      world(scene::world_matrices(scene_in, time_in)),
+      lights(scene_in, world),
+      embree(scene_in, world),
+      found_by_rays(has_found_by_rays(scene_in)) {}
+
+const Hash128& TracerData::scene_hash() const {
+  std::call_once(hash_once, [this] { hash = scene::scene_hash(scene); });
+  return hash;
+}
+
+TaskScope::TaskScope(const TracerData& data, std::atomic<std::uint64_t>& invalid, std::uint64_t task_id)
+    : data_(data), invalid_(invalid), task_id_(task_id) {
+  if (ray_recording.load(std::memory_order_relaxed)) task.record = &recorded_;
+}
+
+TaskScope::~TaskScope() {
+  data_.rays.add(task.rays);
+  if (task.invalid) invalid_.fetch_add(task.invalid, std::memory_order_relaxed);
+  if (RayRecording* recording = ray_recording.load(std::memory_order_relaxed); recording && task.record) {
+    recording->add(task_id_, std::move(recorded_));
+  }
+}
+
+void report_invalid(std::uint64_t invalid) {
+  if (invalid) log_warning("path tracer: {} contributions were not finite and were left out", invalid);
+}
+
+void check_path_params(const scene::PathParams& params) {
+  if (params.max_depth < 0) throw Error("max depth", "it must not be negative");
+  if (params.passes < 0) throw Error("passes", "their number must not be negative");
+  if (params.spp < 1) throw Error("spp", "at least one sample is needed");
+  if (static_cast<std::uint64_t>(params.passes) * static_cast<std::uint64_t>(params.spp) > UINT32_MAX) {
+    throw Error("passes", "more than 2^32 samples per pixel");
+  }
+}
+
+void check_image_memory(const std::string& where, std::uint64_t pixels, std::uint64_t floats_per_pixel) {
+  constexpr std::uint64_t limit = std::uint64_t{8} << 30;
+  if (pixels > limit / (sizeof(float) * floats_per_pixel)) {
+    throw Error(where, "the images would need more than 8 GiB", "ask for fewer pixels or light groups");
+  }
+}
+
+PathTracer::PathTracer(const scene::Scene& scene, float time) {
+  if (!std::isfinite(time)) throw Error("time", "it must be a finite number of seconds");
+  data_ = std::make_unique<Data>(scene, time);
+}
+
+PathTracer::~PathTracer() = default;
+
+const std::vector<std::string>& PathTracer::light_groups() const {
+  return data_->lights.groups();
+}
+
+std::uint64_t PathTracer::rays_traced() const {
+  return data_->rays.total();
+}
+
+bool PathTracer::visible(const vec3& a, const vec3& b) const {
+  // Shorten both ends, which may lie on surfaces, by more than their rounding error.
+  const vec3 d = b - a;
+  const float length = glm::length(d);
+  const float error = position_error(std::max(max_abs_component(a), max_abs_component(b)));
+  const float gap = 1e-4f * length + 2 * error;
+  if (!(length > 2 * gap)) return true;
+  const vec3 direction = d / length;
+  RayTask task;
+  const bool blocked = data_->embree.occluded({a + gap * direction, direction, length - 2 * gap}, 0, task);
+  data_->rays.add(task.rays);
+  return !blocked;
+}
+
+float PathTracer::backface_fraction(const vec3& position) const {
+  constexpr int count = 128;
+  int backs = 0;
+  RayTask task;
+  for (int i = 0; i < count; ++i) {
+    const Ray ray{position, spherical_fibonacci(i, count)};
+    Hit hit;
+    if (data_->embree.intersect(ray, 0, task, hit) && data_->embree.is_back(hit, ray.direction)) ++backs;
+  }
+  data_->rays.add(task.rays);
+  return static_cast<float>(backs) / count;
+}
+
+}  // namespace ssphh::trace

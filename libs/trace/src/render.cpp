@@ -1,0 +1,220 @@
+/// Camera images: progressive passes of rows.
+
+#include <ssphh/core/parallel.h>
+
+#include "camera.h"
+#include "indirect_lookup.h"
+#include "tracer_data.h"
+
+namespace ssphh::trace {
+namespace {
+
+/// Sums over the samples of one pixel in one pass.
+class PixelSums {
+ public:
+  PixelSums(std::size_t groups, const CameraRays& camera, const scene::IndirectLight* indirect_light,
+            bool indirect_wanted, RayTask& task)
+      : groups_(groups),
+        camera_(camera),
+        indirect_light_(indirect_light),
+        indirect_wanted_(indirect_wanted),
+        task_(task) {}
+
+  void clear() {
+    std::fill(groups_.begin(), groups_.end(), vec3(0));
+    direct_ = indirect_ = looked_up_ = albedo_ = normal_ = vec3(0);
+    depth_ = hits_ = 0;
+  }
+
+  void add(int depth, int group, const vec3& value, const vec3& /*emission*/) {
+    if (!is_finite(value)) {
+      ++task_.invalid;
+      return;
+    }
+    if (group < 0) return;
+    groups_[static_cast<std::size_t>(group)] += value;
+    (depth <= 1 ? direct_ : indirect_) += value;
+  }
+
+  void first_hit(const shading::Surface& surface, const Ray& ray, float distance) {
+    const float cos_wo = -glm::dot(surface.normal, ray.direction);
+    albedo_ += surface.unlit ? glm::min(surface.emission, vec3(1))
+                             : shading::directional_albedo(surface.bsdf, cos_wo);
+    normal_ += surface.normal;
+    depth_ += camera_.depth(ray, distance);
+    hits_ += 1;
+    if (!indirect_light_ || !indirect_wanted_ || surface.unlit) return;
+    const vec3 value = reflected_indirect(*indirect_light_, surface, -ray.direction);
+    if (is_finite(value)) {
+      looked_up_ += value;
+      indirect_ += value;
+    } else {
+      ++task_.invalid;
+    }
+  }
+
+  /// Writes the means over `spp` samples into pixel (x, y) of a pass.
+  void store(RenderState& pass, int x, int y, int spp) const {
+    const float scale = 1 / static_cast<float>(spp);
+    vec3 color(0);
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      const vec3 mean = groups_[g] * scale;
+      color += mean;
+      if (!pass.groups.empty()) pass.groups[g].set_rgb(x, y, mean);
+    }
+    pass.color.set_rgb(x, y, color + looked_up_ * scale);
+    pass.direct.set_rgb(x, y, direct_ * scale);
+    pass.indirect.set_rgb(x, y, indirect_ * scale);
+    pass.albedo.set_rgb(x, y, albedo_ * scale);
+    pass.normal.set_rgb(x, y, normal_ * scale);
+    *pass.depth.at(x, y) = depth_ * scale;
+    *pass.coverage.at(x, y) = hits_ * scale;
+  }
+
+ private:
+  std::vector<vec3> groups_;
+  vec3 direct_{0}, indirect_{0}, looked_up_{0}, albedo_{0}, normal_{0};
+  float depth_ = 0, hits_ = 0;
+  const CameraRays& camera_;
+  const scene::IndirectLight* indirect_light_;
+  bool indirect_wanted_;
+  RayTask& task_;
+};
+
+void check_params(const RenderParams& params, std::size_t groups) {
+  if (params.width < 1 || params.height < 1) throw Error("render size", "width and height must be positive");
+  check_path_params(params.path);
+  // Sums and one pass, each six images and depth, coverage.
+  check_image_memory("render size",
+                     static_cast<std::uint64_t>(params.width) * static_cast<std::uint64_t>(params.height),
+                     2 * (17 + 3 * (params.per_group ? groups : 0)));
+}
+
+RenderState empty_state(const RenderParams& params, std::size_t groups) {
+  RenderState state;
+  const int w = params.width, h = params.height;
+  for (image::Image* i : {&state.color, &state.direct, &state.indirect, &state.albedo, &state.normal}) {
+    *i = image::Image(w, h, 3);
+  }
+  state.depth = image::Image(w, h, 1), state.coverage = image::Image(w, h, 1);
+  if (params.per_group) state.groups.assign(groups, image::Image(w, h, 3));
+  return state;
+}
+
+void check_state(const RenderState& state, const RenderParams& params, std::size_t groups) {
+  const auto fits = [&](const image::Image& i, int channels) {
+    return i.width == params.width && i.height == params.height && i.channels == channels;
+  };
+  bool ok = fits(state.color, 3) && fits(state.direct, 3) && fits(state.indirect, 3) &&
+            fits(state.albedo, 3) && fits(state.normal, 3) && fits(state.depth, 1) &&
+            fits(state.coverage, 1) && state.groups.size() == (params.per_group ? groups : 0);
+  for (const image::Image& i : state.groups) ok = ok && fits(i, 3);
+  if (!ok) throw Error("render state", "it belongs to a render of another size or other light groups");
+}
+
+void add_image(image::Image& sum, const image::Image& pass) {
+  for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += pass.pixels[i];
+}
+
+/// Sum of the groups in their order, so that it is exact.
+void sum_groups(image::Image& color, const std::vector<image::Image>& groups) {
+  std::fill(color.pixels.begin(), color.pixels.end(), 0.0f);
+  for (const image::Image& group : groups) add_image(color, group);
+}
+
+void add_pass(RenderState& state, const RenderState& pass, bool groups_are_all) {
+  for (std::size_t g = 0; g < state.groups.size(); ++g) add_image(state.groups[g], pass.groups[g]);
+  if (groups_are_all && !state.groups.empty()) {
+    sum_groups(state.color, state.groups);
+  } else {
+    add_image(state.color, pass.color);
+  }
+  add_image(state.direct, pass.direct);
+  add_image(state.indirect, pass.indirect);
+  add_image(state.albedo, pass.albedo);
+  add_image(state.normal, pass.normal);
+  // Depth is a mean over the samples that hit: `depth` holds mean × passes, a pass holds mean × coverage.
+  const auto passes = static_cast<float>(state.passes_done);
+  for (std::size_t i = 0; i < state.depth.pixels.size(); ++i) {
+    float &depth = state.depth.pixels[i], &coverage = state.coverage.pixels[i];
+    const float before = passes > 0 ? depth / passes * coverage : 0;
+    coverage += pass.coverage.pixels[i];
+    depth = coverage > 0 ? (before + pass.depth.pixels[i]) / coverage * (passes + 1) : 0;
+  }
+  ++state.passes_done;
+}
+
+void run_passes(const TracerData& data, const scene::IndirectLight* indirect, const RenderParams& params,
+                RenderState& state, const Control& control) {
+  const std::size_t groups = data.group_count();
+  check_params(params, groups);
+  const CameraRays camera(params);
+  if (state.color.empty()) {
+    const Hash128 key = state.key;
+    state = empty_state(params, groups);
+    state.key = key == Hash128{} ? render_key(data.scene_hash(), data.time, params) : key;
+  }
+  check_state(state, params, groups);
+  if (state.passes_done >= params.path.passes) return;
+
+  // With probes, paths carry direct light only.
+  PathOptions options{params.path.max_depth};
+  if (indirect) options.max_depth = std::min(options.max_depth, 1);
+  const bool indirect_wanted = params.path.max_depth >= 2;
+  const SceneEmitters emitters = data.emitters();
+  const auto width = static_cast<std::uint64_t>(params.width),
+             height = static_cast<std::uint64_t>(params.height);
+  const std::uint64_t row_paths = width * static_cast<std::uint64_t>(params.path.spp);
+  ProgressStage stage(control, "render",
+                      row_paths * height * static_cast<std::uint64_t>(params.path.passes - state.passes_done),
+                      "paths");
+  RenderState pass = empty_state(params, groups);
+  std::atomic<std::uint64_t> invalid{0};
+
+  while (state.passes_done < params.path.passes) {
+    const std::uint64_t rays_before = data.rays.total();
+    const auto first_sample =
+        static_cast<std::uint32_t>(state.passes_done) * static_cast<std::uint32_t>(params.path.spp);
+    const auto render_row = [&](int y) {
+      TaskScope scope(data, invalid,
+                      static_cast<std::uint64_t>(state.passes_done) * height + static_cast<std::uint64_t>(y));
+      PixelSums sums(groups, camera, indirect, indirect_wanted, scope.task);
+      for (int x = 0; x < params.width; ++x) {
+        sums.clear();
+        PathSampler sampler{
+            pixel_seed(params.path.seed, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)), 0};
+        for (int s = 0; s < params.path.spp; ++s) {
+          sampler.index = first_sample + static_cast<std::uint32_t>(s);
+          const vec2 jitter = sampler.camera().next2();
+          const Ray ray = camera.ray(static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
+          trace_path(data.embree, emitters, ray, sampler, options, scope.task, sums);
+        }
+        sums.store(pass, x, y, params.path.spp);
+      }
+      stage.advance(row_paths);
+    };
+    parallel_for(
+        static_cast<std::size_t>(height), 1,
+        [&](std::size_t begin, std::size_t end) {
+          for (std::size_t y = begin; y < end; ++y) render_row(static_cast<int>(y));
+        },
+        control);
+    add_pass(state, pass, indirect == nullptr);
+    state.paths += row_paths * height;
+    state.rays += data.rays.total() - rays_before;
+  }
+  report_invalid(invalid);
+}
+
+}  // namespace
+
+void PathTracer::render(const RenderParams& params, RenderState& state, const Control& control) const {
+  run_passes(*data_, nullptr, params, state, control);
+}
+
+void PathTracer::render_with(const scene::IndirectLight& indirect, const RenderParams& params,
+                             RenderState& state, const Control& control) const {
+  run_passes(*data_, &indirect, params, state, control);
+}
+
+}  // namespace ssphh::trace

@@ -1,0 +1,72 @@
+#pragma once
+/// What a PathTracer holds, shared by the files that implement it.
+
+#include <atomic>
+#include <mutex>
+
+#include <ssphh/trace/path_tracer.h>
+
+#include "scene_emitters.h"
+
+namespace ssphh::trace {
+
+/// A count that many threads add to, spread over cache lines.
+class SharedCount {
+ public:
+  void add(std::uint64_t n) noexcept;
+  std::uint64_t total() const noexcept;
+
+ private:
+  struct alignas(64) Shard {
+    std::atomic<std::uint64_t> value{0};
+  };
+  mutable std::array<Shard, 16> shards_;
+};
+
+struct TracerData {
+  TracerData(const scene::Scene& scene_in, float time_in);
+
+  const scene::Scene& scene;
+  float time;
+  std::vector<mat4> world;
+  shading::LightSet lights;
+  EmbreeScene embree;
+  bool found_by_rays;  ///< some light is no point
+  mutable SharedCount rays;
+  mutable std::once_flag hash_once;
+  mutable Hash128 hash;
+
+  SceneEmitters emitters() const { return {lights, found_by_rays}; }
+  std::size_t group_count() const { return lights.groups().size(); }
+  const Hash128& scene_hash() const;
+};
+
+struct PathTracer::Data : TracerData {
+  using TracerData::TracerData;
+};
+
+/// Books a task's rays and, while a recording is set, keeps them under `task_id`.
+class TaskScope {
+ public:
+  TaskScope(const TracerData& data, std::atomic<std::uint64_t>& invalid, std::uint64_t task_id);
+  ~TaskScope();
+  TaskScope(const TaskScope&) = delete;
+  TaskScope& operator=(const TaskScope&) = delete;
+
+  RayTask task;
+
+ private:
+  const TracerData& data_;
+  std::atomic<std::uint64_t>& invalid_;
+  std::uint64_t task_id_;
+  std::vector<RecordedRay> recorded_;
+};
+
+/// Warns when contributions were left out because they were not numbers.
+void report_invalid(std::uint64_t invalid);
+
+/// Throw Error for sizes and efforts that make no sense or do not fit into memory.
+void check_path_params(const scene::PathParams& params);
+void check_image_memory(const std::string& where, std::uint64_t pixels, std::uint64_t floats_per_pixel);
+
+}  // namespace ssphh::trace
