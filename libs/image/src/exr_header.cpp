@@ -25,13 +25,13 @@ class Parser {
     need(1);
     return source_.byte(position_++);
   }
-  // A name ended by a zero byte.
+  // A name ended by a zero byte, made fit for messages.
   std::string name() {
     constexpr std::size_t longest = 255;
     std::string text;
     while (const std::uint8_t c = u8()) {
       if (text.size() == longest) fail("name without an end");
-      text += static_cast<char>(c);
+      text += c >= 0x20 && c < 0x7f ? static_cast<char>(c) : '?';
     }
     return text;
   }

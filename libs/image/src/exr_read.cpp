@@ -25,7 +25,7 @@ namespace {
 
 class MemoryInput final : public Imf::IStream {
  public:
-  explicit MemoryInput(const Source& source) : IStream(source.name.c_str()), data_(source.data) {}
+  explicit MemoryInput(const Source& source) : IStream(""), data_(source.data) {}
 
   bool read(char* out, int count) override {
     if (count < 0 || static_cast<std::uint64_t>(count) > data_.size() - position_) {

@@ -29,7 +29,7 @@ template <class Place>
 Image gather(int width, int height, float pixel_angle, const SphereField& field, const Place& place,
              const Control& control) {
   Image image(width, height);
-  const int grid = std::max(1, static_cast<int>(std::ceil(2 * pixel_angle / field.texel_angle)));
+  const int grid = std::max(1, static_cast<int>(std::ceil(3 * pixel_angle / field.texel_angle)));
   const float du = 1 / static_cast<float>(width), dv = 1 / static_cast<float>(height),
               step = 1 / static_cast<float>(grid);
   const auto mean = [&](int x, int y) {

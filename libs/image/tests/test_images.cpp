@@ -22,7 +22,8 @@ void append_chunk(std::vector<std::byte>& out, const std::string& type,
 
 std::vector<std::byte> png_16bit_grey(const std::vector<std::uint16_t>& row) {
   std::vector<std::byte> out;
-  for (const int c : {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a}) out.push_back(static_cast<std::byte>(c));
+  for (const int c : {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a})
+    out.push_back(static_cast<std::byte>(c));
   append_chunk(out, "IHDR", {0, 0, 0, static_cast<std::uint8_t>(row.size()), 0, 0, 0, 1, 16, 0, 0, 0, 0});
   // One stored (uncompressed) deflate block: filter byte 0 and big-endian samples; then Adler-32.
   std::vector<std::uint8_t> line{0};

