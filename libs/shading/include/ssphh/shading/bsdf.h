@@ -1,11 +1,11 @@
 #pragma once
-/// Reflection of a surface point. All directions are unit and in the local frame whose z axis is the shading normal;
-/// wo points to the known (viewer's) side, wi to the sampled (light's) side. Reflection only: values are zero unless
-/// wo.z > 0 and wi.z > 0.
-
-#include <ssphh/core/math.h>
+/// Reflection of a surface point. All directions are unit and in the local frame whose z axis is the shading
+/// normal; wo points to the known (viewer's) side, wi to the sampled (light's) side. Reflection only: values
+/// are zero unless wo.z > 0 and wi.z > 0.
 
 #include <optional>
+
+#include <ssphh/core/math.h>
 
 namespace ssphh::shading {
 
@@ -23,17 +23,28 @@ vec3 eval_bsdf(const BsdfParams& params, const vec3& wo, const vec3& wi);
 /// Density with which sample_bsdf returns wi, in solid angle [sr⁻¹].
 float pdf_bsdf(const BsdfParams& params, const vec3& wo, const vec3& wi);
 
+/// eval_bsdf and pdf_bsdf in one, for little more than one of them.
+struct BsdfValue {
+  vec3 value{0};
+  float pdf = 0;
+};
+BsdfValue eval_bsdf_and_pdf(const BsdfParams& params, const vec3& wo, const vec3& wi);
+
 struct BsdfSample {
   vec3 wi;
   vec3 weight;  ///< f · cos θ_i / pdf
   float pdf;    ///< as pdf_bsdf(params, wo, wi)
 };
 
-/// `u_lobe` in [0, 1) chooses the lobe, `u` in [0, 1)² the direction. Empty when wo is below the surface or the sampled
-/// direction is: the path ends there.
+/// `u_lobe` in [0, 1) chooses the lobe, `u` in [0, 1)² the direction. Empty when wo is below the surface or
+/// the sampled direction is: the path ends there.
 std::optional<BsdfSample> sample_bsdf(const BsdfParams& params, const vec3& wo, float u_lobe, const vec2& u);
 
 /// Whether all of the reflection is Lambertian: diffuse_roughness = 0 and f0 = 0.
 bool is_lambertian(const BsdfParams& params);
+
+/// ∫ f cos θ_i dω_i for the view cosine `cos_o`: exact for a Lambertian base, an estimate with the other
+/// diffuse models.
+vec3 directional_albedo(const BsdfParams& params, float cos_o);
 
 }  // namespace ssphh::shading

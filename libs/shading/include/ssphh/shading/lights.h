@@ -1,24 +1,24 @@
 #pragma once
 /// All emitters of a posed scene as one sampling distribution, with the group each belongs to.
 
-#include <ssphh/scene/query.h>
-#include <ssphh/scene/scene.h>
-
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <ssphh/scene/query.h>
+#include <ssphh/scene/scene.h>
+
 namespace ssphh::shading {
 
 /// One way from a surface point to a light.
 struct LightSample {
-  vec3 wi;          ///< unit, world space, from the point toward the light
-  float distance;   ///< metres to the light; infinity for distant ones
-  vec3 radiance;    ///< incident radiance (not divided by pdf); for delta lights the incident irradiance on a
-                    ///< plane that faces wi
-  float pdf;        ///< solid-angle density times the probability of choosing this light; delta: that probability
-  bool delta;       ///< cannot be hit by a scattered ray: no MIS
+  vec3 wi;         ///< unit, world space, from the point toward the light
+  float distance;  ///< metres to the light; infinity for distant ones
+  vec3 radiance;   ///< incident radiance (not divided by pdf); for delta lights the incident irradiance on a
+                   ///< plane that faces wi
+  float pdf;   ///< solid-angle density times the probability of choosing this light; delta: that probability
+  bool delta;  ///< cannot be hit by a scattered ray: no MIS
   int group;
 };
 
@@ -26,7 +26,7 @@ struct LightSample {
 struct EmitterHit {
   float distance;
   vec3 radiance;
-  float pdf;   ///< the density with which sample() would have chosen this direction from the ray's origin
+  float pdf;  ///< the density with which sample() would have chosen this direction from the ray's origin
   int group;
 };
 
@@ -41,13 +41,15 @@ class LightSet {
   bool empty() const;
   const std::vector<std::string>& groups() const;
 
-  /// Chooses a light and a point on it as seen from `position`. `u_choice` in [0, 1), `u` in [0, 1)². Empty when there
-  /// is no light or the chosen one cannot light the point.
+  /// Chooses a light and a point on it as seen from `position`. `u_choice` in [0, 1), `u` in [0, 1)². Empty
+  /// when there is no light or the chosen one cannot light the point.
   std::optional<LightSample> sample(const vec3& position, float u_choice, const vec2& u) const;
 
-  /// Density of sample() for the point of an emissive triangle hit by a ray: `instance` and `triangle` as in the scene,
-  /// `cos_light` the absolute cosine at the light, `distance` from `position`. Zero when the triangle is not a light.
-  float pdf_triangle(const vec3& position, int instance, std::uint32_t triangle, float distance, float cos_light) const;
+  /// Density of sample() for the point of an emissive triangle hit by a ray: `instance` and `triangle` as in
+  /// the scene, `cos_light` the absolute cosine at the light, `distance` from `position`. Zero when the
+  /// triangle is not a light.
+  float pdf_triangle(const vec3& position, int instance, std::uint32_t triangle, float distance,
+                     float cos_light) const;
 
   /// Group of an emissive instance; −1 when the instance does not emit.
   int instance_group(int instance) const;
@@ -61,7 +63,8 @@ class LightSet {
     }
   }
 
-  /// Environment and distant discs (a sun with angular radius) in a direction. Calls visit(EmitterHit) for each.
+  /// Environment and distant discs (a sun with angular radius) in a direction. Calls visit(EmitterHit) for
+  /// each.
   template <class Visit>
   void escaped(const vec3& direction, Visit&& visit) const {
     for (int i = 0; i < distant_count(); ++i) {
@@ -71,7 +74,8 @@ class LightSet {
 
  private:
   int sphere_count() const;
-  std::optional<EmitterHit> intersect_sphere(int i, const vec3& origin, const vec3& direction, float max_distance) const;
+  std::optional<EmitterHit> intersect_sphere(int i, const vec3& origin, const vec3& direction,
+                                             float max_distance) const;
   int distant_count() const;
   std::optional<EmitterHit> distant(int i, const vec3& direction) const;
 

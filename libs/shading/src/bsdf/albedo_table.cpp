@@ -1,0 +1,58 @@
+#include "albedo_table.h"
+
+#include "specular.h"
+
+namespace ssphh::shading {
+namespace {
+
+/// (A, B) by midpoint quadrature over visible GGX normals, which suits both models: Blinn–Phong's tail is the
+/// shorter.
+vec2 integrate_lobe(bool phong, float alpha, const vec3& wo) {
+  constexpr int polar_steps = 24, azimuth_steps = 16;
+  vec2 sum(0);
+  for (int i = 0; i < polar_steps; ++i) {
+    for (int j = 0; j < azimuth_steps; ++j) {
+      // Half of the azimuths do: the lobe is symmetric about the plane of wo
+      const vec2 u((static_cast<float>(i) + 0.5f) / polar_steps,
+                   (static_cast<float>(j) + 0.5f) / (2 * azimuth_steps));
+      const vec3 h = sample_ggx_normal(alpha, wo, u);
+      const float cos_h = glm::dot(wo, h);
+      const vec3 wi = 2 * cos_h * h - wo;
+      if (wi.z <= 0 || cos_h <= 0) continue;
+      const float value = phong ? blinn_phong(alpha, wo, wi, h) : ggx(alpha, wo, wi, h);
+      const float weight = value / ggx_pdf(alpha, wo, h);
+      const float s = schlick_weight(cos_h);
+      sum += weight * vec2(1 - s, s);
+    }
+  }
+  return sum / static_cast<float>(polar_steps * azimuth_steps);
+}
+
+}  // namespace
+
+AlbedoTable::AlbedoTable(bool phong) {
+  const float step = 1.0f / (size - 1);
+  for (int r = 0; r < size; ++r) {
+    vec2* row = &values_[static_cast<std::size_t>(r * size)];
+    const float alpha = alpha_of_roughness(static_cast<float>(r) * step);
+    for (int m = 0; m < size; ++m) {
+      const float mu = glm::max(static_cast<float>(m) * step, 1e-3f);
+      row[m] = integrate_lobe(phong, alpha, vec3(std::sqrt(1 - mu * mu), 0, mu));
+    }
+    // 2 ∫ E μ dμ of the piecewise linear E
+    vec2 mean(0);
+    for (int m = 0; m + 1 < size; ++m) {
+      const float mu = static_cast<float>(m) * step;
+      const vec2 slope = row[m + 1] - row[m];
+      mean += 2 * step * (row[m] * (mu + step / 2) + slope * (mu / 2 + step / 3));
+    }
+    means_[static_cast<std::size_t>(r)] = mean;
+  }
+}
+
+const AlbedoTable& albedo_table(bool phong) {
+  static const AlbedoTable ggx_table(false), phong_table(true);
+  return phong ? phong_table : ggx_table;
+}
+
+}  // namespace ssphh::shading
