@@ -6,9 +6,9 @@
 #include <ssphh/core/hash.h>
 #include <ssphh/gi/probe_file.h>
 
-#include "probe_limits.h"
 #include "probe_bytes.h"
 #include "probe_finish.h"
+#include "probe_limits.h"
 
 namespace ssphh::gi {
 namespace {

@@ -3,8 +3,8 @@
 #include <ssphh/core/file.h>
 #include <ssphh/gi/probe_file.h>
 
-#include "probe_limits.h"
 #include "probe_finish.h"
+#include "probe_limits.h"
 
 namespace ssphh::gi {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <ssphh/gi/probe_file.h>
 
-#include "probe_limits.h"
 #include "probe_finish.h"
+#include "probe_limits.h"
 
 namespace ssphh::gi {
 namespace {

@@ -1,7 +1,5 @@
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include <ssphh/gi/viz.h>
 
 #include "project_cube_map.h"
@@ -54,8 +52,7 @@ float transfer_coefficient(const sh::RadianceSh& h) {
 }
 
 std::vector<Edge> viz(const scene::RadianceSource& source, const ProbeSet& set, std::size_t i,
-                      const scene::CubeRequest& request, const VizParams& params,
-                      std::vector<std::string>& warnings, const Control& control) {
+                      const scene::CubeRequest& request, const VizParams& params, const Control& control) {
   // Light every other probe's sphere.
   std::vector<scene::GhostSphere> ghosts;
   std::vector<int> from;
@@ -85,11 +82,6 @@ std::vector<Edge> viz(const scene::RadianceSource& source, const ProbeSet& set, 
     if (!std::isfinite(transfer))
       throw Error("VIZ of probe \"" + set.probes[i].name + "\"", "the traced light is not finite");
     if (transfer <= 0) continue;
-    if (transfer > 1) {
-      warnings.push_back(fmt::format(
-          "P({} <- {}) = {:.3g} is stored as 1: probe \"{}\" lies inside or close to the sphere of \"{}\"", i,
-          edge.from, transfer, set.probes[i].name, set.probes[static_cast<std::size_t>(edge.from)].name));
-    }
     edge.transfer = std::min(transfer, 1.0f);
     if (params.matrix) edge.matrix = matrices.reduce(g);
     edges.push_back(std::move(edge));

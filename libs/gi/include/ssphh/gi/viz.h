@@ -16,10 +16,10 @@ struct VizParams {
 
 /// Edges i ← j of probe i: every other probe is a sphere of its radius with radiance 1, and H_{j→i} is what
 /// arrives at i from sphere j, itself and everything it lights. Edges with P ≤ 0 are left out; a P over 1 (i
-/// inside j's sphere, and light reflected back) is stored as 1 with a line in `warnings`. P_ii = 1 is
+/// inside j's sphere, and light reflected back) is stored as 1. P_ii = 1 is
 /// implied. `request.position` is ignored.
 std::vector<Edge> viz(const scene::RadianceSource& source, const ProbeSet& set, std::size_t i,
                       const scene::CubeRequest& request, const VizParams& params,
-                      std::vector<std::string>& warnings, const Control& control = {});
+                      const Control& control = {});
 
 }  // namespace ssphh::gi

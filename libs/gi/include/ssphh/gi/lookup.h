@@ -1,0 +1,73 @@
+#pragma once
+/// Lighting surface points from probes: the paper's `light` and the field's `irradiance`, as
+/// scene::IndirectLight for a renderer that computes direct light itself. docs/methods/ssphh.md says what
+/// each is worth.
+
+#include <memory>
+
+#include <ssphh/gi/probe_set.h>
+#include <ssphh/scene/radiance_source.h>
+
+namespace ssphh::gi {
+
+/// Which part of S'_i lights the surface.
+enum class ProbeLayer { self, neighbor, sum };
+
+/// Which light of the probes' own part counts: only what surfaces reflected, for a surface that gets direct
+/// light from elsewhere; or emitters seen directly as well.
+enum class ProbeLight { reflected, all };
+
+struct LookupParams {
+  std::optional<ProbeLayer> layer;  ///< none: sum when the set has a hierarchy, else self
+  ProbeLight light = ProbeLight::reflected;
+  int nearest = 8;  ///< irradiance: blends at most so many visible probes, 1..16
+  int irradiance_degree =
+      4;               ///< irradiance: bands kept; 2 is 1 % worse at worst, over 4 changes next to nothing
+  bool dering = true;  ///< irradiance: windows a probe just enough that its E(n) is nowhere negative
+  float normal_offset =
+      0;  ///< metres that visibility rays start off the surface; 0: 1 % of the probes' spacing
+};
+
+/// Both are safe to call from several threads, never return a negative or non-finite number for finite input,
+/// and copy what they need of the set; `source` (for visibility) must outlive them. Constructors throw Error
+/// for an empty set, and for layer `neighbor` or `sum` without a hierarchy.
+
+/// The paper's SPHL as a light (§3): the nearest visible SPHL above the horizon gives I = L_S(ω)/(N·ω), ω
+/// from x to it. When there is none, the nearest SPHL's irradiance, "as if the light probe is located around
+/// x" (§4).
+class LightLookup final : public scene::IndirectLight {
+ public:
+  LightLookup(const ProbeSet& set, const scene::RadianceSource& source, const LookupParams& params = {});
+  ~LightLookup() override;
+  vec3 irradiance(const vec3& x, const vec3& n) const override;
+  vec3 glossy(const vec3& x, const vec3& n, const vec3& r, float roughness) const override;
+
+  /// Guard of the paper's division: N·ω is taken as at least this.
+  static constexpr float smallest_cosine = 0.05f;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+/// Irradiance volume: E(n) of the nearest visible probes, weighted by inverse squared distance. When none is
+/// visible, of the nearest ones.
+class IrradianceLookup final : public scene::IndirectLight {
+ public:
+  IrradianceLookup(const ProbeSet& set, const scene::RadianceSource& source, const LookupParams& params = {});
+  ~IrradianceLookup() override;
+  vec3 irradiance(const vec3& x, const vec3& n) const override;
+  vec3 glossy(const vec3& x, const vec3& n, const vec3& r, float roughness) const override;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+enum class LookupMethod { light, irradiance };
+
+std::unique_ptr<scene::IndirectLight> make_lookup(LookupMethod method, const ProbeSet& set,
+                                                  const scene::RadianceSource& source,
+                                                  const LookupParams& params = {});
+
+}  // namespace ssphh::gi

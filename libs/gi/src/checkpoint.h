@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include <ssphh/core/hash.h>
+
+#include "bytes.h"
+
+namespace ssphh::gi {
+
+enum class BakeStage : std::uint8_t { gen, viz };
+
+/// One finished probe stage.
+struct CheckpointRecord {
+  BakeStage stage = BakeStage::gen;
+  std::uint32_t probe = 0;
+  double seconds = 0;
+  std::uint64_t rays = 0;
+  std::vector<std::byte> payload;
+};
+
+/// An append-only file of finished probe stages. A record that a killed process left half-written is dropped.
+class Checkpoint {
+ public:
+  /// An empty path keeps nothing. A file with another key is replaced.
+  Checkpoint(std::filesystem::path path, const Hash128& key);
+
+  /// What earlier runs finished.
+  const std::vector<CheckpointRecord>& records() const { return records_; }
+  /// Throws Error when it cannot be written.
+  void append(const CheckpointRecord& record);
+  void remove();
+
+ private:
+  void require_good() const;
+
+  std::filesystem::path path_;
+  std::vector<CheckpointRecord> records_;
+  std::ofstream file_;
+};
+
+}  // namespace ssphh::gi

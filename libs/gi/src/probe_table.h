@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+
+#include <ssphh/gi/lookup.h>
+
+namespace ssphh::gi {
+
+/// What both lookups need of a set, laid out for one call per pixel sample.
+class ProbeTable {
+ public:
+  ProbeTable(const ProbeSet& set, const scene::RadianceSource& source, const LookupParams& params);
+
+  struct Near {
+    float distance2;
+    int probe;
+  };
+  static constexpr int max_near = 16;
+  using NearList = std::array<Near, max_near>;
+
+  /// The `wanted` nearest probes by distance, ties by index; returns how many there are.
+  int nearest(const vec3& x, int wanted, NearList& near) const;
+
+  /// Whether the probe sees the point just above the surface.
+  bool sees(const Near& near, const vec3& x, const vec3& n) const;
+
+  const vec3& position(int probe) const { return positions_[static_cast<std::size_t>(probe)]; }
+  /// L(ω), not negative. `basis` holds Y_k(ω), perhaps scaled by band.
+  vec3 radiance(int probe, const float* basis) const {
+    return dot(radiance_, probe, basis, radiance_degree_);
+  }
+  /// E(n), not negative.
+  vec3 irradiance(int probe, const float* basis) const {
+    return dot(irradiance_, probe, basis, irradiance_degree_);
+  }
+
+  /// Y_k(n) for irradiance(), Y_k(ω) for radiance(), and the same for a glossy lobe.
+  using Basis = std::array<float, sh::max_coefficient_count>;
+  void irradiance_basis(const vec3& n, Basis& basis) const;
+  void radiance_basis(const vec3& direction, Basis& basis) const;
+  void glossy_basis(const vec3& direction, float roughness, Basis& basis) const;
+
+  int blend_count() const { return blend_count_; }
+
+ private:
+  static vec3 dot(const std::vector<vec3>& functions, int probe, const float* basis, int degree);
+
+  const scene::RadianceSource& source_;
+  std::vector<vec3> positions_;
+  std::vector<vec3> radiance_, irradiance_;  ///< coefficients, probe after probe
+  int radiance_degree_, irradiance_degree_, blend_count_;
+  float offset_;        ///< fixed; 0: relative
+  float offset_limit_;  ///< of the relative offset
+};
+
+}  // namespace ssphh::gi
