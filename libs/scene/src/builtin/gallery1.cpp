@@ -37,7 +37,7 @@ Scene make_gallery1() {
         at({1.7f, top, -0.1f}, 30, {0, 1, 0}));
   b.add("ball", make_sphere(0.3f), white, at({0.1f, 0.3f, 0.7f}));
 
-  b.camera("main", {0, 1.65f, 3.8f}, {0, 1.4f, -1.5f}, 48);
+  b.camera("main", {0, 1.65f, 3.8f}, {0, 1.15f, -1.5f}, 48);
   b.camera("left", {-3.2f, 1.6f, 3}, {1.5f, 1.2f, -2}, 48);
   b.sphl("front left", {-3, 1.6f, 1.6f});
   b.sphl("front right", {3, 1.6f, 1.6f});

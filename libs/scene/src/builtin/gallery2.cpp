@@ -42,7 +42,7 @@ Scene make_gallery2() {
   b.add("ring", make_torus(0.4f, 0.12f), bronze, at({-0.8f, 0.12f, 0.8f}));
   b.add("bench", make_box({-1, 0, -0.2f}, {1, 0.42f, 0.2f}), ochre, at({4.2f, 0, -0.7f}, 90, {0, 1, 0}));
 
-  b.camera("main", {0, 1.65f, 3.8f}, {0, 1.3f, -1.5f}, 48);
+  b.camera("main", {0, 1.65f, 3.8f}, {0, 1.15f, -1.5f}, 48);
   b.camera("right", {4.2f, 1.7f, 2.6f}, {-0.8f, 1, -1}, 48);
   b.sphl("front left", {-2, 1.8f, 1.8f});
   b.sphl("front right", {2, 1.8f, 1.8f});

@@ -45,7 +45,7 @@ Scene make_gallery3() {
   b.again("spiral on the floor", spiral, copper, at({-0.8f, 0.06f, 1}));
   b.add("fallen knot", make_torus_knot(3, 4, 0.32f, 0.13f, 0.06f, 480, 16), ivory, at({1, 0.2f, 1}));
 
-  b.camera("main", {0, 1.65f, 3.8f}, {0, 1.3f, -1.5f}, 48);
+  b.camera("main", {0, 1.65f, 3.8f}, {0, 1.15f, -1.5f}, 48);
   b.camera("detail", {1.4f, 1.7f, 2.4f}, {-0.2f, 1.2f, -1}, 45);
   b.sphl("front left", {-2.6f, 1.7f, 1.7f});
   b.sphl("front right", {2.6f, 1.7f, 1.7f});
