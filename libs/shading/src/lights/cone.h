@@ -1,0 +1,28 @@
+#pragma once
+/// Uniform directions in a cone of half-angle θ around an axis.
+
+#include <cmath>
+
+#include <ssphh/core/math.h>
+
+namespace ssphh::shading {
+
+struct Cone {
+  float sin2;       ///< sin² θ
+  float one_minus;  ///< 1 − cos θ, without the cancellation that narrow cones would suffer
+
+  explicit Cone(float sin2_theta)
+      : sin2(glm::min(sin2_theta, 1.0f)), one_minus(sin2 / (1 + std::sqrt(1 - sin2))) {}
+
+  float pdf() const { return 1 / (2 * pi * one_minus); }
+
+  /// Unit direction around +z.
+  vec3 sample(const vec2& u) const {
+    const float x = u.x * one_minus;  // 1 − cos of the sampled angle
+    const float r = std::sqrt(glm::max(x * (2 - x), 0.0f));
+    const float azimuth = 2 * pi * u.y;
+    return {r * std::cos(azimuth), r * std::sin(azimuth), 1 - x};
+  }
+};
+
+}  // namespace ssphh::shading

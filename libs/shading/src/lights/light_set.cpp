@@ -1,0 +1,216 @@
+#include <array>
+#include <cmath>
+
+#include <ssphh/core/error.h>
+#include <ssphh/shading/lights.h>
+
+#include "../surface/material_lookup.h"
+#include "distant_lights.h"
+#include "mesh_light.h"
+#include "punctual_lights.h"
+
+namespace ssphh::shading {
+namespace {
+
+/// Up to so many local lights are weighed anew at each point; more are chosen by their power.
+constexpr std::size_t max_weighed = 16;
+
+/// Probability to choose any light in reach, however weak; the rest goes by importance. A strong light may be
+/// hidden.
+constexpr float uniform_share = 0.2f;
+
+}  // namespace
+
+struct LightSet::Data {
+  std::vector<std::string> groups;
+  std::vector<PointLight> points;
+  std::vector<SphereLight> spheres;
+  std::vector<MeshLight> meshes;
+  std::vector<int> instance_group, instance_mesh_light;
+  DistantLights distant;
+  Distribution by_power;          ///< local lights: points, spheres, meshes in this order
+  float distant_probability = 0;  ///< to choose among the distant lights
+
+  std::size_t local_count() const { return points.size() + spheres.size() + meshes.size(); }
+
+  float importance(std::size_t i, const vec3& from) const {
+    if (i < points.size()) return points[i].importance(from);
+    i -= points.size();
+    if (i < spheres.size()) return spheres[i].importance(from);
+    return meshes[i - spheres.size()].importance(from);
+  }
+  float power(std::size_t i) const {
+    if (i < points.size()) return points[i].power();
+    i -= points.size();
+    if (i < spheres.size()) return spheres[i].power();
+    return meshes[i - spheres.size()].power();
+  }
+  std::optional<LightSample> sample(std::size_t i, const vec3& from, float u_choice, const vec2& u) const {
+    if (i < points.size()) return points[i].sample(from);
+    i -= points.size();
+    if (i < spheres.size()) return spheres[i].sample(from, u);
+    return meshes[i - spheres.size()].sample(from, u_choice, u);
+  }
+
+  /// Probabilities of the local lights as seen from a point, few lights only. False: none reaches the point.
+  bool weigh(const vec3& from, std::array<float, max_weighed>& probability) const {
+    const std::size_t count = local_count();
+    if (count == 1) {
+      probability[0] = 1;
+      return true;
+    }
+    float total = 0, active = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float w = importance(i, from);
+      probability[i] = w;
+      total += w;
+      active += w > 0 ? 1.0f : 0.0f;
+    }
+    if (!(total > 0 && std::isfinite(total))) return false;
+    const float scale = (1 - uniform_share) / total, base = uniform_share / active;
+    for (std::size_t i = 0; i < count; ++i)
+      probability[i] = probability[i] > 0 ? base + scale * probability[i] : 0;
+    return true;
+  }
+
+  float local_probability(std::size_t i, const vec3& from) const {
+    const float any = 1 - distant_probability;
+    if (local_count() > max_weighed) return any * by_power.probability(i);
+    std::array<float, max_weighed> probability;
+    return weigh(from, probability) ? any * probability[i] : 0;
+  }
+
+  Distribution::Choice choose_local(const vec3& from, float u) const {
+    if (local_count() > max_weighed) return by_power.sample(u);
+    std::array<float, max_weighed> probability;
+    if (!weigh(from, probability)) return {0, 0, 0};
+    std::size_t chosen = 0;
+    float below = 0;
+    for (std::size_t i = 0; i < local_count(); ++i) {
+      if (!(probability[i] > 0)) continue;
+      chosen = i;
+      if (u < below + probability[i]) break;
+      below += i + 1 < local_count() ? probability[i] : 0;
+    }
+    const float p = probability[chosen];
+    return {chosen, glm::clamp((u - below) / p, 0.0f, 0x1.fffffep-1f), p};
+  }
+};
+
+LightSet::LightSet(const scene::Scene& scene, const std::vector<mat4>& world)
+    : data_(std::make_unique<Data>()) {
+  Data& d = *data_;
+  d.groups = scene::light_groups(scene);
+  const auto matrix = [&](int node) { return node < 0 ? mat4(1) : world[static_cast<std::size_t>(node)]; };
+
+  // Lights
+  for (const scene::Light& light : scene.lights) {
+    if (!(luminance(light.color * light.intensity) > 0)) continue;
+    const int group = scene::light_group_index(d.groups, scene::light_group(light));
+    if (light.type == scene::LightType::point || light.type == scene::LightType::spot) {
+      d.points.push_back(make_point_light(light, matrix(light.node), group));
+    } else if (light.type == scene::LightType::sphere && light.radius > 0) {
+      d.spheres.push_back(make_sphere_light(light, matrix(light.node), group));
+    }
+  }
+
+  // Emissive instances; unlit ones are seen but light nothing
+  d.instance_group.assign(scene.instances.size(), -1);
+  d.instance_mesh_light.assign(scene.instances.size(), -1);
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const scene::Instance& instance = scene.instances[i];
+    const scene::Material& material = material_at(scene, scene::instance_material(scene, instance));
+    if (!material.emissive()) continue;
+    d.instance_group[i] = scene::light_group_index(d.groups, scene::light_group(scene, instance));
+    if (material.unlit) continue;
+    MeshLight light(scene, instance, matrix(instance.node), d.instance_group[i]);
+    if (light.empty()) continue;
+    d.instance_mesh_light[i] = static_cast<int>(d.meshes.size());
+    d.meshes.push_back(std::move(light));
+  }
+
+  // Divide the samples between distant and local lights by the irradiance they give, neither below a quarter
+  d.distant = DistantLights(scene, world, d.groups);
+  std::vector<float> power;
+  float total = 0;
+  for (std::size_t i = 0; i < d.local_count(); ++i) power.push_back(d.power(i)), total += power.back();
+  d.by_power = Distribution(power);
+  if (d.distant.empty()) {
+    d.distant_probability = 0;
+  } else if (d.by_power.empty()) {
+    d.distant_probability = 1;
+  } else {
+    const float radius = scene::world_bounds(scene, world).radius();
+    const float local = radius > 0 ? total / (radius * radius) : d.distant.irradiance();
+    d.distant_probability =
+        glm::clamp(d.distant.irradiance() / (d.distant.irradiance() + local), 0.25f, 0.75f);
+  }
+}
+
+LightSet::~LightSet() = default;
+LightSet::LightSet(LightSet&&) noexcept = default;
+LightSet& LightSet::operator=(LightSet&&) noexcept = default;
+
+bool LightSet::empty() const {
+  return data_->by_power.empty() && data_->distant.empty();
+}
+const std::vector<std::string>& LightSet::groups() const {
+  return data_->groups;
+}
+
+std::optional<LightSample> LightSet::sample(const vec3& position, float u_choice, const vec2& u) const {
+  const Data& d = *data_;
+  if (u_choice < d.distant_probability) {
+    auto s = d.distant.sample(u_choice / d.distant_probability, u);
+    if (s) s->pdf *= d.distant_probability;
+    return s;
+  }
+  if (d.by_power.empty()) return std::nullopt;
+  const float any_local = 1 - d.distant_probability;
+  const auto choice = d.choose_local(position, (u_choice - d.distant_probability) / any_local);
+  if (!(choice.probability > 0)) return std::nullopt;
+  auto s = d.sample(choice.index, position, choice.u, u);
+  if (s) s->pdf *= any_local * choice.probability;
+  return s;
+}
+
+float LightSet::pdf_triangle(const vec3& position, int instance, std::uint32_t triangle, float distance,
+                             float cos_light) const {
+  const Data& d = *data_;
+  const int mesh = d.instance_mesh_light[static_cast<std::size_t>(instance)];
+  if (mesh < 0) return 0;
+  const auto index = static_cast<std::size_t>(mesh);
+  const float pdf = d.meshes[index].pdf(position, triangle, distance, cos_light);
+  return pdf > 0 ? pdf * d.local_probability(d.points.size() + d.spheres.size() + index, position) : 0;
+}
+
+int LightSet::instance_group(int instance) const {
+  return data_->instance_group[static_cast<std::size_t>(instance)];
+}
+
+int LightSet::sphere_count() const {
+  return static_cast<int>(data_->spheres.size());
+}
+
+std::optional<EmitterHit> LightSet::intersect_sphere(int i, const vec3& origin, const vec3& direction,
+                                                     float max_distance) const {
+  const Data& d = *data_;
+  const auto index = static_cast<std::size_t>(i);
+  const SphereLight& light = d.spheres[index];
+  const auto distance = light.intersect(origin, direction, max_distance);
+  if (!distance) return std::nullopt;
+  const float pdf = light.pdf(origin) * d.local_probability(d.points.size() + index, origin);
+  return EmitterHit{*distance, light.radiance, pdf, light.group};
+}
+
+int LightSet::distant_count() const {
+  return data_->distant.visible_count();
+}
+
+std::optional<EmitterHit> LightSet::distant(int i, const vec3& direction) const {
+  auto hit = data_->distant.hit(i, direction);
+  if (hit) hit->pdf *= data_->distant_probability;
+  return hit;
+}
+
+}  // namespace ssphh::shading

@@ -1,0 +1,121 @@
+#include "mesh_light.h"
+
+#include <cmath>
+
+#include "../surface/material_lookup.h"
+
+namespace ssphh::shading {
+namespace {
+
+/// Heitz, A Low-Distortion Map Between Triangle and Square, 2019: weights of the second and third corner.
+vec2 square_to_triangle(const vec2& u) {
+  return u.y > u.x ? vec2(0.5f * u.x, u.y - 0.5f * u.x) : vec2(u.x - 0.5f * u.y, 0.5f * u.y);
+}
+
+}  // namespace
+
+MeshLight::MeshLight(const scene::Scene& scene, const scene::Instance& instance, const mat4& world, int group)
+    : scene_(&scene),
+      mesh_(&scene.meshes[static_cast<std::size_t>(instance.mesh)]),
+      material_(&material_at(scene, scene::instance_material(scene, instance))),
+      group_(group),
+      textured_(material_->emission_texture.texture >= 0 ||
+                material_->alpha_mode != scene::AlphaMode::opaque) {
+  const float mirror = glm::determinant(mat3(world)) < 0 ? -1.0f : 1.0f;
+  std::vector<float> weights;
+  scene::Bounds bounds;
+  for (const uvec3& index : mesh_->triangles) {
+    // Bring the triangle to the world
+    const vec3 p0(world * vec4(mesh_->positions[index.x], 1));
+    const vec3 p1(world * vec4(mesh_->positions[index.y], 1));
+    const vec3 p2(world * vec4(mesh_->positions[index.z], 1));
+    const vec3 n = mirror * glm::cross(p1 - p0, p2 - p0);
+    const float length = glm::length(n);
+    const bool usable = length > 0 && std::isfinite(length);
+    triangles_.push_back(
+        {p0, p1 - p0, p2 - p0, usable ? n / length : vec3(0), usable ? 0.5f * length : 0.0f});
+    if (usable) bounds.add(p0), bounds.add(p1), bounds.add(p2);
+
+    // Mean emission: of a texture at a few points; never quite zero, for what lies between them
+    float mean = luminance(material_->emission);
+    if (textured_) {
+      constexpr int points = 16;
+      float sum = 0;
+      for (int i = 0; i < points; ++i) {
+        const vec2 u((static_cast<float>(i) + 0.5f) / points,
+                     std::fmod(0.618034f * static_cast<float>(i) + 0.3f, 1.0f));
+        sum += luminance(radiance(triangles_.size() - 1, square_to_triangle(u)));
+      }
+      mean = 0.95f * sum / points + 0.05f * mean;
+    }
+    weights.push_back(mean * triangles_.back().area);
+    strength_ += usable ? weights.back() : 0.0f;
+  }
+  choice_ = Distribution(weights);
+  if (choice_.empty()) return;
+  center_ = bounds.center();
+  extent2_ = bounds.radius() * bounds.radius();
+
+  // Find out whether all lie in one plane
+  if (material_->double_sided) return;
+  std::optional<Triangle> first;
+  for (const Triangle& t : triangles_) {
+    if (t.area == 0) continue;
+    if (!first) first = t;
+    const float tilt = 1 - glm::dot(t.normal, first->normal);
+    const float height = std::abs(glm::dot(t.p0 - first->p0, first->normal));
+    if (tilt > 1e-6f || height > 1e-4f * bounds.radius()) return;
+  }
+  facing_ = first->normal;
+}
+
+vec3 MeshLight::radiance(std::size_t triangle, const vec2& barycentric) const {
+  if (!textured_) return material_->emission;
+  const Corners at{mesh_->triangles[triangle],
+                   {1 - barycentric.x - barycentric.y, barycentric.x, barycentric.y}};
+  vec2 uv[2];
+  interpolate_uvs(*mesh_, at, uv);
+  return emission_at(*scene_, *material_, uv) * base_color_at(*scene_, *mesh_, *material_, at, uv).a;
+}
+
+std::optional<LightSample> MeshLight::sample(const vec3& from, float u_choice, const vec2& u) const {
+  const Distribution::Choice choice = choice_.sample(u_choice);
+  const Triangle& triangle = triangles_[choice.index];
+  const vec2 b = square_to_triangle(u);
+  const vec3 d = triangle.p0 + b.x * triangle.e1 + b.y * triangle.e2 - from;
+  const float distance2 = glm::dot(d, d);
+  if (!(distance2 > 0)) return std::nullopt;
+  const float distance = std::sqrt(distance2);
+  const vec3 wi = d / distance;
+  float cos_light = -glm::dot(wi, triangle.normal);
+  if (material_->double_sided) cos_light = std::abs(cos_light);
+  if (!(cos_light > 0)) return std::nullopt;
+  const float pdf = choice.probability * distance2 / (triangle.area * cos_light);
+  if (!std::isfinite(pdf)) return std::nullopt;
+  return LightSample{wi, distance, radiance(choice.index, b), pdf, false, group_};
+}
+
+float MeshLight::pdf(const vec3& from, std::uint32_t triangle, float distance, float cos_light) const {
+  const Triangle& t = triangles_[triangle];
+  if (!(t.area > 0 && cos_light > 0)) return 0;
+  if (!material_->double_sided && !(glm::dot(from - t.p0, t.normal) > 0)) return 0;
+  return choice_.probability(triangle) * distance * distance / (t.area * cos_light);
+}
+
+float MeshLight::importance(const vec3& from) const {
+  const vec3 d = from - center_;
+  const float distance2 = glm::dot(d, d);
+  float facing = 1;
+  if (facing_) {
+    const float height = glm::dot(d, *facing_);
+    if (height < -1e-4f * std::sqrt(extent2_)) return 0;
+    facing = 0.1f + 0.9f * glm::max(height, 0.0f) / std::sqrt(distance2 + 1e-12f);
+  }
+  return strength_ * facing / (distance2 + extent2_);
+}
+
+float MeshLight::power() const {
+  return strength_ * (material_->double_sided ? 0.5f : 0.25f);
+}
+
+}  // namespace ssphh::shading

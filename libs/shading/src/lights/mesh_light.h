@@ -1,0 +1,46 @@
+#pragma once
+/// An emissive instance: its triangles are sampled by area, weighted by their mean emission.
+
+#include <ssphh/shading/lights.h>
+
+#include "distribution.h"
+
+namespace ssphh::shading {
+
+class MeshLight {
+ public:
+  /// Keeps a reference to the scene.
+  MeshLight(const scene::Scene& scene, const scene::Instance& instance, const mat4& world, int group);
+
+  bool empty() const { return choice_.empty(); }
+
+  /// `u_choice` chooses the triangle, `u` the point on it.
+  std::optional<LightSample> sample(const vec3& from, float u_choice, const vec2& u) const;
+  float pdf(const vec3& from, std::uint32_t triangle, float distance, float cos_light) const;
+
+  float importance(const vec3& from) const;
+  float power() const;
+
+ private:
+  struct Triangle {
+    vec3 p0, e1, e2;
+    vec3 normal;  ///< unit, front side
+    float area;
+  };
+  vec3 radiance(std::size_t triangle, const vec2& barycentric) const;
+
+  const scene::Scene* scene_;
+  const scene::Mesh* mesh_;
+  const scene::Material* material_;
+  int group_;
+  bool textured_;  ///< emission or coverage vary over the surface
+  std::vector<Triangle> triangles_;
+  Distribution choice_;
+  float strength_ = 0;  ///< ∫ luminance of emission dA
+  vec3 center_{0};
+  float extent2_ = 0;  ///< squared radius around the centre
+  std::optional<vec3>
+      facing_;  ///< the normal, where all triangles lie in one plane and only their front emits
+};
+
+}  // namespace ssphh::shading

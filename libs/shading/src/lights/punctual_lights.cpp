@@ -1,0 +1,124 @@
+#include "punctual_lights.h"
+
+#include <cmath>
+
+#include <ssphh/core/sphere.h>
+
+#include "cone.h"
+
+namespace ssphh::shading {
+namespace {
+
+/// Below this squared distance [m²] a point lies on a point light.
+constexpr float least_distance2 = 1e-12f;
+
+float square(float x) {
+  return x * x;
+}
+
+}  // namespace
+
+PointLight make_point_light(const scene::Light& light, const mat4& world, int group) {
+  PointLight result{vec3(world[3]), light.color * light.intensity, vec3(0), 0, 1, light.range, group};
+  if (light.type != scene::LightType::spot) return result;
+  const vec3 back(world[2]);
+  const float length = glm::length(back);
+  result.axis = length > 0 ? -back / length : vec3(0, 0, -1);
+  const float cos_outer = std::cos(light.outer_cone);
+  result.cone_scale = 1 / glm::max(0.001f, std::cos(light.inner_cone) - cos_outer);
+  result.cone_offset = -cos_outer * result.cone_scale;
+  return result;
+}
+
+float PointLight::falloff(const vec3& wi, float distance2) const {
+  float factor = 1;
+  if (cone_scale > 0) factor = square(glm::clamp(-glm::dot(axis, wi) * cone_scale + cone_offset, 0.0f, 1.0f));
+  if (range > 0) factor *= glm::clamp(1 - square(distance2 / (range * range)), 0.0f, 1.0f);
+  return factor;
+}
+
+std::optional<LightSample> PointLight::sample(const vec3& from) const {
+  const vec3 d = position - from;
+  const float distance2 = glm::dot(d, d);
+  if (!(distance2 > least_distance2)) return std::nullopt;
+  const float distance = std::sqrt(distance2);
+  const vec3 wi = d / distance;
+  const float factor = falloff(wi, distance2);
+  if (!(factor > 0)) return std::nullopt;
+  return LightSample{wi, distance, intensity * (factor / distance2), 1, true, group};
+}
+
+float PointLight::importance(const vec3& from) const {
+  const vec3 d = position - from;
+  const float distance2 = glm::max(glm::dot(d, d), least_distance2);
+  const float factor = cone_scale > 0 || range > 0 ? falloff(d / std::sqrt(distance2), distance2) : 1.0f;
+  return luminance(intensity) * factor / distance2;
+}
+
+float PointLight::power() const {
+  // Mean of the cone factor over the sphere: s² between the cone's cosines integrates to a third of their
+  // difference
+  float share = 1;
+  if (cone_scale > 0) {
+    const float cos_outer = -cone_offset / cone_scale;
+    const float cos_inner = glm::min(cos_outer + 1 / cone_scale, 1.0f);
+    share = 0.5f * ((1 - cos_inner) + (cos_inner - cos_outer) / 3);
+  }
+  return luminance(intensity) * share;
+}
+
+SphereLight make_sphere_light(const scene::Light& light, const mat4& world, int group) {
+  return {vec3(world[3]), light.radius, light.color * light.intensity, group};
+}
+
+std::optional<LightSample> SphereLight::sample(const vec3& from, const vec2& u) const {
+  const vec3 d = center - from;
+  const float distance2 = glm::dot(d, d), radius2 = radius * radius;
+  if (distance2 <= radius2) {
+    // From inside: every direction, as far as the surface
+    const vec3 wi = sample_uniform_sphere(u);
+    const float along = glm::dot(d, wi);
+    const float exit = along + std::sqrt(glm::max(along * along + radius2 - distance2, 0.0f));
+    return LightSample{wi, exit, radiance, 1 / (4 * pi), false, group};
+  }
+  const Cone cone(radius2 / distance2);
+  const float distance = std::sqrt(distance2);
+  const vec3 local = cone.sample(u);
+  const vec3 wi = Frame::around(d / distance).to_world(local);
+  const float sin2 = local.x * local.x + local.y * local.y;
+  const float to_surface = distance * local.z - std::sqrt(glm::max(radius2 - distance2 * sin2, 0.0f));
+  return LightSample{wi, glm::max(to_surface, 0.0f), radiance, cone.pdf(), false, group};
+}
+
+float SphereLight::pdf(const vec3& from) const {
+  const vec3 d = center - from;
+  const float distance2 = glm::dot(d, d), radius2 = radius * radius;
+  return distance2 <= radius2 ? 1 / (4 * pi) : Cone(radius2 / distance2).pdf();
+}
+
+std::optional<float> SphereLight::intersect(const vec3& origin, const vec3& direction,
+                                            float max_distance) const {
+  const vec3 d = center - origin;
+  const float along = glm::dot(d, direction);
+  const vec3 miss =
+      d - along * direction;  // from the ray's nearest point to the centre: exact also from far away
+  const float half2 = radius * radius - glm::dot(miss, miss);
+  if (!(half2 >= 0)) return std::nullopt;
+  const float half = std::sqrt(half2);
+  const bool inside = glm::dot(d, d) <= radius * radius;
+  const float t = inside ? along + half : along - half;
+  if (!(t >= 0 && t < max_distance)) return std::nullopt;
+  return t;
+}
+
+float SphereLight::importance(const vec3& from) const {
+  const vec3 d = center - from;
+  const float radius2 = radius * radius;
+  return luminance(radiance) * pi * radius2 / glm::max(glm::dot(d, d), radius2);
+}
+
+float SphereLight::power() const {
+  return luminance(radiance) * pi * radius * radius;
+}
+
+}  // namespace ssphh::shading
