@@ -1,7 +1,163 @@
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/file.h>
+#include <ssphh/image/io.h>
+#include <ssphh/metrics/compare.h>
+#include <ssphh/metrics/heat_map.h>
+
 #include "command.h"
 
 namespace ssphh::app {
+namespace {
 
-void add_compare_command(CLI::App&, Context&) {}
+using image::Image;
+using nlohmann::ordered_json;
+
+struct CompareOptions {
+  std::string reference, test, output, map = "absolute";
+  int block = 16;
+  float scale = 0, exposure = 0;
+  bool allow_nonfinite = false;
+};
+
+Image read_exposed(const std::string& path, float exposure) {
+  Image image = image::read_image(path);
+  const float factor = std::exp2(exposure);
+  if (factor != 1) {
+    for (float& x : image.pixels) x *= factor;
+  }
+  return image;
+}
+
+Image error_map(const CompareOptions& options, const Image& reference, const Image& test) {
+  if (options.map == "signed") return metrics::signed_error_map(reference, test);
+  if (options.map == "relmse") return metrics::relative_squared_error_map(reference, test);
+  if (options.map == "pixelated") return metrics::pixelated_error_map(reference, test, options.block);
+  return metrics::absolute_error_map(reference, test);
+}
+
+// Writes the map and returns the error that has the ramp's last colour; 0 when the numbers themselves are
+// written.
+float write_map(const CompareOptions& options, const Image& reference, const Image& test) {
+  const image::FileFormat format = image::format_of_extension(options.output);
+  Image map = error_map(options, reference, test);
+  if (format == image::FileFormat::exr) {
+    image::write_image(options.output, map);
+    return 0;
+  }
+  const float scale = options.scale > 0 ? options.scale : metrics::automatic_scale(map);
+  if (options.map == "pixelated") {
+    map = metrics::enlarge_blocks(map, options.block, reference.width, reference.height);
+  }
+  const auto ramp = options.map == "signed" ? metrics::ColorRamp::diverging : metrics::ColorRamp::inferno;
+  write_file(options.output, image::encode_png(metrics::heat_map(map, ramp, scale)));
+  return scale;
+}
+
+ordered_json to_json(const metrics::ImageError& e, const metrics::BlockError& blocks) {
+  return {{"width", e.width},
+          {"height", e.height},
+          {"mae", e.mae},
+          {"rmse", e.rmse},
+          {"mse", e.mse},
+          {"relmse", e.relmse},
+          {"mape", e.mape},
+          {"mean_ratio", e.mean_ratio},
+          {"bias", e.bias},
+          {"sum", e.sum},
+          {"max", e.max},
+          {"pixels", e.pixels},
+          {"nonfinite_pixels", e.nonfinite_pixels},
+          {"blocks",
+           {{"size", blocks.block},
+            {"columns", blocks.columns},
+            {"rows", blocks.rows},
+            {"mean", blocks.mean},
+            {"max", blocks.max},
+            {"max_block", {blocks.max_column, blocks.max_row}}}}};
+}
+
+std::string to_text(const metrics::ImageError& e, const metrics::BlockError& blocks) {
+  return fmt::format(
+      "size       {} x {}\n"
+      "MAE        {:.6g}   (sum {:.6g}, max {:.6g}, bias {:+.6g})\n"
+      "RMSE       {:.6g}   (MSE {:.6g})\n"
+      "relMSE     {:.6g}\n"
+      "MAPE       {:.6g}\n"
+      "mean ratio {:.6g} {:.6g} {:.6g}\n"
+      "blocks     {} x {} of {} pixels: mean sum {:.6g}, max {:.6g} in block {}, {}",
+      e.width, e.height, e.mae, e.sum, e.max, e.bias, e.rmse, e.mse, e.relmse, e.mape, e.mean_ratio[0],
+      e.mean_ratio[1], e.mean_ratio[2], blocks.columns, blocks.rows, blocks.block, blocks.mean, blocks.max,
+      blocks.max_column, blocks.max_row);
+}
+
+void compare(Context& context, const CompareOptions& options) {
+  if (!options.output.empty()) {
+    const image::FileFormat format = image::format_of_extension(options.output);
+    if (format != image::FileFormat::png && format != image::FileFormat::exr) {
+      throw Error(options.output, "an error map is written as .png (colours) or .exr (numbers)");
+    }
+  }
+  const Image reference = read_exposed(options.reference, options.exposure);
+  const Image test = read_exposed(options.test, options.exposure);
+  const metrics::ImageError error = metrics::compare(reference, test);
+  const Image pixelated = metrics::pixelated_error_map(reference, test, options.block);
+  const metrics::BlockError blocks = metrics::block_error(pixelated, options.block);
+  ordered_json object = to_json(error, blocks);
+  std::string text = to_text(error, blocks);
+  if (!options.output.empty()) {
+    const float scale = write_map(options, reference, test);
+    object["map"] = {{"output", options.output}, {"kind", options.map}, {"scale", scale}};
+    text += fmt::format("\nmap        {} ({}", options.output, options.map);
+    text += scale > 0 ? fmt::format(", last colour at {:.6g})", scale) : ")";
+  }
+  if (error.nonfinite_pixels > 0) {
+    text += fmt::format("\n{} pixels are infinite or NaN and were left out", error.nonfinite_pixels);
+    if (!options.allow_nonfinite) {
+      text += " (--allow-nonfinite accepts them)";
+      context.exit_code = 1;
+    }
+  }
+  context.result(object, text);
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, Context& context) {
+  auto options = std::make_shared<CompareOptions>();
+  CLI::App* command =
+      add_command(app, context, "compare", "Measure the error of an image against a reference",
+                  [&context, options] { compare(context, *options); });
+  command->add_option("REF", options->reference, "Reference image: .exr .hdr .png .jpg")->required();
+  command->add_option("TEST", options->test, "Image of the same size")->required();
+  command->add_option("--block", options->block, "Side of the blocks of the pixelated map, in pixels")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  command->add_option("-o,--output", options->output, "Error map to write: .png (colours) or .exr (numbers)");
+  command
+      ->add_option("--map", options->map,
+                   "Which map: absolute |d|, signed d, pixelated (sum of |d| in each block), relmse")
+      ->check(CLI::IsMember({"absolute", "signed", "pixelated", "relmse"}))
+      ->capture_default_str();
+  command
+      ->add_option("--scale", options->scale,
+                   "Error shown in the last colour of a .png map; 0: the 99th percentile")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--exposure", options->exposure, "Multiply both images by 2^EV first")
+      ->check(CLI::Range(-60.0, 60.0))
+      ->capture_default_str();
+  command->add_flag("--allow-nonfinite", options->allow_nonfinite,
+                    "Do not fail when pixels are infinite or NaN (they are left out and counted)");
+  command->footer(
+      "d = TEST - REF in scene-linear RGB: PNG and JPEG are decoded from sRGB first; alpha is not compared.\n"
+      "MAE mean |d|, MSE mean d^2, relMSE mean d^2/(REF^2 + 0.01), MAPE mean |d|/(|REF| + 0.01) as a "
+      "fraction, all over\n"
+      "pixels and channels; mean ratio: mean TEST / mean REF per channel; bias: mean d. Block sums add the "
+      "channels.");
+}
 
 }  // namespace ssphh::app

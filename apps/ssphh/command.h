@@ -20,6 +20,7 @@ struct Context {
   std::string progress = "auto";
   Control control;            ///< progress on stderr, cancelled by Ctrl-C
   std::function<void()> run;  ///< set by the chosen command while options are parsed
+  int exit_code = 0;          ///< of a command that gave a result and still has to report a failure
 
   /// The command's result: with --json the object alone on stdout, else `text`.
   void result(const nlohmann::ordered_json& object, const std::string& text) const;

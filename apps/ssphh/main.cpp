@@ -59,7 +59,7 @@ int run(int argc, char** argv) {
   set_thread_count(context.threads);
   try {
     context.run();
-    return success;
+    return context.exit_code;
   } catch (const Cancelled&) {
     return fail(context, "cancelled");
   } catch (const std::bad_alloc&) {

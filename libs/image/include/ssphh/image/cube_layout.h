@@ -1,19 +1,18 @@
 #pragma once
 /// How the sphere around a point is laid out in one image, and the way from each layout to each other.
 ///
-/// | layout     | shape   | content |
-/// |------------|---------|----------------------------------------------------------------------------------------|
-/// | `equirect` | 2 × 1   | polar coordinates, see sphere_map.h | | `strip-h`  | 6 × 1   | faces +X −X +Y −Y
-/// +Z −Z from left to right                                              | | `strip-v`  | 1 × 6   | the same
-/// from top to bottom                                                             | | `cross-h`  | 4 × 3   |
-/// `. +Y . .` / `−X +Z +X −Z` / `. −Y . .`, edges that touch are edges of the cube          | | `cross-v`  |
-/// 3 × 4   | `. +Y .` / `−X +Z +X` / `. −Y .` / `. −Z .`, −Z turned by 180° so that it touches −Y      | |
-/// `angular`  | 1 × 1   | angular map, see sphere_map.h; black outside the disc |
+/// - `equirect`, 2 × 1: polar coordinates, see sphere_map.h
+/// - `strip-h`, 6 × 1: faces +X −X +Y −Y +Z −Z from left to right
+/// - `strip-v`, 1 × 6: the same from top to bottom
+/// - `cross-h`, 4 × 3: rows [. +Y . .] [−X +Z +X −Z] [. −Y . .]
+/// - `cross-v`, 3 × 4: rows [. +Y .] [−X +Z +X] [. −Y .] [. −Z .], −Z turned by 180°
+/// - `angular`, 1 × 1: angular map, see sphere_map.h; black outside the disc
 ///
-/// Faces have OpenGL's orientation (ssphh::CubeFace). Strips and crosses of the same face size hold the same
-/// numbers, and converting among them is exact. Every other way resamples: each new pixel is the mean of the
-/// old image's bilinear interpolation over the pixel's solid angle (a grid of samples at least twice as fine
-/// as the old pixels), so that light is neither gained nor lost (a sun of one pixel: within 2 %). Resampled images have 3 channels.
+/// Faces have OpenGL's orientation (ssphh::CubeFace); faces that touch in a cross touch on the cube. Strips
+/// and crosses of the same face size hold the same numbers, and converting among them is exact. Every other
+/// way resamples: each new pixel is the mean of the old image's bilinear interpolation over the pixel's solid
+/// angle (a grid of samples at least three times as fine as the old pixels), so that light is neither gained
+/// nor lost (a sun of one pixel: within 2 %). Resampled images have 3 channels.
 
 #include <span>
 #include <string_view>
