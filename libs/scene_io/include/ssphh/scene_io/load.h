@@ -1,0 +1,25 @@
+#pragma once
+/// Scenes from files and names. Formats: glTF 2.0 and GLB, Wavefront OBJ/MTL, overlays (docs/scenes.md).
+
+#include <string>
+
+#include <ssphh/scene/scene.h>
+
+namespace ssphh::scene_io {
+
+struct LoadOptions {
+  /// Side file that adds cameras, lights, SPHLs and more. Empty: SCENE.ssphh.json beside SCENE.glb (.gltf,
+  /// .obj), if there is one.
+  std::string overlay;
+  /// Equirectangular .hdr or .exr (or any image); replaces the scene's own environment. Empty: none.
+  std::string environment;
+  float environment_intensity = 1;  ///< factor on the image
+  float environment_rotation = 0;   ///< radians about +y, counter-clockwise seen from above
+};
+
+/// `source`: "builtin:NAME", a scene file, or an overlay that names its scene. The format is told from the
+/// content, then from the extension. The result is valid (scene::validate); what the file holds and nobody
+/// uses stands in Scene::ignored and is warned about once. Throws Error naming file and place.
+scene::Scene load_scene(const std::string& source, const LoadOptions& options = {});
+
+}  // namespace ssphh::scene_io

@@ -1,0 +1,40 @@
+#include <ssphh/scene_io/gltf.h>
+
+#include "gltf_parts.h"
+
+namespace ssphh::scene_io {
+
+std::optional<JsonView> extension(const JsonView& object, const char* name) {
+  const auto extensions = object.find("extensions");
+  return extensions ? extensions->find(name) : std::nullopt;
+}
+
+std::optional<JsonView> extra(const JsonView& object, const char* name) {
+  const auto extras = object.find("extras");
+  return extras && extras->is_object() ? extras->find(name) : std::nullopt;
+}
+
+std::string light_group_extra(const JsonView& object) {
+  const auto group = extra(object, "light_group");
+  return group ? group->string() : std::string{};
+}
+
+scene::Scene load_gltf(std::span<const std::byte> data, const std::filesystem::path& path) {
+  GltfDocument document(data, path);
+  scene::Scene scene;
+  GltfImport import{.document = document,
+                    .scene = scene,
+                    .texture_of_image = {},
+                    .meshes_of_mesh = {},
+                    .mesh_read = {},
+                    .vertex_arrays = {},
+                    .node_of_node = {}};
+  import_materials(import);
+  import_nodes(import);
+  import_animations(import);
+  if (scene.name.empty()) scene.name = path.stem().string();
+  scene.ignored = document.ignored.lines();
+  return scene;
+}
+
+}  // namespace ssphh::scene_io

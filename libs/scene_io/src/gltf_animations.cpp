@@ -1,0 +1,109 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "gltf_parts.h"
+#include "printable.h"
+
+namespace ssphh::scene_io {
+namespace {
+
+using scene::AnimationChannel;
+using scene::AnimationPath;
+using scene::Interpolation;
+
+Interpolation import_interpolation(const JsonView& sampler) {
+  const std::string name = text_or(sampler, "interpolation", "LINEAR");
+  if (name == "LINEAR") return Interpolation::linear;
+  if (name == "STEP") return Interpolation::step;
+  if (name == "CUBICSPLINE") return Interpolation::cubic_spline;
+  sampler.at("interpolation")
+      .fail(fmt::format("\"{}\" is none of LINEAR, STEP, CUBICSPLINE", printable(name, 40)));
+}
+
+void import_keys(GltfDocument& document, const JsonView& sampler, AnimationChannel& out) {
+  const JsonView input = sampler.at("input"), output = sampler.at("output");
+  const std::size_t accessors = document.count("accessors");
+  out.interpolation = import_interpolation(sampler);
+  out.times = read_floats(document, input.index(accessors, "accessors"), 1, 1).values;
+  if (out.times.empty()) input.fail("has no keyframes");
+  for (std::size_t i = 0; i < out.times.size(); ++i) {
+    if (out.times[i] < 0) input.fail(fmt::format("time {} is {} s, before 0", i, out.times[i]));
+    if (i > 0 && !(out.times[i] > out.times[i - 1])) input.fail(fmt::format("time {} does not increase", i));
+  }
+  const int components = out.path == AnimationPath::rotation ? 4 : 3;
+  const FloatArray values =
+      read_floats(document, output.index(accessors, "accessors"), components, components);
+  const std::size_t per_key = out.interpolation == Interpolation::cubic_spline ? 3 : 1;
+  if (values.count != out.times.size() * per_key) {
+    output.fail(fmt::format("has {} values, {} keyframes need {}", values.count, out.times.size(),
+                            out.times.size() * per_key));
+  }
+  document.charge(values.count * sizeof(vec4), sampler);
+  out.values.resize(values.count, vec4(0));
+  for (std::size_t i = 0; i < values.count; ++i) {
+    for (int c = 0; c < components; ++c) out.values[i][c] = values[i][c];
+  }
+}
+
+// nullopt for what is ignored and listed.
+std::optional<AnimationChannel> import_channel(GltfImport& import, const JsonView& animation,
+                                               const JsonView& channel) {
+  GltfDocument& document = import.document;
+  const JsonView target = channel.at("target");
+  const JsonView samplers = animation.at("samplers");
+  const int sampler = channel.at("sampler").index(samplers.size(), "samplers");
+  const std::string& path = target.at("path").string();
+  const auto file_node = document.reference(target, "node", "nodes");
+  AnimationChannel out;
+  if (path == "translation") {
+    out.path = AnimationPath::translation;
+  } else if (path == "rotation") {
+    out.path = AnimationPath::rotation;
+  } else if (path == "scale") {
+    out.path = AnimationPath::scale;
+  } else {
+    document.ignored.add(fmt::format("animation of {}", printable(path, 40)));
+    return std::nullopt;
+  }
+  if (!file_node) {
+    document.ignored.add("animation without a node");
+    return std::nullopt;
+  }
+  out.node = import.node_of_node[static_cast<std::size_t>(*file_node)];
+  if (out.node < 0) {
+    document.ignored.add("animation of a node outside the scene");
+    return std::nullopt;
+  }
+  if (import.scene.nodes[static_cast<std::size_t>(out.node)].matrix) {
+    document.ignored.add("animation of a node that has a matrix");
+    return std::nullopt;
+  }
+  import_keys(document, samplers[static_cast<std::size_t>(sampler)], out);
+  return out;
+}
+
+}  // namespace
+
+void import_animations(GltfImport& import) {
+  const std::size_t count = import.document.count("animations");
+  for (std::size_t i = 0; i < count; ++i) {
+    const JsonView animation = import.document.item("animations", static_cast<int>(i));
+    scene::Animation out;
+    out.name = text_or(animation, "name", fmt::format("animation {}", i));
+    const JsonView channels = animation.at("channels");
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      auto channel = import_channel(import, animation, channels[c]);
+      if (!channel) continue;
+      import.scene.nodes[static_cast<std::size_t>(channel->node)].movable = true;
+      out.channels.push_back(*std::move(channel));
+    }
+    if (!out.channels.empty()) import.scene.animations.push_back(std::move(out));
+  }
+  for (auto& node : import.scene.nodes) {  // parents stand before children
+    if (node.parent >= 0 && import.scene.nodes[static_cast<std::size_t>(node.parent)].movable)
+      node.movable = true;
+  }
+}
+
+}  // namespace ssphh::scene_io

@@ -1,0 +1,217 @@
+#include "gltf_document.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/core/file.h>
+
+#include "uri.h"
+
+namespace ssphh::scene_io {
+namespace {
+
+std::uint32_t read_u32(std::span<const std::byte> data, std::size_t offset) {
+  std::uint32_t v;
+  std::memcpy(&v, data.data() + offset, 4);
+  return v;
+}
+
+std::string_view as_text(std::span<const std::byte> data) {
+  return {reinterpret_cast<const char*>(data.data()), data.size()};
+}
+
+struct KnownExtension {
+  std::string_view name;
+  std::string_view hint;  // empty: supported
+};
+
+constexpr std::string_view decompress =
+    "decompress it first, for example with: gltf-transform copy IN.glb OUT.glb, which writes plain accessors";
+constexpr std::string_view recode =
+    "convert its textures to PNG or JPEG first, for example with gltf-transform";
+
+constexpr std::array known_extensions = {
+    KnownExtension{"EXT_mesh_gpu_instancing", {}},
+    KnownExtension{"KHR_lights_punctual", {}},
+    KnownExtension{"KHR_materials_emissive_strength", {}},
+    KnownExtension{"KHR_materials_ior", {}},
+    KnownExtension{"KHR_materials_specular", {}},
+    KnownExtension{"KHR_materials_unlit", {}},
+    KnownExtension{"KHR_mesh_quantization", {}},
+    KnownExtension{"KHR_texture_transform", {}},
+    KnownExtension{"KHR_draco_mesh_compression", decompress},
+    KnownExtension{"EXT_meshopt_compression", decompress},
+    KnownExtension{"KHR_meshopt_compression", decompress},
+    KnownExtension{"KHR_texture_basisu", recode},
+    KnownExtension{"EXT_texture_webp", recode},
+    KnownExtension{"EXT_texture_avif", recode},
+    KnownExtension{"MSFT_texture_dds", recode},
+};
+
+bool supported(std::string_view name) {
+  return std::any_of(known_extensions.begin(), known_extensions.end(),
+                     [&](const KnownExtension& e) { return e.name == name && e.hint.empty(); });
+}
+
+// Counts the members of every "extensions" object; parse_json limits the depth.
+void count_extensions(const nlohmann::json& value, std::map<std::string, std::uint64_t>& uses) {
+  if (value.is_object()) {
+    for (const auto& [key, member] : value.items()) {
+      if (key == "extras") continue;
+      if (key == "extensions" && member.is_object()) {
+        for (const auto& [name, unused] : member.items()) ++uses[name];
+      }
+      count_extensions(member, uses);
+    }
+  } else if (value.is_array()) {
+    for (const auto& member : value) count_extensions(member, uses);
+  }
+}
+
+}  // namespace
+
+GltfDocument::GltfDocument(std::span<const std::byte> data, std::filesystem::path path)
+    : path_(std::move(path)), file_(path_.string()), input_bytes_(data.size()) {
+  if (as_text(data).starts_with("glTF")) {
+    parse_glb(data);
+  } else {
+    json_ = parse_json(as_text(data), file_);
+  }
+  if (!json_.is_object()) root().fail("must be a JSON object");
+  check_version_and_extensions();
+  std::map<std::string, std::uint64_t> uses;
+  count_extensions(json_, uses);
+  for (const auto& [name, count] : uses) {
+    if (!supported(name)) ignored.add("extension " + name, count);
+  }
+}
+
+void GltfDocument::parse_glb(std::span<const std::byte> data) {
+  if (data.size() < 12) throw Error(file_, "the GLB header is cut short");
+  if (const auto version = read_u32(data, 4); version != 2) {
+    throw Error(file_, fmt::format("is GLB version {}, only 2 can be read", version));
+  }
+  const std::uint32_t length = read_u32(data, 8);
+  if (length > data.size()) {
+    throw Error(file_, fmt::format("is cut short: the GLB header says {} bytes, the file has {}", length,
+                                   data.size()));
+  }
+  data = data.first(length);
+
+  // Read the chunks: JSON first, then at most one BIN; others are to be skipped
+  std::size_t offset = 12;
+  for (int chunk = 0; offset < data.size(); ++chunk) {
+    if (data.size() - offset < 8)
+      throw Error(file_, fmt::format("the header of GLB chunk {} is cut short", chunk));
+    const std::uint32_t size = read_u32(data, offset), type = read_u32(data, offset + 4);
+    offset += 8;
+    if (size > data.size() - offset) {
+      throw Error(file_,
+                  fmt::format("GLB chunk {} says {} bytes, {} are left", chunk, size, data.size() - offset));
+    }
+    const auto content = data.subspan(offset, size);
+    if (chunk == 0) {
+      if (type != 0x4e4f534a) throw Error(file_, "the first GLB chunk is not JSON");
+      json_ = parse_json(as_text(content), file_);
+    } else if (type == 0x004e4942 && !binary_chunk_) {
+      binary_chunk_ = content;
+    }
+    offset += std::min<std::size_t>((std::size_t{size} + 3) & ~std::size_t{3}, data.size() - offset);
+  }
+  if (json_.is_null()) throw Error(file_, "the GLB file has no JSON chunk");
+}
+
+void GltfDocument::check_version_and_extensions() const {
+  const JsonView asset = root().at("asset");
+  const JsonView version = asset.find("minVersion").value_or(asset.at("version"));
+  if (version.string() != "2.0" &&
+      !(version.path() == "asset.version" && version.string().starts_with("2."))) {
+    version.fail(fmt::format("glTF {} cannot be read, only 2.0", version.string()));
+  }
+  const auto required = root().find("extensionsRequired");
+  for (std::size_t i = 0; required && i < required->size(); ++i) {
+    const std::string& name = (*required)[i].string();
+    // A material extension only adds to the look: it is ignored and listed like one that is not required.
+    if (supported(name) || name.starts_with("KHR_materials_")) continue;
+    const auto* known = std::find_if(known_extensions.begin(), known_extensions.end(),
+                                     [&](const KnownExtension& e) { return e.name == name; });
+    (*required)[i].fail(fmt::format("the file requires the extension {}, which is not supported", name),
+                        known == known_extensions.end() ? std::string{} : std::string(known->hint));
+  }
+}
+
+JsonView GltfDocument::item(const char* collection, int index) const {
+  return root().at(collection)[static_cast<std::size_t>(index)];
+}
+
+std::optional<int> GltfDocument::reference(const JsonView& object, const char* key,
+                                           const char* collection) const {
+  const auto member = object.find(key);
+  if (!member) return std::nullopt;
+  return member->index(count(collection), collection);
+}
+
+std::span<const std::byte> GltfDocument::buffer(int index) {
+  const JsonView buffer = item("buffers", index);
+  const std::uint64_t length = buffer.at("byteLength").integer();
+  const auto uri = buffer.find("uri");
+  std::span<const std::byte> bytes;
+  if (!uri) {
+    if (index != 0 || !binary_chunk_) buffer.fail("has no uri, and the file has no GLB chunk for it");
+    bytes = *binary_chunk_;
+  } else {
+    Bytes& owned = buffers_[index];
+    if (!owned) {
+      const std::string where = fmt::format("{}: {}", file_, uri->path());
+      if (auto decoded = decode_data_uri(uri->string(), where)) {
+        owned = std::make_shared<const std::vector<std::byte>>(*std::move(decoded));
+        charge(owned->size(), buffer);
+      } else {
+        Bytes& file = files_[resolve_uri(uri->string(), path_, where)];
+        if (!file) {
+          try {
+            file = std::make_shared<const std::vector<std::byte>>(
+                read_file(resolve_uri(uri->string(), path_, where)));
+          } catch (const Error& e) {
+            throw Error(where, e.what(), "buffers lie beside the glTF file; copy them along with it");
+          }
+          input_bytes_ += file->size();
+        }
+        owned = file;
+      }
+    }
+    bytes = *owned;
+  }
+  if (bytes.size() < length) {
+    buffer.fail(fmt::format("byteLength is {}, but only {} bytes are there", length, bytes.size()));
+  }
+  return bytes.first(length);
+}
+
+GltfDocument::BufferView GltfDocument::buffer_view(int index) {
+  const JsonView view = item("bufferViews", index);
+  const auto bytes = buffer(view.at("buffer").index(count("buffers"), "buffers"));
+  const auto offset = view.find("byteOffset");
+  const std::uint64_t begin = offset ? offset->integer() : 0, length = view.at("byteLength").integer();
+  if (begin > bytes.size() || length > bytes.size() - begin) {
+    view.fail(fmt::format("bytes {} to {} are out of range, the buffer has {}", begin, begin + length,
+                          bytes.size()));
+  }
+  const auto stride = view.find("byteStride");
+  return {bytes.subspan(begin, length), stride ? stride->integer(252) : 0};
+}
+
+void GltfDocument::charge(std::uint64_t bytes, const JsonView& place) {
+  const std::uint64_t limit = (std::uint64_t{64} << 20) + 64 * input_bytes_;
+  charged_ = bytes > limit ? limit + 1 : charged_ + bytes;
+  if (charged_ > limit) {
+    place.fail(fmt::format("the file asks for more than {} MiB of decoded data, too much for its size",
+                           limit >> 20));
+  }
+}
+
+}  // namespace ssphh::scene_io

@@ -1,0 +1,134 @@
+/// Cameras, lights and the environment of a glTF file.
+
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/image/io.h>
+
+#include "gltf_parts.h"
+#include "printable.h"
+
+namespace ssphh::scene_io {
+
+using scene::Camera;
+using scene::Environment;
+using scene::Light;
+using scene::LightType;
+
+Camera import_camera(const JsonView& camera) {
+  Camera out;
+  out.name = text_or(camera, "name");
+  const JsonView type = camera.at("type");
+  if (type.string() == "perspective") {
+    const JsonView perspective = camera.at("perspective");
+    out.yfov = perspective.at("yfov").number();
+    if (!(out.yfov > 0 && out.yfov < pi)) {
+      perspective.at("yfov").fail(fmt::format("{} must be between 0 and π", out.yfov));
+    }
+    if (const auto aspect = perspective.find("aspectRatio")) {
+      out.aspect = aspect->number();
+      if (!(*out.aspect > 0)) aspect->fail("must be greater than 0");
+    }
+  } else if (type.string() == "orthographic") {
+    const JsonView orthographic = camera.at("orthographic");
+    const float xmag = std::abs(orthographic.at("xmag").number()),
+                ymag = std::abs(orthographic.at("ymag").number());
+    if (!(xmag > 0 && ymag > 0)) orthographic.fail("xmag and ymag must not be 0");
+    out.orthographic = true;
+    out.yheight = 2 * ymag;
+    out.aspect = xmag / ymag;
+    if (!std::isfinite(*out.aspect) || !(*out.aspect > 0) || !std::isfinite(out.yheight)) {
+      orthographic.fail("xmag and ymag are out of proportion");
+    }
+  } else {
+    type.fail(fmt::format("\"{}\" is neither perspective nor orthographic", printable(type.string(), 40)));
+  }
+  return out;
+}
+
+Light import_light(const JsonView& light) {
+  Light out;
+  out.name = text_or(light, "name");
+  out.group = light_group_extra(light);
+  const JsonView type = light.at("type");
+  if (const auto color = light.find("color")) out.color = color->vector3();
+  if (const auto intensity = light.find("intensity")) out.intensity = intensity->number(0, HUGE_VALF);
+  if (const auto range = light.find("range")) {
+    out.range = range->number();
+    if (!(out.range > 0)) range->fail("must be greater than 0");
+  }
+  if (type.string() == "point") {
+    out.type = LightType::point;
+  } else if (type.string() == "directional") {
+    out.type = LightType::directional;
+    out.range = 0;
+  } else if (type.string() == "spot") {
+    out.type = LightType::spot;
+    const JsonView spot = light.at("spot");
+    out.inner_cone = number_or(spot, "innerConeAngle", 0);
+    out.outer_cone = number_or(spot, "outerConeAngle", pi / 4);
+    if (!(out.inner_cone >= 0 && out.inner_cone < out.outer_cone && out.outer_cone <= pi / 2 + 1e-6f)) {
+      spot.fail(fmt::format("cone angles {} and {} must rise from 0 to at most π/2", out.inner_cone,
+                            out.outer_cone));
+    }
+  } else {
+    type.fail(fmt::format("\"{}\" is none of point, spot, directional", printable(type.string(), 40)));
+  }
+
+  // Spheres and discs of this project's extras
+  const auto more = extra(light, "ssphh");
+  if (more && text_or(*more, "type") == "sphere") {
+    if (out.type != LightType::point) more->fail("only a point light can be a sphere");
+    out.type = LightType::sphere;
+    out.radius = more->at("radius").number();
+    if (!(out.radius > 0)) more->at("radius").fail("must be greater than 0");
+    const auto radiance = more->find("radiance");
+    out.intensity =
+        radiance ? radiance->number(0, HUGE_VALF) : out.intensity / (pi * out.radius * out.radius);
+    if (!std::isfinite(out.intensity)) more->at("radius").fail("is too small for the light's intensity");
+  } else if (more && more->find("type")) {
+    more->at("type").fail("can only be \"sphere\"");
+  }
+  if (more && more->find("angular_radius")) {
+    if (out.type != LightType::directional) more->fail("only a directional light can have an angular_radius");
+    out.angular_radius = more->at("angular_radius").number(0, pi / 2);
+  }
+  return out;
+}
+
+void import_environment(GltfImport& import, const JsonView& gltf_scene) {
+  const auto extras = extra(gltf_scene, "ssphh");
+  const auto environment = extras ? extras->find("environment") : std::nullopt;
+  if (!environment) return;
+  Environment out;
+  out.name = text_or(*environment, "name", out.name);
+  out.group = text_or(*environment, "light_group");
+  if (const auto color = environment->find("color")) out.color = color->vector3();
+  out.rotation = number_or(*environment, "rotation", 0);
+  if (const auto image = environment->find("image")) {
+    std::vector<std::byte> storage;
+    const auto bytes = image_bytes(import.document, *image, storage);
+    if (image->find("bufferView")) {
+      const std::uint64_t width = image->at("width").integer(65536),
+                          height = image->at("height").integer(65536);
+      if (width == 0 || height == 0 || bytes.size() != width * height * 3 * sizeof(float)) {
+        image->fail(fmt::format("{}×{} RGB floats are {} bytes, the bufferView has {}", width, height,
+                                width * height * 3 * sizeof(float), bytes.size()));
+      }
+      import.document.charge(bytes.size(), *image);
+      out.equirect = image::Image(static_cast<int>(width), static_cast<int>(height), 3);
+      std::memcpy(out.equirect.pixels.data(), bytes.data(), bytes.size());
+    } else if (!bytes.empty()) {
+      out.equirect = image::decode_image(bytes, fmt::format("{}: {}", image->file(), image->path()));
+    }
+    for (const float v : out.equirect.pixels) {
+      if (!std::isfinite(v)) image->fail("has NaN or infinite pixels");
+    }
+  }
+  import.scene.environment = std::move(out);
+}
+
+}  // namespace ssphh::scene_io

@@ -1,0 +1,82 @@
+#include <cstring>
+
+#include <ssphh/core/error.h>
+#include <ssphh/core/file.h>
+#include <ssphh/scene_io/gltf_export.h>
+
+#include "gltf_export_parts.h"
+
+namespace ssphh::scene_io {
+namespace {
+
+void append_u32(std::vector<std::byte>& file, std::uint32_t value) {
+  for (int shift = 0; shift < 32; shift += 8) file.push_back(static_cast<std::byte>(value >> shift & 0xff));
+}
+
+/// Header and the two chunks, padded to four bytes (glTF 2.0, chapter 4).
+std::vector<std::byte> pack(std::string text, const std::vector<std::byte>& binary) {
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  const std::uint64_t size = 12 + 8 + text.size() + (binary.empty() ? 0 : 8 + binary.size());
+  if (size > 0xffffffff) throw Error("glTF export", "the scene is larger than a GLB file can be (4 GiB)");
+  std::vector<std::byte> file;
+  file.reserve(size);
+  append_u32(file, 0x46546c67);  // "glTF"
+  append_u32(file, 2);
+  append_u32(file, static_cast<std::uint32_t>(size));
+  append_u32(file, static_cast<std::uint32_t>(text.size()));
+  append_u32(file, 0x4e4f534a);  // "JSON"
+  const auto text_bytes = std::as_bytes(std::span(text));
+  file.insert(file.end(), text_bytes.begin(), text_bytes.end());
+  if (!binary.empty()) {
+    append_u32(file, static_cast<std::uint32_t>(binary.size()));
+    append_u32(file, 0x004e4942);  // "BIN"
+    file.insert(file.end(), binary.begin(), binary.end());
+  }
+  return file;
+}
+
+}  // namespace
+
+std::vector<std::byte> export_glb(const scene::Scene& scene) {
+  GltfExport out(scene);
+  export_materials(out);
+  const Json roots = export_nodes(out);
+  export_animations(out);
+  Json shown;
+  if (!scene.name.empty()) shown["name"] = scene.name;
+  if (!roots.empty()) shown["nodes"] = roots;
+  if (Json extras = export_environment(out); !extras.is_null()) shown["extras"] = std::move(extras);
+  if (shown.is_null()) shown = Json::object();
+
+  Json document;
+  document["asset"] = {{"generator", "ssphh"}, {"version", "2.0"}};
+  if (!out.lights.empty()) {
+    document["extensions"]["KHR_lights_punctual"]["lights"] = std::move(out.lights);
+  }
+  if (!out.extensions.empty()) document["extensionsUsed"] = out.extensions;
+  document["scene"] = 0;
+  document["scenes"] = Json::array({std::move(shown)});
+  // Empty arrays are not allowed.
+  const auto add = [&](const char* key, Json& array) {
+    if (!array.empty()) document[key] = std::move(array);
+  };
+  add("nodes", out.nodes);
+  add("cameras", out.cameras);
+  add("meshes", out.meshes);
+  add("materials", out.materials);
+  add("textures", out.textures);
+  add("images", out.images);
+  add("samplers", out.samplers);
+  add("animations", out.animations);
+  add("accessors", out.accessors);
+  add("bufferViews", out.buffer_views);
+  if (!out.binary.empty()) document["buffers"] = Json::array({{{"byteLength", out.binary.size()}}});
+  // Names that are not UTF-8 must not stop the export.
+  return pack(document.dump(-1, ' ', false, Json::error_handler_t::replace), out.binary);
+}
+
+void write_glb(const std::filesystem::path& path, const scene::Scene& scene) {
+  write_file(path, export_glb(scene));
+}
+
+}  // namespace ssphh::scene_io

@@ -1,0 +1,115 @@
+/// Cameras, lights, the environment and animations.
+
+#include <algorithm>
+#include <cmath>
+
+#include "gltf_export_parts.h"
+
+namespace ssphh::scene_io {
+
+using scene::AnimationChannel;
+using scene::AnimationPath;
+using scene::Interpolation;
+using scene::LightType;
+
+Json export_camera(const scene::Camera& camera) {
+  Json out;
+  if (!camera.name.empty()) out["name"] = camera.name;
+  // glTF asks for clip planes; nothing here uses them.
+  if (camera.orthographic) {
+    const float ymag = camera.yheight / 2;
+    out["type"] = "orthographic";
+    out["orthographic"] = {{"xmag", number(ymag * camera.aspect.value_or(1.0f))},
+                           {"ymag", number(ymag)},
+                           {"zfar", 1000},
+                           {"znear", 0.01}};
+    return out;
+  }
+  out["type"] = "perspective";
+  Json perspective = {{"yfov", number(camera.yfov)}, {"znear", 0.01}};
+  if (camera.aspect) perspective["aspectRatio"] = number(*camera.aspect);
+  out["perspective"] = std::move(perspective);
+  return out;
+}
+
+Json export_light(const scene::Light& light) {
+  Json out;
+  if (!light.name.empty()) out["name"] = light.name;
+  out["color"] = numbers(light.color);
+  out["intensity"] = number(light.intensity);
+  if (light.range > 0 && light.type != LightType::directional) out["range"] = number(light.range);
+  if (!light.group.empty()) out["extras"]["light_group"] = light.group;
+  switch (light.type) {
+    case LightType::point:
+      out["type"] = "point";
+      break;
+    case LightType::directional:
+      out["type"] = "directional";
+      if (light.angular_radius > 0) out["extras"]["ssphh"]["angular_radius"] = number(light.angular_radius);
+      break;
+    case LightType::spot: {
+      // glTF's cones end at a right angle, and the inner one is smaller than the outer.
+      const float outer = std::clamp(light.outer_cone, 1e-6f, pi / 2);
+      const float inner = std::min(light.inner_cone, std::nextafter(outer, 0.0f));
+      out["type"] = "spot";
+      out["spot"] = {{"innerConeAngle", number(inner)}, {"outerConeAngle", number(outer)}};
+      break;
+    }
+    case LightType::sphere:
+      out["type"] = "point";
+      out["intensity"] = number(light.intensity * pi * light.radius * light.radius);
+      out["extras"]["ssphh"] = {
+          {"type", "sphere"}, {"radius", number(light.radius)}, {"radiance", number(light.intensity)}};
+      break;
+  }
+  return out;
+}
+
+Json export_environment(GltfExport& out) {
+  if (!out.scene.environment) return nullptr;
+  const scene::Environment& e = *out.scene.environment;
+  Json environment = {{"name", e.name}};
+  if (!e.group.empty()) environment["light_group"] = e.group;
+  environment["color"] = numbers(e.color);
+  environment["rotation"] = number(e.rotation);
+  if (!e.equirect.empty()) {
+    std::vector<float> rgb;
+    for (int y = 0; y < e.equirect.height; ++y) {
+      for (int x = 0; x < e.equirect.width; ++x) {
+        const vec3 c = e.equirect.rgb(x, y);
+        rgb.insert(rgb.end(), {c.x, c.y, c.z});
+      }
+    }
+    const int view = add_buffer_view(out, std::as_bytes(std::span<const float>(rgb)), 0);
+    environment["image"] = {{"bufferView", view}, {"width", e.equirect.width}, {"height", e.equirect.height}};
+  }
+  Json extras;
+  extras["ssphh"]["environment"] = std::move(environment);
+  return extras;
+}
+
+void export_animations(GltfExport& out) {
+  for (const scene::Animation& a : out.scene.animations) {
+    if (a.channels.empty()) continue;  // glTF has no empty animations
+    Json animation, samplers = Json::array(), channels = Json::array();
+    if (!a.name.empty()) animation["name"] = a.name;
+    for (const AnimationChannel& c : a.channels) {
+      static constexpr const char* modes[] = {"STEP", "LINEAR", "CUBICSPLINE"};
+      static constexpr const char* paths[] = {"translation", "rotation", "scale"};
+      const int components = c.path == AnimationPath::rotation ? 4 : 3;
+      std::vector<float> values;
+      for (const vec4& v : c.values) values.insert(values.end(), &v.x, &v.x + components);
+      const int input = add_float_accessor(out, c.times, 1, true, 0);
+      const int output = add_float_accessor(out, values, components, false, 0);
+      const char* mode = modes[static_cast<int>(c.interpolation)];
+      const int sampler = push(samplers, {{"input", input}, {"interpolation", mode}, {"output", output}});
+      Json target = {{"node", c.node}, {"path", paths[static_cast<int>(c.path)]}};
+      channels.push_back({{"sampler", sampler}, {"target", std::move(target)}});
+    }
+    animation["samplers"] = std::move(samplers);
+    animation["channels"] = std::move(channels);
+    out.animations.push_back(std::move(animation));
+  }
+}
+
+}  // namespace ssphh::scene_io

@@ -1,0 +1,55 @@
+#pragma once
+/// The parts of the glTF loader; gltf.cpp runs them in this order.
+
+#include <span>
+#include <vector>
+
+#include <ssphh/scene/scene.h>
+
+#include "gltf_accessor.h"
+
+namespace ssphh::scene_io {
+
+/// What the parts hand to each other: indices of the file on the left, of the scene on the right.
+struct GltfImport {
+  GltfDocument& document;
+  scene::Scene& scene;
+  std::vector<int> texture_of_image;             ///< −2: not read yet, −1: unusable
+  std::vector<std::vector<int>> meshes_of_mesh;  ///< one scene mesh per primitive
+  std::vector<bool> mesh_read;
+  std::map<int, std::shared_ptr<const FloatArray>> vertex_arrays;  ///< decoded once, shared by primitives
+  std::vector<int> node_of_node;                                   ///< −1: not in the scene that is shown
+};
+
+/// All materials, and the textures they use.
+void import_materials(GltfImport& import);
+
+/// Primitives of a glTF mesh as scene meshes; read on first use.
+const std::vector<int>& import_mesh(GltfImport& import, int mesh);
+
+/// The node hierarchy of the default scene with its instances, cameras, lights and SPHLs.
+void import_nodes(GltfImport& import);
+
+/// Light of KHR_lights_punctual, without its node.
+scene::Light import_light(const JsonView& light);
+/// Camera, without its node.
+scene::Camera import_camera(const JsonView& camera);
+/// extras.ssphh.environment of the default scene.
+void import_environment(GltfImport& import, const JsonView& gltf_scene);
+
+/// Keyframes; marks animated nodes and what is below them as movable.
+void import_animations(GltfImport& import);
+
+/// object.extensions.NAME
+std::optional<JsonView> extension(const JsonView& object, const char* name);
+/// object.extras.NAME; extras that are no object count as none.
+std::optional<JsonView> extra(const JsonView& object, const char* name);
+/// object.extras.light_group, or "".
+std::string light_group_extra(const JsonView& object);
+
+/// Bytes of an image or environment given by uri (data URI or file) or bufferView. Buffer views stay owned by
+/// the document; other bytes go to `storage`.
+std::span<const std::byte> image_bytes(GltfDocument& document, const JsonView& image,
+                                       std::vector<std::byte>& storage);
+
+}  // namespace ssphh::scene_io

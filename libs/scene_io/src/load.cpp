@@ -1,0 +1,134 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/core/file.h>
+#include <ssphh/core/log.h>
+#include <ssphh/image/io.h>
+#include <ssphh/scene/builtin.h>
+#include <ssphh/scene/query.h>
+#include <ssphh/scene_io/gltf.h>
+#include <ssphh/scene_io/load.h>
+#include <ssphh/scene_io/obj.h>
+#include <ssphh/scene_io/overlay.h>
+
+#include "json_view.h"
+
+namespace ssphh::scene_io {
+namespace {
+
+namespace fs = std::filesystem;
+using scene::Scene;
+
+constexpr std::string_view builtin_prefix = "builtin:";
+constexpr std::uint64_t max_scene_bytes = std::uint64_t{4} << 30;
+constexpr std::uint64_t max_overlay_bytes = std::uint64_t{16} << 20;
+
+enum class Format { gltf, obj, overlay };
+
+std::string_view as_text(std::span<const std::byte> data) {
+  return {reinterpret_cast<const char*>(data.data()), data.size()};
+}
+
+std::string lower_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+Format format_of(std::span<const std::byte> data, const fs::path& path) {
+  const std::string_view text = as_text(data);
+  const std::string extension = lower_extension(path);
+  if (text.starts_with("glTF") || extension == ".gltf") return Format::gltf;
+  const auto first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+  if (first != text.npos && text[first] == '{') {
+    const std::string file = path.string();
+    const nlohmann::json json = parse_json(text, file);
+    return json.contains("asset") ? Format::gltf : Format::overlay;
+  }
+  if (extension == ".obj") return Format::obj;
+  if (extension == ".glb") throw Error(path.string(), "is no GLB file: it does not begin with \"glTF\"");
+  throw Error(path.string(), "is no scene of a known format",
+              "known are glTF 2.0 (.gltf, .glb), Wavefront OBJ (.obj) and overlays (.ssphh.json)");
+}
+
+std::string overlay_text(const fs::path& path) {
+  return read_text_file(path, max_overlay_bytes);
+}
+
+// A builtin scene or a scene file, not an overlay.
+Scene load_plain(const std::string& source, const std::vector<std::byte>* data) {
+  if (source.starts_with(builtin_prefix)) return scene::make_builtin(source.substr(builtin_prefix.size()));
+  std::vector<std::byte> own;
+  if (!data) {
+    own = read_file(source, max_scene_bytes);
+    data = &own;
+  }
+  switch (format_of(*data, source)) {
+    case Format::gltf:
+      return load_gltf(*data, source);
+    case Format::obj:
+      return load_obj(as_text(*data), source);
+    case Format::overlay:
+      break;
+  }
+  throw Error(source, "is an overlay; one cannot stand on another");
+}
+
+void check_size(const Scene& scene, const std::string& source) {
+  const auto bounds = scene::world_bounds(scene, scene::world_matrices(scene));
+  if (bounds.empty()) return;
+  const float size = 2 * bounds.radius();
+  if (size > 2000) {
+    log_warning("{}: is {:.0f} m across; if its unit is no metre, say so in an overlay: {{\"unit\": 0.001}}",
+                source, size);
+  }
+  if (size > 0 && glm::length(bounds.center()) > 100 * size) {
+    log_warning(
+        "{}: lies {:.3g} m from the origin and is {:.3g} m across, which costs precision; move it with "
+        "\"origin\" in an overlay",
+        source, glm::length(bounds.center()), size);
+  }
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& source, const LoadOptions& options) {
+  // Read the scene, through the overlay that names it if SOURCE is one
+  fs::path overlay = options.overlay;
+  Scene scene;
+  if (source.starts_with(builtin_prefix)) {
+    scene = load_plain(source, nullptr);
+  } else {
+    const auto data = read_file(source, max_scene_bytes);
+    if (format_of(data, source) == Format::overlay) {
+      const std::string named = overlay_scene(as_text(data), source);
+      scene = load_plain(named, nullptr);
+      apply_overlay(scene, as_text(data), source);
+    } else {
+      scene = load_plain(source, &data);
+      const fs::path beside = fs::path(source).replace_extension(".ssphh.json");
+      std::error_code unreadable;
+      if (overlay.empty() && fs::exists(beside, unreadable)) overlay = beside;
+    }
+  }
+  if (!overlay.empty()) apply_overlay(scene, overlay_text(overlay), overlay);
+
+  if (!options.environment.empty()) {
+    scene::Environment environment;
+    environment.equirect = image::read_image(options.environment);
+    environment.color = vec3(options.environment_intensity);
+    environment.rotation = options.environment_rotation;
+    scene.environment = std::move(environment);
+  }
+
+  for (const auto& repair : scene::validate(scene)) log_warning("{}: {}", source, repair);
+  if (!scene.ignored.empty()) log_warning("{}: ignored: {}", source, fmt::join(scene.ignored, ", "));
+  check_size(scene, source);
+  return scene;
+}
+
+}  // namespace ssphh::scene_io

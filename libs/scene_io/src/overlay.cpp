@@ -1,0 +1,212 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/image/io.h>
+#include <ssphh/scene_io/overlay.h>
+
+#include "json_view.h"
+#include "overlay_paths.h"
+
+namespace ssphh::scene_io {
+namespace {
+
+using scene::Scene;
+
+constexpr std::size_t max_entries = 100'000;
+
+float degrees(const JsonView& object, const char* key, float low, float high, float fallback) {
+  const auto member = object.find(key);
+  return glm::radians(member ? member->number(low, high) : fallback);
+}
+
+float positive(const JsonView& member) {
+  const float value = member.number();
+  if (!(value > 0)) member.fail("must be greater than 0");
+  return value;
+}
+
+// Rotation whose −z is `direction`, y as near to `up` as it can be.
+quat looking_along(const JsonView& place, const vec3& direction, const vec3& up) {
+  const float length = glm::length(direction);
+  if (!(length > 0) || !std::isfinite(length)) place.fail("gives no direction to look in");
+  const vec3 z = -direction / length;
+  vec3 x = glm::cross(up, z);
+  if (glm::length(x) < 1e-4f * glm::length(up))
+    x = glm::cross(std::abs(z.x) < 0.9f ? vec3(1, 0, 0) : vec3(0, 0, 1), z);
+  x = glm::normalize(x);
+  return glm::normalize(glm::quat_cast(mat3(x, glm::cross(z, x), z)));
+}
+
+// A node for an entry: "position", "look_at" or "direction", "up", "node" (name of the node it hangs on).
+int add_node(Scene& scene, const JsonView& entry, const std::string& name) {
+  scene::Node node;
+  node.name = name;
+  if (const auto position = entry.find("position")) node.local.translation = position->vector3();
+  const auto up_member = entry.find("up");
+  const vec3 up = up_member ? up_member->vector3() : vec3(0, 1, 0);
+  if (!(glm::length(up) > 0)) up_member->fail("must not be zero");
+  const auto look_at = entry.find("look_at"), direction = entry.find("direction");
+  if (look_at && direction) entry.fail("has both \"look_at\" and \"direction\"");
+  if (look_at) node.local.rotation = looking_along(*look_at, look_at->vector3() - node.local.translation, up);
+  if (direction) node.local.rotation = looking_along(*direction, direction->vector3(), up);
+  if (const auto parent = entry.find("node")) {
+    const auto found = std::find_if(scene.nodes.begin(), scene.nodes.end(),
+                                    [&](const scene::Node& n) { return n.name == parent->string(); });
+    if (found == scene.nodes.end())
+      parent->fail(fmt::format("the scene has no node \"{}\"", parent->string()));
+    node.parent = static_cast<int>(found - scene.nodes.begin());
+    node.movable = found->movable;
+  }
+  scene.nodes.push_back(std::move(node));
+  return static_cast<int>(scene.nodes.size()) - 1;
+}
+
+void add_camera(Scene& scene, const JsonView& entry, std::size_t number) {
+  entry.only_keys(
+      {"name", "position", "look_at", "direction", "up", "node", "yfov_degrees", "xfov_degrees", "aspect"});
+  scene::Camera camera;
+  camera.name = text_or(entry, "name", fmt::format("camera {}", number));
+  if (const auto aspect = entry.find("aspect")) camera.aspect = positive(*aspect);
+  const auto xfov = entry.find("xfov_degrees");
+  if (xfov && entry.find("yfov_degrees")) entry.fail("has both \"xfov_degrees\" and \"yfov_degrees\"");
+  if (xfov) {
+    if (!camera.aspect) entry.fail("\"xfov_degrees\" needs \"aspect\"", "16:9 is 1.7778");
+    camera.yfov = 2 * std::atan(std::tan(glm::radians(xfov->number(0.01f, 179)) / 2) / *camera.aspect);
+  } else {
+    camera.yfov = degrees(entry, "yfov_degrees", 0.01f, 179, 45);
+  }
+  camera.node = add_node(scene, entry, camera.name);
+  scene.cameras.push_back(std::move(camera));
+}
+
+void add_light(Scene& scene, const JsonView& entry, std::size_t number) {
+  entry.only_keys({"name", "light_group", "type", "position", "look_at", "direction", "up", "node", "color",
+                   "intensity", "radius", "angular_diameter_degrees", "inner_cone_degrees",
+                   "outer_cone_degrees", "range"});
+  scene::Light light;
+  light.name = text_or(entry, "name", fmt::format("light {}", number));
+  light.group = text_or(entry, "light_group");
+  const JsonView type = entry.at("type");
+  constexpr std::array names = {"point", "spot", "directional", "sphere"};  // in the order of LightType
+  const auto found = std::find(names.begin(), names.end(), type.string());
+  if (found == names.end()) type.fail(fmt::format("must be one of {}", fmt::join(names, ", ")));
+  light.type = static_cast<scene::LightType>(found - names.begin());
+  if (const auto color = entry.find("color")) light.color = color->vector3();
+  if (const auto intensity = entry.find("intensity")) light.intensity = intensity->number(0, HUGE_VALF);
+  if (const auto range = entry.find("range")) light.range = positive(*range);
+  if (light.type == scene::LightType::sphere) light.radius = positive(entry.at("radius"));
+  light.angular_radius = degrees(entry, "angular_diameter_degrees", 0, 180, 0) / 2;
+  light.inner_cone = degrees(entry, "inner_cone_degrees", 0, 90, 0);
+  light.outer_cone = degrees(entry, "outer_cone_degrees", 0, 90, 45);
+  if (light.inner_cone > light.outer_cone) entry.fail("the inner cone is wider than the outer one");
+  const bool directed = light.type == scene::LightType::spot || light.type == scene::LightType::directional;
+  if (directed && !entry.find("look_at") && !entry.find("direction")) {
+    entry.fail(fmt::format("a {} light needs \"direction\" or \"look_at\"", *found));
+  }
+  light.node = add_node(scene, entry, light.name);
+  scene.lights.push_back(std::move(light));
+}
+
+void add_sphl(Scene& scene, const JsonView& entry, std::size_t number) {
+  entry.only_keys({"name", "position", "node", "radius", "enabled"});
+  scene::Sphl sphl;
+  sphl.name = text_or(entry, "name", fmt::format("SPHL-{}", number));
+  if (const auto radius = entry.find("radius")) sphl.radius = positive(*radius);
+  sphl.enabled = boolean_or(entry, "enabled", true);
+  entry.at("position");
+  sphl.node = add_node(scene, entry, sphl.name);
+  scene.sphls.push_back(std::move(sphl));
+}
+
+void override_material(Scene& scene, const JsonView& entry, std::size_t) {
+  entry.only_keys({"name", "base_color", "alpha", "metallic", "diffuse_roughness", "specular_roughness",
+                   "specular", "ior", "emission", "double_sided", "unlit"});
+  const std::string& name = entry.at("name").string();
+  bool found = false;
+  for (auto& m : scene.materials) {
+    if (m.name != name) continue;
+    found = true;
+    const auto number = [&](const char* key, float low, float high, float& value) {
+      if (const auto member = entry.find(key)) value = member->number(low, high);
+    };
+    if (const auto color = entry.find("base_color")) m.base_color = color->vector3();
+    if (const auto emission = entry.find("emission")) m.emission = emission->vector3();
+    number("alpha", 0, 1, m.alpha);
+    number("metallic", 0, 1, m.metallic);
+    number("diffuse_roughness", -1, 1, m.diffuse_roughness);
+    number("specular_roughness", -1, 1, m.specular_roughness);
+    number("specular", 0, 1, m.specular);
+    number("ior", 1, HUGE_VALF, m.ior);
+    m.double_sided = boolean_or(entry, "double_sided", m.double_sided);
+    m.unlit = boolean_or(entry, "unlit", m.unlit);
+  }
+  if (found) return;
+  std::vector<std::string> names;
+  for (const auto& m : scene.materials) names.push_back(m.name);
+  if (names.size() > 20) names.resize(20);
+  entry.at("name").fail(fmt::format("the scene has no material \"{}\"", name),
+                        names.empty() ? "it has none" : fmt::format("it has: {}", fmt::join(names, ", ")));
+}
+
+void set_environment(Scene& scene, const JsonView& entry, const std::filesystem::path& overlay) {
+  entry.only_keys({"name", "light_group", "image", "color", "intensity", "rotation_degrees"});
+  scene::Environment environment;
+  environment.name = text_or(entry, "name", environment.name);
+  environment.group = text_or(entry, "light_group");
+  if (const auto color = entry.find("color")) environment.color = color->vector3();
+  if (const auto intensity = entry.find("intensity")) environment.color *= intensity->number(0, HUGE_VALF);
+  environment.rotation = degrees(entry, "rotation_degrees", -3600, 3600, 0);
+  if (const auto image = entry.find("image"))
+    environment.equirect = image::read_image(overlay_path(*image, overlay));
+  scene.environment = std::move(environment);
+}
+
+// Puts a node above all others that scales the file's unit to metres and moves its origin.
+void set_unit(Scene& scene, float unit, const vec3& origin) {
+  scene::Node root;
+  root.name = "unit";
+  root.local.scale = vec3(unit);
+  root.local.translation = vec3(-glm::dvec3(origin) * double{unit});
+  scene.nodes.insert(scene.nodes.begin(), root);
+  for (std::size_t i = 1; i < scene.nodes.size(); ++i) ++scene.nodes[i].parent;
+  const auto shift = [](auto& items) {
+    for (auto& item : items) ++item.node;
+  };
+  shift(scene.instances);
+  shift(scene.cameras);
+  shift(scene.lights);
+  shift(scene.sphls);
+  for (auto& animation : scene.animations) shift(animation.channels);
+}
+
+template <class Function>
+void for_each_entry(Scene& scene, const JsonView& root, const char* key, const Function& function) {
+  const auto list = root.find(key);
+  if (!list) return;
+  if (list->size() > max_entries) list->fail(fmt::format("has more than {} entries", max_entries));
+  for (std::size_t i = 0; i < list->size(); ++i) function(scene, (*list)[i], i + 1);
+}
+
+}  // namespace
+
+void apply_overlay(Scene& scene, std::string_view text, const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const nlohmann::json json = parse_json(text, file);
+  const JsonView root(json, file);
+  root.only_keys({"$schema", "comment", "scene", "name", "unit", "origin", "cameras", "lights", "sphls",
+                  "environment", "materials"});
+  scene.name = text_or(root, "name", scene.name);
+  const auto unit = root.find("unit"), origin = root.find("origin");
+  if (unit || origin) set_unit(scene, unit ? positive(*unit) : 1, origin ? origin->vector3() : vec3(0));
+  for_each_entry(scene, root, "materials", override_material);
+  for_each_entry(scene, root, "cameras", add_camera);
+  for_each_entry(scene, root, "lights", add_light);
+  for_each_entry(scene, root, "sphls", add_sphl);
+  if (const auto environment = root.find("environment")) set_environment(scene, *environment, path);
+}
+
+}  // namespace ssphh::scene_io
