@@ -1,0 +1,176 @@
+/// The reader and schemas/probes.schema.json must accept and reject the same documents.
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <ssphh/gi/hier.h>
+#include <ssphh/gi/probe_file.h>
+
+#include "json_schema.h"
+#include "random_set.h"
+
+namespace ssphh::gi {
+namespace {
+
+using nlohmann::json;
+using test::random_set;
+
+std::vector<std::string> errors_of(const std::string& document) {
+  return test::schema_errors(std::string(SSPHH_SOURCE_DIR) + "/schemas/probes.schema.json", document);
+}
+
+bool reader_accepts(const std::string& document) {
+  try {
+    probes_from_json(document, "file");
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+json valid_document() {
+  ProbeSet set = random_set(42, 2, 1, 2, true);
+  hier(set, {HierOperator::mean, 2, 0.1f});
+  return json::parse(probes_to_json(set));
+}
+
+TEST(ProbeSchema, EverythingWeWriteConforms) {
+  for (int degree = 0; degree <= 10; ++degree) {
+    EXPECT_THAT(errors_of(probes_to_json(random_set(1, 2, degree))), testing::IsEmpty()) << degree;
+  }
+  EXPECT_THAT(errors_of(probes_to_json(random_set(1, 0, 3, 0))), testing::IsEmpty());
+  EXPECT_THAT(errors_of(valid_document().dump()), testing::IsEmpty());
+}
+
+struct Mutation {
+  const char* pointer;
+  json value;
+};
+
+TEST(ProbeSchema, SchemaAndReaderRejectTheSameMutations) {
+  const json nine_numbers = json::array({0, 0, 0, 0, 0, 0, 0, 0, 0});
+  const std::vector<Mutation> mutations = {
+      {"/format", "probes"},
+      {"/version", 2},
+      {"/version", "1"},
+      {"/degree", 11},
+      {"/degree", -1},
+      {"/degree", 1.5},
+      {"/degree", 2},
+      {"/generator", nullptr},
+      {"/generator/gen", "half"},
+      {"/generator/max_depth", -1},
+      {"/generator/passes", 0},
+      {"/generator/spp", 1e9},
+      {"/generator/face_size", 100000},
+      {"/generator/seed", 5},
+      {"/generator/seed", ""},
+      {"/generator/seed", "00000000000000000"},
+      {"/generator/seed", "F"},
+      {"/generator/scene", 1},
+      {"/generator/scene", std::string(1025, 'x')},
+      {"/generator/scene_hash", "0123"},
+      {"/generator/scene_hash", std::string(32, 'g')},
+      {"/generator/time", "0"},
+      {"/generator/time", 2e9},
+      {"/generator/extra", 1},
+      {"/extra", 1},
+      {"/light_groups", json::object()},
+      {"/light_groups/0/name", nullptr},
+      {"/light_groups/0/scale", json::array({1, 1})},
+      {"/light_groups/0/scale/1", -1},
+      {"/light_groups/0/extra", 1},
+      {"/probes", nullptr},
+      {"/probes/0", 3},
+      {"/probes/0/name", 1},
+      {"/probes/0/position", json::array({1, 2, 3, 4})},
+      {"/probes/0/position/2", 1e10},
+      {"/probes/0/radius", 0},
+      {"/probes/0/radius", -1},
+      {"/probes/0/groups/0/reflected", json::array()},
+      {"/probes/0/groups/0/reflected", nine_numbers},
+      {"/probes/0/groups/0/reflected/4", "x"},
+      {"/probes/0/groups/0/reflected/4", 1e31},
+      {"/probes/0/groups/0/emitted", nine_numbers},
+      {"/probes/0/groups/0/emitted", nullptr},
+      {"/probes/0/groups/1", json::array()},
+      {"/probes/0/edges", 0},
+      {"/probes/0/edges/0/from", -1},
+      {"/probes/0/edges/0/from", 0.5},
+      {"/probes/0/edges/0/transfer", 1.01},
+      {"/probes/0/edges/0/transfer", -0.01},
+      {"/probes/0/edges/0/h", nine_numbers},
+      {"/probes/0/edges/0/matrix", nine_numbers},
+      {"/probes/0/edges/0/extra", 1},
+      {"/probes/0/neighbor", nine_numbers},
+      {"/probes/0/extra", 1},
+      {"/hierarchy", nullptr},
+      {"/hierarchy/operator", "tensor"},
+      {"/hierarchy/neighbors", -2},
+      {"/hierarchy/threshold", 2},
+  };
+  for (const Mutation& mutation : mutations) {
+    json document = valid_document();
+    document[json::json_pointer(mutation.pointer)] = mutation.value;
+    const std::string text = document.dump();
+    EXPECT_FALSE(reader_accepts(text)) << mutation.pointer << " = " << mutation.value;
+    EXPECT_FALSE(errors_of(text).empty()) << mutation.pointer << " = " << mutation.value;
+  }
+}
+
+void collect_keys(const json& value, const std::string& pointer, std::vector<std::string>& out) {
+  if (value.is_object()) {
+    for (const auto& [key, child] : value.items()) {
+      out.push_back(pointer + "/" + key);
+      collect_keys(child, pointer + "/" + key, out);
+    }
+  } else if (value.is_array() && !value.empty() && value[0].is_object()) {
+    collect_keys(value[0], pointer + "/0", out);
+  }
+}
+
+TEST(ProbeSchema, SchemaAndReaderAgreeOnEveryMissingKey) {
+  const json document = valid_document();
+  std::vector<std::string> keys;
+  collect_keys(document, "", keys);
+  ASSERT_GT(keys.size(), 25u);
+  int optional = 0;
+  for (const std::string& key : keys) {
+    json without = document;
+    const json::json_pointer pointer(key);
+    without[pointer.parent_pointer()].erase(pointer.back());
+    const bool conforms = errors_of(without.dump()).empty();
+    EXPECT_EQ(conforms, reader_accepts(without.dump())) << key;
+    optional += conforms;
+  }
+  EXPECT_EQ(optional, 1)
+      << "only an edge's matrix may be missing; a hierarchy needs the neighbours' parts and they it";
+}
+
+TEST(ProbeSchema, SchemaAndReaderAcceptOtherSpellingsOfTheSame) {
+  json document = valid_document();
+  document["degree"] = 1.0;
+  document["hierarchy"]["neighbors"] = -1;
+  document["generator"]["seed"] = "00ff";
+  document["probes"][0]["edges"] = json::array();
+  EXPECT_THAT(errors_of(document.dump()), testing::IsEmpty());
+  EXPECT_TRUE(reader_accepts(document.dump()));
+}
+
+TEST(ProbeSchema, RulesBeyondTheSchemaAreTheReadersAlone) {
+  // Relations between parts of a document (docs/probe-files.md): the schema cannot state them.
+  const std::vector<Mutation> mutations = {
+      {"/probes/0/edges/0/from", 0},  // itself
+      {"/probes/0/edges/0/from", 2},  // no such probe
+      {"/light_groups", json::array()},
+      {"/probes/0/name", std::string(1024, 'x') + "\u00fc"},
+  };
+  for (const Mutation& mutation : mutations) {
+    json document = valid_document();
+    document[json::json_pointer(mutation.pointer)] = mutation.value;
+    EXPECT_FALSE(reader_accepts(document.dump())) << mutation.pointer;
+  }
+}
+
+}  // namespace
+}  // namespace ssphh::gi
