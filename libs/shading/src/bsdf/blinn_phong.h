@@ -1,13 +1,14 @@
 #pragma once
 /// Blinn–Phong as a microfacet model: D = (n + 2)/2π cosⁿθ_h, which is normalised so that ∫ D cos θ_h dω_h =
-/// 1, with exponent n = 2/α² − 2 and height-correlated Smith masking-shadowing with the Beckmann Λ of width α
-/// (Walter et al., Microfacet Models for Refraction, 2007, eq. 15 and §5.2). Never reflects more than its
+/// 1, with exponent n = 2/α² − 2 and height-correlated Smith masking-shadowing. Never reflects more than its
 /// Fresnel term, and becomes a mirror as α → 0 at every angle, unlike the (n + 8)/8π form, which loses cos²θ.
-/// All values without Fresnel.
+/// Local frame, z the normal. All values without Fresnel.
 
 #include <cmath>
 
 #include <ssphh/core/math.h>
+
+#include "ggx.h"
 
 namespace ssphh::shading {
 
@@ -21,10 +22,15 @@ inline float blinn_phong_distribution(float alpha, const vec3& h) {
   return (n + 2) / (2 * pi) * std::exp(0.5f * n * std::log1p(-sin2));
 }
 
-/// Λ of a direction with cosine c.
+/// Smith's Λ of a direction with cosine c. The distribution lies between Beckmann's, which it becomes for α →
+/// 0 (Walter et al., Microfacet Models for Refraction, 2007, §5.2), and GGX, which it is for α = 1; so does
+/// Λ, with a weight that was fitted to its integral (within 2 %, see the tests).
 inline float blinn_phong_lambda(float alpha, float c) {
   const float a = c / (alpha * std::sqrt(glm::max(1 - c * c, 1e-12f)));
-  return a >= 1.6f ? 0 : (1 - 1.259f * a + 0.396f * a * a) / (a * (3.535f + 2.181f * a));
+  const float beckmann = a >= 1.6f ? 0 : (1 - 1.259f * a + 0.396f * a * a) / (a * (3.535f + 2.181f * a));
+  const float a2 = alpha * alpha;
+  const float ggx_lambda = 0.5f * (ggx_root(alpha, c) / c - 1);
+  return glm::mix(beckmann, ggx_lambda, a2 * (0.54f + 0.46f * a2 * a2));
 }
 
 /// D G₂ / (4 cos θ_o): f · cos θ_i for a Fresnel term of 1.

@@ -85,8 +85,9 @@ class LightSet {
 
 /// Power heuristic (β = 2) of multiple importance sampling.
 inline float power_heuristic(float pdf, float other_pdf) {
-  const float a = pdf * pdf, b = other_pdf * other_pdf;
-  return a > 0 ? a / (a + b) : 0;
+  if (!(pdf > 0)) return 0;
+  const float ratio = other_pdf / pdf;  // squaring the densities themselves could overflow
+  return 1 / (1 + ratio * ratio);
 }
 
 }  // namespace ssphh::shading
