@@ -3,7 +3,9 @@
 namespace ssphh::scene {
 namespace {
 
-// Names count only where they choose something: cameras, SPHLs and light groups.
+// What an instance looks like enters through the contents of its mesh and material, so that neither names nor
+// unused or doubled objects count. Names count only where they choose something: cameras, SPHLs and light
+// groups.
 
 Hasher& add(Hasher& h, const vec2& v) {
   return h.value(v.x).value(v.y);
@@ -14,33 +16,44 @@ Hasher& add(Hasher& h, const vec3& v) {
 Hasher& add(Hasher& h, const quat& q) {
   return h.value(q.x).value(q.y).value(q.z).value(q.w);
 }
+Hasher& add(Hasher& h, const Hash128& hash) {
+  return h.value(hash.high).value(hash.low);
+}
 
-void add(Hasher& h, const TextureUse& t) {
-  h.value(t.texture);
+Hash128 digest(const Texture& t) {
+  Hasher h;
+  h.value(t.width).value(t.height).array(t.rgba);
+  return h.finish();
+}
+
+void add(Hasher& h, const TextureUse& t, const std::vector<Hash128>& textures) {
+  h.value(t.texture >= 0);
   if (t.texture < 0) return;
+  add(h, textures[static_cast<std::size_t>(t.texture)]);
   add(add(h.value(t.uv_set), t.offset), t.scale);
   h.value(t.rotation).value(t.wrap_u).value(t.wrap_v).value(t.nearest);
 }
 
-void add(Hasher& h, const Texture& t) {
-  h.value(t.width).value(t.height).array(t.rgba);
-}
-
-void add(Hasher& h, const Material& m) {
+Hash128 digest(const Material& m, const std::vector<Hash128>& textures) {
+  Hasher h;
   add(h, m.base_color);
   h.value(m.alpha).value(m.metallic).value(m.diffuse_roughness).value(m.specular_roughness);
   h.value(m.specular).value(m.ior);
   add(h, m.emission);
-  h.value(m.unlit).value(m.double_sided).value(m.alpha_mode).value(m.alpha_cutoff).value(m.normal_scale);
-  add(h, m.base_color_texture);
-  add(h, m.metallic_roughness_texture);
-  add(h, m.emission_texture);
-  add(h, m.normal_texture);
+  h.value(m.unlit).value(m.double_sided).value(m.alpha_mode);
+  if (m.alpha_mode == AlphaMode::mask) h.value(m.alpha_cutoff);
+  if (m.normal_texture.texture >= 0) h.value(m.normal_scale);
+  add(h, m.base_color_texture, textures);
+  add(h, m.metallic_roughness_texture, textures);
+  add(h, m.emission_texture, textures);
+  add(h, m.normal_texture, textures);
+  return h.finish();
 }
 
-void add(Hasher& h, const Mesh& m) {
+Hash128 digest(const Mesh& m) {
+  Hasher h;
   h.array(m.positions).array(m.normals).array(m.tangents).array(m.uvs[0]).array(m.uvs[1]).array(m.colors);
-  h.array(m.triangles);  // the material counts where an instance uses it
+  return h.array(m.triangles).finish();
 }
 
 void add(Hasher& h, const Node& n) {
@@ -58,9 +71,25 @@ void add(Hasher& h, const Camera& c) {
 }
 
 void add(Hasher& h, const Light& l) {
-  add(h.text(light_group(l)).value(l.node).value(l.type), l.color);
-  h.value(l.intensity).value(l.radius).value(l.angular_radius).value(l.inner_cone).value(l.outer_cone);
-  h.value(l.range);
+  add(h.text(light_group(l)).value(l.node).value(l.type), l.color).value(l.intensity);
+  switch (l.type) {
+    case LightType::point:
+      h.value(l.range);
+      break;
+    case LightType::spot:
+      h.value(l.range).value(l.inner_cone).value(l.outer_cone);
+      break;
+    case LightType::directional:
+      h.value(l.angular_radius);
+      break;
+    case LightType::sphere:
+      h.value(l.range).value(l.radius);
+      break;
+  }
+}
+
+void add(Hasher& h, const Sphl& s) {
+  h.text(s.name).value(s.node).value(s.radius).value(s.enabled);
 }
 
 void add(Hasher& h, const Environment& e) {
@@ -81,22 +110,26 @@ void add_all(Hasher& h, const std::vector<T>& items) {
 }  // namespace
 
 Hash128 scene_hash(const Scene& scene) {
+  // Digest the contents that instances share.
+  std::vector<Hash128> textures, materials, meshes;
+  for (const Texture& texture : scene.textures) textures.push_back(digest(texture));
+  for (const Material& material : scene.materials) materials.push_back(digest(material, textures));
+  for (const Mesh& mesh : scene.meshes) meshes.push_back(digest(mesh));
+  const Hash128 plain = digest(Material{}, textures);
+
   Hasher h;
-  add_all(h, scene.textures);
-  add_all(h, scene.materials);
-  add_all(h, scene.meshes);
   add_all(h, scene.nodes);
   h.value(static_cast<std::uint64_t>(scene.instances.size()));
   for (const Instance& instance : scene.instances) {
-    h.value(instance.mesh).value(instance.node).value(instance_material(scene, instance));
     const int material = instance_material(scene, instance);
-    const bool emits = material >= 0 && scene.materials[static_cast<std::size_t>(material)].emissive();
-    h.text(emits ? light_group(scene, instance) : "");
+    const auto m = static_cast<std::size_t>(material);
+    add(h.value(instance.node), meshes[static_cast<std::size_t>(instance.mesh)]);
+    add(h, material < 0 ? plain : materials[m]);
+    h.text(material >= 0 && scene.materials[m].emissive() ? light_group(scene, instance) : "");
   }
   add_all(h, scene.cameras);
   add_all(h, scene.lights);
-  h.value(static_cast<std::uint64_t>(scene.sphls.size()));
-  for (const Sphl& s : scene.sphls) h.text(s.name).value(s.node).value(s.radius).value(s.enabled);
+  add_all(h, scene.sphls);
   for (const Animation& animation : scene.animations) add_all(h, animation.channels);
   h.value(scene.environment.has_value());
   if (scene.environment) add(h, *scene.environment);

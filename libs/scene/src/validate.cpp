@@ -86,7 +86,7 @@ void validate_material(Material& m, const Scene& scene, const std::string& where
   clamp(m.diffuse_roughness, -1, 1, repairs, kind);
   clamp(m.specular_roughness, -1, 1, repairs, kind);
   clamp(m.specular, 0, 1, repairs, kind);
-  clamp(m.ior, 1, 100, repairs, kind);
+  clamp(m.ior, 1, 1e6f, repairs, kind);
 }
 
 void normalize_rotation(quat& q, Repairs& repairs) {
