@@ -1,7 +1,205 @@
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include <ssphh/sh/irradiance.h>
+#include <ssphh/sh/window.h>
+
 #include "command.h"
+#include "probe_options.h"
+#include "probe_sheet.h"
 
 namespace ssphh::app {
+namespace {
 
-void add_probe_commands(CLI::App&, Context&) {}
+using nlohmann::ordered_json;
+
+ordered_json rgb(const vec3& v) {
+  return {v.x, v.y, v.z};
+}
+std::string rgb_text(const vec3& v) {
+  return fmt::format("{:9.4g} {:9.4g} {:9.4g}", v.x, v.y, v.z);
+}
+
+/// Lowest E(n) of any channel over all normals.
+float lowest_irradiance(const sh::RadianceSh& light) {
+  const vec3 lowest = sh::minimum(sh::irradiance_from_radiance(light));
+  return std::min({lowest.x, lowest.y, lowest.z});
+}
+
+ordered_json generator_json(const gi::GeneratorInfo& g) {
+  return {{"gen", gi::to_string(g.gen)},
+          {"max_depth", g.max_depth},
+          {"passes", g.passes},
+          {"spp", g.spp},
+          {"face_size", g.face_size},
+          {"seed", g.seed},
+          {"scene", g.scene},
+          {"scene_hash", g.scene_hash.hex()},
+          {"time", g.time}};
+}
+
+ordered_json probe_json(const gi::ProbeSet& set, std::size_t i) {
+  const gi::Probe& probe = set.probes[i];
+  ordered_json groups = ordered_json::array(), edges = ordered_json::array();
+  for (const gi::GroupLight& group : probe.groups) {
+    groups.push_back(
+        {{"emitted", rgb(sh::mean(group.emitted))}, {"reflected", rgb(sh::mean(group.reflected))}});
+  }
+  for (const gi::Edge& edge : probe.edges) {
+    edges.push_back(
+        {{"from", edge.from}, {"transfer", edge.transfer}, {"matrix", !edge.matrix.values.empty()}});
+  }
+  ordered_json object = {{"name", probe.name},
+                         {"position", rgb(probe.position)},
+                         {"radius", probe.radius},
+                         {"mean", rgb(sh::mean(probe.self))},
+                         {"reflected_mean", rgb(sh::mean(probe.reflected))},
+                         {"min_irradiance", lowest_irradiance(probe.self)},
+                         {"groups", groups},
+                         {"edges", edges}};
+  if (set.hierarchy) object["neighbor_mean"] = rgb(sh::mean(set.hierarchy->neighbor[i]));
+  return object;
+}
+
+std::string probe_text(const gi::ProbeSet& set, std::size_t i) {
+  const gi::Probe& probe = set.probes[i];
+  std::string text =
+      fmt::format("\n{:3}  {}  at ({:.4g}, {:.4g}, {:.4g}) m, radius {:.3g} m\n", i, probe.name,
+                  probe.position.x, probe.position.y, probe.position.z, probe.radius);
+  text += fmt::format("     self       {}   lowest irradiance {:.4g}\n", rgb_text(sh::mean(probe.self)),
+                      lowest_irradiance(probe.self));
+  for (std::size_t g = 0; g < probe.groups.size(); ++g) {
+    const gi::GroupLight& group = probe.groups[g];
+    text += fmt::format("     reflected  {}   {}\n", rgb_text(sh::mean(group.reflected)),
+                        set.light_groups[g].name);
+    if (!group.emitted.empty()) {
+      text += fmt::format("     emitted    {}   {}\n", rgb_text(sh::mean(group.emitted)),
+                          set.light_groups[g].name);
+    }
+  }
+  if (set.hierarchy)
+    text += fmt::format("     neighbours {}\n", rgb_text(sh::mean(set.hierarchy->neighbor[i])));
+  text += "     P";
+  for (const gi::Edge& edge : probe.edges) text += fmt::format("  {}: {:.4g}", edge.from, edge.transfer);
+  return text + (probe.edges.empty() ? "  no edges" : "");
+}
+
+void info(Context& context, const std::string& path) {
+  const gi::ProbeSet set = gi::read_probe_file(path);
+  const gi::GeneratorInfo& g = set.generator;
+  ordered_json groups = ordered_json::array(), probes = ordered_json::array();
+  std::string text = fmt::format(
+      "{}: {} probes of degree {}, {} edges\nscene {} at {} s; GEN {}, depth {}, {} x {} samples, {}x{}x6 "
+      "texels, seed {}\n",
+      path, set.probes.size(), set.degree, gi::edge_count(set), g.scene, g.time, gi::to_string(g.gen),
+      g.max_depth, g.passes, g.spp, g.face_size, g.face_size, g.seed);
+  for (const gi::LightGroup& group : set.light_groups) {
+    groups.push_back({{"name", group.name}, {"scale", rgb(group.scale)}});
+    text += fmt::format("light group {}, scale {:g} {:g} {:g}\n", group.name, group.scale.x, group.scale.y,
+                        group.scale.z);
+  }
+  ordered_json object = {{"file", path},
+                         {"degree", set.degree},
+                         {"generator", generator_json(g)},
+                         {"light_groups", groups},
+                         {"edges", gi::edge_count(set)}};
+  if (set.hierarchy) {
+    const gi::Hierarchy& h = *set.hierarchy;
+    object["hierarchy"] = {
+        {"operator", gi::to_string(h.op)}, {"neighbors", h.neighbors}, {"threshold", h.threshold}};
+    text += fmt::format("HIER {}, neighbors {}, threshold {:g}\n", gi::to_string(h.op),
+                        h.neighbors < 0 ? "all" : std::to_string(h.neighbors), h.threshold);
+  }
+  text += "mean radiance R, G, B [W/sr/m2] over all directions:";
+  for (std::size_t i = 0; i < set.probes.size(); ++i) {
+    probes.push_back(probe_json(set, i));
+    text += probe_text(set, i);
+  }
+  object["probes"] = probes;
+  context.result(object, text);
+}
+
+struct PreviewOptions {
+  std::string input, output;
+  int width = 256;
+  float exposure = 0;
+};
+
+void preview(Context& context, const PreviewOptions& options) {
+  const gi::ProbeSet set = gi::read_probe_file(options.input);
+  const ProbeSheet sheet = probe_sheet(set, options.width, options.exposure);
+  image::write_image(options.output, sheet.image);
+  std::string text =
+      fmt::format("{}: {} x {} pixels, one row per probe, columns from the left:", options.output,
+                  sheet.image.width, sheet.image.height);
+  ordered_json columns = ordered_json::array(), rows = ordered_json::array();
+  for (const ProbeSheet::Column& column : sheet.columns) {
+    columns.push_back({{"layer", column.name}, {"exposure", column.exposure}});
+    text += fmt::format(" {} (exposure {:+.2f} EV)", column.name, column.exposure);
+  }
+  for (const gi::Probe& probe : set.probes) rows.push_back(probe.name);
+  if (!set.hierarchy) text += "\nrun `ssphh hier` on the file for the neighbours' part and the sum";
+  context.result({{"output", options.output},
+                  {"width", sheet.image.width},
+                  {"height", sheet.image.height},
+                  {"columns", columns},
+                  {"rows", rows}},
+                 text);
+}
+
+struct ConvertOptions {
+  std::string input, output;
+};
+
+void convert(Context& context, const ConvertOptions& options) {
+  const gi::ProbeSet set = gi::read_probe_file(options.input);
+  gi::write_probe_file(set, options.output);
+  const auto bytes = std::filesystem::file_size(options.output);
+  context.result({{"output", options.output}, {"probes", set.probes.size()}, {"bytes", bytes}},
+                 fmt::format("{}: {} probes, {} bytes", options.output, set.probes.size(), bytes));
+}
+
+}  // namespace
+
+void add_probe_commands(CLI::App& app, Context& context) {
+  CLI::App* group = add_group(app, "probe", "Look at probe files and convert them");
+
+  auto input = std::make_shared<std::string>();
+  CLI::App* info_command = add_command(*group, context, "info", "List probes, light groups and the hierarchy",
+                                       [&context, input] { info(context, *input); });
+  info_command->add_option("FILE", *input, "Probe file")->check(probe_file_name())->required();
+
+  auto look = std::make_shared<PreviewOptions>();
+  CLI::App* preview_command = add_command(*group, context, "preview",
+                                          "Draw what each probe sees: itself, its neighbours' part, the sum",
+                                          [&context, look] { preview(context, *look); });
+  preview_command->add_option("FILE", look->input, "Probe file")->check(probe_file_name())->required();
+  preview_command->add_option("-o,--output", look->output, "Picture to write: .png .jpg .exr .hdr")
+      ->required();
+  preview_command
+      ->add_option("--width", look->width, "Pixels of one equirectangular picture, twice its height")
+      ->check(CLI::Range(8, 2048))
+      ->capture_default_str();
+  preview_command->add_option("--exposure", look->exposure, "EV added to the automatic exposure")
+      ->check(CLI::Range(-60.0, 60.0))
+      ->capture_default_str();
+  preview_command->footer(
+      "One row per probe in the file's order. Columns: self, neighbour, sum (self and sum share an "
+      "exposure). Each picture\n"
+      "is equirectangular: +y on top, +x in the middle. Negative lobes are black.");
+
+  auto files = std::make_shared<ConvertOptions>();
+  CLI::App* convert_command =
+      add_command(*group, context, "convert", "Convert between .sphl (binary) and .sphl.json",
+                  [&context, files] { convert(context, *files); });
+  convert_command->add_option("FILE", files->input, "Probe file to read")
+      ->check(probe_file_name())
+      ->required();
+  convert_command->add_option("-o,--output", files->output, "Probe file to write")
+      ->check(probe_file_name())
+      ->required();
+}
 
 }  // namespace ssphh::app

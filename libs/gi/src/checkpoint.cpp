@@ -106,13 +106,6 @@ void Checkpoint::append(const CheckpointRecord& record) {
   require_good();
 }
 
-void Checkpoint::remove() {
-  if (path_.empty()) return;
-  file_.close();
-  std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
-}
-
 void Checkpoint::require_good() const {
   if (file_.good()) return;
   const std::string reason = std::generic_category().message(errno);

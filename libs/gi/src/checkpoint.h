@@ -31,7 +31,6 @@ class Checkpoint {
   const std::vector<CheckpointRecord>& records() const { return records_; }
   /// Throws Error when it cannot be written.
   void append(const CheckpointRecord& record);
-  void remove();
 
  private:
   void require_good() const;

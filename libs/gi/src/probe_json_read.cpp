@@ -23,7 +23,12 @@ class Place {
   [[noreturn]] void fail(const std::string& problem) const {
     throw Error(file_ + " at " + (pointer_.empty() ? "/" : pointer_), problem);
   }
-  bool has(const char* key) const { return value_.contains(key); }
+  bool is_object_with(const char* key) const { return value_.is_object() && value_.contains(key); }
+  void require_version(int version) const {
+    if (value_.is_number() && value_.get<double>() == version) return;
+    fail(fmt::format("the version is {:.32}; this program reads version {}",
+                     value_.dump(-1, ' ', false, json::error_handler_t::replace), version));
+  }
   Place operator[](const char* key) const {
     const auto found = value_.find(key);
     if (found == value_.end()) fail(std::string("has no \"") + key + "\"");
@@ -145,7 +150,7 @@ Edge read_edge(const Place& at, int degree, std::size_t probe_count) {
   edge.from = at["from"].integer(0, static_cast<int>(probe_count) - 1);
   edge.transfer = at["transfer"].number(0, 1);
   edge.h = at["h"].function(degree);
-  if (at.has("matrix")) {
+  if (at.is_object_with("matrix")) {
     const auto k = static_cast<std::size_t>(sh::coefficient_count(degree));
     edge.matrix.arriving_degree = edge.matrix.emitted_degree = degree;
     edge.matrix.values = at["matrix"].rgb_values(k * k);
@@ -179,9 +184,9 @@ Probe read_probe(const Place& at, const ProbeSet& set, std::size_t probe_count, 
 }
 
 ProbeSet read_set(const Place& root) {
+  if (root.is_object_with("version")) root["version"].require_version(probe_file_version);
   root.object({"format", "version", "degree", "generator", "light_groups", "probes"}, {"hierarchy"});
   if (root["format"].text(limits::text) != "ssphh-probes") root["format"].fail("must be \"ssphh-probes\"");
-  root["version"].integer(probe_file_version, probe_file_version);
   ProbeSet set;
   set.degree = root["degree"].integer(0, sh::max_degree);
   set.generator = read_generator(root["generator"]);
@@ -191,7 +196,7 @@ ProbeSet read_set(const Place& root) {
     const Place at = groups.at(g).object({"name", "scale"});
     set.light_groups.push_back({at["name"].text(limits::text), at["scale"].vector3(0, limits::scale)});
   }
-  if (root.has("hierarchy")) {
+  if (root.is_object_with("hierarchy")) {
     const Place at = root["hierarchy"].object({"operator", "neighbors", "threshold"});
     Hierarchy& h = set.hierarchy.emplace();
     h.op = at["operator"].choice(parse_hier_operator);

@@ -84,13 +84,13 @@ TEST(Init, ASceneWithoutSphlsSaysHowToAddSome) {
 TEST(Gen, AConstantFieldHasOnlyBandZero) {
   FakeSource source;
   source.reflected = {constant({1, 2, 0.5f})};
-  const ProbeSet set = bake_now(source, places({{1, 2, 3}}, 0.1f, 9), small(8));
+  const ProbeSet set = bake_now(source, places({{1, 2, 3}}, 0.1f, 9), small(64));
   const sh::RadianceSh& s = set.probes[0].self;
   for (int k = 0; k < 100; ++k) {
-    // Exact solid angles leave only float rounding and, in band 4 and up, the texels' size: by symmetry of
-    // the cube the bands l = 1, 2, 3, 5, 7 vanish; the others are bounded by the 8×8 texels' quadrature
-    // error.
-    const float bound = k == 0 ? 2e-5f : (k < 16 ? 1e-5f : 0.01f);
+    // Exact solid angles leave float rounding in band 0; the symmetry of the cube cancels the bands 1, 2, 3.
+    // From band 4 on the texels' centres are a second-order quadrature: measured 0.026 at 8 texels, so 4e-4
+    // at 64.
+    const float bound = k < 16 ? 2e-5f : 1e-3f;
     EXPECT_NEAR(s[k].x, k == 0 ? root_4pi : 0, bound) << k;
     EXPECT_NEAR(s[k].y, k == 0 ? 2 * root_4pi : 0, 2 * bound) << k;
   }
@@ -288,7 +288,7 @@ TEST(Bake, TheNumberOfThreadsChangesNoBit) {
   EXPECT_EQ(files[2], files[0]);
 }
 
-TEST(Bake, ResumedAfterAStopAtAnyProbeGivesTheSameBitsAndRemovesTheCheckpoint) {
+TEST(Bake, ResumedAfterAStopAtAnyProbeGivesTheSameBits) {
   const test::TempDir dir;
   FakeSource source;
   source.reflected = {[](const vec3& p, const vec3& d) { return vec3(2 + glm::dot(p, d), 1, 0.5f); }};
@@ -310,7 +310,7 @@ TEST(Bake, ResumedAfterAStopAtAnyProbeGivesTheSameBitsAndRemovesTheCheckpoint) {
     EXPECT_EQ(cubes, 8 - stop) << "finished cubes are not traced again";
     EXPECT_EQ(report.resumed, static_cast<std::size_t>(stop));
     EXPECT_EQ(probes_to_binary(resumed), whole);
-    EXPECT_FALSE(std::filesystem::exists(checkpoint));
+    std::filesystem::remove(checkpoint);
   }
 }
 
@@ -361,7 +361,7 @@ TEST(Bake, ProgressReachesTheTotalAndACancelStops) {
       total = t, done = 0;
     }
     void advance(std::uint64_t n) override { done += n; }
-    void end() override { EXPECT_EQ(done, total); }
+    void end() override {}
   } progress;
   FakeSource source;
   source.reflected = {constant(vec3(1))};
@@ -370,6 +370,7 @@ TEST(Bake, ProgressReachesTheTotalAndACancelStops) {
   bake(source, places(four_places, 0.2f, 1), small(), {}, report, {&progress, &cancel});
   EXPECT_THAT(progress.stages, testing::ElementsAre("GEN texels", "VIZ texels"));
   EXPECT_EQ(progress.total, 4u * 6 * 16 * 16);
+  EXPECT_EQ(progress.done, progress.total);
   cancel.request();
   EXPECT_THROW(bake(source, places(four_places, 0.2f, 1), small(), {}, report, {&progress, &cancel}),
                Cancelled);

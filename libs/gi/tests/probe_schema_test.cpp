@@ -149,7 +149,6 @@ TEST(ProbeSchema, SchemaAndReaderAgreeOnEveryMissingKey) {
 
 TEST(ProbeSchema, SchemaAndReaderAcceptOtherSpellingsOfTheSame) {
   json document = valid_document();
-  document["degree"] = 1.0;
   document["hierarchy"]["neighbors"] = -1;
   document["generator"]["seed"] = "00ff";
   document["probes"][0]["edges"] = json::array();

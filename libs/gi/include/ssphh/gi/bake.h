@@ -26,9 +26,9 @@ struct BakeReport {
 
 /// Fills the set that INIT made: GEN per light group, then VIZ. Warns about probes without light or inside a
 /// body, and about P over 1. With a `checkpoint` path every finished probe is appended to that file, so that
-/// the same call after a Cancelled or a killed process continues there and gives the same bits; the file is
-/// removed on success. A checkpoint of another scene or other parameters is replaced. Throws Error for
-/// parameters out of range or an empty set.
+/// the same call after a Cancelled or a killed process continues there and gives the same bits; the caller
+/// removes it once the set is safe on disk. A checkpoint of another scene or other parameters is replaced.
+/// Throws Error for parameters out of range or an empty set.
 ProbeSet bake(const scene::RadianceSource& source, ProbeSet set, const BakeParams& params,
               const std::filesystem::path& checkpoint, BakeReport& report, const Control& control = {});
 
