@@ -131,7 +131,7 @@ void check_probes(const scene::RadianceSource& source, const ProbeSet& set, Bake
     });
     for (const Edge& edge : probe.edges) {
       const float transfer = transfer_coefficient(edge.h);
-      if (transfer <= 1) continue;
+      if (transfer <= 1.001f) continue;  // more than rounding
       report.warnings.push_back(
           fmt::format("P({} <- {}) = {:.3g} is stored as 1: the sphere of \"{}\" is that close", probe.name,
                       set.probes[static_cast<std::size_t>(edge.from)].name, transfer,

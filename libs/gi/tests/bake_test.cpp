@@ -241,11 +241,18 @@ TEST(Bake, InsideTheSphereOfAnotherTransferIsOne) {
   EXPECT_NEAR(set.probes[0].edges[0].transfer, 1, 1e-5f);
 }
 
+/// Warnings are for people; here only BakeWarnings wants them.
+const bool quiet = (set_log_level(LogLevel::error), true);
+
 class BakeWarnings : public testing::Test {
  protected:
+  BakeWarnings() { set_log_level(LogLevel::warning); }
   std::vector<std::string> lines;
   LogSink before = set_log_sink([this](LogLevel, const std::string& line) { lines.push_back(line); });
-  ~BakeWarnings() override { set_log_sink(before); }
+  ~BakeWarnings() override {
+    set_log_sink(before);
+    set_log_level(LogLevel::error);
+  }
 };
 
 TEST_F(BakeWarnings, ADarkProbeAndAProbeInsideABodyAreNamed) {
