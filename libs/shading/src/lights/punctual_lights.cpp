@@ -74,12 +74,12 @@ SphereLight make_sphere_light(const scene::Light& light, const mat4& world, int 
 std::optional<LightSample> SphereLight::sample(const vec3& from, const vec2& u) const {
   const vec3 d = center - from;
   const float distance2 = glm::dot(d, d), radius2 = radius * radius;
-  if (distance2 <= radius2) {
+  if (distance2 < radius2) {
     // From inside: every direction, as far as the surface
     const vec3 wi = sample_uniform_sphere(u);
     const float along = glm::dot(d, wi);
     const float exit = along + std::sqrt(glm::max(along * along + radius2 - distance2, 0.0f));
-    return LightSample{wi, exit, radiance, 1 / (4 * pi), false, group};
+    return LightSample{wi, glm::max(exit, 0.0f), radiance, 1 / (4 * pi), false, group};
   }
   const Cone cone(radius2 / distance2);
   const float distance = std::sqrt(distance2);
@@ -93,7 +93,7 @@ std::optional<LightSample> SphereLight::sample(const vec3& from, const vec2& u) 
 float SphereLight::pdf(const vec3& from) const {
   const vec3 d = center - from;
   const float distance2 = glm::dot(d, d), radius2 = radius * radius;
-  return distance2 <= radius2 ? 1 / (4 * pi) : Cone(radius2 / distance2).pdf();
+  return distance2 < radius2 ? 1 / (4 * pi) : Cone(radius2 / distance2).pdf();
 }
 
 std::optional<float> SphereLight::intersect(const vec3& origin, const vec3& direction,
@@ -105,7 +105,7 @@ std::optional<float> SphereLight::intersect(const vec3& origin, const vec3& dire
   const float half2 = radius * radius - glm::dot(miss, miss);
   if (!(half2 >= 0)) return std::nullopt;
   const float half = std::sqrt(half2);
-  const bool inside = glm::dot(d, d) <= radius * radius;
+  const bool inside = glm::dot(d, d) < radius * radius;
   const float t = inside ? along + half : along - half;
   if (!(t >= 0 && t < max_distance)) return std::nullopt;
   return t;
