@@ -35,7 +35,7 @@ class TexelSums {
     sums_[static_cast<std::size_t>(group) + (depth > 0 ? reflected_offset_ : 0)] += value;
     if (sink) (*sink)(chunk, {group, direction, emission, value * sink_scale});
   }
-  void first_hit(const shading::Surface&, const Ray&, float) {}
+  void first_hit(const shading::Surface&, const vec3&, const Ray&, float) {}
   const vec3& sum(std::size_t index) const { return sums_[index]; }
 
   // For a sink: the texel's solid angle per sample, and the direction of the sample under way.
@@ -114,7 +114,7 @@ GhostEmitters::Ball ball_of(const scene::GhostSphere& ghost, const scene::CubeRe
 void splat_ball(const TracerData& data, const GhostEmitters::Ball& ball, int index,
                 const scene::CubeRequest& request, const scene::RadianceSource::GhostSink& sink, int chunk,
                 RayTask& task, image::CubeMap& map) {
-  constexpr std::uint64_t samples_per_texel_sample = 64;
+  constexpr std::uint64_t samples_per_texel_sample = 128;
   const std::uint64_t count =
       std::min<std::uint64_t>(samples_per_texel_sample * static_cast<std::uint64_t>(request.path.spp) *
                                   static_cast<std::uint64_t>(request.path.passes),

@@ -160,7 +160,7 @@ bool EmbreeScene::occluded(const Ray& ray, std::uint64_t alpha_seed, RayTask& ta
   return r.tfar < 0;
 }
 
-shading::Surface EmbreeScene::surface(const Hit& hit, const vec3& wo) const {
+shading::Surface EmbreeScene::surface(const Hit& hit, const vec3& wo, vec3& ray_origin) const {
   const Part& part = parts_[static_cast<std::size_t>(hit.instance)];
   shading::Surface surface = shading::surface_at(scene_, *part.mesh, part.material, hit.triangle,
                                                  hit.barycentric, part.world, part.normal_matrix, wo);
@@ -176,8 +176,8 @@ shading::Surface EmbreeScene::surface(const Hit& hit, const vec3& wo) const {
   // An instance's rays are also rounded by the way to object space and back.
   if (part.instanced) magnitude = 4 * std::max(magnitude, max_abs_component(vec3(part.world[3])));
   const float a = 1 - hit.barycentric.x - hit.barycentric.y;
-  surface.position = a * v[0] + hit.barycentric.x * v[1] + hit.barycentric.y * v[2] +
-                     position_error(magnitude) * surface.geometric_normal;
+  surface.position = a * v[0] + hit.barycentric.x * v[1] + hit.barycentric.y * v[2];
+  ray_origin = surface.position + position_error(magnitude) * surface.geometric_normal;
   return surface;
 }
 

@@ -31,9 +31,9 @@ class EmbreeScene {
   bool intersect(const Ray& ray, std::uint64_t alpha_seed, RayTask& task, Hit& hit) const;
   bool occluded(const Ray& ray, std::uint64_t alpha_seed, RayTask& task) const;
 
-  /// Shading inputs, and as `position` the start of new rays: on the side of `wo`, above the surface by more
-  /// than its rounding error.
-  shading::Surface surface(const Hit& hit, const vec3& wo) const;
+  /// Shading inputs. `ray_origin` is where new rays start: on the side of `wo`, above the surface by more
+  /// than the rounding error of `position`.
+  shading::Surface surface(const Hit& hit, const vec3& wo, vec3& ray_origin) const;
 
   /// Coverage at a hit, 0..1.
   float alpha(const Hit& hit) const;

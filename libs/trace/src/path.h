@@ -44,7 +44,7 @@ struct PathSampler {
 
 /// Where a scattered or camera ray starts, and what MIS needs to know about it.
 struct PathVertex {
-  vec3 position;
+  vec3 position;       ///< on the surface: lights are sampled from here
   vec3 normal{0};      ///< geometric, toward wo; zero at the camera
   float bsdf_pdf = 0;  ///< of the ray that leaves; only for depth ≥ 1
 };
@@ -86,8 +86,9 @@ void trace_path(const EmbreeScene& scene, const Emitters& emitters, Ray ray, con
     // Look up the surface, unless nothing of it is wanted any more.
     const bool last = depth >= options.max_depth;
     if (last && depth > 0 && !scene.emissive(hit.instance)) return;
-    const shading::Surface surface = scene.surface(hit, -ray.direction);
-    if (depth == 0) visitor.first_hit(surface, ray, hit.distance);
+    vec3 ray_origin;
+    const shading::Surface surface = scene.surface(hit, -ray.direction, ray_origin);
+    if (depth == 0) visitor.first_hit(surface, ray_origin, ray, hit.distance);
     if (max_component(surface.emission) > 0) emitters.surface(vertex, ray, hit, surface, add_emitted);
     if (last || surface.unlit) return;
 
@@ -108,7 +109,7 @@ void trace_path(const EmbreeScene& scene, const Emitters& emitters, Ray ray, con
         if (max_component(value) > 0) {
           const bool alone = light->delta || options.strategy == Strategy::nee_only;
           const float weight = alone ? 1 : shading::power_heuristic(light->pdf, bsdf.pdf);
-          const Ray shadow{vertex.position, light->wi, shadow_distance(vertex.position, light->distance)};
+          const Ray shadow{ray_origin, light->wi, shadow_distance(ray_origin, light->distance)};
           if (!scene.occluded(shadow, has_alpha ? sampler.alpha_seed(depth, true) : 0, task)) {
             visitor.add(depth + 1, light->group, value * (weight / light->pdf), -light->wi);
           }
@@ -125,7 +126,7 @@ void trace_path(const EmbreeScene& scene, const Emitters& emitters, Ray ray, con
     if (glm::dot(wi, vertex.normal) <= 0) return;
     throughput *= sample->weight;
     vertex.bsdf_pdf = sample->pdf;
-    ray = {vertex.position, glm::normalize(wi)};
+    ray = {ray_origin, glm::normalize(wi)};
 
     // End paths by Russian roulette.
     const float brightness = max_component(throughput);

@@ -36,7 +36,7 @@ class PixelSums {
     (depth <= 1 ? direct_ : indirect_) += value;
   }
 
-  void first_hit(const shading::Surface& surface, const Ray& ray, float distance) {
+  void first_hit(const shading::Surface& surface, const vec3& ray_origin, const Ray& ray, float distance) {
     const float cos_wo = -glm::dot(surface.normal, ray.direction);
     albedo_ += surface.unlit ? glm::min(surface.emission, vec3(1))
                              : shading::directional_albedo(surface.bsdf, cos_wo);
@@ -44,7 +44,7 @@ class PixelSums {
     depth_ += camera_.depth(ray, distance);
     hits_ += 1;
     if (!indirect_light_ || !indirect_wanted_ || surface.unlit) return;
-    const vec3 value = reflected_indirect(*indirect_light_, surface, -ray.direction);
+    const vec3 value = reflected_indirect(*indirect_light_, surface, ray_origin, -ray.direction);
     if (is_finite(value)) {
       looked_up_ += value;
       indirect_ += value;

@@ -1,0 +1,248 @@
+/// Rays against geometry: scale, distance from the origin, instancing, alpha, sides.
+
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include <ssphh/core/random.h>
+#include <ssphh/core/sphere.h>
+
+#include "embree_scene.h"
+#include "hand_made.h"
+
+namespace ssphh::test {
+namespace {
+
+/// A convex body that a ray leaves must never be met again, and a closed room never be left.
+TEST(Geometry, NoSelfIntersectionAtAnyScaleAndPlace) {
+  int shadowed = 0, rays = 0;
+  for (const float scale : {1e-3f, 1.0f, 1e3f}) {
+    for (const float away : {0.0f, 1e2f, 1e4f}) {
+      scene::Scene scene;
+      const vec3 center = away * scale * vec3(1, -0.7f, 0.3f);
+      add_object(scene,
+                 scene::transformed(scene::make_box(vec3(-1), vec3(1)),
+                                    glm::mat4_cast(glm::normalize(quat(0.8f, 0.3f, 0.1f, 0.5f)))),
+                 lambertian(vec3(1)));
+      for (vec3& p : scene.meshes[0].positions) p = center + scale * p;
+      const trace::EmbreeScene embree(scene, {mat4(1)});
+      trace::RayTask task;
+      Pcg32 random(static_cast<std::uint64_t>(away + scale * 7));
+      for (int i = 0; i < 3000; ++i) {
+        const vec3 from = center + 3 * scale * sample_uniform_sphere(random.uniform2());
+        const vec3 target = center + 0.5f * scale * sample_uniform_sphere(random.uniform2());
+        trace::Hit hit;
+        const vec3 direction = glm::normalize(target - from);
+        ASSERT_TRUE(embree.intersect({from, direction}, 0, task, hit));
+        vec3 origin;
+        const shading::Surface surface = embree.surface(hit, -direction, origin);
+        vec3 out =
+            Frame::around(surface.geometric_normal).to_world(sample_cosine_hemisphere(random.uniform2()));
+        if (i % 2)
+          out = glm::normalize(
+              out + 30.0f * (out - glm::dot(out, surface.geometric_normal) * surface.geometric_normal));
+        if (!(glm::dot(out, surface.geometric_normal) > 0)) continue;
+        ++rays;
+        trace::Hit again;
+        shadowed += embree.intersect({origin, out}, 0, task, again);
+      }
+    }
+  }
+  EXPECT_GT(rays, 20000);
+  EXPECT_EQ(shadowed, 0);
+}
+
+TEST(Geometry, ClosedRoomDoesNotLeak) {
+  scene::Scene scene;
+  scene::Mesh room = scene::flipped(scene::make_sphere(1, 24, 12));
+  add_object(scene, room, lambertian(vec3(0.5f)));
+  const trace::EmbreeScene embree(scene, {mat4(1)});
+  trace::RayTask task;
+  Pcg32 random(5);
+  trace::Ray ray{vec3(0.1f, 0.2f, 0), vec3(0, 1, 0)};
+  for (int i = 0; i < 20000; ++i) {
+    trace::Hit hit;
+    ASSERT_TRUE(embree.intersect(ray, 0, task, hit)) << "bounce " << i;
+    vec3 origin;
+    const shading::Surface surface = embree.surface(hit, -ray.direction, origin);
+    ray = {origin,
+           Frame::around(surface.geometric_normal).to_world(sample_cosine_hemisphere(random.uniform2()))};
+  }
+}
+
+TEST(Geometry, MillimetresFarFromTheOriginRenderAsMetresAtIt) {
+  // The same room, light scaled with the square of size: equal radiance up to noise.
+  const auto room = [](float scale, const vec3& center) {
+    scene::Scene scene;
+    add_room(scene, lambertian(vec3(0.6f)));
+    for (scene::Mesh& mesh : scene.meshes) {
+      for (vec3& p : mesh.positions) p = center + scale * p;
+    }
+    add_light(scene, scene::LightType::point, scale * scale, center + scale * vec3(0.3f, 0.5f, 0));
+    trace::RenderParams params;
+    params.projection = trace::Projection::equirect;
+    params.width = 24, params.height = 12;
+    params.camera.world = look_at(center + scale * vec3(0.2f), center);
+    params.path = {3, 1, 16, 3};
+    return render(scene, params);
+  };
+  const trace::RenderState near = room(1, vec3(0)), far = room(1000, vec3(50000, 20000, -70000));
+  // The light lies a rounding error (4 mm of 1 m) elsewhere: 2 % per pixel at the worst, 0.2 % in the mean.
+  EXPECT_NEAR(mean_of(far.color) / mean_of(near.color), 1, 2e-3);
+}
+
+scene::Scene many_boxes() {
+  scene::Scene scene;
+  const int first = add_object(scene, scene::make_sphere(0.3f, 12, 6), lambertian(vec3(0.7f, 0.5f, 0.2f)),
+                               "ball", add_node(scene, "ball", vec3(-0.6f, 0, 0), looking(vec3(1, 2, 3))));
+  for (int i = 0; i < 5; ++i) {
+    scene::Instance copy = scene.instances[static_cast<std::size_t>(first)];
+    copy.node = add_node(scene, "copy", vec3(-0.5f + 0.3f * static_cast<float>(i), 0.4f, -0.2f),
+                         looking(vec3(i, 1, -2)));
+    scene.nodes.back().local.scale = vec3(1, i == 2 ? -0.5f : 0.6f, 0.8f);
+    scene.instances.push_back(copy);
+  }
+  add_room(scene, lambertian(vec3(0.5f)));
+  return scene;
+}
+
+TEST(Geometry, InstancedAndFlattenedScenesAreTheSame) {
+  const scene::Scene scene = many_boxes();
+  const std::vector<mat4> world = scene::world_matrices(scene);
+  const trace::EmbreeScene flat(scene, world), instanced(scene, world, 0);
+  trace::RayTask task;
+  Pcg32 random(5);
+  int same = 0, hits_on_copies = 0;
+  constexpr int count = 5000;
+  for (int i = 0; i < count; ++i) {
+    const trace::Ray ray{0.9f * random.uniform() * sample_uniform_sphere(random.uniform2()),
+                         sample_uniform_sphere(random.uniform2())};
+    trace::Hit a, b;
+    ASSERT_TRUE(flat.intersect(ray, 0, task, a));
+    ASSERT_TRUE(instanced.intersect(ray, 0, task, b));
+    hits_on_copies += a.instance > 0 && a.instance < 6;
+    if (a.instance != b.instance || a.triangle != b.triangle) continue;
+    ++same;
+    EXPECT_NEAR(a.distance, b.distance, 1e-5f);
+    vec3 origin_a, origin_b;
+    const shading::Surface sa = flat.surface(a, -ray.direction, origin_a);
+    const shading::Surface sb = instanced.surface(b, -ray.direction, origin_b);
+    EXPECT_LT(glm::distance(sa.position, sb.position), 2e-5f);
+    EXPECT_LT(glm::distance(sa.normal, sb.normal), 2e-4f);
+    EXPECT_EQ(flat.is_back(a, ray.direction), instanced.is_back(b, ray.direction));
+  }
+  EXPECT_GT(hits_on_copies, 200);
+  // Rays at edges may choose the other triangle.
+  EXPECT_GT(same, count * 0.995);
+}
+
+/// A card with alpha between a lamp and the floor.
+scene::Scene card_scene(scene::AlphaMode mode, float alpha) {
+  scene::Scene scene;
+  add_floor(scene, lambertian(vec3(0.5f)));
+  scene::Material card = lambertian(vec3(0));
+  card.alpha_mode = mode, card.alpha = alpha;
+  add_object(scene, scene::make_quad(vec3(-1, 1, 1), vec3(2, 0, 0), vec3(0, 0, -2)), card, "card");
+  add_light(scene, scene::LightType::point, 10, vec3(0, 2, 0));
+  return scene;
+}
+
+TEST(Geometry, BlendLetsLightThroughInProportion) {
+  const double open = 10.0 / 4 * 0.5 / pi_d;
+  EXPECT_TRUE(
+      mean_is(pixels_of(render(card_scene(scene::AlphaMode::blend, 0.3f), view_point(vec3(0), 64, 1)).color),
+              0.7 * open, {}, 1e-5));
+}
+
+TEST(Geometry, MaskIsAllOrNothing) {
+  const double open = 10.0 / 4 * 0.5 / pi_d;
+  const auto floor_radiance = [](scene::AlphaMode mode, float alpha) {
+    return mean_of(render(card_scene(mode, alpha), view_point(vec3(0), 4, 1)).color);
+  };
+  EXPECT_NEAR(floor_radiance(scene::AlphaMode::mask, 0.4f), open, 1e-5);
+  EXPECT_EQ(floor_radiance(scene::AlphaMode::mask, 0.6f), 0);
+  EXPECT_EQ(floor_radiance(scene::AlphaMode::opaque, 0.3f), 0);
+  EXPECT_NEAR(floor_radiance(scene::AlphaMode::blend, 0), open, 1e-5);
+  EXPECT_EQ(floor_radiance(scene::AlphaMode::blend, 1), 0);
+}
+
+TEST(Geometry, CameraAndAovsPassThroughAlpha) {
+  trace::RenderParams params = view_down(vec3(0), 1e-3f, 32, 3);
+  params.path = {0, 1, 16, 3};
+  const trace::RenderState state = render(card_scene(scene::AlphaMode::blend, 0.25f), params);
+  // The card (albedo 0, 2 m below the eye) in a quarter of the samples, the floor (0.5, 3 m) in the others.
+  EXPECT_TRUE(mean_is(pixels_of(state.albedo), 0.75 * 0.5, {1e-3, 2}, 1e-6));
+  EXPECT_TRUE(mean_is(pixels_of(state.depth), 0.25 * 2 + 0.75 * 3, {1e-3, 2}, 1e-5));
+  EXPECT_NEAR(mean_of(state.coverage), 1, 1e-6);
+  EXPECT_NEAR(mean_of(state.normal, 1), 1, 1e-6);
+}
+
+TEST(Geometry, AlphaOfInstancedMeshesIsTheInstances) {
+  scene::Scene scene = card_scene(scene::AlphaMode::blend, 0.0f);
+  scene::Instance opaque = scene.instances[1];
+  scene.materials.push_back(lambertian(vec3(0)));
+  opaque.material = static_cast<int>(scene.materials.size()) - 1;
+  opaque.node = add_node(scene, "opaque card", vec3(10, 0, 0));
+  scene.instances.push_back(opaque);
+  const trace::EmbreeScene instanced(scene, scene::world_matrices(scene), 0);
+  trace::RayTask task;
+  EXPECT_FALSE(instanced.occluded({vec3(0, 0.5f, 0), vec3(0, 1, 0), 1}, 1, task));
+  EXPECT_TRUE(instanced.occluded({vec3(10, 0.5f, 0), vec3(0, 1, 0), 1}, 1, task));
+}
+
+TEST(Geometry, VisibleIsBlockedByAWallOnly) {
+  scene::Scene scene;
+  add_object(scene, scene::make_box(vec3(-0.1f, -5, -5), vec3(0.1f, 5, 5)), lambertian(vec3(0.5f)));
+  const trace::PathTracer tracer(scene);
+  EXPECT_FALSE(tracer.visible(vec3(-1, 0, 0), vec3(1, 0, 0)));
+  EXPECT_TRUE(tracer.visible(vec3(-1, 0, 0), vec3(-1, 3, 2)));
+  // Points on the wall's surface see what is on their side, and not through the wall.
+  EXPECT_TRUE(tracer.visible(vec3(-0.1f, 0, 0), vec3(-1, 1, 0)));
+  EXPECT_TRUE(tracer.visible(vec3(-1, 1, 0), vec3(-0.1f, 0, 0)));
+  EXPECT_FALSE(tracer.visible(vec3(-0.1f, 0, 0), vec3(1, 1, 0)));
+  EXPECT_TRUE(tracer.visible(vec3(3), vec3(3))) << "an empty segment";
+  EXPECT_EQ(tracer.rays_traced(), 5u);
+}
+
+TEST(Geometry, BackfaceFractionTellsInsideFromOutside) {
+  scene::Scene scene;
+  add_room(scene, lambertian(vec3(0.5f)));
+  const int ball = add_object(scene, scene::make_sphere(0.3f, 12, 6), lambertian(vec3(0.5f)), "ball",
+                              add_node(scene, "ball", vec3(-0.6f, 0, 0)));
+  scene::Instance mirrored = scene.instances[static_cast<std::size_t>(ball)];
+  mirrored.node = add_node(scene, "mirrored", vec3(0.5f, 0.5f, 0));
+  scene.nodes.back().local.scale = vec3(1, -0.5f, 0.8f);
+  scene.instances.push_back(mirrored);
+  const trace::PathTracer tracer(scene);
+  EXPECT_EQ(tracer.backface_fraction(vec3(-0.6f, 0, 0)), 1) << "in a ball";
+  EXPECT_EQ(tracer.backface_fraction(vec3(0.5f, 0.5f, 0)), 1) << "in a mirrored ball";
+  EXPECT_LT(tracer.backface_fraction(vec3(0.5f, -0.5f, 0.5f)), 0.01) << "in the room";
+  scene.materials[1].double_sided = true;
+  EXPECT_EQ(trace::PathTracer(scene).backface_fraction(vec3(-0.6f, 0, 0)), 0);
+}
+
+TEST(Geometry, ProbeInAWallOrOnASurfaceDoesNotCrash) {
+  scene::Scene scene = many_boxes();
+  add_light(scene, scene::LightType::point, 1, vec3(0, 0.9f, 0));
+  const trace::PathTracer tracer(scene);
+  for (const vec3& place :
+       {vec3(-0.6f, 0, 0), vec3(0, -1, 0), vec3(1, 1, 1), vec3(0, 0.9f, 0), vec3(500, 0, 0)}) {
+    const std::vector<scene::GroupRadiance> maps = tracer.incident_radiance({place, 4, {3, 1, 4, 1}}, {});
+    for (const image::Image& face : maps.at(0).reflected.faces) {
+      for (const float v : face.pixels) EXPECT_TRUE(std::isfinite(v) && v >= 0);
+    }
+  }
+}
+
+TEST(Geometry, ShadingNormalsDoNotLetLightThrough) {
+  // Normals tilted by 60° on a floor that is lit from below only.
+  scene::Scene scene;
+  add_floor(scene, lambertian(vec3(0.8f)));
+  scene.meshes[0].normals.assign(scene.meshes[0].positions.size(), glm::normalize(vec3(1.7f, 1, 0)));
+  add_light(scene, scene::LightType::point, 100, vec3(3, -0.5f, 0));
+  add_light(scene, scene::LightType::sphere, 100, vec3(3, -2, 0), vec3(1, 0, 0), "globe").radius = 0.5f;
+  EXPECT_EQ(mean_of(render(scene, view_point(vec3(0), 16, 3)).color), 0);
+}
+
+}  // namespace
+}  // namespace ssphh::test
