@@ -65,11 +65,16 @@ void eval_basis(int degree, std::span<const float> x, std::span<const float> y, 
   for (std::size_t first = 0; first < count; first += lane_count) {
     const std::size_t n = std::min<std::size_t>(lane_count, count - first);
     float8 dx{}, dy{}, dz{};
-    for (std::size_t i = 0; i < n; ++i) dx[i] = x[first + i], dy[i] = y[first + i], dz[i] = z[first + i];
+    const auto load = [&](std::span<const float> from, float8& to) {
+      n == lane_count ? void(__builtin_memcpy(&to, &from[first], sizeof to))
+                      : void(__builtin_memcpy(&to, &from[first], n * sizeof(float)));
+    };
+    load(x, dx), load(y, dy), load(z, dz);
     eval_recurrence(table, degree, dx, dy, dz, values);
     for (std::size_t k = 0; k < coefficients; ++k) {
-      const auto* lanes = reinterpret_cast<const float*>(&values[k]);
-      std::copy_n(lanes, n, out.data() + k * count + first);
+      float* to = out.data() + k * count + first;
+      n == lane_count ? void(__builtin_memcpy(to, &values[k], sizeof(float8)))
+                      : void(__builtin_memcpy(to, &values[k], n * sizeof(float)));
     }
   }
 }

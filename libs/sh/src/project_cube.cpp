@@ -48,57 +48,74 @@ OctantPlace octant_place(int axis, int octant) {
   }
 }
 
-struct Rgb8 {
-  float8 r, g, b;
-};
+using float4 = float __attribute__((vector_size(16)));
 
-// Eight consecutive RGB texels, from interleaved to one vector per channel.
-Rgb8 load_rgb8(const float* p) {
-  float8 a, b, c;
-  __builtin_memcpy(&a, p, sizeof a);
-  __builtin_memcpy(&b, p + 8, sizeof b);
-  __builtin_memcpy(&c, p + 16, sizeof c);
-  const float8 r = __builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, 0, 0);
-  const float8 g = __builtin_shufflevector(a, b, 1, 4, 7, 10, 13, 0, 0, 0);
-  const float8 blue = __builtin_shufflevector(a, b, 2, 5, 8, 11, 14, 0, 0, 0);
-  return {__builtin_shufflevector(r, c, 0, 1, 2, 3, 4, 5, 10, 13),
-          __builtin_shufflevector(g, c, 0, 1, 2, 3, 4, 8, 11, 14),
-          __builtin_shufflevector(blue, c, 0, 1, 2, 3, 4, 9, 12, 15)};
+float8 join(const float* low, const float* high) {
+  float4 a, b;
+  __builtin_memcpy(&a, low, sizeof a);
+  __builtin_memcpy(&b, high, sizeof b);
+  return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
-float8 reversed(const float8& v) {
-  return __builtin_shufflevector(v, v, 7, 6, 5, 4, 3, 2, 1, 0);
+// Eight consecutive RGB texels to one vector per channel: five shuffles within 128-bit halves (Melax, 3D
+// Vector Normalization Using 256-Bit Intel AVX, 2011). `backwards` reverses the texels at no cost.
+void load_rgb8(const float* p, bool backwards, float8* rgb) {
+  const int low = backwards ? 12 : 0, high = 12 - low;
+  const float8 a = join(p + low, p + high);          // r g b r per half
+  const float8 b = join(p + low + 4, p + high + 4);  // g b r g
+  const float8 c = join(p + low + 8, p + high + 8);  // b r g b
+  const float8 rg = __builtin_shufflevector(b, c, 2, 3, 9, 10, 6, 7, 13, 14);
+  const float8 gb = __builtin_shufflevector(a, b, 1, 2, 8, 9, 5, 6, 12, 13);
+  if (backwards) {
+    rgb[0] = __builtin_shufflevector(rg, a, 2, 0, 11, 8, 6, 4, 15, 12);
+    rgb[1] = __builtin_shufflevector(rg, gb, 3, 1, 10, 8, 7, 5, 14, 12);
+    rgb[2] = __builtin_shufflevector(c, gb, 3, 0, 11, 9, 7, 4, 15, 13);
+  } else {
+    rgb[0] = __builtin_shufflevector(a, rg, 0, 3, 8, 10, 4, 7, 12, 14);
+    rgb[1] = __builtin_shufflevector(gb, rg, 0, 2, 9, 11, 4, 6, 13, 15);
+    rgb[2] = __builtin_shufflevector(gb, c, 1, 3, 8, 11, 5, 7, 12, 15);
+  }
 }
 
 // Texels column, column ± 1, … of one row; lanes beyond `lanes` are 0.
-Rgb8 load_texels(const float* row, int column, bool backwards, int lanes, int channels) {
+void load_texels(const float* row, int column, bool backwards, int lanes, int channels, float8* rgb) {
   if (lanes == lane_count && channels == 3) {
-    if (!backwards) return load_rgb8(row + 3 * column);
-    const Rgb8 texels = load_rgb8(row + 3 * (column - (lane_count - 1)));
-    return {reversed(texels.r), reversed(texels.g), reversed(texels.b)};
+    load_rgb8(row + 3 * (backwards ? column - (lane_count - 1) : column), backwards, rgb);
+    return;
   }
-  Rgb8 texels{};
+  for (int c = 0; c < 3; ++c) rgb[c] = float8{};
   for (int i = 0; i < lanes; ++i) {
     const float* p = row + channels * (backwards ? column - i : column + i);
-    texels.r[i] = p[0], texels.g[i] = p[1], texels.b[i] = p[2];
+    for (int c = 0; c < 3; ++c) rgb[c][i] = p[c];
   }
-  return texels;
 }
 
-// light[class] = Σ_octant ± light[octant], the sign by the bits they share.
-void combine_octants(float8* light) {
-  for (int bit = 1; bit < octant_count; bit *= 2) {
-    for (int octant = 0; octant < octant_count; ++octant) {
-      if (octant & bit) continue;
-      for (int c = 0; c < 3; ++c) {
-        float8& even = light[octant * 3 + c];
-        float8& odd = light[(octant | bit) * 3 + c];
-        const float8 sum = even + odd;
-        odd = even - odd;
-        even = sum;
-      }
-    }
+void butterfly(float8& even, float8& odd) {
+  const float8 sum = even + odd;
+  odd = even - odd;
+  even = sum;
+}
+
+// light[class] = weight · Σ_octant ± light[octant], negative where class and octant share an odd number of
+// bits.
+void combine_octants(const float8& weight, float8* light) {
+  for (int c = 0; c < 3; ++c) {
+    float8 v0 = light[c] * weight, v1 = light[3 + c] * weight, v2 = light[6 + c] * weight,
+           v3 = light[9 + c] * weight;
+    float8 v4 = light[12 + c] * weight, v5 = light[15 + c] * weight, v6 = light[18 + c] * weight,
+           v7 = light[21 + c] * weight;
+    butterfly(v0, v1), butterfly(v2, v3), butterfly(v4, v5), butterfly(v6, v7);
+    butterfly(v0, v2), butterfly(v1, v3), butterfly(v4, v6), butterfly(v5, v7);
+    butterfly(v0, v4), butterfly(v1, v5), butterfly(v2, v6), butterfly(v3, v7);
+    light[c] = v0, light[3 + c] = v1, light[6 + c] = v2, light[9 + c] = v3;
+    light[12 + c] = v4, light[15 + c] = v5, light[18 + c] = v6, light[21 + c] = v7;
   }
+}
+
+float8 load8(const std::vector<float>& values, int first) {
+  float8 v;
+  __builtin_memcpy(&v, &values[static_cast<std::size_t>(first)], sizeof v);
+  return v;
 }
 
 int padded(int count) {
@@ -112,18 +129,20 @@ CubeProjector::CubeProjector(int degree, int face_size)
   SSPHH_CHECK(degree >= 0 && degree <= max_degree && face_size >= 1);
   const int stride = padded(half_);
   half_coordinates_.resize(static_cast<std::size_t>(stride));
-  half_solid_angles_.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(half_));
-  for (int i = 0; i < half_; ++i) {
-    half_coordinates_[static_cast<std::size_t>(i)] =
-        static_cast<float>((2.0 * (face_size / 2 + i) + 1) / face_size - 1);
-  }
+  half_major_.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(half_));
+  half_solid_angles_.resize(half_major_.size());
+  const auto coordinate = [&](int i) { return (2.0 * (face_size / 2 + i) + 1) / face_size - 1; };
+  for (int i = 0; i < half_; ++i)
+    half_coordinates_[static_cast<std::size_t>(i)] = static_cast<float>(coordinate(i));
   // The middle row and column of an odd size are their own mirror image: they are met twice.
   const auto share = [&](int i) { return face_size % 2 == 1 && i == 0 ? 0.5 : 1.0; };
   for (int j = 0; j < half_; ++j) {
     for (int i = 0; i < half_; ++i) {
+      const auto at = static_cast<std::size_t>(j * stride + i);
+      const double s = coordinate(i), t = coordinate(j);
       const double angle = texel_solid_angle(face_size / 2 + i, face_size / 2 + j, face_size);
-      half_solid_angles_[static_cast<std::size_t>(j * stride + i)] =
-          static_cast<float>(share(i) * share(j) * angle);
+      half_major_[at] = static_cast<float>(1 / std::sqrt(s * s + t * t + 1));
+      half_solid_angles_[at] = static_cast<float>(share(i) * share(j) * angle);
     }
   }
 }
@@ -145,10 +164,8 @@ RadianceSh CubeProjector::project(const CubeFaces& faces, int channels) const {
         const int lanes = std::min(lane_count, half_ - i);
 
         // Evaluate the basis in the octant where x, y and z are positive.
-        float8 s, major;
-        __builtin_memcpy(&s, &half_coordinates_[static_cast<std::size_t>(i)], sizeof s);
-        const float8 square = s * s + (t * t + 1);
-        for (int lane = 0; lane < lane_count; ++lane) major[lane] = 1 / std::sqrt(square[lane]);
+        const float8 s = load8(half_coordinates_, i);
+        const float8 major = load8(half_major_, j * stride + i);
         const float8 across = s * major, down = t * major;
         if (axis == 0) {
           sum.add_direction_block(major, down, across);
@@ -159,9 +176,6 @@ RadianceSh CubeProjector::project(const CubeFaces& faces, int channels) const {
         }
 
         // Read the eight mirror images and form their even and odd sums.
-        float8 weight;
-        __builtin_memcpy(&weight, &half_solid_angles_[static_cast<std::size_t>(j * stride + i)],
-                         sizeof weight);
         float8* light = sum.light();
         for (int octant = 0; octant < octant_count; ++octant) {
           const OctantPlace& place = places[octant];
@@ -169,12 +183,9 @@ RadianceSh CubeProjector::project(const CubeFaces& faces, int channels) const {
           const int x = place.mirrored_columns ? face_size_ - 1 - middle - i : middle + i;
           const float* row = faces[static_cast<std::size_t>(place.face)].data() +
                              static_cast<std::size_t>(y) * static_cast<std::size_t>(face_size_ * channels);
-          const Rgb8 rgb = load_texels(row, x, place.mirrored_columns, lanes, channels);
-          light[octant * 3] = rgb.r * weight;
-          light[octant * 3 + 1] = rgb.g * weight;
-          light[octant * 3 + 2] = rgb.b * weight;
+          load_texels(row, x, place.mirrored_columns, lanes, channels, light + octant * 3);
         }
-        combine_octants(light);
+        combine_octants(load8(half_solid_angles_, j * stride + i), light);
         sum.finish_block();
       }
     }

@@ -1,37 +1,48 @@
 #include "projection_sum.h"
 
-#include <algorithm>
+#include <utility>
 
 namespace ssphh::sh {
 namespace {
 
 // Single-precision lanes are added to the double totals after this many blocks.
-constexpr int blocks_per_flush = 256;
+constexpr int blocks_per_flush = 512;
 
-template <int Count>
-void sum_tile(const CoefficientTile& tile, int blocks, const float8* basis, const float8* lights,
-              int light_stride, std::array<float8, 3>* sums) {
-  float8 sum[Count][3];
-  for (int i = 0; i < Count; ++i) {
-    for (int c = 0; c < 3; ++c)
-      sum[i][c] = sums[tile.coefficients[static_cast<std::size_t>(i)]][static_cast<std::size_t>(c)];
-  }
-  const float8* light = lights + tile.light * 3;
-  for (int b = 0; b < blocks; ++b) {
-    const float8 r = light[0], g = light[1], blue = light[2];
-    for (int i = 0; i < Count; ++i) {
-      const float8 y = basis[tile.coefficients[static_cast<std::size_t>(i)]];
-      sum[i][0] += y * r;
-      sum[i][1] += y * g;
-      sum[i][2] += y * blue;
-    }
+double sum_lanes(const float8& v) {
+  using float4 = float __attribute__((vector_size(16)));
+  using double4 = double __attribute__((vector_size(32)));
+  const float4 low = __builtin_shufflevector(v, v, 0, 1, 2, 3),
+               high = __builtin_shufflevector(v, v, 4, 5, 6, 7);
+  const double4 sum = __builtin_convertvector(low, double4) + __builtin_convertvector(high, double4);
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+// The pack unrolls the tile, so that its sums are registers at every optimisation level.
+template <std::size_t... I>
+void sum_tile(std::index_sequence<I...>, const CoefficientTile& tile, int blocks, const float8* basis,
+              const float8* light, int light_stride, std::array<float8, 3>* sums) {
+  const int k[] = {tile.coefficients[I]...};
+  float8 red[] = {sums[k[I]][0]...}, green[] = {sums[k[I]][1]...}, blue[] = {sums[k[I]][2]...};
+  for (int block = 0; block < blocks; ++block) {
+    const float8 r = light[0], g = light[1], b = light[2];
+    const auto add = [&](std::size_t i) {
+      const float8 y = basis[k[i]];
+      red[i] += y * r;
+      green[i] += y * g;
+      blue[i] += y * b;
+    };
+    (add(I), ...);
     basis += max_coefficient_count;
     light += light_stride;
   }
-  for (int i = 0; i < Count; ++i) {
-    for (int c = 0; c < 3; ++c)
-      sums[tile.coefficients[static_cast<std::size_t>(i)]][static_cast<std::size_t>(c)] = sum[i][c];
-  }
+  ((sums[k[I]] = {red[I], green[I], blue[I]}), ...);
+}
+
+template <std::size_t Count>
+void sum_tile_of(const CoefficientTile& tile, int blocks, const float8* basis,
+                 const std::vector<float8>& lights, int light_stride, std::array<float8, 3>* sums) {
+  sum_tile(std::make_index_sequence<Count>(), tile, blocks, basis, lights.data() + tile.light * 3,
+           light_stride, sums);
 }
 
 }  // namespace
@@ -63,16 +74,16 @@ void ProjectionSum::sum_pending() {
   for (const CoefficientTile& tile : tiles_) {
     switch (tile.count) {
       case 1:
-        sum_tile<1>(tile, pending_, basis, lights_.data(), stride, sums_.data());
+        sum_tile_of<1>(tile, pending_, basis, lights_, stride, sums_.data());
         break;
       case 2:
-        sum_tile<2>(tile, pending_, basis, lights_.data(), stride, sums_.data());
+        sum_tile_of<2>(tile, pending_, basis, lights_, stride, sums_.data());
         break;
       case 3:
-        sum_tile<3>(tile, pending_, basis, lights_.data(), stride, sums_.data());
+        sum_tile_of<3>(tile, pending_, basis, lights_, stride, sums_.data());
         break;
       default:
-        sum_tile<4>(tile, pending_, basis, lights_.data(), stride, sums_.data());
+        sum_tile_of<4>(tile, pending_, basis, lights_, stride, sums_.data());
         break;
     }
   }
@@ -84,9 +95,7 @@ void ProjectionSum::sum_pending() {
 void ProjectionSum::flush() {
   for (std::size_t k = 0; k < static_cast<std::size_t>(coefficient_count(degree_)); ++k) {
     for (std::size_t c = 0; c < 3; ++c) {
-      double total = 0;
-      for (int i = 0; i < lane_count; ++i) total += static_cast<double>(sums_[k][c][i]);
-      totals_[k][static_cast<int>(c)] += total;
+      totals_[k][static_cast<int>(c)] += sum_lanes(sums_[k][c]);
       sums_[k][c] = float8{};
     }
   }

@@ -23,8 +23,9 @@ const RecurrenceTable<double>& recurrence_table_double();
 
 /// `Value` is Real or a vector of it; out[k · stride] = Y_k(x, y, z).
 template <class Value, class Real>
-inline void eval_recurrence(const RecurrenceTable<Real>& table, int degree, const Value& x, const Value& y,
-                            const Value& z, Value* out) {
+inline void eval_recurrence(const RecurrenceTable<Real>& table, int degree, const Value& x_, const Value& y_,
+                            const Value& z_, Value* out) {
+  const Value x = x_, y = y_, z = z_;        // `out` cannot alias these
   Value cosine = Value{} + Real(1), sine{};  // Re and Im of (x + iy)^m
   for (int m = 0; m <= degree; ++m) {
     Value older{}, p = Value{} + table.diagonal[m];

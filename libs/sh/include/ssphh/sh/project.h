@@ -46,8 +46,9 @@ class CubeProjector {
  private:
   int degree_, face_size_, half_;
   std::vector<float> half_coordinates_;  ///< s of the columns right of the centre
-  std::vector<float>
-      half_solid_angles_;  ///< [row][column] of one quadrant; padded with 0 to whole SIMD blocks
+  // Per row and column of one quadrant, padded with 0 to whole SIMD blocks:
+  std::vector<float> half_major_;         ///< 1 / length of (s, t, 1)
+  std::vector<float> half_solid_angles_;  ///< [sr]
 };
 
 /// CubeProjector for a single cube map.
