@@ -103,6 +103,10 @@ void compare(Context& context, const CompareOptions& options) {
   }
   const Image reference = read_exposed(options.reference, options.exposure);
   const Image test = read_exposed(options.test, options.exposure);
+  if (reference.width != test.width || reference.height != test.height) {
+    throw Error(options.test, fmt::format("is {} x {} pixels, but {} is {} x {}", test.width, test.height,
+                                          options.reference, reference.width, reference.height));
+  }
   const metrics::ImageError error = metrics::compare(reference, test);
   const Image pixelated = metrics::pixelated_error_map(reference, test, options.block);
   const metrics::BlockError blocks = metrics::block_error(pixelated, options.block);
