@@ -29,6 +29,7 @@ scene::Scene load_gltf(std::span<const std::byte> data, const std::filesystem::p
                     .mesh_read = {},
                     .vertex_arrays = {},
                     .node_of_node = {}};
+  check_structure(document);
   import_materials(import);
   import_nodes(import);
   import_animations(import);

@@ -143,6 +143,17 @@ void apply_sparse(GltfDocument& document, const JsonView& accessor, std::uint64_
 
 }  // namespace
 
+std::uint64_t accessor_element_bytes(const JsonView& accessor) {
+  const std::uint64_t bytes = component_size(component_type(accessor));
+  const std::string& type = accessor.at("type").string();
+  // Columns of matrices begin at multiples of four bytes
+  if (type.starts_with("MAT") && type.size() == 4 && type[3] >= '2' && type[3] <= '4') {
+    const auto n = static_cast<std::uint64_t>(type[3] - '0');
+    return n * ((n * bytes + 3) & ~std::uint64_t{3});
+  }
+  return bytes * static_cast<std::uint64_t>(component_count(accessor));
+}
+
 FloatArray read_floats(GltfDocument& document, int index, int min_components, int max_components) {
   const JsonView accessor = document.item("accessors", index);
   FloatArray out;

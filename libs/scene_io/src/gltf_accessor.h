@@ -18,6 +18,9 @@ struct FloatArray {
   }
 };
 
+/// Bytes of one element by componentType and type; fails for unknown ones.
+std::uint64_t accessor_element_bytes(const JsonView& accessor);
+
 /// Decodes an accessor whose number of components lies in [min_components, max_components]. Throws Error for
 /// anything out of bounds and for NaN or infinite values.
 FloatArray read_floats(GltfDocument& document, int accessor, int min_components, int max_components);

@@ -34,6 +34,8 @@ class GltfDocument {
     std::uint64_t stride;  ///< 0: tightly packed
   };
   BufferView buffer_view(int index);
+  /// Bytes of a buffer; files and data URIs are read on first use.
+  std::span<const std::byte> buffer(int index);
 
   /// Counts memory about to be taken for decoded data; throws at 64 MiB + 64 × the bytes of the input, which
   /// no honest file comes near, so that a small file cannot ask for all memory.
@@ -44,7 +46,6 @@ class GltfDocument {
  private:
   void parse_glb(std::span<const std::byte> data);
   void check_version_and_extensions() const;
-  std::span<const std::byte> buffer(int index);
 
   using Bytes = std::shared_ptr<const std::vector<std::byte>>;
   std::filesystem::path path_;

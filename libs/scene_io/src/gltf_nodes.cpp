@@ -215,6 +215,15 @@ void import_nodes(GltfImport& import) {
       }
     }
   }
+
+  // Decode the meshes that no node shows, only to find what is broken in them
+  const std::size_t shown = import.scene.meshes.size();
+  for (std::size_t m = 0; m < import.mesh_read.size(); ++m) {
+    if (import.mesh_read[m]) continue;
+    import_mesh(import, static_cast<int>(m));
+    import.scene.meshes.resize(shown);
+    document.ignored.add("mesh outside the scene");
+  }
 }
 
 }  // namespace ssphh::scene_io

@@ -21,6 +21,9 @@ struct GltfImport {
   std::vector<int> node_of_node;                                   ///< −1: not in the scene that is shown
 };
 
+/// Types, references and sizes of everything in the file, used or not, before anything is decoded.
+void check_structure(GltfDocument& document);
+
 /// All materials, and the textures they use.
 void import_materials(GltfImport& import);
 

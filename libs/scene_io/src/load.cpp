@@ -125,7 +125,10 @@ Scene load_scene(const std::string& source, const LoadOptions& options) {
     scene.environment = std::move(environment);
   }
 
+  if (options.sun_sky) scene::add_sun_sky(scene, *options.sun_sky);
+
   for (const auto& repair : scene::validate(scene)) log_warning("{}: {}", source, repair);
+  if (scene.instances.empty()) log_warning("{}: shows no triangles", source);
   if (!scene.ignored.empty()) log_warning("{}: ignored: {}", source, fmt::join(scene.ignored, ", "));
   check_size(scene, source);
   return scene;

@@ -6,6 +6,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/image/io.h>
+#include <ssphh/scene/sun_sky.h>
 #include <ssphh/scene_io/overlay.h>
 
 #include "json_view.h"
@@ -165,6 +166,22 @@ void set_environment(Scene& scene, const JsonView& entry, const std::filesystem:
   scene.environment = std::move(environment);
 }
 
+void set_sun_sky(Scene& scene, const JsonView& entry) {
+  entry.only_keys({"elevation_degrees", "azimuth_degrees", "turbidity", "ground_albedo", "sun", "width"});
+  scene::SunSkyParams params;
+  params.elevation = degrees(entry, "elevation_degrees", 0, 90, glm::degrees(params.elevation));
+  params.azimuth = degrees(entry, "azimuth_degrees", -360, 360, glm::degrees(params.azimuth));
+  params.turbidity = number_or(entry, "turbidity", params.turbidity);
+  if (const auto albedo = entry.find("ground_albedo")) params.ground_albedo = albedo->vector3();
+  params.sun = boolean_or(entry, "sun", params.sun);
+  if (const auto width = entry.find("width")) params.width = static_cast<int>(width->integer(4096));
+  try {
+    scene::add_sun_sky(scene, params);
+  } catch (const Error& e) {
+    entry.fail(e.problem(), e.hint());
+  }
+}
+
 // Puts a node above all others that scales the file's unit to metres and moves its origin.
 void set_unit(Scene& scene, float unit, const vec3& origin) {
   scene::Node root;
@@ -206,7 +223,10 @@ void apply_overlay(Scene& scene, std::string_view text, const std::filesystem::p
   for_each_entry(scene, root, "cameras", add_camera);
   for_each_entry(scene, root, "lights", add_light);
   for_each_entry(scene, root, "sphls", add_sphl);
-  if (const auto environment = root.find("environment")) set_environment(scene, *environment, path);
+  const auto environment = root.find("environment"), sun_sky = root.find("sun_sky");
+  if (environment && sun_sky) root.fail("has both \"environment\" and \"sun_sky\"");
+  if (environment) set_environment(scene, *environment, path);
+  if (sun_sky) set_sun_sky(scene, *sun_sky);
 }
 
 }  // namespace ssphh::scene_io

@@ -1,9 +1,11 @@
 #pragma once
 /// Scenes from files and names. Formats: glTF 2.0 and GLB, Wavefront OBJ/MTL, overlays (docs/scenes.md).
 
+#include <optional>
 #include <string>
 
 #include <ssphh/scene/scene.h>
+#include <ssphh/scene/sun_sky.h>
 
 namespace ssphh::scene_io {
 
@@ -15,6 +17,8 @@ struct LoadOptions {
   std::string environment;
   float environment_intensity = 1;  ///< factor on the image
   float environment_rotation = 0;   ///< radians about +y, counter-clockwise seen from above
+  /// Clear sky and sun; replaces any environment.
+  std::optional<scene::SunSkyParams> sun_sky;
 };
 
 /// `source`: "builtin:NAME", a scene file, or an overlay that names its scene. The format is told from the

@@ -1,0 +1,135 @@
+/// References and sizes of a whole glTF file, also of the parts that its scene does not use: from the JSON
+/// alone, before anything is decoded.
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "gltf_parts.h"
+
+namespace ssphh::scene_io {
+namespace {
+
+class Checker {
+ public:
+  explicit Checker(GltfDocument& document) : document_(document) {}
+
+  // Every top-level array is an array of objects, and each of them passes its check.
+  void run() const {
+    for (std::size_t i = 0; i < document_.count("buffers"); ++i) document_.buffer(static_cast<int>(i));
+    each("bufferViews", [&](const JsonView& v) { buffer_view(v); });
+    each("accessors", [&](const JsonView& v) { accessor(v); });
+    each("images", [&](const JsonView& v) { reference(v, "bufferView", "bufferViews"); });
+    each("textures", [&](const JsonView& v) {
+      reference(v, "source", "images");
+      reference(v, "sampler", "samplers");
+    });
+    each("meshes", [&](const JsonView& v) { mesh(v); });
+    each("skins", [&](const JsonView& v) {
+      references(v, "joints", "nodes");
+      reference(v, "inverseBindMatrices", "accessors");
+      reference(v, "skeleton", "nodes");
+    });
+    each("nodes", [&](const JsonView& v) {
+      reference(v, "mesh", "meshes");
+      reference(v, "camera", "cameras");
+      reference(v, "skin", "skins");
+      references(v, "children", "nodes");
+    });
+    each("scenes", [&](const JsonView& v) { references(v, "nodes", "nodes"); });
+    each("cameras", [&](const JsonView& v) { import_camera(v); });
+    for (const char* collection : {"samplers", "materials", "animations"}) each(collection, [](auto&) {});
+    if (const auto lights = extension(document_.root(), "KHR_lights_punctual")) {
+      const auto list = lights->find("lights");
+      for (std::size_t i = 0; list && i < list->size(); ++i) import_light((*list)[i]);
+    }
+  }
+
+ private:
+  template <class Check>
+  void each(const char* collection, const Check& check) const {
+    const std::size_t count = document_.count(collection);
+    for (std::size_t i = 0; i < count; ++i) {
+      const JsonView item = document_.item(collection, static_cast<int>(i));
+      if (!item.is_object()) item.fail(fmt::format("must be an object, not {}", item.raw().type_name()));
+      check(item);
+    }
+  }
+
+  void reference(const JsonView& object, const char* key, const char* collection) const {
+    document_.reference(object, key, collection);
+  }
+
+  void references(const JsonView& object, const char* key, const char* collection) const {
+    const auto list = object.find(key);
+    for (std::size_t i = 0; list && i < list->size(); ++i)
+      (*list)[i].index(document_.count(collection), collection);
+  }
+
+  static std::uint64_t integer_or_zero(const JsonView& object, const char* key) {
+    const auto member = object.find(key);
+    return member ? member->integer() : 0;
+  }
+
+  void buffer_view(const JsonView& view) const {
+    const int index = view.at("buffer").index(document_.count("buffers"), "buffers");
+    const std::uint64_t size = document_.item("buffers", index).at("byteLength").integer();
+    const std::uint64_t begin = integer_or_zero(view, "byteOffset"), length = view.at("byteLength").integer();
+    if (begin > size || length > size - begin) {
+      view.fail(
+          fmt::format("bytes {} to {} are out of range, the buffer has {}", begin, begin + length, size));
+    }
+  }
+
+  void accessor(const JsonView& accessor) const {
+    const auto view_index = document_.reference(accessor, "bufferView", "bufferViews");
+    const std::uint64_t element = accessor_element_bytes(accessor), count = accessor.at("count").integer();
+    if (!view_index) return;
+    const JsonView view = document_.item("bufferViews", *view_index);
+    const std::uint64_t size = view.at("byteLength").integer(),
+                        offset = integer_or_zero(accessor, "byteOffset");
+    const std::uint64_t stride = std::max(integer_or_zero(view, "byteStride"), element);
+    if (offset > size ||
+        (count > 0 && (size - offset < element || (size - offset - element) / stride < count - 1))) {
+      accessor.fail(fmt::format("{} elements from byte {} do not fit {} of {} bytes", count, offset,
+                                view.path(), size));
+    }
+  }
+
+  void mesh(const JsonView& mesh) const {
+    const JsonView primitives = mesh.at("primitives");
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+      const JsonView primitive = primitives[i];
+      reference(primitive, "indices", "accessors");
+      reference(primitive, "material", "materials");
+      attributes(primitive.at("attributes"));
+      const auto targets = primitive.find("targets");
+      for (std::size_t t = 0; targets && t < targets->size(); ++t) attributes((*targets)[t]);
+    }
+  }
+
+  // Attributes of one primitive must be equally long.
+  void attributes(const JsonView& attributes) const {
+    std::optional<std::uint64_t> count;
+    if (!attributes.is_object()) attributes.fail("must be an object");
+    for (const auto& [name, unused] : attributes.raw().items()) {
+      const JsonView member = attributes.at(name.c_str());
+      const int index = member.index(document_.count("accessors"), "accessors");
+      const std::uint64_t elements = document_.item("accessors", index).at("count").integer();
+      if (count && elements != *count) {
+        member.fail(fmt::format("has {} elements, another attribute has {}", elements, *count));
+      }
+      count = elements;
+    }
+  }
+
+  GltfDocument& document_;
+};
+
+}  // namespace
+
+void check_structure(GltfDocument& document) {
+  Checker(document).run();
+}
+
+}  // namespace ssphh::scene_io
