@@ -105,7 +105,7 @@ vec3 equirect_direction(int x, int y, int width, int height) {
 
 vec3 sun_direction(const SunSkyParams& params) {
   const float across = std::cos(params.elevation);
-  return {across * std::sin(params.azimuth), std::sin(params.elevation), -across * std::cos(params.azimuth)};
+  return {across * std::cos(params.azimuth), std::sin(params.elevation), across * std::sin(params.azimuth)};
 }
 
 vec3 sky_radiance(const SunSkyParams& params, const vec3& direction) {

@@ -8,8 +8,8 @@ namespace ssphh::scene {
 /// The model was fitted to turbidities 2…10 and a sun above the horizon.
 struct SunSkyParams {
   float elevation = pi / 4;  ///< of the sun above the horizon, radians, 0…π/2
-  float azimuth = pi / 6;    ///< of the sun, radians: 0 is −z, π/2 is +x
-  float turbidity = 3;       ///< haze: 2 very clear, 6 hazy, 10 fog
+  float azimuth = pi / 6;    ///< of the sun, radians from +x toward +z
+  float turbidity = 3;       ///< haze: 2 very clear, 10 hazy
   vec3 ground_albedo{0.2f};  ///< a Lambertian plane below the horizon, lit by sun and sky
   bool sun = true;           ///< also the sun itself, as a directional light
   int width = 512;           ///< pixels of the sky's image; half as high
