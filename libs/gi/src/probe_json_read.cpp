@@ -215,7 +215,7 @@ ProbeSet read_set(const Place& root) {
 /// Parses with limits on nesting and on containers, which cost far more memory than text.
 json parse(std::string_view text, const std::string& where) {
   constexpr int depth_limit = 8;
-  constexpr std::size_t container_limit = std::size_t{1} << 22;
+  constexpr std::size_t container_limit = std::size_t{1} << 21;
   std::size_t containers = 0;
   const auto callback = [&](int depth, json::parse_event_t event, json&) {
     if (event == json::parse_event_t::array_start || event == json::parse_event_t::object_start) {

@@ -199,7 +199,7 @@ TEST(ProbeFile, EveryTruncationOfAJsonFileIsAnError) {
 TEST(ProbeFile, ADamagedJsonFileIsAnErrorOrAValidSet) {
   const std::string text = probes_to_json(full_set(1));
   int errors = 0;
-  for (std::size_t i = 0; i < text.size(); i += 3) {
+  for (std::size_t i = 0; i < text.size(); i += 13) {
     for (const char c : {'\0', '9', '"', ']', '-', '\xff'}) {
       std::string damaged = text;
       damaged[i] = c;
@@ -210,7 +210,7 @@ TEST(ProbeFile, ADamagedJsonFileIsAnErrorOrAValidSet) {
       }
     }
   }
-  EXPECT_GT(errors, 1000);
+  EXPECT_GT(errors, 300);
 }
 
 TEST(ProbeFile, JsonErrorsNameFileAndPlace) {
@@ -227,7 +227,7 @@ TEST(ProbeFile, HostileNestingIsAnErrorAndCheap) {
   for (int i = 0; i < 1 << 16; ++i) objects += "{\"a\":";
   EXPECT_THAT(error_of(objects), HasSubstr("nested deeper"));
   std::string wide = "[";
-  for (int i = 0; i < (1 << 22) + 1; ++i) wide += "[],";
+  for (int i = 0; i < (1 << 21) + 1; ++i) wide += "[],";
   EXPECT_THAT(error_of(wide + "0]"), HasSubstr("more arrays"));
 }
 
