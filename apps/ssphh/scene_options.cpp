@@ -1,0 +1,70 @@
+#include "scene_options.h"
+
+#include <ssphh/scene_io/load.h>
+
+namespace ssphh::app {
+
+void add_scene_options(CLI::App& command, SceneOptions& options, bool posed) {
+  command
+      .add_option("SCENE", options.source,
+                  "File (.glb .gltf .obj, or an overlay .ssphh.json) or builtin:NAME")
+      ->required();
+  const std::string group = "Scene";
+  if (posed) {
+    command.add_option("--time", options.time, "Pose the scene's animations at this time [s]")
+        ->capture_default_str()
+        ->group(group);
+  }
+  command
+      .add_option("--overlay", options.overlay,
+                  "Side file that adds lights, cameras, SPHLs (docs/scenes.md); default: SCENE.ssphh.json if "
+                  "there is one")
+      ->group(group);
+  auto* environment = command
+                          .add_option("--environment", options.environment,
+                                      "Equirectangular .hdr or .exr around the scene, in place of its own")
+                          ->group(group);
+  command
+      .add_option("--environment-intensity", options.environment_intensity,
+                  "Factor on the environment's radiance")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str()
+      ->group(group);
+  command
+      .add_option("--environment-rotation", options.environment_rotation,
+                  "Degrees about +y, counter-clockwise seen from above")
+      ->capture_default_str()
+      ->group(group);
+  command
+      .add_flag("--sun-sky", options.sun_sky, "Analytic sun and sky (Preetham) in place of the environment")
+      ->excludes(environment)
+      ->group(group);
+  command.add_option("--sun-elevation", options.sun_elevation, "Degrees above the horizon")
+      ->check(CLI::Range(0.0f, 90.0f))
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--sun-azimuth", options.sun_azimuth, "Degrees from +x toward +z")
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--turbidity", options.turbidity, "Haze: 2 very clear, 10 hazy")
+      ->check(CLI::Range(1.7f, 10.0f))
+      ->capture_default_str()
+      ->group(group);
+}
+
+scene::Scene load_scene(const SceneOptions& options) {
+  scene_io::LoadOptions load;
+  load.overlay = options.overlay;
+  load.environment = options.environment;
+  load.environment_intensity = options.environment_intensity;
+  load.environment_rotation = glm::radians(options.environment_rotation);
+  if (options.sun_sky) {
+    scene::SunSkyParams& sky = load.sun_sky.emplace();
+    sky.elevation = glm::radians(options.sun_elevation);
+    sky.azimuth = glm::radians(options.sun_azimuth);
+    sky.turbidity = options.turbidity;
+  }
+  return scene_io::load_scene(options.source, load);
+}
+
+}  // namespace ssphh::app

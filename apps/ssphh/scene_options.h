@@ -1,0 +1,28 @@
+#pragma once
+/// The options of every command that reads a scene.
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <ssphh/scene/scene.h>
+
+namespace ssphh::app {
+
+struct SceneOptions {
+  std::string source;  ///< file or builtin:NAME
+  std::string overlay, environment;
+  float environment_intensity = 1;
+  float environment_rotation = 0;  ///< degrees
+  bool sun_sky = false;
+  float sun_elevation = 45, sun_azimuth = 30;  ///< degrees
+  float turbidity = 3;
+  float time = 0;  ///< seconds
+};
+
+/// Adds the positional SCENE and --overlay, --environment, --sun-sky and so on; --time where a pose matters.
+void add_scene_options(CLI::App& command, SceneOptions& options, bool posed = true);
+
+scene::Scene load_scene(const SceneOptions& options);
+
+}  // namespace ssphh::app
