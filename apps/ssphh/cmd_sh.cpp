@@ -75,9 +75,6 @@ void add_eval(CLI::App& group, Context& context) {
   };
   auto o = std::make_shared<Options>();
   CLI::App* command = add_command(group, context, "eval", "Values of all Y_lm in a direction", [&context, o] {
-    if (o->degree < 0 || o->degree > sh::max_degree) {
-      throw Error("--degree", fmt::format("{} is outside 0..{}", o->degree, sh::max_degree));
-    }
     const glm::dvec3 d = glm::normalize(glm::dvec3(unit_vector("--direction", o->direction)));
     std::vector<double> values(static_cast<std::size_t>(sh::coefficient_count(o->degree)));
     sh::eval_basis(o->degree, d, values);
@@ -90,7 +87,9 @@ void add_eval(CLI::App& group, Context& context) {
     }
     context.result({{"degree", o->degree}, {"values", values}}, text);
   });
-  command->add_option("--degree", o->degree, "Highest band l, 0..10")->capture_default_str();
+  command->add_option("--degree", o->degree, "Highest band l, 0..10")
+      ->check(CLI::Range(0, sh::max_degree))
+      ->capture_default_str();
   direction_option(*command, "--direction", o->direction, "Any length but 0; y is up")->required();
 }
 
@@ -103,9 +102,6 @@ void add_project(CLI::App& group, Context& context) {
   auto o = std::make_shared<Options>();
   CLI::App* command =
       add_command(group, context, "project", "Coefficients of the radiance in an image", [&context, o] {
-        if (o->degree < 0 || o->degree > sh::max_degree) {
-          throw Error("--degree", fmt::format("{} is outside 0..{}", o->degree, sh::max_degree));
-        }
         const image::Layout layout = image::layout_from_name(o->layout);
         const image::Image picture = image::read_image(o->image);
         for (const float value : picture.pixels) {
@@ -129,7 +125,9 @@ void add_project(CLI::App& group, Context& context) {
       });
   command->add_option("image", o->image, "EXR, HDR, PNG or JPEG of the whole sphere")->required();
   command->add_option("--layout", o->layout, layout_help)->required();
-  command->add_option("--degree", o->degree, "Highest band l, 0..10")->capture_default_str();
+  command->add_option("--degree", o->degree, "Highest band l, 0..10")
+      ->check(CLI::Range(0, sh::max_degree))
+      ->capture_default_str();
   o->output.option(*command);
 }
 
