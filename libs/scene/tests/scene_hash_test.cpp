@@ -14,7 +14,8 @@ Scene full_scene() {
   Scene s;
   s.textures.push_back({"t", 1, 2, std::vector<std::uint8_t>(8, 7)});
   s.textures.push_back({"u", 1, 2, std::vector<std::uint8_t>(8, 9)});
-  s.materials.resize(2);
+  s.materials.resize(3);
+  s.materials[2].metallic = 1;
   s.materials[0].base_color_texture.texture = 0;
   s.materials[0].normal_texture.texture = 0;
   s.materials[0].alpha_mode = AlphaMode::mask;
@@ -94,7 +95,7 @@ std::vector<Change> visible_changes() {
       {"colour", [](Scene& s) { s.meshes[0].colors[5].w = 0; }},
       {"triangle", [](Scene& s) { std::swap(s.meshes[0].triangles[0].x, s.meshes[0].triangles[0].y); }},
       {"mesh material", [](Scene& s) { s.meshes[0].material = 1; }},
-      {"instance material", [](Scene& s) { s.instances[0].material = 1; }},
+      {"instance material", [](Scene& s) { s.instances[0].material = 2; }},
       {"instance node", [](Scene& s) { s.instances[0].node = 1; }},
       {"instance group", [](Scene& s) { s.instances[0].light_group = "g"; }},
       {"default group", [](Scene& s) { s.nodes[0].name = "m"; }},
@@ -111,7 +112,7 @@ std::vector<Change> visible_changes() {
       {"yheight", [](Scene& s) { s.cameras[1].yheight = 1; }},
       {"aspect", [](Scene& s) { s.cameras[0].aspect = 2.0f; }},
       {"light name", [](Scene& s) { s.lights[0].name = "l"; }},
-      {"light group", [](Scene& s) { s.lights[0].group = "l"; }},
+      {"light group", [](Scene& s) { s.lights[0].group = "k"; }},
       {"light node", [](Scene& s) { s.lights[0].node = 1; }},
       {"light type", [](Scene& s) { s.lights[0].type = LightType::spot; }},
       {"light colour", [](Scene& s) { s.lights[0].color.x = 0; }},
