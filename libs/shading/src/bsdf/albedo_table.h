@@ -19,7 +19,7 @@ class AlbedoTable {
   vec2 directional(float mu, float roughness) const {
     const Place r = place(roughness), m = place(mu);
     const auto row = [&](int i) {
-      const vec2* v = &values_[static_cast<std::size_t>(i * size + m.index)];
+      const vec2* v = &values_[static_cast<std::size_t>(i)][static_cast<std::size_t>(m.index)];
       return v[0] + m.fraction * (v[1] - v[0]);
     };
     const vec2 a = row(r.index), b = row(r.index + 1);
@@ -43,7 +43,7 @@ class AlbedoTable {
     return {i, s - static_cast<float>(i)};
   }
 
-  std::array<vec2, static_cast<std::size_t>(size) * size> values_;  ///< [roughness][μ]
+  std::array<std::array<vec2, size>, size> values_;  ///< [roughness][μ]
   std::array<vec2, size> means_;
 };
 

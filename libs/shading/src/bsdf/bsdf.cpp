@@ -25,14 +25,17 @@ float diffuse_model(float roughness, const vec3& wo, const vec3& wi) {
 /// Szirmay-Kalos 2001), so that a Lambertian base gives exactly ρ (1 − E(μ_o)).
 struct Layers {
   SpecularLobe specular;
-  vec3 albedo;       ///< E(μ_o)
+  vec3 albedo;       ///< E(μ_o); only where there is a diffuse layer
   float p_specular;  ///< probability to sample the specular lobe
 
-  Layers(const BsdfParams& params, const vec3& wo) : specular(params), albedo(specular_albedo(wo.z)) {
+  Layers(const BsdfParams& params, const vec3& wo) : specular(params), albedo(0), p_specular(1) {
+    if (!(max_component(params.diffuse) > 0)) return;
+    albedo = specular_albedo(wo.z);
+
     // Choose the lobe by its share of the reflected light, neither starved when both are there
     const float s = albedo.x + albedo.y + albedo.z;
     const float d = glm::dot(params.diffuse, vec3(1) - albedo);
-    p_specular = d <= 0 ? 1.0f : glm::clamp(s / (s + d), 0.1f, 0.9f);
+    if (d > 0) p_specular = glm::clamp(s / (s + d), 0.1f, 0.9f);
   }
 
   vec3 specular_albedo(float mu) const {
@@ -112,7 +115,7 @@ std::optional<BsdfSample> sample_bsdf(const BsdfParams& params, const vec3& wo, 
 
 vec3 directional_albedo(const BsdfParams& params, float cos_o) {
   if (!has_specular(params)) return params.diffuse;
-  const vec3 e = Layers(params, vec3(0, 0, glm::max(cos_o, 1e-4f))).albedo;
+  const vec3 e = Layers(params, vec3(0, 0, 1)).specular_albedo(cos_o);
   return e + params.diffuse * (vec3(1) - e);
 }
 
