@@ -1,7 +1,292 @@
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/file.h>
+#include <ssphh/core/log.h>
+#include <ssphh/gi/lookup.h>
+#include <ssphh/gi/probe_file.h>
+#include <ssphh/image/io.h>
+#include <ssphh/image/tonemap.h>
+#include <ssphh/trace/path_tracer.h>
+
 #include "command.h"
+#include "scene_options.h"
 
 namespace ssphh::app {
+namespace {
 
-void add_render_command(CLI::App&, Context&) {}
+struct RenderOptions {
+  SceneOptions scene;
+  std::string output, png, method = "path", probes, lookup = "irradiance", light = "sum", camera,
+                           projection = "camera", tonemap = "clip";
+  std::vector<std::string> aovs;
+  int width = 1280, height = 720, max_depth = 3, passes = 1, spp = 16;
+  float exposure = 0;
+  bool resume = false;
+};
+
+const std::vector<std::string> aov_names = {"direct", "indirect", "albedo", "normal", "depth", "groups"};
+
+std::filesystem::path checkpoint_path(const RenderOptions& o) {
+  return o.output + ".state";
+}
+
+trace::RenderParams render_params(const RenderOptions& o, const Context& context, const scene::Scene& scene) {
+  trace::RenderParams params;
+  params.width = o.width;
+  params.height = o.height;
+  params.camera = scene::camera_pose(scene, o.camera, o.scene.time);
+  params.path = {o.max_depth, o.passes, o.spp, context.seed};
+  for (const std::string& aov : o.aovs) params.per_group |= aov == "groups";
+  if (o.projection == "equirect") {
+    params.projection = trace::Projection::equirect;
+  } else if (o.projection == "cube") {
+    params.projection = trace::Projection::cube_strip;
+  } else if (params.camera.camera.orthographic) {
+    params.projection = trace::Projection::orthographic;
+  }
+  return params;
+}
+
+void write_display(const std::filesystem::path& path, const image::Image& linear, const RenderOptions& o) {
+  const auto curve = o.tonemap == "filmic" ? image::ToneCurve::filmic : image::ToneCurve::clip;
+  image::write_image(path, image::tone_map(linear, {.exposure = o.exposure, .curve = curve}));
+}
+
+bool is_display_format(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+}
+
+void write_picture(const std::filesystem::path& path, const image::Image& linear, const RenderOptions& o) {
+  if (is_display_format(path)) {
+    write_display(path, linear, o);
+  } else {
+    image::write_image(path, linear);
+  }
+}
+
+// OUT.exr gives OUT.albedo.exr and so on: float data, whatever the format of the picture.
+void write_aovs(const RenderOptions& o, const trace::RenderState& state,
+                const std::vector<std::string>& groups) {
+  const std::filesystem::path output = o.output;
+  const std::string stem = (output.parent_path() / output.stem()).string();
+  const auto write = [&](const std::string& name, const image::Image& sum) {
+    image::write_image(stem + "." + name + ".exr", trace::resolve(sum, state.passes_done));
+  };
+  for (const std::string& aov : o.aovs) {
+    if (aov == "direct") write(aov, state.direct);
+    if (aov == "indirect") write(aov, state.indirect);
+    if (aov == "albedo") write(aov, state.albedo);
+    if (aov == "normal") write(aov, state.normal);
+    if (aov == "depth") write(aov, state.depth);
+    if (aov == "groups") {
+      for (std::size_t g = 0; g < state.groups.size(); ++g) {
+        std::string name = groups[g];
+        for (char& c : name)
+          c = std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
+        write("group." + name, state.groups[g]);
+      }
+    }
+  }
+}
+
+// Finished passes survive Ctrl-C in a checkpoint beside the output; --resume continues it.
+template <class Render>
+void run_passes(const RenderOptions& o, trace::RenderState& state, const Render& render) {
+  try {
+    render();
+  } catch (const Cancelled&) {
+    if (state.passes_done > 0) {
+      trace::save_state(state, checkpoint_path(o));
+      log_info("stopped after {} of {} passes; continue with --resume", state.passes_done, o.passes);
+    }
+    throw;
+  }
+  std::error_code ignored;
+  std::filesystem::remove(checkpoint_path(o), ignored);
+}
+
+void render_path(const trace::PathTracer& tracer, const RenderOptions&, const trace::RenderParams& params,
+                 trace::RenderState& state, const Control& control) {
+  tracer.render(params, state, control);
+}
+
+void render_ssphh(const trace::PathTracer& tracer, const RenderOptions& o, const trace::RenderParams& params,
+                  trace::RenderState& state, const Control& control) {
+  if (o.probes.empty()) {
+    throw Error("--probes", "method ssphh needs a probe file",
+                fmt::format("make one with `ssphh bake {} -o probes.sphl`", o.scene.source));
+  }
+  const gi::ProbeSet probes = gi::read_probe_file(o.probes);
+  gi::LookupParams lookup;
+  if (o.light == "self") lookup.layer = gi::ProbeLayer::self;
+  const auto method = o.lookup == "light" ? gi::LookupMethod::light : gi::LookupMethod::irradiance;
+  const std::unique_ptr<scene::IndirectLight> indirect = gi::make_lookup(method, probes, tracer, lookup);
+  tracer.render_with(*indirect, params, state, control);
+}
+
+// What decides the pixels beside the parameters: the scene, the method and its probes.
+Hash128 content_hash(const RenderOptions& o, const scene::Scene& scene) {
+  const Hash128 hash = scene::scene_hash(scene);
+  Hasher hasher;
+  hasher.value(hash.high).value(hash.low).text(o.method);
+  if (!o.probes.empty()) hasher.bytes(read_file(o.probes)).text(o.lookup).text(o.light);
+  return hasher.finish();
+}
+
+struct Method {
+  const char* name;
+  const char* description;
+  void (*render)(const trace::PathTracer&, const RenderOptions&, const trace::RenderParams&,
+                 trace::RenderState&, const Control&);
+};
+
+constexpr Method methods[] = {
+    {"path", "path tracing, the ground truth", render_path},
+    {"ssphh", "direct light traced, indirect light looked up from SPHLs at the first hit", render_ssphh},
+};
+
+const Method& find_method(const std::string& name) {
+  for (const Method& method : methods) {
+    if (name == method.name) return method;
+  }
+  SSPHH_CHECK(!"the option's check admits known methods only");
+  return methods[0];
+}
+
+void render(const RenderOptions& o, const Context& context) {
+  const scene::Scene scene = load_scene(o.scene);
+  trace::RenderParams params = render_params(o, context, scene);
+  const trace::PathTracer tracer(scene, o.scene.time);
+  if (tracer.light_groups().empty()) {
+    log_warning(
+        "{}: no lights: the picture will be black (add lights to the file, --overlay, --environment or "
+        "--sun-sky)",
+        o.scene.source);
+  }
+  const Method& method = find_method(o.method);
+
+  trace::RenderState state;
+  const Hash128 key = trace::render_key(content_hash(o, scene), o.scene.time, params);
+  state.key = key;
+  if (o.resume && std::filesystem::exists(checkpoint_path(o))) {
+    state = trace::load_state(checkpoint_path(o), key);
+    log_info("resuming after {} passes", state.passes_done);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  run_passes(o, state, [&] { method.render(tracer, o, params, state, context.control); });
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  const image::Image picture = trace::resolve(state.color, state.passes_done);
+  write_picture(o.output, picture, o);
+  if (!o.png.empty()) write_display(o.png, picture, o);
+  write_aovs(o, state, tracer.light_groups());
+
+  double mean[3] = {};
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      for (int c = 0; c < 3; ++c) mean[c] += static_cast<double>(picture.rgb(x, y)[c]);
+    }
+  }
+  for (double& m : mean) m /= static_cast<double>(picture.width) * picture.height;
+  context.result({{"output", o.output},
+                  {"method", o.method},
+                  {"width", picture.width},
+                  {"height", picture.height},
+                  {"passes", state.passes_done},
+                  {"seconds", seconds},
+                  {"rays", state.rays},
+                  {"paths", state.paths},
+                  {"mean", mean}},
+                 fmt::format("{}: {}×{}, {} paths, {} rays in {:.2f} s, mean radiance {:.4g} {:.4g} {:.4g}",
+                             o.output, picture.width, picture.height, state.paths, state.rays, seconds,
+                             mean[0], mean[1], mean[2]));
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, Context& context) {
+  auto options = std::make_shared<RenderOptions>();
+  RenderOptions& o = *options;
+  CLI::App* command = add_command(app, context, "render", "Render a picture",
+                                  [options, &context] { render(*options, context); });
+  add_scene_options(*command, o.scene);
+
+  std::vector<std::string> names;
+  std::string description = "How indirect light is found:";
+  for (const Method& method : methods) {
+    names.emplace_back(method.name);
+    description += fmt::format(" {} ({});", method.name, method.description);
+  }
+  description.pop_back();
+  command->add_option("--method", o.method, description)->check(CLI::IsMember(names))->capture_default_str();
+  command
+      ->add_option("-o,--output", o.output,
+                   "Picture: .exr or .hdr (linear radiance), .png or .jpg (tone mapped)")
+      ->required();
+  command->add_option("--png", o.png, "Also write a tone-mapped PNG here");
+  command->add_option("--width", o.width, "Pixels")->check(CLI::Range(1, 65536))->capture_default_str();
+  command->add_option("--height", o.height, "Pixels")->check(CLI::Range(1, 65536))->capture_default_str();
+  command->add_option("--camera", o.camera, "Camera by name; default: the scene's first");
+  command
+      ->add_option(
+          "--projection", o.projection,
+          "camera; or the whole sphere at its position: equirect, or cube (6×1 strip, width = 6 × height)")
+      ->check(CLI::IsMember({"camera", "equirect", "cube"}))
+      ->capture_default_str();
+
+  const std::string paths = "Light paths";
+  command
+      ->add_option("--max-depth", o.max_depth,
+                   "Scattering events: 0 emitters only, 1 direct light, 2 one bounce …")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str()
+      ->group(paths);
+  command->add_option("--passes", o.passes, "Progressive passes; Ctrl-C keeps the finished ones")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str()
+      ->group(paths);
+  command->add_option("--spp", o.spp, "Samples per pixel and pass")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str()
+      ->group(paths);
+  command
+      ->add_flag("--resume", o.resume, "Continue from OUT.state, left by a cancelled run of the same command")
+      ->group(paths);
+
+  const std::string probes = "Method ssphh";
+  command->add_option("--probes", o.probes, "Probe file (.sphl or .sphl.json)")->group(probes);
+  command
+      ->add_option("--lookup", o.lookup,
+                   "irradiance: blend of visible SPHLs; light: nearest visible SPHL, as the paper")
+      ->check(CLI::IsMember({"light", "irradiance"}))
+      ->capture_default_str()
+      ->group(probes);
+  command
+      ->add_option("--light", o.light,
+                   "sum: own and neighbours' light where HIER was run; self: own light only")
+      ->check(CLI::IsMember({"sum", "self"}))
+      ->capture_default_str()
+      ->group(probes);
+
+  const std::string output = "Output";
+  command
+      ->add_option("--aov", o.aovs,
+                   "Extra float images beside the output: direct indirect albedo normal depth groups")
+      ->delimiter(',')
+      ->check(CLI::IsMember(aov_names))
+      ->group(output);
+  command->add_option("--exposure", o.exposure, "Exposure of tone-mapped output in stops")
+      ->capture_default_str()
+      ->group(output);
+  command->add_option("--tonemap", o.tonemap, "clip at white, or filmic")
+      ->check(CLI::IsMember({"clip", "filmic"}))
+      ->capture_default_str()
+      ->group(output);
+}
 
 }  // namespace ssphh::app
