@@ -37,7 +37,8 @@ void check_png(const Source& source);
 /// CRC-32 as PNG uses it, of the bytes of a chunk's type and data.
 std::uint32_t png_crc(std::span<const std::byte> data);
 
-/// Throws Error when a JPEG's segments do not fit the file or its end is missing.
+/// Throws Error when a JPEG's segments do not fit the file, its end is missing or a Huffman table is too
+/// long.
 void check_jpeg(const Source& source);
 
 }  // namespace ssphh::image

@@ -1,5 +1,7 @@
 // Every decoder answers every damaged file with an image or an Error.
 
+#include <algorithm>
+#include <array>
 #include <map>
 
 #include <gmock/gmock.h>
@@ -80,6 +82,16 @@ TEST_F(BrokenFiles, APngWithOneFlippedBitOfContentIsRefused) {
     damaged[i] ^= std::byte{0x10};
     EXPECT_FALSE(decodes(damaged, "a.png")) << "byte " << i;
   }
+}
+
+TEST_F(BrokenFiles, AJpegWithTooManyHuffmanCodesIsRefusedBeforeItIsDecoded) {
+  auto data = valid_files().at("a.jpg");
+  const std::array<std::byte, 2> marker{std::byte{0xff}, std::byte{0xc4}};
+  const auto table = std::search(data.begin(), data.end(), marker.begin(), marker.end());
+  ASSERT_NE(table, data.end());
+  // Marker, length, class and identity, then the counts: 200 codes each of 15 and 16 bits.
+  *(table + 5 + 14) = *(table + 5 + 15) = std::byte{200};
+  EXPECT_THAT(test::message_of([&] { decode_image(data, "a.jpg"); }), testing::HasSubstr("Huffman table"));
 }
 
 TEST_F(BrokenFiles, FilesThatOnceCrashedExrReadersDoNotCrashThisOne) {
