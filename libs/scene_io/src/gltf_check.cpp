@@ -16,7 +16,12 @@ class Checker {
 
   // Every top-level array is an array of objects, and each of them passes its check.
   void run() const {
-    for (std::size_t i = 0; i < document_.count("buffers"); ++i) document_.buffer(static_cast<int>(i));
+    // A buffer without uri that nothing uses is allowed: its data may come from elsewhere
+    for (std::size_t i = 0; i < document_.count("buffers"); ++i) {
+      const int index = static_cast<int>(i);
+      if (document_.item("buffers", index).find("uri") || (i == 0 && document_.is_glb()))
+        document_.buffer(index);
+    }
     each("bufferViews", [&](const JsonView& v) { buffer_view(v); });
     each("accessors", [&](const JsonView& v) { accessor(v); });
     each("images", [&](const JsonView& v) { reference(v, "bufferView", "bufferViews"); });

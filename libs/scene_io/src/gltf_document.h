@@ -29,6 +29,9 @@ class GltfDocument {
   /// Reads object.key as an index into a top-level array; nullopt when absent.
   std::optional<int> reference(const JsonView& object, const char* key, const char* collection) const;
 
+  /// Whether the file is a GLB with a binary chunk.
+  bool is_glb() const { return binary_chunk_.has_value(); }
+
   struct BufferView {
     std::span<const std::byte> bytes;
     std::uint64_t stride;  ///< 0: tightly packed

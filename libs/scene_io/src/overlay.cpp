@@ -215,7 +215,7 @@ void apply_overlay(Scene& scene, std::string_view text, const std::filesystem::p
   const nlohmann::json json = parse_json(text, file);
   const JsonView root(json, file);
   root.only_keys({"$schema", "comment", "scene", "name", "unit", "origin", "cameras", "lights", "sphls",
-                  "environment", "materials"});
+                  "environment", "sun_sky", "materials"});
   scene.name = text_or(root, "name", scene.name);
   const auto unit = root.find("unit"), origin = root.find("origin");
   if (unit || origin) set_unit(scene, unit ? positive(*unit) : 1, origin ? origin->vector3() : vec3(0));

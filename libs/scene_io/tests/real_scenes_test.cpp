@@ -244,7 +244,7 @@ TEST_F(RealScenes, EveryBrokenGltfLoadsOrSaysWhatIsWrong) {
     }
   }
   EXPECT_EQ(files, 186);
-  EXPECT_EQ(errors, 73);
+  EXPECT_EQ(errors, 66);
 }
 
 }  // namespace
