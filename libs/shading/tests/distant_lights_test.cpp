@@ -140,6 +140,18 @@ TEST(EnvironmentLight, SamplesFollowTheirDensityAndCarryTheRadianceSeenThere) {
   EXPECT_GT(equal, 995) << "all but directions that rounding moves to the next pixel";
 }
 
+TEST(EnvironmentLight, UniformImageIsSampledUniformlyOverTheSphere) {
+  scene::Scene scene;
+  scene.environment = scene::Environment{};
+  scene.environment->equirect = image::Image(32, 16);
+  for (float& p : scene.environment->equirect.pixels) p = 3;
+  const LightSet lights = make_lights(scene);
+  for (int i = 0; i < 500; ++i) {
+    // Rounding of the cumulative sums: 1e-4 of a row's share
+    EXPECT_NEAR(hit(lights, spherical_fibonacci(i, 500))->pdf * 4 * pi, 1, 1e-3f);
+  }
+}
+
 TEST(EnvironmentLight, RotatesCounterClockwiseSeenFromAbove) {
   scene::Scene scene;
   scene.environment = scene::Environment{};

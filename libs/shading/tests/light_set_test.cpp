@@ -73,7 +73,9 @@ TEST(LightSet, HitsReportTheDensityOfTheirSamples) {
     for (int n = 0; n < 4000; ++n) {
       const float u = random.uniform();
       const auto s = lights.sample(x, u, random.uniform2());
-      if (!s || s->delta) continue;
+      if (!s) continue;
+      EXPECT_NEAR(glm::length(s->wi), 1, 1e-5f);
+      if (s->delta) continue;
       const auto compare = [&](int& count) {
         return [&](const EmitterHit& hit) {
           if (hit.group != s->group) return;
