@@ -21,7 +21,7 @@ Scene make_cornell() {
   b.add("short box", make_box({-0.3f, 0, -0.3f}, {0.3f, 0.6f, 0.3f}), white,
         at({0.33f, 0, 0.375f}, -17, {0, 1, 0}));
   b.add_emitter("lamp", "lamp", make_quad({-0.24f, 1.98f, -0.22f}, {0.47f, 0, 0}, {0, 0, 0.38f}),
-                {17, 12, 4});
+                {18.4f, 14, 6.75f});
 
   b.camera("front", {0, 1, 3.9f}, {0, 1, 0}, 39.3f, 1);
   b.sphl("center", {0, 1.3f, 0.2f});

@@ -21,11 +21,11 @@ Scene make_gallery1() {
   b.add("green panel", make_box({4.93f, 0.3f, -3.6f}, {4.98f, 3.7f, 0.4f}), green);
   add_partition(b, "left partition", -3.9f, -1.5f, -2.2f, 2.3f, white);
   add_partition(b, "right partition", 1.3f, 3.7f, -1.6f, 2.3f, yellow);
-  b.spot_light("red spot", {-2.7f, 0.3f, -2.6f}, {-2.5f, 2.3f, -3.95f}, {1, 0.95f, 0.9f}, 45, 35, 60, "back");
+  b.spot_light("red spot", {-2.7f, 0.3f, -2.6f}, {-2.5f, 2.3f, -3.95f}, {1, 0.95f, 0.9f}, 30, 35, 60, "back");
   b.spot_light("green spot", {3, 0.4f, -2.2f}, {4.95f, 2, -1.9f}, {1, 0.95f, 0.9f}, 40, 35, 60, "right");
   // The cove on the left lights a blue band of wall and the ceiling.
   b.add("blue band", make_box({-4.98f, 2.85f, -3.8f}, {-4.95f, 3.9f, 3.8f}), blue);
-  add_cove(b, "cove", -1, white, {14, 13.5f, 13}, "cove");
+  add_cove(b, "cove", -1, white, {36, 35, 34}, "cove");
 
   // White bodies.
   float top = add_plinth(b, "plinth left", -1.6f, -0.4f, 0.7f, 0.8f, white);

@@ -20,7 +20,7 @@ Scene make_gallery2() {
       {.floor = floor, .ceiling = plaster, .left = ochre, .right = plaster, .front = plaster, .back = teal});
 
   // Hidden lamps: a cove on the right wall, a sphere and an uplight behind the partition.
-  add_cove(b, "cove", 1, plaster, {13, 12, 10.5f}, "cove");
+  add_cove(b, "cove", 1, plaster, {36, 33, 29}, "cove");
   add_partition(b, "partition", -2.2f, 2.2f, -2.4f, 2.2f, plaster);
   b.sphere_light("globe", {-1.2f, 1.1f, -3.3f}, 0.12f, {1, 0.85f, 0.65f}, 280, "globe");
   b.spot_light("uplight", {1.3f, 0.3f, -2.9f}, {1.2f, 4, -3.4f}, {0.85f, 0.92f, 1}, 40, 30, 55, "uplight");

@@ -23,7 +23,7 @@ Scene make_gallery3() {
                .back = plaster});
 
   // Hidden lamps.
-  add_cove(b, "cove", -1, plaster, {9, 8.5f, 8}, "cove");
+  add_cove(b, "cove", -1, plaster, {24, 23, 21}, "cove");
   add_partition(b, "partition", -1.8f, 1.8f, -2.9f, 2.4f, umber);
   b.sphere_light("globe", {0, 1.2f, -3.5f}, 0.1f, {1, 0.9f, 0.75f}, 300, "globe");
   b.spot_light("uplight left", {-3.6f, 1.95f, -2.2f}, {-3, 4, -1.6f}, {1, 0.92f, 0.8f}, 25, 30, 55,

@@ -102,7 +102,7 @@ Scene make_two_rooms() {
   b.add("outside", make_box({-far - wall, -wall, -depth - wall}, {far + wall, height + wall, depth + wall}),
         walls);
   add_door(b, wood);
-  b.point_light("lamp", {-2.4f, 2.5f, 0.5f}, {1, 0.9f, 0.75f}, 12);
+  b.point_light("lamp", {-2.4f, 2.5f, 0.5f}, {1, 0.9f, 0.75f}, 4);
 
   b.camera("room-a", {-3.8f, 1.6f, 0.9f}, {0, 1.2f, -0.1f}, 50);
   b.camera("room-b", {3.8f, 1.6f, -1.3f}, {0, 1.2f, 0.3f}, 50);
