@@ -2,7 +2,7 @@
 add_library(ssphh_compile_options INTERFACE)
 target_compile_options(ssphh_compile_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual
-  -Werror=return-type -fno-math-errno -march=${SSPHH_ARCH})
+  -Werror=return-type $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -fno-math-errno -march=${SSPHH_ARCH})
 option(SSPHH_WARNINGS_AS_ERRORS "Treat warnings as errors" OFF)
 if(SSPHH_WARNINGS_AS_ERRORS)
   target_compile_options(ssphh_compile_options INTERFACE -Werror)
@@ -10,4 +10,8 @@ endif()
 if(SSPHH_SANITIZE)
   target_compile_options(ssphh_compile_options INTERFACE -fsanitize=${SSPHH_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(ssphh_compile_options INTERFACE -fsanitize=${SSPHH_SANITIZE})
+endif()
+if(SSPHH_BUILD_FUZZERS)
+  # Coverage feedback in every module, without libFuzzer's main.
+  target_compile_options(ssphh_compile_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()

@@ -1,9 +1,11 @@
-// Projects a sky to spherical harmonics and prints the irradiance that surfaces facing each axis receive from it.
+// Projects a sky to spherical harmonics and prints the irradiance that surfaces facing each axis receive from
+// it.
 
 #include <cstdio>
 
 #include <ssphh/sh/irradiance.h>
 #include <ssphh/sh/project.h>
+#include <ssphh/sh/reconstruct.h>
 
 using namespace ssphh;
 
@@ -19,6 +21,6 @@ int main() {
     vec3 normal;
   } surfaces[] = {{"floor", {0, 1, 0}}, {"wall", {1, 0, 0}}, {"ceiling", {0, -1, 0}}};
   for (const auto& [name, normal] : surfaces) {
-    std::printf("%-8s E = %.4f W/m2\n", name, static_cast<double>(sh::irradiance(irradiance, normal).x));
+    std::printf("%-8s E = %.4f W/m2\n", name, static_cast<double>(sh::eval(irradiance, normal).x));
   }
 }

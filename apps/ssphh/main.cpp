@@ -45,6 +45,11 @@ int run(int argc, char** argv) {
   add_cubemap_commands(app, context);
   add_compare_command(app, context);
 
+  const auto called = [&](const CLI::App* command) { return command->check_name(argv[1]); };
+  if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(called).empty()) {
+    log(LogLevel::error, fmt::format("no command '{}'; see ssphh --help", argv[1]));
+    return usage;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -112,18 +112,19 @@ TEST(Keys, ShEvalGivesTheFirstBands) {
 TEST(Keys, ShProjectFeedsTheOtherShCommands) {
   const TempDir dir;
   const std::string strip = dir / "strip.exr", coefficients = dir / "c.json", image = dir / "back.exr";
-  // Closed box, Le = 1, albedo ½, depth 1: radiance 1.5 in every direction.
+  // Closed box, Le = 1, depth 0: radiance 1 in every direction, without noise.
   run_json({"render", "builtin:box", "-o", strip, "--projection", "cube", "--width", "96", "--height", "16",
-            "--max-depth", "1", "--spp", "1"});
+            "--max-depth", "0", "--spp", "1"});
   const json project =
       run_json({"sh", "project", strip, "--layout", "strip-h", "--degree", "2", "-o", coefficients});
   expect_keys(project, {"degree", "coefficients"});
   ASSERT_EQ(project["coefficients"].size(), 9u);
-  // L √4π, and no higher band but the noise of one sample per texel of a constant field: none.
-  EXPECT_NEAR(project["coefficients"][0][0].get<double>(), 1.5 * 3.5449077, 2e-3);
+  // √4π to the five digits of the file, no higher band.
+  EXPECT_NEAR(project["coefficients"][0][0].get<double>(), 3.5449077, 5e-5);
+  EXPECT_NEAR(project["coefficients"][1][0].get<double>(), 0, 5e-5);
   const json irradiance = run_json({"sh", "irradiance", coefficients, "--normal", "0", "0", "1"});
   ASSERT_EQ(irradiance["irradiance"].size(), 3u);
-  EXPECT_NEAR(irradiance["irradiance"][0].get<double>(), 1.5 * 3.14159265, 5e-3);
+  EXPECT_NEAR(irradiance["irradiance"][0].get<double>(), 3.14159265, 5e-5);
   run_json({"sh", "reconstruct", coefficients, "-o", image, "--layout", "equirect", "--size", "16"});
   EXPECT_TRUE(std::filesystem::exists(image));
   expect_keys(run_json({"sh", "rotate", coefficients, "--axis", "0", "1", "0", "--angle", "90"}),
