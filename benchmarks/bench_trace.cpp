@@ -116,9 +116,9 @@ void ray_rate(benchmark::State& state, const std::string& name) {
   if (!scene) return state.SkipWithError("real scene absent (set SSPHH_SCENES)");
   const trace::PathTracer tracer(*scene);
   trace::RenderParams params;
-  params.width = 640, params.height = 360;
+  params.width = 480, params.height = 270;
   params.camera = scene::camera_pose(*scene, "");
-  params.path = {3, 1, 1, 1};
+  params.path = {3, 1, 4, 1};
 
   // Record the rays once.
   trace::RayRecording recording;

@@ -1,7 +1,7 @@
 #pragma once
-/// Statistical tests of estimators: a mean against its true value or another mean, with stated significance. Seeds are
-/// fixed, so a test that passes once passes always; the significance says how often a correct estimator would fail when
-/// somebody changes the sampling.
+/// Statistical tests of estimators: a mean against its true value or another mean, with stated significance.
+/// Seeds are fixed, so a test that passes once passes always; the significance says how often a correct
+/// estimator would fail when somebody changes the sampling.
 
 #include <cmath>
 #include <cstddef>
@@ -30,7 +30,8 @@ class Samples {
   double mean_ = 0, squares_ = 0;
 };
 
-/// How strict a family of tests is: `level` is the chance that a correct program fails any of the `tests` comparisons.
+/// How strict a family of tests is: `level` is the chance that a correct program fails any of the `tests`
+/// comparisons.
 struct Significance {
   double level = 1e-3;
   int tests = 1;
@@ -40,12 +41,14 @@ struct Significance {
 };
 
 /// Chance that a normal variable lies at least |z| deviations from its mean.
-inline double two_sided_p(double z) { return std::erfc(std::abs(z) / std::sqrt(2.0)); }
+inline double two_sided_p(double z) {
+  return std::erfc(std::abs(z) / std::sqrt(2.0));
+}
 
-/// Whether a difference is explained by its variance. `rounding` is what floating-point or a stated approximation may
-/// add; it is all that is allowed when the variance is zero.
-inline ::testing::AssertionResult difference_is_noise(double difference, double variance, Significance significance,
-                                                      double rounding) {
+/// Whether a difference is explained by its variance. `rounding` is what floating-point or a stated
+/// approximation may add; it is all that is allowed when the variance is zero.
+inline ::testing::AssertionResult difference_is_noise(double difference, double variance,
+                                                      Significance significance, double rounding) {
   const double beyond = std::max(0.0, std::abs(difference) - rounding);
   const double deviation = std::sqrt(variance);
   if (!std::isfinite(beyond)) return ::testing::AssertionFailure() << "the mean is not finite";
@@ -53,23 +56,24 @@ inline ::testing::AssertionResult difference_is_noise(double difference, double 
   const double z = deviation > 0 ? beyond / deviation : INFINITY;
   const double p = two_sided_p(z);
   auto result = p >= significance.single() ? ::testing::AssertionSuccess() : ::testing::AssertionFailure();
-  return result << "difference " << difference << ", standard error " << deviation << ", z " << z << ", p " << p
-                << ", allowed " << significance.single();
+  return result << "difference " << difference << ", standard error " << deviation << ", z " << z << ", p "
+                << p << ", allowed " << significance.single();
 }
 
 /// z-test of a mean against its true value. Wants enough samples for the central limit theorem: 30 at least.
-inline ::testing::AssertionResult mean_is(const Samples& samples, double expected, Significance significance = {},
-                                          double rounding = 0) {
+inline ::testing::AssertionResult mean_is(const Samples& samples, double expected,
+                                          Significance significance = {}, double rounding = 0) {
   if (samples.count() < 30) return ::testing::AssertionFailure() << "too few samples: " << samples.count();
   return difference_is_noise(samples.mean() - expected, samples.variance_of_mean(), significance, rounding)
          << " (mean " << samples.mean() << ", expected " << expected << ")";
 }
 
 /// z-test of two independent estimators of one value.
-inline ::testing::AssertionResult means_agree(const Samples& a, const Samples& b, Significance significance = {},
-                                              double rounding = 0) {
+inline ::testing::AssertionResult means_agree(const Samples& a, const Samples& b,
+                                              Significance significance = {}, double rounding = 0) {
   if (a.count() < 30 || b.count() < 30) return ::testing::AssertionFailure() << "too few samples";
-  return difference_is_noise(a.mean() - b.mean(), a.variance_of_mean() + b.variance_of_mean(), significance, rounding)
+  return difference_is_noise(a.mean() - b.mean(), a.variance_of_mean() + b.variance_of_mean(), significance,
+                             rounding)
          << " (means " << a.mean() << " and " << b.mean() << ")";
 }
 
