@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <string_view>
 
