@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <ostream>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,11 @@
 #include "geometry.h"
 
 namespace ssphh::scene {
+
+void PrintTo(const BuiltinScene& scene, std::ostream* out) {
+  *out << scene.name;
+}
+
 namespace {
 
 using namespace testing;

@@ -1,4 +1,6 @@
 #include <cstring>
+#include <limits>
+#include <ostream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -13,6 +15,14 @@
 #include <ssphh/scene_io/gltf_export.h>
 
 #include "temp_dir.h"
+
+namespace ssphh::scene {
+
+void PrintTo(const BuiltinScene& scene, std::ostream* out) {
+  *out << scene.name;
+}
+
+}  // namespace ssphh::scene
 
 namespace ssphh::scene_io {
 namespace {
