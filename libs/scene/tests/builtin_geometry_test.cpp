@@ -256,8 +256,9 @@ TEST_P(Gallery, MainViewIsMostlyIndirect) {
     for (int x = 0; x < 24; ++x) {
       const float u = (static_cast<float>(x) + 0.5f) / 12 - 1, v = 1 - (static_cast<float>(y) + 0.5f) / 7;
       const vec3 direction = glm::normalize(vec3(pose.world * vec4(u * tan_x, v * tan_y, -1, 0)));
-      const auto [distance, normal] = nearest_hit(eye, direction, triangles);
-      const vec3 p = eye + distance * direction + 1e-3f * normal;
+      const std::pair<float, vec3> hit = nearest_hit(eye, direction, triangles);
+      const vec3 normal = hit.second;
+      const vec3 p = eye + hit.first * direction + 1e-3f * normal;
       ++seen;
       lit += std::any_of(lamps.begin(), lamps.end(), [&](const Lamp& lamp) {
         const vec3 l = lamp.position + 2e-3f * lamp.axis, to_p = glm::normalize(p - l);
