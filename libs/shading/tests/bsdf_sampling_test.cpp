@@ -47,7 +47,7 @@ TEST(BsdfSampling, WeightIsValueOverDensity) {
         EXPECT_NEAR(s->weight[c] * s->pdf, f[c], 1e-5f * (f[c] + s->pdf)) << model.name;
       }
     }
-    EXPECT_GT(drawn, 250) << model.name;
+    EXPECT_GT(drawn, 200) << model.name;  // enough to have tested something
   }
 }
 
