@@ -7,14 +7,15 @@ namespace {
 // unused or doubled objects count. Names count only where they choose something: cameras, SPHLs and light
 // groups.
 
+// −0 + 0 is 0: the sign of a zero is no difference, and files that leave out defaults lose it.
 Hasher& add(Hasher& h, const vec2& v) {
-  return h.value(v.x).value(v.y);
+  return h.value(v.x + 0.0f).value(v.y + 0.0f);
 }
 Hasher& add(Hasher& h, const vec3& v) {
-  return h.value(v.x).value(v.y).value(v.z);
+  return add(h, vec2(v)).value(v.z + 0.0f);
 }
 Hasher& add(Hasher& h, const quat& q) {
-  return h.value(q.x).value(q.y).value(q.z).value(q.w);
+  return add(h, vec3(q.x, q.y, q.z)).value(q.w + 0.0f);
 }
 Hasher& add(Hasher& h, const Hash128& hash) {
   return h.value(hash.high).value(hash.low);

@@ -162,6 +162,7 @@ TEST(SceneHash, InvisibleChangesKeepIt) {
       {"unused material", [](Scene& s) { s.materials.emplace_back(); }},
       {"unused mesh", [](Scene& s) { s.meshes.emplace_back(); }},
       {"copied mesh", [](Scene& s) { s.meshes.push_back(s.meshes[0]), s.instances[0].mesh = 1; }},
+      {"sign of a zero", [](Scene& s) { s.nodes[0].local.translation.x = -0.0f; }},
       {"cone of a point light", [](Scene& s) { s.lights[0].outer_cone = 0.3f; }},
   };
   const Hash128 before = scene_hash(full_scene());
