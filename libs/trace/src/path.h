@@ -119,14 +119,17 @@ void trace_path(const EmbreeScene& scene, const Emitters& emitters, Ray ray, con
     if (depth + 1 == options.max_depth && !emitters.found_by_rays()) return;
 
     // Sample the BSDF; a direction that the shading normal allows but the surface does not ends the path.
-    const float u_lobe = random.next();
-    const auto sample = shading::sample_bsdf(surface.bsdf, wo, u_lobe, random.next2());
+    const vec2 u_direction = random.next2();
+    const bool roulette = options.roulette && depth + 1 >= roulette_depth;
+    const float u_roulette = roulette ? random.next() : 0;
+    const float u_lobe = shading::is_lambertian(surface.bsdf) ? 0 : random.next();
+    const auto sample = shading::sample_bsdf(surface.bsdf, wo, u_lobe, u_direction);
     if (!sample || !(sample->pdf > 0)) return;
     const vec3 wi = frame.to_world(sample->wi);
     if (glm::dot(wi, vertex.normal) <= 0) return;
     throughput *= sample->weight;
     vertex.bsdf_pdf = sample->pdf;
-    ray = {ray_origin, glm::normalize(wi)};
+    ray = {ray_origin, wi};
 
     // End paths by Russian roulette.
     const float brightness = max_component(throughput);
@@ -134,9 +137,9 @@ void trace_path(const EmbreeScene& scene, const Emitters& emitters, Ray ray, con
       if (!(brightness <= 0)) ++task.invalid;
       return;
     }
-    if (options.roulette && depth + 1 >= roulette_depth) {
+    if (roulette) {
       const float survival = std::min(brightness, 0.95f);
-      if (random.next() >= survival) return;
+      if (u_roulette >= survival) return;
       throughput /= survival;
     }
   }

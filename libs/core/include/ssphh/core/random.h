@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include <ssphh/core/math.h>
+#include <ssphh/core/sobol.h>
 
 namespace ssphh {
 
@@ -62,10 +63,23 @@ class SampleSequence {
  public:
   SampleSequence(std::uint64_t pixel_seed, std::uint32_t index) : seed_(pixel_seed), index_(index) {}
 
+  // Inline: with the dimension known at compile time, half of the hashing is done there.
+
   /// The next dimension, in [0, 1).
-  float next();
+  float next() {
+    const std::uint64_t h = hash_combine(seed_, dimension_++);
+    const std::uint32_t index = owen_scramble(index_, static_cast<std::uint32_t>(h));
+    return to_unit_float(reverse_bits(owen_scramble_reversed(index, static_cast<std::uint32_t>(h >> 32))));
+  }
   /// The next two dimensions, jointly stratified.
-  vec2 next2();
+  vec2 next2() {
+    const std::uint64_t h = hash_combine(seed_, dimension_++);
+    const std::uint64_t h2 = mix64(h);
+    const std::uint32_t index = owen_scramble(index_, static_cast<std::uint32_t>(h));
+    const std::uint32_t x = owen_scramble_reversed(index, static_cast<std::uint32_t>(h >> 32));
+    const std::uint32_t y = owen_scramble_reversed(sobol1_reversed(index), static_cast<std::uint32_t>(h2));
+    return {to_unit_float(reverse_bits(x)), to_unit_float(reverse_bits(y))};
+  }
 
  private:
   std::uint64_t seed_;
