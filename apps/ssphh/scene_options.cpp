@@ -43,7 +43,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options, bool posed) {
       ->check(CLI::Range(0.0f, 90.0f))
       ->capture_default_str()
       ->group(group);
-  command.add_option("--sun-azimuth", options.sun_azimuth, "Degrees from +x toward +z")
+  command.add_option("--sun-azimuth", options.sun_azimuth, "Degrees by compass: 0 is −z, 90 is +x")
       ->capture_default_str()
       ->group(group);
   command.add_option("--turbidity", options.turbidity, "Haze: 2 very clear, 10 hazy")
@@ -61,7 +61,7 @@ scene::Scene load_scene(const SceneOptions& options) {
   if (options.sun_sky) {
     scene::SunSkyParams& sky = load.sun_sky.emplace();
     sky.elevation = glm::radians(options.sun_elevation);
-    sky.azimuth = glm::radians(options.sun_azimuth);
+    sky.azimuth = glm::radians(options.sun_azimuth - 90);
     sky.turbidity = options.turbidity;
   }
   return scene_io::load_scene(options.source, load);

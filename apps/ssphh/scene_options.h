@@ -15,7 +15,7 @@ struct SceneOptions {
   float environment_intensity = 1;
   float environment_rotation = 0;  ///< degrees
   bool sun_sky = false;
-  float sun_elevation = 45, sun_azimuth = 30;  ///< degrees
+  float sun_elevation = 45, sun_azimuth = 120;  ///< degrees; azimuth 0: −z, 90: +x
   float turbidity = 3;
   float time = 0;  ///< seconds
 };

@@ -88,6 +88,15 @@ TEST(BadInput, WarningsDoNotStopTheWork) {
   EXPECT_THAT(no_lights.err, AllOf(HasSubstr("warning"), HasSubstr("no lights"), HasSubstr("gone.mtl")));
 }
 
+TEST(BadInput, AProbeInsideABodyIsWarnedAbout) {
+  const TempDir dir;
+  write(dir / "inside.json", R"({"sphls": [{"name": "buried", "position": [0.33, 0.2, 0.3]}]})");
+  const ToolResult result = run_tool({"bake", "builtin:cornell", "--overlay", dir / "inside.json", "-o",
+                                      dir / "x.sphl", "--face", "8", "--spp", "1", "--viz", "off"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, AllOf(HasSubstr("warning"), HasSubstr("buried"), HasSubstr("inside a body")));
+}
+
 TEST(BadInput, BakeWithoutProbesSaysHowToAddThem) {
   const TempDir dir;
   write(dir / "plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
