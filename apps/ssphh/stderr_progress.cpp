@@ -41,8 +41,9 @@ void StderrProgress::begin(const std::string& stage, std::uint64_t total, const 
 void StderrProgress::advance(std::uint64_t count) {
   std::lock_guard lock(mutex_);
   done_ += count;
-  const auto interval =
-      style_ == ProgressStyle::bar ? std::chrono::milliseconds(100) : std::chrono::milliseconds(2000);
+  const auto interval = std::chrono::milliseconds(style_ == ProgressStyle::bar    ? 100
+                                                  : style_ == ProgressStyle::json ? 200
+                                                                                  : 2000);
   if (Clock::now() - printed_ >= interval) print(false);
 }
 

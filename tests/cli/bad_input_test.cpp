@@ -149,7 +149,7 @@ TEST(BadInput, CtrlCLeavesTheOldOutputAndResumeGivesTheSameBits) {
   ASSERT_EQ(run_tool(with({"render", "builtin:cornell", "-o", cut, "--resume"}, effort)).exit_code, 0);
   ASSERT_EQ(run_tool(with({"render", "builtin:cornell", "-o", whole, "--threads", "1"}, effort)).exit_code,
             0);
-  EXPECT_EQ(read(cut), read(whole));
+  EXPECT_TRUE(read(cut) == read(whole));
 }
 
 TEST(BadInput, AKilledBakeResumesToTheSameBits) {
@@ -165,7 +165,7 @@ TEST(BadInput, AKilledBakeResumesToTheSameBits) {
 
   ASSERT_EQ(run_tool(with({"bake", "builtin:cornell", "-o", cut}, effort)).exit_code, 0);
   ASSERT_EQ(run_tool(with({"bake", "builtin:cornell", "-o", whole}, effort)).exit_code, 0);
-  EXPECT_EQ(read(cut), read(whole));
+  EXPECT_TRUE(read(cut) == read(whole));
 }
 
 }  // namespace

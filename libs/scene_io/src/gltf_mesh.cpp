@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -39,9 +40,9 @@ std::vector<uvec3> triangles_of(std::uint64_t mode, std::size_t corners,
   return out;
 }
 
-// The vertices that triangles use, in rising order: files often share one vertex buffer between many
+// The vertices to keep, in rising order, those that triangles use: files often share one vertex buffer between many
 // primitives. Renumbers the triangles to match.
-std::vector<std::uint32_t> compact_vertices(std::vector<uvec3>& triangles) {
+std::vector<std::uint32_t> compact_vertices(std::vector<uvec3>& triangles, std::size_t vertex_count) {
   std::uint32_t low = std::numeric_limits<std::uint32_t>::max(), high = 0;
   for (const uvec3& t : triangles) {
     low = std::min({low, t.x, t.y, t.z});
@@ -55,6 +56,11 @@ std::vector<std::uint32_t> compact_vertices(std::vector<uvec3>& triangles) {
     if (new_index[i] == 0) continue;
     new_index[i] = static_cast<std::uint32_t>(used.size());
     used.push_back(low + i);
+  }
+  if (used.size() >= vertex_count / 2) {  // little to gain: leave the file's vertices as they are
+    used.resize(vertex_count);
+    std::iota(used.begin(), used.end(), 0u);
+    return used;
   }
   for (uvec3& t : triangles) t = {new_index[t.x - low], new_index[t.y - low], new_index[t.z - low]};
   return used;
@@ -155,7 +161,7 @@ std::optional<Mesh> import_primitive(GltfImport& import, const JsonView& primiti
   }
 
   // Read the attributes of the vertices that are used
-  const auto used = compact_vertices(mesh.triangles);
+  const auto used = compact_vertices(mesh.triangles, vertex_count);
   mesh.positions = read_attribute<vec3>(import, attributes, "POSITION", 3, vertex_count, used);
   mesh.normals = read_attribute<vec3>(import, attributes, "NORMAL", 3, vertex_count, used);
   mesh.tangents = read_attribute<vec4>(import, attributes, "TANGENT", 4, vertex_count, used);

@@ -33,7 +33,9 @@ Node import_transform(const JsonView& node) {
     const vec4 q = rotation->vector4();
     const float length = glm::length(q);
     if (!(length > 1e-6f) || !std::isfinite(length)) rotation->fail("is no unit quaternion");
-    out.local.rotation = quat(q.w / length, q.x / length, q.y / length, q.z / length);
+    // Already of length 1 as far as floats go: keep the bits, so that writing and reading change nothing
+    const float divisor = std::abs(length - 1) < 1e-6f ? 1 : length;
+    out.local.rotation = quat(q.w / divisor, q.x / divisor, q.y / divisor, q.z / divisor);
   }
   return out;
 }

@@ -108,7 +108,7 @@ TEST(Gltf, UnnormalizedIntegersKeepTheirValue) {
 
 TEST(Gltf, PrimitivesThatShareAVertexBufferKeepOnlyTheirVertices) {
   GlbBuilder b;
-  b.add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0}, 5126, "VEC3", 6);
+  b.add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0, 7, 7, 7, 8, 8, 8}, 5126, "VEC3", 8);
   b.add<std::uint8_t>({0, 1, 2}, 5121, "SCALAR", 3);
   b.add<std::uint8_t>({5, 3, 4}, 5121, "SCALAR", 3);
   const Scene scene =
