@@ -1,11 +1,11 @@
 // Bakes a built-in scene through the installed libraries: every module must be found, compile and link.
 
+#include <cstdio>
+
 #include <ssphh/core/log.h>
 #include <ssphh/metrics/compare.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/trace/path_tracer.h>
-
-#include <cstdio>
 
 int main() {
   const ssphh::scene::Scene scene = ssphh::scene::make_builtin("box");
@@ -17,6 +17,7 @@ int main() {
   ssphh::trace::RenderState state;
   tracer.render(params, state);
   // Closed box, Le = 1, albedo 1/2: depth 2 gives 1 + 1/2 + 1/4.
-  std::printf("%.2f\n", static_cast<double>(ssphh::trace::resolve(state.color, state.passes_done).rgb(16, 9).x));
+  std::printf("%.2f\n",
+              static_cast<double>(ssphh::trace::resolve(state.color, state.passes_done).rgb(16, 9).x));
   return 0;
 }

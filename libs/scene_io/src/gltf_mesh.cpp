@@ -40,8 +40,8 @@ std::vector<uvec3> triangles_of(std::uint64_t mode, std::size_t corners,
   return out;
 }
 
-// The vertices to keep, in rising order, those that triangles use: files often share one vertex buffer between many
-// primitives. Renumbers the triangles to match.
+// The vertices to keep, in rising order, those that triangles use: files often share one vertex buffer
+// between many primitives. Renumbers the triangles to match.
 std::vector<std::uint32_t> compact_vertices(std::vector<uvec3>& triangles, std::size_t vertex_count) {
   std::uint32_t low = std::numeric_limits<std::uint32_t>::max(), high = 0;
   for (const uvec3& t : triangles) {

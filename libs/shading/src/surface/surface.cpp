@@ -99,7 +99,8 @@ Surface surface_at(const scene::Scene& scene, const scene::Mesh& mesh, int mater
   vec3 normal = front;
   if (!mesh.normals.empty()) {
     normal = normalize_or(normal_matrix * at.interpolate(mesh.normals), front);
-    if (glm::dot(normal, front) < 0) normal = -normal;  // files whose normals and winding disagree: winding wins
+    if (glm::dot(normal, front) < 0)
+      normal = -normal;  // files whose normals and winding disagree: winding wins
   }
   if (material.normal_texture.texture >= 0)
     normal = mapped_normal(scene, mesh, material, at, uv, world, normal);

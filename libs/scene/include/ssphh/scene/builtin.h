@@ -1,11 +1,11 @@
 #pragma once
 /// Procedural scenes, addressed as "builtin:NAME".
 
-#include <ssphh/scene/scene.h>
-
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <ssphh/scene/scene.h>
 
 namespace ssphh::scene {
 

@@ -1,9 +1,7 @@
 #pragma once
-/// A scene as plain data: arrays that refer to each other by index (−1: none), with defaults and units. Knows neither
-/// files nor renderers. World: right-handed, y up, metres; colours scene-linear Rec.709 (docs/conventions.md).
-
-#include <ssphh/core/math.h>
-#include <ssphh/image/image.h>
+/// A scene as plain data: arrays that refer to each other by index (−1: none), with defaults and units. Knows
+/// neither files nor renderers. World: right-handed, y up, metres; colours scene-linear Rec.709
+/// (docs/conventions.md).
 
 #include <array>
 #include <cstdint>
@@ -11,10 +9,13 @@
 #include <string>
 #include <vector>
 
+#include <ssphh/core/math.h>
+#include <ssphh/image/image.h>
+
 namespace ssphh::scene {
 
-/// 8-bit RGBA texels, row 0 on top, as stored in the file. The slot that uses a texture decides whether its RGB is
-/// sRGB-encoded (base colour, emission) or linear (everything else).
+/// 8-bit RGBA texels, row 0 on top, as stored in the file. The slot that uses a texture decides whether its
+/// RGB is sRGB-encoded (base colour, emission) or linear (everything else).
 struct Texture {
   std::string name;
   int width = 0, height = 0;
@@ -36,20 +37,21 @@ struct TextureUse {
 
 enum class AlphaMode { opaque, mask, blend };
 
-/// Surface. Diffuse and specular roughness are *bipolar* as in the paper (§5): the sign chooses the model, the
-/// magnitude is the roughness.
+/// Surface. Diffuse and specular roughness are *bipolar* as in the paper (§5): the sign chooses the model,
+/// the magnitude is the roughness.
 struct Material {
   std::string name;
-  vec3 base_color{0.8f};           ///< diffuse albedo of a dielectric, F0 of a metal; multiplied by its texture
-  float alpha = 1;                 ///< coverage, multiplied by the base colour texture's alpha
-  float metallic = 0;              ///< 0..1
-  float diffuse_roughness = 0;     ///< −1..0: Oren–Nayar of |value|; 0: Lambert; 0..1: Disney diffuse of value
-  float specular_roughness = 1;    ///< −1..0: normalised Blinn–Phong of |value|; 0..1: GGX, perceptual (α = value²)
-  float specular = 1;              ///< weight of the dielectric specular lobe; 0 leaves pure diffuse
-  float ior = 1.5f;                ///< dielectric F0 = ((ior − 1)/(ior + 1))²
-  vec3 emission{0};                ///< emitted radiance [W sr⁻¹ m⁻²], emissive strength included; times its texture
-  bool unlit = false;              ///< KHR_materials_unlit: emits base_color, reflects nothing
-  bool double_sided = false;       ///< emission from both faces; reflection is two-sided in any case
+  vec3 base_color{0.8f};        ///< diffuse albedo of a dielectric, F0 of a metal; multiplied by its texture
+  float alpha = 1;              ///< coverage, multiplied by the base colour texture's alpha
+  float metallic = 0;           ///< 0..1
+  float diffuse_roughness = 0;  ///< −1..0: Oren–Nayar of |value|; 0: Lambert; 0..1: Disney diffuse of value
+  float specular_roughness =
+      1;               ///< −1..0: normalised Blinn–Phong of |value|; 0..1: GGX, perceptual (α = value²)
+  float specular = 1;  ///< weight of the dielectric specular lobe; 0 leaves pure diffuse
+  float ior = 1.5f;    ///< dielectric F0 = ((ior − 1)/(ior + 1))²
+  vec3 emission{0};    ///< emitted radiance [W sr⁻¹ m⁻²], emissive strength included; times its texture
+  bool unlit = false;  ///< KHR_materials_unlit: emits base_color, reflects nothing
+  bool double_sided = false;  ///< emission from both faces; reflection is two-sided in any case
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   float normal_scale = 1;
@@ -98,9 +100,9 @@ struct Camera {
   std::string name;
   int node = -1;
   bool orthographic = false;
-  float yfov = 0.8f;             ///< radians, perspective
-  float yheight = 2;             ///< metres seen vertically, orthographic
-  std::optional<float> aspect;   ///< width/height as the file asks; a render's own size wins
+  float yfov = 0.8f;            ///< radians, perspective
+  float yheight = 2;            ///< metres seen vertically, orthographic
+  std::optional<float> aspect;  ///< width/height as the file asks; a render's own size wins
 };
 
 enum class LightType { point, spot, directional, sphere };
@@ -112,22 +114,22 @@ struct Light {
   int node = -1;
   LightType type = LightType::point;
   vec3 color{1};
-  /// point, spot: radiant intensity [W/sr] (glTF's candela read as W/sr); directional: irradiance on a facing plane
-  /// [W/m²] (glTF's lux); sphere: emitted radiance [W sr⁻¹ m⁻²].
+  /// point, spot: radiant intensity [W/sr] (glTF's candela read as W/sr); directional: irradiance on a facing
+  /// plane [W/m²] (glTF's lux); sphere: emitted radiance [W sr⁻¹ m⁻²].
   float intensity = 1;
-  float radius = 0;                         ///< sphere, metres, not scaled by the node
-  float angular_radius = 0;                 ///< directional: radians; 0 is a delta light, the sun's is 0.00465
+  float radius = 0;          ///< sphere, metres, not scaled by the node
+  float angular_radius = 0;  ///< directional: radians; 0 is a delta light, the sun's is 0.00465
   float inner_cone = 0, outer_cone = pi / 4;  ///< spot, radians from the axis
-  float range = 0;                          ///< 0: unlimited; else the falloff KHR_lights_punctual recommends
+  float range = 0;  ///< 0: unlimited; else the falloff KHR_lights_punctual recommends
 };
 
 /// Infinitely distant light: an equirectangular image (see docs/conventions.md for its axes) or a constant.
 struct Environment {
   std::string name = "environment";
-  std::string group;          ///< empty: the name
-  image::Image equirect;      ///< radiance; empty: `color` everywhere
-  vec3 color{1};              ///< factor on the image, or the constant radiance
-  float rotation = 0;         ///< radians about +y, counter-clockwise seen from above
+  std::string group;      ///< empty: the name
+  image::Image equirect;  ///< radiance; empty: `color` everywhere
+  vec3 color{1};          ///< factor on the image, or the constant radiance
+  float rotation = 0;     ///< radians about +y, counter-clockwise seen from above
 };
 
 /// A spherical-harmonics light of the paper: a probe, and an emitter for VIZ.
@@ -141,13 +143,14 @@ struct Sphl {
 enum class AnimationPath { translation, rotation, scale };
 enum class Interpolation { step, linear, cubic_spline };
 
-/// Keyframes of one property of one node; cubic_spline has three values (in-tangent, value, out-tangent) per time.
+/// Keyframes of one property of one node; cubic_spline has three values (in-tangent, value, out-tangent) per
+/// time.
 struct AnimationChannel {
   int node = -1;
   AnimationPath path = AnimationPath::translation;
   Interpolation interpolation = Interpolation::linear;
-  std::vector<float> times;   ///< seconds, increasing
-  std::vector<vec4> values;   ///< xyz, or quaternion xyzw
+  std::vector<float> times;  ///< seconds, increasing
+  std::vector<vec4> values;  ///< xyz, or quaternion xyzw
 };
 
 struct Animation {
@@ -167,7 +170,8 @@ struct Scene {
   std::vector<Sphl> sphls;
   std::vector<Animation> animations;
   std::optional<Environment> environment;
-  /// What the file holds and this project does not use, one line each ("extension KHR_materials_sheen (2 uses)").
+  /// What the file holds and this project does not use, one line each ("extension KHR_materials_sheen (2
+  /// uses)").
   std::vector<std::string> ignored;
 };
 
