@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "bsdf_models.h"
@@ -49,6 +51,27 @@ TEST(BsdfSampling, WeightIsValueOverDensity) {
     }
     EXPECT_GT(drawn, 200) << model.name;  // enough to have tested something
   }
+}
+
+// Smith's height-correlated masking with α = 1 seen face-on: ∫ D G / (4 cos_o) dω = 1 − ln 2, by hand.
+TEST(BsdfSampling, RoughestWhiteGgxSeenFaceOnReflectsOneMinusLogTwo) {
+  BsdfParams params;
+  params.diffuse = vec3(0);
+  params.f0 = vec3(1);
+  params.specular_roughness = 1;
+  constexpr int count = 20000;
+  Pcg32 random(17);
+  double sum = 0, squares = 0;
+  for (int n = 0; n < count; ++n) {
+    const float u_lobe = random.uniform();
+    const auto s = sample_bsdf(params, {0, 0, 1}, u_lobe, random.uniform2());
+    const double weight = s ? static_cast<double>(s->weight.x) : 0.0;
+    sum += weight;
+    squares += weight * weight;
+  }
+  const double mean = sum / count;
+  const double deviation = std::sqrt((squares / count - mean * mean) / count);
+  EXPECT_NEAR(mean, 1 - std::log(2.0), 3.9 * deviation);  // 3.9 σ: 1e-4 two-sided
 }
 
 TEST(BsdfSampling, EstimatesTheAlbedoThatQuadratureFinds) {
