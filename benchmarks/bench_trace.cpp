@@ -22,32 +22,12 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Dabrovic's Sponza with its customary camera and lamp, if the file is at hand.
+/// Dabrovic's Sponza with its customary camera and lamp, if $SSPHH_SCENES has the file.
 std::optional<scene::Scene> sponza() {
   const char* folder = std::getenv("SSPHH_SCENES");
-  const std::filesystem::path file =
-      std::filesystem::path(folder ? folder : "../shared/scenes") / "sponza/sponza.glb";
-  if (!std::filesystem::exists(file)) return std::nullopt;
-  scene::Scene scene = scene_io::load_scene(file.string());
-  const auto add_node = [&](const mat4& matrix) {
-    scene::Node node;
-    node.matrix = matrix;
-    scene.nodes.push_back(node);
-    return static_cast<int>(scene.nodes.size()) - 1;
-  };
-  scene::Light lamp;
-  lamp.name = "lamp";
-  lamp.type = scene::LightType::sphere;
-  lamp.radius = 0.1f, lamp.intensity = 5000;
-  lamp.node = add_node(mat4(vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, 1, 0), vec4(0, 17, 0, 1)));
-  scene.lights.assign(1, lamp);
-  scene::Camera camera;
-  const vec3 eye(14.45f, 6.894f, -1.185f), target(13.456f, 6.784f, -1.159f);
-  const vec3 back = glm::normalize(eye - target), right = glm::normalize(glm::cross(vec3(0, 1, 0), back));
-  camera.node = add_node(mat4(vec4(right, 0), vec4(glm::cross(back, right), 0), vec4(back, 0), vec4(eye, 1)));
-  camera.yfov = 2 * std::atan(std::tan(0.5f * glm::radians(90.5f)) * 9 / 16);
-  scene.cameras.assign(1, camera);
-  return scene;
+  if (!folder || !std::filesystem::exists(std::filesystem::path(folder) / "sponza/sponza.glb"))
+    return std::nullopt;
+  return scene_io::load_scene(SSPHH_SOURCE_DIR "/examples/scenes/sponza.ssphh.json");
 }
 
 std::optional<scene::Scene> scene_named(const std::string& name) {
