@@ -34,7 +34,8 @@ class Validator {
     if (!condition) throw Error(where_ + " at " + at, problem);
   }
   void number(float value, float low, float high, const std::string& at) const {
-    require(value >= low && value <= high, at, fmt::format("{} is not in {}..{}", value, low, high));
+    if (value >= low && value <= high) return;  // before any text is made: called for every coefficient
+    require(false, at, fmt::format("{} is not in {}..{}", value, low, high));
   }
   void text(const std::string& value, const std::string& at) const {
     require(value.size() <= limits::text, at, "the name is longer than 1024 bytes");
