@@ -170,7 +170,9 @@ void set_sun_sky(Scene& scene, const JsonView& entry) {
   entry.only_keys({"elevation_degrees", "azimuth_degrees", "turbidity", "ground_albedo", "sun", "width"});
   scene::SunSkyParams params;
   params.elevation = degrees(entry, "elevation_degrees", 0, 90, glm::degrees(params.elevation));
-  params.azimuth = degrees(entry, "azimuth_degrees", -360, 360, glm::degrees(params.azimuth));
+  // By compass: 0 is −z, 90 is +x
+  const float azimuth = degrees(entry, "azimuth_degrees", -360, 360, glm::degrees(params.azimuth) + 90);
+  params.azimuth = azimuth - pi / 2;
   params.turbidity = number_or(entry, "turbidity", params.turbidity);
   if (const auto albedo = entry.find("ground_albedo")) params.ground_albedo = albedo->vector3();
   params.sun = boolean_or(entry, "sun", params.sun);

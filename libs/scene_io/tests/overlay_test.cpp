@@ -123,6 +123,15 @@ TEST(Overlay, SunSkyGivesEnvironmentAndSun) {
   EXPECT_TRUE(scene.environment.has_value());
   ASSERT_EQ(scene.lights.size(), 1u);
   EXPECT_EQ(scene.lights[0].type, scene::LightType::directional);
+
+  // A sun in the east, +x, low above the horizon, shines toward −x
+  Scene east = plain_scene();
+  apply_overlay(east, R"({"sun_sky": {"elevation_degrees": 10, "azimuth_degrees": 90, "width": 32}})",
+                "test.ssphh.json");
+  const auto world = scene::world_matrices(east);
+  const vec3 shines = -vec3(world[static_cast<std::size_t>(east.lights.at(0).node)][2]);
+  EXPECT_NEAR(shines.x, -std::cos(glm::radians(10.0f)), 1e-6);  // float rounding
+  EXPECT_NEAR(shines.z, 0, 1e-6);
 }
 
 TEST(Overlay, VariablesAreOnlyThoseOfThisProject) {
@@ -185,7 +194,7 @@ TEST(LoadScene, ContentDecidesBeforeExtension) {
 TEST(Overlay, FlippedBitsAreAcceptedOrGiveAnError) {
   const std::string whole = rich_overlay;
   int errors = 0;
-  for (std::size_t bit = 0; bit < whole.size() * 8; ++bit) {
+  for (std::size_t bit = 0; bit < whole.size() * 8; bit += 5) {  // every byte, another bit each time
     std::string broken = whole;
     broken[bit / 8] = static_cast<char>(broken[bit / 8] ^ (1 << (bit % 8)));
     try {
@@ -195,7 +204,7 @@ TEST(Overlay, FlippedBitsAreAcceptedOrGiveAnError) {
       ++errors;
     }
   }
-  EXPECT_GT(errors, 1000);
+  EXPECT_GT(errors, 500);
 }
 
 }  // namespace
