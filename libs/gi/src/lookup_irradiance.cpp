@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "probe_table.h"
 
@@ -6,6 +7,17 @@ namespace ssphh::gi {
 
 struct IrradianceLookup::Data {
   ProbeTable table;
+
+  /// Inverse squared distance, relative to the nearest so that nothing overflows, times a wrapped cosine
+  /// (Majercik et al., Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields, JCGT 2019): a
+  /// probe behind the surface sees the light of other surfaces. Measured in docs/methods/ssphh.md.
+  float weight_of(const ProbeTable::Near& probe, float nearest2, const vec3& x, const vec3& n) const {
+    if (!(probe.distance2 > 0)) return 1;
+    const float cosine = glm::dot(n, table.position(probe.probe) - x) / std::sqrt(probe.distance2);
+    const float wrapped = 0.5f * (1 + cosine);
+    constexpr float floor = 0.05f;
+    return nearest2 / probe.distance2 * (wrapped * wrapped + floor);
+  }
 
   /// Weighted mean of value(probe) over the probes that see the point, or over the nearest ones if none does.
   template <class Value>
@@ -22,7 +34,6 @@ struct IrradianceLookup::Data {
     }
     if (visible == 0) visible = std::min(count, table.blend_count());
 
-    // Weight by inverse squared distance, relative to the nearest so that nothing overflows.
     float nearest2 = near[0].distance2;
     for (int i = 1; i < visible; ++i)
       nearest2 = std::min(nearest2, near[static_cast<std::size_t>(i)].distance2);
@@ -30,7 +41,7 @@ struct IrradianceLookup::Data {
     float weight_sum = 0;
     for (int i = 0; i < visible; ++i) {
       const ProbeTable::Near& probe = near[static_cast<std::size_t>(i)];
-      const float weight = probe.distance2 > 0 ? nearest2 / probe.distance2 : 1;
+      const float weight = weight_of(probe, nearest2, x, n);
       if (weight == 0) continue;
       sum += weight * value(probe.probe);
       weight_sum += weight;

@@ -94,6 +94,15 @@ TEST(IrradianceLookup, WeighsByInverseSquaredDistance) {
   expect_near(lookup.irradiance({3, 0, 0}, up), vec3(pi * 5));
 }
 
+TEST(IrradianceLookup, AProbeInFrontCountsMoreThanOneBehind) {
+  const FakeSource source;
+  const IrradianceLookup lookup(
+      make_set({{{0, 1, 0}, linear(2, vec3(1), vec3(0)), {}}, {{0, -1, 0}, linear(2, vec3(5), vec3(0)), {}}}),
+      source);
+  // Wrapped cosines squared 1 and 0, each plus 0.05.
+  expect_near(lookup.irradiance({0, 0, 0}, {0, 1, 0}), vec3(pi * (1 * 1.05f + 5 * 0.05f) / 1.1f));
+}
+
 TEST(IrradianceLookup, AHiddenProbeDoesNotLeakAndTheLookupReachesPastIt) {
   FakeSource source;
   source.free = [](const vec3& a, const vec3& b) { return (a.x < 1) == (b.x < 1); };

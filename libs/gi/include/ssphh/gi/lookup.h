@@ -50,8 +50,8 @@ class LightLookup final : public scene::IndirectLight {
   std::unique_ptr<Data> data_;
 };
 
-/// Irradiance volume: E(n) of the nearest visible probes, weighted by inverse squared distance. When none is
-/// visible, of the nearest ones.
+/// Irradiance volume: E(n) of the nearest visible probes, weighted by inverse squared distance and a
+/// wrapped cosine. When none is visible, of the nearest ones.
 class IrradianceLookup final : public scene::IndirectLight {
  public:
   IrradianceLookup(const ProbeSet& set, const scene::RadianceSource& source, const LookupParams& params = {});
