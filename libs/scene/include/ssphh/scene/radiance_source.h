@@ -11,6 +11,7 @@
 #include <ssphh/core/control.h>
 #include <ssphh/image/cube_map.h>
 #include <ssphh/scene/query.h>
+#include <ssphh/scene/transport_source.h>
 
 namespace ssphh::scene {
 
@@ -51,6 +52,13 @@ struct GroupRadiance {
   image::CubeMap reflected;  ///< depth 1..max_depth: light that a surface scattered toward the point
 };
 
+/// Path-traced light at a surface point: the truth that lookups are measured against.
+struct IrradianceEstimate {
+  vec3 direct{0};             ///< irradiance [W/m²] straight from emitters
+  vec3 indirect{0};           ///< irradiance by light that other surfaces scattered
+  vec3 indirect_variance{0};  ///< of the estimate `indirect`, from independent batches
+};
+
 class RadianceSource {
  public:
   virtual ~RadianceSource() = default;
@@ -70,6 +78,14 @@ class RadianceSource {
   virtual std::vector<image::CubeMap> ghost_radiance(const CubeRequest& request,
                                                      std::span<const GhostSphere> ghosts,
                                                      const GhostSink& sink, const Control& control) const = 0;
+
+  /// Irradiance at surface points. The point's own scattering counts as depth 1, so max_depth 1 gives direct
+  /// light alone and `indirect` holds depths 2..max_depth. spp · passes paths per point.
+  virtual std::vector<IrradianceEstimate> surface_irradiance(std::span<const SurfacePoint> /*points*/,
+                                                             const PathParams& /*path*/,
+                                                             const Control& /*control*/) const {
+    throw Error("radiance source", "it cannot trace irradiance at surface points");
+  }
 
   /// Whether nothing blocks the open segment between two points.
   virtual bool visible(const vec3& a, const vec3& b) const = 0;
