@@ -1,7 +1,7 @@
 #pragma once
 /// Questions about surfaces and lamps that light transport between probes asks, without knowing who answers
-/// (Embree here; a GPU may answer them too). Bodies that move are kept apart from those that never do, so that
-/// a door which swings asks for little. Answers are a pure function of the scene and the arguments.
+/// (Embree here; a GPU may answer them too). Bodies that move are kept apart from those that never do, so
+/// that a door which swings asks for little. Answers are a pure function of the scene and the arguments.
 
 #include <cstdint>
 #include <limits>
@@ -30,9 +30,10 @@ struct RayQuery {
 /// The nearest surface on a ray, as transport sees it: Lambertian.
 struct RayHit {
   float distance = std::numeric_limits<float>::infinity();  ///< in units of the direction; infinite: escaped
-  vec3 normal{0};    ///< geometric, unit, toward the ray's origin
-  vec3 albedo{0};    ///< share of the irradiance that leaves again, diffuse and specular, 0..1
-  vec3 emission{0};  ///< radiance toward the ray's origin [W sr⁻¹ m⁻²]
+  vec3 normal{0};                                           ///< geometric, unit, toward the ray's origin
+  vec3 albedo{0};     ///< share of the irradiance that leaves again, diffuse and specular, 0..1
+  vec3 emission{0};   ///< radiance toward the ray's origin [W sr⁻¹ m⁻²]
+  int group = -1;     ///< light group of the emission; −1: none
   bool back = false;  ///< the back of a one-sided surface was hit
 
   bool escaped() const { return !(distance < std::numeric_limits<float>::infinity()); }
@@ -63,6 +64,9 @@ class DirectLight {
   virtual void irradiance(int group, std::span<const SurfacePoint> points, std::span<vec3> out) const = 0;
   /// Whether a body inside `box` may change the group's light at the point; false only if it cannot.
   virtual bool may_shadow(int group, const SurfacePoint& point, const Bounds& box) const = 0;
+  /// Radiance of the group's emitters that are no surfaces (sphere lights, environment, a sun's disc) along a
+  /// world-space ray whose nearest surface is at `distance`, infinite if it escapes.
+  virtual vec3 emitted(int group, const RayQuery& ray, float distance) const = 0;
 };
 
 class TransportSource {
@@ -91,8 +95,8 @@ class TransportSource {
   /// Names and group indices of lights(), in the same order.
   virtual const std::vector<std::string>& light_names() const = 0;
   virtual int light_group_of(int light) const = 0;
-  /// Whether the group has emitters beside lights(): emissive meshes on the given part. Part 0 also stands for
-  /// the environment.
+  /// Whether the group has emitters beside lights(): emissive meshes on the given part. Part 0 also stands
+  /// for the environment.
   virtual bool group_emits_from(int group, int part) const = 0;
   /// `lights` as from lights(), perhaps changed; `poses` one matrix per part.
   virtual std::unique_ptr<DirectLight> direct_light(std::span<const LightState> lights,
