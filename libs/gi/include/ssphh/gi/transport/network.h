@@ -1,0 +1,93 @@
+#pragma once
+/// What surfels and probes see of each other: the operators of surfel transport. Lights do not enter, and a
+/// moving part changes only the rays that meet it (docs/methods/transport.md).
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <ssphh/core/control.h>
+#include <ssphh/gi/transport/gbuffer.h>
+#include <ssphh/gi/transport/solve.h>
+#include <ssphh/gi/transport/surfels.h>
+
+namespace ssphh::gi {
+
+class NetworkBuilder;
+
+struct TransportParams {
+  int directions = 384;   ///< rays per probe
+  float surfel_size = 0;  ///< metres; 0: a twentieth of the scene's radius, within 0.05..0.5
+  int link_rays = 128;    ///< cosine rays per surfel
+  int samples = 8;        ///< points per surfel at which direct light is found, 1..32
+
+  friend bool operator==(const TransportParams&, const TransportParams&) = default;
+};
+
+/// What a probe ray sees: a surfel, or no_surfel, and the albedo of the very point.
+struct SeenPatch {
+  std::int32_t surfel;
+  std::uint32_t albedo;  ///< pack_albedo
+
+  friend bool operator==(const SeenPatch&, const SeenPatch&) = default;
+};
+
+struct PoseReport {
+  std::size_t rays_near_parts = 0;  ///< rays that some part comes near at some time
+  std::size_t hits_changed = 0;     ///< probe rays and links that see something else than before
+};
+
+class TransportNetwork {
+ public:
+  /// Keeps a reference to `source`. Throws Error without probes, for parameters out of range, and for a scene
+  /// of which the probes see nothing.
+  TransportNetwork(const scene::TransportSource& source, std::span<const vec3> positions,
+                   const TransportParams& params, float time = 0, const Control& control = {});
+  ~TransportNetwork();
+
+  /// Moves the parts. The result equals a network built at this time, to the bit.
+  PoseReport set_time(float time);
+  float time() const;
+
+  /// As resolved: surfel_size is never 0.
+  const TransportParams& params() const;
+  const ProbeGBuffer& gbuffer() const;
+  const SurfelSet& surfels() const;
+  /// Of each surfel.
+  const std::vector<vec3>& albedo() const;
+  std::size_t surfel_count() const { return albedo().size(); }
+
+  /// Direct light of surfel s is the mean over those of its samples [s · params().samples, …) that are in use.
+  /// World space, as posed.
+  const std::vector<scene::SurfacePoint>& samples() const;
+  const std::vector<std::uint8_t>& sample_used() const;
+
+  const LinkRows& links() const;
+  /// Bounds of the spectral radius of F ρ when the network was built.
+  const Contraction& contraction() const;
+
+  /// [probe · directions + direction]
+  const std::vector<SeenPatch>& seen() const;
+  /// Palette index of the emission that each probe ray sees; empty when no surface emits.
+  const std::vector<std::uint16_t>& seen_emission() const;
+  const EmissionPalette& palette() const;
+
+  /// Part to world, per part.
+  const std::vector<mat4>& poses() const;
+  scene::Bounds part_world_bounds(int part) const;
+
+  /// The surfel that stands for a surface point of a part (in the part's frame): the nearest one seen from it.
+  int find(int part, const scene::SurfacePoint& point) const;
+
+  /// Links that ended where no surfel is: their light is lost. 0 unless surfaces come into sight that nothing
+  /// saw while the network was built.
+  std::size_t lost_links() const;
+
+ private:
+  friend class NetworkBuilder;
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace ssphh::gi

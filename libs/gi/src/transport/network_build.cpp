@@ -1,0 +1,424 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/core/parallel.h>
+#include <ssphh/core/random.h>
+#include <ssphh/core/sphere.h>
+
+#include "network_data.h"
+
+namespace ssphh::gi {
+namespace {
+
+/// Rays per surfel and round while surfaces are still being found.
+constexpr int discovery_rays = 32;
+constexpr int most_rounds = 12;
+/// Points per surfel that moving parts are sampled with.
+constexpr double part_samples_per_surfel = 24;
+
+TransportParams checked(const scene::TransportSource& source, std::span<const vec3> positions,
+                        TransportParams params) {
+  if (positions.empty()) throw Error("transport", "there are no probes", "place some, or give the scene SPHLs");
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (!is_finite(positions[i])) throw Error(fmt::format("probe {}", i), "its position is not a finite number");
+  }
+  const auto within = [](const char* name, int value, int low, int high) {
+    if (value < low || value > high)
+      throw Error(name, fmt::format("{} is outside {}..{}", value, low, high));
+  };
+  within("directions", params.directions, 8, 1 << 16);
+  within("link rays", params.link_rays, 4, 1 << 16);
+  within("samples", params.samples, 1, 32);
+  if (params.surfel_size == 0)
+    params.surfel_size = glm::clamp(source.part_bounds(0).radius() / 20, 0.05f, 0.5f);
+  return params;
+}
+
+/// Cosine-distributed directions around a normal: point `index` of a rank-1 sequence (Roberts 2018, R2), shifted
+/// by the surfel so that neighbours differ.
+vec3 link_direction(const vec3& normal, std::uint32_t index, std::size_t surfel) {
+  const std::uint64_t h = mix64(surfel);
+  const double u = 0.7548776662466927 * (index + 1) + static_cast<double>(h >> 32) * 0x1p-32;
+  const double v = 0.5698402909980532 * (index + 1) + static_cast<double>(h & 0xffffffffu) * 0x1p-32;
+  const vec2 p{static_cast<float>(u - std::floor(u)), static_cast<float>(v - std::floor(v))};
+  return Frame::around(normal).to_world(sample_cosine_hemisphere(glm::min(p, vec2(0x1.fffffep-1f))));
+}
+
+bool meets_any(const scene::RayQuery& ray, const std::vector<scene::Bounds>& boxes) {
+  return std::any_of(boxes.begin(), boxes.end(),
+                     [&](const scene::Bounds& box) { return !box.empty() && meets(ray, box); });
+}
+
+}  // namespace
+
+/// Fills a network's data step by step.
+class NetworkBuilder {
+ public:
+  NetworkBuilder(TransportNetwork::Data& data, const Control& control) : d_(data), control_(control) {}
+
+  void build(std::span<const vec3> positions, float time) {
+    d_.swept = swept_bounds(d_.source);
+    d_.gbuffer = trace_gbuffer(d_.source, positions, d_.params.directions, control_);
+    add_probe_hits();
+    discover();
+    link_static_surfels();
+    d_.static_count = d_.surfels.count();
+    add_part_surfels();
+    d_.surfels.update_albedo();
+    for (const Surfel& surfel : d_.surfels.surfels()) d_.albedo.push_back(surfel.albedo);
+    find_hidden_samples();
+    find_moving_rays();
+    make_fixed_rows();
+
+    d_.place_parts(time);
+    PoseReport report;
+    d_.pose_samples();
+    d_.pose_hits(report);
+    d_.pose_links(report);
+    d_.contraction = contraction(d_.rows, d_.albedo);
+  }
+
+ private:
+  /// A link as traced, before rows are made of them.
+  struct RawLink {
+    scene::RayQuery ray;  ///< t_max: distance of the hit
+    vec3 normal;
+    std::int32_t surfel;
+  };
+
+  std::size_t rays_per_surfel() const { return static_cast<std::size_t>(d_.params.link_rays); }
+  std::size_t m() const { return d_.sample_count(); }
+
+  void add_probe_hits() {
+    const ProbeGBuffer& g = d_.gbuffer;
+    std::vector<ClusterPoint> points;
+    std::vector<std::size_t> owner;
+    d_.seen.resize(g.hits.size());
+    bool emits = false;
+    for (std::size_t i = 0; i < g.hits.size(); ++i) {
+      const PackedHit& hit = g.hits[i];
+      d_.seen[i] = {no_surfel, hit.albedo_and_back & 0x3fffffffu};
+      emits |= hit.emission != 0;
+      if (std::isinf(hit.distance)) continue;
+      points.push_back({{g.point(i / g.directions.size(), i % g.directions.size()), unpack_normal(hit)},
+                        unpack_albedo(hit)});
+      owner.push_back(i);
+    }
+    if (points.empty())
+      throw Error("transport", "no probe sees any surface", "move the probes to where the scene is");
+    const std::vector<int> surfel = d_.surfels.add(0, points);
+    for (std::size_t k = 0; k < points.size(); ++k) d_.seen[owner[k]].surfel = surfel[k];
+    if (!emits) return;
+    d_.seen_emission.resize(g.hits.size());
+    for (std::size_t i = 0; i < g.hits.size(); ++i) d_.seen_emission[i] = g.hits[i].emission;
+  }
+
+  /// Traces rays of part 0 and adds what they meet to the surfels; `surfel` of each ray, or no_surfel.
+  void trace_and_add(std::vector<RawLink>& links) {
+    std::vector<scene::RayQuery> rays;
+    for (const RawLink& link : links) rays.push_back(link.ray);
+    std::vector<scene::RayHit> hits(rays.size());
+    d_.source.intersect(0, rays, hits);
+    std::vector<ClusterPoint> points;
+    std::vector<std::size_t> owner;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      links[i].ray.t_max = hits[i].distance;
+      links[i].normal = hits[i].normal;
+      links[i].surfel = no_surfel;
+      if (hits[i].escaped()) continue;
+      points.push_back(
+          {{rays[i].origin + hits[i].distance * rays[i].direction, hits[i].normal}, hits[i].albedo});
+      owner.push_back(i);
+    }
+    const std::vector<int> surfel = d_.surfels.add(0, points);
+    for (std::size_t k = 0; k < points.size(); ++k) links[owner[k]].surfel = surfel[k];
+  }
+
+  scene::RayQuery link_ray(const scene::SurfacePoint& from, std::uint32_t index, std::size_t surfel) const {
+    return {from.position + 2e-3f * d_.surfels.size() * from.normal, link_direction(from.normal, index, surfel)};
+  }
+
+  /// Lets surfels look around with few rays until no new ones are found.
+  void discover() {
+    std::size_t begin = 0;
+    for (int round = 0; round < most_rounds && begin < d_.surfels.count(); ++round) {
+      const std::size_t end = d_.surfels.count();
+      ProgressStage progress(control_, "finding surfels", end - begin, "surfels");
+      constexpr std::size_t block = 8192;
+      for (std::size_t b = begin; b < end; b += block) {
+        control_.check();
+        std::vector<RawLink> links;
+        for (std::size_t s = b; s < std::min(b + block, end); ++s) {
+          const auto members = d_.surfels.members(static_cast<int>(s));
+          for (int r = 0; r < discovery_rays; ++r) {
+            const auto index = static_cast<std::uint32_t>(r);
+            links.push_back({link_ray(members[index % members.size()], index, s), vec3(0), no_surfel});
+          }
+        }
+        trace_and_add(links);
+        progress.advance(std::min(b + block, end) - b);
+      }
+      begin = end;
+    }
+  }
+
+  /// Chooses every surfel's samples and traces its links; those that are found on the way follow.
+  void link_static_surfels() {
+    std::size_t begin = 0;
+    for (int round = 0; round < most_rounds && begin < d_.surfels.count(); ++round) {
+      const std::size_t end = d_.surfels.count();
+      ProgressStage progress(control_, "linking surfels", end - begin, "surfels");
+      constexpr std::size_t block = 4096;
+      for (std::size_t b = begin; b < end; b += block) {
+        control_.check();
+        const std::size_t stop = std::min(b + block, end);
+        std::vector<RawLink> links;
+        for (std::size_t s = b; s < stop; ++s) {
+          const std::size_t used = choose_samples(s);
+          for (int r = 0; r < d_.params.link_rays; ++r) {
+            const auto index = static_cast<std::uint32_t>(r);
+            links.push_back({link_ray(d_.local_samples[s * m() + index % used], index, s), vec3(0), no_surfel});
+          }
+        }
+        trace_and_add(links);
+        keep(links, b);
+        progress.advance(stop - b);
+      }
+      begin = end;
+    }
+    // What the last round found has no links: dark, but of no weight.
+    for (std::size_t s = begin; s < d_.surfels.count(); ++s) {
+      choose_samples(s);
+      links_of_.emplace_back();
+    }
+  }
+
+  std::size_t choose_samples(std::size_t s) {
+    const std::vector<scene::SurfacePoint> chosen = d_.surfels.spread_members(static_cast<int>(s), d_.params.samples);
+    for (std::size_t i = 0; i < m(); ++i) {
+      d_.local_samples.push_back(i < chosen.size() ? chosen[i] : chosen[0]);
+      d_.sample_exists.push_back(i < chosen.size());
+    }
+    return chosen.size();
+  }
+
+  std::size_t sample_of_ray(std::size_t s, std::size_t ray) const {
+    std::size_t used = 0;
+    while (used < m() && d_.sample_exists[s * m() + used]) ++used;
+    return s * m() + ray % used;
+  }
+
+  /// Keeps of each link only the surfel, and all of it where a part may come.
+  void keep(const std::vector<RawLink>& links, std::size_t first_surfel) {
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const std::size_t s = first_surfel + i / rays_per_surfel();
+      if (i % rays_per_surfel() == 0) {
+        links_of_.emplace_back();
+        links_of_.back().all_moving = near_parts_surfel(s);
+      }
+      const RawLink& link = links[i];
+      SurfelLinks& row = links_of_.back();
+      if (row.all_moving || near_parts(link.ray, link.normal, link.surfel)) {
+        MovingRay moving{link.ray, link.normal, link.surfel, 0, static_cast<std::uint32_t>(s),
+                         static_cast<std::uint32_t>(sample_of_ray(s, i % rays_per_surfel())), 0};
+        d_.moving_links.push_back(moving);
+      } else if (link.surfel != no_surfel) {
+        row.fixed.push_back(static_cast<std::uint32_t>(link.surfel));
+      }
+    }
+  }
+
+  /// Whether some part may come into the ray's way, or between its hit and the hit's surfel.
+  bool near_parts(const scene::RayQuery& ray, const vec3& normal, int surfel) const {
+    if (d_.swept.size() < 2) return false;
+    if (meets_any(ray, d_.swept)) return true;
+    if (surfel == no_surfel) return false;
+    const scene::SurfacePoint point{ray.origin + ray.t_max * ray.direction, normal};
+    return meets_any(d_.surfels.segment(point, d_.surfels.surfels()[static_cast<std::size_t>(surfel)].point), d_.swept);
+  }
+
+  /// Whether some part may come between a surfel and one of its samples.
+  bool near_parts_surfel(std::size_t s) const {
+    if (d_.swept.size() < 2) return false;
+    for (std::size_t i = s * m(); i < (s + 1) * m(); ++i) {
+      if (meets_any(d_.surfels.segment(d_.local_samples[s * m()], d_.local_samples[i]), d_.swept)) return true;
+    }
+    return false;
+  }
+
+  /// Both faces of every part; a face that only sees its own part from inside lights nothing.
+  void add_part_surfels() {
+    const double density = part_samples_per_surfel / double(d_.surfels.size() * d_.surfels.size());
+    for (int part = 1; part < d_.source.part_count(); ++part) {
+      std::vector<ClusterPoint> points;
+      for (const scene::PartPoint& p : d_.source.sample_part(part, density)) {
+        points.push_back({p.point, p.albedo});
+        points.push_back({{p.point.position, -p.point.normal}, p.albedo});
+      }
+      points = without_enclosed(part, points);
+      d_.surfels.add(part, points);
+    }
+    for (std::size_t s = d_.static_count; s < d_.surfels.count(); ++s) {
+      const std::size_t used = choose_samples(s);
+      for (std::size_t r = 0; r < rays_per_surfel(); ++r) {
+        d_.part_links.push_back(
+            link_ray(d_.local_samples[s * m() + r % used], static_cast<std::uint32_t>(r), s));
+      }
+    }
+  }
+
+  std::vector<ClusterPoint> without_enclosed(int part, const std::vector<ClusterPoint>& points) const {
+    constexpr std::uint32_t rays_per_point = 16;
+    std::vector<scene::RayQuery> rays;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (std::uint32_t r = 0; r < rays_per_point; ++r) rays.push_back(link_ray(points[i].point, r, i));
+    }
+    std::vector<std::uint8_t> blocked(rays.size());
+    d_.source.occluded(part, rays, blocked);
+    std::vector<ClusterPoint> open;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto first = blocked.begin() + static_cast<std::ptrdiff_t>(i * rays_per_point);
+      if (std::count(first, first + rays_per_point, 1) < rays_per_point) open.push_back(points[i]);
+    }
+    return open;
+  }
+
+  void find_hidden_samples() {
+    d_.samples = d_.local_samples;
+    d_.sample_used = d_.sample_exists;
+    if (d_.swept.size() < 2) return;
+    for (std::size_t i = 0; i < d_.static_count * m(); ++i) {
+      if (d_.sample_exists[i] &&
+          meets_any(d_.surfels.segment(d_.local_samples[i / m() * m()], d_.local_samples[i]), d_.swept))
+        d_.hidden_samples.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+
+  void find_moving_rays() {
+    const ProbeGBuffer& g = d_.gbuffer;
+    if (d_.swept.size() < 2) return;
+    for (std::size_t i = 0; i < g.hits.size(); ++i) {
+      const PackedHit& hit = g.hits[i];
+      const scene::RayQuery ray{g.positions[i / g.directions.size()], g.directions[i % g.directions.size()],
+                                hit.distance};
+      const vec3 normal = std::isinf(hit.distance) ? vec3(0) : unpack_normal(hit);
+      if (!near_parts(ray, normal, d_.seen[i].surfel)) continue;
+      d_.moving_hits.push_back({ray, normal, d_.seen[i].surfel, d_.seen[i].albedo,
+                                static_cast<std::uint32_t>(i), 0, hit.emission});
+    }
+    add_part_emission();
+  }
+
+  /// The parts' emission must be in the palette before any pose looks it up.
+  void add_part_emission() {
+    for (std::size_t s = d_.static_count; s < d_.surfels.count(); ++s) {
+      const Surfel& surfel = d_.surfels.surfels()[s];
+      for (const scene::SurfacePoint& p : d_.surfels.members(static_cast<int>(s))) {
+        const scene::RayQuery ray{p.position + 0.5f * d_.surfels.size() * p.normal, -p.normal, d_.surfels.size()};
+        scene::RayHit hit;
+        d_.source.intersect(surfel.part, {&ray, 1}, {&hit, 1});
+        if (d_.gbuffer.palette.add(hit.emission, hit.group) != 0 && d_.seen_emission.empty())
+          d_.seen_emission.resize(d_.gbuffer.hits.size());
+      }
+    }
+  }
+
+  void make_fixed_rows() {
+    const float weight = 1 / static_cast<float>(d_.params.link_rays);
+    std::vector<std::pair<std::size_t, std::size_t>> ranges;
+    for (SurfelLinks& row : links_of_) {
+      const std::size_t first = d_.fixed.size();
+      std::sort(row.fixed.begin(), row.fixed.end());
+      for (std::size_t i = 0; i < row.fixed.size();) {
+        std::size_t end = i;
+        while (end < row.fixed.size() && row.fixed[end] == row.fixed[i]) ++end;
+        d_.fixed.push_back({row.fixed[i], weight * static_cast<float>(end - i)});
+        i = end;
+      }
+      ranges.emplace_back(first, d_.fixed.size() - first);
+    }
+    d_.rows.rows.resize(d_.surfels.count());
+    for (std::size_t s = 0; s < ranges.size(); ++s)
+      d_.rows.rows[s].fixed = {d_.fixed.data() + ranges[s].first, ranges[s].second};
+  }
+
+  struct SurfelLinks {
+    std::vector<std::uint32_t> fixed;
+    bool all_moving = false;
+  };
+
+  TransportNetwork::Data& d_;
+  const Control& control_;
+  std::vector<SurfelLinks> links_of_;
+};
+
+TransportNetwork::TransportNetwork(const scene::TransportSource& source, std::span<const vec3> positions,
+                                   const TransportParams& params, float time, const Control& control)
+    : data_(std::make_unique<Data>(source, checked(source, positions, params))) {
+  NetworkBuilder(*data_, control).build(positions, time);
+}
+
+TransportNetwork::~TransportNetwork() = default;
+
+PoseReport TransportNetwork::set_time(float time) {
+  PoseReport report;
+  data_->place_parts(time);
+  data_->pose_samples();
+  data_->pose_hits(report);
+  data_->pose_links(report);
+  return report;
+}
+
+float TransportNetwork::time() const {
+  return data_->time;
+}
+const TransportParams& TransportNetwork::params() const {
+  return data_->params;
+}
+const ProbeGBuffer& TransportNetwork::gbuffer() const {
+  return data_->gbuffer;
+}
+const SurfelSet& TransportNetwork::surfels() const {
+  return data_->surfels;
+}
+const std::vector<vec3>& TransportNetwork::albedo() const {
+  return data_->albedo;
+}
+const std::vector<scene::SurfacePoint>& TransportNetwork::samples() const {
+  return data_->samples;
+}
+const std::vector<std::uint8_t>& TransportNetwork::sample_used() const {
+  return data_->sample_used;
+}
+const LinkRows& TransportNetwork::links() const {
+  return data_->rows;
+}
+const Contraction& TransportNetwork::contraction() const {
+  return data_->contraction;
+}
+const std::vector<SeenPatch>& TransportNetwork::seen() const {
+  return data_->seen;
+}
+const std::vector<std::uint16_t>& TransportNetwork::seen_emission() const {
+  return data_->seen_emission;
+}
+const EmissionPalette& TransportNetwork::palette() const {
+  return data_->gbuffer.palette;
+}
+const std::vector<mat4>& TransportNetwork::poses() const {
+  return data_->poses;
+}
+scene::Bounds TransportNetwork::part_world_bounds(int part) const {
+  return transformed(data_->source.part_bounds(part), data_->poses[static_cast<std::size_t>(part)]);
+}
+int TransportNetwork::find(int part, const scene::SurfacePoint& point) const {
+  return data_->find(part, point);
+}
+std::size_t TransportNetwork::lost_links() const {
+  return data_->lost_links;
+}
+
+}  // namespace ssphh::gi

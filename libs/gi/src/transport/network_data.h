@@ -1,0 +1,90 @@
+#pragma once
+
+#include <ssphh/gi/transport/network.h>
+
+namespace ssphh::gi {
+
+/// A ray that some part comes near at some time, or whose surfel it may hide.
+struct MovingRay {
+  scene::RayQuery ray;      ///< world; t_max is the distance of the static hit
+  vec3 normal{0};           ///< of the static hit
+  std::int32_t surfel = no_surfel;  ///< that it meets when no part is in the way
+  std::uint32_t albedo = 0;
+  std::uint32_t owner = 0;   ///< probe ray, or surfel that a link leaves
+  std::uint32_t sample = 0;  ///< of a link: where it starts
+  std::uint16_t emission = 0;
+};
+
+/// A moving part where it is now.
+struct PlacedPart {
+  int part;
+  scene::Bounds bounds;  ///< in its frame
+  mat4 to_world{1}, to_part{1};
+};
+
+struct Resolved {
+  std::int32_t surfel = no_surfel;
+  std::uint32_t albedo = 0;
+  std::uint16_t emission = 0;
+};
+
+struct TransportNetwork::Data {
+  Data(const scene::TransportSource& source_in, const TransportParams& params_in)
+      : source(source_in), params(params_in), surfels(source_in, params_in.surfel_size) {}
+
+  const scene::TransportSource& source;
+  TransportParams params;
+  float time = 0;
+  ProbeGBuffer gbuffer;
+  SurfelSet surfels;
+  std::size_t static_count = 0;  ///< surfels of part 0; those of moving parts follow
+  std::vector<vec3> albedo;
+
+  // Samples, `params.samples` per surfel.
+  std::vector<scene::SurfacePoint> local_samples, samples;  ///< in the part's frame; as posed
+  std::vector<std::uint8_t> sample_exists, sample_used;
+  std::vector<std::uint32_t> hidden_samples;  ///< of part 0, that a moving part may cut off from their surfel
+
+  // Links.
+  std::vector<Link> fixed, moving;
+  LinkRows rows;
+  gi::Contraction contraction;
+  std::vector<MovingRay> moving_links;      ///< by owner
+  std::vector<scene::RayQuery> part_links;  ///< of the parts' surfels, in their frames; params.link_rays each
+  std::size_t lost_links = 0;
+
+  // Probes.
+  std::vector<SeenPatch> seen;
+  std::vector<std::uint16_t> seen_emission;
+  std::vector<MovingRay> moving_hits;
+
+  // Pose.
+  std::vector<scene::Bounds> swept;  ///< per part, all that it ever occupies, world space
+  std::vector<mat4> poses;
+  std::vector<PlacedPart> placed;
+
+  std::size_t sample_count() const { return static_cast<std::size_t>(params.samples); }
+  scene::SurfacePoint to_world(int part, const scene::SurfacePoint& point) const;
+  bool parts_block(const scene::RayQuery& world_segment) const;
+  bool blocked(const scene::RayQuery& world_segment) const;
+  int find(int part, const scene::SurfacePoint& point) const;
+  /// The first part that the ray meets before t_max; shortens t_max.
+  bool meet_part(scene::RayQuery& ray, scene::RayHit& hit, int& part) const;
+  Resolved resolve(const MovingRay& unobstructed) const;
+
+  void place_parts(float time);
+  void pose_samples();
+  void pose_hits(PoseReport& report);
+  void pose_links(PoseReport& report);
+};
+
+/// Whether the ray meets the box before t_max.
+bool meets(const scene::RayQuery& ray, const scene::Bounds& box);
+
+/// Sweeps the parts over the animation.
+std::vector<scene::Bounds> swept_bounds(const scene::TransportSource& source);
+
+/// Bounds of a transformed box.
+scene::Bounds transformed(const scene::Bounds& box, const mat4& matrix);
+
+}  // namespace ssphh::gi

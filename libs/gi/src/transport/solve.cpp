@@ -1,0 +1,141 @@
+#include <ssphh/gi/transport/solve.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <ssphh/core/error.h>
+#include <ssphh/core/parallel.h>
+
+namespace ssphh::gi {
+namespace {
+
+/// Rows per task: some 50 µs of work.
+constexpr std::size_t rows_per_block = 256;
+
+using float4 = float __attribute__((vector_size(16)));
+
+float4 load(const Irradiance4& v) {
+  float4 out;
+  __builtin_memcpy(&out, &v, sizeof(out));
+  return out;
+}
+
+/// sums += Σ_j weight_j · values_j. Four sums, so that the additions do not wait for each other.
+void gather(std::span<const Link> links, const Irradiance4* values, float4 (&sums)[4]) {
+  std::size_t i = 0;
+  for (; i + 4 <= links.size(); i += 4) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Link& link = links[i + k];
+      sums[k] += link.weight * load(values[link.surfel]);
+    }
+  }
+  for (; i < links.size(); ++i) sums[0] += links[i].weight * load(values[links[i].surfel]);
+}
+
+Irradiance4 gather(const LinkRows::Row& row, const Irradiance4* values) {
+  float4 sums[4] = {};
+  gather(row.fixed, values, sums);
+  gather(row.moving, values, sums);
+  const float4 sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+  return {sum[0], sum[1], sum[2], 0};
+}
+
+}  // namespace
+
+std::size_t LinkRows::link_count() const {
+  std::size_t count = 0;
+  for (const Row& row : rows) count += row.fixed.size() + row.moving.size();
+  return count;
+}
+
+void bounce_once(const LinkRows& links, std::span<const Irradiance4> radiosity, std::span<Irradiance4> out) {
+  SSPHH_CHECK(radiosity.size() == links.rows.size() && out.size() == links.rows.size());
+  parallel_for(links.rows.size(), rows_per_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) out[i] = gather(links.rows[i], radiosity.data());
+  });
+}
+
+Contraction contraction(const LinkRows& links, std::span<const vec3> albedo, int steps) {
+  // x stays positive by a small share of its old value everywhere: surfels that nothing reaches would make the
+  // lower bound 0 and stop the upper one from falling.
+  const std::size_t count = links.rows.size();
+  Contraction bounds;
+  if (count == 0) return bounds;
+  std::vector<double> x(count, 1), y(count);
+  double best_upper = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < steps; ++step) {
+    double lower = std::numeric_limits<double>::infinity(), upper = 0, largest = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      double sum = 0;
+      for (const auto& part : {links.rows[i].fixed, links.rows[i].moving}) {
+        for (const Link& link : part)
+          sum += double(link.weight) * double(max_component(albedo[link.surfel])) * x[link.surfel];
+      }
+      y[i] = sum;
+      lower = std::min(lower, sum / x[i]);
+      upper = std::max(upper, sum / x[i]);
+      largest = std::max(largest, sum);
+    }
+    bounds.lower = std::max(bounds.lower, lower);
+    best_upper = std::min(best_upper, upper);
+    if (!(largest > 0)) break;
+    for (std::size_t i = 0; i < count; ++i) x[i] = std::max(y[i] / largest, 1e-6);
+  }
+  bounds.upper = best_upper;
+  return bounds;
+}
+
+SolveReport Solver::solve(const LinkRows& links, std::span<const vec3> albedo,
+                          std::span<const Irradiance4> direct, double contraction_bound,
+                          const SolveParams& params, std::vector<Irradiance4>& indirect) {
+  const std::size_t count = links.rows.size();
+  SSPHH_CHECK(albedo.size() == count && direct.size() == count);
+  indirect.resize(count, Irradiance4(0));
+  radiosity_.resize(count);
+  next_.resize(count);
+  previous_ = indirect;
+  const std::size_t blocks = (count + rows_per_block - 1) / rows_per_block;
+  block_residual_.assign(blocks, 0);
+  block_largest_.assign(blocks, 0);
+
+  const bool accelerate = contraction_bound < 1;
+  const double c2 = contraction_bound * contraction_bound;
+  double omega = 1;
+  SolveReport report;
+  float largest = 0;
+  for (const Irradiance4& e : indirect) largest = std::max(largest, max_component(vec3(e)));
+  for (; report.iterations < params.max_iterations; ++report.iterations) {
+    for (std::size_t i = 0; i < count; ++i)
+      radiosity_[i] = vec4(albedo[i], 0) * (direct[i] + indirect[i]);
+    const auto w = static_cast<float>(omega);
+    const float floor = 1e-3f * largest;
+    parallel_for(count, rows_per_block, [&](std::size_t begin, std::size_t end) {
+      float residual = 0, block_largest = 0;
+      for (std::size_t i = begin; i < end; ++i) {
+        const Irradiance4 bounced = gather(links.rows[i], radiosity_.data());
+        const vec3 difference = glm::abs(vec3(bounced - indirect[i]));
+        const float scale = max_component(vec3(bounced));
+        residual = std::max(residual, max_component(difference) / std::max(scale + floor, 1e-30f));
+        block_largest = std::max(block_largest, scale);
+        next_[i] = w * (bounced - previous_[i]) + previous_[i];
+      }
+      block_residual_[begin / rows_per_block] = residual;
+      block_largest_[begin / rows_per_block] = block_largest;
+    });
+    report.residual = blocks ? *std::max_element(block_residual_.begin(), block_residual_.end()) : 0;
+    largest = blocks ? *std::max_element(block_largest_.begin(), block_largest_.end()) : 0;
+    previous_.swap(indirect);
+    indirect.swap(next_);
+    if (report.residual <= params.tolerance) {
+      ++report.iterations;
+      break;
+    }
+    if (accelerate) omega = report.iterations == 0 ? 1 / (1 - c2 / 2) : 1 / (1 - c2 * omega / 4);
+  }
+  report.converged = report.residual <= params.tolerance;
+  // Chebyshev's steps may overshoot by a hair where next to nothing arrives.
+  for (Irradiance4& e : indirect) e = glm::max(e, Irradiance4(0));
+  return report;
+}
+
+}  // namespace ssphh::gi
