@@ -1,10 +1,9 @@
-#include <ssphh/gi/transport/gbuffer.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/sphere.h>
+#include <ssphh/gi/transport/gbuffer.h>
 
 namespace ssphh::gi {
 namespace {
@@ -63,7 +62,8 @@ vec3 unpack_albedo(std::uint32_t packed) {
 }
 
 PackedHit pack_hit(const scene::RayHit& hit, int part, EmissionPalette& palette) {
-  // Octahedral map (Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, 2014).
+  // Octahedral map (Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors,
+  // 2014).
   const vec3& n = hit.normal;
   const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
   vec2 p = sum > 0 ? vec2(n.x, n.y) / sum : vec2(0);
@@ -93,7 +93,8 @@ ProbeGBuffer trace_gbuffer(const scene::TransportSource& source, std::span<const
                            int direction_count, const Control& control) {
   ProbeGBuffer buffer;
   buffer.positions.assign(positions.begin(), positions.end());
-  for (int q = 0; q < direction_count; ++q) buffer.directions.push_back(spherical_fibonacci(q, direction_count));
+  for (int q = 0; q < direction_count; ++q)
+    buffer.directions.push_back(spherical_fibonacci(q, direction_count));
   const std::size_t count = buffer.directions.size();
   buffer.hits.resize(positions.size() * count);
 

@@ -21,13 +21,14 @@ constexpr double part_samples_per_surfel = 24;
 
 TransportParams checked(const scene::TransportSource& source, std::span<const vec3> positions,
                         TransportParams params) {
-  if (positions.empty()) throw Error("transport", "there are no probes", "place some, or give the scene SPHLs");
+  if (positions.empty())
+    throw Error("transport", "there are no probes", "place some, or give the scene SPHLs");
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (!is_finite(positions[i])) throw Error(fmt::format("probe {}", i), "its position is not a finite number");
+    if (!is_finite(positions[i]))
+      throw Error(fmt::format("probe {}", i), "its position is not a finite number");
   }
   const auto within = [](const char* name, int value, int low, int high) {
-    if (value < low || value > high)
-      throw Error(name, fmt::format("{} is outside {}..{}", value, low, high));
+    if (value < low || value > high) throw Error(name, fmt::format("{} is outside {}..{}", value, low, high));
   };
   within("directions", params.directions, 8, 1 << 16);
   within("link rays", params.link_rays, 4, 1 << 16);
@@ -37,8 +38,8 @@ TransportParams checked(const scene::TransportSource& source, std::span<const ve
   return params;
 }
 
-/// Cosine-distributed directions around a normal: point `index` of a rank-1 sequence (Roberts 2018, R2), shifted
-/// by the surfel so that neighbours differ.
+/// Cosine-distributed directions around a normal: point `index` of a rank-1 sequence (Roberts 2018, R2),
+/// shifted by the surfel so that neighbours differ.
 vec3 link_direction(const vec3& normal, std::uint32_t index, std::size_t surfel) {
   const std::uint64_t h = mix64(surfel);
   const double u = 0.7548776662466927 * (index + 1) + static_cast<double>(h >> 32) * 0x1p-32;
@@ -138,7 +139,8 @@ class NetworkBuilder {
   }
 
   scene::RayQuery link_ray(const scene::SurfacePoint& from, std::uint32_t index, std::size_t surfel) const {
-    return {from.position + 2e-3f * d_.surfels.size() * from.normal, link_direction(from.normal, index, surfel)};
+    return {from.position + 2e-3f * d_.surfels.size() * from.normal,
+            link_direction(from.normal, index, surfel)};
   }
 
   /// Lets surfels look around with few rays until no new ones are found.
@@ -180,7 +182,8 @@ class NetworkBuilder {
           const std::size_t used = choose_samples(s);
           for (int r = 0; r < d_.params.link_rays; ++r) {
             const auto index = static_cast<std::uint32_t>(r);
-            links.push_back({link_ray(d_.local_samples[s * m() + index % used], index, s), vec3(0), no_surfel});
+            links.push_back(
+                {link_ray(d_.local_samples[s * m() + index % used], index, s), vec3(0), no_surfel});
           }
         }
         trace_and_add(links);
@@ -197,7 +200,8 @@ class NetworkBuilder {
   }
 
   std::size_t choose_samples(std::size_t s) {
-    const std::vector<scene::SurfacePoint> chosen = d_.surfels.spread_members(static_cast<int>(s), d_.params.samples);
+    const std::vector<scene::SurfacePoint> chosen =
+        d_.surfels.spread_members(static_cast<int>(s), d_.params.samples);
     for (std::size_t i = 0; i < m(); ++i) {
       d_.local_samples.push_back(i < chosen.size() ? chosen[i] : chosen[0]);
       d_.sample_exists.push_back(i < chosen.size());
@@ -222,8 +226,13 @@ class NetworkBuilder {
       const RawLink& link = links[i];
       SurfelLinks& row = links_of_.back();
       if (row.all_moving || near_parts(link.ray, link.normal, link.surfel)) {
-        MovingRay moving{link.ray, link.normal, link.surfel, 0, static_cast<std::uint32_t>(s),
-                         static_cast<std::uint32_t>(sample_of_ray(s, i % rays_per_surfel())), 0};
+        MovingRay moving{link.ray,
+                         link.normal,
+                         link.surfel,
+                         0,
+                         static_cast<std::uint32_t>(s),
+                         static_cast<std::uint32_t>(sample_of_ray(s, i % rays_per_surfel())),
+                         0};
         d_.moving_links.push_back(moving);
       } else if (link.surfel != no_surfel) {
         row.fixed.push_back(static_cast<std::uint32_t>(link.surfel));
@@ -237,14 +246,16 @@ class NetworkBuilder {
     if (meets_any(ray, d_.swept)) return true;
     if (surfel == no_surfel) return false;
     const scene::SurfacePoint point{ray.origin + ray.t_max * ray.direction, normal};
-    return meets_any(d_.surfels.segment(point, d_.surfels.surfels()[static_cast<std::size_t>(surfel)].point), d_.swept);
+    return meets_any(d_.surfels.segment(point, d_.surfels.surfels()[static_cast<std::size_t>(surfel)].point),
+                     d_.swept);
   }
 
   /// Whether some part may come between a surfel and one of its samples.
   bool near_parts_surfel(std::size_t s) const {
     if (d_.swept.size() < 2) return false;
     for (std::size_t i = s * m(); i < (s + 1) * m(); ++i) {
-      if (meets_any(d_.surfels.segment(d_.local_samples[s * m()], d_.local_samples[i]), d_.swept)) return true;
+      if (meets_any(d_.surfels.segment(d_.local_samples[s * m()], d_.local_samples[i]), d_.swept))
+        return true;
     }
     return false;
   }
@@ -317,7 +328,8 @@ class NetworkBuilder {
     for (std::size_t s = d_.static_count; s < d_.surfels.count(); ++s) {
       const Surfel& surfel = d_.surfels.surfels()[s];
       for (const scene::SurfacePoint& p : d_.surfels.members(static_cast<int>(s))) {
-        const scene::RayQuery ray{p.position + 0.5f * d_.surfels.size() * p.normal, -p.normal, d_.surfels.size()};
+        const scene::RayQuery ray{p.position + 0.5f * d_.surfels.size() * p.normal, -p.normal,
+                                  d_.surfels.size()};
         scene::RayHit hit;
         d_.source.intersect(surfel.part, {&ray, 1}, {&hit, 1});
         if (d_.gbuffer.palette.add(hit.emission, hit.group) != 0 && d_.seen_emission.empty())
@@ -392,6 +404,9 @@ const std::vector<scene::SurfacePoint>& TransportNetwork::samples() const {
 }
 const std::vector<std::uint8_t>& TransportNetwork::sample_used() const {
   return data_->sample_used;
+}
+bool TransportNetwork::sample_exists(std::size_t sample) const {
+  return data_->sample_exists[sample];
 }
 const LinkRows& TransportNetwork::links() const {
   return data_->rows;

@@ -6,8 +6,8 @@ namespace ssphh::gi {
 
 /// A ray that some part comes near at some time, or whose surfel it may hide.
 struct MovingRay {
-  scene::RayQuery ray;      ///< world; t_max is the distance of the static hit
-  vec3 normal{0};           ///< of the static hit
+  scene::RayQuery ray;              ///< world; t_max is the distance of the static hit
+  vec3 normal{0};                   ///< of the static hit
   std::int32_t surfel = no_surfel;  ///< that it meets when no part is in the way
   std::uint32_t albedo = 0;
   std::uint32_t owner = 0;   ///< probe ray, or surfel that a link leaves

@@ -20,7 +20,8 @@ scene::RayQuery transformed(const scene::RayQuery& ray, const mat4& matrix) {
 
 scene::SurfacePoint transformed(const scene::SurfacePoint& p, const mat4& matrix) {
   const mat3 linear(matrix);
-  return {vec3(matrix * vec4(p.position, 1)), glm::normalize(glm::transpose(glm::inverse(linear)) * p.normal)};
+  return {vec3(matrix * vec4(p.position, 1)),
+          glm::normalize(glm::transpose(glm::inverse(linear)) * p.normal)};
 }
 
 }  // namespace
@@ -64,7 +65,8 @@ std::vector<scene::Bounds> swept_bounds(const scene::TransportSource& source) {
       total.add(now.min);
       total.add(now.max);
       if (i > 0)
-        largest_step = glm::max(largest_step, glm::max(glm::abs(now.min - last.min), glm::abs(now.max - last.max)));
+        largest_step =
+            glm::max(largest_step, glm::max(glm::abs(now.min - last.min), glm::abs(now.max - last.max)));
       last = now;
     }
     const vec3 margin = largest_step + 1e-4f * (total.max - total.min) + 1e-6f;
@@ -158,9 +160,10 @@ void TransportNetwork::Data::place_parts(float new_time) {
     if (local.empty()) continue;
     const scene::Bounds now = transformed(local, poses[p]);
     if (glm::any(glm::lessThan(now.min, swept[p].min)) || glm::any(glm::greaterThan(now.max, swept[p].max))) {
-      throw Error(fmt::format("part \"{}\"", source.part_name(part)),
-                  fmt::format("at {} s it leaves the volume that its animation was sampled to sweep", new_time),
-                  "give the animation slower or fewer oscillations");
+      throw Error(
+          fmt::format("part \"{}\"", source.part_name(part)),
+          fmt::format("at {} s it leaves the volume that its animation was sampled to sweep", new_time),
+          "give the animation slower or fewer oscillations");
     }
   }
 }
@@ -173,7 +176,8 @@ void TransportNetwork::Data::pose_samples() {
       const Surfel& surfel = surfels.surfels()[s];
       for (std::size_t i = s * m; i < (s + 1) * m; ++i) samples[i] = to_world(surfel.part, local_samples[i]);
       for (std::size_t i = s * m; i < (s + 1) * m; ++i)
-        sample_used[i] = i == s * m || (sample_exists[i] && !blocked(surfels.segment(samples[s * m], samples[i])));
+        sample_used[i] =
+            i == s * m || (sample_exists[i] && !blocked(surfels.segment(samples[s * m], samples[i])));
     }
   });
   parallel_for(hidden_samples.size(), 256, [&](std::size_t begin, std::size_t end) {
@@ -252,7 +256,8 @@ void TransportNetwork::Data::pose_links(PoseReport& report) {
     const std::size_t first = links.size();
     const float weight = used ? 1 / static_cast<float>(used) : 0;
     for (std::size_t i = begin; i < end; ++i) {
-      if (counted[i] && target[i] != no_surfel) links.push_back({static_cast<std::uint32_t>(target[i]), weight});
+      if (counted[i] && target[i] != no_surfel)
+        links.push_back({static_cast<std::uint32_t>(target[i]), weight});
     }
     ranges[s] = {first, links.size() - first};
   };

@@ -1,6 +1,5 @@
-#include <ssphh/gi/transport/projection.h>
-
 #include <ssphh/core/error.h>
+#include <ssphh/gi/transport/projection.h>
 #include <ssphh/sh/evaluate.h>
 
 namespace ssphh::gi {
@@ -24,7 +23,8 @@ template <std::size_t Count>
 void project_tile(const float* basis, const float* radiance, std::size_t stride, vec3* out) {
   float8 sums[Count][3] = {};
   for (std::size_t q = 0; q < stride; q += lanes) {
-    const float8 light[3] = {load(radiance + q), load(radiance + stride + q), load(radiance + 2 * stride + q)};
+    const float8 light[3] = {load(radiance + q), load(radiance + stride + q),
+                             load(radiance + 2 * stride + q)};
     for (std::size_t k = 0; k < Count; ++k) {
       const float8 y = load(basis + k * stride + q);
       for (std::size_t c = 0; c < 3; ++c) sums[k][c] += y * light[c];

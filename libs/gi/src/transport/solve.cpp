@@ -1,10 +1,9 @@
-#include <ssphh/gi/transport/solve.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/gi/transport/solve.h>
 
 namespace ssphh::gi {
 namespace {
@@ -56,8 +55,8 @@ void bounce_once(const LinkRows& links, std::span<const Irradiance4> radiosity, 
 }
 
 Contraction contraction(const LinkRows& links, std::span<const vec3> albedo, int steps) {
-  // x stays positive by a small share of its old value everywhere: surfels that nothing reaches would make the
-  // lower bound 0 and stop the upper one from falling.
+  // x stays positive by a small share of its old value everywhere: surfels that nothing reaches would make
+  // the lower bound 0 and stop the upper one from falling.
   const std::size_t count = links.rows.size();
   Contraction bounds;
   if (count == 0) return bounds;
@@ -105,8 +104,7 @@ SolveReport Solver::solve(const LinkRows& links, std::span<const vec3> albedo,
   float largest = 0;
   for (const Irradiance4& e : indirect) largest = std::max(largest, max_component(vec3(e)));
   for (; report.iterations < params.max_iterations; ++report.iterations) {
-    for (std::size_t i = 0; i < count; ++i)
-      radiosity_[i] = vec4(albedo[i], 0) * (direct[i] + indirect[i]);
+    for (std::size_t i = 0; i < count; ++i) radiosity_[i] = vec4(albedo[i], 0) * (direct[i] + indirect[i]);
     const auto w = static_cast<float>(omega);
     const float floor = 1e-3f * largest;
     parallel_for(count, rows_per_block, [&](std::size_t begin, std::size_t end) {

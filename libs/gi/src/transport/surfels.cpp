@@ -1,5 +1,3 @@
-#include <ssphh/gi/transport/surfels.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +5,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/gi/transport/surfels.h>
 
 namespace ssphh::gi {
 namespace {
@@ -182,7 +181,8 @@ std::vector<int> SurfelSet::add(int part, std::span<const ClusterPoint> points) 
 }
 
 void SurfelSet::update_albedo() {
-  for (std::size_t s = 0; s < surfels_.size(); ++s) surfels_[s].albedo = vec3(albedo_sum_[s] / member_count_[s]);
+  for (std::size_t s = 0; s < surfels_.size(); ++s)
+    surfels_[s].albedo = vec3(albedo_sum_[s] / member_count_[s]);
 }
 
 std::vector<scene::SurfacePoint> SurfelSet::spread_members(int surfel, int count) const {

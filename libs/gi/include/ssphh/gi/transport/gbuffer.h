@@ -60,8 +60,7 @@ struct ProbeGBuffer {
   EmissionPalette palette;
 
   vec3 point(std::size_t probe, std::size_t direction) const {
-    return positions[probe] +
-           hits[probe * directions.size() + direction].distance * directions[direction];
+    return positions[probe] + hits[probe * directions.size() + direction].distance * directions[direction];
   }
 };
 

@@ -58,10 +58,12 @@ class TransportNetwork {
   const std::vector<vec3>& albedo() const;
   std::size_t surfel_count() const { return albedo().size(); }
 
-  /// Direct light of surfel s is the mean over those of its samples [s · params().samples, …) that are in use.
-  /// World space, as posed.
+  /// Direct light of surfel s is the mean over those of its samples [s · params().samples, …) that are in
+  /// use. World space, as posed.
   const std::vector<scene::SurfacePoint>& samples() const;
   const std::vector<std::uint8_t>& sample_used() const;
+  /// False for the padding of a surfel with fewer samples: never in use.
+  bool sample_exists(std::size_t sample) const;
 
   const LinkRows& links() const;
   /// Bounds of the spectral radius of F ρ when the network was built.
@@ -77,7 +79,8 @@ class TransportNetwork {
   const std::vector<mat4>& poses() const;
   scene::Bounds part_world_bounds(int part) const;
 
-  /// The surfel that stands for a surface point of a part (in the part's frame): the nearest one seen from it.
+  /// The surfel that stands for a surface point of a part (in the part's frame): the nearest one seen from
+  /// it.
   int find(int part, const scene::SurfacePoint& point) const;
 
   /// Links that ended where no surfel is: their light is lost. 0 unless surfaces come into sight that nothing

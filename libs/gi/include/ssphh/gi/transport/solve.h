@@ -1,5 +1,6 @@
 #pragma once
-/// Indirect irradiance by iteration: E = F (ρ ∘ (E_direct + E)) over sparse links (docs/methods/transport.md).
+/// Indirect irradiance by iteration: E = F (ρ ∘ (E_direct + E)) over sparse links
+/// (docs/methods/transport.md).
 
 #include <cstdint>
 #include <span>
@@ -30,8 +31,8 @@ struct LinkRows {
 using Irradiance4 = vec4;
 
 /// Bounds of the spectral radius of F ρ, ρ the largest channel's albedo: the factor by which one bounce
-/// shrinks light. From `steps` power iterations (Collatz & Wielandt: for a matrix without negative entries and
-/// a positive vector x, the radius lies between the extreme ratios (Ax)_i / x_i).
+/// shrinks light. From `steps` power iterations (Collatz & Wielandt: for a matrix without negative entries
+/// and a positive vector x, the radius lies between the extreme ratios (Ax)_i / x_i).
 struct Contraction {
   double lower = 0, upper = 0;
 };
@@ -51,10 +52,10 @@ struct SolveReport {
 /// count.
 void bounce_once(const LinkRows& links, std::span<const Irradiance4> radiosity, std::span<Irradiance4> out);
 
-/// Solves for `indirect`, which holds the first guess (zero, or the last frame's answer) on entry. Chebyshev's
-/// semi-iteration for eigenvalues within ±`contraction_bound` (Golub & Varga 1961; Saad, Iterative Methods,
-/// §12.3); plain iteration when the bound is 1 or more. Rows are computed independently of each other: the
-/// same bits for any number of threads.
+/// Solves for `indirect`, which holds the first guess (zero, or the last frame's answer) on entry.
+/// Chebyshev's semi-iteration for eigenvalues within ±`contraction_bound` (Golub & Varga 1961; Saad,
+/// Iterative Methods, §12.3); plain iteration when the bound is 1 or more. Rows are computed independently of
+/// each other: the same bits for any number of threads.
 class Solver {
  public:
   SolveReport solve(const LinkRows& links, std::span<const vec3> albedo, std::span<const Irradiance4> direct,

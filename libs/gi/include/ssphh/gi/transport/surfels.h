@@ -36,9 +36,9 @@ class SurfelSet {
   const std::vector<Surfel>& surfels() const { return surfels_; }
   std::size_t count() const { return surfels_.size(); }
 
-  /// Clusters points of one part, with their own part as the only obstacle: each joins the first surfel of its
-  /// cell that it sees, or founds one. Returns the surfel of each point. New surfels are numbered by cell, so
-  /// the result depends on nothing but the order of calls and points.
+  /// Clusters points of one part, with their own part as the only obstacle: each joins the first surfel of
+  /// its cell that it sees, or founds one. Returns the surfel of each point. New surfels are numbered by
+  /// cell, so the result depends on nothing but the order of calls and points.
   std::vector<int> add(int part, std::span<const ClusterPoint> points);
 
   /// Sets every surfel's albedo to the mean of the points added so far.

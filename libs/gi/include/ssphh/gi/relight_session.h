@@ -1,0 +1,89 @@
+#pragma once
+/// Probes that follow moving lamps and doors, frame by frame: `surfel` transport kept warm. Holds no files and
+/// draws nothing.
+///
+///   const trace::TransportScene source(scene);
+///   gi::RelightSession session(source, places);
+///   session.set_light(0, lamp);            // a scene::LightState
+///   session.set_time(0.4f);                // poses the doors
+///   const gi::RelightReport report = session.update();
+///   session.reflected(i);                  // what surfaces look up
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <ssphh/core/control.h>
+#include <ssphh/gi/transport/network.h>
+#include <ssphh/sh/coefficients.h>
+
+namespace ssphh::gi {
+
+struct ProbePlace {
+  std::string name;
+  vec3 position{0};
+  float radius = 0.1f;  ///< of the sphere that emits what set_emission gives
+};
+
+struct RelightParams {
+  TransportParams transport;
+  SolveParams solve;
+  int degree = 4;         ///< of the probes' functions
+  float changed = 1e-3f;  ///< a probe changed when a coefficient did by more than this share of its mean
+  bool warm_start = true; ///< false: every update starts from darkness, so its bits tell nothing of the past
+};
+
+/// One update. Times in milliseconds, rays as traced.
+struct RelightReport {
+  double pose_ms = 0, direct_ms = 0, solve_ms = 0, project_ms = 0;
+  std::uint64_t pose_rays = 0, direct_rays = 0;
+  SolveReport solve;
+  std::size_t hits_changed = 0;
+  std::vector<int> changed_probes;
+
+  double total_ms() const { return pose_ms + direct_ms + solve_ms + project_ms; }
+};
+
+class RelightSession {
+ public:
+  /// Keeps a reference to `source`. Throws Error as TransportNetwork does. The first update() lights everything.
+  RelightSession(const scene::TransportSource& source, std::vector<ProbePlace> places,
+                 const RelightParams& params = {}, float time = 0, const Control& control = {});
+  ~RelightSession();
+
+  /// A light of source.lights(); stays as given when the time changes. Throws Error for an index out of range
+  /// or a state that is not finite.
+  void set_light(int light, const scene::LightState& state);
+  const scene::LightState& light(int light) const;
+  /// Factor on a whole group: dims lamps, emissive surfaces and the environment without a ray.
+  void set_group_scale(int group, const vec3& scale);
+  /// Poses parts, and the lights that set_light left alone.
+  void set_time(float time);
+  /// Makes the probe a light of its own (`matrix` transport): radiance leaving a sphere of the place's radius
+  /// into each direction. Its light bounces like any other; the sphere neither blocks nor reflects. Empty: none.
+  void set_emission(int probe, const sh::RadianceSh& leaving);
+
+  /// Brings the probes up to date with what was set since the last call; does only what changed.
+  RelightReport update();
+
+  const std::vector<ProbePlace>& places() const;
+  /// S_loop: reflected light alone, for surfaces that get direct light from elsewhere.
+  const std::vector<sh::RadianceSh>& reflected() const;
+  /// Emitters that probe i sees directly; S_full = reflected + emitted. Found when asked for.
+  sh::RadianceSh emitted(int probe) const;
+  /// Per group, unscaled: a session's light as a bake stores it. Solves anew for each group.
+  std::vector<std::vector<sh::RadianceSh>> reflected_by_group(const Control& control = {}) const;
+  std::vector<std::vector<sh::RadianceSh>> emitted_by_group() const;
+
+  /// Indirect irradiance at each surfel.
+  const std::vector<Irradiance4>& surfel_irradiance() const;
+  const std::vector<Irradiance4>& surfel_direct() const;
+  const TransportNetwork& network() const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace ssphh::gi

@@ -1,0 +1,288 @@
+#include <ssphh/gi/relight_session.h>
+
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/gi/transport/direct_field.h>
+
+#include "transport/probe_light.h"
+#include "transport/sphl_emission.h"
+
+namespace ssphh::gi {
+namespace {
+
+std::vector<vec3> positions_of(const std::vector<ProbePlace>& places) {
+  std::vector<vec3> positions;
+  for (const ProbePlace& place : places) positions.push_back(place.position);
+  return positions;
+}
+
+/// Runs `body`, adds its time and rays.
+template <class Body>
+void measure(const scene::TransportSource& source, double& ms, std::uint64_t* rays, const Body& body) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::uint64_t before = source.rays_traced();
+  body();
+  if (rays) *rays += source.rays_traced() - before;
+  ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool differs(const sh::RadianceSh& a, const sh::RadianceSh& b, float tolerance) {
+  if (a.values.size() != b.values.size()) return true;
+  const float limit = tolerance * std::max(max_component(glm::abs(a.values[0])), max_component(glm::abs(b.values[0])));
+  for (std::size_t k = 0; k < a.values.size(); ++k) {
+    if (max_component(glm::abs(a.values[k] - b.values[k])) > limit) return true;
+  }
+  return false;
+}
+
+std::vector<Irradiance4> total(const std::vector<Irradiance4>& direct, const std::vector<Irradiance4>& indirect) {
+  std::vector<Irradiance4> sum(direct.size());
+  for (std::size_t s = 0; s < sum.size(); ++s) sum[s] = direct[s] + indirect[s];
+  return sum;
+}
+
+}  // namespace
+
+struct RelightSession::Data {
+  Data(const scene::TransportSource& source_in, std::vector<ProbePlace> places_in, const RelightParams& params_in,
+       float time, const Control& control)
+      : source(source_in),
+        places(std::move(places_in)),
+        params(params_in),
+        network(source_in, positions_of(places), params_in.transport, time, control),
+        projector(params_in.degree, network.gbuffer().directions),
+        field(network, source_in.light_groups().size()),
+        lights(source_in.lights(time)),
+        light_set(lights.size(), false),
+        group_dirty(source_in.light_groups().size(), true),
+        group_scale(source_in.light_groups().size(), vec3(1)),
+        pending_time(time) {
+    emitters.resize(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i)
+      emitters[i] = {places[i].position, places[i].radius, {}};
+  }
+
+  const scene::TransportSource& source;
+  std::vector<ProbePlace> places;
+  RelightParams params;
+  TransportNetwork network;
+  DirectionProjector projector;
+  DirectField field;
+  Solver solver;
+
+  std::vector<scene::LightState> lights;
+  std::vector<bool> light_set;  ///< by the user: stays when the time changes
+  std::vector<bool> group_dirty;
+  std::vector<vec3> group_scale;
+  std::vector<SphlEmitter> emitters;
+  std::vector<vec3> emission;  ///< at each sample, from the emitters; empty: none
+  bool emission_dirty = false, scale_dirty = false;
+  float pending_time;
+
+  std::unique_ptr<scene::DirectLight> direct_light;
+  std::vector<Irradiance4> direct, indirect;
+  std::vector<sh::RadianceSh> reflected, before;
+
+  bool any_group_dirty() const {
+    return std::find(group_dirty.begin(), group_dirty.end(), true) != group_dirty.end();
+  }
+
+  /// Poses the parts and the lights on animated nodes; returns the world bounds that parts left or entered.
+  std::vector<scene::Bounds> move_parts(RelightReport& report) {
+    std::vector<scene::Bounds> moved;
+    const std::vector<mat4> old_poses = network.poses();
+    std::vector<scene::Bounds> old_bounds;
+    for (int p = 0; p < source.part_count(); ++p) old_bounds.push_back(network.part_world_bounds(p));
+    report.hits_changed = network.set_time(pending_time).hits_changed;
+    for (int p = 1; p < source.part_count(); ++p) {
+      const auto index = static_cast<std::size_t>(p);
+      if (network.poses()[index] == old_poses[index]) continue;
+      moved.push_back(old_bounds[index]);
+      moved.push_back(network.part_world_bounds(p));
+      for (std::size_t g = 0; g < group_dirty.size(); ++g) {
+        if (source.group_emits_from(static_cast<int>(g), p)) group_dirty[g] = true;
+      }
+    }
+    const std::vector<scene::LightState> posed = source.lights(pending_time);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      if (light_set[i] || posed[i] == lights[i]) continue;
+      lights[i] = posed[i];
+      group_dirty[static_cast<std::size_t>(source.light_group_of(static_cast<int>(i)))] = true;
+    }
+    return moved;
+  }
+
+  void update_direct(const std::vector<scene::Bounds>& moved) {
+    if (any_group_dirty() || !moved.empty() || !direct_light)
+      direct_light = source.direct_light(lights, network.poses());
+    for (std::size_t g = 0; g < group_dirty.size(); ++g) {
+      if (group_dirty[g]) {
+        field.update_all(static_cast<int>(g), *direct_light);
+      } else if (!moved.empty()) {
+        field.update_moved(static_cast<int>(g), *direct_light, moved);
+      }
+      group_dirty[g] = false;
+    }
+    if (emission_dirty || (!moved.empty() && !emission.empty())) {
+      emission.clear();
+      for (const SphlEmitter& emitter : emitters) {
+        if (emitter.leaving.empty()) continue;
+        emission.resize(network.samples().size(), vec3(0));
+        add_emission(network, source, emitter, emission);
+      }
+      emission_dirty = false;
+    }
+    field.sum(group_scale, emission, direct);
+    scale_dirty = false;
+  }
+};
+
+RelightSession::RelightSession(const scene::TransportSource& source, std::vector<ProbePlace> places,
+                               const RelightParams& params, float time, const Control& control)
+    : data_(std::make_unique<Data>(source, std::move(places), params, time, control)) {}
+
+RelightSession::~RelightSession() = default;
+
+void RelightSession::set_light(int light, const scene::LightState& state) {
+  Data& d = *data_;
+  if (light < 0 || static_cast<std::size_t>(light) >= d.lights.size())
+    throw Error(fmt::format("light {}", light), fmt::format("the scene has {} lights", d.lights.size()));
+  bool finite = is_finite(state.color) && std::isfinite(state.intensity);
+  for (int c = 0; c < 4; ++c) finite = finite && is_finite(vec3(state.world[c]));
+  if (!finite || state.intensity < 0)
+    throw Error(fmt::format("light {}", light), "its place, colour and intensity must be finite, the last not negative");
+  const auto index = static_cast<std::size_t>(light);
+  d.light_set[index] = true;
+  if (d.lights[index] == state) return;
+  d.lights[index] = state;
+  d.group_dirty[static_cast<std::size_t>(d.source.light_group_of(light))] = true;
+}
+
+const scene::LightState& RelightSession::light(int light) const {
+  return data_->lights.at(static_cast<std::size_t>(light));
+}
+
+void RelightSession::set_group_scale(int group, const vec3& scale) {
+  Data& d = *data_;
+  if (group < 0 || static_cast<std::size_t>(group) >= d.group_scale.size())
+    throw Error(fmt::format("light group {}", group), fmt::format("the scene has {} groups", d.group_scale.size()));
+  if (!is_finite(scale) || glm::any(glm::lessThan(scale, vec3(0))))
+    throw Error(fmt::format("light group {}", group), "its factor must be finite and not negative");
+  vec3& slot = d.group_scale[static_cast<std::size_t>(group)];
+  d.scale_dirty |= slot != scale;
+  slot = scale;
+}
+
+void RelightSession::set_time(float time) {
+  if (!std::isfinite(time)) throw Error("time", "it must be a finite number of seconds");
+  data_->pending_time = time;
+}
+
+void RelightSession::set_emission(int probe, const sh::RadianceSh& leaving) {
+  Data& d = *data_;
+  if (probe < 0 || static_cast<std::size_t>(probe) >= d.places.size())
+    throw Error(fmt::format("probe {}", probe), fmt::format("there are {} probes", d.places.size()));
+  for (const vec3& v : leaving.values) {
+    if (!is_finite(v)) throw Error(fmt::format("probe {}", probe), "its emission is not finite");
+  }
+  sh::RadianceSh& slot = d.emitters[static_cast<std::size_t>(probe)].leaving;
+  d.emission_dirty |= slot != leaving;
+  slot = leaving;
+}
+
+RelightReport RelightSession::update() {
+  Data& d = *data_;
+  RelightReport report;
+  const bool first = d.reflected.empty();
+  const bool posed = d.pending_time != d.network.time();
+  if (!first && !posed && !d.any_group_dirty() && !d.scale_dirty && !d.emission_dirty) return report;
+
+  std::vector<scene::Bounds> moved;
+  if (posed) measure(d.source, report.pose_ms, &report.pose_rays, [&] { moved = d.move_parts(report); });
+  measure(d.source, report.direct_ms, &report.direct_rays, [&] { d.update_direct(moved); });
+  measure(d.source, report.solve_ms, nullptr, [&] {
+    if (!d.params.warm_start) d.indirect.clear();
+    report.solve = d.solver.solve(d.network.links(), d.network.albedo(), d.direct, d.network.contraction().upper,
+                                  d.params.solve, d.indirect);
+  });
+  measure(d.source, report.project_ms, nullptr, [&] {
+    d.before.swap(d.reflected);
+    project_reflected(d.network, d.projector, total(d.direct, d.indirect), d.reflected);
+    for (std::size_t i = 0; i < d.reflected.size(); ++i) {
+      if (first || differs(d.reflected[i], d.before[i], d.params.changed))
+        report.changed_probes.push_back(static_cast<int>(i));
+    }
+  });
+  return report;
+}
+
+const std::vector<ProbePlace>& RelightSession::places() const {
+  return data_->places;
+}
+const std::vector<sh::RadianceSh>& RelightSession::reflected() const {
+  return data_->reflected;
+}
+
+sh::RadianceSh RelightSession::emitted(int probe) const {
+  const Data& d = *data_;
+  const auto i = static_cast<std::size_t>(probe);
+  sh::RadianceSh sum(d.params.degree);
+  if (!d.direct_light) return sum;
+  for (std::size_t g = 0; g < d.group_scale.size(); ++g) {
+    sh::RadianceSh part = project_emitted(d.network, d.projector, i, static_cast<int>(g), *d.direct_light);
+    part *= d.group_scale[g];
+    sum += part;
+  }
+  for (std::size_t j = 0; j < d.emitters.size(); ++j) {
+    if (j == i || d.emitters[j].leaving.empty()) continue;
+    if (sees(d.network, d.source, d.places[i].position, d.emitters[j].position))
+      add_seen_emission(d.places[i].position, d.emitters[j], sum);
+  }
+  return sum;
+}
+
+std::vector<std::vector<sh::RadianceSh>> RelightSession::reflected_by_group(const Control& control) const {
+  const Data& d = *data_;
+  const std::size_t groups = d.group_scale.size();
+  std::vector<std::vector<sh::RadianceSh>> result(groups);
+  ProgressStage progress(control, "solving", groups, "light groups");
+  for (std::size_t g = 0; g < groups; ++g) {
+    control.check();
+    std::vector<vec3> scales(groups, vec3(0));
+    scales[g] = vec3(1);
+    std::vector<Irradiance4> direct, indirect;
+    d.field.sum(scales, {}, direct);
+    Solver solver;
+    solver.solve(d.network.links(), d.network.albedo(), direct, d.network.contraction().upper, d.params.solve,
+                 indirect);
+    project_reflected(d.network, d.projector, total(direct, indirect), result[g]);
+    progress.advance(1);
+  }
+  return result;
+}
+
+std::vector<std::vector<sh::RadianceSh>> RelightSession::emitted_by_group() const {
+  const Data& d = *data_;
+  std::vector<std::vector<sh::RadianceSh>> result(d.group_scale.size());
+  for (std::size_t g = 0; g < result.size(); ++g) {
+    for (std::size_t i = 0; i < d.places.size(); ++i)
+      result[g].push_back(project_emitted(d.network, d.projector, i, static_cast<int>(g), *d.direct_light));
+  }
+  return result;
+}
+
+const std::vector<Irradiance4>& RelightSession::surfel_irradiance() const {
+  return data_->indirect;
+}
+const std::vector<Irradiance4>& RelightSession::surfel_direct() const {
+  return data_->direct;
+}
+const TransportNetwork& RelightSession::network() const {
+  return data_->network;
+}
+
+}  // namespace ssphh::gi

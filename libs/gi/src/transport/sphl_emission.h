@@ -1,0 +1,31 @@
+#pragma once
+/// SPHLs that are lights: a sphere that emits a spherical function of direction, on surfels and on other
+/// probes.
+
+#include <span>
+#include <vector>
+
+#include <ssphh/gi/transport/network.h>
+#include <ssphh/sh/coefficients.h>
+
+namespace ssphh::gi {
+
+struct SphlEmitter {
+  vec3 position{0};
+  float radius = 0.1f;
+  sh::RadianceSh leaving;  ///< radiance that leaves into each direction; empty: dark
+};
+
+/// Adds π (r/d)² cosθ L(ω_e) at every sample that the sphere's centre sees: exact for a uniform sphere above
+/// the horizon, and for any function in the limit r ≪ d. Within the sphere d counts as r. Returns the rays
+/// traced.
+std::size_t add_emission(const TransportNetwork& network, const scene::TransportSource& source,
+                         const SphlEmitter& emitter, std::span<vec3> samples);
+
+/// Adds the sphere as seen from a probe in free view of it: a disc of half-angle asin(r/d) with radiance L(ω_e).
+void add_seen_emission(const vec3& probe, const SphlEmitter& emitter, sh::RadianceSh& out);
+
+/// Whether nothing static or moving blocks the segment, as the network is posed.
+bool sees(const TransportNetwork& network, const scene::TransportSource& source, const vec3& a, const vec3& b);
+
+}  // namespace ssphh::gi
