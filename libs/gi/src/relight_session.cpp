@@ -1,11 +1,11 @@
-#include <ssphh/gi/relight_session.h>
-
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/gi/relight_session.h>
 #include <ssphh/gi/transport/direct_field.h>
 
 #include "transport/probe_light.h"
@@ -32,14 +32,16 @@ void measure(const scene::TransportSource& source, double& ms, std::uint64_t* ra
 
 bool differs(const sh::RadianceSh& a, const sh::RadianceSh& b, float tolerance) {
   if (a.values.size() != b.values.size()) return true;
-  const float limit = tolerance * std::max(max_component(glm::abs(a.values[0])), max_component(glm::abs(b.values[0])));
+  const float limit =
+      tolerance * std::max(max_component(glm::abs(a.values[0])), max_component(glm::abs(b.values[0])));
   for (std::size_t k = 0; k < a.values.size(); ++k) {
     if (max_component(glm::abs(a.values[k] - b.values[k])) > limit) return true;
   }
   return false;
 }
 
-std::vector<Irradiance4> total(const std::vector<Irradiance4>& direct, const std::vector<Irradiance4>& indirect) {
+std::vector<Irradiance4> total(const std::vector<Irradiance4>& direct,
+                               const std::vector<Irradiance4>& indirect) {
   std::vector<Irradiance4> sum(direct.size());
   for (std::size_t s = 0; s < sum.size(); ++s) sum[s] = direct[s] + indirect[s];
   return sum;
@@ -48,8 +50,8 @@ std::vector<Irradiance4> total(const std::vector<Irradiance4>& direct, const std
 }  // namespace
 
 struct RelightSession::Data {
-  Data(const scene::TransportSource& source_in, std::vector<ProbePlace> places_in, const RelightParams& params_in,
-       float time, const Control& control)
+  Data(const scene::TransportSource& source_in, std::vector<ProbePlace> places_in,
+       const RelightParams& params_in, float time, const Control& control)
       : source(source_in),
         places(std::move(places_in)),
         params(params_in),
@@ -62,8 +64,7 @@ struct RelightSession::Data {
         group_scale(source_in.light_groups().size(), vec3(1)),
         pending_time(time) {
     emitters.resize(places.size());
-    for (std::size_t i = 0; i < places.size(); ++i)
-      emitters[i] = {places[i].position, places[i].radius, {}};
+    for (std::size_t i = 0; i < places.size(); ++i) emitters[i] = {places[i].position, places[i].radius, {}};
   }
 
   const scene::TransportSource& source;
@@ -154,7 +155,8 @@ void RelightSession::set_light(int light, const scene::LightState& state) {
   bool finite = is_finite(state.color) && std::isfinite(state.intensity);
   for (int c = 0; c < 4; ++c) finite = finite && is_finite(vec3(state.world[c]));
   if (!finite || state.intensity < 0)
-    throw Error(fmt::format("light {}", light), "its place, colour and intensity must be finite, the last not negative");
+    throw Error(fmt::format("light {}", light),
+                "its place, colour and intensity must be finite, the last not negative");
   const auto index = static_cast<std::size_t>(light);
   d.light_set[index] = true;
   if (d.lights[index] == state) return;
@@ -169,7 +171,8 @@ const scene::LightState& RelightSession::light(int light) const {
 void RelightSession::set_group_scale(int group, const vec3& scale) {
   Data& d = *data_;
   if (group < 0 || static_cast<std::size_t>(group) >= d.group_scale.size())
-    throw Error(fmt::format("light group {}", group), fmt::format("the scene has {} groups", d.group_scale.size()));
+    throw Error(fmt::format("light group {}", group),
+                fmt::format("the scene has {} groups", d.group_scale.size()));
   if (!is_finite(scale) || glm::any(glm::lessThan(scale, vec3(0))))
     throw Error(fmt::format("light group {}", group), "its factor must be finite and not negative");
   vec3& slot = d.group_scale[static_cast<std::size_t>(group)];
@@ -206,8 +209,8 @@ RelightReport RelightSession::update() {
   measure(d.source, report.direct_ms, &report.direct_rays, [&] { d.update_direct(moved); });
   measure(d.source, report.solve_ms, nullptr, [&] {
     if (!d.params.warm_start) d.indirect.clear();
-    report.solve = d.solver.solve(d.network.links(), d.network.albedo(), d.direct, d.network.contraction().upper,
-                                  d.params.solve, d.indirect);
+    report.solve = d.solver.solve(d.network.links(), d.network.albedo(), d.direct,
+                                  d.network.contraction().upper, d.params.solve, d.indirect);
   });
   measure(d.source, report.project_ms, nullptr, [&] {
     d.before.swap(d.reflected);

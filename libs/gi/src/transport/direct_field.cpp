@@ -1,9 +1,8 @@
-#include <ssphh/gi/transport/direct_field.h>
-
 #include <algorithm>
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/gi/transport/direct_field.h>
 
 namespace ssphh::gi {
 
@@ -39,7 +38,8 @@ std::size_t DirectField::update_moved(int group, const scene::DirectLight& light
   return update(group, light, which_);
 }
 
-std::size_t DirectField::update(int group, const scene::DirectLight& light, std::span<const std::uint32_t> which) {
+std::size_t DirectField::update(int group, const scene::DirectLight& light,
+                                std::span<const std::uint32_t> which) {
   points_.resize(which.size());
   values_.resize(which.size());
   for (std::size_t k = 0; k < which.size(); ++k) points_[k] = network_.samples()[which[k]];

@@ -98,10 +98,12 @@ class NetworkBuilder {
     std::vector<ClusterPoint> points;
     std::vector<std::size_t> owner;
     d_.seen.resize(g.hits.size());
+    d_.seen_distance.resize(g.hits.size());
     bool emits = false;
     for (std::size_t i = 0; i < g.hits.size(); ++i) {
       const PackedHit& hit = g.hits[i];
       d_.seen[i] = {no_surfel, hit.albedo_and_back & 0x3fffffffu};
+      d_.seen_distance[i] = hit.distance;
       emits |= hit.emission != 0;
       if (std::isinf(hit.distance)) continue;
       points.push_back({{g.point(i / g.directions.size(), i % g.directions.size()), unpack_normal(hit)},
@@ -416,6 +418,9 @@ const Contraction& TransportNetwork::contraction() const {
 }
 const std::vector<SeenPatch>& TransportNetwork::seen() const {
   return data_->seen;
+}
+const std::vector<float>& TransportNetwork::seen_distance() const {
+  return data_->seen_distance;
 }
 const std::vector<std::uint16_t>& TransportNetwork::seen_emission() const {
   return data_->seen_emission;

@@ -26,6 +26,7 @@ struct Resolved {
   std::int32_t surfel = no_surfel;
   std::uint32_t albedo = 0;
   std::uint16_t emission = 0;
+  float distance = 0;
 };
 
 struct TransportNetwork::Data {
@@ -55,6 +56,7 @@ struct TransportNetwork::Data {
 
   // Probes.
   std::vector<SeenPatch> seen;
+  std::vector<float> seen_distance;
   std::vector<std::uint16_t> seen_emission;
   std::vector<MovingRay> moving_hits;
 

@@ -139,13 +139,15 @@ Resolved TransportNetwork::Data::resolve(const MovingRay& unobstructed) const {
     const vec3 position = vec3(p.to_part * vec4(ray.origin + ray.t_max * ray.direction, 1));
     // The part's palette entries were made when the network was built.
     return {find(part, {position, hit.normal}), pack_albedo(hit.albedo),
-            gbuffer.palette.find(hit.emission, hit.group)};
+            gbuffer.palette.find(hit.emission, hit.group), ray.t_max};
   }
-  if (unobstructed.surfel == no_surfel) return {no_surfel, unobstructed.albedo, unobstructed.emission};
+  if (unobstructed.surfel == no_surfel)
+    return {no_surfel, unobstructed.albedo, unobstructed.emission, ray.t_max};
   const scene::SurfacePoint point{ray.origin + ray.t_max * ray.direction, unobstructed.normal};
   const Surfel& surfel = surfels.surfels()[static_cast<std::size_t>(unobstructed.surfel)];
   const bool hidden = parts_block(surfels.segment(point, surfel.point));
-  return {hidden ? find(0, point) : unobstructed.surfel, unobstructed.albedo, unobstructed.emission};
+  return {hidden ? find(0, point) : unobstructed.surfel, unobstructed.albedo, unobstructed.emission,
+          ray.t_max};
 }
 
 void TransportNetwork::Data::place_parts(float new_time) {
@@ -198,6 +200,7 @@ void TransportNetwork::Data::pose_hits(PoseReport& report) {
       SeenPatch& slot = seen[moving_ray.owner];
       changed[i] = patch != slot;
       slot = patch;
+      seen_distance[moving_ray.owner] = found.distance;
       if (!seen_emission.empty()) seen_emission[moving_ray.owner] = found.emission;
     }
   });

@@ -1,8 +1,5 @@
 #include "probe_light.h"
 
-#include <cmath>
-#include <limits>
-
 #include <ssphh/core/parallel.h>
 
 namespace ssphh::gi {
@@ -36,9 +33,7 @@ sh::RadianceSh project_emitted(const TransportNetwork& network, const DirectionP
   std::vector<float> radiance(3 * stride, 0.0f);
   for (std::size_t q = 0; q < directions; ++q) {
     const std::size_t ray = probe * directions + q;
-    const bool escaped = network.seen()[ray].surfel == no_surfel;
-    const float distance = escaped ? std::numeric_limits<float>::infinity() : g.hits[ray].distance;
-    vec3 value = light.emitted(group, {g.positions[probe], g.directions[q]}, distance);
+    vec3 value = light.emitted(group, {g.positions[probe], g.directions[q]}, network.seen_distance()[ray]);
     if (!network.seen_emission().empty()) {
       const EmissionEntry& entry = network.palette()[network.seen_emission()[ray]];
       if (entry.group == group) value += entry.radiance;

@@ -14,8 +14,8 @@ namespace ssphh::gi {
 void project_reflected(const TransportNetwork& network, const DirectionProjector& projector,
                        std::span<const Irradiance4> irradiance, std::vector<sh::RadianceSh>& out);
 
-/// Emitters of one group that probe i sees directly: emissive surfaces, and what `light` knows of emitters that
-/// are no surfaces.
+/// Emitters of one group that probe i sees directly: emissive surfaces, and what `light` knows of emitters
+/// that are no surfaces.
 sh::RadianceSh project_emitted(const TransportNetwork& network, const DirectionProjector& projector,
                                std::size_t probe, int group, const scene::DirectLight& light);
 

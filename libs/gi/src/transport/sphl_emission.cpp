@@ -36,7 +36,8 @@ void block(const TransportNetwork& network, const scene::TransportSource& source
 
 }  // namespace
 
-bool sees(const TransportNetwork& network, const scene::TransportSource& source, const vec3& a, const vec3& b) {
+bool sees(const TransportNetwork& network, const scene::TransportSource& source, const vec3& a,
+          const vec3& b) {
   const scene::RayQuery segment{a, b - a, 1};
   std::vector<std::uint8_t> blocked;
   block(network, source, {&segment, 1}, blocked);
@@ -80,7 +81,8 @@ void add_seen_emission(const vec3& probe, const SphlEmitter& emitter, sh::Radian
   const vec3 direction = to_light / distance;
   const float sine = std::min(emitter.radius / distance, 1.0f);
   const double edge = std::sqrt(1 - double(sine) * double(sine));
-  const sh::ZonalSh disc = sh::zonal_from_function(out.degree(), [](double) { return 1.0; }, edge);
+  const sh::ZonalSh disc = sh::zonal_from_function(
+      out.degree(), [](double) { return 1.0; }, edge);
   std::vector<float> lobe(out.values.size());
   sh::rotate_zonal(disc, direction, lobe);
   const vec3 radiance = evaluate(emitter.leaving, -direction);

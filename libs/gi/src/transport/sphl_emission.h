@@ -22,10 +22,12 @@ struct SphlEmitter {
 std::size_t add_emission(const TransportNetwork& network, const scene::TransportSource& source,
                          const SphlEmitter& emitter, std::span<vec3> samples);
 
-/// Adds the sphere as seen from a probe in free view of it: a disc of half-angle asin(r/d) with radiance L(ω_e).
+/// Adds the sphere as seen from a probe in free view of it: a disc of half-angle asin(r/d) with radiance
+/// L(ω_e).
 void add_seen_emission(const vec3& probe, const SphlEmitter& emitter, sh::RadianceSh& out);
 
 /// Whether nothing static or moving blocks the segment, as the network is posed.
-bool sees(const TransportNetwork& network, const scene::TransportSource& source, const vec3& a, const vec3& b);
+bool sees(const TransportNetwork& network, const scene::TransportSource& source, const vec3& a,
+          const vec3& b);
 
 }  // namespace ssphh::gi

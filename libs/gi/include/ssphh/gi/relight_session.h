@@ -1,6 +1,6 @@
 #pragma once
-/// Probes that follow moving lamps and doors, frame by frame: `surfel` transport kept warm. Holds no files and
-/// draws nothing.
+/// Probes that follow moving lamps and doors, frame by frame: `surfel` transport kept warm. Holds no files
+/// and draws nothing.
 ///
 ///   const trace::TransportScene source(scene);
 ///   gi::RelightSession session(source, places);
@@ -29,9 +29,9 @@ struct ProbePlace {
 struct RelightParams {
   TransportParams transport;
   SolveParams solve;
-  int degree = 4;         ///< of the probes' functions
-  float changed = 1e-3f;  ///< a probe changed when a coefficient did by more than this share of its mean
-  bool warm_start = true; ///< false: every update starts from darkness, so its bits tell nothing of the past
+  int degree = 4;          ///< of the probes' functions
+  float changed = 1e-3f;   ///< a probe changed when a coefficient did by more than this share of its mean
+  bool warm_start = true;  ///< false: every update starts from darkness, so its bits tell nothing of the past
 };
 
 /// One update. Times in milliseconds, rays as traced.
@@ -47,7 +47,8 @@ struct RelightReport {
 
 class RelightSession {
  public:
-  /// Keeps a reference to `source`. Throws Error as TransportNetwork does. The first update() lights everything.
+  /// Keeps a reference to `source`. Throws Error as TransportNetwork does. The first update() lights
+  /// everything.
   RelightSession(const scene::TransportSource& source, std::vector<ProbePlace> places,
                  const RelightParams& params = {}, float time = 0, const Control& control = {});
   ~RelightSession();
@@ -61,7 +62,8 @@ class RelightSession {
   /// Poses parts, and the lights that set_light left alone.
   void set_time(float time);
   /// Makes the probe a light of its own (`matrix` transport): radiance leaving a sphere of the place's radius
-  /// into each direction. Its light bounces like any other; the sphere neither blocks nor reflects. Empty: none.
+  /// into each direction. Its light bounces like any other; the sphere neither blocks nor reflects. Empty:
+  /// none.
   void set_emission(int probe, const sh::RadianceSh& leaving);
 
   /// Brings the probes up to date with what was set since the last call; does only what changed.

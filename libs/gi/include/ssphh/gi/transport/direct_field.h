@@ -15,13 +15,14 @@ class DirectField {
 
   /// Finds the group's light at all samples.
   std::size_t update_all(int group, const scene::DirectLight& light);
-  /// After the parts moved: only at samples on parts, and where one of `moved` (the parts' world bounds before
-  /// and after) may shadow the light. Returns the number of samples asked for.
+  /// After the parts moved: only at samples on parts, and where one of `moved` (the parts' world bounds
+  /// before and after) may shadow the light. Returns the number of samples asked for.
   std::size_t update_moved(int group, const scene::DirectLight& light, std::span<const scene::Bounds> moved);
 
   /// Σ_g scale_g · E_g at each surfel: the mean over its samples in use. `extra` is added at each sample when
   /// not empty.
-  void sum(std::span<const vec3> group_scales, std::span<const vec3> extra, std::vector<Irradiance4>& out) const;
+  void sum(std::span<const vec3> group_scales, std::span<const vec3> extra,
+           std::vector<Irradiance4>& out) const;
 
  private:
   std::size_t update(int group, const scene::DirectLight& light, std::span<const std::uint32_t> which);

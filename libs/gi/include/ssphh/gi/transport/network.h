@@ -71,6 +71,8 @@ class TransportNetwork {
 
   /// [probe · directions + direction]
   const std::vector<SeenPatch>& seen() const;
+  /// Metres to what each probe ray sees; infinite: nothing.
+  const std::vector<float>& seen_distance() const;
   /// Palette index of the emission that each probe ray sees; empty when no surface emits.
   const std::vector<std::uint16_t>& seen_emission() const;
   const EmissionPalette& palette() const;
