@@ -1,9 +1,11 @@
+#include "probe_sight.h"
 #include "probe_table.h"
 
 namespace ssphh::gi {
 
 struct LightLookup::Data {
   ProbeTable table;
+  ProbeSight sight;
 
   /// The nearest probe that the point sees and that stands above its horizon; else the nearest, with `lights`
   /// false.
@@ -14,21 +16,27 @@ struct LightLookup::Data {
     bool lights;
   };
   Chosen choose(const vec3& x, const vec3& n) const {
-    ProbeTable::NearList near;
-    const int count = table.nearest(x, ProbeTable::max_near, near);
+    ProbeSight::NearList near;
+    const int count = sight.nearest(x, near);
     for (int i = 0; i < count; ++i) {
-      const ProbeTable::Near& candidate = near[static_cast<std::size_t>(i)];
+      const Near& candidate = near[static_cast<std::size_t>(i)];
       if (!(candidate.distance2 > 0)) continue;
-      const vec3 direction = (table.position(candidate.probe) - x) / std::sqrt(candidate.distance2);
+      const vec3 direction = (table.position(candidate.index) - x) / std::sqrt(candidate.distance2);
       const float cosine = glm::dot(n, direction);
-      if (cosine > 0 && table.sees(candidate, x, n)) return {candidate.probe, direction, cosine, true};
+      if (cosine > 0 && sight.sees(candidate, x, n)) return {candidate.index, direction, cosine, true};
     }
-    return {near[0].probe, n, 1, false};
+    return {near[0].index, n, 1, false};
   }
 };
 
 LightLookup::LightLookup(const ProbeSet& set, const scene::RadianceSource& source, const LookupParams& params)
-    : data_(new Data{ProbeTable(set, source, params)}) {}
+    : data_(nullptr) {
+  ProbeTable table(set, params);
+  ProbeSight sight(
+      table.positions(), [&source](const vec3& a, const vec3& b) { return source.visible(a, b); },
+      params.weights);
+  data_.reset(new Data{std::move(table), std::move(sight)});
+}
 LightLookup::~LightLookup() = default;
 
 vec3 LightLookup::irradiance(const vec3& x, const vec3& n) const {

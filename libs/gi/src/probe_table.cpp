@@ -13,8 +13,6 @@
 namespace ssphh::gi {
 namespace {
 
-constexpr float relative_offset = 0.01f;
-
 /// The function of probe i that lights surfaces.
 sh::RadianceSh chosen_light(const ProbeSet& set, std::size_t i, ProbeLayer layer, ProbeLight light) {
   const Probe& probe = set.probes[i];
@@ -24,30 +22,10 @@ sh::RadianceSh chosen_light(const ProbeSet& set, std::size_t i, ProbeLayer layer
   return own;
 }
 
-/// Median distance of a probe to its nearest neighbour; infinite for one probe.
-float median_spacing(const std::vector<vec3>& positions) {
-  std::vector<float> nearest(positions.size(), std::numeric_limits<float>::infinity());
-  parallel_for(positions.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      for (std::size_t j = 0; j < positions.size(); ++j) {
-        const float d = glm::distance(positions[i], positions[j]);
-        if (j != i && d > 0) nearest[i] = std::min(nearest[i], d);
-      }
-    }
-  });
-  const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
-  std::nth_element(nearest.begin(), middle, nearest.end());
-  return *middle;
-}
-
 }  // namespace
 
-ProbeTable::ProbeTable(const ProbeSet& set, const scene::RadianceSource& source, const LookupParams& params)
-    : source_(source),
-      radiance_degree_(set.degree),
-      irradiance_degree_(std::clamp(params.irradiance_degree, 0, set.degree)),
-      blend_count_(std::clamp(params.nearest, 1, max_near)),
-      offset_(params.normal_offset) {
+ProbeTable::ProbeTable(const ProbeSet& set, const LookupParams& params)
+    : radiance_degree_(set.degree), irradiance_degree_(std::clamp(params.irradiance_degree, 0, set.degree)) {
   if (set.probes.empty()) throw Error("probe lookup", "the probe set is empty", "bake a scene with SPHLs");
   const ProbeLayer layer = params.layer.value_or(set.hierarchy ? ProbeLayer::sum : ProbeLayer::self);
   if (layer != ProbeLayer::self && !set.hierarchy) {
@@ -72,31 +50,6 @@ ProbeTable::ProbeTable(const ProbeSet& set, const scene::RadianceSource& source,
                 irradiance_.begin() + static_cast<std::ptrdiff_t>(i * irradiance_count));
     }
   });
-  offset_limit_ = relative_offset * median_spacing(positions_);
-}
-
-int ProbeTable::nearest(const vec3& x, int wanted, NearList& near) const {
-  int count = 0;
-  float farthest = std::numeric_limits<float>::infinity();
-  for (std::size_t i = 0; i < positions_.size(); ++i) {
-    const vec3 to = positions_[i] - x;
-    const float d2 = glm::dot(to, to);
-    if (!(d2 < farthest)) continue;
-    // Insert; the last one falls out of a full list.
-    int at = count < wanted ? count++ : wanted - 1;
-    for (; at > 0 && near[static_cast<std::size_t>(at - 1)].distance2 > d2; --at) {
-      near[static_cast<std::size_t>(at)] = near[static_cast<std::size_t>(at - 1)];
-    }
-    near[static_cast<std::size_t>(at)] = {d2, static_cast<int>(i)};
-    if (count == wanted) farthest = near[static_cast<std::size_t>(count - 1)].distance2;
-  }
-  return count;
-}
-
-bool ProbeTable::sees(const Near& near, const vec3& x, const vec3& n) const {
-  const float offset =
-      offset_ > 0 ? offset_ : std::min(relative_offset * std::sqrt(near.distance2), offset_limit_);
-  return source_.visible(x + offset * n, position(near.probe));
 }
 
 vec3 ProbeTable::dot(const std::vector<vec3>& functions, int probe, const float* basis, int degree) {

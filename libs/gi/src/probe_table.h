@@ -9,21 +9,9 @@ namespace ssphh::gi {
 /// What both lookups need of a set, laid out for one call per pixel sample.
 class ProbeTable {
  public:
-  ProbeTable(const ProbeSet& set, const scene::RadianceSource& source, const LookupParams& params);
+  ProbeTable(const ProbeSet& set, const LookupParams& params);
 
-  struct Near {
-    float distance2;
-    int probe;
-  };
-  static constexpr int max_near = 16;
-  using NearList = std::array<Near, max_near>;
-
-  /// The `wanted` nearest probes by distance, ties by index; returns how many there are.
-  int nearest(const vec3& x, int wanted, NearList& near) const;
-
-  /// Whether the probe sees the point just above the surface.
-  bool sees(const Near& near, const vec3& x, const vec3& n) const;
-
+  const std::vector<vec3>& positions() const { return positions_; }
   const vec3& position(int probe) const { return positions_[static_cast<std::size_t>(probe)]; }
   /// L(ω), not negative. `basis` holds Y_k(ω), perhaps scaled by band.
   vec3 radiance(int probe, const float* basis) const {
@@ -40,17 +28,12 @@ class ProbeTable {
   void radiance_basis(const vec3& direction, Basis& basis) const;
   void glossy_basis(const vec3& direction, float roughness, Basis& basis) const;
 
-  int blend_count() const { return blend_count_; }
-
  private:
   static vec3 dot(const std::vector<vec3>& functions, int probe, const float* basis, int degree);
 
-  const scene::RadianceSource& source_;
   std::vector<vec3> positions_;
   std::vector<vec3> radiance_, irradiance_;  ///< coefficients, probe after probe
-  int radiance_degree_, irradiance_degree_, blend_count_;
-  float offset_;        ///< fixed; 0: relative
-  float offset_limit_;  ///< of the relative offset
+  int radiance_degree_, irradiance_degree_;
 };
 
 }  // namespace ssphh::gi

@@ -131,7 +131,7 @@ TEST(IrradianceLookup, BlendsTheNearestVisibleProbesOnly) {
         {{static_cast<float>(40 - i), 0, 0}, linear(0, vec3(static_cast<float>(i)), vec3(0)), {}});
   }
   LookupParams params;
-  params.nearest = 2;
+  params.weights.nearest = 2;
   const IrradianceLookup lookup(make_set(probes), source, params);
   // Probes 39 and 38 at distances 1 and 2 from the origin.
   expect_near(lookup.irradiance({0, 0, 0}, {0, 1, 0}), vec3(pi * (39 * 4 + 38) / 5.0f), 1e-3f);

@@ -1,9 +1,9 @@
 /// Solver and projector against slow references, packing against its stated errors.
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/random.h>
@@ -24,7 +24,8 @@ struct RandomNetwork {
   std::vector<Irradiance4> direct;
   std::vector<std::vector<double>> dense;  ///< F
 
-  RandomNetwork(std::size_t count, std::size_t per_row, float row_sum, float largest_albedo, std::uint64_t seed)
+  RandomNetwork(std::size_t count, std::size_t per_row, float row_sum, float largest_albedo,
+                std::uint64_t seed)
       : albedo(count), direct(count), dense(count, std::vector<double>(count, 0)) {
     Pcg32 rng(seed);
     links.reserve(count * per_row);
@@ -143,7 +144,9 @@ TEST(TransportSolve, SameBitsForAnyNumberOfThreadsAndOneStepFromTheAnswer) {
   set_thread_count(0);
   EXPECT_EQ(results[0], results[1]);
   Solver solver;
-  EXPECT_LE(solver.solve(network.rows, network.albedo, network.direct, bound, {2e-3f, 300}, results[0]).iterations, 2)
+  EXPECT_LE(
+      solver.solve(network.rows, network.albedo, network.direct, bound, {2e-3f, 300}, results[0]).iterations,
+      2)
       << "a warm start has little to do";
 }
 
@@ -165,7 +168,8 @@ TEST(DirectionProjector, EqualsTheSumOverDirections) {
     for (const int degree : {0, 1, 2, 4, 10}) {
       const DirectionProjector projector(degree, directions);
       std::vector<float> radiance(3 * projector.stride(), 0.0f);
-      std::vector<glm::dvec3> expected(static_cast<std::size_t>(sh::coefficient_count(degree)), glm::dvec3(0));
+      std::vector<glm::dvec3> expected(static_cast<std::size_t>(sh::coefficient_count(degree)),
+                                       glm::dvec3(0));
       std::vector<double> basis(expected.size());
       for (std::size_t q = 0; q < directions.size(); ++q) {
         const vec3 light = rng.uniform3();
@@ -191,7 +195,8 @@ TEST(PackedHit, KeepsNormalAndAlbedoWithinTheStatedErrors) {
   Pcg32 rng(4);
   for (int i = 0; i < 20000; ++i) {
     scene::RayHit hit;
-    hit.normal = i < 6 ? vec3(i == 0, i == 1, i == 2) - vec3(i == 3, i == 4, i == 5) : sample_uniform_sphere(rng.uniform2());
+    hit.normal = i < 6 ? vec3(i == 0, i == 1, i == 2) - vec3(i == 3, i == 4, i == 5)
+                       : sample_uniform_sphere(rng.uniform2());
     hit.albedo = rng.uniform3();
     hit.distance = rng.uniform();
     hit.back = i % 2;

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include <ssphh/gi/lookup_weights.h>
 #include <ssphh/gi/probe_set.h>
 #include <ssphh/scene/radiance_source.h>
 
@@ -20,12 +21,10 @@ enum class ProbeLight { reflected, all };
 struct LookupParams {
   std::optional<ProbeLayer> layer;  ///< none: sum when the set has a hierarchy, else self
   ProbeLight light = ProbeLight::reflected;
-  int nearest = 8;  ///< irradiance: blends at most so many visible probes, 1..16
+  WeightParams weights;  ///< irradiance: how probes are blended
   int irradiance_degree =
       4;               ///< irradiance: bands kept; 2 is 1 % worse at worst, over 4 changes next to nothing
   bool dering = true;  ///< irradiance: windows a probe just enough that its E(n) is nowhere negative
-  float normal_offset =
-      0;  ///< metres that visibility rays start off the surface; 0: 1 % of the probes' spacing
 };
 
 /// Both are safe to call from several threads, never return a negative or non-finite number for finite input,
@@ -50,11 +49,12 @@ class LightLookup final : public scene::IndirectLight {
   std::unique_ptr<Data> data_;
 };
 
-/// Irradiance volume: E(n) of the nearest visible probes, weighted by inverse squared distance and a
-/// wrapped cosine. When none is visible, of the nearest ones.
+/// Irradiance volume: Σ_j v_j E_j(n), the weights by params.weights or as given.
 class IrradianceLookup final : public scene::IndirectLight {
  public:
   IrradianceLookup(const ProbeSet& set, const scene::RadianceSource& source, const LookupParams& params = {});
+  IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWeights> weights,
+                   const LookupParams& params = {});
   ~IrradianceLookup() override;
   vec3 irradiance(const vec3& x, const vec3& n) const override;
   vec3 glossy(const vec3& x, const vec3& n, const vec3& r, float roughness) const override;

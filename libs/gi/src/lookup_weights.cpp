@@ -1,0 +1,180 @@
+#include <ssphh/gi/lookup_weights.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <ssphh/core/error.h>
+
+#include "probe_sight.h"
+
+namespace ssphh::gi {
+namespace {
+
+using NearList = ProbeSight::NearList;
+
+/// What all methods share.
+class VisibleWeights : public LookupWeights {
+ public:
+  VisibleWeights(std::span<const vec3> positions, SeesProbe sees, const WeightParams& params)
+      : sight_(positions, std::move(sees), params), wanted_(std::clamp(params.nearest, 1, max_weights)) {}
+
+ protected:
+  /// The method `distance`, which also serves where the others find nothing.
+  ProbeWeights by_distance(const vec3& x, const vec3& n) const {
+    NearList near;
+    const int count = sight_.nearest(x, near);
+    int visible = sight_.visible_first(near, count, wanted_, x, n);
+    if (visible == 0) {
+      std::sort(near.begin(), near.begin() + count);
+      visible = std::min(count, wanted_);
+    }
+    float nearest2 = near[0].distance2;
+    for (int i = 1; i < visible; ++i) nearest2 = std::min(nearest2, near[static_cast<std::size_t>(i)].distance2);
+    ProbeWeights out;
+    for (int i = 0; i < visible; ++i) {
+      const Near& probe = near[static_cast<std::size_t>(i)];
+      out.entries[static_cast<std::size_t>(out.count++)] = {probe.index, distance_weight(probe, nearest2, x, n)};
+    }
+    normalise(out);
+    return out;
+  }
+
+  static void normalise(ProbeWeights& weights) {
+    float sum = 0;
+    for (int i = 0; i < weights.count; ++i) sum += weights.entries[static_cast<std::size_t>(i)].weight;
+    for (int i = 0; i < weights.count; ++i) weights.entries[static_cast<std::size_t>(i)].weight /= sum;
+  }
+
+  ProbeSight sight_;
+  int wanted_;
+
+ private:
+  /// Inverse squared distance, relative to the nearest so that nothing overflows, times a wrapped cosine
+  /// (Majercik et al., Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields, JCGT 2019): a
+  /// probe behind the surface sees the light of other surfaces.
+  float distance_weight(const Near& probe, float nearest2, const vec3& x, const vec3& n) const {
+    if (!(probe.distance2 > 0)) return 1;
+    const float cosine = glm::dot(n, sight_.position(probe.index) - x) / std::sqrt(probe.distance2);
+    const float wrapped = 0.5f * (1 + cosine);
+    constexpr float floor = 0.05f;
+    return nearest2 / probe.distance2 * (wrapped * wrapped + floor);
+  }
+};
+
+class DistanceWeights final : public VisibleWeights {
+ public:
+  using VisibleWeights::VisibleWeights;
+  ProbeWeights at(const vec3& x, const vec3& n) const override { return by_distance(x, n); }
+};
+
+class TrilinearWeights final : public VisibleWeights {
+ public:
+  using VisibleWeights::VisibleWeights;
+  ProbeWeights at(const vec3& x, const vec3& n) const override {
+    const float spacing = sight_.spacing();
+    // A cell's corners lie within √3 spacings.
+    NearList near;
+    const int count = sight_.nearest(x, near, std::sqrt(3.0f) * spacing);
+    ProbeWeights out;
+    for (int i = 0; i < count; ++i) {
+      const Near& probe = near[static_cast<std::size_t>(i)];
+      const vec3 tent = 1.0f - glm::abs(sight_.position(probe.index) - x) / spacing;
+      if (!(std::min({tent.x, tent.y, tent.z}) > 1e-4f) || !sight_.sees(probe, x, n)) continue;
+      out.entries[static_cast<std::size_t>(out.count++)] = {probe.index, tent.x * tent.y * tent.z};
+    }
+    if (out.count == 0) return by_distance(x, n);
+    normalise(out);
+    return out;
+  }
+};
+
+class MlsWeights final : public VisibleWeights {
+ public:
+  using VisibleWeights::VisibleWeights;
+  ProbeWeights at(const vec3& x, const vec3& n) const override {
+    NearList near;
+    const float radius = 2 * sight_.spacing();
+    const int count = sight_.nearest(x, near, radius);
+    const int visible = sight_.visible_first(near, count, count, x, n);
+    if (visible == 0) return by_distance(x, n);
+
+    // Fit a + b·(p − x) to the probes, weighted by a bump of two spacings; the value at x is a. A ridge on b
+    // keeps the fit flat along directions in which the probes do not differ.
+    std::array<vec4, max_weights> place;
+    std::array<float, max_weights> bump;
+    mat4 normal_matrix(0);
+    float total = 0;
+    for (int i = 0; i < visible; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      place[k] = vec4(1, (sight_.position(near[k].index) - x) / sight_.spacing());
+      const float t = std::max(0.0f, 1 - near[k].distance2 / (radius * radius));
+      bump[k] = t * t + 1e-6f;
+      total += bump[k];
+      for (int c = 0; c < 4; ++c) normal_matrix[c] += bump[k] * place[k][c] * place[k];
+    }
+    constexpr float ridge = 0.05f;
+    for (int c = 1; c < 4; ++c) normal_matrix[c][c] += ridge * total;
+    const vec4 first_row = glm::inverse(normal_matrix)[0];
+    ProbeWeights out;
+    for (int i = 0; i < visible; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      out.entries[k] = {near[k].index, bump[k] * glm::dot(first_row, place[k])};
+      out.count = i + 1;
+    }
+    normalise(out);
+    return out;
+  }
+};
+
+}  // namespace
+
+const char* to_string(WeightMethod method) {
+  switch (method) {
+    case WeightMethod::distance: return "distance";
+    case WeightMethod::trilinear: return "trilinear";
+    case WeightMethod::mls: return "mls";
+  }
+  return "";
+}
+
+std::optional<WeightMethod> parse_weight_method(const std::string& name) {
+  for (const WeightMethod method : {WeightMethod::distance, WeightMethod::trilinear, WeightMethod::mls}) {
+    if (name == to_string(method)) return method;
+  }
+  return std::nullopt;
+}
+
+float median_spacing(std::span<const vec3> positions) {
+  const NearestPoints nearest(positions);
+  std::vector<float> distance;
+  for (const vec3& p : positions) {
+    // Probes in one place say nothing of the spacing.
+    std::array<Near, max_weights> near;
+    const int count = nearest.find(p, near);
+    float found = std::numeric_limits<float>::infinity();
+    for (int i = count - 1; i >= 0; --i) {
+      if (near[static_cast<std::size_t>(i)].distance2 > 0) found = std::sqrt(near[static_cast<std::size_t>(i)].distance2);
+    }
+    distance.push_back(found);
+  }
+  if (distance.empty()) return std::numeric_limits<float>::infinity();
+  const auto middle = distance.begin() + static_cast<std::ptrdiff_t>(distance.size() / 2);
+  std::nth_element(distance.begin(), middle, distance.end());
+  return *middle;
+}
+
+std::unique_ptr<LookupWeights> make_weights(std::span<const vec3> positions, SeesProbe sees,
+                                            const WeightParams& params) {
+  if (positions.empty()) throw Error("probe lookup", "the probe set is empty", "bake a scene with SPHLs");
+  // One probe has no spacing: it counts everywhere.
+  const bool single = !std::isfinite(median_spacing(positions)) && !(params.spacing > 0);
+  const WeightMethod method = single ? WeightMethod::distance : params.method;
+  switch (method) {
+    case WeightMethod::trilinear: return std::make_unique<TrilinearWeights>(positions, std::move(sees), params);
+    case WeightMethod::mls: return std::make_unique<MlsWeights>(positions, std::move(sees), params);
+    case WeightMethod::distance: break;
+  }
+  return std::make_unique<DistanceWeights>(positions, std::move(sees), params);
+}
+
+}  // namespace ssphh::gi
