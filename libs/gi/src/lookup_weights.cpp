@@ -1,9 +1,8 @@
-#include <ssphh/gi/lookup_weights.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include <ssphh/core/error.h>
+#include <ssphh/gi/lookup_weights.h>
 
 #include "probe_sight.h"
 
@@ -29,11 +28,13 @@ class VisibleWeights : public LookupWeights {
       visible = std::min(count, wanted_);
     }
     float nearest2 = near[0].distance2;
-    for (int i = 1; i < visible; ++i) nearest2 = std::min(nearest2, near[static_cast<std::size_t>(i)].distance2);
+    for (int i = 1; i < visible; ++i)
+      nearest2 = std::min(nearest2, near[static_cast<std::size_t>(i)].distance2);
     ProbeWeights out;
     for (int i = 0; i < visible; ++i) {
       const Near& probe = near[static_cast<std::size_t>(i)];
-      out.entries[static_cast<std::size_t>(out.count++)] = {probe.index, distance_weight(probe, nearest2, x, n)};
+      out.entries[static_cast<std::size_t>(out.count++)] = {probe.index,
+                                                            distance_weight(probe, nearest2, x, n)};
     }
     normalise(out);
     return out;
@@ -130,9 +131,12 @@ class MlsWeights final : public VisibleWeights {
 
 const char* to_string(WeightMethod method) {
   switch (method) {
-    case WeightMethod::distance: return "distance";
-    case WeightMethod::trilinear: return "trilinear";
-    case WeightMethod::mls: return "mls";
+    case WeightMethod::distance:
+      return "distance";
+    case WeightMethod::trilinear:
+      return "trilinear";
+    case WeightMethod::mls:
+      return "mls";
   }
   return "";
 }
@@ -153,7 +157,8 @@ float median_spacing(std::span<const vec3> positions) {
     const int count = nearest.find(p, near);
     float found = std::numeric_limits<float>::infinity();
     for (int i = count - 1; i >= 0; --i) {
-      if (near[static_cast<std::size_t>(i)].distance2 > 0) found = std::sqrt(near[static_cast<std::size_t>(i)].distance2);
+      if (near[static_cast<std::size_t>(i)].distance2 > 0)
+        found = std::sqrt(near[static_cast<std::size_t>(i)].distance2);
     }
     distance.push_back(found);
   }
@@ -170,9 +175,12 @@ std::unique_ptr<LookupWeights> make_weights(std::span<const vec3> positions, See
   const bool single = !std::isfinite(median_spacing(positions)) && !(params.spacing > 0);
   const WeightMethod method = single ? WeightMethod::distance : params.method;
   switch (method) {
-    case WeightMethod::trilinear: return std::make_unique<TrilinearWeights>(positions, std::move(sees), params);
-    case WeightMethod::mls: return std::make_unique<MlsWeights>(positions, std::move(sees), params);
-    case WeightMethod::distance: break;
+    case WeightMethod::trilinear:
+      return std::make_unique<TrilinearWeights>(positions, std::move(sees), params);
+    case WeightMethod::mls:
+      return std::make_unique<MlsWeights>(positions, std::move(sees), params);
+    case WeightMethod::distance:
+      break;
   }
   return std::make_unique<DistanceWeights>(positions, std::move(sees), params);
 }

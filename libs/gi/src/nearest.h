@@ -23,8 +23,7 @@ class NearestPoints {
   explicit NearestPoints(std::span<const vec3> points);
 
   /// The out.size() nearest points within `radius`, by distance, ties by index; returns how many there are.
-  int find(const vec3& x, std::span<Near> out,
-           float radius = std::numeric_limits<float>::infinity()) const;
+  int find(const vec3& x, std::span<Near> out, float radius = std::numeric_limits<float>::infinity()) const;
 
  private:
   struct Item {

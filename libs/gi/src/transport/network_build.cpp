@@ -5,8 +5,6 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
-#include <ssphh/core/random.h>
-#include <ssphh/core/sphere.h>
 
 #include "network_data.h"
 
@@ -19,41 +17,10 @@ constexpr int most_rounds = 12;
 /// Points per surfel that moving parts are sampled with.
 constexpr double part_samples_per_surfel = 24;
 
-TransportParams checked(const scene::TransportSource& source, std::span<const vec3> positions,
-                        TransportParams params) {
-  if (positions.empty())
-    throw Error("transport", "there are no probes", "place some, or give the scene SPHLs");
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (!is_finite(positions[i]))
-      throw Error(fmt::format("probe {}", i), "its position is not a finite number");
-  }
-  const auto within = [](const char* name, int value, int low, int high) {
-    if (value < low || value > high) throw Error(name, fmt::format("{} is outside {}..{}", value, low, high));
-  };
-  within("directions", params.directions, 8, 1 << 16);
-  within("link rays", params.link_rays, 4, 1 << 16);
-  within("samples", params.samples, 1, 32);
-  if (params.surfel_size == 0)
-    params.surfel_size = glm::clamp(source.part_bounds(0).radius() / 20, 0.05f, 0.5f);
-  return params;
-}
-
-/// Cosine-distributed directions around a normal: point `index` of a rank-1 sequence (Roberts 2018, R2),
-/// shifted by the surfel so that neighbours differ.
-vec3 link_direction(const vec3& normal, std::uint32_t index, std::size_t surfel) {
-  const std::uint64_t h = mix64(surfel);
-  const double u = 0.7548776662466927 * (index + 1) + static_cast<double>(h >> 32) * 0x1p-32;
-  const double v = 0.5698402909980532 * (index + 1) + static_cast<double>(h & 0xffffffffu) * 0x1p-32;
-  const vec2 p{static_cast<float>(u - std::floor(u)), static_cast<float>(v - std::floor(v))};
-  return Frame::around(normal).to_world(sample_cosine_hemisphere(glm::min(p, vec2(0x1.fffffep-1f))));
-}
-
 bool meets_any(const scene::RayQuery& ray, const std::vector<scene::Bounds>& boxes) {
   return std::any_of(boxes.begin(), boxes.end(),
                      [&](const scene::Bounds& box) { return !box.empty() && meets(ray, box); });
 }
-
-}  // namespace
 
 /// Fills a network's data step by step.
 class NetworkBuilder {
@@ -141,8 +108,7 @@ class NetworkBuilder {
   }
 
   scene::RayQuery link_ray(const scene::SurfacePoint& from, std::uint32_t index, std::size_t surfel) const {
-    return {from.position + 2e-3f * d_.surfels.size() * from.normal,
-            link_direction(from.normal, index, surfel)};
+    return fan_ray(from, link_lift * d_.surfels.size(), index, surfel);
   }
 
   /// Lets surfels look around with few rays until no new ones are found.
@@ -212,9 +178,7 @@ class NetworkBuilder {
   }
 
   std::size_t sample_of_ray(std::size_t s, std::size_t ray) const {
-    std::size_t used = 0;
-    while (used < m() && d_.sample_exists[s * m() + used]) ++used;
-    return s * m() + ray % used;
+    return s * m() + ray % d_.used_samples(s);
   }
 
   /// Keeps of each link only the surfel, and all of it where a part may come.
@@ -369,76 +333,11 @@ class NetworkBuilder {
   std::vector<SurfelLinks> links_of_;
 };
 
-TransportNetwork::TransportNetwork(const scene::TransportSource& source, std::span<const vec3> positions,
-                                   const TransportParams& params, float time, const Control& control)
-    : data_(std::make_unique<Data>(source, checked(source, positions, params))) {
-  NetworkBuilder(*data_, control).build(positions, time);
-}
+}  // namespace
 
-TransportNetwork::~TransportNetwork() = default;
-
-PoseReport TransportNetwork::set_time(float time) {
-  PoseReport report;
-  data_->place_parts(time);
-  data_->pose_samples();
-  data_->pose_hits(report);
-  data_->pose_links(report);
-  return report;
-}
-
-float TransportNetwork::time() const {
-  return data_->time;
-}
-const TransportParams& TransportNetwork::params() const {
-  return data_->params;
-}
-const ProbeGBuffer& TransportNetwork::gbuffer() const {
-  return data_->gbuffer;
-}
-const SurfelSet& TransportNetwork::surfels() const {
-  return data_->surfels;
-}
-const std::vector<vec3>& TransportNetwork::albedo() const {
-  return data_->albedo;
-}
-const std::vector<scene::SurfacePoint>& TransportNetwork::samples() const {
-  return data_->samples;
-}
-const std::vector<std::uint8_t>& TransportNetwork::sample_used() const {
-  return data_->sample_used;
-}
-bool TransportNetwork::sample_exists(std::size_t sample) const {
-  return data_->sample_exists[sample];
-}
-const LinkRows& TransportNetwork::links() const {
-  return data_->rows;
-}
-const Contraction& TransportNetwork::contraction() const {
-  return data_->contraction;
-}
-const std::vector<SeenPatch>& TransportNetwork::seen() const {
-  return data_->seen;
-}
-const std::vector<float>& TransportNetwork::seen_distance() const {
-  return data_->seen_distance;
-}
-const std::vector<std::uint16_t>& TransportNetwork::seen_emission() const {
-  return data_->seen_emission;
-}
-const EmissionPalette& TransportNetwork::palette() const {
-  return data_->gbuffer.palette;
-}
-const std::vector<mat4>& TransportNetwork::poses() const {
-  return data_->poses;
-}
-scene::Bounds TransportNetwork::part_world_bounds(int part) const {
-  return transformed(data_->source.part_bounds(part), data_->poses[static_cast<std::size_t>(part)]);
-}
-int TransportNetwork::find(int part, const scene::SurfacePoint& point) const {
-  return data_->find(part, point);
-}
-std::size_t TransportNetwork::lost_links() const {
-  return data_->lost_links;
+void TransportNetwork::Data::build(std::span<const vec3> positions, float start_time,
+                                   const Control& control) {
+  NetworkBuilder(*this, control).build(positions, start_time);
 }
 
 }  // namespace ssphh::gi

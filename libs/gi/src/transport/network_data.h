@@ -22,6 +22,9 @@ struct PlacedPart {
   mat4 to_world{1}, to_part{1};
 };
 
+/// Links start so far above their surfel, in surfel sizes.
+inline constexpr float link_lift = 2e-3f;
+
 struct Resolved {
   std::int32_t surfel = no_surfel;
   std::uint32_t albedo = 0;
@@ -66,19 +69,29 @@ struct TransportNetwork::Data {
   std::vector<PlacedPart> placed;
 
   std::size_t sample_count() const { return static_cast<std::size_t>(params.samples); }
+  /// Samples of a surfel that are no padding.
+  std::size_t used_samples(std::size_t surfel) const;
   scene::SurfacePoint to_world(int part, const scene::SurfacePoint& point) const;
   bool parts_block(const scene::RayQuery& world_segment) const;
   bool blocked(const scene::RayQuery& world_segment) const;
   int find(int part, const scene::SurfacePoint& point) const;
   /// The first part that the ray meets before t_max; shortens t_max.
   bool meet_part(scene::RayQuery& ray, scene::RayHit& hit, int& part) const;
+  /// The surfel that each world-space ray meets, as posed; `escaped` tells empty space from lost light.
+  void see(std::span<const scene::RayQuery> rays, std::span<std::int32_t> surfel,
+           std::span<std::uint8_t> escaped) const;
   Resolved resolve(const MovingRay& unobstructed) const;
 
+  void build(std::span<const vec3> positions, float start_time, const Control& control);
   void place_parts(float time);
   void pose_samples();
   void pose_hits(PoseReport& report);
   void pose_links(PoseReport& report);
 };
+
+/// Ray of a point's cosine-distributed fan: point `index` of a rank-1 sequence (Roberts 2018, R2), shifted by
+/// `salt` so that neighbours differ. Starts `lift` above the surface.
+scene::RayQuery fan_ray(const scene::SurfacePoint& from, float lift, std::uint32_t index, std::size_t salt);
 
 /// Whether the ray meets the box before t_max.
 bool meets(const scene::RayQuery& ray, const scene::Bounds& box);

@@ -5,6 +5,8 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/random.h>
+#include <ssphh/core/sphere.h>
 
 #include "network_data.h"
 
@@ -25,6 +27,15 @@ scene::SurfacePoint transformed(const scene::SurfacePoint& p, const mat4& matrix
 }
 
 }  // namespace
+
+scene::RayQuery fan_ray(const scene::SurfacePoint& from, float lift, std::uint32_t index, std::size_t salt) {
+  const std::uint64_t h = mix64(salt);
+  const double u = 0.7548776662466927 * (index + 1) + static_cast<double>(h >> 32) * 0x1p-32;
+  const double v = 0.5698402909980532 * (index + 1) + static_cast<double>(h & 0xffffffffu) * 0x1p-32;
+  const vec2 p{static_cast<float>(u - std::floor(u)), static_cast<float>(v - std::floor(v))};
+  const vec3 local = sample_cosine_hemisphere(glm::min(p, vec2(0x1.fffffep-1f)));
+  return {from.position + lift * from.normal, Frame::around(from.normal).to_world(local)};
+}
 
 bool meets(const scene::RayQuery& ray, const scene::Bounds& box) {
   float near = 0, far = ray.t_max;
@@ -150,6 +161,33 @@ Resolved TransportNetwork::Data::resolve(const MovingRay& unobstructed) const {
           ray.t_max};
 }
 
+void TransportNetwork::Data::see(std::span<const scene::RayQuery> rays, std::span<std::int32_t> surfel,
+                                 std::span<std::uint8_t> escaped) const {
+  std::vector<scene::RayHit> hits(rays.size());
+  source.intersect(0, rays, hits);
+  parallel_for(rays.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      scene::RayQuery ray = rays[i];
+      ray.t_max = hits[i].distance;
+      scene::RayHit hit = hits[i];
+      int part = 0;
+      surfel[i] = no_surfel;
+      escaped[i] = !meet_part(ray, hit, part) && hit.escaped();
+      if (escaped[i]) continue;
+      vec3 position = ray.origin + ray.t_max * ray.direction;
+      if (part > 0) position = vec3(placed[static_cast<std::size_t>(part - 1)].to_part * vec4(position, 1));
+      surfel[i] = find(part, {position, hit.normal});
+    }
+  });
+}
+
+std::size_t TransportNetwork::Data::used_samples(std::size_t s) const {
+  const std::size_t m = sample_count();
+  std::size_t used = 1;
+  while (used < m && sample_exists[s * m + used]) ++used;
+  return used;
+}
+
 void TransportNetwork::Data::place_parts(float new_time) {
   time = new_time;
   poses.assign(1, mat4(1));
@@ -230,24 +268,13 @@ void TransportNetwork::Data::pose_links(PoseReport& report) {
     const int part = surfels.surfels()[static_count + i / rays].part;
     world[i] = transformed(part_links[i], poses[static_cast<std::size_t>(part)]);
   }
-  std::vector<scene::RayHit> hits(world.size());
-  source.intersect(0, world, hits);
-  parallel_for(world.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t slot = moving_links.size() + i, s = static_count + i / rays;
-      counted[slot] = sample_used[s * m + (i % rays) % m];
-      if (!counted[slot]) continue;
-      scene::RayQuery ray = world[i];
-      ray.t_max = hits[i].distance;
-      scene::RayHit hit = hits[i];
-      int part = 0;
-      if (!meet_part(ray, hit, part) && hit.escaped()) continue;
-      vec3 position = ray.origin + ray.t_max * ray.direction;
-      if (part > 0) position = vec3(placed[static_cast<std::size_t>(part - 1)].to_part * vec4(position, 1));
-      target[slot] = find(part, {position, hit.normal});
-      lost[slot] = target[slot] == no_surfel;
-    }
-  });
+  std::vector<std::uint8_t> escaped(world.size());
+  see(world, std::span(target).subspan(moving_links.size()), escaped);
+  for (std::size_t i = 0; i < world.size(); ++i) {
+    const std::size_t slot = moving_links.size() + i, s = static_count + i / rays;
+    counted[slot] = sample_used[s * m + (i % rays) % used_samples(s)];
+    lost[slot] = counted[slot] && target[slot] == no_surfel && !escaped[i];
+  }
 
   // Rows: rays whose start is cut off from its surfel do not count.
   std::vector<Link> links;

@@ -1,6 +1,6 @@
 #pragma once
-/// How much each probe counts at a surface point: E(x, n) = Σ_j v_j(x, n) E_j(n). Visibility is the factor that
-/// matters; the rest is measured in docs/methods/transport.md.
+/// How much each probe counts at a surface point: E(x, n) = Σ_j v_j(x, n) E_j(n). Visibility is the factor
+/// that matters; the rest is measured in docs/methods/transport.md.
 
 #include <array>
 #include <functional>
@@ -41,15 +41,16 @@ struct WeightParams {
   WeightMethod method = WeightMethod::distance;
   int nearest = 8;          ///< distance: so many visible probes, 1..16
   float spacing = 0;        ///< metres between probes; 0: the median distance to the nearest neighbour
-  float normal_offset = 0;  ///< metres that visibility rays start off the surface; 0: 1 % of the distance to the
-                            ///< probe, at most 1 % of the spacing
+  float normal_offset = 0;  ///< metres that visibility rays start off the surface; 0: 1 % of the distance to
+                            ///< the probe, at most 1 % of the spacing
 };
 
 class LookupWeights {
  public:
   virtual ~LookupWeights() = default;
-  /// Weights at a surface point: never empty, finite, with a sum of 1 (fitted weights: about 1); `mls` may have
-  /// negative ones. When no probe sees the point, the nearest ones serve. Safe to call from several threads.
+  /// Weights at a surface point: never empty, finite, with a sum of 1 (fitted weights: about 1); `mls` may
+  /// have negative ones. When no probe sees the point, the nearest ones serve. Safe to call from several
+  /// threads.
   virtual ProbeWeights at(const vec3& x, const vec3& n) const = 0;
 };
 

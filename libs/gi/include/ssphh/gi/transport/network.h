@@ -14,8 +14,6 @@
 
 namespace ssphh::gi {
 
-class NetworkBuilder;
-
 struct TransportParams {
   int directions = 384;   ///< rays per probe
   float surfel_size = 0;  ///< metres; 0: a twentieth of the scene's radius, within 0.05..0.5
@@ -81,6 +79,11 @@ class TransportNetwork {
   const std::vector<mat4>& poses() const;
   scene::Bounds part_world_bounds(int part) const;
 
+  /// What cosine rays from each point meet, as posed: `rays` per point, no_surfel for those that escape. Ray
+  /// directions depend on the point's index alone.
+  std::vector<std::int32_t> gather(std::span<const scene::SurfacePoint> points, int rays,
+                                   const Control& control = {}) const;
+
   /// The surfel that stands for a surface point of a part (in the part's frame): the nearest one seen from
   /// it.
   int find(int part, const scene::SurfacePoint& point) const;
@@ -89,9 +92,9 @@ class TransportNetwork {
   /// saw while the network was built.
   std::size_t lost_links() const;
 
- private:
-  friend class NetworkBuilder;
   struct Data;
+
+ private:
   std::unique_ptr<Data> data_;
 };
 

@@ -1,0 +1,44 @@
+#pragma once
+/// Lookup weights fitted to light transport, for points that do not move (after Silvennoinen & Lehtinen,
+/// Real-Time Global Illumination by Precomputed Local Reconstruction from Sparse Radiance Probes, SIGGRAPH Asia
+/// 2017): per point the non-negative weights of its nearest visible probes that reproduce the irradiance of
+/// training lights best. No visibility ray is needed when they are used.
+
+#include <span>
+#include <vector>
+
+#include <ssphh/core/control.h>
+#include <ssphh/gi/lookup_weights.h>
+#include <ssphh/gi/probe_set.h>
+#include <ssphh/gi/transport/network.h>
+
+namespace ssphh::gi {
+
+struct FitParams {
+  int probes = 12;           ///< nearest visible probes per point, 1..16
+  int training_lights = 24;  ///< isotropic lights at probes that lie far apart
+  int gather_rays = 256;     ///< cosine rays by which a point's true irradiance is found
+  float ridge = 1e-3f;       ///< pull toward equal weights, relative to the fit's own scale
+  int degree = 2;            ///< bands of the probes' irradiance
+};
+
+/// Points with their weights. `weights[i].count` is 0 where no probe sees point i.
+struct FittedPoints {
+  std::vector<scene::SurfacePoint> points;
+  std::vector<ProbeWeights> weights;
+};
+
+/// Fits in the pose of the network; `source` is the network's. Throws Error for parameters out of range.
+FittedPoints fit_weights(const TransportNetwork& network, const scene::TransportSource& source,
+                         std::span<const scene::SurfacePoint> points, const FitParams& params = {},
+                         const Control& control = {});
+
+/// Weights v ≥ 0 that minimise |A v − b|² + ridge · trace(AᵀA)/n · |v − prior|², rows of A of length n, by
+/// coordinate descent on the normal equations.
+std::vector<double> fit_non_negative(std::span<const double> rows, std::span<const double> targets,
+                                     std::span<const double> prior, double ridge);
+
+/// Places for fitted points that cover all static surfels: their representatives.
+std::vector<scene::SurfacePoint> surfel_points(const TransportNetwork& network);
+
+}  // namespace ssphh::gi
