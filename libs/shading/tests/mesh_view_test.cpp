@@ -60,7 +60,8 @@ Estimates estimates(const scene::Scene& scene, const vec3& position, const vec3&
 TEST(MeshView, ClosedFormIsTheMeanOfSamples) {
   const scene::Scene panel = emissive(scene::make_quad(vec3(-1, 1, -1), vec3(2, 0, 0), vec3(0, 0, 1.5f)));
   const scene::Scene box = emissive(scene::make_box(vec3(-0.5f, 0.2f, -0.5f), vec3(0.5f, 1, 0.5f)));
-  const scene::Scene both = emissive(scene::make_quad(vec3(-1, 1, -1), vec3(0, 0, 2), vec3(2, 0.3f, 0)), true);
+  const scene::Scene both =
+      emissive(scene::make_quad(vec3(-1, 1, -1), vec3(0, 0, 2), vec3(2, 0.3f, 0)), true);
   const struct {
     const scene::Scene& scene;
     vec3 position, normal;
@@ -95,7 +96,8 @@ TEST(MeshView, InsideAGlowingBoxItIsPi) {
 }
 
 TEST(MeshView, FarAwayItIsAreaTimesCosinesOverSquaredDistance) {
-  const scene::Scene scene = emissive(scene::make_quad(vec3(-5e-4f, 100, -5e-4f), vec3(1e-3f, 0, 0), vec3(0, 0, 1e-3f)));
+  const scene::Scene scene =
+      emissive(scene::make_quad(vec3(-5e-4f, 100, -5e-4f), vec3(1e-3f, 0, 0), vec3(0, 0, 1e-3f)));
   const LightSet lights(scene, {mat4(1)});
   const auto view = lights.view_mesh(0, vec3(0), vec3(0, 1, 0));
   const double expected = 1e-6 / 1e4 * 2;

@@ -100,8 +100,9 @@ std::optional<LightSample> MeshView::sample(const vec2& u) const {
   const dvec3 plane = glm::cross(piece.b - piece.a, piece.c - piece.a);
   const double distance = glm::dot(piece.a, plane) / glm::dot(wi, plane);
   if (!(distance > 0 && std::isfinite(distance))) return std::nullopt;
-  return LightSample{vec3(wi), static_cast<float>(distance), radiance_,
-                     static_cast<float>(share / (total() * area)), false, group_};
+  return LightSample{vec3(wi),  static_cast<float>(distance),
+                     radiance_, static_cast<float>(share / (total() * area)),
+                     false,     group_};
 }
 
 }  // namespace ssphh::shading

@@ -24,8 +24,8 @@ class MeshView {
   vec3 irradiance() const { return radiance_ * static_cast<float>(total()); }
 
   /// Chooses a triangle by its irradiance and a direction to it, uniform in solid angle (Arvo, Stratified
-  /// Sampling of Spherical Triangles, SIGGRAPH 1995). `pdf` as LightSet::sample_emitter. Empty when nothing is
-  /// seen.
+  /// Sampling of Spherical Triangles, SIGGRAPH 1995). `pdf` as LightSet::sample_emitter. Empty when nothing
+  /// is seen.
   std::optional<LightSample> sample(const vec2& u) const;
 
  private:
