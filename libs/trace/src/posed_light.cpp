@@ -69,6 +69,20 @@ bool PosedLight::blocked(const Ray& ray, RayTask& task) const {
   return false;
 }
 
+float PosedLight::visible_share(const shading::MeshView& mesh, const Receiver& at, std::uint64_t seed,
+                                RayTask& task) const {
+  // A ratio of sums: less noise than the plain mean, and none where all or nothing is hidden.
+  float seen = 0, all = 0;
+  for (int s = 0; s < data_->options.light_samples; ++s) {
+    const auto sample = mesh.sample(SampleSequence(seed, static_cast<std::uint32_t>(s)).next2());
+    if (!sample || !(sample->pdf > 0)) continue;
+    const float weight = std::max(glm::dot(sample->wi, at.normal), 0.0f) / sample->pdf;
+    all += weight;
+    if (weight > 0 && !blocked(shadow_ray(at.start, at.position, *sample), task)) seen += weight;
+  }
+  return all > 0 ? seen / all : 0;
+}
+
 vec3 PosedLight::irradiance_of(const GroupEmitter& light, const Receiver& at, std::uint64_t seed,
                                RayTask& task) const {
   if (light.emitter.kind == shading::EmitterKind::environment) return sky_irradiance(light, at, seed, task);
@@ -76,18 +90,24 @@ vec3 PosedLight::irradiance_of(const GroupEmitter& light, const Receiver& at, st
   const vec3 highest = farthest(light.emitter.extent, at.normal);
   if (!(glm::dot(light.emitter.distant() ? highest : highest - at.position, at.normal) > 0)) return vec3(0);
 
+  if (const auto view = lights_.view_mesh(light.index, at.position, at.normal))
+    return view->irradiance() * visible_share(*view, at, seed, task);
+
   const int count = light.emitter.delta() ? 1 : data_->options.light_samples;
-  vec3 sum(0);
+  vec3 sum(0), brightest(0);
   for (int s = 0; s < count; ++s) {
     const vec2 u = SampleSequence(seed, static_cast<std::uint32_t>(s)).next2();
     const auto sample = lights_.sample_emitter(light.index, at.position, u);
     if (!sample || !(sample->pdf > 0)) continue;
+    brightest = glm::max(brightest, sample->radiance);
     const float cosine = glm::dot(sample->wi, at.normal);
     if (cosine > 0 && max_component(sample->radiance) > 0 &&
         !blocked(shadow_ray(at.start, at.position, *sample), task))
       sum += sample->radiance * (cosine / sample->pdf);
   }
-  return sum / static_cast<float>(count);
+  sum /= static_cast<float>(count);
+  // Samples by area vary without bound near a mesh; irradiance does not.
+  return light.emitter.kind == shading::EmitterKind::mesh ? glm::min(sum, pi * brightest) : sum;
 }
 
 vec3 PosedLight::sky_irradiance(const GroupEmitter& light, const Receiver& at, std::uint64_t seed,

@@ -1,6 +1,8 @@
 #pragma once
 /// Direct light of a scene for one state of its lights and one pose of its parts.
 
+#include <ssphh/shading/mesh_view.h>
+
 #include "sweep.h"
 #include "transport_data.h"
 
@@ -33,6 +35,9 @@ class PosedLight final : public scene::DirectLight {
 
   Receiver receiver(const scene::SurfacePoint& point) const;
   bool blocked(const Ray& ray, RayTask& task) const;
+  /// Share of the mesh's irradiance that nothing holds back.
+  float visible_share(const shading::MeshView& mesh, const Receiver& at, std::uint64_t seed,
+                      RayTask& task) const;
   vec3 irradiance_of(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, RayTask& task) const;
   vec3 sky_irradiance(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, RayTask& task) const;
   const std::vector<GroupEmitter>& emitters_of(int group) const;

@@ -191,6 +191,127 @@ TEST(TransportLight, AnswersDependNeitherOnTheBatchNorOnThreads) {
   for (std::size_t i = 0; i < points.size(); i += 37) EXPECT_EQ(all[i], irradiance(*light, points[i]));
 }
 
+/// Points on the surfaces that random rays from `eye` meet.
+std::vector<SurfacePoint> seen_points(const trace::TransportScene& source, const std::vector<mat4>& poses,
+                                      const vec3& eye, int count) {
+  Pcg32 random(21);
+  std::vector<SurfacePoint> points;
+  while (static_cast<int>(points.size()) < count) {
+    const vec3 direction = sample_uniform_sphere(random.uniform2());
+    float nearest = std::numeric_limits<float>::infinity();
+    SurfacePoint point;
+    for (int p = 0; p < source.part_count(); ++p) {
+      const mat4& pose = poses[static_cast<std::size_t>(p)];
+      const mat4 from_world = glm::inverse(pose);
+      const scene::RayQuery ray{vec3(from_world * vec4(eye, 1)), mat3(from_world) * direction};
+      scene::RayHit hit;
+      source.intersect(p, {&ray, 1}, {&hit, 1});
+      if (!(hit.distance < nearest)) continue;
+      nearest = hit.distance;
+      point = {eye + nearest * direction, glm::normalize(glm::transpose(mat3(from_world)) * hit.normal)};
+    }
+    if (nearest < 100) points.push_back(point);
+  }
+  return points;
+}
+
+TEST(TransportLight, TwoRoomsAreLitAsThePathTracerSaysWhereverTheDoorIs) {
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  const trace::TransportScene source(scene);
+  double behind[3];
+  int index = 0;
+  for (const float time : {0.0f, 0.5f, 1.0f}) {
+    const trace::PathTracer tracer(scene, time);
+    std::vector<mat4> poses;
+    for (int p = 0; p < source.part_count(); ++p) poses.push_back(source.part_pose(p, time));
+    for (const float side : {-1.0f, 1.0f}) {
+      const auto points = seen_points(source, poses, vec3(2.5f * side, 1.4f, 0.1f), 2000);
+      std::vector<vec3> e(points.size());
+      light_at(source, time)->irradiance(0, points, e);
+      const auto truth = tracer.surface_irradiance(points, {1, 1, 1, 0}, {});
+      int differ = 0;
+      double sum = 0;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        // One lamp that is a point: both are exact, but for rays that graze an edge.
+        differ += std::abs(e[i].x - truth[i].direct.x) > 1e-5f * truth[i].direct.x;
+        sum += static_cast<double>(e[i].x);
+      }
+      EXPECT_LE(differ, 4) << "of 2000 at time " << time;
+      if (side > 0) behind[index++] = sum;
+      EXPECT_TRUE(side > 0 || sum > 10);
+    }
+  }
+  EXPECT_EQ(behind[0], 0) << "the door is shut";
+  EXPECT_GT(behind[2], behind[1]);
+}
+
+TEST(TransportLight, MovingLampLightsFromWhereItIs) {
+  // A panel that turns and sinks, with a box below it.
+  scene::Scene scene;
+  add_room(scene, lambertian(vec3(0.5f)));
+  add_object(scene, scene::make_box(vec3(-0.5f, -1, -0.5f), vec3(0, -0.2f, 0)), lambertian(vec3(0.6f)),
+             "box");
+  const int node = add_node(scene, "panel", vec3(0, 0.9f, 0));
+  add_object(scene, scene::make_quad(vec3(-0.2f, 0, -0.3f), vec3(0.4f, 0, 0), vec3(0, 0, 0.6f)),
+             lambertian(vec3(0), vec3(5, 4, 3)), "", node);
+  // And one of many triangles that stays.
+  add_object(scene, scene::make_sphere(0.1f, 12, 6), lambertian(vec3(0), vec3(3)), "ball",
+             add_node(scene, "ball", vec3(0.6f, 0.3f, 0.5f)));
+  const quat turned = glm::angleAxis(0.7f, glm::normalize(vec3(1, 0, 1)));
+  scene::Animation animation;
+  animation.channels.push_back({node,
+                                scene::AnimationPath::translation,
+                                scene::Interpolation::linear,
+                                {0, 1},
+                                {{0, 0.9f, 0, 0}, {0.3f, 0.4f, 0, 0}}});
+  animation.channels.push_back({node,
+                                scene::AnimationPath::rotation,
+                                scene::Interpolation::linear,
+                                {0, 1},
+                                {{0, 0, 0, 1}, {turned.x, turned.y, turned.z, turned.w}}});
+  scene.animations.push_back(animation);
+  const trace::TransportScene source(scene);
+  ASSERT_EQ(source.part_count(), 2);
+  for (const float time : {0.0f, 1.0f}) {
+    const std::vector<mat4> poses{mat4(1), source.part_pose(1, time)};
+    const auto points = seen_points(source, poses, vec3(0.5f, -0.3f, -0.6f), 400);
+    std::vector<vec3> one(points.size()), sum(points.size(), vec3(0));
+    for (int g = 0; g < 2; ++g) {
+      light_at(source, time)->irradiance(g, points, one);
+      for (std::size_t i = 0; i < points.size(); ++i) sum[i] += one[i];
+    }
+    const auto truth = trace::PathTracer(scene, time).surface_irradiance(points, {1, 1, 1024, 5}, {});
+    Samples difference, light;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      difference.add(static_cast<double>(sum[i].x - truth[i].direct.x));
+      light.add(static_cast<double>(truth[i].direct.x));
+    }
+    EXPECT_TRUE(mean_is(difference, 0, {1e-3, 2}, 1e-5)) << time;
+    EXPECT_LT(std::sqrt(difference.variance()), 0.1 * light.mean()) << time;
+  }
+}
+
+TEST(TransportLight, PointsALittleBelowTheirSurfaceAreLitAllTheSame) {
+  // Relative errors of 1e-5, as of means and of compressed positions.
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  const trace::TransportScene source(scene);
+  const std::vector<mat4> poses{mat4(1), source.part_pose(1, 1)};
+  const auto points = seen_points(source, poses, vec3(-2.5f, 1.4f, 0.1f), 2000);
+  auto moved = points;
+  const scene::Bounds bounds = source.part_bounds(0);
+  Pcg32 random(2);
+  for (SurfacePoint& p : moved)
+    p.position += 1e-5f * (bounds.max - bounds.min) * (2.0f * random.uniform3() - 1.0f);
+  std::vector<vec3> exact(points.size()), rounded(points.size());
+  const auto light = source.direct_light(source.lights(1), poses);
+  light->irradiance(0, points, exact);
+  light->irradiance(0, moved, rounded);
+  int differ = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    differ += std::abs(exact[i].x - rounded[i].x) > 1e-3f * exact[i].x + 1e-6f;
+  EXPECT_LE(differ, 4) << "at the edges of shadows";
+}
+
 /// False may only be said where a box changes nothing.
 TEST(TransportLight, MayShadowIsNeverWrong) {
   Pcg32 random(11);

@@ -3,6 +3,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/shading/lights.h>
+#include <ssphh/shading/mesh_view.h>
 
 #include "../surface/material_lookup.h"
 #include "distant_lights.h"
@@ -253,6 +254,12 @@ std::optional<LightSample> LightSet::sample_emitter(int index, const vec3& posit
   i -= d.spheres.size();
   if (i < d.meshes.size()) return d.meshes[i]->sample(position, u);
   return d.distant.sample_one(i - d.meshes.size(), u);
+}
+
+std::optional<MeshView> LightSet::view_mesh(int index, const vec3& position, const vec3& normal) const {
+  const Data& d = *data_;
+  const std::size_t i = static_cast<std::size_t>(index) - d.points.size() - d.spheres.size();
+  return i < d.meshes.size() ? d.meshes[i]->view(position, normal) : std::nullopt;
 }
 
 std::optional<EmitterHit> LightSet::distant_radiance(int i, const vec3& direction) const {

@@ -104,6 +104,16 @@ std::optional<LightSample> MeshLight::sample(const vec3& from, const Distributio
   return LightSample{wi, distance, radiance(choice.index, b), pdf, false, group_};
 }
 
+std::optional<MeshView> MeshLight::view(const vec3& position, const vec3& normal) const {
+  if (textured_ || triangles_.size() > MeshView::max_triangles) return std::nullopt;
+  MeshView view(position, normal, material_->emission, group_);
+  for (const Triangle& t : triangles_) {
+    if (t.area > 0 && (material_->double_sided || glm::dot(position - t.p0, t.normal) > 0))
+      view.add(t.p0, t.p0 + t.e1, t.p0 + t.e2);
+  }
+  return view;
+}
+
 float MeshLight::pdf(const vec3& from, std::uint32_t triangle, float distance, float cos_light) const {
   const Triangle& t = triangles_[triangle];
   if (!(t.area > 0 && cos_light > 0)) return 0;

@@ -2,6 +2,7 @@
 /// An emissive instance: its triangles are sampled by area, weighted by their mean emission.
 
 #include <ssphh/shading/lights.h>
+#include <ssphh/shading/mesh_view.h>
 
 #include "distribution.h"
 
@@ -18,6 +19,8 @@ class MeshLight {
   std::optional<LightSample> sample(const vec3& from, float u_choice, const vec2& u) const;
   /// The same from two numbers: the place of u.x within the chosen triangle's share serves again.
   std::optional<LightSample> sample(const vec3& from, const vec2& u) const;
+  /// As LightSet::view_mesh.
+  std::optional<MeshView> view(const vec3& position, const vec3& normal) const;
   float pdf(const vec3& from, std::uint32_t triangle, float distance, float cos_light) const;
 
   float importance(const vec3& from) const;

@@ -32,6 +32,8 @@ struct EmitterHit {
   int group;
 };
 
+class MeshView;
+
 enum class EmitterKind { point, sphere, mesh, directional, disc, environment };
 
 /// One emitter of a LightSet.
@@ -71,6 +73,9 @@ class LightSet {
   /// As sample(), of emitter i alone: `pdf` holds no probability of a choice and is 1 where `delta`.
   /// Stratified `u` give stratified samples.
   std::optional<LightSample> sample_emitter(int i, const vec3& position, const vec2& u) const;
+  /// Emissive mesh i as a surface point sees it; empty for other emitters, and for meshes that have no closed
+  /// form: textured, of partial coverage, or with more than MeshView::max_triangles triangles.
+  std::optional<MeshView> view_mesh(int i, const vec3& position, const vec3& normal) const;
   /// Radiance from distant emitter i in a direction, with the density of sample_emitter; empty beside a disc
   /// and for delta lights.
   std::optional<EmitterHit> distant_radiance(int i, const vec3& direction) const;

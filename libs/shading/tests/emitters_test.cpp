@@ -1,0 +1,119 @@
+/// A LightSet's emitters one by one, and posed anew.
+
+#include <gtest/gtest.h>
+
+#include <ssphh/scene/primitives.h>
+
+#include "light_scenes.h"
+
+namespace ssphh::shading::test {
+namespace {
+
+using ssphh::test::means_agree;
+using ssphh::test::Samples;
+
+/// One emitter of each kind; the sun and the lamps shine down.
+scene::Scene all_kinds() {
+  scene::Scene scene;
+  add_light(scene, scene::LightType::point, {1, 2, 0});
+  add_light(scene, scene::LightType::spot, {-1, 2, 0});
+  add_light(scene, scene::LightType::sphere, {0, 3, 1}).radius = 0.4f;
+  add_light(scene, scene::LightType::directional, {0, 0, 0}, {0.2f, -1, 0});
+  add_light(scene, scene::LightType::directional, {0, 0, 0}, {-0.3f, -1, 0.1f}).angular_radius = 0.1f;
+  add_light(scene, scene::LightType::point, {0, 1, 0}).intensity = 0;
+  scene::Material glowing;
+  glowing.emission = vec3(1, 2, 1);
+  scene.materials.push_back(glowing);
+  scene::Mesh panel = scene::make_quad({-0.5f, 0, -0.5f}, {1, 0, 0}, {0, 0, 1});
+  panel.material = 0;
+  scene.meshes.push_back(panel);
+  scene.instances.push_back({0, add_node(scene, {{0.5f, 2, -1}}, "panel"), -1, {}});
+  scene.environment = scene::Environment{};
+  return scene;
+}
+
+double received(const std::optional<LightSample>& sample) {
+  return sample && sample->wi.y > 0 && sample->pdf > 0
+             ? static_cast<double>(luminance(sample->radiance) * sample->wi.y / sample->pdf)
+             : 0;
+}
+
+TEST(Emitters, AddUpToTheChoiceAmongThem) {
+  const scene::Scene scene = all_kinds();
+  const LightSet lights(scene, scene::world_matrices(scene));
+  ASSERT_EQ(lights.emitter_count(), 7) << "the lamp that is off is left out";
+  Samples one_by_one, chosen;
+  for (std::uint64_t batch = 0; batch < 4000; ++batch) {
+    double sum = 0, mean = 0;
+    for (std::uint32_t s = 0; s < 16; ++s) {
+      SampleSequence random(batch, s);
+      const float u_choice = random.next();
+      mean += received(lights.sample(vec3(0), u_choice, random.next2())) / 16;
+    }
+    for (int i = 0; i < lights.emitter_count(); ++i)
+      sum += received(lights.sample_emitter(i, vec3(0), SampleSequence(hash_combine(batch, 77), 0).next2()));
+    one_by_one.add(sum), chosen.add(mean);
+  }
+  EXPECT_TRUE(means_agree(one_by_one, chosen));
+}
+
+TEST(Emitters, ExtentHoldsAllSamples) {
+  const scene::Scene scene = all_kinds();
+  const LightSet lights(scene, scene::world_matrices(scene));
+  for (int i = 0; i < lights.emitter_count(); ++i) {
+    const Emitter emitter = lights.emitter(i);
+    for (std::uint32_t s = 0; s < 500; ++s) {
+      const auto sample = lights.sample_emitter(i, vec3(0.1f, 0, 0.2f), SampleSequence(3, s).next2());
+      ASSERT_TRUE(sample);
+      EXPECT_EQ(sample->group, emitter.group);
+      EXPECT_EQ(sample->delta, emitter.delta());
+      EXPECT_TRUE(!emitter.delta() || sample->pdf == 1);
+      const vec3 p =
+          emitter.distant() ? sample->wi : vec3(0.1f, 0, 0.2f) + sample->distance * sample->wi;
+      EXPECT_LE(max_component(emitter.extent.min - p), 1e-6f) << i;
+      EXPECT_LE(max_component(p - emitter.extent.max), 1e-6f) << i;
+      if (emitter.distant() && !emitter.delta()) {
+        const auto hit = lights.distant_radiance(i, sample->wi);
+        ASSERT_TRUE(hit);
+        EXPECT_EQ(hit->pdf, sample->pdf);
+        EXPECT_EQ(hit->radiance, sample->radiance);
+      }
+    }
+  }
+}
+
+TEST(Emitters, PosedAnewTheyAreThoseOfTheSceneThatStandsSo) {
+  scene::Scene scene = all_kinds();
+  const std::vector<mat4> before = scene::world_matrices(scene);
+  const LightSet base(scene, before);
+  scene::Scene moved = scene;
+  moved.nodes.back().local.translation = vec3(1, 2.5f, 0);
+  moved.lights[0].intensity = 3, moved.lights[0].color = vec3(1, 0, 2);
+  moved.lights[1].intensity = 0;
+  moved.lights[5].intensity = 2;
+  moved.nodes[2].local.translation = vec3(2, 2, 2);
+  const std::vector<mat4> after = scene::world_matrices(moved);
+  const LightSet expected(moved, after);
+  std::vector<scene::LightState> states;
+  for (const scene::Light& light : moved.lights)
+    states.push_back({after[static_cast<std::size_t>(light.node)], light.color, light.intensity});
+  const LightSet posed(base, after, states);
+  ASSERT_EQ(posed.emitter_count(), expected.emitter_count());
+  EXPECT_EQ(posed.groups(), expected.groups());
+  for (int i = 0; i < posed.emitter_count(); ++i) {
+    EXPECT_EQ(posed.emitter(i).kind, expected.emitter(i).kind);
+    for (std::uint32_t s = 0; s < 10; ++s) {
+      const vec2 u = SampleSequence(1, s).next2();
+      const auto a = posed.sample_emitter(i, vec3(0), u), b = expected.sample_emitter(i, vec3(0), u);
+      ASSERT_EQ(a.has_value(), b.has_value());
+      if (!a) continue;
+      EXPECT_EQ(a->wi, b->wi);
+      EXPECT_EQ(a->radiance, b->radiance);
+      EXPECT_EQ(a->pdf, b->pdf);
+      EXPECT_EQ(a->group, b->group);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ssphh::shading::test
