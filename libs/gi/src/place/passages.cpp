@@ -10,24 +10,31 @@ namespace ssphh::gi {
 namespace {
 
 constexpr std::size_t stations = 11;   ///< along an edge, both ends included
-constexpr std::size_t directions = 8;  ///< across it, each with its opposite
+constexpr std::size_t directions = 13;  ///< axes and diagonals, each with its opposite
+constexpr float across = 0.8f;          ///< cosine with the edge above which a direction leads along it
 constexpr float narrow = 1.5f;         ///< spacings
 constexpr float wider_ends = 1.5f;     ///< times the passage's width
+constexpr float centred = 0.85f;       ///< nearest surface, in half widths: less is a corner, not a passage
 
 struct Passage {
   vec3 position;
   float width;
 };
 
-/// The narrowest place of the way from a to b, across it, if both ends are wider.
+const std::array<vec3, directions>& widths() {
+  static const std::array<vec3, directions> table = [] {
+    std::array<vec3, directions> d;
+    std::size_t n = 0;
+    for (int i = 14; i < 27; ++i) d[n++] = glm::normalize(vec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+    return d;
+  }();
+  return table;
+}
+
+/// The narrowest place of the way from a to b, not along it, if both ends are wider in that direction.
 std::optional<Passage> narrowest(const scene::TransportSource& source, const vec3& a, const vec3& b,
                                  float widest) {
-  const Frame frame = Frame::around(glm::normalize(b - a));
-  std::array<vec3, directions> across;
-  for (std::size_t k = 0; k < directions; ++k) {
-    const float angle = pi * static_cast<float>(k) / directions;
-    across[k] = std::cos(angle) * frame.x + std::sin(angle) * frame.y;
-  }
+  const vec3 along = glm::normalize(b - a);
   std::array<scene::RayQuery, 2 * stations * directions> rays;
   std::array<scene::RayHit, 2 * stations * directions> hits;
   const auto ray = [](std::size_t station, std::size_t k) { return 2 * (station * directions + k); };
@@ -36,8 +43,8 @@ std::optional<Passage> narrowest(const scene::TransportSource& source, const vec
   };
   for (std::size_t s = 0; s < stations; ++s) {
     for (std::size_t k = 0; k < directions; ++k) {
-      rays[ray(s, k)] = {at(s), across[k]};
-      rays[ray(s, k) + 1] = {at(s), -across[k]};
+      rays[ray(s, k)] = {at(s), widths()[k]};
+      rays[ray(s, k) + 1] = {at(s), -widths()[k]};
     }
   }
   source.intersect(0, rays, hits);
@@ -48,11 +55,12 @@ std::optional<Passage> narrowest(const scene::TransportSource& source, const vec
   std::optional<Passage> best;
   for (std::size_t s = 1; s + 1 < stations; ++s) {
     for (std::size_t k = 0; k < directions; ++k) {
+      if (std::abs(glm::dot(widths()[k], along)) > across) continue;
       const float w = width(s, k);
       if (!(w < widest) || (best && w >= best->width)) continue;
       if (std::min(width(0, k), width(stations - 1, k)) < wider_ends * w) continue;
       const float aside = 0.5f * (hits[ray(s, k)].distance - hits[ray(s, k) + 1].distance);
-      best = Passage{at(s) + aside * across[k], w};
+      best = Passage{at(s) + aside * widths()[k], w};
     }
   }
   return best;
@@ -80,7 +88,9 @@ void add_passages(const PlaceContext& context, std::vector<Draft>& drafts,
   // The narrowest first, so that the result does not hang on the order of the edges.
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (found[i] && valid(sites[i], context.rules)) order.push_back(i);
+    if (found[i] && valid(sites[i], context.rules) && sites[i].nearest > centred * 0.5f * found[i]->width) {
+      order.push_back(i);
+    }
   }
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t i, std::size_t j) { return found[i]->width < found[j]->width; });
