@@ -88,17 +88,22 @@ RTCGeometry new_triangles(RTCDevice device, const scene::Mesh& mesh, const std::
 }  // namespace
 
 EmbreeScene::EmbreeScene(const scene::Scene& scene, const std::vector<mat4>& world,
-                         std::uint64_t flatten_limit)
+                         std::uint64_t flatten_limit, const std::vector<bool>& only)
     : scene_(scene), parts_(scene.instances.size()), embree_(std::make_unique<Embree>()) {
   embree_->device = rtcNewDevice(nullptr);
   if (!embree_->device) throw Error("ray tracer", "Embree does not start on this machine");
   embree_->scene = new_scene(embree_->device);
 
+  const auto chosen = [&](std::size_t i) {
+    return scene.instances[i].mesh >= 0 && (only.empty() || only[i]);
+  };
+
   // Count the copies that flattening would make of meshes used more than once.
   std::vector<int> uses(scene.meshes.size());
   std::uint64_t copied = 0;
-  for (const scene::Instance& instance : scene.instances) {
-    if (instance.mesh < 0) continue;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    if (!chosen(i)) continue;
+    const scene::Instance& instance = scene.instances[i];
     const auto m = static_cast<std::size_t>(instance.mesh);
     if (++uses[m] > 1) copied += scene.meshes[m].triangles.size();
   }
@@ -106,8 +111,7 @@ EmbreeScene::EmbreeScene(const scene::Scene& scene, const std::vector<mat4>& wor
   // Add every instance under its own index as geometry id.
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const scene::Instance& instance = scene.instances[i];
-    if (instance.mesh < 0 || scene.meshes[static_cast<std::size_t>(instance.mesh)].triangles.empty())
-      continue;
+    if (!chosen(i) || scene.meshes[static_cast<std::size_t>(instance.mesh)].triangles.empty()) continue;
     Part& part = parts_[i];
     part.mesh = &scene.meshes[static_cast<std::size_t>(instance.mesh)];
     part.material = scene::instance_material(scene, instance);

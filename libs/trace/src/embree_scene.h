@@ -19,9 +19,9 @@ class EmbreeScene {
  public:
   static constexpr std::uint64_t default_flatten_limit = 4'000'000;
 
-  /// Throws Error when memory is short.
+  /// Throws Error when memory is short. `only` chooses instances; empty: all.
   EmbreeScene(const scene::Scene& scene, const std::vector<mat4>& world,
-              std::uint64_t flatten_limit = default_flatten_limit);
+              std::uint64_t flatten_limit = default_flatten_limit, const std::vector<bool>& only = {});
   ~EmbreeScene();
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;

@@ -25,26 +25,10 @@ bool has_found_by_rays(const scene::Scene& scene) {
   return false;
 }
 
-unsigned next_shard() {
-  static std::atomic<unsigned> next{0};
-  return next.fetch_add(1, std::memory_order_relaxed);
-}
-
 }  // namespace
 
 void set_ray_recording(RayRecording* recording) {
   ray_recording = recording;
-}
-
-void SharedCount::add(std::uint64_t n) noexcept {
-  thread_local const unsigned shard = next_shard();
-  shards_[shard % shards_.size()].value.fetch_add(n, std::memory_order_relaxed);
-}
-
-std::uint64_t SharedCount::total() const noexcept {
-  std::uint64_t sum = 0;
-  for (const Shard& shard : shards_) sum += shard.value.load(std::memory_order_relaxed);
-  return sum;
 }
 
 TracerData::TracerData(const scene::Scene& scene_in, float time_in)

@@ -7,21 +7,9 @@
 #include <ssphh/trace/path_tracer.h>
 
 #include "scene_emitters.h"
+#include "shared_count.h"
 
 namespace ssphh::trace {
-
-/// A count that many threads add to, spread over cache lines.
-class SharedCount {
- public:
-  void add(std::uint64_t n) noexcept;
-  std::uint64_t total() const noexcept;
-
- private:
-  struct alignas(64) Shard {
-    std::atomic<std::uint64_t> value{0};
-  };
-  mutable std::array<Shard, 16> shards_;
-};
 
 struct TracerData {
   TracerData(const scene::Scene& scene_in, float time_in);

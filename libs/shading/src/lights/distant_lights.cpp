@@ -16,14 +16,17 @@ vec3 node_axis(const mat4& world) {
 
 }  // namespace
 
-DistantLights::DistantLights(const scene::Scene& scene, const std::vector<mat4>& world,
-                             const std::vector<std::string>& groups) {
+DistantLights::DistantLights(std::span<const PosedLight> lights,
+                             std::shared_ptr<const EnvironmentLight> environment,
+                             const std::vector<std::string>& groups)
+    : environment_(std::move(environment)) {
   std::vector<float> directional_power, power;
-  for (const scene::Light& light : scene.lights) {
+  for (const PosedLight& posed : lights) {
+    const scene::Light& light = posed.light;
     const vec3 irradiance = light.color * light.intensity;
     const float weight = luminance(irradiance);
     if (light.type != scene::LightType::directional || !(weight > 0)) continue;
-    const vec3 to_light = node_axis(light.node < 0 ? mat4(1) : world[static_cast<std::size_t>(light.node)]);
+    const vec3 to_light = node_axis(posed.world);
     const int group = scene::light_group_index(groups, scene::light_group(light));
     const float sin_radius = std::sin(glm::min(light.angular_radius, pi / 2));
     if (sin_radius > 0) {
@@ -36,11 +39,7 @@ DistantLights::DistantLights(const scene::Scene& scene, const std::vector<mat4>&
     }
   }
   power.insert(power.begin(), directional_power.begin(), directional_power.end());
-  if (scene.environment) {
-    const int group = scene::light_group_index(groups, scene::light_group(*scene.environment));
-    environments_.emplace_back(*scene.environment, group);
-    power.push_back(environments_.back().mean_irradiance());
-  }
+  if (environment_) power.push_back(environment_->mean_irradiance());
   for (const float p : power) irradiance_ += p;
   // A share for each, so that the sky is not lost beside the sun
   for (float& p : power) p += p > 0 ? 0.1f * irradiance_ / static_cast<float>(power.size()) : 0.0f;
@@ -49,39 +48,61 @@ DistantLights::DistantLights(const scene::Scene& scene, const std::vector<mat4>&
 
 std::optional<LightSample> DistantLights::sample(float u_choice, const vec2& u) const {
   const Distribution::Choice choice = choice_.sample(u_choice);
-  std::size_t i = choice.index;
+  auto sample = sample_one(choice.index, u);
+  if (sample) sample->pdf *= choice.probability;
+  return sample;
+}
+
+std::optional<LightSample> DistantLights::sample_one(std::size_t i, const vec2& u) const {
   if (i < directional_.size()) {
     const DirectionalLight& light = directional_[i];
-    return LightSample{light.to_light, infinity, light.irradiance, choice.probability, true, light.group};
+    return LightSample{light.to_light, infinity, light.irradiance, 1, true, light.group};
   }
   i -= directional_.size();
   if (i < discs_.size()) {
     const DiscLight& light = discs_[i];
     const vec3 wi = light.frame.to_world(light.cone.sample(u));
-    return LightSample{wi,    infinity,   light.radiance, choice.probability * light.cone.pdf(),
-                       false, light.group};
+    return LightSample{wi, infinity, light.radiance, light.cone.pdf(), false, light.group};
   }
-  const EnvironmentLight& light = environments_.front();
-  const EnvironmentLight::Sample s = light.sample(u);
+  const EnvironmentLight::Sample s = environment_->sample(u);
   if (!(s.pdf > 0)) return std::nullopt;
-  return LightSample{s.wi, infinity, s.radiance, choice.probability * s.pdf, false, light.group()};
+  return LightSample{s.wi, infinity, s.radiance, s.pdf, false, environment_->group()};
 }
 
 std::optional<EmitterHit> DistantLights::hit(int i, const vec3& direction) const {
-  const auto index = static_cast<std::size_t>(i);
-  if (index < discs_.size()) {
-    const DiscLight& light = discs_[index];
+  const std::size_t place = directional_.size() + static_cast<std::size_t>(i);
+  auto hit = radiance_of(place, direction);
+  if (hit) hit->pdf *= choice_.empty() ? 0 : choice_.probability(place);
+  return hit;
+}
+
+std::optional<EmitterHit> DistantLights::radiance_of(std::size_t i, const vec3& direction) const {
+  if (i < directional_.size()) return std::nullopt;
+  i -= directional_.size();
+  if (i < discs_.size()) {
+    const DiscLight& light = discs_[i];
     // |d − axis|² = 2 (1 − cos): compares narrow cones without cancellation
     const vec3 offset = direction - light.to_light;
     if (glm::dot(offset, offset) > 2 * light.cone.one_minus) return std::nullopt;
-    const float probability = choice_.probability(directional_.size() + index);
-    return EmitterHit{infinity, light.radiance, probability * light.cone.pdf(), light.group};
+    return EmitterHit{infinity, light.radiance, light.cone.pdf(), light.group};
   }
-  const EnvironmentLight& light = environments_.front();
-  const std::size_t place = directional_.size() + discs_.size();
-  const float probability = choice_.empty() ? 0 : choice_.probability(place);
-  const float pdf = probability > 0 ? probability * light.pdf(direction) : 0;
-  return EmitterHit{infinity, light.radiance(direction), pdf, light.group()};
+  return EmitterHit{infinity, environment_->radiance(direction), environment_->pdf(direction),
+                    environment_->group()};
+}
+
+Emitter DistantLights::emitter(std::size_t i) const {
+  if (i < directional_.size()) {
+    const DirectionalLight& light = directional_[i];
+    return {EmitterKind::directional, light.group, {light.to_light, light.to_light}};
+  }
+  i -= directional_.size();
+  if (i < discs_.size()) {
+    // |d − axis| of its directions, as above
+    const DiscLight& light = discs_[i];
+    const vec3 reach(1.001f * std::sqrt(2 * light.cone.one_minus));
+    return {EmitterKind::disc, light.group, {light.to_light - reach, light.to_light + reach}};
+  }
+  return {EmitterKind::environment, environment_->group(), {vec3(-1), vec3(1)}};
 }
 
 }  // namespace ssphh::shading

@@ -2,6 +2,9 @@
 /// Lights at infinity: directional ones, discs such as the sun, and the environment. Chosen with fixed
 /// probabilities, by the irradiance they give, so their densities do not depend on the place.
 
+#include <memory>
+#include <span>
+
 #include <ssphh/image/image.h>
 #include <ssphh/shading/lights.h>
 
@@ -14,6 +17,12 @@ struct DirectionalLight {
   vec3 to_light;    ///< unit
   vec3 irradiance;  ///< on a facing plane
   int group;
+};
+
+/// A scene's light with the colour, intensity and place that it has now.
+struct PosedLight {
+  scene::Light light;
+  mat4 world{1};
 };
 
 /// Uniformly bright disc.
@@ -61,7 +70,8 @@ class EnvironmentLight {
 class DistantLights {
  public:
   DistantLights() = default;
-  DistantLights(const scene::Scene& scene, const std::vector<mat4>& world,
+  /// Leaves out the lights that are not distant or off. `environment` may be null.
+  DistantLights(std::span<const PosedLight> lights, std::shared_ptr<const EnvironmentLight> environment,
                 const std::vector<std::string>& groups);
 
   bool empty() const { return choice_.empty(); }
@@ -72,14 +82,21 @@ class DistantLights {
   std::optional<LightSample> sample(float u_choice, const vec2& u) const;
 
   /// Those that a ray can find: discs, then the environment.
-  int visible_count() const { return static_cast<int>(discs_.size() + environments_.size()); }
+  int visible_count() const { return static_cast<int>(discs_.size() + (environment_ ? 1 : 0)); }
   std::optional<EmitterHit> hit(int i, const vec3& direction) const;
+
+  /// One by one: directional, discs, environment in this order; densities of the one alone.
+  std::size_t count() const { return directional_.size() + static_cast<std::size_t>(visible_count()); }
+  Emitter emitter(std::size_t i) const;
+  std::optional<LightSample> sample_one(std::size_t i, const vec2& u) const;
+  std::optional<EmitterHit> radiance_of(std::size_t i, const vec3& direction) const;
+  const std::shared_ptr<const EnvironmentLight>& environment() const { return environment_; }
 
  private:
   std::vector<DirectionalLight> directional_;
   std::vector<DiscLight> discs_;
-  std::vector<EnvironmentLight> environments_;  ///< none or one
-  Distribution choice_;                         ///< over directional, discs, environment in this order
+  std::shared_ptr<const EnvironmentLight> environment_;
+  Distribution choice_;  ///< over directional, discs, environment in this order
   float irradiance_ = 0;
 };
 

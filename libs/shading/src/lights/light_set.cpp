@@ -19,13 +19,19 @@ constexpr std::size_t max_weighed = 16;
 /// hidden.
 constexpr float uniform_share = 0.2f;
 
+mat4 matrix_at(const std::vector<mat4>& world, int node) {
+  return node < 0 ? mat4(1) : world[static_cast<std::size_t>(node)];
+}
+
 }  // namespace
 
 struct LightSet::Data {
+  const scene::Scene* scene = nullptr;
+  float scene_radius = 0;
   std::vector<std::string> groups;
   std::vector<PointLight> points;
   std::vector<SphereLight> spheres;
-  std::vector<MeshLight> meshes;
+  std::vector<std::shared_ptr<const MeshLight>> meshes;
   std::vector<int> instance_group, instance_mesh_light;
   DistantLights distant;
   Distribution by_power;          ///< local lights: points, spheres, meshes in this order
@@ -33,23 +39,27 @@ struct LightSet::Data {
 
   std::size_t local_count() const { return points.size() + spheres.size() + meshes.size(); }
 
+  void add_lights(std::span<const PosedLight> lights);
+  void add_meshes(const std::vector<mat4>& world, const Data* base);
+  void divide_choices();
+
   float importance(std::size_t i, const vec3& from) const {
     if (i < points.size()) return points[i].importance(from);
     i -= points.size();
     if (i < spheres.size()) return spheres[i].importance(from);
-    return meshes[i - spheres.size()].importance(from);
+    return meshes[i - spheres.size()]->importance(from);
   }
   float power(std::size_t i) const {
     if (i < points.size()) return points[i].power();
     i -= points.size();
     if (i < spheres.size()) return spheres[i].power();
-    return meshes[i - spheres.size()].power();
+    return meshes[i - spheres.size()]->power();
   }
   std::optional<LightSample> sample(std::size_t i, const vec3& from, float u_choice, const vec2& u) const {
     if (i < points.size()) return points[i].sample(from);
     i -= points.size();
     if (i < spheres.size()) return spheres[i].sample(from, u);
-    return meshes[i - spheres.size()].sample(from, u_choice, u);
+    return meshes[i - spheres.size()]->sample(from, u_choice, u);
   }
 
   /// Probabilities of the local lights as seen from a point, few lights only. False: none reaches the point.
@@ -100,50 +110,89 @@ struct LightSet::Data {
 LightSet::LightSet(const scene::Scene& scene, const std::vector<mat4>& world)
     : data_(std::make_unique<Data>()) {
   Data& d = *data_;
+  d.scene = &scene;
   d.groups = scene::light_groups(scene);
-  const auto matrix = [&](int node) { return node < 0 ? mat4(1) : world[static_cast<std::size_t>(node)]; };
+  std::vector<PosedLight> lights;
+  for (const scene::Light& light : scene.lights) lights.push_back({light, matrix_at(world, light.node)});
+  d.add_lights(lights);
+  d.add_meshes(world, nullptr);
+  std::shared_ptr<const EnvironmentLight> environment;
+  if (scene.environment) {
+    const int group = scene::light_group_index(d.groups, scene::light_group(*scene.environment));
+    environment = std::make_shared<const EnvironmentLight>(*scene.environment, group);
+  }
+  d.distant = DistantLights(lights, std::move(environment), d.groups);
+  if (!d.distant.empty() && d.local_count() > 0) d.scene_radius = scene::world_bounds(scene, world).radius();
+  d.divide_choices();
+}
 
-  // Lights
-  for (const scene::Light& light : scene.lights) {
+LightSet::LightSet(const LightSet& base, const std::vector<mat4>& world,
+                   std::span<const scene::LightState> states)
+    : data_(std::make_unique<Data>()) {
+  Data& d = *data_;
+  d.scene = base.data_->scene;
+  d.scene_radius = base.data_->scene_radius;
+  d.groups = base.data_->groups;
+  SSPHH_CHECK(states.size() == d.scene->lights.size());
+  std::vector<PosedLight> lights;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    lights.push_back({d.scene->lights[i], states[i].world});
+    lights.back().light.color = states[i].color;
+    lights.back().light.intensity = states[i].intensity;
+  }
+  d.add_lights(lights);
+  d.add_meshes(world, base.data_.get());
+  d.distant = DistantLights(lights, base.data_->distant.environment(), d.groups);
+  d.divide_choices();
+}
+
+void LightSet::Data::add_lights(std::span<const PosedLight> lights) {
+  for (const auto& [light, world] : lights) {
     if (!(luminance(light.color * light.intensity) > 0)) continue;
-    const int group = scene::light_group_index(d.groups, scene::light_group(light));
+    const int group = scene::light_group_index(groups, scene::light_group(light));
     if (light.type == scene::LightType::point || light.type == scene::LightType::spot) {
-      d.points.push_back(make_point_light(light, matrix(light.node), group));
+      points.push_back(make_point_light(light, world, group));
     } else if (light.type == scene::LightType::sphere && light.radius > 0) {
-      d.spheres.push_back(make_sphere_light(light, matrix(light.node), group));
+      spheres.push_back(make_sphere_light(light, world, group));
     }
   }
+}
 
-  // Emissive instances; unlit ones are seen but light nothing
-  d.instance_group.assign(scene.instances.size(), -1);
-  d.instance_mesh_light.assign(scene.instances.size(), -1);
-  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-    const scene::Instance& instance = scene.instances[i];
-    const scene::Material& material = material_at(scene, scene::instance_material(scene, instance));
+/// Emissive instances; unlit ones are seen but light nothing. Those that stand as in `base` are shared.
+void LightSet::Data::add_meshes(const std::vector<mat4>& world, const Data* base) {
+  instance_group.assign(scene->instances.size(), -1);
+  instance_mesh_light.assign(scene->instances.size(), -1);
+  for (std::size_t i = 0; i < scene->instances.size(); ++i) {
+    const scene::Instance& instance = scene->instances[i];
+    const scene::Material& material = material_at(*scene, scene::instance_material(*scene, instance));
     if (!material.emissive()) continue;
-    d.instance_group[i] = scene::light_group_index(d.groups, scene::light_group(scene, instance));
+    instance_group[i] = scene::light_group_index(groups, scene::light_group(*scene, instance));
     if (material.unlit) continue;
-    MeshLight light(scene, instance, matrix(instance.node), d.instance_group[i]);
-    if (light.empty()) continue;
-    d.instance_mesh_light[i] = static_cast<int>(d.meshes.size());
-    d.meshes.push_back(std::move(light));
+    const mat4 matrix = matrix_at(world, instance.node);
+    std::shared_ptr<const MeshLight> light;
+    if (base && base->instance_mesh_light[i] >= 0)
+      light = base->meshes[static_cast<std::size_t>(base->instance_mesh_light[i])];
+    if (!light || light->world() != matrix)
+      light = std::make_shared<const MeshLight>(*scene, instance, matrix, instance_group[i]);
+    if (light->empty()) continue;
+    instance_mesh_light[i] = static_cast<int>(meshes.size());
+    meshes.push_back(std::move(light));
   }
+}
 
-  // Divide the samples between distant and local lights by the irradiance they give, neither below a quarter
-  d.distant = DistantLights(scene, world, d.groups);
-  std::vector<float> power;
+/// Divides the samples between distant and local lights by the irradiance they give, neither below a quarter.
+void LightSet::Data::divide_choices() {
+  std::vector<float> powers;
   float total = 0;
-  for (std::size_t i = 0; i < d.local_count(); ++i) power.push_back(d.power(i)), total += power.back();
-  d.by_power = Distribution(power);
-  if (d.distant.empty()) {
-    d.distant_probability = 0;
-  } else if (d.by_power.empty()) {
-    d.distant_probability = 1;
+  for (std::size_t i = 0; i < local_count(); ++i) powers.push_back(power(i)), total += powers.back();
+  by_power = Distribution(powers);
+  if (distant.empty()) {
+    distant_probability = 0;
+  } else if (by_power.empty()) {
+    distant_probability = 1;
   } else {
-    const float radius = scene::world_bounds(scene, world).radius();
-    const float local = radius > 0 ? total / (radius * radius) : d.distant.irradiance();
-    d.distant_probability =
-        glm::clamp(d.distant.irradiance() / (d.distant.irradiance() + local), 0.25f, 0.75f);
+    const float local = scene_radius > 0 ? total / (scene_radius * scene_radius) : distant.irradiance();
+    distant_probability = glm::clamp(distant.irradiance() / (distant.irradiance() + local), 0.25f, 0.75f);
   }
 }
 
@@ -174,13 +223,51 @@ std::optional<LightSample> LightSet::sample(const vec3& position, float u_choice
   return s;
 }
 
+int LightSet::emitter_count() const {
+  return static_cast<int>(data_->local_count() + data_->distant.count());
+}
+
+Emitter LightSet::emitter(int index) const {
+  const Data& d = *data_;
+  auto i = static_cast<std::size_t>(index);
+  if (i < d.points.size()) {
+    const PointLight& light = d.points[i];
+    return {EmitterKind::point, light.group, {light.position, light.position}};
+  }
+  i -= d.points.size();
+  if (i < d.spheres.size()) {
+    const SphereLight& light = d.spheres[i];
+    return {EmitterKind::sphere, light.group, {light.center - light.radius, light.center + light.radius}};
+  }
+  i -= d.spheres.size();
+  if (i < d.meshes.size()) return {EmitterKind::mesh, d.meshes[i]->group(), d.meshes[i]->bounds()};
+  return d.distant.emitter(i - d.meshes.size());
+}
+
+std::optional<LightSample> LightSet::sample_emitter(int index, const vec3& position, const vec2& u) const {
+  const Data& d = *data_;
+  auto i = static_cast<std::size_t>(index);
+  if (i < d.points.size()) return d.points[i].sample(position);
+  i -= d.points.size();
+  if (i < d.spheres.size()) return d.spheres[i].sample(position, u);
+  i -= d.spheres.size();
+  if (i < d.meshes.size()) return d.meshes[i]->sample(position, u);
+  return d.distant.sample_one(i - d.meshes.size(), u);
+}
+
+std::optional<EmitterHit> LightSet::distant_radiance(int i, const vec3& direction) const {
+  const std::size_t local = data_->local_count();
+  SSPHH_CHECK(static_cast<std::size_t>(i) >= local);
+  return data_->distant.radiance_of(static_cast<std::size_t>(i) - local, direction);
+}
+
 float LightSet::pdf_triangle(const vec3& position, int instance, std::uint32_t triangle, float distance,
                              float cos_light) const {
   const Data& d = *data_;
   const int mesh = d.instance_mesh_light[static_cast<std::size_t>(instance)];
   if (mesh < 0) return 0;
   const auto index = static_cast<std::size_t>(mesh);
-  const float pdf = d.meshes[index].pdf(position, triangle, distance, cos_light);
+  const float pdf = d.meshes[index]->pdf(position, triangle, distance, cos_light);
   return pdf > 0 ? pdf * d.local_probability(d.points.size() + d.spheres.size() + index, position) : 0;
 }
 

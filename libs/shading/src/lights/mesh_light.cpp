@@ -18,12 +18,12 @@ MeshLight::MeshLight(const scene::Scene& scene, const scene::Instance& instance,
     : scene_(&scene),
       mesh_(&scene.meshes[static_cast<std::size_t>(instance.mesh)]),
       material_(&material_at(scene, scene::instance_material(scene, instance))),
+      world_(world),
       group_(group),
       textured_(material_->emission_texture.texture >= 0 ||
                 material_->alpha_mode != scene::AlphaMode::opaque) {
   const float mirror = glm::determinant(mat3(world)) < 0 ? -1.0f : 1.0f;
   std::vector<float> weights;
-  scene::Bounds bounds;
   for (const uvec3& index : mesh_->triangles) {
     // Bring the triangle to the world
     const vec3 p0(world * vec4(mesh_->positions[index.x], 1));
@@ -34,7 +34,7 @@ MeshLight::MeshLight(const scene::Scene& scene, const scene::Instance& instance,
     const bool usable = length > 0 && std::isfinite(length);
     triangles_.push_back(
         {p0, p1 - p0, p2 - p0, usable ? n / length : vec3(0), usable ? 0.5f * length : 0.0f});
-    if (usable) bounds.add(p0), bounds.add(p1), bounds.add(p2);
+    if (usable) bounds_.add(p0), bounds_.add(p1), bounds_.add(p2);
 
     // Mean emission: of a texture at a few points; never quite zero, for what lies between them
     float mean = luminance(material_->emission);
@@ -53,8 +53,8 @@ MeshLight::MeshLight(const scene::Scene& scene, const scene::Instance& instance,
   }
   choice_ = Distribution(weights);
   if (choice_.empty()) return;
-  center_ = bounds.center();
-  extent2_ = bounds.radius() * bounds.radius();
+  center_ = bounds_.center();
+  extent2_ = bounds_.radius() * bounds_.radius();
 
   // Find out whether all lie in one plane
   if (material_->double_sided) return;
@@ -64,7 +64,7 @@ MeshLight::MeshLight(const scene::Scene& scene, const scene::Instance& instance,
     if (!first) first = t;
     const float tilt = 1 - glm::dot(t.normal, first->normal);
     const float height = std::abs(glm::dot(t.p0 - first->p0, first->normal));
-    if (tilt > 1e-6f || height > 1e-4f * bounds.radius()) return;
+    if (tilt > 1e-6f || height > 1e-4f * bounds_.radius()) return;
   }
   facing_ = first->normal;
 }
@@ -79,7 +79,16 @@ vec3 MeshLight::radiance(std::size_t triangle, const vec2& barycentric) const {
 }
 
 std::optional<LightSample> MeshLight::sample(const vec3& from, float u_choice, const vec2& u) const {
-  const Distribution::Choice choice = choice_.sample(u_choice);
+  return sample(from, choice_.sample(u_choice), u);
+}
+
+std::optional<LightSample> MeshLight::sample(const vec3& from, const vec2& u) const {
+  const Distribution::Choice choice = choice_.sample(u.x);
+  return sample(from, choice, vec2(choice.u, u.y));
+}
+
+std::optional<LightSample> MeshLight::sample(const vec3& from, const Distribution::Choice& choice,
+                                             const vec2& u) const {
   const Triangle& triangle = triangles_[choice.index];
   const vec2 b = square_to_triangle(u);
   const vec3 d = triangle.p0 + b.x * triangle.e1 + b.y * triangle.e2 - from;

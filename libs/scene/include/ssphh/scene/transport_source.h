@@ -79,6 +79,8 @@ class TransportSource {
   virtual const std::string& part_name(int part) const = 0;
   /// In the part's frame; empty for a part without triangles.
   virtual Bounds part_bounds(int part) const = 0;
+  /// Seconds after which nothing moves any more.
+  virtual float duration() const = 0;
   /// Part to world at `time` seconds; the identity for part 0.
   virtual mat4 part_pose(int part, float time) const = 0;
   /// Points uniform by area, at least one per triangle; the same at every call. Not for part 0.

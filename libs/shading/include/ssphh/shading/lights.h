@@ -3,11 +3,13 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <ssphh/scene/query.h>
 #include <ssphh/scene/scene.h>
+#include <ssphh/scene/transport_source.h>
 
 namespace ssphh::shading {
 
@@ -30,10 +32,28 @@ struct EmitterHit {
   int group;
 };
 
+enum class EmitterKind { point, sphere, mesh, directional, disc, environment };
+
+/// One emitter of a LightSet.
+struct Emitter {
+  EmitterKind kind;
+  int group;
+  /// World-space box around it; of `directional`, `disc` and `environment` the box around the unit directions
+  /// toward it.
+  scene::Bounds extent;
+
+  bool delta() const { return kind == EmitterKind::point || kind == EmitterKind::directional; }
+  bool distant() const { return kind >= EmitterKind::directional; }
+};
+
 class LightSet {
  public:
   /// Reads all lights, emissive instances and the environment of `scene` posed by `world`.
   LightSet(const scene::Scene& scene, const std::vector<mat4>& world);
+  /// The emitters of `base`'s scene with its lights as `lights` say, one state per scene::Light, and its
+  /// emissive instances posed by `world`. What has not moved is shared with `base`, and so is the size of the
+  /// scene, by which sample() divides its choices between near and distant lights.
+  LightSet(const LightSet& base, const std::vector<mat4>& world, std::span<const scene::LightState> lights);
   ~LightSet();
   LightSet(LightSet&&) noexcept;
   LightSet& operator=(LightSet&&) noexcept;
@@ -44,6 +64,16 @@ class LightSet {
   /// Chooses a light and a point on it as seen from `position`. `u_choice` in [0, 1), `u` in [0, 1)². Empty
   /// when there is no light or the chosen one cannot light the point.
   std::optional<LightSample> sample(const vec3& position, float u_choice, const vec2& u) const;
+
+  /// The emitters one by one, those that are off left out.
+  int emitter_count() const;
+  Emitter emitter(int i) const;
+  /// As sample(), of emitter i alone: `pdf` holds no probability of a choice and is 1 where `delta`.
+  /// Stratified `u` give stratified samples.
+  std::optional<LightSample> sample_emitter(int i, const vec3& position, const vec2& u) const;
+  /// Radiance from distant emitter i in a direction, with the density of sample_emitter; empty beside a disc
+  /// and for delta lights.
+  std::optional<EmitterHit> distant_radiance(int i, const vec3& direction) const;
 
   /// Density of sample() for the point of an emissive triangle hit by a ray: `instance` and `triangle` as in
   /// the scene, `cos_light` the absolute cosine at the light, `distance` from `position`. Zero when the

@@ -1,0 +1,180 @@
+#include "posed_light.h"
+
+#include <bit>
+#include <cmath>
+
+#include <ssphh/core/error.h>
+#include <ssphh/core/parallel.h>
+#include <ssphh/core/random.h>
+#include <ssphh/core/sphere.h>
+
+#include "surface_gap.h"
+
+namespace ssphh::trace {
+namespace {
+
+constexpr std::size_t parallel_from = 256, grain = 32;
+
+std::uint64_t position_seed(const vec3& p) {
+  const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+  return hash_combine((std::uint64_t{bits(p.x)} << 32) | bits(p.y), bits(p.z));
+}
+
+/// The corner of the box farthest along the direction.
+vec3 farthest(const scene::Bounds& box, const vec3& direction) {
+  return {direction.x > 0 ? box.max.x : box.min.x, direction.y > 0 ? box.max.y : box.min.y,
+          direction.z > 0 ? box.max.z : box.min.z};
+}
+
+}  // namespace
+
+PosedLight::PosedLight(std::shared_ptr<const TransportData> data, std::span<const scene::LightState> lights,
+                       std::span<const mat4> poses)
+    : data_(std::move(data)), lights_(data_->lights, data_->node_matrices(poses), lights) {
+  groups_.resize(lights_.groups().size());
+  for (int i = 0; i < lights_.emitter_count(); ++i) {
+    const shading::Emitter emitter = lights_.emitter(i);
+    groups_[static_cast<std::size_t>(emitter.group)].push_back({i, emitter});
+  }
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const TransportPart& part = data_->parts[i];
+    // What is scaled to nothing shadows nothing.
+    const float det = glm::determinant(mat3(poses[i]));
+    if (part.bounds.empty() || !(std::abs(det) > 0) || !std::isfinite(1 / det)) continue;
+    const mat4 from_world = glm::inverse(poses[i]);
+    const float rounding = 4 * position_error(scene_size(part.bounds) + max_abs_component(vec3(from_world[3])));
+    moving_.push_back({part.embree.get(), from_world, grown(part.bounds, rounding)});
+  }
+}
+
+const std::vector<PosedLight::GroupEmitter>& PosedLight::emitters_of(int group) const {
+  SSPHH_CHECK(group >= 0 && static_cast<std::size_t>(group) < groups_.size());
+  return groups_[static_cast<std::size_t>(group)];
+}
+
+PosedLight::Receiver PosedLight::receiver(const scene::SurfacePoint& point) const {
+  return {point.position, point.normal, above_surface(point.position, point.normal, data_->gap),
+          position_seed(point.position)};
+}
+
+bool PosedLight::blocked(const vec3& origin, const vec3& direction, float t_max, RayTask& task) const {
+  if (data_->parts[0].embree->occluded({origin, direction, t_max}, 0, task)) return true;
+  for (const MovingPart& part : moving_) {
+    const vec3 o(part.from_world * vec4(origin, 1)), d = mat3(part.from_world) * direction;
+    if (sweep_meets(o, {d, d}, t_max, part.bounds) && part.embree->occluded({o, d, t_max}, 0, task))
+      return true;
+  }
+  return false;
+}
+
+bool PosedLight::sees(const Receiver& at, const shading::LightSample& light, RayTask& task) const {
+  if (std::isinf(light.distance)) return !blocked(at.start, light.wi, light.distance, task);
+  // From the raised start to the same point of the light, not parallel: a light nearby is not passed.
+  const vec3 path = at.position + light.distance * light.wi - at.start;
+  const float length = glm::length(path);
+  const float t_max = shadow_distance(at.start, length) / length;
+  return !(t_max > 0) || !blocked(at.start, path, t_max, task);
+}
+
+vec3 PosedLight::irradiance_of(const GroupEmitter& light, const Receiver& at, std::uint64_t seed,
+                               RayTask& task) const {
+  if (light.emitter.kind == shading::EmitterKind::environment) return sky_irradiance(light, at, seed, task);
+  // All of it below the horizon?
+  const vec3 highest = farthest(light.emitter.extent, at.normal);
+  if (!(glm::dot(light.emitter.distant() ? highest : highest - at.position, at.normal) > 0)) return vec3(0);
+
+  const int count = light.emitter.delta() ? 1 : data_->options.light_samples;
+  vec3 sum(0);
+  for (int s = 0; s < count; ++s) {
+    const vec2 u = SampleSequence(seed, static_cast<std::uint32_t>(s)).next2();
+    const auto sample = lights_.sample_emitter(light.index, at.position, u);
+    if (!sample || !(sample->pdf > 0)) continue;
+    const float cosine = glm::dot(sample->wi, at.normal);
+    if (cosine > 0 && max_component(sample->radiance) > 0 && sees(at, *sample, task))
+      sum += sample->radiance * (cosine / sample->pdf);
+  }
+  return sum / static_cast<float>(count);
+}
+
+vec3 PosedLight::sky_irradiance(const GroupEmitter& light, const Receiver& at, std::uint64_t seed,
+                                RayTask& task) const {
+  // A constant sky by cosine alone, which is exact where nothing hides it; an image half by cosine, half by
+  // its own brightness, combined with the balance heuristic.
+  const bool constant = data_->scene.environment->equirect.empty();
+  const int count = data_->options.environment_samples, by_cosine = constant ? count : (count + 1) / 2;
+  const float share = static_cast<float>(by_cosine) / static_cast<float>(count);
+  const Frame frame = Frame::around(at.normal);
+  vec3 sum(0);
+  for (int s = 0; s < count; ++s) {
+    const bool cosine_sample = s < by_cosine;
+    SampleSequence sequence(cosine_sample ? seed : mix64(seed),
+                            static_cast<std::uint32_t>(cosine_sample ? s : s - by_cosine));
+    const vec2 u = sequence.next2();
+    vec3 wi = frame.to_world(sample_cosine_hemisphere(u));
+    if (!cosine_sample) {
+      const auto sample = lights_.sample_emitter(light.index, at.position, u);
+      if (!sample) continue;
+      wi = sample->wi;
+    }
+    const float cosine = glm::dot(wi, at.normal);
+    if (!(cosine > 0)) continue;
+    const auto sky = lights_.distant_radiance(light.index, wi);
+    const float pdf = share * cosine / pi + (1 - share) * sky->pdf;
+    if (max_component(sky->radiance) > 0 && !blocked(at.start, wi, sky->distance, task))
+      sum += sky->radiance * (cosine / pdf);
+  }
+  return sum / static_cast<float>(count);
+}
+
+void PosedLight::irradiance(int group, std::span<const scene::SurfacePoint> points,
+                            std::span<vec3> out) const {
+  SSPHH_CHECK(points.size() == out.size());
+  const std::vector<GroupEmitter>& emitters = emitters_of(group);
+  const auto range = [&](std::size_t begin, std::size_t end) {
+    RayTask task;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Receiver at = receiver(points[i]);
+      out[i] = vec3(0);
+      for (std::size_t k = 0; k < emitters.size(); ++k)
+        out[i] += irradiance_of(emitters[k], at, hash_combine(at.seed, k), task);
+    }
+    data_->rays.add(task.rays);
+  };
+  if (points.size() < parallel_from) {
+    range(0, points.size());
+  } else {
+    parallel_for(points.size(), grain, range);
+  }
+}
+
+bool PosedLight::may_shadow(int group, const scene::SurfacePoint& point, const scene::Bounds& box) const {
+  if (box.empty()) return false;
+  const vec3 start = above_surface(point.position, point.normal, data_->gap);
+  const float slack = glm::distance(start, point.position) + position_error(max_abs_component(start));
+  const scene::Bounds body = grown(box, 2 * slack);
+  // Nothing below the horizon shadows.
+  if (!(glm::dot(farthest(body, point.normal) - point.position, point.normal) > 0)) return false;
+  for (const auto& [index, emitter] : emitters_of(group)) {
+    scene::Bounds way = emitter.extent;
+    if (!emitter.distant()) way.min -= point.position, way.max -= point.position;
+    if (!(glm::dot(farthest(way, point.normal), point.normal) > 0)) continue;
+    const bool lights = !emitter.delta() || lights_.sample_emitter(index, point.position, vec2(0.5f));
+    const float t_max = emitter.distant() ? std::numeric_limits<float>::infinity() : 1;
+    if (lights && sweep_meets(point.position, way, t_max, body)) return true;
+  }
+  return false;
+}
+
+vec3 PosedLight::emitted(int group, const scene::RayQuery& ray, float distance) const {
+  const float length = glm::length(ray.direction);
+  const vec3 direction = ray.direction / length;
+  vec3 sum(0);
+  const auto add = [&](const shading::EmitterHit& hit) {
+    if (hit.group == group) sum += hit.radiance;
+  };
+  lights_.intersect_spheres(ray.origin, direction, distance * length, add);
+  if (std::isinf(distance)) lights_.escaped(direction, add);
+  return sum;
+}
+
+}  // namespace ssphh::trace

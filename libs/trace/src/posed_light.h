@@ -1,0 +1,49 @@
+#pragma once
+/// Direct light of a scene for one state of its lights and one pose of its parts.
+
+#include "sweep.h"
+#include "transport_data.h"
+
+namespace ssphh::trace {
+
+class PosedLight final : public scene::DirectLight {
+ public:
+  PosedLight(std::shared_ptr<const TransportData> data, std::span<const scene::LightState> lights,
+             std::span<const mat4> poses);
+
+  void irradiance(int group, std::span<const scene::SurfacePoint> points,
+                  std::span<vec3> out) const override;
+  bool may_shadow(int group, const scene::SurfacePoint& point, const scene::Bounds& box) const override;
+  vec3 emitted(int group, const scene::RayQuery& ray, float distance) const override;
+
+ private:
+  struct MovingPart {
+    const EmbreeScene* embree;
+    mat4 from_world;
+    scene::Bounds bounds;  ///< in the part's frame, grown by rounding errors
+  };
+  struct GroupEmitter {
+    int index;  ///< in lights_
+    shading::Emitter emitter;
+  };
+  /// A lit point with the place where its shadow rays start.
+  struct Receiver {
+    vec3 position, normal, start;
+    std::uint64_t seed;
+  };
+
+  Receiver receiver(const scene::SurfacePoint& point) const;
+  bool blocked(const vec3& origin, const vec3& direction, float t_max, RayTask& task) const;
+  bool sees(const Receiver& at, const shading::LightSample& light, RayTask& task) const;
+  vec3 irradiance_of(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, RayTask& task) const;
+  vec3 sky_irradiance(const GroupEmitter& light, const Receiver& at, std::uint64_t seed,
+                      RayTask& task) const;
+  const std::vector<GroupEmitter>& emitters_of(int group) const;
+
+  std::shared_ptr<const TransportData> data_;
+  shading::LightSet lights_;
+  std::vector<std::vector<GroupEmitter>> groups_;
+  std::vector<MovingPart> moving_;
+};
+
+}  // namespace ssphh::trace

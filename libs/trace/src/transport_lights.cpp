@@ -1,0 +1,47 @@
+/// The lights as transport sees them.
+
+#include <ssphh/core/error.h>
+
+#include "posed_light.h"
+#include "transport_data.h"
+
+namespace ssphh::trace {
+
+const std::vector<std::string>& TransportScene::light_groups() const {
+  return data_->lights.groups();
+}
+
+std::vector<scene::LightState> TransportScene::lights(float time) const {
+  const std::vector<mat4> world = scene::world_matrices(data_->scene, time);
+  std::vector<scene::LightState> states;
+  for (const scene::Light& light : data_->scene.lights) {
+    states.push_back({light.node < 0 ? mat4(1) : world[static_cast<std::size_t>(light.node)], light.color,
+                      light.intensity});
+  }
+  return states;
+}
+
+const std::vector<std::string>& TransportScene::light_names() const {
+  return data_->light_names;
+}
+
+int TransportScene::light_group_of(int light) const {
+  return data_->light_group.at(static_cast<std::size_t>(light));
+}
+
+bool TransportScene::group_emits_from(int group, int part) const {
+  const scene::Scene& scene = data_->scene;
+  for (const int i : data_->part(part).instances) {
+    if (data_->lights.instance_group(i) == group) return true;
+  }
+  return part == 0 && scene.environment &&
+         scene::light_group_index(light_groups(), scene::light_group(*scene.environment)) == group;
+}
+
+std::unique_ptr<scene::DirectLight> TransportScene::direct_light(std::span<const scene::LightState> lights,
+                                                                 std::span<const mat4> poses) const {
+  SSPHH_CHECK(lights.size() == data_->scene.lights.size() && poses.size() == data_->parts.size());
+  return std::make_unique<PosedLight>(data_, lights, poses);
+}
+
+}  // namespace ssphh::trace

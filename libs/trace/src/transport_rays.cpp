@@ -1,0 +1,128 @@
+/// Rays against one part, and points on it.
+
+#include <cmath>
+
+#include <ssphh/core/error.h>
+#include <ssphh/core/parallel.h>
+#include <ssphh/core/random.h>
+#include <ssphh/shading/bsdf.h>
+
+#include "transport_data.h"
+
+namespace ssphh::trace {
+namespace {
+
+constexpr std::size_t parallel_from = 1024, grain = 256;
+
+/// Calls body(begin, end, task) over [0, count), in parallel where that pays, and books the rays.
+template <class Body>
+void for_rays(std::size_t count, SharedCount& rays, const Body& body) {
+  const auto range = [&](std::size_t begin, std::size_t end) {
+    RayTask task;
+    body(begin, end, task);
+    rays.add(task.rays);
+  };
+  if (count < parallel_from) {
+    range(0, count);
+  } else {
+    parallel_for(count, grain, range);
+  }
+}
+
+vec3 lambertian_albedo(const shading::Surface& surface, const vec3& wo) {
+  if (surface.unlit) return vec3(0);
+  return glm::clamp(shading::directional_albedo(surface.bsdf, glm::dot(surface.normal, wo)), 0.0f, 1.0f);
+}
+
+/// Uniform on the triangle: weights of the second and third corner.
+vec2 square_to_triangle(const vec2& u) {
+  const float s = std::sqrt(u.x);
+  return {s * (1 - u.y), s * u.y};
+}
+
+/// Points on triangle `index` of an instance: area times density of them, at least one.
+void sample_triangle(const TransportData& data, const TransportPart& part, int instance_index,
+                     std::uint32_t index, double density, std::vector<scene::PartPoint>& points) {
+  const scene::Instance& instance = data.scene.instances[static_cast<std::size_t>(instance_index)];
+  const scene::Mesh& mesh = data.scene.meshes[static_cast<std::size_t>(instance.mesh)];
+  const mat4 m = instance.node < 0 ? mat4(1) : data.node_frame[static_cast<std::size_t>(instance.node)];
+  const uvec3& corners = mesh.triangles[index];
+  const vec3 p0(m * vec4(mesh.positions[corners.x], 1));
+  const vec3 e1 = vec3(m * vec4(mesh.positions[corners.y], 1)) - p0;
+  const vec3 e2 = vec3(m * vec4(mesh.positions[corners.z], 1)) - p0;
+  const vec3 cross = glm::cross(e1, e2);
+  const float length = glm::length(cross);
+  if (!(length > 0 && std::isfinite(length))) return;
+  const vec3 front = (glm::determinant(mat3(m)) < 0 ? -1 / length : 1 / length) * cross;
+  const int material = scene::instance_material(data.scene, instance);
+  const bool double_sided =
+      material >= 0 && data.scene.materials[static_cast<std::size_t>(material)].double_sided;
+
+  const double count = std::ceil(0.5 * static_cast<double>(length) * density);
+  if (!(static_cast<double>(points.size()) + count < 1e8))
+    throw Error("points on a part", "more than 100 million", "ask for fewer per square metre");
+  const std::uint64_t seed = pixel_seed(0, static_cast<std::uint32_t>(instance_index), index);
+  for (std::uint32_t i = 0; i < std::max(1.0, count); ++i) {
+    const vec2 b = square_to_triangle(SampleSequence(seed, i).next2());
+    const Hit hit{instance_index, index, b, 0};
+    vec3 ray_origin;
+    const shading::Surface surface = part.embree->surface(hit, front, ray_origin);
+    if (surface.alpha < 0.5f) continue;
+    points.push_back({{p0 + b.x * e1 + b.y * e2, front}, lambertian_albedo(surface, front), double_sided});
+  }
+}
+
+}  // namespace
+
+void TransportScene::intersect(int part, std::span<const scene::RayQuery> rays,
+                               std::span<scene::RayHit> hits) const {
+  SSPHH_CHECK(rays.size() == hits.size());
+  const EmbreeScene& embree = *data_->part(part).embree;
+  const shading::LightSet& lights = data_->lights;
+  for_rays(rays.size(), data_->rays, [&](std::size_t begin, std::size_t end, RayTask& task) {
+    for (std::size_t i = begin; i < end; ++i) {
+      scene::RayHit& out = hits[i] = {};
+      const scene::RayQuery& ray = rays[i];
+      Hit hit;
+      if (!embree.intersect({ray.origin, ray.direction, ray.t_max}, 0, task, hit)) continue;
+      const vec3 wo = -glm::normalize(ray.direction);
+      vec3 ray_origin;
+      const shading::Surface surface = embree.surface(hit, wo, ray_origin);
+      out.distance = hit.distance;
+      out.normal = surface.geometric_normal;
+      out.albedo = lambertian_albedo(surface, wo);
+      out.emission = surface.emission;
+      out.group = max_component(surface.emission) > 0 ? lights.instance_group(hit.instance) : -1;
+      out.back = embree.is_back(hit, ray.direction);
+    }
+  });
+}
+
+void TransportScene::occluded(int part, std::span<const scene::RayQuery> rays,
+                              std::span<std::uint8_t> blocked) const {
+  SSPHH_CHECK(rays.size() == blocked.size());
+  const EmbreeScene& embree = *data_->part(part).embree;
+  for_rays(rays.size(), data_->rays, [&](std::size_t begin, std::size_t end, RayTask& task) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const scene::RayQuery& ray = rays[i];
+      blocked[i] = embree.occluded({ray.origin, ray.direction, ray.t_max}, 0, task) ? 1 : 0;
+    }
+  });
+}
+
+std::vector<scene::PartPoint> TransportScene::sample_part(int part_index,
+                                                          double points_per_square_metre) const {
+  if (!(points_per_square_metre >= 0)) throw Error("points per square metre", "they must not be negative");
+  SSPHH_CHECK(part_index > 0);
+  const TransportPart& part = data_->part(part_index);
+  std::vector<scene::PartPoint> points;
+  for (const int i : part.instances) {
+    const scene::Instance& instance = data_->scene.instances[static_cast<std::size_t>(i)];
+    const auto triangles = data_->scene.meshes[static_cast<std::size_t>(instance.mesh)].triangles.size();
+    for (std::uint32_t t = 0; t < triangles; ++t)
+      sample_triangle(*data_, part, i, t, points_per_square_metre, points);
+  }
+  return points;
+}
+
+}  // namespace ssphh::trace

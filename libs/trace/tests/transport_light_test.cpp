@@ -1,0 +1,234 @@
+/// Direct light of a TransportScene against closed forms and the path tracer.
+
+#include <cmath>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <ssphh/core/parallel.h>
+#include <ssphh/core/random.h>
+#include <ssphh/core/sphere.h>
+#include <ssphh/scene/builtin.h>
+#include <ssphh/trace/transport_scene.h>
+
+#include "hand_made.h"
+
+namespace ssphh::test {
+namespace {
+
+using scene::SurfacePoint;
+
+std::unique_ptr<scene::DirectLight> light_at(const trace::TransportScene& source, float time = 0) {
+  std::vector<mat4> poses;
+  for (int p = 0; p < source.part_count(); ++p) poses.push_back(source.part_pose(p, time));
+  return source.direct_light(source.lights(time), poses);
+}
+
+vec3 irradiance(const scene::DirectLight& light, const SurfacePoint& point, int group = 0) {
+  vec3 out;
+  light.irradiance(group, {&point, 1}, {&out, 1});
+  return out;
+}
+
+double at_origin(const scene::Scene& scene, const trace::TransportOptions& options = {}) {
+  const trace::TransportScene source(scene, options);
+  return static_cast<double>(irradiance(*light_at(source), {}).x);
+}
+
+scene::Scene floor_scene() {
+  scene::Scene scene;
+  add_floor(scene, lambertian(vec3(0.5f)));
+  return scene;
+}
+
+TEST(TransportLight, PointLightGivesCosineOverSquaredDistance) {
+  scene::Scene scene = floor_scene();
+  add_light(scene, scene::LightType::point, 7, vec3(3, 4, 0)).color = vec3(1, 0.5f, 0.25f);
+  const trace::TransportScene source(scene);
+  const vec3 e = irradiance(*light_at(source), {});
+  // 7 / 25 · 4/5, to float rounding
+  EXPECT_NEAR(e.x, 0.224, 1e-7);
+  EXPECT_NEAR(e.y, 0.112, 1e-7);
+  EXPECT_NEAR(e.z, 0.056, 1e-7);
+  EXPECT_EQ(irradiance(*light_at(source), {vec3(0), vec3(0, -1, 0)}), vec3(0)) << "from behind";
+}
+
+TEST(TransportLight, StateOfALightWinsOverTheScene) {
+  scene::Scene scene = floor_scene();
+  add_light(scene, scene::LightType::point, 7, vec3(3, 4, 0));
+  const trace::TransportScene source(scene);
+  std::vector<scene::LightState> lights = source.lights(0);
+  lights[0].world[3] = vec4(0, 2, 0, 1);
+  lights[0].intensity = 3, lights[0].color = vec3(1, 2, 3);
+  const std::vector<mat4> poses(1, mat4(1));
+  const vec3 e = irradiance(*source.direct_light(lights, poses), {});
+  EXPECT_NEAR(e.x, 0.75, 1e-6);
+  EXPECT_NEAR(e.z, 2.25, 1e-6);
+  lights[0].intensity = 0;
+  EXPECT_EQ(irradiance(*source.direct_light(lights, poses), {}), vec3(0));
+}
+
+TEST(TransportLight, SpotAndDirectionalLight) {
+  scene::Scene scene = floor_scene();
+  scene::Light& spot = add_light(scene, scene::LightType::spot, 5, vec3(0, 2, 0), vec3(0.5f, -2, 0));
+  spot.inner_cone = 0.5f, spot.outer_cone = 0.6f;
+  EXPECT_NEAR(at_origin(scene), 5.0 / 4, 1e-6) << "within the inner cone";
+  scene.lights.clear();
+  add_light(scene, scene::LightType::directional, 2, vec3(0), vec3(3, -4, 0));
+  EXPECT_NEAR(at_origin(scene), 2 * 0.8, 1e-6);
+}
+
+TEST(TransportLight, SphereLightGivesPiLTimesSquaredSineTimesCosine) {
+  scene::Scene scene = floor_scene();
+  add_light(scene, scene::LightType::sphere, 7, vec3(3, 4, 0)).radius = 0.5f;
+  const double exact = pi_d * 7 * (0.25 / 25) * 0.8;
+  EXPECT_NEAR(at_origin(scene), exact, 2e-3 * exact) << "16 stratified samples of a narrow cone";
+  trace::TransportOptions options;
+  options.light_samples = 4096;
+  EXPECT_NEAR(at_origin(scene, options), exact, 1e-5 * exact);
+}
+
+/// Irradiance at the origin, facing up, of a polygon of radiance 1 above the horizon (Lambert).
+double lambert(std::span<const vec3> corners) {
+  double sum = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const glm::dvec3 a = glm::normalize(glm::dvec3(corners[i]));
+    const glm::dvec3 b = glm::normalize(glm::dvec3(corners[(i + 1) % corners.size()]));
+    const glm::dvec3 n = glm::cross(a, b);
+    sum += std::acos(glm::clamp(glm::dot(a, b), -1.0, 1.0)) * n.y / glm::length(n);
+  }
+  return std::abs(sum) / 2;
+}
+
+TEST(TransportLight, AreaLightGivesItsFormFactor) {
+  scene::Scene scene = floor_scene();
+  const vec3 corner(-0.3f, 1.5f, -0.5f), u(1, 0, 0), v(0, 0, 1);
+  add_object(scene, scene::make_quad(corner, u, v), lambertian(vec3(0), vec3(4)), "panel");
+  const vec3 corners[4] = {corner, corner + u, corner + u + v, corner + v};
+  const double exact = 4 * lambert(corners);
+  EXPECT_NEAR(at_origin(scene), exact, 0.02 * exact);
+  trace::TransportOptions options;
+  options.light_samples = 4096;
+  EXPECT_NEAR(at_origin(scene, options), exact, 2e-4 * exact);
+}
+
+TEST(TransportLight, ConstantSkyGivesPi) {
+  scene::Scene scene = floor_scene();
+  add_constant_sky(scene, vec3(1, 2, 3));
+  const trace::TransportScene source(scene);
+  const vec3 e = irradiance(*light_at(source), {});
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(e[c], pi * (c + 1), 1e-5f * (c + 1)) << "no noise unhidden";
+}
+
+TEST(TransportLight, SkyImageGivesTheCosineIntegralOfItsTexels) {
+  // Radiance 1 at azimuths with x > 0: half of the irradiance of a full sky.
+  scene::Scene scene = floor_scene();
+  scene::Environment sky;
+  sky.equirect = image::Image(64, 32);
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 16; x < 48; ++x) sky.equirect.set_rgb(x, y, vec3(1));
+  }
+  scene.environment = sky;
+  trace::TransportOptions options;
+  options.environment_samples = 8192;
+  EXPECT_NEAR(at_origin(scene, options), pi_d / 2, 2e-3);
+  Samples means;
+  const trace::TransportScene source(scene);
+  for (int i = 0; i < 200; ++i)
+    means.add(static_cast<double>(irradiance(*light_at(source), {vec3(0.01f * float(i), 0, 0)}).x));
+  EXPECT_TRUE(mean_is(means, pi_d / 2, {}, 1e-4));
+}
+
+TEST(TransportLight, MovingPartCastsItsShadowWhereItIs) {
+  scene::Scene scene = floor_scene();
+  const int node = add_node(scene, "lid", vec3(0, 1, 0));
+  add_object(scene, scene::make_box(vec3(-0.5f, 0, -0.5f), vec3(0.5f, 0.1f, 0.5f)), lambertian(vec3(0.5f)), "",
+             node);
+  add_light(scene, scene::LightType::point, 1, vec3(0, 3, 0));
+  scene::Animation animation;
+  animation.channels.push_back({node,
+                                scene::AnimationPath::translation,
+                                scene::Interpolation::linear,
+                                {0, 1},
+                                {{0, 1, 0, 0}, {2, 1, 0, 0}}});
+  scene.animations.push_back(animation);
+  const trace::TransportScene source(scene);
+  const std::vector<SurfacePoint> points{{vec3(0, 0, 0)}, {vec3(3, 0, 0)}};
+  for (const auto& [time, lit] : {std::pair{0.0f, 1}, {1.0f, 0}, {0.5f, -1}}) {
+    std::vector<vec3> out(2);
+    light_at(source, time)->irradiance(0, points, out);
+    EXPECT_EQ(out[0].x > 0, lit != 1) << time;
+    EXPECT_EQ(out[1].x > 0, lit != 0) << time;
+  }
+}
+
+TEST(TransportLight, EmittedSeesSpheresAndTheSky) {
+  scene::Scene scene = floor_scene();
+  add_light(scene, scene::LightType::sphere, 7, vec3(0, 4, 0)).radius = 0.5f;
+  add_constant_sky(scene, vec3(2));
+  const trace::TransportScene source(scene);
+  const auto light = light_at(source);
+  const int globe = 0, sky = 1;
+  const scene::RayQuery up{vec3(0), vec3(0, 2, 0)};
+  const float escaped = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(light->emitted(globe, up, escaped), vec3(7));
+  EXPECT_EQ(light->emitted(globe, up, 1.8f), vec3(7)) << "3.6 m away, the sphere begins at 3.5 m";
+  EXPECT_EQ(light->emitted(globe, up, 1.7f), vec3(0));
+  EXPECT_EQ(light->emitted(sky, up, escaped), vec3(2));
+  EXPECT_EQ(light->emitted(sky, up, 100), vec3(0));
+}
+
+TEST(TransportLight, AnswersDependNeitherOnTheBatchNorOnThreads) {
+  const scene::Scene scene = scene::make_builtin("cornell");
+  const trace::TransportScene source(scene);
+  const auto light = light_at(source);
+  Pcg32 random(3);
+  std::vector<SurfacePoint> points;
+  for (int i = 0; i < 1500; ++i)
+    points.push_back({random.uniform3() * 2.0f - 1.0f, sample_uniform_sphere(random.uniform2())});
+  std::vector<vec3> all(points.size());
+  light->irradiance(0, points, all);
+  for (std::size_t i = 0; i < points.size(); i += 37) EXPECT_EQ(all[i], irradiance(*light, points[i]));
+}
+
+/// False may only be said where a box changes nothing.
+TEST(TransportLight, MayShadowIsNeverWrong) {
+  Pcg32 random(11);
+  int changed = 0, denied = 0;
+  for (int trial = 0; trial < 120; ++trial) {
+    scene::Scene scene = floor_scene();
+    const auto place = [&] { return vec3(4, 3, 4) * (random.uniform3() - vec3(0.5f, 0, 0.5f)) + vec3(0, 0.2f, 0); };
+    switch (trial % 6) {
+      case 0: add_light(scene, scene::LightType::point, 5, place()); break;
+      case 1: add_light(scene, scene::LightType::spot, 5, place(), vec3(0.3f, -1, 0)); break;
+      case 2: add_light(scene, scene::LightType::directional, 5, vec3(0), vec3(0.7f, -1, 0.2f)); break;
+      case 3:
+        add_light(scene, scene::LightType::directional, 5, vec3(0), vec3(0.7f, -1, 0.2f)).angular_radius = 0.1f;
+        break;
+      case 4: add_light(scene, scene::LightType::sphere, 5, place()).radius = 0.3f; break;
+      default:
+        add_object(scene, scene::make_quad(place(), vec3(0.6f, 0, 0), vec3(0, 0, 0.6f)),
+                   lambertian(vec3(0), vec3(4)));
+    }
+    const vec3 low = place(), high = low + 0.1f + 0.9f * random.uniform3();
+    const scene::Bounds box{low, high};
+    scene::Scene with = scene;
+    add_object(with, scene::make_box(low, high), lambertian(vec3(0.5f)));
+    const trace::TransportScene before(scene), after(with);
+    const auto light = light_at(before), shadowed = light_at(after);
+    for (int i = 0; i < 200; ++i) {
+      const vec2 p = 6.0f * random.uniform2() - 3.0f;
+      SurfacePoint point{vec3(p.x, 0, p.y)};
+      if (i % 4 == 0) point.normal = sample_uniform_sphere(random.uniform2());
+      const bool differs = irradiance(*light, point) != irradiance(*shadowed, point);
+      const bool may = light->may_shadow(0, point, box);
+      changed += differs, denied += !may;
+      EXPECT_TRUE(may || !differs) << "trial " << trial;
+    }
+  }
+  EXPECT_GT(changed, 300);
+  EXPECT_GT(denied, 12000);
+}
+
+}  // namespace
+}  // namespace ssphh::test

@@ -1,0 +1,225 @@
+/// Parts of a scene: who belongs to which, and rays against them.
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <ssphh/core/random.h>
+#include <ssphh/core/sphere.h>
+#include <ssphh/scene/builtin.h>
+#include <ssphh/scene/query.h>
+#include <ssphh/trace/transport_scene.h>
+
+#include "embree_scene.h"
+#include "hand_made.h"
+
+namespace ssphh::test {
+namespace {
+
+using scene::RayHit;
+using scene::RayQuery;
+
+std::vector<mat4> poses_at(const trace::TransportScene& source, float time) {
+  std::vector<mat4> poses;
+  for (int p = 0; p < source.part_count(); ++p) poses.push_back(source.part_pose(p, time));
+  return poses;
+}
+
+RayQuery in_frame(const RayQuery& ray, const mat4& pose) {
+  const mat4 from_world = glm::inverse(pose);
+  return {vec3(from_world * vec4(ray.origin, 1)), mat3(from_world) * ray.direction, ray.t_max};
+}
+
+/// Random rays from inside the bounds, of lengths around 1; every third a segment.
+std::vector<RayQuery> random_rays(const scene::Bounds& bounds, int count, std::uint64_t seed) {
+  Pcg32 random(seed);
+  std::vector<RayQuery> rays;
+  for (int i = 0; i < count; ++i) {
+    RayQuery ray;
+    ray.origin = bounds.min + random.uniform3() * (bounds.max - bounds.min);
+    ray.direction = (0.1f + 3 * random.uniform()) * sample_uniform_sphere(random.uniform2());
+    if (i % 3 == 0) ray.t_max = random.uniform();
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
+/// A chain of animated nodes: base (moves), arm below it (turns and grows), hand below a still node on the
+/// arm, and an animated node that carries only a lamp.
+scene::Scene robot() {
+  scene::Scene scene;
+  add_room(scene, lambertian(vec3(0.5f)));
+  const int base = add_node(scene, "base", vec3(0.2f, -0.5f, 0));
+  add_object(scene, scene::make_box(vec3(-0.2f), vec3(0.2f)), lambertian(vec3(0.6f)), "", base);
+  const int arm = add_node(scene, "arm", vec3(0, 0.3f, 0));
+  scene.nodes.back().parent = base;
+  scene.nodes.back().local.scale = vec3(1, 2, 1);
+  const int wrist = add_node(scene, "wrist", vec3(0, 0.2f, 0.1f), glm::normalize(quat(1, 0.2f, 0, 0.4f)));
+  scene.nodes.back().parent = arm;
+  add_object(scene, scene::make_box(vec3(-0.05f), vec3(0.05f)), lambertian(vec3(0.7f), vec3(2)), "hand",
+             wrist);
+  const int swing = add_node(scene, "swing", vec3(0, 0.9f, 0));
+  add_light(scene, scene::LightType::point, 1, vec3(0, -0.1f, 0));
+  scene.nodes.back().parent = swing;
+  scene::Animation animation;
+  using scene::AnimationPath, scene::Interpolation;
+  animation.channels.push_back({base,
+                                AnimationPath::translation,
+                                Interpolation::linear,
+                                {0, 1},
+                                {{0.2f, -0.5f, 0, 0}, {-0.3f, -0.4f, 0.2f, 0}}});
+  animation.channels.push_back({arm,
+                                AnimationPath::rotation,
+                                Interpolation::linear,
+                                {0, 1},
+                                {{0, 0, 0, 1}, {0.3f, 0, 0, 0.954f}}});
+  animation.channels.push_back(
+      {arm, AnimationPath::scale, Interpolation::linear, {0, 1}, {{1, 2, 1, 0}, {1.5f, 1, 1, 0}}});
+  animation.channels.push_back({swing,
+                                AnimationPath::translation,
+                                Interpolation::linear,
+                                {0, 1},
+                                {{0, 0.9f, 0, 0}, {0.5f, 0.9f, 0, 0}}});
+  scene.animations.push_back(animation);
+  return scene;
+}
+
+TEST(TransportScene, TwoRoomsHaveOneDoor) {
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  const trace::TransportScene source(scene);
+  ASSERT_EQ(source.part_count(), 2);
+  EXPECT_EQ(source.part_name(1), "door");
+  EXPECT_EQ(source.part_pose(0, 0.5f), mat4(1));
+  EXPECT_EQ(source.duration(), 1);
+  for (const float time : {0.0f, 0.5f, 1.0f}) {
+    // The hinge stands still; the leaf turns by 100 degrees.
+    const mat4 pose = source.part_pose(1, time);
+    const vec3 leaf = glm::normalize(vec3(pose[2])), closed(0, 0, 1);
+    EXPECT_NEAR(glm::dot(leaf, closed), std::cos(time * 100 * pi / 180), 1e-6);
+    EXPECT_EQ(pose[3], source.part_pose(1, 0)[3]);
+  }
+  const scene::Bounds leaf = source.part_bounds(1);
+  EXPECT_NEAR(leaf.max.x - leaf.min.x, 0.04f, 1e-6f);
+  EXPECT_FALSE(source.part_bounds(0).empty());
+  EXPECT_EQ(source.light_names(), std::vector<std::string>{"lamp"});
+  EXPECT_EQ(source.light_groups()[static_cast<std::size_t>(source.light_group_of(0))], "lamp");
+  EXPECT_FALSE(source.group_emits_from(0, 0));
+  EXPECT_FALSE(source.group_emits_from(0, 1));
+}
+
+TEST(TransportScene, NearestAnimatedAncestorOwnsAnInstance) {
+  const scene::Scene scene = robot();
+  const trace::TransportScene source(scene);
+  ASSERT_EQ(source.part_count(), 3) << "the swing carries no surface";
+  EXPECT_EQ(source.part_name(1), "base");
+  EXPECT_EQ(source.part_name(2), "arm");
+  const int hand = scene::light_group_index(source.light_groups(), "wrist");
+  EXPECT_FALSE(source.group_emits_from(hand, 0));
+  EXPECT_FALSE(source.group_emits_from(hand, 1));
+  EXPECT_TRUE(source.group_emits_from(hand, 2));
+  // The lamp on the swing moves with it.
+  EXPECT_NEAR(source.lights(0)[0].world[3].x, 0, 1e-6);
+  EXPECT_NEAR(source.lights(1)[0].world[3].x, 0.5, 1e-6);
+  EXPECT_NEAR(source.lights(1)[0].world[3].y, 0.8, 1e-6);
+}
+
+/// Nearest hits and occlusion of all parts together are those of the posed scene traced whole.
+void parts_make_the_whole(const scene::Scene& scene) {
+  const trace::TransportScene source(scene);
+  for (const float time : {0.0f, 0.3f, 1.0f}) {
+    const std::vector<mat4> poses = poses_at(source, time), world = scene::world_matrices(scene, time);
+    const trace::EmbreeScene whole(scene, world);
+    const scene::Bounds bounds = scene::world_bounds(scene, world);
+    const std::vector<RayQuery> rays = random_rays(bounds, 10000, 7);
+    std::vector<RayHit> nearest(rays.size()), hits(rays.size());
+    std::vector<std::uint8_t> any(rays.size()), blocked(rays.size());
+    for (int p = 0; p < source.part_count(); ++p) {
+      std::vector<RayQuery> local;
+      const auto at = static_cast<std::size_t>(p);
+      for (const RayQuery& ray : rays) local.push_back(in_frame(ray, poses[at]));
+      source.intersect(p, local, hits);
+      source.occluded(p, local, blocked);
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_EQ(blocked[i] != 0, !hits[i].escaped());
+        any[i] |= blocked[i];
+        if (hits[i].distance < nearest[i].distance) nearest[i] = hits[i];
+        if (hits[i].escaped()) continue;
+        EXPECT_LE(glm::dot(hits[i].normal, local[i].direction), 0);
+        EXPECT_NEAR(glm::length(hits[i].normal), 1, 1e-5);
+      }
+    }
+    int found = 0, differ = 0;
+    trace::RayTask task;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      trace::Hit hit;
+      const trace::Ray ray{rays[i].origin, rays[i].direction, rays[i].t_max};
+      const bool is_hit = whole.intersect(ray, 0, task, hit);
+      found += is_hit;
+      // Rays that graze an edge, or meet two surfaces at one place, may go either way: rounding.
+      if (is_hit != !nearest[i].escaped() || (any[i] != 0) != whole.occluded(ray, 0, task)) {
+        ++differ;
+      } else if (is_hit && std::abs(hit.distance - nearest[i].distance) > 1e-4f * (1 + hit.distance)) {
+        ++differ;
+      } else if (is_hit) {
+        vec3 origin;
+        const shading::Surface surface = whole.surface(hit, -glm::normalize(ray.direction), origin);
+        differ += std::abs(luminance(surface.emission) - luminance(nearest[i].emission)) > 1e-6f ||
+                  std::abs(luminance(surface.bsdf.diffuse) - luminance(nearest[i].albedo)) > 1e-5f ||
+                  whole.is_back(hit, ray.direction) != nearest[i].back;
+      }
+    }
+    EXPECT_GT(found, 3000);
+    EXPECT_LE(differ, 3);
+  }
+}
+
+TEST(TransportScene, PartsMakeTwoRooms) {
+  parts_make_the_whole(scene::make_builtin("two-rooms"));
+}
+
+TEST(TransportScene, PartsMakeTheRobot) {
+  parts_make_the_whole(robot());
+}
+
+TEST(TransportScene, PointsOnAPartAreUniformByArea) {
+  scene::Scene scene = robot();
+  const trace::TransportScene source(scene);
+  // Part 2 holds the hand: a cube of 0.1 m in the frame of the arm.
+  const auto points = source.sample_part(2, 1e6);
+  EXPECT_NEAR(static_cast<double>(points.size()), 6 * 0.01 * 1e6, 12);
+  // Chi-square over 10×10 cells of the side at +x; stratified points vary less than random ones, so only
+  // the upper bound speaks.
+  const mat4 hand = glm::translate(mat4(1), vec3(0, 0.2f, 0.1f)) *
+                    glm::mat4_cast(glm::normalize(quat(1, 0.2f, 0, 0.4f)));
+  const mat4 back = glm::inverse(hand);
+  std::array<int, 100> cells{};
+  int on_side = 0;
+  for (const scene::PartPoint& p : points) {
+    const vec3 x(back * vec4(p.point.position, 1)), n = mat3(back) * p.point.normal;
+    EXPECT_NEAR(max_component(glm::abs(x)), 0.05, 1e-6);
+    EXPECT_GT(glm::dot(x, n), 0.0499) << "front is outside";
+    EXPECT_NEAR(p.albedo.x, 0.7, 1e-6);
+    if (n.x < 0.9f) continue;
+    ++on_side;
+    const auto cell = [](float c) { return static_cast<std::size_t>(glm::clamp((c + 0.05f) * 100, 0.0f, 9.0f)); };
+    ++cells[10 * cell(x.y) + cell(x.z)];
+  }
+  EXPECT_NEAR(on_side, 10000, 2);
+  double chi2 = 0;
+  for (const int c : cells) chi2 += (c - on_side / 100.0) * (c - on_side / 100.0) / (on_side / 100.0);
+  EXPECT_LT(chi2, 148) << "99 degrees of freedom, p = 1e-3";
+  EXPECT_EQ(source.sample_part(2, 0).size(), 12u) << "one per triangle at least";
+  const auto again = source.sample_part(2, 0);
+  EXPECT_EQ(again[5].point.position, source.sample_part(2, 0)[5].point.position);
+}
+
+TEST(TransportScene, RaysAreCounted) {
+  const scene::Scene scene = robot();
+  const trace::TransportScene source(scene);
+  const std::vector<RayQuery> rays = random_rays(source.part_bounds(0), 2000, 1);
+  std::vector<RayHit> hits(rays.size());
+  source.intersect(0, rays, hits);
+  EXPECT_EQ(source.rays_traced(), 2000u);
+}
+
+}  // namespace
+}  // namespace ssphh::test
