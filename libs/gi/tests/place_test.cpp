@@ -75,7 +75,8 @@ TEST_P(TwoRooms, EveryProbeStandsInARoomOrTheDoorway) {
   const Placement placement = gi::place_probes(given.source, params_of(given.scene, GetParam(), false));
   std::map<Where, int> count = census(placement);
   EXPECT_EQ(count[Where::wall], 0);
-  // As many as cells of the grid's size fit, and refinement on top; the furniture-free rooms are mirror images.
+  // As many as cells of the grid's size fit, and refinement on top; the furniture-free rooms are mirror
+  // images.
   const float volume = 4 * 3 * 4 / std::pow(GetParam(), 3.0f);
   EXPECT_GT(count[Where::room_a], 0.6 * volume);
   EXPECT_GT(count[Where::room_b], 0.6 * volume);
@@ -306,8 +307,7 @@ TEST(Relocate, OffAWall) {
   const Given given(scene_of({scene::flipped(scene::make_box({-3, 0, -3}, {3, 3, 3}))}));
   const gi::SiteRules rules{0.04f, 0.25f};
   const vec3 close(2.99f, 1.2f, 0.3f);
-  const auto moved =
-      gi::relocate(given.source, close, gi::look_around(given.source, close), rules, 0.5f);
+  const auto moved = gi::relocate(given.source, close, gi::look_around(given.source, close), rules, 0.5f);
   ASSERT_TRUE(moved.has_value());
   EXPECT_LE(moved->position.x, 3 - rules.clearance);
   EXPECT_GE(moved->position.x, 3 - 4 * rules.clearance);

@@ -42,6 +42,7 @@ class TriangleSource final : public scene::TransportSource {
   int part_count() const override { return static_cast<int>(parts_.size()); }
   const std::string& part_name(int part) const override { return at(part).name; }
   scene::Bounds part_bounds(int part) const override { return at(part).bounds; }
+  float duration() const override { return scene::animation_duration(scene_); }
   mat4 part_pose(int part, float time) const override {
     if (part == 0) return mat4(1);
     return scene::world_matrices(scene_, time)[static_cast<std::size_t>(at(part).node)];

@@ -42,7 +42,8 @@ PosedLight::PosedLight(std::shared_ptr<const TransportData> data, std::span<cons
     const float det = glm::determinant(mat3(poses[i]));
     if (part.bounds.empty() || !(std::abs(det) > 0) || !std::isfinite(1 / det)) continue;
     const mat4 from_world = glm::inverse(poses[i]);
-    const float rounding = 4 * position_error(scene_size(part.bounds) + max_abs_component(vec3(from_world[3])));
+    const float rounding =
+        4 * position_error(scene_size(part.bounds) + max_abs_component(vec3(from_world[3])));
     moving_.push_back({part.embree.get(), from_world, grown(part.bounds, rounding)});
   }
 }

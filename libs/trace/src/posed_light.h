@@ -11,8 +11,7 @@ class PosedLight final : public scene::DirectLight {
   PosedLight(std::shared_ptr<const TransportData> data, std::span<const scene::LightState> lights,
              std::span<const mat4> poses);
 
-  void irradiance(int group, std::span<const scene::SurfacePoint> points,
-                  std::span<vec3> out) const override;
+  void irradiance(int group, std::span<const scene::SurfacePoint> points, std::span<vec3> out) const override;
   bool may_shadow(int group, const scene::SurfacePoint& point, const scene::Bounds& box) const override;
   vec3 emitted(int group, const scene::RayQuery& ray, float distance) const override;
 
@@ -36,8 +35,7 @@ class PosedLight final : public scene::DirectLight {
   bool blocked(const vec3& origin, const vec3& direction, float t_max, RayTask& task) const;
   bool sees(const Receiver& at, const shading::LightSample& light, RayTask& task) const;
   vec3 irradiance_of(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, RayTask& task) const;
-  vec3 sky_irradiance(const GroupEmitter& light, const Receiver& at, std::uint64_t seed,
-                      RayTask& task) const;
+  vec3 sky_irradiance(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, RayTask& task) const;
   const std::vector<GroupEmitter>& emitters_of(int group) const;
 
   std::shared_ptr<const TransportData> data_;

@@ -102,12 +102,10 @@ TransportData::TransportData(const scene::Scene& scene_in, const TransportOption
     std::vector<bool> only(scene.instances.size());
     for (const int i : part.instances) only[static_cast<std::size_t>(i)] = true;
     part.bounds = bounds_of(scene, part.instances, node_frame);
-    part.embree =
-        std::make_unique<EmbreeScene>(scene, node_frame, EmbreeScene::default_flatten_limit, only);
+    part.embree = std::make_unique<EmbreeScene>(scene, node_frame, EmbreeScene::default_flatten_limit, only);
   }
 
-  gap = options.surface_tolerance *
-        scene_size(scene::world_bounds(scene, scene::world_matrices(scene, 0)));
+  gap = options.surface_tolerance * scene_size(scene::world_bounds(scene, scene::world_matrices(scene, 0)));
   for (const scene::Light& light : scene.lights) {
     light_names.push_back(light.name);
     light_group.push_back(scene::light_group_index(lights.groups(), scene::light_group(light)));

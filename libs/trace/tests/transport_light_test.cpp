@@ -142,8 +142,8 @@ TEST(TransportLight, SkyImageGivesTheCosineIntegralOfItsTexels) {
 TEST(TransportLight, MovingPartCastsItsShadowWhereItIs) {
   scene::Scene scene = floor_scene();
   const int node = add_node(scene, "lid", vec3(0, 1, 0));
-  add_object(scene, scene::make_box(vec3(-0.5f, 0, -0.5f), vec3(0.5f, 0.1f, 0.5f)), lambertian(vec3(0.5f)), "",
-             node);
+  add_object(scene, scene::make_box(vec3(-0.5f, 0, -0.5f), vec3(0.5f, 0.1f, 0.5f)), lambertian(vec3(0.5f)),
+             "", node);
   add_light(scene, scene::LightType::point, 1, vec3(0, 3, 0));
   scene::Animation animation;
   animation.channels.push_back({node,
@@ -197,15 +197,26 @@ TEST(TransportLight, MayShadowIsNeverWrong) {
   int changed = 0, denied = 0;
   for (int trial = 0; trial < 120; ++trial) {
     scene::Scene scene = floor_scene();
-    const auto place = [&] { return vec3(4, 3, 4) * (random.uniform3() - vec3(0.5f, 0, 0.5f)) + vec3(0, 0.2f, 0); };
+    const auto place = [&] {
+      return vec3(4, 3, 4) * (random.uniform3() - vec3(0.5f, 0, 0.5f)) + vec3(0, 0.2f, 0);
+    };
     switch (trial % 6) {
-      case 0: add_light(scene, scene::LightType::point, 5, place()); break;
-      case 1: add_light(scene, scene::LightType::spot, 5, place(), vec3(0.3f, -1, 0)); break;
-      case 2: add_light(scene, scene::LightType::directional, 5, vec3(0), vec3(0.7f, -1, 0.2f)); break;
-      case 3:
-        add_light(scene, scene::LightType::directional, 5, vec3(0), vec3(0.7f, -1, 0.2f)).angular_radius = 0.1f;
+      case 0:
+        add_light(scene, scene::LightType::point, 5, place());
         break;
-      case 4: add_light(scene, scene::LightType::sphere, 5, place()).radius = 0.3f; break;
+      case 1:
+        add_light(scene, scene::LightType::spot, 5, place(), vec3(0.3f, -1, 0));
+        break;
+      case 2:
+        add_light(scene, scene::LightType::directional, 5, vec3(0), vec3(0.7f, -1, 0.2f));
+        break;
+      case 3:
+        add_light(scene, scene::LightType::directional, 5, vec3(0), vec3(0.7f, -1, 0.2f)).angular_radius =
+            0.1f;
+        break;
+      case 4:
+        add_light(scene, scene::LightType::sphere, 5, place()).radius = 0.3f;
+        break;
       default:
         add_object(scene, scene::make_quad(place(), vec3(0.6f, 0, 0), vec3(0, 0, 0.6f)),
                    lambertian(vec3(0), vec3(4)));

@@ -67,11 +67,8 @@ scene::Scene robot() {
                                 Interpolation::linear,
                                 {0, 1},
                                 {{0.2f, -0.5f, 0, 0}, {-0.3f, -0.4f, 0.2f, 0}}});
-  animation.channels.push_back({arm,
-                                AnimationPath::rotation,
-                                Interpolation::linear,
-                                {0, 1},
-                                {{0, 0, 0, 1}, {0.3f, 0, 0, 0.954f}}});
+  animation.channels.push_back(
+      {arm, AnimationPath::rotation, Interpolation::linear, {0, 1}, {{0, 0, 0, 1}, {0.3f, 0, 0, 0.954f}}});
   animation.channels.push_back(
       {arm, AnimationPath::scale, Interpolation::linear, {0, 1}, {{1, 2, 1, 0}, {1.5f, 1, 1, 0}}});
   animation.channels.push_back({swing,
@@ -188,8 +185,8 @@ TEST(TransportScene, PointsOnAPartAreUniformByArea) {
   EXPECT_NEAR(static_cast<double>(points.size()), 6 * 0.01 * 1e6, 12);
   // Chi-square over 10×10 cells of the side at +x; stratified points vary less than random ones, so only
   // the upper bound speaks.
-  const mat4 hand = glm::translate(mat4(1), vec3(0, 0.2f, 0.1f)) *
-                    glm::mat4_cast(glm::normalize(quat(1, 0.2f, 0, 0.4f)));
+  const mat4 hand =
+      glm::translate(mat4(1), vec3(0, 0.2f, 0.1f)) * glm::mat4_cast(glm::normalize(quat(1, 0.2f, 0, 0.4f)));
   const mat4 back = glm::inverse(hand);
   std::array<int, 100> cells{};
   int on_side = 0;
@@ -200,7 +197,9 @@ TEST(TransportScene, PointsOnAPartAreUniformByArea) {
     EXPECT_NEAR(p.albedo.x, 0.7, 1e-6);
     if (n.x < 0.9f) continue;
     ++on_side;
-    const auto cell = [](float c) { return static_cast<std::size_t>(glm::clamp((c + 0.05f) * 100, 0.0f, 9.0f)); };
+    const auto cell = [](float c) {
+      return static_cast<std::size_t>(glm::clamp((c + 0.05f) * 100, 0.0f, 9.0f));
+    };
     ++cells[10 * cell(x.y) + cell(x.z)];
   }
   EXPECT_NEAR(on_side, 10000, 2);

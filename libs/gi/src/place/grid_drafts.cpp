@@ -9,9 +9,13 @@
 namespace ssphh::gi {
 namespace {
 
-constexpr float refine_below = 0.5f;    ///< harmonic mean distance, in sizes of the cell
-constexpr float open_air_reach = 2.0f;  ///< spacings without a surface
+constexpr float refine_below = 0.5f;     ///< harmonic mean distance, in sizes of the cell
+constexpr float open_air_reach = 2.0f;   ///< spacings without a surface
 constexpr float redundant_below = 0.5f;  ///< spacings to another probe that is in sight
+
+bool inside(const scene::Bounds& box, const vec3& p) {
+  return glm::all(glm::greaterThan(p, box.min)) && glm::all(glm::lessThan(p, box.max));
+}
 
 /// Places of all levels by their index in the finest lattice.
 class Tree {
@@ -44,8 +48,7 @@ class Tree {
       if (!is_new) continue;
       Place& place = at->second;
       place.position = lattice_point(fine_, key);
-      place.in_box = glm::all(glm::greaterThan(place.position, fine_.box.min)) &&
-                     glm::all(glm::lessThan(place.position, fine_.box.max));
+      place.in_box = inside(fine_.box, place.position);
       if (!place.in_box) continue;
       fresh.push_back(key);
       positions.push_back(place.position);
@@ -171,7 +174,7 @@ std::vector<Draft> grid_drafts(const PlaceContext& context, const Lattice& latti
     const Tree::Place& place = tree.at(key);
     const auto moved =
         relocate(context.source, place.position, place.site, context.rules, 0.5f * context.spacing);
-    if (!moved) {
+    if (!moved || !inside(lattice.box, moved->position)) {
       count_invalid(place.site, context.rules, counts);
     } else if (collector.has_in_sight(moved->position, redundant_below * context.spacing)) {
       ++counts.redundant;

@@ -37,7 +37,8 @@ double score(const std::vector<Site>& sites, float spacing, const SiteRules& rul
 scene::Bounds lattice_box(const scene::TransportSource& source, float spacing) {
   scene::Bounds box = source.part_bounds(0);
   if (box.empty()) {
-    throw Error("probe placement", "the scene has no surface that stands still, so there is no place to look for",
+    throw Error("probe placement",
+                "the scene has no surface that stands still, so there is no place to look for",
                 "give the scene SPHLs and use --probes scene");
   }
   for (int axis = 0; axis < 3; ++axis) {

@@ -102,7 +102,7 @@ std::vector<bool> reachable(const PlaceContext& context, const std::vector<Draft
 }
 
 void clear_sweeps(const PlaceContext& context, std::vector<Draft>& drafts, PlaceCounts& counts) {
-  const Sweep sweep(context.source, context.params.duration, context.rules.clearance);
+  const Sweep sweep(context.source, context.rules.clearance);
   if (!sweep.any()) return;
   const float clearance = context.rules.clearance;
   std::vector<std::optional<Relocated>> moved(drafts.size());

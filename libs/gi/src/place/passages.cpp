@@ -9,12 +9,12 @@
 namespace ssphh::gi {
 namespace {
 
-constexpr std::size_t stations = 11;   ///< along an edge, both ends included
+constexpr std::size_t stations = 11;    ///< along an edge, both ends included
 constexpr std::size_t directions = 13;  ///< axes and diagonals, each with its opposite
 constexpr float across = 0.8f;          ///< cosine with the edge above which a direction leads along it
-constexpr float narrow = 1.5f;         ///< spacings
-constexpr float wider_ends = 1.5f;     ///< times the passage's width
-constexpr float centred = 0.85f;       ///< nearest surface, in half widths: less is a corner, not a passage
+constexpr float narrow = 1.5f;          ///< spacings
+constexpr float wider_ends = 1.5f;      ///< times the passage's width
+constexpr float centred = 0.85f;        ///< nearest surface, in half widths: less is a corner, not a passage
 
 struct Passage {
   vec3 position;
@@ -78,8 +78,8 @@ void add_passages(const PlaceContext& context, std::vector<Draft>& drafts,
         for (std::size_t i = begin; i < end; ++i) {
           const Draft &a = drafts[edges[i].a], &b = drafts[edges[i].b];
           if (a.position == b.position) continue;
-          found[i] = narrowest(context.source, a.position, b.position,
-                               narrow * 0.5f * (a.spacing + b.spacing));
+          found[i] =
+              narrowest(context.source, a.position, b.position, narrow * 0.5f * (a.spacing + b.spacing));
           if (found[i]) sites[i] = look_around(context.source, found[i]->position);
         }
       },

@@ -43,7 +43,6 @@ void check(const PlaceParams& p) {
                      p.count, manual),
          "ask for more, or use --probes scene");
   }
-  if (!(p.duration >= 0) || !std::isfinite(p.duration)) fail("the duration must be a number of seconds");
   for (const scene::SphlPlace& place : p.manual) {
     if (!is_finite(place.position) || !std::isfinite(place.radius) || place.radius <= 0) {
       throw Error("SPHL \"" + place.name + "\"", "its position must be finite and its radius positive");
@@ -64,8 +63,8 @@ struct Attempt {
 };
 
 /// None when that would be more candidates or probes than the limits allow.
-std::optional<Attempt> attempt(const scene::TransportSource& source, const PlaceParams& params,
-                               float spacing, float back_limit, const Control& control) {
+std::optional<Attempt> attempt(const scene::TransportSource& source, const PlaceParams& params, float spacing,
+                               float back_limit, const Control& control) {
   const scene::Bounds box = lattice_box(source, spacing);
   if (lattice_places(box, spacing) > places_per_probe * params.max_probes) return std::nullopt;
   Attempt a;
@@ -114,15 +113,17 @@ Attempt search(const scene::TransportSource& source, const PlaceParams& params, 
     if (fine > 0 && coarse > 0) {
       spacing = std::sqrt(fine * coarse);
     } else {
-      const double ratio = std::cbrt(static_cast<double>(std::max<std::size_t>(count, 1)) / static_cast<double>(low));
+      const double ratio =
+          std::cbrt(static_cast<double>(std::max<std::size_t>(count, 1)) / static_cast<double>(low));
       spacing *= static_cast<float>(enough ? std::clamp(ratio, 1.1, 2.0) : std::clamp(ratio, 0.5, 0.9));
     }
   }
-  if (!best) fail("the scene has too many places for probes to choose from", "give a spacing, --probes auto:METRES");
+  if (!best)
+    fail("the scene has too many places for probes to choose from", "give a spacing, --probes auto:METRES");
   return std::move(*best);
 }
 
-Placement finish(const scene::TransportSource& source, const PlaceParams& params, Attempt&& a) {
+Placement finish(const scene::TransportSource& source, Attempt&& a) {
   Placement placement;
   placement.origin = a.lattice.origin;
   placement.spacing = a.lattice.spacing;
@@ -130,7 +131,7 @@ Placement finish(const scene::TransportSource& source, const PlaceParams& params
   placement.back_limit = a.rules.back_limit;
   placement.counts = a.counts;
   placement.edges = std::move(a.edges);
-  const Sweep sweep(source, params.duration, a.rules.clearance);
+  const Sweep sweep(source, a.rules.clearance);
   if (sweep.any()) {
     for (PlacedEdge& edge : placement.edges) {
       edge.moving = sweep.separates(a.drafts[edge.a].position, a.drafts[edge.b].position);
@@ -162,7 +163,6 @@ Placement finish(const scene::TransportSource& source, const PlaceParams& params
 
 PlaceParams place_params(const scene::Scene& scene, float time) {
   PlaceParams params;
-  params.duration = scene::animation_duration(scene);
   params.manual = scene::sphl_places(scene, time);
   for (const scene::SphlPlace& place : params.manual) params.interest.push_back(place.position);
   const std::vector<mat4> world = scene::world_matrices(scene, time);
@@ -203,7 +203,7 @@ Placement place_probes(const scene::TransportSource& source, const PlaceParams& 
     chosen->counts.surplus = chosen->drafts.size() - count;
     filter(chosen->drafts, chosen->edges, most_spread(chosen->drafts, chosen->edges, count));
   }
-  return finish(source, params, std::move(*chosen));
+  return finish(source, std::move(*chosen));
 }
 
 }  // namespace ssphh::gi

@@ -19,10 +19,10 @@ struct Site {
   /// Harmonic mean of the distances seen (Ward, Rubinstein & Clear, A Ray Tracing Solution for Diffuse
   /// Interreflection, SIGGRAPH 1988): about how far the light is alike.
   float harmonic = std::numeric_limits<float>::infinity();
-  float back = 0;         ///< share of the surfaces seen that show their backs
-  float escaped = 0;      ///< share of the rays that meet nothing
-  bool emitter = false;   ///< a shining surface is seen
-  vec3 nearest_hit{0};    ///< place of the nearest surface, as a vector from here
+  float back = 0;          ///< share of the surfaces seen that show their backs
+  float escaped = 0;       ///< share of the rays that meet nothing
+  bool emitter = false;    ///< a shining surface is seen
+  vec3 nearest_hit{0};     ///< place of the nearest surface, as a vector from here
   vec3 nearest_normal{0};  ///< of that surface, toward here
   float nearest_back = std::numeric_limits<float>::infinity();
   vec3 nearest_back_hit{0};  ///< of the surfaces seen from behind

@@ -34,23 +34,23 @@ bool meets(const scene::Bounds& box, const vec3& a, const vec3& b) {
 
 }  // namespace
 
-Sweep::Sweep(const scene::TransportSource& source, float duration, float step) : source_(source) {
+Sweep::Sweep(const scene::TransportSource& source, float step) : source_(source) {
+  const float duration = source.duration();
   for (int index = 1; index < source.part_count(); ++index) {
     Part part{index, source.part_bounds(index), {}};
     if (part.bounds.empty()) continue;
     int poses = duration > 0 ? 9 : 1;
-    for (; poses < most_poses; poses = std::min(2 * poses, most_poses)) {
+    const auto pose = [&](int i) {
+      return source.part_pose(index,
+                              duration * static_cast<float>(i) / static_cast<float>(std::max(poses - 1, 1)));
+    };
+    for (; poses > 1 && poses < most_poses; poses = std::min(2 * poses, most_poses)) {
       float farthest = 0;
-      const auto at = [&](int i) {
-        return source.part_pose(index, poses > 1 ? duration * static_cast<float>(i) / static_cast<float>(poses - 1) : 0);
-      };
-      for (int i = 1; i < poses; ++i) farthest = std::max(farthest, motion(part.bounds, at(i - 1), at(i)));
+      for (int i = 1; i < poses; ++i)
+        farthest = std::max(farthest, motion(part.bounds, pose(i - 1), pose(i)));
       if (farthest <= step) break;
     }
-    for (int i = 0; i < poses; ++i) {
-      const float time = poses > 1 ? duration * static_cast<float>(i) / static_cast<float>(poses - 1) : 0;
-      part.to_part.push_back(glm::inverse(source.part_pose(index, time)));
-    }
+    for (int i = 0; i < poses; ++i) part.to_part.push_back(glm::inverse(pose(i)));
     parts_.push_back(std::move(part));
   }
 }

@@ -7,11 +7,11 @@
 
 namespace ssphh::gi {
 
-/// Poses of all moving parts from time 0 to `duration`, close enough that a part moves no farther than
+/// Poses of all moving parts during the scene's animations, close enough that a part moves no farther than
 /// `step` metres from one to the next (but at most 256 of them).
 class Sweep {
  public:
-  Sweep(const scene::TransportSource& source, float duration, float step);
+  Sweep(const scene::TransportSource& source, float step);
 
   bool any() const { return !parts_.empty(); }
   /// Name of the first part that comes nearer than `clearance` to the place, or has it inside, at some time;

@@ -21,13 +21,12 @@ struct PlaceParams {
   float clearance = 0.04f;  ///< from a surface [m]; at most a tenth of the spacing is asked for
   int levels = 1;           ///< times that the grid may be halved near surfaces, 0..3
   int max_probes = 4096;    ///< more are an Error, not a long wait
-  float duration = 0;       ///< moving parts sweep what they pass from 0 to this time [s]
   std::vector<scene::SphlPlace> manual;  ///< kept as they are, first in the placement
   std::vector<vec3> interest;            ///< places that somebody is or light comes from: cameras, lamps
 };
 
 /// `manual` from the scene's enabled SPHLs, `interest` from these, its cameras and its lamps that have a
-/// place, posed at `time`; `duration` from its animations.
+/// place, posed at `time` seconds.
 PlaceParams place_params(const scene::Scene& scene, float time = 0);
 
 enum class PlaceKind {

@@ -20,10 +20,10 @@ struct TransportOptions {
 /// A part is what hangs together on one animated node: the instances for which it is the nearest animated
 /// ancestor or itself, named after it, in its coordinates. Parts stand in the order of their nodes.
 ///
-/// Surfaces with partial coverage are either there (alpha ≥ ½) or not; sample_part leaves out the points where
-/// they are not. Unlit surfaces show their emission to rays but are no light: DirectLight does not know them.
-/// Random numbers depend on the bits of a point's position alone, so no answer depends on its neighbours in a
-/// batch. Calls may come from several threads; large batches use all threads themselves.
+/// Surfaces with partial coverage are either there (alpha ≥ ½) or not; sample_part leaves out the points
+/// where they are not. Unlit surfaces show their emission to rays but are no light: DirectLight does not know
+/// them. Random numbers depend on the bits of a point's position alone, so no answer depends on its
+/// neighbours in a batch. Calls may come from several threads; large batches use all threads themselves.
 class TransportScene final : public scene::TransportSource {
  public:
   /// Keeps a reference to the scene. Throws Error when the geometry does not fit into memory, or for options
