@@ -59,14 +59,16 @@ struct PathVertex {
 ///   found_by_rays()                               whether scattered rays can meet any light
 /// `Visitor` receives first_hit(surface, ray, distance) and add(depth, group, value, emission), `emission`
 /// being the direction in which the light left its emitter.
+/// With `scattered_at` the ray is no camera's but leaves that vertex: its path begins at depth 1.
 template <class Emitters, class Visitor>
 void trace_path(const EmbreeScene& scene, const Emitters& emitters, Ray ray, const PathSampler& sampler,
-                const PathOptions& options, RayTask& task, Visitor& visitor) {
+                const PathOptions& options, RayTask& task, Visitor& visitor,
+                const PathVertex* scattered_at = nullptr) {
   vec3 throughput(1);
-  PathVertex vertex{ray.origin};
+  PathVertex vertex = scattered_at ? *scattered_at : PathVertex{ray.origin};
   const bool has_alpha = scene.has_alpha();
 
-  for (int depth = 0;; ++depth) {
+  for (int depth = scattered_at ? 1 : 0;; ++depth) {
     // Find the nearest surface.
     Hit hit;
     const bool found = scene.intersect(ray, has_alpha ? sampler.alpha_seed(depth, false) : 0, task, hit);

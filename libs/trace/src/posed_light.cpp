@@ -58,23 +58,15 @@ PosedLight::Receiver PosedLight::receiver(const scene::SurfacePoint& point) cons
           position_seed(point.position)};
 }
 
-bool PosedLight::blocked(const vec3& origin, const vec3& direction, float t_max, RayTask& task) const {
-  if (data_->parts[0].embree->occluded({origin, direction, t_max}, 0, task)) return true;
+bool PosedLight::blocked(const Ray& ray, RayTask& task) const {
+  if (!(ray.t_max > 0)) return false;
+  if (data_->parts[0].embree->occluded(ray, 0, task)) return true;
   for (const MovingPart& part : moving_) {
-    const vec3 o(part.from_world * vec4(origin, 1)), d = mat3(part.from_world) * direction;
-    if (sweep_meets(o, {d, d}, t_max, part.bounds) && part.embree->occluded({o, d, t_max}, 0, task))
+    const vec3 o(part.from_world * vec4(ray.origin, 1)), d = mat3(part.from_world) * ray.direction;
+    if (sweep_meets(o, {d, d}, ray.t_max, part.bounds) && part.embree->occluded({o, d, ray.t_max}, 0, task))
       return true;
   }
   return false;
-}
-
-bool PosedLight::sees(const Receiver& at, const shading::LightSample& light, RayTask& task) const {
-  if (std::isinf(light.distance)) return !blocked(at.start, light.wi, light.distance, task);
-  // From the raised start to the same point of the light, not parallel: a light nearby is not passed.
-  const vec3 path = at.position + light.distance * light.wi - at.start;
-  const float length = glm::length(path);
-  const float t_max = shadow_distance(at.start, length) / length;
-  return !(t_max > 0) || !blocked(at.start, path, t_max, task);
 }
 
 vec3 PosedLight::irradiance_of(const GroupEmitter& light, const Receiver& at, std::uint64_t seed,
@@ -91,7 +83,8 @@ vec3 PosedLight::irradiance_of(const GroupEmitter& light, const Receiver& at, st
     const auto sample = lights_.sample_emitter(light.index, at.position, u);
     if (!sample || !(sample->pdf > 0)) continue;
     const float cosine = glm::dot(sample->wi, at.normal);
-    if (cosine > 0 && max_component(sample->radiance) > 0 && sees(at, *sample, task))
+    if (cosine > 0 && max_component(sample->radiance) > 0 &&
+        !blocked(shadow_ray(at.start, at.position, *sample), task))
       sum += sample->radiance * (cosine / sample->pdf);
   }
   return sum / static_cast<float>(count);
@@ -121,7 +114,7 @@ vec3 PosedLight::sky_irradiance(const GroupEmitter& light, const Receiver& at, s
     if (!(cosine > 0)) continue;
     const auto sky = lights_.distant_radiance(light.index, wi);
     const float pdf = share * cosine / pi + (1 - share) * sky->pdf;
-    if (max_component(sky->radiance) > 0 && !blocked(at.start, wi, sky->distance, task))
+    if (max_component(sky->radiance) > 0 && !blocked({at.start, wi, sky->distance}, task))
       sum += sky->radiance * (cosine / pdf);
   }
   return sum / static_cast<float>(count);

@@ -32,8 +32,7 @@ class PosedLight final : public scene::DirectLight {
   };
 
   Receiver receiver(const scene::SurfacePoint& point) const;
-  bool blocked(const vec3& origin, const vec3& direction, float t_max, RayTask& task) const;
-  bool sees(const Receiver& at, const shading::LightSample& light, RayTask& task) const;
+  bool blocked(const Ray& ray, RayTask& task) const;
   vec3 irradiance_of(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, RayTask& task) const;
   vec3 sky_irradiance(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, RayTask& task) const;
   const std::vector<GroupEmitter>& emitters_of(int group) const;

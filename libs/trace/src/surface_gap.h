@@ -1,7 +1,10 @@
 #pragma once
 /// Where rays start that leave a surface point which somebody else computed.
 
+#include <cmath>
+
 #include <ssphh/scene/query.h>
+#include <ssphh/shading/lights.h>
 
 #include "rays.h"
 
@@ -19,6 +22,15 @@ inline float scene_size(const scene::Bounds& bounds) {
 /// coordinates where that is more.
 inline vec3 above_surface(const vec3& position, const vec3& normal, float gap) {
   return position + std::max(gap, position_error(max_abs_component(position))) * normal;
+}
+
+/// From there to the place on a light that was sampled at `position`. Not parallel to the sample, so that a
+/// light nearby is not passed; the direction is no unit vector, except to distant lights.
+inline Ray shadow_ray(const vec3& start, const vec3& position, const shading::LightSample& light) {
+  if (std::isinf(light.distance)) return {start, light.wi, light.distance};
+  const vec3 path = position + light.distance * light.wi - start;
+  const float length = glm::length(path);
+  return {start, path, shadow_distance(start, length) / length};
 }
 
 }  // namespace ssphh::trace

@@ -25,6 +25,12 @@ class PathTracer final : public scene::RadianceSource {
   std::vector<image::CubeMap> ghost_radiance(const scene::CubeRequest& request,
                                              std::span<const scene::GhostSphere> ghosts,
                                              const GhostSink& sink, const Control& control) const override;
+  /// Direct light by next-event estimation and scattered rays combined. Up to 16 batches of paths with
+  /// sequences of their own give the variance, which one path alone leaves infinite. Rays start above points
+  /// that lie up to 5e-5 of the scene's size below their surface.
+  std::vector<scene::IrradianceEstimate> surface_irradiance(std::span<const scene::SurfacePoint> points,
+                                                            const scene::PathParams& path,
+                                                            const Control& control) const override;
   bool visible(const vec3& a, const vec3& b) const override;
   /// From 128 rays; a miss and a double-sided material count as front.
   float backface_fraction(const vec3& position) const override;

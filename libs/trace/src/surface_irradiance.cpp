@@ -1,0 +1,140 @@
+/// Path traced irradiance at points that the caller gives: the truth for lookups.
+
+#include <cmath>
+
+#include <ssphh/core/parallel.h>
+#include <ssphh/core/sphere.h>
+
+#include "surface_gap.h"
+#include "tracer_data.h"
+
+namespace ssphh::trace {
+namespace {
+
+constexpr std::size_t max_batches = 16;
+
+/// Sums of one batch at one point.
+class BatchSums {
+ public:
+  explicit BatchSums(RayTask& task) : task_(task) {}
+
+  void add(int depth, int /*group*/, const vec3& value, const vec3& /*emission*/) {
+    if (!is_finite(value)) {
+      ++task_.invalid;
+      return;
+    }
+    (depth < 2 ? direct : indirect) += scale * value;
+  }
+  void first_hit(const shading::Surface&, const vec3&, const Ray&, float) {}
+
+  vec3 direct{0}, indirect{0};
+  float scale = 1;  ///< of the values that follow
+
+ private:
+  RayTask& task_;
+};
+
+/// One path from the point, as if it reflected all light evenly: a light sample and a cosine-distributed ray
+/// that goes on.
+void trace_from(const TracerData& data, const scene::SurfacePoint& point, float gap,
+                const PathSampler& sampler, const PathOptions& options, RayTask& task, BatchSums& sums) {
+  const SceneEmitters emitters = data.emitters();
+  const vec3 start = above_surface(point.position, point.normal, gap);
+  PathVertex vertex{point.position, point.normal};
+  SampleSequence random = sampler.vertex(0);
+  const float u_light = random.next();
+  const vec2 u_point = random.next2(), u_direction = random.next2();
+
+  // Sample direct light.
+  const auto light = emitters.sample(vertex, u_light, u_point);
+  if (light && light->pdf > 0) {
+    const float cosine = glm::dot(light->wi, point.normal);
+    const std::uint64_t alpha_seed = data.embree.has_alpha() ? sampler.alpha_seed(0, true) : 0;
+    if (cosine > 0 &&
+        !data.embree.occluded(shadow_ray(start, point.position, *light), alpha_seed, task)) {
+      const float weight = light->delta ? 1 : shading::power_heuristic(light->pdf, cosine / pi);
+      sums.scale = 1;
+      sums.add(1, light->group, light->radiance * (cosine * weight / light->pdf), -light->wi);
+    }
+  }
+  if (options.max_depth == 1 && !emitters.found_by_rays()) return;
+
+  // Follow a scattered ray: ∫ L cos θ dω = π times the mean of L.
+  const vec3 local = sample_cosine_hemisphere(u_direction);
+  if (!(local.z > 0)) return;
+  vertex.bsdf_pdf = local.z / pi;
+  sums.scale = pi;
+  trace_path(data.embree, emitters, {start, Frame::around(point.normal).to_world(local)}, sampler, options,
+             task, sums, &vertex);
+}
+
+struct BatchMean {
+  vec3 direct{0}, indirect{0};
+};
+
+scene::IrradianceEstimate combine(std::span<const BatchMean> means, std::span<const float> weights) {
+  scene::IrradianceEstimate estimate;
+  for (std::size_t b = 0; b < means.size(); ++b) {
+    estimate.direct += weights[b] * means[b].direct;
+    estimate.indirect += weights[b] * means[b].indirect;
+  }
+  const auto count = static_cast<float>(means.size());
+  if (means.size() < 2) {
+    estimate.indirect_variance = vec3(std::numeric_limits<float>::infinity());
+    return estimate;
+  }
+  for (std::size_t b = 0; b < means.size(); ++b) {
+    const vec3 deviation = weights[b] * (means[b].indirect - estimate.indirect);
+    estimate.indirect_variance += count / (count - 1) * deviation * deviation;
+  }
+  return estimate;
+}
+
+}  // namespace
+
+std::vector<scene::IrradianceEstimate> PathTracer::surface_irradiance(
+    std::span<const scene::SurfacePoint> points, const scene::PathParams& path,
+    const Control& control) const {
+  check_path_params(path);
+  std::vector<scene::IrradianceEstimate> estimates(points.size());
+  const std::uint64_t paths =
+      static_cast<std::uint64_t>(path.spp) * static_cast<std::uint64_t>(path.passes);
+  if (points.empty() || path.max_depth < 1 || paths == 0) return estimates;
+
+  const auto batches = static_cast<std::size_t>(std::min<std::uint64_t>(max_batches, paths));
+  const auto first_path = [&](std::size_t batch) { return batch * paths / batches; };
+  std::vector<float> weights;
+  for (std::size_t b = 0; b < batches; ++b) {
+    weights.push_back(static_cast<float>(static_cast<double>(first_path(b + 1) - first_path(b)) /
+                                         static_cast<double>(paths)));
+  }
+  const float gap =
+      default_surface_tolerance * scene_size(scene::world_bounds(data_->scene, data_->world));
+
+  std::vector<BatchMean> means(points.size() * batches);
+  std::atomic<std::uint64_t> invalid{0};
+  ProgressStage stage(control, "irradiance", points.size() * paths, "paths");
+  parallel_for(
+      means.size(), 1,
+      [&](std::size_t task_id, std::size_t) {
+        control.check();
+        TaskScope scope(*data_, invalid, task_id);
+        BatchSums sums(scope.task);
+        const std::size_t i = task_id / batches, batch = task_id % batches;
+        const std::uint64_t seed =
+            pixel_seed(path.seed, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(batch));
+        const std::uint64_t count = first_path(batch + 1) - first_path(batch);
+        for (std::uint32_t s = 0; s < count; ++s)
+          trace_from(*data_, points[i], gap, {seed, s}, {path.max_depth}, scope.task, sums);
+        const float scale = 1 / static_cast<float>(count);
+        means[task_id] = {sums.direct * scale, sums.indirect * scale};
+        stage.advance(count);
+      },
+      control);
+  report_invalid(invalid);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    estimates[i] = combine(std::span(means).subspan(i * batches, batches), weights);
+  return estimates;
+}
+
+}  // namespace ssphh::trace
