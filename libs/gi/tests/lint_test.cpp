@@ -55,7 +55,9 @@ class Lint : public testing::Test {
   }
   void expect_only(ProbeProblem kind, int probe) {
     const std::vector<LintProblem> problems = run();
-    ASSERT_EQ(problems.size(), 1u) << (problems.empty() ? "" : problems[0].message + "\n" + problems.back().message);
+    ASSERT_EQ(problems.size(), 1u) << (problems.empty()
+                                           ? ""
+                                           : problems[0].message + "\n" + problems.back().message);
     EXPECT_STREQ(gi::to_string(problems[0].kind), gi::to_string(kind));
     EXPECT_EQ(problems[0].probe, probe);
     EXPECT_FALSE(problems[0].message.empty());
@@ -76,7 +78,8 @@ TEST_F(Lint, WhatPlacementMakesIsClean) {
   place.spacing = 1;
   place.manual.clear();
   std::vector<vec3> positions;
-  for (const gi::PlacedProbe& probe : gi::place_probes(source_, place).probes) positions.push_back(probe.position);
+  for (const gi::PlacedProbe& probe : gi::place_probes(source_, place).probes)
+    positions.push_back(probe.position);
   set_ = probes_at(positions);
   EXPECT_THAT(run(), testing::IsEmpty());
 }

@@ -50,8 +50,7 @@ void trace_from(const TracerData& data, const scene::SurfacePoint& point, float 
   if (light && light->pdf > 0) {
     const float cosine = glm::dot(light->wi, point.normal);
     const std::uint64_t alpha_seed = data.embree.has_alpha() ? sampler.alpha_seed(0, true) : 0;
-    if (cosine > 0 &&
-        !data.embree.occluded(shadow_ray(start, point.position, *light), alpha_seed, task)) {
+    if (cosine > 0 && !data.embree.occluded(shadow_ray(start, point.position, *light), alpha_seed, task)) {
       const float weight = light->delta ? 1 : shading::power_heuristic(light->pdf, cosine / pi);
       sums.scale = 1;
       sums.add(1, light->group, light->radiance * (cosine * weight / light->pdf), -light->wi);
@@ -97,8 +96,7 @@ std::vector<scene::IrradianceEstimate> PathTracer::surface_irradiance(
     const Control& control) const {
   check_path_params(path);
   std::vector<scene::IrradianceEstimate> estimates(points.size());
-  const std::uint64_t paths =
-      static_cast<std::uint64_t>(path.spp) * static_cast<std::uint64_t>(path.passes);
+  const std::uint64_t paths = static_cast<std::uint64_t>(path.spp) * static_cast<std::uint64_t>(path.passes);
   if (points.empty() || path.max_depth < 1 || paths == 0) return estimates;
 
   const auto batches = static_cast<std::size_t>(std::min<std::uint64_t>(max_batches, paths));
@@ -108,8 +106,7 @@ std::vector<scene::IrradianceEstimate> PathTracer::surface_irradiance(
     weights.push_back(static_cast<float>(static_cast<double>(first_path(b + 1) - first_path(b)) /
                                          static_cast<double>(paths)));
   }
-  const float gap =
-      default_surface_tolerance * scene_size(scene::world_bounds(data_->scene, data_->world));
+  const float gap = default_surface_tolerance * scene_size(scene::world_bounds(data_->scene, data_->world));
 
   std::vector<BatchMean> means(points.size() * batches);
   std::atomic<std::uint64_t> invalid{0};

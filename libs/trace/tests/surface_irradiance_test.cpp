@@ -1,4 +1,5 @@
-/// Irradiance at surface points by paths: closed forms, honest variances, and agreement with a TransportScene.
+/// Irradiance at surface points by paths: closed forms, honest variances, and agreement with a
+/// TransportScene.
 
 #include <cmath>
 
@@ -34,8 +35,8 @@ double mean_z2(std::span<const SurfacePoint> points, const trace::PathTracer& tr
                const scene::PathParams& path, double exact) {
   Samples z2;
   for (const auto& e : tracer.surface_irradiance(points, path, {})) {
-    const double z = (static_cast<double>(e.indirect.x) - exact) /
-                     std::sqrt(static_cast<double>(e.indirect_variance.x));
+    const double z =
+        (static_cast<double>(e.indirect.x) - exact) / std::sqrt(static_cast<double>(e.indirect_variance.x));
     z2.add(z * z);
   }
   return z2.mean();
@@ -67,8 +68,7 @@ TEST(SurfaceIrradiance, FurnaceSeesTheSkyAlone) {
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 61) {
     vec3 p[3];
     for (int k = 0; k < 3; ++k) p[k] = mesh.positions[mesh.triangles[t][k]];
-    points.push_back({(p[0] + p[1] + p[2]) / 3.0f,
-                      glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]))});
+    points.push_back({(p[0] + p[1] + p[2]) / 3.0f, glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]))});
   }
   Samples direct;
   for (const auto& e : tracer.surface_irradiance(points, {4, 2, 64, 1}, {})) {
@@ -84,7 +84,8 @@ scene::Scene furnished_room() {
   scene::Scene scene;
   scene::Material walls = lambertian(vec3(0.7f, 0.5f, 0.3f));
   add_room(scene, walls);
-  add_object(scene, scene::make_box(vec3(-0.5f, -1, -0.5f), vec3(0, -0.2f, 0)), lambertian(vec3(0.6f)), "box");
+  add_object(scene, scene::make_box(vec3(-0.5f, -1, -0.5f), vec3(0, -0.2f, 0)), lambertian(vec3(0.6f)),
+             "box");
   add_object(scene, scene::make_quad(vec3(-0.3f, 0.95f, -0.3f), vec3(0.6f, 0, 0), vec3(0, 0, 0.6f)),
              lambertian(vec3(0), vec3(5)), "panel");
   add_light(scene, scene::LightType::point, 0.5f, vec3(0.5f, 0.2f, 0.6f), vec3(0, -1, 0), "bulb");

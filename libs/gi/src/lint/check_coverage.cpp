@@ -130,8 +130,7 @@ void check_coverage(const LintContext& context, std::vector<LintProblem>& proble
   for (std::size_t r = 0; r < count; ++r) {
     if (size[r] < 2) continue;
     problems.push_back({ProbeProblem::unseen_room, -1, free.probes[widest[r]].position,
-                        fmt::format("no probe is to be seen from {} places around here; add one",
-                                    size[r])});
+                        fmt::format("no probe is to be seen from {} places around here; add one", size[r])});
   }
 }
 

@@ -46,7 +46,8 @@ void check_light(const LintContext& context, const std::vector<int>& rooms,
   std::map<int, std::vector<std::size_t>> by_room;
   for (std::size_t i = 0; i < probes.size(); ++i) by_room[rooms[i]].push_back(i);
   for (const auto& [room, members] : by_room) {
-    const bool dark = std::all_of(members.begin(), members.end(), [&](std::size_t i) { return unlit(probes[i]); });
+    const bool dark =
+        std::all_of(members.begin(), members.end(), [&](std::size_t i) { return unlit(probes[i]); });
     for (const std::size_t i : members) {
       if (!unlit(probes[i])) continue;
       problems.push_back({ProbeProblem::unlit, static_cast<int>(i), probes[i].position,

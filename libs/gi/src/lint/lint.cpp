@@ -28,7 +28,8 @@ float median_distance(const ProbeSet& set) {
 
 void check(const LintParams& p) {
   const auto fail = [](const char* what, float value) {
-    throw Error("probe lint", fmt::format("the {} must be a number over or equal to 0, not {:g}", what, value));
+    throw Error("probe lint",
+                fmt::format("the {} must be a number over or equal to 0, not {:g}", what, value));
   };
   if (!(p.clearance >= 0) || !std::isfinite(p.clearance)) fail("clearance", p.clearance);
   if (!(p.negative_tolerance >= 0)) fail("tolerance of negative irradiance", p.negative_tolerance);
@@ -46,8 +47,7 @@ std::vector<LintProblem> lint_probes(const ProbeSet& set, const scene::Transport
   check(params);
   if (set.probes.empty()) return {};
   SiteRules rules;
-  rules.clearance =
-      params.clearance > 0 ? params.clearance : std::min(0.04f, 0.05f * median_distance(set));
+  rules.clearance = params.clearance > 0 ? params.clearance : std::min(0.04f, 0.05f * median_distance(set));
   rules.back_limit = calibrated_back_limit(source, params.interest);
   const LintContext context{set, source, params, control, rules};
 

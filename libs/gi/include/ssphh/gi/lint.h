@@ -12,18 +12,19 @@
 namespace ssphh::gi {
 
 enum class ProbeProblem {
-  not_finite,    ///< a coefficient or the position is no number
-  inside,        ///< of a body
-  too_close,     ///< to a surface
-  swept,         ///< a moving part passes
-  unlit,         ///< no light at all
-  unlit_room,    ///< probes that see each other, and all of them are unlit
-  isolated,      ///< sees no other probe
-  negative,      ///< irradiance under zero, from ringing
-  unseen_room,   ///< places where somebody may be, and no probe is to be seen from there
+  not_finite,   ///< a coefficient or the position is no number
+  inside,       ///< of a body
+  too_close,    ///< to a surface
+  swept,        ///< a moving part passes
+  unlit,        ///< no light at all
+  unlit_room,   ///< probes that see each other, and all of them are unlit
+  isolated,     ///< sees no other probe
+  negative,     ///< irradiance under zero, from ringing
+  unseen_room,  ///< places where somebody may be, and no probe is to be seen from there
 };
 
-/// "not-finite", "inside", "too-close", "swept", "unlit", "unlit-room", "isolated", "negative", "unseen-room".
+/// "not-finite", "inside", "too-close", "swept", "unlit", "unlit-room", "isolated", "negative",
+/// "unseen-room".
 const char* to_string(ProbeProblem problem);
 
 struct LintProblem {
