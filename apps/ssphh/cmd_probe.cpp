@@ -164,7 +164,7 @@ void convert(Context& context, const ConvertOptions& options) {
 }  // namespace
 
 void add_probe_commands(CLI::App& app, Context& context) {
-  CLI::App* group = add_group(app, "probe", "Look at probe files and convert them");
+  CLI::App* group = add_group(app, "probe", "Look at probe files, check and convert them");
 
   auto input = std::make_shared<std::string>();
   CLI::App* info_command = add_command(*group, context, "info", "List probes, light groups and the hierarchy",
@@ -200,6 +200,7 @@ void add_probe_commands(CLI::App& app, Context& context) {
   convert_command->add_option("-o,--output", files->output, "Probe file to write")
       ->check(probe_file_name())
       ->required();
+  add_probe_lint_command(*group, context);
 }
 
 }  // namespace ssphh::app

@@ -37,8 +37,10 @@ CLI::App* add_group(CLI::App& parent, const std::string& name, const std::string
 void add_scene_commands(CLI::App& app, Context& context);
 void add_render_command(CLI::App& app, Context& context);
 void add_bake_command(CLI::App& app, Context& context);
+void add_place_command(CLI::App& app, Context& context);
 void add_hier_command(CLI::App& app, Context& context);
 void add_probe_commands(CLI::App& app, Context& context);
+void add_probe_lint_command(CLI::App& group, Context& context);
 void add_sh_commands(CLI::App& app, Context& context);
 void add_cubemap_commands(CLI::App& app, Context& context);
 void add_compare_command(CLI::App& app, Context& context);

@@ -39,6 +39,7 @@ int run(int argc, char** argv) {
   add_scene_commands(app, context);
   add_render_command(app, context);
   add_bake_command(app, context);
+  add_place_command(app, context);
   add_hier_command(app, context);
   add_probe_commands(app, context);
   add_sh_commands(app, context);

@@ -4,10 +4,9 @@
 
 namespace ssphh::app {
 
-void add_scene_options(CLI::App& command, SceneOptions& options, bool posed) {
+void add_scene_options(CLI::App& command, SceneOptions& options, bool posed, const std::string& source) {
   command
-      .add_option("SCENE", options.source,
-                  "File (.glb .gltf .obj, or an overlay .ssphh.json) or builtin:NAME")
+      .add_option(source, options.source, "File (.glb .gltf .obj, or an overlay .ssphh.json) or builtin:NAME")
       ->required();
   const std::string group = "Scene";
   if (posed) {

@@ -20,8 +20,10 @@ struct SceneOptions {
   float time = 0;  ///< seconds
 };
 
-/// Adds the positional SCENE and --overlay, --environment, --sun-sky and so on; --time where a pose matters.
-void add_scene_options(CLI::App& command, SceneOptions& options, bool posed = true);
+/// Adds the positional SCENE (or the option that `source` names) and --overlay, --environment, --sun-sky and
+/// so on; --time where a pose matters.
+void add_scene_options(CLI::App& command, SceneOptions& options, bool posed = true,
+                       const std::string& source = "SCENE");
 
 scene::Scene load_scene(const SceneOptions& options);
 

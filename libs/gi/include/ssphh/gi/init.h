@@ -1,6 +1,7 @@
 #pragma once
 /// INIT: where the SPHLs stand.
 
+#include <ssphh/gi/place.h>
 #include <ssphh/gi/probe_set.h>
 #include <ssphh/scene/query.h>
 
@@ -10,5 +11,9 @@ namespace ssphh::gi {
 /// `degree` is 0..max_degree. A place that is not finite or has no positive radius is an Error; so is a scene
 /// without SPHLs.
 ProbeSet init_from_scene(const scene::Scene& scene, int degree, float time = 0);
+
+/// The same for places that place_probes found.
+ProbeSet init_from_placement(const scene::Scene& scene, const Placement& placement, int degree,
+                             float time = 0);
 
 }  // namespace ssphh::gi

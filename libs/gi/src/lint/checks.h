@@ -1,0 +1,32 @@
+#pragma once
+
+#include <ssphh/gi/lint.h>
+
+#include "../place/site.h"
+
+namespace ssphh::gi {
+
+/// What one lint shares between its checks.
+struct LintContext {
+  const ProbeSet& set;
+  const scene::TransportSource& source;
+  const LintParams& params;
+  const Control& control;
+  SiteRules rules;
+};
+
+/// Coefficients, inside, too close, in the way of moving parts.
+void check_places(const LintContext& context, std::vector<LintProblem>& problems);
+
+/// Unlit probes and rooms, negative lobes.
+void check_light(const LintContext& context, const std::vector<int>& rooms,
+                 std::vector<LintProblem>& problems);
+
+/// For each probe the lowest index of those it is connected with by sight, over other probes if need be: a
+/// room. Adds the isolated ones.
+std::vector<int> find_rooms(const LintContext& context, std::vector<LintProblem>& problems);
+
+/// Places that see no probe.
+void check_coverage(const LintContext& context, std::vector<LintProblem>& problems);
+
+}  // namespace ssphh::gi

@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "checks.h"
+
+namespace ssphh::gi {
+namespace {
+
+constexpr std::array<const char*, 9> names = {"not-finite", "inside",   "too-close", "swept",      "unlit",
+                                              "unlit-room", "isolated", "negative",  "unseen-room"};
+
+/// Median distance of a probe to its nearest neighbour; infinite for one probe.
+float median_distance(const ProbeSet& set) {
+  std::vector<float> nearest(set.probes.size(), std::numeric_limits<float>::infinity());
+  for (std::size_t i = 0; i < set.probes.size(); ++i) {
+    for (std::size_t j = 0; j < set.probes.size(); ++j) {
+      const float d = glm::distance(set.probes[i].position, set.probes[j].position);
+      if (i != j && d > 0) nearest[i] = std::min(nearest[i], d);
+    }
+  }
+  const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
+  std::nth_element(nearest.begin(), middle, nearest.end());
+  return *middle;
+}
+
+void check(const LintParams& p) {
+  const auto fail = [](const char* what, float value) {
+    throw Error("probe lint",
+                fmt::format("the {} must be a number over or equal to 0, not {:g}", what, value));
+  };
+  if (!(p.clearance >= 0) || !std::isfinite(p.clearance)) fail("clearance", p.clearance);
+  if (!(p.negative_tolerance >= 0)) fail("tolerance of negative irradiance", p.negative_tolerance);
+  if (!(p.spacing >= 0) || !std::isfinite(p.spacing)) fail("spacing", p.spacing);
+}
+
+}  // namespace
+
+const char* to_string(ProbeProblem problem) {
+  return names[static_cast<std::size_t>(problem)];
+}
+
+std::vector<LintProblem> lint_probes(const ProbeSet& set, const scene::TransportSource& source,
+                                     const LintParams& params, const Control& control) {
+  check(params);
+  if (set.probes.empty()) return {};
+  SiteRules rules;
+  rules.clearance = params.clearance > 0 ? params.clearance : std::min(0.04f, 0.05f * median_distance(set));
+  rules.back_limit = calibrated_back_limit(source, params.interest);
+  const LintContext context{set, source, params, control, rules};
+
+  std::vector<LintProblem> problems;
+  check_places(context, problems);
+  const std::vector<int> rooms = find_rooms(context, problems);
+  check_light(context, rooms, problems);
+  check_coverage(context, problems);
+  std::stable_sort(problems.begin(), problems.end(), [](const LintProblem& a, const LintProblem& b) {
+    return std::pair(a.kind, a.probe) < std::pair(b.kind, b.probe);
+  });
+  return problems;
+}
+
+}  // namespace ssphh::gi
