@@ -1,5 +1,3 @@
-#include <ssphh/gi/fitted_weights.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +5,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/gi/fitted_weights.h>
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/sh/irradiance.h>
 
@@ -19,7 +18,7 @@ namespace {
 
 /// One training light, solved: what leaves each surfel, and each probe's irradiance function.
 struct Training {
-  std::vector<vec3> radiosity;          ///< per surfel
+  std::vector<vec3> radiosity;  ///< per surfel
   std::vector<sh::IrradianceSh> probes;
 };
 
@@ -59,7 +58,8 @@ Training train(const TransportNetwork& network, const scene::TransportSource& so
     direct[s] /= std::max(used, 1.0f);
   }
   Solver solver;
-  solver.solve(network.links(), network.albedo(), direct, network.contraction().upper, {1e-4f, 300}, indirect);
+  solver.solve(network.links(), network.albedo(), direct, network.contraction().upper, {1e-4f, 300},
+               indirect);
   for (std::size_t s = 0; s < direct.size(); ++s) direct[s] += indirect[s];
 
   Training training;
@@ -207,10 +207,15 @@ FittedPoints fit_weights(const TransportNetwork& network, const scene::Transport
   return fitted;
 }
 
-std::vector<scene::SurfacePoint> surfel_points(const TransportNetwork& network) {
+std::vector<scene::SurfacePoint> surfel_points(const TransportNetwork& network, int per_surfel) {
+  const auto samples = static_cast<std::size_t>(network.params().samples);
+  const std::size_t wanted = std::min(static_cast<std::size_t>(std::max(per_surfel, 1)), samples);
+  const std::vector<Surfel>& surfels = network.surfels().surfels();
   std::vector<scene::SurfacePoint> points;
-  for (const Surfel& surfel : network.surfels().surfels()) {
-    if (surfel.part == 0) points.push_back(surfel.point);
+  for (std::size_t s = 0; s < surfels.size() && surfels[s].part == 0; ++s) {
+    for (std::size_t i = s * samples; i < s * samples + wanted; ++i) {
+      if (network.sample_exists(i)) points.push_back(network.samples()[i]);
+    }
   }
   return points;
 }

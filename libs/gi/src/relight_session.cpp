@@ -63,6 +63,7 @@ struct RelightSession::Data {
         group_dirty(source_in.light_groups().size(), true),
         group_scale(source_in.light_groups().size(), vec3(1)),
         pending_time(time) {
+    if (params.poses != 0) network.prepare_poses(params.poses, control);
     emitters.resize(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) emitters[i] = {places[i].position, places[i].radius, {}};
   }
@@ -98,7 +99,9 @@ struct RelightSession::Data {
     const std::vector<mat4> old_poses = network.poses();
     std::vector<scene::Bounds> old_bounds;
     for (int p = 0; p < source.part_count(); ++p) old_bounds.push_back(network.part_world_bounds(p));
-    report.hits_changed = network.set_time(pending_time).hits_changed;
+    const PoseReport pose =
+        params.poses == 0 ? network.set_time(pending_time) : network.set_time_between(pending_time);
+    report.hits_changed = pose.hits_changed;
     for (int p = 1; p < source.part_count(); ++p) {
       const auto index = static_cast<std::size_t>(p);
       if (network.poses()[index] == old_poses[index]) continue;

@@ -45,6 +45,9 @@ PoseReport TransportNetwork::set_time(float time) {
   return report;
 }
 
+const std::vector<MixedHit>& TransportNetwork::mixed_hits() const {
+  return data_->mixed_hits;
+}
 float TransportNetwork::time() const {
   return data_->time;
 }

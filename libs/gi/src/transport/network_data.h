@@ -32,6 +32,14 @@ struct Resolved {
   float distance = 0;
 };
 
+/// The part of the operators that moves, at one time.
+struct PreparedPose {
+  float time = 0;
+  std::vector<Link> links;
+  std::vector<std::pair<std::size_t, std::size_t>> rows;  ///< first link and count, per surfel
+  std::vector<Resolved> hits;                             ///< per moving hit
+};
+
 struct TransportNetwork::Data {
   Data(const scene::TransportSource& source_in, const TransportParams& params_in)
       : source(source_in), params(params_in), surfels(source_in, params_in.surfel_size) {}
@@ -62,6 +70,8 @@ struct TransportNetwork::Data {
   std::vector<float> seen_distance;
   std::vector<std::uint16_t> seen_emission;
   std::vector<MovingRay> moving_hits;
+  std::vector<MixedHit> mixed_hits;
+  std::vector<PreparedPose> prepared;  ///< by time
 
   // Pose.
   std::vector<scene::Bounds> swept;  ///< per part, all that it ever occupies, world space
@@ -87,6 +97,9 @@ struct TransportNetwork::Data {
   void pose_samples();
   void pose_hits(PoseReport& report);
   void pose_links(PoseReport& report);
+  /// Makes `links` the moving part of the rows.
+  void set_moving(std::vector<Link>&& links, std::span<const std::pair<std::size_t, std::size_t>> ranges);
+  void set_hit(std::uint32_t owner, const Resolved& found);
 };
 
 /// Ray of a point's cosine-distributed fan: point `index` of a rank-1 sequence (Roberts 2018, R2), shifted by

@@ -229,21 +229,32 @@ void TransportNetwork::Data::pose_samples() {
 }
 
 void TransportNetwork::Data::pose_hits(PoseReport& report) {
+  mixed_hits.clear();
   std::vector<std::uint8_t> changed(moving_hits.size());
   parallel_for(moving_hits.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const MovingRay& moving_ray = moving_hits[i];
       const Resolved found = resolve(moving_ray);
       const SeenPatch patch{found.surfel, found.albedo};
-      SeenPatch& slot = seen[moving_ray.owner];
-      changed[i] = patch != slot;
-      slot = patch;
-      seen_distance[moving_ray.owner] = found.distance;
-      if (!seen_emission.empty()) seen_emission[moving_ray.owner] = found.emission;
+      changed[i] = patch != seen[moving_ray.owner];
+      set_hit(moving_ray.owner, found);
     }
   });
   report.hits_changed += static_cast<std::size_t>(std::count(changed.begin(), changed.end(), 1));
   report.rays_near_parts += moving_hits.size();
+}
+
+void TransportNetwork::Data::set_hit(std::uint32_t owner, const Resolved& found) {
+  seen[owner] = {found.surfel, found.albedo};
+  seen_distance[owner] = found.distance;
+  if (!seen_emission.empty()) seen_emission[owner] = found.emission;
+}
+
+void TransportNetwork::Data::set_moving(std::vector<Link>&& links,
+                                        std::span<const std::pair<std::size_t, std::size_t>> ranges) {
+  moving = std::move(links);
+  for (std::size_t s = 0; s < ranges.size(); ++s)
+    rows.rows[s].moving = {moving.data() + ranges[s].first, ranges[s].second};
 }
 
 void TransportNetwork::Data::pose_links(PoseReport& report) {
@@ -305,9 +316,7 @@ void TransportNetwork::Data::pose_links(PoseReport& report) {
     same += links[i].surfel == moving[i].surfel;
   report.hits_changed += std::max(links.size(), moving.size()) - same;
   report.rays_near_parts += target.size();
-  moving.swap(links);
-  for (std::size_t s = 0; s < ranges.size(); ++s)
-    rows.rows[s].moving = {moving.data() + ranges[s].first, ranges[s].second};
+  set_moving(std::move(links), ranges);
   lost_links = static_cast<std::size_t>(std::count(lost.begin(), lost.end(), 1));
 }
 

@@ -1,5 +1,7 @@
 #include "probe_light.h"
 
+#include <algorithm>
+
 #include <ssphh/core/parallel.h>
 
 namespace ssphh::gi {
@@ -8,16 +10,23 @@ void project_reflected(const TransportNetwork& network, const DirectionProjector
                        std::span<const Irradiance4> irradiance, std::vector<sh::RadianceSh>& out) {
   const std::size_t probes = network.gbuffer().positions.size();
   const std::size_t directions = network.gbuffer().directions.size(), stride = projector.stride();
+  const auto radiance_of = [&](const SeenPatch& patch) {
+    if (patch.surfel == no_surfel) return vec3(0);
+    return unpack_albedo(patch.albedo) * (1 / pi) * vec3(irradiance[static_cast<std::size_t>(patch.surfel)]);
+  };
+  const std::vector<MixedHit>& mixed = network.mixed_hits();
   out.resize(probes, sh::RadianceSh(projector.degree()));
   parallel_for(probes, 8, [&](std::size_t begin, std::size_t end) {
     std::vector<float> radiance(3 * stride, 0.0f);
+    auto mix = std::lower_bound(mixed.begin(), mixed.end(), begin * directions,
+                                [](const MixedHit& hit, std::size_t owner) { return hit.owner < owner; });
     for (std::size_t i = begin; i < end; ++i) {
-      const SeenPatch* seen = network.seen().data() + i * directions;
       for (std::size_t q = 0; q < directions; ++q) {
-        vec3 value(0);
-        if (seen[q].surfel != no_surfel) {
-          value = unpack_albedo(seen[q].albedo) * (1 / pi) *
-                  vec3(irradiance[static_cast<std::size_t>(seen[q].surfel)]);
+        const std::size_t ray = i * directions + q;
+        vec3 value = radiance_of(network.seen()[ray]);
+        if (mix != mixed.end() && mix->owner == ray) {
+          value += mix->share * (radiance_of(mix->other) - value);
+          ++mix;
         }
         radiance[q] = value.x, radiance[stride + q] = value.y, radiance[2 * stride + q] = value.z;
       }

@@ -1,14 +1,14 @@
 #pragma once
 /// Lookup weights fitted to light transport, for points that do not move (after Silvennoinen & Lehtinen,
-/// Real-Time Global Illumination by Precomputed Local Reconstruction from Sparse Radiance Probes, SIGGRAPH Asia
-/// 2017): per point the non-negative weights of its nearest visible probes that reproduce the irradiance of
-/// training lights best. No visibility ray is needed when they are used.
+/// Real-Time Global Illumination by Precomputed Local Reconstruction from Sparse Radiance Probes, SIGGRAPH
+/// Asia 2017): per point the non-negative weights of its nearest visible probes that reproduce the irradiance
+/// of training lights best. No visibility ray is needed when they are used.
 
 #include <span>
 #include <vector>
 
 #include <ssphh/core/control.h>
-#include <ssphh/gi/lookup_weights.h>
+#include <ssphh/gi/lookup.h>
 #include <ssphh/gi/probe_set.h>
 #include <ssphh/gi/transport/network.h>
 
@@ -38,7 +38,27 @@ FittedPoints fit_weights(const TransportNetwork& network, const scene::Transport
 std::vector<double> fit_non_negative(std::span<const double> rows, std::span<const double> targets,
                                      std::span<const double> prior, double ridge);
 
-/// Places for fitted points that cover all static surfels: their representatives.
-std::vector<scene::SurfacePoint> surfel_points(const TransportNetwork& network);
+/// Places for fitted points that cover all static surfels: at most `per_surfel` of each one's samples.
+std::vector<scene::SurfacePoint> surfel_points(const TransportNetwork& network, int per_surfel = 1);
+
+/// Indirect light from fitted points: irradiance at each of them is found once, at construction; in between,
+/// a linear fit over the near ones that x sees and that face its way, kept within their range. Where there
+/// are none, and for glossy lobes, an IrradianceLookup by `params`. Copies what it needs; `source` must
+/// outlive it. Throws Error as IrradianceLookup does, and for weights that name a probe which the set lacks.
+class FittedLookup final : public scene::IndirectLight {
+ public:
+  FittedLookup(const ProbeSet& set, const FittedPoints& fitted, const scene::RadianceSource& source,
+               const LookupParams& params = {});
+  ~FittedLookup() override;
+  vec3 irradiance(const vec3& x, const vec3& n) const override;
+  vec3 glossy(const vec3& x, const vec3& n, const vec3& r, float roughness) const override;
+
+  /// At the fitted points themselves.
+  const std::vector<vec3>& point_irradiance() const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
 
 }  // namespace ssphh::gi

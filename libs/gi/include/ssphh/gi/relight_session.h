@@ -29,6 +29,7 @@ struct ProbePlace {
 struct RelightParams {
   TransportParams transport;
   SolveParams solve;
+  int poses = 0;           ///< 0: parts are posed exactly; K ≥ 2: blended between K poses of the animation
   int degree = 4;          ///< of the probes' functions
   float changed = 1e-3f;   ///< a probe changed when a coefficient did by more than this share of its mean
   bool warm_start = true;  ///< false: every update starts from darkness, so its bits tell nothing of the past

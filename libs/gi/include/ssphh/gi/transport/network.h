@@ -31,6 +31,13 @@ struct SeenPatch {
   friend bool operator==(const SeenPatch&, const SeenPatch&) = default;
 };
 
+/// A probe ray between two precomputed poses: seen()[owner] with weight 1 − share, `other` with weight share.
+struct MixedHit {
+  std::uint32_t owner;  ///< probe · directions + direction
+  SeenPatch other;
+  float share;
+};
+
 struct PoseReport {
   std::size_t rays_near_parts = 0;  ///< rays that some part comes near at some time
   std::size_t hits_changed = 0;     ///< probe rays and links that see something else than before
@@ -47,6 +54,18 @@ class TransportNetwork {
   /// Moves the parts. The result equals a network built at this time, to the bit.
   PoseReport set_time(float time);
   float time() const;
+
+  /// Time interpolation, for animations that repeat: finds the operators at `count` poses, evenly spaced over
+  /// the animation, so that set_time_between only blends two of them. Throws Error for fewer than 2 poses.
+  void prepare_poses(int count, const Control& control = {});
+  /// Like set_time, with links and probe rays blended linearly between the two nearest prepared poses;
+  /// samples for direct light are posed exactly. The error falls with the number of poses
+  /// (docs/methods/transport.md).
+  PoseReport set_time_between(float time);
+  /// By owner; empty after set_time.
+  const std::vector<MixedHit>& mixed_hits() const;
+  /// Bytes that prepare_poses keeps.
+  std::size_t pose_bytes() const;
 
   /// As resolved: surfel_size is never 0.
   const TransportParams& params() const;
