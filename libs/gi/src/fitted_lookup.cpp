@@ -37,7 +37,8 @@ struct FittedLookup::Data {
       for (int k = 0; k < w.count; ++k) {
         const int probe = w.entries[static_cast<std::size_t>(k)].probe;
         if (probe < 0 || static_cast<std::size_t>(probe) >= set.probes.size())
-          throw Error(fmt::format("fitted point {}", i), fmt::format("it names probe {}, which there is not", probe));
+          throw Error(fmt::format("fitted point {}", i),
+                      fmt::format("it names probe {}, which there is not", probe));
       }
       if (w.count == 0) continue;
       points.push_back(fitted.points[i]);
@@ -68,8 +69,8 @@ struct FittedLookup::Data {
   float spacing = 0;
 };
 
-FittedLookup::FittedLookup(const ProbeSet& set, const FittedPoints& fitted, const scene::RadianceSource& source,
-                           const LookupParams& params)
+FittedLookup::FittedLookup(const ProbeSet& set, const FittedPoints& fitted,
+                           const scene::RadianceSource& source, const LookupParams& params)
     : data_(std::make_unique<Data>(set, fitted, source, params)) {}
 FittedLookup::~FittedLookup() = default;
 
@@ -90,9 +91,8 @@ vec3 FittedLookup::irradiance(const vec3& x, const vec3& n) const {
   mat3 right(0);  // a column per channel
   vec3 low(std::numeric_limits<float>::infinity()), high(0);
   float total = 0;
-  const float reach = count == static_cast<int>(most_near)
-                          ? std::sqrt(near[most_near - 1].distance2) * 1.0001f
-                          : radius;
+  const float reach =
+      count == static_cast<int>(most_near) ? std::sqrt(near[most_near - 1].distance2) * 1.0001f : radius;
   for (int i = 0; i < count; ++i) {
     const Near& found = near[static_cast<std::size_t>(i)];
     const scene::SurfacePoint& point = d.points[static_cast<std::size_t>(found.index)];

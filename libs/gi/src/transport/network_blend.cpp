@@ -11,7 +11,8 @@ namespace ssphh::gi {
 void TransportNetwork::prepare_poses(int count, const Control& control) {
   Data& d = *data_;
   if (count < 2)
-    throw Error("poses", fmt::format("{} poses leave nothing to blend", count), "give at least 2, or 0 for none");
+    throw Error("poses", fmt::format("{} poses leave nothing to blend", count),
+                "give at least 2, or 0 for none");
   const float now = d.time;
   d.prepared.clear();
   ProgressStage progress(control, "poses", static_cast<std::uint64_t>(count), "poses");
@@ -23,8 +24,9 @@ void TransportNetwork::prepare_poses(int count, const Control& control) {
     pose.time = time;
     pose.links = d.moving;
     for (const LinkRows::Row& row : d.rows.rows)
-      pose.rows.emplace_back(row.moving.empty() ? 0 : static_cast<std::size_t>(row.moving.data() - d.moving.data()),
-                             row.moving.size());
+      pose.rows.emplace_back(
+          row.moving.empty() ? 0 : static_cast<std::size_t>(row.moving.data() - d.moving.data()),
+          row.moving.size());
     for (const MovingRay& ray : d.moving_hits) {
       const SeenPatch& patch = d.seen[ray.owner];
       pose.hits.push_back({patch.surfel, patch.albedo,

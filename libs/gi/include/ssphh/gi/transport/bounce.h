@@ -1,0 +1,45 @@
+#pragma once
+/// `bounce`: probes as the only unknowns. S = D + B S, where D is the direct light that probe rays see and B
+/// looks the rest up from the probes around each ray's hit (docs/methods/transport.md). One application is the
+/// paper's HIER in a form that is linear transport; solved, it has every bounce. The lookup's bias is amplified
+/// by the bounces, so `surfel` is better; this form needs no surfels beyond those that carry direct light.
+
+#include <vector>
+
+#include <ssphh/gi/lookup_weights.h>
+#include <ssphh/gi/transport/network.h>
+#include <ssphh/sh/coefficients.h>
+
+namespace ssphh::gi {
+
+struct BounceParams {
+  WeightParams weights{.method = WeightMethod::trilinear};
+  int irradiance_degree = 2;  ///< bands of the probes' irradiance that surfaces look up
+  int applications = 0;       ///< of B; 0: until it changes no probe by more than the tolerance
+  float tolerance = 1e-3f;    ///< of a probe's band 0, relative to the largest one's
+  int max_iterations = 200;
+};
+
+struct BounceReport {
+  int iterations = 0;
+  double contraction = 0;  ///< ratio of the last two changes (largest band 0): an estimate of B's spectral radius
+  bool converged = true;
+  std::size_t edges = 0;  ///< pairs of probes that B couples
+};
+
+class BounceOperator {
+ public:
+  /// Finds the lookup weights at every probe ray's hit, in the network's pose. Keeps references to both.
+  BounceOperator(const TransportNetwork& network, const scene::TransportSource& source, int degree,
+                 const BounceParams& params = {});
+  ~BounceOperator();
+
+  /// Reflected light of every probe from the surfels' direct irradiance.
+  BounceReport solve(std::span<const Irradiance4> direct, std::vector<sh::RadianceSh>& reflected) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace ssphh::gi
