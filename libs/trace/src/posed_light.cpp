@@ -124,18 +124,24 @@ vec3 PosedLight::sky_irradiance(const GroupEmitter& light, const Receiver& at, s
     SampleSequence sequence(cosine_sample ? seed : mix64(seed),
                             static_cast<std::uint32_t>(cosine_sample ? s : s - by_cosine));
     const vec2 u = sequence.next2();
-    vec3 wi = frame.to_world(sample_cosine_hemisphere(u));
+    std::optional<shading::LightSample> sample;
     if (!cosine_sample) {
-      const auto sample = lights_.sample_emitter(light.index, at.position, u);
+      sample = lights_.sample_emitter(light.index, at.position, u);
       if (!sample) continue;
-      wi = sample->wi;
     }
+    const vec3 wi = sample ? sample->wi : frame.to_world(sample_cosine_hemisphere(u));
     const float cosine = glm::dot(wi, at.normal);
-    if (!(cosine > 0)) continue;
-    const auto sky = lights_.distant_radiance(light.index, wi);
-    const float pdf = share * cosine / pi + (1 - share) * sky->pdf;
-    if (max_component(sky->radiance) > 0 && !blocked({at.start, wi, sky->distance}, task))
-      sum += sky->radiance * (cosine / pdf);
+    if (!(cosine > 0) || blocked({at.start, wi}, task)) continue;
+    // Looking up the image costs more than the ray.
+    vec3 radiance;
+    float sky_pdf;
+    if (sample) {
+      radiance = sample->radiance, sky_pdf = sample->pdf;
+    } else {
+      const auto sky = lights_.distant_radiance(light.index, wi);
+      radiance = sky->radiance, sky_pdf = sky->pdf;
+    }
+    sum += radiance * (cosine / (share * cosine / pi + (1 - share) * sky_pdf));
   }
   return sum / static_cast<float>(count);
 }

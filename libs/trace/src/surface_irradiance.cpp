@@ -41,7 +41,7 @@ void trace_from(const TracerData& data, const scene::SurfacePoint& point, float 
   const SceneEmitters emitters = data.emitters();
   const vec3 start = above_surface(point.position, point.normal, gap);
   PathVertex vertex{point.position, point.normal};
-  SampleSequence random = sampler.vertex(0);
+  SampleSequence random = sampler.camera();
   const float u_light = random.next();
   const vec2 u_point = random.next2(), u_direction = random.next2();
 

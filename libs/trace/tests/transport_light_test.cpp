@@ -12,6 +12,7 @@
 #include <ssphh/trace/transport_scene.h>
 
 #include "hand_made.h"
+#include "robot.h"
 
 namespace ssphh::test {
 namespace {
@@ -245,6 +246,28 @@ TEST(TransportLight, TwoRoomsAreLitAsThePathTracerSaysWhereverTheDoorIs) {
   EXPECT_GT(behind[2], behind[1]);
 }
 
+/// All groups together against the path tracer, with parts posed at `time`.
+void lights_as_the_path_tracer(const scene::Scene& scene, const vec3& eye, float time) {
+  const trace::TransportScene source(scene);
+  std::vector<mat4> poses;
+  for (int p = 0; p < source.part_count(); ++p) poses.push_back(source.part_pose(p, time));
+  const auto points = seen_points(source, poses, eye, 400);
+  std::vector<vec3> one(points.size()), sum(points.size(), vec3(0));
+  for (int g = 0; g < static_cast<int>(source.light_groups().size()); ++g) {
+    light_at(source, time)->irradiance(g, points, one);
+    for (std::size_t i = 0; i < points.size(); ++i) sum[i] += one[i];
+  }
+  const auto truth = trace::PathTracer(scene, time).surface_irradiance(points, {1, 1, 1024, 5}, {});
+  Samples difference, light;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    difference.add(static_cast<double>(sum[i].x - truth[i].direct.x));
+    light.add(static_cast<double>(truth[i].direct.x));
+  }
+  EXPECT_GT(light.mean(), 0.01);
+  EXPECT_TRUE(mean_is(difference, 0, {1e-3, 4}, 1e-5)) << time;
+  EXPECT_LT(std::sqrt(difference.variance()), 0.1 * light.mean()) << time;
+}
+
 TEST(TransportLight, MovingLampLightsFromWhereItIs) {
   // A panel that turns and sinks, with a box below it.
   scene::Scene scene;
@@ -270,25 +293,11 @@ TEST(TransportLight, MovingLampLightsFromWhereItIs) {
                                 {0, 1},
                                 {{0, 0, 0, 1}, {turned.x, turned.y, turned.z, turned.w}}});
   scene.animations.push_back(animation);
-  const trace::TransportScene source(scene);
-  ASSERT_EQ(source.part_count(), 2);
-  for (const float time : {0.0f, 1.0f}) {
-    const std::vector<mat4> poses{mat4(1), source.part_pose(1, time)};
-    const auto points = seen_points(source, poses, vec3(0.5f, -0.3f, -0.6f), 400);
-    std::vector<vec3> one(points.size()), sum(points.size(), vec3(0));
-    for (int g = 0; g < 2; ++g) {
-      light_at(source, time)->irradiance(g, points, one);
-      for (std::size_t i = 0; i < points.size(); ++i) sum[i] += one[i];
-    }
-    const auto truth = trace::PathTracer(scene, time).surface_irradiance(points, {1, 1, 1024, 5}, {});
-    Samples difference, light;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      difference.add(static_cast<double>(sum[i].x - truth[i].direct.x));
-      light.add(static_cast<double>(truth[i].direct.x));
-    }
-    EXPECT_TRUE(mean_is(difference, 0, {1e-3, 2}, 1e-5)) << time;
-    EXPECT_LT(std::sqrt(difference.variance()), 0.1 * light.mean()) << time;
-  }
+  for (const float time : {0.0f, 1.0f}) lights_as_the_path_tracer(scene, vec3(0.5f, -0.3f, -0.6f), time);
+}
+
+TEST(TransportLight, LampOnASkewedArmLightsFromWhereItIs) {
+  for (const float time : {0.0f, 0.7f}) lights_as_the_path_tracer(robot(), vec3(0.7f, 0.1f, -0.6f), time);
 }
 
 TEST(TransportLight, PointsALittleBelowTheirSurfaceAreLitAllTheSame) {

@@ -11,6 +11,7 @@
 
 #include "embree_scene.h"
 #include "hand_made.h"
+#include "robot.h"
 
 namespace ssphh::test {
 namespace {
@@ -41,43 +42,6 @@ std::vector<RayQuery> random_rays(const scene::Bounds& bounds, int count, std::u
     rays.push_back(ray);
   }
   return rays;
-}
-
-/// A chain of animated nodes: base (moves), arm below it (turns and grows), hand below a still node on the
-/// arm, and an animated node that carries only a lamp.
-scene::Scene robot() {
-  scene::Scene scene;
-  add_room(scene, lambertian(vec3(0.5f)));
-  const int base = add_node(scene, "base", vec3(0.2f, -0.5f, 0));
-  add_object(scene, scene::make_box(vec3(-0.2f), vec3(0.2f)), lambertian(vec3(0.6f)), "", base);
-  const int arm = add_node(scene, "arm", vec3(0, 0.3f, 0));
-  scene.nodes.back().parent = base;
-  scene.nodes.back().local.scale = vec3(1, 2, 1);
-  const int wrist = add_node(scene, "wrist", vec3(0, 0.2f, 0.1f), glm::normalize(quat(1, 0.2f, 0, 0.4f)));
-  scene.nodes.back().parent = arm;
-  add_object(scene, scene::make_box(vec3(-0.05f), vec3(0.05f)), lambertian(vec3(0.7f), vec3(2)), "hand",
-             wrist);
-  const int swing = add_node(scene, "swing", vec3(0, 0.9f, 0));
-  add_light(scene, scene::LightType::point, 1, vec3(0, -0.1f, 0));
-  scene.nodes.back().parent = swing;
-  scene::Animation animation;
-  using scene::AnimationPath, scene::Interpolation;
-  animation.channels.push_back({base,
-                                AnimationPath::translation,
-                                Interpolation::linear,
-                                {0, 1},
-                                {{0.2f, -0.5f, 0, 0}, {-0.3f, -0.4f, 0.2f, 0}}});
-  animation.channels.push_back(
-      {arm, AnimationPath::rotation, Interpolation::linear, {0, 1}, {{0, 0, 0, 1}, {0.3f, 0, 0, 0.954f}}});
-  animation.channels.push_back(
-      {arm, AnimationPath::scale, Interpolation::linear, {0, 1}, {{1, 2, 1, 0}, {1.5f, 1, 1, 0}}});
-  animation.channels.push_back({swing,
-                                AnimationPath::translation,
-                                Interpolation::linear,
-                                {0, 1},
-                                {{0, 0.9f, 0, 0}, {0.5f, 0.9f, 0, 0}}});
-  scene.animations.push_back(animation);
-  return scene;
 }
 
 TEST(TransportScene, TwoRoomsHaveOneDoor) {
@@ -209,6 +173,29 @@ TEST(TransportScene, PointsOnAPartAreUniformByArea) {
   EXPECT_EQ(source.sample_part(2, 0).size(), 12u) << "one per triangle at least";
   const auto again = source.sample_part(2, 0);
   EXPECT_EQ(again[5].point.position, source.sample_part(2, 0)[5].point.position);
+}
+
+TEST(TransportScene, UnlitAndMaskedSurfaces) {
+  scene::Scene scene;
+  scene::Material sign = lambertian(vec3(0.2f, 0.4f, 0.6f));
+  sign.unlit = true;
+  add_object(scene, scene::make_quad(vec3(-1, 1, 1), vec3(2, 0, 0), vec3(0, 0, -2)), sign, "sign");
+  scene::Material veil = lambertian(vec3(0.5f));
+  veil.alpha_mode = scene::AlphaMode::blend, veil.alpha = 0.4f;
+  add_object(scene, scene::make_quad(vec3(-1, 2, 1), vec3(2, 0, 0), vec3(0, 0, -2)), veil, "veil");
+  const trace::TransportScene source(scene);
+  const RayQuery down{vec3(0.1f, 3, 0.2f), vec3(0, -1, 0)};
+  RayHit hit;
+  source.intersect(0, {&down, 1}, {&hit, 1});
+  EXPECT_NEAR(hit.distance, 2, 1e-6) << "through the veil";
+  EXPECT_EQ(hit.albedo, vec3(0));
+  EXPECT_EQ(hit.emission, vec3(0.2f, 0.4f, 0.6f));
+  EXPECT_EQ(hit.group, 0);
+  scene.materials[1].alpha = 0.6f;
+  const trace::TransportScene denser(scene);
+  denser.intersect(0, {&down, 1}, {&hit, 1});
+  EXPECT_NEAR(hit.distance, 1, 1e-6);
+  EXPECT_EQ(hit.group, -1);
 }
 
 TEST(TransportScene, RaysAreCounted) {
