@@ -17,6 +17,42 @@ struct BsdfParams {
   float specular_roughness = 1;  ///< bipolar
 };
 
+/// A BSDF value and the density of sampling that direction.
+struct BsdfValue {
+  vec3 value{0};
+  float pdf = 0;
+};
+
+struct BsdfSample {
+  vec3 wi;
+  vec3 weight;  ///< f · cos θ_i / pdf
+  float pdf;    ///< as pdf_bsdf(params, wo, wi)
+};
+
+/// The BSDF seen from one direction: what evaluating and sampling it have in common is computed once.
+class BsdfFrom {
+ public:
+  BsdfFrom(const BsdfParams& params, const vec3& wo);
+
+  /// As eval_bsdf and pdf_bsdf.
+  BsdfValue eval(const vec3& wi) const {
+    if (!(wo_.z > 0 && wi.z > 0)) return {};
+    return lambertian_ ? BsdfValue{params_.diffuse * (wi.z / pi), wi.z / pi} : eval_lobes(wi);
+  }
+  /// As sample_bsdf.
+  std::optional<BsdfSample> sample(float u_lobe, const vec2& u) const;
+
+ private:
+  BsdfValue eval_lobes(const vec3& wi) const;
+  BsdfValue eval_layers(const vec3& wi) const;
+
+  BsdfParams params_;
+  vec3 wo_;
+  bool specular_, lambertian_;
+  float p_specular_ = 1;  ///< probability to sample the specular lobe
+  vec3 left_{0};  ///< what the specular lobe leaves for the diffuse layer, but for its share toward wi
+};
+
 /// f(wo, wi) · cos θ_i, cosine included [sr⁻¹].
 vec3 eval_bsdf(const BsdfParams& params, const vec3& wo, const vec3& wi);
 
@@ -24,17 +60,7 @@ vec3 eval_bsdf(const BsdfParams& params, const vec3& wo, const vec3& wi);
 float pdf_bsdf(const BsdfParams& params, const vec3& wo, const vec3& wi);
 
 /// eval_bsdf and pdf_bsdf in one, for little more than one of them.
-struct BsdfValue {
-  vec3 value{0};
-  float pdf = 0;
-};
 BsdfValue eval_bsdf_and_pdf(const BsdfParams& params, const vec3& wo, const vec3& wi);
-
-struct BsdfSample {
-  vec3 wi;
-  vec3 weight;  ///< f · cos θ_i / pdf
-  float pdf;    ///< as pdf_bsdf(params, wo, wi)
-};
 
 /// `u_lobe` in [0, 1) chooses the lobe, `u` in [0, 1)² the direction. Empty when wo is below the surface or
 /// the sampled direction is: the path ends there.
