@@ -93,6 +93,8 @@ void trace_path(const EmbreeScene& scene, const Emitters& emitters, Ray ray, con
     // Look up the surface, unless nothing of it is wanted any more.
     const bool last = depth >= options.max_depth;
     if (last && depth > 0 && !scene.emissive(hit.instance)) return;
+    // Random numbers need nothing of the surface: drawn here, they fill the wait for its memory.
+    const PathSampler::Vertex random = sampler.vertex(depth);
     vec3 ray_origin;
     const shading::Surface surface = scene.surface(hit, -ray.direction, ray_origin);
     if (depth == 0) visitor.first_hit(surface, ray_origin, ray, hit.distance);
@@ -103,7 +105,6 @@ void trace_path(const EmbreeScene& scene, const Emitters& emitters, Ray ray, con
     const Frame frame = Frame::around(surface.normal);
     const vec3 wo = frame.to_local(-ray.direction);
     const shading::BsdfFrom bsdf(surface.bsdf, wo);
-    const PathSampler::Vertex random = sampler.vertex(depth);
 
     // Sample direct light.
     if (options.strategy != Strategy::bsdf_only) {

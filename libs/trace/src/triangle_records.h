@@ -27,4 +27,26 @@ class TriangleRecords {
   std::vector<float> floats_;
 };
 
+inline shading::SurfaceGeometry TriangleRecords::at(std::uint32_t triangle, const vec2& barycentric,
+                                                    float& magnitude) const {
+  const float* record = &floats_[triangle * stride_];
+  const float a = 1 - barycentric.x - barycentric.y, b = barycentric.x, c = barycentric.y;
+  const vec3 p0 = vec3_at(record), p1 = vec3_at(record + 3), p2 = vec3_at(record + 6);
+  magnitude = max_component(glm::max(glm::abs(p0), glm::max(glm::abs(p1), glm::abs(p2))));
+
+  shading::SurfaceGeometry geometry;
+  geometry.position = a * p0 + b * p1 + c * p2;
+  geometry.front = mirror_ * glm::cross(p1 - p0, p2 - p0);
+  if (normals_) {
+    const float* n = record + normals_;
+    geometry.normal = a * vec3_at(n) + b * vec3_at(n + 3) + c * vec3_at(n + 6);
+  }
+  for (std::size_t set = 0; set < 2; ++set) {
+    if (!uvs_[set]) continue;
+    const float* uv = record + uvs_[set];
+    geometry.uv[set] = a * vec2(uv[0], uv[1]) + b * vec2(uv[2], uv[3]) + c * vec2(uv[4], uv[5]);
+  }
+  return geometry;
+}
+
 }  // namespace ssphh::trace

@@ -31,21 +31,17 @@ vec3 specular_albedo(const SpecularLobe& specular, float mu) {
 // Diffuse under specular: what the specular lobe leaves, on the way in and on the way out (Kelemen and
 // Szirmay-Kalos 2001), so that a Lambertian base gives exactly ρ (1 − E(μ_o)).
 
-BsdfFrom::BsdfFrom(const BsdfParams& params, const vec3& wo)
-    : params_(params),
-      wo_(wo),
-      specular_(has_specular(params)),
-      lambertian_(!specular_ && params.diffuse_roughness == 0) {
-  if (!specular_ || !(max_component(params.diffuse) > 0)) return;
-  const SpecularLobe specular(params);
-  const vec3 albedo = specular_albedo(specular, wo.z);
+void BsdfFrom::weigh_layers() {
+  if (!(max_component(params_.diffuse) > 0)) return;
+  const SpecularLobe specular(params_);
+  const vec3 albedo = specular_albedo(specular, wo_.z);
   const vec2 ab = albedo_table(specular.phong).mean(specular.roughness);
   const vec3 mean = specular.f0 * ab.x + specular.f90 * ab.y;
   left_ = (vec3(1) - albedo) / glm::max(vec3(1) - mean, vec3(1e-3f));
 
   // Choose the lobe by its share of the reflected light, neither starved when both are there
   const float s = albedo.x + albedo.y + albedo.z;
-  const float d = glm::dot(params.diffuse, vec3(1) - albedo);
+  const float d = glm::dot(params_.diffuse, vec3(1) - albedo);
   if (d > 0) p_specular_ = glm::clamp(s / (s + d), 0.1f, 0.9f);
 }
 
@@ -68,7 +64,7 @@ BsdfValue BsdfFrom::eval_layers(const vec3& wi) const {
   return result;
 }
 
-std::optional<BsdfSample> BsdfFrom::sample(float u_lobe, const vec2& u) const {
+std::optional<BsdfSample> BsdfFrom::sample_lobes(float u_lobe, const vec2& u) const {
   if (!(wo_.z > 0)) return std::nullopt;
 
   // Without a specular lobe: cosine sampling
@@ -76,7 +72,7 @@ std::optional<BsdfSample> BsdfFrom::sample(float u_lobe, const vec2& u) const {
     const vec3 wi = sample_cosine_hemisphere(u);
     const float pdf = cosine_pdf(wi);
     if (!(pdf > 0)) return std::nullopt;
-    const float scale = lambertian_ ? 1.0f : diffuse_model(params_.diffuse_roughness, wo_, wi) / pdf;
+    const float scale = diffuse_model(params_.diffuse_roughness, wo_, wi) / pdf;
     return BsdfSample{wi, params_.diffuse * scale, pdf};
   }
 

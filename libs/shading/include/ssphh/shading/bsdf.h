@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include <ssphh/core/math.h>
+#include <ssphh/core/sphere.h>
 
 namespace ssphh::shading {
 
@@ -32,7 +32,13 @@ struct BsdfSample {
 /// The BSDF seen from one direction: what evaluating and sampling it have in common is computed once.
 class BsdfFrom {
  public:
-  BsdfFrom(const BsdfParams& params, const vec3& wo);
+  BsdfFrom(const BsdfParams& params, const vec3& wo)
+      : params_(params),
+        wo_(wo),
+        specular_(max_component(params.f0) > 0),
+        lambertian_(!specular_ && params.diffuse_roughness == 0) {
+    if (specular_) weigh_layers();
+  }
 
   /// As eval_bsdf and pdf_bsdf.
   BsdfValue eval(const vec3& wi) const {
@@ -40,9 +46,16 @@ class BsdfFrom {
     return lambertian_ ? BsdfValue{params_.diffuse * (wi.z / pi), wi.z / pi} : eval_lobes(wi);
   }
   /// As sample_bsdf.
-  std::optional<BsdfSample> sample(float u_lobe, const vec2& u) const;
+  std::optional<BsdfSample> sample(float u_lobe, const vec2& u) const {
+    if (!lambertian_) return sample_lobes(u_lobe, u);
+    const vec3 wi = sample_cosine_hemisphere(u);
+    if (!(wo_.z > 0 && wi.z > 0)) return std::nullopt;
+    return BsdfSample{wi, params_.diffuse, wi.z / pi};
+  }
 
  private:
+  void weigh_layers();
+  std::optional<BsdfSample> sample_lobes(float u_lobe, const vec2& u) const;
   BsdfValue eval_lobes(const vec3& wi) const;
   BsdfValue eval_layers(const vec3& wi) const;
 
