@@ -1,8 +1,10 @@
 /// The path tracer's ray rate beside bare Embree on the same rays, and the seconds of GEN and VIZ.
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
@@ -30,8 +32,48 @@ std::optional<scene::Scene> sponza() {
   return scene_io::load_scene(SSPHH_SOURCE_DIR "/examples/scenes/sponza.ssphh.json");
 }
 
+/// Every triangle cut into four at the middles of its edges; the surface stays what it is.
+void split(scene::Mesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    const auto [place, added] = middles.emplace(std::minmax(a, b), mesh.positions.size());
+    const auto add = [&](auto& values) {
+      if (!values.empty()) values.push_back(0.5f * (values[a] + values[b]));
+    };
+    if (added) {
+      add(mesh.positions), add(mesh.normals), add(mesh.uvs[0]), add(mesh.uvs[1]), add(mesh.colors);
+      if (!mesh.tangents.empty()) mesh.tangents.push_back(mesh.tangents[a]);
+    }
+    return place->second;
+  };
+  std::vector<uvec3> parts;
+  for (const uvec3& t : mesh.triangles) {
+    const std::uint32_t xy = middle(t.x, t.y), yz = middle(t.y, t.z), zx = middle(t.z, t.x);
+    parts.insert(parts.end(), {{t.x, xy, zx}, {xy, t.y, yz}, {zx, yz, t.z}, {xy, yz, zx}});
+  }
+  mesh.triangles = std::move(parts);
+}
+
+/// Splits the finest meshes that leave the scene with at most `triangles`, each at most once.
+scene::Scene refined(scene::Scene scene, std::uint64_t triangles) {
+  std::vector<scene::Mesh*> meshes;
+  for (scene::Mesh& mesh : scene.meshes) meshes.push_back(&mesh);
+  std::stable_sort(meshes.begin(), meshes.end(),
+                   [](const auto* a, const auto* b) { return a->triangles.size() > b->triangles.size(); });
+  std::uint64_t total = scene::triangle_count(scene);
+  for (scene::Mesh* mesh : meshes) {
+    if (total + 3 * mesh->triangles.size() > triangles) continue;
+    total += 3 * mesh->triangles.size();
+    split(*mesh);
+  }
+  return scene;
+}
+
+/// A trailing "_260k" asks for the scene refined to about the triangles of Crytek's Sponza.
 std::optional<scene::Scene> scene_named(const std::string& name) {
-  return name == "sponza" ? sponza() : scene::make_builtin(name);
+  const std::string base = name.substr(0, name.find("_260k"));
+  std::optional<scene::Scene> scene = base == "sponza" ? sponza() : scene::make_builtin(base);
+  return scene && base != name ? refined(std::move(*scene), 266'000) : std::move(scene);
 }
 
 /// All instances in world space, straight into Embree.
@@ -149,6 +191,8 @@ void ray_rate(benchmark::State& state, const std::string& name) {
 BENCHMARK_CAPTURE(ray_rate, gallery1, "gallery1")->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(ray_rate, gallery3, "gallery3")->UseManualTime()->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(ray_rate, sponza, "sponza")->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(ray_rate, gallery3_260k, "gallery3_260k")->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(ray_rate, sponza_260k, "sponza_260k")->UseManualTime()->Unit(benchmark::kMillisecond);
 
 /// Six places: the scene's SPHLs, repeated around if there are fewer.
 std::vector<scene::CubeRequest> six_probes(const scene::Scene& scene) {

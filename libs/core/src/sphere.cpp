@@ -67,17 +67,4 @@ vec3 spherical_fibonacci(int i, int n) {
           static_cast<float>(z)};
 }
 
-vec3 sample_uniform_sphere(const vec2& u) {
-  const float z = 1 - 2 * u.x;
-  const float r = std::sqrt(std::max(0.0f, 1 - z * z));
-  const float azimuth = 2 * pi * u.y;
-  return {r * std::cos(azimuth), r * std::sin(azimuth), z};
-}
-
-vec3 sample_cosine_hemisphere(const vec2& u) {
-  const float r = std::sqrt(u.x);
-  const float azimuth = 2 * pi * u.y;
-  return {r * std::cos(azimuth), r * std::sin(azimuth), std::sqrt(std::max(0.0f, 1 - u.x))};
-}
-
 }  // namespace ssphh

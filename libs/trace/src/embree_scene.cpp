@@ -43,6 +43,16 @@ bool has_partial_alpha(const scene::Scene& scene, const scene::Mesh& mesh, int m
   return m.alpha < 1 || m.base_color_texture.texture >= 0 || !mesh.colors.empty();
 }
 
+bool uses_uv_set(const scene::Scene& scene, int material, int set) {
+  if (material < 0) return false;
+  const scene::Material& m = scene.materials[static_cast<std::size_t>(material)];
+  for (const scene::TextureUse* use :
+       {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture, &m.normal_texture}) {
+    if (use->texture >= 0 && (use->uv_set == 1) == (set == 1)) return true;
+  }
+  return false;
+}
+
 RTCScene new_scene(RTCDevice device) {
   RTCScene scene = rtcNewScene(device);
   // Without ROBUST, rays leak between triangles at shared edges.
@@ -166,30 +176,30 @@ bool EmbreeScene::occluded(const Ray& ray, std::uint64_t alpha_seed, RayTask& ta
 
 shading::Surface EmbreeScene::surface(const Hit& hit, const vec3& wo, vec3& ray_origin) const {
   const Part& part = parts_[static_cast<std::size_t>(hit.instance)];
-  shading::Surface surface = shading::surface_at(scene_, *part.mesh, part.material, hit.triangle,
-                                                 hit.barycentric, part.world, part.normal_matrix, wo);
-  // Recompute the position from the vertices that Embree saw.
-  const uvec3& triangle = part.mesh->triangles[hit.triangle];
-  vec3 v[3];
   float magnitude = 0;
+  if (!part.instanced) {
+    const shading::SurfaceGeometry geometry = part.records.at(hit.triangle, hit.barycentric, magnitude);
+    const shading::Surface surface = shading::surface_of(geometry, scene_, *part.mesh, part.material,
+                                                         hit.triangle, hit.barycentric, part.world, wo);
+    ray_origin = surface.position + position_error(magnitude) * surface.geometric_normal;
+    return surface;
+  }
+  const shading::Surface surface = shading::surface_at(scene_, *part.mesh, part.material, hit.triangle,
+                                                       hit.barycentric, part.world, part.normal_matrix, wo);
+  const uvec3& triangle = part.mesh->triangles[hit.triangle];
   for (int i = 0; i < 3; ++i) {
-    const vec3& p = part.mesh->positions[triangle[i]];
-    v[i] = part.instanced ? vec3(part.world * vec4(p, 1)) : part.vertices[triangle[i]];
-    magnitude = std::max(magnitude, max_abs_component(v[i]));
+    const vec3 corner(part.world * vec4(part.mesh->positions[triangle[i]], 1));
+    magnitude = std::max(magnitude, max_abs_component(corner));
   }
   // An instance's rays are also rounded by the way to object space and back.
-  if (part.instanced) magnitude = 4 * std::max(magnitude, max_abs_component(vec3(part.world[3])));
-  const float a = 1 - hit.barycentric.x - hit.barycentric.y;
-  surface.position = a * v[0] + hit.barycentric.x * v[1] + hit.barycentric.y * v[2];
+  magnitude = 4 * std::max(magnitude, max_abs_component(vec3(part.world[3])));
   ray_origin = surface.position + position_error(magnitude) * surface.geometric_normal;
   return surface;
 }
 
 float EmbreeScene::alpha(const Hit& hit) const {
   const Part& part = parts_[static_cast<std::size_t>(hit.instance)];
-  return shading::surface_at(scene_, *part.mesh, part.material, hit.triangle, hit.barycentric, part.world,
-                             part.normal_matrix, vec3(0, 0, 1))
-      .alpha;
+  return shading::coverage_at(scene_, *part.mesh, part.material, hit.triangle, hit.barycentric);
 }
 
 bool EmbreeScene::is_back(const Hit& hit, const vec3& direction) const {
@@ -218,6 +228,8 @@ void EmbreeScene::add_flat(int instance) {
   part.vertices.reserve(part.mesh->positions.size() + 1);
   for (const vec3& p : part.mesh->positions) part.vertices.emplace_back(part.world * vec4(p, 1));
   part.vertices.emplace_back(0);
+  const bool uv_sets[2] = {uses_uv_set(scene_, part.material, 0), uses_uv_set(scene_, part.material, 1)};
+  part.records = TriangleRecords(*part.mesh, part.vertices, part.world, part.normal_matrix, uv_sets);
 
   RTCGeometry geometry = new_triangles(embree_->device, *part.mesh, part.vertices);
   if (has_partial_alpha(scene_, *part.mesh, part.material)) {

@@ -9,6 +9,7 @@
 #include <ssphh/shading/surface.h>
 
 #include "rays.h"
+#include "triangle_records.h"
 
 namespace ssphh::trace {
 
@@ -50,7 +51,8 @@ class EmbreeScene {
     bool instanced = false;
     mat4 world{1};
     mat3 normal_matrix{1};
-    std::vector<vec3> vertices;  ///< world space; of instanced parts none
+    std::vector<vec3> vertices;  ///< world space; of instanced parts none, nor records
+    TriangleRecords records;
   };
   struct Embree;
 

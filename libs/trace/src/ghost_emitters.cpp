@@ -1,5 +1,7 @@
 #include "ghost_emitters.h"
 
+#include <ssphh/core/sphere.h>
+
 namespace ssphh::trace {
 
 std::optional<shading::LightSample> GhostEmitters::sample(const PathVertex& vertex, float u_choice,
@@ -61,10 +63,10 @@ vec3 GhostEmitters::sample_cone(const Ball& ball, const vec3& from, const vec2& 
   const vec3 to_center = ball.center - from;
   const float d = glm::length(to_center);
   const float q = u.x * one_minus_cos(sin2_of(ball, from));  // 1 − cos θ
-  const float cos_theta = 1 - q, sin2 = q * (2 - q), sin_theta = std::sqrt(sin2), phi = 2 * pi * u.y;
+  const float cos_theta = 1 - q, sin2 = q * (2 - q), sin_theta = std::sqrt(sin2);
   distance = d * cos_theta - std::sqrt(std::max(0.0f, ball.radius * ball.radius - d * d * sin2));
   const Frame frame = Frame::around(to_center / d);
-  return frame.to_world({sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta});
+  return frame.to_world({sin_theta * unit_circle(u.y), cos_theta});
 }
 
 float GhostEmitters::weight(const Ball& ball, const PathVertex& vertex) {

@@ -31,8 +31,15 @@ struct PathSampler {
   std::uint32_t index;
 
   SampleSequence camera() const { return {seed, index}; }
-  SampleSequence vertex(int depth) const {
-    return {hash_combine(seed, static_cast<std::uint64_t>(depth) + 1), index};
+  /// The random numbers of a vertex.
+  struct Vertex {
+    float light, lobe;
+    vec2 point, direction;
+    float roulette;
+  };
+  Vertex vertex(int depth) const {
+    const auto u = sample_pairs(hash_combine(seed, static_cast<std::uint64_t>(depth) + 1), index);
+    return {u[0].x, u[0].y, u[1], u[2], u[3].x};
   }
   /// Never 0.
   std::uint64_t alpha_seed(int depth, bool shadow) const {
@@ -88,6 +95,8 @@ void trace_path(const EmbreeScene& scene, const Emitters& emitters, Ray ray, con
     // Look up the surface, unless nothing of it is wanted any more.
     const bool last = depth >= options.max_depth;
     if (last && depth > 0 && !scene.emissive(hit.instance)) return;
+    // Random numbers need nothing of the surface: drawn here, they fill the wait for its memory.
+    const PathSampler::Vertex random = sampler.vertex(depth);
     vec3 ray_origin;
     const shading::Surface surface = scene.surface(hit, -ray.direction, ray_origin);
     if (depth == 0) visitor.first_hit(surface, ray_origin, ray, hit.distance);
@@ -97,20 +106,17 @@ void trace_path(const EmbreeScene& scene, const Emitters& emitters, Ray ray, con
     vertex = {surface.position, surface.geometric_normal};
     const Frame frame = Frame::around(surface.normal);
     const vec3 wo = frame.to_local(-ray.direction);
-    SampleSequence random = sampler.vertex(depth);
+    const shading::BsdfFrom bsdf(surface.bsdf, wo);
 
     // Sample direct light.
-    const float u_light = random.next();
-    const vec2 u_point = random.next2();
     if (options.strategy != Strategy::bsdf_only) {
-      const auto light = emitters.sample(vertex, u_light, u_point);
+      const auto light = emitters.sample(vertex, random.light, random.point);
       if (light && light->pdf > 0 && glm::dot(light->wi, vertex.normal) > 0) {
-        const shading::BsdfValue bsdf =
-            shading::eval_bsdf_and_pdf(surface.bsdf, wo, frame.to_local(light->wi));
-        const vec3 value = throughput * bsdf.value * light->radiance;
+        const shading::BsdfValue f = bsdf.eval(frame.to_local(light->wi));
+        const vec3 value = throughput * f.value * light->radiance;
         if (max_component(value) > 0) {
           const bool alone = light->delta || options.strategy == Strategy::nee_only;
-          const float weight = alone ? 1 : shading::power_heuristic(light->pdf, bsdf.pdf);
+          const float weight = alone ? 1 : shading::power_heuristic(light->pdf, f.pdf);
           const Ray shadow{ray_origin, light->wi, shadow_distance(ray_origin, light->distance)};
           if (!scene.occluded(shadow, has_alpha ? sampler.alpha_seed(depth, true) : 0, task)) {
             visitor.add(depth + 1, light->group, value * (weight / light->pdf), -light->wi);
@@ -121,11 +127,7 @@ void trace_path(const EmbreeScene& scene, const Emitters& emitters, Ray ray, con
     if (depth + 1 == options.max_depth && !emitters.found_by_rays()) return;
 
     // Sample the BSDF; a direction that the shading normal allows but the surface does not ends the path.
-    const vec2 u_direction = random.next2();
-    const bool roulette = options.roulette && depth + 1 >= roulette_depth;
-    const float u_roulette = roulette ? random.next() : 0;
-    const float u_lobe = shading::is_lambertian(surface.bsdf) ? 0 : random.next();
-    const auto sample = shading::sample_bsdf(surface.bsdf, wo, u_lobe, u_direction);
+    const auto sample = bsdf.sample(random.lobe, random.direction);
     if (!sample || !(sample->pdf > 0)) return;
     const vec3 wi = frame.to_world(sample->wi);
     if (glm::dot(wi, vertex.normal) <= 0) return;
@@ -139,9 +141,9 @@ void trace_path(const EmbreeScene& scene, const Emitters& emitters, Ray ray, con
       if (!(brightness <= 0)) ++task.invalid;
       return;
     }
-    if (roulette) {
+    if (options.roulette && depth + 1 >= roulette_depth) {
       const float survival = std::min(brightness, 0.95f);
-      if (u_roulette >= survival) return;
+      if (random.roulette >= survival) return;
       throughput /= survival;
     }
   }

@@ -48,8 +48,7 @@ inline vec3 sample_blinn_phong_normal(float alpha, const vec2& u) {
   // cos θ = (1 − u)^(1/(n+2)); 1/(n+2) = α²/2
   const float log_cos2 = std::log1p(-u.x) * alpha * alpha;
   const float sin_theta = std::sqrt(-std::expm1(log_cos2));
-  const float azimuth = 2 * pi * u.y;
-  return {sin_theta * std::cos(azimuth), sin_theta * std::sin(azimuth), std::exp(0.5f * log_cos2)};
+  return {sin_theta * unit_circle(u.y), std::exp(0.5f * log_cos2)};
 }
 
 }  // namespace ssphh::shading

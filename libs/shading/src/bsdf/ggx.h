@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include <ssphh/core/math.h>
+#include <ssphh/core/sphere.h>
 
 namespace ssphh::shading {
 
@@ -40,10 +40,9 @@ inline vec3 sample_ggx_normal(float alpha, const vec3& wo, const vec2& u) {
   const vec3 v = glm::normalize(vec3(alpha * wo.x, alpha * wo.y, wo.z));
 
   // Sample the spherical cap of reflected directions
-  const float azimuth = 2 * pi * u.y;
   const float z = (1 - u.x) * (1 + v.z) - v.z;
   const float r = std::sqrt(glm::clamp(1 - z * z, 0.0f, 1.0f));
-  const vec3 h = vec3(r * std::cos(azimuth), r * std::sin(azimuth), z) + v;
+  const vec3 h = vec3(r * unit_circle(u.y), z) + v;
 
   // Back to the ellipsoid
   return glm::normalize(vec3(alpha * h.x, alpha * h.y, glm::max(h.z, 1e-7f)));

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <ssphh/core/math.h>
+#include <ssphh/core/sphere.h>
 
 namespace ssphh::shading {
 
@@ -20,8 +20,7 @@ struct Cone {
   vec3 sample(const vec2& u) const {
     const float x = u.x * one_minus;  // 1 − cos of the sampled angle
     const float r = std::sqrt(glm::max(x * (2 - x), 0.0f));
-    const float azimuth = 2 * pi * u.y;
-    return {r * std::cos(azimuth), r * std::sin(azimuth), 1 - x};
+    return {r * unit_circle(u.y), 1 - x};
   }
 };
 

@@ -93,8 +93,9 @@ EnvironmentLight::Sample EnvironmentLight::sample(const vec2& u) const {
   const float cos_theta = top + row.u * (bottom - top);
   const float sin_theta = std::sqrt(glm::max(1 - cos_theta * cos_theta, 0.0f));
   const float width = static_cast<float>(image_->width);
-  const float azimuth = 2 * pi * ((static_cast<float>(column.index) + column.u) / width - 0.5f);
-  const vec3 d(sin_theta * std::cos(azimuth), cos_theta, sin_theta * std::sin(azimuth));
+  // The image's left edge lies half a turn from +x
+  const vec2 horizontal = -sin_theta * unit_circle((static_cast<float>(column.index) + column.u) / width);
+  const vec3 d(horizontal.x, cos_theta, horizontal.y);
   const float solid_angle = 2 * pi / width * (top - bottom);
   return {to_world(d), lookup(d), row.probability * column.probability / solid_angle};
 }

@@ -71,8 +71,7 @@ MeshLight::MeshLight(const scene::Scene& scene, const scene::Instance& instance,
 
 vec3 MeshLight::radiance(std::size_t triangle, const vec2& barycentric) const {
   if (!textured_) return material_->emission;
-  const Corners at{mesh_->triangles[triangle],
-                   {1 - barycentric.x - barycentric.y, barycentric.x, barycentric.y}};
+  const Corners at(*mesh_, static_cast<std::uint32_t>(triangle), barycentric);
   vec2 uv[2];
   interpolate_uvs(*mesh_, at, uv);
   return emission_at(*scene_, *material_, uv) * base_color_at(*scene_, *mesh_, *material_, at, uv).a;

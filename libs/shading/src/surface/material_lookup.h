@@ -16,8 +16,13 @@ const scene::Material& material_at(const scene::Scene& scene, int material);
 
 /// Values interpolated over a triangle from its corners' weights.
 struct Corners {
-  uvec3 index;
-  vec3 weight;
+  uvec3 index{0};
+  vec3 weight{0};
+
+  Corners() = default;
+  Corners(const scene::Mesh& mesh, std::uint32_t triangle, const vec2& barycentric)
+      : index(mesh.triangles[triangle]),
+        weight(1 - barycentric.x - barycentric.y, barycentric.x, barycentric.y) {}
 
   template <class T>
   T interpolate(const std::vector<T>& values) const {

@@ -76,38 +76,42 @@ BsdfParams bsdf_at(const scene::Scene& scene, const scene::Material& material, c
 
 }  // namespace
 
-Surface surface_at(const scene::Scene& scene, const scene::Mesh& mesh, int material_index,
-                   std::uint32_t triangle, const vec2& barycentric, const mat4& world,
-                   const mat3& normal_matrix, const vec3& wo) {
-  const scene::Material& material = material_at(scene, material_index);
-  const Corners at{mesh.triangles[triangle],
-                   {1 - barycentric.x - barycentric.y, barycentric.x, barycentric.y}};
-  Surface surface;
-
-  // Position and geometric normal; the inverse transpose also keeps the front in front when an instance is
-  // mirrored
+Surface surface_at(const scene::Scene& scene, const scene::Mesh& mesh, int material, std::uint32_t triangle,
+                   const vec2& barycentric, const mat4& world, const mat3& normal_matrix, const vec3& wo) {
+  const Corners at(mesh, triangle, barycentric);
   const vec3 &p0 = mesh.positions[at.index.x], &p1 = mesh.positions[at.index.y],
              &p2 = mesh.positions[at.index.z];
-  surface.position = vec3(world * vec4(at.interpolate(mesh.positions), 1));
-  const vec3 front = normalize_or(normal_matrix * glm::cross(p1 - p0, p2 - p0), wo);
+  SurfaceGeometry geometry;
+  geometry.position = vec3(world * vec4(at.interpolate(mesh.positions), 1));
+  // The inverse transpose also keeps the front in front when an instance is mirrored
+  geometry.front = normal_matrix * glm::cross(p1 - p0, p2 - p0);
+  if (!mesh.normals.empty()) geometry.normal = normal_matrix * at.interpolate(mesh.normals);
+  interpolate_uvs(mesh, at, geometry.uv);
+  return surface_of(geometry, scene, mesh, material, triangle, barycentric, world, wo);
+}
+
+Surface surface_of(const SurfaceGeometry& geometry, const scene::Scene& scene, const scene::Mesh& mesh,
+                   int material_index, std::uint32_t triangle, const vec2& barycentric, const mat4& world,
+                   const vec3& wo) {
+  const scene::Material& material = material_at(scene, material_index);
+  const bool normal_mapped = material.normal_texture.texture >= 0;
+  // Only these two read the mesh: everybody else is spared its cache misses
+  const Corners at = normal_mapped || !mesh.colors.empty() ? Corners(mesh, triangle, barycentric) : Corners();
+  Surface surface;
+  surface.position = geometry.position;
+  const vec3 front = normalize_or(geometry.front, wo);
   const bool from_front = glm::dot(front, wo) >= 0;
   surface.geometric_normal = from_front ? front : -front;
 
   // Shading normal
-  vec2 uv[2];
-  interpolate_uvs(mesh, at, uv);
-  vec3 normal = front;
-  if (!mesh.normals.empty()) {
-    normal = normalize_or(normal_matrix * at.interpolate(mesh.normals), front);
-    if (glm::dot(normal, front) < 0)
-      normal = -normal;  // files whose normals and winding disagree: winding wins
-  }
-  if (material.normal_texture.texture >= 0)
-    normal = mapped_normal(scene, mesh, material, at, uv, world, normal);
+  vec3 normal = normalize_or(geometry.normal, front);
+  if (glm::dot(normal, front) < 0)
+    normal = -normal;  // files whose normals and winding disagree: winding wins
+  if (normal_mapped) normal = mapped_normal(scene, mesh, material, at, geometry.uv, world, normal);
   surface.normal = facing_normal(from_front ? normal : -normal, wo, surface.geometric_normal);
 
   // Material
-  const vec4 base = base_color_at(scene, mesh, material, at, uv);
+  const vec4 base = base_color_at(scene, mesh, material, at, geometry.uv);
   surface.alpha = base.a;
   surface.unlit = material.unlit;
   if (material.unlit) {
@@ -115,11 +119,19 @@ Surface surface_at(const scene::Scene& scene, const scene::Mesh& mesh, int mater
     surface.bsdf.diffuse = surface.bsdf.f0 = vec3(0);
     return surface;
   }
-  surface.bsdf = bsdf_at(scene, material, vec3(base), uv);
+  surface.bsdf = bsdf_at(scene, material, vec3(base), geometry.uv);
   if ((from_front || material.double_sided) && max_component(material.emission) > 0) {
-    surface.emission = emission_at(scene, material, uv);
+    surface.emission = emission_at(scene, material, geometry.uv);
   }
   return surface;
+}
+
+float coverage_at(const scene::Scene& scene, const scene::Mesh& mesh, int material, std::uint32_t triangle,
+                  const vec2& barycentric) {
+  const Corners at(mesh, triangle, barycentric);
+  vec2 uv[2];
+  interpolate_uvs(mesh, at, uv);
+  return base_color_at(scene, mesh, material_at(scene, material), at, uv).a;
 }
 
 }  // namespace ssphh::shading

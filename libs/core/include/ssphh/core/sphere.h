@@ -1,6 +1,10 @@
 #pragma once
 /// Directions on the sphere: cube map geometry (docs/conventions.md#cube-maps) and point sets.
 
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
 #include <ssphh/core/math.h>
 
 namespace ssphh {
@@ -34,10 +38,29 @@ double texel_solid_angle(int x, int y, int size);
 /// uniform.
 vec3 spherical_fibonacci(int i, int n);
 
+/// (cos 2πt, sin 2πt) for t in [0, 1], within 2·10⁻⁷: faster than the library's, which serve any angle.
+inline vec2 unit_circle(float t) {
+  // Taylor series within an eighth turn of the nearest quarter; the first terms left out are below 3·10⁻⁸
+  const float quarter = std::floor(4 * t + 0.5f);
+  const float x = 2 * pi * (t - 0.25f * quarter), x2 = x * x;
+  const float s = x * (1 + x2 * (-1.0f / 6 + x2 * (1.0f / 120 + x2 * (-1.0f / 5040 + x2 / 362880))));
+  const float c = 1 + x2 * (-0.5f + x2 * (1.0f / 24 + x2 * (-1.0f / 720 + x2 / 40320)));
+  const auto q = static_cast<std::uint32_t>(static_cast<std::int32_t>(quarter));
+  const auto with_sign = [](float value, std::uint32_t negative) {
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) ^ (negative << 30));
+  };
+  return {with_sign(q & 1 ? s : c, (q + 1) & 2), with_sign(q & 1 ? c : s, q & 2)};
+}
+
 /// Uniform on the unit sphere from u in [0, 1)²; pdf 1/4π.
-vec3 sample_uniform_sphere(const vec2& u);
+inline vec3 sample_uniform_sphere(const vec2& u) {
+  const float z = 1 - 2 * u.x;
+  return {std::sqrt(glm::max(0.0f, 1 - z * z)) * unit_circle(u.y), z};
+}
 
 /// Cosine-distributed on the hemisphere z ≥ 0; pdf z/π.
-vec3 sample_cosine_hemisphere(const vec2& u);
+inline vec3 sample_cosine_hemisphere(const vec2& u) {
+  return {std::sqrt(u.x) * unit_circle(u.y), std::sqrt(glm::max(0.0f, 1 - u.x))};
+}
 
 }  // namespace ssphh

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include <ssphh/core/math.h>
+#include <ssphh/core/sphere.h>
 
 namespace ssphh::shading {
 
@@ -17,6 +17,55 @@ struct BsdfParams {
   float specular_roughness = 1;  ///< bipolar
 };
 
+/// A BSDF value and the density of sampling that direction.
+struct BsdfValue {
+  vec3 value{0};
+  float pdf = 0;
+};
+
+struct BsdfSample {
+  vec3 wi;
+  vec3 weight;  ///< f · cos θ_i / pdf
+  float pdf;    ///< as pdf_bsdf(params, wo, wi)
+};
+
+/// The BSDF seen from one direction: what evaluating and sampling it have in common is computed once.
+class BsdfFrom {
+ public:
+  BsdfFrom(const BsdfParams& params, const vec3& wo)
+      : params_(params),
+        wo_(wo),
+        specular_(max_component(params.f0) > 0),
+        lambertian_(!specular_ && params.diffuse_roughness == 0) {
+    if (specular_) weigh_layers();
+  }
+
+  /// As eval_bsdf and pdf_bsdf.
+  BsdfValue eval(const vec3& wi) const {
+    if (!(wo_.z > 0 && wi.z > 0)) return {};
+    return lambertian_ ? BsdfValue{params_.diffuse * (wi.z / pi), wi.z / pi} : eval_lobes(wi);
+  }
+  /// As sample_bsdf.
+  std::optional<BsdfSample> sample(float u_lobe, const vec2& u) const {
+    if (!lambertian_) return sample_lobes(u_lobe, u);
+    const vec3 wi = sample_cosine_hemisphere(u);
+    if (!(wo_.z > 0 && wi.z > 0)) return std::nullopt;
+    return BsdfSample{wi, params_.diffuse, wi.z / pi};
+  }
+
+ private:
+  void weigh_layers();
+  std::optional<BsdfSample> sample_lobes(float u_lobe, const vec2& u) const;
+  BsdfValue eval_lobes(const vec3& wi) const;
+  BsdfValue eval_layers(const vec3& wi) const;
+
+  BsdfParams params_;
+  vec3 wo_;
+  bool specular_, lambertian_;
+  float p_specular_ = 1;  ///< probability to sample the specular lobe
+  vec3 left_{0};  ///< what the specular lobe leaves for the diffuse layer, but for its share toward wi
+};
+
 /// f(wo, wi) · cos θ_i, cosine included [sr⁻¹].
 vec3 eval_bsdf(const BsdfParams& params, const vec3& wo, const vec3& wi);
 
@@ -24,17 +73,7 @@ vec3 eval_bsdf(const BsdfParams& params, const vec3& wo, const vec3& wi);
 float pdf_bsdf(const BsdfParams& params, const vec3& wo, const vec3& wi);
 
 /// eval_bsdf and pdf_bsdf in one, for little more than one of them.
-struct BsdfValue {
-  vec3 value{0};
-  float pdf = 0;
-};
 BsdfValue eval_bsdf_and_pdf(const BsdfParams& params, const vec3& wo, const vec3& wi);
-
-struct BsdfSample {
-  vec3 wi;
-  vec3 weight;  ///< f · cos θ_i / pdf
-  float pdf;    ///< as pdf_bsdf(params, wo, wi)
-};
 
 /// `u_lobe` in [0, 1) chooses the lobe, `u` in [0, 1)² the direction. Empty when wo is below the surface or
 /// the sampled direction is: the path ends there.

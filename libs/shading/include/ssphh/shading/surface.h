@@ -17,11 +17,29 @@ struct Surface {
   bool unlit = false;
 };
 
+/// The geometry of a hit, world space.
+struct SurfaceGeometry {
+  vec3 position{0};
+  vec3 front{0};   ///< normal of the triangle's front side, any length; zero: degenerate
+  vec3 normal{0};  ///< interpolated vertex normal, any length; zero: none
+  vec2 uv[2] = {vec2(0), vec2(0)};
+};
+
 /// `barycentric` are the weights of the triangle's second and third vertex (Embree's u, v); `wo` points to
 /// where the ray came from, world space. `normal_matrix` is the inverse transpose of the world matrix's 3×3
 /// part.
 Surface surface_at(const scene::Scene& scene, const scene::Mesh& mesh, int material, std::uint32_t triangle,
                    const vec2& barycentric, const mat4& world, const mat3& normal_matrix, const vec3& wo);
+
+/// The same where the geometry is known already. What is left of the mesh is read for vertex colours and
+/// normal maps only; `geometry` needs the texture coordinates of the sets that the material uses.
+Surface surface_of(const SurfaceGeometry& geometry, const scene::Scene& scene, const scene::Mesh& mesh,
+                   int material, std::uint32_t triangle, const vec2& barycentric, const mat4& world,
+                   const vec3& wo);
+
+/// Surface::alpha alone.
+float coverage_at(const scene::Scene& scene, const scene::Mesh& mesh, int material, std::uint32_t triangle,
+                  const vec2& barycentric);
 
 /// Texture lookup with bilinear filtering (or nearest) and wrapping; RGBA in 0..1, RGB decoded from sRGB if
 /// asked. Without a texture: all ones.
