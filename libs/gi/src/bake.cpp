@@ -179,7 +179,14 @@ ProbeSet bake(const scene::RadianceSource& source, ProbeSet set, const BakeParam
 
   check_probes(source, set, report);
   validate(set, "bake");
-  for (const std::string& warning : report.warnings) log_warning("{}", warning);
+  constexpr std::size_t most_lines = 10;
+  for (std::size_t i = 0; i < std::min(report.warnings.size(), most_lines); ++i) {
+    log_warning("{}", report.warnings[i]);
+  }
+  if (report.warnings.size() > most_lines) {
+    log_warning("and {} more like these; `ssphh probe lint` lists what is wrong with a set",
+                report.warnings.size() - most_lines);
+  }
   return set;
 }
 

@@ -115,12 +115,18 @@ TEST_F(Lint, UnlitProbe) {
   EXPECT_THAT(run(), testing::IsEmpty());
 }
 
-TEST_F(Lint, UnlitRoom) {
-  for (gi::Probe& probe : set_.probes) probe.groups[0].reflected = light(0);
+TEST_F(Lint, UnlitRoomBehindTheDoor) {
+  // Shut at time 0 and open at 1, so that room B is a room of its own, or one with A.
+  for (const std::size_t i : {3u, 4u, 5u}) set_.probes[i].groups[0].reflected = light(0);
   const std::vector<LintProblem> problems = run();
-  ASSERT_EQ(problems.size(), set_.probes.size() + 1);
-  EXPECT_EQ(problems.back().kind, ProbeProblem::unlit_room);
-  EXPECT_EQ(problems.back().probe, -1);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].kind, ProbeProblem::unlit_room);
+  EXPECT_EQ(problems[0].probe, -1);
+  EXPECT_EQ(problems[0].position, set_.probes[3].position);
+  set_.generator.time = 1;
+  const std::vector<LintProblem> open = run();
+  ASSERT_EQ(open.size(), 3u);
+  for (const LintProblem& problem : open) EXPECT_EQ(problem.kind, ProbeProblem::unlit);
 }
 
 TEST_F(Lint, NegativeIrradiance) {

@@ -8,6 +8,7 @@
 #include <ssphh/gi/place.h>
 
 #include "../place/draft.h"
+#include "../place/sweep.h"
 #include "checks.h"
 
 namespace ssphh::gi {
@@ -78,10 +79,12 @@ std::vector<int> find_rooms(const LintContext& context, std::vector<LintProblem>
     while (room[static_cast<std::size_t>(i)] != i) i = room[static_cast<std::size_t>(i)];
     return i;
   };
+  const Sweep now = Sweep::at(context.source, context.set.generator.time);
   std::vector<bool> linked(count, false);
   for (std::size_t i = 0; i < count; ++i) {
     for (const std::size_t j : seen[i]) {
       linked[i] = linked[j] = true;
+      if (now.separates(probes[i].position, probes[j].position)) continue;
       const int a = root(static_cast<int>(i)), b = root(static_cast<int>(j));
       room[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
     }

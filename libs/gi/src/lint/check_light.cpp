@@ -42,24 +42,25 @@ void check_light(const LintContext& context, const std::vector<int>& rooms,
                  std::vector<LintProblem>& problems) {
   const std::vector<Probe>& probes = context.set.probes;
 
-  // Unlit probes; a room of which all are unlit is one more problem.
+  // A room of which all probes are unlit is one problem.
   std::map<int, std::vector<std::size_t>> by_room;
   for (std::size_t i = 0; i < probes.size(); ++i) by_room[rooms[i]].push_back(i);
   for (const auto& [room, members] : by_room) {
     const bool dark =
         std::all_of(members.begin(), members.end(), [&](std::size_t i) { return unlit(probes[i]); });
+    if (dark && members.size() > 1) {
+      problems.push_back(
+          {ProbeProblem::unlit_room, -1, probes[members[0]].position,
+           fmt::format("{} probes around \"{}\" see each other and no light at all at {:g} s; put a lamp "
+                       "there, bake with the door open, or leave the probes out",
+                       members.size(), probes[members[0]].name, context.set.generator.time)});
+      continue;
+    }
     for (const std::size_t i : members) {
       if (!unlit(probes[i])) continue;
       problems.push_back({ProbeProblem::unlit, static_cast<int>(i), probes[i].position,
                           "receives no light; light its surroundings, bake with more depth or samples, or "
                           "remove it"});
-    }
-    if (dark && members.size() > 1) {
-      problems.push_back(
-          {ProbeProblem::unlit_room, -1, probes[members[0]].position,
-           fmt::format("{} probes around \"{}\" see each other and no light at all; put a lamp there, or no "
-                       "probes",
-                       members.size(), probes[members[0]].name)});
     }
   }
 

@@ -23,7 +23,7 @@ void check_light(const LintContext& context, const std::vector<int>& rooms,
                  std::vector<LintProblem>& problems);
 
 /// For each probe the lowest index of those it is connected with by sight, over other probes if need be: a
-/// room. Adds the isolated ones.
+/// room, as doors stand when the set was baked. Adds the isolated ones, for which doors do not count.
 std::vector<int> find_rooms(const LintContext& context, std::vector<LintProblem>& problems);
 
 /// Places that see no probe.

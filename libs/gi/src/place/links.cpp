@@ -84,7 +84,8 @@ std::vector<bool> reachable(const PlaceContext& context, const std::vector<Draft
     bool found = false;
     for (const auto& [distance, i] : by_distance) {
       if (found && distance > link_distance * context.spacing) break;
-      if (!sees(context.source, place, drafts[i].position)) continue;
+      // A manual probe stands for itself, and leads nowhere if it is far from all others.
+      if (drafts[i].kind == PlaceKind::manual || !sees(context.source, place, drafts[i].position)) continue;
       mark(i);
       found = true;
     }

@@ -96,6 +96,11 @@ Attempt search(const scene::TransportSource& source, const PlaceParams& params, 
   const vec3 thick = glm::max(extent, vec3(0.01f * size));
   auto spacing = static_cast<float>(
       std::cbrt(double{thick.x} * double{thick.y} * double{thick.z} / static_cast<double>(low)));
+  // Where hardly any place is valid (around a body that fills its bounds), a finer grid soon costs too much.
+  const double most_places =
+      places_per_probe * std::min(static_cast<double>(high), static_cast<double>(params.max_probes));
+  const auto finest =
+      static_cast<float>(std::cbrt(double{thick.x} * double{thick.y} * double{thick.z} / most_places) * 1.1);
   float coarse = 0, fine = 0;  // spacings known to give too few, and enough
   std::optional<Attempt> best;
   for (int step = 0; step < search_steps; ++step) {
@@ -110,12 +115,14 @@ Attempt search(const scene::TransportSource& source, const PlaceParams& params, 
     }
     if (enough && count <= high) break;
     (enough ? fine : coarse) = spacing;
+    if (!enough && spacing <= finest) break;
     if (fine > 0 && coarse > 0) {
       spacing = std::sqrt(fine * coarse);
     } else {
       const double ratio =
           std::cbrt(static_cast<double>(std::max<std::size_t>(count, 1)) / static_cast<double>(low));
       spacing *= static_cast<float>(enough ? std::clamp(ratio, 1.1, 2.0) : std::clamp(ratio, 0.5, 0.9));
+      spacing = std::max(spacing, finest);
     }
   }
   if (!best)

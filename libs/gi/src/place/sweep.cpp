@@ -55,6 +55,16 @@ Sweep::Sweep(const scene::TransportSource& source, float step) : source_(source)
   }
 }
 
+Sweep Sweep::at(const scene::TransportSource& source, float time) {
+  Sweep sweep(source);
+  for (int index = 1; index < source.part_count(); ++index) {
+    const scene::Bounds bounds = source.part_bounds(index);
+    if (!bounds.empty())
+      sweep.parts_.push_back({index, bounds, {glm::inverse(source.part_pose(index, time))}});
+  }
+  return sweep;
+}
+
 const std::string* Sweep::passes(const vec3& position, float clearance) const {
   for (const Part& part : parts_) {
     for (const mat4& to_part : part.to_part) {

@@ -12,6 +12,8 @@ namespace ssphh::gi {
 class Sweep {
  public:
   Sweep(const scene::TransportSource& source, float step);
+  /// The poses of one moment [s] alone.
+  static Sweep at(const scene::TransportSource& source, float time);
 
   bool any() const { return !parts_.empty(); }
   /// Name of the first part that comes nearer than `clearance` to the place, or has it inside, at some time;
@@ -26,6 +28,8 @@ class Sweep {
     scene::Bounds bounds;
     std::vector<mat4> to_part;  ///< world to part, at each time
   };
+  explicit Sweep(const scene::TransportSource& source) : source_(source) {}
+
   const scene::TransportSource& source_;
   std::vector<Part> parts_;
 };
