@@ -1,9 +1,8 @@
-#include <ssphh/gi/transport/bounce.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include <ssphh/core/parallel.h>
+#include <ssphh/gi/transport/bounce.h>
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/sh/irradiance.h>
 
@@ -21,7 +20,9 @@ struct BounceOperator::Data {
   std::vector<float> basis;          ///< A_l Y_k(n) at each hit, [ray][k]
   std::size_t edges = 0;
 
-  std::size_t bands() const { return static_cast<std::size_t>(sh::coefficient_count(params.irradiance_degree)); }
+  std::size_t bands() const {
+    return static_cast<std::size_t>(sh::coefficient_count(params.irradiance_degree));
+  }
 
   /// Indirect irradiance at what each ray of a probe sees, as the probes give it.
   vec3 look_up(std::size_t ray, const std::vector<sh::RadianceSh>& probes) const {
@@ -59,8 +60,8 @@ struct BounceOperator::Data {
   }
 };
 
-BounceOperator::BounceOperator(const TransportNetwork& network, const scene::TransportSource& source, int degree,
-                               const BounceParams& params)
+BounceOperator::BounceOperator(const TransportNetwork& network, const scene::TransportSource& source,
+                               int degree, const BounceParams& params)
     : data_(new Data{network, params, DirectionProjector(degree, network.gbuffer().directions), {}, {}, {}}) {
   Data& d = *data_;
   d.params.irradiance_degree = std::min(params.irradiance_degree, degree);
@@ -79,7 +80,8 @@ BounceOperator::BounceOperator(const TransportNetwork& network, const scene::Tra
       const Surfel& surfel = network.surfels().surfels()[static_cast<std::size_t>(patch.surfel)];
       const mat3 turn(network.poses()[static_cast<std::size_t>(surfel.part)]);
       const vec3 n = glm::normalize(glm::transpose(glm::inverse(turn)) * surfel.point.normal);
-      const vec3 x = g.positions[ray / directions] + network.seen_distance()[ray] * g.directions[ray % directions];
+      const vec3 x =
+          g.positions[ray / directions] + network.seen_distance()[ray] * g.directions[ray % directions];
       at[ray] = weights->at(x, n);
       const std::span<float> basis(d.basis.data() + ray * count, count);
       sh::eval_basis(d.params.irradiance_degree, n, basis);
@@ -106,11 +108,13 @@ BounceOperator::BounceOperator(const TransportNetwork& network, const scene::Tra
 
 BounceOperator::~BounceOperator() = default;
 
-BounceReport BounceOperator::solve(std::span<const Irradiance4> direct, std::vector<sh::RadianceSh>& reflected) const {
+BounceReport BounceOperator::solve(std::span<const Irradiance4> direct,
+                                   std::vector<sh::RadianceSh>& reflected) const {
   const Data& d = *data_;
   BounceReport report;
   report.edges = d.edges;
-  std::vector<sh::RadianceSh> before(d.network.gbuffer().positions.size(), sh::RadianceSh(d.projector.degree()));
+  std::vector<sh::RadianceSh> before(d.network.gbuffer().positions.size(),
+                                     sh::RadianceSh(d.projector.degree()));
   reflected = before;
   d.apply(direct, before, reflected);  // D
   const int most = d.params.applications > 0 ? d.params.applications : d.params.max_iterations;

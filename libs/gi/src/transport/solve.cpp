@@ -89,50 +89,61 @@ SolveReport Solver::solve(const LinkRows& links, std::span<const vec3> albedo,
                           const SolveParams& params, std::vector<Irradiance4>& indirect) {
   const std::size_t count = links.rows.size();
   SSPHH_CHECK(albedo.size() == count && direct.size() == count);
-  indirect.resize(count, Irradiance4(0));
-  radiosity_.resize(count);
-  next_.resize(count);
-  previous_ = indirect;
   const std::size_t blocks = (count + rows_per_block - 1) / rows_per_block;
+  indirect.resize(count, Irradiance4(0));
+  previous_.resize(count);
+  radiosity_.resize(count);
+  next_radiosity_.resize(count);
   block_residual_.assign(blocks, 0);
   block_largest_.assign(blocks, 0);
+  const auto largest_of = [](const std::vector<float>& values) {
+    return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
+  };
+
+  // Start from what `indirect` holds.
+  parallel_for(count, rows_per_block, [&](std::size_t begin, std::size_t end) {
+    float largest = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      previous_[i] = indirect[i];
+      radiosity_[i] = vec4(albedo[i], 0) * (direct[i] + indirect[i]);
+      largest = std::max(largest, max_component(vec3(indirect[i])));
+    }
+    block_largest_[begin / rows_per_block] = largest;
+  });
 
   const bool accelerate = contraction_bound < 1;
   const double c2 = contraction_bound * contraction_bound;
   double omega = 1;
   SolveReport report;
-  float largest = 0;
-  for (const Irradiance4& e : indirect) largest = std::max(largest, max_component(vec3(e)));
-  for (; report.iterations < params.max_iterations; ++report.iterations) {
-    for (std::size_t i = 0; i < count; ++i) radiosity_[i] = vec4(albedo[i], 0) * (direct[i] + indirect[i]);
+  report.converged = count == 0;
+  while (!report.converged && report.iterations < params.max_iterations) {
+    // One bounce of every surfel, and from it Chebyshev's step; all that the next one reads is written at
+    // once.
     const auto w = static_cast<float>(omega);
-    const float floor = 1e-3f * largest;
+    const float floor = 1e-3f * largest_of(block_largest_);
     parallel_for(count, rows_per_block, [&](std::size_t begin, std::size_t end) {
-      float residual = 0, block_largest = 0;
+      float residual = 0, largest = 0;
       for (std::size_t i = begin; i < end; ++i) {
         const Irradiance4 bounced = gather(links.rows[i], radiosity_.data());
-        const vec3 difference = glm::abs(vec3(bounced - indirect[i]));
         const float scale = max_component(vec3(bounced));
-        residual = std::max(residual, max_component(difference) / std::max(scale + floor, 1e-30f));
-        block_largest = std::max(block_largest, scale);
-        next_[i] = w * (bounced - previous_[i]) + previous_[i];
+        const float difference = max_component(glm::abs(vec3(bounced - indirect[i])));
+        residual = std::max(residual, difference / std::max(scale + floor, 1e-30f));
+        largest = std::max(largest, scale);
+        // Chebyshev's steps may overshoot by a hair where next to nothing arrives.
+        const Irradiance4 next = glm::max(w * (bounced - previous_[i]) + previous_[i], Irradiance4(0));
+        previous_[i] = indirect[i];
+        indirect[i] = next;
+        next_radiosity_[i] = vec4(albedo[i], 0) * (direct[i] + next);
       }
       block_residual_[begin / rows_per_block] = residual;
-      block_largest_[begin / rows_per_block] = block_largest;
+      block_largest_[begin / rows_per_block] = largest;
     });
-    report.residual = blocks ? *std::max_element(block_residual_.begin(), block_residual_.end()) : 0;
-    largest = blocks ? *std::max_element(block_largest_.begin(), block_largest_.end()) : 0;
-    previous_.swap(indirect);
-    indirect.swap(next_);
-    if (report.residual <= params.tolerance) {
-      ++report.iterations;
-      break;
-    }
+    radiosity_.swap(next_radiosity_);
     if (accelerate) omega = report.iterations == 0 ? 1 / (1 - c2 / 2) : 1 / (1 - c2 * omega / 4);
+    ++report.iterations;
+    report.residual = largest_of(block_residual_);
+    report.converged = report.residual <= params.tolerance;
   }
-  report.converged = report.residual <= params.tolerance;
-  // Chebyshev's steps may overshoot by a hair where next to nothing arrives.
-  for (Irradiance4& e : indirect) e = glm::max(e, Irradiance4(0));
   return report;
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 /// `bounce`: probes as the only unknowns. S = D + B S, where D is the direct light that probe rays see and B
-/// looks the rest up from the probes around each ray's hit (docs/methods/transport.md). One application is the
-/// paper's HIER in a form that is linear transport; solved, it has every bounce. The lookup's bias is amplified
-/// by the bounces, so `surfel` is better; this form needs no surfels beyond those that carry direct light.
+/// looks the rest up from the probes around each ray's hit (docs/methods/transport.md). One application is
+/// the paper's HIER in a form that is linear transport; solved, it has every bounce. The lookup's bias is
+/// amplified by the bounces, so `surfel` is better; this form needs no surfels beyond those that carry direct
+/// light.
 
 #include <vector>
 
@@ -22,7 +23,8 @@ struct BounceParams {
 
 struct BounceReport {
   int iterations = 0;
-  double contraction = 0;  ///< ratio of the last two changes (largest band 0): an estimate of B's spectral radius
+  double contraction =
+      0;  ///< ratio of the last two changes (largest band 0): an estimate of B's spectral radius
   bool converged = true;
   std::size_t edges = 0;  ///< pairs of probes that B couples
 };

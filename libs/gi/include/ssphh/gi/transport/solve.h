@@ -62,7 +62,7 @@ class Solver {
                     double contraction_bound, const SolveParams& params, std::vector<Irradiance4>& indirect);
 
  private:
-  std::vector<Irradiance4> radiosity_, next_, previous_;
+  std::vector<Irradiance4> radiosity_, next_radiosity_, previous_;
   std::vector<float> block_residual_, block_largest_;
 };
 
