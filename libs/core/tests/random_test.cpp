@@ -54,6 +54,45 @@ TEST(SampleSequence, DimensionsAndPixelsAreUncorrelated) {
   EXPECT_LT(std::abs(one_against_two), limit);
 }
 
+TEST(SamplePairs, EveryPairIsAZeroTwoNet) {
+  constexpr int log_n = 8, n = 1 << log_n;
+  for (std::size_t pair = 0; pair < 4; ++pair) {
+    for (int split = 0; split <= log_n; ++split) {
+      const int columns = 1 << split, rows = n / columns;
+      std::set<int> cells;
+      for (std::uint32_t i = 0; i < n; ++i) {
+        const vec2 u = sample_pairs(42, i)[pair];
+        cells.insert(static_cast<int>(u.x * static_cast<float>(columns)) * rows +
+                     static_cast<int>(u.y * static_cast<float>(rows)));
+      }
+      EXPECT_EQ(cells.size(), static_cast<std::size_t>(n))
+          << "pair " << pair << ", " << columns << " columns";
+    }
+  }
+}
+
+TEST(SamplePairs, LanesAreUncorrelatedAlongASequenceAndAcrossSeeds) {
+  // As above: 28 pairs of lanes twice, 4.5 σ each.
+  constexpr int n = 4096;
+  double along[8][8] = {}, across[8][8] = {};
+  const auto add = [](const std::array<vec2, 4>& pairs, double(&sums)[8][8]) {
+    const auto lane = [&](std::size_t k) {
+      return static_cast<double>(k % 2 ? pairs[k / 2].y : pairs[k / 2].x);
+    };
+    for (std::size_t a = 0; a < 8; ++a) {
+      for (std::size_t b = 0; b < a; ++b) sums[a][b] += (lane(a) - 0.5) * (lane(b) - 0.5);
+    }
+  };
+  for (std::uint32_t i = 0; i < n; ++i) add(sample_pairs(1, i), along), add(sample_pairs(i, 3), across);
+  const double limit = 4.5 / 12 / std::sqrt(n) * n;
+  for (std::size_t a = 0; a < 8; ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      EXPECT_LT(std::abs(along[a][b]), limit) << "lanes " << a << ", " << b;
+      EXPECT_LT(std::abs(across[a][b]), limit) << "lanes " << a << ", " << b;
+    }
+  }
+}
+
 TEST(Pcg32, MomentsOfTheUniformDistribution) {
   constexpr int n = 100000;
   Pcg32 rng(5);

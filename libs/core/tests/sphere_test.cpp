@@ -58,6 +58,18 @@ TEST(Sphere, FibonacciPointsIntegrateLowPolynomials) {
   EXPECT_NEAR(second / n, 1.0 / 3, 1e-3);
 }
 
+TEST(Sphere, UnitCircleFollowsSineAndCosine) {
+  double worst = 0;
+  for (int i = 0; i <= 100000; ++i) {
+    const float t = static_cast<float>(i) / 100000;
+    const vec2 p = unit_circle(t);
+    const double angle = 2 * pi_d * static_cast<double>(t);
+    worst = std::max(worst, std::abs(static_cast<double>(p.x) - std::cos(angle)));
+    worst = std::max(worst, std::abs(static_cast<double>(p.y) - std::sin(angle)));
+  }
+  EXPECT_LT(worst, 2e-7);
+}
+
 TEST(Sphere, FrameIsRightHandedAndOrthonormal) {
   for (int i = 0; i < 100; ++i) {
     const vec3 n = spherical_fibonacci(i, 100);

@@ -89,8 +89,7 @@ class SampleSequence {
 };
 
 /// Four pairs of dimensions at once, each stratified as SampleSequence::next2 is and independent of the
-/// others; other values than a SampleSequence gives. Loops of eight lanes, for vector registers: a third of
-/// the time of one after the other.
+/// others; other values than a SampleSequence gives. Loops of eight lanes, for vector registers.
 inline std::array<vec2, 4> sample_pairs(std::uint64_t seed, std::uint32_t index) {
   // Wellons' "lowbias32": two multiplications are enough, for the seed is hashed already
   const auto hash = [](std::uint32_t x) {
