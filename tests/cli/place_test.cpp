@@ -13,10 +13,10 @@ namespace ssphh {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
 using test::run_tool;
 using test::TempDir;
 using test::ToolResult;
+using testing::HasSubstr;
 
 json run_json(std::vector<std::string> arguments, int exit_code = 0) {
   arguments.emplace_back("--json");
@@ -56,8 +56,8 @@ TEST(PlaceTool, ANumberOfProbesKeepsTheScenesOwn) {
 
 TEST(PlaceTool, ManyProbesLeaveVizOutWithANote) {
   const TempDir dir;
-  const ToolResult bake = run_tool(
-      with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", "auto:1"}, quick));
+  const ToolResult bake =
+      run_tool(with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", "auto:1"}, quick));
   EXPECT_EQ(bake.exit_code, 0) << bake.err;
   EXPECT_THAT(bake.err, HasSubstr("VIZ is left out"));
 }
@@ -81,7 +81,8 @@ TEST(PlaceTool, SaysWhatIsWrong) {
   const auto bake = [&](const std::string& probes, const std::vector<std::string>& more = {}) {
     return run_tool(with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", probes}, more));
   };
-  for (const char* bad : {"auto:0", "auto:-1", "auto:nan", "auto:inf", "auto:", "auto:1m", "0", "-3", "some"}) {
+  for (const char* bad :
+       {"auto:0", "auto:-1", "auto:nan", "auto:inf", "auto:", "auto:1m", "0", "-3", "some"}) {
     const ToolResult result = bake(bad);
     EXPECT_EQ(result.exit_code, 2) << bad;
     EXPECT_THAT(result.err, HasSubstr("--probes")) << bad;
