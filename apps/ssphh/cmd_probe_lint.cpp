@@ -43,7 +43,7 @@ void lint(Context& context, LintOptions& options) {
                                     {"message", problem.message}};
     if (problem.probe >= 0) entry["probe"] = name;
     list.push_back(std::move(entry));
-    text += fmt::format("{}: {}at ({:.3g}, {:.3g}, {:.3g}) m: {}\n", gi::to_string(problem.kind),
+    text += fmt::format("{}: {}at ({:.6g}, {:.6g}, {:.6g}) m: {}\n", gi::to_string(problem.kind),
                         problem.probe < 0 ? "" : fmt::format("probe \"{}\" ", name), p.x, p.y, p.z,
                         problem.message);
   }

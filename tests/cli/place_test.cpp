@@ -1,0 +1,122 @@
+// Placement and lint as a user types them.
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "temp_dir.h"
+#include "tool.h"
+
+namespace ssphh {
+namespace {
+
+using nlohmann::json;
+using test::run_tool;
+using test::TempDir;
+using test::ToolResult;
+using testing::HasSubstr;
+
+json run_json(std::vector<std::string> arguments, int exit_code = 0) {
+  arguments.emplace_back("--json");
+  const ToolResult result = run_tool(arguments);
+  EXPECT_EQ(result.exit_code, exit_code) << result.err;
+  json object = json::parse(result.out, nullptr, false);
+  EXPECT_TRUE(object.is_object()) << result.out;
+  return object.is_object() ? object : json::object();
+}
+
+const std::vector<std::string> quick = {"--degree", "1", "--face", "4", "--spp", "1"};
+
+std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(PlaceTool, BakeTakesTheScenesProbesUnlessAsked) {
+  const TempDir dir;
+  const json bake = run_json(with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl"}, quick));
+  EXPECT_EQ(bake["probes"], 6);
+  EXPECT_FALSE(bake.contains("placement"));
+  EXPECT_EQ(bake["viz"], true);
+}
+
+TEST(PlaceTool, ANumberOfProbesKeepsTheScenesOwn) {
+  const TempDir dir;
+  const json bake = run_json(
+      with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", "20", "--viz", "off"}, quick));
+  EXPECT_EQ(bake["probes"], 20);
+  EXPECT_EQ(bake["placement"]["manual"], 6);
+  for (const char* key : {"probes", "spacing", "removed", "relocated", "edges", "seconds"})
+    EXPECT_TRUE(bake["placement"].contains(key)) << key;
+  const json info = run_json({"probe", "info", dir / "a.sphl"});
+  EXPECT_EQ(info["probes"][0]["name"], "A west");
+}
+
+TEST(PlaceTool, ManyProbesLeaveVizOutWithANote) {
+  const TempDir dir;
+  const ToolResult bake =
+      run_tool(with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", "auto:1"}, quick));
+  EXPECT_EQ(bake.exit_code, 0) << bake.err;
+  EXPECT_THAT(bake.err, HasSubstr("VIZ is left out"));
+}
+
+TEST(PlaceTool, WhatPlaceWritesIsAScene) {
+  const TempDir dir;
+  const std::string overlay = dir / "placed.ssphh.json";
+  const json place = run_json({"place", "builtin:two-rooms", "--probes", "auto:1.5", "-o", overlay});
+  for (const char* key : {"probes", "spacing", "removed", "relocated", "edges", "seconds"})
+    EXPECT_TRUE(place.contains(key)) << key;
+  const json info = run_json({"scene", "info", overlay});
+  EXPECT_EQ(info["sphls"], place["probes"]);
+  // Places found once more beside them: all are taken.
+  const json again = run_json({"place", overlay, "--probes", "auto:1.5", "-o", dir / "again.ssphh.json"});
+  EXPECT_EQ(again["manual"], place["probes"]);
+  EXPECT_LE(again["probes"].get<int>(), place["probes"].get<int>() + 8);
+}
+
+TEST(PlaceTool, SaysWhatIsWrong) {
+  const TempDir dir;
+  const auto bake = [&](const std::string& probes, const std::vector<std::string>& more = {}) {
+    return run_tool(with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", probes}, more));
+  };
+  for (const char* bad :
+       {"auto:0", "auto:-1", "auto:nan", "auto:inf", "auto:", "auto:1m", "0", "-3", "some"}) {
+    const ToolResult result = bake(bad);
+    EXPECT_EQ(result.exit_code, 2) << bad;
+    EXPECT_THAT(result.err, HasSubstr("--probes")) << bad;
+  }
+  const ToolResult many = bake("auto:0.001");
+  EXPECT_EQ(many.exit_code, 1);
+  EXPECT_THAT(many.err, HasSubstr("more than 4096 probes"));
+  const ToolResult few = bake("auto:1", {"--max-probes", "10"});
+  EXPECT_EQ(few.exit_code, 1);
+  EXPECT_THAT(few.err, HasSubstr("more than 10 probes"));
+  EXPECT_EQ(run_tool({"place", "builtin:two-rooms", "-o", dir / "a.json"}).exit_code, 2);
+}
+
+TEST(LintTool, ExitCodeIsAGate) {
+  const TempDir dir;
+  const std::string file = dir / "a.sphl.json";
+  run_json(with({"bake", "builtin:cornell", "-o", file, "--viz", "off"}, {"--face", "8", "--spp", "16"}));
+  const json clean = run_json({"probe", "lint", file, "--scene", "builtin:cornell"});
+  EXPECT_EQ(clean["probes"], 5);
+  EXPECT_THAT(clean["problems"], testing::IsEmpty());
+
+  // Put one into the tall box.
+  json set = json::parse(std::ifstream(file));
+  set["probes"][1]["position"] = {-0.335, 0.5, -0.29};
+  std::ofstream(file) << set;
+  const json broken = run_json({"probe", "lint", file, "--scene", "builtin:cornell"}, 1);
+  ASSERT_FALSE(broken["problems"].empty());
+  const json& problem = broken["problems"][0];
+  EXPECT_EQ(problem["kind"], "inside");
+  EXPECT_EQ(problem["probe"], set["probes"][1]["name"]);
+  EXPECT_NEAR(problem["position"][1].get<double>(), 0.5, 1e-6);
+  EXPECT_THAT(problem["message"].get<std::string>(), HasSubstr("inside"));
+  EXPECT_EQ(run_tool({"probe", "lint", file}).exit_code, 2) << "--scene is missing";
+}
+
+}  // namespace
+}  // namespace ssphh
