@@ -1,8 +1,8 @@
-#include <gmock/gmock.h>
-
 #include <cstring>
 #include <fstream>
 #include <limits>
+
+#include <gmock/gmock.h>
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
@@ -21,8 +21,10 @@ struct Network {
   explicit Network(std::uint32_t count) : fixed(count), moving(count) {
     Pcg32 rng(9);
     for (std::uint32_t i = 0; i < count; ++i) {
-      for (std::uint32_t k = 0; k < i % 7; ++k) fixed[i].push_back({rng.next() % count, 0.1f * rng.uniform()});
-      for (std::uint32_t k = 0; k < i % 3; ++k) moving[i].push_back({rng.next() % count, 0.1f * rng.uniform()});
+      for (std::uint32_t k = 0; k < i % 7; ++k)
+        fixed[i].push_back({rng.next() % count, 0.1f * rng.uniform()});
+      for (std::uint32_t k = 0; k < i % 3; ++k)
+        moving[i].push_back({rng.next() % count, 0.1f * rng.uniform()});
       rows.rows.push_back({fixed[i], moving[i]});
     }
   }

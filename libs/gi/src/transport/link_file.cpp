@@ -1,5 +1,3 @@
-#include <ssphh/gi/transport/link_file.h>
-
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -12,6 +10,7 @@
 #include <unistd.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/gi/transport/link_file.h>
 
 namespace ssphh::gi {
 namespace {

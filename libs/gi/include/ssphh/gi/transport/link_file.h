@@ -40,8 +40,8 @@ void write_link_file(const LinkRows& links, const std::filesystem::path& path);
 
 class MappedLinks {
  public:
-  /// Reads the whole file once to check it. Throws Error that says what is wrong: missing, truncated, of another
-  /// version, rows or surfels out of range, weights that are not finite.
+  /// Reads the whole file once to check it. Throws Error that says what is wrong: missing, truncated, of
+  /// another version, rows or surfels out of range, weights that are not finite.
   explicit MappedLinks(const std::filesystem::path& path);
   ~MappedLinks();
   MappedLinks(const MappedLinks&) = delete;
