@@ -1,13 +1,9 @@
 #include <algorithm>
-#include <limits>
 #include <numeric>
-#include <queue>
 
 #include <ssphh/core/parallel.h>
 
 #include "draft.h"
-#include "relocate.h"
-#include "sweep.h"
 
 namespace ssphh::gi {
 namespace {
@@ -16,18 +12,6 @@ namespace {
 std::size_t root(std::vector<std::size_t>& parent, std::size_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
   return i;
-}
-
-using Neighbours = std::vector<std::vector<std::pair<std::uint32_t, float>>>;
-
-Neighbours neighbours(const std::vector<Draft>& drafts, const std::vector<PlacedEdge>& edges) {
-  Neighbours result(drafts.size());
-  for (const PlacedEdge& edge : edges) {
-    const float length = glm::distance(drafts[edge.a].position, drafts[edge.b].position);
-    result[edge.a].emplace_back(edge.b, length);
-    result[edge.b].emplace_back(edge.a, length);
-  }
-  return result;
 }
 
 }  // namespace
@@ -100,89 +84,6 @@ std::vector<bool> reachable(const PlaceContext& context, const std::vector<Draft
   std::vector<bool> keep(drafts.size());
   for (std::size_t i = 0; i < drafts.size(); ++i) keep[i] = seen[root(parent, i)];
   return keep;
-}
-
-void clear_sweeps(const PlaceContext& context, std::vector<Draft>& drafts, PlaceCounts& counts) {
-  const Sweep sweep(context.source, context.rules.clearance);
-  if (!sweep.any()) return;
-  const float clearance = context.rules.clearance;
-  std::vector<std::optional<Relocated>> moved(drafts.size());
-  std::vector<std::uint8_t> swept(drafts.size(), 0);
-  parallel_for(
-      drafts.size(), 8,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          if (drafts[i].kind == PlaceKind::manual || !sweep.passes(drafts[i].position, clearance)) continue;
-          swept[i] = 1;
-          moved[i] = sidestep(context.source, drafts[i].position, context.rules, 0.5f * drafts[i].spacing,
-                              [&](const vec3& p) { return !sweep.passes(p, clearance); });
-        }
-      },
-      context.control);
-
-  std::vector<Draft> kept;
-  NearGrid grid(context.spacing);
-  const auto keep = [&](const Draft& draft) { grid.add(draft.position), kept.push_back(draft); };
-  for (std::size_t i = 0; i < drafts.size(); ++i) {
-    if (swept[i] == 0) keep(drafts[i]);
-  }
-  for (std::size_t i = 0; i < drafts.size(); ++i) {
-    if (swept[i] == 0) continue;
-    const bool useful = moved[i] && grid.near(moved[i]->position, 0.5f * drafts[i].spacing).empty();
-    if (!useful) {
-      ++counts.swept;
-      continue;
-    }
-    ++counts.relocated;
-    drafts[i].position = moved[i]->position;
-    drafts[i].site = moved[i]->site;
-    keep(drafts[i]);
-  }
-  drafts = std::move(kept);
-}
-
-std::vector<bool> most_spread(const std::vector<Draft>& drafts, const std::vector<PlacedEdge>& edges,
-                              std::size_t count) {
-  const Neighbours links = neighbours(drafts, edges);
-  std::vector<float> distance(drafts.size(), std::numeric_limits<float>::infinity());
-  std::vector<bool> chosen(drafts.size(), false);
-  std::size_t number = 0;
-
-  // Dijkstra from one more source; stops where another source is nearer already.
-  const auto choose = [&](std::size_t source) {
-    chosen[source] = true;
-    ++number;
-    using Entry = std::pair<float, std::size_t>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    distance[source] = 0;
-    queue.emplace(0.0f, source);
-    while (!queue.empty()) {
-      const auto [d, i] = queue.top();
-      queue.pop();
-      if (d > distance[i]) continue;
-      for (const auto& [j, length] : links[i]) {
-        if (d + length >= distance[j]) continue;
-        distance[j] = d + length;
-        queue.emplace(distance[j], j);
-      }
-    }
-  };
-  for (std::size_t i = 0; i < drafts.size(); ++i) {
-    if (drafts[i].kind == PlaceKind::manual) choose(i);
-  }
-  const auto room = [&](std::size_t i) { return std::min(drafts[i].site.nearest, 1e30f); };
-  while (number < std::min(count, drafts.size())) {
-    std::size_t best = drafts.size();
-    for (std::size_t i = 0; i < drafts.size(); ++i) {
-      if (chosen[i]) continue;
-      if (best == drafts.size() || distance[i] > distance[best] ||
-          (distance[i] == distance[best] && room(i) > room(best))) {
-        best = i;
-      }
-    }
-    choose(best);
-  }
-  return chosen;
 }
 
 void filter(std::vector<Draft>& drafts, std::vector<PlacedEdge>& edges, const std::vector<bool>& keep) {

@@ -1,0 +1,57 @@
+// Placement in real scenes and with Embree.
+
+#include <gtest/gtest.h>
+
+#include <ssphh/gi/place.h>
+#include <ssphh/scene/builtin.h>
+#include <ssphh/scene_io/load.h>
+#include <ssphh/trace/transport_scene.h>
+
+#include "shared_scenes.h"
+
+namespace ssphh {
+namespace {
+
+TEST(Placement, TwoRoomsWithEmbree) {
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  const trace::TransportScene source(scene);
+  gi::PlaceParams params = gi::place_params(scene);
+  params.spacing = 0.7f;
+  params.manual.clear();
+  const gi::Placement placement = gi::place_probes(source, params);
+  int in_doorway = 0;
+  for (const gi::PlacedProbe& probe : placement.probes) {
+    const vec3& p = probe.position;
+    EXPECT_TRUE(p.y > 0 && p.y < 3 && std::abs(p.z) < 2 && std::abs(p.x) < 4.075f) << probe.name;
+    if (std::abs(p.x) > 0.075f) continue;
+    EXPECT_TRUE(p.y < 2.1f && std::abs(p.z) < 0.45f) << probe.name;
+    ++in_doorway;
+  }
+  EXPECT_GE(in_doorway, 1);
+  // 5 · 4 · 5 places a room and more in its corners.
+  EXPECT_GT(placement.probes.size(), 300u);
+}
+
+TEST(Placement, SponzasAtticStaysEmpty) {
+  SSPHH_SHARED_SCENE(file, "sponza/sponza.glb");
+  const scene::Scene scene = scene_io::load_scene(file.string());
+  const trace::TransportScene source(scene);
+  gi::PlaceParams params;
+  params.interest = {{0, 3, 0}};  // somebody in the nave
+  params.spacing = 3;
+  const gi::Placement placement = gi::place_probes(source, params);
+  EXPECT_GT(placement.counts.unreachable, 0u);
+  EXPECT_GT(placement.probes.size(), 300u);
+  bool nave = false, gallery = false;
+  for (const gi::PlacedProbe& probe : placement.probes) {
+    const vec3& p = probe.position;
+    // Over the upper gallery's ceiling at 10 m and under the roof, all around the open court.
+    EXPECT_FALSE(p.y > 10.3f && p.y < 12 && std::abs(p.z) > 5) << probe.name;
+    nave = nave || (p.y < 4 && std::abs(p.z) < 2);
+    gallery = gallery || (p.y > 5 && p.y < 9 && std::abs(p.z) > 4);
+  }
+  EXPECT_TRUE(nave && gallery);
+}
+
+}  // namespace
+}  // namespace ssphh
