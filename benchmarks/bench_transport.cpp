@@ -48,8 +48,8 @@ double read_bandwidth() {
           }
         }
         const float8 total = (sum[0] + sum[1]) + (sum[2] + sum[3]);
-        sums[begin >> 16] = static_cast<double>(total[0] + total[1] + total[2] + total[3] + total[4] + total[5] +
-                                                total[6] + total[7]);
+        sums[begin >> 16] = static_cast<double>(total[0] + total[1] + total[2] + total[3] + total[4] +
+                                                total[5] + total[6] + total[7]);
       });
       benchmark::DoNotOptimize(sums.data());
       best = std::max(best, static_cast<double>(data.size() * sizeof(float)) / seconds_since(start));
@@ -85,27 +85,30 @@ double peak_fma_rate() {
 }
 
 /// A network as space-filling order leaves it: links go to surfels near by, with some far ones.
-void write_synthetic_links(std::size_t count, std::size_t per_row, gi::LinkRows& rows, std::vector<gi::Link>& links,
-                           gi::LinkFileWriter* file = nullptr) {
+void write_synthetic_links(std::size_t count, std::size_t per_row, gi::LinkRows& rows,
+                           std::vector<gi::Link>& links, gi::LinkFileWriter* file = nullptr) {
   Pcg32 rng(count);
   std::vector<gi::Link> row(per_row);
   const float reach = std::min(static_cast<float>(count), 4096.0f);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t k = 0; k < per_row; ++k) {
       const bool far = k % 16 == 15;
-      const float offset = (rng.uniform() - 0.5f) * (far ? std::min(static_cast<float>(count), 65536.0f) : reach);
+      const float offset =
+          (rng.uniform() - 0.5f) * (far ? std::min(static_cast<float>(count), 65536.0f) : reach);
       const auto at = static_cast<std::int64_t>(i) + static_cast<std::int64_t>(offset);
       const auto n = static_cast<std::int64_t>(count);
       row[k] = {static_cast<std::uint32_t>(((at % n) + n) % n), 1 / static_cast<float>(per_row)};
     }
-    std::sort(row.begin(), row.end(), [](const gi::Link& a, const gi::Link& b) { return a.surfel < b.surfel; });
+    std::sort(row.begin(), row.end(),
+              [](const gi::Link& a, const gi::Link& b) { return a.surfel < b.surfel; });
     if (file) {
       file->add_row(row);
     } else {
       links.insert(links.end(), row.begin(), row.end());
     }
   }
-  for (std::size_t i = 0; !file && i < count; ++i) rows.rows.push_back({{links.data() + i * per_row, per_row}, {}});
+  for (std::size_t i = 0; !file && i < count; ++i)
+    rows.rows.push_back({{links.data() + i * per_row, per_row}, {}});
 }
 
 void solve_synthetic(benchmark::State& state, const gi::LinkRows& rows) {
@@ -208,7 +211,8 @@ struct Relit {
     gi::PlaceParams place = gi::place_params(scene, 1.0f);
     place.spacing = spacing;
     std::vector<gi::ProbePlace> places;
-    for (const auto& probe : gi::place_probes(source, place).probes) places.push_back({probe.name, probe.position, 0.1f});
+    for (const auto& probe : gi::place_probes(source, place).probes)
+      places.push_back({probe.name, probe.position, 0.1f});
     const auto start = Clock::now();
     session = std::make_unique<gi::RelightSession>(source, std::move(places), gi::RelightParams{}, 1.0f);
     build_seconds = seconds_since(start);
@@ -224,11 +228,13 @@ Relit& relit(const std::string& name, float spacing) {
 }
 
 /// Median of each stage over frames.
-void report_frames(benchmark::State& state, const Relit& scene, const std::vector<gi::RelightReport>& frames) {
+void report_frames(benchmark::State& state, const Relit& scene,
+                   const std::vector<gi::RelightReport>& frames) {
   const auto median = [&](auto value) {
     std::vector<double> values;
     for (const gi::RelightReport& frame : frames) values.push_back(static_cast<double>(value(frame)));
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                     values.end());
     return values[values.size() / 2];
   };
   const gi::TransportNetwork& network = scene.session->network();
@@ -268,8 +274,8 @@ double bare_shadow_rate(const Relit& scene, const vec3& lamp) {
   rtcSetSceneFlags(embree, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(embree, RTC_BUILD_QUALITY_HIGH);
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices.data(), 0, sizeof(vec3),
-                             vertices.size() - 1);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices.data(), 0,
+                             sizeof(vec3), vertices.size() - 1);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(), 0,
                              sizeof(uvec3), triangles);
   rtcCommitGeometry(geometry);
@@ -322,7 +328,9 @@ void moving_lamp(benchmark::State& state, const std::string& name, float spacing
   state.counters["direct_Mrays/s"] = rays / ms / 1e3;
   state.counters["share_of_bare_embree"] = rays / (1e-3 * ms) / bare_shadow_rate(scene, vec3(home));
 }
-BENCHMARK_CAPTURE(moving_lamp, two_rooms, "two-rooms", 0.7f, 0)->Unit(benchmark::kMillisecond)->Iterations(100);
+BENCHMARK_CAPTURE(moving_lamp, two_rooms, "two-rooms", 0.7f, 0)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(100);
 BENCHMARK_CAPTURE(moving_lamp, cornell, "cornell", 0.3f, 0)->Unit(benchmark::kMillisecond)->Iterations(100);
 BENCHMARK_CAPTURE(moving_lamp, gallery1, "gallery1", 1.5f, 0)->Unit(benchmark::kMillisecond)->Iterations(100);
 
@@ -360,8 +368,17 @@ void moving_door(benchmark::State& state) {
   state.counters["rms_error_B"] = std::sqrt(error2[1] / truth2[1]);
   state.counters["poses_MB"] = static_cast<double>(session.network().pose_bytes()) / 1e6;
 }
-BENCHMARK(moving_door)->ArgName("poses")->Arg(0)->Arg(2)->Arg(5)->Arg(9)->Arg(17)->Arg(33)->Arg(65)
-    ->Unit(benchmark::kMillisecond)->Iterations(99);
+BENCHMARK(moving_door)
+    ->ArgName("poses")
+    ->Arg(0)
+    ->Arg(2)
+    ->Arg(5)
+    ->Arg(9)
+    ->Arg(17)
+    ->Arg(33)
+    ->Arg(65)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(99);
 
 void nothing_moves(benchmark::State& state) {
   Relit& scene = relit("two-rooms", 0.7f);

@@ -121,6 +121,13 @@ std::vector<std::int32_t> TransportNetwork::gather(std::span<const scene::Surfac
   }
   return surfel;
 }
+std::vector<Sight> TransportNetwork::look(std::span<const scene::RayQuery> rays) const {
+  std::vector<Sight> sights(rays.size());
+  data_->see(rays, [&](std::size_t i, const scene::RayHit& hit, int surfel) {
+    sights[i] = {surfel, hit.albedo, hit.emission, hit.group};
+  });
+  return sights;
+}
 std::size_t TransportNetwork::lost_links() const {
   return data_->lost_links;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include <ssphh/gi/transport/network.h>
 
 namespace ssphh::gi {
@@ -90,6 +92,9 @@ struct TransportNetwork::Data {
   /// The surfel that each world-space ray meets, as posed; `escaped` tells empty space from lost light.
   void see(std::span<const scene::RayQuery> rays, std::span<std::int32_t> surfel,
            std::span<std::uint8_t> escaped) const;
+  /// The same with the hit, in the part's frame; from several threads.
+  void see(std::span<const scene::RayQuery> rays,
+           const std::function<void(std::size_t, const scene::RayHit&, int surfel)>& visit) const;
   Resolved resolve(const MovingRay& unobstructed) const;
 
   void build(std::span<const vec3> positions, float start_time, const Control& control);

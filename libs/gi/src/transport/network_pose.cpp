@@ -163,20 +163,30 @@ Resolved TransportNetwork::Data::resolve(const MovingRay& unobstructed) const {
 
 void TransportNetwork::Data::see(std::span<const scene::RayQuery> rays, std::span<std::int32_t> surfel,
                                  std::span<std::uint8_t> escaped) const {
+  see(rays, [&](std::size_t i, const scene::RayHit& hit, int found) {
+    surfel[i] = found;
+    escaped[i] = hit.escaped();
+  });
+}
+
+void TransportNetwork::Data::see(
+    std::span<const scene::RayQuery> rays,
+    const std::function<void(std::size_t, const scene::RayHit&, int)>& visit) const {
   std::vector<scene::RayHit> hits(rays.size());
   source.intersect(0, rays, hits);
   parallel_for(rays.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       scene::RayQuery ray = rays[i];
-      ray.t_max = hits[i].distance;
+      ray.t_max = std::min(ray.t_max, hits[i].distance);
       scene::RayHit hit = hits[i];
       int part = 0;
-      surfel[i] = no_surfel;
-      escaped[i] = !meet_part(ray, hit, part) && hit.escaped();
-      if (escaped[i]) continue;
+      if (!meet_part(ray, hit, part) && hit.escaped()) {
+        visit(i, hit, no_surfel);
+        continue;
+      }
       vec3 position = ray.origin + ray.t_max * ray.direction;
       if (part > 0) position = vec3(placed[static_cast<std::size_t>(part - 1)].to_part * vec4(position, 1));
-      surfel[i] = find(part, {position, hit.normal});
+      visit(i, hit, find(part, {position, hit.normal}));
     }
   });
 }

@@ -18,6 +18,13 @@ vec3 evaluate(const sh::RadianceSh& function, const vec3& direction) {
   return glm::max(sum, vec3(0));
 }
 
+/// The way to the sphere's surface: what stands inside does not shadow the light that stands for it.
+scene::RayQuery to_sphere(const vec3& from, const SphlEmitter& emitter) {
+  const vec3 way = emitter.position - from;
+  const float distance = glm::length(way);
+  return {from, way, distance > emitter.radius ? 1 - emitter.radius / distance : 0};
+}
+
 /// Marks what any part blocks.
 void block(const TransportNetwork& network, const scene::TransportSource& source,
            std::span<const scene::RayQuery> segments, std::vector<std::uint8_t>& blocked) {
@@ -28,7 +35,8 @@ void block(const TransportNetwork& network, const scene::TransportSource& source
   for (int part = 1; part < source.part_count(); ++part) {
     const mat4 to_part = glm::inverse(network.poses()[static_cast<std::size_t>(part)]);
     for (std::size_t i = 0; i < segments.size(); ++i)
-      local[i] = {vec3(to_part * vec4(segments[i].origin, 1)), mat3(to_part) * segments[i].direction, 1};
+      local[i] = {vec3(to_part * vec4(segments[i].origin, 1)), mat3(to_part) * segments[i].direction,
+                  segments[i].t_max};
     source.occluded(part, local, by_part);
     for (std::size_t i = 0; i < segments.size(); ++i) blocked[i] |= by_part[i];
   }
@@ -39,6 +47,14 @@ void block(const TransportNetwork& network, const scene::TransportSource& source
 bool sees(const TransportNetwork& network, const scene::TransportSource& source, const vec3& a,
           const vec3& b) {
   const scene::RayQuery segment{a, b - a, 1};
+  std::vector<std::uint8_t> blocked;
+  block(network, source, {&segment, 1}, blocked);
+  return !blocked[0];
+}
+
+bool sees(const TransportNetwork& network, const scene::TransportSource& source, const vec3& from,
+          const SphlEmitter& emitter) {
+  const scene::RayQuery segment = to_sphere(from, emitter);
   std::vector<std::uint8_t> blocked;
   block(network, source, {&segment, 1}, blocked);
   return !blocked[0];
@@ -55,7 +71,7 @@ std::size_t add_emission(const TransportNetwork& network, const scene::Transport
     const vec3 to_light = emitter.position - p.position;
     if (!network.sample_exists(i) || !(glm::dot(to_light, p.normal) > 0)) continue;
     const vec3 origin = p.position + lift * p.normal;
-    segments.push_back({origin, emitter.position - origin, 1});
+    segments.push_back(to_sphere(origin, emitter));
     which.push_back(i);
   }
   std::vector<std::uint8_t> blocked;

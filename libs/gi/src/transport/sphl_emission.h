@@ -16,15 +16,19 @@ struct SphlEmitter {
   sh::RadianceSh leaving;  ///< radiance that leaves into each direction; empty: dark
 };
 
-/// Adds π (r/d)² cosθ L(ω_e) at every sample that the sphere's centre sees: exact for a uniform sphere above
-/// the horizon, and for any function in the limit r ≪ d. Within the sphere d counts as r. Returns the rays
-/// traced.
+/// Adds π (r/d)² cosθ L(ω_e) at every sample from which the way to the sphere's surface is free: exact for a
+/// uniform sphere above the horizon, and for any function in the limit r ≪ d. Within the sphere d counts as
+/// r. Returns the rays traced.
 std::size_t add_emission(const TransportNetwork& network, const scene::TransportSource& source,
                          const SphlEmitter& emitter, std::span<vec3> samples);
 
 /// Adds the sphere as seen from a probe in free view of it: a disc of half-angle asin(r/d) with radiance
 /// L(ω_e).
 void add_seen_emission(const vec3& probe, const SphlEmitter& emitter, sh::RadianceSh& out);
+
+/// Whether the way from a point to the sphere's surface is free.
+bool sees(const TransportNetwork& network, const scene::TransportSource& source, const vec3& from,
+          const SphlEmitter& emitter);
 
 /// Whether nothing static or moving blocks the segment, as the network is posed.
 bool sees(const TransportNetwork& network, const scene::TransportSource& source, const vec3& a,

@@ -79,6 +79,12 @@ class RelightSession {
   std::vector<std::vector<sh::RadianceSh>> reflected_by_group(const Control& control = {}) const;
   std::vector<std::vector<sh::RadianceSh>> emitted_by_group() const;
 
+  /// Emission profile of whatever stands in a sphere, as lit after the last update(): the radiance that
+  /// leaves the sphere into each direction, averaged over its disc; empty space in it is dark. Given to
+  /// set_emission of a probe with this radius it stands in for the thing itself (paper §5, Figure 12: a fire,
+  /// a car with its lamps). `rays` per direction; 16 · (degree + 1)² directions.
+  sh::RadianceSh emission_profile(const vec3& center, float radius, int degree, int rays = 256) const;
+
   /// Indirect irradiance at each surfel.
   const std::vector<Irradiance4>& surfel_irradiance() const;
   const std::vector<Irradiance4>& surfel_direct() const;

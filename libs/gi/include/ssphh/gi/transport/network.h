@@ -31,6 +31,14 @@ struct SeenPatch {
   friend bool operator==(const SeenPatch&, const SeenPatch&) = default;
 };
 
+/// What a ray meets that is no probe's.
+struct Sight {
+  std::int32_t surfel = no_surfel;  ///< of the surface; no_surfel where nothing is met or known
+  vec3 albedo{0};
+  vec3 emission{0};  ///< radiance toward the ray's origin
+  int group = -1;    ///< of the emission
+};
+
 /// A probe ray between two precomputed poses: seen()[owner] with weight 1 − share, `other` with weight share.
 struct MixedHit {
   std::uint32_t owner;  ///< probe · directions + direction
@@ -102,6 +110,9 @@ class TransportNetwork {
   /// directions depend on the point's index alone.
   std::vector<std::int32_t> gather(std::span<const scene::SurfacePoint> points, int rays,
                                    const Control& control = {}) const;
+
+  /// What world-space rays meet, as posed.
+  std::vector<Sight> look(std::span<const scene::RayQuery> rays) const;
 
   /// The surfel that stands for a surface point of a part (in the part's frame): the nearest one seen from
   /// it.
