@@ -28,8 +28,7 @@ std::unique_ptr<LookupWeights> weights(const std::vector<vec3>& positions, Weigh
 /// n³ probes, `spacing` apart.
 std::vector<vec3> grid(int n, float spacing) {
   std::vector<vec3> positions;
-  for (int i = 0; i < n * n * n; ++i)
-    positions.push_back(spacing * vec3(i % n, i / n % n, i / n / n));
+  for (int i = 0; i < n * n * n; ++i) positions.push_back(spacing * vec3(i % n, i / n % n, i / n / n));
   return positions;
 }
 

@@ -1,13 +1,13 @@
 /// The k-d tree against a sort of all points.
 
+#include "nearest.h"
+
 #include <algorithm>
 #include <array>
 
 #include <gtest/gtest.h>
 
 #include <ssphh/core/random.h>
-
-#include "nearest.h"
 
 namespace ssphh::gi {
 namespace {
@@ -56,11 +56,13 @@ TEST(NearestPoints, TiesGoByIndexHoweverThePointsLie) {
   std::vector<vec3> points;
   for (int copy = 0; copy < 2; ++copy) {
     for (int i = 0; i < 125; ++i)
-      points.push_back({static_cast<float>(i % 5), static_cast<float>(i / 5 % 5), static_cast<float>(i / 25)});
+      points.push_back(
+          {static_cast<float>(i % 5), static_cast<float>(i / 5 % 5), static_cast<float>(i / 25)});
   }
   for (std::size_t i = points.size(); i > 1; --i)
     std::swap(points[i - 1], points[static_cast<std::size_t>(random.uniform() * static_cast<float>(i))]);
-  for (const vec3& x : {vec3(2), vec3(2, 2, 2.5f), vec3(1.5f), vec3(0), vec3(-3, 2, 2), vec3(2.5f, 2.5f, 0)}) {
+  for (const vec3& x :
+       {vec3(2), vec3(2, 2, 2.5f), vec3(1.5f), vec3(0), vec3(-3, 2, 2), vec3(2.5f, 2.5f, 0)}) {
     for (const std::size_t wanted : {std::size_t{1}, std::size_t{5}, std::size_t{16}, std::size_t{300}}) {
       expect_nearest(points, x, wanted, std::numeric_limits<float>::infinity());
       expect_nearest(points, x, wanted, 1);  // points at the radius itself count

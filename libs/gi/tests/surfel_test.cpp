@@ -60,13 +60,13 @@ std::vector<ClusterPoint> random_points(int count, std::uint64_t seed) {
 using Cell = std::tuple<int, int, int, int>;
 
 /// The cell of a point as the header describes it: voxel of `size`, and the axis nearest to the normal. The
-/// grid begins two voxels outside the bounds, which here begin at 0.
+/// grid begins 2¼ voxels outside the bounds, which here begin at 0.
 Cell cell_of(const scene::SurfacePoint& p, float size) {
   int axis = 0;
   for (int a = 1; a < 3; ++a) {
     if (std::abs(p.normal[a]) > std::abs(p.normal[axis])) axis = a;
   }
-  const auto v = [&](int a) { return static_cast<int>(std::floor((p.position[a] + 2 * size) / size)); };
+  const auto v = [&](int a) { return static_cast<int>(std::floor((p.position[a] + 2.25f * size) / size)); };
   return {v(0), v(1), v(2), 2 * axis + (p.normal[axis] < 0 ? 1 : 0)};
 }
 
@@ -102,11 +102,11 @@ TEST(SurfelSet, OneSurfelPerVoxelAndMainDirectionWhereNothingBlocks) {
 }
 
 TEST(SurfelSet, AThinWallBetweenPointsOfOneVoxelMakesTwoSurfels) {
-  // Voxels of 1 m begin at −2: x 2.0…3.0 is one voxel, and the wall at 2.2 divides it.
+  // Voxels of 1 m begin at −2.25: x 1.75…2.75, z 0.75…1.75 is one, and the wall at 2.2 divides it.
   const std::vector<ClusterPoint> points{{{{2.1f, 0, 1.5f}, {0, 1, 0}}, vec3(0.5f)},
                                          {{{2.3f, 0, 1.5f}, {0, 1, 0}}, vec3(0.5f)},
-                                         {{{2.9f, 0, 1.2f}, {0, 1, 0}}, vec3(0.5f)},
-                                         {{{2.05f, 0, 1.9f}, {0, 1, 0}}, vec3(0.5f)}};
+                                         {{{2.7f, 0, 1.2f}, {0, 1, 0}}, vec3(0.5f)},
+                                         {{{1.8f, 0, 1.7f}, {0, 1, 0}}, vec3(0.5f)}};
   const scene::Scene walled = walled_floor(1), low = walled_floor(0.01f), moving = walled_floor(1, true);
   {
     const TriangleSource source(walled);
@@ -184,8 +184,8 @@ TEST(SurfelSet, CandidatesAreTheOwnCellsThenThoseAroundByDistance) {
   Pcg32 random(8);
   std::vector<ClusterPoint> points;
   for (int i = 0; i < 800; ++i)
-    points.push_back({{{4 * random.uniform(), 0.3f * random.uniform(), 4 * random.uniform()}, {0, 1, 0}},
-                      vec3(0.5f)});
+    points.push_back(
+        {{{4 * random.uniform(), 0.3f * random.uniform(), 4 * random.uniform()}, {0, 1, 0}}, vec3(0.5f)});
   set.add(0, points);
   for (std::size_t i = 0; i < points.size(); i += 9) {
     const scene::SurfacePoint& x = points[i].point;
@@ -242,6 +242,26 @@ TEST(SurfelSet, SpreadMembersLieFarApart) {
   SurfelSet same(source, 8);
   same.add(0, std::vector<ClusterPoint>(10, points[0]));
   EXPECT_EQ(same.spread_members(0, 8).size(), 1u) << "points in one place are one sample";
+}
+
+TEST(SurfelSet, AWallAtTheBoundsIsOneLayer) {
+  // Hits on x = y = z = 0 and 4 with rounding errors: 4 / 0.5 leaves all six walls at the same place in
+  // their voxels.
+  const scene::Scene scene = specks();
+  const TriangleSource source(scene);
+  SurfelSet set(source, 0.5f);
+  Pcg32 random(9);
+  std::vector<ClusterPoint> points;
+  for (int i = 0; i < 60000; ++i) {
+    const int axis = i % 3;
+    const bool high = i % 2;
+    scene::SurfacePoint p{4.0f * random.uniform3(), vec3(0)};
+    p.position[axis] = (high ? 4.0f : 0.0f) + 1e-6f * (random.uniform() - 0.5f);
+    p.normal[axis] = high ? -1.0f : 1.0f;
+    points.push_back({p, vec3(0.5f)});
+  }
+  set.add(0, points);
+  EXPECT_EQ(set.count(), 6u * 9 * 9);
 }
 
 TEST(SurfelSet, RefusesSizesThatMakeNoVoxels) {
