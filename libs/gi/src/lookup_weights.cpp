@@ -73,11 +73,11 @@ class TrilinearWeights final : public VisibleWeights {
   using VisibleWeights::VisibleWeights;
   ProbeWeights at(const vec3& x, const vec3& n) const override {
     const float spacing = sight_.spacing();
-    // A cell's corners lie within √3 spacings.
-    NearList near;
+    // A cell's corners lie within √3 spacings, as do up to 27 probes of a grid.
+    std::array<Near, 27> near;
     const int count = sight_.nearest(x, near, std::sqrt(3.0f) * spacing);
     ProbeWeights out;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count && out.count < max_weights; ++i) {
       const Near& probe = near[static_cast<std::size_t>(i)];
       const vec3 tent = 1.0f - glm::abs(sight_.position(probe.index) - x) / spacing;
       if (!(std::min({tent.x, tent.y, tent.z}) > 1e-4f) || !sight_.sees(probe, x, n)) continue;

@@ -24,7 +24,8 @@ class ProbeSight {
   float spacing() const { return spacing_; }
   const vec3& position(int probe) const { return positions_[static_cast<std::size_t>(probe)]; }
 
-  int nearest(const vec3& x, NearList& near, float radius = std::numeric_limits<float>::infinity()) const {
+  int nearest(const vec3& x, std::span<Near> near,
+              float radius = std::numeric_limits<float>::infinity()) const {
     return nearest_.find(x, near, radius);
   }
 

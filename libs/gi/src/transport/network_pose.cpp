@@ -109,6 +109,16 @@ bool TransportNetwork::Data::blocked(const scene::RayQuery& segment) const {
 }
 
 int TransportNetwork::Data::find(int part, const scene::SurfacePoint& point) const {
+  if (part > 0) {
+    // A ray that starts within a body, where another touches it, meets its inside: nothing lights that, and
+    // within a body thinner than the lift sight would start on its far side.
+    const float start = link_lift * surfels.size();
+    const scene::RayQuery lift{point.position + start * point.normal, 1.05f * surfels.lift() * point.normal,
+                               1};
+    std::uint8_t inside = 0;
+    source.occluded(part, {&lift, 1}, {&inside, 1});
+    if (inside) return no_surfel;
+  }
   const scene::SurfacePoint world = to_world(part, point);
   const auto sees = [&](int s) {
     const Surfel& surfel = surfels.surfels()[static_cast<std::size_t>(s)];

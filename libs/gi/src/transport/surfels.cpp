@@ -33,7 +33,9 @@ SurfelSet::SurfelSet(const scene::TransportSource& source, float size) : source_
     throw Error("surfel size", fmt::format("{} m is no size", size), "give a positive number of metres");
   for (int part = 0; part < source.part_count(); ++part) {
     const scene::Bounds bounds = source.part_bounds(part);
-    origin_.push_back(bounds.empty() ? vec3(0) : bounds.min - 2 * size);
+    // A quarter of a voxel off, or walls at the bounds would lie on the border of two voxels and rounding
+    // would make two surfels of each.
+    origin_.push_back(bounds.empty() ? vec3(0) : bounds.min - 2.25f * size);
     if (bounds.empty()) continue;
     const float extent = max_component(bounds.max - bounds.min);
     if (extent / size > static_cast<float>((1 << axis_bits) - 8)) {
