@@ -27,7 +27,7 @@ Hash128 bake_key(const scene::RadianceSource& source, const ProbeSet& set, const
       .value(g.scene_hash.low)
       .value(g.time);
   hasher.value(g.gen).value(g.max_depth).value(g.passes).value(g.spp).value(g.seed).value(g.face_size);
-  hasher.value(params.viz).value(params.viz_transfer);
+  hasher.value(params.keep_light).value(params.viz).value(params.viz_transfer);
   for (const std::string& group : source.light_groups()) hasher.text(group);
   for (const Probe& probe : set.probes) {
     hasher.text(probe.name)
@@ -164,16 +164,22 @@ ProbeSet bake(const scene::RadianceSource& source, ProbeSet set, const BakeParam
   g.spp = params.path.spp;
   g.seed = params.path.seed;
   g.face_size = params.face_size;
-  set.light_groups.clear();
-  for (const std::string& group : source.light_groups()) set.light_groups.push_back({group, vec3(1)});
-  for (Probe& probe : set.probes)
-    probe.groups.assign(set.light_groups.size(), {{}, sh::RadianceSh(set.degree)});
+  if (params.keep_light) {
+    if (!std::ranges::equal(set.light_groups, source.light_groups(), {}, &LightGroup::name))
+      throw Error("bake", "the light to keep is of other light groups than the scene's");
+  } else {
+    g.op = LightOperator::path;
+    set.light_groups.clear();
+    for (const std::string& group : source.light_groups()) set.light_groups.push_back({group, vec3(1)});
+    for (Probe& probe : set.probes)
+      probe.groups.assign(set.light_groups.size(), {{}, sh::RadianceSh(set.degree)});
+  }
   set.hierarchy.reset();
   validate(set, "bake");
 
   Checkpoint checkpoint(checkpoint_path, bake_key(source, set, params));
   const Job job{source, params, set, report};
-  run_stage(job, BakeStage::gen, checkpoint, control);
+  if (!params.keep_light) run_stage(job, BakeStage::gen, checkpoint, control);
   if (params.viz) run_stage(job, BakeStage::viz, checkpoint, control);
   merge_groups(set);
 

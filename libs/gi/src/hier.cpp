@@ -107,4 +107,19 @@ std::size_t hier(ProbeSet& set, const HierParams& params) {
   return used;
 }
 
+std::optional<Contraction> hier_contraction(const ProbeSet& set, const HierParams& params) {
+  if (params.op != HierOperator::mean) return std::nullopt;
+  std::vector<std::vector<Link>> rows;
+  LinkRows links;
+  for (const Probe& probe : set.probes) {
+    std::vector<Link>& row = rows.emplace_back();
+    for (const int e : select_neighbors(probe, params)) {
+      const Edge& edge = probe.edges[static_cast<std::size_t>(e)];
+      row.push_back({static_cast<std::uint32_t>(edge.from), std::max(0.0f, max_component(sh::mean(edge.h)))});
+    }
+    links.rows.push_back({row, {}});
+  }
+  return contraction(links, std::vector<vec3>(set.probes.size(), vec3(1)));
+}
+
 }  // namespace ssphh::gi

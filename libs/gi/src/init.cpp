@@ -14,7 +14,7 @@ ProbeSet empty_set(const scene::Scene& scene, int degree, float time) {
   ProbeSet set;
   set.degree = degree;
   set.generator.scene = scene.name.substr(0, limits::text);
-  set.generator.scene_hash = scene::scene_hash(scene);
+  set.generator.scene_hash = scene::light_hash(scene);
   set.generator.time = time;
   return set;
 }

@@ -17,9 +17,13 @@ namespace {
 constexpr std::array<char, 8> magic = {'S', 'P', 'H', 'L', '\r', '\n', '\x1a', '\n'};
 
 void write_generator(ByteWriter& out, const GeneratorInfo& g) {
+  out.value(static_cast<std::uint8_t>(g.op));
   out.value(static_cast<std::uint8_t>(g.gen));
   for (const int v : {g.max_depth, g.passes, g.spp, g.face_size}) out.value(static_cast<std::uint32_t>(v));
   out.value(g.seed);
+  out.value(static_cast<std::uint32_t>(g.directions));
+  out.value(g.surfel_size);
+  out.value(static_cast<std::uint32_t>(g.link_rays));
   out.text(g.scene);
   out.value(g.scene_hash.high), out.value(g.scene_hash.low);
   out.value(g.time);
@@ -32,12 +36,16 @@ int read_int(ByteReader& in, const char* what, int low, int high) {
 
 GeneratorInfo read_generator(ByteReader& in) {
   GeneratorInfo g;
+  g.op = static_cast<LightOperator>(in.value_in<std::uint8_t>("operator", 0, 2));
   g.gen = static_cast<GenMode>(in.value_in<std::uint8_t>("GEN mode", 0, 1));
   g.max_depth = read_int(in, "max depth", 0, limits::depth);
   g.passes = read_int(in, "passes", 1, limits::samples);
   g.spp = read_int(in, "samples", 1, limits::samples);
   g.face_size = read_int(in, "face size", 1, limits::face_size);
   g.seed = in.value<std::uint64_t>("seed");
+  g.directions = read_int(in, "directions", 0, limits::rays);
+  g.surfel_size = in.value_in<float>("surfel size", 0, limits::coordinate);
+  g.link_rays = read_int(in, "link rays", 0, limits::rays);
   g.scene = in.text("scene name", limits::text);
   g.scene_hash.high = in.value<std::uint64_t>("scene hash");
   g.scene_hash.low = in.value<std::uint64_t>("scene hash");
@@ -76,6 +84,7 @@ ProbeSet read_payload(ByteReader& in) {
       hierarchy.neighbor.push_back(read_sh(in, "neighbour part", set.degree, false));
     }
   }
+  if (in.value_in<std::uint8_t>("fitted flag", 0, 1)) set.fitted = read_fitted(in, probe_count);
   in.expect_end();
   return set;
 }
@@ -111,6 +120,8 @@ std::vector<std::byte> probes_to_binary(const ProbeSet& set) {
     payload.value(set.hierarchy->threshold);
     for (const sh::RadianceSh& neighbor : set.hierarchy->neighbor) write_sh(payload, neighbor);
   }
+  payload.value(static_cast<std::uint8_t>(set.fitted.has_value()));
+  if (set.fitted) write_fitted(payload, *set.fitted);
 
   ByteWriter file;
   file.array(std::span<const char>(magic));

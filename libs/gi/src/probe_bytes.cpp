@@ -67,4 +67,37 @@ std::vector<Edge> read_edges(ByteReader& in, int degree, std::size_t index, std:
   return edges;
 }
 
+void write_fitted(ByteWriter& out, const FittedPoints& fitted) {
+  out.value(static_cast<std::uint32_t>(fitted.points.size()));
+  for (std::size_t i = 0; i < fitted.points.size(); ++i) {
+    out.vector3(fitted.points[i].position);
+    out.vector3(fitted.points[i].normal);
+    out.value(static_cast<std::uint8_t>(fitted.weights[i].count));
+    for (const ProbeWeight& entry : fitted.weights[i].used()) {
+      out.value(static_cast<std::uint32_t>(entry.probe));
+      out.value(entry.weight);
+    }
+  }
+}
+
+FittedPoints read_fitted(ByteReader& in, std::size_t probe_count) {
+  const std::size_t count = in.count("fitted point count", limits::fitted_points, 2 * sizeof(vec3) + 1);
+  FittedPoints fitted;
+  fitted.points.resize(count);
+  fitted.weights.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    fitted.points[i].position = in.vector3("fitted point");
+    fitted.points[i].normal = in.vector3("fitted normal");
+    ProbeWeights& weights = fitted.weights[i];
+    weights.count = in.value_in<std::uint8_t>("fitted weight count", 0, max_weights);
+    for (int k = 0; k < weights.count; ++k) {
+      const auto probe = in.value<std::uint32_t>("fitted probe");
+      if (probe >= probe_count) in.fail("fitted probe", "must be a probe's index");
+      weights.entries[static_cast<std::size_t>(k)] = {
+          static_cast<int>(probe), in.value_in<float>("fitted weight", 0, limits::fitted_weight)};
+    }
+  }
+  return fitted;
+}
+
 }  // namespace ssphh::gi

@@ -18,4 +18,7 @@ void write_edges(ByteWriter& out, const std::vector<Edge>& edges);
 /// Of probe `index` of `probe_count`; `from` must ascend and not be the probe itself.
 std::vector<Edge> read_edges(ByteReader& in, int degree, std::size_t index, std::size_t probe_count);
 
+void write_fitted(ByteWriter& out, const FittedPoints& fitted);
+FittedPoints read_fitted(ByteReader& in, std::size_t probe_count);
+
 }  // namespace ssphh::gi

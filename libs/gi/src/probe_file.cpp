@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include <ssphh/core/file.h>
@@ -27,6 +29,7 @@ class Validator {
     require(set_.probes.size() <= limits::probes, "/probes", "there are more than 65536");
     for (std::size_t i = 0; i < set_.probes.size(); ++i) probe(i);
     if (set_.hierarchy) hierarchy(*set_.hierarchy);
+    if (set_.fitted) fitted(*set_.fitted);
   }
 
  private:
@@ -64,6 +67,9 @@ class Validator {
     count(g.passes, 1, limits::samples, "/generator/passes");
     count(g.spp, 1, limits::samples, "/generator/spp");
     count(g.face_size, 1, limits::face_size, "/generator/face_size");
+    count(g.directions, 0, limits::rays, "/generator/directions");
+    number(g.surfel_size, 0, limits::coordinate, "/generator/surfel_size");
+    count(g.link_rays, 0, limits::rays, "/generator/link_rays");
     text(g.scene, "/generator/scene");
     number(g.time, -limits::coordinate, limits::coordinate, "/generator/time");
   }
@@ -109,6 +115,27 @@ class Validator {
     require(h.neighbor.size() == set_.probes.size(), "/hierarchy", "needs one neighbour part per probe");
     for (std::size_t i = 0; i < h.neighbor.size(); ++i)
       function(h.neighbor[i], fmt::format("/probes/{}/neighbor", i));
+  }
+
+  void fitted(const FittedPoints& f) const {
+    require(f.points.size() <= limits::fitted_points, "/fitted",
+            fmt::format("there are more than {}", limits::fitted_points));
+    require(f.weights.size() == f.points.size(), "/fitted", "needs the weights of every point");
+    for (std::size_t i = 0; i < f.points.size(); ++i) {
+      const std::string at = fmt::format("/fitted/{}", i);
+      for (int c = 0; c < 3; ++c)
+        number(f.points[i].position[c], -limits::coordinate, limits::coordinate, at + "/position");
+      const float length = glm::length(f.points[i].normal);
+      require(std::abs(length - 1) <= 1e-3f, at + "/normal", fmt::format("its length is {}, not 1", length));
+      const int count = f.weights[i].count;
+      require(count >= 0 && count <= max_weights, at + "/weights",
+              fmt::format("there are {}, not 0..{}", count, max_weights));
+      for (const ProbeWeight& entry : f.weights[i].used()) {
+        require(entry.probe >= 0 && static_cast<std::size_t>(entry.probe) < set_.probes.size(),
+                at + "/probes", "must be indices of probes");
+        number(entry.weight, 0, limits::fitted_weight, at + "/weights");
+      }
+    }
   }
 
   const ProbeSet& set_;

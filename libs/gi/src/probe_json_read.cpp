@@ -127,8 +127,10 @@ class Place {
 };
 
 GeneratorInfo read_generator(const Place& at) {
-  at.object({"gen", "max_depth", "passes", "spp", "face_size", "seed", "scene", "scene_hash", "time"});
+  at.object({"operator", "gen", "max_depth", "passes", "spp", "face_size", "seed", "directions", "surfel_size",
+             "link_rays", "scene", "scene_hash", "time"});
   GeneratorInfo g;
+  g.op = at["operator"].choice(parse_light_operator);
   g.gen = at["gen"].choice(parse_gen_mode);
   g.max_depth = at["max_depth"].integer(0, limits::depth);
   g.passes = at["passes"].integer(1, limits::samples);
@@ -137,6 +139,9 @@ GeneratorInfo read_generator(const Place& at) {
   const std::string& seed = at["seed"].text(16);
   if (seed.empty()) at["seed"].fail("must be 1..16 hexadecimal digits");
   g.seed = at["seed"].hexadecimal(seed);
+  g.directions = at["directions"].integer(0, limits::rays);
+  g.surfel_size = at["surfel_size"].number(0, limits::coordinate);
+  g.link_rays = at["link_rays"].integer(0, limits::rays);
   g.scene = at["scene"].text(limits::text);
   const std::string& hash = at["scene_hash"].text(32);
   if (hash.size() != 32) at["scene_hash"].fail("must be 32 hexadecimal digits");
@@ -185,9 +190,32 @@ Probe read_probe(const Place& at, const ProbeSet& set, std::size_t probe_count, 
   return probe;
 }
 
+FittedPoints read_fitted(const Place& at, std::size_t probe_count) {
+  const std::size_t count = at.array(0, limits::fitted_points);
+  FittedPoints fitted;
+  fitted.points.resize(count);
+  fitted.weights.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Place point = at.at(i).object({"position", "normal", "probes", "weights"});
+    fitted.points[i] = {point["position"].vector3(-limits::coordinate, limits::coordinate),
+                        point["normal"].vector3(-2, 2)};
+    const Place probes = point["probes"], weights = point["weights"];
+    const std::size_t used = probes.array(0, max_weights);
+    weights.array(used, used);
+    ProbeWeights& out = fitted.weights[i];
+    for (std::size_t k = 0; k < used; ++k) {
+      out.entries[k] = {probes.at(k).integer(0, static_cast<int>(probe_count) - 1),
+                        weights.at(k).number(0, limits::fitted_weight)};
+    }
+    out.count = static_cast<int>(used);
+  }
+  return fitted;
+}
+
 ProbeSet read_set(const Place& root) {
   if (root.is_object_with("version")) root["version"].require_version(probe_file_version);
-  root.object({"format", "version", "degree", "generator", "light_groups", "probes"}, {"hierarchy"});
+  root.object({"format", "version", "degree", "generator", "light_groups", "probes"},
+              {"hierarchy", "fitted"});
   if (root["format"].text(limits::text) != "ssphh-probes") root["format"].fail("must be \"ssphh-probes\"");
   ProbeSet set;
   set.degree = root["degree"].integer(0, sh::max_degree);
@@ -211,6 +239,7 @@ ProbeSet read_set(const Place& root) {
     set.probes.push_back(read_probe(probes.at(i), set, probe_count, set.hierarchy.has_value()));
     if (set.hierarchy) set.hierarchy->neighbor.push_back(probes.at(i)["neighbor"].function(set.degree));
   }
+  if (root.is_object_with("fitted")) set.fitted = read_fitted(root["fitted"], probe_count);
   return set;
 }
 

@@ -18,9 +18,11 @@ class Writer {
   std::string run() {
     const GeneratorInfo& g = set_.generator;
     put("{{\"format\":\"ssphh-probes\",\"version\":{},\n\"degree\":{},\n", probe_file_version, set_.degree);
-    put("\"generator\":{{\"gen\":\"{}\",\"max_depth\":{},\"passes\":{},\"spp\":{},\"face_size\":{},\"seed\":"
-        "\"{:x}\",",
-        to_string(g.gen), g.max_depth, g.passes, g.spp, g.face_size, g.seed);
+    put("\"generator\":{{\"operator\":\"{}\",\"gen\":\"{}\",\"max_depth\":{},\"passes\":{},\"spp\":{},"
+        "\"face_size\":{},\"seed\":\"{:x}\",\n",
+        to_string(g.op), to_string(g.gen), g.max_depth, g.passes, g.spp, g.face_size, g.seed);
+    put("\"directions\":{},\"surfel_size\":{},\"link_rays\":{},\n", g.directions, exact(g.surfel_size),
+        g.link_rays);
     put("\"scene\":{},\"scene_hash\":\"{}\",\"time\":{}}},\n", quoted(g.scene), g.scene_hash.hex(),
         exact(g.time));
     put("\"light_groups\":[");
@@ -36,6 +38,7 @@ class Writer {
       put(",\n\"hierarchy\":{{\"operator\":\"{}\",\"neighbors\":{},\"threshold\":{}}}", to_string(h.op),
           h.neighbors, exact(h.threshold));
     }
+    if (set_.fitted) fitted(*set_.fitted);
     put("}}\n");
     return std::move(out_);
   }
@@ -63,6 +66,23 @@ class Writer {
       }
     }
     out_ += ']';
+  }
+
+  void fitted(const FittedPoints& f) {
+    put(",\n\"fitted\":[");
+    for (std::size_t i = 0; i < f.points.size(); ++i) {
+      put("{}\n{{\"position\":{},\"normal\":{},\"probes\":[", comma(i), exact(f.points[i].position),
+          exact(f.points[i].normal));
+      const auto weights = f.weights[i].used();
+      for (std::size_t k = 0; k < weights.size(); ++k) put("{}{}", comma(k), weights[k].probe);
+      put("],\"weights\":[");
+      for (std::size_t k = 0; k < weights.size(); ++k) {
+        put("{}", comma(k));
+        append_five_digits(out_, weights[k].weight);
+      }
+      put("]}}");
+    }
+    put("]");
   }
 
   void probe(std::size_t i) {

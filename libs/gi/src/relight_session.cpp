@@ -252,8 +252,10 @@ sh::RadianceSh RelightSession::emitted(int probe) const {
   return sum;
 }
 
-std::vector<std::vector<sh::RadianceSh>> RelightSession::reflected_by_group(const Control& control) const {
+std::vector<std::vector<sh::RadianceSh>> RelightSession::reflected_by_group(const Control& control,
+                                                                            SolveReport* slowest) const {
   const Data& d = *data_;
+  SolveReport most;
   const std::size_t groups = d.group_scale.size();
   std::vector<std::vector<sh::RadianceSh>> result(groups);
   ProgressStage progress(control, "solving", groups, "light groups");
@@ -264,11 +266,15 @@ std::vector<std::vector<sh::RadianceSh>> RelightSession::reflected_by_group(cons
     std::vector<Irradiance4> direct, indirect;
     d.field.sum(scales, {}, direct);
     Solver solver;
-    solver.solve(d.network.links(), d.network.albedo(), direct, d.network.contraction().upper, d.params.solve,
-                 indirect);
+    const SolveReport solve = solver.solve(d.network.links(), d.network.albedo(), direct,
+                                           d.network.contraction().upper, d.params.solve, indirect);
+    const bool converged = most.converged && solve.converged;
+    if (solve.iterations > most.iterations) most = solve;
+    most.converged = converged;
     project_reflected(d.network, d.projector, total(direct, indirect), result[g]);
     progress.advance(1);
   }
+  if (slowest) *slowest = most;
   return result;
 }
 

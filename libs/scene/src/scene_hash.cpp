@@ -108,32 +108,93 @@ void add_all(Hasher& h, const std::vector<T>& items) {
   for (const T& item : items) add(h, item);
 }
 
+/// Digests of the contents that instances share.
+class Contents {
+ public:
+  explicit Contents(const Scene& scene) : scene_(scene) {
+    std::vector<Hash128> textures;
+    for (const Texture& texture : scene.textures) textures.push_back(digest(texture));
+    for (const Material& material : scene.materials) materials_.push_back(digest(material, textures));
+    for (const Mesh& mesh : scene.meshes) meshes_.push_back(digest(mesh));
+    plain_ = digest(Material{}, textures);
+  }
+
+  /// All of an instance but where it stands.
+  void add_instance(Hasher& h, const Instance& instance) const {
+    const int material = instance_material(scene_, instance);
+    const auto m = static_cast<std::size_t>(material);
+    add(h, meshes_[static_cast<std::size_t>(instance.mesh)]);
+    add(h, material < 0 ? plain_ : materials_[m]);
+    h.text(material >= 0 && scene_.materials[m].emissive() ? light_group(scene_, instance) : "");
+  }
+
+ private:
+  const Scene& scene_;
+  std::vector<Hash128> materials_, meshes_;
+  Hash128 plain_;
+};
+
+/// Of each node, where it stands and how it moves, whatever its number is.
+std::vector<Hash128> node_digests(const Scene& scene) {
+  std::vector<std::vector<const AnimationChannel*>> channels(scene.nodes.size());
+  for (const Animation& animation : scene.animations) {
+    for (const AnimationChannel& c : animation.channels)
+      channels[static_cast<std::size_t>(c.node)].push_back(&c);
+  }
+  std::vector<Hash128> digests;  // parents stand before their children
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    Node node = scene.nodes[i];
+    Hasher h;
+    add(h, node.parent < 0 ? Hash128{} : digests[static_cast<std::size_t>(node.parent)]);
+    node.parent = -1;
+    add(h, node);
+    for (const AnimationChannel* c : channels[i])
+      h.value(c->path).value(c->interpolation).array(c->times).array(c->values);
+    digests.push_back(h.finish());
+  }
+  return digests;
+}
+
+void add_environment(Hasher& h, const Scene& scene) {
+  h.value(scene.environment.has_value());
+  if (scene.environment) add(h, *scene.environment);
+}
+
 }  // namespace
 
 Hash128 scene_hash(const Scene& scene) {
-  // Digest the contents that instances share.
-  std::vector<Hash128> textures, materials, meshes;
-  for (const Texture& texture : scene.textures) textures.push_back(digest(texture));
-  for (const Material& material : scene.materials) materials.push_back(digest(material, textures));
-  for (const Mesh& mesh : scene.meshes) meshes.push_back(digest(mesh));
-  const Hash128 plain = digest(Material{}, textures);
-
+  const Contents contents(scene);
   Hasher h;
   add_all(h, scene.nodes);
   h.value(static_cast<std::uint64_t>(scene.instances.size()));
-  for (const Instance& instance : scene.instances) {
-    const int material = instance_material(scene, instance);
-    const auto m = static_cast<std::size_t>(material);
-    add(h.value(instance.node), meshes[static_cast<std::size_t>(instance.mesh)]);
-    add(h, material < 0 ? plain : materials[m]);
-    h.text(material >= 0 && scene.materials[m].emissive() ? light_group(scene, instance) : "");
-  }
+  for (const Instance& instance : scene.instances) contents.add_instance(h.value(instance.node), instance);
   add_all(h, scene.cameras);
   add_all(h, scene.lights);
   add_all(h, scene.sphls);
   for (const Animation& animation : scene.animations) add_all(h, animation.channels);
-  h.value(scene.environment.has_value());
-  if (scene.environment) add(h, *scene.environment);
+  add_environment(h, scene);
+  return h.finish();
+}
+
+Hash128 light_hash(const Scene& scene) {
+  const Contents contents(scene);
+  const std::vector<Hash128> nodes = node_digests(scene);
+  const auto stands = [&](Hasher& h, int node) {
+    add(h, node < 0 ? Hash128{} : nodes[static_cast<std::size_t>(node)]);
+  };
+  Hasher h;
+  h.text("light").value(static_cast<std::uint64_t>(scene.instances.size()));
+  for (const Instance& instance : scene.instances) {
+    stands(h, instance.node);
+    contents.add_instance(h, instance);
+  }
+  h.value(static_cast<std::uint64_t>(scene.lights.size()));
+  for (Light light : scene.lights) {
+    stands(h, light.node);
+    light.node = -1;
+    add(h, light);
+  }
+  add_environment(h, scene);
   return h.finish();
 }
 

@@ -173,5 +173,53 @@ TEST(SceneHash, InvisibleChangesKeepIt) {
   }
 }
 
+TEST(LightHash, ObserversKeepIt) {
+  const std::vector<Change> changes = {
+      {"no cameras", [](Scene& s) { s.cameras.clear(); }},
+      {"camera", [](Scene& s) { s.cameras[0].yfov = 1; }},
+      {"no SPHLs", [](Scene& s) { s.sphls.clear(); }},
+      {"SPHL", [](Scene& s) { s.sphls[0].radius = 2; }},
+      {"a node of a new camera, in front of all others",
+       [](Scene& s) {
+         s.nodes.insert(s.nodes.begin(), Node{});
+         for (std::size_t i = 1; i < s.nodes.size(); ++i) s.nodes[i].parent += s.nodes[i].parent >= 0;
+         for (Instance& instance : s.instances) ++instance.node;
+         for (Light& light : s.lights) ++light.node;
+         for (AnimationChannel& c : s.animations[0].channels) ++c.node;
+         s.cameras[0].node = 0;
+       }},
+      {"motion of a node that carries nothing", [](Scene& s) { s.animations.clear(); }},
+      {"scene name", [](Scene& s) { s.name = "x"; }},
+  };
+  const Hash128 before = light_hash(full_scene());
+  for (const Change& change : changes) {
+    Scene scene = full_scene();
+    change.apply(scene);
+    EXPECT_EQ(light_hash(scene), before) << change.what;
+  }
+}
+
+TEST(LightHash, WhatLightDependsOnChangesIt) {
+  const std::vector<Change> changes = {
+      {"place", [](Scene& s) { s.nodes[0].local.translation.x = 1; }},
+      {"place of a parent", [](Scene& s) { s.nodes[2].parent = 0, s.instances[0].node = 2; }},
+      {"motion", [](Scene& s) { s.animations[0].channels[0].node = 0; }},
+      {"mesh", [](Scene& s) { s.meshes[0].positions[0].x = 9; }},
+      {"material", [](Scene& s) { s.materials[0].metallic = 0.5f; }},
+      {"light", [](Scene& s) { s.lights[1].intensity = 2; }},
+      {"light's group", [](Scene& s) { s.lights[0].group = "g"; }},
+      {"fewer lights", [](Scene& s) { s.lights.pop_back(); }},
+      {"environment", [](Scene& s) { s.environment->color.x = 2; }},
+  };
+  std::vector<Hash128> seen{light_hash(full_scene()), scene_hash(full_scene())};
+  for (const Change& change : changes) {
+    Scene scene = full_scene();
+    change.apply(scene);
+    const Hash128 after = light_hash(scene);
+    EXPECT_EQ(std::count(seen.begin(), seen.end(), after), 0) << change.what;
+    seen.push_back(after);
+  }
+}
+
 }  // namespace
 }  // namespace ssphh::scene

@@ -12,6 +12,7 @@ struct BakeParams {
   GenMode gen = GenMode::full;  ///< local overrides path.max_depth with 1
   scene::PathParams path;       ///< of GEN; VIZ uses the same depth and samples
   int face_size = 64;           ///< texels along a cube face
+  bool keep_light = false;      ///< no GEN: VIZ alone, beside the light that the set holds
   bool viz = true;
   bool viz_transfer = false;  ///< also the matrices T_{j→i}
 };
@@ -28,7 +29,7 @@ struct BakeReport {
 /// body, and about P over 1. With a `checkpoint` path every finished probe is appended to that file, so that
 /// the same call after a Cancelled or a killed process continues there and gives the same bits; the caller
 /// removes it once the set is safe on disk. A checkpoint of another scene or other parameters is replaced.
-/// Throws Error for parameters out of range or an empty set.
+/// Throws Error for parameters out of range, an empty set, and light that is to be kept but is of other groups.
 ProbeSet bake(const scene::RadianceSource& source, ProbeSet set, const BakeParams& params,
               const std::filesystem::path& checkpoint, BakeReport& report, const Control& control = {});
 

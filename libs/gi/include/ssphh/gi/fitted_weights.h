@@ -22,12 +22,6 @@ struct FitParams {
   int degree = 2;            ///< bands of the probes' irradiance
 };
 
-/// Points with their weights. `weights[i].count` is 0 where no probe sees point i.
-struct FittedPoints {
-  std::vector<scene::SurfacePoint> points;
-  std::vector<ProbeWeights> weights;
-};
-
 /// Fits in the pose of the network; `source` is the network's. Throws Error for parameters out of range.
 FittedPoints fit_weights(const TransportNetwork& network, const scene::TransportSource& source,
                          std::span<const scene::SurfacePoint> points, const FitParams& params = {},

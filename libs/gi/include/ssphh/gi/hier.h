@@ -5,7 +5,10 @@
 ///   mean         H[k]·S_j[0]/√4π: H keeps its directions, S_j gives only its mean
 ///   matrix       T_{j→i} S_j: exact for SPHLs that are lights; needs a bake with the transfer matrices
 
+#include <optional>
+
 #include <ssphh/gi/probe_set.h>
+#include <ssphh/gi/transport/solve.h>
 
 namespace ssphh::gi {
 
@@ -24,5 +27,10 @@ std::vector<int> select_neighbors(const Probe& probe, const HierParams& params);
 /// light. Returns the number of edges used. Throws Error for parameters out of range, and for `matrix` on a
 /// set baked without matrices.
 std::size_t hier(ProbeSet& set, const HierParams& params);
+
+/// Bounds of the spectral radius of HIER by `mean`: the factor by which one more application would shrink the
+/// probes' means. None for the other operators, whose entries have either sign, so that no such bound is
+/// cheap.
+std::optional<Contraction> hier_contraction(const ProbeSet& set, const HierParams& params);
 
 }  // namespace ssphh::gi

@@ -2,6 +2,7 @@
 /// How much each probe counts at a surface point: E(x, n) = Σ_j v_j(x, n) E_j(n). Visibility is the factor
 /// that matters; the rest is measured in docs/methods/transport.md.
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <memory>
@@ -26,12 +27,19 @@ std::optional<WeightMethod> parse_weight_method(const std::string& name);
 struct ProbeWeight {
   int probe;
   float weight;
+
+  friend bool operator==(const ProbeWeight&, const ProbeWeight&) = default;
 };
 inline constexpr int max_weights = 16;
 /// The first `count` entries hold.
 struct ProbeWeights {
   std::array<ProbeWeight, max_weights> entries;
   int count = 0;
+
+  std::span<const ProbeWeight> used() const { return {entries.data(), static_cast<std::size_t>(count)}; }
+  friend bool operator==(const ProbeWeights& a, const ProbeWeights& b) {
+    return std::ranges::equal(a.used(), b.used());
+  }
 };
 
 /// Whether nothing blocks the way from a point just above a surface to a probe.

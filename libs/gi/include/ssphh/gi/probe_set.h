@@ -9,9 +9,14 @@
 
 #include <ssphh/core/hash.h>
 #include <ssphh/core/math.h>
+#include <ssphh/gi/fitted_points.h>
 #include <ssphh/sh/operators.h>
 
 namespace ssphh::gi {
+
+/// What found the light of a set: `path`: GEN, path tracing at each probe; `surfel`: light transport between
+/// surfels; `bounce`: the same with the probes as the only unknowns.
+enum class LightOperator { path, surfel, bounce };
 
 /// What the GEN cube maps hold: every bounce up to max_depth, or direct light only (max_depth 1), so that
 /// HIER does not count the neighbours' light a second time.
@@ -20,16 +25,21 @@ enum class GenMode { full, local };
 /// What ⊗ means in S'_i = S_i ⊕ Σ_j H_{j→i} ⊗ S_j (see hier.h).
 enum class HierOperator { coefficient, mean, matrix };
 
-/// How a set was made.
+/// How a set was made. `gen` to `seed` tell of the paths of GEN and VIZ; with an operator other than `path`,
+/// whose light has every bounce, of VIZ alone.
 struct GeneratorInfo {
+  LightOperator op = LightOperator::path;
   GenMode gen = GenMode::full;
   int max_depth = 3;
   int passes = 1;
   int spp = 16;
   int face_size = 64;
   std::uint64_t seed = 0;
-  std::string scene;  ///< name, for people
-  Hash128 scene_hash;
+  int directions = 0;     ///< rays per probe of the transport network; 0: there was none
+  float surfel_size = 0;  ///< of the network, metres
+  int link_rays = 0;      ///< of the network, cosine rays per surfel
+  std::string scene;      ///< name, for people
+  Hash128 scene_hash;     ///< scene::light_hash
   float time = 0;  ///< pose of the scene, seconds
 
   friend bool operator==(const GeneratorInfo&, const GeneratorInfo&) = default;
@@ -92,6 +102,7 @@ struct ProbeSet {
   std::vector<LightGroup> light_groups;
   std::vector<Probe> probes;
   std::optional<Hierarchy> hierarchy;
+  std::optional<FittedPoints> fitted;  ///< of surface points that stand still in the pose of the bake
 
   friend bool operator==(const ProbeSet&, const ProbeSet&) = default;
 };
@@ -107,8 +118,10 @@ void relight(ProbeSet& set, const std::string& group, const vec3& scale);
 /// Number of edges stored in the set.
 std::size_t edge_count(const ProbeSet& set);
 
+const char* to_string(LightOperator op);
 const char* to_string(GenMode mode);
 const char* to_string(HierOperator op);
+std::optional<LightOperator> parse_light_operator(const std::string& name);
 std::optional<GenMode> parse_gen_mode(const std::string& name);
 std::optional<HierOperator> parse_hier_operator(const std::string& name);
 

@@ -69,6 +69,9 @@ std::vector<SphlPlace> sphl_places(const Scene& scene, float time = 0);
 
 /// Content hash of everything that can change a picture.
 Hash128 scene_hash(const Scene& scene);
+/// Of everything that decides the light in the scene: as scene_hash, but cameras, SPHLs and nodes on which
+/// nothing else stands do not count.
+Hash128 light_hash(const Scene& scene);
 
 /// Throws Error naming the object for an index out of range, a NaN or infinite number, or an array of wrong
 /// length. Repaired are: degenerate triangles (removed), normals and tangents that are not unit vectors,

@@ -1,0 +1,27 @@
+#pragma once
+/// Surface points with the weights of the probes that light them: plain data, made by fit_weights
+/// (fitted_weights.h), stored in probe files.
+
+#include <algorithm>
+#include <vector>
+
+#include <ssphh/gi/lookup_weights.h>
+#include <ssphh/scene/transport_source.h>
+
+namespace ssphh::gi {
+
+/// Points with their weights, none of them negative. `weights[i].count` is 0 where no probe sees point i.
+struct FittedPoints {
+  std::vector<scene::SurfacePoint> points;
+  std::vector<ProbeWeights> weights;
+
+  friend bool operator==(const FittedPoints& a, const FittedPoints& b) {
+    return std::ranges::equal(a.points, b.points,
+                              [](const scene::SurfacePoint& p, const scene::SurfacePoint& q) {
+                                return p.position == q.position && p.normal == q.normal;
+                              }) &&
+           a.weights == b.weights;
+  }
+};
+
+}  // namespace ssphh::gi

@@ -1,0 +1,42 @@
+#pragma once
+/// A set's light by transport between surfels instead of path tracing: every bounce, no noise, seconds
+/// instead of minutes (docs/methods/transport.md).
+
+#include <ssphh/gi/fitted_weights.h>
+#include <ssphh/gi/probe_set.h>
+#include <ssphh/gi/relight_session.h>
+
+namespace ssphh::gi {
+
+struct TransportBakeParams {
+  TransportParams transport;
+  SolveParams solve;
+  bool fit = false;  ///< also fit lookup weights at the surfels
+  FitParams fit_params;
+};
+
+/// What a bake took: not part of the set.
+struct TransportBakeReport {
+  std::size_t surfels = 0, links = 0;
+  int iterations = 0;      ///< of the light group that took most
+  double contraction = 0;  ///< upper bound of the factor by which one bounce shrinks light
+  double seconds = 0;      ///< all but the fit
+  double fit_seconds = 0;
+  std::uint64_t rays = 0;
+  std::vector<std::string> warnings;
+};
+
+/// Fills the set that INIT made with `surfel` transport, per light group, in the pose of its time; degree and
+/// places are the set's. What the set held of light, edges, hierarchy and fitted points is replaced. Warns
+/// about probes inside a body or without light, about light that was lost and about a solution that did not
+/// converge. Throws Error without probes and for parameters out of range.
+ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, const TransportBakeParams& params,
+                        TransportBakeReport& report, const Control& control = {});
+
+/// Lookup weights for a set whose light something else found: builds a network in the pose of the set's time,
+/// fits at its surfels and notes its parameters in the set. Fills the report's surfels, links, contraction,
+/// fit_seconds and rays.
+void fit_set(const scene::TransportSource& source, ProbeSet& set, const TransportBakeParams& params,
+             TransportBakeReport& report, const Control& control = {});
+
+}  // namespace ssphh::gi

@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/log.h>
+#include <ssphh/gi/probe_file.h>
+#include <ssphh/gi/transport_bake.h>
+
+namespace ssphh::gi {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void describe_network(const TransportNetwork& network, ProbeSet& set, TransportBakeReport& report) {
+  set.generator.directions = network.params().directions;
+  set.generator.surfel_size = network.params().surfel_size;
+  set.generator.link_rays = network.params().link_rays;
+  report.surfels = network.surfel_count();
+  report.links = network.links().link_count();
+  report.contraction = network.contraction().upper;
+}
+
+/// Share of what a probe sees that is the back of a one-sided surface.
+float back_share(const ProbeGBuffer& seen, std::size_t probe) {
+  constexpr std::uint32_t back_bit = std::uint32_t{1} << 30;
+  const std::size_t count = seen.directions.size();
+  const auto first = seen.hits.begin() + static_cast<std::ptrdiff_t>(probe * count);
+  const auto backs =
+      std::count_if(first, first + static_cast<std::ptrdiff_t>(count), [](const PackedHit& hit) {
+        return hit.distance < std::numeric_limits<float>::infinity() && (hit.albedo_and_back & back_bit);
+      });
+  return static_cast<float>(backs) / static_cast<float>(count);
+}
+
+void check_light(const TransportNetwork& network, const ProbeSet& set, bool converged,
+                 TransportBakeReport& report) {
+  for (std::size_t i = 0; i < set.probes.size(); ++i) {
+    const Probe& probe = set.probes[i];
+    const float inside = back_share(network.gbuffer(), i);
+    if (inside > 0.5f) {
+      report.warnings.push_back(
+          fmt::format("probe \"{}\" seems to lie inside a body: {:.0f} % of what it sees are back faces",
+                      probe.name, 100 * inside));
+    } else if (sh::mean(probe.self) == vec3(0)) {
+      report.warnings.push_back(fmt::format("probe \"{}\" receives no light at all", probe.name));
+    }
+  }
+  if (network.lost_links() > 0) {
+    report.warnings.push_back(
+        fmt::format("{} links end where no surfel is: their light is lost", network.lost_links()));
+  }
+  if (!converged) {
+    report.warnings.push_back(
+        fmt::format("the light did not converge in {} iterations: surfaces reflect nearly all of it",
+                    report.iterations));
+  }
+}
+
+void fit(const TransportNetwork& network, const scene::TransportSource& source, ProbeSet& set,
+         const FitParams& params, TransportBakeReport& report, const Control& control) {
+  const auto start = Clock::now();
+  set.fitted = fit_weights(network, source, surfel_points(network), params, control);
+  report.fit_seconds += seconds_since(start);
+}
+
+void require_probes(const ProbeSet& set) {
+  if (set.probes.empty())
+    throw Error("bake", "there are no probes to bake", "run INIT on a scene with SPHLs");
+}
+
+}  // namespace
+
+ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, const TransportBakeParams& params,
+                        TransportBakeReport& report, const Control& control) {
+  require_probes(set);
+  report = {};
+  const std::uint64_t rays_before = source.rays_traced();
+  const auto start = Clock::now();
+
+  // Light everything once, then each group alone.
+  std::vector<ProbePlace> places;
+  for (const Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
+  RelightParams relight_params{params.transport, params.solve};
+  relight_params.degree = set.degree;
+  RelightSession session(source, std::move(places), relight_params, set.generator.time, control);
+  session.update();
+  SolveReport slowest;
+  std::vector<std::vector<sh::RadianceSh>> reflected = session.reflected_by_group(control, &slowest);
+  std::vector<std::vector<sh::RadianceSh>> emitted = session.emitted_by_group();
+
+  set.generator.op = LightOperator::surfel;
+  set.generator.gen = GenMode::full;
+  set.hierarchy.reset();
+  set.fitted.reset();
+  set.light_groups.clear();
+  for (const std::string& group : source.light_groups()) set.light_groups.push_back({group, vec3(1)});
+  for (std::size_t i = 0; i < set.probes.size(); ++i) {
+    Probe& probe = set.probes[i];
+    probe.edges.clear();
+    probe.groups.clear();
+    for (std::size_t g = 0; g < set.light_groups.size(); ++g) {
+      GroupLight& light = probe.groups.emplace_back();
+      light.reflected = std::move(reflected[g][i]);
+      const auto lit = [](const vec3& v) { return v != vec3(0); };
+      if (std::ranges::any_of(emitted[g][i].values, lit)) light.emitted = std::move(emitted[g][i]);
+    }
+  }
+  merge_groups(set);
+
+  const TransportNetwork& network = session.network();
+  describe_network(network, set, report);
+  report.iterations = slowest.iterations;
+  report.seconds = seconds_since(start);
+  if (params.fit) fit(network, source, set, params.fit_params, report, control);
+  report.rays = source.rays_traced() - rays_before;
+  check_light(network, set, slowest.converged, report);
+  validate(set, "bake");
+  for (const std::string& warning : report.warnings) log_warning("{}", warning);
+  return set;
+}
+
+void fit_set(const scene::TransportSource& source, ProbeSet& set, const TransportBakeParams& params,
+             TransportBakeReport& report, const Control& control) {
+  require_probes(set);
+  report = {};
+  const std::uint64_t rays_before = source.rays_traced();
+  const auto start = Clock::now();
+  std::vector<vec3> positions;
+  for (const Probe& probe : set.probes) positions.push_back(probe.position);
+  const TransportNetwork network(source, positions, params.transport, set.generator.time, control);
+  describe_network(network, set, report);
+  fit(network, source, set, params.fit_params, report, control);
+  report.fit_seconds = seconds_since(start);
+  report.rays = source.rays_traced() - rays_before;
+}
+
+}  // namespace ssphh::gi
