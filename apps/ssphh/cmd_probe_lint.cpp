@@ -29,8 +29,7 @@ void lint(Context& context, LintOptions& options) {
   }
   options.params.interest = gi::place_params(scene, set.generator.time).interest;
   const trace::TransportScene source(scene);
-  const std::vector<gi::LintProblem> problems =
-      gi::lint_probes(set, source, options.params, context.control);
+  const std::vector<gi::LintProblem> problems = gi::lint_probes(set, source, options.params, context.control);
 
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   std::string text;
@@ -58,8 +57,9 @@ void lint(Context& context, LintOptions& options) {
 
 void add_probe_lint_command(CLI::App& group, Context& context) {
   auto options = std::make_shared<LintOptions>();
-  CLI::App* command = add_command(group, context, "lint", "Look for probes that light nothing or light it wrongly",
-                                  [&context, options] { lint(context, *options); });
+  CLI::App* command =
+      add_command(group, context, "lint", "Look for probes that light nothing or light it wrongly",
+                  [&context, options] { lint(context, *options); });
   command->add_option("FILE", options->input, "Probe file")->check(probe_file_name())->required();
   add_scene_options(*command, options->scene, false, "--scene");
   command
@@ -77,8 +77,10 @@ void add_probe_lint_command(CLI::App& group, Context& context) {
                    "Distance of the places that must see a probe [m]; default: some 100 to 200 places")
       ->check(CLI::PositiveNumber);
   command->footer(
-      "Reports probes that hold no number, lie inside a body, are too close to a surface, stand in the way of a\n"
-      "moving part, are unlit, see no other probe or give negative irradiance; rooms that are unlit or in which\n"
+      "Reports probes that hold no number, lie inside a body, are too close to a surface, stand in the way "
+      "of a\n"
+      "moving part, are unlit, see no other probe or give negative irradiance; rooms that are unlit or in "
+      "which\n"
       "no probe is to be seen. Exit code 1 when there are problems.");
 }
 
