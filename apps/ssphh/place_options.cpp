@@ -39,19 +39,25 @@ std::size_t count_of(const gi::Placement& placement, gi::PlaceKind kind) {
 
 }  // namespace
 
-void add_place_options(CLI::App& command, PlaceOptions& options) {
+bool is_probe_file(const PlaceOptions& options) {
+  return options.probes.ends_with(".sphl") || options.probes.ends_with(".sphl.json");
+}
+
+void add_place_options(CLI::App& command, PlaceOptions& options, bool files) {
   const std::string group = "Placement";
   command
       .add_option("--probes", options.probes,
-                  "scene: the scene's SPHLs; auto: find places, some 100 to 200; auto:METRES: with this "
-                  "spacing; N: the N most spread ones. SPHLs of the scene are kept. Default: scene if it has "
-                  "SPHLs, else auto")
+                  std::string(files ? "A probe file, for its places; or " : "") +
+                      "scene: the scene's SPHLs; auto: find places, some 100 to 200; auto:METRES: with this "
+                      "spacing; N: the N most spread ones. SPHLs of the scene are kept. Default: scene if it "
+                      "has SPHLs, else auto")
       ->check(CLI::Validator(
-          [](std::string& text) {
+          [files](std::string& text) -> std::string {
+            if (files && is_probe_file({.probes = text})) return {};
             gi::PlaceParams ignored;
             return parse(text, ignored);
           },
-          "scene|auto|auto:METRES|N"))
+          files ? "FILE|scene|auto|auto:METRES|N" : "scene|auto|auto:METRES|N"))
       ->group(group);
   command.add_option("--clearance", options.clearance, "Least distance of a placed probe from surfaces [m]")
       ->check(CLI::PositiveNumber)

@@ -17,7 +17,11 @@ struct PlaceOptions {
   int levels = 1, max_probes = 4096;
 };
 
-void add_place_options(CLI::App& command, PlaceOptions& options);
+/// With `files`, --probes also takes a probe file, for is_probe_file() to tell.
+void add_place_options(CLI::App& command, PlaceOptions& options, bool files = false);
+
+/// Whether --probes names a probe file by its extension.
+bool is_probe_file(const PlaceOptions& options);
 
 struct PlaceResult {
   gi::Placement placement;

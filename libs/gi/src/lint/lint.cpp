@@ -36,6 +36,13 @@ void check(const LintParams& p) {
   if (!(p.spacing >= 0) || !std::isfinite(p.spacing)) fail("spacing", p.spacing);
 }
 
+SiteRules rules_for(const ProbeSet& set, const scene::TransportSource& source, const LintParams& params) {
+  SiteRules rules;
+  rules.clearance = params.clearance > 0 ? params.clearance : std::min(0.04f, 0.05f * median_distance(set));
+  rules.back_limit = calibrated_back_limit(source, params.interest);
+  return rules;
+}
+
 }  // namespace
 
 const char* to_string(ProbeProblem problem) {
@@ -46,10 +53,7 @@ std::vector<LintProblem> lint_probes(const ProbeSet& set, const scene::Transport
                                      const LintParams& params, const Control& control) {
   check(params);
   if (set.probes.empty()) return {};
-  SiteRules rules;
-  rules.clearance = params.clearance > 0 ? params.clearance : std::min(0.04f, 0.05f * median_distance(set));
-  rules.back_limit = calibrated_back_limit(source, params.interest);
-  const LintContext context{set, source, params, control, rules};
+  const LintContext context{set, source, params, control, rules_for(set, source, params)};
 
   std::vector<LintProblem> problems;
   check_places(context, problems);
@@ -59,6 +63,15 @@ std::vector<LintProblem> lint_probes(const ProbeSet& set, const scene::Transport
   std::stable_sort(problems.begin(), problems.end(), [](const LintProblem& a, const LintProblem& b) {
     return std::pair(a.kind, a.probe) < std::pair(b.kind, b.probe);
   });
+  return problems;
+}
+
+std::vector<LintProblem> lint_places(const ProbeSet& set, const scene::TransportSource& source,
+                                     const LintParams& params, const Control& control) {
+  check(params);
+  if (set.probes.empty()) return {};
+  std::vector<LintProblem> problems;
+  check_places({set, source, params, control, rules_for(set, source, params)}, problems);
   return problems;
 }
 

@@ -51,4 +51,8 @@ struct LintParams {
 std::vector<LintProblem> lint_probes(const ProbeSet& set, const scene::TransportSource& source,
                                      const LintParams& params, const Control& control = {});
 
+/// What does not depend on light, by probe: not finite, inside, too close, swept.
+std::vector<LintProblem> lint_places(const ProbeSet& set, const scene::TransportSource& source,
+                                     const LintParams& params, const Control& control = {});
+
 }  // namespace ssphh::gi

@@ -1,0 +1,167 @@
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/log.h>
+#include <ssphh/gi/lookup.h>
+#include <ssphh/gi/surface_points.h>
+#include <ssphh/image/io.h>
+#include <ssphh/trace/path_tracer.h>
+#include <ssphh/trace/transport_scene.h>
+
+#include "command.h"
+#include "leak_map.h"
+#include "probe_options.h"
+#include "scene_options.h"
+
+namespace ssphh::app {
+namespace {
+
+struct LeakOptions {
+  SceneOptions scene;
+  std::string probes, output, camera, weights = "distance", light = "sum";
+  bool time_given = false;
+  int points = 2048, width = 320, height = 180, map_spp = 64;
+  gi::LeakParams params;
+};
+
+/// What the cameras and probes can reach is what counts.
+std::vector<vec3> viewpoints(const scene::Scene& scene, const gi::ProbeSet& set, float time) {
+  std::vector<vec3> places;
+  const std::vector<mat4> world = scene::world_matrices(scene, time);
+  for (const scene::Camera& camera : scene.cameras)
+    places.emplace_back(world[static_cast<std::size_t>(camera.node)][3]);
+  for (const gi::Probe& probe : set.probes) places.push_back(probe.position);
+  return places;
+}
+
+void leak(Context& context, LeakOptions& o) {
+  if (!o.output.empty()) {
+    const image::FileFormat format = image::format_of_extension(o.output);
+    if (format != image::FileFormat::png && format != image::FileFormat::exr)
+      throw Error(o.output, "a leak map is written as .png (colours) or .exr (numbers)");
+  }
+  const gi::ProbeSet set = gi::read_probe_file(o.probes);
+  const scene::Scene scene = load_scene(o.scene);
+  if (set.generator.scene_hash != scene::scene_hash(scene))
+    log_warning("{}: was not baked in this scene as it is now", o.probes);
+  const float time = o.time_given ? o.scene.time : set.generator.time;
+  if (time != set.generator.time) {
+    log_warning("{}: was baked at {} s, not at {} s: what moved since counts as leaking", o.probes,
+                set.generator.time, time);
+  }
+  scene::CameraPose camera;
+  if (!o.output.empty()) camera = scene::camera_pose(scene, o.camera, time);
+
+  const trace::PathTracer tracer(scene, time);
+  const trace::TransportScene surfaces(scene);
+  gi::LookupParams lookup_params;
+  lookup_params.weights.method = *gi::parse_weight_method(o.weights);
+  if (o.light == "self") lookup_params.layer = gi::ProbeLayer::self;
+  const gi::IrradianceLookup lookup(set, tracer, lookup_params);
+
+  o.params.path.seed = context.seed;
+  const std::vector<scene::SurfacePoint> points = gi::reachable_points(
+      surfaces, viewpoints(scene, set, time), time, {o.points, context.seed}, context.control);
+  const gi::LeakReport report = gi::measure_leak(tracer, lookup, points, o.params, context.control);
+  if (!(report.mean_truth > 0))
+    log_warning("{}: path tracing finds no indirect light at all", o.scene.source);
+
+  nlohmann::ordered_json object = {{"leak_ratio", report.ratio},
+                                   {"points", points.size()},
+                                   {"dark_points", report.dark},
+                                   {"dark_share", o.params.dark_share},
+                                   {"truth_noise", report.truth_noise},
+                                   {"truth_spp", o.params.path.spp},
+                                   {"mean_truth", report.mean_truth},
+                                   {"mean_looked_up", report.mean_looked_up},
+                                   {"weights", o.weights},
+                                   {"time", time}};
+  std::string text = fmt::format(
+      "leaked      {:.4g} % of the looked-up light stands on dark points\n"
+      "dark        {} of {} points: path traced indirect irradiance under {:g} of the mean, at {:g} sigma\n"
+      "mean        {:.5g} W/m2 looked up, {:.5g} path traced (noise of a point {:.2g} %)",
+      100 * report.ratio, report.dark, points.size(), o.params.dark_share, o.params.sigmas,
+      report.mean_looked_up, report.mean_truth, 100 * report.truth_noise);
+  if (!o.output.empty()) {
+    gi::LeakParams params = o.params;
+    params.path.spp = o.map_spp;
+    params.mean = static_cast<float>(report.mean_truth > 0 ? report.mean_truth : 1);
+    const LeakMap map =
+        leak_map(surfaces, time, camera, o.width, o.height, tracer, lookup, params, context.control);
+    const float scale = write_leak_map(o.output, map);
+    object["map"] = {{"output", o.output}, {"dark_pixels", map.dark}, {"scale", scale}};
+    text += fmt::format("\nmap         {}, {} dark pixels", o.output, map.dark);
+    if (scale > 0) text += fmt::format(", last colour at {:.3g} of the mean", scale);
+  }
+  context.result(object, text);
+}
+
+}  // namespace
+
+void add_leak_command(CLI::App& app, Context& context) {
+  auto options = std::make_shared<LeakOptions>();
+  LeakOptions& o = *options;
+  CLI::App* command =
+      add_command(app, context, "leak", "Measure the light that probes put where there is none",
+                  [&context, options] { leak(context, *options); });
+  add_scene_options(*command, o.scene);
+  CLI::Option* time = command->get_option("--time");
+  time->default_str("that of the probe file");
+  time->each([options](const std::string&) { options->time_given = true; });
+  command->add_option("--probes", o.probes, "Probe file")->check(probe_file_name())->required();
+  command->add_option("--points", o.points, "Surface points to measure at")
+      ->check(CLI::Range(1, 1 << 24))
+      ->capture_default_str();
+  command->add_option("--weights", o.weights, "How probes are blended: distance, trilinear, mls")
+      ->check(CLI::IsMember({"distance", "trilinear", "mls"}))
+      ->capture_default_str();
+  command
+      ->add_option("--light", o.light,
+                   "sum: own and neighbours' light where HIER was run; self: own light only")
+      ->check(CLI::IsMember({"sum", "self"}))
+      ->capture_default_str();
+
+  const std::string truth = "Truth";
+  command->add_option("--truth-spp", o.params.path.spp, "Paths per point")
+      ->check(CLI::Range(2, 1 << 22))
+      ->capture_default_str()
+      ->group(truth);
+  command->add_option("--max-depth", o.params.path.max_depth, "Scattering events of a path")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str()
+      ->group(truth);
+  command
+      ->add_option("--dark", o.params.dark_share,
+                   "A point is dark below this share of the mean indirect irradiance")
+      ->check(CLI::Range(1e-12f, 0.5f))
+      ->capture_default_str()
+      ->group(truth);
+
+  const std::string map = "Map";
+  command
+      ->add_option("-o,--output", o.output,
+                   "Picture of the dark places that probes light: .png (colours over the grey scene) or .exr "
+                   "(shares of the mean irradiance)")
+      ->group(map);
+  command->add_option("--camera", o.camera, "Camera by name; default: the scene's first")->group(map);
+  command->add_option("--width", o.width, "Pixels")
+      ->check(CLI::Range(1, 16384))
+      ->capture_default_str()
+      ->group(map);
+  command->add_option("--height", o.height, "Pixels")
+      ->check(CLI::Range(1, 16384))
+      ->capture_default_str()
+      ->group(map);
+  command->add_option("--map-spp", o.map_spp, "Paths per pixel")
+      ->check(CLI::Range(2, 1 << 22))
+      ->capture_default_str()
+      ->group(map);
+  command->footer(
+      "Points are uniform by area over what cameras and probes can reach. Leaked: the sum of looked-up "
+      "indirect\n"
+      "irradiance at points that are dark by path tracing, over the sum at all points.");
+}
+
+}  // namespace ssphh::app

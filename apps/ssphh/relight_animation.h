@@ -1,0 +1,60 @@
+#pragma once
+/// What `ssphh relight --animate` may say: tracks of values that are spread evenly over the frames.
+
+#include <string>
+#include <vector>
+
+#include <ssphh/gi/relight_session.h>
+#include <ssphh/scene/scene.h>
+
+namespace ssphh::app {
+
+enum class TrackProperty {
+  time,       ///< seconds of the scene's own animations
+  position,   ///< of a light, world [m]
+  direction,  ///< of a spot or directional light, world, the way the light goes
+  intensity,  ///< of a light, units as scene::Light
+  color,      ///< of a light, linear RGB
+  scale       ///< factor on a light group, one number or linear RGB
+};
+
+/// Values at evenly spaced times, linear between them.
+struct Track {
+  TrackProperty property = TrackProperty::time;
+  int target = -1;  ///< light, or light group for `scale`
+  std::vector<vec3> keys;
+
+  /// At u in 0..1.
+  vec3 at(float u) const;
+};
+
+/// Everything that a frame sets.
+struct FrameState {
+  float time = 0;
+  std::vector<scene::LightState> lights;
+  std::vector<vec3> group_scales;
+};
+
+class RelightAnimation {
+ public:
+  /// Reads "time=0:1", "LIGHT.position=x,y,z:x,y,z", "GROUP.scale=1:0" … Throws Error that lists the scene's
+  /// lights or groups for an unknown name, and for values that are no numbers, of a wrong count or out of
+  /// range.
+  RelightAnimation(const scene::TransportSource& source, const scene::Scene& scene, float time,
+                   const std::vector<std::string>& specs);
+
+  FrameState frame(float u) const;
+  /// Sets what moves; lights without a track are left to the scene's own animation.
+  void apply(const FrameState& state, gi::RelightSession& session) const;
+  bool moves_time() const;
+
+ private:
+  const scene::TransportSource& source_;
+  float time_;
+  std::vector<Track> tracks_;
+};
+
+/// How a spec is written, for --help.
+extern const char* const animation_help;
+
+}  // namespace ssphh::app

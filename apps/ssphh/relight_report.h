@@ -1,0 +1,35 @@
+#pragma once
+/// What `ssphh relight` has to say: stage times, rays, and the error over time as numbers and as a curve.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <ssphh/gi/lookup_error.h>
+#include <ssphh/gi/relight_session.h>
+
+namespace ssphh::app {
+
+struct FrameError {
+  int frame = 0;
+  gi::LookupError error;
+};
+
+struct RelightRun {
+  int frames_asked = 0;
+  double fps = 30;
+  double build_ms = 0;                     ///< of the network
+  std::vector<gi::RelightReport> updates;  ///< of the frames that were done; the first lights everything
+  std::vector<FrameError> errors;
+  bool cancelled = false;
+};
+
+nlohmann::ordered_json relight_json(const RelightRun& run);
+std::string relight_text(const RelightRun& run);
+
+/// Ratio and relative errors over seconds, as SVG.
+void write_error_curve(const std::filesystem::path& path, const RelightRun& run);
+
+}  // namespace ssphh::app

@@ -1,0 +1,68 @@
+#include "relight_truth.h"
+
+#include <ssphh/sh/irradiance.h>
+
+namespace ssphh::app {
+
+gi::ProbeSet lookup_set(const std::vector<gi::ProbePlace>& places,
+                        const std::vector<sh::RadianceSh>& reflected) {
+  gi::ProbeSet set;
+  set.degree = reflected.front().degree();
+  set.light_groups.push_back({"all"});
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    gi::Probe probe;
+    probe.name = places[i].name;
+    probe.position = places[i].position;
+    probe.radius = places[i].radius;
+    probe.groups.push_back({{}, reflected[i]});
+    set.probes.push_back(std::move(probe));
+  }
+  gi::merge_groups(set);
+  return set;
+}
+
+std::vector<vec3> look_up_fitted(const gi::TransportNetwork& network, const scene::TransportSource& source,
+                                 const std::vector<scene::SurfacePoint>& points,
+                                 const std::vector<sh::RadianceSh>& reflected,
+                                 const scene::IndirectLight& fallback, const Control& control) {
+  const gi::FittedPoints fitted = gi::fit_weights(network, source, points, {}, control);
+  std::vector<vec3> values;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const gi::ProbeWeights& weights = fitted.weights[i];
+    if (weights.count == 0) {
+      values.push_back(fallback.irradiance(points[i].position, points[i].normal));
+      continue;
+    }
+    vec3 sum(0);
+    for (int k = 0; k < weights.count; ++k) {
+      const gi::ProbeWeight& at = weights.entries[static_cast<std::size_t>(k)];
+      sum += at.weight * sh::irradiance(reflected[static_cast<std::size_t>(at.probe)], points[i].normal);
+    }
+    values.push_back(glm::max(sum, vec3(0)));
+  }
+  return values;
+}
+
+gi::ProbeSet bake_of(const gi::RelightSession& session, const scene::TransportSource& source,
+                     const std::vector<vec3>& scales, gi::GeneratorInfo generator, const Control& control) {
+  const std::vector<std::vector<sh::RadianceSh>> reflected = session.reflected_by_group(control);
+  const std::vector<std::vector<sh::RadianceSh>> emitted = session.emitted_by_group();
+  gi::ProbeSet set;
+  set.degree = session.reflected().front().degree();
+  set.generator = std::move(generator);
+  const std::vector<std::string>& groups = source.light_groups();
+  for (std::size_t g = 0; g < groups.size(); ++g) set.light_groups.push_back({groups[g], scales[g]});
+  for (std::size_t i = 0; i < session.places().size(); ++i) {
+    const gi::ProbePlace& place = session.places()[i];
+    gi::Probe probe;
+    probe.name = place.name;
+    probe.position = place.position;
+    probe.radius = place.radius;
+    for (std::size_t g = 0; g < groups.size(); ++g) probe.groups.push_back({emitted[g][i], reflected[g][i]});
+    set.probes.push_back(std::move(probe));
+  }
+  gi::merge_groups(set);
+  return set;
+}
+
+}  // namespace ssphh::app

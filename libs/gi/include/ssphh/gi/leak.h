@@ -1,0 +1,42 @@
+#pragma once
+/// Light leaking: energy that a lookup puts where path tracing finds none.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <ssphh/core/control.h>
+#include <ssphh/scene/radiance_source.h>
+
+namespace ssphh::gi {
+
+struct LeakParams {
+  /// A point is dark when its true indirect irradiance is less than this share of the mean …
+  float dark_share = 1e-4f;
+  float sigmas = 3;  ///< … even with so many standard deviations of the estimate on top.
+  /// Of the truth. The points found dark are traced again, with four times the samples and other paths, and
+  /// must stay dark: rare bright paths make light points look dark, and their variance with them.
+  scene::PathParams path{.max_depth = 25, .passes = 1, .spp = 256, .seed = 0};
+  float mean = 0;  ///< that dark_share refers to [W/m²]; 0: the mean over the points
+
+  friend bool operator==(const LeakParams&, const LeakParams&) = default;
+};
+
+/// All irradiances are indirect, as Rec.709 luminance [W/m²].
+struct LeakReport {
+  double ratio = 0;      ///< Σ looked up at dark points / Σ looked up at all points; 0 where both are 0
+  std::size_t dark = 0;  ///< points
+  double mean_truth = 0, mean_looked_up = 0;
+  double truth_noise = 0;             ///< Σ standard deviations of the truth / Σ truth: relative, per point
+  std::vector<float> looked_up;       ///< at each point
+  std::vector<float> truth;           ///< at each point
+  std::vector<std::uint8_t> dark_at;  ///< 1 at dark points
+};
+
+/// Looks up and path traces each point. Where points are uniform by area (surface_points.h), the ratio is one
+/// of energies. Throws Error without points and for parameters out of range.
+LeakReport measure_leak(const scene::RadianceSource& source, const scene::IndirectLight& lookup,
+                        std::span<const scene::SurfacePoint> points, const LeakParams& params = {},
+                        const Control& control = {});
+
+}  // namespace ssphh::gi

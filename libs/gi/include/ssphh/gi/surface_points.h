@@ -1,0 +1,53 @@
+#pragma once
+/// Surfaces of a posed scene, and points spread evenly over those that somebody can get to see: where lookups
+/// are compared with the truth.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <ssphh/core/control.h>
+#include <ssphh/scene/transport_source.h>
+
+namespace ssphh::gi {
+
+/// All parts of a source at one time, in world space. Keeps a reference to the source.
+class PosedSurfaces {
+ public:
+  PosedSurfaces(const scene::TransportSource& source, float time);
+
+  /// Nearest hit of each ray with any part.
+  void intersect(std::span<const scene::RayQuery> rays, std::span<scene::RayHit> hits) const;
+  /// blocked[i] = 1 where any part meets segment i, else 0.
+  void occluded(std::span<const scene::RayQuery> rays, std::span<std::uint8_t> blocked) const;
+  /// Of all parts; empty for a scene without triangles.
+  const scene::Bounds& bounds() const { return bounds_; }
+
+ private:
+  struct Part {
+    int index;
+    mat4 to_world, to_part;
+  };
+  const scene::TransportSource& source_;
+  std::vector<Part> parts_;
+  scene::Bounds bounds_;
+};
+
+struct SurfacePointParams {
+  int count = 1024;        ///< points wanted, over 0
+  std::uint64_t seed = 0;  ///< the same seed gives the same points
+};
+
+/// Points uniform by area over both sides of all surfaces that can be reached: that see one of `origins`
+/// (cameras, probes), or of which some ray, scattered diffusely, meets a place that does. What is shut off
+/// (the inside of walls and bodies, the outside of a closed room) has no points. Uniform, because isotropic
+/// random lines meet every patch in proportion to its area whatever its orientation (Santaló, Integral
+/// Geometry and Geometric Probability, 1976, ch. 12). As long as the scene's bounds stay, the points on what
+/// never moves are the same at every time at which they can be reached. Throws Error without origins or
+/// surfaces, and when too few points can be reached.
+std::vector<scene::SurfacePoint> reachable_points(const scene::TransportSource& source,
+                                                  std::span<const vec3> origins, float time,
+                                                  const SurfacePointParams& params = {},
+                                                  const Control& control = {});
+
+}  // namespace ssphh::gi

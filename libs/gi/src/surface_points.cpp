@@ -1,0 +1,220 @@
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/random.h>
+#include <ssphh/core/sphere.h>
+#include <ssphh/gi/surface_points.h>
+
+namespace ssphh::gi {
+namespace {
+
+constexpr std::size_t lines_per_batch = 2048;
+constexpr int most_crossings = 256;  ///< of one line
+constexpr std::size_t nearest_origins = 16;
+constexpr int scattered_rays = 16;
+/// Lines per point wanted after which there is nothing to find.
+constexpr std::size_t most_lines = 2000;
+
+/// Whether places see an origin.
+class Reach {
+ public:
+  Reach(const PosedSurfaces& surfaces, std::span<const vec3> origins)
+      : surfaces_(surfaces), origins_(origins), lift_(1e-4f * surfaces.bounds().radius()) {}
+
+  /// reached[i] = 1 where point i sees one of the origins nearest to it.
+  void sight(std::span<const scene::SurfacePoint> points, std::span<std::uint8_t> reached) const {
+    std::vector<scene::RayQuery> segments;
+    std::vector<std::size_t> of;
+    std::vector<std::pair<float, std::size_t>> order;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      order.clear();
+      const vec3 start = lifted(points[i]);
+      for (std::size_t o = 0; o < origins_.size(); ++o) {
+        const vec3 to = origins_[o] - start;
+        if (glm::dot(to, points[i].normal) > 0) order.emplace_back(glm::dot(to, to), o);
+      }
+      const std::size_t kept = std::min(order.size(), nearest_origins);
+      std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(kept), order.end());
+      for (std::size_t k = 0; k < kept; ++k) {
+        segments.push_back({start, origins_[order[k].second] - start, 1});
+        of.push_back(i);
+      }
+    }
+    std::vector<std::uint8_t> blocked(segments.size());
+    surfaces_.occluded(segments, blocked);
+    for (std::size_t s = 0; s < segments.size(); ++s) {
+      if (!blocked[s]) reached[of[s]] = 1;
+    }
+  }
+
+  /// The same by way of one diffuse reflection.
+  void scattered(std::span<const scene::SurfacePoint> points, std::span<std::uint8_t> reached) const {
+    std::vector<scene::RayQuery> rays;
+    std::vector<std::size_t> of;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (reached[i]) continue;
+      const Frame frame = Frame::around(points[i].normal);
+      for (int r = 0; r < scattered_rays; ++r) {
+        const vec2 u((static_cast<float>(r) + 0.5f) / scattered_rays,
+                     static_cast<float>(reverse_bits(static_cast<std::uint32_t>(r))) * 0x1p-32f);
+        rays.push_back({lifted(points[i]), frame.to_world(sample_cosine_hemisphere(u))});
+        of.push_back(i);
+      }
+    }
+    std::vector<scene::RayHit> hits(rays.size());
+    surfaces_.intersect(rays, hits);
+    std::vector<scene::SurfacePoint> met;
+    std::vector<std::size_t> met_of;
+    for (std::size_t r = 0; r < rays.size(); ++r) {
+      if (hits[r].escaped()) continue;
+      met.push_back({rays[r].origin + hits[r].distance * rays[r].direction, hits[r].normal});
+      met_of.push_back(of[r]);
+    }
+    std::vector<std::uint8_t> sees(met.size(), 0);
+    sight(met, sees);
+    for (std::size_t m = 0; m < met.size(); ++m) {
+      if (sees[m]) reached[met_of[m]] = 1;
+    }
+  }
+
+ private:
+  vec3 lifted(const scene::SurfacePoint& point) const { return point.position + lift_ * point.normal; }
+
+  const PosedSurfaces& surfaces_;
+  std::span<const vec3> origins_;
+  float lift_;
+};
+
+/// All that a batch of isotropic random lines through the bounding sphere meets, line after line.
+std::vector<scene::SurfacePoint> cross(const PosedSurfaces& surfaces, std::uint64_t seed,
+                                       std::size_t first_line) {
+  const vec3 center = surfaces.bounds().center();
+  const float radius = 1.001f * surfaces.bounds().radius();
+  std::vector<scene::RayQuery> rays;
+  for (std::size_t i = 0; i < lines_per_batch; ++i) {
+    Pcg32 random(seed, first_line + i);
+    const vec3 direction = sample_uniform_sphere(random.uniform2());
+    const vec2 u = random.uniform2();
+    const float r = radius * std::sqrt(u.x), angle = 2 * pi * u.y;
+    const Frame frame = Frame::around(direction);
+    rays.push_back(
+        {center - radius * direction + frame.x * (r * std::cos(angle)) + frame.y * (r * std::sin(angle)),
+         direction});
+  }
+
+  // Go from one crossing to the next.
+  struct Crossing {
+    std::size_t line;
+    scene::SurfacePoint point;
+  };
+  std::vector<Crossing> crossings;
+  std::vector<std::size_t> line(rays.size());
+  std::iota(line.begin(), line.end(), 0);
+  std::vector<scene::RayHit> hits;
+  for (int step = 0; step < most_crossings && !rays.empty(); ++step) {
+    hits.resize(rays.size());
+    surfaces.intersect(rays, hits);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (hits[i].escaped()) continue;
+      const vec3 position = rays[i].origin + hits[i].distance * rays[i].direction;
+      crossings.push_back({line[i], {position, hits[i].normal}});
+      rays[kept] = {position + 1e-5f * radius * rays[i].direction, rays[i].direction};
+      line[kept++] = line[i];
+    }
+    rays.resize(kept);
+    line.resize(kept);
+  }
+  std::stable_sort(crossings.begin(), crossings.end(),
+                   [](const Crossing& a, const Crossing& b) { return a.line < b.line; });
+  std::vector<scene::SurfacePoint> points;
+  for (const Crossing& crossing : crossings) points.push_back(crossing.point);
+  return points;
+}
+
+}  // namespace
+
+PosedSurfaces::PosedSurfaces(const scene::TransportSource& source, float time) : source_(source) {
+  for (int p = 0; p < source.part_count(); ++p) {
+    const scene::Bounds local = source.part_bounds(p);
+    if (local.empty()) continue;
+    const mat4 pose = source.part_pose(p, time);
+    parts_.push_back({p, pose, glm::inverse(pose)});
+    for (int corner = 0; corner < 8; ++corner) {
+      const vec3 at((corner & 1) != 0 ? local.max.x : local.min.x,
+                    (corner & 2) != 0 ? local.max.y : local.min.y,
+                    (corner & 4) != 0 ? local.max.z : local.min.z);
+      bounds_.add(vec3(pose * vec4(at, 1)));
+    }
+  }
+}
+
+void PosedSurfaces::intersect(std::span<const scene::RayQuery> rays, std::span<scene::RayHit> hits) const {
+  std::fill(hits.begin(), hits.end(), scene::RayHit{});
+  std::vector<scene::RayQuery> local(rays.size());
+  std::vector<scene::RayHit> found(rays.size());
+  for (const Part& part : parts_) {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      local[i] = {vec3(part.to_part * vec4(rays[i].origin, 1)), mat3(part.to_part) * rays[i].direction,
+                  rays[i].t_max};
+    }
+    source_.intersect(part.index, local, found);
+    const mat3 normals = glm::transpose(mat3(part.to_part));
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (!(found[i].distance < hits[i].distance)) continue;
+      hits[i] = found[i];
+      hits[i].normal = glm::normalize(normals * found[i].normal);
+    }
+  }
+}
+
+void PosedSurfaces::occluded(std::span<const scene::RayQuery> rays, std::span<std::uint8_t> blocked) const {
+  std::fill(blocked.begin(), blocked.end(), std::uint8_t{0});
+  std::vector<scene::RayQuery> local(rays.size());
+  std::vector<std::uint8_t> met(rays.size());
+  for (const Part& part : parts_) {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      local[i] = {vec3(part.to_part * vec4(rays[i].origin, 1)), mat3(part.to_part) * rays[i].direction,
+                  rays[i].t_max};
+    }
+    source_.occluded(part.index, local, met);
+    for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = blocked[i] | met[i];
+  }
+}
+
+std::vector<scene::SurfacePoint> reachable_points(const scene::TransportSource& source,
+                                                  std::span<const vec3> origins, float time,
+                                                  const SurfacePointParams& params, const Control& control) {
+  if (params.count <= 0) throw Error("surface points", fmt::format("{} points are none", params.count));
+  if (origins.empty()) throw Error("surface points", "there is neither camera nor probe to see them from");
+  const PosedSurfaces surfaces(source, time);
+  if (surfaces.bounds().empty()) throw Error("surface points", "the scene has no surfaces");
+
+  const Reach reach(surfaces, origins);
+  const auto wanted = static_cast<std::size_t>(params.count);
+  std::vector<scene::SurfacePoint> points;
+  ProgressStage progress(control, "surface points", wanted, "points");
+  for (std::size_t line = 0; points.size() < wanted; line += lines_per_batch) {
+    control.check();
+    if (line > most_lines * wanted + 100 * lines_per_batch) {
+      throw Error(
+          "surface points",
+          fmt::format("only {} of {} points can be reached from cameras and probes", points.size(), wanted),
+          "place probes inside of what is to be lit");
+    }
+    const std::vector<scene::SurfacePoint> candidates = cross(surfaces, params.seed, line);
+    std::vector<std::uint8_t> reached(candidates.size(), 0);
+    reach.sight(candidates, reached);
+    reach.scattered(candidates, reached);
+    const std::size_t before = points.size();
+    for (std::size_t i = 0; i < candidates.size() && points.size() < wanted; ++i) {
+      if (reached[i]) points.push_back(candidates[i]);
+    }
+    progress.advance(points.size() - before);
+  }
+  return points;
+}
+
+}  // namespace ssphh::gi
