@@ -52,7 +52,8 @@ TEST(EmissionProfile, OfAGlowingSquareIsItsProjectedAreaTimesItsRadiance) {
 }
 
 TEST(EmissionProfile, StandsInForTheObject) {
-  // Light at a far probe from the sphere with the profile equals the solid angle integral of the square itself.
+  // Light at a far probe from the sphere with the profile equals the solid angle integral of the square
+  // itself.
   const scene::Scene scene = glowing_square();
   const trace::TransportScene source(scene);
   gi::RelightParams params;

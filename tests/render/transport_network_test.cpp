@@ -268,7 +268,8 @@ TEST(TransportNetworkPose, NothingCrossesAShutDoor) {
   const trace::TransportScene source(scene);
   std::vector<vec3> positions;
   for (int i = 0; i < 32; ++i)
-    positions.push_back({-3.6f + 1.03f * static_cast<float>(i % 8), 0.4f + 2.1f * static_cast<float>(i / 8 % 2),
+    positions.push_back({-3.6f + 1.03f * static_cast<float>(i % 8),
+                         0.4f + 2.1f * static_cast<float>(i / 8 % 2),
                          -1.3f + 2.5f * static_cast<float>(i / 16)});
   positions.push_back({-0.05f, 1.2f, 0});
   for (const float size : {0.22f, 0.5f, 1.0f}) {
@@ -285,11 +286,11 @@ TEST(TransportNetworkPose, NothingCrossesAShutDoor) {
       std::size_t count = 0;
       for (std::size_t s = 0; s < places.size(); ++s) {
         for (const auto links : {network.links().rows[s].fixed, network.links().rows[s].moving})
-          count += static_cast<std::size_t>(std::count_if(links.begin(), links.end(), [&](const gi::Link& l) {
-            return places[l.surfel] != places[s];
-          }));
+          count += static_cast<std::size_t>(std::count_if(
+              links.begin(), links.end(), [&](const gi::Link& l) { return places[l.surfel] != places[s]; }));
         for (int i = 1; i < params.samples; ++i) {
-          const std::size_t sample = s * static_cast<std::size_t>(params.samples) + static_cast<std::size_t>(i);
+          const std::size_t sample =
+              s * static_cast<std::size_t>(params.samples) + static_cast<std::size_t>(i);
           count += network.sample_used()[sample] && place_of(network.samples()[sample]) != places[s];
         }
       }

@@ -55,9 +55,8 @@ void check_light(const TransportNetwork& network, const ProbeSet& set, bool conv
         fmt::format("{} links end where no surfel is: their light is lost", network.lost_links()));
   }
   if (!converged) {
-    report.warnings.push_back(
-        fmt::format("the light did not converge in {} iterations: surfaces reflect nearly all of it",
-                    report.iterations));
+    report.warnings.push_back(fmt::format(
+        "the light did not converge in {} iterations: surfaces reflect nearly all of it", report.iterations));
   }
 }
 

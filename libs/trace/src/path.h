@@ -100,7 +100,9 @@ void trace_path(const EmbreeScene& scene, const Emitters& emitters, Ray ray, con
     vec3 ray_origin;
     const shading::Surface surface = scene.surface(hit, -ray.direction, ray_origin);
     if (depth == 0) visitor.first_hit(surface, ray_origin, ray, hit.distance);
-    if (max_component(surface.emission) > 0) emitters.surface(vertex, ray, hit, surface, add_emitted);
+    // What is unlit is seen, but lights nothing.
+    const bool emits = max_component(surface.emission) > 0 && (depth == 0 || !surface.unlit);
+    if (emits) emitters.surface(vertex, ray, hit, surface, add_emitted);
     if (last || surface.unlit) return;
 
     vertex = {surface.position, surface.geometric_normal};

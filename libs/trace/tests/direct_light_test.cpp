@@ -121,6 +121,15 @@ TEST(DirectLight, ClosedLidLeavesNothing) {
   EXPECT_EQ(radiance_at_origin(scene).mean(), 0);
 }
 
+TEST(DirectLight, AnUnlitSurfaceIsSeenButLightsNothing) {
+  scene::Scene scene = floor_scene();
+  add_object(scene, scene::make_box(vec3(-1, 1, -1), vec3(1, 1.2f, 1)), lambertian(vec3(5)), "sign");
+  scene.materials.back().unlit = true;
+  EXPECT_EQ(radiance_at_origin(scene).mean(), 0);
+  // Looked at, it has its own colour.
+  EXPECT_NEAR(pixels_of(render(scene, view_point(vec3(0, 1.2f, 0), 4, 1)).color).mean(), 5, 1e-4);
+}
+
 TEST(DirectLight, BackOfAOneSidedLampIsDark) {
   scene::Scene scene = floor_scene();
   add_object(scene, scene::make_quad(vec3(-1, 2, 1), vec3(2, 0, 0), vec3(0, 0, -2)),
