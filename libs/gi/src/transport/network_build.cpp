@@ -47,15 +47,31 @@ class NetworkBuilder {
     find_moving_rays();
     make_fixed_rows();
 
-    d_.place_parts(time);
-    PoseReport report;
-    d_.pose_samples();
-    d_.pose_hits(report);
-    d_.pose_links(report);
-    d_.contraction = contraction(d_.rows, d_.albedo);
+    find_contraction();
+    pose(time);
   }
 
  private:
+  void pose(float time) {
+    PoseReport report;
+    d_.place_parts(time);
+    d_.pose_samples();
+    d_.pose_hits(report);
+    d_.pose_links(report);
+  }
+
+  /// Of the first and the last pose, whichever comes next: what is solved with it must not depend on when the
+  /// network was built.
+  void find_contraction() {
+    pose(0);
+    d_.contraction = contraction(d_.rows, d_.albedo);
+    if (!(d_.source.duration() > 0)) return;
+    pose(d_.source.duration());
+    const Contraction last = contraction(d_.rows, d_.albedo);
+    d_.contraction.lower = std::min(d_.contraction.lower, last.lower);
+    d_.contraction.upper = std::max(d_.contraction.upper, last.upper);
+  }
+
   /// A link as traced, before rows are made of them.
   struct RawLink {
     scene::RayQuery ray;  ///< t_max: distance of the hit
