@@ -56,11 +56,19 @@ TEST(RelightEmission, AnIsotropicSphlIsASphereLight) {
   reference.update();
 
   ASSERT_EQ(session.surfel_direct().size(), reference.surfel_direct().size());
-  double worst=0, sum=0, ref=0;
+  // The sphere stands above every wall's horizon, where π (r/d)² cosθ is exact; 256 stratified shadow rays
+  // leave under 1e-4 of noise, as radiance and cosine hardly vary over the disc.
   for (std::size_t s = 0; s < session.surfel_direct().size(); ++s) {
-    double r=session.surfel_direct()[s].x/reference.surfel_direct()[s].x-1; worst=std::max(worst,std::abs(r)); sum+=session.surfel_direct()[s].x; ref+=reference.surfel_direct()[s].x; }
-  printf("worst %g mean ratio-1 %g\n",worst,sum/ref-1);
-  for (int i=0;i<4;++i) printf("refl ratio-1 %g emitted %g ref %g\n",session.reflected()[i][0].x/reference.reflected()[i][0].x-1,session.emitted(i)[0].x,reference.emitted(i)[0].x);
+    for (glm::length_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(session.surfel_direct()[s][c] / reference.surfel_direct()[s][c], 1, 2e-4f) << s;
+  }
+  for (std::size_t i = 0; i < session.reflected().size(); ++i) {
+    const sh::RadianceSh &a = session.reflected()[i], &b = reference.reflected()[i];
+    for (std::size_t k = 0; k < a.values.size(); ++k) {
+      for (glm::length_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(a.values[k][c], b.values[k][c], 1e-4f * b.values[0][c]) << i << " " << k;
+    }
+  }
 }
 
 TEST(RelightEmission, OtherProbesSeeTheSphereAsADisc) {

@@ -69,7 +69,8 @@ struct RoomLight {
   explicit RoomLight(const RelightSession& session) {
     const gi::TransportNetwork& network = session.network();
     for (std::size_t s = 0; s < network.surfel_count(); ++s) {
-      const scene::SurfacePoint& p = network.samples()[s * static_cast<std::size_t>(network.params().samples)];
+      const scene::SurfacePoint& p =
+          network.samples()[s * static_cast<std::size_t>(network.params().samples)];
       const vec3 x = p.position + 1e-3f * p.normal;
       if (!(x.y > 0) || !(x.y < 3) || !(std::abs(x.z) < 2)) continue;
       // The shut leaf stands at 0.075 < x < 0.115.
