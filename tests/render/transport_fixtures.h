@@ -7,6 +7,7 @@
 #include <ssphh/core/random.h>
 #include <ssphh/gi/relight_session.h>
 #include <ssphh/scene/builtin.h>
+#include <ssphh/scene/primitives.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -24,6 +25,52 @@ inline std::vector<vec3> positions_of(const std::vector<gi::ProbePlace>& places)
   std::vector<vec3> positions;
   for (const gi::ProbePlace& place : places) positions.push_back(place.position);
   return positions;
+}
+
+/// Adds a diffuse body at a node of its own; returns the node.
+inline int add_body(scene::Scene& scene, const std::string& name, scene::Mesh mesh, const vec3& albedo,
+                    const vec3& emission = vec3(0), const vec3& place = vec3(0)) {
+  scene::Node& node = scene.nodes.emplace_back();
+  node.name = name;
+  node.local.translation = place;
+  scene::Material& look = scene.materials.emplace_back();
+  look.base_color = albedo, look.specular = 0, look.emission = emission;
+  mesh.material = static_cast<int>(scene.materials.size()) - 1;
+  scene.meshes.push_back(std::move(mesh));
+  scene::Instance& instance = scene.instances.emplace_back();
+  instance.mesh = static_cast<int>(scene.meshes.size()) - 1;
+  instance.node = static_cast<int>(scene.nodes.size()) - 1;
+  return instance.node;
+}
+
+inline void add_sphl(scene::Scene& scene, const std::string& name, const vec3& place, float radius = 0.1f) {
+  scene.nodes.emplace_back().local.translation = place;
+  scene.sphls.push_back({name, static_cast<int>(scene.nodes.size()) - 1, radius});
+}
+
+/// The room [−1, 1]³ of six walls in different colours, the ceiling glowing with `glow`, and four SPHLs.
+inline scene::Scene coloured_room(const vec3& glow) {
+  scene::Scene scene;
+  const auto wall = [&](const std::string& name, int axis, float side, const vec3& albedo,
+                        const vec3& emission = vec3(0)) {
+    vec3 corner(-1), u(0), v(0);
+    u[(axis + 1) % 3] = 2, v[(axis + 2) % 3] = 2;
+    corner[axis] = side;
+    scene::Mesh quad = scene::make_quad(corner, u, v);
+    add_body(scene, name, side < 0 ? quad : scene::flipped(quad), albedo, emission);
+  };
+  wall("left", 0, -1, {0.7f, 0.1f, 0.1f});
+  wall("right", 0, 1, {0.1f, 0.6f, 0.2f});
+  wall("floor", 1, -1, vec3(0.5f));
+  wall("ceiling", 1, 1, vec3(0.6f), glow);
+  wall("back", 2, -1, {0.2f, 0.3f, 0.8f});
+  wall("front", 2, 1, vec3(0.75f));
+  add_sphl(scene, "middle", {0, 0, 0});
+  add_sphl(scene, "low", {0.4f, -0.7f, 0.3f});
+  add_sphl(scene, "corner", {-0.6f, 0.5f, -0.6f});
+  add_sphl(scene, "wall", {0.8f, 0.1f, -0.2f});
+  scene::validate(scene);
+  return scene;
 }
 
 /// A few hundred surfels: a network in a tenth of a second.

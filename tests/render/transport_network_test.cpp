@@ -9,7 +9,6 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/gi/transport/network.h>
-#include <ssphh/scene/primitives.h>
 
 #include "transport_fixtures.h"
 #include "z_test.h"
@@ -153,22 +152,10 @@ void expect_same(const Answers& a, const Answers& b, const std::string& what) {
 /// A room with a turning panel that almost touches the floor and a glowing box that slides and grows.
 scene::Scene workshop() {
   scene::Scene scene;
-  const auto add = [&](const std::string& name, scene::Mesh mesh, const vec3& emission, const vec3& place) {
-    scene::Node& node = scene.nodes.emplace_back();
-    node.name = name;
-    node.local.translation = place;
-    scene::Material& look = scene.materials.emplace_back();
-    look.base_color = vec3(0.6f), look.specular = 0, look.emission = emission;
-    mesh.material = static_cast<int>(scene.materials.size()) - 1;
-    scene.meshes.push_back(std::move(mesh));
-    scene::Instance& instance = scene.instances.emplace_back();
-    instance.mesh = static_cast<int>(scene.meshes.size()) - 1;
-    instance.node = static_cast<int>(scene.nodes.size()) - 1;
-    return instance.node;
-  };
-  add("room", scene::flipped(scene::make_box(vec3(-1.5f), vec3(1.5f))), vec3(0), vec3(0));
-  const int panel = add("panel", scene::make_box({0, -1.49f, -0.02f}, {1, 0.8f, 0.02f}), vec3(0), vec3(0));
-  const int lamp = add("lamp", scene::make_box(vec3(-0.2f), vec3(0.2f)), vec3(2), vec3(-0.8f, -1.2f, 0));
+  const vec3 grey(0.6f);
+  add_body(scene, "room", scene::flipped(scene::make_box(vec3(-1.5f), vec3(1.5f))), grey);
+  const int panel = add_body(scene, "panel", scene::make_box({0, -1.49f, -0.02f}, {1, 0.8f, 0.02f}), grey);
+  const int lamp = add_body(scene, "lamp", scene::make_box(vec3(-0.2f), vec3(0.2f)), grey, vec3(2));
   scene::Animation& animation = scene.animations.emplace_back();
   using scene::AnimationPath, scene::Interpolation;
   animation.channels.push_back({panel,
@@ -183,12 +170,9 @@ scene::Scene workshop() {
                                 {{-0.8f, -1.2f, 0, 0}, {0.8f, -0.9f, 0.9f, 0}}});
   animation.channels.push_back(
       {lamp, AnimationPath::scale, Interpolation::linear, {0, 2}, {{1, 1, 1, 0}, {1.3f, 0.7f, 1, 0}}});
-  scene.sphls = {{"left", -1}, {"right", -1}, {"low", -1}};
-  const vec3 places[] = {{-0.7f, 0.5f, -0.6f}, {0.9f, 0.2f, 0.7f}, {0.1f, -1.3f, 1.2f}};
-  for (std::size_t i = 0; i < 3; ++i) {
-    scene.nodes.emplace_back().local.translation = places[i];
-    scene.sphls[i].node = static_cast<int>(scene.nodes.size()) - 1;
-  }
+  add_sphl(scene, "left", {-0.7f, 0.5f, -0.6f});
+  add_sphl(scene, "right", {0.9f, 0.2f, 0.7f});
+  add_sphl(scene, "low", {0.1f, -1.3f, 1.2f});
   scene::validate(scene);
   return scene;
 }

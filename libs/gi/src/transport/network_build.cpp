@@ -17,6 +17,12 @@ constexpr int most_rounds = 12;
 /// Points per surfel that moving parts are sampled with.
 constexpr double part_samples_per_surfel = 24;
 
+/// Where a ray meets a surface, a little before it: a hit on the edge of two walls, rounded, may lie beyond
+/// the other one, and all that is behind would be discovered.
+vec3 just_before(const scene::RayQuery& ray, float distance) {
+  return ray.origin + (1 - 2e-5f) * distance * ray.direction;
+}
+
 bool meets_any(const scene::RayQuery& ray, const std::vector<scene::Bounds>& boxes) {
   return std::any_of(boxes.begin(), boxes.end(),
                      [&](const scene::Bounds& box) { return !box.empty() && meets(ray, box); });
@@ -41,15 +47,31 @@ class NetworkBuilder {
     find_moving_rays();
     make_fixed_rows();
 
-    d_.place_parts(time);
-    PoseReport report;
-    d_.pose_samples();
-    d_.pose_hits(report);
-    d_.pose_links(report);
-    d_.contraction = contraction(d_.rows, d_.albedo);
+    find_contraction();
+    pose(time);
   }
 
  private:
+  void pose(float time) {
+    PoseReport report;
+    d_.place_parts(time);
+    d_.pose_samples();
+    d_.pose_hits(report);
+    d_.pose_links(report);
+  }
+
+  /// Of the first and the last pose, whichever comes next: what is solved with it must not depend on when the
+  /// network was built.
+  void find_contraction() {
+    pose(0);
+    d_.contraction = contraction(d_.rows, d_.albedo);
+    if (!(d_.source.duration() > 0)) return;
+    pose(d_.source.duration());
+    const Contraction last = contraction(d_.rows, d_.albedo);
+    d_.contraction.lower = std::min(d_.contraction.lower, last.lower);
+    d_.contraction.upper = std::max(d_.contraction.upper, last.upper);
+  }
+
   /// A link as traced, before rows are made of them.
   struct RawLink {
     scene::RayQuery ray;  ///< t_max: distance of the hit
@@ -73,8 +95,8 @@ class NetworkBuilder {
       d_.seen_distance[i] = hit.distance;
       emits |= hit.emission != 0;
       if (std::isinf(hit.distance)) continue;
-      points.push_back({{g.point(i / g.directions.size(), i % g.directions.size()), unpack_normal(hit)},
-                        unpack_albedo(hit)});
+      const scene::RayQuery ray{g.positions[i / g.directions.size()], g.directions[i % g.directions.size()]};
+      points.push_back({{just_before(ray, hit.distance), unpack_normal(hit)}, unpack_albedo(hit)});
       owner.push_back(i);
     }
     if (points.empty())
@@ -99,8 +121,7 @@ class NetworkBuilder {
       links[i].normal = hits[i].normal;
       links[i].surfel = no_surfel;
       if (hits[i].escaped()) continue;
-      points.push_back(
-          {{rays[i].origin + hits[i].distance * rays[i].direction, hits[i].normal}, hits[i].albedo});
+      points.push_back({{just_before(rays[i], hits[i].distance), hits[i].normal}, hits[i].albedo});
       owner.push_back(i);
     }
     const std::vector<int> surfel = d_.surfels.add(0, points);

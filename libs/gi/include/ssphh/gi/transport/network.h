@@ -91,7 +91,7 @@ class TransportNetwork {
   bool sample_exists(std::size_t sample) const;
 
   const LinkRows& links() const;
-  /// Bounds of the spectral radius of F ρ when the network was built.
+  /// Bounds of the spectral radius of F ρ in the first and the last pose of the animation.
   const Contraction& contraction() const;
 
   /// [probe · directions + direction]

@@ -1,0 +1,188 @@
+/// SPHLs that are lights (set_emission) against sphere lights and closed forms.
+
+#include <gtest/gtest.h>
+
+#include <ssphh/gi/relight_session.h>
+
+#include "transport_fixtures.h"
+
+namespace ssphh::test {
+namespace {
+
+using gi::RelightParams;
+using gi::RelightSession;
+
+constexpr float root_4pi = 3.5449077018110318f;
+
+RelightParams small_session() {
+  RelightParams params;
+  params.transport = small_network();
+  params.transport.surfel_size = 0.2f;
+  params.degree = 4;
+  params.warm_start = false;
+  return params;
+}
+
+/// The same radiance in every direction.
+sh::RadianceSh isotropic(const vec3& radiance) {
+  sh::RadianceSh f(0);
+  f[0] = root_4pi * radiance;
+  return f;
+}
+
+struct DarkRoom {
+  scene::Scene scene = coloured_room(vec3(0));
+  trace::TransportScene source{scene};
+};
+
+TEST(RelightEmission, AnIsotropicSphlIsASphereLight) {
+  const DarkRoom room;
+  const vec3 radiance(5, 3, 2);
+  RelightSession session(room.source, places_of(room.scene), small_session());
+  session.set_emission(0, isotropic(radiance));
+  session.update();
+
+  scene::Scene lit = room.scene;
+  scene::Light lamp;
+  lamp.name = "lamp";
+  lamp.type = scene::LightType::sphere;
+  lamp.radius = 0.1f;
+  lamp.intensity = 1;
+  lamp.color = radiance;
+  lamp.node = lit.sphls[0].node;
+  lit.lights.push_back(lamp);
+  const trace::TransportScene lit_source(lit, {.light_samples = 256});
+  RelightSession reference(lit_source, places_of(lit), small_session());
+  reference.update();
+
+  ASSERT_EQ(session.surfel_direct().size(), reference.surfel_direct().size());
+  // The sphere stands above every wall's horizon, where π (r/d)² cosθ is exact; 256 stratified shadow rays
+  // leave under 1e-4 of noise, as radiance and cosine hardly vary over the disc.
+  for (std::size_t s = 0; s < session.surfel_direct().size(); ++s) {
+    for (glm::length_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(session.surfel_direct()[s][c] / reference.surfel_direct()[s][c], 1, 2e-4f) << s;
+  }
+  for (std::size_t i = 0; i < session.reflected().size(); ++i) {
+    const sh::RadianceSh &a = session.reflected()[i], &b = reference.reflected()[i];
+    for (std::size_t k = 0; k < a.values.size(); ++k) {
+      for (glm::length_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(a.values[k][c], b.values[k][c], 1e-4f * b.values[0][c]) << i << " " << k;
+    }
+  }
+}
+
+TEST(RelightEmission, OtherProbesSeeTheSphereAsADisc) {
+  const DarkRoom room;
+  const std::vector<gi::ProbePlace> places = places_of(room.scene);
+  RelightSession session(room.source, places, small_session());
+  const vec3 radiance(5, 3, 2);
+  session.set_emission(0, isotropic(radiance));
+  session.update();
+  EXPECT_TRUE(session.emitted(0) == sh::RadianceSh(4)) << "no probe sees itself";
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const vec3 to = places[0].position - places[i].position;
+    const double d = double(glm::length(to)), edge = std::sqrt(1 - 0.01 / (d * d));
+    const sh::RadianceSh seen = session.emitted(static_cast<int>(i));
+    // ∫ over the cap of Y₀₀ and of Y₁: 2π(1 − c) Y₀₀ and π(1 − c²) √(3/4π) ω.
+    const vec3 u = to / static_cast<float>(d);
+    const double band0 = 2 * pi_d * (1 - edge) / double(root_4pi);
+    const double band1 = pi_d * (1 - edge * edge) * std::sqrt(3 / (4 * pi_d));
+    for (glm::length_t c = 0; c < 3; ++c) {
+      const double l = double(radiance[c]);
+      EXPECT_NEAR(double(seen[0][c]) / (l * band0), 1, 1e-4);
+      EXPECT_NEAR(double(seen[1][c]), l * band1 * double(u.y), 1e-4 * l * band1);
+      EXPECT_NEAR(double(seen[2][c]), l * band1 * double(u.z), 1e-4 * l * band1);
+      EXPECT_NEAR(double(seen[3][c]), l * band1 * double(u.x), 1e-4 * l * band1);
+    }
+  }
+}
+
+TEST(RelightEmission, ADirectedSphlLightsItsSideByItsOwnFunction) {
+  // L(ω) = 2 ω·x, clamped at 0: E = π (r/d)² cosθ · 2 (d̂·x) on the right, nothing on the left.
+  const DarkRoom room;
+  RelightSession session(room.source, places_of(room.scene), small_session());
+  sh::RadianceSh leaving(1);
+  leaving[3] = vec3(2 / std::sqrt(3 / (4 * pi)));
+  session.set_emission(0, leaving);
+  session.update();
+  const gi::TransportNetwork& network = session.network();
+  const auto samples = static_cast<std::size_t>(network.params().samples);
+  std::size_t lit = 0, dark = 0;
+  for (std::size_t s = 0; s < network.surfel_count(); ++s) {
+    double expected = 0;
+    int used = 0;
+    for (std::size_t i = s * samples; i < (s + 1) * samples; ++i) {
+      if (!network.sample_used()[i]) continue;
+      ++used;
+      const scene::SurfacePoint& p = network.samples()[i];
+      const double d = double(glm::length(p.position));
+      const vec3 away = p.position / static_cast<float>(d);
+      const double cosine = double(-glm::dot(away, p.normal));
+      expected += pi_d * 0.01 / (d * d) * cosine * std::max(0.0, 2 * double(away.x));
+    }
+    expected /= used;
+    EXPECT_NEAR(double(session.surfel_direct()[s].y), expected, 1e-5 * expected + 1e-7);
+    ++(expected > 0 ? lit : dark);
+  }
+  EXPECT_GT(lit, 100u);
+  EXPECT_GT(dark, 100u);
+}
+
+TEST(RelightEmission, BouncesBetweenWallsAndIsStoppedByADoor) {
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  const trace::TransportScene source(scene);
+  RelightParams params = small_session();
+  params.transport.surfel_size = 0.5f;
+  RelightSession session(source, places_of(scene), params, 0);
+  session.set_group_scale(0, vec3(0));
+  session.set_emission(0, isotropic(vec3(10)));
+  session.update();
+  EXPECT_GT(session.reflected()[1][0].y, 0) << "room A";
+  for (const int b : {3, 4, 5}) {
+    EXPECT_EQ(session.reflected()[static_cast<std::size_t>(b)][0], vec3(0)) << "room B, door shut";
+    EXPECT_EQ(session.emitted(b)[0], vec3(0));
+  }
+  session.set_time(1);
+  session.update();
+  for (const std::size_t b : {3u, 4u, 5u}) EXPECT_GT(session.reflected()[b][0].y, 0) << "door open";
+}
+
+TEST(RelightEmission, SetTwiceReplacesAndEmptyClears) {
+  const DarkRoom room;
+  RelightSession session(room.source, places_of(room.scene), small_session());
+  session.update();
+  for (const sh::RadianceSh& dark : session.reflected()) EXPECT_TRUE(dark == sh::RadianceSh(4));
+
+  session.set_emission(1, isotropic(vec3(1)));
+  session.update();
+  const std::vector<sh::RadianceSh> once = session.reflected();
+  EXPECT_GT(once[0][0].y, 0);
+  const std::uint64_t rays = room.source.rays_traced();
+  session.set_emission(1, isotropic(vec3(1)));
+  EXPECT_TRUE(session.update().changed_probes.empty()) << "the same again is no change";
+  EXPECT_EQ(room.source.rays_traced(), rays);
+
+  session.set_emission(1, isotropic(vec3(4)));
+  session.update();
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    sh::RadianceSh four = once[i];
+    four *= vec3(4);
+    EXPECT_TRUE(session.reflected()[i] == four) << "replaced, not added: a power of two scales to the bit";
+  }
+
+  // Two emitters add up; clearing one leaves the other; clearing both leaves darkness.
+  session.set_emission(1, isotropic(vec3(1)));
+  session.set_emission(2, isotropic(vec3(1)));
+  session.update();
+  EXPECT_GT(session.reflected()[0][0].y, 1.1f * once[0][0].y);
+  session.set_emission(2, {});
+  session.update();
+  EXPECT_TRUE(session.reflected() == once);
+  session.set_emission(1, {});
+  session.update();
+  for (const sh::RadianceSh& dark : session.reflected()) EXPECT_TRUE(dark == sh::RadianceSh(4));
+  EXPECT_TRUE(session.emitted(0) == sh::RadianceSh(4));
+}
+
+}  // namespace
+}  // namespace ssphh::test
