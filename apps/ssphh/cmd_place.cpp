@@ -68,7 +68,8 @@ void place(Context& context, const PlaceCommand& options) {
   const scene::Scene scene = load_scene(options.scene);
   const std::optional<PlaceResult> result =
       place_for(scene, options.scene.time, options.place, "auto", context.control);
-  if (!result) throw Error("--probes scene", "there is nothing to place", "use auto, auto:METRES or a number");
+  if (!result)
+    throw Error("--probes scene", "there is nothing to place", "use auto, auto:METRES or a number");
 
   Json overlay = base_overlay(options.scene, options.output);
   for (const gi::PlacedProbe& probe : result->placement.probes) {
@@ -91,7 +92,9 @@ void add_place_command(CLI::App& app, Context& context) {
                                   [&context, options] { place(context, *options); });
   add_scene_options(*command, options->scene);
   add_place_options(*command, options->place);
-  command->add_option("-o,--output", options->output, "Overlay to write: a scene of its own, to look at and edit")
+  command
+      ->add_option("-o,--output", options->output,
+                   "Overlay to write: a scene of its own, to look at and edit")
       ->check(CLI::Validator(
           [](std::string& name) {
             return is_overlay_name(name) ? std::string() : "the name must end with .ssphh.json";

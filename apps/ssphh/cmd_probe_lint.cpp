@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <ssphh/core/log.h>
 #include <ssphh/gi/lint.h>
 #include <ssphh/gi/place.h>
 #include <ssphh/gi/probe_file.h>
@@ -19,18 +18,16 @@ struct LintOptions {
   SceneOptions scene;
   std::string input;
   gi::LintParams params;
+  bool force = false;
 };
 
 void lint(Context& context, LintOptions& options) {
   const gi::ProbeSet set = gi::read_probe_file(options.input);
   const scene::Scene scene = load_scene(options.scene);
-  if (set.generator.scene_hash != scene::scene_hash(scene)) {
-    log_warning("{}: was not baked in this scene as it is now", options.input);
-  }
   options.params.interest = gi::place_params(scene, set.generator.time).interest;
   const trace::TransportScene source(scene);
-  const std::vector<gi::LintProblem> problems =
-      gi::lint_probes(set, source, options.params, context.control);
+  require_same_scene(options.input, set, scene, source.light_groups(), {}, options.force);
+  const std::vector<gi::LintProblem> problems = gi::lint_probes(set, source, options.params, context.control);
 
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   std::string text;
@@ -58,8 +55,9 @@ void lint(Context& context, LintOptions& options) {
 
 void add_probe_lint_command(CLI::App& group, Context& context) {
   auto options = std::make_shared<LintOptions>();
-  CLI::App* command = add_command(group, context, "lint", "Look for probes that light nothing or light it wrongly",
-                                  [&context, options] { lint(context, *options); });
+  CLI::App* command =
+      add_command(group, context, "lint", "Look for probes that light nothing or light it wrongly",
+                  [&context, options] { lint(context, *options); });
   command->add_option("FILE", options->input, "Probe file")->check(probe_file_name())->required();
   add_scene_options(*command, options->scene, false, "--scene");
   command
@@ -76,9 +74,12 @@ void add_probe_lint_command(CLI::App& group, Context& context) {
       ->add_option("--spacing", options->params.spacing,
                    "Distance of the places that must see a probe [m]; default: some 100 to 200 places")
       ->check(CLI::PositiveNumber);
+  add_force_option(*command, options->force);
   command->footer(
-      "Reports probes that hold no number, lie inside a body, are too close to a surface, stand in the way of a\n"
-      "moving part, are unlit, see no other probe or give negative irradiance; rooms that are unlit or in which\n"
+      "Reports probes that hold no number, lie inside a body, are too close to a surface, stand in the way "
+      "of a\n"
+      "moving part, are unlit, see no other probe or give negative irradiance; rooms that are unlit or in "
+      "which\n"
       "no probe is to be seen. Exit code 1 when there are problems.");
 }
 

@@ -57,8 +57,7 @@ void add_place_options(CLI::App& command, PlaceOptions& options) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str()
       ->group(group);
-  command
-      .add_option("--refine", options.levels, "Times that the spacing may be halved near surfaces, 0..3")
+  command.add_option("--refine", options.levels, "Times that the spacing may be halved near surfaces, 0..3")
       ->check(CLI::Range(0, 3))
       ->capture_default_str()
       ->group(group);

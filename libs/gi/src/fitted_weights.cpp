@@ -1,5 +1,3 @@
-#include <ssphh/gi/fitted_weights.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +5,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/gi/fitted_weights.h>
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/sh/irradiance.h>
 
@@ -19,7 +18,7 @@ namespace {
 
 /// One training light, solved: what leaves each surfel, and each probe's irradiance function.
 struct Training {
-  std::vector<vec3> radiosity;          ///< per surfel
+  std::vector<vec3> radiosity;  ///< per surfel
   std::vector<sh::IrradianceSh> probes;
 };
 
@@ -59,7 +58,8 @@ Training train(const TransportNetwork& network, const scene::TransportSource& so
     direct[s] /= std::max(used, 1.0f);
   }
   Solver solver;
-  solver.solve(network.links(), network.albedo(), direct, network.contraction().upper, {1e-4f, 300}, indirect);
+  solver.solve(network.links(), network.albedo(), direct, network.contraction().upper, {1e-4f, 300},
+               indirect);
   for (std::size_t s = 0; s < direct.size(); ++s) direct[s] += indirect[s];
 
   Training training;

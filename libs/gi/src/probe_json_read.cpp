@@ -127,8 +127,8 @@ class Place {
 };
 
 GeneratorInfo read_generator(const Place& at) {
-  at.object({"operator", "gen", "max_depth", "passes", "spp", "face_size", "seed", "directions", "surfel_size",
-             "link_rays", "scene", "scene_hash", "time"});
+  at.object({"operator", "gen", "max_depth", "passes", "spp", "face_size", "seed", "directions",
+             "surfel_size", "link_rays", "scene", "scene_hash", "time"});
   GeneratorInfo g;
   g.op = at["operator"].choice(parse_light_operator);
   g.gen = at["gen"].choice(parse_gen_mode);

@@ -23,6 +23,8 @@ void describe_network(const TransportNetwork& network, ProbeSet& set, TransportB
   report.surfels = network.surfel_count();
   report.links = network.links().link_count();
   report.contraction = network.contraction().upper;
+  report.lost = static_cast<double>(network.lost_links()) /
+                (static_cast<double>(network.surfel_count()) * network.params().link_rays);
 }
 
 /// Share of what a probe sees that is the back of a one-sided surface.
@@ -50,14 +52,16 @@ void check_light(const TransportNetwork& network, const ProbeSet& set, bool conv
       report.warnings.push_back(fmt::format("probe \"{}\" receives no light at all", probe.name));
     }
   }
-  if (network.lost_links() > 0) {
-    report.warnings.push_back(
-        fmt::format("{} links end where no surfel is: their light is lost", network.lost_links()));
+  constexpr double most_lost = 0.01;
+  if (report.lost > most_lost) {
+    report.warnings.push_back(fmt::format(
+        "{:.1f} % of the surfels' rays end where no surfel is: their light is lost; more --directions or "
+        "smaller surfels may find the places",
+        100 * report.lost));
   }
   if (!converged) {
-    report.warnings.push_back(
-        fmt::format("the light did not converge in {} iterations: surfaces reflect nearly all of it",
-                    report.iterations));
+    report.warnings.push_back(fmt::format(
+        "the light did not converge in {} iterations: surfaces reflect nearly all of it", report.iterations));
   }
 }
 

@@ -68,8 +68,7 @@ TEST(Emitters, ExtentHoldsAllSamples) {
       EXPECT_EQ(sample->group, emitter.group);
       EXPECT_EQ(sample->delta, emitter.delta());
       EXPECT_TRUE(!emitter.delta() || sample->pdf == 1);
-      const vec3 p =
-          emitter.distant() ? sample->wi : vec3(0.1f, 0, 0.2f) + sample->distance * sample->wi;
+      const vec3 p = emitter.distant() ? sample->wi : vec3(0.1f, 0, 0.2f) + sample->distance * sample->wi;
       EXPECT_LE(max_component(emitter.extent.min - p), 1e-6f) << i;
       EXPECT_LE(max_component(p - emitter.extent.max), 1e-6f) << i;
       if (emitter.distant() && !emitter.delta()) {

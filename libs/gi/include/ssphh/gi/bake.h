@@ -29,7 +29,8 @@ struct BakeReport {
 /// body, and about P over 1. With a `checkpoint` path every finished probe is appended to that file, so that
 /// the same call after a Cancelled or a killed process continues there and gives the same bits; the caller
 /// removes it once the set is safe on disk. A checkpoint of another scene or other parameters is replaced.
-/// Throws Error for parameters out of range, an empty set, and light that is to be kept but is of other groups.
+/// Throws Error for parameters out of range, an empty set, and light that is to be kept but is of other
+/// groups.
 ProbeSet bake(const scene::RadianceSource& source, ProbeSet set, const BakeParams& params,
               const std::filesystem::path& checkpoint, BakeReport& report, const Control& control = {});
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Lookup weights fitted to light transport, for points that do not move (after Silvennoinen & Lehtinen,
-/// Real-Time Global Illumination by Precomputed Local Reconstruction from Sparse Radiance Probes, SIGGRAPH Asia
-/// 2017): per point the non-negative weights of its nearest visible probes that reproduce the irradiance of
-/// training lights best. No visibility ray is needed when they are used.
+/// Real-Time Global Illumination by Precomputed Local Reconstruction from Sparse Radiance Probes, SIGGRAPH
+/// Asia 2017): per point the non-negative weights of its nearest visible probes that reproduce the irradiance
+/// of training lights best. No visibility ray is needed when they are used.
 
 #include <span>
 #include <vector>

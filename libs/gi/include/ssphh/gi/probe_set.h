@@ -40,7 +40,7 @@ struct GeneratorInfo {
   int link_rays = 0;      ///< of the network, cosine rays per surfel
   std::string scene;      ///< name, for people
   Hash128 scene_hash;     ///< scene::light_hash
-  float time = 0;  ///< pose of the scene, seconds
+  float time = 0;         ///< pose of the scene, seconds
 
   friend bool operator==(const GeneratorInfo&, const GeneratorInfo&) = default;
 };
