@@ -50,8 +50,7 @@ void require_same_scene(const std::string& file, const gi::ProbeSet& set, const 
   const std::string difference = scene_difference(set, scene, light_groups, time);
   if (difference.empty()) return;
   const std::string problem = "was baked in another scene or pose: " + difference;
-  if (!force)
-    throw Error(file, problem, "bake it anew, give the options of its bake, or go on with --force");
+  if (!force) throw Error(file, problem, "bake it anew, give the options of its bake, or go on with --force");
   log_warning("{}: {}", file, problem);
 }
 

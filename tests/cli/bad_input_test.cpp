@@ -100,7 +100,7 @@ TEST(BadInput, AProbeInsideABodyIsWarnedAbout) {
 TEST(BadInput, BakeWithoutProbesSaysHowToAddThem) {
   const TempDir dir;
   write(dir / "plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  expect_failure({"bake", dir / "plain.obj", "-o", dir / "x.sphl"}, "SPHL");
+  expect_failure({"bake", dir / "plain.obj", "--probes", "scene", "-o", dir / "x.sphl"}, "SPHL");
 }
 
 TEST(BadInput, SsphhWithoutProbesSaysHowToBake) {

@@ -1,4 +1,5 @@
-// `bake --operator surfel` and what reads its probes: options that stand in each other's way, scenes that differ.
+// `bake --operator surfel` and what reads its probes: options that stand in each other's way, scenes that
+// differ.
 
 #include <fstream>
 
@@ -44,8 +45,9 @@ std::vector<std::string> small_bake(const std::string& scene, const std::string&
 
 std::vector<std::string> small_render(const std::string& scene, const std::string& probes,
                                       const std::string& output, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments = {"render",  scene, "--probes", probes,     "-o", output,  "--width",
-                                        "16",      "--height", "9",   "--method", "ssphh", "--spp", "1"};
+  std::vector<std::string> arguments = {"render",   scene,     "--probes", probes,     "-o",
+                                        output,     "--width", "16",       "--height", "9",
+                                        "--method", "ssphh",   "--spp",    "1"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
@@ -87,8 +89,8 @@ TEST(TransportBakeCli, PathTracedProbesHaveNoNumbersOfTransport) {
 
 TEST(TransportBakeCli, VizCanStandBeside) {
   const TempDir dir;
-  const json bake = run_json(
-      small_bake("builtin:box", dir / "a.sphl", {"--viz", "on", "--face", "4", "--spp", "1"}));
+  const json bake =
+      run_json(small_bake("builtin:box", dir / "a.sphl", {"--viz", "on", "--face", "4", "--spp", "1"}));
   EXPECT_EQ(bake["operator"], "surfel");
   EXPECT_GT(bake["edges"], 0);
   EXPECT_EQ(run_json({"hier", dir / "a.sphl", "-o", dir / "b.sphl"})["edges"], bake["edges"]);
@@ -111,8 +113,8 @@ TEST(TransportBakeCli, EveryWeightLightsTheBoxAlike) {
   run_json(small_bake("builtin:box", probes));
   std::vector<double> means;
   for (const char* weights : {"distance", "trilinear", "mls"}) {
-    const json render =
-        run_json(small_render("builtin:box", probes, dir / "x.exr", {"--weights", weights, "--passes", "16"}));
+    const json render = run_json(
+        small_render("builtin:box", probes, dir / "x.exr", {"--weights", weights, "--passes", "16"}));
     means.push_back(render["mean"][1].get<double>());
   }
   // Emission 1 and the series 1/2 + 1/4 + ... = 1, to the noise of 64 directions and 16 link rays.
@@ -158,10 +160,12 @@ TEST(SameScene, NewCamerasAndProbesAreNoDifferenceANewLampIs) {
   const TempDir dir;
   const std::string probes = dir / "a.sphl", overlay = dir / "o.json", out = dir / "x.exr";
   run_json(small_bake("builtin:cornell", probes));
-  std::ofstream(overlay) << R"({"cameras": [{"name": "new", "position": [0.2, 0.3, 0.5], "look_at": [0, 0.2, 0]}],
+  std::ofstream(overlay)
+      << R"({"cameras": [{"name": "new", "position": [0.2, 0.3, 0.5], "look_at": [0, 0.2, 0]}],
                                 "sphls": [{"name": "more", "position": [0.2, 0.3, 0.2]}]})";
-  EXPECT_EQ(
-      run_tool(small_render("builtin:cornell", probes, out, {"--overlay", overlay, "--camera", "new"})).exit_code, 0);
+  EXPECT_EQ(run_tool(small_render("builtin:cornell", probes, out, {"--overlay", overlay, "--camera", "new"}))
+                .exit_code,
+            0);
   std::ofstream(overlay)
       << R"({"lights": [{"name": "torch", "type": "point", "position": [0.2, 0.4, 0.2], "intensity": 1}]})";
   expect_failure(small_render("builtin:cornell", probes, out, {"--overlay", overlay}), "torch");
