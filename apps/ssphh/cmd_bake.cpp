@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
@@ -5,7 +6,9 @@
 #include <ssphh/core/log.h>
 #include <ssphh/gi/bake.h>
 #include <ssphh/gi/init.h>
+#include <ssphh/gi/transport_bake.h>
 #include <ssphh/trace/path_tracer.h>
+#include <ssphh/trace/transport_scene.h>
 
 #include "command.h"
 #include "place_options.h"
@@ -21,73 +24,216 @@ constexpr std::size_t most_probes_for_viz = 64;
 struct BakeOptions {
   SceneOptions scene;
   PlaceOptions place;
-  std::string output, gen = "full", viz;
+  std::string output, op = "path", gen = "full", viz;
   int degree = 9;
   gi::BakeParams params;
+  gi::TransportBakeParams transport;
   bool resume = true;
+  /// As given on the command line: which options stand only with GEN or VIZ, and only with transport.
+  std::vector<CLI::Option*> of_paths, of_transport;
 };
+
+void refuse(const std::vector<CLI::Option*>& given, const char* needs) {
+  for (const CLI::Option* option : given) {
+    if (option->count() > 0) throw Error(option->get_name(), needs);
+  }
+}
+
+/// Decides on VIZ and refuses options that would have no effect.
+void resolve(BakeOptions& o, std::size_t probes) {
+  const bool path = o.op == "path";
+  gi::BakeParams& params = o.params;
+  if (params.viz_transfer && o.viz == "off")
+    throw Error("--viz-transfer", "needs VIZ", "leave out --viz off");
+  if (!path && o.gen != "full")
+    throw Error("--gen " + o.gen, "is of --operator path; the light of surfels has every bounce");
+  params.keep_light = !path;
+  params.viz =
+      o.viz == "on" || params.viz_transfer || (o.viz.empty() && path && probes <= most_probes_for_viz);
+  if (path && !params.viz && o.viz.empty()) {
+    log_info("VIZ is left out for {} probes, which are more than {}: --viz on if HIER is to run", probes,
+             most_probes_for_viz);
+  }
+  if (!path && !params.viz) refuse(o.of_paths, "is of path tracing: use --operator path or --viz on");
+  if (path && !o.transport.fit) refuse(o.of_transport, "is of transport: use --operator surfel or --fit");
+}
+
+struct BakeResult {
+  gi::ProbeSet set;
+  gi::BakeReport paths;
+  gi::TransportBakeReport transport;
+};
+
+BakeResult run(const BakeOptions& o, const scene::Scene& scene, gi::ProbeSet set,
+               const std::filesystem::path& checkpoint, const Control& control) {
+  BakeResult result{std::move(set), {}, {}};
+  const bool path = o.op == "path";
+  if (!path || o.transport.fit) {
+    const trace::TransportScene source(scene);
+    if (path) {
+      gi::fit_set(source, result.set, o.transport, result.transport, control);
+    } else {
+      result.set = gi::bake_transport(source, std::move(result.set), o.transport, result.transport, control);
+    }
+  }
+  if (path || o.params.viz) {
+    const trace::PathTracer tracer(scene, o.scene.time);
+    result.set = gi::bake(tracer, std::move(result.set), o.params, checkpoint, result.paths, control);
+  }
+  return result;
+}
+
+std::string result_text(const BakeOptions& o, const BakeResult& r) {
+  std::string text =
+      fmt::format("{}: {} probes of degree {}, {} light groups, {} edges", o.output, r.set.probes.size(),
+                  r.set.degree, r.set.light_groups.size(), gi::edge_count(r.set));
+  const gi::TransportBakeReport& t = r.transport;
+  if (t.surfels > 0) {
+    text +=
+        fmt::format("\n{} surfels of {:.3g} m, {} links", t.surfels, r.set.generator.surfel_size, t.links);
+    if (o.op != "path") {
+      text += fmt::format("; {} iterations, a bounce keeps at most {:.3g} of the light; {:.2f} s",
+                          t.iterations, t.contraction, t.seconds);
+    }
+  }
+  if (r.set.fitted)
+    text +=
+        fmt::format("\nweights fitted at {} points in {:.2f} s", r.set.fitted->points.size(), t.fit_seconds);
+  if (o.op == "path" || o.params.viz)
+    text += fmt::format("\nGEN {:.2f} s, VIZ {:.2f} s", r.paths.gen_seconds, r.paths.viz_seconds);
+  text += fmt::format("\n{} rays", r.paths.rays + t.rays);
+  if (r.paths.resumed > 0) {
+    text += fmt::format("\n{} of {} steps were taken from the checkpoint", r.paths.resumed,
+                        r.set.probes.size() * (std::size_t{o.op == "path"} + o.params.viz));
+  }
+  return text;
+}
+
+/// Numbers of transport are null where there was none; `iterations` also where only weights were fitted.
+nlohmann::ordered_json result_json(const BakeOptions& o, const BakeResult& r) {
+  const gi::TransportBakeReport& t = r.transport;
+  const auto if_any = [](bool any, const auto& value) {
+    return any ? nlohmann::json(value) : nlohmann::json();
+  };
+  const bool solved = o.op != "path", network = t.surfels > 0;
+  std::vector<std::string> warnings = t.warnings;
+  for (const std::string& warning : r.paths.warnings) {
+    if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
+  }
+  return {{"output", o.output},
+          {"operator", o.op},
+          {"probes", r.set.probes.size()},
+          {"degree", r.set.degree},
+          {"light_groups", r.set.light_groups.size()},
+          {"edges", gi::edge_count(r.set)},
+          {"gen", o.gen},
+          {"gen_seconds", r.paths.gen_seconds},
+          {"viz_seconds", r.paths.viz_seconds},
+          {"transport_seconds", if_any(solved, t.seconds)},
+          {"surfels", if_any(network, t.surfels)},
+          {"links", if_any(network, t.links)},
+          {"iterations", if_any(solved, t.iterations)},
+          {"contraction", if_any(network, t.contraction)},
+          {"fitted", r.set.fitted ? r.set.fitted->points.size() : 0},
+          {"fit_seconds", if_any(r.set.fitted.has_value(), t.fit_seconds)},
+          {"rays", r.paths.rays + t.rays},
+          {"resumed", r.paths.resumed},
+          {"viz", o.params.viz},
+          {"warnings", warnings}};
+}
 
 void bake(Context& context, BakeOptions& options) {
   const scene::Scene scene = load_scene(options.scene);
-  gi::BakeParams& params = options.params;
-  params.gen = *gi::parse_gen_mode(options.gen);
-  params.path.seed = context.seed;
-  if (params.viz_transfer && options.viz == "off") {
-    throw Error("--viz-transfer", "needs VIZ", "leave out --viz off");
-  }
-
+  options.params.gen = *gi::parse_gen_mode(options.gen);
+  options.params.path.seed = context.seed;
   const std::optional<PlaceResult> place =
       place_for(scene, options.scene.time, options.place, "", context.control);
   gi::ProbeSet set =
       place ? gi::init_from_placement(scene, place->placement, options.degree, options.scene.time)
             : gi::init_from_scene(scene, options.degree, options.scene.time);
-  params.viz = options.viz == "on" || params.viz_transfer ||
-               (options.viz.empty() && set.probes.size() <= most_probes_for_viz);
-  if (!params.viz && options.viz.empty()) {
-    log_info("VIZ is left out for {} probes, which are more than {}: --viz on if HIER is to run",
-             set.probes.size(), most_probes_for_viz);
-  }
-  const trace::PathTracer tracer(scene, options.scene.time);
+  resolve(options, set.probes.size());
+
   const std::filesystem::path checkpoint = options.output + ".checkpoint";
   if (!options.resume) std::filesystem::remove(checkpoint);
-  gi::BakeReport report;
-  set = gi::bake(tracer, std::move(set), params, checkpoint, report, context.control);
-  gi::write_probe_file(set, options.output);
+  const BakeResult result = run(options, scene, std::move(set), checkpoint, context.control);
+  gi::write_probe_file(result.set, options.output);
   std::filesystem::remove(checkpoint);
 
-  const std::size_t edges = gi::edge_count(set);
-  std::string text = fmt::format(
-      "{}: {} probes of degree {}, {} light groups, {} edges\nGEN {:.2f} s, VIZ {:.2f} s, {} rays",
-      options.output, set.probes.size(), set.degree, set.light_groups.size(), edges, report.gen_seconds,
-      report.viz_seconds, report.rays);
-  if (report.resumed > 0)
-    text += fmt::format("\n{} of {} steps were taken from the checkpoint", report.resumed,
-                        set.probes.size() * (params.viz ? 2 : 1));
-  if (place) text += "\n" + place_text(*place);
-  nlohmann::ordered_json object = {{"output", options.output},
-                                   {"probes", set.probes.size()},
-                                   {"degree", set.degree},
-                                   {"light_groups", set.light_groups.size()},
-                                   {"edges", edges},
-                                   {"gen", options.gen},
-                                   {"gen_seconds", report.gen_seconds},
-                                   {"viz_seconds", report.viz_seconds},
-                                   {"rays", report.rays},
-                                   {"resumed", report.resumed},
-                                   {"viz", params.viz},
-                                   {"warnings", report.warnings}};
+  nlohmann::ordered_json object = result_json(options, result);
   if (place) object["placement"] = place_json(*place);
-  context.result(object, text);
+  context.result(object, result_text(options, result) + (place ? "\n" + place_text(*place) : ""));
+}
+
+void add_path_options(CLI::App& command, BakeOptions& options) {
+  const std::string group = "GEN and VIZ: path tracing";
+  gi::BakeParams& params = options.params;
+  const auto paths = [&](CLI::Option* option) {
+    options.of_paths.push_back(option->capture_default_str()->group(group));
+  };
+  paths(command.add_option("--face", params.face_size, "Texels along a face of each probe's cube map")
+            ->check(CLI::Range(1, 4096)));
+  paths(command
+            .add_option("--max-depth", params.path.max_depth,
+                        "Surface scatterings of a path: 0 emitters only, 1 direct light, ...")
+            ->check(CLI::Range(0, 65535)));
+  paths(command.add_option("--passes", params.path.passes, "Passes of --spp samples each")
+            ->check(CLI::Range(1, 1 << 24)));
+  paths(command.add_option("--spp", params.path.spp, "Samples per texel and pass")
+            ->check(CLI::Range(1, 1 << 24)));
+  command
+      .add_option("--gen", options.gen,
+                  "full: all bounces; local: direct light only (--max-depth 1), for HIER to add the rest")
+      ->check(CLI::IsMember({"full", "local"}))
+      ->capture_default_str()
+      ->group(group);
+  command
+      .add_option("--viz", options.viz,
+                  fmt::format("Whether to trace the light between the SPHLs, which HIER needs; default: on "
+                              "for operator path and up to {} probes",
+                              most_probes_for_viz))
+      ->check(CLI::IsMember({"on", "off"}))
+      ->group(group);
+  command
+      .add_flag("--viz-transfer", params.viz_transfer,
+                "Also keep the transfer matrices of `hier --operator matrix` (120 kB an edge at degree 9)")
+      ->group(group);
+  command
+      .add_flag(
+          "--resume,!--no-resume", options.resume,
+          "Continue an interrupted bake of the same scene and options from OUTPUT.checkpoint (the default)")
+      ->group(group);
+}
+
+void add_transport_options(CLI::App& command, BakeOptions& options) {
+  const std::string group = "Transport: --operator surfel, --fit";
+  gi::TransportParams& params = options.transport.transport;
+  const auto transport = [&](CLI::Option* option) {
+    options.of_transport.push_back(option->capture_default_str()->group(group));
+  };
+  transport(command.add_option("--directions", params.directions, "Rays by which each probe sees surfels")
+                ->check(CLI::Range(8, 1 << 16)));
+  transport(command
+                .add_option("--surfel-size", params.surfel_size,
+                            "Edge of a surfel [m]; 0: a twentieth of the scene's radius, within 0.05..0.5")
+                ->check(CLI::NonNegativeNumber));
+  transport(command
+                .add_option("--link-rays", params.link_rays,
+                            "Rays by which each surfel finds what lights it: fewer are faster and noisier")
+                ->check(CLI::Range(4, 1 << 16)));
+  command
+      .add_flag("--fit", options.transport.fit,
+                "Also fit lookup weights at the surfels and store them with the probes")
+      ->group(group);
 }
 
 }  // namespace
 
 void add_bake_command(CLI::App& app, Context& context) {
   auto options = std::make_shared<BakeOptions>();
-  gi::BakeParams& params = options->params;
-  CLI::App* command = add_command(
-      app, context, "bake", "Path trace the light at every SPHL of a scene (GEN) and between them (VIZ)",
-      [&context, options] { bake(context, *options); });
+  CLI::App* command =
+      add_command(app, context, "bake",
+                  "Find the light at every SPHL of a scene (GEN or transport) and between them (VIZ)",
+                  [&context, options] { bake(context, *options); });
   add_scene_options(*command, options->scene);
   add_place_options(*command, options->place);
   command
@@ -98,37 +244,16 @@ void add_bake_command(CLI::App& app, Context& context) {
   command->add_option("--degree", options->degree, "Highest spherical harmonics band, 0..10")
       ->check(CLI::Range(0, sh::max_degree))
       ->capture_default_str();
-  command->add_option("--face", params.face_size, "Texels along a face of each probe's cube map")
-      ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
   command
-      ->add_option("--max-depth", params.path.max_depth,
-                   "Surface scatterings of a path: 0 emitters only, 1 direct light, ...")
-      ->check(CLI::Range(0, 65535))
+      ->add_option(
+          "--operator", options->op,
+          "What finds the probes' light: path (GEN: path tracing, up to --max-depth bounces), surfel "
+          "(transport between patches of surface: every bounce, no noise, seconds; surfaces reflect "
+          "diffusely)")
+      ->check(CLI::IsMember({"path", "surfel"}))
       ->capture_default_str();
-  command->add_option("--passes", params.path.passes, "Passes of --spp samples each")
-      ->check(CLI::Range(1, 1 << 24))
-      ->capture_default_str();
-  command->add_option("--spp", params.path.spp, "Samples per texel and pass")
-      ->check(CLI::Range(1, 1 << 24))
-      ->capture_default_str();
-  command
-      ->add_option("--gen", options->gen,
-                   "full: all bounces; local: direct light only (--max-depth 1), for HIER to add the rest")
-      ->check(CLI::IsMember({"full", "local"}))
-      ->capture_default_str();
-  command
-      ->add_option("--viz", options->viz,
-                   fmt::format("Whether to trace the light between the SPHLs, which HIER needs; default: on "
-                               "for up to {} probes",
-                               most_probes_for_viz))
-      ->check(CLI::IsMember({"on", "off"}));
-  command->add_flag(
-      "--viz-transfer", params.viz_transfer,
-      "Also keep the transfer matrices of `hier --operator matrix` (120 kB an edge at degree 9)");
-  command->add_flag(
-      "--resume,!--no-resume", options->resume,
-      "Continue an interrupted bake of the same scene and options from OUTPUT.checkpoint (the default)");
+  add_path_options(*command, *options);
+  add_transport_options(*command, *options);
   command->footer(
       "An interrupted bake leaves OUTPUT.checkpoint; the same command continues there and gives the same "
       "bits.");

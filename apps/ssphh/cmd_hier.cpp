@@ -66,6 +66,11 @@ void hier(Context& context, HierOptions& options) {
   std::nth_element(times.begin(), times.begin() + 3, times.end());
   gi::write_probe_file(set, options.output);
 
+  const std::optional<gi::Contraction> contraction = gi::hier_contraction(set, options.params);
+  const std::string shrinks =
+      contraction
+          ? fmt::format("; another application would change light by up to {:.3g}", contraction->upper)
+          : "";
   context.result(
       {{"output", options.output},
        {"seconds", times[3]},
@@ -74,9 +79,10 @@ void hier(Context& context, HierOptions& options) {
        {"neighbors", options.params.neighbors},
        {"threshold", options.params.threshold},
        {"probes", set.probes.size()},
+       {"contraction", contraction ? nlohmann::json(contraction->upper) : nlohmann::json()},
        {"gen", gi::to_string(set.generator.gen)}},
-      fmt::format("{}: {} edges between {} probes, operator {}, GEN {}: {:.1f} us", options.output, edges,
-                  set.probes.size(), options.op, gi::to_string(set.generator.gen), 1e6 * times[3]));
+      fmt::format("{}: {} edges between {} probes, operator {}, GEN {}: {:.1f} us{}", options.output, edges,
+                  set.probes.size(), options.op, gi::to_string(set.generator.gen), 1e6 * times[3], shrinks));
 }
 
 }  // namespace

@@ -29,12 +29,16 @@ float lowest_irradiance(const sh::RadianceSh& light) {
 }
 
 ordered_json generator_json(const gi::GeneratorInfo& g) {
-  return {{"gen", gi::to_string(g.gen)},
+  return {{"operator", gi::to_string(g.op)},
+          {"gen", gi::to_string(g.gen)},
           {"max_depth", g.max_depth},
           {"passes", g.passes},
           {"spp", g.spp},
           {"face_size", g.face_size},
           {"seed", g.seed},
+          {"directions", g.directions},
+          {"surfel_size", g.surfel_size},
+          {"link_rays", g.link_rays},
           {"scene", g.scene},
           {"scene_hash", g.scene_hash.hex()},
           {"time", g.time}};
@@ -90,11 +94,18 @@ void info(Context& context, const std::string& path) {
   const gi::ProbeSet set = gi::read_probe_file(path);
   const gi::GeneratorInfo& g = set.generator;
   ordered_json groups = ordered_json::array(), probes = ordered_json::array();
-  std::string text = fmt::format(
-      "{}: {} probes of degree {}, {} edges\nscene {} at {} s; GEN {}, depth {}, {} x {} samples, {}x{}x6 "
-      "texels, seed {}\n",
-      path, set.probes.size(), set.degree, gi::edge_count(set), g.scene, g.time, gi::to_string(g.gen),
-      g.max_depth, g.passes, g.spp, g.face_size, g.face_size, g.seed);
+  std::string text =
+      fmt::format("{}: {} probes of degree {}, {} edges\nscene {} at {} s; light by {}\n", path,
+                  set.probes.size(), set.degree, gi::edge_count(set), g.scene, g.time, gi::to_string(g.op));
+  if (g.op == gi::LightOperator::path || gi::edge_count(set) > 0) {
+    text += fmt::format("paths: GEN {}, depth {}, {} x {} samples, {}x{}x6 texels, seed {}\n",
+                        gi::to_string(g.gen), g.max_depth, g.passes, g.spp, g.face_size, g.face_size, g.seed);
+  }
+  if (g.directions > 0) {
+    text += fmt::format("transport: {} directions a probe, surfels of {:.3g} m, {} link rays\n", g.directions,
+                        g.surfel_size, g.link_rays);
+  }
+  if (set.fitted) text += fmt::format("weights fitted at {} surface points\n", set.fitted->points.size());
   for (const gi::LightGroup& group : set.light_groups) {
     groups.push_back({{"name", group.name}, {"scale", rgb(group.scale)}});
     text += fmt::format("light group {}, scale {:g} {:g} {:g}\n", group.name, group.scale.x, group.scale.y,
@@ -104,7 +115,8 @@ void info(Context& context, const std::string& path) {
                          {"degree", set.degree},
                          {"generator", generator_json(g)},
                          {"light_groups", groups},
-                         {"edges", gi::edge_count(set)}};
+                         {"edges", gi::edge_count(set)},
+                         {"fitted", set.fitted ? set.fitted->points.size() : 0}};
   if (set.hierarchy) {
     const gi::Hierarchy& h = *set.hierarchy;
     object["hierarchy"] = {

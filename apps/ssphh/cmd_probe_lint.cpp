@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <ssphh/core/log.h>
 #include <ssphh/gi/lint.h>
 #include <ssphh/gi/place.h>
 #include <ssphh/gi/probe_file.h>
@@ -19,16 +18,15 @@ struct LintOptions {
   SceneOptions scene;
   std::string input;
   gi::LintParams params;
+  bool force = false;
 };
 
 void lint(Context& context, LintOptions& options) {
   const gi::ProbeSet set = gi::read_probe_file(options.input);
   const scene::Scene scene = load_scene(options.scene);
-  if (set.generator.scene_hash != scene::scene_hash(scene)) {
-    log_warning("{}: was not baked in this scene as it is now", options.input);
-  }
   options.params.interest = gi::place_params(scene, set.generator.time).interest;
   const trace::TransportScene source(scene);
+  require_same_scene(options.input, set, scene, source.light_groups(), {}, options.force);
   const std::vector<gi::LintProblem> problems = gi::lint_probes(set, source, options.params, context.control);
 
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -76,6 +74,7 @@ void add_probe_lint_command(CLI::App& group, Context& context) {
       ->add_option("--spacing", options->params.spacing,
                    "Distance of the places that must see a probe [m]; default: some 100 to 200 places")
       ->check(CLI::PositiveNumber);
+  add_force_option(*command, options->force);
   command->footer(
       "Reports probes that hold no number, lie inside a body, are too close to a surface, stand in the way "
       "of a\n"

@@ -7,12 +7,12 @@
 #include <ssphh/core/file.h>
 #include <ssphh/core/log.h>
 #include <ssphh/gi/lookup.h>
-#include <ssphh/gi/probe_file.h>
 #include <ssphh/image/io.h>
 #include <ssphh/image/tonemap.h>
 #include <ssphh/trace/path_tracer.h>
 
 #include "command.h"
+#include "probe_options.h"
 #include "scene_options.h"
 
 namespace ssphh::app {
@@ -20,12 +20,12 @@ namespace {
 
 struct RenderOptions {
   SceneOptions scene;
-  std::string output, png, method = "path", probes, lookup = "irradiance", light = "sum", camera,
+  std::string output, png, method = "path", probes, lookup = "irradiance", weights, light = "sum", camera,
                            projection = "camera", tonemap = "clip";
   std::vector<std::string> aovs;
   int width = 1280, height = 720, max_depth = 3, passes = 1, spp = 16;
   float exposure = 0;
-  bool resume = false;
+  bool resume = false, force = false;
 };
 
 const std::vector<std::string> aov_names = {"direct", "indirect", "albedo", "normal", "depth", "groups"};
@@ -110,19 +110,21 @@ void run_passes(const RenderOptions& o, trace::RenderState& state, const Render&
   std::filesystem::remove(checkpoint_path(o), ignored);
 }
 
-void render_path(const trace::PathTracer& tracer, const RenderOptions&, const trace::RenderParams& params,
-                 trace::RenderState& state, const Control& control) {
+void render_path(const trace::PathTracer& tracer, const scene::Scene&, const RenderOptions&,
+                 const trace::RenderParams& params, trace::RenderState& state, const Control& control) {
   tracer.render(params, state, control);
 }
 
-void render_ssphh(const trace::PathTracer& tracer, const RenderOptions& o, const trace::RenderParams& params,
-                  trace::RenderState& state, const Control& control) {
+void render_ssphh(const trace::PathTracer& tracer, const scene::Scene& scene, const RenderOptions& o,
+                  const trace::RenderParams& params, trace::RenderState& state, const Control& control) {
   if (o.probes.empty()) {
     throw Error("--probes", "method ssphh needs a probe file",
                 fmt::format("make one with `ssphh bake {} -o probes.sphl`", o.scene.source));
   }
   const gi::ProbeSet probes = gi::read_probe_file(o.probes);
+  require_same_scene(o.probes, probes, scene, tracer.light_groups(), o.scene.time, o.force);
   gi::LookupParams lookup;
+  if (!o.weights.empty()) lookup.weights.method = *gi::parse_weight_method(o.weights);
   if (o.light == "self") lookup.layer = gi::ProbeLayer::self;
   const auto method = o.lookup == "light" ? gi::LookupMethod::light : gi::LookupMethod::irradiance;
   const std::unique_ptr<scene::IndirectLight> indirect = gi::make_lookup(method, probes, tracer, lookup);
@@ -134,15 +136,15 @@ Hash128 content_hash(const RenderOptions& o, const scene::Scene& scene) {
   const Hash128 hash = scene::scene_hash(scene);
   Hasher hasher;
   hasher.value(hash.high).value(hash.low).text(o.method);
-  if (!o.probes.empty()) hasher.bytes(read_file(o.probes)).text(o.lookup).text(o.light);
+  if (!o.probes.empty()) hasher.bytes(read_file(o.probes)).text(o.lookup).text(o.weights).text(o.light);
   return hasher.finish();
 }
 
 struct Method {
   const char* name;
   const char* description;
-  void (*render)(const trace::PathTracer&, const RenderOptions&, const trace::RenderParams&,
-                 trace::RenderState&, const Control&);
+  void (*render)(const trace::PathTracer&, const scene::Scene&, const RenderOptions&,
+                 const trace::RenderParams&, trace::RenderState&, const Control&);
 };
 
 constexpr Method methods[] = {
@@ -159,6 +161,8 @@ const Method& find_method(const std::string& name) {
 }
 
 void render(const RenderOptions& o, const Context& context) {
+  if (!o.weights.empty() && o.lookup == "light")
+    throw Error("--weights", "blends probes, but --lookup light takes one alone", "leave out one of them");
   const scene::Scene scene = load_scene(o.scene);
   trace::RenderParams params = render_params(o, context, scene);
   const trace::PathTracer tracer(scene, o.scene.time);
@@ -178,7 +182,7 @@ void render(const RenderOptions& o, const Context& context) {
     log_info("resuming after {} passes", state.passes_done);
   }
   const auto start = std::chrono::steady_clock::now();
-  run_passes(o, state, [&] { method.render(tracer, o, params, state, context.control); });
+  run_passes(o, state, [&] { method.render(tracer, scene, o, params, state, context.control); });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
   const image::Image picture = trace::resolve(state.color, state.passes_done);
@@ -267,11 +271,19 @@ void add_render_command(CLI::App& app, Context& context) {
       ->capture_default_str()
       ->group(probes);
   command
+      ->add_option("--weights", o.weights,
+                   "How --lookup irradiance blends SPHLs: distance (nearest visible ones; the default), "
+                   "trilinear (probes on a grid), mls (moving least squares)")
+      ->check(CLI::IsMember({"distance", "trilinear", "mls"}))
+      ->group(probes);
+  command
       ->add_option("--light", o.light,
                    "sum: own and neighbours' light where HIER was run; self: own light only")
       ->check(CLI::IsMember({"sum", "self"}))
       ->capture_default_str()
       ->group(probes);
+
+  add_force_option(*command, o.force)->group(probes);
 
   const std::string output = "Output";
   command

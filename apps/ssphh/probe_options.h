@@ -1,11 +1,14 @@
 #pragma once
 /// Options that the commands around probe files share.
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include <ssphh/gi/probe_file.h>
+#include <ssphh/scene/scene.h>
 
 namespace ssphh::app {
 
@@ -21,5 +24,16 @@ inline CLI::Validator probe_file_name() {
           },
           ".sphl|.sphl.json"};
 }
+
+CLI::Option* add_force_option(CLI::App& command, bool& force);
+
+/// What tells the scene from the one in which the set was baked: name, content, light groups, and where
+/// something moves the time, if one is given. Empty: nothing.
+std::string scene_difference(const gi::ProbeSet& set, const scene::Scene& scene,
+                             const std::vector<std::string>& light_groups, std::optional<float> time);
+
+/// Throws an Error that names the differences; a warning with `force`.
+void require_same_scene(const std::string& file, const gi::ProbeSet& set, const scene::Scene& scene,
+                        const std::vector<std::string>& light_groups, std::optional<float> time, bool force);
 
 }  // namespace ssphh::app

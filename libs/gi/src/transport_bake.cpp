@@ -23,6 +23,8 @@ void describe_network(const TransportNetwork& network, ProbeSet& set, TransportB
   report.surfels = network.surfel_count();
   report.links = network.links().link_count();
   report.contraction = network.contraction().upper;
+  report.lost = static_cast<double>(network.lost_links()) /
+                (static_cast<double>(network.surfel_count()) * network.params().link_rays);
 }
 
 /// Share of what a probe sees that is the back of a one-sided surface.
@@ -37,22 +39,36 @@ float back_share(const ProbeGBuffer& seen, std::size_t probe) {
   return static_cast<float>(backs) / static_cast<float>(count);
 }
 
+/// One line, however many probes: "3 probes receive ...: "a", "b", "c"".
+void warn_of(const std::vector<std::string>& names, const char* problem, TransportBakeReport& report) {
+  if (names.empty()) return;
+  constexpr std::size_t most = 5;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+    list += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", names[i]);
+  report.warnings.push_back(
+      fmt::format("{} {}: {}{}", names.size(), problem, list, names.size() > most ? ", ..." : ""));
+}
+
 void check_light(const TransportNetwork& network, const ProbeSet& set, bool converged,
                  TransportBakeReport& report) {
+  std::vector<std::string> inside, dark;
   for (std::size_t i = 0; i < set.probes.size(); ++i) {
     const Probe& probe = set.probes[i];
-    const float inside = back_share(network.gbuffer(), i);
-    if (inside > 0.5f) {
-      report.warnings.push_back(
-          fmt::format("probe \"{}\" seems to lie inside a body: {:.0f} % of what it sees are back faces",
-                      probe.name, 100 * inside));
+    if (back_share(network.gbuffer(), i) > 0.5f) {
+      inside.push_back(probe.name);
     } else if (sh::mean(probe.self) == vec3(0)) {
-      report.warnings.push_back(fmt::format("probe \"{}\" receives no light at all", probe.name));
+      dark.push_back(probe.name);
     }
   }
-  if (network.lost_links() > 0) {
-    report.warnings.push_back(
-        fmt::format("{} links end where no surfel is: their light is lost", network.lost_links()));
+  warn_of(inside, "probes seem to lie inside a body (most of what they see are back faces)", report);
+  warn_of(dark, "probes receive no light at all", report);
+  constexpr double most_lost = 0.01;
+  if (report.lost > most_lost) {
+    report.warnings.push_back(fmt::format(
+        "{:.1f} % of the surfels' rays end where no surfel is: their light is lost; more --directions or "
+        "smaller surfels may find the places",
+        100 * report.lost));
   }
   if (!converged) {
     report.warnings.push_back(fmt::format(

@@ -201,6 +201,24 @@ TEST(Hier, ManyProbesOnManyThreadsEqualTheDenseReference) {
   }
 }
 
+TEST(Hier, ContractionOfTwoProbesIsTheGeometricMeanOfTheirResponses) {
+  // A = (0 a; b 0) has the eigenvalues +-sqrt(ab).
+  ProbeSet set = random_set(3, 2, 1);
+  set.probes[0].edges[0].h = sh::RadianceSh(1);
+  set.probes[0].edges[0].h[0] = vec3(0.1f, 0.3f, 0.2f) * static_cast<float>(root_4pi);
+  set.probes[1].edges[0].h = sh::RadianceSh(1);
+  set.probes[1].edges[0].h[0] = vec3(0.3f, 0.2f, 0.1f) * static_cast<float>(root_4pi);
+  const auto bounds = hier_contraction(set, {HierOperator::mean});
+  ASSERT_TRUE(bounds);
+  EXPECT_LE(bounds->lower, 0.3 + 1e-6);
+  EXPECT_NEAR(bounds->upper, 0.3, 1e-6);
+  // Without one of the edges nothing comes back, however often.
+  set.probes[1].edges.clear();
+  EXPECT_EQ(hier_contraction(set, {HierOperator::mean})->lower, 0);
+  EXPECT_FALSE(hier_contraction(set, {HierOperator::coefficient}));
+  EXPECT_FALSE(hier_contraction(set, {HierOperator::matrix}));
+}
+
 TEST(Relight, ScalingAGroupIsASumOverGroups) {
   ProbeSet set = random_set(2, 3, 2, 2);
   hier(set, {});

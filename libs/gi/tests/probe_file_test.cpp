@@ -25,6 +25,7 @@ ProbeSet full_set(int degree = 2) {
   set.probes[1].edges.erase(set.probes[1].edges.begin());
   set.probes[2].edges[0].matrix = {};
   hier(set, {HierOperator::mean, 2, 0.1f});
+  set.fitted = test::random_fitted(7, 9, 3);
   return set;
 }
 
@@ -78,6 +79,19 @@ TEST(ProbeFile, JsonRoundTripKeepsFiveDigitsAndIsThenIdempotent) {
   EXPECT_EQ(back.hierarchy->op, HierOperator::mean);
   EXPECT_EQ(back.hierarchy->neighbors, 2);
   EXPECT_EQ(back.hierarchy->threshold, 0.1f);
+  ASSERT_TRUE(back.fitted);
+  ASSERT_EQ(back.fitted->points.size(), 9u);
+  for (std::size_t p = 0; p < 9; ++p) {
+    EXPECT_EQ(back.fitted->points[p].position, set.fitted->points[p].position);
+    EXPECT_EQ(back.fitted->points[p].normal, set.fitted->points[p].normal);
+    ASSERT_EQ(back.fitted->weights[p].count, set.fitted->weights[p].count);
+    for (int k = 0; k < set.fitted->weights[p].count; ++k) {
+      const ProbeWeight a = set.fitted->weights[p].used()[static_cast<std::size_t>(k)];
+      const ProbeWeight b = back.fitted->weights[p].used()[static_cast<std::size_t>(k)];
+      EXPECT_EQ(b.probe, a.probe);
+      EXPECT_NEAR(b.weight, a.weight, 5.1e-5f * a.weight);
+    }
+  }
   EXPECT_EQ(back.probes[2].edges[0].matrix.values.size(), 0u);
   EXPECT_EQ(back.probes[2].edges[1].matrix.values.size(), 256u);
 }
@@ -269,6 +283,14 @@ TEST(ProbeFile, ASetThatBreaksTheRulesIsNotWritten) {
                   [](ProbeSet& s) { s.probes[0].edges[0].matrix.values.pop_back(); });
   expect_rejected("/hierarchy", [](ProbeSet& s) { s.hierarchy->neighbor.pop_back(); });
   expect_rejected("/light_groups/1/name", [](ProbeSet& s) { s.light_groups[1].name.resize(2000, 'x'); });
+  expect_rejected("/generator/directions", [](ProbeSet& s) { s.generator.directions = -1; });
+  expect_rejected("/generator/surfel_size", [&](ProbeSet& s) { s.generator.surfel_size = nan; });
+  expect_rejected("/fitted/5/probes", [](ProbeSet& s) { s.fitted->weights[5].entries[0].probe = 3; });
+  expect_rejected("/fitted/1/weights", [&](ProbeSet& s) { s.fitted->weights[1].entries[0].weight = nan; });
+  expect_rejected("/fitted/1/weights", [](ProbeSet& s) { s.fitted->weights[1].count = 17; });
+  expect_rejected("/fitted/2/position", [&](ProbeSet& s) { s.fitted->points[2].position.y = nan; });
+  expect_rejected("/fitted/2/normal", [](ProbeSet& s) { s.fitted->points[2].normal *= 1.1f; });
+  expect_rejected("/fitted", [](ProbeSet& s) { s.fitted->weights.pop_back(); });
   expect_rejected("/generator/spp", [](ProbeSet& s) { s.generator.spp = 0; });
 }
 

@@ -31,6 +31,8 @@ bool reader_accepts(const std::string& document) {
 json valid_document() {
   ProbeSet set = random_set(42, 2, 1, 2, true);
   hier(set, {HierOperator::mean, 2, 0.1f});
+  set.fitted = test::random_fitted(7, 3, 2);
+  std::swap(set.fitted->weights[0], set.fitted->weights[2]);  // the first point has two probes
   return json::parse(probes_to_json(set));
 }
 
@@ -51,13 +53,20 @@ TEST(ProbeSchema, SchemaAndReaderRejectTheSameMutations) {
   const json nine_numbers = json::array({0, 0, 0, 0, 0, 0, 0, 0, 0});
   const std::vector<Mutation> mutations = {
       {"/format", "probes"},
-      {"/version", 2},
-      {"/version", "1"},
+      {"/version", 1},
+      {"/version", 3},
+      {"/version", "2"},
       {"/degree", 11},
       {"/degree", -1},
       {"/degree", 1.5},
       {"/degree", 2},
       {"/generator", nullptr},
+      {"/generator/operator", "photons"},
+      {"/generator/operator", 0},
+      {"/generator/directions", -1},
+      {"/generator/directions", 0.5},
+      {"/generator/surfel_size", -0.1},
+      {"/generator/link_rays", 1e9},
       {"/generator/gen", "half"},
       {"/generator/max_depth", -1},
       {"/generator/passes", 0},
@@ -104,6 +113,19 @@ TEST(ProbeSchema, SchemaAndReaderRejectTheSameMutations) {
       {"/probes/0/edges/0/extra", 1},
       {"/probes/0/neighbor", nine_numbers},
       {"/probes/0/extra", 1},
+      {"/fitted", nullptr},
+      {"/fitted/0", 3},
+      {"/fitted/0/extra", 1},
+      {"/fitted/0/position/1", 1e10},
+      {"/fitted/0/position", json::array({1, 2})},
+      {"/fitted/0/normal/0", 3},
+      {"/fitted/0/normal", json::array()},
+      {"/fitted/0/probes/0", -1},
+      {"/fitted/0/probes/0", 0.5},
+      {"/fitted/0/probes", json(std::vector<int>(17, 0))},
+      {"/fitted/0/weights/0", -0.1},
+      {"/fitted/0/weights/0", 1e7},
+      {"/fitted/0/weights/0", "1"},
       {"/hierarchy", nullptr},
       {"/hierarchy/operator", "tensor"},
       {"/hierarchy/neighbors", -2},
@@ -143,8 +165,8 @@ TEST(ProbeSchema, SchemaAndReaderAgreeOnEveryMissingKey) {
     EXPECT_EQ(conforms, reader_accepts(without.dump())) << key;
     optional += conforms;
   }
-  EXPECT_EQ(optional, 1)
-      << "only an edge's matrix may be missing; a hierarchy needs the neighbours' parts and they it";
+  EXPECT_EQ(optional, 2) << "only an edge's matrix and fitted points may be missing; a hierarchy needs the "
+                            "neighbours' parts and they it";
 }
 
 TEST(ProbeSchema, SchemaAndReaderAcceptOtherSpellingsOfTheSame) {
@@ -162,6 +184,9 @@ TEST(ProbeSchema, RulesBeyondTheSchemaAreTheReadersAlone) {
       {"/probes/0/edges/0/from", 0},  // itself
       {"/probes/0/edges/0/from", 2},  // no such probe
       {"/light_groups", json::array()},
+      {"/fitted/0/probes/0", 2},               // no such probe
+      {"/fitted/0/probes", json::array({0})},  // two weights
+      {"/fitted/0/normal", json::array({1, 1, 0})},
       {"/probes/0/name", std::string(1024, 'x') + "\u00fc"},
   };
   for (const Mutation& mutation : mutations) {

@@ -11,6 +11,19 @@ inline sh::RadianceSh random_sh(Pcg32& rng, int degree, float scale = 1) {
   return f;
 }
 
+/// Points with 0, 1, 2 ... of the set's probes each.
+inline gi::FittedPoints random_fitted(std::uint64_t seed, int point_count, int probe_count) {
+  Pcg32 rng(seed);
+  gi::FittedPoints fitted;
+  for (int i = 0; i < point_count; ++i) {
+    fitted.points.push_back({10.0f * rng.uniform3(), glm::normalize(2.0f * rng.uniform3() - 1.0f)});
+    gi::ProbeWeights& weights = fitted.weights.emplace_back();
+    weights.count = i % (std::min(probe_count, gi::max_weights) + 1);
+    for (int k = 0; k < weights.count; ++k) weights.entries[static_cast<std::size_t>(k)] = {k, rng.uniform()};
+  }
+  return fitted;
+}
+
 /// A valid set with random light; every probe is a neighbour of every other.
 inline gi::ProbeSet random_set(std::uint64_t seed, int probe_count, int degree, int group_count = 2,
                                bool matrices = false) {
@@ -21,6 +34,10 @@ inline gi::ProbeSet random_set(std::uint64_t seed, int probe_count, int degree, 
   set.generator.scene_hash = {0x0123456789abcdefull, seed};
   set.generator.seed = ~seed;
   set.generator.time = 0.1f;
+  set.generator.op = gi::LightOperator::surfel;
+  set.generator.directions = 384;
+  set.generator.surfel_size = 0.3f;
+  set.generator.link_rays = 128;
   for (int g = 0; g < group_count; ++g)
     set.light_groups.push_back({"lamp " + std::to_string(g), rng.uniform3()});
   for (int i = 0; i < probe_count; ++i) {

@@ -20,6 +20,7 @@ struct TransportBakeReport {
   std::size_t surfels = 0, links = 0;
   int iterations = 0;      ///< of the light group that took most
   double contraction = 0;  ///< upper bound of the factor by which one bounce shrinks light
+  double lost = 0;         ///< share of the surfels' rays that end where no surfel is
   double seconds = 0;      ///< all but the fit
   double fit_seconds = 0;
   std::uint64_t rays = 0;
@@ -28,14 +29,14 @@ struct TransportBakeReport {
 
 /// Fills the set that INIT made with `surfel` transport, per light group, in the pose of its time; degree and
 /// places are the set's. What the set held of light, edges, hierarchy and fitted points is replaced. Warns
-/// about probes inside a body or without light, about light that was lost and about a solution that did not
-/// converge. Throws Error without probes and for parameters out of range.
+/// about probes inside a body or without light, about more than 1 % of light lost and about a solution that
+/// did not converge. Throws Error without probes and for parameters out of range.
 ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, const TransportBakeParams& params,
                         TransportBakeReport& report, const Control& control = {});
 
 /// Lookup weights for a set whose light something else found: builds a network in the pose of the set's time,
 /// fits at its surfels and notes its parameters in the set. Fills the report's surfels, links, contraction,
-/// fit_seconds and rays.
+/// lost, fit_seconds and rays.
 void fit_set(const scene::TransportSource& source, ProbeSet& set, const TransportBakeParams& params,
              TransportBakeReport& report, const Control& control = {});
 

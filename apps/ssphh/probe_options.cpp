@@ -1,0 +1,57 @@
+#include "probe_options.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <ssphh/core/log.h>
+#include <ssphh/scene/query.h>
+
+namespace ssphh::app {
+namespace {
+
+std::string names_text(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 6;
+  const std::size_t shown = std::min(names.size(), most);
+  const std::string list =
+      fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
+  return fmt::format("{} ({}{})", names.size(), list, shown < names.size() ? ", ..." : "");
+}
+
+}  // namespace
+
+CLI::Option* add_force_option(CLI::App& command, bool& force) {
+  return command.add_flag("--force", force,
+                          "Go on with a warning where the probes were baked in another scene or pose");
+}
+
+std::string scene_difference(const gi::ProbeSet& set, const scene::Scene& scene,
+                             const std::vector<std::string>& light_groups, std::optional<float> time) {
+  const gi::GeneratorInfo& g = set.generator;
+  std::string text;
+  const auto say = [&](const std::string& difference) { text += (text.empty() ? "" : "; ") + difference; };
+  const Hash128 now = scene::light_hash(scene);
+  if (g.scene_hash != now) {
+    if (g.scene != scene.name) say(fmt::format("scene \"{}\", now \"{}\"", g.scene, scene.name));
+    say(fmt::format("geometry, materials or lights (hash {:.8}, now {:.8})", g.scene_hash.hex(), now.hex()));
+    std::vector<std::string> baked;
+    for (const gi::LightGroup& group : set.light_groups) baked.push_back(group.name);
+    if (baked != light_groups)
+      say(fmt::format("light groups: {}, now {}", names_text(baked), names_text(light_groups)));
+  }
+  if (time && *time != g.time && scene::animation_duration(scene) > 0)
+    say(fmt::format("time {:g} s, now {:g} s", g.time, *time));
+  return text;
+}
+
+void require_same_scene(const std::string& file, const gi::ProbeSet& set, const scene::Scene& scene,
+                        const std::vector<std::string>& light_groups, std::optional<float> time, bool force) {
+  const std::string difference = scene_difference(set, scene, light_groups, time);
+  if (difference.empty()) return;
+  const std::string problem = "was baked in another scene or pose: " + difference;
+  if (!force) throw Error(file, problem, "bake it anew, give the options of its bake, or go on with --force");
+  log_warning("{}: {}", file, problem);
+}
+
+}  // namespace ssphh::app

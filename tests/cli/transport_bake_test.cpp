@@ -1,0 +1,175 @@
+// `bake --operator surfel` and what reads its probes: options that stand in each other's way, scenes that
+// differ.
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "temp_dir.h"
+#include "tool.h"
+
+namespace ssphh {
+namespace {
+
+using nlohmann::json;
+using test::run_tool;
+using test::TempDir;
+using test::ToolResult;
+using testing::AllOf;
+using testing::HasSubstr;
+
+json run_json(std::vector<std::string> arguments) {
+  arguments.emplace_back("--json");
+  const ToolResult result = run_tool(arguments);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  json object = json::parse(result.out, nullptr, false);
+  return object.is_object() ? object : json::object();
+}
+
+void expect_failure(const std::vector<std::string>& arguments, const std::string& message,
+                    int exit_code = 1) {
+  const ToolResult result = run_tool(arguments);
+  EXPECT_EQ(result.exit_code, exit_code) << testing::PrintToString(arguments) << "\n" << result.err;
+  EXPECT_THAT(result.err + result.out, HasSubstr(message)) << testing::PrintToString(arguments);
+}
+
+std::vector<std::string> small_bake(const std::string& scene, const std::string& output,
+                                    const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {"bake",         scene, "-o",          output, "--operator", "surfel",
+                                        "--directions", "64",  "--link-rays", "16",   "--degree",   "2"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+std::vector<std::string> small_render(const std::string& scene, const std::string& probes,
+                                      const std::string& output, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {"render",   scene,     "--probes", probes,     "-o",
+                                        output,     "--width", "16",       "--height", "9",
+                                        "--method", "ssphh",   "--spp",    "1"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(TransportBakeCli, TellsOfTheOperatorInResultAndFile) {
+  const TempDir dir;
+  const std::string probes = dir / "a.sphl.json", binary = dir / "a.sphl";
+  const json bake = run_json(small_bake("builtin:box", probes, {"--surfel-size", "0.25", "--fit"}));
+  EXPECT_EQ(bake["operator"], "surfel");
+  EXPECT_GT(bake["surfels"], 100);
+  EXPECT_GT(bake["links"], bake["surfels"]);
+  EXPECT_GT(bake["iterations"], 1);
+  EXPECT_NEAR(bake["contraction"].get<double>(), 0.5, 0.01) << "the albedo of the closed box";
+  EXPECT_EQ(bake["edges"], 0);
+  EXPECT_EQ(bake["viz"], false);
+  EXPECT_GT(bake["fitted"], 100);
+
+  run_json({"probe", "convert", probes, "-o", binary});
+  const json info = run_json({"probe", "info", binary});
+  EXPECT_EQ(info["generator"]["operator"], "surfel");
+  EXPECT_EQ(info["generator"]["directions"], 64);
+  EXPECT_EQ(info["generator"]["surfel_size"], 0.25);
+  EXPECT_EQ(info["generator"]["link_rays"], 16);
+  EXPECT_EQ(info["fitted"], bake["fitted"]);
+  EXPECT_EQ(info["probes"].size(), 5u);
+}
+
+TEST(TransportBakeCli, PathTracedProbesHaveNoNumbersOfTransport) {
+  const TempDir dir;
+  const json bake = run_json({"bake", "builtin:box", "-o", dir / "a.sphl", "--face", "4", "--spp", "1"});
+  EXPECT_EQ(bake["operator"], "path");
+  for (const char* key : {"surfels", "links", "iterations", "contraction"})
+    EXPECT_TRUE(bake.at(key).is_null()) << key;
+  const json mean = run_json({"hier", dir / "a.sphl", "-o", dir / "b.sphl", "--operator", "mean"});
+  EXPECT_GT(mean["contraction"], 0);
+  const json paper = run_json({"hier", dir / "a.sphl", "-o", dir / "b.sphl"});
+  EXPECT_TRUE(paper.at("contraction").is_null());
+}
+
+TEST(TransportBakeCli, VizCanStandBeside) {
+  const TempDir dir;
+  const json bake =
+      run_json(small_bake("builtin:box", dir / "a.sphl", {"--viz", "on", "--face", "4", "--spp", "1"}));
+  EXPECT_EQ(bake["operator"], "surfel");
+  EXPECT_GT(bake["edges"], 0);
+  EXPECT_EQ(run_json({"hier", dir / "a.sphl", "-o", dir / "b.sphl"})["edges"], bake["edges"]);
+}
+
+TEST(TransportBakeCli, OptionsWithoutEffectAreRefused) {
+  const TempDir dir;
+  const std::string out = dir / "a.sphl";
+  expect_failure(small_bake("builtin:box", out, {"--spp", "4"}), "--spp");
+  expect_failure(small_bake("builtin:box", out, {"--gen", "local"}), "--gen local");
+  expect_failure({"bake", "builtin:box", "-o", out, "--directions", "64"}, "--directions");
+  expect_failure({"bake", "builtin:box", "-o", out, "--operator", "photons"}, "photons", 2);
+  expect_failure(small_bake("builtin:box", out, {"--link-rays", "0"}), "--link-rays", 2);
+}
+
+TEST(TransportBakeCli, EveryWeightLightsTheBoxAlike) {
+  // A constant field shows no difference between blends whose weights add up to 1.
+  const TempDir dir;
+  const std::string probes = dir / "a.sphl";
+  run_json(small_bake("builtin:box", probes));
+  std::vector<double> means;
+  for (const char* weights : {"distance", "trilinear", "mls"}) {
+    const json render = run_json(
+        small_render("builtin:box", probes, dir / "x.exr", {"--weights", weights, "--passes", "16"}));
+    means.push_back(render["mean"][1].get<double>());
+  }
+  // Emission 1 and the series 1/2 + 1/4 + ... = 1, to the noise of 64 directions and 16 link rays.
+  EXPECT_NEAR(means[0], 2, 0.1);
+  EXPECT_NEAR(means[1], means[0], 0.02);
+  EXPECT_NEAR(means[2], means[0], 0.05);
+  expect_failure(small_render("builtin:box", probes, dir / "x.exr", {"--weights", "nearest"}), "nearest", 2);
+  expect_failure(
+      small_render("builtin:box", probes, dir / "x.exr", {"--weights", "mls", "--lookup", "light"}),
+      "--weights");
+}
+
+TEST(SameScene, AnotherSceneIsAnErrorThatNamesTheDifferencesAndForceGoesOn) {
+  const TempDir dir;
+  const std::string probes = dir / "a.sphl", out = dir / "x.exr";
+  run_json(small_bake("builtin:box", probes));
+  const std::vector<std::string> other = small_render("builtin:gallery1", probes, out);
+  const ToolResult refused = run_tool(other);
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("a.sphl"), HasSubstr("\"box\", now \"gallery1\""),
+                                 HasSubstr("hash"), HasSubstr("light groups: 1"), HasSubstr("--force")));
+  EXPECT_FALSE(std::filesystem::exists(out));
+  const ToolResult forced = run_tool(small_render("builtin:gallery1", probes, out, {"--force"}));
+  EXPECT_EQ(forced.exit_code, 0) << forced.err;
+  EXPECT_THAT(forced.err, AllOf(HasSubstr("warning"), HasSubstr("gallery1")));
+
+  expect_failure({"probe", "lint", probes, "--scene", "builtin:gallery1"}, "another scene");
+  EXPECT_THAT(run_tool({"probe", "lint", probes, "--scene", "builtin:gallery1", "--force"}).err,
+              HasSubstr("another scene"));
+}
+
+TEST(SameScene, AnotherPoseIsADifferenceOnlyWhereSomethingMoves) {
+  const TempDir dir;
+  const std::string still = dir / "box.sphl", moving = dir / "rooms.sphl", out = dir / "x.exr";
+  run_json(small_bake("builtin:box", still));
+  EXPECT_EQ(run_tool(small_render("builtin:box", still, out, {"--time", "1"})).exit_code, 0);
+  run_json(small_bake("builtin:two-rooms", moving, {"--time", "0.5"}));
+  expect_failure(small_render("builtin:two-rooms", moving, out), "time 0.5 s, now 0 s");
+  EXPECT_EQ(run_tool(small_render("builtin:two-rooms", moving, out, {"--time", "0.5"})).exit_code, 0);
+}
+
+TEST(SameScene, NewCamerasAndProbesAreNoDifferenceANewLampIs) {
+  const TempDir dir;
+  const std::string probes = dir / "a.sphl", overlay = dir / "o.json", out = dir / "x.exr";
+  run_json(small_bake("builtin:cornell", probes));
+  std::ofstream(overlay)
+      << R"({"cameras": [{"name": "new", "position": [0.2, 0.3, 0.5], "look_at": [0, 0.2, 0]}],
+                                "sphls": [{"name": "more", "position": [0.2, 0.3, 0.2]}]})";
+  EXPECT_EQ(run_tool(small_render("builtin:cornell", probes, out, {"--overlay", overlay, "--camera", "new"}))
+                .exit_code,
+            0);
+  std::ofstream(overlay)
+      << R"({"lights": [{"name": "torch", "type": "point", "position": [0.2, 0.4, 0.2], "intensity": 1}]})";
+  expect_failure(small_render("builtin:cornell", probes, out, {"--overlay", overlay}), "torch");
+}
+
+}  // namespace
+}  // namespace ssphh

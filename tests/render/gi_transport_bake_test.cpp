@@ -1,0 +1,191 @@
+/// Sets whose light surfel transport found, through Embree, against closed forms and against the session.
+
+#include <gmock/gmock.h>
+
+#include <ssphh/core/log.h>
+#include <ssphh/core/parallel.h>
+#include <ssphh/gi/bake.h>
+#include <ssphh/gi/init.h>
+#include <ssphh/gi/probe_file.h>
+#include <ssphh/gi/transport_bake.h>
+#include <ssphh/scene/builtin.h>
+#include <ssphh/sh/irradiance.h>
+#include <ssphh/trace/path_tracer.h>
+#include <ssphh/trace/transport_scene.h>
+
+namespace ssphh {
+namespace {
+
+/// The room behind the shut door is dark, which is no news here.
+void silence_warnings() {
+  set_log_level(LogLevel::error);
+}
+
+struct Baked {
+  gi::ProbeSet set;
+  gi::TransportBakeReport report;
+};
+
+Baked bake(const scene::Scene& scene, int degree, const gi::TransportBakeParams& params = {}) {
+  const trace::TransportScene source(scene);
+  Baked baked;
+  baked.set = gi::bake_transport(source, gi::init_from_scene(scene, degree), params, baked.report);
+  return baked;
+}
+
+TEST(GiTransportBake, TheClosedBoxHoldsTheWholeGeometricSeries) {
+  // Emission 1 and albedo 1/2 everywhere: 1 is seen directly, 1/2 + 1/4 + ... = 1 is reflected.
+  gi::TransportBakeParams params;
+  params.solve.tolerance = 1e-5f;
+  const Baked baked = bake(scene::make_builtin("box"), 3, params);
+  for (const gi::Probe& probe : baked.set.probes) {
+    ASSERT_EQ(probe.groups.size(), 1u);
+    EXPECT_NEAR(double(sh::mean(probe.groups[0].emitted).y), 1, 2e-3);  // emissions are kept to 1 in 512
+    // Rows of links add up to 1 to float's precision; direct light of an emissive mesh is an estimate.
+    EXPECT_NEAR(double(sh::mean(probe.groups[0].reflected).y), 1, 1e-2) << probe.name;
+    // A constant has no other band; 384 directions find that to a share of their spacing.
+    for (std::size_t k = 1; k < probe.self.values.size(); ++k)
+      EXPECT_NEAR(double(probe.self.values[k].y), 0, 0.02 * double(probe.self.values[0].y)) << k;
+  }
+  EXPECT_NEAR(baked.report.contraction, 0.5, 1e-3) << "one bounce keeps the albedo's share";
+  EXPECT_GT(baked.report.iterations, 2);
+  EXPECT_GT(baked.report.surfels, 100u);
+  EXPECT_GT(baked.report.rays, 384u * baked.set.probes.size());
+  EXPECT_THAT(baked.report.warnings, testing::IsEmpty());
+}
+
+TEST(GiTransportBake, TheSetTellsHowItWasMade) {
+  gi::TransportBakeParams params;
+  params.transport.directions = 200;
+  params.transport.link_rays = 32;
+  const scene::Scene scene = scene::make_builtin("box");
+  const gi::GeneratorInfo g = bake(scene, 2, params).set.generator;
+  EXPECT_EQ(g.op, gi::LightOperator::surfel);
+  EXPECT_EQ(g.directions, 200);
+  EXPECT_EQ(g.link_rays, 32);
+  EXPECT_GT(g.surfel_size, 0) << "as resolved, not 0 for automatic";
+  EXPECT_EQ(g.scene_hash, scene::light_hash(scene));
+}
+
+TEST(GiTransportBake, GroupsAddUpToTheLightOfAll) {
+  const scene::Scene scene = scene::make_builtin("gallery1");
+  gi::TransportBakeParams params;
+  params.transport.link_rays = 32;
+  params.solve.tolerance = 1e-5f;
+  const gi::ProbeSet set = bake(scene, 2, params).set;
+  ASSERT_GT(set.light_groups.size(), 1u);
+
+  const trace::TransportScene source(scene);
+  std::vector<gi::ProbePlace> places;
+  for (const gi::Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
+  gi::RelightParams relight{params.transport, params.solve};
+  relight.degree = 2;
+  gi::RelightSession session(source, places, relight);
+  session.update();
+  for (std::size_t i = 0; i < set.probes.size(); ++i) {
+    const sh::RadianceSh emitted = session.emitted(static_cast<int>(i));
+    const double level = double(set.probes[i].self.values[0].y);
+    for (std::size_t k = 0; k < emitted.values.size(); ++k) {
+      // Each solution is right to the tolerance, divided by 1 - contraction.
+      EXPECT_NEAR(double(set.probes[i].reflected.values[k].y), double(session.reflected()[i].values[k].y),
+                  1e-3 * level);
+      EXPECT_NEAR(double(set.probes[i].self.values[k].y),
+                  double((session.reflected()[i].values[k] + emitted.values[k]).y), 1e-3 * level);
+    }
+  }
+}
+
+TEST(GiTransportBake, FittedPointsAreThoseOfANetworkOfTheSameParameters) {
+  const scene::Scene scene = scene::make_builtin("box");
+  gi::TransportBakeParams params;
+  params.fit = true;
+  params.fit_params.probes = 3;
+  const gi::ProbeSet set = bake(scene, 2, params).set;
+  ASSERT_TRUE(set.fitted);
+
+  const trace::TransportScene source(scene);
+  std::vector<vec3> positions;
+  for (const gi::Probe& probe : set.probes) positions.push_back(probe.position);
+  gi::TransportParams same;
+  same.directions = set.generator.directions;
+  same.surfel_size = set.generator.surfel_size;
+  same.link_rays = set.generator.link_rays;
+  const gi::TransportNetwork network(source, positions, same);
+  EXPECT_EQ(*set.fitted, gi::fit_weights(network, source, gi::surfel_points(network), params.fit_params));
+  int most = 0;
+  for (const gi::ProbeWeights& weights : set.fitted->weights) most = std::max(most, weights.count);
+  EXPECT_EQ(most, 3);
+}
+
+TEST(GiTransportBake, WeightsFitBesidePathTracedLight) {
+  const scene::Scene scene = scene::make_builtin("box");
+  const trace::TransportScene source(scene);
+  gi::ProbeSet set = gi::init_from_scene(scene, 1);
+  gi::TransportBakeReport report;
+  gi::fit_set(source, set, {}, report);
+  ASSERT_TRUE(set.fitted);
+  EXPECT_EQ(set.generator.op, gi::LightOperator::path);
+  EXPECT_GT(set.generator.directions, 0);
+  gi::BakeParams paths;
+  paths.face_size = 4;
+  paths.path.spp = 1;
+  paths.viz = false;
+  gi::BakeReport path_report;
+  const trace::PathTracer tracer(scene);
+  const gi::ProbeSet baked = gi::bake(tracer, set, paths, {}, path_report);
+  EXPECT_EQ(baked.fitted, set.fitted);
+}
+
+TEST(GiTransportBake, VizStandsBesideTheLightAndKeepsIt) {
+  const scene::Scene scene = scene::make_builtin("box");
+  const gi::ProbeSet lit = bake(scene, 2).set;
+  gi::BakeParams viz;
+  viz.keep_light = true;
+  viz.face_size = 4;
+  viz.path.spp = 2;
+  gi::BakeReport report;
+  const trace::PathTracer tracer(scene);
+  gi::ProbeSet both = gi::bake(tracer, lit, viz, {}, report);
+  EXPECT_GT(gi::edge_count(both), 0u);
+  EXPECT_EQ(both.generator.op, gi::LightOperator::surfel);
+  for (std::size_t i = 0; i < both.probes.size(); ++i) EXPECT_EQ(both.probes[i].groups, lit.probes[i].groups);
+
+  gi::ProbeSet other = lit;
+  other.light_groups[0].name = "another lamp";
+  EXPECT_THROW(gi::bake(tracer, other, viz, {}, report), Error);
+}
+
+TEST(GiTransportBake, WhatIsWrongIsNamed) {
+  const scene::Scene scene = scene::make_builtin("box");
+  silence_warnings();
+  const trace::TransportScene source(scene);
+  gi::TransportBakeReport report;
+  EXPECT_THROW(gi::bake_transport(source, {}, {}, report), Error);
+  gi::TransportBakeParams params;
+  params.transport.directions = 0;
+  EXPECT_THROW(gi::bake_transport(source, gi::init_from_scene(scene, 1), params, report), Error);
+
+  const scene::Scene cornell = scene::make_builtin("cornell");
+  gi::ProbeSet buried = gi::init_from_scene(cornell, 1);
+  buried.probes[1].position = {0.33f, 0.2f, 0.3f};  // in the shorter block
+  buried.probes[1].name = "buried";
+  gi::bake_transport(trace::TransportScene(cornell), buried, {}, report);
+  EXPECT_THAT(report.warnings, testing::Contains(testing::AllOf(testing::HasSubstr("inside a body"),
+                                                                testing::HasSubstr("\"buried\""))));
+}
+
+TEST(GiTransportBake, TheNumberOfThreadsChangesNoBit) {
+  silence_warnings();
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  gi::TransportBakeParams params;
+  params.transport.link_rays = 16;
+  params.transport.surfel_size = 0.5f;
+  params.fit = true;
+  set_thread_count(1);
+  const auto one = gi::probes_to_binary(bake(scene, 3, params).set);
+  set_thread_count(0);
+  EXPECT_EQ(gi::probes_to_binary(bake(scene, 3, params).set), one);
+}
+
+}  // namespace
+}  // namespace ssphh
