@@ -13,7 +13,7 @@ struct Truth {
   float mean, deviation;
 };
 
-class TruthSource final : public test::FakeSource {
+class TruthSource final : public scene::RadianceSource {
  public:
   std::function<Truth(const vec3& position, const scene::PathParams& path)> truth;
   mutable std::vector<scene::PathParams> asked;
@@ -29,6 +29,22 @@ class TruthSource final : public test::FakeSource {
     }
     return estimates;
   }
+
+  // What leak has no use for.
+  const std::vector<std::string>& light_groups() const override { return none_; }
+  std::vector<scene::GroupRadiance> incident_radiance(const scene::CubeRequest&,
+                                                      const Control&) const override {
+    return {};
+  }
+  std::vector<image::CubeMap> ghost_radiance(const scene::CubeRequest&, std::span<const scene::GhostSphere>,
+                                             const GhostSink&, const Control&) const override {
+    return {};
+  }
+  bool visible(const vec3&, const vec3&) const override { return true; }
+  std::uint64_t rays_traced() const override { return 0; }
+
+ private:
+  std::vector<std::string> none_;
 };
 
 /// Irradiance by place.
