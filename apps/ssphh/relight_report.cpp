@@ -84,6 +84,8 @@ Json relight_json(const RelightRun& run) {
                       {"seconds", e.frame / run.fps},
                       {"ratio", number(e.error.ratio)},
                       {"mean_relative", e.error.mean_relative},
+                      {"median_relative", e.error.median_relative},
+                      {"p95_relative", e.error.p95_relative},
                       {"noise", e.error.noise},
                       {"relmse", e.error.relmse},
                       {"mean_truth", e.error.mean_truth},
@@ -129,8 +131,9 @@ std::string relight_text(const RelightRun& run) {
     text += fmt::format("\n\n{:>5}{:>9}{:>9}{:>12}{:>9}{:>10}", "frame", "seconds", "ratio", "mean rel.",
                         "noise", "relMSE");
     for (const FrameError& e : run.errors) {
-      text += fmt::format("\n{:>5}{:>9.2f}{:>9.3f}{:>12.3f}{:>9.3f}{:>10.4f}", e.frame, e.frame / run.fps,
-                          e.error.ratio, e.error.mean_relative, e.error.noise, e.error.relmse);
+      text += fmt::format("\n{:>5}{:>9.2f}{:>9.3f}{:>11.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>10.4f}", e.frame,
+                          e.frame / run.fps, e.error.ratio, e.error.mean_relative, e.error.median_relative,
+                          e.error.p95_relative, e.error.noise, e.error.relmse);
     }
   }
   if (run.cancelled) {

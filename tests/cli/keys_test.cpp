@@ -52,7 +52,9 @@ TEST(Keys, EveryCommandHasHelp) {
                                                                                        {"sh", "convert"},
                                                                                        {"cubemap"},
                                                                                        {"cubemap", "convert"},
-                                                                                       {"compare"}}) {
+                                                                                       {"compare"},
+                                                                                       {"leak"},
+                                                                                       {"relight"}}) {
     std::vector<std::string> arguments = command;
     arguments.emplace_back("--help");
     const ToolResult result = run_tool(arguments);

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <ssphh/gi/lookup_error.h>
 
@@ -24,13 +26,21 @@ LookupError lookup_error(std::span<const vec3> looked_up, std::span<const scene:
   error.mean_truth = truth_sum / count;
   error.ratio = sum / truth_sum;
   const double floor = relative_floor * error.mean_truth;
+  std::vector<double> relative;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const double t = true_luminance(truth[i]), d = static_cast<double>(luminance(looked_up[i])) - t;
     const double deviation = true_deviation(truth[i]), by = t + floor;
-    error.mean_relative += std::abs(d) / by / count;
+    relative.push_back(std::abs(d) / by);
+    error.mean_relative += relative.back() / count;
     error.noise += std::sqrt(2 / pi_d) * deviation / by / count;
     error.relmse += (d * d - deviation * deviation) / (by * by) / count;
   }
+  std::sort(relative.begin(), relative.end());
+  const auto rank = [&](double share) {
+    return relative[static_cast<std::size_t>(std::ceil(share * count)) - 1];
+  };
+  error.median_relative = rank(0.5);
+  error.p95_relative = rank(0.95);
   return error;
 }
 

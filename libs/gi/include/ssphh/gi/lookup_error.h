@@ -14,6 +14,7 @@ struct LookupError {
   double mean_truth = 0;     ///< [W/m²]
   double ratio = 0;          ///< Σ e / Σ t; NaN where the truth is dark everywhere
   double mean_relative = 0;  ///< mean of |e − t| / (t + ε); holds the truth's own noise
+  double median_relative = 0, p95_relative = 0;  ///< of the same: half and 95 % of the points are better
   double noise = 0;  ///< what mean_relative would be for e without error: √(2/π) mean of √v / (t + ε)
   double relmse = 0;  ///< mean of ((e − t)² − v) / (t + ε)²: the noise is subtracted; may come out below 0
 };
