@@ -48,6 +48,7 @@ void resolve(BakeOptions& o, std::size_t probes) {
   if (!path && o.gen != "full")
     throw Error("--gen " + o.gen, "is of --operator path; the light of surfels has every bounce");
   params.keep_light = !path;
+  if (!path) o.transport.op = *gi::parse_light_operator(o.op);
   params.viz =
       o.viz == "on" || params.viz_transfer || (o.viz.empty() && path && probes <= most_probes_for_viz);
   if (path && !params.viz && o.viz.empty()) {
@@ -55,7 +56,8 @@ void resolve(BakeOptions& o, std::size_t probes) {
              most_probes_for_viz);
   }
   if (!path && !params.viz) refuse(o.of_paths, "is of path tracing: use --operator path or --viz on");
-  if (path && !o.transport.fit) refuse(o.of_transport, "is of transport: use --operator surfel or --fit");
+  if (path && !o.transport.fit)
+    refuse(o.of_transport, "is of transport: use --operator surfel, bounce or --fit");
 }
 
 struct BakeResult {
@@ -205,7 +207,7 @@ void add_path_options(CLI::App& command, BakeOptions& options) {
 }
 
 void add_transport_options(CLI::App& command, BakeOptions& options) {
-  const std::string group = "Transport: --operator surfel, --fit";
+  const std::string group = "Transport: --operator surfel|bounce, --fit";
   gi::TransportParams& params = options.transport.transport;
   const auto transport = [&](CLI::Option* option) {
     options.of_transport.push_back(option->capture_default_str()->group(group));
@@ -249,8 +251,8 @@ void add_bake_command(CLI::App& app, Context& context) {
           "--operator", options->op,
           "What finds the probes' light: path (GEN: path tracing, up to --max-depth bounces), surfel "
           "(transport between patches of surface: every bounce, no noise, seconds; surfaces reflect "
-          "diffusely)")
-      ->check(CLI::IsMember({"path", "surfel"}))
+          "diffusely), bounce (the same with the probes as the only unknowns)")
+      ->check(CLI::IsMember({"path", "surfel", "bounce"}))
       ->capture_default_str();
   add_path_options(*command, *options);
   add_transport_options(*command, *options);

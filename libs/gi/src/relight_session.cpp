@@ -252,26 +252,35 @@ sh::RadianceSh RelightSession::emitted(int probe) const {
   return sum;
 }
 
+std::vector<std::vector<Irradiance4>> RelightSession::direct_by_group() const {
+  const Data& d = *data_;
+  std::vector<std::vector<Irradiance4>> result(d.group_scale.size());
+  for (std::size_t g = 0; g < result.size(); ++g) {
+    std::vector<vec3> scales(result.size(), vec3(0));
+    scales[g] = vec3(1);
+    d.field.sum(scales, {}, result[g]);
+  }
+  return result;
+}
+
 std::vector<std::vector<sh::RadianceSh>> RelightSession::reflected_by_group(const Control& control,
                                                                             SolveReport* slowest) const {
   const Data& d = *data_;
   SolveReport most;
-  const std::size_t groups = d.group_scale.size();
+  const std::vector<std::vector<Irradiance4>> direct = direct_by_group();
+  const std::size_t groups = direct.size();
   std::vector<std::vector<sh::RadianceSh>> result(groups);
   ProgressStage progress(control, "solving", groups, "light groups");
   for (std::size_t g = 0; g < groups; ++g) {
     control.check();
-    std::vector<vec3> scales(groups, vec3(0));
-    scales[g] = vec3(1);
-    std::vector<Irradiance4> direct, indirect;
-    d.field.sum(scales, {}, direct);
+    std::vector<Irradiance4> indirect;
     Solver solver;
-    const SolveReport solve = solver.solve(d.network.links(), d.network.albedo(), direct,
+    const SolveReport solve = solver.solve(d.network.links(), d.network.albedo(), direct[g],
                                            d.network.contraction().upper, d.params.solve, indirect);
     const bool converged = most.converged && solve.converged;
     if (solve.iterations > most.iterations) most = solve;
     most.converged = converged;
-    project_reflected(d.network, d.projector, total(direct, indirect), result[g]);
+    project_reflected(d.network, d.projector, total(direct[g], indirect), result[g]);
     progress.advance(1);
   }
   if (slowest) *slowest = most;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/error.h>
 #include <ssphh/core/log.h>
 #include <ssphh/gi/probe_file.h>
 #include <ssphh/gi/transport_bake.h>
@@ -83,6 +84,22 @@ void fit(const TransportNetwork& network, const scene::TransportSource& source, 
   report.fit_seconds += seconds_since(start);
 }
 
+/// Each group's light with the probes as the only unknowns.
+std::vector<std::vector<sh::RadianceSh>> bounce_by_group(const RelightSession& session,
+                                                         const scene::TransportSource& source,
+                                                         const TransportBakeParams& params, int degree,
+                                                         TransportBakeReport& report, bool& converged) {
+  const BounceOperator bounce(session.network(), source, degree, params.bounce);
+  std::vector<std::vector<sh::RadianceSh>> reflected;
+  for (const std::vector<Irradiance4>& direct : session.direct_by_group()) {
+    const BounceReport done = bounce.solve(direct, reflected.emplace_back());
+    report.iterations = std::max(report.iterations, done.iterations);
+    report.contraction = std::max(report.contraction, done.contraction);
+    converged = converged && done.converged;
+  }
+  return reflected;
+}
+
 void require_probes(const ProbeSet& set) {
   if (set.probes.empty())
     throw Error("bake", "there are no probes to bake", "run INIT on a scene with SPHLs");
@@ -93,6 +110,7 @@ void require_probes(const ProbeSet& set) {
 ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, const TransportBakeParams& params,
                         TransportBakeReport& report, const Control& control) {
   require_probes(set);
+  SSPHH_CHECK(params.op != LightOperator::path);
   report = {};
   const std::uint64_t rays_before = source.rays_traced();
   const auto start = Clock::now();
@@ -104,11 +122,22 @@ ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, cons
   relight_params.degree = set.degree;
   RelightSession session(source, std::move(places), relight_params, set.generator.time, control);
   session.update();
-  SolveReport slowest;
-  std::vector<std::vector<sh::RadianceSh>> reflected = session.reflected_by_group(control, &slowest);
+  const TransportNetwork& network = session.network();
+  describe_network(network, set, report);
+  bool converged = true;
+  std::vector<std::vector<sh::RadianceSh>> reflected;
+  if (params.op == LightOperator::bounce) {
+    report.contraction = 0;
+    reflected = bounce_by_group(session, source, params, set.degree, report, converged);
+  } else {
+    SolveReport slowest;
+    reflected = session.reflected_by_group(control, &slowest);
+    report.iterations = slowest.iterations;
+    converged = slowest.converged;
+  }
   std::vector<std::vector<sh::RadianceSh>> emitted = session.emitted_by_group();
 
-  set.generator.op = LightOperator::surfel;
+  set.generator.op = params.op;
   set.generator.gen = GenMode::full;
   set.hierarchy.reset();
   set.fitted.reset();
@@ -127,13 +156,10 @@ ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, cons
   }
   merge_groups(set);
 
-  const TransportNetwork& network = session.network();
-  describe_network(network, set, report);
-  report.iterations = slowest.iterations;
   report.seconds = seconds_since(start);
   if (params.fit) fit(network, source, set, params.fit_params, report, control);
   report.rays = source.rays_traced() - rays_before;
-  check_light(network, set, slowest.converged, report);
+  check_light(network, set, converged, report);
   validate(set, "bake");
   for (const std::string& warning : report.warnings) log_warning("{}", warning);
   return set;

@@ -75,6 +75,8 @@ class RelightSession {
   const std::vector<sh::RadianceSh>& reflected() const;
   /// Emitters that probe i sees directly; S_full = reflected + emitted. Found when asked for.
   sh::RadianceSh emitted(int probe) const;
+  /// Direct irradiance at each surfel per group, unscaled.
+  std::vector<std::vector<Irradiance4>> direct_by_group() const;
   /// Per group, unscaled: a session's light as a bake stores it. Solves anew for each group; `slowest` tells
   /// of the one that took most iterations, converged if all did.
   std::vector<std::vector<sh::RadianceSh>> reflected_by_group(const Control& control = {},

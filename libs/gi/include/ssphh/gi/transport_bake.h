@@ -5,10 +5,13 @@
 #include <ssphh/gi/fitted_weights.h>
 #include <ssphh/gi/probe_set.h>
 #include <ssphh/gi/relight_session.h>
+#include <ssphh/gi/transport/bounce.h>
 
 namespace ssphh::gi {
 
 struct TransportBakeParams {
+  LightOperator op = LightOperator::surfel;  ///< surfel or bounce
+  BounceParams bounce;
   TransportParams transport;
   SolveParams solve;
   bool fit = false;  ///< also fit lookup weights at the surfels
@@ -19,18 +22,19 @@ struct TransportBakeParams {
 struct TransportBakeReport {
   std::size_t surfels = 0, links = 0;
   int iterations = 0;      ///< of the light group that took most
-  double contraction = 0;  ///< upper bound of the factor by which one bounce shrinks light
-  double lost = 0;         ///< share of the surfels' rays that end where no surfel is
-  double seconds = 0;      ///< all but the fit
+  double contraction = 0;  ///< surfel: upper bound of the factor by which one bounce shrinks light; bounce:
+                           ///< an estimate of it for the probes' operator
+  double lost = 0;     ///< share of the surfels' rays that end where no surfel is
+  double seconds = 0;  ///< all but the fit
   double fit_seconds = 0;
   std::uint64_t rays = 0;
   std::vector<std::string> warnings;
 };
 
-/// Fills the set that INIT made with `surfel` transport, per light group, in the pose of its time; degree and
-/// places are the set's. What the set held of light, edges, hierarchy and fitted points is replaced. Warns
-/// about probes inside a body or without light, about more than 1 % of light lost and about a solution that
-/// did not converge. Throws Error without probes and for parameters out of range.
+/// Fills the set that INIT made with `surfel` or `bounce` transport, per light group, in the pose of its
+/// time; degree and places are the set's. What the set held of light, edges, hierarchy and fitted points is
+/// replaced. Warns about probes inside a body or without light, about more than 1 % of light lost and about a
+/// solution that did not converge. Throws Error without probes and for parameters out of range.
 ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, const TransportBakeParams& params,
                         TransportBakeReport& report, const Control& control = {});
 
