@@ -98,9 +98,8 @@ TEST(TransportTruthBands, ASurfaceThatGlowsIsCountedOnce) {
         // Directions and surfels: 1 % of the mean.
         const double reflected_error = 0.01 * truth.reflected[0][c].mean();
         const double error = 0.01 * truth.sum[0][c].mean();
-        EXPECT_TRUE(difference_is_noise(
-            double(session.reflected()[i].values[k][channel]) - reflected.mean(),
-            reflected.variance_of_mean(), significance, reflected_error))
+        EXPECT_TRUE(difference_is_noise(double(session.reflected()[i].values[k][channel]) - reflected.mean(),
+                                        reflected.variance_of_mean(), significance, reflected_error))
             << places[i].name << " reflected " << k << ", channel " << c;
         EXPECT_TRUE(difference_is_noise(double(sum.values[k][channel]) - all.mean(), all.variance_of_mean(),
                                         significance, error))
