@@ -72,7 +72,7 @@ class RelightSession {
   const std::vector<ProbePlace>& places() const;
   /// S_loop: reflected light alone, for surfaces that get direct light from elsewhere.
   const std::vector<sh::RadianceSh>& reflected() const;
-  /// Emitters that probe i sees directly; S_full = reflected + emitted. Found when asked for.
+  /// Emitters that probe i sees directly; S_full = reflected + emitted. Found when asked for, by 16,384 rays.
   sh::RadianceSh emitted(int probe) const;
   /// Per group, unscaled: a session's light as a bake stores it. Solves anew for each group.
   std::vector<std::vector<sh::RadianceSh>> reflected_by_group(const Control& control = {}) const;
