@@ -97,6 +97,45 @@ TEST(RelightEmission, OtherProbesSeeTheSphereAsADisc) {
   }
 }
 
+TEST(RelightEmission, SphereLightsAndSmallLampsAreSeenAtTheirTrueSize) {
+  // A sphere of 0.1 m and a square of 0.2 m, both of radiance 1: 16 to 60 of the 16,384 rays that look for
+  // emitters meet them. A lattice counts the n points of a disc to about √√n.
+  scene::Scene scene = coloured_room(vec3(0));
+  scene::Light lamp;
+  lamp.name = "globe";
+  lamp.type = scene::LightType::sphere;
+  lamp.radius = 0.1f;
+  lamp.node = scene.sphls[0].node;
+  scene.lights.push_back(lamp);
+  add_body(scene, "tile", scene::make_quad({-0.1f, 0.99f, -0.1f}, {0.2f, 0, 0}, {0, 0, 0.2f}), vec3(0.5f),
+           vec3(1));
+  scene::validate(scene);
+  const trace::TransportScene source(scene);
+  const std::vector<gi::ProbePlace> places = places_of(scene);
+  RelightSession session(source, places, small_session());
+  session.update();
+  const auto groups = session.emitted_by_group();
+  ASSERT_EQ(groups.size(), 2u);
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const vec3 to = places[0].position - places[i].position;
+    const double d2 = double(glm::dot(to, to));
+    const double globe = 2 * pi_d * (1 - std::sqrt(1 - 0.01 / d2));
+    // The square by a fine sum over its area.
+    double tile = 0;
+    for (int k = 0; k < 400; ++k) {
+      const vec3 x(-0.1f + 0.01f * (static_cast<float>(k % 20) + 0.5f), 0.99f,
+                   -0.1f + 0.01f * (static_cast<float>(k / 20) + 0.5f));
+      const glm::dvec3 w = glm::dvec3(x) - glm::dvec3(places[i].position);
+      tile += 1e-4 * std::max(0.0, w.y) / std::pow(glm::dot(w, w), 1.5);
+    }
+    for (const auto& [measured, exact] :
+         {std::pair(groups[0][i][0].y, globe), std::pair(groups[1][i][0].y, tile)}) {
+      const double rays = exact / (4 * pi_d) * 16384;
+      EXPECT_NEAR(double(measured) * double(root_4pi) / exact, 1, 1.5 * std::pow(rays, 0.25) / rays) << i;
+    }
+  }
+}
+
 TEST(RelightEmission, ADirectedSphlLightsItsSideByItsOwnFunction) {
   // L(ω) = 2 ω·x, clamped at 0: E = π (r/d)² cosθ · 2 (d̂·x) on the right, nothing on the left.
   const DarkRoom room;

@@ -10,6 +10,7 @@
 #include <ssphh/trace/path_tracer.h>
 
 #include "transport_fixtures.h"
+#include "turned_scene.h"
 
 namespace ssphh::test {
 namespace {
@@ -58,7 +59,6 @@ TEST(TransportRotation, SurfelProbesTurnWithTheSceneBeyondSamplingOnly) {
   for (const auto& [size, directions] : others)
     sampling += difference(surfel_probes(scene, size, directions), base) / 4;
   const double change = difference(turned_back(surfel_probes(tilted, 0.15f, 2048)), base);
-  printf("sampling %g change %g\n", sampling, change);
   EXPECT_LT(sampling, 0.05);
   EXPECT_LT(change, 1.5 * sampling);
   EXPECT_GT(difference(surfel_probes(tilted, 0.15f, 2048), base), 0.3) << "not turned back, it is another";
@@ -87,7 +87,6 @@ TEST(TransportRotation, CoefficientHierarchyDependsOnTheAxes) {
   const double by_mean = difference(turned_back(neighbors(oblique_set, mean)), neighbors(straight, mean));
   const double by_coefficient =
       difference(turned_back(neighbors(oblique_set, coefficient)), neighbors(straight, coefficient));
-  printf("noise %g mean %g coefficient %g\n", noise, by_mean, by_coefficient);
   EXPECT_LT(by_mean, 2 * noise);
   EXPECT_GT(by_coefficient, 0.5);
 }

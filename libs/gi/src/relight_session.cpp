@@ -58,6 +58,8 @@ struct RelightSession::Data {
         params(params_in),
         network(source_in, positions_of(places), params_in.transport, time, control),
         projector(params_in.degree, network.gbuffer().directions),
+        emitter_view(emitter_directions()),
+        emitter_projector(params_in.degree, emitter_view),
         field(network, source_in.light_groups().size()),
         lights(source_in.lights(time)),
         light_set(lights.size(), false),
@@ -74,6 +76,8 @@ struct RelightSession::Data {
   RelightParams params;
   TransportNetwork network;
   DirectionProjector projector;
+  std::vector<vec3> emitter_view;
+  DirectionProjector emitter_projector;
   DirectField field;
   Solver solver;
 
@@ -89,6 +93,11 @@ struct RelightSession::Data {
   std::unique_ptr<scene::DirectLight> direct_light;
   std::vector<Irradiance4> direct, indirect;
   std::vector<sh::RadianceSh> reflected, before;
+
+  std::vector<sh::RadianceSh> emitted(std::size_t probe) const {
+    return project_emitted(network, source, emitter_projector, emitter_view, places[probe].position,
+                           *direct_light);
+  }
 
   bool any_group_dirty() const {
     return std::find(group_dirty.begin(), group_dirty.end(), true) != group_dirty.end();
@@ -239,10 +248,10 @@ sh::RadianceSh RelightSession::emitted(int probe) const {
   const auto i = static_cast<std::size_t>(probe);
   sh::RadianceSh sum(d.params.degree);
   if (!d.direct_light) return sum;
-  for (std::size_t g = 0; g < d.group_scale.size(); ++g) {
-    sh::RadianceSh part = project_emitted(d.network, d.projector, i, static_cast<int>(g), *d.direct_light);
-    part *= d.group_scale[g];
-    sum += part;
+  std::vector<sh::RadianceSh> groups = d.emitted(i);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    groups[g] *= d.group_scale[g];
+    sum += groups[g];
   }
   for (std::size_t j = 0; j < d.emitters.size(); ++j) {
     if (j == i || d.emitters[j].leaving.empty()) continue;
@@ -290,9 +299,9 @@ std::vector<std::vector<sh::RadianceSh>> RelightSession::reflected_by_group(cons
 std::vector<std::vector<sh::RadianceSh>> RelightSession::emitted_by_group() const {
   const Data& d = *data_;
   std::vector<std::vector<sh::RadianceSh>> result(d.group_scale.size());
-  for (std::size_t g = 0; g < result.size(); ++g) {
-    for (std::size_t i = 0; i < d.places.size(); ++i)
-      result[g].push_back(project_emitted(d.network, d.projector, i, static_cast<int>(g), *d.direct_light));
+  for (std::size_t i = 0; i < d.places.size(); ++i) {
+    const std::vector<sh::RadianceSh> groups = d.emitted(i);
+    for (std::size_t g = 0; g < groups.size(); ++g) result[g].push_back(groups[g]);
   }
   return result;
 }

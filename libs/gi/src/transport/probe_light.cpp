@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/sphere.h>
 
 namespace ssphh::gi {
 
@@ -35,23 +36,44 @@ void project_reflected(const TransportNetwork& network, const DirectionProjector
   });
 }
 
-sh::RadianceSh project_emitted(const TransportNetwork& network, const DirectionProjector& projector,
-                               std::size_t probe, int group, const scene::DirectLight& light) {
-  const ProbeGBuffer& g = network.gbuffer();
-  const std::size_t directions = g.directions.size(), stride = projector.stride();
-  std::vector<float> radiance(3 * stride, 0.0f);
-  for (std::size_t q = 0; q < directions; ++q) {
-    const std::size_t ray = probe * directions + q;
-    vec3 value = light.emitted(group, {g.positions[probe], g.directions[q]}, network.seen_distance()[ray]);
-    if (!network.seen_emission().empty()) {
-      const EmissionEntry& entry = network.palette()[network.seen_emission()[ray]];
-      if (entry.group == group) value += entry.radiance;
+std::vector<vec3> emitter_directions() {
+  constexpr int count = 16384;
+  std::vector<vec3> directions;
+  for (int q = 0; q < count; ++q) directions.push_back(spherical_fibonacci(q, count));
+  return directions;
+}
+
+std::vector<sh::RadianceSh> project_emitted(const TransportNetwork& network,
+                                            const scene::TransportSource& source,
+                                            const DirectionProjector& projector,
+                                            std::span<const vec3> directions, const vec3& position,
+                                            const scene::DirectLight& light) {
+  std::vector<scene::RayQuery> rays;
+  for (const vec3& direction : directions) rays.push_back({position, direction});
+  std::vector<scene::RayHit> nearest(rays.size()), hits(rays.size());
+  source.intersect(0, rays, nearest);
+  for (int part = 1; part < source.part_count(); ++part) {
+    const mat4 to_part = glm::inverse(network.poses()[static_cast<std::size_t>(part)]);
+    const vec3 origin(to_part * vec4(position, 1));
+    for (std::size_t q = 0; q < rays.size(); ++q) rays[q] = {origin, mat3(to_part) * directions[q]};
+    source.intersect(part, rays, hits);
+    for (std::size_t q = 0; q < rays.size(); ++q) {
+      if (hits[q].distance < nearest[q].distance) nearest[q] = hits[q];
     }
-    radiance[q] = value.x, radiance[stride + q] = value.y, radiance[2 * stride + q] = value.z;
   }
-  sh::RadianceSh out(projector.degree());
-  projector.project(radiance, out);
-  return out;
+
+  const std::size_t stride = projector.stride();
+  std::vector<float> radiance(3 * stride, 0.0f);
+  std::vector<sh::RadianceSh> groups;
+  for (int group = 0; group < static_cast<int>(source.light_groups().size()); ++group) {
+    for (std::size_t q = 0; q < directions.size(); ++q) {
+      vec3 value = light.emitted(group, {position, directions[q]}, nearest[q].distance);
+      if (nearest[q].group == group) value += nearest[q].emission;
+      radiance[q] = value.x, radiance[stride + q] = value.y, radiance[2 * stride + q] = value.z;
+    }
+    projector.project(radiance, groups.emplace_back(projector.degree()));
+  }
+  return groups;
 }
 
 }  // namespace ssphh::gi

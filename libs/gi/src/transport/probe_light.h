@@ -14,9 +14,16 @@ namespace ssphh::gi {
 void project_reflected(const TransportNetwork& network, const DirectionProjector& projector,
                        std::span<const Irradiance4> irradiance, std::vector<sh::RadianceSh>& out);
 
-/// Emitters of one group that probe i sees directly: emissive surfaces, and what `light` knows of emitters
-/// that are no surfaces.
-sh::RadianceSh project_emitted(const TransportNetwork& network, const DirectionProjector& projector,
-                               std::size_t probe, int group, const scene::DirectLight& light);
+/// Where a probe looks for emitters: more directions than for reflected light, since small lamps are bright
+/// and slip between few rays.
+std::vector<vec3> emitter_directions();
+
+/// Emitters that a probe sees directly, as posed, one function per light group: emissive surfaces, and what
+/// `light` knows of emitters that are no surfaces. `directions` are those of `projector`.
+std::vector<sh::RadianceSh> project_emitted(const TransportNetwork& network,
+                                            const scene::TransportSource& source,
+                                            const DirectionProjector& projector,
+                                            std::span<const vec3> directions, const vec3& position,
+                                            const scene::DirectLight& light);
 
 }  // namespace ssphh::gi

@@ -73,7 +73,7 @@ class RelightSession {
   const std::vector<ProbePlace>& places() const;
   /// S_loop: reflected light alone, for surfaces that get direct light from elsewhere.
   const std::vector<sh::RadianceSh>& reflected() const;
-  /// Emitters that probe i sees directly; S_full = reflected + emitted. Found when asked for.
+  /// Emitters that probe i sees directly; S_full = reflected + emitted. Found when asked for, by 16,384 rays.
   sh::RadianceSh emitted(int probe) const;
   /// Direct irradiance at each surfel per group, unscaled.
   std::vector<std::vector<Irradiance4>> direct_by_group() const;
