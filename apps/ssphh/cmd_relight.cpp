@@ -76,6 +76,7 @@ class Relighting {
       if (run_.updates.empty()) throw;
       run_.cancelled = true;
       context_.exit_code = 1;
+      log(LogLevel::error, "cancelled");
     }
     if (!o_.output.empty() && !run_.errors.empty())
       write_error_curve(fs::path(o_.output) / "error.svg", run_);
@@ -120,7 +121,7 @@ class Relighting {
     }
   }
 
-  void save(const gi::RelightSession& session) const {
+  void save(const gi::RelightSession& session) {
     const FrameState state = animation_.frame(share(o_.frames - 1));
     gi::GeneratorInfo generator;
     generator.max_depth = 65535;
@@ -132,6 +133,7 @@ class Relighting {
     generator.scene_hash = scene::scene_hash(scene::with_lights(scene_, state.time, state.lights));
     generator.time = state.time;
     gi::write_probe_file(bake_of(session, source_, state.group_scales, generator, context_.control), o_.save);
+    saved_ = true;
   }
 
   /// Truth and pictures of the frames kept.
@@ -202,7 +204,7 @@ class Relighting {
     object["surfels"] = session.network().surfel_count();
     object["surfel_size"] = session.network().params().surfel_size;
     object["links"] = session.network().links().link_count();
-    if (!o_.save.empty() && !run_.cancelled) object["saved"] = o_.save;
+    if (saved_) object["saved"] = o_.save;
     context_.result(object,
                     fmt::format("{} probes, {} surfels of {:.3g} m, {} links\n{}", session.places().size(),
                                 session.network().surfel_count(), session.network().params().surfel_size,
@@ -216,6 +218,7 @@ class Relighting {
   RelightAnimation animation_;
   RelightRun run_;
   std::vector<KeptFrame> kept_;
+  bool saved_ = false;
 };
 
 void relight(Context& context, const RelightOptions& options) {
