@@ -20,8 +20,8 @@ namespace {
 
 struct LeakOptions {
   SceneOptions scene;
-  std::string probes, output, camera, weights = "distance", light = "sum";
-  bool time_given = false;
+  std::string probes, output, camera, weights, light = "sum";
+  bool time_given = false, force = false;
   int points = 2048, width = 320, height = 180, map_spp = 64;
   gi::LeakParams params;
 };
@@ -44,8 +44,6 @@ void leak(Context& context, LeakOptions& o) {
   }
   const gi::ProbeSet set = gi::read_probe_file(o.probes);
   const scene::Scene scene = load_scene(o.scene);
-  if (set.generator.scene_hash != scene::scene_hash(scene))
-    log_warning("{}: was not baked in this scene as it is now", o.probes);
   const float time = o.time_given ? o.scene.time : set.generator.time;
   if (time != set.generator.time) {
     log_warning("{}: was baked at {} s, not at {} s: what moved since counts as leaking", o.probes,
@@ -55,29 +53,31 @@ void leak(Context& context, LeakOptions& o) {
   if (!o.output.empty()) camera = scene::camera_pose(scene, o.camera, time);
 
   const trace::PathTracer tracer(scene, time);
+  require_same_scene(o.probes, set, scene, tracer.light_groups(), {}, o.force);
   const trace::TransportScene surfaces(scene);
   gi::LookupParams lookup_params;
-  lookup_params.weights.method = *gi::parse_weight_method(o.weights);
   if (o.light == "self") lookup_params.layer = gi::ProbeLayer::self;
-  const gi::IrradianceLookup lookup(set, tracer, lookup_params);
+  const std::unique_ptr<scene::IndirectLight> lookup =
+      make_irradiance_lookup(o.probes, set, tracer, o.weights, lookup_params);
 
   o.params.path.seed = context.seed;
   const std::vector<scene::SurfacePoint> points = gi::reachable_points(
       surfaces, viewpoints(scene, set, time), time, {o.points, context.seed}, context.control);
-  const gi::LeakReport report = gi::measure_leak(tracer, lookup, points, o.params, context.control);
+  const gi::LeakReport report = gi::measure_leak(tracer, *lookup, points, o.params, context.control);
   if (!(report.mean_truth > 0))
     log_warning("{}: path tracing finds no indirect light at all", o.scene.source);
 
-  nlohmann::ordered_json object = {{"leak_ratio", report.ratio},
-                                   {"points", points.size()},
-                                   {"dark_points", report.dark},
-                                   {"dark_share", o.params.dark_share},
-                                   {"truth_noise", report.truth_noise},
-                                   {"truth_spp", o.params.path.spp},
-                                   {"mean_truth", report.mean_truth},
-                                   {"mean_looked_up", report.mean_looked_up},
-                                   {"weights", o.weights},
-                                   {"time", time}};
+  nlohmann::ordered_json object = {
+      {"leak_ratio", report.ratio},
+      {"points", points.size()},
+      {"dark_points", report.dark},
+      {"dark_share", o.params.dark_share},
+      {"truth_noise", report.truth_noise},
+      {"truth_spp", o.params.path.spp},
+      {"mean_truth", report.mean_truth},
+      {"mean_looked_up", report.mean_looked_up},
+      {"weights", o.weights.empty() ? (set.fitted ? "fitted" : "distance") : o.weights},
+      {"time", time}};
   std::string text = fmt::format(
       "leaked      {:.4g} % of the looked-up light stands on dark points\n"
       "dark        {} of {} points: path traced indirect irradiance under {:g} of the mean, at {:g} sigma\n"
@@ -89,7 +89,7 @@ void leak(Context& context, LeakOptions& o) {
     params.path.spp = o.map_spp;
     params.mean = static_cast<float>(report.mean_truth > 0 ? report.mean_truth : 1);
     const LeakMap map =
-        leak_map(surfaces, time, camera, o.width, o.height, tracer, lookup, params, context.control);
+        leak_map(surfaces, time, camera, o.width, o.height, tracer, *lookup, params, context.control);
     const float scale = write_leak_map(o.output, map);
     object["map"] = {{"output", o.output}, {"dark_pixels", map.dark}, {"scale", scale}};
     text += fmt::format("\nmap         {}, {} dark pixels", o.output, map.dark);
@@ -114,9 +114,8 @@ void add_leak_command(CLI::App& app, Context& context) {
   command->add_option("--points", o.points, "Surface points to measure at")
       ->check(CLI::Range(1, 1 << 24))
       ->capture_default_str();
-  command->add_option("--weights", o.weights, "How probes are blended: distance, trilinear, mls")
-      ->check(CLI::IsMember({"distance", "trilinear", "mls"}))
-      ->capture_default_str();
+  add_weights_option(*command, o.weights);
+  add_force_option(*command, o.force);
   command
       ->add_option("--light", o.light,
                    "sum: own and neighbours' light where HIER was run; self: own light only")

@@ -35,6 +35,7 @@ struct RelightOptions {
   int width = 640, height = 360, spp = 8;
   float exposure = 0;
   double fps = 30;
+  bool force = false;
   gi::RelightParams params;
 };
 
@@ -76,6 +77,7 @@ class Relighting {
       if (run_.updates.empty()) throw;
       run_.cancelled = true;
       context_.exit_code = 1;
+      log(LogLevel::error, "cancelled");
     }
     if (!o_.output.empty() && !run_.errors.empty())
       write_error_curve(fs::path(o_.output) / "error.svg", run_);
@@ -87,8 +89,7 @@ class Relighting {
     std::vector<gi::ProbePlace> places;
     if (is_probe_file(o_.place)) {
       const gi::ProbeSet set = gi::read_probe_file(o_.place.probes);
-      if (set.generator.scene_hash != scene::scene_hash(scene_))
-        log_warning("{}: was not baked in this scene as it is now", o_.place.probes);
+      require_same_scene(o_.place.probes, set, scene_, source_.light_groups(), {}, o_.force);
       for (const gi::Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
     } else if (const auto placed = place_for(scene_, o_.scene.time, o_.place, "", context_.control)) {
       for (const gi::PlacedProbe& probe : placed->placement.probes)
@@ -120,18 +121,18 @@ class Relighting {
     }
   }
 
-  void save(const gi::RelightSession& session) const {
+  void save(const gi::RelightSession& session) {
     const FrameState state = animation_.frame(share(o_.frames - 1));
     gi::GeneratorInfo generator;
-    generator.max_depth = 65535;
-    generator.passes = 1;
-    generator.spp = session.network().params().samples;
-    generator.face_size = 1;
-    generator.seed = context_.seed;
+    generator.op = gi::LightOperator::surfel;
+    generator.directions = session.network().params().directions;
+    generator.surfel_size = session.network().params().surfel_size;
+    generator.link_rays = session.network().params().link_rays;
     generator.scene = scene_.name;
-    generator.scene_hash = scene::scene_hash(scene::with_lights(scene_, state.time, state.lights));
+    generator.scene_hash = scene::light_hash(scene::with_lights(scene_, state.time, state.lights));
     generator.time = state.time;
     gi::write_probe_file(bake_of(session, source_, state.group_scales, generator, context_.control), o_.save);
+    saved_ = true;
   }
 
   /// Truth and pictures of the frames kept.
@@ -144,16 +145,29 @@ class Relighting {
       const scene::Scene lit =
           scene::with_lights(scene_, kept.state.time, kept.state.lights, kept.state.group_scales);
       const trace::PathTracer tracer(lit, kept.state.time);
-      gi::LookupParams params;
-      params.weights.method = gi::parse_weight_method(o_.weights).value_or(gi::WeightMethod::trilinear);
-      const gi::IrradianceLookup lookup(lookup_set(session.places(), kept.reflected), tracer, params);
-      if (is_due(kept.frame, o_.truth)) measure(session, kept, tracer, lookup, quiet);
-      if (!o_.output.empty() && is_due(kept.frame, o_.pictures)) draw(kept, lit, tracer, lookup, quiet);
+      const std::unique_ptr<scene::IndirectLight> lookup = make_lookup(session, kept, tracer, quiet);
+      if (is_due(kept.frame, o_.truth)) measure(session, kept, tracer, *lookup, quiet);
+      if (!o_.output.empty() && is_due(kept.frame, o_.pictures)) draw(kept, lit, tracer, *lookup, quiet);
       progress.advance(1);
     }
   }
 
-  void measure(gi::RelightSession& session, const KeptFrame& kept, const trace::PathTracer& tracer,
+  std::unique_ptr<scene::IndirectLight> make_lookup(gi::RelightSession& session, const KeptFrame& kept,
+                                                    const trace::PathTracer& tracer, const Control& control) {
+    const gi::ProbeSet set = lookup_set(session.places(), kept.reflected);
+    gi::LookupParams params;
+    if (o_.weights != "fitted") {
+      params.weights.method = *gi::parse_weight_method(o_.weights);
+      return std::make_unique<gi::IrradianceLookup>(set, tracer, params);
+    }
+    session.set_time(kept.state.time);  // Weights are fitted with the doors as they stood.
+    session.update();
+    const gi::FittedPoints fitted =
+        gi::fit_weights(session.network(), source_, gi::surfel_points(session.network()), {}, control);
+    return std::make_unique<gi::FittedLookup>(set, fitted, tracer, params);
+  }
+
+  void measure(const gi::RelightSession& session, const KeptFrame& kept, const trace::PathTracer& tracer,
                const scene::IndirectLight& lookup, const Control& control) {
     std::vector<vec3> origins;
     const std::vector<mat4> world = scene::world_matrices(scene_, kept.state.time);
@@ -164,14 +178,8 @@ class Relighting {
         gi::reachable_points(source_, origins, kept.state.time, {o_.points, context_.seed}, control);
 
     std::vector<vec3> looked_up;
-    if (o_.weights == "fitted") {
-      session.set_time(kept.state.time);  // Fitting needs the doors as they stood.
-      session.update();
-      looked_up = look_up_fitted(session.network(), source_, points, kept.reflected, lookup, control);
-    } else {
-      for (const scene::SurfacePoint& point : points)
-        looked_up.push_back(lookup.irradiance(point.position, point.normal));
-    }
+    for (const scene::SurfacePoint& point : points)
+      looked_up.push_back(lookup.irradiance(point.position, point.normal));
     const auto truth = tracer.surface_irradiance(
         points, {.max_depth = o_.max_depth, .passes = 1, .spp = o_.truth_spp, .seed = context_.seed},
         control);
@@ -202,7 +210,7 @@ class Relighting {
     object["surfels"] = session.network().surfel_count();
     object["surfel_size"] = session.network().params().surfel_size;
     object["links"] = session.network().links().link_count();
-    if (!o_.save.empty() && !run_.cancelled) object["saved"] = o_.save;
+    if (saved_) object["saved"] = o_.save;
     context_.result(object,
                     fmt::format("{} probes, {} surfels of {:.3g} m, {} links\n{}", session.places().size(),
                                 session.network().surfel_count(), session.network().params().surfel_size,
@@ -216,6 +224,7 @@ class Relighting {
   RelightAnimation animation_;
   RelightRun run_;
   std::vector<KeptFrame> kept_;
+  bool saved_ = false;
 };
 
 void relight(Context& context, const RelightOptions& options) {
@@ -249,6 +258,13 @@ void add_transport_options(CLI::App& command, RelightOptions& o) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str()
       ->group(group);
+  command
+      .add_option(
+          "--poses", o.params.poses,
+          "Blend doors and the like between so many poses found beforehand, 2 or more; 0: pose exactly")
+      ->check(CLI::Range(0, 1 << 16))
+      ->capture_default_str()
+      ->group(group);
   command.add_option("--link-rays", o.params.transport.link_rays, "Rays of a surface patch")
       ->check(CLI::Range(8, 65536))
       ->capture_default_str()
@@ -276,10 +292,10 @@ void add_truth_options(CLI::App& command, RelightOptions& o) {
       ->capture_default_str()
       ->group(group);
   command
-      .add_option(
-          "--weights", o.weights,
-          "How probes are blended: distance, trilinear, mls; fitted to the light transport (for --truth; "
-          "pictures take trilinear)")
+      .add_option("--weights", o.weights,
+                  "How probes are blended: distance, trilinear, mls; fitted to the light transport (anew for "
+                  "every frame "
+                  "that is measured or drawn)")
       ->check(CLI::IsMember({"distance", "trilinear", "mls", "fitted"}))
       ->capture_default_str()
       ->group(group);
@@ -330,6 +346,7 @@ void add_relight_command(CLI::App& app, Context& context) {
                   [&context, options] { relight(context, *options); });
   add_scene_options(*command, o.scene);
   add_place_options(*command, o.place, true);
+  add_force_option(*command, o.force);
   command->add_option("--animate", o.animate, animation_help)->allow_extra_args(false);
   command->add_option("--frames", o.frames, "Frames; their keys go from the first to the last")
       ->check(CLI::Range(1, 1 << 20))

@@ -6,7 +6,6 @@
 
 #include <ssphh/core/file.h>
 #include <ssphh/core/log.h>
-#include <ssphh/gi/fitted_weights.h>
 #include <ssphh/gi/lookup.h>
 #include <ssphh/image/io.h>
 #include <ssphh/image/tonemap.h>
@@ -125,17 +124,12 @@ void render_ssphh(const trace::PathTracer& tracer, const scene::Scene& scene, co
   const gi::ProbeSet probes = gi::read_probe_file(o.probes);
   require_same_scene(o.probes, probes, scene, tracer.light_groups(), o.scene.time, o.force);
   gi::LookupParams lookup;
-  const bool fitted = o.weights == "fitted" || (o.weights.empty() && o.lookup != "light" && probes.fitted);
-  if (fitted && !probes.fitted)
-    throw Error(o.probes, "has no fitted weights", "bake it with --fit, or choose other --weights");
-  if (!o.weights.empty() && !fitted) lookup.weights.method = *gi::parse_weight_method(o.weights);
   if (o.light == "self") lookup.layer = gi::ProbeLayer::self;
-  const auto method = o.lookup == "light" ? gi::LookupMethod::light : gi::LookupMethod::irradiance;
   std::unique_ptr<scene::IndirectLight> indirect;
-  if (fitted) {
-    indirect = std::make_unique<gi::FittedLookup>(probes, *probes.fitted, tracer, lookup);
+  if (o.lookup == "light") {
+    indirect = std::make_unique<gi::LightLookup>(probes, tracer, lookup);
   } else {
-    indirect = gi::make_lookup(method, probes, tracer, lookup);
+    indirect = make_irradiance_lookup(o.probes, probes, tracer, o.weights, lookup);
   }
   tracer.render_with(*indirect, params, state, control);
 }
@@ -279,14 +273,7 @@ void add_render_command(CLI::App& app, Context& context) {
       ->check(CLI::IsMember({"light", "irradiance"}))
       ->capture_default_str()
       ->group(probes);
-  command
-      ->add_option(
-          "--weights", o.weights,
-          "How --lookup irradiance blends SPHLs: fitted (to transport, for a file of `bake --fit`: the "
-          "default there), distance (nearest visible ones; else the default), trilinear (probes on a "
-          "grid), mls (moving least squares)")
-      ->check(CLI::IsMember({"distance", "trilinear", "mls", "fitted"}))
-      ->group(probes);
+  add_weights_option(*command, o.weights)->group(probes);
   command
       ->add_option("--light", o.light,
                    "sum: own and neighbours' light where HIER was run; self: own light only")

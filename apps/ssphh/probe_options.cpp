@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <ssphh/core/log.h>
+#include <ssphh/gi/fitted_weights.h>
 #include <ssphh/scene/query.h>
 
 namespace ssphh::app {
@@ -52,6 +53,29 @@ void require_same_scene(const std::string& file, const gi::ProbeSet& set, const 
   const std::string problem = "was baked in another scene or pose: " + difference;
   if (!force) throw Error(file, problem, "bake it anew, give the options of its bake, or go on with --force");
   log_warning("{}: {}", file, problem);
+}
+
+CLI::Option* add_weights_option(CLI::App& command, std::string& weights) {
+  return command
+      .add_option(
+          "--weights", weights,
+          "How --lookup irradiance blends SPHLs: fitted (to transport, for a file of `bake --fit`: the "
+          "default there), distance (nearest visible ones; else the default), trilinear (probes on a "
+          "grid), mls (moving least squares)")
+      ->check(CLI::IsMember({"distance", "trilinear", "mls", "fitted"}));
+}
+
+std::unique_ptr<scene::IndirectLight> make_irradiance_lookup(const std::string& file, const gi::ProbeSet& set,
+                                                             const scene::RadianceSource& source,
+                                                             const std::string& weights,
+                                                             gi::LookupParams params) {
+  if (weights == "fitted" || (weights.empty() && set.fitted)) {
+    if (!set.fitted)
+      throw Error(file, "has no fitted weights", "bake it with --fit, or choose other --weights");
+    return std::make_unique<gi::FittedLookup>(set, *set.fitted, source, params);
+  }
+  if (!weights.empty()) params.weights.method = *gi::parse_weight_method(weights);
+  return std::make_unique<gi::IrradianceLookup>(set, source, params);
 }
 
 }  // namespace ssphh::app

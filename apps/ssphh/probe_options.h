@@ -1,12 +1,14 @@
 #pragma once
 /// Options that the commands around probe files share.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include <ssphh/gi/lookup.h>
 #include <ssphh/gi/probe_file.h>
 #include <ssphh/scene/scene.h>
 
@@ -35,5 +37,16 @@ std::string scene_difference(const gi::ProbeSet& set, const scene::Scene& scene,
 /// Throws an Error that names the differences; a warning with `force`.
 void require_same_scene(const std::string& file, const gi::ProbeSet& set, const scene::Scene& scene,
                         const std::vector<std::string>& light_groups, std::optional<float> time, bool force);
+
+/// --weights of the lookup `irradiance`; empty: what make_irradiance_lookup chooses.
+CLI::Option* add_weights_option(CLI::App& command, std::string& weights);
+
+/// The lookup by the named weights. Without a name the best by measurement
+/// (docs/methods/transport-results.md): `fitted` where the file has them, else `distance`.
+/// `params.weights.method` is set here. Throws Error for `fitted` with a set that has none.
+std::unique_ptr<scene::IndirectLight> make_irradiance_lookup(const std::string& file, const gi::ProbeSet& set,
+                                                             const scene::RadianceSource& source,
+                                                             const std::string& weights,
+                                                             gi::LookupParams params);
 
 }  // namespace ssphh::app

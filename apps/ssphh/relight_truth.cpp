@@ -1,7 +1,5 @@
 #include "relight_truth.h"
 
-#include <ssphh/sh/irradiance.h>
-
 namespace ssphh::app {
 
 gi::ProbeSet lookup_set(const std::vector<gi::ProbePlace>& places,
@@ -19,28 +17,6 @@ gi::ProbeSet lookup_set(const std::vector<gi::ProbePlace>& places,
   }
   gi::merge_groups(set);
   return set;
-}
-
-std::vector<vec3> look_up_fitted(const gi::TransportNetwork& network, const scene::TransportSource& source,
-                                 const std::vector<scene::SurfacePoint>& points,
-                                 const std::vector<sh::RadianceSh>& reflected,
-                                 const scene::IndirectLight& fallback, const Control& control) {
-  const gi::FittedPoints fitted = gi::fit_weights(network, source, points, {}, control);
-  std::vector<vec3> values;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const gi::ProbeWeights& weights = fitted.weights[i];
-    if (weights.count == 0) {
-      values.push_back(fallback.irradiance(points[i].position, points[i].normal));
-      continue;
-    }
-    vec3 sum(0);
-    for (int k = 0; k < weights.count; ++k) {
-      const gi::ProbeWeight& at = weights.entries[static_cast<std::size_t>(k)];
-      sum += at.weight * sh::irradiance(reflected[static_cast<std::size_t>(at.probe)], points[i].normal);
-    }
-    values.push_back(glm::max(sum, vec3(0)));
-  }
-  return values;
 }
 
 gi::ProbeSet bake_of(const gi::RelightSession& session, const scene::TransportSource& source,

@@ -15,13 +15,6 @@ namespace ssphh::app {
 gi::ProbeSet lookup_set(const std::vector<gi::ProbePlace>& places,
                         const std::vector<sh::RadianceSh>& reflected);
 
-/// Indirect irradiance at points from weights fitted in the network's pose; where no probe sees a point,
-/// from `fallback`.
-std::vector<vec3> look_up_fitted(const gi::TransportNetwork& network, const scene::TransportSource& source,
-                                 const std::vector<scene::SurfacePoint>& points,
-                                 const std::vector<sh::RadianceSh>& reflected,
-                                 const scene::IndirectLight& fallback, const Control& control);
-
 /// A set of the session's light as a bake would write it: groups apart and unscaled, `scales` beside them.
 gi::ProbeSet bake_of(const gi::RelightSession& session, const scene::TransportSource& source,
                      const std::vector<vec3>& scales, gi::GeneratorInfo generator, const Control& control);

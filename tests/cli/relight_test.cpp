@@ -73,7 +73,7 @@ TEST(Relight, ReportsStagesRaysAndErrors) {
   for (const char* file : {"frame-0000.png", "frame-0003.png", "error.svg"})
     EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(frames) / file)) << file;
   EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(frames) / "frame-0001.png"));
-  EXPECT_EQ(run_json({"probe", "info", saved})["probes"], 6);
+  EXPECT_EQ(run_json({"probe", "info", saved})["probes"].size(), 6u);
 }
 
 TEST(Relight, TakesThePlacesOfAProbeFileAndSavesWhatLeakReads) {

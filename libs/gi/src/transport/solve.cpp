@@ -100,10 +100,18 @@ SolveReport Solver::solve(const LinkRows& links, std::span<const vec3> albedo,
     return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
   };
 
-  // Start from what `indirect` holds.
+  // Start from what `indirect` holds: the right answer already where all that changed is the lamps' power.
+  glm::dvec3 sum(0);
+  for (const Irradiance4& e : direct) sum += glm::dvec3(e);
+  Irradiance4 start_scale(1);
+  for (int c = 0; last_sum_ && c < 3; ++c) {
+    if ((*last_sum_)[c] > 0) start_scale[c] = static_cast<float>(std::min(sum[c] / (*last_sum_)[c], 4.0));
+  }
+  last_sum_ = sum;
   parallel_for(count, rows_per_block, [&](std::size_t begin, std::size_t end) {
     float largest = 0;
     for (std::size_t i = begin; i < end; ++i) {
+      indirect[i] *= start_scale;
       previous_[i] = indirect[i];
       radiosity_[i] = vec4(albedo[i], 0) * (direct[i] + indirect[i]);
       largest = std::max(largest, max_component(vec3(indirect[i])));

@@ -24,8 +24,8 @@ struct TransportBakeReport {
   int iterations = 0;      ///< of the light group that took most
   double contraction = 0;  ///< surfel: upper bound of the factor by which one bounce shrinks light; bounce:
                            ///< an estimate of it for the probes' operator
-  double lost = 0;     ///< share of the surfels' rays that end where no surfel is
-  double seconds = 0;  ///< all but the fit
+  double lost = 0;         ///< share of the surfels' rays that end where no surfel is
+  double seconds = 0;      ///< all but the fit
   double fit_seconds = 0;
   std::uint64_t rays = 0;
   std::vector<std::string> warnings;

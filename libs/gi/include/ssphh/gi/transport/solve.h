@@ -3,6 +3,7 @@
 /// (docs/methods/transport.md).
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -52,10 +53,11 @@ struct SolveReport {
 /// count.
 void bounce_once(const LinkRows& links, std::span<const Irradiance4> radiosity, std::span<Irradiance4> out);
 
-/// Solves for `indirect`, which holds the first guess (zero, or the last frame's answer) on entry.
-/// Chebyshev's semi-iteration for eigenvalues within ±`contraction_bound` (Golub & Varga 1961; Saad,
-/// Iterative Methods, §12.3); plain iteration when the bound is 1 or more. Rows are computed independently of
-/// each other: the same bits for any number of threads.
+/// Solves for `indirect`, which holds the first guess (zero, or the last frame's answer, which is then scaled
+/// as the direct light's sum has changed since this solver's last call) on entry. Chebyshev's semi-iteration
+/// for eigenvalues within ±`contraction_bound` (Golub & Varga 1961; Saad, Iterative Methods, §12.3); plain
+/// iteration when the bound is 1 or more. Rows are computed independently of each other: the same bits for
+/// any number of threads.
 class Solver {
  public:
   SolveReport solve(const LinkRows& links, std::span<const vec3> albedo, std::span<const Irradiance4> direct,
@@ -64,6 +66,7 @@ class Solver {
  private:
   std::vector<Irradiance4> radiosity_, next_radiosity_, previous_;
   std::vector<float> block_residual_, block_largest_;
+  std::optional<glm::dvec3> last_sum_;  ///< of the direct light
 };
 
 }  // namespace ssphh::gi
