@@ -43,7 +43,7 @@ TEST_P(TransportTruth, MeanLightOfTheScenesOwnProbes) {
   const float time = source.duration();  // doors open
   gi::RelightParams params;
   params.degree = 0;
-  // Finer than the defaults, whose own error is up to 6 % here (docs/methods/transport.md): 0.2 m and 1536
+  // Finer than the defaults, whose own error is up to 6 % here (gallery2): 0.2 m and 1536
   // directions leave under 3 %, 0.12 m under 2 %, in all five scenes, glossy bodies and all.
   params.transport.surfel_size = 0.2f;
   params.transport.directions = 1536;

@@ -99,39 +99,6 @@ void check(const FitParams& params) {
 
 }  // namespace
 
-std::vector<double> fit_non_negative(std::span<const double> rows, std::span<const double> targets,
-                                     std::span<const double> prior, double ridge) {
-  const std::size_t n = prior.size();
-  std::vector<double> gram(n * n, 0), right(n, 0);
-  for (std::size_t r = 0; r < targets.size(); ++r) {
-    const double* row = rows.data() + r * n;
-    for (std::size_t i = 0; i < n; ++i) {
-      right[i] += row[i] * targets[r];
-      for (std::size_t j = 0; j < n; ++j) gram[i * n + j] += row[i] * row[j];
-    }
-  }
-  double trace = 0;
-  for (std::size_t i = 0; i < n; ++i) trace += gram[i * n + i];
-  const double pull = ridge * trace / static_cast<double>(n);
-  for (std::size_t i = 0; i < n; ++i) gram[i * n + i] += pull, right[i] += pull * prior[i];
-
-  std::vector<double> v(prior.begin(), prior.end());
-  constexpr int most_sweeps = 500;
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    double largest = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!(gram[i * n + i] > 0)) continue;
-      double residual = right[i];
-      for (std::size_t j = 0; j < n; ++j) residual -= gram[i * n + j] * v[j];
-      const double next = std::max(0.0, v[i] + residual / gram[i * n + i]);
-      largest = std::max(largest, std::abs(next - v[i]));
-      v[i] = next;
-    }
-    if (largest < 1e-6) break;
-  }
-  return v;
-}
-
 FittedPoints fit_weights(const TransportNetwork& network, const scene::TransportSource& source,
                          std::span<const scene::SurfacePoint> points, const FitParams& params,
                          const Control& control) {

@@ -27,8 +27,9 @@ FittedPoints fit_weights(const TransportNetwork& network, const scene::Transport
                          std::span<const scene::SurfacePoint> points, const FitParams& params = {},
                          const Control& control = {});
 
-/// Weights v ≥ 0 that minimise |A v − b|² + ridge · trace(AᵀA)/n · |v − prior|², rows of A of length n, by
-/// coordinate descent on the normal equations.
+/// Weights v ≥ 0 that minimise |A v − b|² + ridge · trace(AᵀA)/n · |v − prior|², rows of A of length n: the
+/// active-set method of Lawson & Hanson (Solving Least Squares Problems, 1974, ch. 23) on the normal
+/// equations. Columns of zeros get their prior.
 std::vector<double> fit_non_negative(std::span<const double> rows, std::span<const double> targets,
                                      std::span<const double> prior, double ridge);
 
