@@ -141,8 +141,11 @@ TEST(Relight, WarnsOfProbesThatCannotLight) {
   EXPECT_THAT(still.err, Not(HasSubstr("in the way")));
   // Another scene than the file was made in: the overlay's SPHLs do not count, a lamp does.
   std::ofstream(overlay) << R"({"lights": [{"name": "l", "type": "point", "position": [1, 1, 1]}]})";
-  EXPECT_THAT(run_tool(relight({"--overlay", overlay, "--probes", saved, "--frames", "1"})).err,
-              HasSubstr("was not baked in this scene"));
+  const ToolResult other = run_tool(relight({"--overlay", overlay, "--probes", saved, "--frames", "1"}));
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_THAT(other.err, AllOf(HasSubstr("light groups: 1 (lamp), now 2 (lamp, l)"), HasSubstr("--force")));
+  EXPECT_EQ(
+      run_tool(relight({"--overlay", overlay, "--probes", saved, "--frames", "1", "--force"})).exit_code, 0);
 
   std::ofstream(dir / "two.obj") << "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n";
   std::ofstream(dir / "two.ssphh.json")
