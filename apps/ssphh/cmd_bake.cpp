@@ -209,6 +209,7 @@ void add_path_options(CLI::App& command, BakeOptions& options) {
 void add_transport_options(CLI::App& command, BakeOptions& options) {
   const std::string group = "Transport: --operator surfel|bounce, --fit";
   gi::TransportParams& params = options.transport.transport;
+  params.directions = 1536;  // Nobody waits for a frame: few probes are right to 3 % with these.
   const auto transport = [&](CLI::Option* option) {
     options.of_transport.push_back(option->capture_default_str()->group(group));
   };

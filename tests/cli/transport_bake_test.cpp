@@ -75,6 +75,32 @@ TEST(TransportBakeCli, TellsOfTheOperatorInResultAndFile) {
   EXPECT_EQ(info["probes"].size(), 5u);
 }
 
+TEST(TransportBakeCli, BounceIsAnOperatorOfItsOwn) {
+  const TempDir dir;
+  const std::string probes = dir / "b.sphl";
+  const json bake = run_json({"bake", "builtin:box", "-o", probes, "--operator", "bounce", "--directions",
+                              "256", "--link-rays", "16", "--degree", "2", "--surfel-size", "0.25"});
+  EXPECT_EQ(bake["operator"], "bounce");
+  EXPECT_GT(bake["iterations"], 1);
+  EXPECT_NEAR(bake["contraction"].get<double>(), 0.5, 0.02) << "the albedo of the closed box";
+  EXPECT_EQ(run_json({"probe", "info", probes})["generator"]["operator"], "bounce");
+}
+
+TEST(TransportBakeCli, RenderTakesFittedWeightsWhereTheFileHasThem) {
+  const TempDir dir;
+  const std::string fitted = dir / "f.sphl", plain = dir / "p.sphl", picture = dir / "x.exr";
+  run_json(small_bake("builtin:box", fitted, {"--surfel-size", "0.25", "--fit"}));
+  run_json(small_bake("builtin:box", plain, {"--surfel-size", "0.25"}));
+  const auto mean = [&](const std::string& probes, const std::vector<std::string>& more) {
+    return run_json(small_render("builtin:box", probes, picture, more))["mean"];
+  };
+  EXPECT_EQ(mean(fitted, {}), mean(fitted, {"--weights", "fitted"}));
+  EXPECT_NE(mean(fitted, {}), mean(fitted, {"--weights", "distance"}));
+  EXPECT_EQ(mean(plain, {}), mean(plain, {"--weights", "distance"}));
+  expect_failure(small_render("builtin:box", plain, picture, {"--weights", "fitted"}),
+                 "has no fitted weights");
+}
+
 TEST(TransportBakeCli, PathTracedProbesHaveNoNumbersOfTransport) {
   const TempDir dir;
   const json bake = run_json({"bake", "builtin:box", "-o", dir / "a.sphl", "--face", "4", "--spp", "1"});

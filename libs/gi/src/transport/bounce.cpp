@@ -129,7 +129,8 @@ BounceReport BounceOperator::solve(std::span<const Irradiance4> direct,
       change = std::max(change, max_component(glm::abs(reflected[i][0] - before[i][0])));
       largest = std::max(largest, max_component(reflected[i][0]));
     }
-    if (last_change > 0) report.contraction = double(change) / double(last_change);
+    // Below this, rounding decides the ratio.
+    if (last_change > 1e-3f * largest) report.contraction = double(change) / double(last_change);
     last_change = change;
     if (d.params.applications == 0 && change <= d.params.tolerance * largest) {
       report.converged = true;

@@ -23,8 +23,7 @@ struct BounceParams {
 
 struct BounceReport {
   int iterations = 0;
-  double contraction =
-      0;  ///< ratio of the last two changes (largest band 0): an estimate of B's spectral radius
+  double contraction = 0;  ///< ratio of two late changes (largest band 0): an estimate of B's spectral radius
   bool converged = true;
   std::size_t edges = 0;  ///< pairs of probes that B couples
 };
