@@ -215,10 +215,11 @@ void add_transport_options(CLI::App& command, BakeOptions& options) {
   };
   transport(command.add_option("--directions", params.directions, "Rays by which each probe sees surfels")
                 ->check(CLI::Range(8, 1 << 16)));
-  transport(command
-                .add_option("--surfel-size", params.surfel_size,
-                            "Edge of a surfel [m]; 0: a twentieth of the scene's radius, within 0.05..0.5")
-                ->check(CLI::NonNegativeNumber));
+  transport(
+      command
+          .add_option("--surfel-size", params.surfel_size,
+                      "Edge of a surfel [m]; 0: a thirty-second of the scene's radius, within 0.04..0.5")
+          ->check(CLI::NonNegativeNumber));
   transport(command
                 .add_option("--link-rays", params.link_rays,
                             "Rays by which each surfel finds what lights it: fewer are faster and noisier")

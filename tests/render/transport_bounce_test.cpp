@@ -17,7 +17,8 @@ constexpr float root_4pi = 3.5449077018110318f;
 
 /// builtin:box, every wall with this albedo and Le = 1, lit.
 struct GlowingBox {
-  explicit GlowingBox(float rho) : scene(painted(rho)), source(scene), session(source, places_of(scene), params()) {
+  explicit GlowingBox(float rho)
+      : scene(painted(rho)), source(scene), session(source, places_of(scene), params()) {
     session.update();
   }
   static scene::Scene painted(float rho) {
@@ -49,7 +50,8 @@ TEST(Bounce, AClosedBoxOfEqualWallsReachesTheGeometricSeries) {
     EXPECT_NEAR(report.contraction, double(rho), 0.01 * double(rho));
     EXPECT_GT(report.edges, reflected.size());
     // In a constant field every lookup is exact but for bands 1 and 2, which 256 directions leave at 1e-3.
-    for (const sh::RadianceSh& s : reflected) EXPECT_NEAR(s[0].y / (root_4pi * rho / (1 - rho)), 1, 5e-3f) << rho;
+    for (const sh::RadianceSh& s : reflected)
+      EXPECT_NEAR(s[0].y / (root_4pi * rho / (1 - rho)), 1, 5e-3f) << rho;
   }
 }
 

@@ -100,6 +100,13 @@ std::vector<std::vector<sh::RadianceSh>> bounce_by_group(const RelightSession& s
   return reflected;
 }
 
+/// Finer than a session's: nobody waits for a frame.
+TransportParams bake_resolution(const scene::TransportSource& source, TransportParams params) {
+  if (params.surfel_size == 0)
+    params.surfel_size = glm::clamp(source.part_bounds(0).radius() / 32, 0.04f, 0.5f);
+  return params;
+}
+
 void require_probes(const ProbeSet& set) {
   if (set.probes.empty())
     throw Error("bake", "there are no probes to bake", "run INIT on a scene with SPHLs");
@@ -118,7 +125,7 @@ ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, cons
   // Light everything once, then each group alone.
   std::vector<ProbePlace> places;
   for (const Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
-  RelightParams relight_params{params.transport, params.solve};
+  RelightParams relight_params{bake_resolution(source, params.transport), params.solve};
   relight_params.degree = set.degree;
   RelightSession session(source, std::move(places), relight_params, set.generator.time, control);
   session.update();
@@ -173,7 +180,8 @@ void fit_set(const scene::TransportSource& source, ProbeSet& set, const Transpor
   const auto start = Clock::now();
   std::vector<vec3> positions;
   for (const Probe& probe : set.probes) positions.push_back(probe.position);
-  const TransportNetwork network(source, positions, params.transport, set.generator.time, control);
+  const TransportNetwork network(source, positions, bake_resolution(source, params.transport),
+                                 set.generator.time, control);
   describe_network(network, set, report);
   fit(network, source, set, params.fit_params, report, control);
   report.fit_seconds = seconds_since(start);

@@ -12,7 +12,7 @@ namespace ssphh::gi {
 struct TransportBakeParams {
   LightOperator op = LightOperator::surfel;  ///< surfel or bounce
   BounceParams bounce;
-  TransportParams transport;
+  TransportParams transport;  ///< surfel_size 0: a thirty-second of the scene's radius, within 0.04..0.5 m
   SolveParams solve;
   bool fit = false;  ///< also fit lookup weights at the surfels
   FitParams fit_params;

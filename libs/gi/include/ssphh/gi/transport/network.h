@@ -118,8 +118,8 @@ class TransportNetwork {
   /// it.
   int find(int part, const scene::SurfacePoint& point) const;
 
-  /// Links that ended where no surfel is: their light is lost. A few are normal, where the underside of a part
-  /// looks into what nothing else sees.
+  /// Links that ended where no surfel is: their light is lost. A few are normal, where the underside of a
+  /// part looks into what nothing else sees.
   std::size_t lost_links() const;
 
   struct Data;
