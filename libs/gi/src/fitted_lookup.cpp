@@ -28,55 +28,53 @@ std::vector<vec3> positions_of(const FittedPoints& fitted) {
 struct FittedLookup::Data {
   Data(const ProbeSet& set, const FittedPoints& fitted, const scene::RadianceSource& source_in,
        const LookupParams& params)
-      : source(source_in), elsewhere(set, source_in, params), near_points(positions_of(fitted)) {
-    const ProbeTable table(set, params);
-    std::vector<ProbeWeights> weights;
-    at_points.assign(fitted.points.size(), vec3(0));
+      : source(source_in),
+        elsewhere(set, source_in, params),
+        table(set, params),
+        near_points(positions_of(fitted)),
+        spacing(median_spacing(positions_of(fitted))) {
     for (std::size_t i = 0; i < fitted.points.size(); ++i) {
-      const ProbeWeights& w = fitted.weights[i];
-      for (int k = 0; k < w.count; ++k) {
-        const int probe = w.entries[static_cast<std::size_t>(k)].probe;
-        if (probe < 0 || static_cast<std::size_t>(probe) >= set.probes.size())
+      for (const ProbeWeight& weight : fitted.weights[i].used()) {
+        if (weight.probe < 0 || static_cast<std::size_t>(weight.probe) >= set.probes.size())
           throw Error(fmt::format("fitted point {}", i),
-                      fmt::format("it names probe {}, which there is not", probe));
+                      fmt::format("it names probe {}, which there is not", weight.probe));
       }
-      if (w.count == 0) continue;
+      if (fitted.weights[i].count == 0) continue;
       points.push_back(fitted.points[i]);
-      index.push_back(i);
+      weights.push_back(fitted.weights[i]);
     }
+    at_own_normal.resize(points.size());
     parallel_for(points.size(), 256, [&](std::size_t begin, std::size_t end) {
       ProbeTable::Basis basis;
       for (std::size_t p = begin; p < end; ++p) {
         table.irradiance_basis(points[p].normal, basis);
-        const ProbeWeights& w = fitted.weights[index[p]];
-        vec3 sum(0);
-        for (int k = 0; k < w.count; ++k) {
-          const ProbeWeight& entry = w.entries[static_cast<std::size_t>(k)];
-          sum += entry.weight * table.irradiance(entry.probe, basis.data());
-        }
-        at_points[index[p]] = sum;
+        at_own_normal[p] = irradiance(p, basis);
       }
     });
-    spacing = median_spacing(positions_of(fitted));
+  }
+
+  /// Σ_j v_j E_j(n) with the weights of a point.
+  vec3 irradiance(std::size_t point, const ProbeTable::Basis& basis) const {
+    vec3 sum(0);
+    for (const ProbeWeight& w : weights[point].used())
+      sum += w.weight * table.irradiance(w.probe, basis.data());
+    return sum;
   }
 
   const scene::RadianceSource& source;
   IrradianceLookup elsewhere;
+  ProbeTable table;
   NearestPoints near_points;
+  float spacing;
   std::vector<scene::SurfacePoint> points;  ///< those that have weights
-  std::vector<std::size_t> index;           ///< of each in the fitted points
-  std::vector<vec3> at_points;
-  float spacing = 0;
+  std::vector<ProbeWeights> weights;
+  std::vector<vec3> at_own_normal;  ///< irradiance
 };
 
 FittedLookup::FittedLookup(const ProbeSet& set, const FittedPoints& fitted,
                            const scene::RadianceSource& source, const LookupParams& params)
     : data_(std::make_unique<Data>(set, fitted, source, params)) {}
 FittedLookup::~FittedLookup() = default;
-
-const std::vector<vec3>& FittedLookup::point_irradiance() const {
-  return data_->at_points;
-}
 
 vec3 FittedLookup::irradiance(const vec3& x, const vec3& n) const {
   const Data& d = *data_;
@@ -85,6 +83,8 @@ vec3 FittedLookup::irradiance(const vec3& x, const vec3& n) const {
   const int count = d.near_points.find(x, near, radius);
   const Frame frame = Frame::around(n);
   const float lift = 0.02f * d.spacing;
+  ProbeTable::Basis basis;
+  d.table.irradiance_basis(n, basis);
 
   // Fit a + b·(u, v) in the tangent plane; the value at x is a.
   mat3 gram(0);
@@ -95,7 +95,8 @@ vec3 FittedLookup::irradiance(const vec3& x, const vec3& n) const {
       count == static_cast<int>(most_near) ? std::sqrt(near[most_near - 1].distance2) * 1.0001f : radius;
   for (int i = 0; i < count; ++i) {
     const Near& found = near[static_cast<std::size_t>(i)];
-    const scene::SurfacePoint& point = d.points[static_cast<std::size_t>(found.index)];
+    const auto p = static_cast<std::size_t>(found.index);
+    const scene::SurfacePoint& point = d.points[p];
     const float cosine = glm::dot(point.normal, n);
     const vec3 local = frame.to_local(point.position - x);
     if (cosine < 0.7f || std::abs(local.z) > 0.5f * d.spacing + 0.1f * std::sqrt(found.distance2)) continue;
@@ -105,7 +106,8 @@ vec3 FittedLookup::irradiance(const vec3& x, const vec3& n) const {
     const float t = 1 - found.distance2 / (reach * reach);
     const float weight = t * t * cosine;
     const vec3 place(1, local.x / d.spacing, local.y / d.spacing);
-    const vec3& e = d.at_points[d.index[static_cast<std::size_t>(found.index)]];
+    // On curved surfaces the point's weights serve, with the normal asked for.
+    const vec3 e = cosine > 0.9999f ? d.at_own_normal[p] : d.irradiance(p, basis);
     for (int c = 0; c < 3; ++c) gram[c] += weight * place[c] * place;
     for (int c = 0; c < 3; ++c) right[c] += weight * e[c] * place;
     low = glm::min(low, e);

@@ -36,10 +36,11 @@ std::vector<double> fit_non_negative(std::span<const double> rows, std::span<con
 /// Places for fitted points that cover all static surfels: at most `per_surfel` of each one's samples.
 std::vector<scene::SurfacePoint> surfel_points(const TransportNetwork& network, int per_surfel = 1);
 
-/// Indirect light from fitted points: irradiance at each of them is found once, at construction; in between,
-/// a linear fit over the near ones that x sees and that face its way, kept within their range. Where there
-/// are none, and for glossy lobes, an IrradianceLookup by `params`. Copies what it needs; `source` must
-/// outlive it. Throws Error as IrradianceLookup does, and for weights that name a probe which the set lacks.
+/// Indirect light from fitted points: each near one that x sees and that faces about its way gives the
+/// irradiance of its weights toward the normal asked for; a linear fit over them, kept within their range, is
+/// taken at x. Where there are none, and for glossy lobes, an IrradianceLookup by `params`. Copies what it
+/// needs; `source` must outlive it. Throws Error as IrradianceLookup does, and for weights that name a probe
+/// which the set lacks.
 class FittedLookup final : public scene::IndirectLight {
  public:
   FittedLookup(const ProbeSet& set, const FittedPoints& fitted, const scene::RadianceSource& source,
@@ -47,9 +48,6 @@ class FittedLookup final : public scene::IndirectLight {
   ~FittedLookup() override;
   vec3 irradiance(const vec3& x, const vec3& n) const override;
   vec3 glossy(const vec3& x, const vec3& n, const vec3& r, float roughness) const override;
-
-  /// At the fitted points themselves.
-  const std::vector<vec3>& point_irradiance() const;
 
  private:
   struct Data;
