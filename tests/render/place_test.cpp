@@ -1,5 +1,7 @@
 // Placement in real scenes and with Embree.
 
+#include <set>
+
 #include <gtest/gtest.h>
 
 #include <ssphh/gi/place.h>
@@ -30,6 +32,23 @@ TEST(Placement, TwoRoomsWithEmbree) {
   EXPECT_GE(in_doorway, 1);
   // 5 · 4 · 5 places a room and more in its corners.
   EXPECT_GT(placement.probes.size(), 300u);
+}
+
+TEST(Placement, TheGalleriesHallIsFilled) {
+  const scene::Scene scene = scene::make_builtin("gallery1");
+  const trace::TransportScene source(scene);
+  gi::PlaceParams params = gi::place_params(scene);
+  params.spacing = 2;
+  params.manual.clear();
+  std::set<int> octants;
+  for (const gi::PlacedProbe& probe : gi::place_probes(source, params).probes) {
+    const vec3& p = probe.position;
+    EXPECT_LT(std::abs(p.x), 5);
+    EXPECT_LT(std::abs(p.z), 4);
+    EXPECT_TRUE(p.y > 0 && p.y < 4);
+    octants.insert((p.x > 0 ? 1 : 0) + (p.y > 2 ? 2 : 0) + (p.z > 0 ? 4 : 0));
+  }
+  EXPECT_EQ(octants.size(), 8u);
 }
 
 TEST(Placement, SponzasAtticStaysEmpty) {
