@@ -18,8 +18,6 @@ struct LeakParams {
   /// must stay dark: rare bright paths make light points look dark, and their variance with them.
   scene::PathParams path{.max_depth = 25, .passes = 1, .spp = 256, .seed = 0};
   float mean = 0;  ///< that dark_share refers to [W/m²]; 0: the mean over the points
-
-  friend bool operator==(const LeakParams&, const LeakParams&) = default;
 };
 
 /// All irradiances are indirect, as Rec.709 luminance [W/m²].
