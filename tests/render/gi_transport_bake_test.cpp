@@ -80,6 +80,7 @@ TEST(GiTransportBake, GroupsAddUpToTheLightOfAll) {
   for (const gi::Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
   gi::RelightParams relight{params.transport, params.solve};
   relight.degree = 2;
+  relight.transport.surfel_size = set.generator.surfel_size;
   gi::RelightSession session(source, places, relight);
   session.update();
   for (std::size_t i = 0; i < set.probes.size(); ++i) {
