@@ -8,11 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "temp_dir.h"
-#include "tool.h"
+#include "tool_checks.h"
 
 namespace ssphh {
 namespace {
 
+using test::expect_failure;
 using test::run_tool;
 using test::TempDir;
 using test::ToolProcess;
@@ -27,13 +28,6 @@ std::string read(const std::filesystem::path& path) {
 
 void write(const std::filesystem::path& path, const std::string& content) {
   std::ofstream(path, std::ios::binary) << content;
-}
-
-void expect_failure(const std::vector<std::string>& arguments, const std::string& message,
-                    int exit_code = 1) {
-  const ToolResult result = run_tool(arguments);
-  EXPECT_EQ(result.exit_code, exit_code) << testing::PrintToString(arguments) << "\n" << result.err;
-  EXPECT_THAT(result.err + result.out, HasSubstr(message)) << testing::PrintToString(arguments);
 }
 
 const std::vector<std::string> small = {"--width", "16", "--height", "9", "--spp", "1"};

@@ -5,29 +5,17 @@
 #include <nlohmann/json.hpp>
 
 #include "temp_dir.h"
-#include "tool.h"
+#include "tool_checks.h"
 
 namespace ssphh {
 namespace {
 
 using nlohmann::json;
+using test::expect_keys;
+using test::run_json;
 using test::run_tool;
 using test::TempDir;
 using test::ToolResult;
-
-json run_json(std::vector<std::string> arguments) {
-  arguments.emplace_back("--json");
-  const ToolResult result = run_tool(arguments);
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  json object = json::parse(result.out, nullptr, false);
-  EXPECT_TRUE(object.is_object()) << "stdout is not one JSON object: " << result.out;
-  return object.is_object() ? object : json::object();
-}
-
-void expect_keys(const json& object, const std::vector<std::string>& keys) {
-  for (const std::string& key : keys)
-    EXPECT_TRUE(object.contains(key)) << key << " is missing in " << object.dump();
-}
 
 TEST(Keys, EveryCommandHasHelp) {
   for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{{},

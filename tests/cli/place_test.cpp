@@ -7,25 +7,17 @@
 #include <nlohmann/json.hpp>
 
 #include "temp_dir.h"
-#include "tool.h"
+#include "tool_checks.h"
 
 namespace ssphh {
 namespace {
 
 using nlohmann::json;
+using test::run_json;
 using test::run_tool;
 using test::TempDir;
 using test::ToolResult;
 using testing::HasSubstr;
-
-json run_json(std::vector<std::string> arguments, int exit_code = 0) {
-  arguments.emplace_back("--json");
-  const ToolResult result = run_tool(arguments);
-  EXPECT_EQ(result.exit_code, exit_code) << result.err;
-  json object = json::parse(result.out, nullptr, false);
-  EXPECT_TRUE(object.is_object()) << result.out;
-  return object.is_object() ? object : json::object();
-}
 
 const std::vector<std::string> quick = {"--degree", "1", "--face", "4", "--spp", "1"};
 

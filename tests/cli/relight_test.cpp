@@ -7,12 +7,15 @@
 #include <nlohmann/json.hpp>
 
 #include "temp_dir.h"
-#include "tool.h"
+#include "tool_checks.h"
 
 namespace ssphh {
 namespace {
 
 using nlohmann::json;
+using test::expect_failure;
+using test::expect_keys;
+using test::run_json;
 using test::run_tool;
 using test::TempDir;
 using test::ToolProcess;
@@ -25,27 +28,6 @@ std::vector<std::string> relight(const std::vector<std::string>& more) {
   std::vector<std::string> arguments = {"relight", "builtin:two-rooms"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
-}
-
-json run_json(std::vector<std::string> arguments) {
-  arguments.emplace_back("--json");
-  const ToolResult result = run_tool(arguments);
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  json object = json::parse(result.out, nullptr, false);
-  EXPECT_TRUE(object.is_object()) << "stdout is not one JSON object: " << result.out;
-  return object.is_object() ? object : json::object();
-}
-
-void expect_keys(const json& object, const std::vector<std::string>& keys) {
-  for (const std::string& key : keys) EXPECT_TRUE(object.contains(key)) << key << " is missing in " << object;
-}
-
-void expect_failure(const std::vector<std::string>& arguments, const std::vector<std::string>& messages,
-                    int exit_code = 1) {
-  const ToolResult result = run_tool(arguments);
-  EXPECT_EQ(result.exit_code, exit_code) << testing::PrintToString(arguments) << "\n" << result.err;
-  for (const std::string& message : messages)
-    EXPECT_THAT(result.err + result.out, HasSubstr(message)) << testing::PrintToString(arguments);
 }
 
 TEST(Relight, ReportsStagesRaysAndErrors) {

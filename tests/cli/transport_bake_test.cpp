@@ -8,32 +8,19 @@
 #include <nlohmann/json.hpp>
 
 #include "temp_dir.h"
-#include "tool.h"
+#include "tool_checks.h"
 
 namespace ssphh {
 namespace {
 
 using nlohmann::json;
+using test::expect_failure;
+using test::run_json;
 using test::run_tool;
 using test::TempDir;
 using test::ToolResult;
 using testing::AllOf;
 using testing::HasSubstr;
-
-json run_json(std::vector<std::string> arguments) {
-  arguments.emplace_back("--json");
-  const ToolResult result = run_tool(arguments);
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  json object = json::parse(result.out, nullptr, false);
-  return object.is_object() ? object : json::object();
-}
-
-void expect_failure(const std::vector<std::string>& arguments, const std::string& message,
-                    int exit_code = 1) {
-  const ToolResult result = run_tool(arguments);
-  EXPECT_EQ(result.exit_code, exit_code) << testing::PrintToString(arguments) << "\n" << result.err;
-  EXPECT_THAT(result.err + result.out, HasSubstr(message)) << testing::PrintToString(arguments);
-}
 
 std::vector<std::string> small_bake(const std::string& scene, const std::string& output,
                                     const std::vector<std::string>& more = {}) {
