@@ -25,8 +25,8 @@ inline void expect_keys(const nlohmann::json& object, const std::vector<std::str
 }
 
 /// The command ends with `exit_code` and says each of `messages`.
-inline void expect_failure(const std::vector<std::string>& arguments, const std::vector<std::string>& messages,
-                           int exit_code = 1) {
+inline void expect_failure(const std::vector<std::string>& arguments,
+                           const std::vector<std::string>& messages, int exit_code = 1) {
   const ToolResult result = run_tool(arguments);
   EXPECT_EQ(result.exit_code, exit_code) << testing::PrintToString(arguments) << "\n" << result.err;
   for (const std::string& message : messages)
