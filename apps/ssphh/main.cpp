@@ -45,6 +45,8 @@ int run(int argc, char** argv) {
   add_sh_commands(app, context);
   add_cubemap_commands(app, context);
   add_compare_command(app, context);
+  add_truth_command(app, context);
+  add_export_command(app, context);
   add_leak_command(app, context);
   add_relight_command(app, context);
 
