@@ -31,8 +31,9 @@ class ByteWriter {
   template <class T>
   requires std::is_trivially_copyable_v<T>
   void array(std::span<const T> values) {
-    const auto bytes = std::as_bytes(values);
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    const std::size_t begin = bytes_.size();
+    bytes_.resize(begin + values.size_bytes());
+    if (!values.empty()) std::memcpy(bytes_.data() + begin, values.data(), values.size_bytes());
   }
   const std::vector<std::byte>& bytes() const { return bytes_; }
   std::vector<std::byte> take() { return std::move(bytes_); }
