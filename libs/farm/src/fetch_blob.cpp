@@ -81,7 +81,7 @@ std::vector<std::byte> fetch_blob(DiskCache& cache, const Hash128& package, cons
   std::vector<std::byte> bytes = read_file(cache.dir() / (blob.hex() + ".part"), size);
   if (content_hash(bytes) != blob) {
     part.remove();
-    throw Error("blob " + blob.hex(), "what arrived has another hash", "it was damaged on its way");
+    throw BlobUnavailable(fmt::format("blob {}: what arrived has another hash", blob.hex()));
   }
   try {
     cache.put(blob, bytes);

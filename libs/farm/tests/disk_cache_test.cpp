@@ -113,7 +113,7 @@ TEST(FetchBlob, WhatArrivesDamagedIsRefusedAndFetchedAgain) {
     return copy;
   };
   const Hash128 hash = content_hash(bytes);
-  EXPECT_THROW(fetch_blob(cache, {}, hash, bytes.size(), fetch, {}), Error);
+  EXPECT_THROW(fetch_blob(cache, {}, hash, bytes.size(), fetch, {}), BlobUnavailable);
   damage = false;
   EXPECT_EQ(fetch_blob(cache, {}, hash, bytes.size(), fetch, {}), bytes);
 }

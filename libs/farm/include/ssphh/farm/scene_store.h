@@ -13,20 +13,19 @@
 
 namespace ssphh::farm {
 
+/// This worker cannot do the job (a full disk, a client that is gone); another may.
+struct BlobUnavailable : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// Bytes [offset, offset + length) of a blob of the package, from whoever has it. May give fewer, not none.
 using FetchChunk = std::function<std::vector<std::byte>(const Hash128& package, const Hash128& blob,
                                                         std::uint64_t offset, std::uint64_t length)>;
 
 /// A blob from the cache, or fetched in chunks into DIR/KEY.part, where an interrupted transfer continues,
-/// also another process's. Throws Error when what arrived is something else, BlobUnavailable when it does not
-/// arrive or cannot be kept.
+/// also another process's. Throws BlobUnavailable when it does not arrive whole or cannot be kept.
 std::vector<std::byte> fetch_blob(DiskCache& cache, const Hash128& package, const Hash128& blob,
                                   std::uint64_t size, const FetchChunk& fetch, const Control& control);
-
-/// This worker cannot do the job (a full disk, a client that is gone); another may.
-struct BlobUnavailable : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 struct PreparedScene {
   scene::Scene scene;
