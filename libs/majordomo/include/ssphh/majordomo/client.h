@@ -36,7 +36,7 @@ struct ClientOptions {
 struct RequestOptions {
   Millis deadline = 0;         ///< from now; 0: none. Then the outcome is `expired`
   Millis attempt_timeout = 0;  ///< of one attempt on one worker; 0: the broker's default
-  /// Requests to one service with equal key and equal body are computed once while in flight or on record.
+  /// Requests to one service with equal key and equal body are computed once while in flight.
   std::optional<Hash128> content_key;
   bool persistent = false;      ///< survives broker restarts and this client; wants a broker with a store
   std::optional<RequestId> id;  ///< a fresh one unless given; an id known to the broker joins that request

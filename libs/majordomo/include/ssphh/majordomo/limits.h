@@ -42,7 +42,9 @@ struct BrokerTimers {
   Millis record = 60'000;              ///< how long a finished reply is kept for a client that asks again
   Millis stored_result = 7 * 86'400'000LL;  ///< how long a stored result waits to be fetched
   Millis service_idle = 600'000;            ///< a service without workers and requests is forgotten
-  double straggler = 1.5;                   ///< an attempt over this many medians is a straggler
+  Millis straggler_least = 1000;            ///< attempts younger than this are never stragglers
+  Millis client_grace = 10'000;   ///< how long requests of an own client wait for it to connect again
+  double straggler = 1.5;         ///< an attempt over this many medians is a straggler
   double straggler_after = 0.75;  ///< and is run twice when this share of its client's requests is done
 };
 
