@@ -110,7 +110,10 @@ void run_stage(const Job& job, BakeStage stage, Checkpoint& checkpoint, const Co
   for (std::size_t i = 0; i < probe_count; ++i) {
     control.check();
     PartProgress part(progress, texels);
-    if (done[i]) continue;
+    if (done[i]) {
+      if (job.params.on_probe) job.params.on_probe(i, job.set.probes[i]);
+      continue;
+    }
     const auto start = std::chrono::steady_clock::now();
     const std::uint64_t rays_before = job.source.rays_traced();
     job.trace(i, stage, {&part, control.cancel});
@@ -121,6 +124,7 @@ void run_stage(const Job& job, BakeStage stage, Checkpoint& checkpoint, const Co
     job.report.rays += record.rays;
     record.payload = job.encode(i, stage);
     checkpoint.append(record);
+    if (job.params.on_probe) job.params.on_probe(i, job.set.probes[i]);
   }
 }
 

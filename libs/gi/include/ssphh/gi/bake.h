@@ -2,6 +2,7 @@
 /// GEN and VIZ of a whole set, one probe after the other, with progress, cancellation and resume.
 
 #include <filesystem>
+#include <functional>
 
 #include <ssphh/gi/probe_set.h>
 #include <ssphh/scene/radiance_source.h>
@@ -15,6 +16,9 @@ struct BakeParams {
   bool keep_light = false;      ///< no GEN: VIZ alone, beside the light that the set holds
   bool viz = true;
   bool viz_transfer = false;  ///< also the matrices T_{j→i}
+  /// Told of each probe when its GEN or VIZ is done, on the caller's thread: `groups` or `edges` are new,
+  /// what merge_groups derives is not. Empty: nobody is. Changes no result.
+  std::function<void(std::size_t, const Probe&)> on_probe;
 };
 
 /// What a bake took: not part of the set, which must not depend on timing.
