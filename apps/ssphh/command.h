@@ -46,5 +46,6 @@ void add_cubemap_commands(CLI::App& app, Context& context);
 void add_compare_command(CLI::App& app, Context& context);
 void add_leak_command(CLI::App& app, Context& context);
 void add_relight_command(CLI::App& app, Context& context);
+void add_view_command(CLI::App& app, Context& context);
 
 }  // namespace ssphh::app

@@ -20,9 +20,12 @@ void Reference::start(const ReferenceParams& params) {
       control.check();
       render.path.passes = pass;
       tracer.render(render, state, {nullptr, control.cancel});
-      auto color = std::make_shared<const image::Image>(trace::resolve(state.color, pass));
+      ReferenceImage image;
+      image.color = std::make_shared<const image::Image>(trace::resolve(state.color, pass));
+      image.indirect = std::make_shared<const image::Image>(trace::resolve(state.indirect, pass));
+      image.passes = pass;
       control.progress->advance(1);
-      job_.hand_over([this, color = std::move(color), pass] { image_ = {color, pass}; });
+      job_.hand_over([this, image] { image_ = image; });
     }
     return {};
   });

@@ -20,7 +20,8 @@ struct ReferenceParams {
 };
 
 struct ReferenceImage {
-  std::shared_ptr<const image::Image> color;  ///< radiance, mean of the passes
+  std::shared_ptr<const image::Image> color;     ///< radiance, mean of the passes
+  std::shared_ptr<const image::Image> indirect;  ///< path depth ≥ 2 of it
   int passes = 0;
 };
 
