@@ -97,7 +97,7 @@ struct Work {
       std::vector<bool> done(set.probes.size(), false);
       for (const CheckpointRecord& record : checkpoint.records()) {
         if (record.stage != stage || record.probe >= done.size() || done[record.probe]) continue;
-        store(decode(record, set), set, report);
+        keep(decode(record, set));
         done[record.probe] = true;
         ++report.resumed;
       }
@@ -109,7 +109,13 @@ struct Work {
 
   void finish(ProbeStageResult result) const {
     checkpoint.append(encode(result));
+    keep(std::move(result));
+  }
+
+  void keep(ProbeStageResult result) const {
+    const std::size_t i = result.done.probe;
     store(std::move(result), set, report);
+    if (params.on_probe) params.on_probe(i, set.probes[i]);
   }
 
   /// Probe by probe; each is on all threads.

@@ -17,6 +17,9 @@ struct BakeParams {
   bool keep_light = false;      ///< no GEN: VIZ alone, beside the light that the set holds
   bool viz = true;
   bool viz_transfer = false;  ///< also the matrices T_{j→i}
+  /// Told of each probe when its GEN or VIZ is done, from one thread at a time: `groups` or `edges` are new,
+  /// what merge_groups derives is not. Empty: nobody is. Changes no result.
+  std::function<void(std::size_t, const Probe&)> on_probe;
 };
 
 /// What a bake took: not part of the set, which must not depend on timing.
