@@ -8,7 +8,6 @@
 #include <ssphh/gi/bake.h>
 #include <ssphh/gi/gen.h>
 #include <ssphh/gi/probe_file.h>
-#include <ssphh/gi/viz.h>
 
 #include "checkpoint.h"
 #include "part_progress.h"
@@ -27,7 +26,9 @@ Hash128 bake_key(const scene::RadianceSource& source, const ProbeSet& set, const
       .value(g.scene_hash.low)
       .value(g.time);
   hasher.value(g.gen).value(g.max_depth).value(g.passes).value(g.spp).value(g.seed).value(g.face_size);
-  hasher.value(params.keep_light).value(params.viz).value(params.viz_transfer);
+  hasher.value(params.keep_light).value(params.viz);
+  const VizParams& viz = params.viz_params;
+  hasher.value(viz.matrix).value(viz.neighbors).value(viz.threshold);
   for (const std::string& group : source.light_groups()) hasher.text(group);
   for (const Probe& probe : set.probes) {
     hasher.text(probe.name)
@@ -62,7 +63,7 @@ struct Job {
     if (stage == BakeStage::gen) {
       probe.groups = gen(source, cube, set.degree, control);
     } else {
-      probe.edges = viz(source, set, i, cube, {params.viz_transfer}, control);
+      probe.edges = viz(source, set, i, cube, params.viz_params, control);
     }
   }
 
@@ -164,6 +165,7 @@ ProbeSet bake(const scene::RadianceSource& source, ProbeSet set, const BakeParam
   g.spp = params.path.spp;
   g.seed = params.path.seed;
   g.face_size = params.face_size;
+  if (params.viz) g.viz = VizMethod::path;
   if (params.keep_light) {
     if (!std::ranges::equal(set.light_groups, source.light_groups(), {}, &LightGroup::name))
       throw Error("bake", "the light to keep is of other light groups than the scene's");

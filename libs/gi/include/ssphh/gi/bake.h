@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include <ssphh/gi/probe_set.h>
+#include <ssphh/gi/viz.h>
 #include <ssphh/scene/radiance_source.h>
 
 namespace ssphh::gi {
@@ -13,8 +14,8 @@ struct BakeParams {
   scene::PathParams path;       ///< of GEN; VIZ uses the same depth and samples
   int face_size = 64;           ///< texels along a cube face
   bool keep_light = false;      ///< no GEN: VIZ alone, beside the light that the set holds
-  bool viz = true;
-  bool viz_transfer = false;  ///< also the matrices T_{j→i}
+  bool viz = true;              ///< false: the set's edges stay as they are
+  VizParams viz_params;
 };
 
 /// What a bake took: not part of the set, which must not depend on timing.
