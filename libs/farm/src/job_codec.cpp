@@ -51,7 +51,10 @@ Json put(const ProbeJob& job, MessageWriter& out) {
           {"degree", job.degree},
           {"face_size", job.face_size},
           {"path", put(job.path)},
-          {"viz_transfer", job.viz_transfer},
+          {"viz",
+           {{"matrix", job.viz_params.matrix},
+            {"neighbors", job.viz_params.neighbors},
+            {"threshold", exact(job.viz_params.threshold)}}},
           {"probes", job.probes},
           {"places", places}};
 }
@@ -63,7 +66,9 @@ ProbeJob get_probe_job(const Field& f, gi::BakeStage stage) {
   job.degree = static_cast<int>(f["degree"].integer(0, sh::max_degree));
   job.face_size = static_cast<int>(f["face_size"].integer(1, 4096));
   job.path = get_path(f["path"]);
-  job.viz_transfer = f["viz_transfer"].flag();
+  const Field viz = f["viz"];
+  job.viz_params = {viz["matrix"].flag(), static_cast<int>(viz["neighbors"].integer(-1, INT32_MAX)),
+                    viz["threshold"].number()};
   const Field probes = f["probes"];
   const std::size_t count = probes.size(job_limits::units);
   for (std::size_t i = 0; i < count; ++i)

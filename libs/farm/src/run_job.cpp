@@ -32,8 +32,7 @@ ProbeJobResult run(const ProbeJob& job, const PreparedScene& scene, const Contro
   ProbeJobResult result{job.stage, job.degree, {}};
   for (const std::uint32_t probe : job.probes) {
     control.check();
-    result.probes.push_back(
-        gi::bake_stage(*scene.tracer, set, job.viz_transfer, {job.stage, probe}, control));
+    result.probes.push_back(gi::bake_stage(*scene.tracer, set, job.viz_params, {job.stage, probe}, control));
   }
   return result;
 }

@@ -40,13 +40,13 @@ TEST(Job, GenAndVizGiveTheBitsOfALocalBake) {
   const PackedScene packed("gallery1");
   const trace::PathTracer tracer(packed.scene);
   for (ProbeJob job : {test::gen_job(packed), test::viz_job(packed)}) {
-    job.viz_transfer = job.stage == gi::BakeStage::viz;
+    job.viz_params.matrix = job.stage == gi::BakeStage::viz;
     const gi::ProbeSet set = set_for(packed, job);
     for (const ContentType type : both) {
       const auto got = std::get<ProbeJobResult>(far_away(packed, job, type).data);
       ASSERT_EQ(got.probes.size(), job.probes.size());
       for (std::size_t i = 0; i < job.probes.size(); ++i) {
-        const auto want = gi::bake_stage(tracer, set, job.viz_transfer, {job.stage, job.probes[i]});
+        const auto want = gi::bake_stage(tracer, set, job.viz_params, {job.stage, job.probes[i]});
         EXPECT_EQ(got.probes[i].done, want.done);
         EXPECT_EQ(got.probes[i].groups, want.groups);
         EXPECT_EQ(got.probes[i].edges, want.edges);

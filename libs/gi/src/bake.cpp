@@ -8,7 +8,6 @@
 #include <ssphh/gi/bake.h>
 #include <ssphh/gi/gen.h>
 #include <ssphh/gi/probe_file.h>
-#include <ssphh/gi/viz.h>
 
 #include "checkpoint.h"
 #include "part_progress.h"
@@ -27,7 +26,9 @@ Hash128 bake_key(const scene::RadianceSource& source, const ProbeSet& set, const
       .value(g.scene_hash.low)
       .value(g.time);
   hasher.value(g.gen).value(g.max_depth).value(g.passes).value(g.spp).value(g.seed).value(g.face_size);
-  hasher.value(params.keep_light).value(params.viz).value(params.viz_transfer);
+  hasher.value(params.keep_light).value(params.viz);
+  const VizParams& viz = params.viz_params;
+  hasher.value(viz.matrix).value(viz.neighbors).value(viz.threshold);
   for (const std::string& group : source.light_groups()) hasher.text(group);
   for (const Probe& probe : set.probes) {
     hasher.text(probe.name)
@@ -129,7 +130,7 @@ struct Work {
       if (unit.stage != stage) continue;
       control.check();
       PartProgress part(progress, texels);
-      finish(bake_stage(source, set, params.viz_transfer, unit, {&part, control.cancel}));
+      finish(bake_stage(source, set, params.viz_params, unit, {&part, control.cancel}));
     }
   }
 };
@@ -160,8 +161,8 @@ void check_probes(const scene::RadianceSource& source, const ProbeSet& set, Bake
 
 }  // namespace
 
-ProbeStageResult bake_stage(const scene::RadianceSource& source, const ProbeSet& set, bool viz_transfer,
-                            const ProbeStage& stage, const Control& control) {
+ProbeStageResult bake_stage(const scene::RadianceSource& source, const ProbeSet& set,
+                            const VizParams& viz_params, const ProbeStage& stage, const Control& control) {
   const auto start = std::chrono::steady_clock::now();
   const std::uint64_t rays_before = source.rays_traced();
   const scene::CubeRequest request = request_of(set, stage);
@@ -169,7 +170,7 @@ ProbeStageResult bake_stage(const scene::RadianceSource& source, const ProbeSet&
   if (stage.stage == BakeStage::gen) {
     result.groups = gen(source, request, set.degree, control);
   } else {
-    result.edges = viz(source, set, stage.probe, request, {viz_transfer}, control);
+    result.edges = viz(source, set, stage.probe, request, viz_params, control);
   }
   result.rays = source.rays_traced() - rays_before;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -191,6 +192,7 @@ ProbeSet bake(const scene::RadianceSource& source, ProbeSet set, const BakeParam
   g.spp = params.path.spp;
   g.seed = params.path.seed;
   g.face_size = params.face_size;
+  if (params.viz) g.viz = VizMethod::path;
   if (params.keep_light) {
     if (!std::ranges::equal(set.light_groups, source.light_groups(), {}, &LightGroup::name))
       throw Error("bake", "the light to keep is of other light groups than the scene's");

@@ -34,8 +34,8 @@ struct ProbeJob {
   gi::BakeStage stage = gi::BakeStage::gen;
   int degree = 9;
   int face_size = 64;
-  scene::PathParams path;     ///< `seed` is the set's; each probe derives its own from it and its index
-  bool viz_transfer = false;  ///< VIZ: also T_{j→i}
+  scene::PathParams path;    ///< `seed` is the set's; each probe derives its own from it and its index
+  gi::VizParams viz_params;  ///< VIZ: which edges, and whether with T_{j→i}
   std::vector<std::uint32_t> probes;  ///< indices in the set, ascending
   /// GEN: the places of `probes`, in that order. VIZ: those of the whole set.
   std::vector<ProbePlace> places;

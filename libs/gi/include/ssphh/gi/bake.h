@@ -6,6 +6,7 @@
 #include <span>
 
 #include <ssphh/gi/probe_set.h>
+#include <ssphh/gi/viz.h>
 #include <ssphh/scene/radiance_source.h>
 
 namespace ssphh::gi {
@@ -15,8 +16,8 @@ struct BakeParams {
   scene::PathParams path;       ///< of GEN; VIZ uses the same depth and samples
   int face_size = 64;           ///< texels along a cube face
   bool keep_light = false;      ///< no GEN: VIZ alone, beside the light that the set holds
-  bool viz = true;
-  bool viz_transfer = false;  ///< also the matrices T_{j→i}
+  bool viz = true;              ///< false: the set's edges stay as they are
+  VizParams viz_params;
   /// Told of each probe when its GEN or VIZ is done, from one thread at a time: `groups` or `edges` are new,
   /// what merge_groups derives is not. Empty: nobody is. Changes no result.
   std::function<void(std::size_t, const Probe&)> on_probe;
@@ -49,8 +50,9 @@ struct ProbeStageResult {
 
 /// One unit: a pure function of the scene, the set's generator (path parameters, face size, seed), degree and
 /// places, but for the seconds. GEN looks at that probe's place alone, VIZ at all.
-ProbeStageResult bake_stage(const scene::RadianceSource& source, const ProbeSet& set, bool viz_transfer,
-                            const ProbeStage& stage, const Control& control = {});
+ProbeStageResult bake_stage(const scene::RadianceSource& source, const ProbeSet& set,
+                            const VizParams& viz_params, const ProbeStage& stage,
+                            const Control& control = {});
 
 /// Does the units of a bake somewhere else than in this process.
 class BakeCrew {
