@@ -124,7 +124,7 @@ class Relighting {
   void save(const gi::RelightSession& session) {
     const FrameState state = animation_.frame(share(o_.frames - 1));
     gi::GeneratorInfo generator;
-    generator.op = gi::LightOperator::surfel;
+    generator.op = o_.params.op;
     generator.directions = session.network().params().directions;
     generator.surfel_size = session.network().params().surfel_size;
     generator.link_rays = session.network().params().link_rays;
@@ -227,7 +227,10 @@ class Relighting {
   bool saved_ = false;
 };
 
-void relight(Context& context, const RelightOptions& options) {
+void relight(Context& context, RelightOptions& options) {
+  options.params.op = *gi::parse_light_operator(options.method);
+  if (options.params.op == gi::LightOperator::bounce && options.params.poses != 0)
+    throw Error("--poses", "is of --operator surfel");
   if (!options.output.empty()) {
     std::error_code error;
     fs::create_directories(options.output, error);
@@ -240,8 +243,10 @@ void relight(Context& context, const RelightOptions& options) {
 void add_transport_options(CLI::App& command, RelightOptions& o) {
   const std::string group = "Transport";
   command
-      .add_option("--operator", o.method, "surfel: light goes from surface patch to patch until it settles")
-      ->check(CLI::IsMember({"surfel"}))
+      .add_option("--operator", o.method,
+                  "surfel: light goes from surface patch to patch until it settles; bounce: from probe to "
+                  "probe, each surface looking up the probes around it")
+      ->check(CLI::IsMember({"surfel", "bounce"}))
       ->capture_default_str()
       ->group(group);
   command.add_option("--degree", o.params.degree, "Highest band of the probes' functions")

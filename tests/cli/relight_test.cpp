@@ -30,6 +30,19 @@ std::vector<std::string> relight(const std::vector<std::string>& more) {
   return arguments;
 }
 
+TEST(Relight, BounceFollowsLampsAndDoorsToo) {
+  const TempDir dir;
+  const std::string saved = dir / "last.sphl";
+  const json run = run_json(relight({"--operator", "bounce", "--frames", "3", "--truth", "2", "--points",
+                                     "16", "--truth-spp", "16", "--save", saved}));
+  EXPECT_EQ(run["operator"], "bounce");
+  EXPECT_GT(run["stages"]["solve"]["iterations"], 1);
+  EXPECT_GT(run["stages"]["pose"]["rays"], 0);
+  EXPECT_EQ(run["error"].size(), 2u);
+  EXPECT_EQ(run_json({"probe", "info", saved})["generator"]["operator"], "bounce");
+  expect_failure(relight({"--operator", "bounce", "--poses", "4"}), "--poses");
+}
+
 TEST(Relight, ReportsStagesRaysAndErrors) {
   const TempDir dir;
   const std::string frames = dir / "frames", saved = dir / "last.sphl";

@@ -66,6 +66,75 @@ TEST(Bounce, OneApplicationAddsOneBounceToDirectLight) {
   for (const sh::RadianceSh& s : reflected) EXPECT_NEAR(s[0].y / root_4pi, 0.75f, 3e-3f);
 }
 
+gi::RelightParams bounce_session() {
+  gi::RelightParams params;
+  params.transport = small_network();
+  params.degree = 2;
+  params.op = gi::LightOperator::bounce;
+  params.warm_start = false;
+  return params;
+}
+
+TEST(BounceSession, EqualsTheOperatorAndTheGeometricSeries) {
+  GlowingBox box(0.5f);
+  gi::RelightSession session(box.source, places_of(box.scene), bounce_session());
+  const gi::RelightReport report = session.update();
+  EXPECT_TRUE(report.solve.converged);
+  EXPECT_GT(report.solve.iterations, 2);
+  std::vector<sh::RadianceSh> reflected;
+  gi::BounceOperator(session.network(), box.source, 2).solve(session.surfel_direct(), reflected);
+  EXPECT_EQ(session.reflected(), reflected);
+  ASSERT_EQ(session.reflected_by_group().size(), 1u);
+  EXPECT_EQ(session.reflected_by_group()[0], reflected);
+  for (const sh::RadianceSh& s : reflected) EXPECT_NEAR(s[0].y / root_4pi, 1, 5e-3f);
+  EXPECT_TRUE(session.update().changed_probes.empty()) << "nothing was set";
+}
+
+TEST(BounceSession, ADoorThatMovedEqualsASessionBuiltThere) {
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  const trace::TransportScene source(scene);
+  gi::RelightSession moved(source, places_of(scene), bounce_session());
+  moved.update();
+  const std::vector<sh::RadianceSh> shut = moved.reflected();
+  for (const float time : {0.6f, 1.0f, 0.25f}) {
+    moved.set_time(time);
+    moved.update();
+    gi::RelightSession built(source, places_of(scene), bounce_session(), time);
+    built.update();
+    EXPECT_EQ(moved.reflected(), built.reflected()) << time;
+    EXPECT_NE(moved.reflected(), shut) << time;
+  }
+}
+
+TEST(BounceSession, AWarmStartComesToTheSameLightSooner) {
+  GlowingBox box(0.8f);
+  gi::RelightParams params = bounce_session();
+  params.bounce.tolerance = 1e-5f;
+  gi::RelightSession cold(box.source, places_of(box.scene), params);
+  params.warm_start = true;
+  gi::RelightSession warm(box.source, places_of(box.scene), params);
+  warm.update();
+  cold.set_group_scale(0, vec3(1.05f));
+  warm.set_group_scale(0, vec3(1.05f));
+  const int from_darkness = cold.update().solve.iterations;
+  EXPECT_LT(warm.update().solve.iterations, from_darkness);
+  // Both stop when a bounce changes 1e-5; what is left is that over 1 - 0.8.
+  for (std::size_t i = 0; i < cold.reflected().size(); ++i)
+    EXPECT_NEAR(warm.reflected()[i][0].y / cold.reflected()[i][0].y, 1, 1e-4f);
+}
+
+TEST(BounceSession, WhatItCannotDoIsRefused) {
+  GlowingBox box(0.5f);
+  gi::RelightParams params = bounce_session();
+  gi::RelightSession session(box.source, places_of(box.scene), params);
+  EXPECT_THROW(session.emission_profile(vec3(0), 0.1f, 1), Error);
+  params.poses = 4;
+  EXPECT_THROW(gi::RelightSession(box.source, places_of(box.scene), params), Error);
+  params.poses = 0;
+  params.op = gi::LightOperator::path;
+  EXPECT_THROW(gi::RelightSession(box.source, places_of(box.scene), params), Error);
+}
+
 TEST(FittedLookup, ReproducesAConstantFieldEverywhere) {
   GlowingBox box(0.5f);
   const gi::FittedPoints fitted =
