@@ -1,6 +1,6 @@
-/// Clients, broker and workers, all real state machines, on a network and a clock made here: messages are delayed,
-/// overtake each other, get lost and come twice; workers die, freeze and come back; clients and broker start
-/// again. Every request must be answered exactly once, with its own result.
+/// Clients, broker and workers, all real state machines, on a network and a clock made here: messages are
+/// delayed, overtake each other, get lost and come twice; workers die, freeze and come back; clients and
+/// broker start again. Every request must be answered exactly once, with its own result.
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@ namespace {
 
 struct Faults {
   double lost = 0, doubled = 0;
-  Millis delay = 0;           ///< longest; more than one step lets messages overtake each other
-  double worker_dies = 0;     ///< per worker and second
+  Millis delay = 0;        ///< longest; more than one step lets messages overtake each other
+  double worker_dies = 0;  ///< per worker and second
   double client_reconnects = 0, broker_restarts = 0;  ///< per second
   bool store = false;
 };
@@ -109,7 +109,8 @@ class World {
   }
 
   void start_broker() {
-    broker_ = std::make_unique<BrokerCore>(limits_, timers_, sequence(seed_ + 1000 * ++generation_), faults_.store);
+    broker_ =
+        std::make_unique<BrokerCore>(limits_, timers_, sequence(seed_ + 1000 * ++generation_), faults_.store);
     broker_->tick(now_);
     for (StoredRequest& stored : std::vector(stored_)) broker_->restore(now_, std::move(stored));
   }
@@ -119,7 +120,8 @@ class World {
     if (body) frames.insert(frames.end(), body->begin(), body->end());
     if (chance(faults_.lost)) return;
     for (int copies = chance(faults_.doubled) ? 2 : 1; copies > 0; --copies) {
-      const Millis delay = step_ms + static_cast<Millis>(random_.uniform() * static_cast<float>(faults_.delay));
+      const Millis delay =
+          step_ms + static_cast<Millis>(random_.uniform() * static_cast<float>(faults_.delay));
       flying_.emplace(now_ + delay, Flying{kind, peer, frames});
     }
   }

@@ -1,4 +1,5 @@
-/// Broker, worker and client over real sockets on loopback; foreign peers in raw frames written from the RFCs.
+/// Broker, worker and client over real sockets on loopback; foreign peers in raw frames written from the
+/// RFCs.
 
 #include <atomic>
 #include <fstream>
@@ -77,7 +78,10 @@ class RawPeer {
     socket_.set(zmq::sockopt::linger, 0);
     socket_.connect(endpoint);
   }
-  void send(const Frames& frames) { send_message(socket_, nullptr, frames, nullptr); }
+  void send(const Frames& frames) {
+    while (send_message(socket_, nullptr, frames, nullptr) != Sent::yes)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
   /// The next message within five seconds, HEARTBEATs of the broker aside; empty when none comes.
   Frames receive(Millis timeout = 5000) {
     for (const Millis end = steady_now() + timeout; steady_now() < end;) {
@@ -85,7 +89,8 @@ class RawPeer {
       zmq::poll(&item, 1, std::chrono::milliseconds(20));
       auto message = receive_message(socket_);
       if (!message) continue;
-      if (message->frames == Frames{"", "MDPW01", "\x04"} || message->frames == Frames{"MDPW02", "\x05"}) continue;
+      if (message->frames == Frames{"", "MDPW01", "\x04"} || message->frames == Frames{"MDPW02", "\x05"})
+        continue;
       return message->frames;
     }
     return {};
@@ -182,7 +187,8 @@ TEST(Sockets, CancelStopsTheComputation) {
   const RequestId id = client.submit("long", {"x"});
   while (!started) client.poll(10);
   client.cancel(id);
-  for (int i = 0; i < 500 && !stopped; ++i) client.poll(10), std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  for (int i = 0; i < 500 && !stopped; ++i)
+    client.poll(10), std::this_thread::sleep_for(std::chrono::milliseconds(2));
   EXPECT_TRUE(stopped);
 }
 
@@ -210,7 +216,8 @@ TEST(Sockets, AbandonHandsTheJobToAnotherWorker) {
   RunningBroker broker;
   std::atomic<bool> started = false;
   auto first = std::make_unique<RunningWorker>(
-      WorkerOptions{.endpoint = broker.endpoint(), .service = "job", .name = "first"}, [&](const Job& job) -> Frames {
+      WorkerOptions{.endpoint = broker.endpoint(), .service = "job", .name = "first"},
+      [&](const Job& job) -> Frames {
         started = true;
         while (true) {
           job.control().check();
@@ -252,7 +259,8 @@ TEST(Sockets, StoreSurvivesTheBrokerAndTheClient) {
     Client client({.endpoint = broker.endpoint()});
     client.submit("gen", {"scene"}, persistent);
     EXPECT_FALSE(client.poll(300));
-    EXPECT_THROW(Broker({.bind = "tcp://127.0.0.1:0", .store = dir / "store"}), Error) << "the store is in use";
+    EXPECT_THROW(Broker({.bind = "tcp://127.0.0.1:0", .store = dir / "store"}), Error)
+        << "the store is in use";
   }
   {
     RunningBroker broker({.store = dir / "store"});
@@ -295,7 +303,8 @@ TEST(Foreign, OurWorkerServesAForeignBrokerExactlyByTheRfc) {
     router.set(zmq::sockopt::linger, 0);
     router.bind("tcp://127.0.0.1:*");
     const std::string endpoint = router.get(zmq::sockopt::last_endpoint);
-    RunningWorker worker({.endpoint = endpoint, .service = "echo", .dialect = dialect, .heartbeat = 100}, echo);
+    RunningWorker worker({.endpoint = endpoint, .service = "echo", .dialect = dialect, .heartbeat = 100},
+                         echo);
     const auto receive = [&](bool heartbeat) {
       for (const Millis end = steady_now() + 5000; steady_now() < end;) {
         zmq::pollitem_t item{router.handle(), 0, ZMQ_POLLIN, 0};
@@ -332,14 +341,16 @@ TEST(Foreign, OurClientAsksAForeignBrokerExactlyByTheRfc) {
   Client client({.endpoint = endpoint, .dialect = Dialect::mdp01, .foreign_timeout = 200});
   client.submit("echo", {"a"});
   client.submit("echo", {"b"});
-  for (const char* body : {"a", "a", "b"}) {  // the first is not answered, so it is asked again on a new socket
+  for (const char* body :
+       {"a", "a", "b"}) {  // the first is not answered, so it is asked again on a new socket
     std::optional<Received> message;
     for (int i = 0; i < 300 && !message; ++i) {
       EXPECT_FALSE(client.poll(10));
       message = receive_message(router);
     }
     ASSERT_TRUE(message);
-    EXPECT_EQ(Frames(message->frames.begin() + 1, message->frames.end()), (Frames{"", "MDPC01", "echo", body}));
+    EXPECT_EQ(Frames(message->frames.begin() + 1, message->frames.end()),
+              (Frames{"", "MDPC01", "echo", body}));
     static int asked = 0;
     if (++asked == 1) continue;
     send_message(router, nullptr, message->frames, nullptr);
@@ -387,13 +398,16 @@ TEST(Foreign, SlowReaderLosesNothing) {
 
 TEST(Curve, KnownKeysComeInOthersDoNot) {
   TempDir dir;
-  for (const char* name : {"broker", "alice", "worker", "mallory"}) write_key_pair(dir.path(), name, make_key_pair());
+  for (const char* name : {"broker", "alice", "worker", "mallory"})
+    write_key_pair(dir.path(), name, make_key_pair());
   add_to_allow_list(dir / "allow.txt", "alice", read_public_key(dir / "alice.pub"), {"client"});
   add_to_allow_list(dir / "allow.txt", "worker", read_public_key(dir / "worker.pub"), {"worker:echo"});
   const LogSink before = set_log_sink([](LogLevel, const std::string&) {});
   RunningBroker broker({.security = read_broker_security(dir.path())});
-  RunningWorker worker(
-      {.endpoint = broker.endpoint(), .service = "echo", .security = read_peer_security(dir.path(), "worker")}, echo);
+  RunningWorker worker({.endpoint = broker.endpoint(),
+                        .service = "echo",
+                        .security = read_peer_security(dir.path(), "worker")},
+                       echo);
   Client alice({.endpoint = broker.endpoint(), .security = read_peer_security(dir.path(), "alice")});
   EXPECT_THAT(alice.call("echo", {"x"}), ElementsAre("x"));
   EXPECT_THAT(alice.call("mmi.drain", {""}), ElementsAre("403"));
@@ -403,7 +417,8 @@ TEST(Curve, KnownKeysComeInOthersDoNot) {
     client.submit("echo", {"x"});
     return !client.poll(500) && !client.connected();
   };
-  EXPECT_TRUE(refused({.endpoint = broker.endpoint(), .security = read_peer_security(dir.path(), "mallory")}));
+  EXPECT_TRUE(
+      refused({.endpoint = broker.endpoint(), .security = read_peer_security(dir.path(), "mallory")}));
   EXPECT_TRUE(refused({.endpoint = broker.endpoint()})) << "plain";
   PeerSecurity wrong_broker = read_peer_security(dir.path(), "alice");
   wrong_broker.broker_key = make_key_pair().public_key;
@@ -443,15 +458,17 @@ TEST(Security, KeyFilesAndAllowLists) {
     std::ofstream(dir / "allow.txt") << text;
     return read_allow_list(dir / "allow.txt");
   };
-  const AllowList good = list("# comment\n\nann " + keys.public_key + " client worker:gen worker:viz.* # hers\n");
+  const AllowList good =
+      list("# comment\n\nann " + keys.public_key + " client worker:gen worker:viz.* # hers\n");
   ASSERT_EQ(good.size(), 1u);
   EXPECT_TRUE(good[0].rights.client);
   EXPECT_FALSE(good[0].rights.admin);
   EXPECT_TRUE(good[0].rights.may_serve("gen"));
   EXPECT_TRUE(good[0].rights.may_serve("viz.1"));
   EXPECT_FALSE(good[0].rights.may_serve("gen2"));
-  for (const std::string& bad : {"ann\n"s, "ann short client\n"s, "ann " + keys.public_key + " king\n",
-                                 "ann " + keys.public_key + " client\nbob " + keys.public_key + " client\n"}) {
+  for (const std::string& bad :
+       {"ann\n"s, "ann short client\n"s, "ann " + keys.public_key + " king\n",
+        "ann " + keys.public_key + " client\nbob " + keys.public_key + " client\n"}) {
     try {
       list(bad);
       ADD_FAILURE() << bad;
@@ -470,7 +487,8 @@ TEST(Metrics, AreServedToPrometheus) {
   http.set(zmq::sockopt::linger, 0);
   http.connect((*broker).metrics_endpoint());
   std::string text, peer;
-  for (const Millis end = steady_now() + 5000; steady_now() < end && text.find("jobs_queued 0") == text.npos;) {
+  for (const Millis end = steady_now() + 5000;
+       steady_now() < end && text.find("jobs_queued 0") == text.npos;) {
     zmq::pollitem_t item{http.handle(), 0, ZMQ_POLLIN, 0};
     zmq::poll(&item, 1, std::chrono::milliseconds(20));
     while (const auto message = receive_message(http)) {

@@ -38,8 +38,9 @@ struct RequestOptions {
   Millis attempt_timeout = 0;  ///< of one attempt on one worker; 0: the broker's default
   /// Requests to one service with equal key and equal body are computed once while in flight.
   std::optional<Hash128> content_key = {};
-  bool persistent = false;      ///< survives broker restarts and this client; wants a broker with a store
-  std::optional<RequestId> id = {};  ///< a fresh one unless given; an id known to the broker joins that request
+  bool persistent = false;  ///< survives broker restarts and this client; wants a broker with a store
+  std::optional<RequestId> id =
+      {};  ///< a fresh one unless given; an id known to the broker joins that request
 };
 
 enum class Outcome : std::uint8_t {
@@ -60,7 +61,7 @@ struct ClientEvent {
   Outcome outcome = Outcome::ok;
   Frames body = {};         ///< the worker's frames; empty unless ok
   std::string reason = {};  ///< for people; empty when ok
-  int attempts = 0;    ///< workers that were given the request, as far as the broker tells
+  int attempts = 0;         ///< workers that were given the request, as far as the broker tells
 };
 
 /// Not thread-safe: one per thread. Heartbeats need no help from the caller; the connection is kept by

@@ -28,9 +28,9 @@ std::string read_public_key(const std::filesystem::path& path);
 
 /// What a peer may do at the broker.
 struct Rights {
-  std::string name = {};    ///< of the key; empty for plain connections
-  bool client = true;  ///< may send requests
-  bool admin = true;   ///< may drain and cancel what is not its own
+  std::string name = {};  ///< of the key; empty for plain connections
+  bool client = true;     ///< may send requests
+  bool admin = true;      ///< may drain and cancel what is not its own
   std::vector<std::string> services = {
       "*"};  ///< that it may serve as a worker; a final * stands for any rest
 
