@@ -47,5 +47,7 @@ void add_broker_command(CLI::App& app, Context& context);
 void add_compare_command(CLI::App& app, Context& context);
 void add_leak_command(CLI::App& app, Context& context);
 void add_relight_command(CLI::App& app, Context& context);
+void add_worker_command(CLI::App& app, Context& context);
+void add_farm_commands(CLI::App& app, Context& context);
 
 }  // namespace ssphh::app
