@@ -132,7 +132,7 @@ LocalFarm::LocalFarm(LocalFarmOptions options) : impl_(new Impl) {
   s.folder = temporary_folder();
   s.endpoint = "ipc://" + (s.folder / "broker").string();
   try {
-    s.broker = spawn(s.options.tool, {"broker", "--bind", s.endpoint}, s.folder / "broker.log");
+    s.broker = spawn(s.options.tool, {"broker", "--bind", s.endpoint, "--attempts", "5"}, s.folder / "broker.log");
     for (int i = 0; i < s.options.workers; ++i)
       s.workers.push_back(s.start_worker(static_cast<std::size_t>(i)));
   } catch (...) {
