@@ -171,8 +171,8 @@ void bake(Context& context, BakeOptions& options) {
 
   const std::filesystem::path checkpoint = options.output + ".checkpoint";
   if (!options.resume) std::filesystem::remove(checkpoint);
-  const BakeResult result = run(options, scene, std::move(set), checkpoint,
-                                session ? &*session : nullptr, context.control);
+  const BakeResult result =
+      run(options, scene, std::move(set), checkpoint, session ? &*session : nullptr, context.control);
   gi::write_probe_file(result.set, options.output);
   std::filesystem::remove(checkpoint);
 

@@ -56,11 +56,10 @@ double seconds(const ordered_json& object, const char* key) {
 /// `per_second`: jobs finished, where it is known.
 std::string status_text(const Status& s, std::optional<double> per_second) {
   const ordered_json &now = s.stats["now"], &total = s.stats["total"];
-  std::string text =
-      fmt::format("{} workers ({} idle), {} jobs queued, {} running, {} finished, {} retries, {} parked",
-                  now.value("workers", 0), now.value("idle", 0), now.value("queued", 0),
-                  now.value("running", 0), total.value("finished", 0), total.value("retries", 0),
-                  total.value("parked", 0));
+  std::string text = fmt::format(
+      "{} workers ({} idle), {} jobs queued, {} running, {} finished, {} retries, {} parked",
+      now.value("workers", 0), now.value("idle", 0), now.value("queued", 0), now.value("running", 0),
+      total.value("finished", 0), total.value("retries", 0), total.value("parked", 0));
   if (per_second) {
     const double left = now.value("queued", 0.0) + now.value("running", 0.0);
     text += fmt::format("\n{:.2f} jobs/s", *per_second);
@@ -93,7 +92,8 @@ void top(const BrokerChoice& choice, double interval, int count, Context& contex
     if (before) rate = (finished - *before) / std::chrono::duration<double>(now - asked).count();
     before = finished, asked = now;
     if (!context.json && count != 1) fmt::print("\x1b[H\x1b[2J");
-    context.result({{"stats", status.stats}, {"workers", status.workers["workers"]}}, status_text(status, rate));
+    context.result({{"stats", status.stats}, {"workers", status.workers["workers"]}},
+                   status_text(status, rate));
     for (double waited = 0; waited < interval && (count == 0 || i + 1 < count); waited += 0.05) {
       context.control.check();
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -145,7 +145,9 @@ void add_farm_commands(CLI::App& app, Context& context) {
       with_broker(add_command(*group, context, "top", "status, again and again, with rate and remaining time",
                               [=, &context] { top(*choice, *interval, *count, context); }),
                   "client");
-  top_command->add_option("--interval", *interval, "Seconds")->check(CLI::Range(0.1, 3600.0))->capture_default_str();
+  top_command->add_option("--interval", *interval, "Seconds")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
   top_command->add_option("--count", *count, "End after so many; 0: never")->capture_default_str();
 
   const auto prefix = std::make_shared<std::string>();

@@ -190,7 +190,8 @@ trace::RenderState render_on_farm(const FarmSession& session, const trace::PathT
     set = read_probes(o, tracer, scene);
     probes = farm::RenderProbes{&*set, o.lookup, o.weights, o.light};
   }
-  return farm::render(session.options(), scene, o.scene.time, params, probes, wanted_layers(o), report, control);
+  return farm::render(session.options(), scene, o.scene.time, params, probes, wanted_layers(o), report,
+                      control);
 }
 
 void render(const RenderOptions& o, const Context& context) {
@@ -240,14 +241,13 @@ void render(const RenderOptions& o, const Context& context) {
     }
   }
   for (double& m : mean) m /= static_cast<double>(picture.width) * picture.height;
-  nlohmann::ordered_json object = {{"output", o.output},         {"method", o.method},
-                                   {"width", picture.width},     {"height", picture.height},
-                                   {"passes", state.passes_done}, {"seconds", seconds},
-                                   {"rays", state.rays},         {"paths", state.paths},
-                                   {"mean", mean}};
-  std::string text = fmt::format(
-      "{}: {}×{}, {} paths, {} rays in {:.2f} s, mean radiance {:.4g} {:.4g} {:.4g}", o.output, picture.width,
-      picture.height, state.paths, state.rays, seconds, mean[0], mean[1], mean[2]);
+  nlohmann::ordered_json object = {
+      {"output", o.output},       {"method", o.method},          {"width", picture.width},
+      {"height", picture.height}, {"passes", state.passes_done}, {"seconds", seconds},
+      {"rays", state.rays},       {"paths", state.paths},        {"mean", mean}};
+  std::string text =
+      fmt::format("{}: {}×{}, {} paths, {} rays in {:.2f} s, mean radiance {:.4g} {:.4g} {:.4g}", o.output,
+                  picture.width, picture.height, state.paths, state.rays, seconds, mean[0], mean[1], mean[2]);
   if (session) {
     object["farm"] = farm_json(farm_report);
     text += "\n" + farm_text(farm_report);

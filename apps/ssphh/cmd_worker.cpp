@@ -25,16 +25,17 @@ void work(Context& context, WorkerCommand& command) {
   try {
     farm::WorkerPoolOptions options = command.pool;
     options.broker = broker_address(command.broker);
-    options.cache = command.cache.empty() ? farm::default_cache_dir("scenes") : command.cache;
+    options.cache =
+        command.cache.empty() ? farm::default_cache_dir("scenes") : std::filesystem::path(command.cache);
     options.cache_bytes = command.cache_mb << 20;
     // Every slot's thread works itself; the others are shared.
     set_thread_count(std::max(1, thread_count() - options.slots + 1));
     log_info("worker-ready broker={} service={} slots={} cache={}", options.broker.endpoint,
              farm::job_service(), options.slots, options.cache.string());
     const farm::WorkerPoolReport report = farm::run_workers(options, context.control);
-    context.result({{"jobs", report.jobs}, {"busy_seconds", report.busy_seconds}, {"seconds", report.seconds}},
-                   fmt::format("{} jobs, busy {:.1f} s of {:.1f} s", report.jobs, report.busy_seconds,
-                               report.seconds));
+    context.result(
+        {{"jobs", report.jobs}, {"busy_seconds", report.busy_seconds}, {"seconds", report.seconds}},
+        fmt::format("{} jobs, busy {:.1f} s of {:.1f} s", report.jobs, report.busy_seconds, report.seconds));
   } catch (const Error& e) {
     log(LogLevel::error, e.what());
     if (context.json) context.result({{"error", e.what()}}, "");
@@ -66,7 +67,8 @@ void add_worker_command(CLI::App& app, Context& context) {
       ->capture_default_str()
       ->group(group);
   command
-      ->add_option("--idle-exit", options->pool.idle_exit, "Leave after so many seconds without a job; 0: never")
+      ->add_option("--idle-exit", options->pool.idle_exit,
+                   "Leave after so many seconds without a job; 0: never")
       ->check(CLI::NonNegativeNumber)
       ->group(group);
   command->footer(

@@ -25,7 +25,7 @@ farm::BrokerAddress broker_address(const BrokerChoice& choice);
 struct FarmChoice {
   BrokerChoice broker;
   int local = 0;
-  std::string cache;        ///< of results; "none": none
+  std::string cache;  ///< of results; "none": none
   std::uint64_t cache_mb = 4096;
 
   bool any() const { return local > 0 || !broker.endpoint.empty(); }

@@ -1,5 +1,5 @@
-/// The readers of jobs, results and scene manifests on arbitrary bytes: an Error or something valid. The first
-/// byte chooses the reader.
+/// The readers of jobs, results and scene manifests on arbitrary bytes: an Error or something valid. The
+/// first byte chooses the reader.
 
 #include <ssphh/core/error.h>
 #include <ssphh/farm/job_codec.h>

@@ -13,8 +13,7 @@ std::vector<trace::Tile> tiles_of(const trace::RenderParams& params) {
   std::vector<trace::Tile> tiles;
   for (int y = 0; y < params.height; y += tile_edge) {
     for (int x = 0; x < params.width; x += tile_edge) {
-      tiles.push_back(
-          {x, y, std::min(tile_edge, params.width - x), std::min(tile_edge, params.height - y)});
+      tiles.push_back({x, y, std::min(tile_edge, params.width - x), std::min(tile_edge, params.height - y)});
     }
   }
   return tiles;

@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 
 std::string temporary_folder() {
   std::string pattern = (fs::temp_directory_path() / "ssphh-farm-XXXXXX").string();
-  if (!::mkdtemp(pattern.data())) throw Error(pattern, fmt::format("cannot be made: {}", std::strerror(errno)));
+  if (!::mkdtemp(pattern.data()))
+    throw Error(pattern, fmt::format("cannot be made: {}", std::strerror(errno)));
   return pattern;
 }
 
@@ -132,7 +133,8 @@ LocalFarm::LocalFarm(LocalFarmOptions options) : impl_(new Impl) {
   s.folder = temporary_folder();
   s.endpoint = "ipc://" + (s.folder / "broker").string();
   try {
-    s.broker = spawn(s.options.tool, {"broker", "--bind", s.endpoint, "--attempts", "5"}, s.folder / "broker.log");
+    s.broker =
+        spawn(s.options.tool, {"broker", "--bind", s.endpoint, "--attempts", "5"}, s.folder / "broker.log");
     for (int i = 0; i < s.options.workers; ++i)
       s.workers.push_back(s.start_worker(static_cast<std::size_t>(i)));
   } catch (...) {

@@ -16,8 +16,8 @@ namespace ssphh::farm {
 struct FarmOptions {
   BrokerAddress broker;
   ContentType content = ContentType::binary;
-  double job_seconds = 1.5;     ///< aimed at for one job
-  DiskCache* results = nullptr; ///< finished units are kept and found here; must outlive the work
+  double job_seconds = 1.5;      ///< aimed at for one job
+  DiskCache* results = nullptr;  ///< finished units are kept and found here; must outlive the work
 };
 
 /// What spread work took.

@@ -130,7 +130,8 @@ TEST(FarmBake, WorkerWithoutRoomSaysSoAndOthersDoTheJobs) {
   const auto file = dir / "out.sphl";
   ToolProcess process(bake.on(farm.endpoint(), file));
   expect_done(process, file, bake);
-  EXPECT_THAT(farm.worker(0).stderr_so_far(), testing::HasSubstr("failed: " + (farm.dir() / "cache0").string()));
+  EXPECT_THAT(farm.worker(0).stderr_so_far(),
+              testing::HasSubstr("failed: " + (farm.dir() / "cache0").string()));
 }
 
 }  // namespace

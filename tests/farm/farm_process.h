@@ -30,15 +30,26 @@ class FarmProcesses {
 
   /// A cache of its own, so that every worker fetches the scene.
   void start_worker(std::vector<std::string> more = {}) {
-    std::vector<std::string> arguments = {
-        "worker", "--broker", endpoint(), "--threads", "1", "--name", "test:" + std::to_string(workers_.size()),
-        "--cache", (dir_ / ("cache" + std::to_string(workers_.size()))).string()};
+    std::vector<std::string> arguments = {"worker",
+                                          "--broker",
+                                          endpoint(),
+                                          "--threads",
+                                          "1",
+                                          "--name",
+                                          "test:" + std::to_string(workers_.size()),
+                                          "--cache",
+                                          (dir_ / ("cache" + std::to_string(workers_.size()))).string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     workers_.push_back(std::make_unique<ToolProcess>(arguments));
   }
   void replace_worker(std::size_t i) {
     end(*workers_[i]);
-    std::vector<std::string> arguments = {"worker", "--broker", endpoint(), "--threads", "1", "--cache",
+    std::vector<std::string> arguments = {"worker",
+                                          "--broker",
+                                          endpoint(),
+                                          "--threads",
+                                          "1",
+                                          "--cache",
                                           (dir_ / ("cache" + std::to_string(i))).string()};
     workers_[i] = std::make_unique<ToolProcess>(arguments);
   }
@@ -69,7 +80,8 @@ struct SmallBake {
   std::vector<std::byte> wanted;
 
   explicit SmallBake(const TempDir& dir, const std::string& spp = "16") {
-    arguments = {"bake", "builtin:gallery1", "--face", "16", "--spp", spp, "--degree", "5", "--max-depth", "3"};
+    arguments = {"bake", "builtin:gallery1", "--face", "16",          "--spp",
+                 spp,    "--degree",         "5",      "--max-depth", "3"};
     const std::string file = (dir / "local.sphl").string();
     auto local = arguments;
     local.insert(local.end(), {"-o", file, "--progress", "none"});
@@ -80,8 +92,8 @@ struct SmallBake {
   std::vector<std::string> on(const std::string& endpoint, const std::filesystem::path& output,
                               const std::string& cache = "none") const {
     auto command = arguments;
-    command.insert(command.end(), {"-o", output.string(), "--broker", endpoint, "--cache", cache, "--progress",
-                                   "plain", "--json"});
+    command.insert(command.end(), {"-o", output.string(), "--broker", endpoint, "--cache", cache,
+                                   "--progress", "plain", "--json"});
     return command;
   }
 };

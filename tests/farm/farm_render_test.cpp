@@ -6,9 +6,9 @@ namespace {
 TEST(FarmRender, PicturesAndLayersHaveTheBitsOfALocalRender) {
   const TempDir dir;
   FarmProcesses farm(2);
-  const std::vector<std::string> common = {"render",  "builtin:gallery1", "--width", "70",
-                                           "--height", "41", "--spp", "4", "--passes", "2",
-                                           "--aov",    "direct,normal,depth,groups"};
+  const std::vector<std::string> common = {
+      "render", "builtin:gallery1",          "--width", "70", "--height", "41", "--spp", "4", "--passes", "2",
+      "--aov",  "direct,normal,depth,groups"};
   auto local = common, far = common;
   local.insert(local.end(), {"-o", (dir / "local.exr").string()});
   far.insert(far.end(), {"-o", (dir / "far.exr").string(), "--broker", farm.endpoint(), "--cache", "none"});
@@ -32,8 +32,9 @@ TEST(FarmRender, PicturesLitByProbesHaveTheBitsOfALocalRender) {
   ASSERT_EQ(run_tool({"bake", "builtin:gallery1", "--face", "8", "--spp", "4", "--viz", "off", "-o", probes})
                 .exit_code,
             0);
-  const std::vector<std::string> common = {"render",   "builtin:gallery1", "--method", "ssphh", "--probes", probes,
-                                           "--width",  "48",               "--height", "32",    "--spp",    "4"};
+  const std::vector<std::string> common = {
+      "render", "builtin:gallery1", "--method", "ssphh", "--probes", probes, "--width",
+      "48",     "--height",         "32",       "--spp", "4"};
   auto local = common, far = common;
   local.insert(local.end(), {"-o", (dir / "local.exr").string()});
   far.insert(far.end(), {"-o", (dir / "far.exr").string(), "--broker", farm.endpoint(), "--cache", "none"});
@@ -66,7 +67,8 @@ TEST(FarmCommand, BakeWithKeys) {
   const TempDir dir;
   const SmallBake bake(dir, "2");
   const std::string keys = (dir / "keys").string();
-  for (const char* who : {"client", "worker"}) run_json({"farm", "keygen", who, "--role", who, "--keys", keys});
+  for (const char* who : {"client", "worker"})
+    run_json({"farm", "keygen", who, "--role", who, "--keys", keys});
   FarmProcesses farm(0, {"--keys", keys});
   farm.start_worker({"--keys", keys});
   auto command = bake.on(farm.endpoint(), dir / "out.sphl");
