@@ -51,6 +51,8 @@ int run(int argc, char** argv) {
   add_relight_command(app, context);
   add_broker_command(app, context);
   add_view_command(app, context);
+  add_worker_command(app, context);
+  add_farm_commands(app, context);
 
   const auto called = [&](const CLI::App* command) { return command->check_name(argv[1]); };
   if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(called).empty()) {
