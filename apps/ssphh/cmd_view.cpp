@@ -1,8 +1,6 @@
 #include <fmt/format.h>
-
-#include <viewer.h>
-
 #include <model/settings.h>
+#include <viewer.h>
 
 #include "command.h"
 #include "scene_options.h"
@@ -42,8 +40,9 @@ void view(Context& context, ViewOptions& o) {
     if (!o.values[i].empty()) v.settings.emplace_back(viewer::setting_names()[i].name, o.values[i]);
   }
   const viewer::ViewerReport r = viewer::run_viewer(v, context.control);
-  std::string text = fmt::format("{} frames on {}, {} probes; a drawn frame took {:.1f} ms (median), {:.1f} ms (p99)",
-                                 r.frames, r.renderer, r.probes, r.median_ms, r.p99_ms);
+  std::string text =
+      fmt::format("{} frames on {}, {} probes; a drawn frame took {:.1f} ms (median), {:.1f} ms (p99)",
+                  r.frames, r.renderer, r.probes, r.median_ms, r.p99_ms);
   for (const std::string& file : r.written) text += "\nwrote " + file;
   context.result({{"frames", r.frames},
                   {"renderer", r.renderer},
@@ -94,14 +93,17 @@ void add_view_command(CLI::App& app, Context& context) {
                    "A probe file, shown as it was baked; scene: the scene's SPHLs, kept lit while lamps and "
                    "doors move; auto, auto:METRES: find places first; off. Default: scene, if it has SPHLs")
       ->group(probes);
-  command->add_flag("--live", o.viewer.live, "Light the probes of a file anew and keep them lit")->group(probes);
-  command->add_flag("--force", o.viewer.force, "Take a probe file of another scene, with a warning")->group(probes);
+  command->add_flag("--live", o.viewer.live, "Light the probes of a file anew and keep them lit")
+      ->group(probes);
+  command->add_flag("--force", o.viewer.force, "Take a probe file of another scene, with a warning")
+      ->group(probes);
   add_setting_options(*command, o);
 
   const std::string output = "Without hands";
   command->add_option("--path", o.viewer.path, "Camera path (schemas/camera-path.schema.json): the bookmarks")
       ->group(output);
-  command->add_option("--export", o.viewer.export_dir, "Draw the path as DIR/frame-0000.png and so on, and end")
+  command
+      ->add_option("--export", o.viewer.export_dir, "Draw the path as DIR/frame-0000.png and so on, and end")
       ->group(output);
   command->add_option("--fps", o.viewer.fps, "Of the exported frames")
       ->check(CLI::Range(0.001, 10000.0))
@@ -112,12 +114,14 @@ void add_view_command(CLI::App& app, Context& context) {
                    "Write the window (or with --no-panels the picture) to this PNG once all is lit, and end")
       ->group(output);
   command->add_option("--script", o.viewer.script, "Do what this file says (docs/viewer.md)")->group(output);
-  command->add_option("--stats", o.viewer.stats, "Write the frames' times at the end: .json, or .csv")->group(output);
+  command->add_option("--stats", o.viewer.stats, "Write the frames' times at the end: .json, or .csv")
+      ->group(output);
   command->add_option("--frames", o.viewer.frames, "End after so many frames; 0: when the window is closed")
       ->check(CLI::Range(0, 1 << 30))
       ->capture_default_str()
       ->group(output);
-  command->footer("F1 in the window lists mouse and keys. Needs a display with OpenGL 4.5: a software renderer will do.");
+  command->footer(
+      "F1 in the window lists mouse and keys. Needs a display with OpenGL 4.5: a software renderer will do.");
 }
 
 }  // namespace ssphh::app

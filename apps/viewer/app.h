@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include <ssphh/gi/bake.h>
 #include <ssphh/gl/context.h>
 
 #include "model/camera_path.h"
@@ -40,9 +41,9 @@ struct Rect2 {
 /// What the mouse drags.
 struct Drag {
   enum class What { none, view, look, pan, object, axis, wipe } what = What::none;
-  int axis = 0;        ///< 0..2: world x, y, z
-  vec3 start{0};       ///< of the object when the drag began
-  vec3 grabbed{0};     ///< point of the drag's plane, or in x the place along its axis, under the mouse then
+  int axis = 0;     ///< 0..2: world x, y, z
+  vec3 start{0};    ///< of the object when the drag began
+  vec3 grabbed{0};  ///< point of the drag's plane, or in x the place along its axis, under the mouse then
 };
 
 class App {
@@ -128,6 +129,7 @@ class App {
   void update_truth();
   void update_visible();
   void finish_frame();
+  void resize_picture();
   gl::Context gl_;
   std::unique_ptr<realtime::Renderer> renderer_;
   std::unique_ptr<BallsGl> balls_;
@@ -152,7 +154,9 @@ class App {
   int redraw_ = 3;
   std::chrono::steady_clock::time_point last_turn_, last_change_, stale_since_;
   int waiting_maps_ = 0;
-  std::string window_shot_;  ///< file that is to get the window's next frame; empty: none
+  bool coarse_ = false;                     ///< something moves and frames are slow: fewer pixels meanwhile
+  std::optional<Settings> truth_settings_;  ///< that the truth on the screen was made for
+  std::string window_shot_;                 ///< file that is to get the window's next frame; empty: none
 };
 
 }  // namespace ssphh::viewer

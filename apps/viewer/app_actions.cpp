@@ -51,15 +51,17 @@ void App::open(const std::string& source) {
   if (is_probe_file(source)) return take_probe_file(source);
   say(fmt::format("loading {} …", source));
   take_scene(source, options.load(source));
-  say(fmt::format("{}: {} triangles, {} lights, {} SPHLs", source, scene::triangle_count(*document.scene),
+  say(fmt::format("{}: {} triangles, lights: {}, SPHLs: {}", source, scene::triangle_count(*document.scene),
                   document.scene->lights.size(), document.scene->sphls.size()));
 }
 
 void App::take_scene(std::string source, scene::Scene scene) {
   job.cancel();
   reference.clear();
-  Document next = make_document(std::move(source), std::move(scene), options.time);
-  auto renderer = std::make_unique<realtime::Renderer>(gl_, *next.scene, realtime::RendererParams{}, next.time);
+  Document next = make_document(std::move(source), std::move(scene), 0);
+  next.time = std::clamp(document.source.empty() ? options.time : 0, 0.0f, next.duration);
+  auto renderer =
+      std::make_unique<realtime::Renderer>(gl_, *next.scene, realtime::RendererParams{}, next.time);
   // Nothing is thrown from here on: a file that is refused leaves the open one alone.
   picking_ = std::make_unique<trace::TransportScene>(*next.scene);
   picking_scene_ = next.scene;
@@ -229,8 +231,9 @@ void App::delete_selection() {
 
 void App::add_sphl(const vec3& position) {
   document.history.seal();
-  document.edit("place SPHL",
-                [&](Edits& edits) { edits.sphls.push_back({-1, position, new_sphl_name(edits), 0.1f, true}); });
+  document.edit("place SPHL", [&](Edits& edits) {
+    edits.sphls.push_back({-1, position, new_sphl_name(edits), 0.1f, true});
+  });
   document.history.seal();
   selection = {Kind::sphl, static_cast<int>(document.edits().sphls.size()) - 1};
   redraw();
@@ -258,8 +261,9 @@ void App::use_probes(const std::string& what) {
     take_probe_file(what);
     if (options.live) light_scene_probes();
   } else {
-    throw Error("probes", fmt::format("\"{}\" is none of: off, scene, auto, auto:METRES, a .sphl or .sphl.json file",
-                                      what));
+    throw Error(
+        "probes",
+        fmt::format("\"{}\" is none of: off, scene, auto, auto:METRES, a .sphl or .sphl.json file", what));
   }
 }
 
@@ -303,8 +307,8 @@ void App::place_probes(float spacing) {
 void App::start_gen(bool viz_only) {
   const std::vector<gi::ProbePlace> places = places_of(document);
   if (places.empty()) throw Error("GEN", "there are no SPHLs", "place some first");
-  auto scene = std::make_shared<const scene::Scene>(
-      edited_scene(*document.scene, document.edits(), document.time));
+  auto scene =
+      std::make_shared<const scene::Scene>(edited_scene(*document.scene, document.edits(), document.time));
   gi::BakeParams params = bake_params;
   // HIER multiplies edges with light band by band, so they must be of one degree.
   const int degree = viz_only && !light.empty() ? light.set().degree : 9;
@@ -322,7 +326,8 @@ void App::start_gen(bool viz_only) {
       job.hand_over([this, i, probe] { light.take_probe(i, probe); });
     };
     gi::ProbeSet dark = set;
-    for (const std::string& group : scene::light_groups(*scene)) dark.light_groups.push_back({group, vec3(1)});
+    for (const std::string& group : scene::light_groups(*scene))
+      dark.light_groups.push_back({group, vec3(1)});
     for (gi::Probe& probe : dark.probes)
       probe.groups.assign(dark.light_groups.size(), {{}, sh::RadianceSh(degree)});
     light.take(std::move(dark), "GEN");
@@ -335,8 +340,8 @@ void App::start_gen(bool viz_only) {
         probe.groups.assign(set.light_groups.size(), {{}, sh::RadianceSh(set.degree)});
     }
     gi::BakeReport bake_report;
-    auto baked = std::make_shared<gi::ProbeSet>(
-        gi::bake(tracer, std::move(set), params, {}, bake_report, control));
+    auto baked =
+        std::make_shared<gi::ProbeSet>(gi::bake(tracer, std::move(set), params, {}, bake_report, control));
     const bool keep = params.keep_light;
     return [this, baked, keep] {
       if (keep) {

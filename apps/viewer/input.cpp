@@ -51,9 +51,8 @@ void toggle(App& app, bool& value) {
 }
 
 std::string numbered_file(const App& app, const std::string& ending) {
-  const std::string stem = std::filesystem::path(app.document.source.substr(app.document.source.rfind(':') + 1))
-                               .stem()
-                               .string();
+  const std::string stem =
+      std::filesystem::path(app.document.source.substr(app.document.source.rfind(':') + 1)).stem().string();
   for (int n = 1;; ++n) {
     std::string name = fmt::format("{}-{:02}{}", stem.empty() ? "view" : stem, n, ending);
     if (!std::filesystem::exists(name)) return name;
@@ -85,7 +84,8 @@ void handle_keys(App& app) {
   if (pressed(GLFW_KEY_F)) app.frame_selection();
   if (pressed(GLFW_KEY_HOME)) app.go_to_camera("");
   if (pressed(GLFW_KEY_B)) {
-    append(app.bookmarks, {fmt::format("view {}", app.bookmarks.keys.size() + 1), 0, app.document.time, app.view});
+    append(app.bookmarks,
+           {fmt::format("view {}", app.bookmarks.keys.size() + 1), 0, app.document.time, app.view});
     app.say("bookmark added");
   }
   if (pressed(GLFW_KEY_SPACE) && app.document.duration > 0) toggle(app, s.play);
@@ -188,7 +188,8 @@ void begin_left(App& app) {
     app.drag.what = Drag::What::pan;
     return;
   }
-  if (const int axis = axis_under_mouse(app, mouse.x, mouse.y); axis >= 0) return grab(app, Drag::What::axis, axis);
+  if (const int axis = axis_under_mouse(app, mouse.x, mouse.y); axis >= 0)
+    return grab(app, Drag::What::axis, axis);
   if (app.settings.show == Show::wipe &&
       std::abs(mouse.x - (app.viewport.x + app.settings.wipe * app.viewport.width)) < 8) {
     app.drag.what = Drag::What::wipe;

@@ -25,8 +25,7 @@ std::optional<ImVec2> on_screen(const App& app, const vec3& point) {
 /// Metres that the handles' axes are long, such that they have one size on the screen.
 float axis_length(const App& app, const vec3& point) {
   const float depth = std::max(project(app.view, point, app.viewport.aspect()).z, 0.01f);
-  return app.view.orthographic ? 0.12f * app.view.yheight
-                               : 0.24f * depth * std::tan(0.5f * app.view.yfov);
+  return app.view.orthographic ? 0.12f * app.view.yheight : 0.24f * depth * std::tan(0.5f * app.view.yfov);
 }
 
 const vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -88,12 +87,15 @@ void draw_graph(const App& app, const std::vector<unsigned char>& visible, ImDra
     lines.resize(most);
   }
   for (const Line& line : lines) {
-    const auto a = on_screen(app, set.probes[line.a].position), b = on_screen(app, set.probes[line.b].position);
+    const auto a = on_screen(app, set.probes[line.a].position),
+               b = on_screen(app, set.probes[line.b].position);
     if (!a || !b) continue;
     const float share = std::clamp(1 + std::log10(line.strength / strongest) / 3, 0.0f, 1.0f);
     const bool dim = visible[line.a] == 0 && visible[line.b] == 0;
     const int alpha = static_cast<int>((dim ? 0.35f : 1.0f) * (30 + 200 * share));
-    list.AddLine(*a, *b, IM_COL32(static_cast<int>(90 + 165 * share), static_cast<int>(120 + 90 * share), 230 - static_cast<int>(150 * share), alpha),
+    list.AddLine(*a, *b,
+                 IM_COL32(static_cast<int>(90 + 165 * share), static_cast<int>(120 + 90 * share),
+                          230 - static_cast<int>(150 * share), alpha),
                  1 + 2 * share);
   }
 }
@@ -135,7 +137,8 @@ void draw_wipe(const App& app, ImDrawList& list) {
   const auto label = [&](const char* text, float at_x) {
     const ImVec2 size = ImGui::CalcTextSize(text);
     const float left = at_x < x ? at_x - size.x : at_x;
-    list.AddRectFilled({left - 6, r.y + 8}, {left + size.x + 6, r.y + 14 + size.y}, IM_COL32(20, 20, 22, 170), 3);
+    list.AddRectFilled({left - 6, r.y + 8}, {left + size.x + 6, r.y + 14 + size.y}, IM_COL32(20, 20, 22, 170),
+                       3);
     list.AddText({left, r.y + 11}, IM_COL32_WHITE, text);
   };
   label("real time", x - 14);
@@ -169,7 +172,8 @@ int axis_under_mouse(const App& app, float x, float y) {
 int probe_of_sphl(const App& app, int sphl) {
   const std::vector<SphlEdit>& sphls = app.document.edits().sphls;
   if (sphl < 0 || !sphls[static_cast<std::size_t>(sphl)].enabled) return -1;
-  const auto probe = std::count_if(sphls.begin(), sphls.begin() + sphl, [](const SphlEdit& s) { return s.enabled; });
+  const auto probe =
+      std::count_if(sphls.begin(), sphls.begin() + sphl, [](const SphlEdit& s) { return s.enabled; });
   if (app.light.empty() || probe >= static_cast<std::ptrdiff_t>(app.light.set().probes.size())) return -1;
   return static_cast<int>(probe);
 }

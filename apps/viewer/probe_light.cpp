@@ -124,8 +124,8 @@ ProbeLight::Update ProbeLight::update(const Document& document, const Settings& 
   const bool relit = relight(document) || light_new_;
   out.relight_ms = ms_since(start);
 
-  const bool hier_changed = !settings_ || settings_->hier != settings.hier ||
-                            !(settings_->hier_params == settings.hier_params);
+  const bool hier_changed =
+      !settings_ || settings_->hier != settings.hier || !(settings_->hier_params == settings.hier_params);
   bool hierarchy_new = false;
   if (relit || hier_changed) {
     start = std::chrono::steady_clock::now();

@@ -35,8 +35,8 @@ class ProbeLight {
   const gi::RelightReport& report() const { return report_; }
 
   struct Update {
-    bool relit = false;      ///< light changed
-    bool replaced = false;   ///< places changed
+    bool relit = false;     ///< light changed
+    bool replaced = false;  ///< places changed
     double relight_ms = 0, hier_ms = 0, upload_ms = 0;
   };
   /// Brings light, hierarchy and the renderer up to date with the document and settings. Cheap when nothing

@@ -25,8 +25,10 @@ vec3 vector(const ScriptLine& line, std::size_t word) {
 }
 
 template <class Items, class Name>
-std::size_t find_named(const ScriptLine& line, const Items& items, const std::string& name, const Name& name_of) {
-  const auto found = std::find_if(items.begin(), items.end(), [&](const auto& i) { return name_of(i) == name; });
+std::size_t find_named(const ScriptLine& line, const Items& items, const std::string& name,
+                       const Name& name_of) {
+  const auto found =
+      std::find_if(items.begin(), items.end(), [&](const auto& i) { return name_of(i) == name; });
   if (found == items.end()) {
     std::string known;
     for (const auto& item : items) known += (known.empty() ? "" : ", ") + name_of(item);
@@ -68,9 +70,11 @@ void select(App& app, const ScriptLine& line) {
   expect_words(line, 2, "select light|sphl|material NAME");
   const std::string &kind = line.words[1], &name = line.words[2];
   if (kind == "light") {
-    app.selection = {Kind::light, static_cast<int>(find_named(line, app.document.scene->lights, name, by_name))};
+    app.selection = {Kind::light,
+                     static_cast<int>(find_named(line, app.document.scene->lights, name, by_name))};
   } else if (kind == "sphl") {
-    app.selection = {Kind::sphl, static_cast<int>(find_named(line, app.document.edits().sphls, name, by_name))};
+    app.selection = {Kind::sphl,
+                     static_cast<int>(find_named(line, app.document.edits().sphls, name, by_name))};
   } else if (kind == "material") {
     app.selection = {Kind::material,
                      static_cast<int>(find_named(line, app.document.edits().materials, name, by_name))};
@@ -118,7 +122,8 @@ void ScriptPlayer::move_mouse(const ScriptLine& line) {
   input_ = {{from, {}, {}}, {from, down, {}}};
   for (int i = 1; i <= steps && !click; ++i) {
     const float s = static_cast<float>(i) / steps;
-    input_.push_back({std::array<float, 2>{from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1])}, down, {}});
+    input_.push_back(
+        {std::array<float, 2>{from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1])}, down, {}});
   }
   input_.push_back({to, {}, {}});
   input_.push_back({to, {}, {}});
@@ -169,7 +174,8 @@ void ScriptPlayer::run(App& app, const ScriptLine& line) {
     expect(0, "gen");
     app.start_gen(verb == "viz");
   } else if (verb == "bookmark") {
-    append(app.bookmarks, {fmt::format("view {}", app.bookmarks.keys.size() + 1), 0, app.document.time, app.view});
+    append(app.bookmarks,
+           {fmt::format("view {}", app.bookmarks.keys.size() + 1), 0, app.document.time, app.view});
   } else if (verb == "undo") {
     app.undo();
   } else if (verb == "redo") {

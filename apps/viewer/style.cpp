@@ -19,7 +19,7 @@ ImVec4 grey(float v, float alpha = 1) {
 void apply_style(float scale) {
   ImGuiIO& io = ImGui::GetIO();
   // Latin, Greek and the signs that the panels use.
-  static const ImWchar ranges[] = {0x20, 0xff, 0x370, 0x3ff, 0x2013, 0x2044, 0x2080, 0x208e,
+  static const ImWchar ranges[] = {0x20,   0xff,   0x370,  0x3ff,  0x2013, 0x2044, 0x2080, 0x208e,
                                    0x2190, 0x2193, 0x2212, 0x2265, 0x25a0, 0x25ff, 0};
   std::error_code ignored;
   if (std::filesystem::exists(font_file, ignored))

@@ -20,7 +20,7 @@ struct JobStatus {
   double fraction = -1;  ///< of the stage, 0..1; −1: not known
   double seconds = 0;    ///< since the start
   bool running = false;
-  std::string error;     ///< why the last job ended without a result; empty: it did not, or was cancelled
+  std::string error;  ///< why the last job ended without a result; empty: it did not, or was cancelled
 };
 
 /// One job at a time. The destructor cancels and waits.
@@ -41,6 +41,8 @@ class BackgroundJob {
   void cancel();
   JobStatus status() const;
   bool running() const { return status().running; }
+  /// Why the last job failed, once; empty: it did not.
+  std::string take_error();
 
   /// Called by the job, from any thread: `step` is run by the next poll(), before the result. For results
   /// that come piece by piece.

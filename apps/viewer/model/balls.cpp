@@ -21,8 +21,7 @@ BallMesh halved(const BallMesh& mesh) {
   out.vertices = mesh.vertices;
   std::map<std::pair<unsigned, unsigned>, unsigned> middles;
   const auto middle = [&](unsigned a, unsigned b) {
-    const auto [it, is_new] =
-        middles.insert({std::minmax(a, b), static_cast<unsigned>(out.vertices.size())});
+    const auto [it, is_new] = middles.insert({std::minmax(a, b), static_cast<unsigned>(out.vertices.size())});
     if (is_new) out.vertices.push_back(glm::normalize(out.vertices[a] + out.vertices[b]));
     return it->second;
   };
@@ -77,7 +76,8 @@ void BallShader::shade(const gi::ProbeSet& set, std::size_t i, Ball ball, std::s
   if (ball == Ball::irradiance) {
     for (int l = 0; l <= function->degree(); ++l) {
       const auto factor = static_cast<float>(sh::cosine_band_factor(l) / pi_d);
-      for (int m = -l; m <= l; ++m) coefficients[static_cast<std::size_t>(sh::coefficient_index(l, m))] *= factor;
+      for (int m = -l; m <= l; ++m)
+        coefficients[static_cast<std::size_t>(sh::coefficient_index(l, m))] *= factor;
     }
   }
   for (std::size_t v = 0; v < out.size(); ++v) {

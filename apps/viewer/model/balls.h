@@ -23,9 +23,9 @@ class BallShader {
   explicit BallShader(BallMesh mesh);
   const BallMesh& mesh() const { return mesh_; }
 
-  /// Radiance per vertex, not below 0: of probe `i` of the set as `ball` says; irradiance as E/π, what a white
-  /// surface would leave. neighbor and sum are those of the set's hierarchy; without one black and self.
-  /// `out` has as many elements as the mesh has vertices.
+  /// Radiance per vertex, not below 0: of probe `i` of the set as `ball` says; irradiance as E/π, what a
+  /// white surface would leave. neighbor and sum are those of the set's hierarchy; without one black and
+  /// self. `out` has as many elements as the mesh has vertices.
   void shade(const gi::ProbeSet& set, std::size_t i, Ball ball, std::span<vec3> out) const;
 
  private:

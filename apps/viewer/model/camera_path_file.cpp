@@ -19,8 +19,8 @@ class KeyReader {
  public:
   KeyReader(const Json& object, std::string where) : object_(object), where_(std::move(where)) {
     if (!object.is_object()) throw Error(where_, "is not an object");
-    static const char* const known[] = {"name",    "time",     "scene_time", "position",    "rotation",
-                                        "look_at", "yfov_degrees", "yheight", "focus_metres"};
+    static const char* const known[] = {"name",    "time",         "scene_time", "position",    "rotation",
+                                        "look_at", "yfov_degrees", "yheight",    "focus_metres"};
     for (const auto& [name, value] : object.items()) {
       if (std::find(std::begin(known), std::end(known), name) == std::end(known))
         throw Error(where_, fmt::format("unknown member \"{}\"", name),

@@ -20,7 +20,8 @@ Difference difference(const image::Image& truth, const image::Image& realtime, S
     out = colored(metrics::signed_error_map(truth, realtime), metrics::ColorRamp::diverging);
   } else if (show == Show::pixelated) {
     const image::Image blocks = metrics::pixelated_error_map(truth, realtime, block);
-    out = colored(metrics::enlarge_blocks(blocks, block, truth.width, truth.height), metrics::ColorRamp::inferno);
+    out = colored(metrics::enlarge_blocks(blocks, block, truth.width, truth.height),
+                  metrics::ColorRamp::inferno);
   } else {
     out = colored(metrics::absolute_error_map(truth, realtime), metrics::ColorRamp::inferno);
   }

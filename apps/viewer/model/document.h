@@ -11,8 +11,8 @@
 namespace ssphh::viewer {
 
 struct Document {
-  std::string source;                          ///< as the user named it
-  std::shared_ptr<const scene::Scene> scene;   ///< as loaded
+  std::string source;                         ///< as the user named it
+  std::shared_ptr<const scene::Scene> scene;  ///< as loaded
   History<Edits> history;
   float time = 0;      ///< pose of the animations [s]
   float duration = 0;  ///< of the animations [s]

@@ -31,8 +31,8 @@ struct SphlEdit {
 };
 
 struct Edits {
-  std::vector<LightEdit> lights;          ///< one per light of the scene
-  std::map<std::string, vec3> groups;     ///< factors on light groups; a group that is left out has 1
+  std::vector<LightEdit> lights;           ///< one per light of the scene
+  std::map<std::string, vec3> groups;      ///< factors on light groups; a group that is left out has 1
   std::vector<scene::Material> materials;  ///< one per material of the scene
   std::vector<SphlEdit> sphls;
 };
@@ -57,6 +57,9 @@ scene::Scene edited_scene(scene::Scene scene, const Edits& edits, float time);
 /// With its lights, groups and materials alone as they are in the scene: what decides the surfaces' light
 /// transport, but no lamp.
 scene::Scene with_materials(scene::Scene scene, const Edits& edits);
+
+/// Whether both lists ask for probes at the same places; names and radii do not count.
+bool same_places(const std::vector<SphlEdit>& a, const std::vector<SphlEdit>& b);
 
 /// World position of an SPHL at `time`.
 vec3 sphl_position(const scene::Scene& scene, const std::vector<mat4>& world, const SphlEdit& sphl);

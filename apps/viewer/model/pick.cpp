@@ -33,9 +33,8 @@ std::optional<scene::SurfacePoint> pick_surface(const scene::TransportSource& so
     source.intersect(part, {&local, 1}, {&hit, 1});
     if (hit.escaped() || hit.distance >= limit) continue;
     limit = hit.distance;
-    nearest = scene::SurfacePoint{
-        ray.origin + limit * ray.direction,
-        glm::normalize(glm::transpose(mat3(inverse)) * hit.normal)};
+    nearest = scene::SurfacePoint{ray.origin + limit * ray.direction,
+                                  glm::normalize(glm::transpose(mat3(inverse)) * hit.normal)};
   }
   return nearest;
 }

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <ssphh/core/file.h>
-
 #include <ssphh/core/error.h>
+#include <ssphh/core/file.h>
 
 namespace ssphh::viewer {
 namespace {

@@ -13,8 +13,8 @@ struct ScriptLine {
   std::vector<std::string> words;  ///< never empty; the first one is the verb
 };
 
-/// One command a line; words are parted by blanks, "quoted ones" may hold some; # begins a comment. Throws Error
-/// for a quote that does not end.
+/// One command a line; words are parted by blanks, "quoted ones" may hold some; # begins a comment. Throws
+/// Error for a quote that does not end.
 std::vector<ScriptLine> parse_script(std::string_view text, const std::string& name);
 std::vector<ScriptLine> read_script(const std::filesystem::path& file);
 

@@ -18,10 +18,10 @@ struct Choice {
 constexpr Choice<Show> shows[] = {{"realtime", Show::realtime}, {"truth", Show::truth},
                                   {"wipe", Show::wipe},         {"absolute", Show::absolute},
                                   {"signed", Show::signed_},    {"pixelated", Show::pixelated}};
-constexpr Choice<DebugView> debug_views[] = {
-    {"none", DebugView::none},     {"direct", DebugView::direct}, {"indirect", DebugView::indirect},
-    {"albedo", DebugView::albedo}, {"normal", DebugView::normal}, {"shadow", DebugView::shadow},
-    {"sphl", DebugView::sphl},     {"leak", DebugView::leak}};
+constexpr Choice<DebugView> debug_views[] = {{"none", DebugView::none},         {"direct", DebugView::direct},
+                                             {"indirect", DebugView::indirect}, {"albedo", DebugView::albedo},
+                                             {"normal", DebugView::normal},     {"shadow", DebugView::shadow},
+                                             {"sphl", DebugView::sphl},         {"leak", DebugView::leak}};
 constexpr Choice<Ball> balls[] = {{"radiance", Ball::radiance},
                                   {"irradiance", Ball::irradiance},
                                   {"self", Ball::self},
@@ -31,9 +31,8 @@ constexpr Choice<image::ToneCurve> curves[] = {{"clip", image::ToneCurve::clip},
                                                {"filmic", image::ToneCurve::filmic}};
 constexpr Choice<gi::LookupMethod> lookups[] = {{"irradiance", gi::LookupMethod::irradiance},
                                                 {"light", gi::LookupMethod::light}};
-constexpr Choice<gi::ProbeLayer> layers[] = {{"sum", gi::ProbeLayer::sum},
-                                             {"self", gi::ProbeLayer::self},
-                                             {"neighbor", gi::ProbeLayer::neighbor}};
+constexpr Choice<gi::ProbeLayer> layers[] = {
+    {"sum", gi::ProbeLayer::sum}, {"self", gi::ProbeLayer::self}, {"neighbor", gi::ProbeLayer::neighbor}};
 constexpr Choice<gi::HierOperator> operators[] = {{"coefficient", gi::HierOperator::coefficient},
                                                   {"mean", gi::HierOperator::mean},
                                                   {"matrix", gi::HierOperator::matrix}};
@@ -108,10 +107,11 @@ const std::vector<SettingName>& setting_names() {
              debug_views, [](Settings& s) -> DebugView& { return s.debug; }),
       number("scale", "Picture", "Pixels drawn per pixel of the window, along each axis", 0.1f, 2,
              [](Settings& s) -> float& { return s.scale; }),
-      choice("show", "Ground truth",
-             "realtime; truth (path traced); wipe (one beside the other); their difference: absolute, signed, "
-             "pixelated (summed in blocks)",
-             shows, [](Settings& s) -> Show& { return s.show; }),
+      choice(
+          "show", "Ground truth",
+          "realtime; truth (path traced); wipe (one beside the other); their difference: absolute, signed, "
+          "pixelated (summed in blocks)",
+          shows, [](Settings& s) -> Show& { return s.show; }),
       number("wipe", "Ground truth", "Place of the wipe's line, 0 left, 1 right", 0, 1,
              [](Settings& s) -> float& { return s.wipe; }),
       number("block", "Ground truth", "Pixels along a block of the pixelated difference", 1, 1024,
@@ -120,8 +120,9 @@ const std::vector<SettingName>& setting_names() {
              [](Settings& s) -> int& { return s.truth_depth; }),
       number("truth-spp", "Ground truth", "Samples per pixel, one a pass", 1, 1000000,
              [](Settings& s) -> int& { return s.truth_passes; }),
-      choice("lookup", "Probes", "irradiance: blend of visible SPHLs; light: nearest visible SPHL, as the paper",
-             lookups, [](Settings& s) -> gi::LookupMethod& { return s.lookup; }),
+      choice("lookup", "Probes",
+             "irradiance: blend of visible SPHLs; light: nearest visible SPHL, as the paper", lookups,
+             [](Settings& s) -> gi::LookupMethod& { return s.lookup; }),
       choice("layer", "Probes", "Light of the probes that surfaces get: sum, self or neighbor", layers,
              [](Settings& s) -> gi::ProbeLayer& { return s.layer; }),
       number("degree", "Probes", "Bands that the lookup keeps", 0, 10,
@@ -138,11 +139,12 @@ const std::vector<SettingName>& setting_names() {
              [](Settings& s) -> bool& { return s.balls; }),
       choice("ball", "Probes on the screen", "What colours the balls", balls,
              [](Settings& s) -> Ball& { return s.ball; }),
-      number("ball-size", "Probes on the screen", "Radius of the balls [m]; 0: by the probes' distance", 0, 1000,
-             [](Settings& s) -> float& { return s.ball_size; }),
+      number("ball-size", "Probes on the screen", "Radius of the balls [m]; 0: by the probes' distance", 0,
+             1000, [](Settings& s) -> float& { return s.ball_size; }),
       toggle("lobes", "Probes on the screen", "Balls bulge where light comes from",
              [](Settings& s) -> bool& { return s.lobes; }),
-      toggle("graph", "Probes on the screen", "Edges of the hierarchy, strong ones bright (the paper's Figure 9)",
+      toggle("graph", "Probes on the screen",
+             "Edges of the hierarchy, strong ones bright (the paper's Figure 9)",
              [](Settings& s) -> bool& { return s.graph; }),
       toggle("names", "Probes on the screen", "Names of the probes",
              [](Settings& s) -> bool& { return s.names; }),

@@ -112,8 +112,8 @@ scene::RayQuery pixel_ray(const View& view, const vec2& point, float aspect) {
   } else {
     const float h = std::tan(0.5f * view.yfov);
     ray.origin = view.eye;
-    ray.direction = glm::normalize(view.forward() + centered.x * h * aspect * view.right() +
-                                   centered.y * h * view.up());
+    ray.direction =
+        glm::normalize(view.forward() + centered.x * h * aspect * view.right() + centered.y * h * view.up());
   }
   return ray;
 }

@@ -30,7 +30,8 @@ void draw_view(App& app) {
   } else {
     row("field of view");
     float degrees = glm::degrees(view.yfov);
-    if (ImGui::SliderFloat("##fov", &degrees, 10, 120, "%.0f°")) view.yfov = glm::radians(degrees), app.redraw();
+    if (ImGui::SliderFloat("##fov", &degrees, 10, 120, "%.0f°"))
+      view.yfov = glm::radians(degrees), app.redraw();
   }
   row("fly [m/s]");
   ImGui::DragFloat("##speed", &app.fly_speed, 0.05f, 0.05f, 500, "%.2f");

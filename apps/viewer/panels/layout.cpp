@@ -24,7 +24,8 @@ void draw_picture(const App& app) {
   const Rect2& r = app.viewport;
   const ImVec2 from{r.x, r.y}, to{r.x + r.width, r.y + r.height};
   const bool truth = needs_truth(app.settings) && app.picture.has_truth();
-  const float line = app.settings.show == Show::wipe && app.settings.debug != DebugView::leak ? app.settings.wipe : 0;
+  const float line =
+      app.settings.show == Show::wipe && app.settings.debug != DebugView::leak ? app.settings.wipe : 0;
   if (app.picture.width() == 0) return;
   // OpenGL's first row is the lowest one, a file's the highest.
   list.AddImage(texture_id(app.picture.realtime_texture()), from, to, {0, 1}, {1, 0});
@@ -86,12 +87,16 @@ void draw_sidebar(App& app, float y, float width, float height) {
   ImGui::SetNextWindowPos({0, y});
   ImGui::SetNextWindowSize({width, height});
   ImGui::Begin("side", nullptr, fixed);
-  if (ImGui::BeginTabBar("tabs")) {
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {3, 4});
+  const bool tab_bar = ImGui::BeginTabBar("tabs");
+  ImGui::PopStyleVar();
+  if (tab_bar) {
     const struct {
       const char* name;
       void (*draw)(App&);
-    } tabs[] = {{"Light", draw_light_panel},   {"Probes", draw_probe_panel},   {"Surfaces", draw_surface_panel},
-                {"Camera", draw_camera_panel}, {"Picture", draw_picture_panel}, {"Times", draw_stats_panel}};
+    } tabs[] = {{"Light", draw_light_panel},      {"Probes", draw_probe_panel},
+                {"Surfaces", draw_surface_panel}, {"Camera", draw_camera_panel},
+                {"Picture", draw_picture_panel},  {"Times", draw_stats_panel}};
     for (const auto& tab : tabs) {
       const ImGuiTabItemFlags flags =
           app.open_tab == tab.name ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
@@ -140,7 +145,7 @@ void draw_panels(App& app) {
   if (app.panels) {
     draw_menu(app);
     top = ImGui::GetFrameHeight();
-    left = std::min(25 * ImGui::GetFontSize(), 0.4f * width);
+    left = std::min(29 * ImGui::GetFontSize(), 0.4f * width);
     bottom = ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().WindowPadding.y;
     draw_sidebar(app, top, left, height - top);
   }

@@ -51,7 +51,8 @@ void draw_lamp_list(App& app) {
     if (ImGui::Selectable(lights[i].name.c_str(), app.selection == self)) app.selection = self;
     ImGui::PopID();
   }
-  if (lights.empty()) note("The scene has no lamps; emissive surfaces and the environment are below, as groups.");
+  if (lights.empty())
+    note("The scene has no lamps; emissive surfaces and the environment are below, as groups.");
 }
 
 void draw_lamp(App& app, std::size_t i) {
@@ -70,7 +71,8 @@ void draw_lamp(App& app, std::size_t i) {
 
   row("colour");
   vec3 color = now.color;
-  if (ImGui::ColorEdit3("##colour", glm::value_ptr(color), ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoOptions))
+  if (ImGui::ColorEdit3("##colour", glm::value_ptr(color),
+                        ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoOptions))
     edit(app, "colour " + light.name, [&](Edits& e) { e.lights[i].color = color; });
   seal_after_edit(app);
   tip("linear Rec.709");
@@ -87,7 +89,8 @@ void draw_lamp(App& app, std::size_t i) {
     vec3 direction = light_direction(world);
     if (ImGui::DragFloat3("##direction", glm::value_ptr(direction), 0.01f, -1, 1, "%.2f") &&
         glm::length(direction) > 1e-3f)
-      edit(app, "turn " + light.name, [&](Edits& e) { e.lights[i].world = with_direction(world, direction); });
+      edit(app, "turn " + light.name,
+           [&](Edits& e) { e.lights[i].world = with_direction(world, direction); });
     seal_after_edit(app);
   }
   if (now.world && ImGui::SmallButton("back to its own place")) {

@@ -42,14 +42,14 @@ void draw_edit_menu(App& app) {
 
 void draw_view_menu(App& app) {
   Settings& s = app.settings;
-  const char* names[] = {"All light",    "Direct light only", "Indirect light only", "Albedo", "Normals",
-                         "Shadows",      "Chosen SPHL",       "Leaked light"};
+  const char* names[] = {"All light", "Direct light only", "Indirect light only", "Albedo",
+                         "Normals",   "Shadows",           "Chosen SPHL",         "Leaked light"};
   for (int i = 0; i < 8; ++i) {
     const auto view = static_cast<DebugView>(i);
     if (ImGui::MenuItem(names[i], fmt::format("{}", i + 1).c_str(), s.debug == view)) s.debug = view;
   }
   ImGui::Separator();
-  const char* shows[] = {"Real time only",      "Ground truth only",       "Wipe between both",
+  const char* shows[] = {"Real time only",      "Ground truth only", "Wipe between both",
                          "Absolute difference", "Signed difference", "Difference in blocks"};
   for (int i = 0; i < 6; ++i) {
     const auto show = static_cast<Show>(i);

@@ -21,7 +21,8 @@ void draw_truth(App& app) {
   }
   const ReferenceImage& truth = app.reference.image();
   const float share = static_cast<float>(truth.passes) / static_cast<float>(app.settings.truth_passes);
-  ImGui::ProgressBar(share, {-1, 0}, fmt::format("{} of {} samples", truth.passes, app.settings.truth_passes).c_str());
+  ImGui::ProgressBar(share, {-1, 0},
+                     fmt::format("{} of {} samples", truth.passes, app.settings.truth_passes).c_str());
   const auto& difference = app.picture.shown_difference();
   if (!difference || app.settings.debug == DebugView::leak) return;
   const metrics::ImageError& e = difference->error;

@@ -20,9 +20,10 @@ void draw_source(App& app) {
              ? "No probes: the picture has direct light only."
              : fmt::format("{} SPHLs that hold no light yet.", app.document.edits().sphls.size()));
   } else if (app.light.live()) {
-    note(fmt::format("{} probes, live: they follow lamps and doors by light transport between {} surface "
-                     "patches.",
-                     app.light.set().probes.size(), app.light.live_light()->session().network().surfel_count()));
+    note(fmt::format(
+        "{} probes, live: they follow lamps and doors by light transport between {} surface "
+        "patches.",
+        app.light.set().probes.size(), app.light.live_light()->session().network().surfel_count()));
   } else {
     note(fmt::format("{} probes, fixed ({}): they follow light groups only.", app.light.set().probes.size(),
                      app.light.origin()));
@@ -128,7 +129,8 @@ void draw_selected(App& app) {
   heading(sphl.name.c_str());
   row("position");
   vec3 position = *app.selected_position();
-  if (ImGui::DragFloat3("##position", glm::value_ptr(position), 0.01f, 0, 0, "%.2f")) app.move_selected(position);
+  if (ImGui::DragFloat3("##position", glm::value_ptr(position), 0.01f, 0, 0, "%.2f"))
+    app.move_selected(position);
   if (ImGui::IsItemDeactivatedAfterEdit()) app.document.history.seal();
   row("VIZ radius");
   float radius = sphl.radius;

@@ -33,7 +33,8 @@ void draw_material(App& app, std::size_t i) {
   heading(material.name.empty() ? "(no name)" : material.name.c_str());
   row("base colour");
   vec3 color = material.base_color;
-  if (ImGui::ColorEdit3("##base", glm::value_ptr(color), ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoOptions))
+  if (ImGui::ColorEdit3("##base", glm::value_ptr(color),
+                        ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoOptions))
     edit(app, i, [&](scene::Material& m) { m.base_color = color; });
   if (ImGui::IsItemDeactivatedAfterEdit()) app.document.history.seal();
   slider(app, i, "metallic", &scene::Material::metallic, 0, 1, "0: dielectric, 1: metal");

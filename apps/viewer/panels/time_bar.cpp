@@ -26,9 +26,8 @@ void draw_summary(const App& app) {
     if (stage.name == "frame") frame = static_cast<double>(stage.ms.median());
     if (stage.name == "relight") relight = static_cast<double>(stage.ms.median());
   }
-  const std::string text =
-      fmt::format("{} probes   frame {:.1f} ms   relight {:.1f} ms", app.light.empty() ? 0 : app.light.set().probes.size(),
-                  frame, relight);
+  const std::string text = fmt::format("{} probes   frame {:.1f} ms   relight {:.1f} ms",
+                                       app.light.empty() ? 0 : app.light.set().probes.size(), frame, relight);
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", text.c_str());
 }

@@ -1,3 +1,5 @@
+#include "model/balls.h"
+
 #include <cmath>
 #include <map>
 
@@ -5,8 +7,6 @@
 
 #include <ssphh/sh/irradiance.h>
 #include <ssphh/sh/reconstruct.h>
-
-#include "model/balls.h"
 
 namespace ssphh::viewer {
 namespace {
@@ -20,7 +20,8 @@ TEST(Balls, MeshIsAClosedUnitSphereSeenFromOutside) {
   for (const uvec3& t : mesh.triangles) {
     ++edges[{t.x, t.y}], ++edges[{t.y, t.z}], ++edges[{t.z, t.x}];
     volume += static_cast<double>(
-        glm::dot(mesh.vertices[t.x], glm::cross(mesh.vertices[t.y], mesh.vertices[t.z]))) / 6;
+                  glm::dot(mesh.vertices[t.x], glm::cross(mesh.vertices[t.y], mesh.vertices[t.z]))) /
+              6;
   }
   for (const auto& [edge, count] : edges) {
     EXPECT_EQ(count, 1);

@@ -14,8 +14,8 @@ namespace {
 using testing::HasSubstr;
 
 void expect_near(const vec3& a, const vec3& b, float tolerance) {
-  EXPECT_LT(glm::distance(a, b), tolerance) << a.x << ' ' << a.y << ' ' << a.z << " is not " << b.x << ' '
-                                            << b.y << ' ' << b.z;
+  EXPECT_LT(glm::distance(a, b), tolerance)
+      << a.x << ' ' << a.y << ' ' << a.z << " is not " << b.x << ' ' << b.y << ' ' << b.z;
 }
 
 TEST(ViewCamera, LooksAtItsTarget) {
@@ -94,7 +94,8 @@ CameraPath parabola(const std::vector<float>& times) {
   for (const float t : times) {
     CameraKey key;
     key.time = t;
-    key.view = look_at(vec3(1, 2, 3) + t * vec3(0.5f, -1, 2) + t * t * vec3(0.25f, 0.1f, -0.3f), {0, 0, 0}, 1);
+    key.view =
+        look_at(vec3(1, 2, 3) + t * vec3(0.5f, -1, 2) + t * t * vec3(0.25f, 0.1f, -0.3f), {0, 0, 0}, 1);
     path.keys.push_back(key);
   }
   return path;
@@ -183,7 +184,8 @@ TEST(CameraPathFile, NamesWhatIsWrongAndWhere) {
   EXPECT_THAT(message("[]"), HasSubstr("no array \"keys\""));
   EXPECT_THAT(message(R"({"keys": []})"), HasSubstr("has no keys"));
   EXPECT_THAT(message(R"({"keys": [7]})"), HasSubstr("keys[0]: is not an object"));
-  EXPECT_THAT(message(R"({"keys": [{"position": [0,0,0], "look": 1}]})"), HasSubstr("unknown member \"look\""));
+  EXPECT_THAT(message(R"({"keys": [{"position": [0,0,0], "look": 1}]})"),
+              HasSubstr("unknown member \"look\""));
   EXPECT_THAT(message(R"({"keys": [{"position": [0,0,0]}]})"), HasSubstr("look_at"));
   EXPECT_THAT(message(R"({"keys": [{"position": [0,0], "look_at": [1,0,0]}]})"), HasSubstr("array of 3"));
   EXPECT_THAT(message(R"({"keys": [{"position": [0,0,1e39], "look_at": [1,0,0]}]})"),

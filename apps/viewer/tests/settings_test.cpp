@@ -1,3 +1,5 @@
+#include "model/settings.h"
+
 #include <set>
 
 #include <gmock/gmock.h>
@@ -5,7 +7,6 @@
 #include <ssphh/core/error.h>
 
 #include "model/script.h"
-#include "model/settings.h"
 
 namespace ssphh::viewer {
 namespace {
@@ -47,7 +48,8 @@ TEST(Settings, EveryNameSetsAndTellsItsValue) {
 TEST(Settings, WrongOnesSayWhatWouldBeRight) {
   Settings s;
   EXPECT_THAT(message([&] { set_setting(s, "exposre", "1"); }), HasSubstr("exposure, tonemap"));
-  EXPECT_THAT(message([&] { set_setting(s, "exposure", "bright"); }), HasSubstr("\"bright\" is not a number"));
+  EXPECT_THAT(message([&] { set_setting(s, "exposure", "bright"); }),
+              HasSubstr("\"bright\" is not a number"));
   EXPECT_THAT(message([&] { set_setting(s, "exposure", "nan"); }), HasSubstr("not a number"));
   EXPECT_THAT(message([&] { set_setting(s, "wipe", "2"); }), HasSubstr("not within 0 to 1"));
   EXPECT_THAT(message([&] { set_setting(s, "degree", "1.5"); }), HasSubstr("not a whole number"));
@@ -63,7 +65,8 @@ TEST(Script, IsReadLineByLine) {
   EXPECT_EQ(lines[1].where, "d: line 4");
   EXPECT_THAT(lines[2].words, ElementsAre("quit"));
   EXPECT_THAT(message([] { parse_script("a\nb \"c", "d"); }), HasSubstr("d: line 2: a quote does not end"));
-  EXPECT_THAT(message([&] { expect_words(lines[0], 2, "time A B"); }), HasSubstr("d: line 3: is not of the form"));
+  EXPECT_THAT(message([&] { expect_words(lines[0], 2, "time A B"); }),
+              HasSubstr("d: line 3: is not of the form"));
 }
 
 }  // namespace
