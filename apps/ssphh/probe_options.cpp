@@ -6,7 +6,6 @@
 #include <fmt/ranges.h>
 
 #include <ssphh/core/log.h>
-#include <ssphh/gi/fitted_weights.h>
 #include <ssphh/scene/query.h>
 
 namespace ssphh::app {
@@ -69,13 +68,9 @@ std::unique_ptr<scene::IndirectLight> make_irradiance_lookup(const std::string& 
                                                              const scene::RadianceSource& source,
                                                              const std::string& weights,
                                                              gi::LookupParams params) {
-  if (weights == "fitted" || (weights.empty() && set.fitted)) {
-    if (!set.fitted)
-      throw Error(file, "has no fitted weights", "bake it with --fit, or choose other --weights");
-    return std::make_unique<gi::FittedLookup>(set, *set.fitted, source, params);
-  }
-  if (!weights.empty()) params.weights.method = *gi::parse_weight_method(weights);
-  return std::make_unique<gi::IrradianceLookup>(set, source, params);
+  if (weights == "fitted" && !set.fitted)
+    throw Error(file, "has no fitted weights", "bake it with --fit, or choose other --weights");
+  return gi::make_irradiance_lookup(set, source, weights, params);
 }
 
 }  // namespace ssphh::app

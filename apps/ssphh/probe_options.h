@@ -41,9 +41,7 @@ void require_same_scene(const std::string& file, const gi::ProbeSet& set, const 
 /// --weights of the lookup `irradiance`; empty: what make_irradiance_lookup chooses.
 CLI::Option* add_weights_option(CLI::App& command, std::string& weights);
 
-/// The lookup by the named weights. Without a name the best by measurement
-/// (docs/methods/transport-results.md): `fitted` where the file has them, else `distance`.
-/// `params.weights.method` is set here. Throws Error for `fitted` with a set that has none.
+/// gi::make_irradiance_lookup, with the file's name in errors.
 std::unique_ptr<scene::IndirectLight> make_irradiance_lookup(const std::string& file, const gi::ProbeSet& set,
                                                              const scene::RadianceSource& source,
                                                              const std::string& weights,

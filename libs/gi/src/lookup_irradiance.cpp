@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include <ssphh/gi/fitted_weights.h>
+
 #include "probe_table.h"
 
 namespace ssphh::gi {
@@ -43,6 +45,22 @@ vec3 IrradianceLookup::glossy(const vec3& x, const vec3& n, const vec3& r, float
   ProbeTable::Basis basis;
   data_->table.glossy_basis(r, roughness, basis);
   return data_->blend(x, n, [&](int probe) { return data_->table.radiance(probe, basis.data()); });
+}
+
+std::unique_ptr<scene::IndirectLight> make_irradiance_lookup(const ProbeSet& set,
+                                                             const scene::RadianceSource& source,
+                                                             const std::string& weights,
+                                                             LookupParams params) {
+  if (weights == "fitted" || (weights.empty() && set.fitted)) {
+    if (!set.fitted) throw Error("weights fitted", "the probes have none");
+    return std::make_unique<FittedLookup>(set, *set.fitted, source, params);
+  }
+  if (!weights.empty()) {
+    const auto method = parse_weight_method(weights);
+    if (!method) throw Error("weights " + weights, "is none of distance, trilinear, mls, fitted");
+    params.weights.method = *method;
+  }
+  return std::make_unique<IrradianceLookup>(set, source, params);
 }
 
 std::unique_ptr<scene::IndirectLight> make_lookup(LookupMethod method, const ProbeSet& set,

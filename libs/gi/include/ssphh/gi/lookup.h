@@ -64,6 +64,13 @@ class IrradianceLookup final : public scene::IndirectLight {
   std::unique_ptr<Data> data_;
 };
 
+/// The irradiance lookup by the name of its weights: "distance", "trilinear", "mls" or "fitted". Empty: the
+/// best by measurement (docs/methods/transport-results.md): fitted where the set has them, else distance.
+/// `params.weights.method` is set here. Throws Error for an unknown name, and for "fitted" without any.
+std::unique_ptr<scene::IndirectLight> make_irradiance_lookup(const ProbeSet& set,
+                                                             const scene::RadianceSource& source,
+                                                             const std::string& weights, LookupParams params);
+
 enum class LookupMethod { light, irradiance };
 
 std::unique_ptr<scene::IndirectLight> make_lookup(LookupMethod method, const ProbeSet& set,
