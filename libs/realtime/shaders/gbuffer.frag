@@ -7,11 +7,12 @@ layout(location = 1) in vec3 world_normal;
 layout(location = 2) in vec4 uv;
 layout(location = 3) in vec4 world_tangent;
 layout(location = 4) in vec4 color;
-layout(location = 5) flat in uint instance;
 
 layout(location = 0) out uvec4 gbuffer0;
-layout(location = 1) out uint gbuffer1;
-layout(location = 2) out vec4 emitted;
+layout(location = 1) out uvec2 gbuffer1;
+layout(location = 2) out vec4 color_out;
+
+uniform int emission_shown;
 
 vec3 normalize_or(vec3 v, vec3 fallback) {
   float l2 = dot(v, v);
@@ -32,8 +33,8 @@ vec4 tangent_of_triangle(vec2 place, vec3 front) {
 }
 
 void main() {
-  Instance i = instances[instance];
-  Material m = materials[i.material.x];
+  Instance i = instances[instance_index];
+  Material m = materials[material_index];
   vec4 base = base_color(m, uv.xy, uv.zw, color);
   if (!covered(m, base.a, gl_FragCoord.xy, gl_FragCoord.z)) discard;
 
@@ -84,7 +85,7 @@ void main() {
   vec3 diffuse = unlit ? vec3(0) : base.rgb * (1 - metallic);
   vec3 f0 = unlit ? vec3(0) : mix(vec3(m.rough.z), base.rgb, metallic);
   gbuffer0 = uvec4(packSnorm2x16(oct_encode(n)), packSnorm2x16(oct_encode(toward_viewer)),
-                   pack_color(diffuse, unlit ? 1u : 0u), pack_color(f0, 0u));
-  gbuffer1 = packSnorm2x16(roughness);
-  emitted = vec4(emission, 1);
+                   pack_color(diffuse, 0u), pack_color(f0, 0u));
+  gbuffer1 = uvec2(packSnorm2x16(roughness), floatBitsToUint(dot(from_camera, frame.camera_forward.xyz)));
+  color_out = vec4(emission_shown != 0 ? emission : vec3(0), 1);
 }

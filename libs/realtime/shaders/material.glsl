@@ -20,6 +20,10 @@ layout(std430, binding = 0) readonly buffer Materials { Material materials[]; };
 layout(std430, binding = 1) readonly buffer Instances { Instance instances[]; };
 layout(std430, binding = 2) readonly buffer GroupScales { vec4 group_scales[]; };
 
+// What is drawn now: uniforms, so that loads are the same for all of a draw's pixels.
+layout(location = 0) uniform int instance_index;
+layout(location = 1) uniform int material_index;
+
 layout(binding = 8) uniform sampler2D base_texture;
 layout(binding = 9) uniform sampler2D rough_texture;
 layout(binding = 10) uniform sampler2D emission_texture;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <tuple>
 
 #include "mesh_pieces.h"
 
@@ -30,6 +30,12 @@ GpuMaterial gpu_material(const scene::Material& m) {
   g.emission_use = gpu_use(m.emission_texture);
   g.normal_use = gpu_use(m.normal_texture);
   return g;
+}
+
+int class_of(const scene::Material& m) {
+  if (m.unlit) return surface_class::unlit;
+  const bool specular = m.metallic > 0 || (m.specular > 0 && m.ior != 1);
+  return specular || m.diffuse_roughness != 0 ? surface_class::full : surface_class::lambertian;
 }
 
 bool partial_cover(const scene::Material& m, const scene::Mesh& mesh) {
@@ -91,7 +97,6 @@ GpuScene::GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, Fr
   }
 
   // Instances
-  std::vector<unsigned> ids;
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const scene::Instance& instance = scene.instances[i];
     GpuInstance gpu;
@@ -105,13 +110,13 @@ GpuScene::GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, Fr
     }
     instances_.push_back(gpu);
     nodes_.push_back(instance.node);
-    ids.push_back(static_cast<unsigned>(i));
     if (instance.mesh < 0) continue;
     const auto mesh = static_cast<std::size_t>(instance.mesh);
     const bool partial = partial_cover(none ? plain_material : scene.materials[m], scene.meshes[mesh]);
     for (const MeshPiece& piece : pieces[mesh]) {
       items_.push_back({static_cast<int>(i),
                         static_cast<int>(m),
+                        0,
                         piece.index_count,
                         first_vertex[mesh],
                         piece.first_index,
@@ -120,22 +125,18 @@ GpuScene::GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, Fr
                         partial});
     }
   }
-  std::stable_sort(items_.begin(), items_.end(), [](const DrawItem& a, const DrawItem& b) {
-    return std::pair(a.partial, a.material) < std::pair(b.partial, b.material);
-  });
+  classify(scene.materials);
 
   positions_ = gl::Buffer(std::span<const vec3>(positions));
   vertices_ = gl::Buffer(std::span<const GpuVertex>(vertices));
   indices_ = gl::Buffer(std::span<const unsigned>(indices));
-  instance_ids_ = gl::Buffer(std::span<const unsigned>(ids));
   instance_buffer_ = gl::Buffer(instances_.size() * sizeof(GpuInstance));
-  const std::size_t geometry = positions_.size() + vertices_.size() + indices_.size() + instance_ids_.size();
+  const std::size_t geometry = positions_.size() + vertices_.size() + indices_.size();
   counters.bytes_uploaded += geometry;
   bytes_ += geometry + instance_buffer_.size() + material_buffer_.size() + scale_buffer_.size();
 
   for (gl::VertexArray* array : {&all_, &position_only_}) {
     array->attribute(0, positions_, 3, sizeof(vec3), 0);
-    array->instance_attribute(5, instance_ids_);
     array->indices(indices_);
   }
   all_.attribute(1, vertices_, 3, sizeof(GpuVertex), offsetof(GpuVertex, normal));
@@ -145,6 +146,22 @@ GpuScene::GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, Fr
 
   std::vector<scene::Bounds> ignored;
   pose(world, ignored, counters);
+}
+
+void GpuScene::classify(const std::vector<scene::Material>& materials) {
+  if (classes_.empty()) {
+    for (const scene::Material& m : materials) classes_.push_back(class_of(m));
+    classes_.push_back(class_of(plain_material));
+  }
+  any_full_ = false;
+  for (DrawItem& item : items_) {
+    item.surface_class = classes_[static_cast<std::size_t>(item.material)];
+    any_full_ |= item.surface_class == surface_class::full;
+  }
+  std::stable_sort(items_.begin(), items_.end(), [](const DrawItem& a, const DrawItem& b) {
+    return std::tuple(a.partial, a.surface_class, a.material) <
+           std::tuple(b.partial, b.surface_class, b.material);
+  });
 }
 
 void GpuScene::pose(const std::vector<mat4>& world, std::vector<scene::Bounds>& moved,
@@ -179,6 +196,8 @@ void GpuScene::set_material(int index, const scene::Material& material, FrameCou
   now.base_use = materials_[m].base_use, now.rough_use = materials_[m].rough_use;
   now.emission_use = materials_[m].emission_use, now.normal_use = materials_[m].normal_use;
   materials_[m] = now;
+  classes_[m] = class_of(material);
+  classify({});
   upload(counters, material_buffer_, std::span<const GpuMaterial>(&now, 1), m);
 }
 
@@ -193,12 +212,20 @@ void GpuScene::begin(bool positions_only) const {
   scale_buffer_.bind_storage(binding::group_scales);
   (positions_only ? position_only_ : all_).bind();
   bound_material_ = -2;
+  bound_instance_ = -1;
 }
 
-void GpuScene::draw(const DrawItem& item, bool textures, FrameCounters& counters) const {
-  if (textures && item.material != bound_material_) bind_material(item.material);
-  gl::draw_indexed(item.index_count, item.first_index, item.base_vertex,
-                   static_cast<unsigned>(item.instance));
+void GpuScene::draw(gl::Program& program, const DrawItem& item, bool textures,
+                    FrameCounters& counters) const {
+  if (textures && item.material != bound_material_) {
+    bind_material(item.material);
+    program.set_at(binding::material_index, item.material);
+  }
+  if (item.instance != bound_instance_) {
+    program.set_at(binding::instance_index, item.instance);
+    bound_instance_ = item.instance;
+  }
+  gl::draw_indexed(item.index_count, item.first_index, item.base_vertex);
   ++counters.draw_calls;
   counters.triangles += static_cast<std::uint64_t>(item.index_count / 3);
 }

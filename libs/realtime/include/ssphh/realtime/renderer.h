@@ -84,8 +84,9 @@ class Renderer {
 
   /// Bytes of OpenGL memory that this renderer asked for.
   std::size_t memory_bytes() const;
-  /// What shader compilers said beside errors; empty: nothing.
-  std::string shader_warnings() const;
+  /// Compiles every variant of every shader and tells what the compiler said beside errors; empty: nothing.
+  /// Throws Error for one that does not compile.
+  std::string shader_warnings();
 
  private:
   struct Data;
