@@ -58,7 +58,8 @@ void bench_frame(const BenchOptions& o, const Context& context) {
   for (int i = -o.warm_up; i < o.frames; ++i) {
     context.control.check();
     const float share = static_cast<float>(i) / static_cast<float>(std::max(o.frames, 1));
-    const realtime::FrameStats& stats = renderer.draw(o.turn ? turned(camera, share) : camera, settings, target);
+    const realtime::FrameStats& stats =
+        renderer.draw(o.turn ? turned(camera, share) : camera, settings, target);
     stage.advance(1);
     if (i < 0) continue;
     frames.push_back(stats.cpu_ms);
@@ -69,8 +70,8 @@ void bench_frame(const BenchOptions& o, const Context& context) {
 
   const double median = rank(frames, 0.5), p99 = rank(frames, 0.99);
   nlohmann::ordered_json medians;
-  std::string text = fmt::format("{}: {} frames of {}×{} on {}\n", o.scene.source, o.frames, o.width, o.height,
-                                 gl.info().renderer);
+  std::string text = fmt::format("{}: {} frames of {}×{} on {}\n", o.scene.source, o.frames, o.width,
+                                 o.height, gl.info().renderer);
   text += fmt::format("{:<10} {:>10} {:>10}\n{:<10} {:>10.2f} {:>10.2f}", "", "median ms", "p99 ms", "frame",
                       median, p99);
   for (const auto& [name, times] : passes) {
@@ -119,8 +120,7 @@ void add_bench_frame_command(CLI::App& app, Context& context) {
       ->check(CLI::Range(1, 4))
       ->capture_default_str();
   command
-      ->add_option("--indirect-scale", o.indirect_scale,
-                   "Look probes up at every n-th pixel along each side")
+      ->add_option("--indirect-scale", o.indirect_scale, "Look probes up at every n-th pixel along each side")
       ->check(CLI::Range(1, 8))
       ->capture_default_str();
 }

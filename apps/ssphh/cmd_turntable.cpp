@@ -2,6 +2,7 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <ssphh/image/io.h>
 #include <ssphh/image/tonemap.h>

@@ -19,8 +19,7 @@ void set_probes(realtime::Renderer& renderer, const GlLookup& options, const sce
 
 realtime::FrameSettings still_settings(const GlLookup& options, int samples) {
   realtime::FrameSettings settings;
-  settings.lookup =
-      options.lookup == "light" ? gi::LookupMethod::light : gi::LookupMethod::irradiance;
+  settings.lookup = options.lookup == "light" ? gi::LookupMethod::light : gi::LookupMethod::irradiance;
   settings.supersample = samples;
   return settings;
 }

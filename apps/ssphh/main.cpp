@@ -50,6 +50,8 @@ int run(int argc, char** argv) {
   add_leak_command(app, context);
   add_relight_command(app, context);
   add_broker_command(app, context);
+  add_bench_frame_command(app, context);
+  add_turntable_command(app, context);
   add_view_command(app, context);
   add_worker_command(app, context);
   add_farm_commands(app, context);

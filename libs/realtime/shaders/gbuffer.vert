@@ -15,11 +15,10 @@ layout(location = 3) out vec4 world_tangent;
 layout(location = 4) out vec4 color_out;
 
 void main() {
-  Instance i = instances[instance_index];
-  vec3 world = (i.world * vec4(position, 1)).xyz;
+  vec3 world = (instance.world * vec4(position, 1)).xyz;
   from_camera = world - frame.camera_position.xyz;
-  world_normal = mat3(i.normal) * normal;
-  world_tangent = vec4(mat3(i.world) * tangent.xyz, tangent.w);
+  world_normal = mat3(instance.normal) * normal;
+  world_tangent = vec4(mat3(instance.world) * tangent.xyz, tangent.w);
   uv_out = uv;
   color_out = color;
 

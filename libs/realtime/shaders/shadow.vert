@@ -14,7 +14,7 @@ layout(location = 1) out vec4 color_out;
 #endif
 
 void main() {
-  vec3 p = (instances[instance_index].world * vec4(position, 1)).xyz - origin;
+  vec3 p = (instance.world * vec4(position, 1)).xyz - origin;
   vec2 plane = vec2(dot(p, right), dot(p, up));
   float z = dot(p, forward);
   gl_Position = near_plane > 0 ? vec4(plane, near_plane, z) : vec4(plane, 1 - z, 1);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <ssphh/gl/draw.h>
-#include <ssphh/gl/program.h>
 #include <ssphh/gl/texture.h>
 #include <ssphh/gl/vertex_array.h>
 #include <ssphh/scene/query.h>
@@ -23,7 +22,8 @@ struct DrawItem {
   int index_count, base_vertex;
   std::size_t first_index;
   scene::Bounds local, world;
-  bool partial;  ///< may be covered in part only
+  bool partial;   ///< may be covered in part only
+  bool textured;  ///< reads any texture
 };
 
 class GpuScene {
@@ -45,7 +45,7 @@ class GpuScene {
   /// Binds buffers; then draw() what is wanted, in the order of items() for few changes of state. `program`
   /// is the one in use.
   void begin(bool positions_only) const;
-  void draw(gl::Program& program, const DrawItem& item, bool textures, FrameCounters& counters) const;
+  void draw(const DrawItem& item, bool textures, FrameCounters& counters) const;
 
  private:
   struct Slot {
@@ -60,18 +60,17 @@ class GpuScene {
 
   std::vector<DrawItem> items_;
   std::vector<GpuInstance> instances_;
-  std::vector<int> nodes_;  ///< of each instance
+  std::vector<int> nodes_, groups_;  ///< of each instance
   std::vector<GpuMaterial> materials_;
   std::vector<int> classes_;                ///< of each material
   std::vector<std::array<Slot, 4>> slots_;  ///< of each material
-  std::vector<vec4> group_scales_;
   std::map<std::pair<int, bool>, int> texture_index_;
   std::map<int, int> sampler_index_;
   std::vector<gl::Texture> textures_;
   std::vector<gl::Sampler> samplers_;
   gl::Texture white_;
   gl::Buffer positions_, vertices_, indices_;
-  gl::Buffer material_buffer_, instance_buffer_, scale_buffer_;
+  gl::Buffer material_buffer_, instance_buffer_;
   gl::VertexArray all_, position_only_;
   scene::Bounds bounds_;
   std::size_t bytes_ = 0;

@@ -8,7 +8,6 @@
 namespace ssphh::realtime {
 
 using glm::ivec4;
-using glm::uvec4;
 
 /// FrameBlock of common.glsl.
 struct FrameBlock {
@@ -21,7 +20,7 @@ struct FrameBlock {
 static_assert(sizeof(FrameBlock) == 14 * 16);
 static_assert(offsetof(FrameBlock, grid_origin) == 7 * 16 && offsetof(FrameBlock, extra) == 13 * 16);
 
-/// TextureUse, Material, Instance of material.glsl.
+/// TextureUse, MaterialBlock, InstanceBlock of material.glsl; each stands where a uniform block may begin.
 struct GpuTextureUse {
   vec4 matrix{1, 0, 0, 1};
   vec4 offset{0};
@@ -35,9 +34,11 @@ static_assert(sizeof(GpuMaterial) == 12 * 16 && offsetof(GpuMaterial, normal_use
 struct GpuInstance {
   mat4 world;
   vec4 normal[3];
-  uvec4 material;
+  vec4 emission_scale{1, 1, 1, 0};
 };
-static_assert(sizeof(GpuInstance) == 8 * 16 && offsetof(GpuInstance, material) == 7 * 16);
+static_assert(sizeof(GpuInstance) == 8 * 16 && offsetof(GpuInstance, emission_scale) == 7 * 16);
+inline constexpr std::size_t block_stride = 256;
+static_assert(sizeof(GpuMaterial) <= block_stride && sizeof(GpuInstance) <= block_stride);
 
 /// AreaSample and EmitterBlock of lights.glsl.
 enum class EmitterKind : int { point, sphl, sun, sphere, mesh, environment };
@@ -84,10 +85,9 @@ static_assert(sizeof(GpuVertex) == 60);
 
 /// Where shaders expect what.
 namespace binding {
-inline constexpr unsigned materials = 0, instances = 1, group_scales = 2;
 inline constexpr unsigned probe_places = 0, probe_grid = 6;
-inline constexpr unsigned frame_block = 0, distant_block = 1, emitter_block = 2;
-inline constexpr int instance_index = 0, material_index = 1;  // uniform locations
+inline constexpr unsigned frame_block = 0, distant_block = 1, emitter_block = 2, material_block = 3,
+                          instance_block = 4;
 }  // namespace binding
 namespace unit {
 inline constexpr unsigned gbuffer0 = 0, gbuffer1 = 1, albedo_table = 3, light_maps = 4, area_maps = 5,

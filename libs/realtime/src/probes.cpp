@@ -14,8 +14,9 @@
 namespace ssphh::realtime {
 namespace {
 
-/// Texels of a tile's side: bilinear interpolation of bands up to 4, and up to 10, errs by less than 1 %.
-constexpr int irradiance_tile = 16, radiance_tile = 30;
+/// Texels of a tile's side. The tests bound what interpolation errs in each band; irradiance has little of
+/// the higher ones, and so has what a rough surface mirrors.
+constexpr int irradiance_tile = 24, radiance_tile = 30;
 /// Roughnesses of which a probe's radiance is kept; shaders interpolate.
 constexpr std::array<float, 6> level_roughness = {0, 0.3f, 0.45f, 0.6f, 0.8f, 1};
 constexpr int largest_face = 256, smallest_face = 32;

@@ -310,7 +310,6 @@ void Renderer::Data::draw_shadows() {
 }
 
 void Renderer::Data::draw_geometry(const FrameSettings& settings) {
-  gl::Program& program = shaders.geometry();
   gl::bind_framebuffer(images.geometry_pass.id(), images.full());
   gl::apply({.depth = gl::Depth::test_and_write});
   gl::clear_depth(images.full(), 0);
@@ -319,16 +318,20 @@ void Renderer::Data::draw_geometry(const FrameSettings& settings) {
   gl::clear_color_uint(1, 0, 0, 0, 0);
   gl::clear_color(2, 0, 0, 0, 0);
   const bool emission = settings.direct && (settings.view == View::lit || settings.view == View::direct);
-  program.set("emission_shown", emission || settings.view == View::albedo ? 1 : 0);
-  program.use();
   scene.begin(false);
-  int surface = -1;
+  int surface = -1, textured = -1;
   for (const DrawItem& item : scene.items()) {
+    if (item.textured != textured) {
+      textured = item.textured;
+      gl::Program& program = shaders.geometry(item.textured);
+      program.set("emission_shown", emission || settings.view == View::albedo ? 1 : 0);
+      program.use();
+    }
     if (item.surface_class != surface) {
       surface = item.surface_class;
       gl::apply({.depth = gl::Depth::test_and_write, .lines = settings.wireframe, .stencil_write = surface});
     }
-    scene.draw(program, item, true, counters);
+    scene.draw(item, true, counters);
   }
   for (unsigned i = 0; i < unit::count; ++i) gl::Sampler::unbind(i);
 }

@@ -19,6 +19,12 @@ gl::Program& Shaders::get(Slot& slot, const char* vertex, const char* fragment, 
   return *slot;
 }
 
+gl::Program& Shaders::geometry(bool textured) {
+  return geometry_[textured]
+             ? *geometry_[textured]
+             : get(geometry_[textured], "gbuffer.vert", "gbuffer.frag", define("TEXTURED", textured));
+}
+
 gl::Program& Shaders::shadow(bool alpha) {
   return shadow_[alpha] ? *shadow_[alpha]
                         : get(shadow_[alpha], "shadow.vert", "shadow.frag", define("ALPHA", alpha));
@@ -53,8 +59,9 @@ gl::Program& Shaders::seen(EmitterKind kind) {
 }
 
 std::string Shaders::compile_all() {
-  geometry(), occlusion(), view(), resolve(), display();
+  occlusion(), view(), resolve(), display();
   for (const bool full : {false, true}) {
+    geometry(full);
     shadow(full);
     apply(full);
     for (int k = 0; k < emitter_kinds; ++k) {

@@ -119,7 +119,7 @@ void MapAtlas::draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, g
       use(alpha);
       scene.begin(false);
     }
-    scene.draw(item.partial ? alpha : opaque, item, item.partial, counters);
+    scene.draw(item, item.partial, counters);
   }
 }
 

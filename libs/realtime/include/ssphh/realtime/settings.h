@@ -31,7 +31,7 @@ struct FrameSettings {
   float occlusion_radius = 0.5f;  ///< metres
   View view = View::lit;
   Sky sky = Sky::environment;
-  image::ToneMap tone;
+  image::ToneMap tone = {};
   bool wireframe = false;
 };
 
