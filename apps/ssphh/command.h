@@ -45,6 +45,7 @@ void add_sh_commands(CLI::App& app, Context& context);
 void add_cubemap_commands(CLI::App& app, Context& context);
 void add_compare_command(CLI::App& app, Context& context);
 void add_leak_command(CLI::App& app, Context& context);
+void add_measure_command(CLI::App& app, Context& context);
 void add_relight_command(CLI::App& app, Context& context);
 
 }  // namespace ssphh::app

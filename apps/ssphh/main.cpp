@@ -46,6 +46,7 @@ int run(int argc, char** argv) {
   add_cubemap_commands(app, context);
   add_compare_command(app, context);
   add_leak_command(app, context);
+  add_measure_command(app, context);
   add_relight_command(app, context);
 
   const auto called = [&](const CLI::App* command) { return command->check_name(argv[1]); };

@@ -82,7 +82,7 @@ BounceOperator::BounceOperator(const TransportNetwork& network, const scene::Tra
       const vec3 n = glm::normalize(glm::transpose(glm::inverse(turn)) * surfel.point.normal);
       const vec3 x =
           g.positions[ray / directions] + network.seen_distance()[ray] * g.directions[ray % directions];
-      at[ray] = weights->at(x, n);
+      at[ray] = weights->at({x, n, surfel.part > 0});
       const std::span<float> basis(d.basis.data() + ray * count, count);
       sh::eval_basis(d.params.irradiance_degree, n, basis);
       for (int l = 0; l <= d.params.irradiance_degree; ++l) {
