@@ -29,8 +29,8 @@ struct MeasureOptions {
 /// Points on surfaces, or in the open near them; within the box, if one is given.
 std::vector<scene::SurfacePoint> find_points(const MeasureOptions& o, const scene::TransportSource& surfaces,
                                              std::span<const vec3> origins, const Context& context) {
-  std::vector<scene::SurfacePoint> points =
-      gi::reachable_points(surfaces, origins, o.scene.time, {o.points, context.seed, o.clearance}, context.control);
+  std::vector<scene::SurfacePoint> points = gi::reachable_points(
+      surfaces, origins, o.scene.time, {o.points, context.seed, o.clearance}, context.control);
   if (o.open) points = gi::points_in_the_open(surfaces, points, o.scene.time, context.seed);
   if (!o.box.empty()) {
     const vec3 low(o.box[0], o.box[1], o.box[2]), high(o.box[3], o.box[4], o.box[5]);
@@ -86,9 +86,8 @@ void measure(Context& context, MeasureOptions& o) {
                          {"p95_relative", e.p95_relative},
                          {"relmse", e.relmse},
                          {"leak_ratio", leak}});
-      text += fmt::format("\n{:<24}{:<11}{:>8.3f}{:>9.1f} %{:>7.1f} %{:>10.4f}{:>7.2f} %", o.probes[i],
-                          used, e.ratio, 100 * e.mean_error,
-                          100 * e.p95_relative, e.relmse, 100 * leak);
+      text += fmt::format("\n{:<24}{:<11}{:>8.3f}{:>9.1f} %{:>7.1f} %{:>10.4f}{:>7.2f} %", o.probes[i], used,
+                          e.ratio, 100 * e.mean_error, 100 * e.p95_relative, e.relmse, 100 * leak);
     }
   }
   context.result({{"points", points.size()},
@@ -115,9 +114,10 @@ void add_measure_command(CLI::App& app, Context& context) {
       ->check(probe_file_name())
       ->required();
   command
-      ->add_option("--weights", o.weights,
-                   "How probes are blended, one or several: distance, trilinear, mls, fitted; by default what "
-                   "`render` would take")
+      ->add_option(
+          "--weights", o.weights,
+          "How probes are blended, one or several: distance, trilinear, mls, fitted; by default what "
+          "`render` would take")
       ->delimiter(',')
       ->check(CLI::IsMember({"distance", "trilinear", "mls", "fitted"}));
   command->add_option("--points", o.points, "Points to compare at, uniform by area over what can be reached")
@@ -128,8 +128,7 @@ void add_measure_command(CLI::App& app, Context& context) {
                    "Only points with so much free space before them [m]: slits are nobody's view")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command
-      ->add_option("--box", o.box, "x0,y0,z0,x1,y1,z1: only points within [m]; so many fewer")
+  command->add_option("--box", o.box, "x0,y0,z0,x1,y1,z1: only points within [m]; so many fewer")
       ->delimiter(',')
       ->expected(6);
   command->add_flag("--open", o.open,

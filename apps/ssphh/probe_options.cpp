@@ -76,8 +76,7 @@ CLI::Option* add_weights_option(CLI::App& command, std::string& weights) {
 }
 
 gi::WeightParams weight_params(const std::string& file, const gi::ProbeSet& set, const std::string& weights) {
-  gi::WeightParams params;
-  params.method = gi::parse_weight_method(weights);
+  const gi::WeightParams params = gi::weights_named(weights);
   if (params.method == gi::WeightMethod::fitted && !set.fitted)
     throw Error(file, "has no fitted weights", "bake it with --fit, or choose other --weights");
   return params;

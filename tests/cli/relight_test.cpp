@@ -84,10 +84,10 @@ TEST(Relight, TakesThePlacesOfAProbeFileAndSavesWhatLeakReads) {
   EXPECT_LT(all["points"], 64) << "those in room A alone";
   EXPECT_GT(all["points"], 8);
   ASSERT_EQ(all["results"].size(), 4u);
-  for (const json& result : all["results"]) {
-    expect_keys(result, {"probes", "weights", "ratio", "mean_error", "mean_relative", "median_relative",
-                         "p95_relative", "relmse", "leak_ratio"});
-    EXPECT_NEAR(result["ratio"].get<double>(), 1, 0.3);
+  for (const json& one : all["results"]) {
+    expect_keys(one, {"probes", "weights", "ratio", "mean_error", "mean_relative", "median_relative",
+                      "p95_relative", "relmse", "leak_ratio"});
+    EXPECT_NEAR(one["ratio"].get<double>(), 1, 0.3);
   }
   EXPECT_EQ(all["results"][0]["ratio"], all["results"][2]["ratio"]) << "the same light";
   EXPECT_NE(all["results"][0]["ratio"], all["results"][1]["ratio"]);

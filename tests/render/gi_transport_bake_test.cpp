@@ -126,7 +126,9 @@ TEST(GiTransportBake, WeightsFitBesidePathTracedLight) {
   const trace::TransportScene source(scene);
   gi::ProbeSet set = gi::init_from_scene(scene, 1);
   gi::TransportBakeReport report;
-  gi::fit_set(source, set, {}, report);
+  gi::TransportBakeParams params;
+  params.fit = true;
+  gi::add_transport(source, set, params, report);
   ASSERT_TRUE(set.fitted);
   EXPECT_EQ(set.generator.op, gi::LightOperator::path);
   EXPECT_GT(set.generator.directions, 0);

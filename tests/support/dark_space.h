@@ -1,5 +1,6 @@
 #pragma once
-/// A RadianceSource without lights or surfaces: nothing arrives, nothing blocks. Tests override what they ask.
+/// A RadianceSource without lights or surfaces: nothing arrives, nothing blocks. Tests override what they
+/// ask.
 
 #include <ssphh/scene/radiance_source.h>
 

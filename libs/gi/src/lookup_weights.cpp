@@ -159,6 +159,14 @@ std::optional<WeightMethod> parse_weight_method(const std::string& name) {
   return std::nullopt;
 }
 
+WeightParams weights_named(const std::string& name) {
+  WeightParams params;
+  params.method = parse_weight_method(name);
+  if (!name.empty() && !params.method)
+    throw Error("weights " + name, "is none of distance, trilinear, mls, fitted");
+  return params;
+}
+
 float median_spacing(std::span<const vec3> positions) {
   const NearestPoints nearest(positions);
   std::vector<float> distance;

@@ -127,10 +127,11 @@ class Place {
 };
 
 GeneratorInfo read_generator(const Place& at) {
-  at.object({"operator", "gen", "max_depth", "passes", "spp", "face_size", "seed", "directions",
+  at.object({"operator", "viz", "gen", "max_depth", "passes", "spp", "face_size", "seed", "directions",
              "surfel_size", "link_rays", "scene", "scene_hash", "time"});
   GeneratorInfo g;
   g.op = at["operator"].choice(parse_light_operator);
+  g.viz = at["viz"].choice(parse_viz_method);
   g.gen = at["gen"].choice(parse_gen_mode);
   g.max_depth = at["max_depth"].integer(0, limits::depth);
   g.passes = at["passes"].integer(1, limits::samples);

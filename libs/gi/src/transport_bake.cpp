@@ -87,6 +87,16 @@ void fit(const RelightSession& session, const scene::TransportSource& source, Pr
   report.fit_seconds += seconds_since(start);
 }
 
+void find_edges(const TransportNetwork& network, const scene::TransportSource& source, ProbeSet& set,
+                const LinkVizParams& params, TransportBakeReport& report, const Control& control) {
+  const auto start = Clock::now();
+  std::vector<std::vector<Edge>> edges =
+      viz_from_links(network, source, set.probes, set.degree, params, control);
+  for (std::size_t i = 0; i < edges.size(); ++i) set.probes[i].edges = std::move(edges[i]);
+  set.generator.viz = VizMethod::links;
+  report.viz_seconds = seconds_since(start);
+}
+
 /// Each group's light with the probes as the only unknowns.
 std::vector<std::vector<sh::RadianceSh>> bounce_by_group(const RelightSession& session,
                                                          const scene::TransportSource& source,
@@ -152,6 +162,7 @@ ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, cons
   std::vector<std::vector<sh::RadianceSh>> emitted = session.emitted_by_group();
 
   set.generator.op = params.op;
+  set.generator.viz = VizMethod::none;
   set.generator.gen = GenMode::full;
   set.hierarchy.reset();
   set.fitted.reset();
@@ -171,6 +182,7 @@ ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, cons
   merge_groups(set);
 
   report.seconds = seconds_since(start);
+  if (params.viz) find_edges(network, source, set, params.viz_params, report, control);
   if (params.fit) fit(session, source, set, params.fit_params, report, control);
   report.rays = source.rays_traced() - rays_before;
   check_light(network, set, converged, report);
@@ -179,18 +191,20 @@ ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, cons
   return set;
 }
 
-void fit_set(const scene::TransportSource& source, ProbeSet& set, const TransportBakeParams& params,
-             TransportBakeReport& report, const Control& control) {
+void add_transport(const scene::TransportSource& source, ProbeSet& set, const TransportBakeParams& params,
+                   TransportBakeReport& report, const Control& control) {
   require_probes(set);
   report = {};
   const std::uint64_t rays_before = source.rays_traced();
-  const auto start = Clock::now();
   RelightSession session(source, places_of(set), {bake_resolution(source, params.transport), params.solve},
                          set.generator.time, control);
-  session.update();
-  describe_network(session.network(), set, report);
-  fit(session, source, set, params.fit_params, report, control);
-  report.fit_seconds = seconds_since(start);
+  const TransportNetwork& network = session.network();
+  describe_network(network, set, report);
+  if (params.viz) find_edges(network, source, set, params.viz_params, report, control);
+  if (params.fit) {
+    session.update();
+    fit(session, source, set, params.fit_params, report, control);
+  }
   report.rays = source.rays_traced() - rays_before;
 }
 

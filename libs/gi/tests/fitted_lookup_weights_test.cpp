@@ -13,8 +13,8 @@ namespace {
 const SeesProbe everything = [](const vec3&, const vec3&) { return true; };
 const std::vector<vec3> probes{{0, 1, 0}, {4, 1, 0}, {0, 1, 4}};
 
-/// Points 0.5 m apart on the floor [0, 4]², facing up; weights of three probes that are linear in place and sum
-/// to 0.9: 0.9 (1 − x/8 − z/8), 0.9 x/8, 0.9 z/8.
+/// Points 0.5 m apart on the floor [0, 4]², facing up; weights of three probes that are linear in place and
+/// sum to 0.9: 0.9 (1 − x/8 − z/8), 0.9 x/8, 0.9 z/8.
 FittedPoints floor_points() {
   FittedPoints fitted;
   for (int i = 0; i < 81; ++i) {
@@ -71,9 +71,9 @@ TEST(FittedLookupWeights, WhatMovesOrHasNoPointsNearGetsOtherWeights) {
   const scene::SurfacePoint on_floor{{2, 0, 2}, {0, 1, 0}}, moving{{2, 0, 2}, {0, 1, 0}, true};
   EXPECT_EQ(weights->at(moving), other->at(moving));
   EXPECT_FALSE(weights->at(on_floor) == other->at(on_floor));
-  for (const scene::SurfacePoint& p : {scene::SurfacePoint{{2, 0, 2}, {0, -1, 0}},     // faces away
-                                       scene::SurfacePoint{{2, 1.5f, 2}, {0, 1, 0}},   // above the floor
-                                       scene::SurfacePoint{{20, 0, 2}, {0, 1, 0}}})  // far off
+  for (const scene::SurfacePoint& p : {scene::SurfacePoint{{2, 0, 2}, {0, -1, 0}},    // faces away
+                                       scene::SurfacePoint{{2, 1.5f, 2}, {0, 1, 0}},  // above the floor
+                                       scene::SurfacePoint{{20, 0, 2}, {0, 1, 0}}})   // far off
     EXPECT_EQ(weights->at(p), other->at(p));
 }
 
@@ -89,7 +89,8 @@ TEST(FittedLookupWeights, APointBehindAWallDoesNotCount) {
   for (const float x : {1.6f, 1.9f, 2.0f}) {
     const std::map<int, float> at = by_probe(walled->at({{x, 0, 2}, {0, 1, 0}}));
     EXPECT_FALSE(at.contains(1)) << x;
-    EXPECT_TRUE(by_probe(lookup(fitted)->at({{x, 0, 2}, {0, 1, 0}})).contains(1)) << x << ", without the wall";
+    EXPECT_TRUE(by_probe(lookup(fitted)->at({{x, 0, 2}, {0, 1, 0}})).contains(1))
+        << x << ", without the wall";
   }
 }
 

@@ -35,6 +35,7 @@ inline gi::ProbeSet random_set(std::uint64_t seed, int probe_count, int degree, 
   set.generator.seed = ~seed;
   set.generator.time = 0.1f;
   set.generator.op = gi::LightOperator::surfel;
+  set.generator.viz = gi::VizMethod::links;
   set.generator.directions = 384;
   set.generator.surfel_size = 0.3f;
   set.generator.link_rays = 128;

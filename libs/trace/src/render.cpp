@@ -90,27 +90,22 @@ class PixelSums {
 
 void check_params(const RenderParams& params, std::size_t groups) {
   if (params.width < 1 || params.height < 1) throw Error("render size", "width and height must be positive");
+  const Tile tile = tile_of(params);
+  if (tile.x < 0 || tile.y < 0 || tile.width < 1 || tile.height < 1 || tile.width > params.width - tile.x ||
+      tile.height > params.height - tile.y) {
+    throw Error("render tile", "it must lie inside the picture");
+  }
   check_path_params(params.path);
   // Sums and one pass, each six images and depth, coverage.
   check_image_memory("render size",
-                     static_cast<std::uint64_t>(params.width) * static_cast<std::uint64_t>(params.height),
+                     static_cast<std::uint64_t>(tile.width) * static_cast<std::uint64_t>(tile.height),
                      2 * (17 + 3 * (params.per_group ? groups : 0)));
 }
 
-RenderState empty_state(const RenderParams& params, std::size_t groups) {
-  RenderState state;
-  const int w = params.width, h = params.height;
-  for (image::Image* i : {&state.color, &state.direct, &state.indirect, &state.albedo, &state.normal}) {
-    *i = image::Image(w, h, 3);
-  }
-  state.depth = image::Image(w, h, 1), state.coverage = image::Image(w, h, 1);
-  if (params.per_group) state.groups.assign(groups, image::Image(w, h, 3));
-  return state;
-}
-
 void check_state(const RenderState& state, const RenderParams& params, std::size_t groups) {
+  const Tile tile = tile_of(params);
   const auto fits = [&](const image::Image& i, int channels) {
-    return i.width == params.width && i.height == params.height && i.channels == channels;
+    return i.width == tile.width && i.height == tile.height && i.channels == channels;
   };
   bool ok = fits(state.color, 3) && fits(state.direct, 3) && fits(state.indirect, 3) &&
             fits(state.albedo, 3) && fits(state.normal, 3) && fits(state.depth, 1) &&
@@ -169,8 +164,8 @@ void run_passes(const TracerData& data, const scene::IndirectLight* indirect, co
   if (indirect) options.max_depth = std::min(options.max_depth, 1);
   const bool indirect_wanted = params.path.max_depth >= 2;
   const SceneEmitters emitters = data.emitters();
-  const auto width = static_cast<std::uint64_t>(params.width),
-             height = static_cast<std::uint64_t>(params.height);
+  const Tile tile = tile_of(params);
+  const auto width = static_cast<std::uint64_t>(tile.width), height = static_cast<std::uint64_t>(tile.height);
   const std::uint64_t row_paths = width * static_cast<std::uint64_t>(params.path.spp);
   ProgressStage stage(control, "render",
                       row_paths * height * static_cast<std::uint64_t>(params.path.passes - state.passes_done),
@@ -182,11 +177,13 @@ void run_passes(const TracerData& data, const scene::IndirectLight* indirect, co
     const std::uint64_t rays_before = data.rays.total();
     const auto first_sample =
         static_cast<std::uint32_t>(state.passes_done) * static_cast<std::uint32_t>(params.path.spp);
-    const auto render_row = [&](int y) {
-      TaskScope scope(data, invalid,
-                      static_cast<std::uint64_t>(state.passes_done) * height + static_cast<std::uint64_t>(y));
+    const auto render_row = [&](int row) {
+      const int y = tile.y + row;
+      TaskScope scope(
+          data, invalid,
+          static_cast<std::uint64_t>(state.passes_done) * height + static_cast<std::uint64_t>(row));
       PixelSums sums(data.scene, groups, camera, indirect, indirect_wanted, scope.task);
-      for (int x = 0; x < params.width; ++x) {
+      for (int x = tile.x; x < tile.x + tile.width; ++x) {
         sums.clear();
         PathSampler sampler{
             pixel_seed(params.path.seed, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)), 0};
@@ -196,14 +193,14 @@ void run_passes(const TracerData& data, const scene::IndirectLight* indirect, co
           const Ray ray = camera.ray(static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
           trace_path(data.embree, emitters, ray, sampler, options, scope.task, sums);
         }
-        sums.store(pass, x, y, params.path.spp);
+        sums.store(pass, x - tile.x, row, params.path.spp);
       }
       stage.advance(row_paths);
     };
     parallel_for(
         static_cast<std::size_t>(height), 1,
         [&](std::size_t begin, std::size_t end) {
-          for (std::size_t y = begin; y < end; ++y) render_row(static_cast<int>(y));
+          for (std::size_t row = begin; row < end; ++row) render_row(static_cast<int>(row));
         },
         control);
     add_pass(state, pass, indirect == nullptr);

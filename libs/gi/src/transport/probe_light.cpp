@@ -7,33 +7,50 @@
 
 namespace ssphh::gi {
 
+namespace {
+
+/// `radiance` is scratch of 3 strides, zero at their ends.
+void project_one(const TransportNetwork& network, const DirectionProjector& projector,
+                 std::span<const Irradiance4> irradiance, std::size_t probe, std::span<float> radiance,
+                 sh::RadianceSh& out) {
+  const std::size_t directions = network.gbuffer().directions.size(), stride = projector.stride();
+  const std::vector<MixedHit>& mixed = network.mixed_hits();
+  auto mix = std::lower_bound(mixed.begin(), mixed.end(), probe * directions,
+                              [](const MixedHit& hit, std::size_t owner) { return hit.owner < owner; });
+  for (std::size_t q = 0; q < directions; ++q) {
+    const std::size_t ray = probe * directions + q;
+    vec3 value = radiance_of(network.seen()[ray], irradiance);
+    if (mix != mixed.end() && mix->owner == ray) {
+      value += mix->share * (radiance_of(mix->other, irradiance) - value);
+      ++mix;
+    }
+    radiance[q] = value.x, radiance[stride + q] = value.y, radiance[2 * stride + q] = value.z;
+  }
+  projector.project(radiance, out);
+}
+
+}  // namespace
+
+vec3 radiance_of(const SeenPatch& patch, std::span<const Irradiance4> irradiance) {
+  if (patch.surfel == no_surfel) return vec3(0);
+  return unpack_albedo(patch.albedo) * (1 / pi) * vec3(irradiance[static_cast<std::size_t>(patch.surfel)]);
+}
+
 void project_reflected(const TransportNetwork& network, const DirectionProjector& projector,
                        std::span<const Irradiance4> irradiance, std::vector<sh::RadianceSh>& out) {
   const std::size_t probes = network.gbuffer().positions.size();
-  const std::size_t directions = network.gbuffer().directions.size(), stride = projector.stride();
-  const auto radiance_of = [&](const SeenPatch& patch) {
-    if (patch.surfel == no_surfel) return vec3(0);
-    return unpack_albedo(patch.albedo) * (1 / pi) * vec3(irradiance[static_cast<std::size_t>(patch.surfel)]);
-  };
-  const std::vector<MixedHit>& mixed = network.mixed_hits();
   out.resize(probes, sh::RadianceSh(projector.degree()));
   parallel_for(probes, 8, [&](std::size_t begin, std::size_t end) {
-    std::vector<float> radiance(3 * stride, 0.0f);
-    auto mix = std::lower_bound(mixed.begin(), mixed.end(), begin * directions,
-                                [](const MixedHit& hit, std::size_t owner) { return hit.owner < owner; });
-    for (std::size_t i = begin; i < end; ++i) {
-      for (std::size_t q = 0; q < directions; ++q) {
-        const std::size_t ray = i * directions + q;
-        vec3 value = radiance_of(network.seen()[ray]);
-        if (mix != mixed.end() && mix->owner == ray) {
-          value += mix->share * (radiance_of(mix->other) - value);
-          ++mix;
-        }
-        radiance[q] = value.x, radiance[stride + q] = value.y, radiance[2 * stride + q] = value.z;
-      }
-      projector.project(radiance, out[i]);
-    }
+    std::vector<float> radiance(3 * projector.stride(), 0.0f);
+    for (std::size_t i = begin; i < end; ++i)
+      project_one(network, projector, irradiance, i, radiance, out[i]);
   });
+}
+
+void project_reflected(const TransportNetwork& network, const DirectionProjector& projector,
+                       std::span<const Irradiance4> irradiance, std::size_t probe, sh::RadianceSh& out) {
+  std::vector<float> radiance(3 * projector.stride(), 0.0f);
+  project_one(network, projector, irradiance, probe, radiance, out);
 }
 
 std::vector<vec3> emitter_directions() {

@@ -14,6 +14,13 @@ namespace ssphh::gi {
 void project_reflected(const TransportNetwork& network, const DirectionProjector& projector,
                        std::span<const Irradiance4> irradiance, std::vector<sh::RadianceSh>& out);
 
+/// The same of one probe.
+void project_reflected(const TransportNetwork& network, const DirectionProjector& projector,
+                       std::span<const Irradiance4> irradiance, std::size_t probe, sh::RadianceSh& out);
+
+/// Radiance of a patch that reflects the irradiance of its surfel.
+vec3 radiance_of(const SeenPatch& patch, std::span<const Irradiance4> irradiance);
+
 /// Where a probe looks for emitters: more directions than for reflected light, since small lamps are bright
 /// and slip between few rays.
 std::vector<vec3> emitter_directions();

@@ -16,6 +16,8 @@ struct HierParams {
   HierOperator op = HierOperator::coefficient;
   int neighbors = -1;   ///< N′: at most so many neighbours per probe, those with the largest P; −1: all
   float threshold = 0;  ///< and only those with P above it
+
+  friend bool operator==(const HierParams&, const HierParams&) = default;
 };
 
 /// Indices into probe.edges of the neighbours that HIER uses, by P descending, ties by index of the

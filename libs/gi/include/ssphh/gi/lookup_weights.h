@@ -72,6 +72,9 @@ struct WeightParams {
   }
 };
 
+/// Defaults with the method of that name; empty: none. Throws Error for an unknown name.
+WeightParams weights_named(const std::string& name);
+
 class LookupWeights {
  public:
   virtual ~LookupWeights() = default;

@@ -1,0 +1,273 @@
+#include "app.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <imgui.h>
+
+#include <ssphh/core/file.h>
+#include <ssphh/gl/framebuffer.h>
+#include <ssphh/gl/read_pixels.h>
+#include <ssphh/image/io.h>
+
+#include "input.h"
+#include "overlay.h"
+#include "panels/panels.h"
+
+namespace ssphh::viewer {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+App::App(Window& window_, const ViewerOptions& options_, const Control&)
+    : window(window_), options(options_), gl_(gl::Context::adopt_current()) {
+  balls_ = std::make_unique<BallsGl>();
+  view = look_at({4, 3, 6}, {0, 1, 0}, 0.9f);
+  panels = options.panels;
+  report.renderer = gl_.info().renderer;
+  for (const auto& [name, value] : options.settings) set_setting(settings, name, value);
+  // Software renderers: a bake beside the picture may take its time, a preview may not.
+  bake_params.path.spp = 16;
+  last_turn_ = last_change_ = Clock::now();
+}
+
+double App::turn(const InjectedInput& input) {
+  const auto now = Clock::now();
+  const double elapsed = std::chrono::duration<double>(now - last_turn_).count();
+  last_turn_ = now;
+
+  // Take over what others did.
+  if (window.take_input()) redraw();
+  for (const std::string& file : window.take_dropped()) {
+    try {
+      open(file);
+    } catch (const std::exception& e) {
+      complain(e.what());
+    }
+  }
+  const JobStatus before = job.status();
+  if (job.poll()) redraw();
+  if (reference.poll()) truth_dirty_ = true, redraw();
+  if (!before.error.empty() && before.error != message) complain(before.error);
+  update_time(std::min(elapsed, 0.25));
+
+  const bool busy = job.running() || reference.status().running;
+  const bool moving = settings.play || path_plays || light_stale_ || waiting_maps_ > 0;
+  if (redraw_ == 0 && !moving) return busy ? 0.1 : 0.5;
+  redraw_ = std::max(redraw_ - 1, 0);
+
+  // The user's turn: panels and mouse change the state.
+  const auto start = Clock::now();
+  window.begin_frame(input);
+  handle_input(*this, static_cast<float>(std::min(elapsed, 0.1)));
+  draw_panels(*this);
+  const double panel_ms = 1e3 * seconds_since(start);
+
+  // Bring everything up to date with it.
+  if (scene_open()) {
+    picture.resize(std::max(1, static_cast<int>(std::lround(viewport.width * settings.scale))),
+                   std::max(1, static_cast<int>(std::lround(viewport.height * settings.scale))));
+    apply_edits();
+    update_light();
+    draw_scene();
+    update_truth();
+    draw_overlay(*this, visible_);
+  }
+  const auto ui = Clock::now();
+  finish_frame();
+  times.add("panels", panel_ms + 1e3 * seconds_since(ui));
+  return redraw_ > 0 || moving ? 0 : busy ? 0.05 : 0.5;
+}
+
+void App::finish_frame() {
+  const gl::Rect whole{0, 0, window.width(), window.height()};
+  gl::bind_framebuffer(0, whole);
+  gl::clear_color(0, 0.07f, 0.07f, 0.075f, 1);
+  window.end_frame();
+  if (!window_shot_.empty()) {
+    const std::string file = std::exchange(window_shot_, {});
+    try {
+      write_file(file, image::encode_png(image::Rgba8{whole.width, whole.height, gl::read_pixels(0, whole)}));
+      report.written.push_back(file);
+      say("wrote " + file);
+    } catch (const std::exception& e) {
+      complain(e.what());
+    }
+  }
+  window.show_frame();
+  ++report.frames;
+}
+
+void App::update_time(double seconds) {
+  if (settings.play && document.duration > 0) {
+    document.time += settings.speed * static_cast<float>(seconds);
+    // There and back again, so that nothing jumps.
+    const float period = 2 * document.duration;
+    document.time = std::fmod(std::fmod(document.time, period) + period, period);
+    if (document.time > document.duration) {
+      document.time = period - document.time;
+      settings.speed = -settings.speed;
+    }
+  }
+  if (path_plays && !bookmarks.empty()) {
+    path_time += static_cast<float>(seconds);
+    if (path_time > bookmarks.keys.back().time) path_plays = false;
+    const CameraKey key = at(bookmarks, path_time);
+    view = key.view;
+    if (key.scene_time) document.time = *key.scene_time;
+    redraw();
+  }
+}
+
+/// What the user changed since the last turn goes to the renderer; places and surfaces make the light stale.
+void App::apply_edits() {
+  const Edits& edits = document.edits();
+  const std::vector<scene::LightState> lights = light_states(*document.scene, edits, document.time);
+  const std::vector<vec3> scales = group_scales(*document.scene, edits);
+  if (renderer_->time() != document.time) renderer_->set_time(document.time), scene_dirty_ = true;
+  if (lights != applied_lights_) {
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      if (!(renderer_->light(static_cast<int>(i)) == lights[i]))
+        renderer_->set_light(static_cast<int>(i), lights[i]);
+    }
+    applied_lights_ = lights;
+    scene_dirty_ = true;
+  }
+  if (scales != applied_scales_) {
+    for (std::size_t g = 0; g < scales.size(); ++g)
+      renderer_->set_group_scale(static_cast<int>(g), scales[g]);
+    applied_scales_ = scales;
+    scene_dirty_ = true;
+  }
+  for (std::size_t i = 0; i < edits.materials.size(); ++i) {
+    if (same_surface(edits.materials[i], applied_materials_[i])) continue;
+    renderer_->set_material(static_cast<int>(i), edits.materials[i]);
+    applied_materials_[i] = edits.materials[i];
+    scene_dirty_ = light_stale_ = true;
+    stale_since_ = Clock::now();
+  }
+  if (edits.sphls != applied_sphls_) {
+    applied_sphls_ = edits.sphls;
+    light_stale_ = true;
+    stale_since_ = Clock::now();
+  }
+  if (light_stale_ && !light.live() && !light.empty()) light_stale_ = false;  // A bake stays as it is.
+  // Not while somebody drags: once things have been still for a moment.
+  if (light_stale_ && seconds_since(stale_since_) > 0.3 && !ImGui::IsAnyMouseDown()) {
+    light_stale_ = false;
+    if (light.live() || !edits.sphls.empty()) rebuild_light();
+  }
+}
+
+void App::update_light() {
+  const ProbeLight::Update update = light.update(document, settings, *renderer_);
+  if (!update.relit && !update.replaced) return;
+  scene_dirty_ = balls_dirty_ = true;
+  if (update.replaced) visible_view_.reset();
+  times.add("relight", update.relight_ms);
+  if (update.hier_ms > 0.01) times.add("hier", update.hier_ms);
+  times.add("probe upload", update.upload_ms);
+}
+
+void App::draw_scene() {
+  const bool changed = !drawn_ || !(drawn_->view == view) || !(drawn_->settings == settings) ||
+                       drawn_->width != picture.width() || drawn_->height != picture.height();
+  const bool linear_missing = needs_truth(settings) && picture.linear().empty();
+  if (!changed && !scene_dirty_ && waiting_maps_ == 0 && !linear_missing) return;
+  const bool light_path_changed = scene_dirty_ || !drawn_ || !(drawn_->view == view) ||
+                                  drawn_->width != picture.width() || drawn_->height != picture.height();
+  if (light_path_changed) {
+    picture.forget_truth();
+    reference.clear();
+    last_change_ = Clock::now();
+  }
+  const auto start = Clock::now();
+  last_stats = picture.draw(*renderer_, pose_of(view), frame_settings(settings), needs_truth(settings));
+  waiting_maps_ = last_stats.shadow_maps_waiting;
+  times.add("frame", 1e3 * seconds_since(start));
+  for (const realtime::PassTime& pass : last_stats.passes)
+    times.add(pass.name, std::max(pass.cpu_ms, pass.gpu_ms));
+
+  update_visible();
+  if (settings.balls && !light.empty()) {
+    if (balls_dirty_ || !drawn_ || drawn_->settings.ball != settings.ball)
+      balls_->update(light.set(), settings.ball);
+    balls_dirty_ = false;
+    BallsGl::Look look;
+    look.view = view;
+    look.radius = settings.ball_size > 0 ? settings.ball_size : default_ball_size(light.set());
+    look.lobes = settings.lobes;
+    look.tone = {settings.exposure, settings.curve, 0};
+    look.selected = selection.is(Kind::sphl) ? probe_of_sphl(*this, selection.index) : -1;
+    balls_->draw(light.set(), visible_, look, picture.framebuffer(), picture.width(), picture.height());
+  }
+  drawn_ = {view, settings, document.time, picture.width(), picture.height()};
+  scene_dirty_ = false;
+  truth_dirty_ = true;
+  redraw();
+}
+
+/// Which probes the eye sees: their balls and names are shown, the others' are not.
+void App::update_visible() {
+  if (light.empty()) return visible_.clear();
+  const std::vector<gi::Probe>& probes = light.set().probes;
+  const bool wanted = settings.balls || settings.names || settings.graph || place_mode;
+  if (!wanted || !picking_) return visible_.assign(probes.size(), 1);
+  if (visible_view_ && *visible_view_ == view && visible_.size() == probes.size() && !settings.play) return;
+  visible_view_ = view;
+  visible_.assign(probes.size(), 1);
+  std::vector<scene::RayQuery> rays(probes.size());
+  std::vector<std::uint8_t> blocked(probes.size());
+  for (int part = 0; part < picking_->part_count(); ++part) {
+    const mat4 inverse = glm::inverse(picking_->part_pose(part, document.time));
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+      const vec3 a(inverse * vec4(view.eye, 1)), b(inverse * vec4(probes[i].position, 1));
+      rays[i] = {b, a - b, 1};
+    }
+    picking_->occluded(part, rays, blocked);
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+      if (blocked[i]) visible_[i] = 0;
+    }
+  }
+}
+
+/// Ground truth starts once the picture has been still for a moment, and follows every change.
+void App::update_truth() {
+  if (!needs_truth(settings)) {
+    if (reference.status().running) reference.stop();
+    return;
+  }
+  const bool started = reference.status().running || reference.image().passes > 0;
+  if (!started) {
+    redraw();
+    if (seconds_since(last_change_) < 0.25 || light_stale_) return;
+    ReferenceParams params;
+    params.scene =
+        std::make_shared<const scene::Scene>(edited_scene(*document.scene, document.edits(), document.time));
+    params.time = document.time;
+    params.camera = pose_of(view);
+    params.width = picture.width(), params.height = picture.height();
+    params.max_depth = settings.truth_depth;
+    params.passes = settings.truth_passes;
+    reference.start(params);
+    return;
+  }
+  if (truth_dirty_) picture.update_truth(reference.image(), settings);
+  truth_dirty_ = false;
+}
+
+bool App::settled() const {
+  if (!scene_open()) return !job.running();
+  if (job.running() || light_stale_ || scene_dirty_ || waiting_maps_ > 0 || !drawn_) return false;
+  if (!(drawn_->view == view) || !(drawn_->settings == settings)) return false;
+  return !needs_truth(settings) || (reference.image().passes >= settings.truth_passes && !truth_dirty_);
+}
+
+}  // namespace ssphh::viewer

@@ -1,0 +1,158 @@
+#pragma once
+/// The viewer's state, and what can be done with it. Panels, keys, scripts and the command line all call the
+/// same functions.
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include <ssphh/gl/context.h>
+
+#include "model/camera_path.h"
+#include "model/document.h"
+#include "model/frame_times.h"
+#include "model/reference.h"
+#include "picture.h"
+#include "probe_light.h"
+#include "viewer.h"
+#include "window.h"
+
+namespace ssphh::viewer {
+
+enum class Kind { none, light, sphl, material };
+
+struct Selection {
+  Kind kind = Kind::none;
+  int index = -1;
+
+  bool is(Kind k) const { return kind == k && index >= 0; }
+  friend bool operator==(const Selection&, const Selection&) = default;
+};
+
+/// The part of the window in which the scene is shown, pixels from the upper left.
+struct Rect2 {
+  float x = 0, y = 0, width = 1, height = 1;
+  bool contains(float px, float py) const { return px >= x && py >= y && px < x + width && py < y + height; }
+  float aspect() const { return width / height; }
+};
+
+/// What the mouse drags.
+struct Drag {
+  enum class What { none, view, look, pan, object, axis, wipe } what = What::none;
+  int axis = 0;     ///< 0..2: world x, y, z
+  vec3 start{0};    ///< of the object when the drag began
+  vec3 grabbed{0};  ///< point of the drag's plane, or in x the place along its axis, under the mouse then
+};
+
+class App {
+ public:
+  App(Window& window, const ViewerOptions& options, const Control& control);
+
+  /// One turn: takes over finished work, brings light and picture up to date, draws the window if anything
+  /// changed. Returns the seconds that may be waited for input afterwards.
+  double turn(const InjectedInput& input);
+
+  // What can be done
+  void open(const std::string& source);
+  void save_scene(const std::string& file);
+  void save_probes(const std::string& file);
+  void save_path(const std::string& file);
+  void load_path(const std::string& file);
+  void save_stats(const std::string& file);
+  /// Of the picture alone, now, or of the window with its panels at the end of the next turn. PNG.
+  void screenshot(const std::string& file, bool panels);
+  void go_to_camera(const std::string& name);
+  void frame_selection();
+  void undo();
+  void redo();
+  /// Probes at these places: the scene's (as edited), or found automatically, `spacing` 0 for some 150.
+  void light_scene_probes();
+  /// As the option --probes: off, scene, auto, auto:METRES or a file.
+  void use_probes(const std::string& what);
+  void place_probes(float spacing);
+  /// Builds the light of the probes anew, in the background.
+  void rebuild_light();
+  void start_gen(bool viz_only);
+  void take_probe_file(const std::string& file);
+  void delete_selection();
+  void add_sphl(const vec3& position);
+  void say(const std::string& message);
+  /// As say(), for what went wrong.
+  void complain(const std::string& message);
+
+  /// No background work, light and picture up to date, and ground truth complete where it is shown.
+  bool settled() const;
+  bool scene_open() const { return document.scene != nullptr; }
+  /// The geometry for picking; null while the light is being built for the first time.
+  const trace::TransportScene* picking() const { return picking_ ? picking_.get() : nullptr; }
+  /// Something changed that the window must show.
+  void redraw() { redraw_ = 3; }
+  std::vector<std::string> camera_names() const;
+  /// Of the selected lamp or SPHL; none for other selections and for lamps without a place.
+  std::optional<vec3> selected_position() const;
+  void move_selected(const vec3& position);
+
+  Window& window;
+  const ViewerOptions& options;
+  Document document;
+  Settings settings;
+  View view;
+  Selection selection;
+  ProbeLight light;
+  Reference reference;
+  BackgroundJob job;
+  Picture picture;
+  FrameTimes times;
+  realtime::FrameStats last_stats;
+  CameraPath bookmarks;
+  float path_time = 0;
+  bool path_plays = false;
+  bool panels = true, help = false, place_mode = false;
+  std::string open_tab;  ///< tab of the sidebar to bring to the front once; empty: none
+  Rect2 viewport;
+  Drag drag;
+  std::string message;
+  bool message_is_error = false;
+  std::chrono::steady_clock::time_point message_since;
+  gi::BakeParams bake_params;
+  ViewerReport report;
+  float fly_speed = 2;  ///< m/s
+
+ private:
+  void take_scene(std::string source, scene::Scene scene);
+  void update_time(double seconds);
+  void apply_edits();
+  void update_light();
+  void draw_scene();
+  void update_truth();
+  void update_visible();
+  void finish_frame();
+  gl::Context gl_;
+  std::unique_ptr<realtime::Renderer> renderer_;
+  std::unique_ptr<BallsGl> balls_;
+  std::shared_ptr<const scene::Scene> picking_scene_;
+  std::unique_ptr<trace::TransportScene> picking_;
+  std::vector<unsigned char> visible_;  ///< per probe, from the eye
+
+  // What the picture on the screen was drawn with.
+  struct Drawn {
+    View view;
+    Settings settings;
+    float time = -1;
+    int width = 0, height = 0;
+  };
+  std::optional<Drawn> drawn_;
+  std::optional<View> visible_view_;
+  bool scene_dirty_ = true, balls_dirty_ = true, truth_dirty_ = true, light_stale_ = false;
+  std::vector<scene::LightState> applied_lights_;
+  std::vector<vec3> applied_scales_;
+  std::vector<scene::Material> applied_materials_;
+  std::vector<SphlEdit> applied_sphls_;
+  int redraw_ = 3;
+  std::chrono::steady_clock::time_point last_turn_, last_change_, stale_since_;
+  int waiting_maps_ = 0;
+  std::string window_shot_;  ///< file that is to get the window's next frame; empty: none
+};
+
+}  // namespace ssphh::viewer

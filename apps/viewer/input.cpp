@@ -1,0 +1,279 @@
+#include "input.h"
+
+#include <cmath>
+#include <iterator>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "app.h"
+#include "model/pick.h"
+#include "overlay.h"
+
+namespace ssphh::viewer {
+namespace {
+
+constexpr Shortcut all_shortcuts[] = {
+    {"left drag", "turn about the scene; on a lamp or probe: move it"},
+    {"right drag", "look around"},
+    {"middle or Shift drag", "move sideways"},
+    {"wheel", "nearer, farther"},
+    {"W A S D, Q E", "fly; with Shift faster"},
+    {"F", "frame the selection, or all"},
+    {"Home", "the scene's first camera"},
+    {"B", "add a bookmark"},
+    {"Space", "play or stop the animation"},
+    {"P", "probes: off, as balls"},
+    {"L", "lobes: balls bulge where light comes from"},
+    {"G", "graph of the hierarchy"},
+    {"N", "place an SPHL with the next click"},
+    {"Delete", "delete the selected SPHL"},
+    {"T", "ground truth: off, beside the picture, alone, difference"},
+    {"1 … 8", "all, direct, indirect, albedo, normal, shadow, SPHL, leak"},
+    {"[ ]", "darker, brighter"},
+    {"Ctrl+Z, Ctrl+Y", "undo, redo"},
+    {"Ctrl+S", "save the scene as a new GLB file"},
+    {"F12", "screenshot"},
+    {"Tab", "panels on, off"},
+    {"F1 or H", "this help"},
+    {"Escape", "leave a mode; no selection"},
+};
+
+bool pressed(int key) {
+  return ImGui::IsKeyPressed(key, false);
+}
+
+void toggle(App& app, bool& value) {
+  value = !value;
+  app.redraw();
+}
+
+std::string numbered_file(const App& app, const std::string& ending) {
+  const std::string stem =
+      std::filesystem::path(app.document.source.substr(app.document.source.rfind(':') + 1)).stem().string();
+  for (int n = 1;; ++n) {
+    std::string name = fmt::format("{}-{:02}{}", stem.empty() ? "view" : stem, n, ending);
+    if (!std::filesystem::exists(name)) return name;
+  }
+}
+
+void next_comparison(App& app) {
+  Show& show = app.settings.show;
+  show = show == Show::realtime ? Show::wipe
+         : show == Show::wipe   ? Show::truth
+         : show == Show::truth  ? Show::pixelated
+                                : Show::realtime;
+  app.say(fmt::format("shown: {}", to_string(show)));
+}
+
+void handle_control_keys(App& app) {
+  if (pressed(GLFW_KEY_Z)) app.undo();
+  if (pressed(GLFW_KEY_Y)) app.redo();
+  if (pressed(GLFW_KEY_S)) app.save_scene(numbered_file(app, ".glb"));
+}
+
+void handle_keys(App& app) {
+  Settings& s = app.settings;
+  if (pressed(GLFW_KEY_F1) || pressed(GLFW_KEY_H)) toggle(app, app.help);
+  if (pressed(GLFW_KEY_TAB)) toggle(app, app.panels);
+  if (pressed(GLFW_KEY_ESCAPE)) app.help = app.place_mode = false, app.selection = {};
+  if (!app.scene_open()) return;
+  if (ImGui::GetIO().KeyCtrl) return handle_control_keys(app);
+  if (pressed(GLFW_KEY_F)) app.frame_selection();
+  if (pressed(GLFW_KEY_HOME)) app.go_to_camera("");
+  if (pressed(GLFW_KEY_B)) {
+    append(app.bookmarks,
+           {fmt::format("view {}", app.bookmarks.keys.size() + 1), 0, app.document.time, app.view});
+    app.say("bookmark added");
+  }
+  if (pressed(GLFW_KEY_SPACE) && app.document.duration > 0) toggle(app, s.play);
+  if (pressed(GLFW_KEY_P)) toggle(app, s.balls);
+  if (pressed(GLFW_KEY_L)) toggle(app, s.lobes), s.balls |= s.lobes;
+  if (pressed(GLFW_KEY_G)) toggle(app, s.graph);
+  if (pressed(GLFW_KEY_N)) toggle(app, app.place_mode);
+  if (pressed(GLFW_KEY_DELETE)) app.delete_selection();
+  if (pressed(GLFW_KEY_T)) next_comparison(app);
+  for (int i = 0; i < 8; ++i) {
+    if (pressed(GLFW_KEY_1 + i)) {
+      s.debug = static_cast<DebugView>(i);
+      app.say(fmt::format("picture: {}", i == 0 ? "all light" : to_string(s.debug)));
+    }
+  }
+  if (pressed(GLFW_KEY_LEFT_BRACKET)) s.exposure -= 0.5f, app.redraw();
+  if (pressed(GLFW_KEY_RIGHT_BRACKET)) s.exposure += 0.5f, app.redraw();
+  if (pressed(GLFW_KEY_F12)) app.screenshot(numbered_file(app, ".png"), false);
+}
+
+void fly(App& app, float seconds) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.KeyCtrl) return;
+  const auto axis = [](int plus, int minus) {
+    return static_cast<float>(ImGui::IsKeyDown(plus)) - static_cast<float>(ImGui::IsKeyDown(minus));
+  };
+  const vec3 way(axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q), axis(GLFW_KEY_W, GLFW_KEY_S));
+  if (way == vec3(0)) return;
+  app.view = moved(app.view, way * (app.fly_speed * seconds * (io.KeyShift ? 4.0f : 1.0f)));
+  app.path_plays = false;
+  app.redraw();
+}
+
+vec2 picture_point(const App& app, const ImVec2& mouse) {
+  return {(mouse.x - app.viewport.x) / app.viewport.width,
+          1 - (mouse.y - app.viewport.y) / app.viewport.height};
+}
+
+scene::RayQuery mouse_ray(const App& app) {
+  return pixel_ray(app.view, picture_point(app, ImGui::GetIO().MousePos), app.viewport.aspect());
+}
+
+const vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+void grab(App& app, Drag::What what, int axis) {
+  app.document.history.seal();
+  Drag& drag = app.drag;
+  drag = {what, axis, *app.selected_position(), vec3(0)};
+  const scene::RayQuery ray = mouse_ray(app);
+  if (what == Drag::What::axis) {
+    drag.grabbed.x = along_axis(ray, drag.start, axes[axis]).value_or(0);
+  } else {
+    drag.grabbed = on_plane(ray, drag.start, app.view.forward()).value_or(drag.start);
+  }
+}
+
+void drag_object(App& app) {
+  const Drag& drag = app.drag;
+  const scene::RayQuery ray = mouse_ray(app);
+  if (drag.what == Drag::What::axis) {
+    if (const auto along = along_axis(ray, drag.start, axes[drag.axis]))
+      app.move_selected(drag.start + (*along - drag.grabbed.x) * axes[drag.axis]);
+  } else if (const auto point = on_plane(ray, drag.start, app.view.forward())) {
+    app.move_selected(drag.start + *point - drag.grabbed);
+  }
+}
+
+/// The SPHL whose ball is under the mouse; −1: none.
+int ball_under_mouse(const App& app) {
+  if (!app.settings.balls || app.light.empty()) return -1;
+  const scene::RayQuery ray = mouse_ray(app);
+  float limit = 1e30f;
+  if (app.picking()) {
+    if (const auto surface = pick_surface(*app.picking(), app.document.time, ray))
+      limit = glm::distance(surface->position, ray.origin);
+  }
+  std::vector<vec3> centers;
+  for (const gi::Probe& probe : app.light.set().probes) centers.push_back(probe.position);
+  const float radius =
+      app.settings.ball_size > 0 ? app.settings.ball_size : default_ball_size(app.light.set());
+  return sphl_of_probe(app, pick_sphere(ray, centers, 1.1f * radius, limit));
+}
+
+/// A click in place mode: an SPHL half a metre off the surface under the mouse, or nearer in narrow places.
+void place_sphl(App& app) {
+  if (!app.picking()) return;
+  const auto surface = pick_surface(*app.picking(), app.document.time, mouse_ray(app));
+  if (!surface) return app.say("there is no surface under the mouse");
+  const scene::RayQuery off{surface->position + 1e-3f * surface->normal, surface->normal, 100};
+  const auto ceiling = pick_surface(*app.picking(), app.document.time, off);
+  const float room = ceiling ? glm::distance(ceiling->position, off.origin) : 1;
+  app.add_sphl(surface->position + std::min(0.5f, 0.5f * room) * surface->normal);
+  app.place_mode = ImGui::GetIO().KeyShift;
+}
+
+void begin_left(App& app) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (app.place_mode) return place_sphl(app);
+  if (ImGui::GetIO().KeyShift) {
+    app.drag.what = Drag::What::pan;
+    return;
+  }
+  if (const int axis = axis_under_mouse(app, mouse.x, mouse.y); axis >= 0)
+    return grab(app, Drag::What::axis, axis);
+  if (app.settings.show == Show::wipe &&
+      std::abs(mouse.x - (app.viewport.x + app.settings.wipe * app.viewport.width)) < 8) {
+    app.drag.what = Drag::What::wipe;
+    return;
+  }
+  Selection hit;
+  if (const int light = lamp_under_mouse(app, mouse.x, mouse.y); light >= 0) {
+    hit = {Kind::light, light};
+  } else if (const int sphl = ball_under_mouse(app); sphl >= 0) {
+    hit = {Kind::sphl, sphl};
+  }
+  if (hit.kind == Kind::none) {
+    app.drag.what = Drag::What::view;
+    return;
+  }
+  app.selection = hit;
+  if (app.selected_position()) grab(app, Drag::What::object, 0);
+}
+
+void continue_drag(App& app) {
+  const ImVec2 delta = ImGui::GetIO().MouseDelta;
+  const float turn = 0.005f;
+  switch (app.drag.what) {
+    case Drag::What::none:
+      return;
+    case Drag::What::view:
+      app.view = orbited(app.view, -turn * delta.x, -turn * delta.y);
+      break;
+    case Drag::What::look:
+      app.view = turned(app.view, -turn * delta.x, -turn * delta.y);
+      break;
+    case Drag::What::pan: {
+      const float metres = 2 * app.view.focus * std::tan(0.5f * app.view.yfov) / app.viewport.height;
+      app.view = moved(app.view, {-delta.x * metres, delta.y * metres, 0});
+      break;
+    }
+    case Drag::What::object:
+    case Drag::What::axis:
+      if (delta.x != 0 || delta.y != 0) drag_object(app);
+      break;
+    case Drag::What::wipe:
+      app.settings.wipe = std::clamp(picture_point(app, ImGui::GetIO().MousePos).x, 0.0f, 1.0f);
+      break;
+  }
+  if (delta.x != 0 || delta.y != 0) app.path_plays = false;
+  app.redraw();
+}
+
+void handle_mouse(App& app) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool inside = !io.WantCaptureMouse && app.viewport.contains(io.MousePos.x, io.MousePos.y);
+  if (app.drag.what != Drag::What::none && !ImGui::IsAnyMouseDown()) {
+    app.drag.what = Drag::What::none;
+    app.document.history.seal();
+    app.redraw();
+  }
+  if (inside && app.drag.what == Drag::What::none) {
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) begin_left(app);
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) app.drag.what = Drag::What::look;
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Middle)) app.drag.what = Drag::What::pan;
+  }
+  if (app.drag.what != Drag::What::none) continue_drag(app);
+  if (inside && io.MouseWheel != 0) {
+    app.view = dollied(app.view, std::pow(0.9f, io.MouseWheel));
+    app.redraw();
+  }
+}
+
+}  // namespace
+
+const Shortcut* shortcuts(int& count) {
+  count = static_cast<int>(std::size(all_shortcuts));
+  return all_shortcuts;
+}
+
+void handle_input(App& app, float seconds) {
+  try {
+    if (!ImGui::GetIO().WantTextInput) handle_keys(app);
+    if (!app.scene_open()) return;
+    if (!ImGui::GetIO().WantTextInput) fly(app, seconds);
+    handle_mouse(app);
+  } catch (const std::exception& e) {
+    app.complain(e.what());
+  }
+}
+
+}  // namespace ssphh::viewer

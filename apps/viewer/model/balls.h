@@ -1,0 +1,39 @@
+#pragma once
+/// Probes as balls: which colour each point of their surface has.
+
+#include <span>
+#include <vector>
+
+#include <ssphh/gi/probe_set.h>
+
+#include "settings.h"
+
+namespace ssphh::viewer {
+
+/// Unit sphere of triangles: an octahedron whose faces are halved `levels` times; vertices are shared.
+struct BallMesh {
+  std::vector<vec3> vertices;
+  std::vector<uvec3> triangles;
+};
+BallMesh make_ball(int levels);
+
+/// Basis of all bands at every vertex of a ball, evaluated once.
+class BallShader {
+ public:
+  explicit BallShader(BallMesh mesh);
+  const BallMesh& mesh() const { return mesh_; }
+
+  /// Radiance per vertex, not below 0: of probe `i` of the set as `ball` says; irradiance as E/π, what a
+  /// white surface would leave. neighbor and sum are those of the set's hierarchy; without one black and
+  /// self. `out` has as many elements as the mesh has vertices.
+  void shade(const gi::ProbeSet& set, std::size_t i, Ball ball, std::span<vec3> out) const;
+
+ private:
+  BallMesh mesh_;
+  std::vector<float> basis_;  ///< [vertex][k]
+};
+
+/// Radius of balls that do not hide each other [m], for Settings::ball_size 0.
+float default_ball_size(const gi::ProbeSet& set);
+
+}  // namespace ssphh::viewer

@@ -1,0 +1,122 @@
+#include "edits.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace ssphh::viewer {
+namespace {
+
+std::size_t index(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+int add_root_node(scene::Scene& scene, const std::string& name, const vec3& position) {
+  scene::Node node;
+  node.name = name;
+  node.local.translation = position;
+  scene.nodes.push_back(node);
+  return static_cast<int>(scene.nodes.size()) - 1;
+}
+
+std::vector<scene::Sphl> edited_sphls(scene::Scene& scene, const Edits& edits) {
+  std::vector<scene::Sphl> sphls;
+  for (const SphlEdit& edit : edits.sphls) {
+    scene::Sphl sphl = edit.source >= 0 ? scene.sphls[index(edit.source)] : scene::Sphl{};
+    if (edit.position) sphl.node = add_root_node(scene, edit.name, *edit.position);
+    sphl.name = edit.name;
+    sphl.radius = edit.radius;
+    sphl.enabled = edit.enabled;
+    sphls.push_back(sphl);
+  }
+  return sphls;
+}
+
+}  // namespace
+
+Edits edits_of(const scene::Scene& scene) {
+  Edits edits;
+  for (const scene::Light& light : scene.lights)
+    edits.lights.push_back({{}, light.color, light.intensity, true});
+  edits.materials = scene.materials;
+  for (std::size_t i = 0; i < scene.sphls.size(); ++i) {
+    const scene::Sphl& sphl = scene.sphls[i];
+    edits.sphls.push_back({static_cast<int>(i), {}, sphl.name, sphl.radius, sphl.enabled});
+  }
+  return edits;
+}
+
+bool same_surface(const scene::Material& a, const scene::Material& b) {
+  return a.base_color == b.base_color && a.alpha == b.alpha && a.metallic == b.metallic &&
+         a.diffuse_roughness == b.diffuse_roughness && a.specular_roughness == b.specular_roughness &&
+         a.specular == b.specular && a.ior == b.ior && a.emission == b.emission;
+}
+
+std::vector<scene::LightState> light_states(const scene::Scene& scene, const Edits& edits, float time) {
+  const std::vector<mat4> world = scene::world_matrices(scene, time);
+  std::vector<scene::LightState> states;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const LightEdit& edit = edits.lights[i];
+    states.push_back(
+        {edit.world.value_or(world[index(scene.lights[i].node)]), edit.color, edit.on ? edit.intensity : 0});
+  }
+  return states;
+}
+
+std::vector<vec3> group_scales(const scene::Scene& scene, const Edits& edits) {
+  std::vector<vec3> scales;
+  for (const std::string& group : scene::light_groups(scene)) {
+    const auto found = edits.groups.find(group);
+    scales.push_back(found == edits.groups.end() ? vec3(1) : found->second);
+  }
+  return scales;
+}
+
+scene::Scene with_materials(scene::Scene scene, const Edits& edits) {
+  scene.materials = edits.materials;
+  return scene;
+}
+
+scene::Scene edited_scene(scene::Scene scene, const Edits& edits, float time) {
+  scene = with_materials(std::move(scene), edits);
+  const std::vector<scene::LightState> lights = light_states(scene, edits, time);
+  const std::vector<vec3> scales = group_scales(scene, edits);
+  scene = scene::with_lights(std::move(scene), time, lights, scales);
+  scene.sphls = edited_sphls(scene, edits);
+  return scene;
+}
+
+vec3 sphl_position(const scene::Scene& scene, const std::vector<mat4>& world, const SphlEdit& sphl) {
+  if (sphl.position) return *sphl.position;
+  return vec3(world[index(scene.sphls[index(sphl.source)].node)][3]);
+}
+
+std::string new_sphl_name(const Edits& edits) {
+  for (std::size_t n = edits.sphls.size() + 1;; ++n) {
+    std::string name = fmt::format("SPHL {}", n);
+    if (std::none_of(edits.sphls.begin(), edits.sphls.end(),
+                     [&](const SphlEdit& sphl) { return sphl.name == name; }))
+      return name;
+  }
+}
+
+vec3 light_position(const mat4& world) {
+  return vec3(world[3]);
+}
+
+vec3 light_direction(const mat4& world) {
+  return -glm::normalize(vec3(world[2]));
+}
+
+mat4 with_position(const mat4& world, const vec3& position) {
+  mat4 out = world;
+  out[3] = vec4(position, 1);
+  return out;
+}
+
+mat4 with_direction(const mat4& world, const vec3& direction) {
+  const Frame frame = Frame::around(-glm::normalize(direction));
+  return {vec4(frame.x, 0), vec4(frame.y, 0), vec4(frame.z, 0), world[3]};
+}
+
+}  // namespace ssphh::viewer

@@ -1,0 +1,74 @@
+#pragma once
+/// Everything a user may change in a scene, as a value beside the scene: what undo keeps and saving applies.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <ssphh/scene/query.h>
+#include <ssphh/scene/with_lights.h>
+
+namespace ssphh::viewer {
+
+struct LightEdit {
+  std::optional<mat4> world;  ///< none: where the scene's own animation puts it
+  vec3 color{1};
+  float intensity = 1;  ///< units as scene::Light
+  bool on = true;
+
+  friend bool operator==(const LightEdit&, const LightEdit&) = default;
+};
+
+struct SphlEdit {
+  int source = -1;               ///< index of the scene's SPHL; −1: a new one
+  std::optional<vec3> position;  ///< world [m]; none: at the source's node
+  std::string name;
+  float radius = 0.1f;
+  bool enabled = true;
+
+  friend bool operator==(const SphlEdit&, const SphlEdit&) = default;
+};
+
+struct Edits {
+  std::vector<LightEdit> lights;           ///< one per light of the scene
+  std::map<std::string, vec3> groups;      ///< factors on light groups; a group that is left out has 1
+  std::vector<scene::Material> materials;  ///< one per material of the scene
+  std::vector<SphlEdit> sphls;
+};
+
+/// No change at all.
+Edits edits_of(const scene::Scene& scene);
+
+/// Whether the values that the viewer edits are the same: colours, roughnesses, metalness, specular, IOR,
+/// emission.
+bool same_surface(const scene::Material& a, const scene::Material& b);
+
+/// The scene's lights at `time` with their edits: what renderers and relighting take.
+std::vector<scene::LightState> light_states(const scene::Scene& scene, const Edits& edits, float time);
+
+/// Factors in the order of scene::light_groups().
+std::vector<vec3> group_scales(const scene::Scene& scene, const Edits& edits);
+
+/// The scene with all edits done. A light that moved stands still at its place, on a node of its own, as does
+/// an SPHL; what was not edited stays as it is, to the bit.
+scene::Scene edited_scene(scene::Scene scene, const Edits& edits, float time);
+
+/// With its lights, groups and materials alone as they are in the scene: what decides the surfaces' light
+/// transport, but no lamp.
+scene::Scene with_materials(scene::Scene scene, const Edits& edits);
+
+/// World position of an SPHL at `time`.
+vec3 sphl_position(const scene::Scene& scene, const std::vector<mat4>& world, const SphlEdit& sphl);
+
+/// A name that no other SPHL has: "SPHL 7".
+std::string new_sphl_name(const Edits& edits);
+
+/// Position of a light's world matrix, and the unit direction in which it shines (−z).
+vec3 light_position(const mat4& world);
+vec3 light_direction(const mat4& world);
+/// The same matrix at another place, or turned toward a direction (any length but 0).
+mat4 with_position(const mat4& world, const vec3& position);
+mat4 with_direction(const mat4& world, const vec3& direction);
+
+}  // namespace ssphh::viewer

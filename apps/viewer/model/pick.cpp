@@ -1,0 +1,59 @@
+#include "pick.h"
+
+#include <cmath>
+
+namespace ssphh::viewer {
+
+int pick_sphere(const scene::RayQuery& ray, std::span<const vec3> centers, float radius, float limit) {
+  int best = -1;
+  for (std::size_t i = 0; i < centers.size(); ++i) {
+    const vec3 to = centers[i] - ray.origin;
+    const float along = glm::dot(to, ray.direction);
+    const float off = glm::dot(to, to) - along * along;
+    if (off > radius * radius) continue;
+    const float t = along - std::sqrt(radius * radius - off);
+    if (t <= 0 || t >= limit) continue;
+    limit = t;
+    best = static_cast<int>(i);
+  }
+  return best;
+}
+
+std::optional<scene::SurfacePoint> pick_surface(const scene::TransportSource& source, float time,
+                                                const scene::RayQuery& ray) {
+  std::optional<scene::SurfacePoint> nearest;
+  float limit = ray.t_max;
+  for (int part = 0; part < source.part_count(); ++part) {
+    const mat4 pose = source.part_pose(part, time);
+    const mat4 inverse = glm::inverse(pose);
+    // Distances count in units of the direction, so they are the same in every frame.
+    const scene::RayQuery local{vec3(inverse * vec4(ray.origin, 1)), vec3(inverse * vec4(ray.direction, 0)),
+                                limit};
+    scene::RayHit hit;
+    source.intersect(part, {&local, 1}, {&hit, 1});
+    if (hit.escaped() || hit.distance >= limit) continue;
+    limit = hit.distance;
+    nearest = scene::SurfacePoint{ray.origin + limit * ray.direction,
+                                  glm::normalize(glm::transpose(mat3(inverse)) * hit.normal)};
+  }
+  return nearest;
+}
+
+std::optional<float> along_axis(const scene::RayQuery& ray, const vec3& origin, const vec3& axis) {
+  const float b = glm::dot(axis, ray.direction);
+  const float determinant = glm::dot(ray.direction, ray.direction) - b * b;
+  if (determinant < 1e-6f) return {};
+  const vec3 w = ray.origin - origin;
+  return (glm::dot(w, axis) * glm::dot(ray.direction, ray.direction) - b * glm::dot(w, ray.direction)) /
+         determinant;
+}
+
+std::optional<vec3> on_plane(const scene::RayQuery& ray, const vec3& point, const vec3& normal) {
+  const float slope = glm::dot(ray.direction, normal);
+  if (std::abs(slope) < 1e-6f) return {};
+  const float t = glm::dot(point - ray.origin, normal) / slope;
+  if (t <= 0) return {};
+  return ray.origin + t * ray.direction;
+}
+
+}  // namespace ssphh::viewer

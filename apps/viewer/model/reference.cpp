@@ -1,0 +1,39 @@
+#include "reference.h"
+
+#include <ssphh/trace/path_tracer.h>
+
+namespace ssphh::viewer {
+
+void Reference::start(const ReferenceParams& params) {
+  image_ = {};
+  job_.start("path tracing", [this, params](const Control& control) -> BackgroundJob::Finish {
+    const trace::PathTracer tracer(*params.scene, params.time);
+    trace::RenderParams render;
+    render.width = params.width;
+    render.height = params.height;
+    render.camera = params.camera;
+    if (params.camera.camera.orthographic) render.projection = trace::Projection::orthographic;
+    render.path = {.max_depth = params.max_depth, .passes = 0, .spp = 1, .seed = 0};
+    trace::RenderState state;
+    const ProgressStage stage(control, "samples per pixel", static_cast<std::uint64_t>(params.passes), "spp");
+    for (int pass = 1; pass <= params.passes; ++pass) {
+      control.check();
+      render.path.passes = pass;
+      tracer.render(render, state, {nullptr, control.cancel});
+      ReferenceImage image;
+      image.color = std::make_shared<const image::Image>(trace::resolve(state.color, pass));
+      image.indirect = std::make_shared<const image::Image>(trace::resolve(state.indirect, pass));
+      image.passes = pass;
+      control.progress->advance(1);
+      job_.hand_over([this, image] { image_ = image; });
+    }
+    return {};
+  });
+}
+
+void Reference::clear() {
+  job_.cancel();
+  image_ = {};
+}
+
+}  // namespace ssphh::viewer

@@ -1,0 +1,186 @@
+#include "settings.h"
+
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace ssphh::viewer {
+namespace {
+
+template <class T>
+struct Choice {
+  const char* name;
+  T value;
+};
+
+constexpr Choice<Show> shows[] = {{"realtime", Show::realtime}, {"truth", Show::truth},
+                                  {"wipe", Show::wipe},         {"absolute", Show::absolute},
+                                  {"signed", Show::signed_},    {"pixelated", Show::pixelated}};
+constexpr Choice<DebugView> debug_views[] = {{"none", DebugView::none},         {"direct", DebugView::direct},
+                                             {"indirect", DebugView::indirect}, {"albedo", DebugView::albedo},
+                                             {"normal", DebugView::normal},     {"shadow", DebugView::shadow},
+                                             {"sphl", DebugView::sphl},         {"leak", DebugView::leak}};
+constexpr Choice<Ball> balls[] = {{"radiance", Ball::radiance},
+                                  {"irradiance", Ball::irradiance},
+                                  {"self", Ball::self},
+                                  {"neighbor", Ball::neighbor},
+                                  {"sum", Ball::sum}};
+constexpr Choice<image::ToneCurve> curves[] = {{"clip", image::ToneCurve::clip},
+                                               {"filmic", image::ToneCurve::filmic}};
+constexpr Choice<gi::LookupMethod> lookups[] = {{"irradiance", gi::LookupMethod::irradiance},
+                                                {"light", gi::LookupMethod::light}};
+constexpr Choice<gi::ProbeLayer> layers[] = {
+    {"sum", gi::ProbeLayer::sum}, {"self", gi::ProbeLayer::self}, {"neighbor", gi::ProbeLayer::neighbor}};
+constexpr Choice<gi::HierOperator> operators[] = {{"coefficient", gi::HierOperator::coefficient},
+                                                  {"mean", gi::HierOperator::mean},
+                                                  {"matrix", gi::HierOperator::matrix}};
+constexpr Choice<bool> switches[] = {{"off", false}, {"on", true}};
+
+template <class T, std::size_t N>
+const char* name_of(const Choice<T> (&choices)[N], T value) {
+  for (const Choice<T>& choice : choices) {
+    if (choice.value == value) return choice.name;
+  }
+  return "?";
+}
+
+/// `member` gives a reference into Settings.
+template <class T, std::size_t N, class Member>
+SettingName choice(const char* name, const char* group, const char* help, const Choice<T> (&choices)[N],
+                   Member member) {
+  SettingName setting{name, group, help, {}, {}, {}};
+  for (const Choice<T>& c : choices) setting.choices.emplace_back(c.name);
+  setting.set = [&choices, member, name, names = setting.choices](Settings& s, const std::string& text) {
+    for (const Choice<T>& c : choices) {
+      if (text == c.name) {
+        member(s) = c.value;
+        return;
+      }
+    }
+    throw Error(name, fmt::format("\"{}\" is none of: {}", text, fmt::join(names, ", ")));
+  };
+  setting.get = [&choices, member](const Settings& s) {
+    Settings copy = s;
+    return std::string(name_of(choices, member(copy)));
+  };
+  return setting;
+}
+
+template <class Member>
+SettingName toggle(const char* name, const char* group, const char* help, Member member) {
+  return choice(name, group, help, switches, member);
+}
+
+template <class Member>
+SettingName number(const char* name, const char* group, const char* help, float low, float high,
+                   Member member) {
+  SettingName setting{name, group, help, {}, {}, {}};
+  setting.set = [member, name, low, high](Settings& s, const std::string& text) {
+    const float value = parse_number(name, text);
+    if (!(value >= low && value <= high))
+      throw Error(name, fmt::format("{} is not within {:g} to {:g}", text, low, high));
+    auto& target = member(s);
+    using T = std::decay_t<decltype(target)>;
+    if (std::is_integral_v<T> && value != std::round(value))
+      throw Error(name, fmt::format("{} is not a whole number", text));
+    target = static_cast<T>(value);
+  };
+  setting.get = [member](const Settings& s) {
+    Settings copy = s;
+    return fmt::format("{:g}", static_cast<double>(member(copy)));
+  };
+  return setting;
+}
+
+}  // namespace
+
+const std::vector<SettingName>& setting_names() {
+  static const std::vector<SettingName> names = {
+      number("exposure", "Picture", "Stops", -20, 20, [](Settings& s) -> float& { return s.exposure; }),
+      choice("tonemap", "Picture", "Curve: clip at white, or filmic", curves,
+             [](Settings& s) -> image::ToneCurve& { return s.curve; }),
+      choice("debug", "Picture",
+             "What the real-time picture holds: none (all), direct or indirect light only, albedo, normal, "
+             "shadow, sphl (which one lights a place), leak (looked-up light that no path brings)",
+             debug_views, [](Settings& s) -> DebugView& { return s.debug; }),
+      number("scale", "Picture", "Pixels drawn per pixel of the window, along each axis", 0.1f, 2,
+             [](Settings& s) -> float& { return s.scale; }),
+      choice(
+          "show", "Ground truth",
+          "realtime; truth (path traced); wipe (one beside the other); their difference: absolute, signed, "
+          "pixelated (summed in blocks)",
+          shows, [](Settings& s) -> Show& { return s.show; }),
+      number("wipe", "Ground truth", "Place of the wipe's line, 0 left, 1 right", 0, 1,
+             [](Settings& s) -> float& { return s.wipe; }),
+      number("block", "Ground truth", "Pixels along a block of the pixelated difference", 1, 1024,
+             [](Settings& s) -> int& { return s.block; }),
+      number("truth-depth", "Ground truth", "Scattering events of a path", 0, 1000,
+             [](Settings& s) -> int& { return s.truth_depth; }),
+      number("truth-spp", "Ground truth", "Samples per pixel, one a pass", 1, 1000000,
+             [](Settings& s) -> int& { return s.truth_passes; }),
+      choice("lookup", "Probes",
+             "irradiance: blend of visible SPHLs; light: nearest visible SPHL, as the paper", lookups,
+             [](Settings& s) -> gi::LookupMethod& { return s.lookup; }),
+      choice("layer", "Probes", "Light of the probes that surfaces get: sum, self or neighbor", layers,
+             [](Settings& s) -> gi::ProbeLayer& { return s.layer; }),
+      number("degree", "Probes", "Bands that the lookup keeps", 0, 10,
+             [](Settings& s) -> int& { return s.degree; }),
+      toggle("hier", "Probes", "Add the neighbours' light over the edges that the set has",
+             [](Settings& s) -> bool& { return s.hier; }),
+      choice("operator", "Probes", "What HIER multiplies with", operators,
+             [](Settings& s) -> gi::HierOperator& { return s.hier_params.op; }),
+      number("neighbors", "Probes", "At most so many neighbours a probe; -1: all", -1, 65536,
+             [](Settings& s) -> int& { return s.hier_params.neighbors; }),
+      number("threshold", "Probes", "Only edges with P above this", 0, 1,
+             [](Settings& s) -> float& { return s.hier_params.threshold; }),
+      toggle("balls", "Probes on the screen", "A ball where each probe stands",
+             [](Settings& s) -> bool& { return s.balls; }),
+      choice("ball", "Probes on the screen", "What colours the balls", balls,
+             [](Settings& s) -> Ball& { return s.ball; }),
+      number("ball-size", "Probes on the screen", "Radius of the balls [m]; 0: by the probes' distance", 0,
+             1000, [](Settings& s) -> float& { return s.ball_size; }),
+      toggle("lobes", "Probes on the screen", "Balls bulge where light comes from",
+             [](Settings& s) -> bool& { return s.lobes; }),
+      toggle("graph", "Probes on the screen",
+             "Edges of the hierarchy, strong ones bright (the paper's Figure 9)",
+             [](Settings& s) -> bool& { return s.graph; }),
+      toggle("names", "Probes on the screen", "Names of the probes",
+             [](Settings& s) -> bool& { return s.names; }),
+      toggle("play", "Time", "Play the scene's animations over and over",
+             [](Settings& s) -> bool& { return s.play; }),
+      number("speed", "Time", "Seconds of the scene per second", -100, 100,
+             [](Settings& s) -> float& { return s.speed; }),
+  };
+  return names;
+}
+
+void set_setting(Settings& settings, const std::string& name, const std::string& value) {
+  std::vector<std::string> known;
+  for (const SettingName& setting : setting_names()) {
+    if (setting.name == name) return setting.set(settings, value);
+    known.push_back(setting.name);
+  }
+  throw Error(name, "is no setting", fmt::format("there are: {}", fmt::join(known, ", ")));
+}
+
+float parse_number(const std::string& where, const std::string& text) {
+  float value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    throw Error(where, fmt::format("\"{}\" is not a number", text));
+  return value;
+}
+
+const char* to_string(Show show) {
+  return name_of(shows, show);
+}
+const char* to_string(DebugView view) {
+  return name_of(debug_views, view);
+}
+const char* to_string(Ball ball) {
+  return name_of(balls, ball);
+}
+
+}  // namespace ssphh::viewer

@@ -1,0 +1,91 @@
+#pragma once
+/// How the viewer shows a scene: plain values, each with a name that the command line, scripts and panels
+/// share.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <ssphh/gi/hier.h>
+#include <ssphh/gi/lookup.h>
+#include <ssphh/image/tonemap.h>
+
+namespace ssphh::viewer {
+
+/// What fills the picture.
+enum class Show {
+  realtime,
+  truth,     ///< path traced, pass after pass
+  wipe,      ///< real-time left of a line, truth right of it
+  absolute,  ///< |real-time − truth|
+  signed_,   ///< real-time − truth
+  pixelated  ///< Σ|real-time − truth| over blocks, as the paper's figures
+};
+
+/// What the real-time picture holds.
+enum class DebugView { none, direct, indirect, albedo, normal, shadow, sphl, leak };
+
+/// What colours a probe's ball.
+enum class Ball {
+  radiance,    ///< what the probe sees into each direction
+  irradiance,  ///< what a surface there would get
+  self,        ///< radiance of its own light alone
+  neighbor,    ///< of the light that HIER adds
+  sum
+};
+
+struct Settings {
+  // Picture
+  float exposure = 0;  ///< EV
+  image::ToneCurve curve = image::ToneCurve::clip;
+  Show show = Show::realtime;
+  DebugView debug = DebugView::none;
+  float wipe = 0.5f;       ///< place of the line, share of the width
+  int block = 16;          ///< pixels, of `pixelated`
+  int truth_depth = 8;     ///< scattering events of the ground truth
+  int truth_passes = 256;  ///< samples per pixel
+  float scale = 1;         ///< pixels of the real-time picture per pixel of the window, along each axis
+
+  // Probes' light
+  gi::LookupMethod lookup = gi::LookupMethod::irradiance;
+  gi::ProbeLayer layer = gi::ProbeLayer::sum;  ///< self where there is no hierarchy
+  int degree = 4;                              ///< bands kept by the lookup
+  bool hier = false;                           ///< HIER over the edges that the set has
+  gi::HierParams hier_params{.op = gi::HierOperator::mean};
+
+  // Probes on the screen
+  bool balls = false, lobes = false, graph = false, names = false;
+  Ball ball = Ball::radiance;
+  float ball_size = 0;  ///< radius [m]; 0: a sixth of the probes' median distance, at most 0.12
+
+  // The scene's time
+  bool play = false;
+  float speed = 0.5f;  ///< seconds of the scene per second
+
+  friend bool operator==(const Settings&, const Settings&) = default;
+};
+
+/// A setting by name, for command line and scripts.
+struct SettingName {
+  std::string name;   ///< "exposure"
+  std::string group;  ///< "Picture"
+  std::string help;
+  std::vector<std::string> choices;  ///< empty: a number
+  /// Throws Error that says what would be right.
+  std::function<void(Settings&, const std::string&)> set;
+  std::function<std::string(const Settings&)> get;
+};
+
+const std::vector<SettingName>& setting_names();
+
+/// Sets one by its name. Throws Error for an unknown name, which lists all, or a wrong value.
+void set_setting(Settings& settings, const std::string& name, const std::string& value);
+
+/// Parses a finite number; throws Error(where, …).
+float parse_number(const std::string& where, const std::string& text);
+
+const char* to_string(Show show);
+const char* to_string(DebugView view);
+const char* to_string(Ball ball);
+
+}  // namespace ssphh::viewer

@@ -1,0 +1,161 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "app.h"
+#include "input.h"
+#include "panels.h"
+#include "widgets.h"
+
+namespace ssphh::viewer {
+namespace {
+
+constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+ImTextureID texture_id(unsigned texture) {
+  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));  // ImGui's way with OpenGL
+}
+
+/// Real-time picture, ground truth or both, behind all windows.
+void draw_picture(const App& app) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const Rect2& r = app.viewport;
+  const ImVec2 from{r.x, r.y}, to{r.x + r.width, r.y + r.height};
+  const bool truth = needs_truth(app.settings) && app.picture.has_truth();
+  const float line =
+      app.settings.show == Show::wipe && app.settings.debug != DebugView::leak ? app.settings.wipe : 0;
+  if (app.picture.width() == 0) return;
+  // OpenGL's first row is the lowest one, a file's the highest.
+  list.AddImage(texture_id(app.picture.realtime_texture()), from, to, {0, 1}, {1, 0});
+  if (!truth) return;
+  list.AddImage(texture_id(app.picture.truth_texture()), {r.x + line * r.width, r.y}, to, {line, 0}, {1, 1});
+}
+
+void draw_welcome(const App& app) {
+  const Rect2& r = app.viewport;
+  const char* lines[] = {"Drop a scene here", ".glb .gltf .obj .ssphh.json", "",
+                         "or begin with   ssphh view builtin:two-rooms"};
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  float y = r.y + 0.42f * r.height;
+  for (const char* line : lines) {
+    const ImVec2 size = ImGui::CalcTextSize(line);
+    list.AddText({r.x + 0.5f * (r.width - size.x), y}, IM_COL32(200, 200, 205, 255), line);
+    y += 1.6f * size.y;
+  }
+}
+
+/// A line over the picture's upper edge: what the user may want to do next.
+void draw_offer(App& app) {
+  if (!app.scene_open() || !app.light.empty() || app.job.running()) return;
+  const Rect2& r = app.viewport;
+  ImGui::SetNextWindowPos({r.x + 0.5f * r.width, r.y + 14}, ImGuiCond_Always, {0.5f, 0});
+  ImGui::SetNextWindowBgAlpha(0.85f);
+  ImGui::Begin("offer", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::AlignTextToFramePadding();
+  if (app.document.edits().sphls.empty()) {
+    ImGui::TextUnformatted("This scene has no probes: only direct light is shown.");
+  } else {
+    ImGui::Text("%zu SPHLs, not lit yet.", app.document.edits().sphls.size());
+    ImGui::SameLine();
+    if (ImGui::Button("Light them")) attempt(app, [&] { app.light_scene_probes(); });
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Place probes and light them")) attempt(app, [&] { app.place_probes(0); });
+  ImGui::End();
+}
+
+void draw_message(App& app) {
+  const double age =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - app.message_since).count();
+  const double stays = app.message_is_error ? 15 : 4;
+  if (app.message.empty() || age > stays) return;
+  const Rect2& r = app.viewport;
+  ImGui::SetNextWindowPos({r.x + 0.5f * r.width, r.y + r.height - 14}, ImGuiCond_Always, {0.5f, 1});
+  ImGui::SetNextWindowBgAlpha(0.85f);
+  ImGui::Begin("message", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+  if (app.message_is_error) ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1, 0.5f, 0.45f, 1));
+  ImGui::PushTextWrapPos(0.8f * r.width);
+  ImGui::TextUnformatted(app.message.c_str());
+  ImGui::PopTextWrapPos();
+  if (app.message_is_error) ImGui::PopStyleColor();
+  ImGui::End();
+}
+
+void draw_sidebar(App& app, float y, float width, float height) {
+  ImGui::SetNextWindowPos({0, y});
+  ImGui::SetNextWindowSize({width, height});
+  ImGui::Begin("side", nullptr, fixed);
+  if (ImGui::BeginTabBar("tabs")) {
+    const struct {
+      const char* name;
+      void (*draw)(App&);
+    } tabs[] = {{"Light", draw_light_panel},      {"Probes", draw_probe_panel},
+                {"Surfaces", draw_surface_panel}, {"Camera", draw_camera_panel},
+                {"Picture", draw_picture_panel},  {"Times", draw_stats_panel}};
+    for (const auto& tab : tabs) {
+      const ImGuiTabItemFlags flags =
+          app.open_tab == tab.name ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
+      if (!ImGui::BeginTabItem(tab.name, nullptr, flags)) continue;
+      ImGui::BeginChild("panel");
+      if (app.scene_open()) {
+        tab.draw(app);
+      } else {
+        note("No scene is open. Drop a file on the window.");
+      }
+      ImGui::EndChild();
+      ImGui::EndTabItem();
+    }
+    app.open_tab.clear();
+    ImGui::EndTabBar();
+  }
+  ImGui::End();
+}
+
+}  // namespace
+
+void draw_help(App& app) {
+  if (!app.help) return;
+  const Rect2& r = app.viewport;
+  ImGui::SetNextWindowPos({r.x + 0.5f * r.width, r.y + 0.5f * r.height}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowBgAlpha(0.93f);
+  ImGui::Begin("help", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize);
+  int count = 0;
+  const Shortcut* list = shortcuts(count);
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    for (int i = 0; i < count; ++i) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::TextColored({0.95f, 0.72f, 0.38f, 1}, "%s", list[i].keys);
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(list[i].what);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+void draw_panels(App& app) {
+  const auto width = static_cast<float>(app.window.width()), height = static_cast<float>(app.window.height());
+  float top = 0, left = 0, bottom = 0;
+  if (app.panels) {
+    draw_menu(app);
+    top = ImGui::GetFrameHeight();
+    left = std::min(25 * ImGui::GetFontSize(), 0.4f * width);
+    bottom = ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().WindowPadding.y;
+    draw_sidebar(app, top, left, height - top);
+  }
+  app.viewport = {left, top, std::max(width - left, 1.0f), std::max(height - top - bottom, 1.0f)};
+  if (app.panels) draw_time_bar(app);
+  if (app.scene_open()) {
+    draw_picture(app);
+  } else {
+    draw_welcome(app);
+  }
+  if (app.panels) draw_offer(app);
+  draw_message(app);
+  draw_help(app);
+}
+
+}  // namespace ssphh::viewer

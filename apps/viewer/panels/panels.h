@@ -1,0 +1,22 @@
+#pragma once
+/// The user interface around the picture, one function per panel. Each reads the state and changes it through
+/// App's functions; none keeps state of its own but what is being typed.
+
+namespace ssphh::viewer {
+
+class App;
+
+/// Menu, sidebar, time bar, messages and the picture behind them; sets App::viewport.
+void draw_panels(App& app);
+
+void draw_menu(App& app);
+void draw_light_panel(App& app);
+void draw_probe_panel(App& app);
+void draw_surface_panel(App& app);
+void draw_camera_panel(App& app);
+void draw_picture_panel(App& app);
+void draw_stats_panel(App& app);
+void draw_time_bar(App& app);
+void draw_help(App& app);
+
+}  // namespace ssphh::viewer

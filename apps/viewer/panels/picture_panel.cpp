@@ -1,0 +1,58 @@
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "app.h"
+#include "panels.h"
+#include "widgets.h"
+
+namespace ssphh::viewer {
+namespace {
+
+void draw_truth(App& app) {
+  heading("Ground truth");
+  setting_widget(app, "show", "show");
+  if (app.settings.show == Show::wipe) setting_slider(app, "line", "wipe", 0, 1);
+  if (app.settings.show == Show::pixelated) setting_slider(app, "block [pixels]", "block", 1, 64, "%.0f");
+  setting_slider(app, "bounces", "truth-depth", 1, 32, "%.0f");
+  setting_slider(app, "samples", "truth-spp", 1, 4096, "%.0f");
+  if (!needs_truth(app.settings)) {
+    note("Press T to see path tracing beside the picture.");
+    return;
+  }
+  const ReferenceImage& truth = app.reference.image();
+  const float share = static_cast<float>(truth.passes) / static_cast<float>(app.settings.truth_passes);
+  ImGui::ProgressBar(share, {-1, 0},
+                     fmt::format("{} of {} samples", truth.passes, app.settings.truth_passes).c_str());
+  const auto& difference = app.picture.shown_difference();
+  if (!difference || app.settings.debug == DebugView::leak) return;
+  const metrics::ImageError& e = difference->error;
+  ImGui::Text("relMSE  %.4g", e.relmse);
+  ImGui::Text("mean |difference|  %.4g", e.mae);
+  ImGui::Text("mean ratio  %.3f %.3f %.3f", e.mean_ratio[0], e.mean_ratio[1], e.mean_ratio[2]);
+  ImGui::Text("last colour  %.3g", static_cast<double>(difference->scale));
+  note("The truth's noise counts as difference: let it take some hundred samples.");
+}
+
+}  // namespace
+
+void draw_picture_panel(App& app) {
+  heading("Picture");
+  setting_slider(app, "exposure", "exposure", -8, 8, "%+.1f EV");
+  setting_widget(app, "tone curve", "tonemap");
+  setting_widget(app, "shown light", "debug");
+  if (app.settings.debug == DebugView::leak)
+    note("Looked-up indirect light on places where path tracing finds next to none, as it comes in.");
+  setting_slider(app, "pixels", "scale", 0.25f, 2, "× %.2f");
+  draw_truth(app);
+  heading("Files");
+  static char file[256] = "picture.png";
+  row("screenshot");
+  ImGui::InputText("##shot", file, sizeof file);
+  if (wide_button("Write picture")) attempt(app, [&] { app.screenshot(file, false); });
+  static char scene_file[256] = "scene.glb";
+  row("scene");
+  ImGui::InputText("##scene", scene_file, sizeof scene_file);
+  if (wide_button("Save scene")) attempt(app, [&] { app.save_scene(scene_file); });
+}
+
+}  // namespace ssphh::viewer

@@ -1,0 +1,104 @@
+#include "widgets.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "app.h"
+
+namespace ssphh::viewer {
+namespace {
+
+const SettingName& setting(const char* name) {
+  const std::vector<SettingName>& names = setting_names();
+  const auto found = std::find_if(names.begin(), names.end(), [&](const auto& s) { return s.name == name; });
+  SSPHH_CHECK(found != names.end());
+  return *found;
+}
+
+void set(App& app, const SettingName& setting, const std::string& value) {
+  attempt(app, [&] { setting.set(app.settings, value); });
+  app.redraw();
+}
+
+}  // namespace
+
+void row(const char* label) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(label);
+  ImGui::SameLine(0.36f * ImGui::GetWindowContentRegionMax().x);
+  ImGui::SetNextItemWidth(-1);
+}
+
+void heading(const char* text) {
+  ImGui::Spacing();
+  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.95f, 0.72f, 0.38f, 1));
+  ImGui::TextUnformatted(text);
+  ImGui::PopStyleColor();
+  ImGui::Separator();
+}
+
+void note(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
+bool wide_button(const char* label) {
+  return ImGui::Button(label, {-1, 0});
+}
+
+void tip(const char* text) {
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(22 * ImGui::GetFontSize());
+  ImGui::TextUnformatted(text);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+void complain(App& app, const char* what) {
+  app.complain(what);
+}
+
+void setting_widget(App& app, const char* label, const char* name) {
+  const SettingName& s = setting(name);
+  const std::string value = s.get(app.settings);
+  ImGui::PushID(name);
+  row(label);
+  if (s.choices.size() == 2 && s.choices[0] == "off") {
+    bool on = value == "on";
+    if (ImGui::Checkbox("##value", &on)) set(app, s, on ? "on" : "off");
+    tip(s.help.c_str());
+  } else if (!s.choices.empty()) {
+    const bool open = ImGui::BeginCombo("##value", value.c_str());
+    if (!open) tip(s.help.c_str());
+    if (open) {
+      for (const std::string& choice : s.choices) {
+        if (ImGui::Selectable(choice.c_str(), choice == value)) set(app, s, choice);
+      }
+      ImGui::EndCombo();
+    }
+  } else {
+    int number = std::atoi(value.c_str());
+    if (ImGui::InputInt("##value", &number)) set(app, s, fmt::format("{}", number));
+    tip(s.help.c_str());
+  }
+  ImGui::PopID();
+}
+
+void setting_slider(App& app, const char* label, const char* name, float low, float high,
+                    const char* format) {
+  const SettingName& s = setting(name);
+  auto value = static_cast<float>(std::atof(s.get(app.settings).c_str()));
+  ImGui::PushID(name);
+  row(label);
+  if (ImGui::SliderFloat("##value", &value, low, high, format)) set(app, s, fmt::format("{}", value));
+  tip(s.help.c_str());
+  ImGui::PopID();
+}
+
+}  // namespace ssphh::viewer

@@ -1,0 +1,45 @@
+#pragma once
+/// Pieces that several panels use.
+
+#include <exception>
+#include <string>
+
+namespace ssphh::viewer {
+
+class App;
+
+/// A combo box, tick box or slider for a setting by its name; `label` stands left of it.
+void setting_widget(App& app, const char* label, const char* name);
+
+/// A slider for a number setting, over a shorter range than the setting allows.
+void setting_slider(App& app, const char* label, const char* name, float low, float high,
+                    const char* format = "%.2f");
+
+/// Starts a row: the label on the left, the next item fills the rest.
+void row(const char* label);
+
+/// Heading of a part of a panel.
+void heading(const char* text);
+
+/// A grey note that wraps.
+void note(const std::string& text);
+
+/// A button over the panel's full width; true when pressed.
+bool wide_button(const char* label);
+
+/// Explains the item before when the mouse rests on it.
+void tip(const char* text);
+
+void complain(App& app, const char* what);
+
+/// Runs an action; what it throws becomes a message.
+template <class Action>
+void attempt(App& app, const Action& action) {
+  try {
+    action();
+  } catch (const std::exception& e) {
+    complain(app, e.what());
+  }
+}
+
+}  // namespace ssphh::viewer

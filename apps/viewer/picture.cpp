@@ -1,0 +1,103 @@
+#include "picture.h"
+
+#include <cmath>
+
+namespace ssphh::viewer {
+
+void PictureTexture::upload(const image::Rgba8& picture) {
+  if (picture.width != width() || picture.height != height()) {
+    texture_ = gl::Texture(gl::Format::rgba8, picture.width, picture.height);
+    texture_.set_filter(true);
+  }
+  texture_.upload(std::as_bytes(std::span(picture.rgba)));
+}
+
+void Picture::resize(int width, int height) {
+  if (width == width_ && height == height_) return;
+  width_ = width, height_ = height;
+  color_ = gl::Texture(gl::Format::rgba8, width, height);
+  color_.set_filter(true);
+  depth_ = gl::Texture(gl::Format::depth32f, width, height);
+  const gl::Texture* const colors[] = {&color_};
+  framebuffer_ = gl::Framebuffer(colors, &depth_);
+  linear_ = {};
+  have_truth_ = false;
+}
+
+const realtime::FrameStats& Picture::draw(realtime::Renderer& renderer, const scene::CameraPose& camera,
+                                          const realtime::FrameSettings& settings, bool linear) {
+  const realtime::FrameStats& stats =
+      renderer.draw(camera, settings, {width_, height_, framebuffer_.id(), 0, 0});
+  if (linear) linear_ = renderer.read_back();
+  return stats;
+}
+
+image::Rgba8 Picture::pixels() const {
+  std::vector<float> values(4 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  color_.read(values, 4);
+  image::Rgba8 out{width_, height_, std::vector<std::uint8_t>(values.size())};
+  const auto row = 4 * static_cast<std::size_t>(width_);
+  for (int y = 0; y < height_; ++y) {
+    // OpenGL's row 0 is the lowest one.
+    const float* from = values.data() + static_cast<std::size_t>(height_ - 1 - y) * row;
+    std::uint8_t* to = out.rgba.data() + static_cast<std::size_t>(y) * row;
+    for (std::size_t i = 0; i < row; ++i)
+      to[i] = i % 4 == 3 ? 255 : static_cast<std::uint8_t>(std::lround(from[i] * 255));
+  }
+  return out;
+}
+
+void Picture::update_truth(const ReferenceImage& truth, const Settings& settings) {
+  if (!truth.color || truth.color->width != width_ || truth.color->height != height_) return;
+  difference_.reset();
+  if (settings.debug == DebugView::leak) {
+    if (linear_.empty()) return;
+    difference_ = leak_picture(*truth.indirect, linear_);
+    truth_picture_ = difference_->picture;
+  } else if (settings.show == Show::truth || settings.show == Show::wipe) {
+    truth_picture_ = image::to_display(*truth.color, {settings.exposure, settings.curve, 0});
+  } else {
+    if (linear_.empty()) return;
+    difference_ = difference(*truth.color, linear_, settings.show, settings.block);
+    truth_picture_ = difference_->picture;
+  }
+  truth_.upload(truth_picture_);
+  have_truth_ = true;
+}
+
+realtime::FrameSettings frame_settings(const Settings& settings) {
+  realtime::FrameSettings out;
+  out.lookup = settings.lookup;
+  out.irradiance_degree = settings.degree;
+  out.tone = {settings.exposure, settings.curve, 0};
+  switch (settings.debug) {
+    case DebugView::none:
+      break;
+    case DebugView::direct:
+      out.view = realtime::View::direct;
+      break;
+    case DebugView::indirect:
+    case DebugView::leak:
+      out.view = realtime::View::indirect;
+      break;
+    case DebugView::albedo:
+      out.view = realtime::View::albedo;
+      break;
+    case DebugView::normal:
+      out.view = realtime::View::normal;
+      break;
+    case DebugView::shadow:
+      out.view = realtime::View::shadow;
+      break;
+    case DebugView::sphl:
+      out.view = realtime::View::chosen_sphl;
+      break;
+  }
+  return out;
+}
+
+bool needs_truth(const Settings& settings) {
+  return settings.show != Show::realtime || settings.debug == DebugView::leak;
+}
+
+}  // namespace ssphh::viewer

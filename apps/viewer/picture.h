@@ -1,0 +1,73 @@
+#pragma once
+/// What stands behind the panels: the real-time picture, the ground truth, or their difference, as textures.
+
+#include <memory>
+#include <optional>
+
+#include <ssphh/gl/framebuffer.h>
+#include <ssphh/gl/texture.h>
+#include <ssphh/realtime/renderer.h>
+
+#include "balls_gl.h"
+#include "model/comparison.h"
+#include "model/reference.h"
+
+namespace ssphh::viewer {
+
+/// An 8-bit picture that ImGui shows.
+class PictureTexture {
+ public:
+  void upload(const image::Rgba8& picture);
+  unsigned id() const { return texture_.id(); }
+  int width() const { return texture_.width(); }
+  int height() const { return texture_.height(); }
+
+ private:
+  gl::Texture texture_;
+};
+
+class Picture {
+ public:
+  /// The real-time picture's size [pixels]; makes the target anew when it changed.
+  void resize(int width, int height);
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  /// Draws a frame; keeps its linear light for comparisons when `linear` is asked for.
+  const realtime::FrameStats& draw(realtime::Renderer& renderer, const scene::CameraPose& camera,
+                                   const realtime::FrameSettings& settings, bool linear);
+  unsigned framebuffer() const { return framebuffer_.id(); }
+  unsigned realtime_texture() const { return color_.id(); }
+  /// Of the last draw() with `linear`; empty before.
+  const image::Image& linear() const { return linear_; }
+  /// The target as it is now, balls included. Row 0 on top.
+  image::Rgba8 pixels() const;
+
+  /// Makes what the settings ask for of the truth so far: tone-mapped, or the difference. Does nothing
+  /// without a truth of the picture's size.
+  void update_truth(const ReferenceImage& truth, const Settings& settings);
+  void forget_truth() { have_truth_ = false; }
+  bool has_truth() const { return have_truth_; }
+  unsigned truth_texture() const { return truth_.id(); }
+  const image::Rgba8& truth_pixels() const { return truth_picture_; }
+  /// Of the difference that is shown.
+  const std::optional<Difference>& shown_difference() const { return difference_; }
+
+ private:
+  int width_ = 0, height_ = 0;
+  gl::Texture color_, depth_;
+  gl::Framebuffer framebuffer_;
+  image::Image linear_;
+  PictureTexture truth_;
+  image::Rgba8 truth_picture_;
+  bool have_truth_ = false;
+  std::optional<Difference> difference_;
+};
+
+/// How the renderer shall draw for these settings.
+realtime::FrameSettings frame_settings(const Settings& settings);
+
+/// Whether the settings show path-traced light.
+bool needs_truth(const Settings& settings);
+
+}  // namespace ssphh::viewer

@@ -1,0 +1,167 @@
+#include "probe_light.h"
+
+#include <chrono>
+#include <numeric>
+
+#include <ssphh/core/log.h>
+
+namespace ssphh::viewer {
+namespace {
+
+double ms_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool has_edges(const gi::ProbeSet& set) {
+  return gi::edge_count(set) > 0;
+}
+
+}  // namespace
+
+void ProbeLight::take(std::shared_ptr<LiveLight> live) {
+  std::vector<std::vector<gi::Edge>> edges;
+  const std::size_t count = live->session().places().size();
+  if (set_ && set_->probes.size() == count) {
+    // Edges of VIZ tell of places and surfaces, not of lamps: they outlive a change of lamps.
+    bool same_places = true;
+    for (std::size_t i = 0; i < count; ++i)
+      same_places &= set_->probes[i].position == live->session().places()[i].position;
+    if (same_places) {
+      for (gi::Probe& probe : set_->probes) edges.push_back(std::move(probe.edges));
+    }
+  }
+  live_ = std::move(live);
+  set_ = live_->probes();
+  for (std::size_t i = 0; i < edges.size(); ++i) set_->probes[i].edges = std::move(edges[i]);
+  origin_ = "live";
+  lights_.clear();
+  places_new_ = light_new_ = true;
+}
+
+void ProbeLight::take(gi::ProbeSet set, const std::string& origin) {
+  live_.reset();
+  set_ = std::move(set);
+  gi::merge_groups(*set_);
+  origin_ = origin;
+  scales_.clear();
+  places_new_ = light_new_ = true;
+}
+
+void ProbeLight::clear() {
+  live_.reset();
+  set_.reset();
+  places_new_ = true;
+}
+
+void ProbeLight::take_probe(std::size_t i, const gi::Probe& probe) {
+  if (!set_ || i >= set_->probes.size()) return;
+  set_->probes[i].groups = probe.groups;
+  gi::merge_groups(*set_);
+  light_new_ = true;
+}
+
+void ProbeLight::take_edges(std::size_t i, std::vector<gi::Edge> edges) {
+  if (!set_ || i >= set_->probes.size()) return;
+  set_->probes[i].edges = std::move(edges);
+  light_new_ = true;
+}
+
+bool ProbeLight::relight(const Document& document) {
+  const Edits& edits = document.edits();
+  const std::vector<vec3> scales = group_scales(*document.scene, edits);
+  if (live_) {
+    const std::vector<scene::LightState> lights = light_states(*document.scene, edits, document.time);
+    if (lights == lights_ && scales == scales_ && document.time == time_) return false;
+    report_ = live_->update(lights, scales, document.time);
+    live_->refresh(*set_);
+    lights_ = lights;
+  } else {
+    if (scales == scales_ || scales.size() != set_->light_groups.size()) return false;
+    for (std::size_t g = 0; g < scales.size(); ++g) set_->light_groups[g].scale = scales[g];
+    gi::merge_groups(*set_);
+  }
+  scales_ = scales;
+  time_ = document.time;
+  return true;
+}
+
+bool ProbeLight::rebuild_hierarchy(const Settings& settings) {
+  const bool wanted = settings.hier && has_edges(*set_);
+  if (!wanted) {
+    const bool had = set_->hierarchy.has_value();
+    set_->hierarchy.reset();
+    return had;
+  }
+  gi::hier(*set_, settings.hier_params);
+  return true;
+}
+
+gi::LookupParams ProbeLight::lookup_params(const Settings& settings) const {
+  gi::LookupParams params;
+  params.layer = set_->hierarchy ? settings.layer : gi::ProbeLayer::self;
+  params.irradiance_degree = settings.degree;
+  return params;
+}
+
+/// What surfaces look up: the reflected part of the probe's own light, and what HIER adds.
+sh::RadianceSh ProbeLight::looked_up(std::size_t i, const Settings& settings) const {
+  const gi::ProbeLayer layer = lookup_params(settings).layer.value();
+  if (layer == gi::ProbeLayer::neighbor) return set_->hierarchy->neighbor[i];
+  sh::RadianceSh light = set_->probes[i].reflected;
+  if (layer == gi::ProbeLayer::sum) light += set_->hierarchy->neighbor[i];
+  return light;
+}
+
+ProbeLight::Update ProbeLight::update(const Document& document, const Settings& settings,
+                                      realtime::Renderer& renderer) {
+  Update out;
+  if (!set_) {
+    if (places_new_) renderer.clear_probes(), out.replaced = out.relit = true;
+    places_new_ = false;
+    return out;
+  }
+  auto start = std::chrono::steady_clock::now();
+  const bool relit = relight(document) || light_new_;
+  out.relight_ms = ms_since(start);
+
+  const bool hier_changed =
+      !settings_ || settings_->hier != settings.hier || !(settings_->hier_params == settings.hier_params);
+  bool hierarchy_new = false;
+  if (relit || hier_changed) {
+    start = std::chrono::steady_clock::now();
+    try {
+      hierarchy_new = rebuild_hierarchy(settings);
+    } catch (const Error& e) {
+      log_warning("{}", e.what());
+      set_->hierarchy.reset();
+    }
+    out.hier_ms = ms_since(start);
+  }
+  const bool lookup_changed =
+      !settings_ || settings_->layer != settings.layer || settings_->degree != settings.degree;
+
+  start = std::chrono::steady_clock::now();
+  if (places_new_ || lookup_changed) {
+    renderer.set_probes(*set_, lookup_params(settings));
+    out.replaced = places_new_;
+    out.relit = true;
+  } else if (relit || hierarchy_new) {
+    std::vector<int> changed;
+    if (live_ && !hierarchy_new && !light_new_) {
+      changed = report_.changed_probes;
+    } else {
+      changed.resize(set_->probes.size());
+      std::iota(changed.begin(), changed.end(), 0);
+    }
+    std::vector<sh::RadianceSh> light;
+    for (const int i : changed) light.push_back(looked_up(static_cast<std::size_t>(i), settings));
+    renderer.update_probes(changed, light);
+    out.relit = true;
+  }
+  out.upload_ms = ms_since(start);
+  places_new_ = light_new_ = false;
+  settings_ = settings;
+  return out;
+}
+
+}  // namespace ssphh::viewer

@@ -1,0 +1,65 @@
+#pragma once
+/// The probes of a session and where their light comes from: a file, a bake, or transport kept warm.
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <ssphh/gi/probe_file.h>
+#include <ssphh/realtime/renderer.h>
+
+#include "balls_gl.h"
+#include "model/document.h"
+#include "model/live_light.h"
+
+namespace ssphh::viewer {
+
+class ProbeLight {
+ public:
+  /// Light by transport that follows every edit; replaces what there was.
+  void take(std::shared_ptr<LiveLight> live);
+  /// Fixed light, of a file or a bake. Only its light groups can still be scaled.
+  void take(gi::ProbeSet set, const std::string& origin);
+  void clear();
+  /// Light of one probe of a bake that is under way: `set` was taken at its start.
+  void take_probe(std::size_t i, const gi::Probe& probe);
+  /// Edges of VIZ for the same places.
+  void take_edges(std::size_t i, std::vector<gi::Edge> edges);
+
+  bool empty() const { return !set_; }
+  bool live() const { return live_ != nullptr; }
+  const gi::ProbeSet& set() const { return *set_; }
+  /// "live", or the file's name.
+  const std::string& origin() const { return origin_; }
+  const LiveLight* live_light() const { return live_.get(); }
+  const gi::RelightReport& report() const { return report_; }
+
+  struct Update {
+    bool relit = false;     ///< light changed
+    bool replaced = false;  ///< places changed
+    double relight_ms = 0, hier_ms = 0, upload_ms = 0;
+  };
+  /// Brings light, hierarchy and the renderer up to date with the document and settings. Cheap when nothing
+  /// changed.
+  Update update(const Document& document, const Settings& settings, realtime::Renderer& renderer);
+
+ private:
+  bool relight(const Document& document);
+  bool rebuild_hierarchy(const Settings& settings);
+  sh::RadianceSh looked_up(std::size_t i, const Settings& settings) const;
+  gi::LookupParams lookup_params(const Settings& settings) const;
+
+  std::shared_ptr<LiveLight> live_;
+  std::optional<gi::ProbeSet> set_;
+  std::string origin_;
+  gi::RelightReport report_;
+
+  // What was last brought to the set and the renderer.
+  bool places_new_ = false, light_new_ = false;
+  std::vector<scene::LightState> lights_;
+  std::vector<vec3> scales_;
+  float time_ = 0;
+  std::optional<Settings> settings_;
+};
+
+}  // namespace ssphh::viewer

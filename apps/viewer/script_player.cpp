@@ -1,0 +1,234 @@
+#include "script_player.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+namespace ssphh::viewer {
+
+const char* const script_help =
+    "set NAME VALUE | time T | camera NAME | view X Y Z TO_X TO_Y TO_Z | tab NAME | "
+    "light NAME on|off | light NAME intensity V | light NAME color R G B | light NAME position X Y Z | "
+    "group NAME FACTOR | material NAME R G B | select light|sphl|material NAME | sphl X Y Z | "
+    "probes auto|auto:M|scene|FILE | gen | viz | bookmark | undo | redo | key NAME | click X Y | "
+    "drag X Y TO_X TO_Y [right] | wait FRAMES | settle | screenshot FILE [panels] | save FILE | quit";
+
+namespace {
+
+float number(const ScriptLine& line, std::size_t word) {
+  return parse_number(line.where, line.words[word]);
+}
+
+vec3 vector(const ScriptLine& line, std::size_t word) {
+  return {number(line, word), number(line, word + 1), number(line, word + 2)};
+}
+
+template <class Items, class Name>
+std::size_t find_named(const ScriptLine& line, const Items& items, const std::string& name,
+                       const Name& name_of) {
+  const auto found =
+      std::find_if(items.begin(), items.end(), [&](const auto& i) { return name_of(i) == name; });
+  if (found == items.end()) {
+    std::string known;
+    for (const auto& item : items) known += (known.empty() ? "" : ", ") + name_of(item);
+    throw Error(line.where, fmt::format("there is no \"{}\"", name), "there are: " + known);
+  }
+  return static_cast<std::size_t>(found - items.begin());
+}
+
+const auto by_name = [](const auto& item) { return item.name; };
+
+void edit_light(App& app, const ScriptLine& line) {
+  if (line.words.size() < 3) expect_words(line, 2, "light NAME on");
+  const std::size_t i = find_named(line, app.document.scene->lights, line.words[1], by_name);
+  const std::string& what = line.words[2];
+  const mat4 world = light_states(*app.document.scene, app.document.edits(), app.document.time)[i].world;
+  app.document.history.seal();
+  const auto edit = [&](const auto& change) {
+    app.document.edit(fmt::format("{} of {}", what, line.words[1]), [&](Edits& e) { change(e.lights[i]); });
+  };
+  if (what == "on" || what == "off") {
+    expect_words(line, 2, "light NAME on|off");
+    edit([&](LightEdit& light) { light.on = what == "on"; });
+  } else if (what == "intensity") {
+    expect_words(line, 3, "light NAME intensity V");
+    edit([&](LightEdit& light) { light.intensity = std::max(number(line, 3), 0.0f); });
+  } else if (what == "color") {
+    expect_words(line, 5, "light NAME color R G B");
+    edit([&](LightEdit& light) { light.color = glm::max(vector(line, 3), vec3(0)); });
+  } else if (what == "position") {
+    expect_words(line, 5, "light NAME position X Y Z");
+    edit([&](LightEdit& light) { light.world = with_position(world, vector(line, 3)); });
+  } else {
+    throw Error(line.where, fmt::format("\"{}\" is none of: on, off, intensity, color, position", what));
+  }
+  app.document.history.seal();
+}
+
+void select(App& app, const ScriptLine& line) {
+  expect_words(line, 2, "select light|sphl|material NAME");
+  const std::string &kind = line.words[1], &name = line.words[2];
+  if (kind == "light") {
+    app.selection = {Kind::light,
+                     static_cast<int>(find_named(line, app.document.scene->lights, name, by_name))};
+  } else if (kind == "sphl") {
+    app.selection = {Kind::sphl,
+                     static_cast<int>(find_named(line, app.document.edits().sphls, name, by_name))};
+  } else if (kind == "material") {
+    app.selection = {Kind::material,
+                     static_cast<int>(find_named(line, app.document.edits().materials, name, by_name))};
+  } else {
+    throw Error(line.where, fmt::format("\"{}\" is none of: light, sphl, material", kind));
+  }
+}
+
+void save(App& app, const std::string& file) {
+  if (file.ends_with(".glb")) return app.save_scene(file);
+  if (file.ends_with(".sphl") || file.ends_with(".sphl.json")) return app.save_probes(file);
+  if (file.ends_with(".csv") || file.ends_with(".stats.json")) return app.save_stats(file);
+  app.save_path(file);
+}
+
+}  // namespace
+
+void ScriptPlayer::press(const ScriptLine& line) {
+  expect_words(line, 1, "key NAME");
+  std::string name = line.words[1];
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  InjectedInput input;
+  for (const auto& [prefix, flag] : {std::pair{"ctrl+", &input.ctrl}, {"shift+", &input.shift}}) {
+    if (name.starts_with(prefix)) name.erase(0, std::string_view(prefix).size()), *flag = true;
+  }
+  const std::optional<int> key = key_by_name(name);
+  if (!key) throw Error(line.where, fmt::format("there is no key \"{}\"", line.words[1]));
+  input.keys = {*key};
+  input_ = {input, {}};
+}
+
+void ScriptPlayer::move_mouse(const ScriptLine& line) {
+  const bool click = line.words[0] == "click";
+  const bool right = line.words.back() == "right";
+  if (click) {
+    expect_words(line, 2, "click X Y");
+  } else {
+    expect_words(line, right ? 5 : 4, "drag X Y TO_X TO_Y [right]");
+  }
+  const std::array<float, 2> from{number(line, 1), number(line, 2)};
+  const std::array<float, 2> to = click ? from : std::array<float, 2>{number(line, 3), number(line, 4)};
+  constexpr int steps = 6;
+  const std::array<bool, 3> down{!right, right, false};
+  input_ = {{from, {}, {}}, {from, down, {}}};
+  for (int i = 1; i <= steps && !click; ++i) {
+    const float s = static_cast<float>(i) / steps;
+    input_.push_back(
+        {std::array<float, 2>{from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1])}, down, {}});
+  }
+  input_.push_back({to, {}, {}});
+  input_.push_back({to, {}, {}});
+}
+
+void ScriptPlayer::run(App& app, const ScriptLine& line) {
+  const std::vector<std::string>& words = line.words;
+  const std::string& verb = words[0];
+  const auto expect = [&](std::size_t count, const char* usage) { expect_words(line, count, usage); };
+  if (verb == "set") {
+    expect(2, "set NAME VALUE");
+    set_setting(app.settings, words[1], words[2]);
+  } else if (verb == "time") {
+    expect(1, "time SECONDS");
+    app.document.time = std::clamp(number(line, 1), 0.0f, app.document.duration);
+  } else if (verb == "camera") {
+    expect(1, "camera NAME");
+    app.go_to_camera(words[1]);
+  } else if (verb == "view") {
+    expect(6, "view X Y Z TO_X TO_Y TO_Z");
+    app.view = look_at(vector(line, 1), vector(line, 4), app.view.yfov);
+  } else if (verb == "tab") {
+    expect(1, "tab NAME");
+    app.open_tab = words[1];
+  } else if (verb == "light") {
+    edit_light(app, line);
+  } else if (verb == "group") {
+    expect(2, "group NAME FACTOR");
+    const std::vector<std::string> groups = scene::light_groups(*app.document.scene);
+    find_named(line, groups, words[1], [](const std::string& g) { return g; });
+    app.document.edit("scale " + words[1],
+                      [&](Edits& e) { e.groups[words[1]] = vec3(std::max(number(line, 2), 0.0f)); });
+  } else if (verb == "material") {
+    expect(4, "material NAME R G B");
+    const std::size_t i = find_named(line, app.document.edits().materials, words[1], by_name);
+    app.document.edit("material " + words[1], [&](Edits& e) {
+      e.materials[i].base_color = glm::clamp(vector(line, 2), vec3(0), vec3(1));
+    });
+  } else if (verb == "select") {
+    select(app, line);
+  } else if (verb == "sphl") {
+    expect(3, "sphl X Y Z");
+    app.add_sphl(vector(line, 1));
+  } else if (verb == "probes") {
+    expect(1, "probes auto|auto:M|scene|FILE");
+    app.use_probes(words[1]);
+  } else if (verb == "gen" || verb == "viz") {
+    expect(0, "gen");
+    app.start_gen(verb == "viz");
+  } else if (verb == "bookmark") {
+    append(app.bookmarks,
+           {fmt::format("view {}", app.bookmarks.keys.size() + 1), 0, app.document.time, app.view});
+  } else if (verb == "undo") {
+    app.undo();
+  } else if (verb == "redo") {
+    app.redo();
+  } else if (verb == "key") {
+    press(line);
+  } else if (verb == "click" || verb == "drag") {
+    move_mouse(line);
+  } else if (verb == "wait") {
+    expect(1, "wait FRAMES");
+    wait_frames_ = static_cast<int>(number(line, 1));
+  } else if (verb == "settle") {
+    settling_ = true;
+  } else if (verb == "screenshot") {
+    const bool panels = words.size() == 3 && words[2] == "panels";
+    expect(panels ? 2 : 1, "screenshot FILE [panels]");
+    app.screenshot(words[1], panels);
+    wait_frames_ = panels ? 1 : 0;
+  } else if (verb == "save") {
+    expect(1, "save FILE");
+    save(app, words[1]);
+  } else if (verb == "quit") {
+    app.window.close();
+  } else {
+    throw Error(line.where, fmt::format("there is no command \"{}\"", verb), script_help);
+  }
+}
+
+InjectedInput ScriptPlayer::next(App& app) {
+  if (done()) return {};
+  app.redraw();
+  if (!input_.empty()) {
+    InjectedInput input = input_.front();
+    input_.pop_front();
+    return input;
+  }
+  if (wait_frames_ > 0) {
+    --wait_frames_;
+    return {};
+  }
+  if (settling_ && !app.settled()) return {};
+  settling_ = false;
+  if (at_ < lines_.size()) {
+    const ScriptLine& line = lines_[at_++];
+    try {
+      run(app, line);
+    } catch (const Error& e) {
+      // Errors of actions do not know which line asked for them.
+      if (e.where() == line.where) throw;
+      throw Error(line.where, e.what());
+    }
+  }
+  return {};
+}
+
+}  // namespace ssphh::viewer

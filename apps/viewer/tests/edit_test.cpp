@@ -1,0 +1,157 @@
+#include <gmock/gmock.h>
+
+#include <ssphh/scene/builtin.h>
+#include <ssphh/scene_io/load.h>
+
+#include "model/document.h"
+#include "temp_dir.h"
+
+namespace ssphh::viewer {
+namespace {
+
+TEST(History, DragIsOneStepAndUndoTakesItBack) {
+  History<int> history(0);
+  history.change(1, "move lamp");
+  history.change(2, "move lamp");
+  history.seal();
+  history.change(3, "move lamp");
+  history.change(4, "colour lamp");
+  EXPECT_EQ(history.undo_name(), "colour lamp");
+  EXPECT_TRUE(history.undo());
+  EXPECT_EQ(history.now(), 3);
+  EXPECT_TRUE(history.undo());
+  EXPECT_EQ(history.now(), 2);
+  EXPECT_EQ(history.redo_name(), "move lamp");
+  EXPECT_TRUE(history.undo());
+  EXPECT_EQ(history.now(), 0);
+  EXPECT_FALSE(history.undo());
+  EXPECT_TRUE(history.redo());
+  EXPECT_EQ(history.now(), 2);
+  history.change(9, "move lamp");
+  EXPECT_FALSE(history.redo()) << "a change after undo ends what could be done again";
+  EXPECT_TRUE(history.undo());
+  EXPECT_EQ(history.now(), 2);
+}
+
+TEST(History, ForgetsTheOldest) {
+  History<int> history(0);
+  const int steps = static_cast<int>(History<int>::most_steps) + 10;
+  for (int i = 1; i <= steps; ++i) history.change(i, "x"), history.seal();
+  while (history.undo()) {
+  }
+  EXPECT_EQ(history.now(), 10);
+}
+
+Document two_rooms(float time = 0) {
+  return make_document("builtin:two-rooms", scene::make_builtin("two-rooms"), time);
+}
+
+TEST(Edits, NoneLeaveTheSceneAsItIs) {
+  const Document document = two_rooms(0.5f);
+  EXPECT_EQ(scene::scene_hash(edited_scene(*document.scene, document.edits(), document.time)),
+            scene::scene_hash(*document.scene));
+  const auto states = light_states(*document.scene, document.edits(), 0);
+  ASSERT_EQ(states.size(), 1u);
+  EXPECT_EQ(light_position(states[0].world), vec3(-2.4f, 2.5f, 0.5f));
+  EXPECT_EQ(states[0].intensity, 4);
+}
+
+TEST(Edits, EveryKindChangesTheSceneAndIsTakenBack) {
+  Document document = two_rooms();
+  const Hash128 before = scene::scene_hash(*document.scene);
+  std::vector<Hash128> hashes{before};
+  const auto edit = [&](const char* what, const auto& change) {
+    document.edit(what, change);
+    document.history.seal();
+    hashes.push_back(scene::scene_hash(edited_scene(*document.scene, document.edits(), 0)));
+    EXPECT_NE(hashes.back(), hashes[hashes.size() - 2]) << what;
+  };
+  edit("move lamp", [&](Edits& e) {
+    e.lights[0].world = with_position(light_states(*document.scene, e, 0)[0].world, {1, 2, 0.5f});
+  });
+  edit("colour lamp", [](Edits& e) { e.lights[0].color = {1, 0, 0}; });
+  edit("dim lamp", [](Edits& e) { e.lights[0].intensity = 1; });
+  edit("switch lamp", [](Edits& e) { e.lights[0].on = false; });
+  edit("material", [](Edits& e) { e.materials[0].base_color = {0, 1, 0}; });
+  edit("move SPHL", [](Edits& e) { e.sphls[2].position = vec3(0, 1, 0.125f); });
+  edit("new SPHL", [](Edits& e) { e.sphls.push_back({-1, vec3(2, 2, 1), new_sphl_name(e), 0.1f, true}); });
+  edit("delete SPHL", [](Edits& e) { e.sphls.erase(e.sphls.begin()); });
+  for (std::size_t i = hashes.size() - 1; i > 0; --i) {
+    EXPECT_EQ(scene::scene_hash(edited_scene(*document.scene, document.edits(), 0)), hashes[i]);
+    EXPECT_TRUE(document.history.undo());
+  }
+  EXPECT_EQ(scene::scene_hash(edited_scene(*document.scene, document.edits(), 0)), before);
+}
+
+TEST(Edits, MovedThingsAreWhereTheyWerePut) {
+  Document document = two_rooms();
+  document.edit("move", [](Edits& e) {
+    e.lights[0].world = with_position(mat4(1), {1, 2, 0.5f});
+    e.sphls[1].position = vec3(-1, 1, 1);
+    e.sphls[0].enabled = false;
+    e.sphls.push_back({-1, vec3(2, 2, 1), "mine", 0.25f, true});
+  });
+  const scene::Scene scene = edited_scene(*document.scene, document.edits(), 0);
+  const auto places = scene::sphl_places(scene, 0.7f);
+  ASSERT_EQ(places.size(), 6u);
+  EXPECT_EQ(places[0].name, "A east");
+  EXPECT_EQ(places[0].position, vec3(-1, 1, 1));
+  EXPECT_EQ(places[5].name, "mine");
+  EXPECT_EQ(places[5].position, vec3(2, 2, 1));
+  EXPECT_EQ(places[5].radius, 0.25f);
+  const auto world = scene::world_matrices(scene, 0.7f);
+  EXPECT_EQ(light_position(world[static_cast<std::size_t>(scene.lights[0].node)]), vec3(1, 2, 0.5f));
+}
+
+TEST(Edits, DirectionTurnsALightOnTheSpot) {
+  mat4 world(1);
+  world[3] = vec4(4, 5, 6, 1);
+  for (const vec3& direction : {vec3(0, -2, 0), vec3(1, 1, -1)}) {
+    const mat4 turned = with_direction(world, direction);
+    EXPECT_LT(glm::distance(light_direction(turned), glm::normalize(direction)), 1e-6f);
+    EXPECT_EQ(light_position(turned), vec3(4, 5, 6));
+    EXPECT_NEAR(glm::determinant(mat3(turned)), 1, 1e-5f);
+  }
+}
+
+TEST(Edits, ANewSphlGetsANameOfItsOwn) {
+  Edits edits;
+  for (int i = 0; i < 5; ++i) edits.sphls.push_back({-1, vec3(0), new_sphl_name(edits), 0.1f, true});
+  edits.sphls.erase(edits.sphls.begin() + 1);
+  const std::string name = new_sphl_name(edits);
+  for (const SphlEdit& sphl : edits.sphls) EXPECT_NE(sphl.name, name);
+}
+
+TEST(Document, SavesASceneThatLoadsBackTheSame) {
+  Document document = two_rooms(0.4f);
+  document.edit("all", [](Edits& e) {
+    e.lights[0].world = with_position(mat4(1), {1, 2, 0.5f});
+    e.lights[0].color = {0.2f, 0.4f, 1};
+    e.lights[0].intensity = 7;
+    e.materials[1].base_color = {0.9f, 0.1f, 0.1f};
+    e.materials[2].diffuse_roughness = -0.5f;
+    e.sphls[0].position = vec3(-3, 1, 0);
+    e.sphls.push_back({-1, vec3(2, 2, 1), "mine", 0.2f, true});
+  });
+  const test::TempDir dir;
+  save_document(document, dir / "rooms.glb");
+  const scene::Scene back = scene_io::load_scene((dir / "rooms.glb").string());
+  EXPECT_EQ(scene::scene_hash(back), scene::scene_hash(scene_to_save(document)));
+  const auto places = scene::sphl_places(back), edited = scene::sphl_places(scene_to_save(document));
+  ASSERT_EQ(places.size(), 7u);
+  for (std::size_t i = 0; i < places.size(); ++i) EXPECT_EQ(places[i].position, edited[i].position);
+  // And the session goes on from there as from the original.
+  const Document again = make_document("again", back, 0.4f);
+  EXPECT_EQ(light_states(back, again.edits(), 0.4f)[0].intensity, 7);
+  EXPECT_THROW(save_document(document, dir / "rooms.obj"), Error);
+}
+
+TEST(Document, StartsAtTheNamedCamera) {
+  const Document document = two_rooms();
+  EXPECT_EQ(start_view(document, "room-b").eye, vec3(3.8f, 1.6f, -1.3f));
+  EXPECT_EQ(start_view(document, "").eye, vec3(-3.8f, 1.6f, 0.9f));
+  EXPECT_THROW(start_view(document, "nowhere"), Error);
+}
+
+}  // namespace
+}  // namespace ssphh::viewer

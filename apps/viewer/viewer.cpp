@@ -1,0 +1,109 @@
+#include "viewer.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "app.h"
+#include "script_player.h"
+
+namespace ssphh::viewer {
+namespace {
+
+void begin(App& app, const ViewerOptions& options) {
+  if (options.source.empty()) return;
+  app.open(options.source);
+  if (!options.camera.empty()) app.go_to_camera(options.camera);
+  if (!options.path.empty()) app.load_path(options.path);
+  if (!options.probes.empty()) {
+    app.use_probes(options.probes);
+  } else if (!app.document.edits().sphls.empty()) {
+    app.light_scene_probes();
+  }
+}
+
+class Session {
+ public:
+  Session(App& app, const Control& control) : app_(app), control_(control) {}
+
+  /// False once the window is to close.
+  bool turn(const InjectedInput& input = {}) {
+    if (control_.cancelled() || app_.window.should_close()) return false;
+    const double wait = app_.turn(input);
+    app_.window.events(wait);
+    return true;
+  }
+
+  bool settle() {
+    do {
+      app_.redraw();
+      if (!turn()) return false;
+      if (app_.message_is_error) throw Error("view", app_.message);
+    } while (!app_.settled());
+    return true;
+  }
+
+ private:
+  App& app_;
+  const Control& control_;
+};
+
+/// Pictures of a camera path, each once its light is complete.
+void export_path(App& app, Session& session, const ViewerOptions& options, const Control& control) {
+  std::error_code error;
+  std::filesystem::create_directories(options.export_dir, error);
+  if (!std::filesystem::is_directory(options.export_dir))
+    throw Error(options.export_dir, "cannot make this folder for the frames");
+  const CameraPath path = app.bookmarks;
+  const int frames = 1 + static_cast<int>(path.duration() * options.fps);
+  ProgressStage progress(control, "drawing", static_cast<std::uint64_t>(frames), "frames");
+  for (int f = 0; f < frames; ++f) {
+    const CameraKey key = at(path, path.keys.front().time + static_cast<float>(f / options.fps));
+    app.view = key.view;
+    if (key.scene_time) app.document.time = *key.scene_time;
+    if (!session.settle()) throw Cancelled();
+    app.screenshot((std::filesystem::path(options.export_dir) / fmt::format("frame-{:04}.png", f)).string(),
+                   false);
+    progress.advance(1);
+  }
+}
+
+void play(App& app, Session& session, const ViewerOptions& options) {
+  ScriptPlayer script(options.script.empty() ? std::vector<ScriptLine>{} : read_script(options.script));
+  while (options.frames == 0 || app.report.frames < options.frames) {
+    if (options.frames > 0) app.redraw();
+    if (!session.turn(script.next(app))) return;
+  }
+}
+
+}  // namespace
+
+ViewerReport run_viewer(const ViewerOptions& options, const Control& control) {
+  if (!options.export_dir.empty() && options.path.empty())
+    throw Error("--export", "needs the path that is to be drawn", "give a camera path file with --path");
+  Window window("ssphh", options.width, options.height);
+  App app(window, options, control);
+  Session session(app, control);
+  begin(app, options);
+  const bool batch = !options.screenshot.empty() || !options.export_dir.empty();
+  if (!options.script.empty() || !batch || options.frames > 0) play(app, session, options);
+  if (batch && !control.cancelled()) session.settle();
+  if (!options.screenshot.empty()) {
+    app.screenshot(options.screenshot, options.panels);
+    session.turn();
+  }
+  if (!options.export_dir.empty()) export_path(app, session, options, control);
+  if (!options.stats.empty()) app.save_stats(options.stats);
+  control.check();
+
+  ViewerReport report = app.report;
+  report.probes = app.light.empty() ? 0 : static_cast<int>(app.light.set().probes.size());
+  for (const FrameTimes::Stage& stage : app.times.stages()) {
+    if (stage.name != "frame") continue;
+    report.median_ms = static_cast<double>(stage.ms.median());
+    report.p99_ms = static_cast<double>(stage.ms.quantile(0.99));
+  }
+  return report;
+}
+
+}  // namespace ssphh::viewer

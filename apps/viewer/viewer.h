@@ -1,0 +1,49 @@
+#pragma once
+/// The viewer: a scene lit by probes in a window, lamps and doors moving (docs/viewer.md).
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <ssphh/core/control.h>
+#include <ssphh/scene/scene.h>
+
+namespace ssphh::viewer {
+
+struct ViewerOptions {
+  std::string source;  ///< SCENE; empty: an empty window that waits for a file to be dropped
+  /// Loads a scene as the tool's options say (overlay, environment); throws Error.
+  std::function<scene::Scene(const std::string& source)> load;
+  std::string camera;  ///< by name; empty: the first
+  float time = 0;      ///< pose at the start [s]
+  std::string probes;  ///< a probe file; scene, auto, auto:METRES; off; empty: the scene's SPHLs, if any
+  bool force = false;  ///< take a probe file of another scene, with a warning
+  bool live = false;   ///< light a file's probes anew, so that they follow lamps and doors
+  int width = 1440, height = 810;
+  bool panels = true;
+  std::vector<std::pair<std::string, std::string>> settings;  ///< by setting_names()
+
+  std::string path;  ///< camera path file: the bookmarks; with `export_dir` also what is drawn
+  std::string export_dir;
+  double fps = 30;         ///< of the export
+  std::string script;      ///< file of docs/viewer.md's commands
+  std::string screenshot;  ///< written once everything has settled
+  std::string stats;       ///< .json or .csv, written at the end
+  int frames = 0;          ///< end after so many; 0: when the user closes the window
+};
+
+/// What a session was, for the tool to print.
+struct ViewerReport {
+  int frames = 0;
+  std::string renderer;  ///< OpenGL's name of it
+  int probes = 0;
+  double median_ms = 0, p99_ms = 0;  ///< of a drawn frame
+  std::vector<std::string> written;  ///< files
+};
+
+/// Opens the window and returns when it is closed or all that the options ask for is done. Throws Error when
+/// there is no display or no OpenGL 4.5, and for anything in the options that cannot be done.
+ViewerReport run_viewer(const ViewerOptions& options, const Control& control);
+
+}  // namespace ssphh::viewer

@@ -1,0 +1,44 @@
+#pragma once
+/// An OpenGL 4.5 core context: a headless one of our own, or one that a window has made current.
+
+#include <memory>
+#include <string>
+
+namespace ssphh::gl {
+
+struct ContextInfo {
+  std::string vendor, renderer, version;
+  bool software = false;  ///< llvmpipe and its like: timer queries lie, so times are taken after glFinish
+  int max_texture_size = 0;
+  int max_array_layers = 0;
+};
+
+/// All objects of this module belong to the context that was current when they were made, and must be used
+/// and destroyed while it is. Not for use from two threads at a time.
+class Context {
+ public:
+  /// By EGL, without a window: the first GPU that offers OpenGL 4.5 core, else a software renderer. Current
+  /// on this thread afterwards. Throws Error that lists what was tried when there is none.
+  static Context headless();
+  /// Whatever context is current on this thread, e.g. a GLFW window's; it stays the caller's. Throws Error
+  /// when none is, or when it is older than OpenGL 4.5.
+  static Context adopt_current();
+
+  ~Context();
+  Context(Context&&) noexcept;
+  Context& operator=(Context&&) noexcept;
+
+  const ContextInfo& info() const;
+  /// Makes a headless context current on this thread; an adopted one is the window's business.
+  void make_current();
+
+  /// Throws Error with the driver's messages when OpenGL reported an error since the last call.
+  void throw_on_error(const std::string& where);
+
+ private:
+  struct Data;
+  explicit Context(std::unique_ptr<Data> data);
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace ssphh::gl

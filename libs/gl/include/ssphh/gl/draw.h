@@ -1,0 +1,36 @@
+#pragma once
+/// Fixed-function state as one value, and the draw calls.
+
+#include <cstddef>
+
+namespace ssphh::gl {
+
+enum class Depth { off, test, test_and_write };
+enum class Blend { off, add, over };
+enum class Cull { off, back, front };
+
+/// Depth is reversed everywhere in this project: 1 at the near plane, 0 at infinity, nearer is greater.
+struct DrawState {
+  Depth depth = Depth::off;
+  Blend blend = Blend::off;
+  Cull cull = Cull::off;
+  bool color_write = true;
+  bool lines = false;  ///< draw triangles' edges only
+};
+
+/// Sets all of it, also what somebody else may have left behind.
+void apply(const DrawState& state);
+/// Sets what every pass of this project takes for granted: depth range 0..1, no sRGB conversion on write.
+void apply_conventions();
+
+void draw_triangles(int vertex_count, int instances = 1);
+void draw_lines(int vertex_count);
+/// 32-bit indices [first_index, + count); `instance` arrives in the per-instance attribute.
+void draw_indexed(int count, std::size_t first_index, int base_vertex, unsigned instance);
+void dispatch(unsigned x, unsigned y, unsigned z);
+/// Waits until what earlier shaders wrote can be read by later ones.
+void memory_barrier();
+/// Waits for everything.
+void finish();
+
+}  // namespace ssphh::gl

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <span>
+
+#include <ssphh/gl/texture.h>
+
+namespace ssphh::gl {
+
+/// Textures to draw into. The default one, or any that another library made, is addressed by its number.
+class Framebuffer {
+ public:
+  Framebuffer() = default;
+  /// `depth` may be null. Throws Error when the driver refuses the combination.
+  Framebuffer(std::span<const Texture* const> colors, const Texture* depth);
+  /// One layer of a depth array, nothing else.
+  Framebuffer(const Texture& depth, int layer);
+
+  unsigned id() const { return handle_.get(); }
+
+ private:
+  void check() const;
+  Handle<delete_framebuffer> handle_;
+};
+
+struct Rect {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// Everything drawn next goes into this framebuffer, inside `viewport` (origin at the lower left).
+void bind_framebuffer(unsigned id, const Rect& viewport);
+/// Within the viewport's rectangle only.
+void clear_depth(const Rect& rect, float value);
+void clear_color(int attachment, float r, float g, float b, float a);
+void clear_color_uint(int attachment, unsigned r, unsigned g, unsigned b, unsigned a);
+/// The framebuffer that is bound for drawing now.
+unsigned current_framebuffer();
+
+}  // namespace ssphh::gl

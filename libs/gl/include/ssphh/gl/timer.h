@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+
+#include <ssphh/gl/handle.h>
+
+namespace ssphh::gl {
+
+/// Milliseconds that a span of commands took: on a GPU by timer queries, read some frames later so that
+/// nobody waits; on software renderers, whose queries lie, by the clock after glFinish.
+class Timer {
+ public:
+  explicit Timer(bool software);
+
+  void begin();
+  void end();
+  /// Of the last span whose time is known; 0 before the first.
+  double gpu_ms() const { return gpu_ms_; }
+  /// Time that the calls themselves took; on a software renderer as gpu_ms.
+  double cpu_ms() const { return cpu_ms_; }
+
+ private:
+  static constexpr int in_flight = 4;
+  bool software_;
+  double start_ = 0, gpu_ms_ = 0, cpu_ms_ = 0;
+  int next_ = 0, pending_ = 0;
+  std::array<Handle<delete_query>, in_flight> queries_;
+};
+
+}  // namespace ssphh::gl

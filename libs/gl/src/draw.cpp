@@ -1,0 +1,64 @@
+#include <epoxy/gl.h>
+
+#include <ssphh/gl/draw.h>
+
+namespace ssphh::gl {
+namespace {
+
+void enable(GLenum what, bool on) {
+  on ? glEnable(what) : glDisable(what);
+}
+
+}  // namespace
+
+void apply(const DrawState& state) {
+  enable(GL_DEPTH_TEST, state.depth != Depth::off);
+  glDepthMask(state.depth == Depth::test_and_write);
+  glDepthFunc(GL_GEQUAL);
+  enable(GL_BLEND, state.blend != Blend::off);
+  glBlendEquation(GL_FUNC_ADD);
+  state.blend == Blend::add ? glBlendFunc(GL_ONE, GL_ONE) : glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  enable(GL_CULL_FACE, state.cull != Cull::off);
+  glCullFace(state.cull == Cull::front ? GL_FRONT : GL_BACK);
+  const GLboolean color = state.color_write ? GL_TRUE : GL_FALSE;
+  glColorMask(color, color, color, color);
+  glPolygonMode(GL_FRONT_AND_BACK, state.lines ? GL_LINE : GL_FILL);
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_STENCIL_TEST);
+}
+
+void apply_conventions() {
+  glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+  glFrontFace(GL_CCW);
+  glDisable(GL_FRAMEBUFFER_SRGB);
+  glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+}
+
+void draw_triangles(int vertex_count, int instances) {
+  glDrawArraysInstanced(GL_TRIANGLES, 0, vertex_count, instances);
+}
+
+void draw_lines(int vertex_count) {
+  glDrawArrays(GL_LINES, 0, vertex_count);
+}
+
+void draw_indexed(int count, std::size_t first_index, int base_vertex, unsigned instance) {
+  glDrawElementsInstancedBaseVertexBaseInstance(
+      GL_TRIANGLES, count, GL_UNSIGNED_INT,
+      reinterpret_cast<const void*>(first_index * sizeof(unsigned)),  // NOLINT: an offset, as GL wants it
+      1, base_vertex, instance);
+}
+
+void dispatch(unsigned x, unsigned y, unsigned z) {
+  glDispatchCompute(x, y, z);
+}
+
+void memory_barrier() {
+  glMemoryBarrier(GL_ALL_BARRIER_BITS);
+}
+
+void finish() {
+  glFinish();
+}
+
+}  // namespace ssphh::gl

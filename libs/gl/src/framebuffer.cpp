@@ -1,0 +1,81 @@
+#include <vector>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/gl/framebuffer.h>
+
+namespace ssphh::gl {
+
+void delete_framebuffer(unsigned id) {
+  glDeleteFramebuffers(1, &id);
+}
+
+Framebuffer::Framebuffer(std::span<const Texture* const> colors, const Texture* depth) {
+  unsigned id = 0;
+  glCreateFramebuffers(1, &id);
+  handle_ = Handle<delete_framebuffer>(id);
+  GLenum attachments[8];
+  SSPHH_CHECK(colors.size() <= 8);
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    attachments[i] = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i);
+    glNamedFramebufferTexture(id, attachments[i], colors[i]->id(), 0);
+  }
+  glNamedFramebufferDrawBuffers(id, static_cast<GLsizei>(colors.size()), attachments);
+  if (depth) glNamedFramebufferTexture(id, GL_DEPTH_ATTACHMENT, depth->id(), 0);
+  check();
+}
+
+Framebuffer::Framebuffer(const Texture& depth, int layer) {
+  unsigned id = 0;
+  glCreateFramebuffers(1, &id);
+  handle_ = Handle<delete_framebuffer>(id);
+  glNamedFramebufferDrawBuffer(id, GL_NONE);
+  glNamedFramebufferReadBuffer(id, GL_NONE);
+  if (depth.layers() > 0) {
+    glNamedFramebufferTextureLayer(id, GL_DEPTH_ATTACHMENT, depth.id(), 0, layer);
+  } else {
+    glNamedFramebufferTexture(id, GL_DEPTH_ATTACHMENT, depth.id(), 0);
+  }
+  check();
+}
+
+void Framebuffer::check() const {
+  const GLenum status = glCheckNamedFramebufferStatus(id(), GL_DRAW_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+    throw Error("OpenGL", fmt::format("the driver refuses a framebuffer (status {:#06x})", status));
+}
+
+void bind_framebuffer(unsigned id, const Rect& viewport) {
+  glBindFramebuffer(GL_FRAMEBUFFER, id);
+  glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
+}
+
+void clear_depth(const Rect& rect, float value) {
+  glDepthMask(GL_TRUE);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(rect.x, rect.y, rect.width, rect.height);
+  glClearBufferfv(GL_DEPTH, 0, &value);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void clear_color(int attachment, float r, float g, float b, float a) {
+  const float color[] = {r, g, b, a};
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glClearBufferfv(GL_COLOR, attachment, color);
+}
+
+void clear_color_uint(int attachment, unsigned r, unsigned g, unsigned b, unsigned a) {
+  const unsigned color[] = {r, g, b, a};
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glClearBufferuiv(GL_COLOR, attachment, color);
+}
+
+unsigned current_framebuffer() {
+  GLint id = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &id);
+  return static_cast<unsigned>(id);
+}
+
+}  // namespace ssphh::gl

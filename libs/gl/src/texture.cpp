@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <bit>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/gl/texture.h>
+
+namespace ssphh::gl {
+namespace {
+
+struct FormatInfo {
+  GLenum internal, external, type;
+  std::size_t bytes;  ///< of a texel in memory, as uploaded
+};
+
+FormatInfo info_of(Format format) {
+  switch (format) {
+    case Format::r8:
+      return {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
+    case Format::rgba8:
+      return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+    case Format::srgb8_alpha8:
+      return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+    case Format::r16f:
+      return {GL_R16F, GL_RED, GL_FLOAT, 4};
+    case Format::rgba16f:
+      return {GL_RGBA16F, GL_RGBA, GL_FLOAT, 16};
+    case Format::r32f:
+      return {GL_R32F, GL_RED, GL_FLOAT, 4};
+    case Format::rg32f:
+      return {GL_RG32F, GL_RG, GL_FLOAT, 8};
+    case Format::rgba32f:
+      return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
+    case Format::r32ui:
+      return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
+    case Format::rgba32ui:
+      return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16};
+    case Format::depth32f:
+      return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
+  }
+  SSPHH_CHECK(!"texture format");
+  return {};
+}
+
+GLenum wrap_of(Address address) {
+  switch (address) {
+    case Address::repeat:
+      return GL_REPEAT;
+    case Address::mirror:
+      return GL_MIRRORED_REPEAT;
+    case Address::clamp:
+      break;
+  }
+  return GL_CLAMP_TO_EDGE;
+}
+
+}  // namespace
+
+void delete_texture(unsigned id) {
+  glDeleteTextures(1, &id);
+}
+void delete_sampler(unsigned id) {
+  glDeleteSamplers(1, &id);
+}
+
+std::size_t bytes_per_texel(Format format) {
+  return info_of(format).bytes;
+}
+
+Texture::Texture(Format format, int width, int height, int layers, bool mipmaps)
+    : format_(format), width_(width), height_(height), layers_(layers) {
+  SSPHH_CHECK(width > 0 && height > 0 && layers >= 0);
+  GLint most = 0, most_layers = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most_layers);
+  if (std::max(width, height) > most || layers > most_layers) {
+    throw Error("OpenGL", fmt::format("a texture of {}×{}, {} layers is more than the driver's {}, {}", width,
+                                      height, layers, most, most_layers));
+  }
+  if (mipmaps) levels_ = std::bit_width(static_cast<unsigned>(std::max(width, height)));
+  unsigned id = 0;
+  glCreateTextures(layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D, 1, &id);
+  handle_ = Handle<delete_texture>(id);
+  const FormatInfo info = info_of(format);
+  if (layers > 0) {
+    glTextureStorage3D(id, levels_, info.internal, width, height, layers);
+  } else {
+    glTextureStorage2D(id, levels_, info.internal, width, height);
+  }
+  set_filter(false);
+}
+
+std::size_t Texture::bytes() const {
+  return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) *
+         static_cast<std::size_t>(std::max(layers_, 1)) * bytes_per_texel(format_);
+}
+
+void Texture::upload(std::span<const std::byte> data, int layer) {
+  const FormatInfo info = info_of(format_);
+  SSPHH_CHECK(data.size() ==
+              info.bytes * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  if (layers_ > 0) {
+    glTextureSubImage3D(id(), 0, 0, 0, layer, width_, height_, 1, info.external, info.type, data.data());
+  } else {
+    glTextureSubImage2D(id(), 0, 0, 0, width_, height_, info.external, info.type, data.data());
+  }
+}
+
+void Texture::generate_mipmaps() {
+  glGenerateTextureMipmap(id());
+}
+
+void Texture::set_filter(bool linear) {
+  const GLint filter = linear ? GL_LINEAR : GL_NEAREST;
+  glTextureParameteri(id(), GL_TEXTURE_MIN_FILTER, linear && levels_ > 1 ? GL_LINEAR_MIPMAP_LINEAR : filter);
+  glTextureParameteri(id(), GL_TEXTURE_MAG_FILTER, filter);
+  glTextureParameteri(id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+void Texture::read(std::span<float> out, int channels) const {
+  constexpr GLenum externals[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
+  SSPHH_CHECK(channels >= 1 && channels <= 4);
+  const GLenum external = format_ == Format::depth32f ? GL_DEPTH_COMPONENT : externals[channels - 1];
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glGetTextureImage(id(), 0, external, GL_FLOAT, static_cast<GLsizei>(out.size_bytes()), out.data());
+}
+
+void Texture::bind(unsigned unit) const {
+  glBindTextureUnit(unit, id());
+}
+
+Sampler::Sampler(Address u, Address v, bool nearest, float anisotropy) {
+  unsigned id = 0;
+  glCreateSamplers(1, &id);
+  handle_ = Handle<delete_sampler>(id);
+  glSamplerParameteri(id, GL_TEXTURE_WRAP_S, static_cast<GLint>(wrap_of(u)));
+  glSamplerParameteri(id, GL_TEXTURE_WRAP_T, static_cast<GLint>(wrap_of(v)));
+  glSamplerParameteri(id, GL_TEXTURE_MIN_FILTER, nearest ? GL_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+  glSamplerParameteri(id, GL_TEXTURE_MAG_FILTER, nearest ? GL_NEAREST : GL_LINEAR);
+  // Core since 4.6 only, but every driver has the extension
+  if (!nearest && anisotropy > 1 && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
+    glSamplerParameterf(id, GL_TEXTURE_MAX_ANISOTROPY_EXT, anisotropy);
+}
+
+void Sampler::bind(unsigned unit) const {
+  glBindSampler(unit, handle_.get());
+}
+
+void Sampler::unbind(unsigned unit) {
+  glBindSampler(unit, 0);
+}
+
+}  // namespace ssphh::gl

@@ -1,0 +1,43 @@
+#include <epoxy/gl.h>
+
+#include <ssphh/gl/vertex_array.h>
+
+namespace ssphh::gl {
+
+void delete_vertex_array(unsigned id) {
+  glDeleteVertexArrays(1, &id);
+}
+
+VertexArray::VertexArray() {
+  unsigned id = 0;
+  glCreateVertexArrays(1, &id);
+  handle_ = Handle<delete_vertex_array>(id);
+}
+
+void VertexArray::attribute(unsigned location, const Buffer& buffer, int components, std::size_t stride,
+                            std::size_t offset) {
+  const unsigned id = handle_.get();
+  glEnableVertexArrayAttrib(id, location);
+  glVertexArrayAttribFormat(id, location, components, GL_FLOAT, GL_FALSE, static_cast<GLuint>(offset));
+  glVertexArrayAttribBinding(id, location, location);
+  glVertexArrayVertexBuffer(id, location, buffer.id(), 0, static_cast<GLsizei>(stride));
+}
+
+void VertexArray::instance_attribute(unsigned location, const Buffer& buffer) {
+  const unsigned id = handle_.get();
+  glEnableVertexArrayAttrib(id, location);
+  glVertexArrayAttribIFormat(id, location, 1, GL_UNSIGNED_INT, 0);
+  glVertexArrayAttribBinding(id, location, location);
+  glVertexArrayVertexBuffer(id, location, buffer.id(), 0, sizeof(unsigned));
+  glVertexArrayBindingDivisor(id, location, 1);
+}
+
+void VertexArray::indices(const Buffer& buffer) {
+  glVertexArrayElementBuffer(handle_.get(), buffer.id());
+}
+
+void VertexArray::bind() const {
+  glBindVertexArray(handle_.get());
+}
+
+}  // namespace ssphh::gl

@@ -1,0 +1,95 @@
+#pragma once
+/// Draws a scene lit by its lamps and by SPHLs with OpenGL, in a window or without one
+/// (docs/methods/realtime.md).
+///
+///   gl::Context context = gl::Context::headless();
+///   realtime::Renderer renderer(context, scene);
+///   renderer.set_probes(gi::read_probe_file("probes.sphl"));
+///   renderer.draw(scene::camera_pose(scene, ""), {}, {.width = 1280, .height = 720});
+///   const image::Image picture = renderer.read_back();
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include <ssphh/gi/probe_set.h>
+#include <ssphh/gl/context.h>
+#include <ssphh/image/image.h>
+#include <ssphh/realtime/frame_stats.h>
+#include <ssphh/realtime/settings.h>
+#include <ssphh/scene/query.h>
+#include <ssphh/scene/transport_source.h>
+
+namespace ssphh::realtime {
+
+/// Where the tone-mapped picture goes.
+struct Target {
+  static constexpr unsigned none = ~0u;
+  int width = 1280, height = 720;  ///< pixels
+  unsigned framebuffer = none;     ///< OpenGL's number, 0 a window's own; none: only read_back() wants it
+  int x = 0, y = 0;                ///< lower left corner in it
+};
+
+struct RendererParams {
+  std::filesystem::path shader_directory;  ///< files here replace the built-in shaders and reload on change
+  int light_map_size = 1024;               ///< pixels of a shadow map's face: point and spot lights
+  int area_map_size = 256;                 ///< of each point on a light with an extent
+  int sun_map_size = 2048;                 ///< of a cascade
+  std::size_t probe_map_bytes = std::size_t{192} << 20;  ///< for all probes' maps together
+  int area_samples = 16;         ///< points that stand for a light with an extent, each with a shadow map
+  int environment_samples = 32;  ///< directions in which the environment casts shadows
+  int maps_per_frame = 1 << 30;  ///< cube maps drawn in one frame at most; the rest wait for the next
+};
+
+class Renderer {
+ public:
+  /// Uploads the scene and keeps a copy of what it needs of it; the scene may go. Throws Error when the
+  /// driver refuses something, or for a shader that does not compile.
+  Renderer(gl::Context& context, const scene::Scene& scene, const RendererParams& params = {},
+           float time = 0);
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  /// Poses what moves, and the lights that set_light left alone.
+  void set_time(float time);
+  float time() const;
+  /// Light of scene.lights, by index; stays as given when the time changes. Throws Error for an index out of
+  /// range or a state that is not finite.
+  void set_light(int light, const scene::LightState& state);
+  scene::LightState light(int light) const;
+  /// Factor on the light of a whole group (scene::light_groups): lamps, emissive surfaces, environment.
+  void set_group_scale(int group, const vec3& scale);
+  /// Numbers of a material; its textures stay those of the scene. Throws Error for an index out of range.
+  void set_material(int index, const scene::Material& material);
+
+  /// Probes that light the scene: copies what it needs. `params.weights` and `params.irradiance_degree` limit
+  /// what FrameSettings may ask for. Throws Error as gi::IrradianceLookup does.
+  void set_probes(const gi::ProbeSet& set, const gi::LookupParams& params = {});
+  /// New light for some probes of the last set_probes, one function each: what surfaces look up. Cost and
+  /// upload are proportional to their number.
+  void update_probes(std::span<const int> probes, std::span<const sh::RadianceSh> light);
+  void clear_probes();
+  int probe_count() const;
+  /// Makes a probe an anisotropic light: radiance leaving a sphere of `radius` around it into each direction,
+  /// as gi::RelightSession::set_emission takes it. Empty: none.
+  void set_emission(int probe, const sh::RadianceSh& leaving, float radius);
+
+  /// Draws a frame. Restores no OpenGL state. Throws Error when OpenGL reports an error.
+  const FrameStats& draw(const scene::CameraPose& camera, const FrameSettings& settings,
+                         const Target& target);
+  /// The last frame as scene-linear radiance, before exposure and tone curve; row 0 on top.
+  image::Image read_back() const;
+
+  /// Bytes of OpenGL memory that this renderer asked for.
+  std::size_t memory_bytes() const;
+  /// What shader compilers said beside errors; empty: nothing.
+  std::string shader_warnings() const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace ssphh::realtime

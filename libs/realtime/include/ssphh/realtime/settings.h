@@ -1,0 +1,41 @@
+#pragma once
+/// What a frame shows and how: plain data, changed freely from frame to frame.
+
+#include <ssphh/gi/lookup.h>
+#include <ssphh/image/tonemap.h>
+
+namespace ssphh::realtime {
+
+/// What the picture shows in place of the lit scene. All but `lit`, `direct` and `indirect` bypass the tone
+/// curve.
+enum class View {
+  lit,
+  direct,    ///< emission and light of lamps, path depth ≤ 1
+  indirect,  ///< light looked up from probes
+  albedo,
+  normal,      ///< shading normal, 0.5 + 0.5 n
+  depth,       ///< along the view axis, 1 m: 1/2, 2 m: 2/3, …
+  shadow,      ///< share of the lamps' light that arrives
+  chosen_sphl  ///< colour of the probe that counts most; darker where fewer are visible
+};
+
+enum class Sky { environment, black };
+
+struct FrameSettings {
+  bool direct = true;
+  bool indirect = true;
+  gi::LookupMethod lookup = gi::LookupMethod::irradiance;
+  gi::WeightMethod weights = gi::WeightMethod::distance;  ///< of lookup irradiance
+  int irradiance_degree = 4;  ///< bands of the probes' irradiance, at most what set_probes was given
+  int glossy_degree = 10;     ///< bands of the probes' radiance in mirrors, at most what set_probes was given
+  int indirect_scale = 1;     ///< n: indirect light at every n-th pixel each way, filled in along surfaces
+  int supersample = 1;        ///< samples per pixel along each side, 1..4
+  bool ambient_occlusion = false;
+  float occlusion_radius = 0.5f;  ///< metres
+  View view = View::lit;
+  Sky sky = Sky::environment;
+  image::ToneMap tone;
+  bool wireframe = false;
+};
+
+}  // namespace ssphh::realtime

@@ -1,0 +1,52 @@
+// What every pass knows of the frame; mirrors FrameBlock in gpu_types.h.
+layout(std140, binding = 0) uniform FrameBlock {
+  vec4 camera_position;  // w: 1 for an orthographic camera
+  vec4 camera_right;     // times half the width that is seen at distance 1; w: width in pixels
+  vec4 camera_up;        // w: height in pixels
+  vec4 camera_forward;   // w: distance of the near plane; far plane if orthographic
+  ivec4 counts;          // emitters, probes, candidates per cell, area samples
+  ivec4 switches;        // direct, indirect, lookup, view
+  ivec4 degrees;         // irradiance, radiance as stored; glossy, weights
+  ivec4 grid_size;       // cells of the probe grid; w: cells that share a list
+  vec4 grid_origin;      // w: cell size
+  vec4 tone;             // exposure factor, curve, 1/gamma or 0, probe spacing
+  vec4 environment;      // cos, sin of its rotation; its mip count; 1 if there is one
+  ivec4 maps;            // texels of a face: lights, areas, probes; of a sun map
+  ivec4 map_tiles;       // tiles along a side of a layer, likewise
+  vec4 map_near;         // near plane of the cube maps, likewise
+  vec4 extra;            // occlusion radius, indirect scale, frame number
+} frame;
+
+#include "hash.glsl"
+
+const float PI = 3.14159265358979;
+
+float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
+float max_component(vec3 v) { return max(v.x, max(v.y, v.z)); }
+
+vec2 oct_encode(vec3 n) {
+  vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+  return n.z >= 0 ? p : (1 - abs(p.yx)) * vec2(p.x >= 0 ? 1 : -1, p.y >= 0 ? 1 : -1);
+}
+vec3 oct_decode(vec2 p) {
+  vec3 n = vec3(p, 1 - abs(p.x) - abs(p.y));
+  if (n.z < 0) n.xy = (1 - abs(n.yx)) * vec2(p.x >= 0 ? 1 : -1, p.y >= 0 ? 1 : -1);
+  return normalize(n);
+}
+
+// Colours 0..1 in 3 x 10 bits, finer where dark.
+uint pack_color(vec3 c, uint top) {
+  uvec3 q = uvec3(sqrt(clamp(c, 0, 1)) * 1023 + 0.5);
+  return q.x | q.y << 10 | q.z << 20 | top << 30;
+}
+vec3 unpack_color(uint p) {
+  vec3 q = vec3(p & 1023u, p >> 10 & 1023u, p >> 20 & 1023u) / 1023;
+  return q * q;
+}
+
+// Orthonormal basis around n (Duff et al., Building an Orthonormal Basis, Revisited, JCGT 2017).
+mat3 basis_around(vec3 n) {
+  float s = n.z >= 0 ? 1 : -1;
+  float a = -1 / (s + n.z), b = n.x * n.y * a;
+  return mat3(vec3(1 + s * n.x * n.x * a, s * b, -s * n.x), vec3(b, s + n.y * n.y * a, -n.y), n);
+}

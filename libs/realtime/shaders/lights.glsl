@@ -1,0 +1,110 @@
+// All emitters of the scene; mirrors GpuEmitter, GpuAreaSample in gpu_types.h.
+const int POINT = 0, DIRECTIONAL = 1, SPHERE = 2, MESH = 3, ENVIRONMENT = 4, SPHL = 5;
+
+struct Emitter {
+  vec4 place;   // position, or direction toward it; w: radius of a sphere or SPHL, of a sun's disc in radians
+  vec4 light;   // as scene::Light: intensity, irradiance or radiance; w: range, 0 none
+  vec4 cone;    // a spot's axis; w: scale, 0 none
+  vec4 more;    // cone offset; both sides emit (mesh); area [m2]; largest value of the cone factor
+  ivec4 items;  // kind; first sample or map; samples; first triangle
+  ivec4 count;  // triangles with a closed form; probe of an SPHL
+};
+struct AreaSample {
+  vec4 place;   // position, or direction toward it (environment); w: share of the area, or weight
+  vec4 normal;  // where it shines to, 0: everywhere; w: its map
+  vec4 light;   // radiance times solid angle (environment)
+};
+struct SunMap {
+  vec4 origin;   // w: 1 / depth range
+  vec4 right;    // w: 1 / half width
+  vec4 up;       // w: 1 / half height
+  vec4 forward;  // away from the light; w: tile
+};
+layout(std430, binding = 3) readonly buffer Emitters { Emitter emitters[]; };
+layout(std430, binding = 4) readonly buffer AreaSamples { AreaSample area_samples[]; };
+layout(std430, binding = 5) readonly buffer EmitterCorners { vec4 emitter_corners[]; };
+const int MAX_PARALLEL_MAPS = 128;
+layout(std140, binding = 1) uniform DistantBlock {
+  SunMap sun_maps[MAX_PARALLEL_MAPS];
+  vec4 environment_sh[25];
+};
+
+layout(binding = 4) uniform sampler2DArray light_maps;
+layout(binding = 5) uniform sampler2DArray area_maps;
+layout(binding = 6) uniform sampler2DArray parallel_maps;
+
+// What the cone and the range leave (KHR_lights_punctual).
+float falloff(Emitter e, vec3 wi, float distance2) {
+  float f = 1;
+  if (e.cone.w > 0) {
+    f = clamp(-dot(e.cone.xyz, wi) * e.cone.w + e.more.x, 0, 1);
+    f *= f;
+  }
+  if (e.light.w > 0) {
+    float q = distance2 / (e.light.w * e.light.w);
+    f *= clamp(1 - q * q, 0, 1);
+  }
+  return f;
+}
+
+float parallel_visibility(SunMap map, vec3 x, vec3 n) {
+  vec3 d = x - map.origin.xyz;
+  vec2 plane = vec2(dot(d, map.right.xyz) * map.right.w, dot(d, map.up.xyz) * map.up.w);
+  float here = 1 - dot(d, map.forward.xyz) * map.origin.w;
+  if (any(greaterThan(abs(plane), vec2(1)))) return 1;
+  float size = float(frame.maps.w);
+  float inner = size - 2;
+  float facing = min(dot(n, map.forward.xyz), -1e-3);
+  // dz along the map's axes on the receiver's plane, in metres, then in depth per texel
+  vec2 slope = vec2(dot(n, map.right.xyz) / map.right.w, dot(n, map.up.xyz) / map.up.w) / facing * map.origin.w *
+               (2 / inner);
+  vec2 texel = 0.5 * plane * inner + 0.5 * size;
+  float margin = 3 / (inner * map.right.w) * map.origin.w;
+  return compare_tile(parallel_maps, frame.maps.w, frame.map_tiles.w, int(map.forward.w), texel, here, slope, margin);
+}
+
+// Irradiance / radiance of a triangle above the horizon of n at the origin (Lambert's formula).
+float triangle_irradiance(vec3 n, vec3 a, vec3 b, vec3 c) {
+  // Cut off below the horizon: at most four corners are left
+  vec3 corners[3] = vec3[3](a, b, c);
+  vec3 first = vec3(0), last = vec3(0);
+  float sum = 0;
+  bool any = false;
+  for (int i = 0; i < 3; ++i) {
+    vec3 p = corners[i], q = corners[i == 2 ? 0 : i + 1];
+    float hp = dot(n, p), hq = dot(n, q);
+    vec3 from = p, to = q;
+    if (hp < 0 && hq < 0) continue;
+    if (hp < 0) from = p + (q - p) * (hp / (hp - hq));
+    if (hq < 0) to = p + (q - p) * (hp / (hp - hq));
+    vec3 u = normalize(from), v = normalize(to);
+    if (any) {
+      vec3 w = normalize(last), s = cross(w, u);
+      float l = length(s);
+      if (l > 1e-7) sum += atan(l, dot(w, u)) * dot(n, s) / l;
+    } else {
+      first = u;
+      any = true;
+    }
+    vec3 s = cross(u, v);
+    float l = length(s);
+    if (l > 1e-7) sum += atan(l, dot(u, v)) * dot(n, s) / l;
+    last = v;
+  }
+  if (any) {
+    vec3 s = cross(last, first);
+    float l = length(s);
+    if (l > 1e-7) sum += atan(l, dot(last, first)) * dot(n, s) / l;
+  }
+  return max(0.5 * sum, 0);
+}
+
+// The same of a sphere of sin(radius) = sin_r whose centre stands in direction `w` (Snyder, Area Light Sources
+// for Real-Time Graphics, 1996).
+float sphere_irradiance(float cosine, float sin2) {
+  float c = clamp(cosine, -0.9999, 0.9999);
+  if (c * c > sin2) return PI * sin2 * max(c, 0);
+  float s = sqrt(1 - c * c), x = sqrt(1 / sin2 - 1);
+  float y = -x * c / s, r = s * sqrt(max(1 - y * y, 0));
+  return max((c * acos(clamp(y, -1, 1)) - x * r) * sin2 + atan(r, x), 0);
+}

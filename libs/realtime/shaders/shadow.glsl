@@ -1,0 +1,58 @@
+// Shadow maps: tiles of depth arrays. Depth is near / z (cube faces) or 1 - z / range (parallel), both linear
+// on the map, so the plane of the receiving surface is known at every texel: no acne, and no bias that grows
+// with the slope.
+
+// Face and place of a direction: xy -1..1 right and up, z the coordinate along the face's axis.
+int cube_face(vec3 d, out vec3 place) {
+  vec3 a = abs(d);
+  if (a.x >= a.y && a.x >= a.z) {
+    place = d.x > 0 ? vec3(-d.z, d.y, a.x) : vec3(d.z, d.y, a.x);
+    return d.x > 0 ? 0 : 1;
+  }
+  if (a.y >= a.z) {
+    place = d.y > 0 ? vec3(d.x, -d.z, a.y) : vec3(d.x, d.z, a.y);
+    return d.y > 0 ? 2 : 3;
+  }
+  place = d.z > 0 ? vec3(d.x, d.y, a.z) : vec3(-d.x, d.y, a.z);
+  return d.z > 0 ? 4 : 5;
+}
+// A vector in the face's axes: right, up, forward.
+vec3 in_face(int face, vec3 v) {
+  if (face == 0) return vec3(-v.z, v.y, v.x);
+  if (face == 1) return vec3(v.z, v.y, -v.x);
+  if (face == 2) return vec3(v.x, -v.z, v.y);
+  if (face == 3) return vec3(v.x, v.z, -v.y);
+  if (face == 4) return vec3(v.x, v.y, v.z);
+  return vec3(-v.x, v.y, -v.z);
+}
+
+// Share of light in the 2 x 2 texels around `texel` (in the tile) of tile `tile`. `here` is the receiver's own
+// depth value, `slope` its change per texel; what is nearer than both by `margin` blocks.
+float compare_tile(sampler2DArray maps, int size, int tiles, int tile, vec2 texel, float here, vec2 slope,
+                   float margin) {
+  int layer = tile / (tiles * tiles), rest = tile - layer * tiles * tiles;
+  vec2 corner = vec2(rest % tiles, rest / tiles) * float(size);
+  vec2 at = clamp(texel, vec2(1), vec2(size - 1));
+  vec2 low = floor(at - 0.5), f = at - 0.5 - low;
+  vec4 stored = textureGather(maps, vec3((corner + low + 1) / float(size * tiles), layer));
+  vec2 from = low + 0.5 - texel;
+  vec4 plane = here + vec4(dot(slope, from + vec2(0, 1)), dot(slope, from + vec2(1, 1)),
+                           dot(slope, from + vec2(1, 0)), dot(slope, from));
+  vec4 lit = vec4(lessThanEqual(stored, max(plane, vec4(here)) + margin));
+  return mix(mix(lit.w, lit.z, f.x), mix(lit.x, lit.y, f.x), f.y);
+}
+
+// Share of the light at `light` that arrives at x, whose surface has the normal n. `size` is the texels of a
+// face, two of which are border.
+float cube_visibility(sampler2DArray maps, int size, int tiles, float near, int slot, vec3 light, vec3 x,
+                      vec3 n) {
+  vec3 d = x - light, place;
+  int face = cube_face(d, place);
+  float inner = float(size - 2);
+  vec2 texel = 0.5 * (place.xy / place.z) * inner + 0.5 * float(size);
+  float here = near / place.z;
+  vec3 local = in_face(face, n);
+  float across = min(-abs(dot(n, d)), -1e-3 * place.z);
+  vec2 slope = (dot(n, d) <= 0 ? 1 : -1) * near * local.xy / across * (2 / inner);
+  return compare_tile(maps, size, tiles, slot * 6 + face, texel, here, slope, here * 1.5 / inner);
+}

@@ -1,0 +1,38 @@
+#pragma once
+/// Points that stand for lights with an extent, and directions that stand for an environment.
+
+#include <array>
+#include <vector>
+
+#include <ssphh/scene/scene.h>
+
+namespace ssphh::realtime {
+
+struct AreaPoint {
+  vec3 position{0};
+  vec3 normal{0};   ///< unit; zero: shines everywhere
+  float share = 0;  ///< of the light's area; all together 1
+};
+
+/// Points on a mesh that lie apart, each with the share of the area nearest to it: Lloyd's algorithm on
+/// points uniform by area. The same for the same input.
+std::vector<AreaPoint> spread_points(const scene::Mesh& mesh, const mat4& to_world, int count);
+
+/// Points within a ball around the origin, equal shares.
+std::vector<AreaPoint> ball_points(float radius, int count);
+
+struct EnvironmentSample {
+  vec3 direction{0, 1, 0};
+  vec3 weight{0};  ///< radiance × solid angle
+};
+
+/// Directions by importance, `count` or fewer, environment.color included.
+std::vector<EnvironmentSample> environment_directions(const scene::Environment& environment, int count);
+
+/// Irradiance coefficients of degree 4, environment.color included.
+std::array<vec4, 25> environment_irradiance(const scene::Environment& environment);
+
+/// Mean of a material's emission over its texture, or the plain factor.
+vec3 mean_emission(const scene::Scene& scene, const scene::Material& material);
+
+}  // namespace ssphh::realtime

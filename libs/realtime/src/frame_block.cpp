@@ -1,0 +1,58 @@
+#include "frame_block.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <ssphh/core/error.h>
+
+namespace ssphh::realtime {
+
+FrameBlock frame_block(const scene::CameraPose& camera, const FrameSettings& settings,
+                       const FrameImages& images, const Lights& lights, const Probes& probes,
+                       const scene::Bounds& bounds) {
+  const scene::Camera& lens = camera.camera;
+  const vec3 eye(camera.world[3]), right = glm::normalize(vec3(camera.world[0])),
+                                   up = glm::normalize(vec3(camera.world[1])),
+                                   forward = -glm::normalize(vec3(camera.world[2]));
+  if (!is_finite(eye) || !is_finite(right) || !is_finite(up) || !is_finite(forward))
+    throw Error("camera \"" + lens.name + "\"", "its pose is not finite or has no extent");
+  const gl::Rect full = images.full();
+  const auto width = static_cast<float>(full.width), height = static_cast<float>(full.height);
+  const float half_height = lens.orthographic ? 0.5f * lens.yheight : std::tan(0.5f * lens.yfov);
+  const float half_width = half_height * width / height;
+  // Depth has the precision of floats at every distance: the near plane may be as near as one likes
+  const float far = 1.01f * (glm::length(bounds.center() - eye) + bounds.radius()) + 1e-3f;
+  const float near = 1e-4f * std::max(bounds.radius(), 1e-3f);
+
+  FrameBlock b{};
+  b.camera_position = vec4(eye, lens.orthographic ? 1 : 0);
+  b.camera_right = vec4(half_width * right, width);
+  b.camera_up = vec4(half_height * up, height);
+  b.camera_forward = vec4(forward, lens.orthographic ? far : near);
+  const ProbeGrid& grid = probes.grid();
+  b.counts = ivec4(lights.emitter_count(), probes.count(), ProbeGrid::list_length, 0);
+  b.switches =
+      ivec4(settings.direct, settings.indirect && probes.count() > 0,
+            static_cast<int>(settings.lookup == gi::LookupMethod::light), static_cast<int>(settings.view));
+  b.degrees = ivec4(probes.irradiance_degree(), probes.radiance_degree(),
+                    std::clamp(settings.glossy_degree, 0, sh::max_degree),
+                    std::clamp(settings.irradiance_degree, 0, 4));
+  b.grid_size = ivec4(grid.cells, 0);
+  b.grid_origin = vec4(grid.origin, grid.cell_size);
+  b.tone = vec4(std::exp2(settings.tone.exposure), settings.tone.curve == image::ToneCurve::filmic ? 1 : 0,
+                settings.tone.gamma > 0 ? 1 / settings.tone.gamma : 0,
+                std::isfinite(probes.spacing()) ? probes.spacing() : 1e30f);
+  const scene::Environment* environment = lights.environment();
+  const float turn = environment ? environment->rotation : 0;
+  b.environment = vec4(std::cos(turn), std::sin(turn), 0, environment ? 1 : 0);
+  b.maps = ivec4(lights.lamp_maps().size(), lights.area_maps().size(), probes.maps().size(),
+                 lights.parallel_maps().size());
+  b.map_tiles = ivec4(lights.lamp_maps().tiles_per_side(), lights.area_maps().tiles_per_side(),
+                      probes.maps().tiles_per_side(), lights.parallel_maps().tiles_per_side());
+  b.map_near = vec4(lights.near_plane(), lights.near_plane(), probes.near_plane(), 0);
+  b.extra = vec4(settings.ambient_occlusion ? settings.occlusion_radius : 0,
+                 static_cast<float>(images.indirect_scale), 0, 0);
+  return b;
+}
+
+}  // namespace ssphh::realtime

@@ -1,0 +1,73 @@
+#pragma once
+/// A scene's geometry, materials and textures in OpenGL's memory.
+
+#include <array>
+#include <map>
+#include <vector>
+
+#include <ssphh/gl/draw.h>
+#include <ssphh/gl/texture.h>
+#include <ssphh/gl/vertex_array.h>
+#include <ssphh/scene/query.h>
+
+#include "gpu_types.h"
+#include "upload_count.h"
+
+namespace ssphh::realtime {
+
+/// What is drawn in one call: a piece of an instance, small enough that leaving it out saves something.
+struct DrawItem {
+  int instance, material;
+  int index_count, base_vertex;
+  std::size_t first_index;
+  scene::Bounds local, world;
+  bool partial;  ///< may be covered in part only
+};
+
+class GpuScene {
+ public:
+  GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, FrameCounters& counters);
+
+  /// Poses instances; adds the boxes of what moved, before and after.
+  void pose(const std::vector<mat4>& world, std::vector<scene::Bounds>& moved, FrameCounters& counters);
+  void set_material(int index, const scene::Material& material, FrameCounters& counters);
+  void set_group_scale(int group, const vec3& scale, FrameCounters& counters);
+
+  const std::vector<DrawItem>& items() const { return items_; }
+  const scene::Bounds& bounds() const { return bounds_; }
+  std::size_t bytes() const { return bytes_; }
+
+  /// Binds buffers; then draw() what is wanted, in the order of items() for few texture changes.
+  void begin(bool positions_only) const;
+  void draw(const DrawItem& item, bool textures, FrameCounters& counters) const;
+
+ private:
+  struct Slot {
+    unsigned unit;
+    int texture, sampler;  ///< −1: white
+  };
+  void add_textures(const scene::Scene& scene, FrameCounters& counters);
+  int texture_for(const scene::Scene& scene, int texture, bool srgb, FrameCounters& counters);
+  int sampler_for(const scene::TextureUse& use);
+  void bind_material(int material) const;
+
+  std::vector<DrawItem> items_;
+  std::vector<GpuInstance> instances_;
+  std::vector<int> nodes_;  ///< of each instance
+  std::vector<GpuMaterial> materials_;
+  std::vector<std::array<Slot, 4>> slots_;  ///< of each material
+  std::vector<vec4> group_scales_;
+  std::map<std::pair<int, bool>, int> texture_index_;
+  std::map<int, int> sampler_index_;
+  std::vector<gl::Texture> textures_;
+  std::vector<gl::Sampler> samplers_;
+  gl::Texture white_;
+  gl::Buffer positions_, vertices_, indices_, instance_ids_;
+  gl::Buffer material_buffer_, instance_buffer_, scale_buffer_;
+  gl::VertexArray all_, position_only_;
+  scene::Bounds bounds_;
+  std::size_t bytes_ = 0;
+  mutable int bound_material_ = -2;
+};
+
+}  // namespace ssphh::realtime

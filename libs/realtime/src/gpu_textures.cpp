@@ -1,0 +1,74 @@
+#include "gpu_scene.h"
+
+namespace ssphh::realtime {
+namespace {
+
+constexpr float anisotropy = 4;
+
+gl::Address address(scene::Wrap wrap) {
+  switch (wrap) {
+    case scene::Wrap::repeat:
+      return gl::Address::repeat;
+    case scene::Wrap::mirror:
+      return gl::Address::mirror;
+    case scene::Wrap::clamp:
+      break;
+  }
+  return gl::Address::clamp;
+}
+
+}  // namespace
+
+void GpuScene::add_textures(const scene::Scene& scene, FrameCounters& counters) {
+  white_ = gl::Texture(gl::Format::rgba8, 1, 1);
+  const std::array<std::byte, 4> ones{std::byte{255}, std::byte{255}, std::byte{255}, std::byte{255}};
+  white_.upload(ones);
+  const auto slots_of = [&](const scene::Material& m) {
+    const auto slot = [&](unsigned unit, const scene::TextureUse& use, bool srgb) {
+      if (use.texture < 0) return Slot{unit, -1, -1};
+      return Slot{unit, texture_for(scene, use.texture, srgb, counters), sampler_for(use)};
+    };
+    return std::array<Slot, 4>{slot(unit::base_texture, m.base_color_texture, true),
+                               slot(unit::rough_texture, m.metallic_roughness_texture, false),
+                               slot(unit::emission_texture, m.emission_texture, true),
+                               slot(unit::normal_texture, m.normal_texture, false)};
+  };
+  for (const scene::Material& m : scene.materials) slots_.push_back(slots_of(m));
+  slots_.push_back(slots_of({}));
+}
+
+int GpuScene::texture_for(const scene::Scene& scene, int texture, bool srgb, FrameCounters& counters) {
+  const auto [place, is_new] =
+      texture_index_.try_emplace({texture, srgb}, static_cast<int>(textures_.size()));
+  if (!is_new) return place->second;
+  const scene::Texture& source = scene.textures[static_cast<std::size_t>(texture)];
+  if (source.width <= 0 || source.height <= 0) {
+    place->second = -1;
+    return -1;
+  }
+  gl::Texture& t = textures_.emplace_back(srgb ? gl::Format::srgb8_alpha8 : gl::Format::rgba8, source.width,
+                                          source.height, 0, true);
+  t.upload(std::as_bytes(std::span(source.rgba)));
+  t.generate_mipmaps();
+  counters.bytes_uploaded += source.rgba.size();
+  bytes_ += source.rgba.size() * 4 / 3;
+  return place->second;
+}
+
+int GpuScene::sampler_for(const scene::TextureUse& use) {
+  const int key = static_cast<int>(use.wrap_u) + 3 * static_cast<int>(use.wrap_v) + (use.nearest ? 9 : 0);
+  const auto [place, is_new] = sampler_index_.try_emplace(key, static_cast<int>(samplers_.size()));
+  if (is_new) samplers_.emplace_back(address(use.wrap_u), address(use.wrap_v), use.nearest, anisotropy);
+  return place->second;
+}
+
+void GpuScene::bind_material(int material) const {
+  bound_material_ = material;
+  for (const Slot& slot : slots_[static_cast<std::size_t>(material)]) {
+    const bool none = slot.texture < 0;
+    (none ? white_ : textures_[static_cast<std::size_t>(slot.texture)]).bind(slot.unit);
+    none ? gl::Sampler::unbind(slot.unit) : samplers_[static_cast<std::size_t>(slot.sampler)].bind(slot.unit);
+  }
+}
+
+}  // namespace ssphh::realtime

@@ -1,0 +1,341 @@
+#include "lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/scene/query.h>
+#include <ssphh/shading/mesh_view.h>
+
+#include "mesh_pieces.h"
+
+namespace ssphh::realtime {
+namespace {
+
+constexpr int sphere_points = 8;
+constexpr float black = 0;
+
+float mesh_area(const scene::Mesh& mesh, const mat4& world) {
+  float area = 0;
+  const auto corner = [&](unsigned i) { return vec3(world * vec4(mesh.positions[i], 1)); };
+  for (const uvec3& t : mesh.triangles)
+    area += 0.5f * glm::length(glm::cross(corner(t.y) - corner(t.x), corner(t.z) - corner(t.x)));
+  return area;
+}
+
+const mat4& world_of(const std::vector<mat4>& world, int node) {
+  static const mat4 identity(1);
+  return node >= 0 ? world[static_cast<std::size_t>(node)] : identity;
+}
+
+}  // namespace
+
+Lights::Lights(const scene::Scene& scene, const std::vector<mat4>& world, const scene::Bounds& bounds,
+               const RendererParams& params, FrameCounters& counters)
+    : world_(world), near_(std::max(5e-4f * bounds.radius(), 1e-6f)) {
+  const std::vector<std::string> groups = scene::light_groups(scene);
+  scales_.assign(groups.size(), vec3(1));
+  add_lights(scene, groups);
+  add_meshes(scene, groups, params.area_samples);
+  add_environment(scene, world, groups, params.environment_samples);
+  if (parallel_slots_ > max_parallel_maps)
+    throw Error("real-time renderer", fmt::format("the lights need {} parallel shadow maps, {} is the most",
+                                                  parallel_slots_, max_parallel_maps));
+  lamps_ = MapAtlas(params.light_map_size, std::max(6 * lamp_slots_, 1));
+  areas_ = MapAtlas(params.area_map_size, std::max(6 * area_slots_, 1));
+  parallel_ = MapAtlas(params.sun_map_size, std::max(parallel_slots_, 1));
+  parallel_key_.assign(static_cast<std::size_t>(parallel_slots_), vec3(-1e30f));
+  scene_emitters_ = static_cast<int>(emitters_.size());
+  distant_buffer_ = gl::Buffer(sizeof(DistantBlock));
+  corner_buffer_ = gl::Buffer(std::max<std::size_t>(corners_.size(), 1) * sizeof(vec4));
+  sample_buffer_ = gl::Buffer(std::max<std::size_t>(samples_.size(), 1) * sizeof(GpuAreaSample));
+  for (Source& source : sources_) {
+    place(source, source.light >= 0 ? states_[static_cast<std::size_t>(source.light)].world
+                                    : world_of(world, source.node));
+  }
+  place_environment(bounds);
+  counters.bytes_uploaded += corner_buffer_.size();
+}
+
+void Lights::add_lights(const scene::Scene& scene, const std::vector<std::string>& groups) {
+  for (const scene::Light& light : scene.lights) {
+    lights_.push_back(light);
+    states_.push_back({world_of(world_, light.node), light.color, light.intensity});
+    fixed_.push_back(0);
+    Source source;
+    source.emitter = static_cast<int>(emitters_.size());
+    source.group = scene::light_group_index(groups, scene::light_group(light));
+    source.light = static_cast<int>(lights_.size()) - 1;
+    GpuEmitter e;
+    if (light.type == scene::LightType::sphere && light.radius > 0) {
+      source.points = ball_points(light.radius, sphere_points);
+      e.items =
+          ivec4(static_cast<int>(EmitterKind::sphere), static_cast<int>(samples_.size()), sphere_points, 0);
+      e.more.z = 1;
+      source.first_map = area_slots_;
+      area_slots_ += sphere_points;
+      samples_.resize(samples_.size() + source.points.size());
+    } else if (light.type == scene::LightType::directional) {
+      e.items = ivec4(static_cast<int>(EmitterKind::directional), parallel_slots_, sun_cascades, 0);
+      source.first_map = parallel_slots_;
+      parallel_slots_ += sun_cascades;
+    } else {
+      e.items = ivec4(static_cast<int>(EmitterKind::point), lamp_slots_, 1, 0);
+      source.first_map = lamp_slots_++;
+    }
+    emitters_.push_back(e);
+    sources_.push_back(std::move(source));
+  }
+}
+
+void Lights::add_meshes(const scene::Scene& scene, const std::vector<std::string>& groups, int samples) {
+  for (const scene::Instance& instance : scene.instances) {
+    const int material = scene::instance_material(scene, instance);
+    if (material < 0 || instance.mesh < 0) continue;
+    const scene::Material& m = scene.materials[static_cast<std::size_t>(material)];
+    if (m.unlit || !(max_component(m.emission) > black)) continue;
+    const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    const mat4& world = world_of(world_, instance.node);
+    Source source;
+    source.points = spread_points(mesh, world, samples);
+    if (source.points.empty()) continue;
+    source.emitter = static_cast<int>(emitters_.size());
+    source.group = scene::light_group_index(groups, scene::light_group(scene, instance));
+    source.node = instance.node;
+    source.radiance = mean_emission(scene, m);
+    source.first_map = area_slots_;
+    GpuEmitter e;
+    e.items = ivec4(static_cast<int>(EmitterKind::mesh), static_cast<int>(samples_.size()),
+                    static_cast<int>(source.points.size()), static_cast<int>(corners_.size()));
+    e.more.y = m.double_sided ? 1 : 0;
+    e.more.z = mesh_area(mesh, world);
+    const bool even = m.emission_texture.texture < 0 && m.alpha_mode == scene::AlphaMode::opaque;
+    if (even && mesh.triangles.size() <= shading::MeshView::max_triangles) {
+      for (const uvec3& t : mesh.triangles) {
+        for (int c = 0; c < 3; ++c) source.corners.push_back(mesh.positions[t[c]]);
+      }
+      e.count.x = static_cast<int>(mesh.triangles.size());
+      corners_.resize(corners_.size() + source.corners.size());
+    }
+    area_slots_ += static_cast<int>(source.points.size());
+    samples_.resize(samples_.size() + source.points.size());
+    emitters_.push_back(e);
+    sources_.push_back(std::move(source));
+  }
+}
+
+void Lights::add_environment(const scene::Scene& scene, const std::vector<mat4>&,
+                             const std::vector<std::string>& groups, int samples) {
+  if (!scene.environment) return;
+  environment_ = scene.environment;
+  directions_ = environment_directions(*environment_, samples);
+  const auto sh = environment_irradiance(*environment_);
+  std::copy(sh.begin(), sh.end(), std::begin(distant_.environment_sh));
+  Source source;
+  source.emitter = static_cast<int>(emitters_.size());
+  source.group = scene::light_group_index(groups, scene::light_group(*environment_));
+  source.radiance = vec3(1);  // its colour is in the samples and the image
+  source.first_map = parallel_slots_;
+  GpuEmitter e;
+  e.items = ivec4(static_cast<int>(EmitterKind::environment), static_cast<int>(samples_.size()),
+                  static_cast<int>(directions_.size()), 0);
+  for (std::size_t i = 0; i < directions_.size(); ++i) {
+    GpuAreaSample s;
+    s.place = vec4(directions_[i].direction, 0);
+    s.normal.w = static_cast<float>(parallel_slots_ + static_cast<int>(i));
+    s.light = vec4(directions_[i].weight, 0);
+    samples_.push_back(s);
+  }
+  parallel_slots_ += static_cast<int>(directions_.size());
+  emitters_.push_back(e);
+  sources_.push_back(std::move(source));
+}
+
+void Lights::set_time(const std::vector<mat4>& world) {
+  world_ = world;
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    if (!fixed_[i]) states_[i].world = world_of(world, lights_[i].node);
+  }
+  for (Source& source : sources_) {
+    if (source.light >= 0) {
+      place(source, states_[static_cast<std::size_t>(source.light)].world);
+    } else if (!source.points.empty()) {
+      place(source, world_of(world, source.node));
+    }
+  }
+}
+
+void Lights::set_light(int light, const scene::LightState& state) {
+  const auto i = static_cast<std::size_t>(light);
+  fixed_[i] = 1;
+  states_[i] = state;
+  emitters_changed_ = true;
+  for (Source& source : sources_) {
+    if (source.light == light) place(source, state.world);
+  }
+}
+
+void Lights::set_group_scale(int group, const vec3& scale) {
+  scales_[static_cast<std::size_t>(group)] = scale;
+  emitters_changed_ = true;
+}
+
+void Lights::set_emission(int probe, const vec3& position, float radius) {
+  const auto is_probe = [&](const GpuEmitter& e) {
+    return e.items.x == static_cast<int>(EmitterKind::sphl) && e.count.y == probe;
+  };
+  emitters_.erase(std::remove_if(emitters_.begin() + scene_emitters_, emitters_.end(), is_probe),
+                  emitters_.end());
+  emitters_changed_ = true;
+  if (!(radius > 0)) return;
+  GpuEmitter e;
+  e.place = vec4(position, radius);
+  e.light = vec4(1, 1, 1, 0);
+  e.items.x = static_cast<int>(EmitterKind::sphl);
+  e.count.y = probe;
+  emitters_.push_back(e);
+}
+
+void Lights::clear_emissions() {
+  emitters_.resize(static_cast<std::size_t>(scene_emitters_));
+  emitters_changed_ = true;
+}
+
+void Lights::invalidate(const std::vector<scene::Bounds>& moved) {
+  lamps_.invalidate(moved);
+  areas_.invalidate(moved);
+  parallel_.invalidate(moved);
+}
+
+void Lights::place(Source& source, const mat4& world) {
+  if (source.placed == world) return;
+  source.placed = world;
+  emitters_changed_ = true;
+  GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
+  if (!source.points.empty()) {
+    place_samples(source, world);
+    if (source.light >= 0)
+      e.place = vec4(vec3(world[3]), lights_[static_cast<std::size_t>(source.light)].radius);
+    return;
+  }
+  if (source.light < 0) return;
+  const scene::Light& light = lights_[static_cast<std::size_t>(source.light)];
+  const vec3 back(world[2]);
+  const float length = glm::length(back);
+  const vec3 axis = length > 0 ? back / length : vec3(0, 0, 1);
+  if (light.type == scene::LightType::directional) {
+    e.place = vec4(axis, std::min(light.angular_radius, pi / 2));
+    return;
+  }
+  e.place = vec4(vec3(world[3]), 0);
+  const bool spot = light.type == scene::LightType::spot;
+  if (spot) {
+    const float cos_outer = std::cos(light.outer_cone);
+    const float scale = 1 / std::max(0.001f, std::cos(light.inner_cone) - cos_outer);
+    e.cone = vec4(-axis, scale);
+    e.more.x = -cos_outer * scale;
+  }
+  for (int face = 0; face < 6; ++face) {
+    const MapView view = cube_view(vec3(world[3]), face, near_);
+    // A face reaches 54.7 degrees from its axis
+    const float angle = std::acos(std::clamp(glm::dot(view.forward, -axis), -1.0f, 1.0f));
+    lamps_.set_view(6 * source.first_map + face, view, !spot || angle < light.outer_cone + 0.956f);
+  }
+}
+
+void Lights::place_samples(Source& source, const mat4& world) {
+  const GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
+  const auto first = static_cast<std::size_t>(e.items.y);
+  const mat3 to_normal = glm::transpose(glm::inverse(mat3(world)));
+  scene::Bounds extent;
+  for (const AreaPoint& p : source.points) extent.add(vec3(world * vec4(p.position, 1)));
+  // Off the surface, or its own triangles would stand in the way
+  const float lift = std::max(2 * near_, 1e-3f * extent.radius());
+  for (std::size_t i = 0; i < source.points.size(); ++i) {
+    const AreaPoint& p = source.points[i];
+    const bool directed = p.normal != vec3(0);
+    const vec3 normal = directed ? glm::normalize(to_normal * p.normal) : vec3(0);
+    // Sphere lights are not scaled by their node
+    const vec3 position =
+        directed ? vec3(world * vec4(p.position, 1)) + lift * normal : vec3(world[3]) + p.position;
+    const int slot = source.first_map + static_cast<int>(i);
+    samples_[first + i] = {vec4(position, p.share), vec4(normal, static_cast<float>(slot)), vec4(0)};
+    for (int face = 0; face < 6; ++face) {
+      const MapView view = cube_view(position, face, near_);
+      const bool behind = directed && e.more.y == 0 && glm::dot(view.forward, normal) < -0.82f;
+      areas_.set_view(6 * slot + face, view, !behind);
+    }
+  }
+  for (std::size_t i = 0; i < source.corners.size(); ++i)
+    corners_[static_cast<std::size_t>(e.items.w) + i] = world * vec4(source.corners[i], 1);
+  samples_changed_ = true;
+}
+
+void Lights::set_colors() {
+  for (const Source& source : sources_) {
+    GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
+    const vec3 scale = source.group >= 0 ? scales_[static_cast<std::size_t>(source.group)] : vec3(1);
+    vec3 light = source.radiance;
+    float range = 0;
+    if (source.light >= 0) {
+      const scene::LightState& state = states_[static_cast<std::size_t>(source.light)];
+      light = state.color * state.intensity;
+      range = lights_[static_cast<std::size_t>(source.light)].range;
+    }
+    e.light = vec4(scale * light, range);
+  }
+}
+
+void Lights::prepare(const scene::CameraPose& camera, float aspect, const scene::Bounds& bounds,
+                     FrameCounters& counters) {
+  for (const Source& source : sources_) {
+    if (source.light >= 0 &&
+        lights_[static_cast<std::size_t>(source.light)].type == scene::LightType::directional)
+      place_sun(source, camera, aspect, bounds);
+  }
+  if (environment_ && (bounds.min != environment_bounds_.min || bounds.max != environment_bounds_.max))
+    place_environment(bounds);
+  if (emitters_changed_) {
+    set_colors();
+    lit_.clear();
+    for (const GpuEmitter& e : emitters_) {
+      if (max_component(vec3(e.light)) > black) lit_.push_back(e);
+    }
+    emitter_buffer_.reserve(std::max<std::size_t>(lit_.size(), 1) * sizeof(GpuEmitter));
+    upload<GpuEmitter>(counters, emitter_buffer_, lit_);
+  }
+  if (samples_changed_) {
+    upload<GpuAreaSample>(counters, sample_buffer_, samples_);
+    upload<vec4>(counters, corner_buffer_, corners_);
+  }
+  if (distant_changed_) upload(counters, distant_buffer_, std::span<const DistantBlock>(&distant_, 1));
+  emitters_changed_ = samples_changed_ = distant_changed_ = false;
+}
+
+int Lights::update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most,
+                        int& waiting, FrameCounters& counters) {
+  int drawn = lamps_.update(scene, opaque, alpha, most, waiting, counters);
+  drawn += areas_.update(scene, opaque, alpha, most - drawn, waiting, counters);
+  // The sun's maps follow the view: they cannot wait
+  drawn += parallel_.update(scene, opaque, alpha, 1 << 30, waiting, counters);
+  return drawn;
+}
+
+void Lights::bind() const {
+  emitter_buffer_.bind_storage(binding::emitters);
+  sample_buffer_.bind_storage(binding::area_samples);
+  corner_buffer_.bind_storage(binding::emitter_corners);
+  distant_buffer_.bind_uniform(binding::distant_block);
+  lamps_.texture().bind(unit::light_maps);
+  areas_.texture().bind(unit::area_maps);
+  parallel_.texture().bind(unit::parallel_maps);
+}
+
+std::size_t Lights::bytes() const {
+  return lamps_.bytes() + areas_.bytes() + parallel_.bytes() + emitter_buffer_.size() +
+         sample_buffer_.size() + corner_buffer_.size() + distant_buffer_.size();
+}
+
+}  // namespace ssphh::realtime

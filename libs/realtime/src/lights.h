@@ -1,0 +1,96 @@
+#pragma once
+/// All emitters of a scene as shaders see them, and the shadow maps they need.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <ssphh/realtime/renderer.h>
+
+#include "emitter_samples.h"
+#include "shadow_maps.h"
+
+namespace ssphh::realtime {
+
+class Lights {
+ public:
+  static constexpr int sun_cascades = 4;
+
+  Lights(const scene::Scene& scene, const std::vector<mat4>& world, const scene::Bounds& bounds,
+         const RendererParams& params, FrameCounters& counters);
+
+  void set_time(const std::vector<mat4>& world);
+  void set_light(int light, const scene::LightState& state);
+  scene::LightState light(int light) const { return states_[static_cast<std::size_t>(light)]; }
+  int light_count() const { return static_cast<int>(states_.size()); }
+  void set_group_scale(int group, const vec3& scale);
+  int group_count() const { return static_cast<int>(scales_.size()); }
+  /// A probe's own light; radius 0: none.
+  void set_emission(int probe, const vec3& position, float radius);
+  void clear_emissions();
+  void invalidate(const std::vector<scene::Bounds>& moved);
+
+  /// Brings buffers up to date and fits the sun's cascades to the view.
+  void prepare(const scene::CameraPose& camera, float aspect, const scene::Bounds& bounds,
+               FrameCounters& counters);
+  int update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most, int& waiting,
+                  FrameCounters& counters);
+  void bind() const;
+
+  /// Those that shine now.
+  int emitter_count() const { return static_cast<int>(lit_.size()); }
+  const MapAtlas& lamp_maps() const { return lamps_; }
+  const MapAtlas& area_maps() const { return areas_; }
+  const MapAtlas& parallel_maps() const { return parallel_; }
+  float near_plane() const { return near_; }
+  const scene::Environment* environment() const { return environment_ ? &*environment_ : nullptr; }
+  std::size_t bytes() const;
+
+ private:
+  struct Source {
+    int emitter;
+    int group;
+    int light = -1;                 ///< of scene.lights
+    int node = -1;                  ///< of an emissive mesh
+    vec3 radiance{0};               ///< mean of a mesh's
+    std::vector<AreaPoint> points;  ///< in the space of the light or mesh
+    std::vector<vec3> corners;      ///< of triangles with a closed form, likewise
+    mat4 placed{0};                 ///< pose of what is in the buffers
+    int first_map = 0;
+  };
+  void add_lights(const scene::Scene& scene, const std::vector<std::string>& groups);
+  void add_meshes(const scene::Scene& scene, const std::vector<std::string>& groups, int samples);
+  void add_environment(const scene::Scene& scene, const std::vector<mat4>& world,
+                       const std::vector<std::string>& groups, int samples);
+  void place(Source& source, const mat4& world);
+  void place_samples(Source& source, const mat4& world);
+  void place_sun(const Source& source, const scene::CameraPose& camera, float aspect,
+                 const scene::Bounds& bounds);
+  void place_environment(const scene::Bounds& bounds);
+  void set_colors();
+  void set_parallel(int map, const vec3& forward, const vec3& center, float radius,
+                    const scene::Bounds& bounds);
+
+  std::vector<scene::Light> lights_;
+  std::vector<scene::LightState> states_;
+  std::vector<std::uint8_t> fixed_;  ///< set_light was called
+  std::vector<vec3> scales_;
+  std::optional<scene::Environment> environment_;
+  std::vector<EnvironmentSample> directions_;
+  std::vector<Source> sources_;
+  std::vector<GpuEmitter> emitters_;  ///< of sources_, then of probes
+  std::vector<GpuEmitter> lit_;
+  std::vector<GpuAreaSample> samples_;
+  std::vector<vec4> corners_;
+  DistantBlock distant_{};
+  std::vector<vec3> parallel_key_;  ///< what each parallel map was last drawn for
+  std::vector<mat4> world_;
+  int lamp_slots_ = 0, area_slots_ = 0, parallel_slots_ = 0, scene_emitters_ = 0;
+  float near_;
+  MapAtlas lamps_, areas_, parallel_;
+  gl::Buffer emitter_buffer_, sample_buffer_, corner_buffer_, distant_buffer_;
+  bool emitters_changed_ = true, samples_changed_ = true, distant_changed_ = true;
+  scene::Bounds environment_bounds_;
+};
+
+}  // namespace ssphh::realtime

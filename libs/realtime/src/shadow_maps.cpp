@@ -1,0 +1,126 @@
+#include "shadow_maps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <ssphh/gl/draw.h>
+
+namespace ssphh::realtime {
+namespace {
+
+enum State : std::uint8_t { stale, fresh, unused };
+
+constexpr int preferred_side = 4096;
+
+struct FaceAxes {
+  vec3 right, up, forward;
+};
+constexpr FaceAxes axes[6] = {{{0, 0, -1}, {0, 1, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}},
+                              {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
+                              {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},  {{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}}};
+
+}  // namespace
+
+MapView cube_view(const vec3& origin, int face, float near_plane) {
+  const FaceAxes& a = axes[static_cast<std::size_t>(face)];
+  return {origin, a.right, a.up, a.forward, near_plane};
+}
+
+bool sees_box(const MapView& view, const scene::Bounds& box) {
+  // Outside if all corners lie beyond one and the same edge
+  bool left = true, right = true, below = true, above = true, behind = true;
+  for (int i = 0; i < 8; ++i) {
+    const vec3 p =
+        vec3(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z) -
+        view.origin;
+    const float x = glm::dot(p, view.right), y = glm::dot(p, view.up), z = glm::dot(p, view.forward);
+    const float edge = view.near_plane > 0 ? 1.01f * z : 1.0f;
+    left &= x<-edge, right &= x> edge, below &= y<-edge, above &= y> edge;
+    behind &= z < 0;
+  }
+  return !(left || right || below || above || behind);
+}
+
+MapAtlas::MapAtlas(int size, int tiles) : size_(size) {
+  per_side_ = std::max(1, preferred_side / size);
+  // A layer need not be larger than what it holds
+  while (per_side_ > 1 && (per_side_ - 1) * (per_side_ - 1) >= tiles) --per_side_;
+  const int per_layer = per_side_ * per_side_;
+  const int layers = std::max(1, (tiles + per_layer - 1) / per_layer);
+  texture_ = gl::Texture(gl::Format::depth32f, size * per_side_, size * per_side_, layers);
+  for (int i = 0; i < layers; ++i) layers_.emplace_back(texture_, i);
+  views_.resize(static_cast<std::size_t>(tiles));
+  fresh_.assign(static_cast<std::size_t>(tiles), unused);
+}
+
+void MapAtlas::set_view(int tile, const MapView& view, bool used) {
+  const auto t = static_cast<std::size_t>(tile);
+  views_[t] = view;
+  stale_ -= fresh_[t] == stale;
+  fresh_[t] = used ? stale : unused;
+  stale_ += used;
+}
+
+void MapAtlas::invalidate(const std::vector<scene::Bounds>& moved) {
+  for (std::size_t t = 0; t < fresh_.size(); ++t) {
+    if (fresh_[t] != fresh) continue;
+    const bool seen =
+        std::any_of(moved.begin(), moved.end(), [&](const auto& box) { return sees_box(views_[t], box); });
+    if (seen) fresh_[t] = stale, ++stale_;
+  }
+}
+
+void MapAtlas::invalidate_all() {
+  for (auto& state : fresh_) {
+    if (state == fresh) state = stale, ++stale_;
+  }
+}
+
+int MapAtlas::update(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most, int& waiting,
+                     FrameCounters& counters) {
+  int drawn = 0;
+  for (std::size_t t = 0; t < fresh_.size() && stale_ > 0 && drawn < most; ++t) {
+    if (fresh_[t] != stale) continue;
+    draw_tile(static_cast<int>(t), scene, opaque, alpha, counters);
+    fresh_[t] = fresh;
+    --stale_;
+    ++drawn;
+  }
+  waiting += stale_;
+  return drawn;
+}
+
+void MapAtlas::draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, gl::Program& alpha,
+                         FrameCounters& counters) {
+  const int per_layer = per_side_ * per_side_, rest = tile % per_layer;
+  const gl::Rect rect{rest % per_side_ * size_, rest / per_side_ * size_, size_, size_};
+  gl::bind_framebuffer(layers_[static_cast<std::size_t>(tile / per_layer)].id(), rect);
+  gl::apply({.depth = gl::Depth::test_and_write, .color_write = false});
+  gl::clear_depth(rect, 0);
+
+  // One texel at each edge lies beyond what the map stands for, so that filters find it there
+  const MapView& view = views_[static_cast<std::size_t>(tile)];
+  const float shrink = static_cast<float>(size_ - 2) / static_cast<float>(size_);
+  bool partial = false;
+  const auto use = [&](gl::Program& program) {
+    program.use();
+    program.set("origin", view.origin);
+    program.set("right", view.right * shrink);
+    program.set("up", view.up * shrink);
+    program.set("forward", view.forward);
+    program.set("near_plane", view.near_plane);
+  };
+  use(opaque);
+  scene.begin(true);
+  for (const DrawItem& item : scene.items()) {
+    if (!sees_box(view, item.world)) continue;
+    if (item.partial && !partial) {
+      partial = true;
+      use(alpha);
+      scene.begin(false);
+    }
+    scene.draw(item, item.partial, counters);
+  }
+}
+
+}  // namespace ssphh::realtime

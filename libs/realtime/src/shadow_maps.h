@@ -1,0 +1,59 @@
+#pragma once
+/// Shadow maps as tiles of depth arrays: six tiles per cube map, one per parallel map. Tiles are drawn when
+/// they are out of date and kept otherwise.
+
+#include <vector>
+
+#include <ssphh/gl/framebuffer.h>
+#include <ssphh/gl/program.h>
+
+#include "gpu_scene.h"
+
+namespace ssphh::realtime {
+
+/// A view that a shadow map takes of the scene. A cube face: `right`, `up` unit vectors, depth near/z; a
+/// parallel map: `right`, `up` divided by half its extent, `forward` by its depth range.
+struct MapView {
+  vec3 origin{0}, right{0}, up{0}, forward{0};
+  float near_plane = 0;  ///< 0: parallel
+};
+
+/// Face 0..5 in the order and with the axes of shadow.glsl.
+MapView cube_view(const vec3& origin, int face, float near_plane);
+/// Whether the view can see anything of the box.
+bool sees_box(const MapView& view, const scene::Bounds& box);
+
+class MapAtlas {
+ public:
+  MapAtlas() = default;
+  /// `size` texels along a tile's side. Throws Error when the driver cannot hold so many.
+  MapAtlas(int size, int tiles);
+
+  int size() const { return size_; }
+  int tiles_per_side() const { return per_side_; }
+  int count() const { return static_cast<int>(fresh_.size()); }
+  std::size_t bytes() const { return texture_.id() ? texture_.bytes() : 0; }
+  const gl::Texture& texture() const { return texture_; }
+
+  /// Marks a tile as to be drawn with this view; `used` false: nobody looks at it.
+  void set_view(int tile, const MapView& view, bool used = true);
+  /// Marks the tiles that see one of the boxes.
+  void invalidate(const std::vector<scene::Bounds>& moved);
+  void invalidate_all();
+
+  /// Draws tiles that are out of date, at most `most`; returns how many. `waiting` grows by those left.
+  int update(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most, int& waiting,
+             FrameCounters& counters);
+
+ private:
+  void draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, gl::Program& alpha,
+                 FrameCounters& counters);
+
+  int size_ = 0, per_side_ = 1, stale_ = 0;
+  gl::Texture texture_;
+  std::vector<gl::Framebuffer> layers_;
+  std::vector<MapView> views_;
+  std::vector<std::uint8_t> fresh_;  ///< 0 stale, 1 fresh, 2 unused
+};
+
+}  // namespace ssphh::realtime

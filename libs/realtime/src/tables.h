@@ -1,0 +1,15 @@
+#pragma once
+/// Small lookup tables that shaders share with the CPU's shading.
+
+#include <ssphh/gl/texture.h>
+
+namespace ssphh::realtime {
+
+/// (A, B) of the specular lobes' directional albedo E = f0 A + f90 B by cosine and roughness, and its mean:
+/// layer 0 GGX, layer 1 Blinn–Phong. From shading::directional_albedo.
+gl::Texture make_albedo_table();
+
+/// sh::glossy_band_scales: bands along x, roughness 0..1 along y.
+gl::Texture make_glossy_bands();
+
+}  // namespace ssphh::realtime

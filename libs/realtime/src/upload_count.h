@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+
+#include <ssphh/gl/buffer.h>
+
+namespace ssphh::realtime {
+
+/// What a frame sent to OpenGL, counted where it is sent.
+struct FrameCounters {
+  std::uint64_t draw_calls = 0, triangles = 0, bytes_uploaded = 0;
+};
+
+template <class T>
+void upload(FrameCounters& counters, gl::Buffer& buffer, std::span<const T> data, std::size_t first = 0) {
+  buffer.update(data, first);
+  counters.bytes_uploaded += data.size_bytes();
+}
+
+}  // namespace ssphh::realtime
