@@ -140,7 +140,8 @@ void render_ssphh(const trace::PathTracer& tracer, const scene::Scene& scene, co
   if (o.lookup == "light") {
     indirect = std::make_unique<gi::LightLookup>(probes, tracer, lookup);
   } else {
-    indirect = make_irradiance_lookup(o.probes, probes, tracer, o.weights, lookup);
+    lookup.weights = weight_params(o.probes, probes, o.weights);
+    indirect = std::make_unique<gi::IrradianceLookup>(probes, tracer, lookup);
   }
   tracer.render_with(*indirect, params, state, control);
 }

@@ -1,57 +1,33 @@
-/// `bounce`, blended poses and fitted lookups over Embree, where the answer is known.
+/// `bounce` and blended poses over Embree, where the answer is known.
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <ssphh/core/error.h>
-#include <ssphh/gi/fitted_weights.h>
 #include <ssphh/gi/relight_session.h>
 #include <ssphh/gi/transport/bounce.h>
-#include <ssphh/trace/path_tracer.h>
 
 #include "transport_fixtures.h"
 
 namespace ssphh::test {
 namespace {
 
-constexpr float root_4pi = 3.5449077018110318f;
-
-/// builtin:box, every wall with this albedo and Le = 1, lit.
-struct GlowingBox {
-  explicit GlowingBox(float rho)
-      : scene(painted(rho)), source(scene), session(source, places_of(scene), params()) {
-    session.update();
-  }
-  static scene::Scene painted(float rho) {
-    scene::Scene box = scene::make_builtin("box");
-    for (scene::Material& material : box.materials) material.base_color = vec3(rho);
-    return box;
-  }
-  static gi::RelightParams params() {
-    gi::RelightParams p;
-    p.transport = small_network();
-    p.degree = 2;
-    return p;
-  }
-
-  scene::Scene scene;
-  trace::TransportScene source;
-  gi::RelightSession session;
-};
-
 TEST(Bounce, AClosedBoxOfEqualWallsReachesTheGeometricSeries) {
-  for (const float rho : {0.3f, 0.8f}) {
+  for (const float rho : {0.3f, 0.8f, 0.95f}) {
     GlowingBox box(rho);
     gi::BounceParams params;
     params.tolerance = 1e-5f;
+    params.max_iterations = 400;
     const gi::BounceOperator bounce(box.session.network(), box.source, 2, params);
     std::vector<sh::RadianceSh> reflected;
     const gi::BounceReport report = bounce.solve(box.session.surfel_direct(), reflected);
     EXPECT_TRUE(report.converged);
     EXPECT_NEAR(report.contraction, double(rho), 0.01 * double(rho));
     EXPECT_GT(report.edges, reflected.size());
-    // In a constant field every lookup is exact but for bands 1 and 2, which 256 directions leave at 1e-3.
+    // In a constant field every lookup is exact but for bands 1 and 2, which 256 directions leave at 1e-3,
+    // the albedo's 10 bits, and what the iteration leaves. The last two are amplified by 1/(1 − ρ).
+    const float left = 4e-3f + (5e-4f / rho + 1e-5f) / (1 - rho);
     for (const sh::RadianceSh& s : reflected)
-      EXPECT_NEAR(s[0].y / (root_4pi * rho / (1 - rho)), 1, 5e-3f) << rho;
+      EXPECT_NEAR(s[0].y / (root_4pi * rho / (1 - rho)), 1, left) << rho;
   }
 }
 
@@ -133,45 +109,6 @@ TEST(BounceSession, WhatItCannotDoIsRefused) {
   params.poses = 0;
   params.op = gi::LightOperator::path;
   EXPECT_THROW(gi::RelightSession(box.source, places_of(box.scene), params), Error);
-}
-
-TEST(FittedLookup, ReproducesAConstantFieldEverywhere) {
-  GlowingBox box(0.5f);
-  const gi::FittedPoints fitted =
-      gi::fit_weights(box.session.network(), box.source, gi::surfel_points(box.session.network()), {});
-  gi::ProbeSet set;
-  set.degree = 2;
-  set.light_groups.push_back({"walls", vec3(1)});
-  for (std::size_t i = 0; i < box.session.places().size(); ++i) {
-    gi::Probe probe;
-    probe.position = box.session.places()[i].position;
-    probe.groups.push_back({{}, sh::RadianceSh(2)});
-    probe.groups[0].reflected[0] = vec3(root_4pi);
-    set.probes.push_back(probe);
-  }
-  gi::merge_groups(set);
-  const trace::PathTracer tracer(box.scene);
-  const gi::FittedLookup lookup(set, fitted, tracer);
-  const scene::Bounds bounds = scene::world_bounds(box.scene, scene::world_matrices(box.scene));
-  const Walls walls{bounds.min, bounds.max};
-  Pcg32 rng(3);
-  // Few probes cannot reproduce the training lights, so the weights' sums float: between these values E does.
-  float low = 10, high = 0;
-  for (std::size_t i = 0; i < fitted.points.size(); ++i) {
-    float sum = 0;
-    for (const gi::ProbeWeight& w : fitted.weights[i].used()) sum += w.weight;
-    low = std::min(low, sum), high = std::max(high, sum);
-  }
-  for (int i = 0; i < 300; ++i) {
-    const scene::SurfacePoint p = walls.at(i % 6, rng.uniform2());
-    const float e = lookup.irradiance(p.position, p.normal).y / pi;
-    EXPECT_GE(e, low * 0.999f);
-    EXPECT_LE(e, high * 1.001f);
-  }
-  gi::FittedPoints wrong = fitted;
-  wrong.weights[0].entries[0].probe = 99;
-  wrong.weights[0].count = 1;
-  EXPECT_THROW(gi::FittedLookup(set, wrong, tracer), Error);
 }
 
 /// Root mean square difference of band 0 in room B, relative.

@@ -93,7 +93,7 @@ struct BounceOperator::Data {
     const vec3 n = glm::normalize(glm::transpose(glm::inverse(turn)) * surfel.point.normal);
     const vec3 x = g.positions[ray / directions] + known[ray].distance * g.directions[ray % directions];
     asked_near_part = false;
-    at = lookup->at(x, n);
+    at = lookup->at({x, n, surfel.part > 0});
     known[ray].near_part = asked_near_part;
     const std::span<float> at_hit(basis.data() + ray * count, count);
     sh::eval_basis(params.irradiance_degree, n, at_hit);

@@ -18,6 +18,7 @@ namespace ssphh::scene {
 struct SurfacePoint {
   vec3 position{0};
   vec3 normal{0, 1, 0};
+  bool moves = false;  ///< on a body that an animation moves
 };
 
 /// Ray or segment: covers the distances (0, t_max) in units of `direction`, which need not be a unit vector.
