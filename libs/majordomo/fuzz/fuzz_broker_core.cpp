@@ -117,7 +117,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     take();
   }
   for (std::uint8_t k = 0; k < 8; ++k) core.peer_gone(now, name(k));
-  for (int i = 0; i < 10'000 && core.next_deadline() < Millis{1} << 40 && now < 40LL * 86'400'000; ++i) {
+  for (int i = 0; i < 300; ++i) {
     now = std::max(now + 1, core.next_deadline());
     core.tick(now);
     core.take();

@@ -118,7 +118,7 @@ AllowList read_allow_list(const fs::path& path) {
     ++number;
     std::vector<std::string> fields = words(line);
     if (fields.empty() || fields[0].starts_with('#')) continue;
-    // A key may hold a #, so a comment can only begin where a role could.
+    // A key may hold a #, so a comment begins only where a role could.
     for (std::size_t i = 2; i < fields.size(); ++i)
       if (fields[i].starts_with('#')) fields.resize(i);
     const std::string where = path.string() + ":" + std::to_string(number);
