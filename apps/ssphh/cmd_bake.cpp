@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
+#include <ssphh/farm/farm_bake.h>
 #include <ssphh/gi/bake.h>
 #include <ssphh/gi/init.h>
 #include <ssphh/gi/transport_bake.h>
@@ -11,6 +12,7 @@
 #include <ssphh/trace/transport_scene.h>
 
 #include "command.h"
+#include "farm_options.h"
 #include "place_options.h"
 #include "probe_options.h"
 #include "scene_options.h"
@@ -26,6 +28,7 @@ constexpr int default_neighbors = 16;
 struct BakeOptions {
   SceneOptions scene;
   PlaceOptions place;
+  FarmChoice farm;
   std::string output, op = "path", gen = "full", viz;
   int degree = 9;
   gi::BakeParams params;
@@ -71,17 +74,21 @@ void resolve(BakeOptions& o, std::size_t probes) {
   if (path && !o.transport.fit && !o.transport.viz)
     refuse(o.of_transport, "is of transport: use --operator surfel, bounce, --viz links or --fit");
   if (o.viz == "off") refuse(o.of_viz, "is of VIZ: use --viz links or path");
+  if (o.farm.any() && !path && !params.viz)
+    throw Error("--operator " + o.op, "is done here, in seconds; a farm does GEN and VIZ by path tracing",
+                "leave out --broker and --local");
 }
 
 struct BakeResult {
   gi::ProbeSet set;
   gi::BakeReport paths;
   gi::TransportBakeReport transport;
+  std::optional<farm::FarmReport> farm;
 };
 
 BakeResult run(const BakeOptions& o, const scene::Scene& scene, gi::ProbeSet set,
-               const std::filesystem::path& checkpoint, const Control& control) {
-  BakeResult result{std::move(set), {}, {}};
+               const std::filesystem::path& checkpoint, const FarmSession* session, const Control& control) {
+  BakeResult result{std::move(set), {}, {}, {}};
   const bool path = o.op == "path";
   if (!path || o.transport.fit || o.transport.viz) {
     const trace::TransportScene source(scene);
@@ -93,7 +100,11 @@ BakeResult run(const BakeOptions& o, const scene::Scene& scene, gi::ProbeSet set
   }
   if (path || o.params.viz) {
     const trace::PathTracer tracer(scene, o.scene.time);
-    result.set = gi::bake(tracer, std::move(result.set), o.params, checkpoint, result.paths, control);
+    std::optional<farm::FarmCrew> crew;
+    if (session) crew.emplace(session->options(), scene, o.scene.time);
+    result.set = gi::bake(tracer, std::move(result.set), o.params, checkpoint, result.paths, control,
+                          crew ? &*crew : nullptr);
+    if (crew) result.farm = crew->report();
   }
   return result;
 }
@@ -122,6 +133,7 @@ std::string result_text(const BakeOptions& o, const BakeResult& r) {
   if (o.viz != "off")
     text += fmt::format("\nVIZ from {} {:.2f} s", o.viz == "path" ? "paths" : "links", viz_seconds(r));
   text += fmt::format("\n{} rays", r.paths.rays + t.rays);
+  if (r.farm) text += "\n" + farm_text(*r.farm);
   if (r.paths.resumed > 0) {
     text += fmt::format("\n{} of {} steps were taken from the checkpoint", r.paths.resumed,
                         r.set.probes.size() * (std::size_t{o.op == "path"} + o.params.viz));
@@ -163,6 +175,8 @@ nlohmann::ordered_json result_json(const BakeOptions& o, const BakeResult& r) {
 }
 
 void bake(Context& context, BakeOptions& options) {
+  std::optional<FarmSession> session;  // first: its processes start while this one reads the scene
+  if (options.farm.any()) session.emplace(options.farm);
   const scene::Scene scene = load_scene(options.scene);
   options.params.gen = *gi::parse_gen_mode(options.gen);
   options.params.path.seed = context.seed;
@@ -175,11 +189,13 @@ void bake(Context& context, BakeOptions& options) {
 
   const std::filesystem::path checkpoint = options.output + ".checkpoint";
   if (!options.resume) std::filesystem::remove(checkpoint);
-  const BakeResult result = run(options, scene, std::move(set), checkpoint, context.control);
+  const BakeResult result =
+      run(options, scene, std::move(set), checkpoint, session ? &*session : nullptr, context.control);
   gi::write_probe_file(result.set, options.output);
   std::filesystem::remove(checkpoint);
 
   nlohmann::ordered_json object = result_json(options, result);
+  if (result.farm) object["farm"] = farm_json(*result.farm);
   if (place) object["placement"] = place_json(*place);
   context.result(object, result_text(options, result) + (place ? "\n" + place_text(*place) : ""));
 }
@@ -296,6 +312,7 @@ void add_bake_command(CLI::App& app, Context& context) {
   add_path_options(*command, *options);
   add_viz_options(*command, *options);
   add_transport_options(*command, *options);
+  add_farm_options(*command, options->farm);
   command->footer(
       "An interrupted bake leaves OUTPUT.checkpoint; the same command continues there and gives the same "
       "bits.");

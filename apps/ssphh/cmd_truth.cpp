@@ -20,7 +20,7 @@ using image::Image;
 
 struct TruthOptions {
   PictureOptions picture;
-  std::string renderer = "path", output, work;
+  std::string renderer = "path", projection = "camera", output, work;
   int time_limit = 3600;
   bool halves = false;
 };
@@ -37,7 +37,11 @@ Halves render_path(const TruthOptions& o, const scene::Scene& scene, const Conte
     trace::RenderParams params;
     params.width = o.picture.width, params.height = o.picture.height;
     params.camera = scene::camera_pose(scene, o.picture.camera, o.picture.scene.time);
-    if (params.camera.camera.orthographic) params.projection = trace::Projection::orthographic;
+    if (o.projection == "equirect") {
+      params.projection = trace::Projection::equirect;
+    } else if (params.camera.camera.orthographic) {
+      params.projection = trace::Projection::orthographic;
+    }
     params.path = {o.picture.max_depth, 1, o.picture.spp / 2, seed};
     trace::RenderState state;
     tracer.render(params, state, context.control);
@@ -71,7 +75,9 @@ Halves render_cycles(const TruthOptions& o, const scene::Scene& scene, const Con
                                         "--seed",
                                         std::to_string(seed % 0x7fffffff),
                                         "--spp",
-                                        std::to_string(o.picture.spp / 2)};
+                                        std::to_string(o.picture.spp / 2),
+                                        "--projection",
+                                        o.projection};
     if (context.threads > 0) command.insert(command.end(), {"--threads", std::to_string(context.threads)});
     run_program(command, log, std::chrono::seconds(o.time_limit), context.control);
     if (!std::filesystem::exists(picture)) {
@@ -145,6 +151,7 @@ void run(const TruthOptions& o, const Context& context) {
   for (const std::string& line : halves.differences) text += "\ndiffers: " + line;
   context.result({{"output", o.output},
                   {"renderer", o.renderer},
+                  {"projection", o.projection},
                   {"width", picture.width},
                   {"height", picture.height},
                   {"spp", o.picture.spp / 2 * 2},
@@ -169,6 +176,12 @@ void add_truth_command(CLI::App& app, Context& context) {
       ->add_option("--renderer", o.renderer,
                    "path: our path tracer; cycles: Blender, which must be installed")
       ->check(CLI::IsMember({"path", "cycles"}))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--projection", o.projection,
+          "camera; or equirect, the whole sphere around it (`ssphh cubemap convert` makes it a cube)")
+      ->check(CLI::IsMember({"camera", "equirect"}))
       ->capture_default_str();
   command->add_option("-o,--output", o.output, "Picture: .exr or .hdr (linear radiance)")->required();
   command->add_flag("--halves", o.halves, "Also write the two independent halves, OUT.a.exr and OUT.b.exr");

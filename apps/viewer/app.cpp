@@ -52,10 +52,9 @@ double App::turn(const InjectedInput& input) {
       complain(e.what());
     }
   }
-  const JobStatus before = job.status();
   if (job.poll()) redraw();
   if (reference.poll()) truth_dirty_ = true, redraw();
-  if (!before.error.empty() && before.error != message) complain(before.error);
+  if (const std::string error = job.take_error(); !error.empty()) complain(error);
   update_time(std::min(elapsed, 0.25));
 
   const bool busy = job.running() || reference.status().running;
@@ -72,8 +71,7 @@ double App::turn(const InjectedInput& input) {
 
   // Bring everything up to date with it.
   if (scene_open()) {
-    picture.resize(std::max(1, static_cast<int>(std::lround(viewport.width * settings.scale))),
-                   std::max(1, static_cast<int>(std::lround(viewport.height * settings.scale))));
+    resize_picture();
     apply_edits();
     update_light();
     draw_scene();
@@ -126,6 +124,16 @@ void App::update_time(double seconds) {
   }
 }
 
+/// A software renderer takes a second for a large picture: while something moves it gets a small one.
+void App::resize_picture() {
+  const bool moving = drag.what != Drag::What::none || settings.play || path_plays;
+  if (!moving) coarse_ = false;
+  if (moving && last_stats.cpu_ms > 80) coarse_ = true;
+  const float scale = settings.scale * (coarse_ ? 0.4f : 1.0f);
+  picture.resize(std::max(1, static_cast<int>(std::lround(viewport.width * scale))),
+                 std::max(1, static_cast<int>(std::lround(viewport.height * scale))));
+}
+
 /// What the user changed since the last turn goes to the renderer; places and surfaces make the light stale.
 void App::apply_edits() {
   const Edits& edits = document.edits();
@@ -150,19 +158,18 @@ void App::apply_edits() {
     if (same_surface(edits.materials[i], applied_materials_[i])) continue;
     renderer_->set_material(static_cast<int>(i), edits.materials[i]);
     applied_materials_[i] = edits.materials[i];
-    scene_dirty_ = light_stale_ = true;
-    stale_since_ = Clock::now();
+    scene_dirty_ = true;
+    if (light.live()) light_stale_ = true, stale_since_ = Clock::now();
   }
-  if (edits.sphls != applied_sphls_) {
+  if (!same_places(edits.sphls, applied_sphls_)) {
     applied_sphls_ = edits.sphls;
     light_stale_ = true;
     stale_since_ = Clock::now();
   }
-  if (light_stale_ && !light.live() && !light.empty()) light_stale_ = false;  // A bake stays as it is.
   // Not while somebody drags: once things have been still for a moment.
   if (light_stale_ && seconds_since(stale_since_) > 0.3 && !ImGui::IsAnyMouseDown()) {
     light_stale_ = false;
-    if (light.live() || !edits.sphls.empty()) rebuild_light();
+    rebuild_light();
   }
 }
 
@@ -177,7 +184,7 @@ void App::update_light() {
 }
 
 void App::draw_scene() {
-  const bool changed = !drawn_ || !(drawn_->view == view) || !(drawn_->settings == settings) ||
+  const bool changed = !drawn_ || !(drawn_->view == view) || !same_picture(drawn_->settings, settings) ||
                        drawn_->width != picture.width() || drawn_->height != picture.height();
   const bool linear_missing = needs_truth(settings) && picture.linear().empty();
   if (!changed && !scene_dirty_ && waiting_maps_ == 0 && !linear_missing) return;
@@ -259,14 +266,15 @@ void App::update_truth() {
     reference.start(params);
     return;
   }
-  if (truth_dirty_) picture.update_truth(reference.image(), settings);
+  if (truth_dirty_ || truth_settings_ != settings) picture.update_truth(reference.image(), settings);
   truth_dirty_ = false;
+  truth_settings_ = settings;
 }
 
 bool App::settled() const {
   if (!scene_open()) return !job.running();
   if (job.running() || light_stale_ || scene_dirty_ || waiting_maps_ > 0 || !drawn_) return false;
-  if (!(drawn_->view == view) || !(drawn_->settings == settings)) return false;
+  if (!(drawn_->view == view) || !same_picture(drawn_->settings, settings) || coarse_) return false;
   return !needs_truth(settings) || (reference.image().passes >= settings.truth_passes && !truth_dirty_);
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include <ssphh/gi/bake.h>
 #include <ssphh/gl/context.h>
 
 #include "model/camera_path.h"
@@ -128,6 +129,7 @@ class App {
   void update_truth();
   void update_visible();
   void finish_frame();
+  void resize_picture();
   gl::Context gl_;
   std::unique_ptr<realtime::Renderer> renderer_;
   std::unique_ptr<BallsGl> balls_;
@@ -152,7 +154,9 @@ class App {
   int redraw_ = 3;
   std::chrono::steady_clock::time_point last_turn_, last_change_, stale_since_;
   int waiting_maps_ = 0;
-  std::string window_shot_;  ///< file that is to get the window's next frame; empty: none
+  bool coarse_ = false;                     ///< something moves and frames are slow: fewer pixels meanwhile
+  std::optional<Settings> truth_settings_;  ///< that the truth on the screen was made for
+  std::string window_shot_;                 ///< file that is to get the window's next frame; empty: none
 };
 
 }  // namespace ssphh::viewer

@@ -51,14 +51,15 @@ void App::open(const std::string& source) {
   if (is_probe_file(source)) return take_probe_file(source);
   say(fmt::format("loading {} …", source));
   take_scene(source, options.load(source));
-  say(fmt::format("{}: {} triangles, {} lights, {} SPHLs", source, scene::triangle_count(*document.scene),
+  say(fmt::format("{}: {} triangles, lights: {}, SPHLs: {}", source, scene::triangle_count(*document.scene),
                   document.scene->lights.size(), document.scene->sphls.size()));
 }
 
 void App::take_scene(std::string source, scene::Scene scene) {
   job.cancel();
   reference.clear();
-  Document next = make_document(std::move(source), std::move(scene), options.time);
+  Document next = make_document(std::move(source), std::move(scene), 0);
+  next.time = std::clamp(document.source.empty() ? options.time : 0, 0.0f, next.duration);
   auto renderer =
       std::make_unique<realtime::Renderer>(gl_, *next.scene, realtime::RendererParams{}, next.time);
   // Nothing is thrown from here on: a file that is refused leaves the open one alone.

@@ -24,6 +24,7 @@ uniform int vertex_count;
 uniform int selected;
 out vec3 radiance;
 out vec3 normal;
+out vec3 place_seen;
 flat out int chosen;
 void main() {
   vec4 place = shown[gl_InstanceID];
@@ -36,18 +37,20 @@ void main() {
   chosen = probe == selected ? 1 : 0;
   // color.a: luminance in this direction, the probe's brightest being 1.
   float r = radius * (chosen == 1 ? 1.25 : 1.0) * mix(1.0, 0.25 + 1.5 * color.a, lobes);
-  gl_Position = world_to_clip * vec4(place.xyz + r * direction, 1.0);
+  place_seen = place.xyz + r * direction;
+  gl_Position = world_to_clip * vec4(place_seen, 1.0);
 }
 )";
 
 constexpr std::string_view fragment_shader = R"(#version 450 core
 in vec3 radiance;
 in vec3 normal;
+in vec3 place_seen;
 flat in int chosen;
 uniform float exposure;
 uniform float gamma;
 uniform int filmic;
-uniform vec3 to_eye;
+uniform vec3 eye;
 layout(location = 0) out vec4 color;
 void main() {
   vec3 c = radiance * exposure;
@@ -56,7 +59,7 @@ void main() {
   c = gamma > 0.0 ? pow(c, vec3(1.0 / gamma))
                   : mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
   // A rim keeps balls apart from a wall of their own colour.
-  float facing = abs(dot(normalize(normal), to_eye));
+  float facing = abs(dot(normalize(normal), normalize(eye - place_seen)));
   vec3 rim = chosen == 1 ? vec3(1.0, 0.75, 0.3) : vec3(0.08);
   color = vec4(mix(rim, c, smoothstep(0.15, chosen == 1 ? 0.6 : 0.4, facing)), 1.0);
 }
@@ -158,7 +161,7 @@ void BallsGl::draw(const gi::ProbeSet& set, const std::vector<unsigned char>& vi
   d.program.set("exposure", std::exp2(look.tone.exposure));
   d.program.set("gamma", look.tone.gamma);
   d.program.set("filmic", look.tone.curve == image::ToneCurve::filmic ? 1 : 0);
-  d.program.set("to_eye", -look.view.forward());
+  d.program.set("eye", look.view.eye);
   gl::draw_triangles(d.corner_count, static_cast<int>(d.places.size()));
 }
 

@@ -96,6 +96,12 @@ realtime::FrameSettings frame_settings(const Settings& settings) {
   return out;
 }
 
+bool same_picture(const Settings& a, const Settings& b) {
+  return a.exposure == b.exposure && a.curve == b.curve && a.debug == b.debug && a.lookup == b.lookup &&
+         a.layer == b.layer && a.degree == b.degree && a.hier == b.hier && a.hier_params == b.hier_params &&
+         a.balls == b.balls && a.lobes == b.lobes && a.ball == b.ball && a.ball_size == b.ball_size;
+}
+
 bool needs_truth(const Settings& settings) {
   return settings.show != Show::realtime || settings.debug == DebugView::leak;
 }

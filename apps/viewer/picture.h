@@ -67,6 +67,9 @@ class Picture {
 /// How the renderer shall draw for these settings.
 realtime::FrameSettings frame_settings(const Settings& settings);
 
+/// Whether a real-time picture drawn for `a` also serves `b`.
+bool same_picture(const Settings& a, const Settings& b);
+
 /// Whether the settings show path-traced light.
 bool needs_truth(const Settings& settings);
 

@@ -94,7 +94,8 @@ ViewerReport run_viewer(const ViewerOptions& options, const Control& control) {
   }
   if (!options.export_dir.empty()) export_path(app, session, options, control);
   if (!options.stats.empty()) app.save_stats(options.stats);
-  control.check();
+  // Ctrl-C closes a window as well as its button does; it leaves pictures that were asked for undone.
+  if (batch) control.check();
 
   ViewerReport report = app.report;
   report.probes = app.light.empty() ? 0 : static_cast<int>(app.light.set().probes.size());

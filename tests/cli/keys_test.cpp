@@ -43,6 +43,7 @@ TEST(Keys, EveryCommandHasHelp) {
                                                                                        {"cubemap", "convert"},
                                                                                        {"compare"},
                                                                                        {"leak"},
+                                                                                       {"measure"},
                                                                                        {"relight"}}) {
     std::vector<std::string> arguments = command;
     arguments.emplace_back("--help");

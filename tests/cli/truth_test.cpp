@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <ssphh/image/io.h>
+
 #include "temp_dir.h"
 #include "tool_checks.h"
 
@@ -51,6 +53,19 @@ TEST(Export, CyclesGetsTheSceneInWorldSpaceAndTheReportNamesWhatDiffers) {
   const json bronze = run_json({"export", "builtin:gallery2", "--to", "cycles", "-o", dir / "b"});
   ASSERT_EQ(bronze["differences"].size(), 1u);
   EXPECT_THAT(bronze["differences"][0].get<std::string>(), testing::HasSubstr("bronze"));
+}
+
+TEST(Export, EveryRendererGetsItsFilesAndTheReportNamesWhatDiffers) {
+  const TempDir dir;
+  for (const char* renderer : {"mitsuba", "pbrt", "corona"}) {
+    const json written = run_json({"export", "builtin:gallery2", "--to", renderer, "-o", dir / renderer});
+    EXPECT_EQ(written["to"], renderer);
+    for (const json& file : written["files"])
+      EXPECT_TRUE(std::filesystem::is_regular_file(file.get<std::string>()));
+    EXPECT_THAT(written["command"].get<std::string>(),
+                testing::HasSubstr(written["files"][0].get<std::string>()));
+    EXPECT_THAT(written["differences"].dump(), testing::HasSubstr("bronze")) << renderer;
+  }
 }
 
 TEST(Export, GltfLoadsBackTheSame) {
@@ -110,6 +125,37 @@ TEST(Truth, CyclesAgrees) {
       EXPECT_LT(std::abs(b - a), 5 * error + 0.002 * a) << "depth " << depth;  // pixel edges: 0.2 %
     }
   }
+}
+
+// The whole sphere: a picture that is turned or mirrored would differ by far more than noise.
+TEST(Truth, CyclesAgreesOnTheWholeSphere) {
+  if (!blender_is_there()) GTEST_SKIP() << "no blender: scripts/install-deps --with-blender";
+  const TempDir dir;
+  const auto truth = [&](const std::string& renderer) {
+    const std::string output = dir / (renderer + ".exr");
+    run_json({"truth", "builtin:two-rooms", "--renderer", renderer, "--projection", "equirect", "--max-depth",
+              "1", "--spp", "64", "--width", "64", "--height", "32", "-o", output});
+    return image::read_image(output);
+  };
+  const image::Image ours = truth("path"), cycles = truth("cycles");
+  ASSERT_EQ(cycles.width, 64);
+  double difference = 0, mirrored = 0, turned = 0, total = 0;
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const vec3 a = ours.rgb(x, y);
+      const auto distance = [&](int u, int v) {
+        return static_cast<double>(glm::length(cycles.rgb(u, v) - a));
+      };
+      total += static_cast<double>(glm::length(a));
+      difference += distance(x, y);
+      mirrored += distance(63 - x, y);
+      turned += distance((x + 16) % 64, y);
+    }
+  }
+  EXPECT_GT(total, 0);
+  EXPECT_LT(difference, 0.03 * total);  // edges within pixels and noise
+  EXPECT_GT(mirrored, 0.2 * total);
+  EXPECT_GT(turned, 0.2 * total);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 namespace ssphh::viewer {
 
@@ -93,6 +94,11 @@ JobStatus BackgroundJob::status() const {
     meter_->read(status.stage, status.fraction);
   }
   return status;
+}
+
+std::string BackgroundJob::take_error() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(error_, {});
 }
 
 void BackgroundJob::hand_over(Finish step) {

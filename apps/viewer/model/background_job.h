@@ -41,6 +41,8 @@ class BackgroundJob {
   void cancel();
   JobStatus status() const;
   bool running() const { return status().running; }
+  /// Why the last job failed, once; empty: it did not.
+  std::string take_error();
 
   /// Called by the job, from any thread: `step` is run by the next poll(), before the result. For results
   /// that come piece by piece.

@@ -86,6 +86,12 @@ scene::Scene edited_scene(scene::Scene scene, const Edits& edits, float time) {
   return scene;
 }
 
+bool same_places(const std::vector<SphlEdit>& a, const std::vector<SphlEdit>& b) {
+  return std::ranges::equal(a, b, [](const SphlEdit& x, const SphlEdit& y) {
+    return x.source == y.source && x.position == y.position && x.enabled == y.enabled;
+  });
+}
+
 vec3 sphl_position(const scene::Scene& scene, const std::vector<mat4>& world, const SphlEdit& sphl) {
   if (sphl.position) return *sphl.position;
   return vec3(world[index(scene.sphls[index(sphl.source)].node)][3]);

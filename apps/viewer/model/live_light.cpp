@@ -31,6 +31,7 @@ LiveLight::LiveLight(std::shared_ptr<const scene::Scene> scene, const LiveLightP
     : scene_(std::move(scene)), source_(*scene_) {
   std::vector<gi::ProbePlace> places = find_places(*scene_, source_, params, time, control);
   session_ = std::make_unique<gi::RelightSession>(source_, std::move(places), params.relight, time, control);
+  session_->update();  // The first one lights everything; the window should not wait for it.
 }
 
 gi::RelightReport LiveLight::update(const std::vector<scene::LightState>& lights,

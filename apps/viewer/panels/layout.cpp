@@ -87,7 +87,10 @@ void draw_sidebar(App& app, float y, float width, float height) {
   ImGui::SetNextWindowPos({0, y});
   ImGui::SetNextWindowSize({width, height});
   ImGui::Begin("side", nullptr, fixed);
-  if (ImGui::BeginTabBar("tabs")) {
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {3, 4});
+  const bool tab_bar = ImGui::BeginTabBar("tabs");
+  ImGui::PopStyleVar();
+  if (tab_bar) {
     const struct {
       const char* name;
       void (*draw)(App&);
@@ -142,7 +145,7 @@ void draw_panels(App& app) {
   if (app.panels) {
     draw_menu(app);
     top = ImGui::GetFrameHeight();
-    left = std::min(25 * ImGui::GetFontSize(), 0.4f * width);
+    left = std::min(29 * ImGui::GetFontSize(), 0.4f * width);
     bottom = ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().WindowPadding.y;
     draw_sidebar(app, top, left, height - top);
   }

@@ -37,7 +37,9 @@ class Dispatcher {
     while (left_ > 0) {
       control.check();
       if (Clock::now() - asked > std::chrono::seconds(1) && !asking_) {
-        asking_ = client_.submit("mmi.stats", {""}, {.deadline = 5000});
+        majordomo::RequestOptions request;
+        request.deadline = 5000;
+        asking_ = client_.submit("mmi.stats", {""}, request);
         asked = Clock::now();
       }
       submit_more();

@@ -43,7 +43,8 @@ std::unique_ptr<scene::IndirectLight> lookup_of(const ProbeLighting& lighting,
   gi::LookupParams params;
   if (lighting.layer == "self") params.layer = gi::ProbeLayer::self;
   if (lighting.lookup == "light") return std::make_unique<gi::LightLookup>(set, *scene.tracer, params);
-  return gi::make_irradiance_lookup(set, *scene.tracer, lighting.weights, params);
+  params.weights = gi::weights_named(lighting.weights);
+  return std::make_unique<gi::IrradianceLookup>(set, *scene.tracer, params);
 }
 
 void keep_layers(trace::RenderState& state, const std::vector<std::string>& layers) {

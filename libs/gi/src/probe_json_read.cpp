@@ -203,7 +203,7 @@ FittedPoints read_fitted(const Place& at, std::size_t probe_count) {
     const Place probes = point["probes"], weights = point["weights"];
     const std::size_t used = probes.array(0, max_weights);
     weights.array(used, used);
-    ProbeWeights& out = fitted.weights[i];
+    PointWeights& out = fitted.weights[i];
     for (std::size_t k = 0; k < used; ++k) {
       out.entries[k] = {probes.at(k).integer(0, static_cast<int>(probe_count) - 1),
                         weights.at(k).number(0, limits::fitted_weight)};

@@ -151,7 +151,9 @@ std::optional<ClientEvent> Client::poll(Millis timeout) {
 }
 
 std::size_t Client::outstanding() const {
-  return impl_->core.outstanding();
+  const auto kept =
+      std::count_if(impl_->kept.begin(), impl_->kept.end(), [](const ClientEvent& e) { return e.final; });
+  return impl_->core.outstanding() + static_cast<std::size_t>(kept);
 }
 
 bool Client::connected() const {

@@ -125,6 +125,7 @@ void ClientCore::finish(Millis now, Entry entry, ClientEvent&& event) {
   timers_.cancel(entry->second.deadline);
   (entry->second.sent ? sent_ : waiting_).erase(entry->second.place);
   pending_.erase(entry);
+  ++finals_;
   events_.push_back(std::move(event));
   arm(now);
 }
@@ -249,6 +250,7 @@ std::optional<ClientEvent> ClientCore::next_event() {
   if (events_.empty()) return std::nullopt;
   ClientEvent event = std::move(events_.front());
   events_.pop_front();
+  finals_ -= event.final ? 1 : 0;
   return event;
 }
 

@@ -35,7 +35,8 @@ class ClientCore {
 
   std::vector<ToBroker> take() { return std::exchange(out_, {}); }
   std::optional<ClientEvent> next_event();
-  std::size_t outstanding() const { return pending_.size(); }
+  /// Requests whose FINAL next_event() has not given yet.
+  std::size_t outstanding() const { return pending_.size() + finals_; }
   bool heard() const { return heard_; }
   /// Whether a foreign broker wants to be asked on a new socket; true once per occasion.
   bool take_reconnect() { return std::exchange(reconnect_, false); }
@@ -80,6 +81,7 @@ class ClientCore {
   std::vector<RequestId> acks_;
   Timers::Handle ask_timer_, ack_timer_, pause_;
   std::deque<ClientEvent> events_;
+  std::size_t finals_ = 0;  ///< in events_
   std::vector<ToBroker> out_;
   bool heard_ = false, reconnect_ = false;
 };

@@ -12,9 +12,10 @@ namespace {
 /// Sums over the samples of one pixel in one pass.
 class PixelSums {
  public:
-  PixelSums(std::size_t groups, const CameraRays& camera, const scene::IndirectLight* indirect_light,
-            bool indirect_wanted, RayTask& task)
-      : groups_(groups),
+  PixelSums(const scene::Scene& scene, std::size_t groups, const CameraRays& camera,
+            const scene::IndirectLight* indirect_light, bool indirect_wanted, RayTask& task)
+      : scene_(scene),
+        groups_(groups),
         camera_(camera),
         indirect_light_(indirect_light),
         indirect_wanted_(indirect_wanted),
@@ -36,15 +37,15 @@ class PixelSums {
     (depth <= 1 ? direct_ : indirect_) += value;
   }
 
-  void first_hit(const shading::Surface& surface, const vec3& ray_origin, const Ray& ray, float distance) {
+  void first_hit(const shading::Surface& surface, const vec3& ray_origin, const Ray& ray, const Hit& hit) {
     const float cos_wo = -glm::dot(surface.normal, ray.direction);
     albedo_ += surface.unlit ? glm::min(surface.emission, vec3(1))
                              : shading::directional_albedo(surface.bsdf, cos_wo);
     normal_ += surface.normal;
-    depth_ += camera_.depth(ray, distance);
+    depth_ += camera_.depth(ray, hit.distance);
     hits_ += 1;
     if (!indirect_light_ || !indirect_wanted_ || surface.unlit) return;
-    const vec3 value = reflected_indirect(*indirect_light_, surface, ray_origin, -ray.direction);
+    const vec3 value = reflected_indirect(*indirect_light_, surface, ray_origin, -ray.direction, moves(hit));
     if (is_finite(value)) {
       looked_up_ += value;
       indirect_ += value;
@@ -72,6 +73,12 @@ class PixelSums {
   }
 
  private:
+  bool moves(const Hit& hit) const {
+    const int node = scene_.instances[static_cast<std::size_t>(hit.instance)].node;
+    return node >= 0 && scene_.nodes[static_cast<std::size_t>(node)].movable;
+  }
+
+  const scene::Scene& scene_;
   std::vector<vec3> groups_;
   vec3 direct_{0}, indirect_{0}, looked_up_{0}, albedo_{0}, normal_{0};
   float depth_ = 0, hits_ = 0;
@@ -175,7 +182,7 @@ void run_passes(const TracerData& data, const scene::IndirectLight* indirect, co
       TaskScope scope(
           data, invalid,
           static_cast<std::uint64_t>(state.passes_done) * height + static_cast<std::uint64_t>(row));
-      PixelSums sums(groups, camera, indirect, indirect_wanted, scope.task);
+      PixelSums sums(data.scene, groups, camera, indirect, indirect_wanted, scope.task);
       for (int x = tile.x; x < tile.x + tile.width; ++x) {
         sums.clear();
         PathSampler sampler{

@@ -26,7 +26,8 @@ vec3 radiance_of(const SeenPatch& patch, std::span<const Irradiance4> irradiance
 std::vector<vec3> emitter_directions();
 
 /// Emitters that a probe sees directly, as posed, one function per light group: emissive surfaces, and what
-/// `light` knows of emitters that are no surfaces. `directions` are those of `projector`.
+/// `light` knows of emitters that are no surfaces. `directions` are those of `projector`. Rays are traced
+/// only where an emitter may be met: none in a scene of point lights.
 std::vector<sh::RadianceSh> project_emitted(const TransportNetwork& network,
                                             const scene::TransportSource& source,
                                             const DirectionProjector& projector,

@@ -1,6 +1,7 @@
 """Renders scene.json and scene.bin, which stand beside this file, with Blender's Cycles (written for Blender 3.4):
 
   blender --background --factory-startup --python render.py -- --output picture.exr [--seed N] [--spp N] [--threads N]
+          [--projection camera|equirect]
 
 The picture is scene-linear radiance, 32-bit OpenEXR. World: y up there, z up in Blender.
 """
@@ -25,6 +26,8 @@ def arguments():
     parser.add_argument("--spp", type=int, default=0, help="samples per pixel; 0: as exported")
     parser.add_argument("--max-depth", type=int, default=-1, help="scattering events; -1: as exported")
     parser.add_argument("--threads", type=int, default=0, help="0: all")
+    parser.add_argument("--projection", choices=("camera", "equirect"), default="camera",
+                        help="equirect: all around the camera's place, the centre looking to the world's +x")
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
 
 
@@ -295,13 +298,21 @@ def build_world(environment):
     nodes.add("ShaderNodeOutputWorld", {"Surface": background.outputs[0]})
 
 
-def build_camera(c, render):
+def build_camera(c, render, projection):
     data = bpy.data.cameras.new("camera")
     camera = bpy.data.objects.new("camera", data)
     bpy.context.scene.collection.objects.link(camera)
-    camera.matrix_world = TO_BLENDER @ Matrix(c["world"])
+    world = Matrix(c["world"])
+    if projection == "equirect":
+        # Forward to +x, up to +y: the right hand to +z.
+        axes = Matrix(((0, 0, -1, 0), (0, 1, 0, 0), (1, 0, 0, 0), (0, 0, 0, 1)))
+        world = Matrix.Translation(world.translation) @ axes
+    camera.matrix_world = TO_BLENDER @ world
     aspect = render.resolution_x / render.resolution_y
-    if c["orthographic"]:
+    if projection == "equirect":
+        data.type = "PANO"
+        data.cycles.panorama_type = "EQUIRECTANGULAR"
+    elif c["orthographic"]:
         data.type = "ORTHO"
         data.ortho_scale = c["yheight"] * max(1.0, aspect)  # of the longer side
     else:
@@ -382,7 +393,7 @@ def main():
         build_light(light)
     build_world(scene.get("environment"))
     depth = choose_settings(scene, options)
-    build_camera(scene["camera"], bpy.context.scene.render)
+    build_camera(scene["camera"], bpy.context.scene.render, options.projection)
     if depth == 0:
         emitters_alone(scene)
     bpy.context.scene.render.filepath = os.path.abspath(options.output)

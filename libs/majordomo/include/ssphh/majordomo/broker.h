@@ -16,15 +16,15 @@
 namespace ssphh::majordomo {
 
 struct BrokerOptions {
-  std::string bind = "tcp://127.0.0.1:5555";  ///< tcp port 0 or *: any free one, told by endpoint()
-  std::string metrics_bind;                   ///< tcp endpoint for Prometheus (GET /metrics); empty: none
-  std::optional<BrokerSecurity> security;     ///< wanted unless is_local_endpoint(bind)
-  std::filesystem::path store;                ///< folder of the store; empty: nothing survives a restart
-  BrokerLimits limits;
-  BrokerTimers timers;
+  std::string bind = "tcp://127.0.0.1:5555";    ///< tcp port 0 or *: any free one, told by endpoint()
+  std::string metrics_bind = {};                ///< tcp endpoint for Prometheus (GET /metrics); empty: none
+  std::optional<BrokerSecurity> security = {};  ///< wanted unless is_local_endpoint(bind)
+  std::filesystem::path store = {};             ///< folder of the store; empty: nothing survives a restart
+  BrokerLimits limits = {};
+  BrokerTimers timers = {};
   Millis drain = 10'000;  ///< how long stop() waits for requests that are running
   /// Told every event (docs/protocol.md lists them) on the thread of run(); empty: core's log.
-  std::function<void(const BrokerEvent&)> on_event;
+  std::function<void(const BrokerEvent&)> on_event = {};
 };
 
 class Broker {

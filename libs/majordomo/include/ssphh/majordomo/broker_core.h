@@ -21,9 +21,9 @@ namespace ssphh::majordomo {
 
 /// A message to a peer: its frames are `head` and then `body`, which is null when there is none.
 struct Outgoing {
-  std::string peer;
-  Frames head;
-  Body body;
+  std::string peer = {};
+  Frames head = {};
+  Body body = {};
 };
 
 /// A persistent request as a store keeps it; `finished` ones carry their reply.
@@ -46,9 +46,9 @@ struct StoreOperation {
 };
 
 struct BrokerOutputs {
-  std::vector<StoreOperation> store;
-  std::vector<Outgoing> messages;
-  std::vector<BrokerEvent> events;
+  std::vector<StoreOperation> store = {};
+  std::vector<Outgoing> messages = {};
+  std::vector<BrokerEvent> events = {};
 };
 
 /// Sums since the start, and what is there now.

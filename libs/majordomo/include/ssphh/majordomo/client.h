@@ -24,8 +24,8 @@ enum class Dialect {
 };
 
 struct ClientOptions {
-  std::string endpoint;  ///< "tcp://127.0.0.1:5555", "ipc:///path"; plain only where is_local_endpoint
-  std::optional<PeerSecurity> security;
+  std::string endpoint = {};  ///< "tcp://127.0.0.1:5555", "ipc:///path"; plain only where is_local_endpoint
+  std::optional<PeerSecurity> security = {};
   Dialect dialect = Dialect::own;
   std::size_t window = 1000;  ///< requests on their way at one time; further ones wait here
   Millis ask_again = 2500;    ///< after this long without news, ask whether the broker still has a request
@@ -37,9 +37,10 @@ struct RequestOptions {
   Millis deadline = 0;         ///< from now; 0: none. Then the outcome is `expired`
   Millis attempt_timeout = 0;  ///< of one attempt on one worker; 0: the broker's default
   /// Requests to one service with equal key and equal body are computed once while in flight.
-  std::optional<Hash128> content_key;
-  bool persistent = false;      ///< survives broker restarts and this client; wants a broker with a store
-  std::optional<RequestId> id;  ///< a fresh one unless given; an id known to the broker joins that request
+  std::optional<Hash128> content_key = {};
+  bool persistent = false;  ///< survives broker restarts and this client; wants a broker with a store
+  std::optional<RequestId> id =
+      {};  ///< a fresh one unless given; an id known to the broker joins that request
 };
 
 enum class Outcome : std::uint8_t {
@@ -55,12 +56,12 @@ const char* to_string(Outcome outcome);
 
 /// One piece of news about one request: any number of PARTIALs in order, then one FINAL.
 struct ClientEvent {
-  RequestId id;
+  RequestId id = {};
   bool final = true;
   Outcome outcome = Outcome::ok;
-  Frames body;         ///< the worker's frames; empty unless ok
-  std::string reason;  ///< for people; empty when ok
-  int attempts = 0;    ///< workers that were given the request, as far as the broker tells
+  Frames body = {};         ///< the worker's frames; empty unless ok
+  std::string reason = {};  ///< for people; empty when ok
+  int attempts = 0;         ///< workers that were given the request, as far as the broker tells
 };
 
 /// Not thread-safe: one per thread. Heartbeats need no help from the caller; the connection is kept by

@@ -14,7 +14,7 @@ namespace ssphh::majordomo {
 struct BrokerEvent {
   LogLevel level = LogLevel::info;
   const char* name = "";
-  std::vector<std::pair<const char*, std::string>> fields;
+  std::vector<std::pair<const char*, std::string>> fields = {};
 
   /// "job-retry job=12 service=gen worker=a:1 attempt=2 reason=\"peer gone\"".
   std::string text() const;

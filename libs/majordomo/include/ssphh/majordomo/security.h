@@ -28,9 +28,9 @@ std::string read_public_key(const std::filesystem::path& path);
 
 /// What a peer may do at the broker.
 struct Rights {
-  std::string name;    ///< of the key; empty for plain connections
-  bool client = true;  ///< may send requests
-  bool admin = true;   ///< may drain and cancel what is not its own
+  std::string name = {};  ///< of the key; empty for plain connections
+  bool client = true;     ///< may send requests
+  bool admin = true;      ///< may drain and cancel what is not its own
   std::vector<std::string> services = {
       "*"};  ///< that it may serve as a worker; a final * stands for any rest
 
@@ -38,8 +38,8 @@ struct Rights {
 };
 
 struct AllowedKey {
-  std::string public_key;
-  Rights rights;
+  std::string public_key = {};
+  Rights rights = {};
 };
 
 /// One key per line: `NAME PUBLIC-KEY ROLE...`, where a role is `client`, `admin`, `worker` (any service) or
@@ -53,15 +53,15 @@ void add_to_allow_list(const std::filesystem::path& path, const std::string& nam
 
 /// What a client or worker needs to speak CURVE.
 struct PeerSecurity {
-  std::string broker_key;  ///< the broker's public key
-  KeyPair keys;            ///< its own
+  std::string broker_key = {};  ///< the broker's public key
+  KeyPair keys = {};            ///< its own
 };
 /// DIR/broker.pub and DIR/NAME.key.
 PeerSecurity read_peer_security(const std::filesystem::path& dir, const std::string& name);
 
 struct BrokerSecurity {
-  KeyPair keys;
-  AllowList allowed;
+  KeyPair keys = {};
+  AllowList allowed = {};
 };
 /// DIR/broker.key and DIR/allow.txt.
 BrokerSecurity read_broker_security(const std::filesystem::path& dir);

@@ -18,10 +18,10 @@
 namespace ssphh::majordomo {
 
 struct WorkerOptions {
-  std::string endpoint;
-  std::string service;
-  std::string name;  ///< shown by mmi.workers and logs: [A-Za-z0-9._:/-], at most 100; empty: "HOST:PID"
-  std::optional<PeerSecurity> security;
+  std::string endpoint = {};
+  std::string service = {};
+  std::string name = {};  ///< shown by mmi.workers and logs: [A-Za-z0-9._:/-], at most 100; empty: "HOST:PID"
+  std::optional<PeerSecurity> security = {};
   Dialect dialect = Dialect::own;  ///< own and mdp02 both begin as the RFC's 0.2
   Millis heartbeat = 2500;         ///< at most a third of the broker's worker_expiry
   Millis broker_expiry = 10'000;   ///< of silence; then a new socket is opened
@@ -31,12 +31,12 @@ struct WorkerOptions {
 
 /// What a handler is given.
 struct Job {
-  Frames body;
+  Frames body = {};
   std::uint64_t number = 0;  ///< the broker's number of the job, in its logs too; 0 with foreign brokers
   int attempt = 1;
   const CancelToken* cancel = nullptr;  ///< set when the answer is not wanted any more, or by abandon()
   /// Sends a PARTIAL; a job that runs again must send the same PARTIALs in the same order.
-  std::function<void(Frames)> partial;
+  std::function<void(Frames)> partial = {};
 
   Control control() const { return {nullptr, cancel}; }
 };

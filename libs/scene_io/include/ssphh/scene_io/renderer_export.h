@@ -44,4 +44,19 @@ const std::vector<RendererFormat>& renderer_formats();
 ExportReport export_cycles(const scene::Scene& scene, const ExportSettings& settings,
                            const std::filesystem::path& directory);
 
+/// Mitsuba 3 (an RGB variant): `scene.xml`, a binary PLY file per mesh, textures. Lambert, point lights,
+/// delta suns, one-sided area lights and environments have the same meaning there; see the report for others.
+ExportReport export_mitsuba(const scene::Scene& scene, const ExportSettings& settings,
+                            const std::filesystem::path& directory);
+
+/// pbrt-v4: `scene.pbrt`, a binary PLY file per mesh, textures. As Mitsuba, but pbrt computes with spectra:
+/// colours of surfaces multiply differently after several bounces.
+ExportReport export_pbrt(const scene::Scene& scene, const ExportSettings& settings,
+                         const std::filesystem::path& directory);
+
+/// Corona Standalone, the paper's ground truth: `scene.scn`, `scene.mtl`, `scene.conf`, an OBJ file per mesh,
+/// textures. Lamps become glowing geometry. Throws Error for an orthographic camera.
+ExportReport export_corona(const scene::Scene& scene, const ExportSettings& settings,
+                           const std::filesystem::path& directory);
+
 }  // namespace ssphh::scene_io

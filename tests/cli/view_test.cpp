@@ -1,0 +1,182 @@
+// `ssphh view` in a window without a screen (Xvfb): it opens, answers the mouse and the keyboard, a door that
+// opens brightens the room behind it, pictures and scenes are written. Without a display it says so.
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <ssphh/image/io.h>
+
+#include "temp_dir.h"
+#include "tool_checks.h"
+#include "xvfb.h"
+
+namespace ssphh {
+namespace {
+
+using nlohmann::json;
+using test::expect_failure;
+using test::expect_keys;
+using test::run_json;
+using test::TempDir;
+using testing::HasSubstr;
+
+class View : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!display_.running()) GTEST_SKIP() << "Xvfb is not installed: the viewer's window is not tested";
+  }
+
+  std::string script(const std::string& text) {
+    const std::string file = dir_ / "script.txt";
+    std::ofstream(file) << text;
+    return file;
+  }
+  std::string path(const std::string& name) const { return dir_ / name; }
+  bool exists(const std::string& name) const { return std::filesystem::exists(dir_ / name); }
+
+  /// Mean linear light of a picture.
+  double brightness(const std::string& name) const {
+    const image::Image picture = image::read_image(dir_ / name);
+    double sum = 0;
+    for (int y = 0; y < picture.height; ++y) {
+      for (int x = 0; x < picture.width; ++x) sum += static_cast<double>(luminance(picture.rgb(x, y)));
+    }
+    return sum / (static_cast<double>(picture.width) * picture.height);
+  }
+
+  test::Xvfb display_;
+  TempDir dir_;
+};
+
+const std::vector<std::string> two_rooms = {"view", "builtin:two-rooms", "--size", "320x200", "--no-panels"};
+
+std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST_F(View, AnOpenedDoorBrightensTheRoomBehindIt) {
+  const json run = run_json(with(
+      two_rooms,
+      {"--camera", "room-b", "--stats", path("times.json"), "--script",
+       script("settle\nscreenshot " + path("shut.png") + "\ntime 1\nsettle\nscreenshot " + path("open.png") +
+              "\nlight lamp off\nsettle\nscreenshot " + path("off.png") + "\nquit\n")}));
+  expect_keys(run, {"frames", "renderer", "probes", "median_ms", "p99_ms", "written"});
+  EXPECT_EQ(run["probes"], 6);
+  ASSERT_TRUE(exists("shut.png") && exists("open.png") && exists("off.png"));
+  // 8-bit pictures: a dark room has at most a step or two of light in it.
+  EXPECT_LT(brightness("shut.png"), 2.0 / 255 / 12.92);
+  EXPECT_GT(brightness("open.png"), 0.005);
+  EXPECT_EQ(brightness("off.png"), 0);
+  std::ifstream stats(path("times.json"));
+  const json times = json::parse(stats);
+  EXPECT_THAT(times["stages"].dump(), testing::AllOf(HasSubstr("relight"), HasSubstr("frame")));
+}
+
+TEST_F(View, MouseAndKeysChangeWhatIsShown) {
+  // A drag turns the view, a key shows the probes, Tab hides the panels, undo takes an edit back.
+  run_json({"view", "builtin:two-rooms", "--size", "640x400", "--script",
+            script("settle\nscreenshot " + path("a.png") + "\nsettle\nscreenshot " + path("same.png") +
+                   "\ndrag 500 200 560 220\nsettle\nscreenshot " + path("turned.png") +
+                   "\nkey P\nsettle\nscreenshot " + path("balls.png") +
+                   "\nkey P\nlight lamp color 1 0 0\nsettle\nscreenshot " + path("red.png") +
+                   "\nkey Ctrl+Z\nsettle\nscreenshot " + path("undone.png") + "\nscreenshot " +
+                   path("panels.png") + " panels\nkey Tab\nwait 3\nscreenshot " + path("bare.png") +
+                   " panels\nquit\n")});
+  const auto bytes = [&](const std::string& name) {
+    std::ifstream file(path(name), std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_EQ(bytes("a.png"), bytes("same.png")) << "nothing changed";
+  EXPECT_NE(bytes("turned.png"), bytes("a.png"));
+  EXPECT_NE(bytes("balls.png"), bytes("turned.png"));
+  EXPECT_NE(bytes("red.png"), bytes("turned.png"));
+  EXPECT_EQ(bytes("undone.png"), bytes("turned.png"));
+  const image::Image panels = image::read_image(path("panels.png"));
+  EXPECT_EQ(panels.width, 640);
+  EXPECT_EQ(panels.height, 400);
+  EXPECT_NE(bytes("bare.png"), bytes("panels.png"));
+}
+
+TEST_F(View, SavesWhatWasEdited) {
+  run_json(with(two_rooms,
+                {"--script",
+                 script("settle\nlight lamp intensity 7\nsphl 2 1.5 0.5\nsettle\nsave " + path("rooms.glb") +
+                        "\nsave " + path("rooms.sphl") + "\nbookmark\nview 1 1 1 2 1 0\nbookmark\nsave " +
+                        path("path.json") + "\nquit\n")}));
+  const json scene = run_json({"scene", "info", path("rooms.glb")});
+  EXPECT_EQ(scene["sphls"], 7);
+  EXPECT_EQ(scene["lights"], 1);
+  // The saved probes are those of the saved scene: the viewer takes them without --force.
+  const json again = run_json({"view", path("rooms.glb"), "--probes", path("rooms.sphl"), "--size", "160x100",
+                               "--no-panels", "--screenshot", path("again.png")});
+  EXPECT_EQ(again["probes"], 7);
+  const json frames =
+      run_json(with(two_rooms, {"--path", path("path.json"), "--export", path("frames"), "--fps", "1"}));
+  EXPECT_EQ(frames["written"].size(), 3u);
+  EXPECT_TRUE(exists("frames/frame-0002.png"));
+}
+
+TEST_F(View, ShowsGroundTruthAndItsDifference) {
+  run_json(with(two_rooms, {"--show", "truth", "--truth-spp", "4", "--screenshot", path("truth.png")}));
+  run_json(with(two_rooms, {"--show", "pixelated", "--truth-spp", "4", "--screenshot", path("blocks.png")}));
+  EXPECT_GT(brightness("truth.png"), 0.01);
+  EXPECT_GT(brightness("blocks.png"), 0);
+}
+
+/// Runs an xdotool command until `file` exists: the window may not be ready for input at once.
+bool repeat_until(const std::string& command, const std::string& file) {
+  for (int i = 0; i < 20 && !std::filesystem::exists(file); ++i) {
+    if (std::system(("timeout 10 xdotool " + command + " > /dev/null 2>&1").c_str()) != 0) continue;
+    for (int k = 0; k < 40 && !std::filesystem::exists(file); ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(25));
+  }
+  return std::filesystem::exists(file);
+}
+
+TEST_F(View, AnswersTheWindowSystemsMouseAndKeys) {
+  if (std::system("command -v xdotool > /dev/null") != 0) GTEST_SKIP() << "xdotool is not installed";
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(dir_.path());  // F12 writes into the current folder
+  test::ToolProcess viewer(
+      {"view", "builtin:two-rooms", "--size", "480x300", "--probes", "off", "--no-panels"});
+  std::filesystem::current_path(before);
+  const std::string window = "search --sync --onlyvisible --name two-rooms windowfocus ";
+  EXPECT_TRUE(repeat_until(window + "key --delay 200 F12", path("two-rooms-01.png")));
+  EXPECT_TRUE(
+      repeat_until(window + "mousemove --window %1 240 150 mousedown 1 sleep 0.3 "
+                            "mousemove --window %1 300 170 sleep 0.3 mouseup 1 sleep 0.2 key --delay 200 F12",
+                   path("two-rooms-02.png")));
+  viewer.signal(SIGINT);
+  const test::ToolResult result = viewer.wait();
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const auto a = image::read_image(path("two-rooms-01.png")), b = image::read_image(path("two-rooms-02.png"));
+  EXPECT_NE(a.pixels, b.pixels) << "the drag turned the view";
+}
+
+TEST_F(View, SaysWhatIsWrongWithItsInput) {
+  expect_failure({"view", "builtin:nothing"}, "nothing");
+  expect_failure({"view", "builtin:cornell", "--camera", "behind"}, "behind");
+  expect_failure({"view", "builtin:cornell", "--exposure", "bright"}, "not a number", 2);
+  expect_failure({"view", "builtin:cornell", "--size", "wide"}, "WIDTHxHEIGHT");
+  expect_failure({"view", "builtin:cornell", "--export", path("f")}, "--path");
+  expect_failure(with(two_rooms, {"--script", script("time 1\nfly away\n")}),
+                 {"line 2", "no command \"fly\""});
+  expect_failure(with(two_rooms, {"--script", script("light lamb off\n")}), {"line 1", "there are: lamp"});
+}
+
+TEST(ViewWithoutADisplay, SaysSo) {
+  ::unsetenv("DISPLAY");
+  ::unsetenv("WAYLAND_DISPLAY");
+  expect_failure({"view", "builtin:cornell"}, {"no display", "xvfb-run"});
+}
+
+}  // namespace
+}  // namespace ssphh
