@@ -64,9 +64,10 @@ std::vector<std::string> with(std::vector<std::string> arguments, const std::vec
 
 TEST_F(View, AnOpenedDoorBrightensTheRoomBehindIt) {
   const json run = run_json(with(
-      two_rooms, {"--camera", "room-b", "--stats", path("times.json"), "--script",
-                  script("settle\nscreenshot " + path("shut.png") + "\ntime 1\nsettle\nscreenshot " +
-                         path("open.png") + "\nlight lamp off\nsettle\nscreenshot " + path("off.png") + "\nquit\n")}));
+      two_rooms,
+      {"--camera", "room-b", "--stats", path("times.json"), "--script",
+       script("settle\nscreenshot " + path("shut.png") + "\ntime 1\nsettle\nscreenshot " + path("open.png") +
+              "\nlight lamp off\nsettle\nscreenshot " + path("off.png") + "\nquit\n")}));
   expect_keys(run, {"frames", "renderer", "probes", "median_ms", "p99_ms", "written"});
   EXPECT_EQ(run["probes"], 6);
   ASSERT_TRUE(exists("shut.png") && exists("open.png") && exists("off.png"));
@@ -86,9 +87,9 @@ TEST_F(View, MouseAndKeysChangeWhatIsShown) {
                    "\ndrag 500 200 560 220\nsettle\nscreenshot " + path("turned.png") +
                    "\nkey P\nsettle\nscreenshot " + path("balls.png") +
                    "\nkey P\nlight lamp color 1 0 0\nsettle\nscreenshot " + path("red.png") +
-                   "\nkey Ctrl+Z\nsettle\nscreenshot " + path("undone.png") +
-                   "\nscreenshot " + path("panels.png") + " panels\nkey Tab\nwait 3\nscreenshot " +
-                   path("bare.png") + " panels\nquit\n")});
+                   "\nkey Ctrl+Z\nsettle\nscreenshot " + path("undone.png") + "\nscreenshot " +
+                   path("panels.png") + " panels\nkey Tab\nwait 3\nscreenshot " + path("bare.png") +
+                   " panels\nquit\n")});
   const auto bytes = [&](const std::string& name) {
     std::ifstream file(path(name), std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(file), {});
@@ -105,10 +106,11 @@ TEST_F(View, MouseAndKeysChangeWhatIsShown) {
 }
 
 TEST_F(View, SavesWhatWasEdited) {
-  run_json(with(two_rooms, {"--script", script("settle\nlight lamp intensity 7\nsphl 2 1.5 0.5\nsettle\nsave " +
-                                               path("rooms.glb") + "\nsave " + path("rooms.sphl") +
-                                               "\nbookmark\nview 1 1 1 2 1 0\nbookmark\nsave " +
-                                               path("path.json") + "\nquit\n")}));
+  run_json(with(two_rooms,
+                {"--script",
+                 script("settle\nlight lamp intensity 7\nsphl 2 1.5 0.5\nsettle\nsave " + path("rooms.glb") +
+                        "\nsave " + path("rooms.sphl") + "\nbookmark\nview 1 1 1 2 1 0\nbookmark\nsave " +
+                        path("path.json") + "\nquit\n")}));
   const json scene = run_json({"scene", "info", path("rooms.glb")});
   EXPECT_EQ(scene["sphls"], 7);
   EXPECT_EQ(scene["lights"], 1);
@@ -116,7 +118,8 @@ TEST_F(View, SavesWhatWasEdited) {
   const json again = run_json({"view", path("rooms.glb"), "--probes", path("rooms.sphl"), "--size", "160x100",
                                "--no-panels", "--screenshot", path("again.png")});
   EXPECT_EQ(again["probes"], 7);
-  const json frames = run_json(with(two_rooms, {"--path", path("path.json"), "--export", path("frames"), "--fps", "1"}));
+  const json frames =
+      run_json(with(two_rooms, {"--path", path("path.json"), "--export", path("frames"), "--fps", "1"}));
   EXPECT_EQ(frames["written"].size(), 3u);
   EXPECT_TRUE(exists("frames/frame-0002.png"));
 }
@@ -142,13 +145,15 @@ TEST_F(View, AnswersTheWindowSystemsMouseAndKeys) {
   if (std::system("command -v xdotool > /dev/null") != 0) GTEST_SKIP() << "xdotool is not installed";
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(dir_.path());  // F12 writes into the current folder
-  test::ToolProcess viewer({"view", "builtin:two-rooms", "--size", "480x300", "--probes", "off", "--no-panels"});
+  test::ToolProcess viewer(
+      {"view", "builtin:two-rooms", "--size", "480x300", "--probes", "off", "--no-panels"});
   std::filesystem::current_path(before);
   const std::string window = "search --sync --onlyvisible --name two-rooms windowfocus ";
   EXPECT_TRUE(repeat_until(window + "key --delay 200 F12", path("two-rooms-01.png")));
-  EXPECT_TRUE(repeat_until(window + "mousemove --window %1 240 150 mousedown 1 sleep 0.3 "
-                                    "mousemove --window %1 300 170 sleep 0.3 mouseup 1 sleep 0.2 key --delay 200 F12",
-                           path("two-rooms-02.png")));
+  EXPECT_TRUE(
+      repeat_until(window + "mousemove --window %1 240 150 mousedown 1 sleep 0.3 "
+                            "mousemove --window %1 300 170 sleep 0.3 mouseup 1 sleep 0.2 key --delay 200 F12",
+                   path("two-rooms-02.png")));
   viewer.signal(SIGINT);
   const test::ToolResult result = viewer.wait();
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -162,7 +167,8 @@ TEST_F(View, SaysWhatIsWrongWithItsInput) {
   expect_failure({"view", "builtin:cornell", "--exposure", "bright"}, "not a number", 2);
   expect_failure({"view", "builtin:cornell", "--size", "wide"}, "WIDTHxHEIGHT");
   expect_failure({"view", "builtin:cornell", "--export", path("f")}, "--path");
-  expect_failure(with(two_rooms, {"--script", script("time 1\nfly away\n")}), {"line 2", "no command \"fly\""});
+  expect_failure(with(two_rooms, {"--script", script("time 1\nfly away\n")}),
+                 {"line 2", "no command \"fly\""});
   expect_failure(with(two_rooms, {"--script", script("light lamb off\n")}), {"line 1", "there are: lamp"});
 }
 
