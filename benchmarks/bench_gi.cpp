@@ -7,6 +7,8 @@
 #include <ssphh/gi/lookup.h>
 #include <ssphh/gi/probe_file.h>
 
+#include "dark_space.h"
+
 namespace ssphh {
 namespace {
 
@@ -68,42 +70,23 @@ BENCHMARK(hier)
     ->Unit(benchmark::kMicrosecond)
     ->UseRealTime();
 
-/// Everything is visible: the cost of the lookup itself, without rays.
-class EmptySpace final : public scene::RadianceSource {
- public:
-  const std::vector<std::string>& light_groups() const override { return groups_; }
-  std::vector<scene::GroupRadiance> incident_radiance(const scene::CubeRequest&,
-                                                      const Control&) const override {
-    return {};
-  }
-  std::vector<image::CubeMap> ghost_radiance(const scene::CubeRequest&, std::span<const scene::GhostSphere>,
-                                             const GhostSink&, const Control&) const override {
-    return {};
-  }
-  bool visible(const vec3&, const vec3&) const override { return true; }
-  std::uint64_t rays_traced() const override { return 0; }
-
- private:
-  std::vector<std::string> groups_;
-};
-
-/// Arguments: probes, method (0 light, 1 irradiance), glossy.
+/// The cost of the lookup itself, without rays. Arguments: probes, method (0 light, 1 irradiance), glossy.
 void lookup(benchmark::State& state) {
-  const EmptySpace space;
+  const test::DarkSpace space;
   const gi::ProbeSet set = random_set(static_cast<int>(state.range(0)), 9, 0);
   const auto method = static_cast<gi::LookupMethod>(state.range(1));
   const auto light = gi::make_lookup(method, set, space);
   Pcg32 rng(2);
-  std::vector<vec3> points, normals;
+  std::vector<scene::SurfacePoint> points;
   for (int i = 0; i < 1024; ++i) {
-    points.push_back(10.0f * rng.uniform3());
-    normals.push_back(sample_uniform_sphere(rng.uniform2()));
+    const vec3 position = 10.0f * rng.uniform3();
+    points.push_back({position, sample_uniform_sphere(rng.uniform2())});
   }
   std::size_t i = 0;
   for (auto _ : state) {
     i = (i + 1) % points.size();
-    benchmark::DoNotOptimize(state.range(2) ? light->glossy(points[i], normals[i], normals[i], 0.4f)
-                                            : light->irradiance(points[i], normals[i]));
+    benchmark::DoNotOptimize(state.range(2) ? light->glossy(points[i], points[i].normal, 0.4f)
+                                            : light->irradiance(points[i]));
   }
   state.SetItemsProcessed(state.iterations());
   state.SetLabel(method == gi::LookupMethod::light ? "light" : "irradiance");

@@ -26,7 +26,7 @@ int main() {
 
   const auto print = [&](const char* state) {
     const auto light = gi::make_lookup(gi::LookupMethod::irradiance, probes, tracer);
-    const vec3 e = light->irradiance(probes.probes[0].position, {0, 1, 0});
+    const vec3 e = light->irradiance({probes.probes[0].position, {0, 1, 0}});
     std::printf("%-9s indirect irradiance %.1f W/m2\n", state, static_cast<double>(e.x));
   };
   print("lamps on");  // π (½ + ¼) = 2.36

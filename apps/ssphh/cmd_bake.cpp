@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
+#include <ssphh/farm/farm_bake.h>
 #include <ssphh/gi/bake.h>
 #include <ssphh/gi/init.h>
 #include <ssphh/gi/transport_bake.h>
@@ -11,6 +12,7 @@
 #include <ssphh/trace/transport_scene.h>
 
 #include "command.h"
+#include "farm_options.h"
 #include "place_options.h"
 #include "probe_options.h"
 #include "scene_options.h"
@@ -18,19 +20,24 @@
 namespace ssphh::app {
 namespace {
 
-/// VIZ takes a pass over all probes for each probe; nobody waits for that unasked.
-constexpr std::size_t most_probes_for_viz = 64;
+/// VIZ takes a pass over all probes for each probe; nobody waits long for that unasked.
+constexpr std::size_t most_probes_for_paths = 64, most_probes_for_links = 512;
+/// Edges of a probe that are kept when they are many: 1.2 kB each at degree 9.
+constexpr int default_neighbors = 16;
 
 struct BakeOptions {
   SceneOptions scene;
   PlaceOptions place;
+  FarmChoice farm;
   std::string output, op = "path", gen = "full", viz;
   int degree = 9;
   gi::BakeParams params;
   gi::TransportBakeParams transport;
+  std::optional<int> neighbors;
+  float threshold = 0;
   bool resume = true;
-  /// As given on the command line: which options stand only with GEN or VIZ, and only with transport.
-  std::vector<CLI::Option*> of_paths, of_transport;
+  /// As given on the command line: which options stand only with path tracing, transport or VIZ.
+  std::vector<CLI::Option*> of_paths, of_transport, of_viz;
 };
 
 void refuse(const std::vector<CLI::Option*>& given, const char* needs) {
@@ -41,48 +48,69 @@ void refuse(const std::vector<CLI::Option*>& given, const char* needs) {
 
 /// Decides on VIZ and refuses options that would have no effect.
 void resolve(BakeOptions& o, std::size_t probes) {
-  const bool path = o.op == "path";
+  const bool path = o.op == "path", transfer = o.params.viz_params.matrix;
   gi::BakeParams& params = o.params;
-  if (params.viz_transfer && o.viz == "off")
-    throw Error("--viz-transfer", "needs VIZ", "leave out --viz off");
+  if (o.viz.empty()) {
+    o.viz = transfer || (path && probes <= most_probes_for_paths) ? "path"
+            : probes <= most_probes_for_links                     ? "links"
+                                                                  : "off";
+    if (o.viz == "off")
+      log_info("VIZ is left out for more than {} probes: --viz links if HIER is to run",
+               most_probes_for_links);
+  }
+  if (transfer && o.viz != "path")
+    throw Error("--viz-transfer", "needs VIZ by path tracing", "use --viz path");
   if (!path && o.gen != "full")
     throw Error("--gen " + o.gen, "is of --operator path; the light of surfels has every bounce");
   params.keep_light = !path;
   if (!path) o.transport.op = *gi::parse_light_operator(o.op);
-  params.viz =
-      o.viz == "on" || params.viz_transfer || (o.viz.empty() && path && probes <= most_probes_for_viz);
-  if (path && !params.viz && o.viz.empty()) {
-    log_info("VIZ is left out for {} probes, which are more than {}: --viz on if HIER is to run", probes,
-             most_probes_for_viz);
-  }
-  if (!path && !params.viz) refuse(o.of_paths, "is of path tracing: use --operator path or --viz on");
-  if (path && !o.transport.fit)
-    refuse(o.of_transport, "is of transport: use --operator surfel, bounce or --fit");
+  params.viz = o.viz == "path";
+  params.viz_params.neighbors = o.neighbors.value_or(-1);
+  params.viz_params.threshold = o.threshold;
+  o.transport.viz = o.viz == "links";
+  o.transport.viz_params.neighbors = o.neighbors.value_or(default_neighbors);
+  o.transport.viz_params.threshold = o.threshold;
+  if (!path && !params.viz) refuse(o.of_paths, "is of path tracing: use --operator path or --viz path");
+  if (path && !o.transport.fit && !o.transport.viz)
+    refuse(o.of_transport, "is of transport: use --operator surfel, bounce, --viz links or --fit");
+  if (o.viz == "off") refuse(o.of_viz, "is of VIZ: use --viz links or path");
+  if (o.farm.any() && !path && !params.viz)
+    throw Error("--operator " + o.op, "is done here, in seconds; a farm does GEN and VIZ by path tracing",
+                "leave out --broker and --local");
 }
 
 struct BakeResult {
   gi::ProbeSet set;
   gi::BakeReport paths;
   gi::TransportBakeReport transport;
+  std::optional<farm::FarmReport> farm;
 };
 
 BakeResult run(const BakeOptions& o, const scene::Scene& scene, gi::ProbeSet set,
-               const std::filesystem::path& checkpoint, const Control& control) {
-  BakeResult result{std::move(set), {}, {}};
+               const std::filesystem::path& checkpoint, const FarmSession* session, const Control& control) {
+  BakeResult result{std::move(set), {}, {}, {}};
   const bool path = o.op == "path";
-  if (!path || o.transport.fit) {
+  if (!path || o.transport.fit || o.transport.viz) {
     const trace::TransportScene source(scene);
     if (path) {
-      gi::fit_set(source, result.set, o.transport, result.transport, control);
+      gi::add_transport(source, result.set, o.transport, result.transport, control);
     } else {
       result.set = gi::bake_transport(source, std::move(result.set), o.transport, result.transport, control);
     }
   }
   if (path || o.params.viz) {
     const trace::PathTracer tracer(scene, o.scene.time);
-    result.set = gi::bake(tracer, std::move(result.set), o.params, checkpoint, result.paths, control);
+    std::optional<farm::FarmCrew> crew;
+    if (session) crew.emplace(session->options(), scene, o.scene.time);
+    result.set = gi::bake(tracer, std::move(result.set), o.params, checkpoint, result.paths, control,
+                          crew ? &*crew : nullptr);
+    if (crew) result.farm = crew->report();
   }
   return result;
+}
+
+double viz_seconds(const BakeResult& r) {
+  return r.paths.viz_seconds + r.transport.viz_seconds;
 }
 
 std::string result_text(const BakeOptions& o, const BakeResult& r) {
@@ -101,9 +129,11 @@ std::string result_text(const BakeOptions& o, const BakeResult& r) {
   if (r.set.fitted)
     text +=
         fmt::format("\nweights fitted at {} points in {:.2f} s", r.set.fitted->points.size(), t.fit_seconds);
-  if (o.op == "path" || o.params.viz)
-    text += fmt::format("\nGEN {:.2f} s, VIZ {:.2f} s", r.paths.gen_seconds, r.paths.viz_seconds);
+  if (o.op == "path") text += fmt::format("\nGEN {:.2f} s", r.paths.gen_seconds);
+  if (o.viz != "off")
+    text += fmt::format("\nVIZ from {} {:.2f} s", o.viz == "path" ? "paths" : "links", viz_seconds(r));
   text += fmt::format("\n{} rays", r.paths.rays + t.rays);
+  if (r.farm) text += "\n" + farm_text(*r.farm);
   if (r.paths.resumed > 0) {
     text += fmt::format("\n{} of {} steps were taken from the checkpoint", r.paths.resumed,
                         r.set.probes.size() * (std::size_t{o.op == "path"} + o.params.viz));
@@ -130,7 +160,7 @@ nlohmann::ordered_json result_json(const BakeOptions& o, const BakeResult& r) {
           {"edges", gi::edge_count(r.set)},
           {"gen", o.gen},
           {"gen_seconds", r.paths.gen_seconds},
-          {"viz_seconds", r.paths.viz_seconds},
+          {"viz_seconds", viz_seconds(r)},
           {"transport_seconds", if_any(solved, t.seconds)},
           {"surfels", if_any(network, t.surfels)},
           {"links", if_any(network, t.links)},
@@ -140,11 +170,13 @@ nlohmann::ordered_json result_json(const BakeOptions& o, const BakeResult& r) {
           {"fit_seconds", if_any(r.set.fitted.has_value(), t.fit_seconds)},
           {"rays", r.paths.rays + t.rays},
           {"resumed", r.paths.resumed},
-          {"viz", o.params.viz},
+          {"viz", o.viz},
           {"warnings", warnings}};
 }
 
 void bake(Context& context, BakeOptions& options) {
+  std::optional<FarmSession> session;  // first: its processes start while this one reads the scene
+  if (options.farm.any()) session.emplace(options.farm);
   const scene::Scene scene = load_scene(options.scene);
   options.params.gen = *gi::parse_gen_mode(options.gen);
   options.params.path.seed = context.seed;
@@ -157,11 +189,13 @@ void bake(Context& context, BakeOptions& options) {
 
   const std::filesystem::path checkpoint = options.output + ".checkpoint";
   if (!options.resume) std::filesystem::remove(checkpoint);
-  const BakeResult result = run(options, scene, std::move(set), checkpoint, context.control);
+  const BakeResult result =
+      run(options, scene, std::move(set), checkpoint, session ? &*session : nullptr, context.control);
   gi::write_probe_file(result.set, options.output);
   std::filesystem::remove(checkpoint);
 
   nlohmann::ordered_json object = result_json(options, result);
+  if (result.farm) object["farm"] = farm_json(*result.farm);
   if (place) object["placement"] = place_json(*place);
   context.result(object, result_text(options, result) + (place ? "\n" + place_text(*place) : ""));
 }
@@ -189,25 +223,44 @@ void add_path_options(CLI::App& command, BakeOptions& options) {
       ->capture_default_str()
       ->group(group);
   command
-      .add_option("--viz", options.viz,
-                  fmt::format("Whether to trace the light between the SPHLs, which HIER needs; default: on "
-                              "for operator path and up to {} probes",
-                              most_probes_for_viz))
-      ->check(CLI::IsMember({"on", "off"}))
-      ->group(group);
-  command
-      .add_flag("--viz-transfer", params.viz_transfer,
-                "Also keep the transfer matrices of `hier --operator matrix` (120 kB an edge at degree 9)")
-      ->group(group);
-  command
       .add_flag(
           "--resume,!--no-resume", options.resume,
           "Continue an interrupted bake of the same scene and options from OUTPUT.checkpoint (the default)")
       ->group(group);
 }
 
+void add_viz_options(CLI::App& command, BakeOptions& options) {
+  const std::string group = "VIZ: light between the SPHLs, which HIER needs";
+  command
+      .add_option(
+          "--viz", options.viz,
+          fmt::format("path: trace it; links: find it with the surfels of transport, every bounce and "
+                      "no noise, surfaces reflect diffusely; off. Default: path for operator path and "
+                      "up to {} probes, else links for up to {}",
+                      most_probes_for_paths, most_probes_for_links))
+      ->check(CLI::IsMember({"path", "links", "off"}))
+      ->group(group);
+  options.of_viz.push_back(
+      command
+          .add_option(
+              "--neighbors", options.neighbors,
+              fmt::format("Keep at most so many edges per SPHL, strongest P first; -1: all. Default: {} "
+                          "with links, all with path",
+                          default_neighbors))
+          ->check(CLI::Range(-1, 65536))
+          ->group(group));
+  options.of_viz.push_back(
+      command.add_option("--threshold", options.threshold, "Keep only edges with P above this")
+          ->check(CLI::Range(0.0, 1.0))
+          ->group(group));
+  command
+      .add_flag("--viz-transfer", options.params.viz_params.matrix,
+                "Also trace the transfer matrices of `hier --operator matrix` (120 kB an edge at degree 9)")
+      ->group(group);
+}
+
 void add_transport_options(CLI::App& command, BakeOptions& options) {
-  const std::string group = "Transport: --operator surfel|bounce, --fit";
+  const std::string group = "Transport: --operator surfel|bounce, --viz links, --fit";
   gi::TransportParams& params = options.transport.transport;
   params.directions = 1536;  // Nobody waits for a frame: few probes are right to 3 % with these.
   const auto transport = [&](CLI::Option* option) {
@@ -257,7 +310,9 @@ void add_bake_command(CLI::App& app, Context& context) {
       ->check(CLI::IsMember({"path", "surfel", "bounce"}))
       ->capture_default_str();
   add_path_options(*command, *options);
+  add_viz_options(*command, *options);
   add_transport_options(*command, *options);
+  add_farm_options(*command, options->farm);
   command->footer(
       "An interrupted bake leaves OUTPUT.checkpoint; the same command continues there and gives the same "
       "bits.");

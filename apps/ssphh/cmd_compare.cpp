@@ -6,7 +6,9 @@
 #include <ssphh/core/file.h>
 #include <ssphh/image/io.h>
 #include <ssphh/metrics/compare.h>
+#include <ssphh/metrics/flip.h>
 #include <ssphh/metrics/heat_map.h>
+#include <ssphh/metrics/perceptual.h>
 
 #include "command.h"
 
@@ -20,7 +22,16 @@ struct CompareOptions {
   std::string reference, test, output, map = "absolute";
   int block = 16;
   float scale = 0, exposure = 0;
+  double pixels_per_degree = metrics::FlipParams{}.pixels_per_degree;
   bool allow_nonfinite = false;
+};
+
+struct Errors {
+  metrics::ImageError linear;
+  metrics::BlockError blocks;
+  metrics::DisplayError display;
+  metrics::FlipError flip;
+  bool hdr = false;  // which FLIP
 };
 
 Image read_exposed(const std::string& path, float exposure) {
@@ -32,7 +43,26 @@ Image read_exposed(const std::string& path, float exposure) {
   return image;
 }
 
-Image error_map(const CompareOptions& options, const Image& reference, const Image& test) {
+bool is_display_file(const std::string& path) {
+  const image::FileFormat format = image::format_of_extension(path);
+  return format == image::FileFormat::png || format == image::FileFormat::jpeg;
+}
+
+Errors measure(const CompareOptions& options, const Image& reference, const Image& test) {
+  Errors e;
+  e.linear = metrics::compare(reference, test);
+  e.blocks =
+      metrics::block_error(metrics::pixelated_error_map(reference, test, options.block), options.block);
+  e.display = metrics::display_error(reference, test);
+  e.hdr = !is_display_file(options.reference) || !is_display_file(options.test);
+  const metrics::FlipParams flip{options.pixels_per_degree};
+  e.flip = e.hdr ? metrics::hdr_flip(reference, test, flip) : metrics::flip(reference, test, flip);
+  return e;
+}
+
+Image error_map(const CompareOptions& options, const Image& reference, const Image& test,
+                const Errors& errors) {
+  if (options.map == "flip") return errors.flip.map;
   if (options.map == "signed") return metrics::signed_error_map(reference, test);
   if (options.map == "relmse") return metrics::relative_squared_error_map(reference, test);
   if (options.map == "pixelated") return metrics::pixelated_error_map(reference, test, options.block);
@@ -41,14 +71,16 @@ Image error_map(const CompareOptions& options, const Image& reference, const Ima
 
 // Writes the map and returns the error that has the ramp's last colour; 0 when the numbers themselves are
 // written.
-float write_map(const CompareOptions& options, const Image& reference, const Image& test) {
+float write_map(const CompareOptions& options, const Image& reference, const Image& test,
+                const Errors& errors) {
   const image::FileFormat format = image::format_of_extension(options.output);
-  Image map = error_map(options, reference, test);
+  Image map = error_map(options, reference, test, errors);
   if (format == image::FileFormat::exr) {
     image::write_image(options.output, map);
     return 0;
   }
-  const float scale = options.scale > 0 ? options.scale : metrics::automatic_scale(map);
+  const float automatic = options.map == "flip" ? 1 : metrics::automatic_scale(map);
+  const float scale = options.scale > 0 ? options.scale : automatic;
   if (options.map == "pixelated") {
     map = metrics::enlarge_blocks(map, options.block, reference.width, reference.height);
   }
@@ -57,7 +89,20 @@ float write_map(const CompareOptions& options, const Image& reference, const Ima
   return scale;
 }
 
-ordered_json to_json(const metrics::ImageError& e, const metrics::BlockError& blocks) {
+// JSON knows no infinity: null says that the images are equal.
+ordered_json finite_or_null(double x) {
+  return std::isfinite(x) ? ordered_json(x) : ordered_json(nullptr);
+}
+
+ordered_json to_json(const Errors& errors) {
+  const metrics::ImageError& e = errors.linear;
+  const metrics::BlockError& blocks = errors.blocks;
+  ordered_json flip = {{"mean", errors.flip.mean}, {"kind", errors.hdr ? "hdr" : "ldr"}};
+  if (errors.hdr) {
+    flip["exposures"] = {{"first", errors.flip.first_exposure},
+                         {"last", errors.flip.last_exposure},
+                         {"count", errors.flip.exposures}};
+  }
   return {{"width", e.width},
           {"height", e.height},
           {"mae", e.mae},
@@ -65,10 +110,14 @@ ordered_json to_json(const metrics::ImageError& e, const metrics::BlockError& bl
           {"mse", e.mse},
           {"relmse", e.relmse},
           {"mape", e.mape},
+          {"smape", e.smape},
           {"mean_ratio", e.mean_ratio},
           {"bias", e.bias},
           {"sum", e.sum},
           {"max", e.max},
+          {"psnr", finite_or_null(errors.display.psnr)},
+          {"ssim", errors.display.ssim},
+          {"flip", flip},
           {"pixels", e.pixels},
           {"nonfinite_pixels", e.nonfinite_pixels},
           {"blocks",
@@ -80,17 +129,28 @@ ordered_json to_json(const metrics::ImageError& e, const metrics::BlockError& bl
             {"max_block", {blocks.max_column, blocks.max_row}}}}};
 }
 
-std::string to_text(const metrics::ImageError& e, const metrics::BlockError& blocks) {
+std::string to_text(const Errors& errors) {
+  const metrics::ImageError& e = errors.linear;
+  const metrics::BlockError& blocks = errors.blocks;
+  const std::string flip =
+      errors.hdr ? fmt::format("largest of {} exposures from {:.2f} to {:.2f} EV", errors.flip.exposures,
+                               errors.flip.first_exposure, errors.flip.last_exposure)
+                 : "as displayed";
   return fmt::format(
       "size       {} x {}\n"
       "MAE        {:.6g}   (sum {:.6g}, max {:.6g}, bias {:+.6g})\n"
       "RMSE       {:.6g}   (MSE {:.6g})\n"
       "relMSE     {:.6g}\n"
       "MAPE       {:.6g}\n"
+      "SMAPE      {:.6g}\n"
       "mean ratio {:.6g} {:.6g} {:.6g}\n"
+      "FLIP       {:.6g}   ({})\n"
+      "SSIM       {:.6g}\n"
+      "PSNR       {:.6g} dB\n"
       "blocks     {} x {} of {} pixels: mean sum {:.6g}, max {:.6g} in block {}, {}",
-      e.width, e.height, e.mae, e.sum, e.max, e.bias, e.rmse, e.mse, e.relmse, e.mape, e.mean_ratio[0],
-      e.mean_ratio[1], e.mean_ratio[2], blocks.columns, blocks.rows, blocks.block, blocks.mean, blocks.max,
+      e.width, e.height, e.mae, e.sum, e.max, e.bias, e.rmse, e.mse, e.relmse, e.mape, e.smape,
+      e.mean_ratio[0], e.mean_ratio[1], e.mean_ratio[2], errors.flip.mean, flip, errors.display.ssim,
+      errors.display.psnr, blocks.columns, blocks.rows, blocks.block, blocks.mean, blocks.max,
       blocks.max_column, blocks.max_row);
 }
 
@@ -107,19 +167,17 @@ void compare(Context& context, const CompareOptions& options) {
     throw Error(options.test, fmt::format("is {} x {} pixels, but {} is {} x {}", test.width, test.height,
                                           options.reference, reference.width, reference.height));
   }
-  const metrics::ImageError error = metrics::compare(reference, test);
-  const Image pixelated = metrics::pixelated_error_map(reference, test, options.block);
-  const metrics::BlockError blocks = metrics::block_error(pixelated, options.block);
-  ordered_json object = to_json(error, blocks);
-  std::string text = to_text(error, blocks);
+  const Errors errors = measure(options, reference, test);
+  ordered_json object = to_json(errors);
+  std::string text = to_text(errors);
   if (!options.output.empty()) {
-    const float scale = write_map(options, reference, test);
+    const float scale = write_map(options, reference, test, errors);
     object["map"] = {{"output", options.output}, {"kind", options.map}, {"scale", scale}};
     text += fmt::format("\nmap        {} ({}", options.output, options.map);
     text += scale > 0 ? fmt::format(", last colour at {:.6g})", scale) : ")";
   }
-  if (error.nonfinite_pixels > 0) {
-    text += fmt::format("\n{} pixels are infinite or NaN and were left out", error.nonfinite_pixels);
+  if (errors.linear.nonfinite_pixels > 0) {
+    text += fmt::format("\n{} pixels are infinite or NaN and were left out", errors.linear.nonfinite_pixels);
     if (!options.allow_nonfinite) {
       text += " (--allow-nonfinite accepts them)";
       context.exit_code = 1;
@@ -143,25 +201,34 @@ void add_compare_command(CLI::App& app, Context& context) {
   command->add_option("-o,--output", options->output, "Error map to write: .png (colours) or .exr (numbers)");
   command
       ->add_option("--map", options->map,
-                   "Which map: absolute |d|, signed d, pixelated (sum of |d| in each block), relmse")
-      ->check(CLI::IsMember({"absolute", "signed", "pixelated", "relmse"}))
+                   "Which map: absolute |d|, signed d, pixelated (sum of |d| in each block), relmse, flip")
+      ->check(CLI::IsMember({"absolute", "signed", "pixelated", "relmse", "flip"}))
       ->capture_default_str();
   command
       ->add_option("--scale", options->scale,
-                   "Error shown in the last colour of a .png map; 0: the 99th percentile")
+                   "Error shown in the last colour of a .png map; 0: the 99th percentile, for flip 1")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("--exposure", options->exposure, "Multiply both images by 2^EV first")
       ->check(CLI::Range(-60.0, 60.0))
       ->capture_default_str();
+  command
+      ->add_option("--ppd", options->pixels_per_degree,
+                   "Pixels in one degree of the viewer's sight, for FLIP")
+      ->check(CLI::Range(1.0, 500.0))
+      ->capture_default_str();
   command->add_flag("--allow-nonfinite", options->allow_nonfinite,
                     "Do not fail when pixels are infinite or NaN (they are left out and counted)");
   command->footer(
       "d = TEST - REF in scene-linear RGB: PNG and JPEG are decoded from sRGB first; alpha is not compared.\n"
-      "MAE mean |d|, MSE mean d^2, relMSE mean d^2/(REF^2 + 0.01), MAPE mean |d|/(|REF| + 0.01) as a "
-      "fraction, all over\n"
-      "pixels and channels; mean ratio: mean TEST / mean REF per channel; bias: mean d. Block sums add the "
-      "channels.");
+      "MAE mean |d|, MSE mean d^2, relMSE mean d^2/(REF^2 + 0.01), MAPE mean |d|/(|REF| + 0.01), SMAPE mean "
+      "|d|/(|REF| + |TEST| + 0.01),\n"
+      "as fractions, all over pixels and channels; mean ratio: mean TEST / mean REF per channel; bias: mean "
+      "d. Block sums add the\n"
+      "channels. FLIP: of two PNG or JPEG files as displayed, else HDR-FLIP over the exposures of REF. SSIM "
+      "(of "
+      "luma) and PSNR:\n"
+      "sRGB-encoded and clipped to [0, 1] after --exposure; JSON says null for the PSNR of equal images.");
 }
 
 }  // namespace ssphh::app

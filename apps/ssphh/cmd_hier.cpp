@@ -46,12 +46,17 @@ void apply_scale(gi::ProbeSet& set, const std::string& text) {
   gi::relight(set, text.substr(0, equals), scale);
 }
 
+std::string light_of(const gi::GeneratorInfo& g) {
+  return g.op == gi::LightOperator::path ? fmt::format("GEN {}", gi::to_string(g.gen))
+                                         : fmt::format("light by {}", gi::to_string(g.op));
+}
+
 void hier(Context& context, HierOptions& options) {
   gi::ProbeSet set = gi::read_probe_file(options.input);
   for (const std::string& scale : options.scales) apply_scale(set, scale);
   options.params.op = *gi::parse_hier_operator(options.op);
   if (gi::edge_count(set) == 0 && set.probes.size() > 1) {
-    log_warning("{} has no edges between its probes, so HIER adds nothing; bake with --viz on",
+    log_warning("{} has no edges between its probes, so HIER adds nothing; bake with --viz links or path",
                 options.input);
   }
 
@@ -80,9 +85,11 @@ void hier(Context& context, HierOptions& options) {
        {"threshold", options.params.threshold},
        {"probes", set.probes.size()},
        {"contraction", contraction ? nlohmann::json(contraction->upper) : nlohmann::json()},
-       {"gen", gi::to_string(set.generator.gen)}},
-      fmt::format("{}: {} edges between {} probes, operator {}, GEN {}: {:.1f} us{}", options.output, edges,
-                  set.probes.size(), options.op, gi::to_string(set.generator.gen), 1e6 * times[3], shrinks));
+       {"gen", gi::to_string(set.generator.gen)},
+       {"light", gi::to_string(set.generator.op)},
+       {"viz", gi::to_string(set.generator.viz)}},
+      fmt::format("{}: {} edges between {} probes, operator {}, {}: {:.1f} us{}", options.output, edges,
+                  set.probes.size(), options.op, light_of(set.generator), 1e6 * times[3], shrinks));
 }
 
 }  // namespace
@@ -118,9 +125,10 @@ void add_hier_command(CLI::App& app, Context& context) {
                    "bake; repeatable")
       ->allow_extra_args(false);
   command->footer(
-      "Probes of GEN full hold the neighbours' light already, so HIER counts it twice: bake with --gen local "
-      "to see\n"
-      "what the hierarchy alone transports. The time is the median of seven runs.");
+      "Probes of GEN full or of operator surfel or bounce hold the neighbours' light already, so HIER counts "
+      "it\n"
+      "twice: bake with --gen local to see what the hierarchy alone transports. The time is the median of "
+      "seven runs.");
 }
 
 }  // namespace ssphh::app

@@ -26,16 +26,6 @@ struct LeakOptions {
   gi::LeakParams params;
 };
 
-/// What the cameras and probes can reach is what counts.
-std::vector<vec3> viewpoints(const scene::Scene& scene, const gi::ProbeSet& set, float time) {
-  std::vector<vec3> places;
-  const std::vector<mat4> world = scene::world_matrices(scene, time);
-  for (const scene::Camera& camera : scene.cameras)
-    places.emplace_back(world[static_cast<std::size_t>(camera.node)][3]);
-  for (const gi::Probe& probe : set.probes) places.push_back(probe.position);
-  return places;
-}
-
 void leak(Context& context, LeakOptions& o) {
   if (!o.output.empty()) {
     const image::FileFormat format = image::format_of_extension(o.output);
@@ -57,13 +47,13 @@ void leak(Context& context, LeakOptions& o) {
   const trace::TransportScene surfaces(scene);
   gi::LookupParams lookup_params;
   if (o.light == "self") lookup_params.layer = gi::ProbeLayer::self;
-  const std::unique_ptr<scene::IndirectLight> lookup =
-      make_irradiance_lookup(o.probes, set, tracer, o.weights, lookup_params);
+  lookup_params.weights = weight_params(o.probes, set, o.weights);
+  const gi::IrradianceLookup lookup(set, tracer, lookup_params);
 
   o.params.path.seed = context.seed;
   const std::vector<scene::SurfacePoint> points = gi::reachable_points(
-      surfaces, viewpoints(scene, set, time), time, {o.points, context.seed}, context.control);
-  const gi::LeakReport report = gi::measure_leak(tracer, *lookup, points, o.params, context.control);
+      surfaces, viewpoints(scene, {&set, 1}, time), time, {o.points, context.seed}, context.control);
+  const gi::LeakReport report = gi::measure_leak(tracer, lookup, points, o.params, context.control);
   if (!(report.mean_truth > 0))
     log_warning("{}: path tracing finds no indirect light at all", o.scene.source);
 
@@ -76,7 +66,7 @@ void leak(Context& context, LeakOptions& o) {
       {"truth_spp", o.params.path.spp},
       {"mean_truth", report.mean_truth},
       {"mean_looked_up", report.mean_looked_up},
-      {"weights", o.weights.empty() ? (set.fitted ? "fitted" : "distance") : o.weights},
+      {"weights", gi::to_string(lookup_params.weights.chosen(set.fitted.has_value()))},
       {"time", time}};
   std::string text = fmt::format(
       "leaked      {:.4g} % of the looked-up light stands on dark points\n"
@@ -89,7 +79,7 @@ void leak(Context& context, LeakOptions& o) {
     params.path.spp = o.map_spp;
     params.mean = static_cast<float>(report.mean_truth > 0 ? report.mean_truth : 1);
     const LeakMap map =
-        leak_map(surfaces, time, camera, o.width, o.height, tracer, *lookup, params, context.control);
+        leak_map(surfaces, time, camera, o.width, o.height, tracer, lookup, params, context.control);
     const float scale = write_leak_map(o.output, map);
     object["map"] = {{"output", o.output}, {"dark_pixels", map.dark}, {"scale", scale}};
     text += fmt::format("\nmap         {}, {} dark pixels", o.output, map.dark);

@@ -30,6 +30,7 @@ float lowest_irradiance(const sh::RadianceSh& light) {
 
 ordered_json generator_json(const gi::GeneratorInfo& g) {
   return {{"operator", gi::to_string(g.op)},
+          {"viz", gi::to_string(g.viz)},
           {"gen", gi::to_string(g.gen)},
           {"max_depth", g.max_depth},
           {"passes", g.passes},
@@ -95,9 +96,10 @@ void info(Context& context, const std::string& path) {
   const gi::GeneratorInfo& g = set.generator;
   ordered_json groups = ordered_json::array(), probes = ordered_json::array();
   std::string text =
-      fmt::format("{}: {} probes of degree {}, {} edges\nscene {} at {} s; light by {}\n", path,
-                  set.probes.size(), set.degree, gi::edge_count(set), g.scene, g.time, gi::to_string(g.op));
-  if (g.op == gi::LightOperator::path || gi::edge_count(set) > 0) {
+      fmt::format("{}: {} probes of degree {}, {} edges\nscene {} at {} s; light by {}, edges by {}\n", path,
+                  set.probes.size(), set.degree, gi::edge_count(set), g.scene, g.time, gi::to_string(g.op),
+                  gi::to_string(g.viz));
+  if (g.op == gi::LightOperator::path || g.viz == gi::VizMethod::path) {
     text += fmt::format("paths: GEN {}, depth {}, {} x {} samples, {}x{}x6 texels, seed {}\n",
                         gi::to_string(g.gen), g.max_depth, g.passes, g.spp, g.face_size, g.face_size, g.seed);
   }

@@ -30,8 +30,8 @@ struct RelightOptions {
   SceneOptions scene;
   PlaceOptions place;
   std::vector<std::string> animate;
-  std::string output, save, camera, method = "surfel", weights = "trilinear", format = "png";
-  int frames = 60, truth = 0, pictures = 1, points = 256, truth_spp = 1024, max_depth = 25;
+  std::string output, save, camera, method = "surfel", weights = "mls", format = "png";
+  int frames = 60, truth = 0, pictures = 1, points = 256, truth_spp = 1024, max_depth = 25, fit_frames = 3;
   int width = 640, height = 360, spp = 8;
   float exposure = 0;
   double fps = 30;
@@ -124,7 +124,7 @@ class Relighting {
   void save(const gi::RelightSession& session) {
     const FrameState state = animation_.frame(share(o_.frames - 1));
     gi::GeneratorInfo generator;
-    generator.op = gi::LightOperator::surfel;
+    generator.op = o_.params.op;
     generator.directions = session.network().params().directions;
     generator.surfel_size = session.network().params().surfel_size;
     generator.link_rays = session.network().params().link_rays;
@@ -141,30 +141,34 @@ class Relighting {
     ProgressStage progress(context_.control, o_.truth > 0 ? "path tracing the truth" : "pictures",
                            kept_.size(), "frames");
     const Control quiet{nullptr, context_.control.cancel};
+    gi::LookupParams params;
+    params.weights.method = gi::parse_weight_method(o_.weights);
+    std::optional<gi::FittedPoints> fitted;
+    if (params.weights.method == gi::WeightMethod::fitted) fitted = fit(session, quiet);
     for (const KeptFrame& kept : kept_) {
       const scene::Scene lit =
           scene::with_lights(scene_, kept.state.time, kept.state.lights, kept.state.group_scales);
       const trace::PathTracer tracer(lit, kept.state.time);
-      const std::unique_ptr<scene::IndirectLight> lookup = make_lookup(session, kept, tracer, quiet);
-      if (is_due(kept.frame, o_.truth)) measure(session, kept, tracer, *lookup, quiet);
-      if (!o_.output.empty() && is_due(kept.frame, o_.pictures)) draw(kept, lit, tracer, *lookup, quiet);
+      gi::ProbeSet set = lookup_set(session.places(), kept.reflected);
+      set.fitted = fitted;
+      const gi::IrradianceLookup lookup(set, tracer, params);
+      if (is_due(kept.frame, o_.truth)) measure(session, kept, tracer, lookup, quiet);
+      if (!o_.output.empty() && is_due(kept.frame, o_.pictures)) draw(kept, lit, tracer, lookup, quiet);
       progress.advance(1);
     }
   }
 
-  std::unique_ptr<scene::IndirectLight> make_lookup(gi::RelightSession& session, const KeptFrame& kept,
-                                                    const trace::PathTracer& tracer, const Control& control) {
-    const gi::ProbeSet set = lookup_set(session.places(), kept.reflected);
-    gi::LookupParams params;
-    if (o_.weights != "fitted") {
-      params.weights.method = *gi::parse_weight_method(o_.weights);
-      return std::make_unique<gi::IrradianceLookup>(set, tracer, params);
+  /// Weights that serve the whole run: fitted at once to frames evenly spaced over it.
+  gi::FittedPoints fit(gi::RelightSession& session, const Control& control) {
+    gi::WeightFit fit(gi::surfel_points(session.network()));
+    const int count = std::min(o_.fit_frames, o_.frames);
+    for (int k = 0; k < count; ++k) {
+      animation_.apply(
+          animation_.frame(count > 1 ? static_cast<float>(k) / static_cast<float>(count - 1) : 0), session);
+      session.update();
+      fit.add_pose(session.network(), source_, session.direct_by_group(), control);
     }
-    session.set_time(kept.state.time);  // Weights are fitted with the doors as they stood.
-    session.update();
-    const gi::FittedPoints fitted =
-        gi::fit_weights(session.network(), source_, gi::surfel_points(session.network()), {}, control);
-    return std::make_unique<gi::FittedLookup>(set, fitted, tracer, params);
+    return fit.solve(control);
   }
 
   void measure(const gi::RelightSession& session, const KeptFrame& kept, const trace::PathTracer& tracer,
@@ -178,8 +182,7 @@ class Relighting {
         gi::reachable_points(source_, origins, kept.state.time, {o_.points, context_.seed}, control);
 
     std::vector<vec3> looked_up;
-    for (const scene::SurfacePoint& point : points)
-      looked_up.push_back(lookup.irradiance(point.position, point.normal));
+    for (const scene::SurfacePoint& point : points) looked_up.push_back(lookup.irradiance(point));
     const auto truth = tracer.surface_irradiance(
         points, {.max_depth = o_.max_depth, .passes = 1, .spp = o_.truth_spp, .seed = context_.seed},
         control);
@@ -227,7 +230,10 @@ class Relighting {
   bool saved_ = false;
 };
 
-void relight(Context& context, const RelightOptions& options) {
+void relight(Context& context, RelightOptions& options) {
+  options.params.op = *gi::parse_light_operator(options.method);
+  if (options.params.op == gi::LightOperator::bounce && options.params.poses != 0)
+    throw Error("--poses", "is of --operator surfel");
   if (!options.output.empty()) {
     std::error_code error;
     fs::create_directories(options.output, error);
@@ -240,8 +246,10 @@ void relight(Context& context, const RelightOptions& options) {
 void add_transport_options(CLI::App& command, RelightOptions& o) {
   const std::string group = "Transport";
   command
-      .add_option("--operator", o.method, "surfel: light goes from surface patch to patch until it settles")
-      ->check(CLI::IsMember({"surfel"}))
+      .add_option("--operator", o.method,
+                  "surfel: light goes from surface patch to patch until it settles; bounce: from probe to "
+                  "probe, each surface looking up the probes around it")
+      ->check(CLI::IsMember({"surfel", "bounce"}))
       ->capture_default_str()
       ->group(group);
   command.add_option("--degree", o.params.degree, "Highest band of the probes' functions")
@@ -293,10 +301,15 @@ void add_truth_options(CLI::App& command, RelightOptions& o) {
       ->group(group);
   command
       .add_option("--weights", o.weights,
-                  "How probes are blended: distance, trilinear, mls; fitted to the light transport (anew for "
-                  "every frame "
-                  "that is measured or drawn)")
+                  "How probes are blended: distance, trilinear, mls; fitted to the light transport, once for "
+                  "the run, at --fit-frames of its frames")
       ->check(CLI::IsMember({"distance", "trilinear", "mls", "fitted"}))
+      ->capture_default_str()
+      ->group(group);
+  command
+      .add_option("--fit-frames", o.fit_frames,
+                  "With --weights fitted: frames, evenly spaced over the run, whose light and poses they fit")
+      ->check(CLI::Range(1, 256))
       ->capture_default_str()
       ->group(group);
 }

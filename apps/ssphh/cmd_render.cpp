@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -6,12 +8,15 @@
 
 #include <ssphh/core/file.h>
 #include <ssphh/core/log.h>
+#include <ssphh/farm/farm_render.h>
 #include <ssphh/gi/lookup.h>
 #include <ssphh/image/io.h>
 #include <ssphh/image/tonemap.h>
 #include <ssphh/trace/path_tracer.h>
 
 #include "command.h"
+#include "farm_options.h"
+#include "gl_options.h"
 #include "probe_options.h"
 #include "scene_options.h"
 
@@ -20,8 +25,9 @@ namespace {
 
 struct RenderOptions {
   SceneOptions scene;
+  FarmChoice farm;
   std::string output, png, method = "path", probes, lookup = "irradiance", weights, light = "sum", camera,
-                           projection = "camera", tonemap = "clip";
+                           projection = "camera", tonemap = "clip", backend = "cpu";
   std::vector<std::string> aovs;
   int width = 1280, height = 720, max_depth = 3, passes = 1, spp = 16;
   float exposure = 0;
@@ -115,21 +121,27 @@ void render_path(const trace::PathTracer& tracer, const scene::Scene&, const Ren
   tracer.render(params, state, control);
 }
 
-void render_ssphh(const trace::PathTracer& tracer, const scene::Scene& scene, const RenderOptions& o,
-                  const trace::RenderParams& params, trace::RenderState& state, const Control& control) {
+gi::ProbeSet read_probes(const RenderOptions& o, const trace::PathTracer& tracer, const scene::Scene& scene) {
   if (o.probes.empty()) {
     throw Error("--probes", "method ssphh needs a probe file",
                 fmt::format("make one with `ssphh bake {} -o probes.sphl`", o.scene.source));
   }
-  const gi::ProbeSet probes = gi::read_probe_file(o.probes);
+  gi::ProbeSet probes = gi::read_probe_file(o.probes);
   require_same_scene(o.probes, probes, scene, tracer.light_groups(), o.scene.time, o.force);
+  return probes;
+}
+
+void render_ssphh(const trace::PathTracer& tracer, const scene::Scene& scene, const RenderOptions& o,
+                  const trace::RenderParams& params, trace::RenderState& state, const Control& control) {
+  const gi::ProbeSet probes = read_probes(o, tracer, scene);
   gi::LookupParams lookup;
   if (o.light == "self") lookup.layer = gi::ProbeLayer::self;
   std::unique_ptr<scene::IndirectLight> indirect;
   if (o.lookup == "light") {
     indirect = std::make_unique<gi::LightLookup>(probes, tracer, lookup);
   } else {
-    indirect = make_irradiance_lookup(o.probes, probes, tracer, o.weights, lookup);
+    lookup.weights = weight_params(o.probes, probes, o.weights);
+    indirect = std::make_unique<gi::IrradianceLookup>(probes, tracer, lookup);
   }
   tracer.render_with(*indirect, params, state, control);
 }
@@ -163,7 +175,122 @@ const Method& find_method(const std::string& name) {
   return methods[0];
 }
 
+/// The images that are written, in the order of farm::layer_names().
+std::vector<std::string> wanted_layers(const RenderOptions& o) {
+  std::vector<std::string> layers = {"color"};
+  for (const std::string& aov : aov_names)
+    if (std::ranges::find(o.aovs, aov) != o.aovs.end()) layers.push_back(aov);
+  return layers;
+}
+
+trace::RenderState render_on_farm(const FarmSession& session, const trace::PathTracer& tracer,
+                                  const scene::Scene& scene, const RenderOptions& o,
+                                  const trace::RenderParams& params, farm::FarmReport& report,
+                                  const Control& control) {
+  std::optional<gi::ProbeSet> set;
+  std::optional<farm::RenderProbes> probes;
+  if (o.method == "ssphh") {
+    set = read_probes(o, tracer, scene);
+    probes = farm::RenderProbes{&*set, o.lookup, o.weights, o.light};
+  }
+  return farm::render(session.options(), scene, o.scene.time, params, probes, wanted_layers(o), report,
+                      control);
+}
+
+std::array<double, 3> mean_radiance(const image::Image& picture) {
+  std::array<double, 3> mean{};
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      for (int c = 0; c < 3; ++c)
+        mean[static_cast<std::size_t>(c)] += static_cast<double>(picture.rgb(x, y)[c]);
+    }
+  }
+  for (double& m : mean) m /= static_cast<double>(picture.width) * picture.height;
+  return mean;
+}
+
+void refuse_with_gl(const RenderOptions& o) {
+  const auto refuse = [](const std::string& option, const std::string& problem) {
+    throw Error(option, problem + " is not for --backend gl", "leave it out, or take --backend cpu");
+  };
+  if (o.method != "ssphh") refuse("--method", "path tracing");
+  if (o.projection != "camera") refuse("--projection", "a picture of the whole sphere");
+  if (!o.weights.empty() && o.weights != "distance") refuse("--weights", "any weight but distance");
+  if (o.resume) refuse("--resume", "resuming");
+  if (o.farm.any()) refuse("--broker or --local", "a farm");
+  if (o.probes.empty() && o.max_depth >= 2)
+    throw Error(
+        "--probes", "method ssphh needs a probe file",
+        fmt::format("make one with `ssphh bake {} -o probes.sphl`, or take --max-depth 1", o.scene.source));
+  for (const std::string& aov : o.aovs) {
+    if (aov == "depth" || aov == "groups") refuse("--aov", aov);
+  }
+}
+
+// One frame of the real-time renderer; samples per pixel stand on a square grid.
+void render_gl(const RenderOptions& o, const Context& context) {
+  refuse_with_gl(o);
+  const scene::Scene scene = load_scene(o.scene);
+  const auto start = std::chrono::steady_clock::now();
+  gl::Context gl = gl::Context::headless();
+  realtime::Renderer renderer(gl, scene, {}, o.scene.time);
+  const GlLookup lookup{o.max_depth >= 2 ? o.probes : "", o.lookup, o.light, o.force};
+  set_probes(renderer, lookup, scene, o.scene.time);
+  int side = 1;
+  while (side < 4 && side * side < o.spp * o.passes) ++side;
+  realtime::FrameSettings settings = still_settings(lookup, side);
+  const scene::CameraPose camera = scene::camera_pose(scene, o.camera, o.scene.time);
+  const auto draw = [&](realtime::View view) {
+    settings.view = view;
+    renderer.draw(camera, settings, {.width = o.width, .height = o.height});
+    return renderer.read_back();
+  };
+  const image::Image picture = draw(realtime::View::lit);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  write_picture(o.output, picture, o);
+  if (!o.png.empty()) write_display(o.png, picture, o);
+  const std::filesystem::path output = o.output;
+  for (const std::string& aov : o.aovs) {
+    using realtime::View;
+    const View view = aov == "direct"     ? View::direct
+                      : aov == "indirect" ? View::indirect
+                      : aov == "albedo"   ? View::albedo
+                                          : View::normal;
+    image::Image image = draw(view);
+    // The view shows 0.5 + 0.5 n, and black where nothing stands.
+    if (view == View::normal) {
+      for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+          const vec3 n = image.rgb(x, y);
+          if (n != vec3(0)) image.set_rgb(x, y, 2.0f * n - 1.0f);
+        }
+      }
+    }
+    image::write_image((output.parent_path() / output.stem()).string() + "." + aov + ".exr", image);
+  }
+  const auto mean = mean_radiance(picture);
+  context.result(
+      {{"output", o.output},
+       {"method", o.method},
+       {"backend", "gl"},
+       {"renderer", gl.info().renderer},
+       {"width", picture.width},
+       {"height", picture.height},
+       {"samples", side * side},
+       {"seconds", seconds},
+       {"mean", mean}},
+      fmt::format("{}: {}×{}, {} samples per pixel in {:.2f} s on {}, mean radiance {:.4g} {:.4g} {:.4g}",
+                  o.output, picture.width, picture.height, side * side, seconds, gl.info().renderer, mean[0],
+                  mean[1], mean[2]));
+}
+
 void render(const RenderOptions& o, const Context& context) {
+  if (o.backend == "gl") return render_gl(o, context);
+  if (o.farm.any() && o.resume)
+    throw Error("--resume", "is of renders in this process; a farm keeps finished tiles in --cache",
+                "repeat the command without it");
+  std::optional<FarmSession> session;  // first: its processes start while this one reads the scene
+  if (o.farm.any()) session.emplace(o.farm);
   if (!o.weights.empty() && o.lookup == "light")
     throw Error("--weights", "blends probes, but --lookup light takes one alone", "leave out one of them");
   const scene::Scene scene = load_scene(o.scene);
@@ -185,7 +312,12 @@ void render(const RenderOptions& o, const Context& context) {
     log_info("resuming after {} passes", state.passes_done);
   }
   const auto start = std::chrono::steady_clock::now();
-  run_passes(o, state, [&] { method.render(tracer, scene, o, params, state, context.control); });
+  farm::FarmReport farm_report;
+  if (session) {
+    state = render_on_farm(*session, tracer, scene, o, params, farm_report, context.control);
+  } else {
+    run_passes(o, state, [&] { method.render(tracer, scene, o, params, state, context.control); });
+  }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
   const image::Image picture = trace::resolve(state.color, state.passes_done);
@@ -193,25 +325,19 @@ void render(const RenderOptions& o, const Context& context) {
   if (!o.png.empty()) write_display(o.png, picture, o);
   write_aovs(o, state, tracer.light_groups());
 
-  double mean[3] = {};
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
-      for (int c = 0; c < 3; ++c) mean[c] += static_cast<double>(picture.rgb(x, y)[c]);
-    }
+  const auto mean = mean_radiance(picture);
+  nlohmann::ordered_json object = {
+      {"output", o.output},       {"method", o.method},          {"width", picture.width},
+      {"height", picture.height}, {"passes", state.passes_done}, {"seconds", seconds},
+      {"rays", state.rays},       {"paths", state.paths},        {"mean", mean}};
+  std::string text =
+      fmt::format("{}: {}×{}, {} paths, {} rays in {:.2f} s, mean radiance {:.4g} {:.4g} {:.4g}", o.output,
+                  picture.width, picture.height, state.paths, state.rays, seconds, mean[0], mean[1], mean[2]);
+  if (session) {
+    object["farm"] = farm_json(farm_report);
+    text += "\n" + farm_text(farm_report);
   }
-  for (double& m : mean) m /= static_cast<double>(picture.width) * picture.height;
-  context.result({{"output", o.output},
-                  {"method", o.method},
-                  {"width", picture.width},
-                  {"height", picture.height},
-                  {"passes", state.passes_done},
-                  {"seconds", seconds},
-                  {"rays", state.rays},
-                  {"paths", state.paths},
-                  {"mean", mean}},
-                 fmt::format("{}: {}×{}, {} paths, {} rays in {:.2f} s, mean radiance {:.4g} {:.4g} {:.4g}",
-                             o.output, picture.width, picture.height, state.paths, state.rays, seconds,
-                             mean[0], mean[1], mean[2]));
+  context.result(object, text);
 }
 
 }  // namespace
@@ -222,6 +348,7 @@ void add_render_command(CLI::App& app, Context& context) {
   CLI::App* command = add_command(app, context, "render", "Render a picture",
                                   [options, &context] { render(*options, context); });
   add_scene_options(*command, o.scene);
+  add_farm_options(*command, o.farm);
 
   std::vector<std::string> names;
   std::string description = "How indirect light is found:";
@@ -271,6 +398,14 @@ void add_render_command(CLI::App& app, Context& context) {
       ->add_option("--lookup", o.lookup,
                    "irradiance: blend of visible SPHLs; light: nearest visible SPHL, as the paper")
       ->check(CLI::IsMember({"light", "irradiance"}))
+      ->capture_default_str()
+      ->group(probes);
+  command
+      ->add_option(
+          "--backend", o.backend,
+          "cpu: traced, any number of samples; gl: a frame of the real-time renderer, up to 4×4 samples "
+          "per pixel (docs/methods/realtime.md)")
+      ->check(CLI::IsMember({"cpu", "gl"}))
       ->capture_default_str()
       ->group(probes);
   add_weights_option(*command, o.weights)->group(probes);

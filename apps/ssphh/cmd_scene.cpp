@@ -8,7 +8,6 @@
 #include <ssphh/core/file.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/scene/query.h>
-#include <ssphh/scene_io/gltf_export.h>
 
 #include "command.h"
 #include "scene_options.h"
@@ -107,24 +106,10 @@ void show_scene(const Context& context, const SceneOptions& options) {
   context.result(object, text);
 }
 
-void export_scene(const Context& context, const SceneOptions& options, const std::string& output) {
-  if (!output.ends_with(".glb"))
-    throw Error(output, "the export is a GLB file", "let its name end with .glb");
-  const scene::Scene scene = load_scene(options);
-  const std::vector<std::byte> file = scene_io::export_glb(scene);
-  write_file(output, file);
-  context.result(
-      {{"output", output},
-       {"bytes", file.size()},
-       {"triangles", scene::triangle_count(scene)},
-       {"hash", scene::scene_hash(scene).hex()}},
-      fmt::format("{}: {} triangles, {} bytes", output, scene::triangle_count(scene), file.size()));
-}
-
 }  // namespace
 
 void add_scene_commands(CLI::App& app, Context& context) {
-  CLI::App* group = add_group(app, "scene", "List the built-in scenes, look into a scene, write it as GLB");
+  CLI::App* group = add_group(app, "scene", "List the built-in scenes, look into a scene");
   add_command(*group, context, "list", "The built-in scenes", [&context] { list_scenes(context); });
 
   auto info = std::make_shared<SceneOptions>();
@@ -132,17 +117,6 @@ void add_scene_commands(CLI::App& app, Context& context) {
       add_command(*group, context, "info", "What a scene holds, and what of its file is ignored",
                   [&context, info] { show_scene(context, *info); });
   add_scene_options(*info_command, *info);
-
-  struct Export {
-    SceneOptions scene;
-    std::string output;
-  };
-  auto options = std::make_shared<Export>();
-  CLI::App* export_command =
-      add_command(*group, context, "export", "Write a scene with all it holds as one GLB file (docs/gltf.md)",
-                  [&context, options] { export_scene(context, options->scene, options->output); });
-  add_scene_options(*export_command, options->scene, false);
-  export_command->add_option("-o,--output", options->output, "FILE.glb; replaced as a whole")->required();
 }
 
 }  // namespace ssphh::app

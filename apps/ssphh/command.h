@@ -43,9 +43,17 @@ void add_probe_commands(CLI::App& app, Context& context);
 void add_probe_lint_command(CLI::App& group, Context& context);
 void add_sh_commands(CLI::App& app, Context& context);
 void add_cubemap_commands(CLI::App& app, Context& context);
+void add_broker_command(CLI::App& app, Context& context);
 void add_compare_command(CLI::App& app, Context& context);
+void add_export_command(CLI::App& app, Context& context);
+void add_truth_command(CLI::App& app, Context& context);
 void add_leak_command(CLI::App& app, Context& context);
+void add_measure_command(CLI::App& app, Context& context);
 void add_relight_command(CLI::App& app, Context& context);
+void add_bench_frame_command(CLI::App& app, Context& context);
+void add_turntable_command(CLI::App& app, Context& context);
 void add_view_command(CLI::App& app, Context& context);
+void add_worker_command(CLI::App& app, Context& context);
+void add_farm_commands(CLI::App& app, Context& context);
 
 }  // namespace ssphh::app

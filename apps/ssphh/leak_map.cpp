@@ -39,7 +39,8 @@ LeakMap leak_map(const scene::TransportSource& surfaces, float time, const scene
                  const scene::IndirectLight& lookup, const gi::LeakParams& params, const Control& control) {
   const std::vector<scene::RayQuery> rays = camera_rays(camera, width, height);
   std::vector<scene::RayHit> hits(rays.size());
-  gi::PosedSurfaces(surfaces, time).intersect(rays, hits);
+  std::vector<std::uint8_t> moves(rays.size());
+  gi::PosedSurfaces(surfaces, time).intersect(rays, hits, moves);
 
   LeakMap map{image::Image(width, height, 1), image::Image(width, height, 1)};
   std::vector<scene::SurfacePoint> points;
@@ -48,7 +49,7 @@ LeakMap leak_map(const scene::TransportSource& surfaces, float time, const scene
     if (hits[i].escaped()) continue;
     map.grey.pixels[i] =
         0.5f * std::abs(glm::dot(hits[i].normal, rays[i].direction)) * luminance(hits[i].albedo);
-    points.push_back({rays[i].origin + hits[i].distance * rays[i].direction, hits[i].normal});
+    points.push_back({rays[i].origin + hits[i].distance * rays[i].direction, hits[i].normal, moves[i] != 0});
     pixel.push_back(i);
   }
   if (points.empty()) return map;

@@ -6,7 +6,6 @@
 #include <fmt/ranges.h>
 
 #include <ssphh/core/log.h>
-#include <ssphh/gi/fitted_weights.h>
 #include <ssphh/scene/query.h>
 
 namespace ssphh::app {
@@ -55,27 +54,32 @@ void require_same_scene(const std::string& file, const gi::ProbeSet& set, const 
   log_warning("{}: {}", file, problem);
 }
 
+std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const gi::ProbeSet> sets, float time) {
+  std::vector<vec3> places;
+  const std::vector<mat4> world = scene::world_matrices(scene, time);
+  for (const scene::Camera& camera : scene.cameras)
+    places.emplace_back(world[static_cast<std::size_t>(camera.node)][3]);
+  for (const gi::ProbeSet& set : sets) {
+    for (const gi::Probe& probe : set.probes) places.push_back(probe.position);
+  }
+  return places;
+}
+
 CLI::Option* add_weights_option(CLI::App& command, std::string& weights) {
   return command
       .add_option(
           "--weights", weights,
           "How --lookup irradiance blends SPHLs: fitted (to transport, for a file of `bake --fit`: the "
-          "default there), distance (nearest visible ones; else the default), trilinear (probes on a "
-          "grid), mls (moving least squares)")
+          "default there, with mls for what moves), mls (moving least squares; else the default), trilinear "
+          "(probes on a grid), distance (nearest visible ones)")
       ->check(CLI::IsMember({"distance", "trilinear", "mls", "fitted"}));
 }
 
-std::unique_ptr<scene::IndirectLight> make_irradiance_lookup(const std::string& file, const gi::ProbeSet& set,
-                                                             const scene::RadianceSource& source,
-                                                             const std::string& weights,
-                                                             gi::LookupParams params) {
-  if (weights == "fitted" || (weights.empty() && set.fitted)) {
-    if (!set.fitted)
-      throw Error(file, "has no fitted weights", "bake it with --fit, or choose other --weights");
-    return std::make_unique<gi::FittedLookup>(set, *set.fitted, source, params);
-  }
-  if (!weights.empty()) params.weights.method = *gi::parse_weight_method(weights);
-  return std::make_unique<gi::IrradianceLookup>(set, source, params);
+gi::WeightParams weight_params(const std::string& file, const gi::ProbeSet& set, const std::string& weights) {
+  const gi::WeightParams params = gi::weights_named(weights);
+  if (params.method == gi::WeightMethod::fitted && !set.fitted)
+    throw Error(file, "has no fitted weights", "bake it with --fit, or choose other --weights");
+  return params;
 }
 
 }  // namespace ssphh::app

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,15 +39,13 @@ std::string scene_difference(const gi::ProbeSet& set, const scene::Scene& scene,
 void require_same_scene(const std::string& file, const gi::ProbeSet& set, const scene::Scene& scene,
                         const std::vector<std::string>& light_groups, std::optional<float> time, bool force);
 
-/// --weights of the lookup `irradiance`; empty: what make_irradiance_lookup chooses.
+/// Places of the cameras and probes: what they can reach is what counts.
+std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const gi::ProbeSet> sets, float time);
+
+/// --weights of the lookup `irradiance`; empty: the library chooses.
 CLI::Option* add_weights_option(CLI::App& command, std::string& weights);
 
-/// The lookup by the named weights. Without a name the best by measurement
-/// (docs/methods/transport-results.md): `fitted` where the file has them, else `distance`.
-/// `params.weights.method` is set here. Throws Error for `fitted` with a set that has none.
-std::unique_ptr<scene::IndirectLight> make_irradiance_lookup(const std::string& file, const gi::ProbeSet& set,
-                                                             const scene::RadianceSource& source,
-                                                             const std::string& weights,
-                                                             gi::LookupParams params);
+/// The named weights. Throws Error for `fitted` with a set that has none.
+gi::WeightParams weight_params(const std::string& file, const gi::ProbeSet& set, const std::string& weights);
 
 }  // namespace ssphh::app

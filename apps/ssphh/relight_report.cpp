@@ -128,8 +128,8 @@ std::string relight_text(const RelightRun& run) {
                       percentile(times, 0.99), mean(run, pose_rays) + mean(run, direct_rays));
   text += fmt::format("\n{} of {} frames took longer than 1/{:g} s", over_budget(run), times.size(), run.fps);
   if (!run.errors.empty()) {
-    text += fmt::format("\n\n{:>5}{:>9}{:>9}{:>12}{:>9}{:>10}", "frame", "seconds", "ratio", "mean rel.",
-                        "noise", "relMSE");
+    text += fmt::format("\n\n{:>5}{:>9}{:>9}{:>11}{:>9}{:>9}{:>9}{:>10}", "frame", "seconds", "ratio",
+                        "mean rel.", "median", "95 %", "noise", "relMSE");
     for (const FrameError& e : run.errors) {
       text += fmt::format("\n{:>5}{:>9.2f}{:>9.3f}{:>11.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>10.4f}", e.frame,
                           e.frame / run.fps, e.error.ratio, e.error.mean_relative, e.error.median_relative,

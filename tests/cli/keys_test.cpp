@@ -22,7 +22,8 @@ TEST(Keys, EveryCommandHasHelp) {
                                                                                        {"scene"},
                                                                                        {"scene", "list"},
                                                                                        {"scene", "info"},
-                                                                                       {"scene", "export"},
+                                                                                       {"export"},
+                                                                                       {"truth"},
                                                                                        {"render"},
                                                                                        {"bake"},
                                                                                        {"place"},
@@ -42,6 +43,7 @@ TEST(Keys, EveryCommandHasHelp) {
                                                                                        {"cubemap", "convert"},
                                                                                        {"compare"},
                                                                                        {"leak"},
+                                                                                       {"measure"},
                                                                                        {"relight"}}) {
     std::vector<std::string> arguments = command;
     arguments.emplace_back("--help");
@@ -86,10 +88,12 @@ TEST(Keys, FromSceneToComparedPicture) {
   EXPECT_TRUE(std::filesystem::exists(png));
 
   const json compare = run_json({"compare", path, ssphh, "--block", "8", "-o", dir / "diff.png"});
-  expect_keys(compare, {"mae", "rmse", "mse", "relmse", "mape", "mean_ratio", "width", "height"});
+  expect_keys(compare, {"mae", "rmse", "mse", "relmse", "mape", "smape", "mean_ratio", "psnr", "ssim", "flip",
+                        "width", "height"});
   EXPECT_EQ(compare["width"], 32);
   EXPECT_EQ(compare["height"], 18);
   EXPECT_EQ(compare["mean_ratio"].size(), 3u);
+  EXPECT_EQ(compare["flip"]["kind"], "hdr");
 }
 
 TEST(Keys, ShEvalGivesTheFirstBands) {

@@ -31,7 +31,7 @@ TEST(PlaceTool, BakeTakesTheScenesProbesUnlessAsked) {
   const json bake = run_json(with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl"}, quick));
   EXPECT_EQ(bake["probes"], 6);
   EXPECT_FALSE(bake.contains("placement"));
-  EXPECT_EQ(bake["viz"], true);
+  EXPECT_EQ(bake["viz"], "path");
 }
 
 TEST(PlaceTool, ANumberOfProbesKeepsTheScenesOwn) {
@@ -46,12 +46,14 @@ TEST(PlaceTool, ANumberOfProbesKeepsTheScenesOwn) {
   EXPECT_EQ(info["probes"][0]["name"], "A west");
 }
 
-TEST(PlaceTool, ManyProbesLeaveVizOutWithANote) {
+TEST(PlaceTool, ManyProbesGetTheirEdgesFromLinks) {
   const TempDir dir;
-  const ToolResult bake =
-      run_tool(with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", "auto:1"}, quick));
-  EXPECT_EQ(bake.exit_code, 0) << bake.err;
-  EXPECT_THAT(bake.err, HasSubstr("VIZ is left out"));
+  const json bake = run_json(with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", "auto:1",
+                                   "--directions", "64", "--link-rays", "16"},
+                                  quick));
+  EXPECT_GT(bake["probes"], 64);
+  EXPECT_EQ(bake["viz"], "links");
+  EXPECT_GT(bake["edges"], bake["probes"]);
 }
 
 TEST(PlaceTool, WhatPlaceWritesIsAScene) {

@@ -30,6 +30,19 @@ std::vector<std::string> relight(const std::vector<std::string>& more) {
   return arguments;
 }
 
+TEST(Relight, BounceFollowsLampsAndDoorsToo) {
+  const TempDir dir;
+  const std::string saved = dir / "last.sphl";
+  const json run = run_json(relight({"--operator", "bounce", "--frames", "3", "--truth", "2", "--points",
+                                     "16", "--truth-spp", "16", "--save", saved}));
+  EXPECT_EQ(run["operator"], "bounce");
+  EXPECT_GT(run["stages"]["solve"]["iterations"], 1);
+  EXPECT_GT(run["stages"]["pose"]["rays"], 0);
+  EXPECT_EQ(run["error"].size(), 2u);
+  EXPECT_EQ(run_json({"probe", "info", saved})["generator"]["operator"], "bounce");
+  expect_failure(relight({"--operator", "bounce", "--poses", "4"}), "--poses");
+}
+
 TEST(Relight, ReportsStagesRaysAndErrors) {
   const TempDir dir;
   const std::string frames = dir / "frames", saved = dir / "last.sphl";
@@ -75,6 +88,25 @@ TEST(Relight, TakesThePlacesOfAProbeFileAndSavesWhatLeakReads) {
   EXPECT_LE(leak["leak_ratio"], 1e-5) << "the door is shut";
   EXPECT_GT(leak["dark_points"], 10);
   EXPECT_TRUE(std::filesystem::exists(map));
+
+  // Both files against one truth, each with two ways of blending.
+  const json all =
+      run_json({"measure", "builtin:two-rooms", "--probes", shut, again, "--weights", "distance,mls",
+                "--points", "64", "--truth-spp", "16", "--box", "-9,-9,-9,0,9,9"});
+  expect_keys(all, {"points", "dark_points", "mean_truth", "noise", "results"});
+  EXPECT_LT(all["points"], 64) << "those in room A alone";
+  EXPECT_GT(all["points"], 8);
+  ASSERT_EQ(all["results"].size(), 4u);
+  for (const json& one : all["results"]) {
+    expect_keys(one, {"probes", "weights", "ratio", "mean_error", "mean_relative", "median_relative",
+                      "p95_relative", "relmse", "leak_ratio"});
+    EXPECT_NEAR(one["ratio"].get<double>(), 1, 0.3);
+  }
+  EXPECT_EQ(all["results"][0]["ratio"], all["results"][2]["ratio"]) << "the same light";
+  EXPECT_NE(all["results"][0]["ratio"], all["results"][1]["ratio"]);
+  expect_failure({"measure", "builtin:two-rooms", "--probes", shut, "--weights", "fitted"}, {"--fit"});
+  expect_failure({"measure", "builtin:two-rooms", "--probes", shut, "--box", "50,50,50,51,51,51"}, {"--box"});
+  expect_failure({"measure", "builtin:two-rooms", "--probes", shut, "--time", "1"}, {"time 0 s, now 1 s"});
 }
 
 TEST(Relight, SaysWhatCannotBeAnimated) {

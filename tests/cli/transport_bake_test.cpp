@@ -48,13 +48,14 @@ TEST(TransportBakeCli, TellsOfTheOperatorInResultAndFile) {
   EXPECT_GT(bake["links"], bake["surfels"]);
   EXPECT_GT(bake["iterations"], 1);
   EXPECT_NEAR(bake["contraction"].get<double>(), 0.5, 0.01) << "the albedo of the closed box";
-  EXPECT_EQ(bake["edges"], 0);
-  EXPECT_EQ(bake["viz"], false);
+  EXPECT_EQ(bake["edges"], 5 * 4) << "each of five probes sees every other";
+  EXPECT_EQ(bake["viz"], "links");
   EXPECT_GT(bake["fitted"], 100);
 
   run_json({"probe", "convert", probes, "-o", binary});
   const json info = run_json({"probe", "info", binary});
   EXPECT_EQ(info["generator"]["operator"], "surfel");
+  EXPECT_EQ(info["generator"]["viz"], "links");
   EXPECT_EQ(info["generator"]["directions"], 64);
   EXPECT_EQ(info["generator"]["surfel_size"], 0.25);
   EXPECT_EQ(info["generator"]["link_rays"], 16);
@@ -100,13 +101,35 @@ TEST(TransportBakeCli, PathTracedProbesHaveNoNumbersOfTransport) {
   EXPECT_TRUE(paper.at("contraction").is_null());
 }
 
-TEST(TransportBakeCli, VizCanStandBeside) {
+TEST(TransportBakeCli, SurfelBakesHaveAHierarchyByThemselves) {
   const TempDir dir;
-  const json bake =
-      run_json(small_bake("builtin:box", dir / "a.sphl", {"--viz", "on", "--face", "4", "--spp", "1"}));
+  const std::string probes = dir / "a.sphl", out = dir / "b.sphl";
+  const json bake = run_json(small_bake("builtin:box", probes, {"--neighbors", "3"}));
+  EXPECT_EQ(bake["edges"], 5 * 3);
+  for (const char* op : {"coefficient", "mean"}) {
+    const json hier = run_json({"hier", probes, "-o", out, "--operator", op, "--neighbors", "2"});
+    EXPECT_EQ(hier["edges"], 5 * 2) << op;
+    EXPECT_EQ(hier["light"], "surfel");
+    EXPECT_EQ(hier["viz"], "links");
+  }
+  expect_failure({"hier", probes, "-o", out, "--operator", "matrix"}, "--viz-transfer");
+}
+
+TEST(TransportBakeCli, EdgesAreTracedWhereAskedFor) {
+  const TempDir dir;
+  const std::string probes = dir / "a.sphl";
+  const std::vector<std::string> paths = {"--viz-transfer", "--face", "4", "--spp", "1"};
+  const json bake = run_json(small_bake("builtin:box", probes, paths));
   EXPECT_EQ(bake["operator"], "surfel");
-  EXPECT_GT(bake["edges"], 0);
-  EXPECT_EQ(run_json({"hier", dir / "a.sphl", "-o", dir / "b.sphl"})["edges"], bake["edges"]);
+  EXPECT_EQ(bake["viz"], "path");
+  EXPECT_EQ(run_json({"hier", probes, "-o", dir / "b.sphl", "--operator", "matrix"})["edges"], bake["edges"]);
+
+  const json beside = run_json({"bake", "builtin:box", "-o", probes, "--face", "4", "--spp", "1", "--viz",
+                                "links", "--directions", "64", "--link-rays", "16", "--degree", "1"});
+  EXPECT_EQ(beside["operator"], "path");
+  EXPECT_EQ(beside["edges"], 5 * 4);
+  EXPECT_GT(beside["surfels"], 0);
+  EXPECT_EQ(run_json({"probe", "info", probes})["generator"]["viz"], "links");
 }
 
 TEST(TransportBakeCli, OptionsWithoutEffectAreRefused) {
@@ -114,6 +137,9 @@ TEST(TransportBakeCli, OptionsWithoutEffectAreRefused) {
   const std::string out = dir / "a.sphl";
   expect_failure(small_bake("builtin:box", out, {"--spp", "4"}), "--spp");
   expect_failure(small_bake("builtin:box", out, {"--gen", "local"}), "--gen local");
+  expect_failure(small_bake("builtin:box", out, {"--viz", "off", "--neighbors", "3"}), "--neighbors");
+  expect_failure(small_bake("builtin:box", out, {"--viz", "links", "--viz-transfer"}), "--viz-transfer");
+  expect_failure(small_bake("builtin:box", out, {"--neighbors", "-2"}), "--neighbors", 2);
   expect_failure({"bake", "builtin:box", "-o", out, "--directions", "64"}, "--directions");
   expect_failure({"bake", "builtin:box", "-o", out, "--operator", "photons"}, "photons", 2);
   expect_failure(small_bake("builtin:box", out, {"--link-rays", "0"}), "--link-rays", 2);

@@ -96,7 +96,7 @@ TEST(GiBake, AMatrixOverAllEmissionDirectionsIsTheResponse) {
   scene::Scene scene = scene::make_builtin("cornell");
   scene.sphls.resize(3);
   gi::BakeParams params = effort(8, 4, 2);
-  params.viz_transfer = true;
+  params.viz_params.matrix = true;
   const gi::ProbeSet set = bake(scene, 2, params);
   std::size_t edges = 0;
   for (const gi::Probe& probe : set.probes) {
@@ -179,7 +179,7 @@ TEST(GiBake, TheNumberOfThreadsChangesNoBit) {
   silence_warnings();
   const scene::Scene scene = scene::make_builtin("cornell");
   gi::BakeParams params = effort(8, 2, 2);
-  params.viz_transfer = true;
+  params.viz_params.matrix = true;
   std::vector<std::vector<std::byte>> files;
   for (const int threads : {1, 3}) {
     set_thread_count(threads);

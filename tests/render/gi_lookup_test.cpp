@@ -45,9 +45,9 @@ TEST_F(GiLookup, OnAWallOfTheBoxBothLookupsGiveTheirClosedForms) {
   for (int seed = 0; seed < 40; ++seed) {
     const gi::ProbeSet set = bake(seed);
     const gi::IrradianceLookup volume(set, tracer);
-    irradiance.add(double(volume.irradiance(x, n).y));
-    glossy.add(double(volume.glossy(x, n, glm::normalize(vec3(1, 1, 0)), 0.5f).y));
-    light.add(double(gi::LightLookup(set, tracer).irradiance(x, n).y));
+    irradiance.add(double(volume.irradiance({x, n}).y));
+    glossy.add(double(volume.glossy({x, n}, glm::normalize(vec3(1, 1, 0)), 0.5f).y));
+    light.add(double(gi::LightLookup(set, tracer).irradiance({x, n}).y));
   }
   // The nearest probe above the floor that x sees.
   vec3 nearest = places.probes[0].position;

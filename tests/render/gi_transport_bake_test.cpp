@@ -96,7 +96,7 @@ TEST(GiTransportBake, GroupsAddUpToTheLightOfAll) {
   }
 }
 
-TEST(GiTransportBake, FittedPointsAreThoseOfANetworkOfTheSameParameters) {
+TEST(GiTransportBake, FittedPointsAreThoseOfASessionOfTheSameParameters) {
   const scene::Scene scene = scene::make_builtin("box");
   gi::TransportBakeParams params;
   params.fit = true;
@@ -105,16 +105,19 @@ TEST(GiTransportBake, FittedPointsAreThoseOfANetworkOfTheSameParameters) {
   ASSERT_TRUE(set.fitted);
 
   const trace::TransportScene source(scene);
-  std::vector<vec3> positions;
-  for (const gi::Probe& probe : set.probes) positions.push_back(probe.position);
-  gi::TransportParams same;
-  same.directions = set.generator.directions;
-  same.surfel_size = set.generator.surfel_size;
-  same.link_rays = set.generator.link_rays;
-  const gi::TransportNetwork network(source, positions, same);
-  EXPECT_EQ(*set.fitted, gi::fit_weights(network, source, gi::surfel_points(network), params.fit_params));
+  std::vector<gi::ProbePlace> places;
+  for (const gi::Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
+  gi::RelightParams same;
+  same.transport.directions = set.generator.directions;
+  same.transport.surfel_size = set.generator.surfel_size;
+  same.transport.link_rays = set.generator.link_rays;
+  gi::RelightSession session(source, places, same);
+  session.update();
+  const gi::TransportNetwork& network = session.network();
+  EXPECT_EQ(*set.fitted, gi::fit_weights(network, source, gi::surfel_points(network), params.fit_params,
+                                         session.direct_by_group()));
   int most = 0;
-  for (const gi::ProbeWeights& weights : set.fitted->weights) most = std::max(most, weights.count);
+  for (const gi::PointWeights& weights : set.fitted->weights) most = std::max(most, weights.count);
   EXPECT_EQ(most, 3);
 }
 
@@ -123,7 +126,9 @@ TEST(GiTransportBake, WeightsFitBesidePathTracedLight) {
   const trace::TransportScene source(scene);
   gi::ProbeSet set = gi::init_from_scene(scene, 1);
   gi::TransportBakeReport report;
-  gi::fit_set(source, set, {}, report);
+  gi::TransportBakeParams params;
+  params.fit = true;
+  gi::add_transport(source, set, params, report);
   ASSERT_TRUE(set.fitted);
   EXPECT_EQ(set.generator.op, gi::LightOperator::path);
   EXPECT_GT(set.generator.directions, 0);

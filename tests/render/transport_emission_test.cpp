@@ -12,8 +12,6 @@ namespace {
 using gi::RelightParams;
 using gi::RelightSession;
 
-constexpr float root_4pi = 3.5449077018110318f;
-
 RelightParams small_session() {
   RelightParams params;
   params.transport = small_network();

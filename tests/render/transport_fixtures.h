@@ -82,6 +82,31 @@ inline gi::TransportParams small_network() {
   return params;
 }
 
+inline constexpr float root_4pi = 3.5449077018110318f;
+
+/// builtin:box, every wall with this albedo and Le = 1, lit.
+struct GlowingBox {
+  explicit GlowingBox(float rho)
+      : scene(painted(rho)), source(scene), session(source, places_of(scene), params()) {
+    session.update();
+  }
+  static scene::Scene painted(float rho) {
+    scene::Scene box = scene::make_builtin("box");
+    for (scene::Material& material : box.materials) material.base_color = vec3(rho);
+    return box;
+  }
+  static gi::RelightParams params() {
+    gi::RelightParams p;
+    p.transport = small_network();
+    p.degree = 2;
+    return p;
+  }
+
+  scene::Scene scene;
+  trace::TransportScene source;
+  gi::RelightSession session;
+};
+
 /// A box [low, high]³ seen from inside.
 struct Walls {
   vec3 low, high;

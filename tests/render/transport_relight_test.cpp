@@ -17,8 +17,6 @@ using gi::RelightParams;
 using gi::RelightReport;
 using gi::RelightSession;
 
-constexpr float root_4pi = 3.5449077018110318f;
-
 RelightParams small_session(bool warm_start = true) {
   RelightParams params;
   params.transport = small_network();

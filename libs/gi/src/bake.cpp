@@ -8,7 +8,6 @@
 #include <ssphh/gi/bake.h>
 #include <ssphh/gi/gen.h>
 #include <ssphh/gi/probe_file.h>
-#include <ssphh/gi/viz.h>
 
 #include "checkpoint.h"
 #include "part_progress.h"
@@ -27,7 +26,9 @@ Hash128 bake_key(const scene::RadianceSource& source, const ProbeSet& set, const
       .value(g.scene_hash.low)
       .value(g.time);
   hasher.value(g.gen).value(g.max_depth).value(g.passes).value(g.spp).value(g.seed).value(g.face_size);
-  hasher.value(params.keep_light).value(params.viz).value(params.viz_transfer);
+  hasher.value(params.keep_light).value(params.viz);
+  const VizParams& viz = params.viz_params;
+  hasher.value(viz.matrix).value(viz.neighbors).value(viz.threshold);
   for (const std::string& group : source.light_groups()) hasher.text(group);
   for (const Probe& probe : set.probes) {
     hasher.text(probe.name)
@@ -39,94 +40,100 @@ Hash128 bake_key(const scene::RadianceSource& source, const ProbeSet& set, const
   return hasher.finish();
 }
 
-struct Job {
+scene::CubeRequest request_of(const ProbeSet& set, const ProbeStage& stage) {
+  const GeneratorInfo& g = set.generator;
+  scene::CubeRequest request;
+  request.position = set.probes[stage.probe].position;
+  request.face_size = g.face_size;
+  request.path = {g.max_depth, g.passes, g.spp,
+                  hash_combine(g.seed, 2 * std::uint64_t{stage.probe} + (stage.stage == BakeStage::viz))};
+  return request;
+}
+
+ProbeStageResult decode(const CheckpointRecord& record, const ProbeSet& set) {
+  ByteReader in(record.payload, "checkpoint");
+  ProbeStageResult result{{record.stage, record.probe}, record.seconds, record.rays, {}, {}};
+  if (record.stage == BakeStage::gen) {
+    result.groups = read_groups(in, set.degree, set.light_groups.size());
+  } else {
+    result.edges = read_edges(in, set.degree, record.probe, set.probes.size());
+  }
+  in.expect_end();
+  return result;
+}
+
+CheckpointRecord encode(const ProbeStageResult& result) {
+  ByteWriter out;
+  if (result.done.stage == BakeStage::gen) {
+    write_groups(out, result.groups);
+  } else {
+    write_edges(out, result.edges);
+  }
+  return {result.done.stage, result.done.probe, result.seconds, result.rays, out.take()};
+}
+
+void store(ProbeStageResult result, ProbeSet& set, BakeReport& report) {
+  const bool gen = result.done.stage == BakeStage::gen;
+  (gen ? report.gen_seconds : report.viz_seconds) += result.seconds;
+  report.rays += result.rays;
+  Probe& probe = set.probes[result.done.probe];
+  if (gen) {
+    probe.groups = std::move(result.groups);
+  } else {
+    probe.edges = std::move(result.edges);
+  }
+}
+
+struct Work {
   const scene::RadianceSource& source;
   const BakeParams& params;
+  Checkpoint& checkpoint;
   ProbeSet& set;
   BakeReport& report;
 
-  scene::CubeRequest request(std::size_t probe, BakeStage stage) const {
-    scene::CubeRequest request;
-    request.position = set.probes[probe].position;
-    request.face_size = set.generator.face_size;
-    request.path = params.path;
-    request.path.max_depth = set.generator.max_depth;
-    request.path.seed =
-        hash_combine(set.generator.seed, 2 * std::uint64_t{probe} + (stage == BakeStage::viz));
-    return request;
+  /// What an earlier run finished goes into the set; returns, stage by stage, what is left to do.
+  std::vector<ProbeStage> resume(const std::vector<BakeStage>& stages) const {
+    std::vector<ProbeStage> left;
+    for (const BakeStage stage : stages) {
+      std::vector<bool> done(set.probes.size(), false);
+      for (const CheckpointRecord& record : checkpoint.records()) {
+        if (record.stage != stage || record.probe >= done.size() || done[record.probe]) continue;
+        keep(decode(record, set));
+        done[record.probe] = true;
+        ++report.resumed;
+      }
+      for (std::size_t i = 0; i < done.size(); ++i)
+        if (!done[i]) left.push_back({stage, static_cast<std::uint32_t>(i)});
+    }
+    return left;
   }
 
-  void trace(std::size_t i, BakeStage stage, const Control& control) const {
-    Probe& probe = set.probes[i];
-    const scene::CubeRequest cube = request(i, stage);
-    if (stage == BakeStage::gen) {
-      probe.groups = gen(source, cube, set.degree, control);
-    } else {
-      probe.edges = viz(source, set, i, cube, {params.viz_transfer}, control);
-    }
+  void finish(ProbeStageResult result) const {
+    checkpoint.append(encode(result));
+    keep(std::move(result));
   }
 
-  void restore(const CheckpointRecord& record) const {
-    ByteReader in(record.payload, "checkpoint");
-    Probe& probe = set.probes[record.probe];
-    if (record.stage == BakeStage::gen) {
-      probe.groups = read_groups(in, set.degree, set.light_groups.size());
-    } else {
-      probe.edges = read_edges(in, set.degree, record.probe, set.probes.size());
-    }
-    in.expect_end();
+  void keep(ProbeStageResult result) const {
+    const std::size_t i = result.done.probe;
+    store(std::move(result), set, report);
+    if (params.on_probe) params.on_probe(i, set.probes[i]);
   }
 
-  std::vector<std::byte> encode(std::size_t i, BakeStage stage) const {
-    ByteWriter out;
-    if (stage == BakeStage::gen) {
-      write_groups(out, set.probes[i].groups);
-    } else {
-      write_edges(out, set.probes[i].edges);
+  /// Probe by probe; each is on all threads.
+  void trace(BakeStage stage, const std::vector<ProbeStage>& left, const Control& control) const {
+    const auto face = static_cast<std::uint64_t>(set.generator.face_size);
+    const std::uint64_t texels = 6 * face * face, probes = set.probes.size();
+    ProgressStage progress(control, stage == BakeStage::gen ? "GEN" : "VIZ", texels * probes, "texels");
+    const auto count = static_cast<std::uint64_t>(std::ranges::count(left, stage, &ProbeStage::stage));
+    progress.advance(texels * (probes - count));
+    for (const ProbeStage& unit : left) {
+      if (unit.stage != stage) continue;
+      control.check();
+      PartProgress part(progress, texels);
+      finish(bake_stage(source, set, params.viz_params, unit, {&part, control.cancel}));
     }
-    return out.bytes();
   }
 };
-
-void run_stage(const Job& job, BakeStage stage, Checkpoint& checkpoint, const Control& control) {
-  const std::size_t probe_count = job.set.probes.size();
-  double& seconds = stage == BakeStage::gen ? job.report.gen_seconds : job.report.viz_seconds;
-
-  // Take what an earlier run finished.
-  std::vector<bool> done(probe_count, false);
-  for (const CheckpointRecord& record : checkpoint.records()) {
-    if (record.stage != stage || record.probe >= probe_count || done[record.probe]) continue;
-    job.restore(record);
-    done[record.probe] = true;
-    seconds += record.seconds;
-    job.report.rays += record.rays;
-    ++job.report.resumed;
-  }
-
-  // Trace the rest, probe by probe; each is on all threads.
-  const auto face = static_cast<std::uint64_t>(job.set.generator.face_size);
-  const std::uint64_t texels = 6 * face * face;
-  ProgressStage progress(control, stage == BakeStage::gen ? "GEN" : "VIZ", texels * probe_count, "texels");
-  for (std::size_t i = 0; i < probe_count; ++i) {
-    control.check();
-    PartProgress part(progress, texels);
-    if (done[i]) {
-      if (job.params.on_probe) job.params.on_probe(i, job.set.probes[i]);
-      continue;
-    }
-    const auto start = std::chrono::steady_clock::now();
-    const std::uint64_t rays_before = job.source.rays_traced();
-    job.trace(i, stage, {&part, control.cancel});
-    CheckpointRecord record{
-        stage, static_cast<std::uint32_t>(i), 0, job.source.rays_traced() - rays_before, {}};
-    record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    seconds += record.seconds;
-    job.report.rays += record.rays;
-    record.payload = job.encode(i, stage);
-    checkpoint.append(record);
-    if (job.params.on_probe) job.params.on_probe(i, job.set.probes[i]);
-  }
-}
 
 void check_probes(const scene::RadianceSource& source, const ProbeSet& set, BakeReport& report) {
   for (const Probe& probe : set.probes) {
@@ -154,8 +161,25 @@ void check_probes(const scene::RadianceSource& source, const ProbeSet& set, Bake
 
 }  // namespace
 
+ProbeStageResult bake_stage(const scene::RadianceSource& source, const ProbeSet& set,
+                            const VizParams& viz_params, const ProbeStage& stage, const Control& control) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::uint64_t rays_before = source.rays_traced();
+  const scene::CubeRequest request = request_of(set, stage);
+  ProbeStageResult result{stage, 0, 0, {}, {}};
+  if (stage.stage == BakeStage::gen) {
+    result.groups = gen(source, request, set.degree, control);
+  } else {
+    result.edges = viz(source, set, stage.probe, request, viz_params, control);
+  }
+  result.rays = source.rays_traced() - rays_before;
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
 ProbeSet bake(const scene::RadianceSource& source, ProbeSet set, const BakeParams& params,
-              const std::filesystem::path& checkpoint_path, BakeReport& report, const Control& control) {
+              const std::filesystem::path& checkpoint_path, BakeReport& report, const Control& control,
+              BakeCrew* crew) {
   if (set.probes.empty())
     throw Error("bake", "there are no probes to bake", "run INIT on a scene with SPHLs");
   report = {};
@@ -168,6 +192,7 @@ ProbeSet bake(const scene::RadianceSource& source, ProbeSet set, const BakeParam
   g.spp = params.path.spp;
   g.seed = params.path.seed;
   g.face_size = params.face_size;
+  if (params.viz) g.viz = VizMethod::path;
   if (params.keep_light) {
     if (!std::ranges::equal(set.light_groups, source.light_groups(), {}, &LightGroup::name))
       throw Error("bake", "the light to keep is of other light groups than the scene's");
@@ -182,9 +207,17 @@ ProbeSet bake(const scene::RadianceSource& source, ProbeSet set, const BakeParam
   validate(set, "bake");
 
   Checkpoint checkpoint(checkpoint_path, bake_key(source, set, params));
-  const Job job{source, params, set, report};
-  if (!params.keep_light) run_stage(job, BakeStage::gen, checkpoint, control);
-  if (params.viz) run_stage(job, BakeStage::viz, checkpoint, control);
+  std::vector<BakeStage> stages;
+  if (!params.keep_light) stages.push_back(BakeStage::gen);
+  if (params.viz) stages.push_back(BakeStage::viz);
+  const Work work{source, params, checkpoint, set, report};
+  const std::vector<ProbeStage> left = work.resume(stages);
+  if (crew) {
+    crew->run(
+        set, params, left, [&](ProbeStageResult result) { work.finish(std::move(result)); }, control);
+  } else {
+    for (const BakeStage stage : stages) work.trace(stage, left, control);
+  }
   merge_groups(set);
 
   check_probes(source, set, report);

@@ -4,13 +4,11 @@
 #include <fstream>
 #include <vector>
 
+#include <ssphh/core/bytes.h>
 #include <ssphh/core/hash.h>
-
-#include "bytes.h"
+#include <ssphh/gi/bake.h>
 
 namespace ssphh::gi {
-
-enum class BakeStage : std::uint8_t { gen, viz };
 
 /// One finished probe stage.
 struct CheckpointRecord {

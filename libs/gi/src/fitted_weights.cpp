@@ -6,6 +6,7 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/gi/fitted_weights.h>
+#include <ssphh/gi/lookup_weights.h>
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/sh/irradiance.h>
 
@@ -16,10 +17,11 @@
 namespace ssphh::gi {
 namespace {
 
-/// One training light, solved: what leaves each surfel, and each probe's irradiance function.
-struct Training {
-  std::vector<vec3> radiosity;  ///< per surfel
+/// One light in one pose, solved: each probe's irradiance function, and the irradiance at each point.
+struct Lesson {
   std::vector<sh::IrradianceSh> probes;
+  std::vector<vec3> points;
+  double weight;
 };
 
 /// Probes far apart: begin with the first, then always the one farthest from all taken.
@@ -40,14 +42,15 @@ std::vector<std::size_t> spread_probes(const std::vector<vec3>& positions, std::
   return chosen;
 }
 
-Training train(const TransportNetwork& network, const scene::TransportSource& source,
-               const DirectionProjector& projector, std::size_t probe) {
+/// Direct irradiance at the surfels from an isotropic light at a probe.
+std::vector<Irradiance4> light_at(const TransportNetwork& network, const scene::TransportSource& source,
+                                  std::size_t probe) {
   const std::size_t samples = static_cast<std::size_t>(network.params().samples);
   SphlEmitter light{network.gbuffer().positions[probe], 0.01f, sh::RadianceSh(0)};
   light.leaving[0] = vec3(1e4f);
   std::vector<vec3> at_samples(network.samples().size(), vec3(0));
   add_emission(network, source, light, at_samples);
-  std::vector<Irradiance4> direct(network.surfel_count(), Irradiance4(0)), indirect;
+  std::vector<Irradiance4> direct(network.surfel_count(), Irradiance4(0));
   for (std::size_t s = 0; s < direct.size(); ++s) {
     float used = 0;
     for (std::size_t i = s * samples; i < (s + 1) * samples; ++i) {
@@ -57,18 +60,35 @@ Training train(const TransportNetwork& network, const scene::TransportSource& so
     }
     direct[s] /= std::max(used, 1.0f);
   }
-  Solver solver;
-  solver.solve(network.links(), network.albedo(), direct, network.contraction().upper, {1e-4f, 300},
-               indirect);
-  for (std::size_t s = 0; s < direct.size(); ++s) direct[s] += indirect[s];
+  return direct;
+}
 
-  Training training;
-  for (std::size_t s = 0; s < direct.size(); ++s)
-    training.radiosity.push_back(network.albedo()[s] * vec3(direct[s]));
+Lesson solve_light(const TransportNetwork& network, const DirectionProjector& projector,
+                   std::span<const std::int32_t> seen, std::size_t rays, std::span<const Irradiance4> direct,
+                   double weight) {
+  std::vector<Irradiance4> all;
+  Solver solver;
+  solver.solve(network.links(), network.albedo(), direct, network.contraction().upper, {1e-4f, 300}, all);
+  for (std::size_t s = 0; s < all.size(); ++s) all[s] += direct[s];
   std::vector<sh::RadianceSh> radiance;
-  project_reflected(network, projector, direct, radiance);
-  for (const sh::RadianceSh& r : radiance) training.probes.push_back(sh::irradiance_from_radiance(r));
-  return training;
+  project_reflected(network, projector, all, radiance);
+
+  Lesson lesson;
+  lesson.weight = weight;
+  for (const sh::RadianceSh& r : radiance) lesson.probes.push_back(sh::irradiance_from_radiance(r));
+  lesson.points.resize(seen.size() / rays);
+  parallel_for(lesson.points.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      vec3 sum(0);
+      for (std::size_t r = p * rays; r < (p + 1) * rays; ++r) {
+        if (seen[r] == no_surfel) continue;
+        const auto s = static_cast<std::size_t>(seen[r]);
+        sum += network.albedo()[s] * vec3(all[s]);
+      }
+      lesson.points[p] = sum / static_cast<float>(rays);
+    }
+  });
+  return lesson;
 }
 
 /// The nearest probes that see a point; visibility as the lookups have it.
@@ -95,83 +115,132 @@ void check(const FitParams& params) {
   within("training lights", params.training_lights, 1, 1024);
   within("gather rays", params.gather_rays, 4, 1 << 16);
   within("fit degree", params.degree, 0, sh::max_degree);
+  if (!(params.own_weight > 0) || !(params.own_weight <= 1000))
+    throw Error("own weight", fmt::format("{} is outside 0..1000", params.own_weight));
 }
 
 }  // namespace
 
-FittedPoints fit_weights(const TransportNetwork& network, const scene::TransportSource& source,
-                         std::span<const scene::SurfacePoint> points, const FitParams& params,
-                         const Control& control) {
-  check(params);
-  const std::vector<vec3>& positions = network.gbuffer().positions;
-  const DirectionProjector projector(params.degree, network.gbuffer().directions);
-  std::vector<Training> training;
-  {
-    const auto lights = spread_probes(positions, static_cast<std::size_t>(params.training_lights));
-    ProgressStage progress(control, "training", lights.size(), "lights");
-    for (const std::size_t probe : lights) {
-      control.check();
-      training.push_back(train(network, source, projector, probe));
-      progress.advance(1);
+struct WeightFit::Data {
+  FitParams params;
+  std::vector<scene::SurfacePoint> points;
+  std::vector<Lesson> lessons;
+  std::vector<std::vector<int>> probes;  ///< per point: those that it sees in some pose
+
+  PointWeights fit(std::size_t point) const;
+};
+
+/// One equation per light, pose and channel, each relative to its own light. Dividing by the truth makes
+/// least squares too dark by about the variance of what is left over, so the sum of the equations is met at
+/// last.
+PointWeights WeightFit::Data::fit(std::size_t point) const {
+  const std::vector<int>& candidates = probes[point];
+  if (candidates.empty()) return {};
+  std::vector<float> basis(static_cast<std::size_t>(sh::coefficient_count(params.degree)));
+  sh::eval_basis(params.degree, points[point].normal, basis);
+  const std::size_t count = candidates.size();
+  std::vector<double> rows, targets;
+  std::vector<vec3> values(count);
+  for (const Lesson& lesson : lessons) {
+    const vec3 truth = lesson.points[point];
+    vec3 mean(0);
+    for (std::size_t i = 0; i < count; ++i) {
+      const sh::IrradianceSh& function = lesson.probes[static_cast<std::size_t>(candidates[i])];
+      values[i] = vec3(0);
+      for (std::size_t k = 0; k < basis.size(); ++k) values[i] += basis[k] * function.values[k];
+      mean += values[i] / static_cast<float>(count);
+    }
+    for (glm::length_t c = 0; c < 3; ++c) {
+      const double scale = lesson.weight / std::max({double(truth[c]), 0.1 * double(mean[c]), 1e-12});
+      for (const vec3& e : values) rows.push_back(double(e[c]) * scale);
+      targets.push_back(double(truth[c]) * scale);
     }
   }
+  const std::vector<double> prior(count, 1.0 / static_cast<double>(count));
+  const std::vector<double> v = fit_non_negative(rows, targets, prior, double(params.ridge));
+  double wanted = 0, got = 0;
+  for (std::size_t q = 0; q < targets.size(); ++q) {
+    wanted += targets[q];
+    for (std::size_t i = 0; i < count; ++i) got += rows[q * count + i] * v[i];
+  }
+  const double scale = got > 0 && wanted > 0 ? wanted / got : 1;
 
-  FittedPoints fitted;
-  fitted.points.assign(points.begin(), points.end());
-  fitted.weights.resize(points.size());
-  const auto rays = static_cast<std::size_t>(params.gather_rays);
-  const std::vector<std::int32_t> seen = network.gather(points, params.gather_rays, control);
+  // The largest, should several poses have brought more than a point may have.
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (v[i] > 0) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return v[a] > v[b]; });
+  order.resize(std::min<std::size_t>(order.size(), max_weights));
+  std::sort(order.begin(), order.end());
+  PointWeights out;
+  for (const std::size_t i : order) out.add(candidates[i], static_cast<float>(scale * v[i]));
+  return out;
+}
+
+WeightFit::WeightFit(std::vector<scene::SurfacePoint> points, const FitParams& params) {
+  check(params);
+  const std::size_t count = points.size();
+  data_.reset(new Data{params, std::move(points), {}, std::vector<std::vector<int>>(count)});
+}
+WeightFit::~WeightFit() = default;
+WeightFit::WeightFit(WeightFit&&) noexcept = default;
+
+void WeightFit::add_pose(const TransportNetwork& network, const scene::TransportSource& source,
+                         std::span<const SurfelLight> lights, const Control& control) {
+  Data& d = *data_;
+  const std::vector<vec3>& positions = network.gbuffer().positions;
+  const DirectionProjector projector(d.params.degree, network.gbuffer().directions);
+  const auto rays = static_cast<std::size_t>(d.params.gather_rays);
+  const std::vector<std::int32_t> seen = network.gather(d.points, d.params.gather_rays, control);
+  const auto chosen = spread_probes(positions, static_cast<std::size_t>(d.params.training_lights));
+  ProgressStage progress(control, "training", chosen.size() + lights.size(), "lights");
+  const auto learn = [&](std::span<const Irradiance4> direct, double weight) {
+    control.check();
+    d.lessons.push_back(solve_light(network, projector, seen, rays, direct, weight));
+    progress.advance(1);
+  };
+  for (const std::size_t probe : chosen) learn(light_at(network, source, probe), 1);
+  for (const SurfelLight& light : lights) learn(light, double(d.params.own_weight));
+
   const NearestPoints nearest(positions);
   const float offset = 0.01f * std::min(median_spacing(positions), 2.0f);
-  ProgressStage progress(control, "fitting", points.size(), "points");
   parallel_for(
-      points.size(), 32,
+      d.points.size(), 32,
       [&](std::size_t begin, std::size_t end) {
-        std::vector<double> rows, targets, prior;
-        std::vector<float> basis(static_cast<std::size_t>(sh::coefficient_count(params.degree)));
         for (std::size_t p = begin; p < end; ++p) {
-          const std::vector<int> probes =
-              visible_probes(network, source, nearest, offset, points[p], params.probes);
-          if (probes.empty()) continue;
-          sh::eval_basis(params.degree, points[p].normal, basis);
-
-          // One equation per training light and channel, each relative to its own light.
-          rows.clear();
-          targets.clear();
-          for (const Training& light : training) {
-            vec3 truth(0);
-            for (std::size_t r = 0; r < rays; ++r) {
-              const std::int32_t s = seen[p * rays + r];
-              if (s != no_surfel) truth += light.radiosity[static_cast<std::size_t>(s)];
-            }
-            truth /= static_cast<float>(rays);
-            std::vector<vec3> values;
-            vec3 mean(0);
-            for (const int probe : probes) {
-              vec3 e(0);
-              const sh::IrradianceSh& function = light.probes[static_cast<std::size_t>(probe)];
-              for (std::size_t k = 0; k < basis.size(); ++k) e += basis[k] * function.values[k];
-              values.push_back(e);
-              mean += e / static_cast<float>(probes.size());
-            }
-            for (glm::length_t c = 0; c < 3; ++c) {
-              const double scale = 1 / std::max({double(truth[c]), 0.1 * double(mean[c]), 1e-12});
-              for (const vec3& e : values) rows.push_back(double(e[c]) * scale);
-              targets.push_back(double(truth[c]) * scale);
-            }
-          }
-          prior.assign(probes.size(), 1.0 / static_cast<double>(probes.size()));
-          const std::vector<double> v = fit_non_negative(rows, targets, prior, double(params.ridge));
-          ProbeWeights& out = fitted.weights[p];
-          for (std::size_t i = 0; i < probes.size(); ++i) {
-            if (v[i] > 0)
-              out.entries[static_cast<std::size_t>(out.count++)] = {probes[i], static_cast<float>(v[i])};
+          std::vector<int>& known = d.probes[p];
+          for (const int probe :
+               visible_probes(network, source, nearest, offset, d.points[p], d.params.probes)) {
+            if (std::find(known.begin(), known.end(), probe) == known.end()) known.push_back(probe);
           }
         }
+      },
+      control);
+}
+
+FittedPoints WeightFit::solve(const Control& control) const {
+  const Data& d = *data_;
+  FittedPoints fitted;
+  fitted.points = d.points;
+  fitted.weights.resize(d.points.size());
+  ProgressStage progress(control, "fitting", d.points.size(), "points");
+  parallel_for(
+      d.points.size(), 32,
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p) fitted.weights[p] = d.fit(p);
         progress.advance(end - begin);
       },
       control);
   return fitted;
+}
+
+FittedPoints fit_weights(const TransportNetwork& network, const scene::TransportSource& source,
+                         std::span<const scene::SurfacePoint> points, const FitParams& params,
+                         std::span<const SurfelLight> lights, const Control& control) {
+  WeightFit fit({points.begin(), points.end()}, params);
+  fit.add_pose(network, source, lights, control);
+  return fit.solve(control);
 }
 
 std::vector<scene::SurfacePoint> surfel_points(const TransportNetwork& network, int per_surfel) {

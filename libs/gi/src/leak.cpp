@@ -24,35 +24,21 @@ void check(std::span<const scene::SurfacePoint> points, const LeakParams& params
 
 }  // namespace
 
-LeakReport measure_leak(const scene::RadianceSource& source, const scene::IndirectLight& lookup,
-                        std::span<const scene::SurfacePoint> points, const LeakParams& params,
-                        const Control& control) {
+TruthAtPoints trace_truth(const scene::RadianceSource& source, std::span<const scene::SurfacePoint> points,
+                          const LeakParams& params, const Control& control) {
   check(points, params);
-  LeakReport report;
-  report.looked_up.resize(points.size());
-  parallel_for(
-      points.size(), 64,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-          report.looked_up[i] = luminance(lookup.irradiance(points[i].position, points[i].normal));
-      },
-      control);
-
-  const std::vector<scene::IrradianceEstimate> truth =
-      source.surface_irradiance(points, params.path, control);
-  double truth_sum = 0, deviations = 0, looked_up_sum = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    report.truth.push_back(static_cast<float>(true_luminance(truth[i])));
-    truth_sum += true_luminance(truth[i]);
-    deviations += true_deviation(truth[i]);
-    looked_up_sum += static_cast<double>(report.looked_up[i]);
+  TruthAtPoints truth;
+  truth.estimates = source.surface_irradiance(points, params.path, control);
+  double sum = 0, deviations = 0;
+  for (const scene::IrradianceEstimate& estimate : truth.estimates) {
+    sum += true_luminance(estimate);
+    deviations += true_deviation(estimate);
   }
-  const auto count = static_cast<double>(points.size());
-  report.mean_truth = truth_sum / count;
-  report.mean_looked_up = looked_up_sum / count;
-  report.truth_noise = truth_sum > 0 ? deviations / truth_sum : 0;
+  truth.mean = sum / static_cast<double>(points.size());
+  truth.noise = sum > 0 ? deviations / sum : 0;
 
-  const double mean = params.mean > 0 ? static_cast<double>(params.mean) : report.mean_truth;
+  // What looks dark gets a second look.
+  const double mean = params.mean > 0 ? static_cast<double>(params.mean) : truth.mean;
   const double limit = static_cast<double>(params.dark_share) * mean;
   const auto is_dark = [&](const scene::IrradianceEstimate& estimate) {
     return true_luminance(estimate) + static_cast<double>(params.sigmas) * true_deviation(estimate) <= limit;
@@ -60,25 +46,63 @@ LeakReport measure_leak(const scene::RadianceSource& source, const scene::Indire
   std::vector<scene::SurfacePoint> suspects;
   std::vector<std::size_t> of;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!is_dark(truth[i])) continue;
+    if (!is_dark(truth.estimates[i])) continue;
     suspects.push_back(points[i]);
     of.push_back(i);
   }
-  report.dark_at.assign(points.size(), 0);
-  double leaked = 0;
-  if (!suspects.empty()) {
-    scene::PathParams again = params.path;
-    again.spp *= 4;
-    again.seed = mix64(again.seed);
-    const auto second = source.surface_irradiance(suspects, again, control);
-    for (std::size_t s = 0; s < suspects.size(); ++s) {
-      if (!is_dark(second[s])) continue;
-      report.dark_at[of[s]] = 1;
-      ++report.dark;
-      leaked += static_cast<double>(report.looked_up[of[s]]);
-    }
+  truth.dark_at.assign(points.size(), 0);
+  if (suspects.empty()) return truth;
+  scene::PathParams again = params.path;
+  again.spp *= 4;
+  again.seed = mix64(again.seed);
+  const auto second = source.surface_irradiance(suspects, again, control);
+  for (std::size_t s = 0; s < suspects.size(); ++s) {
+    if (!is_dark(second[s])) continue;
+    truth.dark_at[of[s]] = 1;
+    ++truth.dark;
   }
-  report.ratio = looked_up_sum > 0 ? leaked / looked_up_sum : 0;
+  return truth;
+}
+
+std::vector<vec3> look_up(const scene::IndirectLight& lookup, std::span<const scene::SurfacePoint> points,
+                          const Control& control) {
+  std::vector<vec3> looked_up(points.size());
+  parallel_for(
+      points.size(), 64,
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) looked_up[i] = lookup.irradiance(points[i]);
+      },
+      control);
+  return looked_up;
+}
+
+double leak_ratio(std::span<const vec3> looked_up, const TruthAtPoints& truth) {
+  SSPHH_CHECK(looked_up.size() == truth.dark_at.size());
+  double all = 0, leaked = 0;
+  for (std::size_t i = 0; i < looked_up.size(); ++i) {
+    const auto value = static_cast<double>(luminance(looked_up[i]));
+    all += value;
+    if (truth.dark_at[i]) leaked += value;
+  }
+  return all > 0 ? leaked / all : 0;
+}
+
+LeakReport measure_leak(const scene::RadianceSource& source, const scene::IndirectLight& lookup,
+                        std::span<const scene::SurfacePoint> points, const LeakParams& params,
+                        const Control& control) {
+  const TruthAtPoints truth = trace_truth(source, points, params, control);
+  const std::vector<vec3> looked_up = look_up(lookup, points, control);
+  LeakReport report;
+  report.ratio = leak_ratio(looked_up, truth);
+  report.dark = truth.dark;
+  report.dark_at = truth.dark_at;
+  report.mean_truth = truth.mean;
+  report.truth_noise = truth.noise;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    report.looked_up.push_back(luminance(looked_up[i]));
+    report.truth.push_back(static_cast<float>(true_luminance(truth.estimates[i])));
+    report.mean_looked_up += static_cast<double>(report.looked_up[i]) / static_cast<double>(points.size());
+  }
   return report;
 }
 

@@ -35,6 +35,8 @@ LookupError lookup_error(std::span<const vec3> looked_up, std::span<const scene:
     error.noise += std::sqrt(2 / pi_d) * deviation / by / count;
     error.relmse += (d * d - deviation * deviation) / (by * by) / count;
   }
+  error.mean_error =
+      std::sqrt(std::max(0.0, error.mean_relative * error.mean_relative - error.noise * error.noise));
   std::sort(relative.begin(), relative.end());
   const auto rank = [&](double share) {
     return relative[static_cast<std::size_t>(std::ceil(share * count)) - 1];

@@ -10,13 +10,9 @@ struct IrradianceLookup::Data {
 
   /// Σ_j v_j value(j), not negative.
   template <class Value>
-  vec3 blend(const vec3& x, const vec3& n, const Value& value) const {
-    const ProbeWeights at = weights->at(x, n);
+  vec3 blend(const scene::SurfacePoint& at, const Value& value) const {
     vec3 sum(0);
-    for (int i = 0; i < at.count; ++i) {
-      const ProbeWeight& probe = at.entries[static_cast<std::size_t>(i)];
-      sum += probe.weight * value(probe.probe);
-    }
+    for (const ProbeWeight& entry : weights->at(at).used()) sum += entry.weight * value(entry.probe);
     return glm::max(sum, vec3(0));
   }
 };
@@ -26,23 +22,23 @@ IrradianceLookup::IrradianceLookup(const ProbeSet& set, const scene::RadianceSou
     : data_(new Data{ProbeTable(set, params), nullptr}) {
   data_->weights = make_weights(
       data_->table.positions(), [&source](const vec3& a, const vec3& b) { return source.visible(a, b); },
-      params.weights);
+      params.weights, set.fitted ? &*set.fitted : nullptr);
 }
 IrradianceLookup::IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWeights> weights,
                                    const LookupParams& params)
     : data_(new Data{ProbeTable(set, params), std::move(weights)}) {}
 IrradianceLookup::~IrradianceLookup() = default;
 
-vec3 IrradianceLookup::irradiance(const vec3& x, const vec3& n) const {
+vec3 IrradianceLookup::irradiance(const scene::SurfacePoint& at) const {
   ProbeTable::Basis basis;
-  data_->table.irradiance_basis(n, basis);
-  return data_->blend(x, n, [&](int probe) { return data_->table.irradiance(probe, basis.data()); });
+  data_->table.irradiance_basis(at.normal, basis);
+  return data_->blend(at, [&](int probe) { return data_->table.irradiance(probe, basis.data()); });
 }
 
-vec3 IrradianceLookup::glossy(const vec3& x, const vec3& n, const vec3& r, float roughness) const {
+vec3 IrradianceLookup::glossy(const scene::SurfacePoint& at, const vec3& r, float roughness) const {
   ProbeTable::Basis basis;
   data_->table.glossy_basis(r, roughness, basis);
-  return data_->blend(x, n, [&](int probe) { return data_->table.radiance(probe, basis.data()); });
+  return data_->blend(at, [&](int probe) { return data_->table.radiance(probe, basis.data()); });
 }
 
 std::unique_ptr<scene::IndirectLight> make_lookup(LookupMethod method, const ProbeSet& set,

@@ -39,7 +39,8 @@ LightLookup::LightLookup(const ProbeSet& set, const scene::RadianceSource& sourc
 }
 LightLookup::~LightLookup() = default;
 
-vec3 LightLookup::irradiance(const vec3& x, const vec3& n) const {
+vec3 LightLookup::irradiance(const scene::SurfacePoint& at) const {
+  const vec3 &x = at.position, &n = at.normal;
   const Data::Chosen chosen = data_->choose(x, n);
   ProbeTable::Basis basis;
   if (!chosen.lights) {
@@ -50,10 +51,10 @@ vec3 LightLookup::irradiance(const vec3& x, const vec3& n) const {
   return data_->table.radiance(chosen.probe, basis.data()) / std::max(chosen.cosine, smallest_cosine);
 }
 
-vec3 LightLookup::glossy(const vec3& x, const vec3& n, const vec3& r, float roughness) const {
+vec3 LightLookup::glossy(const scene::SurfacePoint& at, const vec3& r, float roughness) const {
   ProbeTable::Basis basis;
   data_->table.glossy_basis(r, roughness, basis);
-  return data_->table.radiance(data_->choose(x, n).probe, basis.data());
+  return data_->table.radiance(data_->choose(at.position, at.normal).probe, basis.data());
 }
 
 }  // namespace ssphh::gi

@@ -4,6 +4,7 @@
 #include <ssphh/core/error.h>
 #include <ssphh/gi/lookup_weights.h>
 
+#include "fitted_lookup_weights.h"
 #include "probe_sight.h"
 
 namespace ssphh::gi {
@@ -33,8 +34,7 @@ class VisibleWeights : public LookupWeights {
     ProbeWeights out;
     for (int i = 0; i < visible; ++i) {
       const Near& probe = near[static_cast<std::size_t>(i)];
-      out.entries[static_cast<std::size_t>(out.count++)] = {probe.index,
-                                                            distance_weight(probe, nearest2, x, n)};
+      out.add(probe.index, distance_weight(probe, nearest2, x, n));
     }
     normalise(out);
     return out;
@@ -42,8 +42,8 @@ class VisibleWeights : public LookupWeights {
 
   static void normalise(ProbeWeights& weights) {
     float sum = 0;
-    for (int i = 0; i < weights.count; ++i) sum += weights.entries[static_cast<std::size_t>(i)].weight;
-    for (int i = 0; i < weights.count; ++i) weights.entries[static_cast<std::size_t>(i)].weight /= sum;
+    for (const ProbeWeight& entry : weights.used()) sum += entry.weight;
+    for (ProbeWeight& entry : weights.used()) entry.weight /= sum;
   }
 
   ProbeSight sight_;
@@ -65,13 +65,16 @@ class VisibleWeights : public LookupWeights {
 class DistanceWeights final : public VisibleWeights {
  public:
   using VisibleWeights::VisibleWeights;
-  ProbeWeights at(const vec3& x, const vec3& n) const override { return by_distance(x, n); }
+  ProbeWeights at(const scene::SurfacePoint& point) const override {
+    return by_distance(point.position, point.normal);
+  }
 };
 
 class TrilinearWeights final : public VisibleWeights {
  public:
   using VisibleWeights::VisibleWeights;
-  ProbeWeights at(const vec3& x, const vec3& n) const override {
+  ProbeWeights at(const scene::SurfacePoint& point) const override {
+    const vec3 &x = point.position, &n = point.normal;
     const float spacing = sight_.spacing();
     // A cell's corners lie within √3 spacings, as do up to 27 probes of a grid.
     std::array<Near, 27> near;
@@ -81,7 +84,7 @@ class TrilinearWeights final : public VisibleWeights {
       const Near& probe = near[static_cast<std::size_t>(i)];
       const vec3 tent = 1.0f - glm::abs(sight_.position(probe.index) - x) / spacing;
       if (!(std::min({tent.x, tent.y, tent.z}) > 1e-4f) || !sight_.sees(probe, x, n)) continue;
-      out.entries[static_cast<std::size_t>(out.count++)] = {probe.index, tent.x * tent.y * tent.z};
+      out.add(probe.index, tent.x * tent.y * tent.z);
     }
     if (out.count == 0) return by_distance(x, n);
     normalise(out);
@@ -92,7 +95,8 @@ class TrilinearWeights final : public VisibleWeights {
 class MlsWeights final : public VisibleWeights {
  public:
   using VisibleWeights::VisibleWeights;
-  ProbeWeights at(const vec3& x, const vec3& n) const override {
+  ProbeWeights at(const scene::SurfacePoint& point) const override {
+    const vec3 &x = point.position, &n = point.normal;
     NearList near;
     const float radius = 2 * sight_.spacing();
     const int count = sight_.nearest(x, near, radius);
@@ -119,13 +123,17 @@ class MlsWeights final : public VisibleWeights {
     ProbeWeights out;
     for (int i = 0; i < visible; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      out.entries[k] = {near[k].index, bump[k] * glm::dot(first_row, place[k])};
-      out.count = i + 1;
+      out.add(near[k].index, bump[k] * glm::dot(first_row, place[k]));
     }
     normalise(out);
     return out;
   }
 };
+
+/// One probe has no spacing: it counts everywhere.
+bool has_spacing(std::span<const vec3> positions, const WeightParams& params) {
+  return params.spacing > 0 || std::isfinite(median_spacing(positions));
+}
 
 }  // namespace
 
@@ -137,15 +145,26 @@ const char* to_string(WeightMethod method) {
       return "trilinear";
     case WeightMethod::mls:
       return "mls";
+    case WeightMethod::fitted:
+      return "fitted";
   }
   return "";
 }
 
 std::optional<WeightMethod> parse_weight_method(const std::string& name) {
-  for (const WeightMethod method : {WeightMethod::distance, WeightMethod::trilinear, WeightMethod::mls}) {
+  for (const WeightMethod method :
+       {WeightMethod::distance, WeightMethod::trilinear, WeightMethod::mls, WeightMethod::fitted}) {
     if (name == to_string(method)) return method;
   }
   return std::nullopt;
+}
+
+WeightParams weights_named(const std::string& name) {
+  WeightParams params;
+  params.method = parse_weight_method(name);
+  if (!name.empty() && !params.method)
+    throw Error("weights " + name, "is none of distance, trilinear, mls, fitted");
+  return params;
 }
 
 float median_spacing(std::span<const vec3> positions) {
@@ -169,16 +188,24 @@ float median_spacing(std::span<const vec3> positions) {
 }
 
 std::unique_ptr<LookupWeights> make_weights(std::span<const vec3> positions, SeesProbe sees,
-                                            const WeightParams& params) {
+                                            const WeightParams& params, const FittedPoints* fitted) {
   if (positions.empty()) throw Error("probe lookup", "the probe set is empty", "bake a scene with SPHLs");
-  // One probe has no spacing: it counts everywhere.
-  const bool single = !std::isfinite(median_spacing(positions)) && !(params.spacing > 0);
-  const WeightMethod method = single ? WeightMethod::distance : params.method;
-  switch (method) {
+  switch (params.chosen(fitted != nullptr)) {
+    case WeightMethod::fitted: {
+      if (!fitted) throw Error("probe lookup", "there are no fitted weights", "fit some, or choose others");
+      WeightParams elsewhere = params;
+      elsewhere.method = params.fallback == WeightMethod::fitted ? WeightMethod::mls : params.fallback;
+      return std::make_unique<FittedLookupWeights>(*fitted, positions.size(), sees,
+                                                   make_weights(positions, sees, elsewhere));
+    }
     case WeightMethod::trilinear:
-      return std::make_unique<TrilinearWeights>(positions, std::move(sees), params);
+      if (has_spacing(positions, params))
+        return std::make_unique<TrilinearWeights>(positions, std::move(sees), params);
+      break;
     case WeightMethod::mls:
-      return std::make_unique<MlsWeights>(positions, std::move(sees), params);
+      if (has_spacing(positions, params))
+        return std::make_unique<MlsWeights>(positions, std::move(sees), params);
+      break;
     case WeightMethod::distance:
       break;
   }

@@ -18,6 +18,7 @@ constexpr std::array<char, 8> magic = {'S', 'P', 'H', 'L', '\r', '\n', '\x1a', '
 
 void write_generator(ByteWriter& out, const GeneratorInfo& g) {
   out.value(static_cast<std::uint8_t>(g.op));
+  out.value(static_cast<std::uint8_t>(g.viz));
   out.value(static_cast<std::uint8_t>(g.gen));
   for (const int v : {g.max_depth, g.passes, g.spp, g.face_size}) out.value(static_cast<std::uint32_t>(v));
   out.value(g.seed);
@@ -37,6 +38,7 @@ int read_int(ByteReader& in, const char* what, int low, int high) {
 GeneratorInfo read_generator(ByteReader& in) {
   GeneratorInfo g;
   g.op = static_cast<LightOperator>(in.value_in<std::uint8_t>("operator", 0, 2));
+  g.viz = static_cast<VizMethod>(in.value_in<std::uint8_t>("VIZ method", 0, 2));
   g.gen = static_cast<GenMode>(in.value_in<std::uint8_t>("GEN mode", 0, 1));
   g.max_depth = read_int(in, "max depth", 0, limits::depth);
   g.passes = read_int(in, "passes", 1, limits::samples);

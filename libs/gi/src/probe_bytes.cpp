@@ -88,7 +88,7 @@ FittedPoints read_fitted(ByteReader& in, std::size_t probe_count) {
   for (std::size_t i = 0; i < count; ++i) {
     fitted.points[i].position = in.vector3("fitted point");
     fitted.points[i].normal = in.vector3("fitted normal");
-    ProbeWeights& weights = fitted.weights[i];
+    PointWeights& weights = fitted.weights[i];
     weights.count = in.value_in<std::uint8_t>("fitted weight count", 0, max_weights);
     for (int k = 0; k < weights.count; ++k) {
       const auto probe = in.value<std::uint32_t>("fitted probe");

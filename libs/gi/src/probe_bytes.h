@@ -1,9 +1,8 @@
 #pragma once
 /// Parts of a probe set as bytes, shared by the binary file and the checkpoint of a bake.
 
+#include <ssphh/core/bytes.h>
 #include <ssphh/gi/probe_set.h>
-
-#include "bytes.h"
 
 namespace ssphh::gi {
 

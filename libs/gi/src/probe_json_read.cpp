@@ -127,10 +127,11 @@ class Place {
 };
 
 GeneratorInfo read_generator(const Place& at) {
-  at.object({"operator", "gen", "max_depth", "passes", "spp", "face_size", "seed", "directions",
+  at.object({"operator", "viz", "gen", "max_depth", "passes", "spp", "face_size", "seed", "directions",
              "surfel_size", "link_rays", "scene", "scene_hash", "time"});
   GeneratorInfo g;
   g.op = at["operator"].choice(parse_light_operator);
+  g.viz = at["viz"].choice(parse_viz_method);
   g.gen = at["gen"].choice(parse_gen_mode);
   g.max_depth = at["max_depth"].integer(0, limits::depth);
   g.passes = at["passes"].integer(1, limits::samples);
@@ -202,7 +203,7 @@ FittedPoints read_fitted(const Place& at, std::size_t probe_count) {
     const Place probes = point["probes"], weights = point["weights"];
     const std::size_t used = probes.array(0, max_weights);
     weights.array(used, used);
-    ProbeWeights& out = fitted.weights[i];
+    PointWeights& out = fitted.weights[i];
     for (std::size_t k = 0; k < used; ++k) {
       out.entries[k] = {probes.at(k).integer(0, static_cast<int>(probe_count) - 1),
                         weights.at(k).number(0, limits::fitted_weight)};

@@ -18,9 +18,11 @@ class Writer {
   std::string run() {
     const GeneratorInfo& g = set_.generator;
     put("{{\"format\":\"ssphh-probes\",\"version\":{},\n\"degree\":{},\n", probe_file_version, set_.degree);
-    put("\"generator\":{{\"operator\":\"{}\",\"gen\":\"{}\",\"max_depth\":{},\"passes\":{},\"spp\":{},"
+    put("\"generator\":{{\"operator\":\"{}\",\"viz\":\"{}\",\"gen\":\"{}\",\"max_depth\":{},\"passes\":{},"
+        "\"spp\":{},"
         "\"face_size\":{},\"seed\":\"{:x}\",\n",
-        to_string(g.op), to_string(g.gen), g.max_depth, g.passes, g.spp, g.face_size, g.seed);
+        to_string(g.op), to_string(g.viz), to_string(g.gen), g.max_depth, g.passes, g.spp, g.face_size,
+        g.seed);
     put("\"directions\":{},\"surfel_size\":{},\"link_rays\":{},\n", g.directions, exact(g.surfel_size),
         g.link_rays);
     put("\"scene\":{},\"scene_hash\":\"{}\",\"time\":{}}},\n", quoted(g.scene), g.scene_hash.hex(),

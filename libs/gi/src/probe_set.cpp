@@ -9,6 +9,7 @@ namespace ssphh::gi {
 namespace {
 
 constexpr std::array<const char*, 3> light_operator_names = {"path", "surfel", "bounce"};
+constexpr std::array<const char*, 3> viz_method_names = {"none", "path", "links"};
 constexpr std::array<const char*, 2> gen_mode_names = {"full", "local"};
 constexpr std::array<const char*, 3> operator_names = {"coefficient", "mean", "matrix"};
 
@@ -63,6 +64,9 @@ std::size_t edge_count(const ProbeSet& set) {
 const char* to_string(LightOperator op) {
   return light_operator_names[static_cast<std::size_t>(op)];
 }
+const char* to_string(VizMethod method) {
+  return viz_method_names[static_cast<std::size_t>(method)];
+}
 const char* to_string(GenMode mode) {
   return gen_mode_names[static_cast<std::size_t>(mode)];
 }
@@ -71,6 +75,9 @@ const char* to_string(HierOperator op) {
 }
 std::optional<LightOperator> parse_light_operator(const std::string& name) {
   return parse<LightOperator>(light_operator_names, name);
+}
+std::optional<VizMethod> parse_viz_method(const std::string& name) {
+  return parse<VizMethod>(viz_method_names, name);
 }
 std::optional<GenMode> parse_gen_mode(const std::string& name) {
   return parse<GenMode>(gen_mode_names, name);

@@ -41,8 +41,7 @@ bool differs(const sh::RadianceSh& a, const sh::RadianceSh& b, float tolerance) 
   return false;
 }
 
-std::vector<Irradiance4> total(const std::vector<Irradiance4>& direct,
-                               const std::vector<Irradiance4>& indirect) {
+std::vector<Irradiance4> total(std::span<const Irradiance4> direct, std::span<const Irradiance4> indirect) {
   std::vector<Irradiance4> sum(direct.size());
   for (std::size_t s = 0; s < sum.size(); ++s) sum[s] = direct[s] + indirect[s];
   return sum;
@@ -66,6 +65,15 @@ struct RelightSession::Data {
         group_dirty(source_in.light_groups().size(), true),
         group_scale(source_in.light_groups().size(), vec3(1)),
         pending_time(time) {
+    if (params.op == LightOperator::path)
+      throw Error("relighting", "path tracing is no transport between probes",
+                  "use operator surfel or bounce");
+    if (params.op == LightOperator::bounce) {
+      if (params.poses != 0)
+        throw Error("relighting", "operator bounce cannot blend between poses",
+                    "pose exactly, or use surfel");
+      bounce = std::make_unique<BounceOperator>(network, source, params.degree, params.bounce);
+    }
     if (params.poses != 0) network.prepare_poses(params.poses, control);
     emitters.resize(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) emitters[i] = {places[i].position, places[i].radius, {}};
@@ -80,6 +88,7 @@ struct RelightSession::Data {
   DirectionProjector emitter_projector;
   DirectField field;
   Solver solver;
+  std::unique_ptr<BounceOperator> bounce;  ///< of that operator alone
 
   std::vector<scene::LightState> lights;
   std::vector<bool> light_set;  ///< by the user: stays when the time changes
@@ -111,6 +120,7 @@ struct RelightSession::Data {
     for (int p = 0; p < source.part_count(); ++p) old_bounds.push_back(network.part_world_bounds(p));
     const PoseReport pose =
         params.poses == 0 ? network.set_time(pending_time) : network.set_time_between(pending_time);
+    if (bounce) bounce->update_pose();
     report.hits_changed = pose.hits_changed;
     for (int p = 1; p < source.part_count(); ++p) {
       const auto index = static_cast<std::size_t>(p);
@@ -152,6 +162,35 @@ struct RelightSession::Data {
     }
     field.sum(group_scale, emission, direct);
     scale_dirty = false;
+  }
+
+  /// Lets the direct light bounce: `indirect`, or with bounce the probes themselves.
+  SolveReport solve(bool first) {
+    if (bounce) {
+      before = reflected;
+      return summary(
+          bounce->solve(direct, reflected, params.warm_start && !first && params.bounce.applications == 0));
+    }
+    if (!params.warm_start) indirect.clear();
+    return solver.solve(network.links(), network.albedo(), direct, network.contraction().upper, params.solve,
+                        indirect);
+  }
+  static SolveReport summary(const BounceReport& report) {
+    return {.iterations = report.iterations, .residual = 0, .converged = report.converged};
+  }
+
+  /// Reflected light of all probes under another direct light, from darkness.
+  std::vector<sh::RadianceSh> reflected_under(std::span<const Irradiance4> other, SolveReport& report) const {
+    std::vector<sh::RadianceSh> result;
+    if (bounce) {
+      report = summary(bounce->solve(other, result));
+      return result;
+    }
+    std::vector<Irradiance4> bounced;
+    report = Solver().solve(network.links(), network.albedo(), other, network.contraction().upper,
+                            params.solve, bounced);
+    project_reflected(network, projector, total(other, bounced), result);
+    return result;
   }
 };
 
@@ -220,14 +259,12 @@ RelightReport RelightSession::update() {
   std::vector<scene::Bounds> moved;
   if (posed) measure(d.source, report.pose_ms, &report.pose_rays, [&] { moved = d.move_parts(report); });
   measure(d.source, report.direct_ms, &report.direct_rays, [&] { d.update_direct(moved); });
-  measure(d.source, report.solve_ms, nullptr, [&] {
-    if (!d.params.warm_start) d.indirect.clear();
-    report.solve = d.solver.solve(d.network.links(), d.network.albedo(), d.direct,
-                                  d.network.contraction().upper, d.params.solve, d.indirect);
-  });
+  measure(d.source, report.solve_ms, nullptr, [&] { report.solve = d.solve(first); });
   measure(d.source, report.project_ms, nullptr, [&] {
-    d.before.swap(d.reflected);
-    project_reflected(d.network, d.projector, total(d.direct, d.indirect), d.reflected);
+    if (!d.bounce) {
+      d.before.swap(d.reflected);
+      project_reflected(d.network, d.projector, total(d.direct, d.indirect), d.reflected);
+    }
     for (std::size_t i = 0; i < d.reflected.size(); ++i) {
       if (first || differs(d.reflected[i], d.before[i], d.params.changed))
         report.changed_probes.push_back(static_cast<int>(i));
@@ -282,14 +319,11 @@ std::vector<std::vector<sh::RadianceSh>> RelightSession::reflected_by_group(cons
   ProgressStage progress(control, "solving", groups, "light groups");
   for (std::size_t g = 0; g < groups; ++g) {
     control.check();
-    std::vector<Irradiance4> indirect;
-    Solver solver;
-    const SolveReport solve = solver.solve(d.network.links(), d.network.albedo(), direct[g],
-                                           d.network.contraction().upper, d.params.solve, indirect);
+    SolveReport solve;
+    result[g] = d.reflected_under(direct[g], solve);
     const bool converged = most.converged && solve.converged;
     if (solve.iterations > most.iterations) most = solve;
     most.converged = converged;
-    project_reflected(d.network, d.projector, total(direct[g], indirect), result[g]);
     progress.advance(1);
   }
   if (slowest) *slowest = most;
@@ -309,6 +343,7 @@ std::vector<std::vector<sh::RadianceSh>> RelightSession::emitted_by_group() cons
 sh::RadianceSh RelightSession::emission_profile(const vec3& center, float radius, int degree,
                                                 int rays) const {
   const Data& d = *data_;
+  if (d.bounce) throw Error("emission profile", "operator bounce does not light surfels", "use surfel");
   if (!is_finite(center) || !(radius > 0) || !std::isfinite(radius))
     throw Error("emission profile", "its sphere must have a finite centre and a positive radius");
   if (degree < 0 || degree > sh::max_degree || rays < 1)

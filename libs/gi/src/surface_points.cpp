@@ -79,6 +79,18 @@ class Reach {
     }
   }
 
+  /// reached[i] = 0 where something stands nearer than `distance` before point i.
+  void clear(std::span<const scene::SurfacePoint> points, float distance,
+             std::span<std::uint8_t> reached) const {
+    if (!(distance > 0)) return;
+    std::vector<scene::RayQuery> segments;
+    for (const scene::SurfacePoint& point : points)
+      segments.push_back({lifted(point), point.normal, distance});
+    std::vector<std::uint8_t> blocked(segments.size());
+    surfaces_.occluded(segments, blocked);
+    for (std::size_t i = 0; i < points.size(); ++i) reached[i] &= blocked[i] ? 0 : 1;
+  }
+
  private:
   vec3 lifted(const scene::SurfacePoint& point) const { return point.position + lift_ * point.normal; }
 
@@ -113,14 +125,16 @@ std::vector<scene::SurfacePoint> cross(const PosedSurfaces& surfaces, std::uint6
   std::vector<std::size_t> line(rays.size());
   std::iota(line.begin(), line.end(), 0);
   std::vector<scene::RayHit> hits;
+  std::vector<std::uint8_t> moves;
   for (int step = 0; step < most_crossings && !rays.empty(); ++step) {
     hits.resize(rays.size());
-    surfaces.intersect(rays, hits);
+    moves.resize(rays.size());
+    surfaces.intersect(rays, hits, moves);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       if (hits[i].escaped()) continue;
       const vec3 position = rays[i].origin + hits[i].distance * rays[i].direction;
-      crossings.push_back({line[i], {position, hits[i].normal}});
+      crossings.push_back({line[i], {position, hits[i].normal, moves[i] != 0}});
       rays[kept] = {position + 1e-5f * radius * rays[i].direction, rays[i].direction};
       line[kept++] = line[i];
     }
@@ -151,8 +165,10 @@ PosedSurfaces::PosedSurfaces(const scene::TransportSource& source, float time) :
   }
 }
 
-void PosedSurfaces::intersect(std::span<const scene::RayQuery> rays, std::span<scene::RayHit> hits) const {
+void PosedSurfaces::intersect(std::span<const scene::RayQuery> rays, std::span<scene::RayHit> hits,
+                              std::span<std::uint8_t> moves) const {
   std::fill(hits.begin(), hits.end(), scene::RayHit{});
+  std::fill(moves.begin(), moves.end(), std::uint8_t{0});
   std::vector<scene::RayQuery> local(rays.size());
   std::vector<scene::RayHit> found(rays.size());
   for (const Part& part : parts_) {
@@ -166,6 +182,7 @@ void PosedSurfaces::intersect(std::span<const scene::RayQuery> rays, std::span<s
       if (!(found[i].distance < hits[i].distance)) continue;
       hits[i] = found[i];
       hits[i].normal = glm::normalize(normals * found[i].normal);
+      if (!moves.empty()) moves[i] = part.index > 0 ? 1 : 0;
     }
   }
 }
@@ -208,11 +225,37 @@ std::vector<scene::SurfacePoint> reachable_points(const scene::TransportSource& 
     std::vector<std::uint8_t> reached(candidates.size(), 0);
     reach.sight(candidates, reached);
     reach.scattered(candidates, reached);
+    reach.clear(candidates, params.clearance, reached);
     const std::size_t before = points.size();
     for (std::size_t i = 0; i < candidates.size() && points.size() < wanted; ++i) {
       if (reached[i]) points.push_back(candidates[i]);
     }
     progress.advance(points.size() - before);
+  }
+  return points;
+}
+
+std::vector<scene::SurfacePoint> points_in_the_open(const scene::TransportSource& source,
+                                                    std::span<const scene::SurfacePoint> surfaces, float time,
+                                                    std::uint64_t seed) {
+  const PosedSurfaces posed(source, time);
+  const float lift = 1e-4f * posed.bounds().radius();
+  std::vector<scene::RayQuery> rays;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    Pcg32 random(seed, i);
+    const vec3 direction =
+        Frame::around(surfaces[i].normal).to_world(sample_cosine_hemisphere(random.uniform2()));
+    rays.push_back({surfaces[i].position + lift * surfaces[i].normal, direction});
+  }
+  std::vector<scene::RayHit> hits(rays.size());
+  posed.intersect(rays, hits);
+  std::vector<scene::SurfacePoint> points;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (hits[i].escaped()) continue;
+    Pcg32 random(seed + 1, i);
+    const float way = (0.05f + 0.9f * random.uniform()) * hits[i].distance;
+    points.push_back(
+        {rays[i].origin + way * rays[i].direction, sample_uniform_sphere(random.uniform2()), true});
   }
   return points;
 }

@@ -77,11 +77,24 @@ void check_light(const TransportNetwork& network, const ProbeSet& set, bool conv
   }
 }
 
-void fit(const TransportNetwork& network, const scene::TransportSource& source, ProbeSet& set,
+/// At the surfels, in the session's pose, to its lights and to training lights.
+void fit(const RelightSession& session, const scene::TransportSource& source, ProbeSet& set,
          const FitParams& params, TransportBakeReport& report, const Control& control) {
   const auto start = Clock::now();
-  set.fitted = fit_weights(network, source, surfel_points(network), params, control);
+  const TransportNetwork& network = session.network();
+  set.fitted =
+      fit_weights(network, source, surfel_points(network), params, session.direct_by_group(), control);
   report.fit_seconds += seconds_since(start);
+}
+
+void find_edges(const TransportNetwork& network, const scene::TransportSource& source, ProbeSet& set,
+                const LinkVizParams& params, TransportBakeReport& report, const Control& control) {
+  const auto start = Clock::now();
+  std::vector<std::vector<Edge>> edges =
+      viz_from_links(network, source, set.probes, set.degree, params, control);
+  for (std::size_t i = 0; i < edges.size(); ++i) set.probes[i].edges = std::move(edges[i]);
+  set.generator.viz = VizMethod::links;
+  report.viz_seconds = seconds_since(start);
 }
 
 /// Each group's light with the probes as the only unknowns.
@@ -107,6 +120,12 @@ TransportParams bake_resolution(const scene::TransportSource& source, TransportP
   return params;
 }
 
+std::vector<ProbePlace> places_of(const ProbeSet& set) {
+  std::vector<ProbePlace> places;
+  for (const Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
+  return places;
+}
+
 void require_probes(const ProbeSet& set) {
   if (set.probes.empty())
     throw Error("bake", "there are no probes to bake", "run INIT on a scene with SPHLs");
@@ -123,11 +142,9 @@ ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, cons
   const auto start = Clock::now();
 
   // Light everything once, then each group alone.
-  std::vector<ProbePlace> places;
-  for (const Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
   RelightParams relight_params{bake_resolution(source, params.transport), params.solve};
   relight_params.degree = set.degree;
-  RelightSession session(source, std::move(places), relight_params, set.generator.time, control);
+  RelightSession session(source, places_of(set), relight_params, set.generator.time, control);
   session.update();
   const TransportNetwork& network = session.network();
   describe_network(network, set, report);
@@ -145,6 +162,7 @@ ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, cons
   std::vector<std::vector<sh::RadianceSh>> emitted = session.emitted_by_group();
 
   set.generator.op = params.op;
+  set.generator.viz = VizMethod::none;
   set.generator.gen = GenMode::full;
   set.hierarchy.reset();
   set.fitted.reset();
@@ -164,7 +182,8 @@ ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, cons
   merge_groups(set);
 
   report.seconds = seconds_since(start);
-  if (params.fit) fit(network, source, set, params.fit_params, report, control);
+  if (params.viz) find_edges(network, source, set, params.viz_params, report, control);
+  if (params.fit) fit(session, source, set, params.fit_params, report, control);
   report.rays = source.rays_traced() - rays_before;
   check_light(network, set, converged, report);
   validate(set, "bake");
@@ -172,19 +191,20 @@ ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, cons
   return set;
 }
 
-void fit_set(const scene::TransportSource& source, ProbeSet& set, const TransportBakeParams& params,
-             TransportBakeReport& report, const Control& control) {
+void add_transport(const scene::TransportSource& source, ProbeSet& set, const TransportBakeParams& params,
+                   TransportBakeReport& report, const Control& control) {
   require_probes(set);
   report = {};
   const std::uint64_t rays_before = source.rays_traced();
-  const auto start = Clock::now();
-  std::vector<vec3> positions;
-  for (const Probe& probe : set.probes) positions.push_back(probe.position);
-  const TransportNetwork network(source, positions, bake_resolution(source, params.transport),
-                                 set.generator.time, control);
+  RelightSession session(source, places_of(set), {bake_resolution(source, params.transport), params.solve},
+                         set.generator.time, control);
+  const TransportNetwork& network = session.network();
   describe_network(network, set, report);
-  fit(network, source, set, params.fit_params, report, control);
-  report.fit_seconds = seconds_since(start);
+  if (params.viz) find_edges(network, source, set, params.viz_params, report, control);
+  if (params.fit) {
+    session.update();
+    fit(session, source, set, params.fit_params, report, control);
+  }
   report.rays = source.rays_traced() - rays_before;
 }
 

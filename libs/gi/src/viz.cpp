@@ -81,10 +81,17 @@ std::vector<Edge> viz(const scene::RadianceSource& source, const ProbeSet& set, 
     const float transfer = transfer_coefficient(edge.h);
     if (!std::isfinite(transfer))
       throw Error("VIZ of probe \"" + set.probes[i].name + "\"", "the traced light is not finite");
-    if (transfer <= 0) continue;
+    if (transfer <= params.threshold) continue;
     edge.transfer = std::min(transfer, 1.0f);
     if (params.matrix) edge.matrix = matrices.reduce(g);
     edges.push_back(std::move(edge));
+  }
+  // Keep the strongest, by neighbour.
+  if (params.neighbors >= 0 && edges.size() > static_cast<std::size_t>(params.neighbors)) {
+    std::stable_sort(edges.begin(), edges.end(),
+                     [](const Edge& a, const Edge& b) { return a.transfer > b.transfer; });
+    edges.resize(static_cast<std::size_t>(params.neighbors));
+    std::ranges::sort(edges, {}, &Edge::from);
   }
   return edges;
 }

@@ -209,7 +209,7 @@ TEST(Viz, BehindAWallThereIsNoEdge) {
 TEST(Viz, MatrixOfAnIsotropicEmitterIsTheMeanOperator) {
   const FakeSource source;
   BakeParams params = small(16, 4);
-  params.viz_transfer = true;
+  params.viz_params.matrix = true;
   ProbeSet set = bake_now(source, places({{0, 0, 0}, {1, 0, 0}}, 0.4f, 3), params);
   const Edge& edge = set.probes[0].edges[0];
   const auto count = static_cast<std::size_t>(sh::coefficient_count(3));
@@ -282,7 +282,7 @@ const std::vector<vec3> four_places = {{0, 0, 0}, {0.5f, 0, 0}, {0, 0.7f, 0}, {0
 TEST(Bake, TheNumberOfThreadsChangesNoBit) {
   const FakeSource source;
   BakeParams params = small(12, 3);
-  params.viz_transfer = true;
+  params.viz_params.matrix = true;
   std::vector<std::vector<std::byte>> files;
   for (const int threads : {1, 2, 5}) {
     set_thread_count(threads);

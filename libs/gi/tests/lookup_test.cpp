@@ -64,8 +64,8 @@ TEST(IrradianceLookup, AConstantFieldGivesPiTimesItEverywhere) {
   const IrradianceLookup lookup(
       make_set({{{0, 0, 0}, field, {}}, {{2, 0, 0}, field, {}}, {{0, 3, 1}, field, {}}}), source);
   for (const vec3& n : directions()) {
-    expect_near(lookup.irradiance(3.0f * n, n), pi * l);
-    for (const float roughness : {0.0f, 0.3f, 1.0f}) expect_near(lookup.glossy(n, n, n, roughness), l);
+    expect_near(lookup.irradiance({3.0f * n, n}), pi * l);
+    for (const float roughness : {0.0f, 0.3f, 1.0f}) expect_near(lookup.glossy({n, n}, n, roughness), l);
   }
 }
 
@@ -76,31 +76,37 @@ TEST(IrradianceLookup, ALinearSkyGivesItsClosedForm) {
   for (const int degree : {1, 2, 9, 10}) {
     const IrradianceLookup lookup(make_set({{{0, 0, 0}, linear(degree, a, b), {}}}), source);
     for (const vec3& n : directions()) {
-      expect_near(lookup.irradiance({1, 1, 1}, n), pi * a + 2 * pi / 3 * glm::dot(b, n));
+      expect_near(lookup.irradiance({{1, 1, 1}, n}), pi * a + 2 * pi / 3 * glm::dot(b, n));
       const float scale = sh::glossy_band_scale(0.5f, 1);
-      expect_near(lookup.glossy({1, 1, 1}, n, n, 0.5f), a + scale * glm::dot(b, n));
+      expect_near(lookup.glossy({{1, 1, 1}, n}, n, 0.5f), a + scale * glm::dot(b, n));
     }
   }
+}
+
+LookupParams by_distance() {
+  LookupParams params;
+  params.weights.method = WeightMethod::distance;
+  return params;
 }
 
 TEST(IrradianceLookup, WeighsByInverseSquaredDistance) {
   const FakeSource source;
   const IrradianceLookup lookup(
       make_set({{{0, 0, 0}, linear(2, vec3(1), vec3(0)), {}}, {{3, 0, 0}, linear(2, vec3(5), vec3(0)), {}}}),
-      source);
+      source, by_distance());
   const vec3 up(0, 1, 0);
-  expect_near(lookup.irradiance({1.5f, 0, 0}, up), vec3(pi * 3));
-  expect_near(lookup.irradiance({1, 0, 0}, up), vec3(pi * (1 * 4 + 5 * 1) / 5.0f));
-  expect_near(lookup.irradiance({3, 0, 0}, up), vec3(pi * 5));
+  expect_near(lookup.irradiance({{1.5f, 0, 0}, up}), vec3(pi * 3));
+  expect_near(lookup.irradiance({{1, 0, 0}, up}), vec3(pi * (1 * 4 + 5 * 1) / 5.0f));
+  expect_near(lookup.irradiance({{3, 0, 0}, up}), vec3(pi * 5));
 }
 
 TEST(IrradianceLookup, AProbeInFrontCountsMoreThanOneBehind) {
   const FakeSource source;
   const IrradianceLookup lookup(
       make_set({{{0, 1, 0}, linear(2, vec3(1), vec3(0)), {}}, {{0, -1, 0}, linear(2, vec3(5), vec3(0)), {}}}),
-      source);
+      source, by_distance());
   // Wrapped cosines squared 1 and 0, each plus 0.05.
-  expect_near(lookup.irradiance({0, 0, 0}, {0, 1, 0}), vec3(pi * (1 * 1.05f + 5 * 0.05f) / 1.1f));
+  expect_near(lookup.irradiance({{0, 0, 0}, {0, 1, 0}}), vec3(pi * (1 * 1.05f + 5 * 0.05f) / 1.1f));
 }
 
 TEST(IrradianceLookup, AHiddenProbeDoesNotLeakAndTheLookupReachesPastIt) {
@@ -109,9 +115,9 @@ TEST(IrradianceLookup, AHiddenProbeDoesNotLeakAndTheLookupReachesPastIt) {
   // The near probe stands behind the wall x = 1.
   const IrradianceLookup lookup(make_set({{{1.1f, 0, 0}, linear(2, vec3(100), vec3(0)), {}},
                                           {{-5, 0, 0}, linear(2, vec3(1), vec3(0)), {}}}),
-                                source);
-  expect_near(lookup.irradiance({0.9f, 0, 0}, {-1, 0, 0}), vec3(pi));
-  expect_near(lookup.glossy({0.9f, 0, 0}, {-1, 0, 0}, {0, 1, 0}, 0.2f), vec3(1));
+                                source, by_distance());
+  expect_near(lookup.irradiance({{0.9f, 0, 0}, {-1, 0, 0}}), vec3(pi));
+  expect_near(lookup.glossy({{0.9f, 0, 0}, {-1, 0, 0}}, {0, 1, 0}, 0.2f), vec3(1));
 }
 
 TEST(IrradianceLookup, WithoutAVisibleProbeTheNearestOnesServe) {
@@ -119,8 +125,8 @@ TEST(IrradianceLookup, WithoutAVisibleProbeTheNearestOnesServe) {
   source.free = [](const vec3&, const vec3&) { return false; };
   const auto set =
       make_set({{{0, 0, 0}, linear(2, vec3(1), vec3(0)), {}}, {{9, 0, 0}, linear(2, vec3(1), vec3(0)), {}}});
-  expect_near(IrradianceLookup(set, source).irradiance({1, 0, 0}, {0, 1, 0}), vec3(pi));
-  expect_near(LightLookup(set, source).irradiance({1, 0, 0}, {0, 1, 0}), vec3(pi));
+  expect_near(IrradianceLookup(set, source).irradiance({{1, 0, 0}, {0, 1, 0}}), vec3(pi));
+  expect_near(LightLookup(set, source).irradiance({{1, 0, 0}, {0, 1, 0}}), vec3(pi));
 }
 
 TEST(IrradianceLookup, BlendsTheNearestVisibleProbesOnly) {
@@ -130,11 +136,11 @@ TEST(IrradianceLookup, BlendsTheNearestVisibleProbesOnly) {
     probes.push_back(
         {{static_cast<float>(40 - i), 0, 0}, linear(0, vec3(static_cast<float>(i)), vec3(0)), {}});
   }
-  LookupParams params;
+  LookupParams params = by_distance();
   params.weights.nearest = 2;
   const IrradianceLookup lookup(make_set(probes), source, params);
   // Probes 39 and 38 at distances 1 and 2 from the origin.
-  expect_near(lookup.irradiance({0, 0, 0}, {0, 1, 0}), vec3(pi * (39 * 4 + 38) / 5.0f), 1e-3f);
+  expect_near(lookup.irradiance({{0, 0, 0}, {0, 1, 0}}), vec3(pi * (39 * 4 + 38) / 5.0f), 1e-3f);
 }
 
 TEST(IrradianceLookup, RaysStartOffTheSurfaceAndScaleWithTheScene) {
@@ -147,8 +153,9 @@ TEST(IrradianceLookup, RaysStartOffTheSurfaceAndScaleWithTheScene) {
     };
     const auto field = linear(2, vec3(1), vec3(0));
     const IrradianceLookup lookup(
-        make_set({{{0, 2 * scale, 0}, field, {}}, {{2 * scale, 2 * scale, 0}, field, {}}}), source);
-    lookup.irradiance({0, 0, 0}, {0, 1, 0});
+        make_set({{{0, 2 * scale, 0}, field, {}}, {{2 * scale, 2 * scale, 0}, field, {}}}), source,
+        by_distance());
+    lookup.irradiance({{0, 0, 0}, {0, 1, 0}});
     ASSERT_EQ(starts.size(), 2u);
     EXPECT_FLOAT_EQ(starts[0].y, 0.02f * scale);  // 1 % of 2 m
   }
@@ -171,7 +178,7 @@ TEST(IrradianceLookup, IsNeverNegativeOrNanWhateverTheLight) {
            {probes[0].position, probes[0].position + 1e-25f, vec3(1e15f), vec3(0), 10.0f * n}) {
         for (const scene::IndirectLight* lookup : {static_cast<const scene::IndirectLight*>(&irradiance),
                                                    static_cast<const scene::IndirectLight*>(&light)}) {
-          for (const vec3& value : {lookup->irradiance(x, n), lookup->glossy(x, n, n, 0.1f)}) {
+          for (const vec3& value : {lookup->irradiance({x, n}), lookup->glossy({x, n}, n, 0.1f)}) {
             EXPECT_TRUE(is_finite(value));
             EXPECT_GE(std::min({value.x, value.y, value.z}), 0.0f);
           }
@@ -195,9 +202,9 @@ TEST(IrradianceLookup, DeringingLiftsTheNegativeLobeInsteadOfCuttingIt) {
   double mean_cut = 0, mean_lifted = 0;
   for (int i = 0; i < 500; ++i) {
     const vec3 n = spherical_fibonacci(i, 500);
-    cut_to_zero += cut.irradiance({1, 0, 0}, n).x == 0;
-    mean_cut += cut.irradiance({1, 0, 0}, n).x / 500.0;
-    mean_lifted += lifted.irradiance({1, 0, 0}, n).x / 500.0;
+    cut_to_zero += cut.irradiance({{1, 0, 0}, n}).x == 0;
+    mean_cut += cut.irradiance({{1, 0, 0}, n}).x / 500.0;
+    mean_lifted += lifted.irradiance({{1, 0, 0}, n}).x / 500.0;
   }
   EXPECT_GT(cut_to_zero, 10);
   // The window keeps the mean of E, π·mean(L) = π/√4π; cutting adds light. Fibonacci points: 1e-3.
@@ -214,7 +221,7 @@ TEST(LightLookup, IsThePapersFormulaAsWritten) {
     const vec3 x = p - 2.0f * glm::normalize(n + vec3(0.3f, 0.2f, -0.1f));
     const vec3 omega = glm::normalize(p - x);
     ASSERT_GT(glm::dot(n, omega), 0.5f);
-    expect_near(lookup.irradiance(x, n), (a + glm::dot(b, omega)) / glm::dot(n, omega));
+    expect_near(lookup.irradiance({x, n}), (a + glm::dot(b, omega)) / glm::dot(n, omega));
   }
 }
 
@@ -226,14 +233,14 @@ TEST(LightLookup, TheNearestVisibleProbeAboveTheHorizonLights) {
                                      {{0, 4, 0}, linear(2, vec3(3), vec3(0)), {}},      // the one
                                      {{0, 5, 0}, linear(2, vec3(4), vec3(0)), {}}}),
                            source);
-  expect_near(lookup.irradiance({0, 0, 0}, {0, 1, 0}), vec3(3));
-  expect_near(lookup.glossy({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, 0.5f), vec3(3));
+  expect_near(lookup.irradiance({{0, 0, 0}, {0, 1, 0}}), vec3(3));
+  expect_near(lookup.glossy({{0, 0, 0}, {0, 1, 0}}, {1, 0, 0}, 0.5f), vec3(3));
 }
 
 TEST(LightLookup, GrazingLightIsGuarded) {
   const FakeSource source;
   const LightLookup lookup(make_set({{{100, 0.001f, 0}, linear(2, vec3(1), vec3(0)), {}}}), source);
-  expect_near(lookup.irradiance({0, 0, 0}, {0, 1, 0}), vec3(1 / LightLookup::smallest_cosine), 1e-4f);
+  expect_near(lookup.irradiance({{0, 0, 0}, {0, 1, 0}}), vec3(1 / LightLookup::smallest_cosine), 1e-4f);
 }
 
 TEST(Lookup, LightSeenDirectlyDoesNotCountTwice) {
@@ -241,8 +248,8 @@ TEST(Lookup, LightSeenDirectlyDoesNotCountTwice) {
   const auto set = make_set({{{0, 0, 0}, linear(2, vec3(1), vec3(0)), linear(2, vec3(10), vec3(0))}});
   LookupParams all;
   all.light = ProbeLight::all;
-  expect_near(IrradianceLookup(set, source).irradiance({1, 0, 0}, {0, 1, 0}), vec3(pi));
-  expect_near(IrradianceLookup(set, source, all).irradiance({1, 0, 0}, {0, 1, 0}), vec3(11 * pi), 1e-4f);
+  expect_near(IrradianceLookup(set, source).irradiance({{1, 0, 0}, {0, 1, 0}}), vec3(pi));
+  expect_near(IrradianceLookup(set, source, all).irradiance({{1, 0, 0}, {0, 1, 0}}), vec3(11 * pi), 1e-4f);
 }
 
 TEST(Lookup, LayersAreOwnNeighboursAndTheirSum) {
@@ -257,7 +264,7 @@ TEST(Lookup, LayersAreOwnNeighboursAndTheirSum) {
   set.hierarchy->sum[0] += set.hierarchy->neighbor[0];
   const auto e = [&](std::optional<ProbeLayer> layer) {
     params.layer = layer;
-    return IrradianceLookup(set, source, params).irradiance({1, 0, 0}, {0, 1, 0}).x / pi;
+    return IrradianceLookup(set, source, params).irradiance({{1, 0, 0}, {0, 1, 0}}).x / pi;
   };
   EXPECT_NEAR(e(ProbeLayer::self), 1, rounding);
   EXPECT_NEAR(e(ProbeLayer::neighbor), 4, rounding);

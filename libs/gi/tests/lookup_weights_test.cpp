@@ -70,7 +70,7 @@ TEST(LookupWeights, TrilinearIsTrilinearInterpolationOnAGrid) {
       }
       expected[index] = w;
     }
-    std::map<int, double> actual = by_probe(lookup->at(x, up));
+    std::map<int, double> actual = by_probe(lookup->at({x, up}));
     // A tent below 1e-4 is left out, and the rest scaled up by as little; float rounding is far less.
     for (const auto& [probe, w] : expected) EXPECT_NEAR(actual[probe], w, 1.5e-4) << probe;
     for (const auto& [probe, w] : actual) EXPECT_TRUE(expected.contains(probe)) << probe;
@@ -120,7 +120,7 @@ TEST(LookupWeights, MlsIsTheValueOfAWeightedLinearFit) {
     for (int i = 0; i < 100; ++i) {
       const vec3 x = 0.3f + 1.5f * random.uniform3();
       const std::vector<double> expected = mls_reference(positions, x, spacing);
-      const std::map<int, double> actual = by_probe(lookup->at(x, up));
+      const std::map<int, double> actual = by_probe(lookup->at({x, up}));
       // Equal distances may be ordered otherwise in doubles; such probes lie at the end of the list.
       double constant = 0;
       for (const auto& [probe, w] : actual) {
@@ -141,7 +141,7 @@ TEST(LookupWeights, MlsKeepsALinearFieldWhereProbesSurroundThePoint) {
   const vec3 slope(0.3f, -0.8f, 0.5f);
   const auto error_at = [&](const vec3& x) {
     double value = 0;
-    for (const auto& [probe, w] : by_probe(lookup->at(x, up)))
+    for (const auto& [probe, w] : by_probe(lookup->at({x, up})))
       value += w * double(2 + glm::dot(slope, positions[static_cast<std::size_t>(probe)]));
     return std::abs(value - double(2 + glm::dot(slope, x)));
   };
@@ -170,7 +170,7 @@ TEST(LookupWeights, AConstantStaysConstantAndNothingIsNaN) {
         for (int i = 0; i < 50; ++i) places.push_back(6.0f * random.uniform3() - 1.5f);
         for (const float far : {1e3f, 1e6f, -1e8f}) places.push_back(vec3(far, 1, -far));
         for (const vec3& x : places) {
-          const ProbeWeights at = lookup->at(x, sample_uniform_sphere(random.uniform2()));
+          const ProbeWeights at = lookup->at({x, sample_uniform_sphere(random.uniform2())});
           ASSERT_GT(at.count, 0) << to_string(method);
           double sum = 0;
           for (const auto& [probe, w] : by_probe(at)) {
@@ -195,7 +195,7 @@ TEST(LookupWeights, HiddenProbesGetNoWeight) {
     for (int i = 0; i < 300; ++i) {
       const vec3 x = 2.4f * random.uniform3();
       // Up as the normal: sight starts at the same x.
-      for (const auto& [probe, w] : by_probe(lookup->at(x, up)))
+      for (const auto& [probe, w] : by_probe(lookup->at({x, up})))
         EXPECT_EQ(positions[static_cast<std::size_t>(probe)].x < 1, x.x < 1) << to_string(method);
     }
   }
@@ -205,7 +205,7 @@ TEST(LookupWeights, ASingleProbeCountsEverywhere) {
   for (const WeightMethod method : all_methods) {
     const auto lookup = weights({vec3(1, 2, 3)}, method);
     for (const vec3& x : {vec3(1, 2, 3), vec3(0), vec3(1e4f)}) {
-      const ProbeWeights at = lookup->at(x, up);
+      const ProbeWeights at = lookup->at({x, up});
       ASSERT_EQ(at.count, 1);
       EXPECT_EQ(at.entries[0].probe, 0);
       EXPECT_EQ(at.entries[0].weight, 1);

@@ -17,7 +17,7 @@ inline gi::FittedPoints random_fitted(std::uint64_t seed, int point_count, int p
   gi::FittedPoints fitted;
   for (int i = 0; i < point_count; ++i) {
     fitted.points.push_back({10.0f * rng.uniform3(), glm::normalize(2.0f * rng.uniform3() - 1.0f)});
-    gi::ProbeWeights& weights = fitted.weights.emplace_back();
+    gi::PointWeights& weights = fitted.weights.emplace_back();
     weights.count = i % (std::min(probe_count, gi::max_weights) + 1);
     for (int k = 0; k < weights.count; ++k) weights.entries[static_cast<std::size_t>(k)] = {k, rng.uniform()};
   }
@@ -35,6 +35,7 @@ inline gi::ProbeSet random_set(std::uint64_t seed, int probe_count, int degree, 
   set.generator.seed = ~seed;
   set.generator.time = 0.1f;
   set.generator.op = gi::LightOperator::surfel;
+  set.generator.viz = gi::VizMethod::links;
   set.generator.directions = 384;
   set.generator.surfel_size = 0.3f;
   set.generator.link_rays = 128;

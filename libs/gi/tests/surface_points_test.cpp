@@ -98,8 +98,47 @@ TEST(SurfacePoints, FollowAMovingPartAndKeepTheRest) {
   for (const auto& p : at(0.5f)) after += on_pillar(p, 3);
   EXPECT_GT(before, 10);
   EXPECT_GT(after, 10);
+  for (const auto& p : at(0)) {
+    if (p.position.y > 0.005f && p.position.y < 1.995f) {
+      EXPECT_EQ(p.moves, on_pillar(p, 2));
+    }
+  }
   const auto first = at(0.5f), again = at(0.5f);
   for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i].position, again[i].position);
+}
+
+TEST(SurfacePoints, KeepTheirDistanceFromWhatStandsBeforeThem) {
+  // The pillar's sides, 2 m and more from the walls they face, stay; so does no point that faces one nearer.
+  const test::TriangleSource source(boxes(room));
+  const std::vector<vec3> eyes = {{0.5f, 1, 1.5f}};
+  int near = 0;
+  for (const auto& p : reachable_points(source, eyes, 0, {500, 3})) near += std::abs(p.normal.z) > 0.9f;
+  EXPECT_GT(near, 20);
+  const PosedSurfaces surfaces(source, 0);
+  for (const auto& p : reachable_points(source, eyes, 0, {500, 3, 1.2f})) {
+    const scene::RayQuery ahead{p.position + 1e-3f * p.normal, p.normal, 1.19f};
+    std::uint8_t blocked = 0;
+    surfaces.occluded({&ahead, 1}, {&blocked, 1});
+    EXPECT_FALSE(blocked);
+  }
+}
+
+TEST(SurfacePoints, InTheOpenStandBetweenSurfacesAndFaceAnywhere) {
+  const test::TriangleSource source(boxes(room));
+  const std::vector<vec3> eyes = {{0.5f, 1, 1.5f}};
+  const auto surfaces = reachable_points(source, eyes, 0, {2000, 3});
+  const auto points = points_in_the_open(source, surfaces, 0, 5);
+  ASSERT_EQ(points.size(), surfaces.size()) << "the room is closed";
+  vec3 normal(0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const vec3& x = points[i].position;
+    EXPECT_TRUE(glm::all(glm::greaterThan(x, vec3(0))) && glm::all(glm::lessThan(x, vec3(4, 2, 3))));
+    EXPECT_TRUE(points[i].moves);
+    EXPECT_GT(glm::dot(x - surfaces[i].position, surfaces[i].normal), 0);
+    normal += points[i].normal / static_cast<float>(points.size());
+  }
+  // Each component of the mean has a standard deviation of 1/√(3 · 2000): five of them.
+  for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(normal[c], 0, 5 / std::sqrt(6000.0f));
 }
 
 TEST(SurfacePoints, ErrorsSayWhatIsMissing) {

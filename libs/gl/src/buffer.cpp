@@ -41,4 +41,9 @@ void Buffer::bind_uniform(unsigned binding) const {
   glBindBufferBase(GL_UNIFORM_BUFFER, binding, handle_.get());
 }
 
+void Buffer::bind_uniform_range(unsigned binding, std::size_t offset, std::size_t bytes) const {
+  glBindBufferRange(GL_UNIFORM_BUFFER, binding, handle_.get(), static_cast<GLintptr>(offset),
+                    static_cast<GLsizeiptr>(bytes));
+}
+
 }  // namespace ssphh::gl

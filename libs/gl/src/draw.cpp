@@ -24,7 +24,11 @@ void apply(const DrawState& state) {
   glColorMask(color, color, color, color);
   glPolygonMode(GL_FRONT_AND_BACK, state.lines ? GL_LINE : GL_FILL);
   glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_STENCIL_TEST);
+  const bool writes = state.stencil_write >= 0;
+  enable(GL_STENCIL_TEST, writes || state.stencil_equal >= 0);
+  glStencilMask(writes ? 0xff : 0);
+  glStencilFunc(writes ? GL_ALWAYS : GL_EQUAL, writes ? state.stencil_write : state.stencil_equal, 0xff);
+  glStencilOp(GL_KEEP, GL_KEEP, writes ? GL_REPLACE : GL_KEEP);
 }
 
 void apply_conventions() {
@@ -34,27 +38,17 @@ void apply_conventions() {
   glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 }
 
-void draw_triangles(int vertex_count, int instances) {
-  glDrawArraysInstanced(GL_TRIANGLES, 0, vertex_count, instances);
+void draw_triangles(int vertex_count) {
+  glDrawArrays(GL_TRIANGLES, 0, vertex_count);
 }
 
 void draw_lines(int vertex_count) {
   glDrawArrays(GL_LINES, 0, vertex_count);
 }
 
-void draw_indexed(int count, std::size_t first_index, int base_vertex, unsigned instance) {
-  glDrawElementsInstancedBaseVertexBaseInstance(
-      GL_TRIANGLES, count, GL_UNSIGNED_INT,
-      reinterpret_cast<const void*>(first_index * sizeof(unsigned)),  // NOLINT: an offset, as GL wants it
-      1, base_vertex, instance);
-}
-
-void dispatch(unsigned x, unsigned y, unsigned z) {
-  glDispatchCompute(x, y, z);
-}
-
-void memory_barrier() {
-  glMemoryBarrier(GL_ALL_BARRIER_BITS);
+void draw_indexed(int count, std::size_t first_index, int base_vertex) {
+  const void* offset = reinterpret_cast<const void*>(first_index * sizeof(unsigned));  // as GL wants it
+  glDrawElementsBaseVertex(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset, base_vertex);
 }
 
 void finish() {

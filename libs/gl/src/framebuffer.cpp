@@ -23,7 +23,11 @@ Framebuffer::Framebuffer(std::span<const Texture* const> colors, const Texture* 
     glNamedFramebufferTexture(id, attachments[i], colors[i]->id(), 0);
   }
   glNamedFramebufferDrawBuffers(id, static_cast<GLsizei>(colors.size()), attachments);
-  if (depth) glNamedFramebufferTexture(id, GL_DEPTH_ATTACHMENT, depth->id(), 0);
+  if (depth) {
+    const bool stencil = depth->format() == Format::depth32f_stencil8;
+    glNamedFramebufferTexture(id, stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT, depth->id(),
+                              0);
+  }
   check();
 }
 
@@ -58,6 +62,11 @@ void clear_depth(const Rect& rect, float value) {
   glScissor(rect.x, rect.y, rect.width, rect.height);
   glClearBufferfv(GL_DEPTH, 0, &value);
   glDisable(GL_SCISSOR_TEST);
+}
+
+void clear_stencil(int value) {
+  glStencilMask(0xff);
+  glClearBufferiv(GL_STENCIL, 0, &value);
 }
 
 void clear_color(int attachment, float r, float g, float b, float a) {

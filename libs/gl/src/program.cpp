@@ -159,15 +159,6 @@ Program::Program(const ShaderFiles& files, const std::string& vertex, const std:
   link(id(), vertex + " + " + fragment, warnings_);
 }
 
-Program Program::compute(const ShaderFiles& files, const std::string& name, std::string_view defines) {
-  Program program;
-  const Shader shader(GL_COMPUTE_SHADER, files, name, defines, program.warnings_);
-  program.handle_ = Handle<delete_program>(glCreateProgram());
-  glAttachShader(program.id(), shader.id());
-  link(program.id(), name, program.warnings_);
-  return program;
-}
-
 void Program::use() const {
   glUseProgram(id());
 }
@@ -183,8 +174,14 @@ int Program::location(const char* name) {
 void Program::set(const char* name, int value) {
   glProgramUniform1i(id(), location(name), value);
 }
-void Program::set(const char* name, int x, int y) {
-  glProgramUniform2i(id(), location(name), x, y);
+void Program::set(const char* name, int x, int y, int z, int w) {
+  glProgramUniform4i(id(), location(name), x, y, z, w);
+}
+void Program::set(const char* name, std::span<const float> values) {
+  glProgramUniform1fv(id(), location(name), static_cast<GLsizei>(values.size()), values.data());
+}
+void Program::set_at(int place, int value) {
+  glProgramUniform1i(id(), place, value);
 }
 void Program::set(const char* name, float value) {
   glProgramUniform1f(id(), location(name), value);

@@ -17,8 +17,6 @@ struct FormatInfo {
 
 FormatInfo info_of(Format format) {
   switch (format) {
-    case Format::r8:
-      return {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1};
     case Format::rgba8:
       return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
     case Format::srgb8_alpha8:
@@ -29,16 +27,16 @@ FormatInfo info_of(Format format) {
       return {GL_RGBA16F, GL_RGBA, GL_FLOAT, 16};
     case Format::r32f:
       return {GL_R32F, GL_RED, GL_FLOAT, 4};
-    case Format::rg32f:
-      return {GL_RG32F, GL_RG, GL_FLOAT, 8};
     case Format::rgba32f:
       return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
-    case Format::r32ui:
-      return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
+    case Format::rg32ui:
+      return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8};
     case Format::rgba32ui:
       return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16};
     case Format::depth32f:
       return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
+    case Format::depth32f_stencil8:
+      return {GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 8};
   }
   SSPHH_CHECK(!"texture format");
   return {};
@@ -98,14 +96,17 @@ std::size_t Texture::bytes() const {
 }
 
 void Texture::upload(std::span<const std::byte> data, int layer) {
+  upload_rect(data, 0, 0, width_, height_, layer);
+}
+
+void Texture::upload_rect(std::span<const std::byte> data, int x, int y, int width, int height, int layer) {
   const FormatInfo info = info_of(format_);
-  SSPHH_CHECK(data.size() ==
-              info.bytes * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  SSPHH_CHECK(data.size() == info.bytes * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   if (layers_ > 0) {
-    glTextureSubImage3D(id(), 0, 0, 0, layer, width_, height_, 1, info.external, info.type, data.data());
+    glTextureSubImage3D(id(), 0, x, y, layer, width, height, 1, info.external, info.type, data.data());
   } else {
-    glTextureSubImage2D(id(), 0, 0, 0, width_, height_, info.external, info.type, data.data());
+    glTextureSubImage2D(id(), 0, x, y, width, height, info.external, info.type, data.data());
   }
 }
 
@@ -124,7 +125,8 @@ void Texture::set_filter(bool linear) {
 void Texture::read(std::span<float> out, int channels) const {
   constexpr GLenum externals[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
   SSPHH_CHECK(channels >= 1 && channels <= 4);
-  const GLenum external = format_ == Format::depth32f ? GL_DEPTH_COMPONENT : externals[channels - 1];
+  const GLenum external =
+      format_ == Format::depth32f ? GL_DEPTH_COMPONENT : externals[static_cast<std::size_t>(channels) - 1];
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glGetTextureImage(id(), 0, external, GL_FLOAT, static_cast<GLsizei>(out.size_bytes()), out.data());
 }

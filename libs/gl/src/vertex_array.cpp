@@ -23,15 +23,6 @@ void VertexArray::attribute(unsigned location, const Buffer& buffer, int compone
   glVertexArrayVertexBuffer(id, location, buffer.id(), 0, static_cast<GLsizei>(stride));
 }
 
-void VertexArray::instance_attribute(unsigned location, const Buffer& buffer) {
-  const unsigned id = handle_.get();
-  glEnableVertexArrayAttrib(id, location);
-  glVertexArrayAttribIFormat(id, location, 1, GL_UNSIGNED_INT, 0);
-  glVertexArrayAttribBinding(id, location, location);
-  glVertexArrayVertexBuffer(id, location, buffer.id(), 0, sizeof(unsigned));
-  glVertexArrayBindingDivisor(id, location, 1);
-}
-
 void VertexArray::indices(const Buffer& buffer) {
   glVertexArrayElementBuffer(handle_.get(), buffer.id());
 }

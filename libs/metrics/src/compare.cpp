@@ -8,19 +8,13 @@
 #include <ssphh/core/parallel.h>
 #include <ssphh/metrics/compare.h>
 
+#include "check_size.h"
+
 namespace ssphh::metrics {
 namespace {
 
 using image::Image;
 using dvec3 = glm::dvec3;
-
-void check_same_size(const Image& reference, const Image& test) {
-  if (reference.empty() || test.empty()) throw Error("compare", "an image is empty");
-  if (reference.width != test.width || reference.height != test.height) {
-    throw Error("compare", fmt::format("sizes differ: reference {} x {}, test {} x {}", reference.width,
-                                       reference.height, test.width, test.height));
-  }
-}
 
 bool both_grey(const Image& reference, const Image& test) {
   return reference.channels == 1 && test.channels == 1;
@@ -29,7 +23,8 @@ bool both_grey(const Image& reference, const Image& test) {
 // Sums over the channels of finite pixels.
 struct Sums {
   std::uint64_t pixels = 0, nonfinite = 0;
-  double absolute = 0, difference = 0, squared = 0, relative_squared = 0, relative = 0, max = 0;
+  double absolute = 0, difference = 0, squared = 0, relative_squared = 0, relative = 0, symmetric = 0,
+         max = 0;
   dvec3 reference{0}, test{0};
 
   void add(const vec3& r, const vec3& t, int channels) {
@@ -43,6 +38,7 @@ struct Sums {
       absolute += std::abs(d), difference += d, squared += d * d;
       relative_squared += d * d / (rc * rc + relative_epsilon);
       relative += std::abs(d) / (std::abs(rc) + relative_epsilon);
+      symmetric += std::abs(d) / (std::abs(rc) + std::abs(double{t[c]}) + relative_epsilon);
       max = std::max(max, std::abs(d));
     }
     reference += dvec3(r), test += dvec3(t);
@@ -50,7 +46,7 @@ struct Sums {
   void add(const Sums& s) {
     pixels += s.pixels, nonfinite += s.nonfinite;
     absolute += s.absolute, difference += s.difference, squared += s.squared;
-    relative_squared += s.relative_squared, relative += s.relative;
+    relative_squared += s.relative_squared, relative += s.relative, symmetric += s.symmetric;
     max = std::max(max, s.max);
     reference += s.reference, test += s.test;
   }
@@ -113,6 +109,7 @@ ImageError compare(const Image& reference, const Image& test) {
   error.rmse = std::sqrt(error.mse);
   error.relmse = sums.relative_squared / count;
   error.mape = sums.relative / count;
+  error.smape = sums.symmetric / count;
   return error;
 }
 

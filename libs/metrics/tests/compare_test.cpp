@@ -49,6 +49,7 @@ TEST(Compare, GivesTheValuesOfAHandCalculation) {
   EXPECT_DOUBLE_EQ(e.rmse, std::sqrt(5.25 / 6));
   EXPECT_DOUBLE_EQ(e.relmse, (1 / 1.01 + 4 / 16.01 + 0.25 / 0.01) / 6);
   EXPECT_DOUBLE_EQ(e.mape, (1 / 1.01 + 2 / 4.01 + 0.5 / 0.01) / 6);
+  EXPECT_DOUBLE_EQ(e.smape, (1 / 3.01 + 2 / 6.01 + 0.5 / 0.51) / 6);
   EXPECT_DOUBLE_EQ(e.mean_ratio[0], 2.5);
   EXPECT_DOUBLE_EQ(e.mean_ratio[1], 1);
   EXPECT_DOUBLE_EQ(e.mean_ratio[2], 0.5);

@@ -4,17 +4,16 @@ layout(std140, binding = 0) uniform FrameBlock {
   vec4 camera_right;     // times half the width that is seen at distance 1; w: width in pixels
   vec4 camera_up;        // w: height in pixels
   vec4 camera_forward;   // w: distance of the near plane; far plane if orthographic
-  ivec4 counts;          // emitters, probes, candidates per cell, area samples
+  ivec4 counts;          // emitters that shine, probes, candidates per cell
   ivec4 switches;        // direct, indirect, lookup, view
-  ivec4 degrees;         // irradiance, radiance as stored; glossy, weights
-  ivec4 grid_size;       // cells of the probe grid; w: cells that share a list
+  ivec4 grid_size;       // cells of the probe grid
   vec4 grid_origin;      // w: cell size
   vec4 tone;             // exposure factor, curve, 1/gamma or 0, probe spacing
-  vec4 environment;      // cos, sin of its rotation; its mip count; 1 if there is one
+  vec4 environment;      // cos, sin of its rotation
   ivec4 maps;            // texels of a face: lights, areas, probes; of a sun map
   ivec4 map_tiles;       // tiles along a side of a layer, likewise
   vec4 map_near;         // near plane of the cube maps, likewise
-  vec4 extra;            // occlusion radius, indirect scale, frame number
+  vec4 extra;            // occlusion radius, 0 off; indirect scale
 } frame;
 
 #include "hash.glsl"

@@ -2,7 +2,7 @@
 // Exposure, tone curve and encoding, as image::to_display.
 #include "common.glsl"
 layout(binding = 0) uniform sampler2D image;
-uniform ivec2 corner;
+uniform ivec4 corner;
 uniform int plain;  // views that are no light: encoding only
 layout(location = 0) out vec4 color;
 
@@ -21,7 +21,7 @@ float encode(float x) {
 }
 
 void main() {
-  vec3 c = texelFetch(image, ivec2(gl_FragCoord.xy) - corner, 0).rgb;
+  vec3 c = texelFetch(image, ivec2(gl_FragCoord.xy) - corner.xy, 0).rgb;
   if (plain != 0) {
     color = vec4(clamp(c, 0, 1), 1);
     return;

@@ -7,24 +7,20 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 uv;
 layout(location = 3) in vec4 tangent;
 layout(location = 4) in vec4 color;
-layout(location = 5) in uint instance;
 
 layout(location = 0) out vec3 from_camera;
 layout(location = 1) out vec3 world_normal;
 layout(location = 2) out vec4 uv_out;
 layout(location = 3) out vec4 world_tangent;
 layout(location = 4) out vec4 color_out;
-layout(location = 5) flat out uint instance_out;
 
 void main() {
-  Instance i = instances[instance];
-  vec3 world = (i.world * vec4(position, 1)).xyz;
+  vec3 world = (instance.world * vec4(position, 1)).xyz;
   from_camera = world - frame.camera_position.xyz;
-  world_normal = mat3(i.normal) * normal;
-  world_tangent = vec4(mat3(i.world) * tangent.xyz, tangent.w);
+  world_normal = mat3(instance.normal) * normal;
+  world_tangent = vec4(mat3(instance.world) * tangent.xyz, tangent.w);
   uv_out = uv;
   color_out = color;
-  instance_out = instance;
 
   vec3 right = frame.camera_right.xyz / dot(frame.camera_right.xyz, frame.camera_right.xyz);
   vec3 up = frame.camera_up.xyz / dot(frame.camera_up.xyz, frame.camera_up.xyz);

@@ -2,10 +2,8 @@
 
 layout(binding = 0) uniform usampler2D gbuffer0;
 layout(binding = 1) uniform usampler2D gbuffer1;
-layout(binding = 2) uniform sampler2D gbuffer_depth;
 
 struct Surface {
-  bool hit, unlit;
   vec3 position, normal, geometric_normal, wo;
   vec3 diffuse, f0;
   float diffuse_roughness, specular_roughness;
@@ -25,30 +23,27 @@ vec3 view_origin(vec2 pixel) {
   return frame.camera_position.xyz + (orthographic() ? pixel_ray(pixel) : vec3(0));
 }
 
-float view_depth(float stored) {
-  return orthographic() ? (1 - stored) * frame.camera_forward.w : frame.camera_forward.w / stored;
-}
+// Along the view axis; 0 where nothing stands.
+float depth_at(ivec2 at) { return uintBitsToFloat(texelFetch(gbuffer1, at, 0).y); }
 vec3 position_at(vec2 pixel, float depth) {
   vec3 plane = pixel_ray(pixel);
   return frame.camera_position.xyz + (orthographic() ? plane : plane * depth) + depth * frame.camera_forward.xyz;
 }
 
+// Where nothing stands the result means nothing.
 Surface read_surface(ivec2 at) {
   Surface s;
-  float stored = texelFetch(gbuffer_depth, at, 0).x;
-  s.hit = stored > 0;
-  if (!s.hit) return s;
   vec2 pixel = vec2(at) + 0.5;
-  s.depth = view_depth(stored);
+  uvec2 g1 = texelFetch(gbuffer1, at, 0).xy;
+  uvec4 g0 = texelFetch(gbuffer0, at, 0);
+  s.depth = uintBitsToFloat(g1.y);
   s.position = position_at(pixel, s.depth);
   s.wo = -view_direction(pixel);
-  uvec4 g0 = texelFetch(gbuffer0, at, 0);
   s.normal = oct_decode(unpackSnorm2x16(g0.x));
   s.geometric_normal = oct_decode(unpackSnorm2x16(g0.y));
   s.diffuse = unpack_color(g0.z);
   s.f0 = unpack_color(g0.w);
-  s.unlit = (g0.z >> 30) != 0;
-  vec2 roughness = unpackSnorm2x16(texelFetch(gbuffer1, at, 0).x);
+  vec2 roughness = unpackSnorm2x16(g1.x);
   s.diffuse_roughness = roughness.x;
   s.specular_roughness = roughness.y;
   return s;

@@ -1,90 +1,110 @@
 #version 450 core
-// Light from SPHLs: irradiance (rgb) and radiance of the glossy lobe; libs/gi says what the lookups are.
+// Light from SPHLs, as libs/gi's lookups find it. Variants: LOOKUP_LIGHT, else irradiance; FULL_BSDF, else
+// surfaces are Lambertian; TO_IMAGES gives irradiance and glossy radiance for apply.frag, at some pixels only;
+// CHOSEN_VIEW the probe that counts most.
 #include "gbuffer_read.glsl"
+#ifdef FULL_BSDF
 #include "bsdf.glsl"
+#endif
 #include "shadow.glsl"
-#include "probe_data.glsl"
-#include "sh.glsl"
 #include "probe_lookup.glsl"
 
-layout(location = 0) out vec4 irradiance_out;  // w: probes that count
-layout(location = 1) out vec4 glossy_out;      // w: the one that counts most
+#ifdef TO_IMAGES
+layout(location = 0) out vec4 irradiance_out;
+layout(location = 1) out vec4 glossy_out;
+#else
+layout(location = 0) out vec4 color;
+#endif
 
-vec3 irradiance_of(int probe, float basis[25]) {
-  int stored = (frame.degrees.x + 1) * (frame.degrees.x + 1);
-  int base = probe * 3 * stored;
-  vec3 sum = vec3(0);
-  for (int k = 0; k < min(stored, 25); ++k) {
-    int at = base + 3 * k;
-    sum += basis[k] * vec3(probe_irradiance[at], probe_irradiance[at + 1], probe_irradiance[at + 2]);
+struct Found {
+  vec3 irradiance, glossy;
+  int chosen, count;
+};
+
+#ifdef LOOKUP_LIGHT
+// The nearest visible one above the horizon as a lamp, I = L / (N . w); else the nearest as if it stood here.
+Found look_up(Surface s, vec3 mirror, float roughness) {
+  int base = candidates_at(s.position);
+  int chosen = -1, nearest = 0;
+  float best = 1e30, least = 1e30;
+  for (int i = 0; i < MAX_NEAR; ++i) {
+    int probe = probe_grid[base + i];
+    if (probe < 0) break;
+    vec3 place = probe_places[probe].xyz, d = place - s.position;
+    float d2 = dot(d, d);
+    bool nearer = d2 < least;
+    least = nearer ? d2 : least;
+    nearest = nearer ? probe : nearest;
+    bool lights = d2 > 0 && d2 < best && dot(d, s.normal) > 0;
+    lights = lights && sees_probe(place, probe, s.position, s.normal, s.geometric_normal, sqrt(d2));
+    best = lights ? d2 : best;
+    chosen = lights ? probe : chosen;
   }
-  return max(sum, vec3(0));
+  Found found;
+  found.count = chosen >= 0 ? 1 : 0;
+  found.chosen = chosen >= 0 ? chosen : nearest;
+  vec3 w = normalize(probe_places[found.chosen].xyz - s.position);
+  vec3 as_lamp = radiance_of(found.chosen, w, 0) / max(dot(s.normal, w), 0.05);
+  found.irradiance = chosen >= 0 ? as_lamp : irradiance_of(found.chosen, s.normal);
+  found.glossy = radiance_of(found.chosen, mirror, roughness);
+  return found;
 }
-
-float glossy_band(int l, float roughness) {
-  return textureLod(glossy_bands, vec2((float(l) + 0.5) / 11.0, (roughness * 128 + 0.5) / 129.0), 0).x;
+#else
+// Inverse squared distance times a wrapped cosine over the nearest that x sees; over the nearest if it sees
+// none.
+Found look_up(Surface s, vec3 mirror, float roughness) {
+  int base = candidates_at(s.position);
+  vec3 e_seen = vec3(0), e_all = vec3(0), l_seen = vec3(0), l_all = vec3(0);
+  float seen = 0, all_weights = 0, most = -1;
+  Found found;
+  found.count = found.chosen = 0;
+  for (int i = 0; i < MAX_NEAR; ++i) {
+    int probe = probe_grid[base + i];
+    if (probe < 0 || found.count == MAX_BLEND) break;
+    vec3 place = probe_places[probe].xyz, d = place - s.position;
+    float d2 = max(dot(d, d), 1e-12), distance = sqrt(d2);
+    float wrapped = 0.5 + 0.5 * dot(s.normal, d) / distance;
+    float weight = (wrapped * wrapped + 0.05) / d2;
+    bool sees = sees_probe(place, probe, s.position, s.normal, s.geometric_normal, distance);
+    float near_weight = i < MAX_BLEND ? weight : 0, seen_weight = sees ? weight : 0;
+    vec3 e = irradiance_of(probe, s.normal);
+    e_seen += seen_weight * e;
+    e_all += near_weight * e;
+    seen += seen_weight;
+    all_weights += near_weight;
+#ifdef FULL_BSDF
+    vec3 l = radiance_of(probe, mirror, roughness);
+    l_seen += seen_weight * l;
+    l_all += near_weight * l;
+#endif
+    found.count += sees ? 1 : 0;
+    found.chosen = seen_weight > most ? probe : found.chosen;
+    most = max(most, seen_weight);
+  }
+  found.irradiance = seen > 0 ? e_seen / seen : e_all / all_weights;
+  found.glossy = seen > 0 ? l_seen / seen : l_all / all_weights;
+  return found;
 }
-
-// Bands beyond which the lobe leaves less than 1/500.
-int glossy_degree(float roughness) {
-  int degree = min(frame.degrees.y, frame.degrees.z);
-  while (degree > 0 && glossy_band(degree, roughness) < 0.002) --degree;
-  return degree;
-}
-
-vec3 radiance_of(int probe, vec3 d, float roughness, int degree) {
-  int base = probe * 3 * (frame.degrees.y + 1) * (frame.degrees.y + 1);
-  vec3 sum = vec3(0);
-  FOR_EACH_HARMONIC(degree, d, {
-    int at = base + 3 * k;
-    float factor = roughness < 0 ? y : y * glossy_band(l, roughness);
-    sum += factor * vec3(probe_radiance[at], probe_radiance[at + 1], probe_radiance[at + 2]);
-  })
-  return max(sum, vec3(0));
-}
+#endif
 
 void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy) * int(frame.extra.y);
+  ivec2 at = ivec2(gl_FragCoord.xy);
+#ifdef TO_IMAGES
+  at *= int(frame.extra.y);
+#endif
   Surface s = read_surface(at);
-  irradiance_out = glossy_out = vec4(0);
-  if (!s.hit || s.unlit) return;
-  vec3 mirror = reflect(-s.wo, s.normal);
-  bool glossy = max_component(s.f0) > 0;
   float roughness = min(abs(s.specular_roughness), 1);
-  int degree = glossy ? glossy_degree(roughness) : 0;
-  float basis[25];
-  sh_basis4(s.normal, basis);
-
-  if (frame.switches.z == LIGHT) {
-    // The nearest visible one above the horizon as a lamp, I = L / (N . w); else the nearest around the point
-    Near near = nearest_probes(s.position);
-    int chosen = -1;
-    for (int i = 0; i < MAX_NEAR && chosen < 0; ++i) {
-      int probe = near.probe[i];
-      if (probe < 0) break;
-      vec3 d = probe_places[probe].xyz - s.position;
-      if (dot(d, d) > 0 && dot(d, s.normal) > 0 && sees_probe(probe, s.position, s.normal, s.geometric_normal, dot(d, d)))
-        chosen = probe;
-    }
-    bool lights = chosen >= 0;
-    if (!lights) chosen = near.probe[0];
-    vec3 w = normalize(probe_places[chosen].xyz - s.position);
-    vec3 e = lights ? radiance_of(chosen, w, -1, min(frame.degrees.y, frame.degrees.z)) / max(dot(s.normal, w), 0.05)
-                    : irradiance_of(chosen, basis);
-    irradiance_out = vec4(e, lights ? 1 : 0);
-    glossy_out = vec4(glossy ? radiance_of(chosen, mirror, roughness, degree) : vec3(0), float(chosen));
-    return;
-  }
-
-  Blend b = blend_probes(s.position, s.normal, s.geometric_normal);
-  vec3 e = vec3(0), l = vec3(0);
-  float most = -1;
-  int chosen = 0;
-  for (int i = 0; i < b.count; ++i) {
-    e += b.weight[i] * irradiance_of(b.probe[i], basis);
-    if (b.weight[i] > most) most = b.weight[i], chosen = b.probe[i];
-    if (glossy) l += b.weight[i] * radiance_of(b.probe[i], mirror, roughness, degree);
-  }
-  irradiance_out = vec4(e, b.visible ? float(b.count) : 0);
-  glossy_out = vec4(l, float(chosen));
+  Found found = look_up(s, reflect(-s.wo, s.normal), roughness);
+#if defined(CHOSEN_VIEW)
+  vec3 hue = vec3(hash01(uvec3(found.chosen, 1, 0)), hash01(uvec3(found.chosen, 2, 0)), hash01(uvec3(found.chosen, 3, 0)));
+  color = vec4((0.15 + 0.85 * hue) * (found.count > 0 ? 0.4 + 0.6 * min(float(found.count) / 8, 1) : 0.15), 1);
+#elif defined(TO_IMAGES)
+  irradiance_out = vec4(found.irradiance, 1);
+  glossy_out = vec4(found.glossy, 1);
+#elif defined(FULL_BSDF)
+  Bsdf bsdf = bsdf_from(s.diffuse, s.f0, s.diffuse_roughness, s.specular_roughness, dot(s.normal, s.wo));
+  color = vec4(s.diffuse * (1 - bsdf.albedo) / PI * found.irradiance + bsdf.albedo * found.glossy, 0);
+#else
+  color = vec4(s.diffuse / PI * found.irradiance, 0);
+#endif
 }

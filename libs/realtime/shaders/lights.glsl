@@ -1,28 +1,31 @@
-// All emitters of the scene; mirrors GpuEmitter, GpuAreaSample in gpu_types.h.
-const int POINT = 0, DIRECTIONAL = 1, SPHERE = 2, MESH = 3, ENVIRONMENT = 4, SPHL = 5;
+#include "shadow.glsl"
 
-struct Emitter {
-  vec4 place;   // position, or direction toward it; w: radius of a sphere or SPHL, of a sun's disc in radians
-  vec4 light;   // as scene::Light: intensity, irradiance or radiance; w: range, 0 none
-  vec4 cone;    // a spot's axis; w: scale, 0 none
-  vec4 more;    // cone offset; both sides emit (mesh); area [m2]; largest value of the cone factor
-  ivec4 items;  // kind; first sample or map; samples; first triangle
-  ivec4 count;  // triangles with a closed form; probe of an SPHL
-};
+// One emitter of the scene; mirrors GpuEmitter, GpuAreaSample in gpu_types.h. Passes light the scene by one
+// emitter each.
+const int MAX_SAMPLES = 64, MAX_CORNERS = 121;
+
 struct AreaSample {
-  vec4 place;   // position, or direction toward it (environment); w: share of the area, or weight
+  vec4 place;   // position, or direction toward it (environment); w: share of the area
   vec4 normal;  // where it shines to, 0: everywhere; w: its map
   vec4 light;   // radiance times solid angle (environment)
 };
+layout(std140, binding = 2) uniform EmitterBlock {
+  vec4 place;  // position, or direction toward it; w: radius of a sphere or SPHL, of a sun's disc in radians
+  vec4 light;  // as scene::Light: intensity, irradiance or radiance; w: range, 0 none
+  vec4 cone;   // a spot's axis; w: scale, 0 none
+  vec4 more;   // cone offset; both sides emit (mesh); area [m2]
+  ivec4 items; // kind; map or first map; samples; probe of an SPHL
+  ivec4 count; // triangles with a closed form
+  AreaSample samples[MAX_SAMPLES];
+  vec4 corners[MAX_CORNERS];  // of triangles; coefficients of an SPHL's light
+} emitter;
+
 struct SunMap {
   vec4 origin;   // w: 1 / depth range
   vec4 right;    // w: 1 / half width
   vec4 up;       // w: 1 / half height
   vec4 forward;  // away from the light; w: tile
 };
-layout(std430, binding = 3) readonly buffer Emitters { Emitter emitters[]; };
-layout(std430, binding = 4) readonly buffer AreaSamples { AreaSample area_samples[]; };
-layout(std430, binding = 5) readonly buffer EmitterCorners { vec4 emitter_corners[]; };
 const int MAX_PARALLEL_MAPS = 128;
 layout(std140, binding = 1) uniform DistantBlock {
   SunMap sun_maps[MAX_PARALLEL_MAPS];
@@ -34,14 +37,14 @@ layout(binding = 5) uniform sampler2DArray area_maps;
 layout(binding = 6) uniform sampler2DArray parallel_maps;
 
 // What the cone and the range leave (KHR_lights_punctual).
-float falloff(Emitter e, vec3 wi, float distance2) {
+float falloff(vec3 wi, float distance2) {
   float f = 1;
-  if (e.cone.w > 0) {
-    f = clamp(-dot(e.cone.xyz, wi) * e.cone.w + e.more.x, 0, 1);
+  if (emitter.cone.w > 0) {
+    f = clamp(-dot(emitter.cone.xyz, wi) * emitter.cone.w + emitter.more.x, 0, 1);
     f *= f;
   }
-  if (e.light.w > 0) {
-    float q = distance2 / (e.light.w * e.light.w);
+  if (emitter.light.w > 0) {
+    float q = distance2 / (emitter.light.w * emitter.light.w);
     f *= clamp(1 - q * q, 0, 1);
   }
   return f;

@@ -4,21 +4,19 @@ struct TextureUse {
   vec4 matrix;  // rows of the 2 x 2 part
   vec4 offset;  // xy; z: texture coordinate set; w: 1 if there is a texture
 };
-struct Material {
+// What is drawn now: blocks of their own, so that all of a draw's pixels load the same.
+layout(std140, binding = 3) uniform MaterialBlock {
   vec4 base;      // rgb, alpha
   vec4 emission;  // rgb, metallic
   vec4 rough;     // diffuse, specular (both bipolar), F0 of the dielectric, normal scale
   vec4 alpha;     // cutoff, mode (0 opaque, 1 mask, 2 blend), unlit, double sided
   TextureUse base_use, rough_use, emission_use, normal_use;
-};
-struct Instance {
+} material;
+layout(std140, binding = 4) uniform InstanceBlock {
   mat4 world;
-  mat3x4 normal;   // inverse transpose, columns
-  uvec4 material;  // index; y: mirrored; z: light group of its emission + 1
-};
-layout(std430, binding = 0) readonly buffer Materials { Material materials[]; };
-layout(std430, binding = 1) readonly buffer Instances { Instance instances[]; };
-layout(std430, binding = 2) readonly buffer GroupScales { vec4 group_scales[]; };
+  mat3x4 normal;        // inverse transpose, columns
+  vec4 emission_scale;  // of its light group; w: 1 if it mirrors
+} instance;
 
 layout(binding = 8) uniform sampler2D base_texture;
 layout(binding = 9) uniform sampler2D rough_texture;
@@ -30,15 +28,17 @@ vec2 texture_place(TextureUse use, vec2 uv0, vec2 uv1) {
   return vec2(dot(use.matrix.xy, uv), dot(use.matrix.zw, uv)) + use.offset.xy;
 }
 
-vec4 base_color(Material m, vec2 uv0, vec2 uv1, vec4 color) {
-  vec4 base = m.base * color;
-  if (m.base_use.offset.w != 0) base *= texture(base_texture, texture_place(m.base_use, uv0, uv1));
+vec4 base_color(vec2 uv0, vec2 uv1, vec4 color) {
+  vec4 base = material.base * color;
+#ifdef TEXTURED
+  if (material.base_use.offset.w != 0) base *= texture(base_texture, texture_place(material.base_use, uv0, uv1));
+#endif
   return base;
 }
 
 // Partial coverage is met by chance, a hash of the place: the mean over samples is right.
-bool covered(Material m, float alpha, vec2 pixel, float depth) {
-  if (m.alpha.y == 0) return true;
-  if (m.alpha.y == 1) return alpha >= m.alpha.x;
+bool covered(float alpha, vec2 pixel, float depth) {
+  if (material.alpha.y == 0) return true;
+  if (material.alpha.y == 1) return alpha >= material.alpha.x;
   return alpha > hash01(uvec3(uvec2(pixel), floatBitsToUint(depth)));
 }

@@ -10,8 +10,6 @@ const int SAMPLES = 16;
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   Surface s = read_surface(at);
-  open = 1;
-  if (!s.hit) return;
   mat3 basis = basis_around(s.normal);
   float turn = 2 * PI * hash01(uvec3(at, 7));
   float radius = frame.extra.x, closed = 0;
@@ -28,10 +26,9 @@ void main() {
     vec2 plane = vec2(dot(p, right), dot(p, up)) / (orthographic() ? 1 : z);
     ivec2 q = ivec2((0.5 + 0.5 * plane) * size);
     if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, ivec2(size)))) continue;
-    float stored = texelFetch(gbuffer_depth, q, 0).x;
-    if (stored <= 0) continue;
-    float before = z - view_depth(stored);
-    if (before > 0.01 * radius && before < radius) closed += 1;
+    float depth = depth_at(q);
+    float before = z - depth;
+    if (depth > 0 && before > 0.01 * radius && before < radius) closed += 1;
   }
   open = 1 - closed / float(SAMPLES);
 }

@@ -1,7 +1,7 @@
 #version 450 core
 // Mean of the samples of a pixel.
 layout(binding = 0) uniform sampler2D image;
-uniform int scale;
+layout(location = 0) uniform int scale;
 layout(location = 0) out vec4 color;
 void main() {
   vec4 sum = vec4(0);

@@ -56,3 +56,21 @@ float cube_visibility(sampler2DArray maps, int size, int tiles, float near, int 
   vec2 slope = (dot(n, d) <= 0 ? 1 : -1) * near * local.xy / across * (2 / inner);
   return compare_tile(maps, size, tiles, slot * 6 + face, texel, here, slope, here * 1.5 / inner);
 }
+
+// The same for one texel alone: whether x sees the light.
+bool cube_sight(sampler2DArray maps, int size, int tiles, float near, int slot, vec3 light, vec3 x, vec3 n) {
+  vec3 d = x - light, place;
+  int face = cube_face(d, place);
+  float inner = float(size - 2), here = near / place.z;
+  vec2 texel = 0.5 * (place.xy / place.z) * inner + 0.5 * float(size);
+  vec3 local = in_face(face, n);
+  float across = dot(n, d);
+  across = across < 0 ? min(across, -1e-3 * place.z) : max(across, 1e-3 * place.z);
+  vec2 off = floor(texel) + 0.5 - texel;
+  float plane = here + dot(near * local.xy / across * (2 / inner), off);
+  int tile = slot * 6 + face;
+  int layer = tile / (tiles * tiles), rest = tile - layer * tiles * tiles;
+  ivec2 corner = ivec2(rest % tiles, rest / tiles) * size;
+  float stored = texelFetch(maps, ivec3(corner + ivec2(texel), layer), 0).x;
+  return stored <= max(plane, here) * (1 + 1.5 / inner);
+}

@@ -11,18 +11,15 @@ layout(location = 2) in vec4 uv;
 layout(location = 4) in vec4 color;
 layout(location = 0) out vec4 uv_out;
 layout(location = 1) out vec4 color_out;
-layout(location = 2) flat out uint material;
 #endif
-layout(location = 5) in uint instance;
 
 void main() {
-  vec3 p = (instances[instance].world * vec4(position, 1)).xyz - origin;
+  vec3 p = (instance.world * vec4(position, 1)).xyz - origin;
   vec2 plane = vec2(dot(p, right), dot(p, up));
   float z = dot(p, forward);
   gl_Position = near_plane > 0 ? vec4(plane, near_plane, z) : vec4(plane, 1 - z, 1);
 #ifdef ALPHA
   uv_out = uv;
   color_out = color;
-  material = instances[instance].material.x;
 #endif
 }

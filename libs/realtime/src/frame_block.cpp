@@ -30,13 +30,10 @@ FrameBlock frame_block(const scene::CameraPose& camera, const FrameSettings& set
   b.camera_up = vec4(half_height * up, height);
   b.camera_forward = vec4(forward, lens.orthographic ? far : near);
   const ProbeGrid& grid = probes.grid();
-  b.counts = ivec4(lights.emitter_count(), probes.count(), ProbeGrid::list_length, 0);
+  b.counts = ivec4(static_cast<int>(lights.lit().size()), probes.count(), ProbeGrid::list_length, 0);
   b.switches =
       ivec4(settings.direct, settings.indirect && probes.count() > 0,
             static_cast<int>(settings.lookup == gi::LookupMethod::light), static_cast<int>(settings.view));
-  b.degrees = ivec4(probes.irradiance_degree(), probes.radiance_degree(),
-                    std::clamp(settings.glossy_degree, 0, sh::max_degree),
-                    std::clamp(settings.irradiance_degree, 0, 4));
   b.grid_size = ivec4(grid.cells, 0);
   b.grid_origin = vec4(grid.origin, grid.cell_size);
   b.tone = vec4(std::exp2(settings.tone.exposure), settings.tone.curve == image::ToneCurve::filmic ? 1 : 0,

@@ -12,21 +12,21 @@ FrameImages::FrameImages(int w, int h, int samples, int scale)
     : width(w), height(h), supersample(samples), indirect_scale(scale) {
   const gl::Rect f = full(), i = indirect();
   gbuffer0 = Texture(Format::rgba32ui, f.width, f.height);
-  gbuffer1 = Texture(Format::r32ui, f.width, f.height);
-  emitted = Texture(Format::rgba16f, f.width, f.height);
-  depth = Texture(Format::depth32f, f.width, f.height);
-  direct = Texture(Format::rgba16f, f.width, f.height);
+  gbuffer1 = Texture(Format::rg32ui, f.width, f.height);
+  depth = Texture(Format::depth32f_stencil8, f.width, f.height);
+  color = Texture(Format::rgba32f, f.width, f.height);
   irradiance = Texture(Format::rgba16f, i.width, i.height);
   glossy = Texture(Format::rgba16f, i.width, i.height);
-  color = Texture(Format::rgba32f, f.width, f.height);
-  resolved = Texture(Format::rgba32f, width, height);
   occlusion = Texture(Format::r16f, f.width, f.height);
-  geometry_pass = Framebuffer(std::array<const Texture*, 3>{&gbuffer0, &gbuffer1, &emitted}, &depth);
-  direct_pass = Framebuffer(std::array<const Texture*, 1>{&direct}, nullptr);
+  shadow = Texture(Format::rgba16f, f.width, f.height);
+  if (samples > 1) resolved = Texture(Format::rgba32f, width, height);
+  using Colors1 = std::array<const Texture*, 1>;
+  geometry_pass = Framebuffer(std::array<const Texture*, 3>{&gbuffer0, &gbuffer1, &color}, &depth);
+  light_pass = Framebuffer(Colors1{&color}, &depth);
   indirect_pass = Framebuffer(std::array<const Texture*, 2>{&irradiance, &glossy}, nullptr);
-  compose_pass = Framebuffer(std::array<const Texture*, 1>{&color}, nullptr);
-  resolve_pass = Framebuffer(std::array<const Texture*, 1>{&resolved}, nullptr);
-  occlusion_pass = Framebuffer(std::array<const Texture*, 1>{&occlusion}, nullptr);
+  occlusion_pass = Framebuffer(Colors1{&occlusion}, &depth);
+  shadow_pass = Framebuffer(Colors1{&shadow}, &depth);
+  if (samples > 1) resolve_pass = Framebuffer(Colors1{&resolved}, nullptr);
 }
 
 gl::Rect FrameImages::indirect() const {
@@ -38,8 +38,9 @@ gl::Rect FrameImages::indirect() const {
 std::size_t FrameImages::bytes() const {
   std::size_t sum = 0;
   for (const Texture* t :
-       {&gbuffer0, &gbuffer1, &emitted, &depth, &direct, &irradiance, &glossy, &color, &resolved, &occlusion})
-    sum += t->bytes();
+       {&gbuffer0, &gbuffer1, &depth, &color, &irradiance, &glossy, &occlusion, &shadow, &resolved}) {
+    if (t->id() != 0) sum += t->bytes();
+  }
   return sum;
 }
 

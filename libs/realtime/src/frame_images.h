@@ -8,8 +8,10 @@ namespace ssphh::realtime {
 struct FrameImages {
   int width = 0, height = 0;                ///< of the picture
   int supersample = 1, indirect_scale = 1;  ///< as FrameSettings
-  gl::Texture gbuffer0, gbuffer1, emitted, depth, direct, irradiance, glossy, color, resolved, occlusion;
-  gl::Framebuffer geometry_pass, direct_pass, indirect_pass, compose_pass, resolve_pass, occlusion_pass;
+  gl::Texture gbuffer0, gbuffer1, depth, irradiance, glossy, occlusion, shadow;
+  gl::Texture color;     ///< radiance of every sample
+  gl::Texture resolved;  ///< of every pixel, where a pixel has several samples
+  gl::Framebuffer geometry_pass, light_pass, indirect_pass, occlusion_pass, shadow_pass, resolve_pass;
 
   FrameImages() = default;
   FrameImages(int width, int height, int supersample, int indirect_scale);
@@ -17,11 +19,10 @@ struct FrameImages {
   gl::Rect full() const { return {0, 0, width * supersample, height * supersample}; }
   gl::Rect indirect() const;
   gl::Rect picture() const { return {0, 0, width, height}; }
+  const gl::Texture& result() const { return supersample == 1 ? color : resolved; }
   bool fits(int w, int h, int samples, int scale) const {
     return w == width && h == height && samples == supersample && scale == indirect_scale;
   }
-  /// Where the composed frame goes: straight to the picture where a pixel has one sample.
-  const gl::Framebuffer& composed() const { return supersample == 1 ? resolve_pass : compose_pass; }
   std::size_t bytes() const;
 };
 

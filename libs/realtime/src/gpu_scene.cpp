@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <tuple>
 
 #include "mesh_pieces.h"
 
@@ -32,6 +32,17 @@ GpuMaterial gpu_material(const scene::Material& m) {
   return g;
 }
 
+int class_of(const scene::Material& m) {
+  if (m.unlit) return surface_class::unlit;
+  const bool specular = m.metallic > 0 || (m.specular > 0 && m.ior != 1);
+  return specular || m.diffuse_roughness != 0 ? surface_class::full : surface_class::lambertian;
+}
+
+bool textured(const scene::Material& m) {
+  return std::max({m.base_color_texture.texture, m.metallic_roughness_texture.texture,
+                   m.emission_texture.texture, m.normal_texture.texture}) >= 0;
+}
+
 bool partial_cover(const scene::Material& m, const scene::Mesh& mesh) {
   return m.alpha_mode != scene::AlphaMode::opaque &&
          (m.alpha < 1 || m.base_color_texture.texture >= 0 || !mesh.colors.empty());
@@ -50,6 +61,12 @@ std::vector<GpuVertex> gpu_vertices(const scene::Mesh& mesh) {
   return vertices;
 }
 
+template <class T>
+void upload_block(FrameCounters& counters, gl::Buffer& buffer, const T& block, std::size_t index) {
+  buffer.update_bytes(index * block_stride, std::as_bytes(std::span<const T>(&block, 1)));
+  counters.bytes_uploaded += sizeof(T);
+}
+
 void set_world(GpuInstance& instance, const mat4& world) {
   const mat3 linear(world);
   const float det = glm::determinant(linear);
@@ -57,7 +74,7 @@ void set_world(GpuInstance& instance, const mat4& world) {
   const mat3 normal = singular ? linear : glm::transpose(glm::inverse(linear));
   instance.world = world;
   for (int c = 0; c < 3; ++c) instance.normal[c] = vec4(normal[c], 0);
-  instance.material.y = det < 0 ? 1 : 0;
+  instance.emission_scale.w = det < 0 ? 1 : 0;
 }
 
 }  // namespace
@@ -66,15 +83,13 @@ GpuScene::GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, Fr
   // Materials; the last one stands for "none"
   for (const scene::Material& m : scene.materials) materials_.push_back(gpu_material(m));
   materials_.push_back(gpu_material(plain_material));
-  material_buffer_ = gl::Buffer(materials_.size() * sizeof(GpuMaterial));
-  upload<GpuMaterial>(counters, material_buffer_, materials_);
+  material_buffer_ = gl::Buffer(materials_.size() * block_stride);
+  for (std::size_t m = 0; m < materials_.size(); ++m)
+    upload_block(counters, material_buffer_, materials_[m], m);
   add_textures(scene, counters);
 
   // Groups
   const std::vector<std::string> groups = scene::light_groups(scene);
-  group_scales_.assign(std::max<std::size_t>(groups.size(), 1), vec4(1));
-  scale_buffer_ = gl::Buffer(group_scales_.size() * sizeof(vec4));
-  upload<vec4>(counters, scale_buffer_, group_scales_);
 
   // Meshes one after the other
   std::vector<vec3> positions;
@@ -91,51 +106,44 @@ GpuScene::GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, Fr
   }
 
   // Instances
-  std::vector<unsigned> ids;
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const scene::Instance& instance = scene.instances[i];
     GpuInstance gpu;
     const int material = scene::instance_material(scene, instance);
     const bool none = material < 0;
     const auto m = none ? materials_.size() - 1 : static_cast<std::size_t>(material);
-    gpu.material = uvec4(static_cast<unsigned>(m), 0, 0, 0);
-    if (!none && scene.materials[m].emissive()) {
-      const int group = scene::light_group_index(groups, scene::light_group(scene, instance));
-      gpu.material.z = static_cast<unsigned>(group + 1);
-    }
+    const bool emissive = !none && scene.materials[m].emissive();
+    groups_.push_back(emissive ? scene::light_group_index(groups, scene::light_group(scene, instance)) : -1);
     instances_.push_back(gpu);
     nodes_.push_back(instance.node);
-    ids.push_back(static_cast<unsigned>(i));
     if (instance.mesh < 0) continue;
     const auto mesh = static_cast<std::size_t>(instance.mesh);
     const bool partial = partial_cover(none ? plain_material : scene.materials[m], scene.meshes[mesh]);
     for (const MeshPiece& piece : pieces[mesh]) {
       items_.push_back({static_cast<int>(i),
                         static_cast<int>(m),
+                        0,
                         piece.index_count,
                         first_vertex[mesh],
                         piece.first_index,
                         piece.bounds,
                         {},
-                        partial});
+                        partial,
+                        textured(none ? plain_material : scene.materials[m])});
     }
   }
-  std::stable_sort(items_.begin(), items_.end(), [](const DrawItem& a, const DrawItem& b) {
-    return std::pair(a.partial, a.material) < std::pair(b.partial, b.material);
-  });
+  classify(scene.materials);
 
   positions_ = gl::Buffer(std::span<const vec3>(positions));
   vertices_ = gl::Buffer(std::span<const GpuVertex>(vertices));
   indices_ = gl::Buffer(std::span<const unsigned>(indices));
-  instance_ids_ = gl::Buffer(std::span<const unsigned>(ids));
-  instance_buffer_ = gl::Buffer(instances_.size() * sizeof(GpuInstance));
-  const std::size_t geometry = positions_.size() + vertices_.size() + indices_.size() + instance_ids_.size();
+  instance_buffer_ = gl::Buffer(instances_.size() * block_stride);
+  const std::size_t geometry = positions_.size() + vertices_.size() + indices_.size();
   counters.bytes_uploaded += geometry;
-  bytes_ += geometry + instance_buffer_.size() + material_buffer_.size() + scale_buffer_.size();
+  bytes_ += geometry + instance_buffer_.size() + material_buffer_.size();
 
   for (gl::VertexArray* array : {&all_, &position_only_}) {
     array->attribute(0, positions_, 3, sizeof(vec3), 0);
-    array->instance_attribute(5, instance_ids_);
     array->indices(indices_);
   }
   all_.attribute(1, vertices_, 3, sizeof(GpuVertex), offsetof(GpuVertex, normal));
@@ -145,6 +153,22 @@ GpuScene::GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, Fr
 
   std::vector<scene::Bounds> ignored;
   pose(world, ignored, counters);
+}
+
+void GpuScene::classify(const std::vector<scene::Material>& materials) {
+  if (classes_.empty()) {
+    for (const scene::Material& m : materials) classes_.push_back(class_of(m));
+    classes_.push_back(class_of(plain_material));
+  }
+  any_full_ = false;
+  for (DrawItem& item : items_) {
+    item.surface_class = classes_[static_cast<std::size_t>(item.material)];
+    any_full_ |= item.surface_class == surface_class::full;
+  }
+  std::stable_sort(items_.begin(), items_.end(), [](const DrawItem& a, const DrawItem& b) {
+    return std::tuple(a.partial, a.textured, a.surface_class, a.material) <
+           std::tuple(b.partial, b.textured, b.surface_class, b.material);
+  });
 }
 
 void GpuScene::pose(const std::vector<mat4>& world, std::vector<scene::Bounds>& moved,
@@ -163,7 +187,7 @@ void GpuScene::pose(const std::vector<mat4>& world, std::vector<scene::Bounds>& 
       if (item.instance == static_cast<int>(i)) item.world = transformed(item.local, now);
     }
     add_boxes(static_cast<int>(i));
-    upload(counters, instance_buffer_, std::span<const GpuInstance>(&instances_[i], 1), i);
+    upload_block(counters, instance_buffer_, instances_[i], i);
   }
   bounds_ = {};
   for (const DrawItem& item : items_) {
@@ -179,26 +203,37 @@ void GpuScene::set_material(int index, const scene::Material& material, FrameCou
   now.base_use = materials_[m].base_use, now.rough_use = materials_[m].rough_use;
   now.emission_use = materials_[m].emission_use, now.normal_use = materials_[m].normal_use;
   materials_[m] = now;
-  upload(counters, material_buffer_, std::span<const GpuMaterial>(&now, 1), m);
+  classes_[m] = class_of(material);
+  classify({});
+  upload_block(counters, material_buffer_, now, m);
 }
 
 void GpuScene::set_group_scale(int group, const vec3& scale, FrameCounters& counters) {
-  const vec4 value(scale, 1);
-  upload(counters, scale_buffer_, std::span<const vec4>(&value, 1), static_cast<std::size_t>(group));
+  for (std::size_t i = 0; i < instances_.size(); ++i) {
+    if (groups_[i] != group) continue;
+    instances_[i].emission_scale = vec4(scale, instances_[i].emission_scale.w);
+    upload_block(counters, instance_buffer_, instances_[i], i);
+  }
 }
 
 void GpuScene::begin(bool positions_only) const {
-  material_buffer_.bind_storage(binding::materials);
-  instance_buffer_.bind_storage(binding::instances);
-  scale_buffer_.bind_storage(binding::group_scales);
   (positions_only ? position_only_ : all_).bind();
   bound_material_ = -2;
+  bound_instance_ = -1;
 }
 
 void GpuScene::draw(const DrawItem& item, bool textures, FrameCounters& counters) const {
-  if (textures && item.material != bound_material_) bind_material(item.material);
-  gl::draw_indexed(item.index_count, item.first_index, item.base_vertex,
-                   static_cast<unsigned>(item.instance));
+  if (textures && item.material != bound_material_) {
+    bind_material(item.material);
+    material_buffer_.bind_uniform_range(
+        binding::material_block, static_cast<std::size_t>(item.material) * block_stride, sizeof(GpuMaterial));
+  }
+  if (item.instance != bound_instance_) {
+    instance_buffer_.bind_uniform_range(
+        binding::instance_block, static_cast<std::size_t>(item.instance) * block_stride, sizeof(GpuInstance));
+    bound_instance_ = item.instance;
+  }
+  gl::draw_indexed(item.index_count, item.first_index, item.base_vertex);
   ++counters.draw_calls;
   counters.triangles += static_cast<std::uint64_t>(item.index_count / 3);
 }

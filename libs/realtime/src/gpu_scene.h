@@ -18,10 +18,12 @@ namespace ssphh::realtime {
 /// What is drawn in one call: a piece of an instance, small enough that leaving it out saves something.
 struct DrawItem {
   int instance, material;
+  int surface_class;
   int index_count, base_vertex;
   std::size_t first_index;
   scene::Bounds local, world;
-  bool partial;  ///< may be covered in part only
+  bool partial;   ///< may be covered in part only
+  bool textured;  ///< reads any texture
 };
 
 class GpuScene {
@@ -37,7 +39,11 @@ class GpuScene {
   const scene::Bounds& bounds() const { return bounds_; }
   std::size_t bytes() const { return bytes_; }
 
-  /// Binds buffers; then draw() what is wanted, in the order of items() for few texture changes.
+  /// Whether anything reflects otherwise than Lambert's law says.
+  bool any_full() const { return any_full_; }
+
+  /// Binds buffers; then draw() what is wanted, in the order of items() for few changes of state. `program`
+  /// is the one in use.
   void begin(bool positions_only) const;
   void draw(const DrawItem& item, bool textures, FrameCounters& counters) const;
 
@@ -49,25 +55,27 @@ class GpuScene {
   void add_textures(const scene::Scene& scene, FrameCounters& counters);
   int texture_for(const scene::Scene& scene, int texture, bool srgb, FrameCounters& counters);
   int sampler_for(const scene::TextureUse& use);
+  void classify(const std::vector<scene::Material>& materials);
   void bind_material(int material) const;
 
   std::vector<DrawItem> items_;
   std::vector<GpuInstance> instances_;
-  std::vector<int> nodes_;  ///< of each instance
+  std::vector<int> nodes_, groups_;  ///< of each instance
   std::vector<GpuMaterial> materials_;
+  std::vector<int> classes_;                ///< of each material
   std::vector<std::array<Slot, 4>> slots_;  ///< of each material
-  std::vector<vec4> group_scales_;
   std::map<std::pair<int, bool>, int> texture_index_;
   std::map<int, int> sampler_index_;
   std::vector<gl::Texture> textures_;
   std::vector<gl::Sampler> samplers_;
   gl::Texture white_;
-  gl::Buffer positions_, vertices_, indices_, instance_ids_;
-  gl::Buffer material_buffer_, instance_buffer_, scale_buffer_;
+  gl::Buffer positions_, vertices_, indices_;
+  gl::Buffer material_buffer_, instance_buffer_;
   gl::VertexArray all_, position_only_;
   scene::Bounds bounds_;
   std::size_t bytes_ = 0;
-  mutable int bound_material_ = -2;
+  bool any_full_ = false;
+  mutable int bound_material_ = -2, bound_instance_ = -1;
 };
 
 }  // namespace ssphh::realtime

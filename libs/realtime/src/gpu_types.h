@@ -8,20 +8,19 @@
 namespace ssphh::realtime {
 
 using glm::ivec4;
-using glm::uvec4;
 
 /// FrameBlock of common.glsl.
 struct FrameBlock {
   vec4 camera_position, camera_right, camera_up, camera_forward;
-  ivec4 counts, switches, degrees, grid_size;
+  ivec4 counts, switches, grid_size;
   vec4 grid_origin, tone, environment;
   ivec4 maps, map_tiles;
   vec4 map_near, extra;
 };
-static_assert(sizeof(FrameBlock) == 15 * 16);
-static_assert(offsetof(FrameBlock, grid_origin) == 8 * 16 && offsetof(FrameBlock, extra) == 14 * 16);
+static_assert(sizeof(FrameBlock) == 14 * 16);
+static_assert(offsetof(FrameBlock, grid_origin) == 7 * 16 && offsetof(FrameBlock, extra) == 13 * 16);
 
-/// TextureUse, Material, Instance of material.glsl.
+/// TextureUse, MaterialBlock, InstanceBlock of material.glsl; each stands where a uniform block may begin.
 struct GpuTextureUse {
   vec4 matrix{1, 0, 0, 1};
   vec4 offset{0};
@@ -35,23 +34,32 @@ static_assert(sizeof(GpuMaterial) == 12 * 16 && offsetof(GpuMaterial, normal_use
 struct GpuInstance {
   mat4 world;
   vec4 normal[3];
-  uvec4 material;
+  vec4 emission_scale{1, 1, 1, 0};
 };
-static_assert(sizeof(GpuInstance) == 8 * 16 && offsetof(GpuInstance, material) == 7 * 16);
+static_assert(sizeof(GpuInstance) == 8 * 16 && offsetof(GpuInstance, emission_scale) == 7 * 16);
+inline constexpr std::size_t block_stride = 256;
+static_assert(sizeof(GpuMaterial) <= block_stride && sizeof(GpuInstance) <= block_stride);
 
-/// Emitter, AreaSample, SunMap of lights.glsl.
-enum class EmitterKind : int { point, directional, sphere, mesh, environment, sphl };
-struct GpuEmitter {
-  vec4 place{0}, light{0}, cone{0}, more{0};
-  ivec4 items{0}, count{0};
-};
-static_assert(sizeof(GpuEmitter) == 6 * 16 && offsetof(GpuEmitter, items) == 4 * 16);
-
+/// AreaSample and EmitterBlock of lights.glsl.
+enum class EmitterKind : int { point, sphl, sun, sphere, mesh, environment };
+inline constexpr int emitter_kinds = 6;
 struct GpuAreaSample {
   vec4 place{0}, normal{0}, light{0};
 };
-static_assert(sizeof(GpuAreaSample) == 3 * 16);
+inline constexpr int max_area_samples = 64, max_corners = 121;
+struct GpuEmitter {
+  vec4 place{0}, light{0}, cone{0}, more{0};
+  ivec4 items{0}, count{0};
+  GpuAreaSample samples[max_area_samples];
+  vec4 corners[max_corners] = {};
+};
+static_assert(offsetof(GpuEmitter, items) == 4 * 16 && offsetof(GpuEmitter, samples) == 6 * 16);
+static_assert(offsetof(GpuEmitter, corners) == 6 * 16 + max_area_samples * 3 * 16);
+/// Emitters stand in one buffer, each where a uniform block may begin.
+inline constexpr std::size_t emitter_stride = 5120;
+static_assert(sizeof(GpuEmitter) <= emitter_stride && emitter_stride % 256 == 0);
 
+/// SunMap of lights.glsl.
 struct GpuSunMap {
   vec4 origin{0}, right{0}, up{0}, forward{0};
 };
@@ -77,18 +85,22 @@ static_assert(sizeof(GpuVertex) == 60);
 
 /// Where shaders expect what.
 namespace binding {
-inline constexpr unsigned materials = 0, instances = 1, group_scales = 2;
-inline constexpr unsigned emitters = 3, area_samples = 4, emitter_corners = 5;
-inline constexpr unsigned probe_places = 0, probe_irradiance = 1, probe_radiance = 2, probe_grid = 6,
-                          probe_emission = 7;
-inline constexpr unsigned frame_block = 0, distant_block = 1;
+inline constexpr unsigned probe_places = 0, probe_grid = 6;
+inline constexpr unsigned frame_block = 0, distant_block = 1, emitter_block = 2, material_block = 3,
+                          instance_block = 4;
 }  // namespace binding
 namespace unit {
-inline constexpr unsigned gbuffer0 = 0, gbuffer1 = 1, gbuffer_depth = 2, albedo_table = 3, light_maps = 4,
-                          area_maps = 5, parallel_maps = 6, probe_maps = 7, glossy_bands = 12,
-                          environment = 13, occlusion = 14;
+inline constexpr unsigned gbuffer0 = 0, gbuffer1 = 1, albedo_table = 3, light_maps = 4, area_maps = 5,
+                          parallel_maps = 6, probe_maps = 7;
 inline constexpr unsigned base_texture = 8, rough_texture = 9, emission_texture = 10, normal_texture = 11;
-inline constexpr unsigned emitted = 8, direct = 9, irradiance = 10, glossy = 11;
+inline constexpr unsigned irradiance = 8, glossy = 9, occlusion = 10, shadow_image = 8;
+inline constexpr unsigned irradiance_tiles = 12, radiance_tiles = 13, environment = 13;
+inline constexpr unsigned count = 16;
 }  // namespace unit
+
+/// What the stencil tells of a pixel: how its surface reflects.
+namespace surface_class {
+inline constexpr int nothing = 0, lambertian = 1, full = 2, unlit = 3;
+}
 
 }  // namespace ssphh::realtime

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <fmt/format.h>
 
@@ -33,13 +34,13 @@ const mat4& world_of(const std::vector<mat4>& world, int node) {
 }  // namespace
 
 Lights::Lights(const scene::Scene& scene, const std::vector<mat4>& world, const scene::Bounds& bounds,
-               const RendererParams& params, FrameCounters& counters)
+               const RendererParams& params)
     : world_(world), near_(std::max(5e-4f * bounds.radius(), 1e-6f)) {
   const std::vector<std::string> groups = scene::light_groups(scene);
   scales_.assign(groups.size(), vec3(1));
   add_lights(scene, groups);
-  add_meshes(scene, groups, params.area_samples);
-  add_environment(scene, world, groups, params.environment_samples);
+  add_meshes(scene, groups, std::clamp(params.area_samples, 1, max_area_samples));
+  add_environment(scene, groups, std::clamp(params.environment_samples, 1, max_area_samples));
   if (parallel_slots_ > max_parallel_maps)
     throw Error("real-time renderer", fmt::format("the lights need {} parallel shadow maps, {} is the most",
                                                   parallel_slots_, max_parallel_maps));
@@ -49,14 +50,11 @@ Lights::Lights(const scene::Scene& scene, const std::vector<mat4>& world, const 
   parallel_key_.assign(static_cast<std::size_t>(parallel_slots_), vec3(-1e30f));
   scene_emitters_ = static_cast<int>(emitters_.size());
   distant_buffer_ = gl::Buffer(sizeof(DistantBlock));
-  corner_buffer_ = gl::Buffer(std::max<std::size_t>(corners_.size(), 1) * sizeof(vec4));
-  sample_buffer_ = gl::Buffer(std::max<std::size_t>(samples_.size(), 1) * sizeof(GpuAreaSample));
   for (Source& source : sources_) {
     place(source, source.light >= 0 ? states_[static_cast<std::size_t>(source.light)].world
                                     : world_of(world, source.node));
   }
   place_environment(bounds);
-  counters.bytes_uploaded += corner_buffer_.size();
 }
 
 void Lights::add_lights(const scene::Scene& scene, const std::vector<std::string>& groups) {
@@ -71,14 +69,12 @@ void Lights::add_lights(const scene::Scene& scene, const std::vector<std::string
     GpuEmitter e;
     if (light.type == scene::LightType::sphere && light.radius > 0) {
       source.points = ball_points(light.radius, sphere_points);
-      e.items =
-          ivec4(static_cast<int>(EmitterKind::sphere), static_cast<int>(samples_.size()), sphere_points, 0);
+      e.items = ivec4(static_cast<int>(EmitterKind::sphere), 0, sphere_points, 0);
       e.more.z = 1;
       source.first_map = area_slots_;
       area_slots_ += sphere_points;
-      samples_.resize(samples_.size() + source.points.size());
     } else if (light.type == scene::LightType::directional) {
-      e.items = ivec4(static_cast<int>(EmitterKind::directional), parallel_slots_, sun_cascades, 0);
+      e.items = ivec4(static_cast<int>(EmitterKind::sun), parallel_slots_, sun_cascades, 0);
       source.first_map = parallel_slots_;
       parallel_slots_ += sun_cascades;
     } else {
@@ -107,8 +103,7 @@ void Lights::add_meshes(const scene::Scene& scene, const std::vector<std::string
     source.radiance = mean_emission(scene, m);
     source.first_map = area_slots_;
     GpuEmitter e;
-    e.items = ivec4(static_cast<int>(EmitterKind::mesh), static_cast<int>(samples_.size()),
-                    static_cast<int>(source.points.size()), static_cast<int>(corners_.size()));
+    e.items = ivec4(static_cast<int>(EmitterKind::mesh), 0, static_cast<int>(source.points.size()), 0);
     e.more.y = m.double_sided ? 1 : 0;
     e.more.z = mesh_area(mesh, world);
     const bool even = m.emission_texture.texture < 0 && m.alpha_mode == scene::AlphaMode::opaque;
@@ -117,17 +112,14 @@ void Lights::add_meshes(const scene::Scene& scene, const std::vector<std::string
         for (int c = 0; c < 3; ++c) source.corners.push_back(mesh.positions[t[c]]);
       }
       e.count.x = static_cast<int>(mesh.triangles.size());
-      corners_.resize(corners_.size() + source.corners.size());
     }
     area_slots_ += static_cast<int>(source.points.size());
-    samples_.resize(samples_.size() + source.points.size());
     emitters_.push_back(e);
     sources_.push_back(std::move(source));
   }
 }
 
-void Lights::add_environment(const scene::Scene& scene, const std::vector<mat4>&,
-                             const std::vector<std::string>& groups, int samples) {
+void Lights::add_environment(const scene::Scene& scene, const std::vector<std::string>& groups, int samples) {
   if (!scene.environment) return;
   environment_ = scene.environment;
   directions_ = environment_directions(*environment_, samples);
@@ -139,14 +131,12 @@ void Lights::add_environment(const scene::Scene& scene, const std::vector<mat4>&
   source.radiance = vec3(1);  // its colour is in the samples and the image
   source.first_map = parallel_slots_;
   GpuEmitter e;
-  e.items = ivec4(static_cast<int>(EmitterKind::environment), static_cast<int>(samples_.size()),
-                  static_cast<int>(directions_.size()), 0);
+  e.items = ivec4(static_cast<int>(EmitterKind::environment), 0, static_cast<int>(directions_.size()), 0);
   for (std::size_t i = 0; i < directions_.size(); ++i) {
-    GpuAreaSample s;
+    GpuAreaSample& s = e.samples[i];
     s.place = vec4(directions_[i].direction, 0);
     s.normal.w = static_cast<float>(parallel_slots_ + static_cast<int>(i));
     s.light = vec4(directions_[i].weight, 0);
-    samples_.push_back(s);
   }
   parallel_slots_ += static_cast<int>(directions_.size());
   emitters_.push_back(e);
@@ -182,9 +172,9 @@ void Lights::set_group_scale(int group, const vec3& scale) {
   emitters_changed_ = true;
 }
 
-void Lights::set_emission(int probe, const vec3& position, float radius) {
+void Lights::set_emission(int probe, const vec3& position, float radius, const sh::RadianceSh& leaving) {
   const auto is_probe = [&](const GpuEmitter& e) {
-    return e.items.x == static_cast<int>(EmitterKind::sphl) && e.count.y == probe;
+    return e.items.x == static_cast<int>(EmitterKind::sphl) && e.items.w == probe;
   };
   emitters_.erase(std::remove_if(emitters_.begin() + scene_emitters_, emitters_.end(), is_probe),
                   emitters_.end());
@@ -193,8 +183,9 @@ void Lights::set_emission(int probe, const vec3& position, float radius) {
   GpuEmitter e;
   e.place = vec4(position, radius);
   e.light = vec4(1, 1, 1, 0);
-  e.items.x = static_cast<int>(EmitterKind::sphl);
-  e.count.y = probe;
+  e.items = ivec4(static_cast<int>(EmitterKind::sphl), 0, 0, probe);
+  for (std::size_t k = 0; k < std::min<std::size_t>(leaving.values.size(), max_corners); ++k)
+    e.corners[k] = vec4(leaving.values[k], 0);
   emitters_.push_back(e);
 }
 
@@ -246,8 +237,7 @@ void Lights::place(Source& source, const mat4& world) {
 }
 
 void Lights::place_samples(Source& source, const mat4& world) {
-  const GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
-  const auto first = static_cast<std::size_t>(e.items.y);
+  GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
   const mat3 to_normal = glm::transpose(glm::inverse(mat3(world)));
   scene::Bounds extent;
   for (const AreaPoint& p : source.points) extent.add(vec3(world * vec4(p.position, 1)));
@@ -261,16 +251,14 @@ void Lights::place_samples(Source& source, const mat4& world) {
     const vec3 position =
         directed ? vec3(world * vec4(p.position, 1)) + lift * normal : vec3(world[3]) + p.position;
     const int slot = source.first_map + static_cast<int>(i);
-    samples_[first + i] = {vec4(position, p.share), vec4(normal, static_cast<float>(slot)), vec4(0)};
+    e.samples[i] = {vec4(position, p.share), vec4(normal, static_cast<float>(slot)), vec4(0)};
     for (int face = 0; face < 6; ++face) {
       const MapView view = cube_view(position, face, near_);
       const bool behind = directed && e.more.y == 0 && glm::dot(view.forward, normal) < -0.82f;
       areas_.set_view(6 * slot + face, view, !behind);
     }
   }
-  for (std::size_t i = 0; i < source.corners.size(); ++i)
-    corners_[static_cast<std::size_t>(e.items.w) + i] = world * vec4(source.corners[i], 1);
-  samples_changed_ = true;
+  for (std::size_t i = 0; i < source.corners.size(); ++i) e.corners[i] = world * vec4(source.corners[i], 1);
 }
 
 void Lights::set_colors() {
@@ -299,19 +287,44 @@ void Lights::prepare(const scene::CameraPose& camera, float aspect, const scene:
     place_environment(bounds);
   if (emitters_changed_) {
     set_colors();
-    lit_.clear();
-    for (const GpuEmitter& e : emitters_) {
-      if (max_component(vec3(e.light)) > black) lit_.push_back(e);
+    list_lit();
+    const std::size_t bytes = emitters_.size() * emitter_stride;
+    if (emitter_buffer_.size() < std::max<std::size_t>(bytes, 1)) {
+      emitter_buffer_.reserve(std::max(bytes, emitter_stride));
+      uploaded_.clear();
     }
-    emitter_buffer_.reserve(std::max<std::size_t>(lit_.size(), 1) * sizeof(GpuEmitter));
-    upload<GpuEmitter>(counters, emitter_buffer_, lit_);
-  }
-  if (samples_changed_) {
-    upload<GpuAreaSample>(counters, sample_buffer_, samples_);
-    upload<vec4>(counters, corner_buffer_, corners_);
+    upload_emitters(counters);
   }
   if (distant_changed_) upload(counters, distant_buffer_, std::span<const DistantBlock>(&distant_, 1));
-  emitters_changed_ = samples_changed_ = distant_changed_ = false;
+  emitters_changed_ = distant_changed_ = false;
+}
+
+void Lights::upload_emitters(FrameCounters& counters) {
+  for (std::size_t i = 0; i < emitters_.size(); ++i) {
+    const bool known = i < uploaded_.size();
+    if (known && std::memcmp(&uploaded_[i], &emitters_[i], sizeof(GpuEmitter)) == 0) continue;
+    emitter_buffer_.update_bytes(i * emitter_stride,
+                                 std::as_bytes(std::span<const GpuEmitter>(&emitters_[i], 1)));
+    counters.bytes_uploaded += sizeof(GpuEmitter);
+  }
+  uploaded_ = emitters_;
+}
+
+void Lights::list_lit() {
+  lit_.clear();
+  for (std::size_t i = 0; i < emitters_.size(); ++i) {
+    const GpuEmitter& e = emitters_[i];
+    if (!(max_component(vec3(e.light)) > black)) continue;
+    const auto kind = static_cast<EmitterKind>(e.items.x);
+    const bool disc = kind == EmitterKind::sun && e.place.w > 0;
+    lit_.push_back(
+        {kind, static_cast<int>(i), disc || kind == EmitterKind::sphere || kind == EmitterKind::environment});
+  }
+}
+
+void Lights::bind_emitter(const Lit& lit) const {
+  emitter_buffer_.bind_uniform_range(
+      binding::emitter_block, static_cast<std::size_t>(lit.emitter) * emitter_stride, sizeof(GpuEmitter));
 }
 
 int Lights::update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most,
@@ -324,9 +337,6 @@ int Lights::update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program&
 }
 
 void Lights::bind() const {
-  emitter_buffer_.bind_storage(binding::emitters);
-  sample_buffer_.bind_storage(binding::area_samples);
-  corner_buffer_.bind_storage(binding::emitter_corners);
   distant_buffer_.bind_uniform(binding::distant_block);
   lamps_.texture().bind(unit::light_maps);
   areas_.texture().bind(unit::area_maps);
@@ -335,7 +345,7 @@ void Lights::bind() const {
 
 std::size_t Lights::bytes() const {
   return lamps_.bytes() + areas_.bytes() + parallel_.bytes() + emitter_buffer_.size() +
-         sample_buffer_.size() + corner_buffer_.size() + distant_buffer_.size();
+         distant_buffer_.size();
 }
 
 }  // namespace ssphh::realtime

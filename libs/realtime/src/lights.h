@@ -17,7 +17,7 @@ class Lights {
   static constexpr int sun_cascades = 4;
 
   Lights(const scene::Scene& scene, const std::vector<mat4>& world, const scene::Bounds& bounds,
-         const RendererParams& params, FrameCounters& counters);
+         const RendererParams& params);
 
   void set_time(const std::vector<mat4>& world);
   void set_light(int light, const scene::LightState& state);
@@ -26,7 +26,7 @@ class Lights {
   void set_group_scale(int group, const vec3& scale);
   int group_count() const { return static_cast<int>(scales_.size()); }
   /// A probe's own light; radius 0: none.
-  void set_emission(int probe, const vec3& position, float radius);
+  void set_emission(int probe, const vec3& position, float radius, const sh::RadianceSh& leaving);
   void clear_emissions();
   void invalidate(const std::vector<scene::Bounds>& moved);
 
@@ -35,10 +35,17 @@ class Lights {
                FrameCounters& counters);
   int update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most, int& waiting,
                   FrameCounters& counters);
+  /// Everything but the emitter itself.
   void bind() const;
 
   /// Those that shine now.
-  int emitter_count() const { return static_cast<int>(lit_.size()); }
+  struct Lit {
+    EmitterKind kind;
+    int emitter;
+    bool seen;  ///< is no surface, and looked at directly
+  };
+  const std::vector<Lit>& lit() const { return lit_; }
+  void bind_emitter(const Lit& lit) const;
   const MapAtlas& lamp_maps() const { return lamps_; }
   const MapAtlas& area_maps() const { return areas_; }
   const MapAtlas& parallel_maps() const { return parallel_; }
@@ -60,14 +67,15 @@ class Lights {
   };
   void add_lights(const scene::Scene& scene, const std::vector<std::string>& groups);
   void add_meshes(const scene::Scene& scene, const std::vector<std::string>& groups, int samples);
-  void add_environment(const scene::Scene& scene, const std::vector<mat4>& world,
-                       const std::vector<std::string>& groups, int samples);
+  void add_environment(const scene::Scene& scene, const std::vector<std::string>& groups, int samples);
   void place(Source& source, const mat4& world);
   void place_samples(Source& source, const mat4& world);
   void place_sun(const Source& source, const scene::CameraPose& camera, float aspect,
                  const scene::Bounds& bounds);
   void place_environment(const scene::Bounds& bounds);
   void set_colors();
+  void list_lit();
+  void upload_emitters(FrameCounters& counters);
   void set_parallel(int map, const vec3& forward, const vec3& center, float radius,
                     const scene::Bounds& bounds);
 
@@ -79,17 +87,16 @@ class Lights {
   std::vector<EnvironmentSample> directions_;
   std::vector<Source> sources_;
   std::vector<GpuEmitter> emitters_;  ///< of sources_, then of probes
-  std::vector<GpuEmitter> lit_;
-  std::vector<GpuAreaSample> samples_;
-  std::vector<vec4> corners_;
+  std::vector<GpuEmitter> uploaded_;  ///< as they stand in the buffer
+  std::vector<Lit> lit_;
   DistantBlock distant_{};
   std::vector<vec3> parallel_key_;  ///< what each parallel map was last drawn for
   std::vector<mat4> world_;
   int lamp_slots_ = 0, area_slots_ = 0, parallel_slots_ = 0, scene_emitters_ = 0;
   float near_;
   MapAtlas lamps_, areas_, parallel_;
-  gl::Buffer emitter_buffer_, sample_buffer_, corner_buffer_, distant_buffer_;
-  bool emitters_changed_ = true, samples_changed_ = true, distant_changed_ = true;
+  gl::Buffer emitter_buffer_, distant_buffer_;
+  bool emitters_changed_ = true, distant_changed_ = true;
   scene::Bounds environment_bounds_;
 };
 

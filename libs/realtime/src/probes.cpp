@@ -1,17 +1,24 @@
 #include "probes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/sh/irradiance.h>
 #include <ssphh/sh/window.h>
+#include <ssphh/sh/zonal.h>
 
 namespace ssphh::realtime {
 namespace {
 
-constexpr int emission_floats = 3 * sh::max_coefficient_count;
+/// Texels of a tile's side. The tests bound what interpolation errs in each band; irradiance has little of
+/// the higher ones, and so has what a rough surface mirrors.
+constexpr int irradiance_tile = 24, radiance_tile = 30;
+/// Roughnesses of which a probe's radiance is kept; shaders interpolate.
+constexpr std::array<float, 6> level_roughness = {0, 0.3f, 0.45f, 0.6f, 0.8f, 1};
 constexpr int largest_face = 256, smallest_face = 32;
 
 /// What of a probe lights surfaces.
@@ -36,13 +43,15 @@ int face_size(std::size_t probes, std::size_t bytes) {
 }  // namespace
 
 Probes::Probes() {
-  for (gl::Buffer* b : {&place_buffer_, &irradiance_, &radiance_, &grid_buffer_, &emission_})
-    *b = gl::Buffer(16);
+  place_buffer_ = gl::Buffer(16);
+  grid_buffer_ = gl::Buffer(16);
+  irradiance_ = TileAtlas(irradiance_tile, 1);
+  radiance_ = TileAtlas(radiance_tile, 1);
   maps_ = MapAtlas(smallest_face, 1);
 }
 
 Probes::Probes(const gi::ProbeSet& set, const gi::LookupParams& params, const RendererParams& renderer,
-               const scene::Bounds& bounds, FrameCounters& counters)
+               const scene::Bounds& bounds, bool glossy, FrameCounters& counters)
     : irradiance_degree_(std::clamp(params.irradiance_degree, 0, std::min(set.degree, 4))),
       radiance_degree_(set.degree),
       dering_(params.dering),
@@ -64,21 +73,18 @@ Probes::Probes(const gi::ProbeSet& set, const gi::LookupParams& params, const Re
   grid_ = make_probe_grid(places_, all, spacing_);
   place_buffer_ = gl::Buffer(std::span<const vec4>(places));
   grid_buffer_ = gl::Buffer(std::span<const int>(grid_.lists));
-  const auto floats = [&](int degree) {
-    return places_.size() * 3 * static_cast<std::size_t>(sh::coefficient_count(degree)) * sizeof(float);
-  };
-  irradiance_ = gl::Buffer(floats(irradiance_degree_));
-  radiance_ = gl::Buffer(floats(radiance_degree_));
-  emission_ = gl::Buffer(16);
+  irradiance_basis_ = TileBasis(irradiance_tile, irradiance_degree_);
+  irradiance_ = TileAtlas(irradiance_tile, count());
+  radiance_ = TileAtlas(radiance_tile, 1);
+  levels_ = glossy ? static_cast<int>(level_roughness.size()) : 1;
   counters.bytes_uploaded += place_buffer_.size() + grid_buffer_.size();
 
-  std::vector<int> indices;
-  std::vector<sh::RadianceSh> light;
+  std::vector<int> all_probes;
   for (std::size_t i = 0; i < set.probes.size(); ++i) {
-    indices.push_back(static_cast<int>(i));
-    light.push_back(chosen_light(set, i, layer, params.light));
+    all_probes.push_back(static_cast<int>(i));
+    light_.push_back(chosen_light(set, i, layer, params.light));
   }
-  set_light(indices, light, counters);
+  make_tiles(all_probes, true, false, counters);
 
   maps_ = MapAtlas(face_size(places_.size(), renderer.probe_map_bytes), 6 * count());
   for (int i = 0; i < count(); ++i) {
@@ -88,42 +94,55 @@ Probes::Probes(const gi::ProbeSet& set, const gi::LookupParams& params, const Re
 
 void Probes::set_light(std::span<const int> probes, std::span<const sh::RadianceSh> light,
                        FrameCounters& counters) {
-  const auto e_count = static_cast<std::size_t>(sh::coefficient_count(irradiance_degree_));
-  const auto l_count = static_cast<std::size_t>(sh::coefficient_count(radiance_degree_));
-  // Irradiance first, then radiance, probe after probe
-  const std::size_t row = 3 * (e_count + l_count);
-  row_.assign(std::max(row_.size(), probes.size() * row), 0.0f);
-  parallel_for(probes.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      sh::RadianceSh l = light[i];
-      l.values.resize(l_count, vec3(0));
-      float* out = row_.data() + i * row;
-      for (std::size_t k = 0; k < l_count; ++k)
-        for (int c = 0; c < 3; ++c) out[3 * (e_count + k) + static_cast<std::size_t>(c)] = l.values[k][c];
-      l.values.resize(e_count);
-      if (dering_) l = sh::dering(l, sh::NonNegative::irradiance);
-      const sh::IrradianceSh e = sh::irradiance_from_radiance(l);
-      for (std::size_t k = 0; k < e_count; ++k)
-        for (int c = 0; c < 3; ++c) out[3 * k + static_cast<std::size_t>(c)] = e.values[k][c];
-    }
-  });
-  for (std::size_t i = 0; i < probes.size(); ++i) {
-    const auto p = static_cast<std::size_t>(probes[i]);
-    const std::span<const float> values(row_.data() + i * row, row);
-    upload(counters, irradiance_, values.first(3 * e_count), p * 3 * e_count);
-    upload(counters, radiance_, values.subspan(3 * e_count), p * 3 * l_count);
-  }
+  for (std::size_t i = 0; i < probes.size(); ++i) light_[static_cast<std::size_t>(probes[i])] = light[i];
+  make_tiles(probes, true, has_radiance_, counters);
 }
 
-void Probes::set_emission(int probe, const sh::RadianceSh& leaving, FrameCounters& counters) {
-  if (emission_.size() <= 16) {
-    emission_ = gl::Buffer(places_.size() * emission_floats * sizeof(float));
-    counters.bytes_uploaded += emission_.size();
+void Probes::want_radiance(FrameCounters& counters) {
+  if (has_radiance_ || count() == 0) return;
+  has_radiance_ = true;
+  radiance_basis_ = TileBasis(radiance_tile, radiance_degree_);
+  radiance_ = TileAtlas(radiance_tile, levels_ * count());
+  std::vector<int> all(light_.size());
+  std::iota(all.begin(), all.end(), 0);
+  make_tiles(all, false, true, counters);
+}
+
+void Probes::make_tiles(std::span<const int> probes, bool irradiance, bool radiance,
+                        FrameCounters& counters) {
+  static constexpr std::array<float, sh::max_degree + 1> ones = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+  const auto irradiance_count = static_cast<std::size_t>(sh::coefficient_count(irradiance_degree_));
+  const std::size_t small = irradiance ? irradiance_basis_.texels() : 0;
+  const std::size_t large = radiance ? radiance_basis_.texels() : 0;
+  const std::size_t each = small + static_cast<std::size_t>(levels_) * large;
+  // In portions, so that many probes need no more memory than a few
+  constexpr std::size_t portion = 64;
+  for (std::size_t first = 0; first < probes.size(); first += portion) {
+    const std::size_t n = std::min(portion, probes.size() - first);
+    if (texels_.size() < n * each) texels_.resize(n * each);
+    const auto tile = [&](std::size_t i, std::size_t level) {
+      return std::span<vec4>(texels_.data() + i * each + small + level * large, large);
+    };
+    parallel_for(n, 4, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        sh::RadianceSh l = light_[static_cast<std::size_t>(probes[first + i])];
+        for (std::size_t r = 0; radiance && r < static_cast<std::size_t>(levels_); ++r)
+          radiance_basis_.evaluate(l.values, sh::glossy_band_scales(level_roughness[r]), tile(i, r));
+        if (!irradiance) continue;
+        l.values.resize(irradiance_count, vec3(0));
+        if (dering_) l = sh::dering(l, sh::NonNegative::irradiance);
+        irradiance_basis_.evaluate(sh::irradiance_from_radiance(l).values, ones,
+                                   std::span<vec4>(texels_.data() + i * each, small));
+      }
+    });
+    for (std::size_t i = 0; i < n; ++i) {
+      const int probe = probes[first + i];
+      if (irradiance) irradiance_.upload(probe, std::span<const vec4>(texels_.data() + i * each, small));
+      for (std::size_t r = 0; radiance && r < static_cast<std::size_t>(levels_); ++r)
+        radiance_.upload(probe * levels_ + static_cast<int>(r), tile(i, r));
+      counters.bytes_uploaded += each * sizeof(vec4);
+    }
   }
-  std::array<float, emission_floats> row{};
-  for (std::size_t k = 0; k < std::min<std::size_t>(leaving.values.size(), sh::max_coefficient_count); ++k)
-    for (int c = 0; c < 3; ++c) row[3 * k + static_cast<std::size_t>(c)] = leaving.values[k][c];
-  upload(counters, emission_, std::span<const float>(row), static_cast<std::size_t>(probe) * emission_floats);
 }
 
 int Probes::update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most,
@@ -131,18 +150,23 @@ int Probes::update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program&
   return maps_.update(scene, opaque, alpha, most, waiting, counters);
 }
 
-void Probes::bind() const {
+void Probes::bind_sight() const {
   place_buffer_.bind_storage(binding::probe_places);
-  irradiance_.bind_storage(binding::probe_irradiance);
-  radiance_.bind_storage(binding::probe_radiance);
   grid_buffer_.bind_storage(binding::probe_grid);
-  emission_.bind_storage(binding::probe_emission);
   maps_.texture().bind(unit::probe_maps);
 }
 
+void Probes::bind_lookup(gl::Program& program) const {
+  bind_sight();
+  irradiance_.bind(unit::irradiance_tiles);
+  radiance_.bind(unit::radiance_tiles);
+  program.set("irradiance_layout", irradiance_.size(), irradiance_.tiles_per_side());
+  program.set("radiance_layout", radiance_.size(), radiance_.tiles_per_side(), levels_);
+  program.set("level_roughness", std::span<const float>(level_roughness));
+}
+
 std::size_t Probes::bytes() const {
-  return maps_.bytes() + place_buffer_.size() + irradiance_.size() + radiance_.size() + grid_buffer_.size() +
-         emission_.size();
+  return maps_.bytes() + irradiance_.bytes() + radiance_.bytes() + place_buffer_.size() + grid_buffer_.size();
 }
 
 }  // namespace ssphh::realtime

@@ -9,6 +9,7 @@
 #include <ssphh/gi/probe_set.h>
 #include <ssphh/realtime/renderer.h>
 
+#include "octahedral.h"
 #include "probe_grid.h"
 #include "shadow_maps.h"
 
@@ -17,25 +18,28 @@ namespace ssphh::realtime {
 class Probes {
  public:
   Probes();
-  /// As gi::IrradianceLookup reads a set. Throws Error as that does.
+  /// As gi::IrradianceLookup reads a set. Throws Error as that does. `glossy`: something reflects
+  /// otherwise than Lambert's law says, so radiance is kept by roughness.
   Probes(const gi::ProbeSet& set, const gi::LookupParams& params, const RendererParams& renderer,
-         const scene::Bounds& bounds, FrameCounters& counters);
+         const scene::Bounds& bounds, bool glossy, FrameCounters& counters);
 
   int count() const { return static_cast<int>(places_.size()); }
   const vec3& position(int probe) const { return places_[static_cast<std::size_t>(probe)]; }
-  int irradiance_degree() const { return irradiance_degree_; }
-  int radiance_degree() const { return radiance_degree_; }
   float spacing() const { return spacing_; }
   const ProbeGrid& grid() const { return grid_; }
   const MapAtlas& maps() const { return maps_; }
   float near_plane() const { return near_; }
 
   void set_light(std::span<const int> probes, std::span<const sh::RadianceSh> light, FrameCounters& counters);
-  void set_emission(int probe, const sh::RadianceSh& leaving, FrameCounters& counters);
+  /// Makes the tiles of radiance, which only glossy surfaces and SPHLs as lights need, unless they are there.
+  void want_radiance(FrameCounters& counters);
   void invalidate(const std::vector<scene::Bounds>& moved) { maps_.invalidate(moved); }
   int update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most, int& waiting,
                   FrameCounters& counters);
-  void bind() const;
+  /// For a program that looks probes up.
+  void bind_lookup(gl::Program& program) const;
+  /// Places and shadow maps alone.
+  void bind_sight() const;
   std::size_t bytes() const;
 
  private:
@@ -45,8 +49,15 @@ class Probes {
   float spacing_ = 1, near_ = 1e-3f;
   ProbeGrid grid_;
   MapAtlas maps_;
-  std::vector<float> row_;  ///< of one probe, while it is made
-  gl::Buffer place_buffer_, irradiance_, radiance_, grid_buffer_, emission_;
+  TileBasis irradiance_basis_, radiance_basis_;
+  TileAtlas irradiance_, radiance_;
+  void make_tiles(std::span<const int> probes, bool irradiance, bool radiance, FrameCounters& counters);
+
+  std::vector<sh::RadianceSh> light_;
+  int levels_ = 1;             ///< roughnesses of which radiance is kept
+  bool has_radiance_ = false;  ///< its tiles are there
+  std::vector<vec4> texels_;   ///< of the probes that change, while they are made
+  gl::Buffer place_buffer_, grid_buffer_;
 };
 
 }  // namespace ssphh::realtime

@@ -26,9 +26,9 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-enum Pass { shadows, geometry, direct, indirect, occlusion, compose, resolve, display, pass_count };
-constexpr const char* pass_names[pass_count] = {"shadows",   "geometry", "direct",  "indirect",
-                                                "occlusion", "compose",  "resolve", "display"};
+enum Pass { shadows, geometry, direct, indirect, seen, resolve, display, pass_count };
+constexpr const char* pass_names[pass_count] = {"shadows", "geometry", "direct", "indirect",
+                                                "seen",    "resolve",  "display"};
 
 gl::Texture environment_map(const scene::Environment* environment) {
   const bool image = environment && !environment->equirect.empty();
@@ -59,9 +59,8 @@ struct Renderer::Data {
         shaders(files),
         shaders_from(files.newest_change()),
         scene(scene_in, scene::world_matrices(scene_in, time_in), counters),
-        lights(scene_in, scene::world_matrices(scene_in, time_in), scene.bounds(), params_in, counters),
+        lights(scene_in, scene::world_matrices(scene_in, time_in), scene.bounds(), params_in),
         albedo(make_albedo_table()),
-        glossy(make_glossy_bands()),
         sky(environment_map(lights.environment())),
         frame_buffer(sizeof(FrameBlock)) {
     sky_sampler = gl::Sampler(gl::Address::repeat, gl::Address::clamp, false);
@@ -86,12 +85,19 @@ struct Renderer::Data {
     timers[pass].end();
     stats.passes.push_back({pass_names[pass], timers[pass].cpu_ms(), timers[pass].gpu_ms()});
   }
-  void fullscreen(gl::Program& program, unsigned framebuffer, const gl::Rect& rect);
+  /// One triangle over the rectangle; `where` tells which pixels and how.
+  void fullscreen(gl::Program& program, unsigned framebuffer, const gl::Rect& rect,
+                  const gl::DrawState& where = {});
+  /// For the classes of surfaces that reflect: draw(full, state).
+  template <class Draw>
+  void for_each_class(const Draw& draw_class);
   void draw_shadows();
-  void draw_geometry();
-  void draw_direct();
-  void draw_indirect();
-  void draw_compose(const FrameSettings& settings);
+  void draw_geometry(const FrameSettings& settings);
+  void draw_direct(bool shadow_view);
+  void draw_indirect(const FrameSettings& settings);
+  void draw_indirect_by_images(const FrameSettings& settings);
+  void draw_seen(const FrameSettings& settings);
+  void draw_view();
   void draw_display(const FrameSettings& settings, const Target& target);
 
   gl::Context& context;
@@ -105,7 +111,7 @@ struct Renderer::Data {
   GpuScene scene;
   Lights lights;
   Probes probes;
-  gl::Texture albedo, glossy, sky;
+  gl::Texture albedo, sky;
   gl::Sampler sky_sampler;
   gl::Buffer frame_buffer;
   gl::VertexArray no_vertices;
@@ -173,7 +179,7 @@ void Renderer::set_material(int index, const scene::Material& material) {
 void Renderer::set_probes(const gi::ProbeSet& set, const gi::LookupParams& params) {
   Data& d = *data_;
   d.lights.clear_emissions();
-  d.probes = Probes(set, params, d.params, d.scene.bounds(), d.counters);
+  d.probes = Probes(set, params, d.params, d.scene.bounds(), d.scene.any_full(), d.counters);
   d.context.throw_on_error("uploading probes");
 }
 
@@ -199,8 +205,7 @@ void Renderer::set_emission(int probe, const sh::RadianceSh& leaving, float radi
   if (probe < 0 || probe >= probe_count())
     throw Error(fmt::format("probe {}", probe), fmt::format("there are {}", probe_count()));
   const bool none = leaving.empty() || !(radius > 0);
-  if (!none) data_->probes.set_emission(probe, leaving, data_->counters);
-  data_->lights.set_emission(probe, data_->probes.position(probe), none ? 0 : radius);
+  data_->lights.set_emission(probe, data_->probes.position(probe), none ? 0 : radius, leaving);
 }
 
 const FrameStats& Renderer::draw(const scene::CameraPose& camera, const FrameSettings& settings,
@@ -212,7 +217,7 @@ const FrameStats& Renderer::draw(const scene::CameraPose& camera, const FrameSet
   d.stats.passes.clear();
   d.stats.shadow_maps_drawn = d.stats.shadow_maps_waiting = 0;
   gl::apply_conventions();
-  for (unsigned i = 0; i < 16; ++i) gl::Sampler::unbind(i);
+  for (unsigned i = 0; i < unit::count; ++i) gl::Sampler::unbind(i);
 
   // Make room and tell the shaders what the frame is
   const int samples = std::clamp(settings.supersample, 1, 4),
@@ -221,31 +226,34 @@ const FrameStats& Renderer::draw(const scene::CameraPose& camera, const FrameSet
     d.images = FrameImages(target.width, target.height, samples, scale);
   const float aspect = static_cast<float>(target.width) / static_cast<float>(target.height);
   d.lights.prepare(camera, aspect, d.scene.bounds(), d.counters);
-  const bool wants_direct = settings.direct && (settings.view == View::lit || settings.view == View::direct);
+  const bool lit = settings.view == View::lit;
+  const bool wants_direct = settings.direct && (lit || settings.view == View::direct);
   const bool wants_indirect =
-      d.probes.count() > 0 && settings.indirect &&
-      (settings.view == View::lit || settings.view == View::indirect || settings.view == View::chosen_sphl);
+      d.probes.count() > 0 &&
+      (settings.view == View::chosen_sphl || (settings.indirect && (lit || settings.view == View::indirect)));
+  if (wants_indirect && (d.scene.any_full() || settings.lookup == gi::LookupMethod::light))
+    d.probes.want_radiance(d.counters);
   const FrameBlock block = frame_block(camera, settings, d.images, d.lights, d.probes, d.scene.bounds());
   upload(d.counters, d.frame_buffer, std::span<const FrameBlock>(&block, 1));
   d.frame_buffer.bind_uniform(binding::frame_block);
 
   d.run(shadows, [&] { d.draw_shadows(); });
-  d.run(geometry, [&] { d.draw_geometry(); });
+  d.run(geometry, [&] { d.draw_geometry(settings); });
   d.images.gbuffer0.bind(unit::gbuffer0);
   d.images.gbuffer1.bind(unit::gbuffer1);
-  d.images.depth.bind(unit::gbuffer_depth);
   d.albedo.bind(unit::albedo_table);
-  if (wants_direct || settings.view == View::shadow) d.run(direct, [&] { d.draw_direct(); });
-  if (wants_indirect) d.run(indirect, [&] { d.draw_indirect(); });
-  if (wants_indirect && settings.ambient_occlusion)
-    d.run(occlusion,
-          [&] { d.fullscreen(d.shaders.occlusion, d.images.occlusion_pass.id(), d.images.full()); });
-  d.run(compose, [&] { d.draw_compose(settings); });
+  if (wants_direct || settings.view == View::shadow)
+    d.run(direct, [&] { d.draw_direct(settings.view == View::shadow); });
+  if (wants_indirect) d.run(indirect, [&] { d.draw_indirect(settings); });
+  if (wants_direct) d.run(seen, [&] { d.draw_seen(settings); });
+  if (settings.view >= View::albedo && settings.view != View::chosen_sphl)
+    d.run(seen, [&] { d.draw_view(); });
   if (samples > 1) {
     d.run(resolve, [&] {
-      d.shaders.resolve.set("scale", samples);
+      gl::Program& program = d.shaders.resolve();
+      program.set_at(0, samples);
       d.images.color.bind(0);
-      d.fullscreen(d.shaders.resolve, d.images.resolve_pass.id(), d.images.picture());
+      d.fullscreen(program, d.images.resolve_pass.id(), d.images.picture());
     });
   }
   if (target.framebuffer != Target::none) d.run(display, [&] { d.draw_display(settings, target); });
@@ -266,84 +274,149 @@ void Renderer::Data::reload_changed_shaders() {
   if (newest == shaders_from) return;
   shaders_from = newest;
   try {
-    shaders = Shaders(files);
+    Shaders changed(files);
+    changed.compile_all();
+    shaders = std::move(changed);
     log_info("shaders reloaded from {}", params.shader_directory.string());
   } catch (const Error& e) {
     log_warning("the shaders from before stay in use: {}", e.what());
   }
 }
 
-void Renderer::Data::fullscreen(gl::Program& program, unsigned framebuffer, const gl::Rect& rect) {
+void Renderer::Data::fullscreen(gl::Program& program, unsigned framebuffer, const gl::Rect& rect,
+                                const gl::DrawState& where) {
   gl::bind_framebuffer(framebuffer, rect);
-  gl::apply({});
+  gl::apply(where);
   program.use();
   no_vertices.bind();
   gl::draw_triangles(3);
   ++counters.draw_calls;
 }
 
+template <class Draw>
+void Renderer::Data::for_each_class(const Draw& draw_class) {
+  draw_class(false, gl::DrawState{.blend = gl::Blend::add, .stencil_equal = surface_class::lambertian});
+  if (scene.any_full())
+    draw_class(true, gl::DrawState{.blend = gl::Blend::add, .stencil_equal = surface_class::full});
+}
+
 void Renderer::Data::draw_shadows() {
   int left = params.maps_per_frame;
   int& waiting = stats.shadow_maps_waiting;
-  const int lamps = lights.update_maps(scene, shaders.shadow, shaders.shadow_alpha, left, waiting, counters);
+  gl::Program &opaque = shaders.shadow(false), &alpha = shaders.shadow(true);
+  const int lamps = lights.update_maps(scene, opaque, alpha, left, waiting, counters);
   left = std::max(left - lamps, 0);
-  stats.shadow_maps_drawn =
-      lamps + probes.update_maps(scene, shaders.shadow, shaders.shadow_alpha, left, waiting, counters);
+  stats.shadow_maps_drawn = lamps + probes.update_maps(scene, opaque, alpha, left, waiting, counters);
 }
 
-void Renderer::Data::draw_geometry() {
+void Renderer::Data::draw_geometry(const FrameSettings& settings) {
   gl::bind_framebuffer(images.geometry_pass.id(), images.full());
   gl::apply({.depth = gl::Depth::test_and_write});
   gl::clear_depth(images.full(), 0);
+  gl::clear_stencil(surface_class::nothing);
+  gl::clear_color_uint(0, 0, 0, 0, 0);
+  gl::clear_color_uint(1, 0, 0, 0, 0);
   gl::clear_color(2, 0, 0, 0, 0);
-  shaders.geometry.use();
+  const bool emission = settings.direct && (settings.view == View::lit || settings.view == View::direct);
   scene.begin(false);
-  for (const DrawItem& item : scene.items()) scene.draw(item, true, counters);
-  for (unsigned i = 0; i < 16; ++i) gl::Sampler::unbind(i);
+  int surface = -1, textured = -1;
+  for (const DrawItem& item : scene.items()) {
+    if (item.textured != textured) {
+      textured = item.textured;
+      gl::Program& program = shaders.geometry(item.textured);
+      program.set("emission_shown", emission || settings.view == View::albedo ? 1 : 0);
+      program.use();
+    }
+    if (item.surface_class != surface) {
+      surface = item.surface_class;
+      gl::apply({.depth = gl::Depth::test_and_write, .lines = settings.wireframe, .stencil_write = surface});
+    }
+    scene.draw(item, true, counters);
+  }
+  for (unsigned i = 0; i < unit::count; ++i) gl::Sampler::unbind(i);
 }
 
-void Renderer::Data::draw_direct() {
-  gl::bind_framebuffer(images.direct_pass.id(), images.full());
-  gl::clear_color(0, 0, 0, 0, 0);
+void Renderer::Data::draw_direct(bool shadow_view) {
   lights.bind();
-  probes.bind();
-  fullscreen(shaders.direct, images.direct_pass.id(), images.full());
+  if (probes.count() > 0) probes.bind_sight();
+  const gl::Framebuffer& target = shadow_view ? images.shadow_pass : images.light_pass;
+  if (shadow_view) {
+    gl::bind_framebuffer(target.id(), images.full());
+    gl::clear_color(0, 0, 0, 0, 0);
+  }
+  for (const Lights::Lit& lit : lights.lit()) {
+    lights.bind_emitter(lit);
+    for_each_class([&](bool full, const gl::DrawState& where) {
+      fullscreen(shaders.direct(lit.kind, full, shadow_view), target.id(), images.full(), where);
+    });
+  }
 }
 
-void Renderer::Data::draw_indirect() {
-  probes.bind();
-  glossy.bind(unit::glossy_bands);
-  fullscreen(shaders.indirect, images.indirect_pass.id(), images.indirect());
+void Renderer::Data::draw_indirect(const FrameSettings& settings) {
+  const bool chosen = settings.view == View::chosen_sphl;
+  if (!chosen && (images.indirect_scale > 1 || settings.ambient_occlusion))
+    return draw_indirect_by_images(settings);
+  for_each_class([&](bool full, const gl::DrawState& where) {
+    gl::Program& program =
+        shaders.indirect(settings.lookup, full, chosen ? IndirectOutput::chosen : IndirectOutput::radiance);
+    probes.bind_lookup(program);
+    fullscreen(program, images.light_pass.id(), images.full(), where);
+  });
 }
 
-void Renderer::Data::draw_compose(const FrameSettings& settings) {
-  lights.bind();
-  images.emitted.bind(unit::emitted);
-  images.direct.bind(unit::direct);
+void Renderer::Data::draw_indirect_by_images(const FrameSettings& settings) {
+  gl::Program& program = shaders.indirect(settings.lookup, scene.any_full(), IndirectOutput::images);
+  probes.bind_lookup(program);
+  fullscreen(program, images.indirect_pass.id(), images.indirect());
+  if (settings.ambient_occlusion) fullscreen(shaders.occlusion(), images.occlusion_pass.id(), images.full());
   images.irradiance.bind(unit::irradiance);
   images.glossy.bind(unit::glossy);
   images.occlusion.bind(unit::occlusion);
-  sky.bind(unit::environment);
-  sky_sampler.bind(unit::environment);
-  shaders.compose.set("show_sky", settings.sky == Sky::environment ? 1 : 0);
-  fullscreen(shaders.compose, images.composed().id(), images.full());
-  gl::Sampler::unbind(unit::environment);
+  for_each_class([&](bool full, const gl::DrawState& where) {
+    fullscreen(shaders.apply(full), images.light_pass.id(), images.full(), where);
+  });
+}
+
+void Renderer::Data::draw_seen(const FrameSettings& settings) {
+  lights.bind();
+  for (const Lights::Lit& lit : lights.lit()) {
+    if (!lit.seen) continue;
+    const bool behind = lit.kind != EmitterKind::sphere;
+    if (behind && settings.sky == Sky::black) continue;
+    lights.bind_emitter(lit);
+    if (lit.kind == EmitterKind::environment) {
+      sky.bind(unit::environment);
+      sky_sampler.bind(unit::environment);
+    }
+    gl::DrawState where{.blend = gl::Blend::add};
+    if (behind) where.stencil_equal = surface_class::nothing;
+    fullscreen(shaders.seen(lit.kind), images.light_pass.id(), images.full(), where);
+    gl::Sampler::unbind(unit::environment);
+  }
+}
+
+void Renderer::Data::draw_view() {
+  images.shadow.bind(unit::shadow_image);
+  for_each_class([&](bool, const gl::DrawState& where) {
+    fullscreen(shaders.view(), images.light_pass.id(), images.full(), where);
+  });
 }
 
 void Renderer::Data::draw_display(const FrameSettings& settings, const Target& target) {
   const bool light =
       settings.view == View::lit || settings.view == View::direct || settings.view == View::indirect;
-  shaders.display.set("plain", light ? 0 : 1);
-  shaders.display.set("corner", target.x, target.y);
-  images.resolved.bind(0);
-  fullscreen(shaders.display, target.framebuffer, {target.x, target.y, target.width, target.height});
+  gl::Program& program = shaders.display();
+  program.set("plain", light ? 0 : 1);
+  program.set("corner", target.x, target.y);
+  images.result().bind(0);
+  fullscreen(program, target.framebuffer, {target.x, target.y, target.width, target.height});
 }
 
 image::Image Renderer::read_back() const {
   const FrameImages& f = data_->images;
   if (!data_->drawn) throw Error("real-time renderer", "no frame was drawn yet");
   std::vector<float> texels(static_cast<std::size_t>(f.width) * static_cast<std::size_t>(f.height) * 4);
-  f.resolved.read(texels, 4);
+  f.result().read(texels, 4);
   image::Image out(f.width, f.height, 3);
   for (int y = 0; y < f.height; ++y) {
     for (int x = 0; x < f.width; ++x) {
@@ -360,8 +433,8 @@ std::size_t Renderer::memory_bytes() const {
   return d.scene.bytes() + d.lights.bytes() + d.probes.bytes() + d.images.bytes() + d.sky.bytes();
 }
 
-std::string Renderer::shader_warnings() const {
-  return data_->shaders.warnings();
+std::string Renderer::shader_warnings() {
+  return data_->shaders.compile_all();
 }
 
 }  // namespace ssphh::realtime

@@ -1,24 +1,79 @@
 #include "shaders.h"
 
 namespace ssphh::realtime {
+namespace {
 
-Shaders::Shaders(const gl::ShaderFiles& files)
-    : geometry(files, "gbuffer.vert", "gbuffer.frag"),
-      shadow(files, "shadow.vert", "shadow.frag"),
-      shadow_alpha(files, "shadow.vert", "shadow.frag", "#define ALPHA"),
-      direct(files, "fullscreen.vert", "direct.frag"),
-      indirect(files, "fullscreen.vert", "indirect.frag"),
-      occlusion(files, "fullscreen.vert", "occlusion.frag"),
-      compose(files, "fullscreen.vert", "compose.frag"),
-      resolve(files, "fullscreen.vert", "resolve.frag"),
-      display(files, "fullscreen.vert", "display.frag") {}
+constexpr const char* kind_names[emitter_kinds] = {"POINT", "SPHL", "SUN", "SPHERE", "MESH", "ENVIRONMENT"};
 
-std::string Shaders::warnings() const {
-  std::string all;
-  for (const gl::Program* p :
-       {&geometry, &shadow, &shadow_alpha, &direct, &indirect, &occlusion, &compose, &resolve, &display})
-    all += p->warnings();
-  return all;
+std::string define(const char* name, bool on = true) {
+  return on ? std::string("#define ") + name + "\n" : std::string();
+}
+
+}  // namespace
+
+gl::Program& Shaders::get(Slot& slot, const char* vertex, const char* fragment, const std::string& defines) {
+  if (!slot) {
+    slot.emplace(*files_, vertex, fragment, defines);
+    warnings_ += slot->warnings();
+  }
+  return *slot;
+}
+
+gl::Program& Shaders::geometry(bool textured) {
+  return geometry_[textured]
+             ? *geometry_[textured]
+             : get(geometry_[textured], "gbuffer.vert", "gbuffer.frag", define("TEXTURED", textured));
+}
+
+gl::Program& Shaders::shadow(bool alpha) {
+  return shadow_[alpha] ? *shadow_[alpha]
+                        : get(shadow_[alpha], "shadow.vert", "shadow.frag", define("ALPHA", alpha));
+}
+
+gl::Program& Shaders::direct(EmitterKind kind, bool full, bool shadow_view) {
+  const auto k = static_cast<int>(kind);
+  Slot& slot = direct_[k][full][shadow_view];
+  if (slot) return *slot;
+  return get(slot, fullscreen, "direct.frag",
+             define(kind_names[k]) + define("FULL_BSDF", full) + define("SHADOW_VIEW", shadow_view));
+}
+
+gl::Program& Shaders::indirect(gi::LookupMethod lookup, bool full, IndirectOutput output) {
+  const bool light = lookup == gi::LookupMethod::light;
+  Slot& slot = indirect_[light][full][static_cast<int>(output)];
+  if (slot) return *slot;
+  return get(slot, fullscreen, "indirect.frag",
+             define("LOOKUP_LIGHT", light) + define("FULL_BSDF", full) +
+                 define("TO_IMAGES", output == IndirectOutput::images) +
+                 define("CHOSEN_VIEW", output == IndirectOutput::chosen));
+}
+
+gl::Program& Shaders::apply(bool full) {
+  return apply_[full] ? *apply_[full]
+                      : get(apply_[full], fullscreen, "apply.frag", define("FULL_BSDF", full));
+}
+
+gl::Program& Shaders::seen(EmitterKind kind) {
+  const auto k = static_cast<int>(kind);
+  return seen_[k] ? *seen_[k] : get(seen_[k], fullscreen, "seen.frag", define(kind_names[k]));
+}
+
+std::string Shaders::compile_all() {
+  occlusion(), view(), resolve(), display();
+  for (const bool full : {false, true}) {
+    geometry(full);
+    shadow(full);
+    apply(full);
+    for (int k = 0; k < emitter_kinds; ++k) {
+      for (const bool shadow_view : {false, true}) direct(static_cast<EmitterKind>(k), full, shadow_view);
+    }
+    for (const auto lookup : {gi::LookupMethod::light, gi::LookupMethod::irradiance}) {
+      for (const auto output : {IndirectOutput::radiance, IndirectOutput::images, IndirectOutput::chosen})
+        indirect(lookup, full, output);
+    }
+  }
+  for (const auto kind : {EmitterKind::sun, EmitterKind::sphere, EmitterKind::environment}) seen(kind);
+  return warnings_;
 }
 
 }  // namespace ssphh::realtime

@@ -1,18 +1,49 @@
 #pragma once
-/// All programs of the renderer, made together and replaced together when a file changes.
+/// All programs of the renderer. Variants are compiled when first wanted, for there are many and a scene
+/// needs few.
 
-#include <filesystem>
-#include <string>
+#include <array>
+#include <optional>
 
+#include <ssphh/gi/lookup.h>
 #include <ssphh/gl/program.h>
+
+#include "gpu_types.h"
 
 namespace ssphh::realtime {
 
-struct Shaders {
-  gl::Program geometry, shadow, shadow_alpha, direct, indirect, occlusion, compose, resolve, display;
+/// What indirect.frag gives: radiance, images for apply.frag, or a view of the choice.
+enum class IndirectOutput : int { radiance, images, chosen };
 
-  explicit Shaders(const gl::ShaderFiles& files);
-  std::string warnings() const;
+class Shaders {
+ public:
+  explicit Shaders(const gl::ShaderFiles& files) : files_(&files) {}
+
+  gl::Program& geometry(bool textured);
+  gl::Program& shadow(bool alpha);
+  /// Light of one emitter on surfaces that are Lambertian or not; or the share that arrives.
+  gl::Program& direct(EmitterKind kind, bool full, bool shadow_view);
+  gl::Program& indirect(gi::LookupMethod lookup, bool full, IndirectOutput output);
+  gl::Program& apply(bool full);
+  gl::Program& occlusion() { return get(occlusion_, fullscreen, "occlusion.frag"); }
+  /// An emitter that is no surface, as the eye sees it.
+  gl::Program& seen(EmitterKind kind);
+  gl::Program& view() { return get(view_, fullscreen, "view.frag"); }
+  gl::Program& resolve() { return get(resolve_, fullscreen, "resolve.frag"); }
+  gl::Program& display() { return get(display_, fullscreen, "display.frag"); }
+
+  /// Compiles whatever is not yet; what compilers said beside errors.
+  std::string compile_all();
+
+ private:
+  using Slot = std::optional<gl::Program>;
+  static constexpr const char* fullscreen = "fullscreen.vert";
+  gl::Program& get(Slot& slot, const char* vertex, const char* fragment, const std::string& defines = {});
+
+  const gl::ShaderFiles* files_;
+  std::string warnings_;
+  Slot geometry_[2], shadow_[2], direct_[emitter_kinds][2][2], indirect_[2][2][3], apply_[2], occlusion_,
+      seen_[emitter_kinds], view_, resolve_, display_;
 };
 
 }  // namespace ssphh::realtime

@@ -2,14 +2,12 @@
 
 #include <vector>
 
-#include <ssphh/sh/zonal.h>
 #include <ssphh/shading/bsdf.h>
 
 namespace ssphh::realtime {
 namespace {
 
 constexpr int table_size = 32;  // as the CPU's table, so that both interpolate the same numbers
-constexpr int roughness_steps = 128;
 
 /// A and B follow from two materials, for E is linear in f0 and f90: the second has the least f0 with f90
 /// = 1.
@@ -51,18 +49,6 @@ gl::Texture make_albedo_table() {
     }
     texture.upload(std::as_bytes(std::span(texels)), layer);
   }
-  texture.set_filter(true);
-  return texture;
-}
-
-gl::Texture make_glossy_bands() {
-  gl::Texture texture(gl::Format::r32f, sh::max_degree + 1, roughness_steps + 1);
-  std::vector<float> texels;
-  for (int r = 0; r <= roughness_steps; ++r) {
-    const auto scales = sh::glossy_band_scales(static_cast<float>(r) / roughness_steps);
-    texels.insert(texels.end(), scales.begin(), scales.end());
-  }
-  texture.upload(std::as_bytes(std::span(texels)));
   texture.set_filter(true);
   return texture;
 }

@@ -9,7 +9,4 @@ namespace ssphh::realtime {
 /// layer 0 GGX, layer 1 Blinn–Phong. From shading::directional_albedo.
 gl::Texture make_albedo_table();
 
-/// sh::glossy_band_scales: bands along x, roughness 0..1 along y.
-gl::Texture make_glossy_bands();
-
 }  // namespace ssphh::realtime

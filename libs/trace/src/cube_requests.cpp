@@ -35,7 +35,7 @@ class TexelSums {
     sums_[static_cast<std::size_t>(group) + (depth > 0 ? reflected_offset_ : 0)] += value;
     if (sink) (*sink)(chunk, {group, direction, emission, value * sink_scale});
   }
-  void first_hit(const shading::Surface&, const vec3&, const Ray&, float) {}
+  void first_hit(const shading::Surface&, const vec3&, const Ray&, const Hit&) {}
   const vec3& sum(std::size_t index) const { return sums_[index]; }
 
   // For a sink: the texel's solid angle per sample, and the direction of the sample under way.

@@ -64,9 +64,9 @@ struct PathVertex {
 ///   surface(vertex, ray, hit, surface, visit)     the same for the surface it hits
 ///   sample(vertex, u_choice, u)                   optional<shading::LightSample>
 ///   found_by_rays()                               whether scattered rays can meet any light
-/// `Visitor` receives first_hit(surface, ray, distance) and add(depth, group, value, emission), `emission`
-/// being the direction in which the light left its emitter.
-/// With `scattered_at` the ray is no camera's but leaves that vertex: its path begins at depth 1.
+/// `Visitor` receives first_hit(surface, ray_origin, ray, hit) and add(depth, group, value, emission),
+/// `emission` being the direction in which the light left its emitter. With `scattered_at` the ray is no
+/// camera's but leaves that vertex: its path begins at depth 1.
 template <class Emitters, class Visitor>
 void trace_path(const EmbreeScene& scene, const Emitters& emitters, Ray ray, const PathSampler& sampler,
                 const PathOptions& options, RayTask& task, Visitor& visitor,
@@ -99,7 +99,7 @@ void trace_path(const EmbreeScene& scene, const Emitters& emitters, Ray ray, con
     const PathSampler::Vertex random = sampler.vertex(depth);
     vec3 ray_origin;
     const shading::Surface surface = scene.surface(hit, -ray.direction, ray_origin);
-    if (depth == 0) visitor.first_hit(surface, ray_origin, ray, hit.distance);
+    if (depth == 0) visitor.first_hit(surface, ray_origin, ray, hit);
     // What is unlit is seen, but lights nothing.
     const bool emits = max_component(surface.emission) > 0 && (depth == 0 || !surface.unlit);
     if (emits) emitters.surface(vertex, ray, hit, surface, add_emitted);

@@ -35,9 +35,14 @@ class PosedLight final : public scene::DirectLight {
 
   Receiver receiver(const scene::SurfacePoint& point) const;
   bool blocked(const Ray& ray, RayTask& task) const;
-  /// Share of the mesh's irradiance that nothing holds back.
-  float visible_share(const shading::MeshView& mesh, const Receiver& at, std::uint64_t seed,
+  /// Share of a light's irradiance that nothing holds back. `draw(u)` gives a LightSample toward it, or none;
+  /// `sine2` is the squared sine of the angle from its centre to its edge, 1 if that is not known.
+  template <class Draw>
+  float visible_share(const Receiver& at, std::uint64_t seed, float sine2, const Draw& draw,
                       RayTask& task) const;
+  /// Of a sphere light as if nothing held it back; sets `sine2` where the point is outside of it.
+  vec3 sphere_irradiance(const GroupEmitter& light, const Receiver& at, std::uint64_t seed,
+                         float& sine2) const;
   vec3 irradiance_of(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, RayTask& task) const;
   vec3 sky_irradiance(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, RayTask& task) const;
   const std::vector<GroupEmitter>& emitters_of(int group) const;

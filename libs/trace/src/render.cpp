@@ -12,9 +12,10 @@ namespace {
 /// Sums over the samples of one pixel in one pass.
 class PixelSums {
  public:
-  PixelSums(std::size_t groups, const CameraRays& camera, const scene::IndirectLight* indirect_light,
-            bool indirect_wanted, RayTask& task)
-      : groups_(groups),
+  PixelSums(const scene::Scene& scene, std::size_t groups, const CameraRays& camera,
+            const scene::IndirectLight* indirect_light, bool indirect_wanted, RayTask& task)
+      : scene_(scene),
+        groups_(groups),
         camera_(camera),
         indirect_light_(indirect_light),
         indirect_wanted_(indirect_wanted),
@@ -36,15 +37,15 @@ class PixelSums {
     (depth <= 1 ? direct_ : indirect_) += value;
   }
 
-  void first_hit(const shading::Surface& surface, const vec3& ray_origin, const Ray& ray, float distance) {
+  void first_hit(const shading::Surface& surface, const vec3& ray_origin, const Ray& ray, const Hit& hit) {
     const float cos_wo = -glm::dot(surface.normal, ray.direction);
     albedo_ += surface.unlit ? glm::min(surface.emission, vec3(1))
                              : shading::directional_albedo(surface.bsdf, cos_wo);
     normal_ += surface.normal;
-    depth_ += camera_.depth(ray, distance);
+    depth_ += camera_.depth(ray, hit.distance);
     hits_ += 1;
     if (!indirect_light_ || !indirect_wanted_ || surface.unlit) return;
-    const vec3 value = reflected_indirect(*indirect_light_, surface, ray_origin, -ray.direction);
+    const vec3 value = reflected_indirect(*indirect_light_, surface, ray_origin, -ray.direction, moves(hit));
     if (is_finite(value)) {
       looked_up_ += value;
       indirect_ += value;
@@ -72,6 +73,12 @@ class PixelSums {
   }
 
  private:
+  bool moves(const Hit& hit) const {
+    const int node = scene_.instances[static_cast<std::size_t>(hit.instance)].node;
+    return node >= 0 && scene_.nodes[static_cast<std::size_t>(node)].movable;
+  }
+
+  const scene::Scene& scene_;
   std::vector<vec3> groups_;
   vec3 direct_{0}, indirect_{0}, looked_up_{0}, albedo_{0}, normal_{0};
   float depth_ = 0, hits_ = 0;
@@ -83,27 +90,22 @@ class PixelSums {
 
 void check_params(const RenderParams& params, std::size_t groups) {
   if (params.width < 1 || params.height < 1) throw Error("render size", "width and height must be positive");
+  const Tile tile = tile_of(params);
+  if (tile.x < 0 || tile.y < 0 || tile.width < 1 || tile.height < 1 || tile.width > params.width - tile.x ||
+      tile.height > params.height - tile.y) {
+    throw Error("render tile", "it must lie inside the picture");
+  }
   check_path_params(params.path);
   // Sums and one pass, each six images and depth, coverage.
   check_image_memory("render size",
-                     static_cast<std::uint64_t>(params.width) * static_cast<std::uint64_t>(params.height),
+                     static_cast<std::uint64_t>(tile.width) * static_cast<std::uint64_t>(tile.height),
                      2 * (17 + 3 * (params.per_group ? groups : 0)));
 }
 
-RenderState empty_state(const RenderParams& params, std::size_t groups) {
-  RenderState state;
-  const int w = params.width, h = params.height;
-  for (image::Image* i : {&state.color, &state.direct, &state.indirect, &state.albedo, &state.normal}) {
-    *i = image::Image(w, h, 3);
-  }
-  state.depth = image::Image(w, h, 1), state.coverage = image::Image(w, h, 1);
-  if (params.per_group) state.groups.assign(groups, image::Image(w, h, 3));
-  return state;
-}
-
 void check_state(const RenderState& state, const RenderParams& params, std::size_t groups) {
+  const Tile tile = tile_of(params);
   const auto fits = [&](const image::Image& i, int channels) {
-    return i.width == params.width && i.height == params.height && i.channels == channels;
+    return i.width == tile.width && i.height == tile.height && i.channels == channels;
   };
   bool ok = fits(state.color, 3) && fits(state.direct, 3) && fits(state.indirect, 3) &&
             fits(state.albedo, 3) && fits(state.normal, 3) && fits(state.depth, 1) &&
@@ -162,8 +164,8 @@ void run_passes(const TracerData& data, const scene::IndirectLight* indirect, co
   if (indirect) options.max_depth = std::min(options.max_depth, 1);
   const bool indirect_wanted = params.path.max_depth >= 2;
   const SceneEmitters emitters = data.emitters();
-  const auto width = static_cast<std::uint64_t>(params.width),
-             height = static_cast<std::uint64_t>(params.height);
+  const Tile tile = tile_of(params);
+  const auto width = static_cast<std::uint64_t>(tile.width), height = static_cast<std::uint64_t>(tile.height);
   const std::uint64_t row_paths = width * static_cast<std::uint64_t>(params.path.spp);
   ProgressStage stage(control, "render",
                       row_paths * height * static_cast<std::uint64_t>(params.path.passes - state.passes_done),
@@ -175,11 +177,13 @@ void run_passes(const TracerData& data, const scene::IndirectLight* indirect, co
     const std::uint64_t rays_before = data.rays.total();
     const auto first_sample =
         static_cast<std::uint32_t>(state.passes_done) * static_cast<std::uint32_t>(params.path.spp);
-    const auto render_row = [&](int y) {
-      TaskScope scope(data, invalid,
-                      static_cast<std::uint64_t>(state.passes_done) * height + static_cast<std::uint64_t>(y));
-      PixelSums sums(groups, camera, indirect, indirect_wanted, scope.task);
-      for (int x = 0; x < params.width; ++x) {
+    const auto render_row = [&](int row) {
+      const int y = tile.y + row;
+      TaskScope scope(
+          data, invalid,
+          static_cast<std::uint64_t>(state.passes_done) * height + static_cast<std::uint64_t>(row));
+      PixelSums sums(data.scene, groups, camera, indirect, indirect_wanted, scope.task);
+      for (int x = tile.x; x < tile.x + tile.width; ++x) {
         sums.clear();
         PathSampler sampler{
             pixel_seed(params.path.seed, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)), 0};
@@ -189,14 +193,14 @@ void run_passes(const TracerData& data, const scene::IndirectLight* indirect, co
           const Ray ray = camera.ray(static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
           trace_path(data.embree, emitters, ray, sampler, options, scope.task, sums);
         }
-        sums.store(pass, x, y, params.path.spp);
+        sums.store(pass, x - tile.x, row, params.path.spp);
       }
       stage.advance(row_paths);
     };
     parallel_for(
         static_cast<std::size_t>(height), 1,
         [&](std::size_t begin, std::size_t end) {
-          for (std::size_t y = begin; y < end; ++y) render_row(static_cast<int>(y));
+          for (std::size_t row = begin; row < end; ++row) render_row(static_cast<int>(row));
         },
         control);
     add_pass(state, pass, indirect == nullptr);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -49,6 +50,41 @@ Hash128 render_key(const Hash128& scene_hash, float time, const RenderParams& pa
   h.value(camera.orthographic ? 1 : 0).value(camera.yfov).value(camera.yheight);
   h.value(params.path.max_depth).value(params.path.spp).value(params.path.seed);
   return h.finish();
+}
+
+Tile tile_of(const RenderParams& params) {
+  return params.tile.width == 0 ? Tile{0, 0, params.width, params.height} : params.tile;
+}
+
+RenderState empty_state(const RenderParams& params, std::size_t light_groups) {
+  RenderState state;
+  const Tile tile = tile_of(params);
+  for (image::Image* i : {&state.color, &state.direct, &state.indirect, &state.albedo, &state.normal}) {
+    *i = image::Image(tile.width, tile.height, 3);
+  }
+  state.depth = image::Image(tile.width, tile.height, 1);
+  state.coverage = image::Image(tile.width, tile.height, 1);
+  if (params.per_group) state.groups.assign(light_groups, image::Image(tile.width, tile.height, 3));
+  return state;
+}
+
+void paste(RenderState& whole, const RenderState& part, const Tile& tile) {
+  std::vector<image::Image*> to;
+  std::vector<const image::Image*> from;
+  for_each_image(whole, [&](image::Image& i, int) { to.push_back(&i); });
+  for_each_image(part, [&](const image::Image& i, int) { from.push_back(&i); });
+  SSPHH_CHECK(to.size() == from.size());
+  for (std::size_t k = 0; k < to.size(); ++k) {
+    const image::Image& source = *from[k];
+    SSPHH_CHECK(source.width == tile.width && source.height == tile.height && tile.x >= 0 && tile.y >= 0 &&
+                tile.x + tile.width <= to[k]->width && tile.y + tile.height <= to[k]->height &&
+                source.channels == to[k]->channels);
+    const auto row_floats = static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(source.channels);
+    for (int y = 0; y < tile.height; ++y)
+      std::copy_n(source.at(0, y), row_floats, to[k]->at(tile.x, tile.y + y));
+  }
+  whole.paths += part.paths;
+  whole.rays += part.rays;
 }
 
 image::Image resolve(const image::Image& sum, int passes_done) {

@@ -25,7 +25,7 @@ class BatchSums {
     }
     (depth < 2 ? direct : indirect) += scale * value;
   }
-  void first_hit(const shading::Surface&, const vec3&, const Ray&, float) {}
+  void first_hit(const shading::Surface&, const vec3&, const Ray&, const Hit&) {}
 
   vec3 direct{0}, indirect{0};
   float scale = 1;  ///< of the values that follow

@@ -17,7 +17,7 @@ using trace::Strategy;
 struct Total {
   vec3 value{0};
   void add(int, int, const vec3& v, const vec3&) { value += v; }
-  void first_hit(const shading::Surface&, const vec3&, const trace::Ray&, float) {}
+  void first_hit(const shading::Surface&, const vec3&, const trace::Ray&, const trace::Hit&) {}
 };
 
 /// Means over 16 samples of independent sequences, for one ray.

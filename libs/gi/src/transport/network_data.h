@@ -86,6 +86,9 @@ struct TransportNetwork::Data {
   scene::SurfacePoint to_world(int part, const scene::SurfacePoint& point) const;
   bool parts_block(const scene::RayQuery& world_segment) const;
   bool blocked(const scene::RayQuery& world_segment) const;
+  /// Whether another body touches a part's surface there, or lies over it: nothing lights the point, and rays
+  /// from it would start within that body.
+  bool covered(int part, const scene::SurfacePoint& world_point) const;
   int find(int part, const scene::SurfacePoint& point) const;
   /// The first part that the ray meets before t_max; shortens t_max.
   bool meet_part(scene::RayQuery& ray, scene::RayHit& hit, int& part) const;

@@ -108,6 +108,19 @@ bool TransportNetwork::Data::blocked(const scene::RayQuery& segment) const {
   return hit || parts_block(segment);
 }
 
+bool TransportNetwork::Data::covered(int part, const scene::SurfacePoint& point) const {
+  const vec3 lift = link_lift * surfels.size() * point.normal;
+  const scene::RayQuery through{point.position - lift, 2.0f * lift, 1};
+  std::uint8_t hit = 0;
+  if (part != 0) source.occluded(0, {&through, 1}, {&hit, 1});
+  for (std::size_t p = 0; p < placed.size() && !hit; ++p) {
+    if (placed[p].part == part) continue;
+    const scene::RayQuery local = transformed(through, placed[p].to_part);
+    if (meets(local, placed[p].bounds)) source.occluded(placed[p].part, {&local, 1}, {&hit, 1});
+  }
+  return hit != 0;
+}
+
 int TransportNetwork::Data::find(int part, const scene::SurfacePoint& point) const {
   if (part > 0) {
     // A ray that starts within a body, where another touches it, meets its inside: nothing lights that, and
@@ -236,14 +249,15 @@ void TransportNetwork::Data::pose_samples() {
       const Surfel& surfel = surfels.surfels()[s];
       for (std::size_t i = s * m; i < (s + 1) * m; ++i) samples[i] = to_world(surfel.part, local_samples[i]);
       for (std::size_t i = s * m; i < (s + 1) * m; ++i)
-        sample_used[i] =
-            i == s * m || (sample_exists[i] && !blocked(surfels.segment(samples[s * m], samples[i])));
+        sample_used[i] = sample_exists[i] && !covered(surfel.part, samples[i]) &&
+                         (i == s * m || !blocked(surfels.segment(samples[s * m], samples[i])));
     }
   });
   parallel_for(hidden_samples.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t i = hidden_samples[k];
-      sample_used[i] = !parts_block(surfels.segment(samples[i / m * m], samples[i]));
+      sample_used[i] =
+          !covered(0, samples[i]) && !parts_block(surfels.segment(samples[i / m * m], samples[i]));
     }
   });
 }

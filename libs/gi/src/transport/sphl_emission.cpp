@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/sphere.h>
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/sh/zonal.h>
 
@@ -90,13 +91,52 @@ std::size_t add_emission(const TransportNetwork& network, const scene::Transport
   return segments.size();
 }
 
+float sphere_share(const vec3& from, const SphlEmitter& emitter) {
+  const float distance = glm::distance(from, emitter.position);
+  if (distance <= emitter.radius) return 1;
+  const double sine = double(emitter.radius) / double(distance), sin2 = sine * sine;
+  return static_cast<float>(0.5 * sin2 / (1 + std::sqrt(1 - sin2)));  // without cancellation
+}
+
+std::vector<float> visible_shares(const TransportNetwork& network, const scene::TransportSource& source,
+                                  std::span<const vec3> from, const SphlEmitter& emitter) {
+  constexpr std::size_t rays = 16;
+  std::vector<scene::RayQuery> segments;
+  for (const vec3& p : from) {
+    const vec3 to_light = emitter.position - p;
+    const float distance = glm::length(to_light), share = sphere_share(p, emitter);
+    for (std::size_t r = 0; r < rays; ++r) {
+      if (share == 1) {
+        segments.push_back({p, vec3(0, 1, 0), 0});
+        continue;
+      }
+      // A Fibonacci spiral, uniform over the cone; each ray ends at the sphere's surface.
+      const float below = 2 * share * (static_cast<float>(r) + 0.5f) / static_cast<float>(rays);
+      const float cosine = 1 - below, sine2 = below * (2 - below);
+      const float half_chord =
+          std::sqrt(std::max(emitter.radius * emitter.radius - distance * distance * sine2, 0.0f));
+      const float turn = 0.38196601f * static_cast<float>(r);
+      const vec3 local(std::sqrt(sine2) * unit_circle(turn - std::floor(turn)), cosine);
+      segments.push_back(
+          {p, Frame::around(to_light / distance).to_world(local), distance * cosine - half_chord});
+    }
+  }
+  std::vector<std::uint8_t> blocked;
+  block(network, source, segments, blocked);
+  std::vector<float> shares;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const auto first = blocked.begin() + static_cast<std::ptrdiff_t>(i * rays);
+    shares.push_back(static_cast<float>(std::count(first, first + rays, 0)) / static_cast<float>(rays));
+  }
+  return shares;
+}
+
 void add_seen_emission(const vec3& probe, const SphlEmitter& emitter, sh::RadianceSh& out) {
   const vec3 to_light = emitter.position - probe;
   const float distance = glm::length(to_light);
   if (emitter.leaving.empty() || !(distance > 0)) return;
   const vec3 direction = to_light / distance;
-  const float sine = std::min(emitter.radius / distance, 1.0f);
-  const double edge = std::sqrt(1 - double(sine) * double(sine));
+  const double edge = 1 - 2 * double(sphere_share(probe, emitter));
   const sh::ZonalSh disc = sh::zonal_from_function(
       out.degree(), [](double) { return 1.0; }, edge);
   std::vector<float> lobe(out.values.size());

@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 
 #include <ssphh/gi/probe_set.h>
+#include <ssphh/gi/viz.h>
 #include <ssphh/scene/radiance_source.h>
 
 namespace ssphh::gi {
@@ -14,9 +16,9 @@ struct BakeParams {
   scene::PathParams path;       ///< of GEN; VIZ uses the same depth and samples
   int face_size = 64;           ///< texels along a cube face
   bool keep_light = false;      ///< no GEN: VIZ alone, beside the light that the set holds
-  bool viz = true;
-  bool viz_transfer = false;  ///< also the matrices T_{j→i}
-  /// Told of each probe when its GEN or VIZ is done, on the caller's thread: `groups` or `edges` are new,
+  bool viz = true;              ///< false: the set's edges stay as they are
+  VizParams viz_params;
+  /// Told of each probe when its GEN or VIZ is done, from one thread at a time: `groups` or `edges` are new,
   /// what merge_groups derives is not. Empty: nobody is. Changes no result.
   std::function<void(std::size_t, const Probe&)> on_probe;
 };
@@ -29,13 +31,48 @@ struct BakeReport {
   std::vector<std::string> warnings;
 };
 
+/// GEN or VIZ of one probe: the unit of a bake.
+enum class BakeStage : std::uint8_t { gen, viz };
+struct ProbeStage {
+  BakeStage stage = BakeStage::gen;
+  std::uint32_t probe = 0;
+
+  friend bool operator==(const ProbeStage&, const ProbeStage&) = default;
+};
+
+struct ProbeStageResult {
+  ProbeStage done;
+  double seconds = 0;
+  std::uint64_t rays = 0;
+  std::vector<GroupLight> groups;  ///< of GEN
+  std::vector<Edge> edges;         ///< of VIZ
+};
+
+/// One unit: a pure function of the scene, the set's generator (path parameters, face size, seed), degree and
+/// places, but for the seconds. GEN looks at that probe's place alone, VIZ at all.
+ProbeStageResult bake_stage(const scene::RadianceSource& source, const ProbeSet& set,
+                            const VizParams& viz_params, const ProbeStage& stage,
+                            const Control& control = {});
+
+/// Does the units of a bake somewhere else than in this process.
+class BakeCrew {
+ public:
+  virtual ~BakeCrew() = default;
+  /// Does all of `stages`, in any order, and hands each result to `done`, from one thread at a time. Throws
+  /// Cancelled, or Error when a unit cannot be done.
+  virtual void run(const ProbeSet& set, const BakeParams& params, std::span<const ProbeStage> stages,
+                   const std::function<void(ProbeStageResult)>& done, const Control& control) = 0;
+};
+
 /// Fills the set that INIT made: GEN per light group, then VIZ. Warns about probes without light or inside a
 /// body, and about P over 1. With a `checkpoint` path every finished probe is appended to that file, so that
 /// the same call after a Cancelled or a killed process continues there and gives the same bits; the caller
 /// removes it once the set is safe on disk. A checkpoint of another scene or other parameters is replaced.
 /// Throws Error for parameters out of range, an empty set, and light that is to be kept but is of other
 /// groups.
+/// With a `crew` it traces; the result is the same, bit by bit.
 ProbeSet bake(const scene::RadianceSource& source, ProbeSet set, const BakeParams& params,
-              const std::filesystem::path& checkpoint, BakeReport& report, const Control& control = {});
+              const std::filesystem::path& checkpoint, BakeReport& report, const Control& control = {},
+              BakeCrew* crew = nullptr);
 
 }  // namespace ssphh::gi

@@ -13,7 +13,7 @@ namespace ssphh::gi {
 /// Points with their weights, none of them negative. `weights[i].count` is 0 where no probe sees point i.
 struct FittedPoints {
   std::vector<scene::SurfacePoint> points;
-  std::vector<ProbeWeights> weights;
+  std::vector<PointWeights> weights;
 
   friend bool operator==(const FittedPoints& a, const FittedPoints& b) {
     return std::ranges::equal(a.points, b.points,

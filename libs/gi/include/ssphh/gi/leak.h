@@ -22,7 +22,7 @@ struct LeakParams {
 
 /// All irradiances are indirect, as Rec.709 luminance [W/m²].
 struct LeakReport {
-  double ratio = 0;      ///< Σ looked up at dark points / Σ looked up at all points; 0 where both are 0
+  double ratio = 0;      ///< leak_ratio
   std::size_t dark = 0;  ///< points
   double mean_truth = 0, mean_looked_up = 0;
   double truth_noise = 0;             ///< Σ standard deviations of the truth / Σ truth: relative, per point
@@ -30,6 +30,26 @@ struct LeakReport {
   std::vector<float> truth;           ///< at each point
   std::vector<std::uint8_t> dark_at;  ///< 1 at dark points
 };
+
+/// Path-traced truth at points, and which of them are dark.
+struct TruthAtPoints {
+  std::vector<scene::IrradianceEstimate> estimates;
+  std::vector<std::uint8_t> dark_at;  ///< 1 at dark points
+  std::size_t dark = 0;
+  double mean = 0;   ///< indirect Rec.709 luminance [W/m²]
+  double noise = 0;  ///< Σ standard deviations / Σ truth
+};
+
+/// Path traces each point. Throws Error without points and for parameters out of range.
+TruthAtPoints trace_truth(const scene::RadianceSource& source, std::span<const scene::SurfacePoint> points,
+                          const LeakParams& params = {}, const Control& control = {});
+
+/// Indirect irradiance of each point.
+std::vector<vec3> look_up(const scene::IndirectLight& lookup, std::span<const scene::SurfacePoint> points,
+                          const Control& control = {});
+
+/// Σ looked up at dark points / Σ looked up at all points; 0 where both are 0.
+double leak_ratio(std::span<const vec3> looked_up, const TruthAtPoints& truth);
 
 /// Looks up and path traces each point. Where points are uniform by area (surface_points.h), the ratio is one
 /// of energies. Throws Error without points and for parameters out of range.

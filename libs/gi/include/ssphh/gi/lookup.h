@@ -38,8 +38,8 @@ class LightLookup final : public scene::IndirectLight {
  public:
   LightLookup(const ProbeSet& set, const scene::RadianceSource& source, const LookupParams& params = {});
   ~LightLookup() override;
-  vec3 irradiance(const vec3& x, const vec3& n) const override;
-  vec3 glossy(const vec3& x, const vec3& n, const vec3& r, float roughness) const override;
+  vec3 irradiance(const scene::SurfacePoint& at) const override;
+  vec3 glossy(const scene::SurfacePoint& at, const vec3& r, float roughness) const override;
 
   /// Guard of the paper's division: N·ω is taken as at least this.
   static constexpr float smallest_cosine = 0.05f;
@@ -49,15 +49,16 @@ class LightLookup final : public scene::IndirectLight {
   std::unique_ptr<Data> data_;
 };
 
-/// Irradiance volume: Σ_j v_j E_j(n), the weights by params.weights or as given.
+/// Irradiance volume: Σ_j v_j E_j(n), the weights by params.weights (and the set's fitted points) or as
+/// given.
 class IrradianceLookup final : public scene::IndirectLight {
  public:
   IrradianceLookup(const ProbeSet& set, const scene::RadianceSource& source, const LookupParams& params = {});
   IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWeights> weights,
                    const LookupParams& params = {});
   ~IrradianceLookup() override;
-  vec3 irradiance(const vec3& x, const vec3& n) const override;
-  vec3 glossy(const vec3& x, const vec3& n, const vec3& r, float roughness) const override;
+  vec3 irradiance(const scene::SurfacePoint& at) const override;
+  vec3 glossy(const scene::SurfacePoint& at, const vec3& r, float roughness) const override;
 
  private:
   struct Data;

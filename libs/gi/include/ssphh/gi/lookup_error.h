@@ -16,6 +16,8 @@ struct LookupError {
   double mean_relative = 0;  ///< mean of |e − t| / (t + ε); holds the truth's own noise
   double median_relative = 0, p95_relative = 0;  ///< of the same: half and 95 % of the points are better
   double noise = 0;  ///< what mean_relative would be for e without error: √(2/π) mean of √v / (t + ε)
+  double mean_error = 0;  ///< √(mean_relative² − noise²), at least 0: mean_relative without the truth's
+                          ///< noise, exact where both are normal
   double relmse = 0;  ///< mean of ((e − t)² − v) / (t + ε)²: the noise is subtracted; may come out below 0
 };
 inline constexpr double relative_floor = 0.01;

@@ -11,7 +11,7 @@
 
 namespace ssphh::gi {
 
-inline constexpr int probe_file_version = 2;
+inline constexpr int probe_file_version = 3;
 
 enum class ProbeFileFormat { json, binary };
 

@@ -18,6 +18,10 @@ namespace ssphh::gi {
 /// surfels; `bounce`: the same with the probes as the only unknowns.
 enum class LightOperator { path, surfel, bounce };
 
+/// What found the edges between the probes: nothing did; `path`: VIZ, path tracing at each probe; `links`:
+/// the links between surfels of a transport network.
+enum class VizMethod { none, path, links };
+
 /// What the GEN cube maps hold: every bounce up to max_depth, or direct light only (max_depth 1), so that
 /// HIER does not count the neighbours' light a second time.
 enum class GenMode { full, local };
@@ -25,10 +29,11 @@ enum class GenMode { full, local };
 /// What ⊗ means in S'_i = S_i ⊕ Σ_j H_{j→i} ⊗ S_j (see hier.h).
 enum class HierOperator { coefficient, mean, matrix };
 
-/// How a set was made. `gen` to `seed` tell of the paths of GEN and VIZ; with an operator other than `path`,
-/// whose light has every bounce, of VIZ alone.
+/// How a set was made. `gen` to `seed` tell of the paths of GEN and VIZ, as far as `op` and `viz` say that
+/// there were any; light and edges of other operators have every bounce.
 struct GeneratorInfo {
   LightOperator op = LightOperator::path;
+  VizMethod viz = VizMethod::none;
   GenMode gen = GenMode::full;
   int max_depth = 3;
   int passes = 1;
@@ -80,7 +85,7 @@ struct Probe {
   std::vector<GroupLight> groups;
   sh::RadianceSh reflected;  ///< Σ_g c_g reflected_g: derived by merge_groups, not stored in files
   sh::RadianceSh self;       ///< S_i = Σ_g c_g (emitted_g + reflected_g): likewise
-  std::vector<Edge> edges;   ///< only P > 0, ascending `from`
+  std::vector<Edge> edges;   ///< only P > 0, ascending `from`; perhaps only the strongest ones
 
   friend bool operator==(const Probe&, const Probe&) = default;
 };
@@ -119,9 +124,11 @@ void relight(ProbeSet& set, const std::string& group, const vec3& scale);
 std::size_t edge_count(const ProbeSet& set);
 
 const char* to_string(LightOperator op);
+const char* to_string(VizMethod method);
 const char* to_string(GenMode mode);
 const char* to_string(HierOperator op);
 std::optional<LightOperator> parse_light_operator(const std::string& name);
+std::optional<VizMethod> parse_viz_method(const std::string& name);
 std::optional<GenMode> parse_gen_mode(const std::string& name);
 std::optional<HierOperator> parse_hier_operator(const std::string& name);
 

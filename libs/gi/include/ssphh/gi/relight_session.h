@@ -1,6 +1,6 @@
 #pragma once
-/// Probes that follow moving lamps and doors, frame by frame: `surfel` transport kept warm. Holds no files
-/// and draws nothing.
+/// Probes that follow moving lamps and doors, frame by frame: `surfel` or `bounce` transport kept warm. Holds
+/// no files and draws nothing.
 ///
 ///   const trace::TransportScene source(scene);
 ///   gi::RelightSession session(source, places);
@@ -15,6 +15,8 @@
 #include <vector>
 
 #include <ssphh/core/control.h>
+#include <ssphh/gi/probe_set.h>
+#include <ssphh/gi/transport/bounce.h>
 #include <ssphh/gi/transport/network.h>
 #include <ssphh/sh/coefficients.h>
 
@@ -33,6 +35,8 @@ struct RelightParams {
   int degree = 4;          ///< of the probes' functions
   float changed = 1e-3f;   ///< a probe changed when a coefficient did by more than this share of its mean
   bool warm_start = true;  ///< false: every update starts from darkness, so its bits tell nothing of the past
+  LightOperator op = LightOperator::surfel;  ///< surfel or bounce
+  BounceParams bounce = {};
 };
 
 /// One update. Times in milliseconds, rays as traced.
@@ -48,8 +52,8 @@ struct RelightReport {
 
 class RelightSession {
  public:
-  /// Keeps a reference to `source`. Throws Error as TransportNetwork does. The first update() lights
-  /// everything.
+  /// Keeps a reference to `source`. Throws Error as TransportNetwork does, for an operator that is none of
+  /// transport, and for blended poses with bounce. The first update() lights everything.
   RelightSession(const scene::TransportSource& source, std::vector<ProbePlace> places,
                  const RelightParams& params = {}, float time = 0, const Control& control = {});
   ~RelightSession();
@@ -73,7 +77,8 @@ class RelightSession {
   const std::vector<ProbePlace>& places() const;
   /// S_loop: reflected light alone, for surfaces that get direct light from elsewhere.
   const std::vector<sh::RadianceSh>& reflected() const;
-  /// Emitters that probe i sees directly; S_full = reflected + emitted. Found when asked for, by 16,384 rays.
+  /// Emitters that probe i sees directly; S_full = reflected + emitted. Found when asked for, by at
+  /// most 16,384 rays: none where nothing can be met that emits.
   sh::RadianceSh emitted(int probe) const;
   /// Direct irradiance at each surfel per group, unscaled.
   std::vector<std::vector<Irradiance4>> direct_by_group() const;
@@ -86,10 +91,11 @@ class RelightSession {
   /// Emission profile of whatever stands in a sphere, as lit after the last update(): the radiance that
   /// leaves the sphere into each direction, averaged over its disc; empty space in it is dark. Given to
   /// set_emission of a probe with this radius it stands in for the thing itself (paper §5, Figure 12: a fire,
-  /// a car with its lamps). `rays` per direction; 16 · (degree + 1)² directions.
+  /// a car with its lamps). `rays` per direction; 16 · (degree + 1)² directions. Throws Error
+  /// with bounce, which does not light surfels.
   sh::RadianceSh emission_profile(const vec3& center, float radius, int degree, int rays = 256) const;
 
-  /// Indirect irradiance at each surfel.
+  /// Indirect irradiance at each surfel; empty with bounce.
   const std::vector<Irradiance4>& surfel_irradiance() const;
   const std::vector<Irradiance4>& surfel_direct() const;
   const TransportNetwork& network() const;

@@ -16,8 +16,9 @@ class PosedSurfaces {
  public:
   PosedSurfaces(const scene::TransportSource& source, float time);
 
-  /// Nearest hit of each ray with any part.
-  void intersect(std::span<const scene::RayQuery> rays, std::span<scene::RayHit> hits) const;
+  /// Nearest hit of each ray with any part; where asked for, moves[i] = 1 if that part moves, else 0.
+  void intersect(std::span<const scene::RayQuery> rays, std::span<scene::RayHit> hits,
+                 std::span<std::uint8_t> moves = {}) const;
   /// blocked[i] = 1 where any part meets segment i, else 0.
   void occluded(std::span<const scene::RayQuery> rays, std::span<std::uint8_t> blocked) const;
   /// Of all parts; empty for a scene without triangles.
@@ -36,6 +37,7 @@ class PosedSurfaces {
 struct SurfacePointParams {
   int count = 1024;        ///< points wanted, over 0
   std::uint64_t seed = 0;  ///< the same seed gives the same points
+  float clearance = 0;     ///< only points with so much free space before them, along the normal [m]
 };
 
 /// Points uniform by area over both sides of all surfaces that can be reached: that see one of `origins`
@@ -49,5 +51,12 @@ std::vector<scene::SurfacePoint> reachable_points(const scene::TransportSource& 
                                                   std::span<const vec3> origins, float time,
                                                   const SurfacePointParams& params = {},
                                                   const Control& control = {});
+
+/// Points in the open, as something that moves may come there: on a cosine-distributed ray from each surface
+/// point, 5 to 95 % of the way to what it meets, the normal uniform over the sphere. None for rays that
+/// escape. The same seed gives the same points.
+std::vector<scene::SurfacePoint> points_in_the_open(const scene::TransportSource& source,
+                                                    std::span<const scene::SurfacePoint> surfaces, float time,
+                                                    std::uint64_t seed);
 
 }  // namespace ssphh::gi

@@ -6,6 +6,7 @@
 #include <ssphh/gi/probe_set.h>
 #include <ssphh/gi/relight_session.h>
 #include <ssphh/gi/transport/bounce.h>
+#include <ssphh/gi/transport/link_viz.h>
 
 namespace ssphh::gi {
 
@@ -14,6 +15,8 @@ struct TransportBakeParams {
   BounceParams bounce;
   TransportParams transport;  ///< surfel_size 0: a thirty-second of the scene's radius, within 0.04..0.5 m
   SolveParams solve;
+  bool viz = false;  ///< also find the edges between the probes
+  LinkVizParams viz_params;
   bool fit = false;  ///< also fit lookup weights at the surfels
   FitParams fit_params;
 };
@@ -25,7 +28,8 @@ struct TransportBakeReport {
   double contraction = 0;  ///< surfel: upper bound of the factor by which one bounce shrinks light; bounce:
                            ///< an estimate of it for the probes' operator
   double lost = 0;         ///< share of the surfels' rays that end where no surfel is
-  double seconds = 0;      ///< all but the fit
+  double seconds = 0;      ///< all but VIZ and the fit
+  double viz_seconds = 0;
   double fit_seconds = 0;
   std::uint64_t rays = 0;
   std::vector<std::string> warnings;
@@ -38,10 +42,10 @@ struct TransportBakeReport {
 ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, const TransportBakeParams& params,
                         TransportBakeReport& report, const Control& control = {});
 
-/// Lookup weights for a set whose light something else found: builds a network in the pose of the set's time,
-/// fits at its surfels and notes its parameters in the set. Fills the report's surfels, links, contraction,
-/// lost, fit_seconds and rays.
-void fit_set(const scene::TransportSource& source, ProbeSet& set, const TransportBakeParams& params,
-             TransportBakeReport& report, const Control& control = {});
+/// What the parameters ask for beside light (edges, lookup weights), for a set whose light something else
+/// finds: builds a network in the pose of the set's time and notes its parameters in the set. Fills the
+/// report's surfels, links, contraction, lost, viz_seconds, fit_seconds and rays.
+void add_transport(const scene::TransportSource& source, ProbeSet& set, const TransportBakeParams& params,
+                   TransportBakeReport& report, const Control& control = {});
 
 }  // namespace ssphh::gi

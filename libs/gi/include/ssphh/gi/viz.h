@@ -12,12 +12,14 @@ float transfer_coefficient(const sh::RadianceSh& h);
 
 struct VizParams {
   bool matrix = false;  ///< also T_{j→i}: K² RGB numbers per edge (120 kB at degree 9)
+  int neighbors = -1;   ///< at most so many edges, those with the largest P; −1: all
+  float threshold = 0;  ///< and only those with P above it
 };
 
 /// Edges i ← j of probe i: every other probe is a sphere of its radius with radiance 1, and H_{j→i} is what
-/// arrives at i from sphere j, itself and everything it lights. Edges with P ≤ 0 are left out; a P over 1 (i
-/// inside j's sphere, and light reflected back) is stored as 1. P_ii = 1 is
-/// implied. `request.position` is ignored.
+/// arrives at i from sphere j, itself and everything it lights. Edges with P not above the threshold are left
+/// out; a P over 1 (i inside j's sphere, and light reflected back) is stored as 1. P_ii = 1 is implied.
+/// `request.position` is ignored.
 std::vector<Edge> viz(const scene::RadianceSource& source, const ProbeSet& set, std::size_t i,
                       const scene::CubeRequest& request, const VizParams& params,
                       const Control& control = {});

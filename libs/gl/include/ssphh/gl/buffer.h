@@ -29,6 +29,8 @@ class Buffer {
   }
   void bind_storage(unsigned binding) const;
   void bind_uniform(unsigned binding) const;
+  /// `offset` must be a multiple of 256.
+  void bind_uniform_range(unsigned binding, std::size_t offset, std::size_t bytes) const;
 
  private:
   Handle<delete_buffer> handle_;

@@ -15,7 +15,9 @@ struct DrawState {
   Blend blend = Blend::off;
   Cull cull = Cull::off;
   bool color_write = true;
-  bool lines = false;  ///< draw triangles' edges only
+  bool lines = false;      ///< draw triangles' edges only
+  int stencil_equal = -1;  ///< only where the stencil has this value; −1: everywhere
+  int stencil_write = -1;  ///< the stencil's new value where the depth test passes; −1: as it was
 };
 
 /// Sets all of it, also what somebody else may have left behind.
@@ -23,13 +25,10 @@ void apply(const DrawState& state);
 /// Sets what every pass of this project takes for granted: depth range 0..1, no sRGB conversion on write.
 void apply_conventions();
 
-void draw_triangles(int vertex_count, int instances = 1);
+void draw_triangles(int vertex_count);
 void draw_lines(int vertex_count);
-/// 32-bit indices [first_index, + count); `instance` arrives in the per-instance attribute.
-void draw_indexed(int count, std::size_t first_index, int base_vertex, unsigned instance);
-void dispatch(unsigned x, unsigned y, unsigned z);
-/// Waits until what earlier shaders wrote can be read by later ones.
-void memory_barrier();
+/// 32-bit indices [first_index, first_index + count).
+void draw_indexed(int count, std::size_t first_index, int base_vertex);
 /// Waits for everything.
 void finish();
 

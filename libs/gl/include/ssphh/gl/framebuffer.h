@@ -30,6 +30,7 @@ struct Rect {
 void bind_framebuffer(unsigned id, const Rect& viewport);
 /// Within the viewport's rectangle only.
 void clear_depth(const Rect& rect, float value);
+void clear_stencil(int value);
 void clear_color(int attachment, float r, float g, float b, float a);
 void clear_color_uint(int attachment, unsigned r, unsigned g, unsigned b, unsigned a);
 /// The framebuffer that is bound for drawing now.

@@ -32,7 +32,7 @@ class ShaderFiles {
   std::filesystem::path directory_;
 };
 
-/// A linked vertex and fragment shader, or a compute shader.
+/// A linked vertex and fragment shader.
 class Program {
  public:
   Program() = default;
@@ -40,7 +40,6 @@ class Program {
   /// Throws Error whose message names file and line as the author knows them.
   Program(const ShaderFiles& files, const std::string& vertex, const std::string& fragment,
           std::string_view defines = {});
-  static Program compute(const ShaderFiles& files, const std::string& name, std::string_view defines = {});
 
   unsigned id() const { return handle_.get(); }
   /// What the compiler said beside errors; empty: nothing.
@@ -50,12 +49,15 @@ class Program {
   /// Uniforms by name, of the program itself, in use or not. Names that the shader lacks are ignored: the
   /// compiler removes what a variant does not need.
   void set(const char* name, int value);
-  void set(const char* name, int x, int y);
+  void set(const char* name, int x, int y, int z = 0, int w = 0);
   void set(const char* name, float value);
   void set(const char* name, const vec2& value);
   void set(const char* name, const vec3& value);
   void set(const char* name, const vec4& value);
   void set(const char* name, const mat4& value);
+  void set(const char* name, std::span<const float> values);
+  /// By the location that the shader gives it.
+  void set_at(int location, int value);
 
  private:
   int location(const char* name);

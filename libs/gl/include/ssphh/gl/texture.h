@@ -7,7 +7,18 @@
 
 namespace ssphh::gl {
 
-enum class Format { r8, rgba8, srgb8_alpha8, r16f, rgba16f, r32f, rg32f, rgba32f, r32ui, rgba32ui, depth32f };
+enum class Format {
+  rgba8,
+  srgb8_alpha8,
+  r16f,
+  rgba16f,
+  r32f,
+  rgba32f,
+  rg32ui,
+  rgba32ui,
+  depth32f,
+  depth32f_stencil8
+};
 
 std::size_t bytes_per_texel(Format format);
 
@@ -27,6 +38,8 @@ class Texture {
 
   /// Whole level 0 of one layer, rows as in memory: row 0 first. 8-bit formats take bytes, others floats.
   void upload(std::span<const std::byte> data, int layer = 0);
+  /// A rectangle of level 0.
+  void upload_rect(std::span<const std::byte> data, int x, int y, int width, int height, int layer = 0);
   void generate_mipmaps();
   /// Linear or nearest filtering, clamped at the edges, for textures bound without a Sampler.
   void set_filter(bool linear);

@@ -15,8 +15,6 @@ class VertexArray {
   /// Floats at `offset` within elements of `stride` bytes.
   void attribute(unsigned location, const Buffer& buffer, int components, std::size_t stride,
                  std::size_t offset);
-  /// One unsigned integer per instance.
-  void instance_attribute(unsigned location, const Buffer& buffer);
   /// 32-bit indices.
   void indices(const Buffer& buffer);
   void bind() const;

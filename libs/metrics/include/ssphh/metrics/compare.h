@@ -28,6 +28,7 @@ struct ImageError {
   double rmse = 0;                     ///< √mse
   double relmse = 0;                   ///< Σ d²/(ref² + ε) / NC, ε = relative_epsilon
   double mape = 0;                     ///< Σ |d|/(|ref| + ε) / NC, a fraction, not per cent
+  double smape = 0;                    ///< Σ |d|/(|ref| + |test| + ε) / NC, in [0, 1]
   /// mean(test)/mean(reference) per channel; NaN where the reference's mean is 0. Channels repeat for grey
   /// images.
   std::array<double, 3> mean_ratio{};

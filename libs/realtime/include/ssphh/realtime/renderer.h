@@ -32,10 +32,11 @@ struct Target {
 };
 
 struct RendererParams {
-  std::filesystem::path shader_directory;  ///< files here replace the built-in shaders and reload on change
-  int light_map_size = 1024;               ///< pixels of a shadow map's face: point and spot lights
-  int area_map_size = 256;                 ///< of each point on a light with an extent
-  int sun_map_size = 2048;                 ///< of a cascade
+  std::filesystem::path shader_directory =
+      {};                     ///< files here replace the built-in shaders and reload on change
+  int light_map_size = 1024;  ///< pixels of a shadow map's face: point and spot lights
+  int area_map_size = 256;    ///< of each point on a light with an extent
+  int sun_map_size = 2048;    ///< of a cascade
   std::size_t probe_map_bytes = std::size_t{192} << 20;  ///< for all probes' maps together
   int area_samples = 16;         ///< points that stand for a light with an extent, each with a shadow map
   int environment_samples = 32;  ///< directions in which the environment casts shadows
@@ -84,8 +85,9 @@ class Renderer {
 
   /// Bytes of OpenGL memory that this renderer asked for.
   std::size_t memory_bytes() const;
-  /// What shader compilers said beside errors; empty: nothing.
-  std::string shader_warnings() const;
+  /// Compiles every variant of every shader and tells what the compiler said beside errors; empty: nothing.
+  /// Throws Error for one that does not compile.
+  std::string shader_warnings();
 
  private:
   struct Data;

@@ -25,16 +25,13 @@ struct FrameSettings {
   bool direct = true;
   bool indirect = true;
   gi::LookupMethod lookup = gi::LookupMethod::irradiance;
-  gi::WeightMethod weights = gi::WeightMethod::distance;  ///< of lookup irradiance
-  int irradiance_degree = 4;  ///< bands of the probes' irradiance, at most what set_probes was given
-  int glossy_degree = 10;     ///< bands of the probes' radiance in mirrors, at most what set_probes was given
-  int indirect_scale = 1;     ///< n: indirect light at every n-th pixel each way, filled in along surfaces
-  int supersample = 1;        ///< samples per pixel along each side, 1..4
+  int indirect_scale = 1;  ///< n: indirect light at every n-th pixel each way, filled in along surfaces
+  int supersample = 1;     ///< samples per pixel along each side, 1..4
   bool ambient_occlusion = false;
   float occlusion_radius = 0.5f;  ///< metres
   View view = View::lit;
   Sky sky = Sky::environment;
-  image::ToneMap tone;
+  image::ToneMap tone = {};
   bool wireframe = false;
 };
 

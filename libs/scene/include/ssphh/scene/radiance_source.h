@@ -102,10 +102,10 @@ class RadianceSource {
 class IndirectLight {
  public:
   virtual ~IndirectLight() = default;
-  /// Indirect irradiance [W/m²] at x with unit normal n.
-  virtual vec3 irradiance(const vec3& x, const vec3& n) const = 0;
+  /// Indirect irradiance [W/m²].
+  virtual vec3 irradiance(const SurfacePoint& at) const = 0;
   /// Radiance [W sr⁻¹ m⁻²] for a glossy lobe around the unit direction r; `roughness` is perceptual, 0..1.
-  virtual vec3 glossy(const vec3& x, const vec3& n, const vec3& r, float roughness) const = 0;
+  virtual vec3 glossy(const SurfacePoint& at, const vec3& r, float roughness) const = 0;
 };
 
 }  // namespace ssphh::scene

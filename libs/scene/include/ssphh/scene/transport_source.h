@@ -18,6 +18,7 @@ namespace ssphh::scene {
 struct SurfacePoint {
   vec3 position{0};
   vec3 normal{0, 1, 0};
+  bool moves = false;  ///< on a body that an animation moves
 };
 
 /// Ray or segment: covers the distances (0, t_max) in units of `direction`, which need not be a unit vector.
@@ -65,7 +66,8 @@ class DirectLight {
   /// Whether a body inside `box` may change the group's light at the point; false only if it cannot.
   virtual bool may_shadow(int group, const SurfacePoint& point, const Bounds& box) const = 0;
   /// Radiance of the group's emitters that are no surfaces (sphere lights, environment, a sun's disc) along a
-  /// world-space ray whose nearest surface is at `distance`, infinite if it escapes.
+  /// world-space ray whose nearest surface is at `distance`, infinite if it escapes: darkness there is
+  /// darkness at any distance.
   virtual vec3 emitted(int group, const RayQuery& ray, float distance) const = 0;
 };
 

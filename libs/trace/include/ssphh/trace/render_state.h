@@ -12,8 +12,18 @@ namespace ssphh::trace {
 
 enum class Projection { pinhole, orthographic, equirect, cube_strip };
 
+/// A rectangle of a picture's pixels; width 0: the whole picture.
+struct Tile {
+  int x = 0, y = 0, width = 0, height = 0;
+
+  friend bool operator==(const Tile&, const Tile&) = default;
+};
+
 struct RenderParams {
   int width = 1280, height = 720;
+  /// The pixels to render: images of a RenderState have the tile's size and hold the same bits as those
+  /// pixels of the whole picture.
+  Tile tile;
   scene::CameraPose camera;
   /// From the scene's camera, or the whole sphere around its position: equirect, or a 6×1 cube strip (height
   /// = face size, width = 6·height) in world axes.
@@ -41,9 +51,19 @@ struct RenderState {
                 ///< if zero
 };
 
-/// Identity of a render: everything that decides its pixels but the number of passes. `scene_hash` as
-/// scene::scene_hash. Who renders with probes folds their hash into `scene_hash`.
+/// The tile that `params` asks for, or that of the whole picture.
+Tile tile_of(const RenderParams& params);
+
+/// Identity of a render: everything that decides its pixels but the number of passes and the tile.
+/// `scene_hash` as scene::scene_hash. Who renders with probes folds their hash into `scene_hash`.
 Hash128 render_key(const Hash128& scene_hash, float time, const RenderParams& params);
+
+/// A state without passes, its images black and of the tile's size.
+RenderState empty_state(const RenderParams& params, std::size_t light_groups);
+
+/// Copies the pixels of `part`, which was rendered with `tile`, into `whole`. Counts of paths and rays add
+/// up; passes_done is left alone. SSPHH_CHECK: the tile lies inside and both keep the same images.
+void paste(RenderState& whole, const RenderState& part, const Tile& tile);
 
 /// Mean of an accumulated image; zeros when no pass is done.
 image::Image resolve(const image::Image& sum, int passes_done);

@@ -10,7 +10,8 @@
 namespace ssphh::trace {
 
 struct TransportOptions {
-  int light_samples = 16;        ///< shadow rays per point and light with an extent
+  /// Shadow rays per point and light with an extent; where the first quarter of them agrees, no more.
+  int light_samples = 16;
   int environment_samples = 64;  ///< shadow rays per point to the environment
   /// How far points handed in may lie below their surface (means, compressed positions), relative to the
   /// size of the scene: shadow rays start so much above them, or more where float coordinates need it.

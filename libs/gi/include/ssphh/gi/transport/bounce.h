@@ -31,12 +31,19 @@ struct BounceReport {
 class BounceOperator {
  public:
   /// Finds the lookup weights at every probe ray's hit, in the network's pose. Keeps references to both.
+  /// Poses blended in time are not followed: rays see what TransportNetwork::seen() says.
   BounceOperator(const TransportNetwork& network, const scene::TransportSource& source, int degree,
                  const BounceParams& params = {});
   ~BounceOperator();
 
-  /// Reflected light of every probe from the surfels' direct irradiance.
-  BounceReport solve(std::span<const Irradiance4> direct, std::vector<sh::RadianceSh>& reflected) const;
+  /// Follows the network to its pose: weights are found anew at rays that see something else and at those
+  /// whose way to a probe some part may cross. Equals a new operator to the bit. Returns the number of rays.
+  std::size_t update_pose();
+
+  /// Reflected light of every probe from the surfels' direct irradiance. `warm`: begins with what `reflected`
+  /// holds, the answer of a similar light, instead of darkness; not with a given number of applications.
+  BounceReport solve(std::span<const Irradiance4> direct, std::vector<sh::RadianceSh>& reflected,
+                     bool warm = false) const;
 
  private:
   struct Data;

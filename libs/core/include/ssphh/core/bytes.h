@@ -16,7 +16,7 @@
 static_assert(std::endian::native == std::endian::little,
               "files are written as the memory of a little-endian machine");
 
-namespace ssphh::gi {
+namespace ssphh {
 
 class ByteWriter {
  public:
@@ -31,10 +31,12 @@ class ByteWriter {
   template <class T>
   requires std::is_trivially_copyable_v<T>
   void array(std::span<const T> values) {
-    const auto bytes = std::as_bytes(values);
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    const std::size_t begin = bytes_.size();
+    bytes_.resize(begin + values.size_bytes());
+    if (!values.empty()) std::memcpy(bytes_.data() + begin, values.data(), values.size_bytes());
   }
   const std::vector<std::byte>& bytes() const { return bytes_; }
+  std::vector<std::byte> take() { return std::move(bytes_); }
 
  private:
   std::vector<std::byte> bytes_;
@@ -84,6 +86,15 @@ class ByteReader {
     for (const vec3& v : out)
       if (!is_finite(v)) fail(what, "holds a number that is not finite");
   }
+  /// Values of which every bit pattern is allowed, or that the caller checks.
+  template <class T>
+  requires std::is_trivially_copyable_v<T>
+  void raw(const char* what, std::span<T> out) {
+    const std::byte* p = take(out.size_bytes(), what);
+    if (!out.empty()) std::memcpy(out.data(), p, out.size_bytes());
+  }
+  /// The next `size` bytes, in place.
+  std::span<const std::byte> view(const char* what, std::size_t size) { return {take(size, what), size}; }
   void expect_end() const {
     if (left() != 0) fail("end", "has " + std::to_string(left()) + " bytes too many");
   }
@@ -104,4 +115,4 @@ class ByteReader {
   std::size_t position_ = 0;
 };
 
-}  // namespace ssphh::gi
+}  // namespace ssphh

@@ -1,0 +1,176 @@
+#include <chrono>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include <ssphh/majordomo/client.h>
+#include <ssphh/majordomo/security.h>
+
+#include "command.h"
+#include "farm_options.h"
+
+namespace ssphh::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+majordomo::Client connect(const BrokerChoice& choice) {
+  const farm::BrokerAddress address = broker_address(choice);
+  majordomo::ClientOptions options;
+  options.endpoint = address.endpoint;
+  options.security = address.security;
+  return majordomo::Client(options);
+}
+
+/// The second frame of an mmi service's answer.
+std::string ask(majordomo::Client& client, const std::string& service, const std::string& body,
+                const Control& control) {
+  majordomo::RequestOptions request;
+  request.deadline = 5000;
+  const majordomo::Frames reply = client.call(service, {body}, request, control);
+  if (reply.empty() || reply[0] != "200") {
+    throw Error(service, reply.empty() || reply[0] != "403" ? "the broker does not know it"
+                                                            : "this key has no admin role");
+  }
+  return reply.size() > 1 ? reply[1] : "";
+}
+
+ordered_json ask_json(majordomo::Client& client, const std::string& service, const Control& control) {
+  ordered_json object = ordered_json::parse(ask(client, service, "", control), nullptr, false);
+  if (!object.is_object()) throw Error(service, "the broker's answer is no JSON object");
+  return object;
+}
+
+struct Status {
+  ordered_json stats, workers;
+};
+
+Status status_of(majordomo::Client& client, const Control& control) {
+  return {ask_json(client, "mmi.stats", control), ask_json(client, "mmi.workers", control)};
+}
+
+double seconds(const ordered_json& object, const char* key) {
+  return object.value(key, 0.0) / 1000;
+}
+
+/// `per_second`: jobs finished, where it is known.
+std::string status_text(const Status& s, std::optional<double> per_second) {
+  const ordered_json &now = s.stats["now"], &total = s.stats["total"];
+  std::string text = fmt::format(
+      "{} workers ({} idle), {} jobs queued, {} running, {} finished, {} retries, {} parked",
+      now.value("workers", 0), now.value("idle", 0), now.value("queued", 0), now.value("running", 0),
+      total.value("finished", 0), total.value("retries", 0), total.value("parked", 0));
+  if (per_second) {
+    const double left = now.value("queued", 0.0) + now.value("running", 0.0);
+    text += fmt::format("\n{:.2f} jobs/s", *per_second);
+    if (*per_second > 0 && left > 0) text += fmt::format(", about {:.0f} s left", left / *per_second);
+  }
+  text += fmt::format("\n{:<48} {:>7} {:>6} {:>7} {:>9}", "service", "workers", "idle", "queued", "finished");
+  for (const auto& service : s.stats["services"]) {
+    text += fmt::format("\n{:<48} {:>7} {:>6} {:>7} {:>9}", service.value("name", ""),
+                        service.value("workers", 0), service.value("idle", 0), service.value("queued", 0),
+                        service.value("finished", 0));
+  }
+  text += fmt::format("\n{:<30} {:<8} {:>9} {:>7}  {}", "worker", "state", "for", "served", "service");
+  for (const auto& worker : s.workers["workers"]) {
+    text += fmt::format("\n{:<30} {:<8} {:>7.1f} s {:>7}  {}", worker.value("name", ""),
+                        worker.value("state", ""), seconds(worker, "since_ms"), worker.value("served", 0),
+                        worker.value("service", ""));
+  }
+  return text;
+}
+
+void top(const BrokerChoice& choice, double interval, int count, Context& context) {
+  majordomo::Client client = connect(choice);
+  std::optional<double> before;
+  auto asked = std::chrono::steady_clock::now();
+  for (int i = 0; count == 0 || i < count; ++i) {
+    const Status status = status_of(client, context.control);
+    const auto now = std::chrono::steady_clock::now();
+    const double finished = status.stats["total"].value("finished", 0.0);
+    std::optional<double> rate;
+    if (before) rate = (finished - *before) / std::chrono::duration<double>(now - asked).count();
+    before = finished, asked = now;
+    if (!context.json && count != 1) fmt::print("\x1b[H\x1b[2J");
+    context.result({{"stats", status.stats}, {"workers", status.workers["workers"]}},
+                   status_text(status, rate));
+    for (double waited = 0; waited < interval && (count == 0 || i + 1 < count); waited += 0.05) {
+      context.control.check();
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  }
+}
+
+std::vector<std::string> roles_of(const std::string& role) {
+  if (role == "client") return {"client", "worker:ssphh.blobs.*"};
+  if (role == "worker") return {"client", "worker:ssphh.jobs.*"};
+  return {"client", "admin"};
+}
+
+void keygen(const std::string& folder, const std::string& name, const std::string& role, Context& context) {
+  std::filesystem::create_directories(folder);
+  std::filesystem::permissions(folder, std::filesystem::perms::owner_all);
+  const std::filesystem::path dir = folder;
+  std::vector<std::string> made;
+  const auto make = [&](const std::string& who) {
+    const majordomo::KeyPair keys = majordomo::make_key_pair();
+    majordomo::write_key_pair(dir, who, keys);
+    made.push_back(who);
+    return keys.public_key;
+  };
+  if (!std::filesystem::exists(dir / "broker.key")) make("broker");
+  majordomo::add_to_allow_list(dir / "allow.txt", name, make(name), roles_of(role));
+  context.result({{"folder", folder}, {"made", made}, {"role", role}},
+                 fmt::format("{}: made {}.key, which may be a {}\ngive its user {}.key and broker.pub; "
+                             "broker.key and allow.txt stay with the broker",
+                             folder, name, role, name));
+}
+
+}  // namespace
+
+void add_farm_commands(CLI::App& app, Context& context) {
+  CLI::App* group = add_group(app, "farm", "Look after a farm: status, top, drain, keygen");
+  const auto choice = std::make_shared<BrokerChoice>();
+  const auto with_broker = [&](CLI::App* command, const std::string& key) {
+    add_broker_options(*command, *choice, key, "Broker")->required();
+    return command;
+  };
+  with_broker(add_command(*group, context, "status", "Workers, queues and counts of a broker",
+                          [choice, &context] { top(*choice, 0, 1, context); }),
+              "client");
+
+  const auto interval = std::make_shared<double>(1);
+  const auto count = std::make_shared<int>(0);
+  CLI::App* top_command =
+      with_broker(add_command(*group, context, "top", "status, again and again, with rate and remaining time",
+                              [=, &context] { top(*choice, *interval, *count, context); }),
+                  "client");
+  top_command->add_option("--interval", *interval, "Seconds")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
+  top_command->add_option("--count", *count, "End after so many; 0: never")->capture_default_str();
+
+  const auto prefix = std::make_shared<std::string>();
+  CLI::App* drain = with_broker(
+      add_command(*group, context, "drain", "Let workers finish the jobs in hand and leave",
+                  [=, &context] {
+                    majordomo::Client client = connect(*choice);
+                    const std::string told = ask(client, "mmi.drain", *prefix, context.control);
+                    context.result({{"told", std::atoi(told.c_str())}}, told + " workers were told to leave");
+                  }),
+      "admin");
+  drain->add_option("--workers", *prefix, "Only those whose name begins so");
+
+  const auto folder = std::make_shared<std::string>("ssphh-keys");
+  const auto name = std::make_shared<std::string>(), role = std::make_shared<std::string>();
+  CLI::App* keys = add_command(*group, context, "keygen",
+                               "Make a key for a user or machine, and the broker's when there is none",
+                               [=, &context] { keygen(*folder, *name, *role, context); });
+  keys->add_option("NAME", *name, "Of the key")->required();
+  keys->add_option("--role", *role, "client (bakes, renders), worker (serves), admin (may drain)")
+      ->check(CLI::IsMember({"client", "worker", "admin"}))
+      ->required();
+  keys->add_option("--keys", *folder, "Folder of the keys")->capture_default_str();
+}
+
+}  // namespace ssphh::app

@@ -1,0 +1,26 @@
+#pragma once
+/// What the commands that draw with OpenGL share.
+
+#include <optional>
+#include <string>
+
+#include <ssphh/gi/probe_set.h>
+#include <ssphh/realtime/renderer.h>
+#include <ssphh/scene/scene.h>
+
+namespace ssphh::app {
+
+/// How surfaces look SPHLs up, as the options of `render` name it.
+struct GlLookup {
+  std::string probes;  ///< file; empty: direct light alone
+  std::string lookup = "irradiance", light = "sum";
+  bool force = false;
+};
+
+/// Reads the file, refuses probes of another scene or pose, and hands them to the renderer. Throws Error.
+void set_probes(realtime::Renderer& renderer, const GlLookup& options, const scene::Scene& scene, float time);
+
+/// Settings for stills: every pixel looks probes up, `samples` along each side.
+realtime::FrameSettings still_settings(const GlLookup& options, int samples);
+
+}  // namespace ssphh::app

@@ -1,0 +1,12 @@
+# Writes OUTPUT, a source file with a digest of the files that LIST names (relative to ROOT, contents) and of BUILD.
+file(STRINGS ${LIST} files)
+set(text "${BUILD}")
+foreach(file IN LISTS files)
+  file(RELATIVE_PATH name ${ROOT} ${file})
+  file(SHA256 ${file} digest)
+  string(APPEND text "\n${name} ${digest}")
+endforeach()
+string(SHA256 digest "${text}")
+file(WRITE ${OUTPUT}.new "namespace ssphh::farm {\nextern const char* const source_id;\nconst char* const source_id = \"${digest}\";\n}  // namespace ssphh::farm\n")
+file(COPY_FILE ${OUTPUT}.new ${OUTPUT} ONLY_IF_DIFFERENT)
+file(TOUCH ${OUTPUT})

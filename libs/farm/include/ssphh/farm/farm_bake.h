@@ -1,0 +1,30 @@
+#pragma once
+/// GEN and VIZ on a farm: the crew of gi::bake.
+
+#include <ssphh/farm/dispatch.h>
+#include <ssphh/gi/bake.h>
+#include <ssphh/scene/scene.h>
+
+namespace ssphh::farm {
+
+/// Hands out the scene and has probes done by workers, each once, in any order. Probes whose result is in
+/// options.results are taken from there, whatever bake they come from.
+class FarmCrew final : public gi::BakeCrew {
+ public:
+  /// Keeps references to both; the scene is `scene` posed at `time`.
+  FarmCrew(const FarmOptions& options, const scene::Scene& scene, float time)
+      : options_(options), scene_(scene), time_(time) {}
+
+  void run(const gi::ProbeSet& set, const gi::BakeParams& params, std::span<const gi::ProbeStage> stages,
+           const std::function<void(gi::ProbeStageResult)>& done, const Control& control) override;
+
+  const FarmReport& report() const { return report_; }
+
+ private:
+  const FarmOptions& options_;
+  const scene::Scene& scene_;
+  float time_;
+  FarmReport report_;
+};
+
+}  // namespace ssphh::farm

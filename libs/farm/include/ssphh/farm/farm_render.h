@@ -1,0 +1,29 @@
+#pragma once
+/// Pictures rendered in tiles by a farm.
+
+#include <ssphh/farm/dispatch.h>
+#include <ssphh/gi/probe_set.h>
+#include <ssphh/scene/scene.h>
+
+namespace ssphh::farm {
+
+/// The probes and the lookup of a render that is lit by them.
+struct RenderProbes {
+  const gi::ProbeSet* set = nullptr;
+  std::string lookup = "irradiance";  ///< as ProbeLighting
+  std::string weights;
+  std::string layer = "sum";
+};
+
+/// All of `params.path.passes` passes of the whole picture, bit for bit as PathTracer::render or, with
+/// `probes`, render_with. Images that `layers` (names of layer_names(), in that order) leave out are black.
+/// Tiles that are in options.results are taken from there.
+trace::RenderState render(const FarmOptions& options, const scene::Scene& scene, float time,
+                          const trace::RenderParams& params, const std::optional<RenderProbes>& probes,
+                          const std::vector<std::string>& layers, FarmReport& report,
+                          const Control& control = {});
+
+/// Edge of a tile in pixels; at the right and lower edge they are smaller.
+inline constexpr int tile_edge = 32;
+
+}  // namespace ssphh::farm

@@ -1,0 +1,108 @@
+#pragma once
+/// Jobs of the farm and their results: plain data. A result is a pure function of its job, whoever computes
+/// it: job.scene.light names the scene, engine_id() the program.
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <ssphh/gi/bake.h>
+#include <ssphh/trace/render_state.h>
+
+namespace ssphh::farm {
+
+/// Which scene, and where its parts are to be had.
+struct SceneRef {
+  Hash128 package;  ///< ScenePackage::id; its parts are served by blob_service(package)
+  std::uint64_t manifest_bytes = 0;
+  Hash128 light;  ///< scene::light_hash of the scene, which the worker checks
+  float time = 0;
+
+  friend bool operator==(const SceneRef&, const SceneRef&) = default;
+};
+
+struct ProbePlace {
+  vec3 position{0};     ///< world, metres
+  float radius = 0.1f;  ///< of the emitter sphere of VIZ, metres
+
+  friend bool operator==(const ProbePlace&, const ProbePlace&) = default;
+};
+
+/// GEN or VIZ of some probes of a set.
+struct ProbeJob {
+  SceneRef scene;
+  gi::BakeStage stage = gi::BakeStage::gen;
+  int degree = 9;
+  int face_size = 64;
+  scene::PathParams path;    ///< `seed` is the set's; each probe derives its own from it and its index
+  gi::VizParams viz_params;  ///< VIZ: which edges, and whether with T_{j→i}
+  std::vector<std::uint32_t> probes;  ///< indices in the set, ascending
+  /// GEN: the places of `probes`, in that order. VIZ: those of the whole set.
+  std::vector<ProbePlace> places;
+};
+
+/// Probes that light a render's first hits.
+struct ProbeLighting {
+  Hash128 probes;  ///< blob: a binary probe file, served beside the scene
+  std::uint64_t bytes = 0;
+  std::string lookup = "irradiance";  ///< or light
+  std::string weights;                ///< as `ssphh render --weights`; empty: the default
+  std::string layer = "sum";          ///< or self
+};
+
+/// Tiles of a picture: REF, and G-buffers where `layers` ask for what is seen instead of its light.
+struct TileJob {
+  SceneRef scene;
+  trace::RenderParams params;  ///< `tile` is not used
+  std::vector<trace::Tile> tiles;
+  std::vector<std::string> layers;  ///< of layer_names(), in that order
+  std::optional<ProbeLighting> lighting;
+};
+
+/// "color", "direct", "indirect", "albedo", "normal", "depth", "coverage", "groups": the images of a
+/// RenderState.
+const std::vector<std::string>& layer_names();
+
+using Job = std::variant<ProbeJob, TileJob>;
+
+struct ProbeJobResult {
+  gi::BakeStage stage = gi::BakeStage::gen;
+  int degree = 9;
+  std::vector<gi::ProbeStageResult> probes;  ///< in the order of the job
+};
+
+struct TileResult {
+  trace::Tile tile;
+  /// Sums over the passes, images of the tile's size; those that were not asked for are empty.
+  trace::RenderState state;
+};
+
+struct TileJobResult {
+  std::vector<TileResult> tiles;  ///< in the order of the job
+};
+
+/// What the job took: no part of the result.
+struct JobStats {
+  double seconds = 0;
+  std::uint64_t rays = 0;
+  std::string worker;
+};
+
+struct JobResult {
+  std::variant<ProbeJobResult, TileJobResult> data;
+  JobStats stats;
+};
+
+/// Limits of one job, checked when it is read.
+namespace job_limits {
+inline constexpr std::size_t units = 4096;    ///< probes or tiles
+inline constexpr std::size_t places = 65536;  ///< of a set
+inline constexpr int picture_size = 65536;    ///< pixels along an edge
+inline constexpr int tile_size = 1024;
+inline constexpr std::uint64_t samples = std::uint64_t{1} << 40;  ///< paths of one job
+}  // namespace job_limits
+
+/// Throws Error for numbers outside their ranges: what no client may send.
+void validate(const Job& job);
+
+}  // namespace ssphh::farm

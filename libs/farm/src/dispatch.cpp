@@ -1,0 +1,157 @@
+#include <chrono>
+#include <numeric>
+#include <unordered_map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <ssphh/core/log.h>
+#include <ssphh/farm/dispatch.h>
+#include <ssphh/farm/engine.h>
+#include <ssphh/farm/job_cutter.h>
+
+namespace ssphh::farm {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using majordomo::ClientEvent;
+using majordomo::RequestId;
+
+constexpr majordomo::Millis look = 200;  // for a cancel, and for what the broker says of its workers
+
+class Dispatcher {
+ public:
+  Dispatcher(const FarmOptions& options, const std::vector<UnitGroup>& groups, FarmReport& report,
+             const std::function<void(std::size_t, const FarmReport&)>& finished)
+      : groups_(groups), report_(report), finished_(finished), client_(client_options(options.broker)) {
+    for (const UnitGroup& group : groups) {
+      next_.push_back(0);
+      cutters_.emplace_back(options.job_seconds);
+      left_ += group.count;
+    }
+  }
+
+  void run(const Control& control) {
+    const auto start = Clock::now();
+    auto asked = start - std::chrono::hours(1);
+    while (left_ > 0) {
+      control.check();
+      if (Clock::now() - asked > std::chrono::seconds(1) && !asking_) {
+        majordomo::RequestOptions request;
+        request.deadline = 5000;
+        asking_ = client_.submit("mmi.stats", {""}, request);
+        asked = Clock::now();
+      }
+      submit_more();
+      if (auto event = client_.poll(look)) take(std::move(*event));
+      complain(start);
+    }
+  }
+
+ private:
+  struct Sent {
+    std::size_t group = 0;
+    std::vector<std::size_t> units;
+  };
+
+  static majordomo::ClientOptions client_options(const BrokerAddress& broker) {
+    majordomo::ClientOptions options;
+    options.endpoint = broker.endpoint;
+    options.security = broker.security;
+    return options;
+  }
+
+  /// Two jobs for each worker, so that none waits for the next one.
+  void submit_more() {
+    const auto window = std::max<std::size_t>(4, 2 * static_cast<std::size_t>(workers_));
+    for (std::size_t g = 0; g < groups_.size() && sent_.size() < window; ++g) {
+      while (next_[g] < groups_[g].count && sent_.size() < window) {
+        Sent job{g, {}};
+        const std::size_t left = groups_[g].count - next_[g];
+        job.units.resize(cutters_[g].next(left, static_cast<std::size_t>(workers_)));
+        std::iota(job.units.begin(), job.units.end(), next_[g]);
+        next_[g] += job.units.size();
+        std::string body = groups_[g].body(job.units);
+        majordomo::RequestOptions request;
+        request.content_key = Hasher().text(body).finish();
+        const RequestId id = client_.submit(job_service(), {std::move(body)}, request);
+        sent_.emplace(id, std::move(job));
+        ++report_.jobs;
+      }
+    }
+  }
+
+  void take(ClientEvent event) {
+    if (asking_ && event.id == *asking_) {
+      asking_.reset();
+      if (event.outcome == majordomo::Outcome::ok) take_stats(event.body);
+      return;
+    }
+    const auto found = sent_.find(event.id);
+    if (found == sent_.end() || !event.final) return;
+    const Sent job = std::move(found->second);
+    sent_.erase(found);
+    if (event.attempts > 1) report_.retries += static_cast<std::uint64_t>(event.attempts - 1);
+    if (event.outcome != majordomo::Outcome::ok) {
+      throw Error("the farm", fmt::format("a job of {} units ended as \"{}\": {}", job.units.size(),
+                                          to_string(event.outcome), event.reason));
+    }
+    if (event.body.empty()) throw Error("the farm", "a worker answered without a result");
+    JobResult result = decode_result(event.body[0]);
+    cutters_[job.group].learn(job.units.size(), result.stats.seconds);
+    report_.compute_seconds += result.stats.seconds;
+    groups_[job.group].done(job.units, std::move(result));
+    left_ -= job.units.size();
+    heard_ = true;
+    finished_(job.units.size(), report_);
+  }
+
+  void take_stats(const majordomo::Frames& body) {
+    if (body.size() < 2 || body[0] != "200") return;
+    const auto stats = nlohmann::json::parse(body[1], nullptr, false);
+    if (!stats.is_object() || !stats.contains("services") || !stats["services"].is_array()) return;
+    workers_ = 0;
+    for (const auto& service : stats["services"]) {
+      if (service.is_object() && service.value("name", "") == job_service())
+        workers_ = service.value("workers", 0);
+    }
+    known_ = true;
+    report_.workers = std::max(report_.workers, workers_);
+  }
+
+  /// Says once what it waits for.
+  void complain(Clock::time_point start) {
+    if (complained_ || heard_ || Clock::now() - start < std::chrono::seconds(5)) return;
+    if (!client_.connected()) {
+      log_warning("the broker does not answer yet; still trying");
+    } else if (known_ && workers_ == 0) {
+      log_warning("the broker has no worker of this build (engine {}); jobs wait for one", engine_id());
+    } else {
+      return;
+    }
+    complained_ = true;
+  }
+
+  const std::vector<UnitGroup>& groups_;
+  FarmReport& report_;
+  const std::function<void(std::size_t, const FarmReport&)>& finished_;
+  majordomo::Client client_;
+  std::vector<std::size_t> next_;  ///< first unit of each group that no job has
+  std::vector<JobCutter> cutters_;
+  std::unordered_map<RequestId, Sent> sent_;
+  std::optional<RequestId> asking_;
+  std::size_t left_ = 0;
+  int workers_ = 0;
+  bool known_ = false, heard_ = false, complained_ = false;
+};
+
+}  // namespace
+
+void dispatch(const FarmOptions& options, const std::vector<UnitGroup>& groups, FarmReport& report,
+              const std::function<void(std::size_t, const FarmReport&)>& finished, const Control& control) {
+  const auto start = Clock::now();
+  Dispatcher(options, groups, report, finished).run(control);
+  report.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace ssphh::farm

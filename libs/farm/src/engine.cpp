@@ -1,0 +1,47 @@
+#include <ssphh/farm/engine.h>
+#include <ssphh/gi/bake.h>
+#include <ssphh/gi/init.h>
+#include <ssphh/scene/builtin.h>
+#include <ssphh/trace/path_tracer.h>
+
+namespace ssphh::farm {
+
+extern const char* const source_id;  // made by cmake/SourceId.cmake
+
+namespace {
+
+void add(Hasher& hasher, const std::vector<gi::GroupLight>& groups) {
+  for (const gi::GroupLight& light : groups) hasher.array(light.emitted.values).array(light.reflected.values);
+}
+
+std::string compute_id() {
+  Hasher hasher;
+  hasher.text(source_id);
+  const scene::Scene scene = scene::make_builtin("gallery1");
+  const trace::PathTracer tracer(scene);
+  gi::ProbeSet set = gi::init_from_scene(scene, 4);
+  set.generator.face_size = 6;
+  set.generator.max_depth = 4;
+  set.generator.spp = 4;
+  add(hasher, gi::bake_stage(tracer, set, false, {gi::BakeStage::gen, 0}).groups);
+  for (const gi::Edge& edge : gi::bake_stage(tracer, set, false, {gi::BakeStage::viz, 1}).edges)
+    hasher.array(edge.h.values);
+  return hasher.finish().hex().substr(0, 16);
+}
+
+}  // namespace
+
+const std::string& engine_id() {
+  static const std::string id = compute_id();
+  return id;
+}
+
+std::string job_service() {
+  return "ssphh.jobs." + engine_id();
+}
+
+std::string blob_service(const Hash128& package) {
+  return "ssphh.blobs." + package.hex();
+}
+
+}  // namespace ssphh::farm

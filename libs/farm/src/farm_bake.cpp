@@ -1,0 +1,149 @@
+#include <fmt/format.h>
+
+#include <ssphh/core/log.h>
+#include <ssphh/farm/engine.h>
+#include <ssphh/farm/farm_bake.h>
+#include <ssphh/scene/query.h>
+
+#include "farm_progress.h"
+#include "result_cache.h"
+
+namespace ssphh::farm {
+namespace {
+
+using gi::BakeStage;
+using gi::ProbeStage;
+using gi::ProbeStageResult;
+
+/// The job of all of the set's places, without probes.
+ProbeJob job_template(const gi::ProbeSet& set, const gi::VizParams& viz_params, BakeStage stage,
+                      const SceneRef& scene) {
+  const gi::GeneratorInfo& g = set.generator;
+  ProbeJob job;
+  job.scene = scene;
+  job.stage = stage;
+  job.degree = set.degree;
+  job.face_size = g.face_size;
+  job.path = {g.max_depth, g.passes, g.spp, g.seed};
+  job.viz_params = viz_params;
+  for (const gi::Probe& probe : set.probes) job.places.push_back({probe.position, probe.radius});
+  return job;
+}
+
+/// The probes' own places for GEN, all of them for VIZ.
+ProbeJob job_of(const ProbeJob& all, std::vector<std::uint32_t> probes) {
+  ProbeJob job = all;
+  if (job.stage == BakeStage::gen) {
+    job.places.clear();
+    for (const std::uint32_t probe : probes) job.places.push_back(all.places[probe]);
+  }
+  job.probes = std::move(probes);
+  return job;
+}
+
+void add(Hasher& h, const ProbePlace& place) {
+  for (int c = 0; c < 3; ++c) h.value(place.position[c]);
+  h.value(place.radius);
+}
+
+/// Everything that decides one probe's result.
+Hash128 unit_key(const ProbeJob& all, std::uint32_t probe) {
+  Hasher h;
+  h.text("probe").text(engine_id()).value(job_version).value(all.stage);
+  h.value(all.scene.light.high).value(all.scene.light.low).value(all.scene.time);
+  h.value(all.degree).value(all.face_size).value(all.path.max_depth).value(all.path.passes);
+  h.value(all.path.spp).value(all.path.seed).value(probe);
+  if (all.stage == BakeStage::gen) {
+    add(h, all.places[probe]);
+  } else {
+    const gi::VizParams& viz = all.viz_params;
+    h.value(viz.matrix).value(viz.neighbors).value(viz.threshold);
+    for (const ProbePlace& place : all.places) add(h, place);
+  }
+  return h.finish();
+}
+
+/// Whether a result answers the probes that were asked for.
+bool answers(const ProbeJob& all, std::span<const ProbeStage> stages, std::size_t light_groups,
+             const ProbeJobResult& result) {
+  if (result.stage != all.stage || result.degree != all.degree || result.probes.size() != stages.size())
+    return false;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const ProbeStageResult& r = result.probes[i];
+    if (r.done != stages[i]) return false;
+    if (all.stage == BakeStage::gen && r.groups.size() != light_groups) return false;
+    for (const gi::Edge& edge : r.edges) {
+      const auto from = static_cast<std::size_t>(edge.from);
+      if (from >= all.places.size() || from == r.done.probe) return false;
+      if (edge.matrix.values.empty() == all.viz_params.matrix) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+void FarmCrew::run(const gi::ProbeSet& set, const gi::BakeParams& params, std::span<const ProbeStage> stages,
+                   const std::function<void(ProbeStageResult)>& done, const Control& control) {
+  if (stages.empty()) return;
+  if (set.probes.size() > job_limits::places)
+    throw Error("the farm", fmt::format("bakes at most {} probes", job_limits::places));
+  ScenePackage package = pack_scene(scene_);
+  const SceneRef scene{package.id, package.manifest.size(), scene::light_hash(scene_), time_};
+  FarmProgress progress(control, "bake", stages.size(), "probe steps");
+  report_.units += stages.size();
+
+  struct Group {
+    ProbeJob all;
+    std::vector<ProbeStage> left;
+  };
+  std::vector<Group> groups;
+  for (const BakeStage stage : {BakeStage::gen, BakeStage::viz})
+    groups.push_back({job_template(set, params.viz_params, stage, scene), {}});
+  const std::size_t light_groups = set.light_groups.size();
+
+  // Take what is known.
+  std::size_t cached = 0;
+  for (const ProbeStage& stage : stages) {
+    Group& group = groups[stage.stage == BakeStage::viz];
+    auto known = find_result(options_.results, unit_key(group.all, stage.probe));
+    auto* result = known ? std::get_if<ProbeJobResult>(&known->data) : nullptr;
+    if (result && answers(group.all, std::span(&stage, 1), light_groups, *result)) {
+      done(std::move(result->probes[0]));
+      ++cached;
+    } else {
+      group.left.push_back(stage);
+    }
+  }
+  report_.cached += cached;
+  progress.cached(cached);
+  if (cached == stages.size()) return;
+
+  const BlobServer server(options_.broker, std::move(package));
+  std::vector<UnitGroup> work;
+  for (Group& group : groups) {
+    UnitGroup& units = work.emplace_back();
+    units.count = group.left.size();
+    units.body = [this, &group](std::span<const std::size_t> which) {
+      std::vector<std::uint32_t> probes;
+      for (const std::size_t i : which) probes.push_back(group.left[i].probe);
+      return encode_job(job_of(group.all, std::move(probes)), options_.content);
+    };
+    units.done = [this, &group, &done, light_groups](std::span<const std::size_t> which, JobResult result) {
+      const auto asked = std::span(group.left).subspan(which.front(), which.size());
+      auto* probes = std::get_if<ProbeJobResult>(&result.data);
+      if (!probes || !answers(group.all, asked, light_groups, *probes))
+        throw Error("worker " + result.stats.worker, "its result does not answer the job");
+      for (ProbeStageResult& probe : probes->probes) {
+        keep_result(options_.results, unit_key(group.all, probe.done.probe),
+                    {ProbeJobResult{group.all.stage, group.all.degree, {probe}}, {}});
+        done(std::move(probe));
+      }
+    };
+  }
+  dispatch(
+      options_, work, report_,
+      [&](std::size_t units, const FarmReport& report) { progress.finished(units, report); }, control);
+}
+
+}  // namespace ssphh::farm

@@ -1,0 +1,131 @@
+#include <ssphh/farm/engine.h>
+#include <ssphh/farm/farm_render.h>
+#include <ssphh/gi/probe_file.h>
+#include <ssphh/scene/query.h>
+
+#include "farm_progress.h"
+#include "result_cache.h"
+
+namespace ssphh::farm {
+namespace {
+
+std::vector<trace::Tile> tiles_of(const trace::RenderParams& params) {
+  std::vector<trace::Tile> tiles;
+  for (int y = 0; y < params.height; y += tile_edge) {
+    for (int x = 0; x < params.width; x += tile_edge) {
+      tiles.push_back({x, y, std::min(tile_edge, params.width - x), std::min(tile_edge, params.height - y)});
+    }
+  }
+  return tiles;
+}
+
+/// Everything that decides a tile's pixels.
+Hash128 unit_key(const TileJob& job, const trace::Tile& tile) {
+  const Hash128 render = trace::render_key(job.scene.light, job.scene.time, job.params);
+  Hasher h;
+  h.text("tile").text(engine_id()).value(job_version).value(render.high).value(render.low);
+  h.value(job.params.path.passes).value(tile.x).value(tile.y).value(tile.width).value(tile.height);
+  for (const std::string& layer : job.layers) h.text(layer);
+  if (job.lighting) {
+    const ProbeLighting& l = *job.lighting;
+    h.value(l.probes.high).value(l.probes.low).text(l.lookup).text(l.weights).text(l.layer);
+  }
+  return h.finish();
+}
+
+/// Puts a tile into the picture, with black for the layers that were not asked for. False when the result
+/// does not answer the job.
+bool store(trace::RenderState& picture, const TileJob& job, const trace::Tile& tile, std::size_t groups,
+           const TileResult& result) {
+  if (result.tile != tile || result.state.passes_done != job.params.path.passes) return false;
+  trace::RenderParams params = job.params;
+  params.tile = tile;
+  trace::RenderState part = trace::empty_state(params, groups);
+  const auto wanted = [&](const char* name) {
+    return std::ranges::find(job.layers, name) != job.layers.end();
+  };
+  bool whole = true;
+  const auto take = [&](const char* name, image::Image& to, const image::Image& from) {
+    if (from.empty() == wanted(name)) whole = false;
+    if (!from.empty()) to = from;
+  };
+  const trace::RenderState& s = result.state;
+  take("color", part.color, s.color), take("direct", part.direct, s.direct);
+  take("indirect", part.indirect, s.indirect), take("albedo", part.albedo, s.albedo);
+  take("normal", part.normal, s.normal), take("depth", part.depth, s.depth);
+  take("coverage", part.coverage, s.coverage);
+  if (s.groups.size() != part.groups.size()) return false;
+  part.groups = s.groups;
+  part.paths = s.paths, part.rays = s.rays;
+  if (whole) trace::paste(picture, part, tile);
+  return whole;
+}
+
+}  // namespace
+
+trace::RenderState render(const FarmOptions& options, const scene::Scene& scene, float time,
+                          const trace::RenderParams& params, const std::optional<RenderProbes>& probes,
+                          const std::vector<std::string>& layers, FarmReport& report,
+                          const Control& control) {
+  // Describe the render and what goes with it.
+  ScenePackage package = pack_scene(scene);
+  TileJob job;
+  job.scene = {package.id, package.manifest.size(), scene::light_hash(scene), time};
+  job.params = params;
+  job.layers = layers;
+  std::vector<Blob> more;
+  if (probes) {
+    Blob& blob = more.emplace_back(Blob{{}, gi::probes_to_binary(*probes->set)});
+    blob.hash = content_hash(blob.bytes);
+    job.lighting = {blob.hash, blob.bytes.size(), probes->lookup, probes->weights, probes->layer};
+  }
+  const std::vector<trace::Tile> tiles = tiles_of(params);
+  job.tiles = {tiles.front()};
+  validate(job);
+  const std::size_t groups = scene::light_groups(scene).size();
+  trace::RenderState picture = trace::empty_state(params, groups);
+  FarmProgress progress(control, "render", tiles.size(), "tiles");
+  report.units += tiles.size();
+
+  // Take what is known.
+  std::vector<trace::Tile> left;
+  for (const trace::Tile& tile : tiles) {
+    const auto known = find_result(options.results, unit_key(job, tile));
+    const auto* result = known ? std::get_if<TileJobResult>(&known->data) : nullptr;
+    if (!result || result->tiles.size() != 1 || !store(picture, job, tile, groups, result->tiles[0]))
+      left.push_back(tile);
+  }
+  report.cached += tiles.size() - left.size();
+  progress.cached(tiles.size() - left.size());
+
+  if (!left.empty()) {
+    const BlobServer server(options.broker, std::move(package), std::move(more));
+    UnitGroup units;
+    units.count = left.size();
+    units.body = [&](std::span<const std::size_t> which) {
+      TileJob some = job;
+      some.tiles.assign(left.begin() + static_cast<std::ptrdiff_t>(which.front()),
+                        left.begin() + static_cast<std::ptrdiff_t>(which.front() + which.size()));
+      return encode_job(some, options.content);
+    };
+    units.done = [&](std::span<const std::size_t> which, JobResult result) {
+      auto* done = std::get_if<TileJobResult>(&result.data);
+      bool good = done && done->tiles.size() == which.size();
+      for (std::size_t i = 0; good && i < which.size(); ++i) {
+        good = store(picture, job, left[which[i]], groups, done->tiles[i]);
+        if (good) {
+          keep_result(options.results, unit_key(job, left[which[i]]),
+                      {TileJobResult{{std::move(done->tiles[i])}}, {}});
+        }
+      }
+      if (!good) throw Error("worker " + result.stats.worker, "its result does not answer the job");
+    };
+    dispatch(
+        options, {units}, report,
+        [&](std::size_t count, const FarmReport& so_far) { progress.finished(count, so_far); }, control);
+  }
+  picture.passes_done = params.path.passes;
+  return picture;
+}
+
+}  // namespace ssphh::farm

@@ -1,0 +1,91 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <ssphh/farm/job.h>
+
+namespace ssphh::farm {
+namespace {
+
+void require(bool condition, const std::string& where, const std::string& problem) {
+  if (!condition) throw Error("job: " + where, problem);
+}
+
+std::uint64_t samples_of(const scene::PathParams& path) {
+  require(path.max_depth >= 0 && path.max_depth <= 65535, "max_depth", "must lie in 0..65535");
+  require(path.passes >= 1 && path.passes <= 1 << 24, "passes", "must lie in 1..2^24");
+  require(path.spp >= 1 && path.spp <= 1 << 24, "spp", "must lie in 1..2^24");
+  const auto samples = static_cast<std::uint64_t>(path.passes) * static_cast<std::uint64_t>(path.spp);
+  require(samples <= UINT32_MAX, "passes", "more than 2^32 samples per pixel");
+  return samples;
+}
+
+void check(const SceneRef& scene) {
+  require(std::isfinite(scene.time), "scene/time", "must be finite");
+}
+
+void check(const ProbeJob& job) {
+  check(job.scene);
+  require(job.degree >= 0 && job.degree <= sh::max_degree, "degree", "must lie in 0..10");
+  require(job.face_size >= 1 && job.face_size <= 4096, "face_size", "must lie in 1..4096");
+  require(!job.probes.empty() && job.probes.size() <= job_limits::units, "probes", "must be 1 to 4096");
+  const auto face = static_cast<std::uint64_t>(job.face_size);
+  require(samples_of(job.path) <= job_limits::samples / (6 * face * face * job.probes.size()), "probes",
+          "the job is too long: more than 2^40 paths");
+  const bool viz = job.stage == gi::BakeStage::viz;
+  require(viz || job.places.size() == job.probes.size(), "places", "must be one for each probe");
+  require(job.places.size() <= job_limits::places, "places", "must be at most 65536");
+  for (std::size_t i = 0; i < job.probes.size(); ++i) {
+    require(i == 0 || job.probes[i] > job.probes[i - 1], "probes", "must ascend");
+    require(job.probes[i] < (viz ? job.places.size() : job_limits::places), "probes",
+            "an index is out of range");
+  }
+  for (const ProbePlace& place : job.places) {
+    require(is_finite(place.position), "places", "a position is not finite");
+    require(place.radius > 0 && std::isfinite(place.radius), "places", "a radius is not positive");
+  }
+}
+
+void check(const TileJob& job) {
+  check(job.scene);
+  const trace::RenderParams& p = job.params;
+  const auto edge = [](int pixels) { return pixels >= 1 && pixels <= job_limits::picture_size; };
+  require(edge(p.width) && edge(p.height), "width", "width and height must lie in 1..65536");
+  require(!job.tiles.empty() && job.tiles.size() <= job_limits::units, "tiles", "must be 1 to 4096");
+  std::uint64_t pixels = 0;
+  for (const trace::Tile& t : job.tiles) {
+    require(t.x >= 0 && t.y >= 0 && t.width >= 1 && t.height >= 1 && t.width <= job_limits::tile_size &&
+                t.height <= job_limits::tile_size && t.x <= p.width - t.width && t.y <= p.height - t.height,
+            "tiles", "one lies outside the picture or is over 1024 pixels wide");
+    pixels += static_cast<std::uint64_t>(t.width) * static_cast<std::uint64_t>(t.height);
+  }
+  require(pixels <= std::uint64_t{1} << 22, "tiles", "more than 2^22 pixels");
+  require(samples_of(p.path) <= job_limits::samples / pixels, "tiles",
+          "the job is too long: more than 2^40 paths");
+  std::size_t next = 0;
+  for (const std::string& layer : job.layers) {
+    while (next < layer_names().size() && layer_names()[next] != layer) ++next;
+    require(next < layer_names().size(), "layers", "unknown, doubled or out of order: " + layer);
+    ++next;
+  }
+  require(!job.layers.empty(), "layers", "there are none");
+  require((job.layers.back() == "groups") == p.per_group, "layers", "groups go with per_group");
+  if (!job.lighting) return;
+  const ProbeLighting& l = *job.lighting;
+  require(l.lookup == "irradiance" || l.lookup == "light", "lighting/lookup", "must be irradiance or light");
+  require(l.layer == "sum" || l.layer == "self", "lighting/layer", "must be sum or self");
+}
+
+}  // namespace
+
+const std::vector<std::string>& layer_names() {
+  static const std::vector<std::string> names = {"color",  "direct", "indirect", "albedo",
+                                                 "normal", "depth",  "coverage", "groups"};
+  return names;
+}
+
+void validate(const Job& job) {
+  std::visit([](const auto& j) { check(j); }, job);
+}
+
+}  // namespace ssphh::farm

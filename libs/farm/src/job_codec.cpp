@@ -1,0 +1,364 @@
+#include <fmt/format.h>
+
+#include "message.h"
+
+namespace ssphh::farm {
+namespace {
+
+constexpr const char* projection_names[] = {"pinhole", "orthographic", "equirect", "cube_strip"};
+
+// --- scene and paths
+
+Json put(const SceneRef& scene) {
+  return {{"package", scene.package.hex()},
+          {"manifest_bytes", scene.manifest_bytes},
+          {"light_hash", scene.light.hex()},
+          {"time", exact(scene.time)}};
+}
+
+SceneRef get_scene(const Field& f) {
+  SceneRef scene;
+  scene.package = f["package"].hash();
+  scene.manifest_bytes = static_cast<std::uint64_t>(f["manifest_bytes"].integer(1, std::int64_t{1} << 40));
+  scene.light = f["light_hash"].hash();
+  scene.time = f["time"].number();
+  return scene;
+}
+
+Json put(const scene::PathParams& path) {
+  return {{"max_depth", path.max_depth},
+          {"passes", path.passes},
+          {"spp", path.spp},
+          {"seed", fmt::format("{:x}", path.seed)}};
+}
+
+scene::PathParams get_path(const Field& f) {
+  const auto number = [&](const char* key) { return static_cast<int>(f[key].integer(0, INT32_MAX)); };
+  return {number("max_depth"), number("passes"), number("spp"), f["seed"].hex64()};
+}
+
+// --- probes
+
+Json put(const ProbeJob& job, MessageWriter& out) {
+  Json places = Json::array();
+  if (job.places.size() > 0) {
+    std::vector<float> values;
+    for (const ProbePlace& p : job.places)
+      values.insert(values.end(), {p.position.x, p.position.y, p.position.z, p.radius});
+    places = out.floats(values);
+  }
+  return {{"scene", put(job.scene)},
+          {"degree", job.degree},
+          {"face_size", job.face_size},
+          {"path", put(job.path)},
+          {"viz",
+           {{"matrix", job.viz_params.matrix},
+            {"neighbors", job.viz_params.neighbors},
+            {"threshold", exact(job.viz_params.threshold)}}},
+          {"probes", job.probes},
+          {"places", places}};
+}
+
+ProbeJob get_probe_job(const Field& f, gi::BakeStage stage) {
+  ProbeJob job;
+  job.stage = stage;
+  job.scene = get_scene(f["scene"]);
+  job.degree = static_cast<int>(f["degree"].integer(0, sh::max_degree));
+  job.face_size = static_cast<int>(f["face_size"].integer(1, 4096));
+  job.path = get_path(f["path"]);
+  const Field viz = f["viz"];
+  job.viz_params = {viz["matrix"].flag(), static_cast<int>(viz["neighbors"].integer(-1, INT32_MAX)),
+                    viz["threshold"].number()};
+  const Field probes = f["probes"];
+  const std::size_t count = probes.size(job_limits::units);
+  for (std::size_t i = 0; i < count; ++i)
+    job.probes.push_back(static_cast<std::uint32_t>(probes.at(i).integer(0, job_limits::places - 1)));
+  const Field places = f["places"];
+  const std::size_t floats = places.float_count();
+  if (floats % 4 != 0 || floats > 4 * job_limits::places)
+    places.fail("must be x, y, z, radius of each place");
+  std::vector<float> values(floats);
+  places.floats(values);
+  for (std::size_t i = 0; i < floats; i += 4)
+    job.places.push_back({{values[i], values[i + 1], values[i + 2]}, values[i + 3]});
+  return job;
+}
+
+Json put(const gi::ProbeStageResult& result, MessageWriter& out) {
+  Json probe = {{"probe", result.done.probe}, {"seconds", result.seconds}, {"rays", result.rays}};
+  if (result.done.stage == gi::BakeStage::gen) {
+    Json& groups = probe["groups"] = Json::array();
+    for (const gi::GroupLight& light : result.groups) {
+      groups.push_back({{"emitted", out.vectors(light.emitted.values)},
+                        {"reflected", out.vectors(light.reflected.values)}});
+    }
+    return probe;
+  }
+  Json& edges = probe["edges"] = Json::array();
+  for (const gi::Edge& edge : result.edges) {
+    Json e = {{"from", edge.from}, {"transfer", exact(edge.transfer)}, {"h", out.vectors(edge.h.values)}};
+    if (!edge.matrix.values.empty()) e["matrix"] = out.vectors(edge.matrix.values);
+    edges.push_back(std::move(e));
+  }
+  return probe;
+}
+
+sh::RadianceSh get_sh(const Field& f, int degree, bool may_be_empty) {
+  if (may_be_empty && f.float_count() == 0) return {};
+  sh::RadianceSh function(degree);
+  f.vectors(function.values);
+  return function;
+}
+
+gi::Edge get_edge(const Field& f, int degree) {
+  gi::Edge edge;
+  edge.from = static_cast<int>(f["from"].integer(0, job_limits::places - 1));
+  edge.transfer = f["transfer"].number();
+  if (!(edge.transfer >= 0 && edge.transfer <= 1)) f["transfer"].fail("must lie in 0..1");
+  edge.h = get_sh(f["h"], degree, false);
+  if (const auto matrix = f.find("matrix")) {
+    const auto k = static_cast<std::size_t>(sh::coefficient_count(degree));
+    if (matrix->float_count() != 3 * k * k) matrix->fail("has a wrong count");
+    edge.matrix = sh::TransferMatrix(degree, degree);
+    matrix->vectors(edge.matrix.values);
+  }
+  return edge;
+}
+
+gi::ProbeStageResult get_probe(const Field& f, gi::BakeStage stage, int degree) {
+  gi::ProbeStageResult result;
+  result.done = {stage, static_cast<std::uint32_t>(f["probe"].integer(0, job_limits::places - 1))};
+  result.seconds = f["seconds"].real();
+  result.rays = static_cast<std::uint64_t>(f["rays"].integer(0, INT64_MAX));
+  if (stage == gi::BakeStage::gen) {
+    const Field groups = f["groups"];
+    const std::size_t count = groups.size(256);
+    for (std::size_t g = 0; g < count; ++g) {
+      const Field light = groups.at(g);
+      result.groups.push_back(
+          {get_sh(light["emitted"], degree, true), get_sh(light["reflected"], degree, false)});
+    }
+    return result;
+  }
+  const Field edges = f["edges"];
+  const std::size_t count = edges.size(job_limits::places);
+  for (std::size_t e = 0; e < count; ++e) {
+    result.edges.push_back(get_edge(edges.at(e), degree));
+    if (e > 0 && result.edges[e].from <= result.edges[e - 1].from) edges.fail("must ascend by \"from\"");
+  }
+  return result;
+}
+
+// --- tiles
+
+Json put(const trace::Tile& t) {
+  return Json::array({t.x, t.y, t.width, t.height});
+}
+
+trace::Tile get_tile(const Field& f) {
+  if (f.size(4) != 4) f.fail("must be [x, y, width, height]");
+  const auto n = [&](std::size_t i) {
+    return static_cast<int>(f.at(i).integer(0, job_limits::picture_size));
+  };
+  return {n(0), n(1), n(2), n(3)};
+}
+
+Json put(const TileJob& job, MessageWriter& out) {
+  const trace::RenderParams& p = job.params;
+  const scene::Camera& camera = p.camera.camera;
+  Json tiles = Json::array();
+  for (const trace::Tile& tile : job.tiles) tiles.push_back(put(tile));
+  Json document = {{"scene", put(job.scene)},
+                   {"width", p.width},
+                   {"height", p.height},
+                   {"camera",
+                    {{"world", out.floats({&p.camera.world[0][0], 16})},
+                     {"orthographic", camera.orthographic},
+                     {"yfov", exact(camera.yfov)},
+                     {"yheight", exact(camera.yheight)}}},
+                   {"projection", projection_names[static_cast<int>(p.projection)]},
+                   {"path", put(p.path)},
+                   {"layers", job.layers},
+                   {"tiles", tiles}};
+  if (job.lighting) {
+    const ProbeLighting& l = *job.lighting;
+    document["lighting"] = {{"probes", l.probes.hex()},
+                            {"bytes", l.bytes},
+                            {"lookup", l.lookup},
+                            {"weights", l.weights},
+                            {"layer", l.layer}};
+  }
+  return document;
+}
+
+TileJob get_tile_job(const Field& f) {
+  TileJob job;
+  job.scene = get_scene(f["scene"]);
+  trace::RenderParams& p = job.params;
+  p.width = static_cast<int>(f["width"].integer(1, job_limits::picture_size));
+  p.height = static_cast<int>(f["height"].integer(1, job_limits::picture_size));
+  const Field camera = f["camera"];
+  camera["world"].floats({&p.camera.world[0][0], 16});
+  p.camera.camera.orthographic = camera["orthographic"].flag();
+  p.camera.camera.yfov = camera["yfov"].number();
+  p.camera.camera.yheight = camera["yheight"].number();
+  const std::string projection = f["projection"].text();
+  int choice = 0;
+  while (choice < 4 && projection != projection_names[choice]) ++choice;
+  if (choice == 4) f["projection"].fail("must be pinhole, orthographic, equirect or cube_strip");
+  p.projection = static_cast<trace::Projection>(choice);
+  p.path = get_path(f["path"]);
+  const Field layers = f["layers"];
+  for (std::size_t i = 0, n = layers.size(layer_names().size()); i < n; ++i)
+    job.layers.push_back(layers.at(i).text(32));
+  p.per_group = !job.layers.empty() && job.layers.back() == "groups";
+  const Field tiles = f["tiles"];
+  for (std::size_t i = 0, n = tiles.size(job_limits::units); i < n; ++i)
+    job.tiles.push_back(get_tile(tiles.at(i)));
+  if (const auto l = f.find("lighting")) {
+    job.lighting = {(*l)["probes"].hash(),
+                    static_cast<std::uint64_t>((*l)["bytes"].integer(1, std::int64_t{1} << 40)),
+                    (*l)["lookup"].text(32), (*l)["weights"].text(32), (*l)["layer"].text(32)};
+  }
+  return job;
+}
+
+Json put(const TileResult& result, MessageWriter& out) {
+  const trace::RenderState& state = result.state;
+  Json layers = Json::object();
+  const auto add = [&](const char* name, const image::Image& image, int) {
+    if (!image.empty()) layers[name] = out.floats(image.pixels);
+  };
+  add("color", state.color, 3), add("direct", state.direct, 3), add("indirect", state.indirect, 3);
+  add("albedo", state.albedo, 3), add("normal", state.normal, 3), add("depth", state.depth, 1);
+  add("coverage", state.coverage, 1);
+  if (!state.groups.empty()) {
+    Json& groups = layers["groups"] = Json::array();
+    for (const image::Image& group : state.groups) groups.push_back(out.floats(group.pixels));
+  }
+  return {{"tile", put(result.tile)},
+          {"passes", state.passes_done},
+          {"paths", state.paths},
+          {"rays", state.rays},
+          {"layers", layers}};
+}
+
+TileResult get_tile_result(const Field& f) {
+  TileResult result;
+  result.tile = get_tile(f["tile"]);
+  const trace::Tile& t = result.tile;
+  if (t.width < 1 || t.height < 1 || t.width > job_limits::tile_size || t.height > job_limits::tile_size)
+    f["tile"].fail("must be 1 to 1024 pixels wide and high");
+  const auto pixels = static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height);
+  const auto read = [&](const Field& layer, int channels) {
+    if (layer.float_count() != pixels * static_cast<std::size_t>(channels)) layer.fail("has a wrong count");
+    image::Image image(t.width, t.height, channels);
+    layer.floats(image.pixels);
+    return image;
+  };
+  trace::RenderState& state = result.state;
+  state.passes_done = static_cast<int>(f["passes"].integer(0, INT32_MAX));
+  state.paths = static_cast<std::uint64_t>(f["paths"].integer(0, INT64_MAX));
+  state.rays = static_cast<std::uint64_t>(f["rays"].integer(0, INT64_MAX));
+  const Field layers = f["layers"];
+  const auto take = [&](const char* name, image::Image& image, int channels) {
+    if (const auto layer = layers.find(name)) image = read(*layer, channels);
+  };
+  take("color", state.color, 3), take("direct", state.direct, 3), take("indirect", state.indirect, 3);
+  take("albedo", state.albedo, 3), take("normal", state.normal, 3), take("depth", state.depth, 1);
+  take("coverage", state.coverage, 1);
+  if (const auto groups = layers.find("groups")) {
+    for (std::size_t g = 0, n = groups->size(256); g < n; ++g) state.groups.push_back(read(groups->at(g), 3));
+  }
+  return result;
+}
+
+// --- both
+
+std::string kind_of(const Job& job) {
+  if (const auto* probes = std::get_if<ProbeJob>(&job))
+    return probes->stage == gi::BakeStage::gen ? "gen" : "viz";
+  return "ref";
+}
+
+void check_head(const Field& root, const char* format) {
+  if (root["format"].text() != format) root["format"].fail(fmt::format("must be \"{}\"", format));
+  const std::int64_t version = root["version"].integer(0, INT32_MAX);
+  if (version != job_version) {
+    root["version"].fail(fmt::format("is {}; this program reads version {}", version, job_version));
+  }
+}
+
+}  // namespace
+
+std::string encode_job(const Job& job, ContentType type) {
+  validate(job);
+  MessageWriter out(type);
+  Json document = {{"format", "ssphh-job"}, {"version", job_version}, {"kind", kind_of(job)}};
+  document.update(std::visit([&](const auto& j) { return put(j, out); }, job));
+  return out.finish(document);
+}
+
+Job decode_job(std::string_view body) {
+  const Message message = parse_message(body, "job");
+  const Field root = message.root("job");
+  check_head(root, "ssphh-job");
+  const std::string kind = root["kind"].text();
+  Job job;
+  if (kind == "gen" || kind == "viz") {
+    job = get_probe_job(root, kind == "gen" ? gi::BakeStage::gen : gi::BakeStage::viz);
+  } else if (kind == "ref") {
+    job = get_tile_job(root);
+  } else {
+    root["kind"].fail("must be gen, viz or ref");
+  }
+  validate(job);
+  return job;
+}
+
+std::string encode_result(const JobResult& result, ContentType type) {
+  MessageWriter out(type);
+  Json document = {{"format", "ssphh-result"}, {"version", job_version}};
+  if (const auto* probes = std::get_if<ProbeJobResult>(&result.data)) {
+    document["kind"] = probes->stage == gi::BakeStage::gen ? "gen" : "viz";
+    document["degree"] = probes->degree;
+    Json& list = document["probes"] = Json::array();
+    for (const gi::ProbeStageResult& probe : probes->probes) list.push_back(put(probe, out));
+  } else {
+    document["kind"] = "ref";
+    Json& list = document["tiles"] = Json::array();
+    for (const TileResult& tile : std::get<TileJobResult>(result.data).tiles) list.push_back(put(tile, out));
+  }
+  document["stats"] = {
+      {"seconds", result.stats.seconds}, {"rays", result.stats.rays}, {"worker", result.stats.worker}};
+  return out.finish(document);
+}
+
+JobResult decode_result(std::string_view body) {
+  const Message message = parse_message(body, "result");
+  const Field root = message.root("result");
+  check_head(root, "ssphh-result");
+  JobResult result;
+  const std::string kind = root["kind"].text();
+  if (kind == "ref") {
+    auto& tiles = result.data.emplace<TileJobResult>().tiles;
+    const Field list = root["tiles"];
+    for (std::size_t i = 0, n = list.size(job_limits::units); i < n; ++i)
+      tiles.push_back(get_tile_result(list.at(i)));
+  } else if (kind == "gen" || kind == "viz") {
+    auto& probes = result.data.emplace<ProbeJobResult>();
+    probes.stage = kind == "gen" ? gi::BakeStage::gen : gi::BakeStage::viz;
+    probes.degree = static_cast<int>(root["degree"].integer(0, sh::max_degree));
+    const Field list = root["probes"];
+    for (std::size_t i = 0, n = list.size(job_limits::units); i < n; ++i)
+      probes.probes.push_back(get_probe(list.at(i), probes.stage, probes.degree));
+  } else {
+    root["kind"].fail("must be gen, viz or ref");
+  }
+  const Field stats = root["stats"];
+  result.stats = {stats["seconds"].real(), static_cast<std::uint64_t>(stats["rays"].integer(0, INT64_MAX)),
+                  stats["worker"].text()};
+  return result;
+}
+
+}  // namespace ssphh::farm

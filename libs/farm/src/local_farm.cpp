@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <mutex>
+#include <thread>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/core/log.h>
+#include <ssphh/core/parallel.h>
+#include <ssphh/farm/local_farm.h>
+
+namespace ssphh::farm {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string temporary_folder() {
+  std::string pattern = (fs::temp_directory_path() / "ssphh-farm-XXXXXX").string();
+  if (!::mkdtemp(pattern.data()))
+    throw Error(pattern, fmt::format("cannot be made: {}", std::strerror(errno)));
+  return pattern;
+}
+
+/// Starts the tool in a process group of its own, so that Ctrl-C reaches the parent alone, and bound to the
+/// parent's life.
+pid_t spawn(const fs::path& tool, const std::vector<std::string>& arguments, const fs::path& log) {
+  std::vector<char*> argv = {const_cast<char*>(tool.c_str())};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  const pid_t parent = ::getpid();
+  const pid_t pid = ::fork();
+  if (pid < 0) throw Error(tool.string(), fmt::format("cannot be started: {}", std::strerror(errno)));
+  if (pid > 0) return pid;
+  // Between fork and exec only what is safe in signal handlers.
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(127);
+  const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+  const int in = ::open("/dev/null", O_RDONLY);
+  ::dup2(in, STDIN_FILENO), ::dup2(out, STDOUT_FILENO), ::dup2(out, STDERR_FILENO);
+  ::execv(tool.c_str(), argv.data());
+  ::_exit(127);
+}
+
+bool ended(pid_t pid) {
+  int status = 0;
+  return ::waitpid(pid, &status, WNOHANG) != 0;
+}
+
+}  // namespace
+
+struct LocalFarm::Impl {
+  LocalFarmOptions options;
+  fs::path folder;
+  std::string endpoint;
+  pid_t broker = -1;
+  mutable std::mutex mutex;
+  std::vector<pid_t> workers;
+  int restarts = 0;
+  std::atomic<bool> stopping{false};
+  std::thread watcher;
+
+  pid_t start_worker(std::size_t i) const {
+    const auto count = static_cast<std::size_t>(options.workers);
+    const int threads = options.threads > 0 ? options.threads : std::max(1, thread_count() / options.workers);
+    return spawn(options.tool,
+                 {"worker", "--broker", endpoint, "--slots", "1", "--threads", std::to_string(threads),
+                  "--name", fmt::format("local:{}", i % count), "--cache", options.cache.string(),
+                  "--cache-size", std::to_string(std::max<std::uint64_t>(1, options.cache_bytes >> 20))},
+                 folder / fmt::format("worker-{}.log", i));
+  }
+
+  void watch() {
+    while (!stopping) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      const std::lock_guard lock(mutex);
+      if (broker > 0 && ended(broker)) {
+        log(LogLevel::error, fmt::format("the local broker has ended; its log: {}", tail("broker.log")));
+        broker = -1;
+      }
+      for (std::size_t i = 0; i < workers.size() && !stopping; ++i) {
+        if (workers[i] < 0 || !ended(workers[i])) continue;
+        const bool again = restarts < 8 * options.workers;
+        log_warning("local worker {} has ended{}", i, again ? "; it is started again" : "");
+        workers[i] = again ? start_worker(i) : -1;
+        ++restarts;
+      }
+    }
+  }
+
+  std::string tail(const char* name) const {
+    std::string text;
+    if (FILE* file = std::fopen((folder / name).c_str(), "r")) {
+      char buffer[1024];
+      std::fseek(file, -1000, SEEK_END);
+      text.assign(buffer, std::fread(buffer, 1, sizeof(buffer), file));
+      std::fclose(file);
+    }
+    return text;
+  }
+
+  void stop() {
+    stopping = true;
+    if (watcher.joinable()) watcher.join();
+    std::vector<pid_t> left;
+    for (const pid_t pid : workers)
+      if (pid > 0) left.push_back(pid);
+    if (broker > 0) left.push_back(broker);
+    // Nothing of theirs is worth keeping: finished work has been handed over.
+    for (const pid_t pid : left) {
+      ::kill(pid, SIGKILL);
+      int status;
+      while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+      }
+    }
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+  }
+};
+
+LocalFarm::LocalFarm(LocalFarmOptions options) : impl_(new Impl) {
+  Impl& s = *impl_;
+  s.options = std::move(options);
+  if (s.options.workers < 1 || s.options.workers > 1024) throw Error("--local", "must be 1 to 1024 workers");
+  s.folder = temporary_folder();
+  s.endpoint = "ipc://" + (s.folder / "broker").string();
+  try {
+    s.broker =
+        spawn(s.options.tool, {"broker", "--bind", s.endpoint, "--attempts", "5"}, s.folder / "broker.log");
+    for (int i = 0; i < s.options.workers; ++i)
+      s.workers.push_back(s.start_worker(static_cast<std::size_t>(i)));
+  } catch (...) {
+    s.stop();
+    throw;
+  }
+  s.watcher = std::thread([&s] { s.watch(); });
+}
+
+LocalFarm::~LocalFarm() {
+  impl_->stop();
+}
+
+BrokerAddress LocalFarm::address() const {
+  return {impl_->endpoint, std::nullopt};
+}
+
+std::vector<int> LocalFarm::worker_pids() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->workers;
+}
+
+}  // namespace ssphh::farm

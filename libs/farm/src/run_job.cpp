@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <chrono>
+
+#include <ssphh/farm/run_job.h>
+#include <ssphh/gi/lookup.h>
+#include <ssphh/gi/probe_file.h>
+
+namespace ssphh::farm {
+namespace {
+
+/// As much of the set as the stages look at.
+gi::ProbeSet set_of(const ProbeJob& job) {
+  gi::ProbeSet set;
+  set.degree = job.degree;
+  set.generator.max_depth = job.path.max_depth;
+  set.generator.passes = job.path.passes;
+  set.generator.spp = job.path.spp;
+  set.generator.seed = job.path.seed;
+  set.generator.face_size = job.face_size;
+  const bool viz = job.stage == gi::BakeStage::viz;
+  set.probes.resize(viz ? job.places.size() : job.probes.back() + std::size_t{1});
+  for (std::size_t i = 0; i < job.places.size(); ++i) {
+    gi::Probe& probe = set.probes[viz ? i : job.probes[i]];
+    probe.position = job.places[i].position;
+    probe.radius = job.places[i].radius;
+  }
+  return set;
+}
+
+ProbeJobResult run(const ProbeJob& job, const PreparedScene& scene, const Control& control) {
+  const gi::ProbeSet set = set_of(job);
+  ProbeJobResult result{job.stage, job.degree, {}};
+  for (const std::uint32_t probe : job.probes) {
+    control.check();
+    result.probes.push_back(gi::bake_stage(*scene.tracer, set, job.viz_params, {job.stage, probe}, control));
+  }
+  return result;
+}
+
+std::unique_ptr<scene::IndirectLight> lookup_of(const ProbeLighting& lighting,
+                                                std::span<const std::byte> file, const PreparedScene& scene) {
+  const gi::ProbeSet set = gi::probes_from_binary(file, "probes of the job");
+  gi::LookupParams params;
+  if (lighting.layer == "self") params.layer = gi::ProbeLayer::self;
+  if (lighting.lookup == "light") return std::make_unique<gi::LightLookup>(set, *scene.tracer, params);
+  params.weights = gi::weights_named(lighting.weights);
+  return std::make_unique<gi::IrradianceLookup>(set, *scene.tracer, params);
+}
+
+void keep_layers(trace::RenderState& state, const std::vector<std::string>& layers) {
+  const auto keep = [&](const char* name, auto& images) {
+    if (std::ranges::find(layers, name) == layers.end()) images = {};
+  };
+  keep("color", state.color), keep("direct", state.direct), keep("indirect", state.indirect);
+  keep("albedo", state.albedo), keep("normal", state.normal), keep("depth", state.depth);
+  keep("coverage", state.coverage), keep("groups", state.groups);
+}
+
+TileJobResult run(const TileJob& job, const PreparedScene& scene, const scene::IndirectLight* lookup,
+                  const Control& control) {
+  TileJobResult result;
+  for (const trace::Tile& tile : job.tiles) {
+    trace::RenderParams params = job.params;
+    params.tile = tile;
+    TileResult& done = result.tiles.emplace_back();
+    done.tile = tile;
+    if (lookup) {
+      scene.tracer->render_with(*lookup, params, done.state, control);
+    } else {
+      scene.tracer->render(params, done.state, control);
+    }
+    keep_layers(done.state, job.layers);
+  }
+  return result;
+}
+
+}  // namespace
+
+JobResult run_job(const Job& job, SceneStore& scenes, const FetchChunk& fetch, const Control& control) {
+  const SceneRef& ref = std::visit([](const auto& j) -> const SceneRef& { return j.scene; }, job);
+  const std::shared_ptr<const PreparedScene> scene = scenes.get(ref, fetch, control);
+  const std::uint64_t rays_before = scene->tracer->rays_traced();
+  const auto start = std::chrono::steady_clock::now();
+  JobResult result;
+  if (const auto* probes = std::get_if<ProbeJob>(&job)) {
+    result.data = run(*probes, *scene, control);
+  } else {
+    const TileJob& tiles = std::get<TileJob>(job);
+    std::unique_ptr<scene::IndirectLight> lookup;
+    if (tiles.lighting) {
+      lookup = lookup_of(*tiles.lighting,
+                         fetch_blob(scenes.cache(), ref.package, tiles.lighting->probes,
+                                    tiles.lighting->bytes, fetch, control),
+                         *scene);
+    }
+    result.data = run(tiles, *scene, lookup.get(), control);
+  }
+  result.stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.stats.rays = scene->tracer->rays_traced() - rays_before;
+  return result;
+}
+
+}  // namespace ssphh::farm

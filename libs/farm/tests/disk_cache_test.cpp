@@ -1,0 +1,131 @@
+#include <fstream>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include <ssphh/core/file.h>
+#include <ssphh/core/log.h>
+
+#include "farm_fixtures.h"
+
+namespace ssphh::farm {
+namespace {
+
+using ssphh::test::TempDir;
+
+std::vector<std::byte> value(std::size_t size, int seed) {
+  std::vector<std::byte> bytes(size);
+  for (std::size_t i = 0; i < size; ++i)
+    bytes[i] = static_cast<std::byte>(i * 7 + static_cast<unsigned>(seed));
+  return bytes;
+}
+
+Hash128 key(std::uint64_t i) {
+  return {i * 0x9e3779b97f4a7c15ull, i};
+}
+
+std::filesystem::path file_of(const TempDir& dir, const Hash128& k) {
+  return dir.path() / k.hex().substr(0, 2) / k.hex();
+}
+
+TEST(DiskCache, GivesBackWhatWasPut) {
+  const TempDir dir;
+  DiskCache cache(dir.path(), 1 << 20);
+  EXPECT_FALSE(cache.get(key(1)));
+  cache.put(key(1), value(1000, 3));
+  cache.put(key(2), {});
+  EXPECT_EQ(*cache.get(key(1)), value(1000, 3));
+  EXPECT_TRUE(cache.get(key(2))->empty());
+  EXPECT_EQ(*DiskCache(dir.path(), 1 << 20).get(key(1)), value(1000, 3)) << "another process";
+}
+
+TEST(DiskCache, DamageIsSeenAndRemoved) {
+  const TempDir dir;
+  set_log_sink([](LogLevel, const std::string&) {});
+  DiskCache cache(dir.path(), 1 << 20);
+  for (const std::size_t at : {std::size_t{0}, std::size_t{500}, std::size_t{1000}}) {
+    cache.put(key(1), value(1000, 3));
+    auto bytes = read_file(file_of(dir, key(1)));
+    bytes[at] ^= std::byte{1};
+    write_file(file_of(dir, key(1)), bytes);
+    EXPECT_FALSE(cache.get(key(1))) << at;
+    EXPECT_FALSE(cache.contains(key(1)));
+  }
+  cache.put(key(1), value(1000, 3));
+  std::filesystem::resize_file(file_of(dir, key(1)), 10);
+  EXPECT_FALSE(cache.get(key(1)));
+  EXPECT_EQ(cache.counts().damaged, 4u);
+  set_log_sink({});
+}
+
+TEST(DiskCache, StaysBelowItsBoundAndDropsWhatWasUnusedLongest) {
+  const TempDir dir;
+  DiskCache cache(dir.path(), 100'000);
+  cache.put(key(1000), value(5000, 0));
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    cache.put(key(i), value(5000, static_cast<int>(i)));
+    ASSERT_TRUE(cache.get(key(1000))) << "in use all the time, after " << i;
+    std::uint64_t bytes = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(dir.path()))
+      if (entry.is_regular_file()) bytes += entry.file_size();
+    ASSERT_LE(bytes, 100'000u + 5016u);
+  }
+  EXPECT_FALSE(cache.get(key(0)));
+  EXPECT_TRUE(cache.get(key(59)));
+  EXPECT_THROW(cache.put(key(1), value(200'000, 0)), Error);
+}
+
+TEST(DiskCache, FolderThatCannotBeMadeIsAnError) {
+  EXPECT_THROW(DiskCache("/proc/nowhere", 1000), Error);
+}
+
+TEST(FetchBlob, ContinuesWhereItWasCutOff) {
+  const TempDir dir;
+  DiskCache cache(dir.path(), 64 << 20);
+  const auto bytes = value(5 << 20, 9);
+  const Hash128 hash = content_hash(bytes);
+  std::uint64_t sent = 0;
+  bool broken = true;
+  const FetchChunk fetch = [&](const Hash128&, const Hash128&, std::uint64_t offset, std::uint64_t length) {
+    if (broken && offset >= 3u << 20) throw BlobUnavailable("the link broke");
+    sent += length;
+    const auto chunk = std::span(bytes).subspan(offset, length);
+    return std::vector<std::byte>(chunk.begin(), chunk.end());
+  };
+  EXPECT_THROW(fetch_blob(cache, {}, hash, bytes.size(), fetch, {}), BlobUnavailable);
+  broken = false;
+  EXPECT_EQ(fetch_blob(cache, {}, hash, bytes.size(), fetch, {}), bytes);
+  EXPECT_EQ(sent, bytes.size()) << "no byte travelled twice";
+  EXPECT_EQ(fetch_blob(cache, {}, hash, bytes.size(), fetch, {}), bytes);
+  EXPECT_EQ(sent, bytes.size()) << "cached";
+}
+
+TEST(FetchBlob, WhatArrivesDamagedIsRefusedAndFetchedAgain) {
+  const TempDir dir;
+  DiskCache cache(dir.path(), 64 << 20);
+  const auto bytes = value(2 << 20, 9);
+  bool damage = true;
+  const FetchChunk fetch = [&](const Hash128&, const Hash128&, std::uint64_t offset, std::uint64_t length) {
+    const auto chunk = std::span(bytes).subspan(offset, length);
+    std::vector<std::byte> copy(chunk.begin(), chunk.end());
+    if (damage) copy[77] ^= std::byte{1};
+    return copy;
+  };
+  const Hash128 hash = content_hash(bytes);
+  EXPECT_THROW(fetch_blob(cache, {}, hash, bytes.size(), fetch, {}), BlobUnavailable);
+  damage = false;
+  EXPECT_EQ(fetch_blob(cache, {}, hash, bytes.size(), fetch, {}), bytes);
+}
+
+TEST(FetchBlob, FullDiskIsThisWorkersTrouble) {
+  const TempDir dir;
+  DiskCache cache(dir.path(), 1 << 20);
+  const FetchChunk fetch = [](const Hash128&, const Hash128&, std::uint64_t, std::uint64_t length) {
+    return std::vector<std::byte>(length);
+  };
+  EXPECT_THROW(fetch_blob(cache, {}, key(1), 2 << 20, fetch, {}), BlobUnavailable);
+}
+
+}  // namespace
+}  // namespace ssphh::farm

@@ -1,0 +1,167 @@
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include <ssphh/core/log.h>
+#include <ssphh/farm/engine.h>
+#include <ssphh/farm/farm_bake.h>
+#include <ssphh/farm/job_cutter.h>
+#include <ssphh/farm/worker_pool.h>
+#include <ssphh/majordomo/broker.h>
+#include <ssphh/majordomo/worker.h>
+
+#include "farm_fixtures.h"
+
+namespace ssphh::farm {
+namespace {
+
+using ssphh::test::TempDir;
+
+TEST(JobCutter, AimsAtTheTimeAskedFor) {
+  JobCutter cutter(1.5);
+  EXPECT_EQ(cutter.next(1000, 4), 1u) << "nothing is known";
+  cutter.learn(1, 0.1);
+  EXPECT_EQ(cutter.next(1000, 4), 15u);
+  for (int i = 0; i < 50; ++i) cutter.learn(10, 0.1);
+  EXPECT_NEAR(static_cast<double>(cutter.next(100'000, 4)), 150, 3);
+  cutter.learn(1, 1e6);
+  EXPECT_EQ(cutter.next(1000, 4), 1u) << "never none";
+}
+
+TEST(JobCutter, SharesWhatIsLeftAtTheEnd) {
+  JobCutter cutter(1.5);
+  cutter.learn(1, 0.001);
+  EXPECT_EQ(cutter.next(80, 4), 10u) << "two jobs for each worker";
+  EXPECT_EQ(cutter.next(3, 4), 1u);
+  EXPECT_EQ(cutter.next(0, 4), 0u);
+  EXPECT_EQ(cutter.next(10, 0), 5u) << "workers that are not known yet";
+}
+
+/// A broker on a thread; its events are not shown.
+class BrokerThread {
+ public:
+  BrokerThread() : broker_(options()), thread_([this] { broker_.run(); }) {}
+  ~BrokerThread() {
+    broker_.stop();
+    broker_.stop();
+    thread_.join();
+  }
+  BrokerAddress address() const { return {broker_.endpoint(), std::nullopt}; }
+
+ private:
+  static majordomo::BrokerOptions options() {
+    majordomo::BrokerOptions options;
+    options.bind = "tcp://127.0.0.1:0";
+    options.on_event = [](const majordomo::BrokerEvent&) {};
+    return options;
+  }
+  majordomo::Broker broker_;
+  std::thread thread_;
+};
+
+/// Workers in this process.
+class WorkerThread {
+ public:
+  WorkerThread(const BrokerAddress& broker, const std::filesystem::path& cache, int slots)
+      : thread_([=, this] {
+          WorkerPoolOptions options;
+          options.broker = broker;
+          options.cache = cache;
+          options.cache_bytes = 64 << 20;
+          options.slots = slots;
+          options.name = "w";
+          report_ = run_workers(options, {nullptr, &stop_});
+        }) {}
+  ~WorkerThread() {
+    stop_.request();
+    thread_.join();
+  }
+
+ private:
+  CancelToken stop_;
+  WorkerPoolReport report_;
+  std::thread thread_;
+};
+
+struct Quiet {
+  Quiet() { set_log_level(LogLevel::error); }
+  ~Quiet() { set_log_level(LogLevel::info); }
+};
+
+gi::BakeParams small_bake() {
+  gi::BakeParams params;
+  params.face_size = 8;
+  params.path = {3, 1, 4, 11};
+  params.viz_params.matrix = true;
+  return params;
+}
+
+gi::ProbeSet bake(const scene::Scene& scene, gi::BakeCrew* crew) {
+  const trace::PathTracer tracer(scene);
+  gi::BakeReport report;
+  return gi::bake(tracer, gi::init_from_scene(scene, 3), small_bake(), {}, report, {}, crew);
+}
+
+TEST(Dispatch, BakeOverSocketsHasTheBitsOfALocalOne) {
+  const Quiet quiet;
+  const TempDir dir;
+  const scene::Scene scene = scene::make_builtin("gallery1");
+  const gi::ProbeSet wanted = bake(scene, nullptr);
+  BrokerThread broker;
+  WorkerThread worker(broker.address(), dir / "cache", 2);
+  for (const ContentType content : {ContentType::binary, ContentType::json}) {
+    FarmOptions options;
+    options.broker = broker.address();
+    options.content = content;
+    FarmCrew crew(options, scene, 0);
+    EXPECT_EQ(bake(scene, &crew), wanted);
+    EXPECT_EQ(crew.report().units, 12u);
+  }
+}
+
+TEST(Dispatch, KnownResultsAreNotComputedAgain) {
+  const Quiet quiet;
+  const TempDir dir;
+  const scene::Scene scene = scene::make_builtin("gallery1");
+  DiskCache results(dir / "results", 64 << 20);
+  FarmOptions options;
+  options.results = &results;
+  gi::ProbeSet first;
+  {
+    BrokerThread broker;
+    WorkerThread worker(broker.address(), dir / "cache", 1);
+    options.broker = broker.address();
+    FarmCrew crew(options, scene, 0);
+    first = bake(scene, &crew);
+    EXPECT_EQ(crew.report().cached, 0u);
+  }
+  FarmCrew crew(options, scene, 0);  // nobody serves any more
+  EXPECT_EQ(bake(scene, &crew), first);
+  EXPECT_EQ(crew.report().cached, 12u);
+  EXPECT_EQ(crew.report().jobs, 0u);
+}
+
+TEST(Dispatch, ResultThatAnswersAnotherJobIsRefused) {
+  const Quiet quiet;
+  const scene::Scene scene = scene::make_builtin("gallery1");
+  BrokerThread broker;
+  majordomo::WorkerOptions liar;
+  liar.endpoint = broker.address().endpoint;
+  liar.service = job_service();
+  majordomo::Worker worker(liar);
+  std::thread thread([&] {
+    worker.run([](const majordomo::Job&) {
+      ProbeJobResult result{gi::BakeStage::gen, 3, {}};
+      return majordomo::Frames{encode_result({result, {}}, ContentType::json)};
+    });
+  });
+  FarmOptions options;
+  options.broker = broker.address();
+  FarmCrew crew(options, scene, 0);
+  EXPECT_THROW(bake(scene, &crew), Error);
+  worker.stop();
+  thread.join();
+}
+
+}  // namespace
+}  // namespace ssphh::farm

@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <ssphh/scene_io/load.h>
+
+#include "farm_fixtures.h"
+#include "shared_scenes.h"
+
+namespace ssphh::farm {
+namespace {
+
+using test::PackedScene;
+
+scene::Scene unpacked(const ScenePackage& package) {
+  return unpack_scene(package.manifest, [&](const Hash128& hash, std::uint64_t size) {
+    for (const Blob& blob : package.blobs)
+      if (blob.hash == hash && blob.bytes.size() == size) return blob.bytes;
+    throw Error("blob", "there is none");
+  });
+}
+
+/// Equal packages are equal bits of every field.
+void expect_same(const scene::Scene& scene) {
+  const ScenePackage package = pack_scene(scene);
+  const scene::Scene back = unpacked(package);
+  EXPECT_EQ(pack_scene(back).id, package.id) << scene.name;
+  EXPECT_EQ(scene::scene_hash(back), scene::scene_hash(scene)) << scene.name;
+  EXPECT_EQ(scene::light_hash(back), scene::light_hash(scene)) << scene.name;
+}
+
+TEST(ScenePackage, BuiltinScenesComeBackBitByBit) {
+  for (const scene::BuiltinScene& builtin : scene::builtin_scenes()) expect_same(builtin.make());
+}
+
+TEST(ScenePackage, FieldsThatNoBuiltinSceneHasComeBack) {
+  scene::Scene scene = scene::make_builtin("cornell");
+  scene.name = "päck";
+  scene.ignored = {"something"};
+  scene::Texture texture{"t", 32, 32, std::vector<std::uint8_t>(32 * 32 * 4, 77)};
+  scene.textures = {texture, texture};
+  scene.materials[0].base_color_texture = {
+      1, 1, {0.5f, 0.25f}, {2, -3}, 0.5f, scene::Wrap::clamp, scene::Wrap::mirror, true};
+  scene.environment.emplace();
+  scene.environment->equirect = image::Image(64, 32);
+  scene.environment->rotation = -0.0f;
+  scene.animations.push_back(
+      {"a", {{0, scene::AnimationPath::scale, scene::Interpolation::step, {0, 1}, {vec4(1), vec4(2)}}}});
+  scene::validate(scene);
+  const ScenePackage package = pack_scene(scene);
+  std::size_t textures = 0;
+  for (const Blob& blob : package.blobs) textures += blob.bytes.size() == 32 * 32 * 4;
+  EXPECT_EQ(textures, 1u) << "equal textures travel once";
+  const scene::Scene back = unpacked(package);
+  EXPECT_EQ(back.name, scene.name);
+  EXPECT_EQ(back.ignored, scene.ignored);
+  EXPECT_TRUE(std::signbit(back.environment->rotation));
+  EXPECT_EQ(back.materials[0].base_color_texture.wrap_v, scene::Wrap::mirror);
+  expect_same(scene);
+}
+
+TEST(ScenePackage, RealScenesComeBackBitByBit) {
+  SSPHH_SHARED_SCENE(sponza, "sponza/sponza.glb");
+  expect_same(scene_io::load_scene(sponza.string()));
+}
+
+TEST(ScenePackage, BrokenManifestsAreRefused) {
+  const PackedScene packed("cornell");
+  const auto& good = packed.package.manifest;
+  const auto none = [](const Hash128&, std::uint64_t size) {
+    if (size > 1 << 16) throw Error("blob", "there is none");
+    return std::vector<std::byte>(size);
+  };
+  for (std::size_t cut = 0; cut < good.size(); cut += 7) {
+    EXPECT_THROW(unpack_scene(std::span(good).first(cut), none), Error) << cut;
+  }
+  // A flipped bit is refused, repaired or gives another scene; it never crashes.
+  int refused = 0;
+  for (std::size_t i = 8; i < good.size(); i += 13) {
+    auto bad = good;
+    bad[i] ^= std::byte{0x40};
+    try {
+      unpack_scene(bad, none);
+    } catch (const Error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 0);
+}
+
+TEST(ScenePackage, MovedLampSendsTheManifestAlone) {
+  scene::Scene scene = scene::make_builtin("gallery1");
+  const ScenePackage before = pack_scene(scene);
+  ASSERT_FALSE(scene.nodes.empty());
+  scene.nodes.back().local.translation.x += 0.5f;
+  const ScenePackage after = pack_scene(scene);
+  EXPECT_NE(before.id, after.id);
+  ASSERT_EQ(before.blobs.size(), after.blobs.size());
+  for (std::size_t i = 0; i < before.blobs.size(); ++i) EXPECT_EQ(before.blobs[i].hash, after.blobs[i].hash);
+}
+
+}  // namespace
+}  // namespace ssphh::farm

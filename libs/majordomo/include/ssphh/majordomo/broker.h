@@ -1,0 +1,53 @@
+#pragma once
+/// The Majordomo broker on a socket: BrokerCore, a ROUTER, and optionally a store, keys and a metrics
+/// endpoint.
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <ssphh/majordomo/event.h>
+#include <ssphh/majordomo/frames.h>
+#include <ssphh/majordomo/limits.h>
+#include <ssphh/majordomo/security.h>
+
+namespace ssphh::majordomo {
+
+struct BrokerOptions {
+  std::string bind = "tcp://127.0.0.1:5555";    ///< tcp port 0 or *: any free one, told by endpoint()
+  std::string metrics_bind = {};                ///< tcp endpoint for Prometheus (GET /metrics); empty: none
+  std::optional<BrokerSecurity> security = {};  ///< wanted unless is_local_endpoint(bind)
+  std::filesystem::path store = {};             ///< folder of the store; empty: nothing survives a restart
+  BrokerLimits limits = {};
+  BrokerTimers timers = {};
+  Millis drain = 10'000;  ///< how long stop() waits for requests that are running
+  /// Told every event (docs/protocol.md lists them) on the thread of run(); empty: core's log.
+  std::function<void(const BrokerEvent&)> on_event = {};
+};
+
+class Broker {
+ public:
+  /// Binds. Throws Error when the endpoint is taken, not local without keys, or the store cannot be opened.
+  explicit Broker(BrokerOptions options);
+  ~Broker();
+  Broker(const Broker&) = delete;
+  Broker& operator=(const Broker&) = delete;
+
+  /// What was bound, with the port that was found.
+  std::string endpoint() const;
+  /// Of the metrics; empty when there is none.
+  std::string metrics_endpoint() const;
+  /// Serves until stop(); then takes no new requests, waits for running ones for at most `drain`, tells the
+  /// workers and returns. Throws Error when the store fails.
+  void run();
+  /// From any thread and from signal handlers; the second call ends the waiting.
+  void stop() noexcept;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ssphh::majordomo

@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <utility>
+
+#include "state.h"
+
+namespace ssphh::majordomo {
+
+BrokerCore::BrokerCore(const BrokerLimits& limits, const BrokerTimers& timers, Random random, bool has_store)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->limits = limits;
+  impl_->times = timers;
+  impl_->random = std::move(random);
+  impl_->has_store = has_store;
+}
+
+BrokerCore::~BrokerCore() = default;
+
+void BrokerCore::Impl::set_time(Millis t) {
+  if (!std::exchange(sweeping, true)) {
+    now = started = t;
+    sweep();
+  }
+  now = std::max(now, t);
+}
+
+void BrokerCore::receive(Millis now, const std::string& peer, Frames&& frames, const Rights& rights) {
+  impl_->set_time(now);
+  impl_->receive(peer, std::move(frames), rights);
+}
+
+void BrokerCore::peer_gone(Millis now, const std::string& peer) {
+  impl_->set_time(now);
+  impl_->peer_gone(peer);
+}
+
+void BrokerCore::tick(Millis now) {
+  impl_->set_time(now);
+  impl_->timers.run(impl_->now);
+}
+
+Millis BrokerCore::next_deadline() const {
+  return std::max(impl_->now, impl_->timers.next());
+}
+
+void BrokerCore::restore(Millis now, StoredRequest&& stored) {
+  Impl& s = *impl_;
+  s.set_time(now);
+  if (stored.finished) {
+    s.keep_record(stored.id, {.service = stored.service,
+                              .outcome = stored.outcome,
+                              .reason = stored.reason,
+                              .attempts = stored.attempts,
+                              .partials = {},
+                              .reply = stored.reply,
+                              .persistent = true});
+    return;
+  }
+  s.stored_bytes += byte_count(*stored.body);
+  Envelope options;
+  options.attempt_timeout = stored.attempt_timeout;
+  s.enqueue({.id = stored.id, .route = Route::stored, .persistent = true}, "store", stored.service,
+            std::move(stored.body), options);
+}
+
+void BrokerCore::drain(Millis now) {
+  impl_->set_time(now);
+  if (std::exchange(impl_->draining, true)) return;
+  impl_->event(LogLevel::info, "broker-draining", Field("running", std::to_string(impl_->running_count)),
+               Field("queued", std::to_string(impl_->queued_count)));
+}
+
+bool BrokerCore::drained() const {
+  return impl_->draining && impl_->running_count == 0;
+}
+
+void BrokerCore::disconnect_workers(Millis now) {
+  impl_->set_time(now);
+  for (auto& [id, peer] : impl_->peers)
+    if (peer.worker) impl_->disconnect(id, peer, peer.worker->version);
+}
+
+BrokerOutputs BrokerCore::take() {
+  impl_->sums.sent += impl_->out.messages.size();
+  return std::exchange(impl_->out, {});
+}
+
+BrokerStats BrokerCore::stats() const {
+  return impl_->stats();
+}
+
+}  // namespace ssphh::majordomo

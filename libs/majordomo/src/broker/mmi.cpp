@@ -1,0 +1,186 @@
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "state.h"
+
+namespace ssphh::majordomo {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+bool BrokerCore::Impl::is_internal(std::string_view service) const {
+  return service.starts_with("mmi.") || (has_store && service.starts_with("titanic."));
+}
+
+void BrokerCore::Impl::internal(const std::string& id, Peer& peer, const Message& message,
+                                const Envelope* envelope, const Rights& rights) {
+  ++sums.requests;
+  Frames body(message.body.begin() + (envelope ? 1 : 0), message.body.end());
+  if (body.empty()) body.emplace_back();
+  Frames reply = message.name.starts_with("mmi.") ? mmi(message, body, rights)
+                                                  : titanic(message, body, owner_of(id, peer));
+  ++sums.finished;
+  answer(id, message, envelope, std::move(reply));
+}
+
+Frames BrokerCore::Impl::mmi(const Message& message, const Frames& body, const Rights& rights) {
+  if (message.name == "mmi.service") {
+    const auto found = services.find(body[0]);
+    return {found != services.end() && found->second.workers > 0 ? "200" : "404"};
+  }
+  if (message.name == "mmi.workers") {
+    Json list = Json::array();
+    for (const auto& [id, peer] : peers) {
+      if (!peer.worker) continue;
+      const WorkerState& worker = *peer.worker;
+      Json entry = {{"name", worker.name},
+                    {"service", worker.service->name},
+                    {"version", worker.version == Version::v01 ? "0.1" : "0.2"},
+                    {"state", worker.suspect   ? "suspect"
+                              : worker.busy    ? "busy"
+                              : worker.leaving ? "leaving"
+                                               : "idle"},
+                    {"since_ms", now - worker.since},
+                    {"heard_ms", now - peer.heard},
+                    {"served", worker.served}};
+      if (worker.busy) entry["job"] = worker.token.job;
+      if (!peer.user.empty()) entry["key"] = peer.user;
+      list.push_back(std::move(entry));
+    }
+    std::sort(list.begin(), list.end(), [](const Json& a, const Json& b) { return a["name"] < b["name"]; });
+    return {"200", text({{"format", "ssphh-broker-workers"}, {"version", 1}, {"workers", std::move(list)}})};
+  }
+  if (message.name == "mmi.stats") {
+    Json list = Json::array();
+    for (const auto& [name, service] : services) {
+      list.push_back({{"name", name},
+                      {"workers", service.workers},
+                      {"idle", service.idle.size()},
+                      {"queued", service.queued},
+                      {"clients", service.lanes.size()},
+                      {"requests", service.requests},
+                      {"finished", service.finished}});
+    }
+    std::sort(list.begin(), list.end(), [](const Json& a, const Json& b) { return a["name"] < b["name"]; });
+    const BrokerStats s = stats();
+    return {"200", text({{"format", "ssphh-broker-stats"},
+                         {"version", 1},
+                         {"uptime_ms", now - started},
+                         {"draining", draining},
+                         {"total",
+                          {{"received", s.received},
+                           {"sent", s.sent},
+                           {"dropped", s.dropped},
+                           {"requests", s.requests},
+                           {"finished", s.finished},
+                           {"failed", s.failed},
+                           {"parked", s.parked},
+                           {"expired", s.expired},
+                           {"cancelled", s.cancelled},
+                           {"busy", s.busy},
+                           {"attempts", s.attempts},
+                           {"retries", s.retries},
+                           {"hedged", s.hedged},
+                           {"coalesced", s.coalesced},
+                           {"repeated", s.repeated},
+                           {"late_replies", s.late_replies},
+                           {"workers_lost", s.workers_lost}}},
+                         {"now",
+                          {{"peers", s.peers},
+                           {"workers", s.workers},
+                           {"idle", s.idle},
+                           {"outstanding", s.outstanding},
+                           {"queued", s.queued},
+                           {"running", s.running},
+                           {"bytes", s.bytes},
+                           {"records", s.records}}},
+                         {"dropped", dropped.empty() ? Json::object() : Json(dropped)},
+                         {"services", std::move(list)}})};
+  }
+  if (message.name == "mmi.parked") {
+    Json list = Json::array();
+    for (const Parked& job : parked)
+      list.push_back({{"job", job.job}, {"service", job.service}, {"failures", job.failures}});
+    return {"200", text({{"format", "ssphh-broker-parked"}, {"version", 1}, {"jobs", std::move(list)}})};
+  }
+  if (message.name == "mmi.drain") {
+    if (!rights.admin) return {"403"};
+    std::size_t told = 0;
+    for (auto& [id, peer] : peers) {
+      WorkerState* worker = peer.worker.get();
+      if (!worker || !worker->own || worker->leaving || !worker->name.starts_with(body[0])) continue;
+      worker->leaving = true;
+      if (worker->idle) worker->service->idle.erase(*worker->idle), worker->idle.reset();
+      to_worker(id, *worker, Command::heartbeat, {},
+                std::make_shared<const Frames>(Frames{encode_envelope({.kind = EnvelopeKind::leave})}));
+      ++told;
+    }
+    return {"200", std::to_string(told)};
+  }
+  return {"501"};
+}
+
+BrokerStats BrokerCore::Impl::stats() const {
+  BrokerStats s = sums;
+  s.peers = peers.size();
+  s.workers = worker_count;
+  for (const auto& [name, service] : services) s.idle += service.idle.size();
+  s.outstanding = requests.size();
+  s.queued = queued_count;
+  s.running = running_count;
+  s.bytes = queued_bytes;
+  s.services = services.size();
+  s.records = records.size();
+  return s;
+}
+
+std::string BrokerCore::stats_json() const {
+  return impl_->mmi({.name = "mmi.stats"}, {Frame()}, {})[1];
+}
+
+std::string BrokerCore::metrics_text() const {
+  const BrokerStats s = stats();
+  std::string out;
+  const auto line = [&](const char* type, const char* name, const char* help, auto value) {
+    out += fmt::format("# HELP ssphh_broker_{0} {1}\n# TYPE ssphh_broker_{0} {2}\nssphh_broker_{0} {3}\n",
+                       name, help, type, value);
+  };
+  line("counter", "messages_received_total", "Messages from peers.", s.received);
+  line("counter", "messages_sent_total", "Messages to peers.", s.sent);
+  line("counter", "messages_dropped_total", "Messages that broke a rule or a limit.", s.dropped);
+  line("counter", "requests_total", "Requests taken.", s.requests);
+  line("counter", "jobs_finished_total", "Jobs answered.", s.finished);
+  line("counter", "jobs_failed_total", "Jobs that ended without a result.", s.failed);
+  line("counter", "jobs_parked_total", "Jobs set aside after failing on several workers.", s.parked);
+  line("counter", "attempts_total", "Jobs given to a worker.", s.attempts);
+  line("counter", "retries_total", "Jobs that went back into the queue.", s.retries);
+  line("counter", "hedged_total", "Jobs run by a second worker at the same time.", s.hedged);
+  line("counter", "late_replies_total", "Replies that nobody waited for.", s.late_replies);
+  line("counter", "workers_lost_total", "Workers that died or fell silent.", s.workers_lost);
+  line("gauge", "workers", "Workers registered.", s.workers);
+  line("gauge", "workers_idle", "Workers without a job.", s.idle);
+  line("gauge", "jobs_queued", "Jobs that wait for a worker.", s.queued);
+  line("gauge", "jobs_running", "Jobs that a worker has.", s.running);
+  line("gauge", "requests_outstanding", "Requests without a reply.", s.outstanding);
+  line("gauge", "request_bytes", "Bytes of the bodies of all jobs.", s.bytes);
+  const auto label = [](const std::string& name) {
+    std::string safe;
+    for (const char c : name) safe += c == '"' || c == '\\' ? '_' : c;
+    return safe;
+  };
+  out +=
+      "# HELP ssphh_broker_service_queued Jobs of a service that wait for a worker.\n"
+      "# TYPE ssphh_broker_service_queued gauge\n";
+  for (const auto& [name, service] : impl_->services)
+    out += fmt::format("ssphh_broker_service_queued{{service=\"{}\"}} {}\n", label(name), service.queued);
+  return out;
+}
+
+}  // namespace ssphh::majordomo

@@ -1,0 +1,191 @@
+#include <algorithm>
+
+#include <ssphh/core/error.h>
+#include <ssphh/core/log.h>
+#include <ssphh/majordomo/client.h>
+
+#include "client_core.h"
+#include "socket.h"
+
+namespace ssphh::majordomo {
+namespace {
+
+constexpr std::size_t reply_frame_bytes = std::size_t{1} << 30;
+constexpr Millis cancel_linger = 500;
+constexpr Millis look = 100;  // how often `call` looks whether it is cancelled
+
+constexpr int watched = ZMQ_EVENT_HANDSHAKE_SUCCEEDED | ZMQ_EVENT_DISCONNECTED |
+                        ZMQ_EVENT_HANDSHAKE_FAILED_AUTH | ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL |
+                        ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL;
+
+}  // namespace
+
+struct Client::Impl {
+  explicit Impl(ClientOptions&& o) : options(std::move(o)), core(options, RequestId::random) {
+    require_keys(options.endpoint, options.security.has_value(), "broker endpoint");
+    open();
+  }
+
+  ~Impl() {
+    for (const RequestId& id : core.to_cancel()) core.cancel(steady_now(), id);
+    core.tick(steady_now());
+    flush();
+    if (monitor) monitor.close();
+    socket.close();
+  }
+
+  void open() {
+    if (monitor) monitor.close();
+    if (socket) {
+      socket.set(zmq::sockopt::linger, 0);
+      socket.close();
+    }
+    unsent.clear();
+    socket = zmq::socket_t(context, zmq::socket_type::dealer);
+    set_common_options(socket, reply_frame_bytes, cancel_linger);
+    socket.set(zmq::sockopt::rcvhwm, 0);  // what we asked for is bounded by the window
+    set_peer_security(socket, options.security);
+    const std::string name = "inproc://monitor-" + random_name();
+    zmq_socket_monitor(socket.handle(), name.c_str(), watched);
+    monitor = zmq::socket_t(context, zmq::socket_type::pair);
+    monitor.set(zmq::sockopt::linger, 0);
+    monitor.connect(name);
+    up = false;
+    connect(socket, options.endpoint, options.security.has_value());
+  }
+
+  void hear_monitor(Millis now) {
+    while (const auto news = receive_message(monitor)) {
+      std::uint16_t event = 0;
+      if (news->frames[0].size() < sizeof event) continue;
+      std::memcpy(&event, news->frames[0].data(), sizeof event);
+      if (event == ZMQ_EVENT_HANDSHAKE_SUCCEEDED) {
+        up = true;
+        core.connected(now);
+      } else if (event == ZMQ_EVENT_DISCONNECTED) {
+        up = false;
+      } else if (!std::exchange(warned, true)) {
+        log_warning(
+            "{}: the broker refuses the connection; is this key in its allow.txt, and broker.pub its own?",
+            options.endpoint);
+      }
+    }
+  }
+
+  void flush() {
+    if (core.take_reconnect()) open();
+    for (ToBroker& message : core.take()) unsent.push_back(std::move(message));
+    while (!unsent.empty()) {
+      if (send_message(socket, nullptr, unsent.front().head, unsent.front().body) != Sent::yes) break;
+      unsent.pop_front();
+    }
+  }
+
+  /// Sends, waits at most `timeout`, hears.
+  void step(Millis timeout) {
+    Millis now = steady_now();
+    core.tick(now);
+    flush();
+    const Millis wait = std::clamp<Millis>(std::min(timeout, core.next_deadline() - now), 0, 60'000);
+    zmq::pollitem_t items[] = {
+        {socket.handle(), 0, static_cast<short>(unsent.empty() ? ZMQ_POLLIN : ZMQ_POLLIN | ZMQ_POLLOUT), 0},
+        {monitor.handle(), 0, ZMQ_POLLIN, 0}};
+    try {
+      zmq::poll(items, 2, std::chrono::milliseconds(wait));
+    } catch (const zmq::error_t& e) {
+      if (e.num() != EINTR) throw;
+    }
+    now = steady_now();
+    hear_monitor(now);
+    while (auto message = receive_message(socket)) core.receive(now, std::move(message->frames));
+    core.tick(now);
+    flush();
+  }
+
+  ClientOptions options;
+  zmq::context_t context;
+  zmq::socket_t socket, monitor;
+  ClientCore core;
+  std::deque<ToBroker> unsent;
+  std::deque<ClientEvent> kept;  ///< of other requests, while call() waits for its own
+  bool up = false, warned = false;
+};
+
+Client::Client(ClientOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
+Client::~Client() = default;
+Client::Client(Client&&) noexcept = default;
+Client& Client::operator=(Client&&) noexcept = default;
+
+RequestId Client::submit(const std::string& service, Frames body, const RequestOptions& options) {
+  if (!is_service_name(service))
+    throw Error("service name", "is empty, too long or not printable", "use 1 to 255 ASCII characters");
+  const RequestId id = impl_->core.submit(steady_now(), service, std::move(body), options);
+  impl_->flush();
+  return id;
+}
+
+void Client::cancel(const RequestId& id) {
+  impl_->core.cancel(steady_now(), id);
+  impl_->flush();
+}
+
+std::optional<ClientEvent> Client::poll(Millis timeout) {
+  Impl& s = *impl_;
+  if (!s.kept.empty()) {
+    ClientEvent event = std::move(s.kept.front());
+    s.kept.pop_front();
+    return event;
+  }
+  const Millis end = timeout < 0 ? Timers::never : steady_now() + timeout;
+  while (true) {
+    if (auto event = s.core.next_event()) return event;
+    if (s.core.outstanding() == 0) {
+      s.step(0);  // acknowledgements
+      return s.core.next_event();
+    }
+    const Millis now = steady_now();
+    s.step(end == Timers::never ? 60'000 : std::max<Millis>(0, end - now));
+    if (auto event = s.core.next_event()) return event;
+    if (steady_now() >= end) return std::nullopt;
+  }
+}
+
+std::size_t Client::outstanding() const {
+  const auto kept =
+      std::count_if(impl_->kept.begin(), impl_->kept.end(), [](const ClientEvent& e) { return e.final; });
+  return impl_->core.outstanding() + static_cast<std::size_t>(kept);
+}
+
+bool Client::connected() const {
+  return impl_->up && impl_->core.heard();
+}
+
+Frames Client::call(const std::string& service, Frames body, const RequestOptions& options,
+                    const Control& control) {
+  Impl& s = *impl_;
+  const RequestId id = submit(service, std::move(body), options);
+  Frames whole;
+  while (true) {
+    if (control.cancelled()) {
+      cancel(id);
+      while (auto event = s.core.next_event())
+        if (!(event->id == id)) s.kept.push_back(std::move(*event));
+      throw Cancelled();
+    }
+    s.step(control.cancel ? look : 60'000);
+    while (auto event = s.core.next_event()) {
+      if (!(event->id == id)) {
+        s.kept.push_back(std::move(*event));
+        continue;
+      }
+      whole.insert(whole.end(), std::make_move_iterator(event->body.begin()),
+                   std::make_move_iterator(event->body.end()));
+      if (!event->final) continue;
+      if (event->outcome == Outcome::ok) return whole;
+      throw Error(service, std::string(to_string(event->outcome)) + ": " + event->reason,
+                  "the broker's log and `mmi.parked` tell more");
+    }
+  }
+}
+
+}  // namespace ssphh::majordomo

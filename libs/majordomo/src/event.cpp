@@ -1,0 +1,52 @@
+#include <nlohmann/json.hpp>
+
+#include <ssphh/majordomo/event.h>
+
+namespace ssphh::majordomo {
+namespace {
+
+const char* level_name(LogLevel level) {
+  switch (level) {
+    case LogLevel::debug:
+      return "debug";
+    case LogLevel::info:
+      return "info";
+    case LogLevel::warning:
+      return "warning";
+    case LogLevel::error:
+      return "error";
+  }
+  return "error";
+}
+
+// What a peer sent may be anything; ensure_ascii and `replace` make any bytes one harmless line.
+std::string quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
+bool is_plain(const std::string& text) {
+  for (const char c : text)
+    if (c <= ' ' || c > '~' || c == '"' || c == '=' || c == '\\') return false;
+  return !text.empty();
+}
+
+}  // namespace
+
+std::string BrokerEvent::text() const {
+  std::string line = name;
+  for (const auto& [key, value] : fields) {
+    line += ' ';
+    line += key;
+    line += '=';
+    line += is_plain(value) ? value : quoted(value);
+  }
+  return line;
+}
+
+std::string BrokerEvent::json() const {
+  nlohmann::ordered_json object = {{"event", name}, {"level", level_name(level)}};
+  for (const auto& [key, value] : fields) object[key] = value;
+  return object.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace ssphh::majordomo

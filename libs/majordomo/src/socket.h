@@ -1,0 +1,57 @@
+#pragma once
+/// ZeroMQ sockets as this module uses them: never blocking, bounded, with heartbeats of their own.
+
+#include <optional>
+#include <string>
+
+#include <zmq.hpp>
+
+#include <ssphh/majordomo/frames.h>
+#include <ssphh/majordomo/security.h>
+
+namespace ssphh::majordomo {
+
+/// Milliseconds of the steady clock.
+Millis steady_now();
+
+/// Options of every socket: ZMTP heartbeats (500/1500 ms, so that a dead or frozen peer's connection ends in
+/// seconds whatever its MDP does), a limit on frames, and no waiting at the end but `linger`.
+void set_common_options(zmq::socket_t& socket, std::size_t frame_bytes, Millis linger);
+void set_peer_security(zmq::socket_t& socket, const std::optional<PeerSecurity>& security);
+
+/// Connects. Throws Error for what is no endpoint, and for plain ones beyond this machine.
+void connect(zmq::socket_t& socket, const std::string& endpoint, bool secure);
+
+enum class Sent { yes, full, unreachable };
+/// Sends identity (unless null), head and body without waiting. Frames of 64 KB and more are not copied.
+Sent send_message(zmq::socket_t& socket, const std::string* identity, const Frames& head, const Body& body);
+
+/// What is known of a received message beside its frames.
+struct Received {
+  Frames frames;
+  int fd = -1;       ///< of the connection it came by; −1 when ZeroMQ does not tell
+  std::string user;  ///< name of its CURVE key, from the allow-list; empty for plain connections
+};
+/// Receives one message without waiting; none when there is none. More than `max_frames` frames are read and
+/// thrown away, leaving max_frames + 1.
+std::optional<Received> receive_message(zmq::socket_t& socket, std::size_t max_frames = 1024);
+
+/// Wakes a poll from another thread or a signal handler.
+class Wakeup {
+ public:
+  Wakeup();
+  ~Wakeup();
+  Wakeup(const Wakeup&) = delete;
+  Wakeup& operator=(const Wakeup&) = delete;
+  void notify() noexcept;
+  void clear() noexcept;
+  int fd() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+/// A random text of 12 hexadecimal digits for identities and inproc names.
+std::string random_name();
+
+}  // namespace ssphh::majordomo

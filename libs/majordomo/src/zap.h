@@ -1,0 +1,40 @@
+#pragma once
+/// Lets in the CURVE keys of an allow-list (ZeroMQ RFC 27/ZAP) and gives each connection its key's name.
+
+#include <atomic>
+#include <string>
+#include <thread>
+#include <unordered_map>
+
+#include <zmq.hpp>
+
+#include <ssphh/majordomo/security.h>
+
+#include "socket.h"
+
+namespace ssphh::majordomo {
+
+/// A thread on inproc://zeromq.zap.01 of the context; must exist before the first socket is bound.
+class Zap {
+ public:
+  Zap(zmq::context_t& context, const AllowList& allowed);
+  ~Zap();
+  Zap(const Zap&) = delete;
+  Zap& operator=(const Zap&) = delete;
+
+  /// Connections that were turned away.
+  std::uint64_t refused() const { return refused_; }
+
+ private:
+  void serve();
+  void answer(const Frames& request);
+
+  std::unordered_map<std::string, std::string> names_;  ///< by raw key
+  zmq::socket_t socket_;
+  Wakeup end_;
+  std::atomic<bool> ended_{false};
+  std::atomic<std::uint64_t> refused_{0};
+  std::thread thread_;
+};
+
+}  // namespace ssphh::majordomo

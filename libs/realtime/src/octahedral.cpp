@@ -1,0 +1,75 @@
+#include "octahedral.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <ssphh/sh/evaluate.h>
+
+namespace ssphh::realtime {
+namespace {
+
+constexpr int preferred_side = 2048;
+
+}  // namespace
+
+vec3 octahedral_direction(vec2 p) {
+  // Across an edge the map goes on mirrored at the edge's middle
+  if (std::abs(p.x) > 1) p = {std::copysign(2 - std::abs(p.x), p.x), -p.y};
+  if (std::abs(p.y) > 1) p = {-p.x, std::copysign(2 - std::abs(p.y), p.y)};
+  vec3 n(p, 1 - std::abs(p.x) - std::abs(p.y));
+  if (n.z < 0) {
+    n.x = (1 - std::abs(p.y)) * std::copysign(1.0f, p.x);
+    n.y = (1 - std::abs(p.x)) * std::copysign(1.0f, p.y);
+  }
+  return glm::normalize(n);
+}
+
+TileBasis::TileBasis(int size, int degree) : size_(size), degree_(degree) {
+  const auto count = static_cast<std::size_t>(sh::coefficient_count(degree));
+  basis_.resize(count * texels());
+  std::array<float, sh::max_coefficient_count> y;
+  for (std::size_t t = 0; t < texels(); ++t) {
+    const auto column = static_cast<float>(t % static_cast<std::size_t>(side()));
+    const auto row = static_cast<float>(t / static_cast<std::size_t>(side()));
+    const auto n = static_cast<float>(size_);
+    const vec2 place((2 * column - 1) / n - 1, (2 * row - 1) / n - 1);
+    sh::eval_basis(degree_, octahedral_direction(place), y);
+    for (std::size_t k = 0; k < count; ++k) basis_[k * texels() + t] = y[k];
+  }
+}
+
+void TileBasis::evaluate(std::span<const vec3> coefficients, std::span<const float> band_factors,
+                         std::span<vec4> out) const {
+  const std::size_t n = texels();
+  SSPHH_CHECK(out.size() == n && band_factors.size() > static_cast<std::size_t>(degree_));
+  std::fill(out.begin(), out.end(), vec4(0));
+  for (int l = 0; l <= degree_; ++l) {
+    const float factor = band_factors[static_cast<std::size_t>(l)];
+    for (int k = l * l; k < (l + 1) * (l + 1); ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      if (factor == 0 || i >= coefficients.size()) continue;
+      const vec4 c(factor * coefficients[i], 0);
+      const float* y = basis_.data() + i * n;
+      for (std::size_t t = 0; t < n; ++t) out[t] += y[t] * c;
+    }
+  }
+  for (vec4& texel : out) texel = glm::max(texel, vec4(0));
+}
+
+TileAtlas::TileAtlas(int size, int tiles) : size_(size) {
+  const int side = size + 2;
+  per_side_ = std::max(1, preferred_side / side);
+  while (per_side_ > 1 && (per_side_ - 1) * (per_side_ - 1) >= tiles) --per_side_;
+  const int per_layer = per_side_ * per_side_;
+  texture_ = gl::Texture(gl::Format::rgba16f, side * per_side_, side * per_side_,
+                         std::max(1, (tiles + per_layer - 1) / per_layer));
+  texture_.set_filter(true);
+}
+
+void TileAtlas::upload(int tile, std::span<const vec4> texels) {
+  const int side = size_ + 2, per_layer = per_side_ * per_side_, rest = tile % per_layer;
+  texture_.upload_rect(std::as_bytes(texels), rest % per_side_ * side, rest / per_side_ * side, side, side,
+                       tile / per_layer);
+}
+
+}  // namespace ssphh::realtime

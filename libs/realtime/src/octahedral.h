@@ -1,0 +1,52 @@
+#pragma once
+/// Functions on the sphere as square tiles: the octahedral map of Cigolle et al., A Survey of Efficient
+/// Representations for Independent Unit Vectors, JCGT 2014, with a border of one texel, so that bilinear
+/// filters find their neighbours within the tile.
+
+#include <span>
+#include <vector>
+
+#include <ssphh/gl/texture.h>
+#include <ssphh/sh/coefficients.h>
+
+namespace ssphh::realtime {
+
+/// Unit direction of a place in [−1, 1]²; places a little outside are those across the edge.
+vec3 octahedral_direction(vec2 place);
+
+/// Values of spherical harmonics at a tile's texels: what turns coefficients into a tile.
+class TileBasis {
+ public:
+  TileBasis() = default;
+  /// `size` texels along a side without the border.
+  TileBasis(int size, int degree);
+  int side() const { return size_ + 2; }
+  std::size_t texels() const { return static_cast<std::size_t>(side()) * static_cast<std::size_t>(side()); }
+
+  /// out[texel] = max(Σ_k factor(l) c_k Y_k, 0) with one factor per band; missing coefficients count as 0.
+  void evaluate(std::span<const vec3> coefficients, std::span<const float> band_factors,
+                std::span<vec4> out) const;
+
+ private:
+  int size_ = 0, degree_ = 0;
+  std::vector<float> basis_;  ///< [k][texel]
+};
+
+/// Tiles of one size in a texture array.
+class TileAtlas {
+ public:
+  TileAtlas() = default;
+  TileAtlas(int size, int tiles);
+
+  int size() const { return size_; }
+  int tiles_per_side() const { return per_side_; }
+  std::size_t bytes() const { return texture_.id() ? texture_.bytes() / 2 : 0; }
+  void upload(int tile, std::span<const vec4> texels);
+  void bind(unsigned unit) const { texture_.bind(unit); }
+
+ private:
+  int size_ = 0, per_side_ = 1;
+  gl::Texture texture_;
+};
+
+}  // namespace ssphh::realtime

@@ -1,0 +1,164 @@
+/// The parts of the renderer that need no OpenGL.
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include <gmock/gmock.h>
+
+#include <ssphh/scene/primitives.h>
+#include <ssphh/sh/evaluate.h>
+
+#include "emitter_samples.h"
+#include "mesh_pieces.h"
+#include "octahedral.h"
+#include "probe_grid.h"
+#include "shadow_maps.h"
+
+namespace ssphh::realtime {
+namespace {
+
+std::vector<vec3> random_points(std::size_t count, float extent) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> uniform(-extent, extent);
+  std::vector<vec3> points;
+  for (std::size_t i = 0; i < count; ++i)
+    points.emplace_back(uniform(random), uniform(random), uniform(random));
+  return points;
+}
+
+TEST(ProbeGrid, ListsTheNearestOfEachCellsMiddleInOrder) {
+  const std::vector<vec3> probes = random_points(300, 4);
+  scene::Bounds bounds{vec3(-4), vec3(4)};
+  const ProbeGrid grid = make_probe_grid(probes, bounds, 1.1f);
+  for (const int cell : {0, 17, grid.cells.x * grid.cells.y * grid.cells.z - 1}) {
+    const vec3 place(cell % grid.cells.x, cell / grid.cells.x % grid.cells.y,
+                     cell / (grid.cells.x * grid.cells.y));
+    const vec3 middle = grid.origin + grid.cell_size * (place + 0.5f);
+    std::vector<int> order(probes.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+    std::sort(order.begin(), order.end(), [&](int a, int b) {
+      return glm::distance(probes[static_cast<std::size_t>(a)], middle) <
+             glm::distance(probes[static_cast<std::size_t>(b)], middle);
+    });
+    for (int i = 0; i < ProbeGrid::list_length; ++i) {
+      EXPECT_EQ(grid.lists[static_cast<std::size_t>(cell * ProbeGrid::list_length + i)],
+                order[static_cast<std::size_t>(i)]);
+    }
+  }
+}
+
+TEST(ProbeGrid, StaysWithinItsCellsForAnySpacing) {
+  const std::vector<vec3> probes = random_points(5, 1);
+  const ProbeGrid fine = make_probe_grid(probes, {vec3(-50), vec3(50)}, 1e-6f, 1000);
+  EXPECT_LE(fine.cells.x * fine.cells.y * fine.cells.z, 1000);
+  EXPECT_EQ(fine.lists[5], -1) << "there are five probes only";
+  const ProbeGrid one = make_probe_grid(std::span(probes).first(1), {vec3(-1), vec3(1)},
+                                        std::numeric_limits<float>::infinity());
+  EXPECT_EQ(one.lists[0], 0);
+}
+
+/// Reads a tile as the shader does.
+vec3 sample_tile(const std::vector<vec4>& tile, int size, const vec3& d) {
+  const vec3 a = glm::abs(d);
+  vec2 p = vec2(d) / (a.x + a.y + a.z);
+  if (d.z < 0)
+    p = (1.0f - glm::abs(vec2(p.y, p.x))) * vec2(std::copysign(1.0f, p.x), std::copysign(1.0f, p.y));
+  const vec2 at = (0.5f + 0.5f * p) * static_cast<float>(size) + 0.5f;
+  const vec2 low = glm::floor(at), f = at - low;
+  const auto texel = [&](int x, int y) {
+    return vec3(tile[static_cast<std::size_t>((static_cast<int>(low.y) + y) * (size + 2) +
+                                              static_cast<int>(low.x) + x)]);
+  };
+  return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);
+}
+
+TEST(Octahedral, TileInterpolatesItsFunctionAlsoAcrossEdges) {
+  // Where the map is smooth, bilinear interpolation errs by h²/8 of the second derivative, l(l+1) of the
+  // band's amplitude; at the map's creases by h/4 of the jump of the first, at most twice √(l(l+1)) of it. A
+  // texel's angle h is at most twice the mean, π/(2 size).
+  constexpr int degree = 4, size = 24;
+  const double h = 2 * pi_d / (2 * size);
+  std::mt19937 random(3);
+  std::normal_distribution<float> normal;
+  for (int l = 1; l <= degree; ++l) {
+    std::vector<vec3> c(25, vec3(0));
+    for (int k = l * l; k < (l + 1) * (l + 1); ++k) c[static_cast<std::size_t>(k)] = vec3(normal(random));
+    c[0] = vec3(30);  // keeps it positive, where the tile does not clamp
+    const TileBasis basis(size, degree);
+    std::vector<vec4> tile(basis.texels());
+    const std::array<float, 11> ones{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+    basis.evaluate(c, ones, tile);
+    float amplitude = 0, worst = 0, mean = 0;
+    for (vec3 d : random_points(4000, 1)) {
+      d = glm::normalize(d);
+      std::array<float, 25> y;
+      sh::eval_basis(degree, d, y);
+      float value = 0;
+      for (std::size_t k = 1; k < 25; ++k) value += c[k].x * y[k];
+      amplitude = std::max(amplitude, std::abs(value));
+      const float off = std::abs(sample_tile(tile, size, d).x - value - c[0].x * y[0]);
+      worst = std::max(worst, off);
+      mean += off / 4000;
+    }
+    EXPECT_LT(worst, h / 2 * std::sqrt(l * (l + 1.0)) * static_cast<double>(amplitude)) << "band " << l;
+    EXPECT_LT(mean, h * h / 8 * l * (l + 1) * static_cast<double>(amplitude)) << "band " << l;
+  }
+}
+
+TEST(MeshPieces, KeepEveryTriangle) {
+  const scene::Mesh mesh = scene::make_torus_knot(2, 3, 0.4f, 0.2f, 0.1f, 256, 16);
+  std::vector<unsigned> indices;
+  const std::vector<MeshPiece> pieces = split_mesh(mesh, indices);
+  EXPECT_GT(pieces.size(), 1u);
+  std::multiset<std::array<unsigned, 3>> wanted, got;
+  for (const uvec3& t : mesh.triangles) wanted.insert({t.x, t.y, t.z});
+  for (const MeshPiece& piece : pieces) {
+    for (std::size_t i = piece.first_index;
+         i < piece.first_index + static_cast<std::size_t>(piece.index_count); i += 3) {
+      got.insert({indices[i], indices[i + 1], indices[i + 2]});
+      for (std::size_t c = 0; c < 3; ++c) {
+        const vec3& p = mesh.positions[indices[i + c]];
+        EXPECT_TRUE(glm::all(glm::lessThanEqual(piece.bounds.min, p)) &&
+                    glm::all(glm::lessThanEqual(p, piece.bounds.max)));
+      }
+    }
+  }
+  EXPECT_EQ(got, wanted);
+}
+
+TEST(EmitterSamples, PointsOnAStripLieApartAndShareItsArea) {
+  const scene::Mesh strip = scene::make_quad({0, 0, 0}, {7, 0, 0}, {0, 0, -0.2f});
+  const std::vector<AreaPoint> points = spread_points(strip, mat4(1), 14);
+  ASSERT_EQ(points.size(), 14u);
+  float sum = 0, nearest = 1e9f;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    sum += points[i].share;
+    EXPECT_NEAR(points[i].position.y, 0, 1e-5f);
+    for (std::size_t j = 0; j < i; ++j)
+      nearest = std::min(nearest, glm::distance(points[i].position, points[j].position));
+  }
+  EXPECT_NEAR(sum, 1, 1e-5f);
+  EXPECT_GT(nearest, 0.25f) << "half a metre each on average";
+}
+
+TEST(EmitterSamples, ConstantEnvironmentGivesPiEverywhere) {
+  scene::Environment environment;
+  const auto sh = environment_irradiance(environment);
+  EXPECT_NEAR(sh[0].x * 0.28209479f, pi, 1e-3f);
+  for (std::size_t k = 1; k < 25; ++k) EXPECT_NEAR(sh[k].x, 0, 2e-3f);
+  vec3 sum(0);
+  for (const EnvironmentSample& s : environment_directions(environment, 32)) sum += s.weight;
+  EXPECT_NEAR(sum.x, 4 * pi, 1e-3f);
+}
+
+TEST(ShadowMaps, AFaceSeesABoxThatReachesIntoIt) {
+  const MapView view = cube_view({1, 2, 3}, 0, 0.01f);  // +x
+  EXPECT_TRUE(sees_box(view, {{3, 1.5f, 2.5f}, {4, 2.5f, 3.5f}}));
+  EXPECT_FALSE(sees_box(view, {{-3, 1.5f, 2.5f}, {-2, 2.5f, 3.5f}})) << "behind";
+  EXPECT_FALSE(sees_box(view, {{2, 6, 2.5f}, {3, 7, 3.5f}})) << "above";
+  EXPECT_TRUE(sees_box(view, {{-9, -9, -9}, {9, 9, 9}})) << "around";
+}
+
+}  // namespace
+}  // namespace ssphh::realtime

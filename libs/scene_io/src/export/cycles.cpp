@@ -1,0 +1,207 @@
+#include <cstring>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <ssphh/core/file.h>
+#include <ssphh/image/io.h>
+#include <ssphh/scene_io/renderer_export.h>
+
+#include "cycles_script.h"
+#include "differences.h"
+#include "flat_scene.h"
+
+namespace ssphh::scene_io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json array(const vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+// Rows of the matrix.
+Json array(const mat4& m) {
+  Json rows = Json::array();
+  for (int r = 0; r < 4; ++r) rows.push_back({m[0][r], m[1][r], m[2][r], m[3][r]});
+  return rows;
+}
+
+template <class T>
+std::size_t append(std::vector<std::byte>& binary, const std::vector<T>& values) {
+  const std::size_t offset = binary.size();
+  const auto bytes = std::as_bytes(std::span(values));
+  binary.insert(binary.end(), bytes.begin(), bytes.end());
+  return offset;
+}
+
+Json mesh_json(const FlatMesh& flat, std::vector<std::byte>& binary) {
+  const scene::Mesh& mesh = flat.mesh;
+  Json json = {{"name", flat.name},
+               {"material", flat.material},
+               {"vertices", mesh.positions.size()},
+               {"triangles", mesh.triangles.size()},
+               {"positions", append(binary, mesh.positions)},
+               {"indices", append(binary, mesh.triangles)}};
+  if (!mesh.normals.empty()) json["normals"] = append(binary, mesh.normals);
+  for (int set = 0; set < 2; ++set) {
+    const auto& uv = mesh.uvs[static_cast<std::size_t>(set)];
+    if (!uv.empty()) json[fmt::format("uv{}", set)] = append(binary, uv);
+  }
+  if (!mesh.colors.empty()) json["colors"] = append(binary, mesh.colors);
+  return json;
+}
+
+const char* wrap_name(scene::Wrap wrap) {
+  return wrap == scene::Wrap::repeat ? "repeat" : wrap == scene::Wrap::mirror ? "mirror" : "clamp";
+}
+
+Json texture_json(const scene::TextureUse& use) {
+  if (use.texture < 0) return nullptr;
+  return {{"texture", use.texture},
+          {"uv_set", use.uv_set},
+          {"offset", {use.offset.x, use.offset.y}},
+          {"scale", {use.scale.x, use.scale.y}},
+          {"rotation", use.rotation},
+          {"wrap", {wrap_name(use.wrap_u), wrap_name(use.wrap_v)}},
+          {"nearest", use.nearest}};
+}
+
+Json material_json(const scene::Material& m) {
+  const float f0 = std::pow((m.ior - 1) / (m.ior + 1), 2.0f) * m.specular;
+  return {{"name", m.name},
+          {"base_color", array(m.base_color)},
+          {"alpha", m.alpha},
+          {"metallic", m.metallic},
+          {"diffuse_roughness", m.diffuse_roughness},
+          {"specular_roughness", m.specular_roughness},
+          {"f0", f0},
+          {"emission", array(m.emission)},
+          {"unlit", m.unlit},
+          {"double_sided", m.double_sided},
+          {"alpha_mode", m.alpha_mode == scene::AlphaMode::opaque ? "opaque"
+                         : m.alpha_mode == scene::AlphaMode::mask ? "mask"
+                                                                  : "blend"},
+          {"alpha_cutoff", m.alpha_cutoff},
+          {"normal_scale", m.normal_scale},
+          {"base_color_texture", texture_json(m.base_color_texture)},
+          {"metallic_roughness_texture", texture_json(m.metallic_roughness_texture)},
+          {"emission_texture", texture_json(m.emission_texture)},
+          {"normal_texture", texture_json(m.normal_texture)}};
+}
+
+void note_material(const scene::Material& m, Differences& differences) {
+  const bool layered = m.metallic > 0 || m.specular > 0;
+  if (layered && !m.unlit) {
+    differences.add(
+        "specular reflection is Cycles' glossy lobe weighted by Schlick's Fresnel term of the view angle "
+        "(here: of the "
+        "half vector, over a diffuse layer that keeps the energy)",
+        m.name);
+  }
+  if (layered && m.specular_roughness < 0) {
+    differences.add("Blinn-Phong becomes Beckmann", m.name);
+  }
+  if (m.diffuse_roughness > 0) differences.add("Disney's diffuse model becomes Lambert's", m.name);
+  if (m.normal_texture.texture >= 0) {
+    differences.add("normal maps use tangents of the other renderer's own", m.name);
+  }
+}
+
+Json light_json(const FlatLight& flat) {
+  const scene::Light& l = *flat.light;
+  static constexpr const char* types[] = {"point", "spot", "directional", "sphere"};
+  return {{"name", l.name},
+          {"type", types[static_cast<int>(l.type)]},
+          {"position", array(flat.position)},
+          {"direction", array(flat.direction)},
+          {"world", array(flat.world)},
+          {"color", array(l.color)},
+          {"intensity", l.intensity},
+          {"radius", l.radius},
+          {"angular_radius", l.angular_radius},
+          {"cos_inner", std::cos(l.inner_cone)},
+          {"cos_outer", std::cos(l.outer_cone)}};
+}
+
+Json camera_json(const scene::CameraPose& pose) {
+  return {{"world", array(pose.world)},
+          {"orthographic", pose.camera.orthographic},
+          {"yfov", pose.camera.yfov},
+          {"yheight", pose.camera.yheight}};
+}
+
+std::string texture_file(const scene::Texture& texture, std::size_t index) {
+  std::string name = fmt::format("texture{}", index);
+  for (const char c : texture.name) {
+    if (std::isalnum(static_cast<unsigned char>(c))) name += name.back() == '-' || name.size() < 60 ? c : '-';
+  }
+  return name + ".png";
+}
+
+}  // namespace
+
+ExportReport export_cycles(const scene::Scene& scene, const ExportSettings& settings,
+                           const std::filesystem::path& directory) {
+  std::filesystem::create_directories(directory);
+  const FlatScene flat = flatten(scene, settings.time);
+  ExportReport report;
+  Differences differences;
+  report.files.push_back(directory / "render.py");
+
+  Json json = {{"format", "ssphh cycles scene"},
+               {"version", 1},
+               {"name", scene.name},
+               {"width", settings.width},
+               {"height", settings.height},
+               {"max_depth", settings.max_depth},
+               {"spp", settings.spp},
+               {"camera", camera_json(settings.camera)}};
+  json["textures"] = Json::array();
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    const scene::Texture& texture = scene.textures[i];
+    const std::string name = texture_file(texture, i);
+    write_file(directory / name,
+               image::encode_png(image::Rgba8{texture.width, texture.height, texture.rgba}));
+    report.files.push_back(directory / name);
+    json["textures"].push_back({{"file", name}, {"width", texture.width}, {"height", texture.height}});
+  }
+  json["materials"] = Json::array();
+  for (const scene::Material& material : scene.materials)
+    json["materials"].push_back(material_json(material));
+  json["default_material"] = material_json({});
+
+  std::vector<std::byte> binary;
+  json["meshes"] = Json::array();
+  std::set<int> used;
+  for (const FlatMesh& mesh : flat.meshes) {
+    json["meshes"].push_back(mesh_json(mesh, binary));
+    if (used.insert(mesh.material).second) note_material(material_of(scene, mesh), differences);
+  }
+  json["lights"] = Json::array();
+  for (const FlatLight& light : flat.lights) {
+    json["lights"].push_back(light_json(light));
+    if (light.light->range > 0) differences.add("lights reach beyond their range", light.light->name);
+  }
+  if (scene.environment) {
+    const scene::Environment& e = *scene.environment;
+    json["environment"] = {{"color", array(e.color)}, {"rotation", e.rotation}};
+    if (!e.equirect.empty()) {
+      image::write_image(directory / "environment.exr", e.equirect);
+      report.files.push_back(directory / "environment.exr");
+      json["environment"]["file"] = "environment.exr";
+    }
+  }
+  write_file(directory / "scene.bin", binary);
+  write_file(directory / "scene.json", json.dump(1));
+  write_file(directory / "render.py", cycles_script);
+  report.files.push_back(directory / "scene.json");
+  report.files.push_back(directory / "scene.bin");
+  report.command = fmt::format("blender --background --factory-startup --python {} -- --output picture.exr",
+                               (directory / "render.py").string());
+  report.differences = differences.lines();
+  return report;
+}
+
+}  // namespace ssphh::scene_io

@@ -1,0 +1,46 @@
+#include "flat_scene.h"
+
+#include <ssphh/scene/query.h>
+
+namespace ssphh::scene_io {
+namespace {
+
+FlatMesh flat_mesh(const scene::Scene& scene, const scene::Instance& instance, const mat4& world) {
+  const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+  FlatMesh flat;
+  flat.name = scene.nodes[static_cast<std::size_t>(instance.node)].name;
+  if (flat.name.empty()) flat.name = mesh.name;
+  flat.material = scene::instance_material(scene, instance);
+  flat.mesh = mesh;
+  flat.mesh.tangents.clear();
+  for (vec3& p : flat.mesh.positions) p = vec3(world * vec4(p, 1));
+  const mat3 to_world = glm::transpose(glm::inverse(mat3(world)));
+  for (vec3& n : flat.mesh.normals) n = glm::normalize(to_world * n);
+  if (glm::determinant(mat3(world)) < 0) {
+    for (uvec3& t : flat.mesh.triangles) std::swap(t.y, t.z);
+  }
+  return flat;
+}
+
+}  // namespace
+
+FlatScene flatten(const scene::Scene& scene, float time) {
+  const std::vector<mat4> world = scene::world_matrices(scene, time);
+  FlatScene flat;
+  for (const scene::Instance& instance : scene.instances) {
+    if (scene.meshes[static_cast<std::size_t>(instance.mesh)].triangles.empty()) continue;
+    flat.meshes.push_back(flat_mesh(scene, instance, world[static_cast<std::size_t>(instance.node)]));
+  }
+  for (const scene::Light& light : scene.lights) {
+    const mat4& m = world[static_cast<std::size_t>(light.node)];
+    flat.lights.push_back({&light, m, vec3(m[3]), -glm::normalize(vec3(m[2]))});
+  }
+  return flat;
+}
+
+const scene::Material& material_of(const scene::Scene& scene, const FlatMesh& mesh) {
+  static const scene::Material standard;
+  return mesh.material < 0 ? standard : scene.materials[static_cast<std::size_t>(mesh.material)];
+}
+
+}  // namespace ssphh::scene_io

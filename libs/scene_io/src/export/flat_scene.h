@@ -1,0 +1,37 @@
+#pragma once
+/// A scene at one time, as other renderers take it: triangles and lights in world space, no hierarchy.
+
+#include <string>
+#include <vector>
+
+#include <ssphh/scene/scene.h>
+
+namespace ssphh::scene_io {
+
+/// One instance's triangles in world space, wound counter-clockwise seen from the front also where the node
+/// mirrors.
+struct FlatMesh {
+  std::string name;
+  int material = -1;  ///< −1: the default Material{}
+  scene::Mesh mesh;   ///< tangents are left out
+};
+
+struct FlatLight {
+  const scene::Light* light = nullptr;
+  mat4 world{1};
+  vec3 position{0};
+  vec3 direction{0, 0, -1};  ///< the way the light goes, unit
+};
+
+struct FlatScene {
+  std::vector<FlatMesh> meshes;
+  std::vector<FlatLight> lights;
+};
+
+/// `scene` must outlive the result. Instances without triangles are left out.
+FlatScene flatten(const scene::Scene& scene, float time);
+
+/// The material that a flat mesh is drawn with.
+const scene::Material& material_of(const scene::Scene& scene, const FlatMesh& mesh);
+
+}  // namespace ssphh::scene_io

@@ -1,0 +1,413 @@
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <ssphh/core/file.h>
+#include <ssphh/image/sphere_map.h>
+#include <ssphh/scene_io/renderer_export.h>
+
+#include "flat_scene.h"
+#include "ply.h"
+#include "surface_model.h"
+#include "xml_writer.h"
+
+namespace ssphh::scene_io {
+namespace {
+
+// Mitsuba 3's scene format: https://mitsuba.readthedocs.io/en/stable/src/key_topics/scene_format.html
+struct Export {
+  const scene::Scene& scene;
+  const ExportSettings& settings;
+  const std::filesystem::path& directory;
+  TextureFiles textures;
+  XmlWriter xml;
+  Differences differences;
+  std::vector<std::filesystem::path> files;
+};
+
+void number(XmlWriter& xml, std::string_view name, float value) {
+  xml.empty("float", {{"name", name}, {"value", fmt::format("{}", value)}});
+}
+
+void integer(XmlWriter& xml, std::string_view name, int value) {
+  xml.empty("integer", {{"name", name}, {"value", std::to_string(value)}});
+}
+
+void boolean(XmlWriter& xml, std::string_view name, bool value) {
+  xml.empty("boolean", {{"name", name}, {"value", value ? "true" : "false"}});
+}
+
+void string(XmlWriter& xml, std::string_view name, std::string_view value) {
+  xml.empty("string", {{"name", name}, {"value", value}});
+}
+
+void rgb(XmlWriter& xml, std::string_view name, const vec3& value) {
+  xml.empty("rgb", {{"name", name}, {"value", fmt::format("{} {} {}", value.x, value.y, value.z)}});
+}
+
+void point(XmlWriter& xml, std::string_view name, const vec3& p) {
+  xml.empty("point", {{"name", name},
+                      {"x", fmt::format("{}", p.x)},
+                      {"y", fmt::format("{}", p.y)},
+                      {"z", fmt::format("{}", p.z)}});
+}
+
+void transform(XmlWriter& xml, std::string_view name, const mat4& m) {
+  std::string rows;
+  for (int r = 0; r < 4; ++r) {
+    for (int c = 0; c < 4; ++c) rows += fmt::format("{}{}", rows.empty() ? "" : " ", m[c][r]);
+  }
+  xml.open("transform", {{"name", name}});
+  xml.empty("matrix", {{"value", rows}});
+  xml.close();
+}
+
+const char* wrap_name(scene::Wrap wrap) {
+  return wrap == scene::Wrap::repeat ? "repeat" : wrap == scene::Wrap::mirror ? "mirror" : "clamp";
+}
+
+// Texture coordinates of the file have v down the image, as Mitsuba's bitmaps.
+void bitmap(XmlWriter& xml, std::string_view name, const std::string& file, const scene::TextureUse& use,
+            bool raw) {
+  xml.open("texture", {{"type", "bitmap"}, {"name", name}});
+  string(xml, "filename", file);
+  if (raw) boolean(xml, "raw", true);
+  string(xml, "wrap_mode", wrap_name(use.wrap_u));
+  string(xml, "filter_type", use.nearest ? "nearest" : "bilinear");
+  const mat3 uv = uv_matrix(use);
+  if (uv != mat3(1)) {
+    // A transform of the plane: the translation stands in the fourth column.
+    transform(xml, "to_uv",
+              mat4(vec4(uv[0].x, uv[0].y, 0, 0), vec4(uv[1].x, uv[1].y, 0, 0), vec4(0, 0, 1, 0),
+                   vec4(uv[2].x, uv[2].y, 0, 1)));
+  }
+  xml.close();
+}
+
+void color(Export& e, std::string_view name, const vec3& factor, const scene::TextureUse& use) {
+  if (use.texture < 0) {
+    rgb(e.xml, name, factor);
+  } else {
+    bitmap(e.xml, name, e.textures.color(use.texture, factor), use, false);
+  }
+}
+
+void base_color(Export& e, std::string_view name, const scene::Material& m, bool vertex_colors) {
+  if (vertex_colors && m.base_color_texture.texture < 0) {
+    e.xml.open("texture", {{"type", "mesh_attribute"}, {"name", name}});
+    string(e.xml, "name", "vertex_color");
+    e.xml.close();
+  } else {
+    color(e, name, m.base_color, m.base_color_texture);
+  }
+}
+
+void microfacets(XmlWriter& xml, const scene::Material& m) {
+  string(xml, "distribution", m.specular_roughness < 0 ? "beckmann" : "ggx");
+  number(xml, "alpha", roughness_alpha(m.specular_roughness));
+}
+
+void mixture(Export& e, const scene::Material& m, bool vertex_colors) {
+  e.xml.open("bsdf", {{"type", "principled"}});
+  base_color(e, "base_color", m, vertex_colors);
+  const scene::TextureUse& use = m.metallic_roughness_texture;
+  const float roughness = std::abs(m.specular_roughness);
+  if (use.texture < 0) {
+    number(e.xml, "roughness", roughness);
+    number(e.xml, "metallic", m.metallic);
+  } else {
+    bitmap(e.xml, "roughness",
+           e.textures.channel(use.texture, 1, fmt::format("times {}", roughness),
+                              [&](float g) { return g * roughness; }),
+           use, true);
+    bitmap(e.xml, "metallic",
+           e.textures.channel(use.texture, 2, fmt::format("times {}", m.metallic),
+                              [&](float b) { return b * m.metallic; }),
+           use, true);
+  }
+  number(e.xml, "eta", glm::max(1.001f, ior_of(normal_reflectance(m))));
+  e.xml.close();
+}
+
+void reflection(Export& e, const scene::Material& m, bool vertex_colors) {
+  switch (surface_kind(m)) {
+    case SurfaceKind::black:
+      e.xml.open("bsdf", {{"type", "diffuse"}});
+      rgb(e.xml, "reflectance", vec3(0));
+      e.xml.close();
+      break;
+    case SurfaceKind::lambert:
+      e.xml.open("bsdf", {{"type", "diffuse"}});
+      base_color(e, "reflectance", m, vertex_colors);
+      e.xml.close();
+      break;
+    case SurfaceKind::dielectric: {
+      if (m.metallic_roughness_texture.texture >= 0) {
+        mixture(e, m, vertex_colors);
+        break;
+      }
+      e.xml.open("bsdf", {{"type", "roughplastic"}});
+      base_color(e, "diffuse_reflectance", m, vertex_colors);
+      microfacets(e.xml, m);
+      number(e.xml, "int_ior", ior_of(normal_reflectance(m)));
+      number(e.xml, "ext_ior", 1);
+      e.xml.close();
+      break;
+    }
+    case SurfaceKind::metal:
+      e.xml.open("bsdf", {{"type", "roughconductor"}});
+      string(e.xml, "material", "none");
+      base_color(e, "specular_reflectance", m, vertex_colors);
+      microfacets(e.xml, m);
+      e.xml.close();
+      break;
+    case SurfaceKind::mixture:
+      mixture(e, m, vertex_colors);
+      break;
+  }
+}
+
+void note_reflection(const scene::Material& m, Differences& differences) {
+  const SurfaceKind kind = surface_kind(m);
+  const bool textured = m.metallic_roughness_texture.texture >= 0;
+  const bool principled = kind == SurfaceKind::mixture || (kind == SurfaceKind::dielectric && textured);
+  if (principled) {
+    differences.add("becomes Mitsuba's principled BSDF (Disney's diffuse and Fresnel terms)", m.name);
+  } else if (kind == SurfaceKind::dielectric) {
+    differences.add("becomes Mitsuba's roughplastic (exact Fresnel term, its own balance of the two layers)",
+                    m.name);
+  } else if (kind == SurfaceKind::metal) {
+    differences.add("becomes Mitsuba's roughconductor (the metal's colour at every angle)", m.name);
+  }
+  if (kind != SurfaceKind::lambert && kind != SurfaceKind::black && m.specular_roughness < 0)
+    differences.add(principled ? "Blinn-Phong becomes GGX" : "Blinn-Phong becomes Beckmann", m.name);
+}
+
+void write_bsdf(Export& e, const std::string& id, const scene::Material& m, bool vertex_colors) {
+  const Coverage cover = coverage(e.scene, m, e.textures);
+  const std::string name = m.name.empty() ? "(without a name)" : m.name;
+  e.xml.comment(name);
+  if (!cover.full()) {
+    e.xml.open("bsdf", {{"type", "mask"}, {"id", id}});
+    if (cover.file.empty()) {
+      number(e.xml, "opacity", cover.value);
+    } else {
+      bitmap(e.xml, "opacity", cover.file, m.base_color_texture, true);
+    }
+    e.xml.open("bsdf", {{"type", "twosided"}});
+  } else {
+    e.xml.open("bsdf", {{"type", "twosided"}, {"id", id}});
+  }
+  const bool bumped = m.normal_texture.texture >= 0 && !m.unlit;
+  if (bumped) {
+    e.xml.open("bsdf", {{"type", "normalmap"}});
+    bitmap(e.xml, "normalmap", e.textures.color(m.normal_texture.texture), m.normal_texture, true);
+    if (m.normal_scale != 1) e.differences.add("normal maps at full strength", m.name);
+  }
+  reflection(e, m, vertex_colors);
+  if (bumped) e.xml.close();
+  e.xml.close();
+  if (!cover.full()) e.xml.close();
+  note_material(m, {.own_transform = true, .mirror = true, .nearest = true}, e.differences);
+  note_reflection(m, e.differences);
+}
+
+std::string bsdf_id(const scene::Scene& scene, const FlatMesh& mesh) {
+  const std::string id = mesh.material < 0 ? "standard"
+                                           : identifier("material", static_cast<std::size_t>(mesh.material),
+                                                        material_of(scene, mesh).name);
+  return mesh.mesh.colors.empty() ? id : "colored_" + id;
+}
+
+void area_light(Export& e, const scene::Material& m) {
+  e.xml.open("emitter", {{"type", "area"}});
+  color(e, "radiance", glow(m), glow_texture(m));
+  e.xml.close();
+  if (m.double_sided || m.unlit) e.differences.add("glows on the front alone", m.name);
+  if (m.alpha_mode != scene::AlphaMode::opaque) e.differences.add("glows where it is cut out, too", m.name);
+}
+
+void write_mesh(Export& e, std::size_t index, const FlatMesh& mesh) {
+  const scene::Material& m = material_of(e.scene, mesh);
+  std::vector<vec3> colors;
+  for (const vec4& c : mesh.mesh.colors) colors.push_back(m.base_color * vec3(c));
+  if (!colors.empty()) {
+    if (m.base_color_texture.texture >= 0)
+      e.differences.add("vertex colours on textures are left out", m.name);
+    for (const vec4& c : mesh.mesh.colors) {
+      if (c.w == 1) continue;
+      e.differences.add("the coverage of vertices is left out", m.name);
+      break;
+    }
+  }
+  // Each texture has its own transform; the file has the set they share.
+  scene::TextureUse set;
+  set.texture = leading_texture(m).texture, set.uv_set = leading_texture(m).uv_set;
+  const std::string name = fmt::format("mesh{}.ply", index);
+  write_file(e.directory / name, encode_ply(mesh.mesh, texture_coordinates(mesh.mesh, set), colors));
+  e.files.push_back(e.directory / name);
+
+  e.xml.comment(mesh.name);
+  e.xml.open("shape", {{"type", "ply"}, {"id", identifier("mesh", index, mesh.name)}});
+  string(e.xml, "filename", name);
+  // Mitsuba makes smooth normals for meshes that have none.
+  if (mesh.mesh.normals.empty()) boolean(e.xml, "face_normals", true);
+  e.xml.empty("ref", {{"id", bsdf_id(e.scene, mesh)}});
+  if (m.emissive()) area_light(e, m);
+  e.xml.close();
+}
+
+void write_light(Export& e, const FlatLight& flat) {
+  const scene::Light& light = *flat.light;
+  const vec3 strength = light.color * light.intensity;
+  e.xml.comment(light.name);
+  note_light(light, e.differences);
+  switch (light.type) {
+    case scene::LightType::point:
+      e.xml.open("emitter", {{"type", "point"}});
+      point(e.xml, "position", flat.position);
+      rgb(e.xml, "intensity", strength);
+      break;
+    case scene::LightType::spot: {
+      e.xml.open("emitter", {{"type", "spot"}});
+      // Shines along its +z.
+      const Frame frame = Frame::around(flat.direction);
+      transform(e.xml, "to_world",
+                mat4(vec4(frame.x, 0), vec4(frame.y, 0), vec4(frame.z, 0), vec4(flat.position, 1)));
+      rgb(e.xml, "intensity", strength);
+      number(e.xml, "cutoff_angle", glm::degrees(light.outer_cone));
+      number(e.xml, "beam_width", glm::degrees(light.inner_cone));
+      e.differences.add(
+          "spots fade linearly in the angle between the cones (here: with the square of a ramp in the "
+          "cosine)",
+          light.name);
+      break;
+    }
+    case scene::LightType::directional:
+      e.xml.open("emitter", {{"type", "directional"}});
+      e.xml.empty("vector", {{"name", "direction"},
+                             {"x", fmt::format("{}", flat.direction.x)},
+                             {"y", fmt::format("{}", flat.direction.y)},
+                             {"z", fmt::format("{}", flat.direction.z)}});
+      rgb(e.xml, "irradiance", strength);
+      if (light.angular_radius > 0)
+        e.differences.add("suns have no size: hard shadows, and unseen", light.name);
+      break;
+    case scene::LightType::sphere:
+      e.xml.open("shape", {{"type", "sphere"}});
+      point(e.xml, "center", flat.position);
+      number(e.xml, "radius", light.radius);
+      e.xml.open("bsdf", {{"type", "diffuse"}});
+      rgb(e.xml, "reflectance", vec3(0));
+      e.xml.close();
+      e.xml.open("emitter", {{"type", "area"}});
+      rgb(e.xml, "radiance", strength);
+      e.xml.close();
+      e.differences.add("sphere lights block other light", light.name);
+      break;
+  }
+  e.xml.close();
+}
+
+// Mitsuba's rows reach from pole to pole, ours are centres of bands. Twice as many rows and one have all of
+// our centres and the places between them: the same interpolation.
+image::Image with_rows_at_poles(const image::Image& equirect, const vec3& factor) {
+  image::Image result(equirect.width, 2 * equirect.height + 1);
+  for (int y = 0; y < result.height; ++y) {
+    const float v = static_cast<float>(y) / static_cast<float>(result.height - 1);
+    for (int x = 0; x < result.width; ++x) {
+      const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(result.width);
+      result.set_rgb(x, y, factor * image::sample_equirect(equirect, image::equirect_direction(u, v)));
+    }
+  }
+  return result;
+}
+
+void write_environment(Export& e, const scene::Environment& environment) {
+  if (environment.equirect.empty()) {
+    e.xml.open("emitter", {{"type", "constant"}});
+    rgb(e.xml, "radiance", environment.color);
+  } else {
+    e.xml.open("emitter", {{"type", "envmap"}});
+    string(e.xml, "filename",
+           e.textures.image("environment.exr", with_rows_at_poles(environment.equirect, environment.color)));
+    // Its image's left edge looks to -z, ours to -x.
+    transform(e.xml, "to_world", glm::rotate(mat4(1), environment.rotation + pi / 2, vec3(0, 1, 0)));
+  }
+  e.xml.close();
+}
+
+void write_camera(Export& e) {
+  const scene::Camera& camera = e.settings.camera.camera;
+  // Looks along +z with x to the left.
+  mat4 world = e.settings.camera.world *
+               mat4(vec4(-1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, -1, 0), vec4(0, 0, 0, 1));
+  e.xml.open("sensor", {{"type", camera.orthographic ? "orthographic" : "perspective"}});
+  if (camera.orthographic) {
+    // Sees [-1, 1] across.
+    const float half =
+        0.5f * camera.yheight * static_cast<float>(e.settings.width) / static_cast<float>(e.settings.height);
+    world = glm::scale(world, vec3(half, half, 1));
+  } else {
+    string(e.xml, "fov_axis", "y");
+    number(e.xml, "fov", glm::degrees(camera.yfov));
+  }
+  number(e.xml, "near_clip", 1e-4f);
+  number(e.xml, "far_clip", 1e6f);
+  transform(e.xml, "to_world", world);
+  e.xml.open("sampler", {{"type", "independent"}});
+  integer(e.xml, "sample_count", e.settings.spp);
+  e.xml.close();
+  e.xml.open("film", {{"type", "hdrfilm"}});
+  integer(e.xml, "width", e.settings.width);
+  integer(e.xml, "height", e.settings.height);
+  string(e.xml, "pixel_format", "rgb");
+  string(e.xml, "component_format", "float32");
+  e.xml.empty("rfilter", {{"type", "box"}});
+  e.xml.close();
+  e.xml.close();
+}
+
+bool cut_out(const Export& e, const FlatScene& flat) {
+  for (const FlatMesh& mesh : flat.meshes) {
+    if (material_of(e.scene, mesh).alpha_mode != scene::AlphaMode::opaque) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+ExportReport export_mitsuba(const scene::Scene& scene, const ExportSettings& settings,
+                            const std::filesystem::path& directory) {
+  std::filesystem::create_directories(directory);
+  const FlatScene flat = flatten(scene, settings.time);
+  const std::filesystem::path file = directory / "scene.xml";
+  Export e{scene, settings, directory, TextureFiles(scene, directory), XmlWriter(), {}, {file}};
+  e.xml.open("scene", {{"version", "3.0.0"}});
+  // What covers in part lets through light of lamps in volpath alone.
+  e.xml.open("integrator", {{"type", cut_out(e, flat) ? "volpath" : "path"}});
+  integer(e.xml, "max_depth", settings.max_depth + 1);  // Mitsuba counts segments
+  e.xml.close();
+  write_camera(e);
+  std::set<std::string> written;
+  for (const FlatMesh& mesh : flat.meshes) {
+    const std::string id = bsdf_id(scene, mesh);
+    if (written.insert(id).second) write_bsdf(e, id, material_of(scene, mesh), !mesh.mesh.colors.empty());
+  }
+  for (std::size_t i = 0; i < flat.meshes.size(); ++i) write_mesh(e, i, flat.meshes[i]);
+  for (const FlatLight& light : flat.lights) write_light(e, light);
+  if (scene.environment) write_environment(e, *scene.environment);
+  e.xml.close();
+  write_file(file, e.xml.str());
+
+  ExportReport report;
+  report.files = std::move(e.files);
+  report.files.insert(report.files.end(), e.textures.written().begin(), e.textures.written().end());
+  report.command = fmt::format("mitsuba -m scalar_rgb -o picture.exr {}", file.string());
+  report.differences = e.differences.lines();
+  return report;
+}
+
+}  // namespace ssphh::scene_io

@@ -1,0 +1,162 @@
+// Scenes for other renderers, and Cycles as a second truth where Blender is installed.
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <ssphh/image/io.h>
+
+#include "temp_dir.h"
+#include "tool_checks.h"
+
+namespace ssphh {
+namespace {
+
+using nlohmann::json;
+using test::expect_failure;
+using test::expect_keys;
+using test::run_json;
+using test::run_tool;
+using test::TempDir;
+
+json read_json(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return json::parse(file, nullptr, false);
+}
+
+TEST(Export, CyclesGetsTheSceneInWorldSpaceAndTheReportNamesWhatDiffers) {
+  const TempDir dir;
+  const json plain =
+      run_json({"export", "builtin:two-rooms", "--to", "cycles", "-o", dir / "a", "--time", "1"});
+  expect_keys(plain, {"to", "files", "command", "differences", "triangles", "hash"});
+  EXPECT_TRUE(plain["differences"].empty()) << plain["differences"].dump();
+  const json scene = read_json(dir / "a/scene.json");
+  ASSERT_TRUE(scene.is_object());
+  EXPECT_EQ(scene["lights"].size(), 1u);
+  std::size_t triangles = 0, floats = 0;
+  for (const json& mesh : scene["meshes"]) {
+    triangles += mesh["triangles"].get<std::size_t>();
+    floats += 3 * mesh["vertices"].get<std::size_t>() + 3 * mesh["triangles"].get<std::size_t>();
+    if (mesh.contains("normals")) floats += 3 * mesh["vertices"].get<std::size_t>();
+    for (const char* uv : {"uv0", "uv1"})
+      if (mesh.contains(uv)) floats += 2 * mesh["vertices"].get<std::size_t>();
+  }
+  EXPECT_EQ(triangles, plain["triangles"]);
+  EXPECT_EQ(std::filesystem::file_size(dir / "a/scene.bin"), 4 * floats);
+
+  const json bronze = run_json({"export", "builtin:gallery2", "--to", "cycles", "-o", dir / "b"});
+  ASSERT_EQ(bronze["differences"].size(), 1u);
+  EXPECT_THAT(bronze["differences"][0].get<std::string>(), testing::HasSubstr("bronze"));
+}
+
+TEST(Export, EveryRendererGetsItsFilesAndTheReportNamesWhatDiffers) {
+  const TempDir dir;
+  for (const char* renderer : {"mitsuba", "pbrt", "corona"}) {
+    const json written = run_json({"export", "builtin:gallery2", "--to", renderer, "-o", dir / renderer});
+    EXPECT_EQ(written["to"], renderer);
+    for (const json& file : written["files"])
+      EXPECT_TRUE(std::filesystem::is_regular_file(file.get<std::string>()));
+    EXPECT_THAT(written["command"].get<std::string>(),
+                testing::HasSubstr(written["files"][0].get<std::string>()));
+    EXPECT_THAT(written["differences"].dump(), testing::HasSubstr("bronze")) << renderer;
+  }
+}
+
+TEST(Export, GltfLoadsBackTheSame) {
+  const TempDir dir;
+  const json written = run_json({"export", "builtin:two-rooms", "--to", "gltf", "-o", dir / "rooms.glb"});
+  EXPECT_EQ(run_json({"scene", "info", dir / "rooms.glb"})["hash"], written["hash"]);
+}
+
+TEST(Truth, TellsItsOwnNoise) {
+  const TempDir dir;
+  const std::vector<std::string> common = {"truth",    "builtin:box", "--width",     "32",
+                                           "--height", "18",          "--max-depth", "3"};
+  const auto truth = [&](const std::string& spp, const std::string& name) {
+    std::vector<std::string> arguments = common;
+    arguments.insert(arguments.end(), {"--spp", spp, "-o", dir / name, "--halves"});
+    return run_json(arguments);
+  };
+  const json few = truth("8", "few.exr"), many = truth("128", "many.exr");
+  expect_keys(few, {"output", "renderer", "seconds", "mean", "standard_error", "noise", "differences"});
+  // Sixteen times the samples: a quarter of the RMSE, somewhat less with stratified samples.
+  EXPECT_LT(many["noise"]["rmse"].get<double>(), 0.5 * few["noise"]["rmse"].get<double>());
+  const json halves = run_json({"compare", dir / "few.a.exr", dir / "few.b.exr"});
+  EXPECT_NEAR(halves["rmse"].get<double>() / 2, few["noise"]["rmse"].get<double>(), 1e-7);
+}
+
+TEST(Truth, SaysWhatToInstallWithoutBlender) {
+  const TempDir dir;
+  const char* path = std::getenv("PATH");
+  const std::string before = path ? path : "";
+  ASSERT_EQ(::setenv("PATH", dir.path().c_str(), 1), 0);
+  expect_failure({"truth", "builtin:box", "--renderer", "cycles", "-o", dir / "x.exr"},
+                 "install-deps --with-blender");
+  ::setenv("PATH", before.c_str(), 1);
+}
+
+bool blender_is_there() {
+  return std::system("command -v blender > /dev/null") == 0;
+}
+
+// Lambert surfaces and a point light: direct light and one bounce agree within the noise of both and 1 % per
+// channel.
+TEST(Truth, CyclesAgrees) {
+  if (!blender_is_there()) GTEST_SKIP() << "no blender: scripts/install-deps --with-blender";
+  const TempDir dir;
+  for (const char* depth : {"1", "3"}) {
+    const auto truth = [&](const std::string& renderer, const std::string& spp) {
+      return run_json({"truth", "builtin:two-rooms", "--renderer", renderer, "--max-depth", depth, "--spp",
+                       spp, "--width", "80", "--height", "45", "-o", dir / (renderer + ".exr")});
+    };
+    const json ours = truth("path", "64"), cycles = truth("cycles", "64");
+    EXPECT_TRUE(cycles["differences"].empty());
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double a = ours["mean"][c], b = cycles["mean"][c];
+      EXPECT_NEAR(b / a, 1, 0.01) << "depth " << depth;
+      const double error =
+          std::hypot(ours["standard_error"][c].get<double>(), cycles["standard_error"][c].get<double>());
+      EXPECT_LT(std::abs(b - a), 5 * error + 0.002 * a) << "depth " << depth;  // pixel edges: 0.2 %
+    }
+  }
+}
+
+// The whole sphere: a picture that is turned or mirrored would differ by far more than noise.
+TEST(Truth, CyclesAgreesOnTheWholeSphere) {
+  if (!blender_is_there()) GTEST_SKIP() << "no blender: scripts/install-deps --with-blender";
+  const TempDir dir;
+  const auto truth = [&](const std::string& renderer) {
+    const std::string output = dir / (renderer + ".exr");
+    run_json({"truth", "builtin:two-rooms", "--renderer", renderer, "--projection", "equirect", "--max-depth",
+              "1", "--spp", "64", "--width", "64", "--height", "32", "-o", output});
+    return image::read_image(output);
+  };
+  const image::Image ours = truth("path"), cycles = truth("cycles");
+  ASSERT_EQ(cycles.width, 64);
+  double difference = 0, mirrored = 0, turned = 0, total = 0;
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const vec3 a = ours.rgb(x, y);
+      const auto distance = [&](int u, int v) {
+        return static_cast<double>(glm::length(cycles.rgb(u, v) - a));
+      };
+      total += static_cast<double>(glm::length(a));
+      difference += distance(x, y);
+      mirrored += distance(63 - x, y);
+      turned += distance((x + 16) % 64, y);
+    }
+  }
+  EXPECT_GT(total, 0);
+  EXPECT_LT(difference, 0.03 * total);  // edges within pixels and noise
+  EXPECT_GT(mirrored, 0.2 * total);
+  EXPECT_GT(turned, 0.2 * total);
+}
+
+}  // namespace
+}  // namespace ssphh

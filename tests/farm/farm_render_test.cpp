@@ -1,0 +1,82 @@
+#include "farm_process.h"
+
+namespace ssphh::test {
+namespace {
+
+TEST(FarmRender, PicturesAndLayersHaveTheBitsOfALocalRender) {
+  const TempDir dir;
+  FarmProcesses farm(2);
+  const std::vector<std::string> common = {
+      "render", "builtin:gallery1",          "--width", "70", "--height", "41", "--spp", "4", "--passes", "2",
+      "--aov",  "direct,normal,depth,groups"};
+  auto local = common, far = common;
+  local.insert(local.end(), {"-o", (dir / "local.exr").string()});
+  far.insert(far.end(), {"-o", (dir / "far.exr").string(), "--broker", farm.endpoint(), "--cache", "none"});
+  const nlohmann::json a = run_json(local), b = run_json(far);
+  EXPECT_EQ(a["paths"], b["paths"]);
+  EXPECT_EQ(b["farm"]["units"], 6);
+  int compared = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(dir.path())) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("local.")) continue;
+    EXPECT_EQ(read_file(entry.path()), read_file(dir / ("far." + name.substr(6)))) << name;
+    ++compared;
+  }
+  EXPECT_EQ(compared, 1 + 3 + 3) << "picture, direct, normal, depth, three groups";
+}
+
+TEST(FarmRender, PicturesLitByProbesHaveTheBitsOfALocalRender) {
+  const TempDir dir;
+  FarmProcesses farm(2);
+  const std::string probes = (dir / "p.sphl").string();
+  ASSERT_EQ(run_tool({"bake", "builtin:gallery1", "--face", "8", "--spp", "4", "--viz", "off", "-o", probes})
+                .exit_code,
+            0);
+  const std::vector<std::string> common = {
+      "render", "builtin:gallery1", "--method", "ssphh", "--probes", probes, "--width",
+      "48",     "--height",         "32",       "--spp", "4"};
+  auto local = common, far = common;
+  local.insert(local.end(), {"-o", (dir / "local.exr").string()});
+  far.insert(far.end(), {"-o", (dir / "far.exr").string(), "--broker", farm.endpoint(), "--cache", "none"});
+  run_json(local), run_json(far);
+  EXPECT_EQ(read_file(dir / "local.exr"), read_file(dir / "far.exr"));
+}
+
+TEST(FarmCommand, StatusDrainAndKeys) {
+  const TempDir dir;
+  FarmProcesses farm(2);
+  ASSERT_TRUE(farm.worker(1).wait_for_stderr("worker-ready"));
+  nlohmann::json status;
+  for (int i = 0; i < 100 && status.value("workers", nlohmann::json::array()).size() < 2; ++i)
+    status = run_json({"farm", "status", "--broker", farm.endpoint()});
+  ASSERT_EQ(status["workers"].size(), 2u) << status.dump(1);
+  EXPECT_EQ(run_json({"farm", "drain", "--broker", farm.endpoint(), "--workers", "test:1"})["told"], 1);
+  EXPECT_EQ(farm.worker(1).wait().exit_code, 0);
+
+  const std::string keys = (dir / "keys").string();
+  run_json({"farm", "keygen", "node1", "--role", "worker", "--keys", keys});
+  run_json({"farm", "keygen", "me", "--role", "client", "--keys", keys});
+  for (const char* name : {"broker.key", "broker.pub", "node1.key", "me.key", "allow.txt"})
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(keys) / name)) << name;
+  expect_failure({"farm", "keygen", "me", "--role", "admin", "--keys", keys}, "me");
+  expect_failure({"farm", "status", "--broker", "tcp://192.0.2.1:5555"}, "--keys");
+  expect_failure({"worker", "--broker", "tcp://192.0.2.1:5555"}, "--keys", 42);
+}
+
+TEST(FarmCommand, BakeWithKeys) {
+  const TempDir dir;
+  const SmallBake bake(dir, "2");
+  const std::string keys = (dir / "keys").string();
+  for (const char* who : {"client", "worker"})
+    run_json({"farm", "keygen", who, "--role", who, "--keys", keys});
+  FarmProcesses farm(0, {"--keys", keys});
+  farm.start_worker({"--keys", keys});
+  auto command = bake.on(farm.endpoint(), dir / "out.sphl");
+  command.insert(command.end(), {"--keys", keys});
+  const ToolResult result = run_tool(command);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(read_file(dir / "out.sphl"), bake.wanted);
+}
+
+}  // namespace
+}  // namespace ssphh::test

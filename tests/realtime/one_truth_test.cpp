@@ -1,0 +1,107 @@
+/// The drawn picture of every built-in scene is the traced one with the same probes.
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include <ssphh/scene/builtin.h>
+
+#include "gl_context.h"
+#include "pictures.h"
+
+namespace ssphh {
+namespace {
+
+using test::PictureSize;
+
+constexpr int block = 16;
+
+struct BlockMeans {
+  int columns, rows;
+  std::vector<double> values;
+};
+
+BlockMeans block_means(const image::Image& image) {
+  BlockMeans means{image.width / block, image.height / block, {}};
+  for (int by = 0; by < means.rows; ++by) {
+    for (int bx = 0; bx < means.columns; ++bx) {
+      double sum = 0;
+      for (int y = 0; y < block; ++y) {
+        for (int x = 0; x < block; ++x)
+          sum += static_cast<double>(luminance(image.rgb(bx * block + x, by * block + y)));
+      }
+      means.values.push_back(sum / (block * block));
+    }
+  }
+  return means;
+}
+
+class OneTruth : public test::WithGl, public testing::WithParamInterface<std::string> {
+ protected:
+  void compare(gi::LookupMethod method);
+};
+
+/// What may differ in a block:
+/// - the traced picture's noise, from two halves;
+/// - edges of what a lamp or a probe lights move by up to 1.5 texels of its shadow map: of 256 texels on 2 d
+/// at
+///   distance d, d as much as the width the picture shows, against a block of 16 of 128 pixels of that width;
+/// - half shadows of lights with an extent come in steps of one of 16 points (8 on spheres).
+/// A block with an edge through it has all of that at once.
+void OneTruth::compare(gi::LookupMethod method) {
+  constexpr double edge = 1.5 * 2.0 / 256 / (16.0 / 128), steps = 1.0 / 16;
+  const scene::Scene scene = scene::make_builtin(GetParam());
+  const gi::ProbeSet probes = test::made_up_probes(scene);
+  const PictureSize size;
+
+  const trace::PathTracer tracer(scene);
+  const auto lookup = gi::make_lookup(method, probes, tracer);
+  const BlockMeans a = block_means(test::traced(scene, lookup.get(), size, 24, 1, tracer));
+  const BlockMeans b = block_means(test::traced(scene, lookup.get(), size, 24, 2, tracer));
+  realtime::Renderer renderer(gl(), scene);
+  renderer.set_probes(probes);
+  realtime::FrameSettings settings;
+  settings.lookup = method;
+  const BlockMeans picture = block_means(test::drawn(renderer, scene, size, settings));
+
+  double mean = 0, squares = 0, noise2 = 0;
+  for (std::size_t i = 0; i < a.values.size(); ++i) mean += 0.5 * (a.values[i] + b.values[i]);
+  mean /= static_cast<double>(a.values.size());
+  ASSERT_GT(mean, 0);
+  for (std::size_t i = 0; i < a.values.size(); ++i) {
+    const double truth = 0.5 * (a.values[i] + b.values[i]), by = truth + 0.01 * mean;
+    // Half the difference of two halves estimates the mean's deviation; one pair alone may be equal by chance
+    const double noise = std::max(0.5 * std::abs(a.values[i] - b.values[i]), 0.005 * by);
+    const double off = std::abs(picture.values[i] - truth);
+    EXPECT_LT(off, 4 * noise + (edge + steps) * by)
+        << "block " << i % static_cast<std::size_t>(a.columns) << ", "
+        << i / static_cast<std::size_t>(a.columns) << " of brightness " << truth;
+    squares += off * off / (by * by);
+    noise2 += noise * noise / (by * by);
+  }
+  const auto n = static_cast<double>(a.values.size());
+  // Few blocks have edges, and those rarely all of their light
+  EXPECT_LT(squares / n, 4 * noise2 / n + edge * edge / 10);
+}
+
+TEST_P(OneTruth, PictureIsTheTracedOne) {
+  compare(gi::LookupMethod::irradiance);
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtin, OneTruth,
+                         testing::Values("cornell", "furnace", "box", "two-rooms", "gallery1", "gallery2",
+                                         "gallery3"),
+                         [](const auto& given) {
+                           std::string name = given.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+using OneTruthLight = OneTruth;
+TEST_P(OneTruthLight, PictureOfSphlsAsLightsIsTheTracedOne) {
+  compare(gi::LookupMethod::light);
+}
+INSTANTIATE_TEST_SUITE_P(Builtin, OneTruthLight, testing::Values("cornell"));
+
+}  // namespace
+}  // namespace ssphh

@@ -1,0 +1,71 @@
+#pragma once
+/// The same picture by OpenGL and by tracing.
+
+#include <random>
+
+#include <ssphh/gi/lookup.h>
+#include <ssphh/realtime/renderer.h>
+#include <ssphh/trace/path_tracer.h>
+
+namespace ssphh::test {
+
+/// Probes at the scene's SPHLs with made-up light of degree 4, positive and different in every direction: a
+/// lookup that is wrong anywhere shows.
+inline gi::ProbeSet made_up_probes(const std::vector<vec3>& places, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> mean(0.5f, 2), rest(-0.25f, 0.25f);
+  gi::ProbeSet set;
+  set.degree = 4;
+  set.light_groups = {{"made up", vec3(1)}};
+  for (const vec3& place : places) {
+    gi::Probe probe;
+    probe.position = place;
+    gi::GroupLight light{sh::RadianceSh(4), sh::RadianceSh(4)};
+    light.reflected[0] = vec3(mean(random), mean(random), mean(random));
+    for (int k = 1; k < 25; ++k) light.reflected[k] = vec3(rest(random), rest(random), rest(random));
+    probe.groups.push_back(light);
+    set.probes.push_back(probe);
+  }
+  gi::merge_groups(set);
+  return set;
+}
+
+inline gi::ProbeSet made_up_probes(const scene::Scene& scene) {
+  std::vector<vec3> places;
+  for (const scene::SphlPlace& p : scene::sphl_places(scene)) places.push_back(p.position);
+  return made_up_probes(places);
+}
+
+struct PictureSize {
+  int width = 128, height = 72;
+};
+
+/// Direct light traced, indirect light looked up (none: max_depth 1).
+inline image::Image traced(const scene::Scene& scene, const scene::IndirectLight* indirect, PictureSize size,
+                           int spp, std::uint64_t seed, const trace::PathTracer& tracer) {
+  trace::RenderParams params;
+  params.width = size.width, params.height = size.height;
+  params.camera = scene::camera_pose(scene, "");
+  params.path = {indirect ? 2 : 1, 1, spp, seed};
+  if (params.camera.camera.orthographic) params.projection = trace::Projection::orthographic;
+  trace::RenderState state;
+  indirect ? tracer.render_with(*indirect, params, state) : tracer.render(params, state);
+  return trace::resolve(state.color, state.passes_done);
+}
+
+inline image::Image drawn(realtime::Renderer& renderer, const scene::Scene& scene, PictureSize size,
+                          realtime::FrameSettings settings = {}) {
+  settings.supersample = 4;
+  renderer.draw(scene::camera_pose(scene, ""), settings, {.width = size.width, .height = size.height});
+  return renderer.read_back();
+}
+
+inline double mean_luminance(const image::Image& image) {
+  double sum = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) sum += static_cast<double>(luminance(image.rgb(x, y)));
+  }
+  return sum / (static_cast<double>(image.width) * image.height);
+}
+
+}  // namespace ssphh::test

@@ -1,0 +1,234 @@
+/// What changes between frames changes the picture, and nothing else is done anew.
+
+#include <gmock/gmock.h>
+
+#include <ssphh/scene/builtin.h>
+#include <ssphh/scene/with_lights.h>
+
+#include "count_allocations.h"
+#include "gl_context.h"
+#include "pictures.h"
+
+namespace ssphh {
+namespace {
+
+using realtime::FrameSettings;
+using realtime::FrameStats;
+using realtime::Renderer;
+using realtime::View;
+
+constexpr test::PictureSize small{64, 36};
+
+class RendererTest : public test::WithGl {
+ protected:
+  RendererTest() : scene_(scene::make_builtin("two-rooms")) {}
+
+  double brightness(Renderer& renderer, const std::string& camera, View view = View::lit) {
+    FrameSettings settings;
+    settings.view = view;
+    renderer.draw(scene::camera_pose(scene_, camera), settings, {.width = 64, .height = 36});
+    return test::mean_luminance(renderer.read_back());
+  }
+  const FrameStats& frame(Renderer& renderer, const FrameSettings& settings = {}) {
+    return renderer.draw(scene::camera_pose(scene_, ""), settings, {.width = 64, .height = 36});
+  }
+
+  scene::Scene scene_;
+};
+
+TEST_F(RendererTest, ShadersCompileWithoutWarnings) {
+  Renderer renderer(gl(), scene_);
+  EXPECT_EQ(renderer.shader_warnings(), "");
+}
+
+TEST_F(RendererTest, AnOpenDoorLetsLightIntoRoomB) {
+  Renderer renderer(gl(), scene_);
+  const double shut = brightness(renderer, "room-b");
+  renderer.set_time(1);
+  const double open = brightness(renderer, "room-b");
+  EXPECT_LT(shut, 1e-3);
+  EXPECT_GT(open, 10 * shut + 1e-3);
+  renderer.set_time(0);
+  EXPECT_DOUBLE_EQ(brightness(renderer, "room-b"), shut);
+}
+
+TEST_F(RendererTest, OnlyMapsThatSeeWhatMovedAreDrawnAnew) {
+  Renderer renderer(gl(), scene_);
+  renderer.set_probes(test::made_up_probes(scene_));
+  const int all = frame(renderer).shadow_maps_drawn;
+  EXPECT_EQ(all, 6 + 6 * 6) << "a lamp and six probes";
+  EXPECT_EQ(frame(renderer).shadow_maps_drawn, 0);
+  renderer.set_time(0.5f);
+  const int moved = frame(renderer).shadow_maps_drawn;
+  EXPECT_GT(moved, 0);
+  EXPECT_LT(moved, all / 2);
+}
+
+TEST_F(RendererTest, MapsBeyondTheFramesShareWait) {
+  Renderer renderer(gl(), scene_, {.maps_per_frame = 10});
+  renderer.set_probes(test::made_up_probes(scene_));
+  int drawn = 0, frames = 0;
+  do {
+    const FrameStats& stats = frame(renderer);
+    EXPECT_LE(stats.shadow_maps_drawn, 10);
+    drawn += stats.shadow_maps_drawn;
+    EXPECT_EQ(stats.shadow_maps_waiting, 42 - drawn);
+  } while (drawn < 42 && ++frames < 10);
+  EXPECT_EQ(drawn, 42);
+}
+
+TEST_F(RendererTest, ALampThatIsSetLooksLikeASceneWithThatLamp) {
+  Renderer renderer(gl(), scene_);
+  scene::LightState lamp = renderer.light(0);
+  lamp.world[3] = vec4(-1, 1.5f, -0.8f, 1);
+  lamp.color = {0.2f, 0.5f, 1};
+  renderer.set_light(0, lamp);
+  const double moved = brightness(renderer, "room-a");
+  Renderer other(gl(), scene::with_lights(scene_, 0, std::span(&lamp, 1)));
+  EXPECT_NEAR(moved, brightness(other, "room-a"), 1e-6);
+  EXPECT_THROW(renderer.set_light(1, lamp), Error);
+  lamp.intensity = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(renderer.set_light(0, lamp), Error);
+}
+
+TEST_F(RendererTest, GroupsScaleTheirLight) {
+  Renderer renderer(gl(), scene_);
+  const double before = brightness(renderer, "room-a");
+  renderer.set_group_scale(0, vec3(3));
+  EXPECT_NEAR(brightness(renderer, "room-a"), 3 * before, 0.003 * before)
+      << "colours are halves (fp16) in between";
+  renderer.set_group_scale(0, vec3(0));
+  EXPECT_EQ(brightness(renderer, "room-a"), 0);
+}
+
+TEST_F(RendererTest, DirectAndIndirectAddUp) {
+  Renderer renderer(gl(), scene_);
+  renderer.set_probes(test::made_up_probes(scene_));
+  const double direct = brightness(renderer, "room-a", View::direct);
+  const double indirect = brightness(renderer, "room-a", View::indirect);
+  EXPECT_NEAR(brightness(renderer, "room-a"), direct + indirect, 1e-5 * (direct + indirect));
+}
+
+TEST_F(RendererTest, ProbesChangeByWhatIsUploadedForThem) {
+  Renderer renderer(gl(), scene_);
+  gi::ProbeSet set = test::made_up_probes(scene_);
+  renderer.set_probes(set);
+  const double before = brightness(renderer, "room-a", View::indirect);
+  std::vector<int> probes;
+  std::vector<sh::RadianceSh> light;
+  for (std::size_t i = 0; i < set.probes.size(); ++i) {
+    probes.push_back(static_cast<int>(i));
+    light.push_back(set.probes[i].reflected);
+    light.back() *= vec3(2);
+  }
+  const std::uint64_t idle = frame(renderer).bytes_uploaded;
+  renderer.update_probes(std::span(probes).first(1), std::span(light).first(1));
+  const std::uint64_t one = frame(renderer).bytes_uploaded - idle;
+  renderer.update_probes(probes, light);
+  const std::uint64_t six = frame(renderer).bytes_uploaded - idle;
+  EXPECT_GT(one, 0u);
+  EXPECT_EQ(six, 6 * one);
+  EXPECT_NEAR(brightness(renderer, "room-a", View::indirect), 2 * before, 0.002 * before)
+      << "tiles hold halves (fp16)";
+  EXPECT_THROW(renderer.update_probes(std::array{6}, std::span(light).first(1)), Error);
+}
+
+TEST_F(RendererTest, FewerPixelsLookedUpGiveNearlyTheSameLight) {
+  Renderer renderer(gl(), scene_);
+  renderer.set_probes(test::made_up_probes(scene_));
+  FrameSettings settings;
+  settings.view = View::indirect;
+  frame(renderer, settings);
+  const double every = test::mean_luminance(renderer.read_back());
+  settings.indirect_scale = 2;
+  frame(renderer, settings);
+  EXPECT_NEAR(test::mean_luminance(renderer.read_back()) / every, 1, 0.02);
+}
+
+TEST_F(RendererTest, OcclusionDarkensCornersAndNothingBrightens) {
+  Renderer renderer(gl(), scene_);
+  renderer.set_probes(test::made_up_probes(scene_));
+  FrameSettings settings;
+  settings.view = View::indirect;
+  frame(renderer, settings);
+  const image::Image open = renderer.read_back();
+  settings.ambient_occlusion = true;
+  frame(renderer, settings);
+  const image::Image closed = renderer.read_back();
+  for (std::size_t i = 0; i < open.pixels.size(); ++i)
+    EXPECT_LE(closed.pixels[i], open.pixels[i] * 1.002f + 1e-6f);
+  EXPECT_LT(test::mean_luminance(closed), 0.99 * test::mean_luminance(open));
+}
+
+TEST_F(RendererTest, AProbeThatEmitsLightsAsAPointLightOfItsIntensity) {
+  // Radiance L from a sphere of radius r in every direction is the intensity L π r²
+  scene::Scene dark = scene_;
+  dark.lights.clear();
+  const gi::ProbeSet set = test::made_up_probes(scene_);
+  Renderer probe(gl(), dark);
+  probe.set_probes(set);
+  sh::RadianceSh leaving(0);
+  leaving[0] = vec3(50 / 0.28209479f);
+  probe.set_emission(0, leaving, 0.1f);
+  const double by_probe = brightness(probe, "room-a", View::direct);
+
+  Renderer lamp(gl(), scene_);
+  scene::LightState state;
+  state.world[3] = vec4(set.probes[0].position, 1);
+  state.intensity = 50 * pi * 0.01f;
+  lamp.set_light(0, state);
+  const double by_lamp = brightness(lamp, "room-a", View::direct);
+  EXPECT_NEAR(by_probe / by_lamp, 1, 0.01);
+  probe.set_emission(0, {}, 0);
+  EXPECT_EQ(brightness(probe, "room-a", View::direct), 0);
+}
+
+TEST_F(RendererTest, FramesInSteadyStateAllocateNothing) {
+  Renderer renderer(gl(), scene_);
+  renderer.set_probes(test::made_up_probes(scene_));
+  const scene::CameraPose camera = scene::camera_pose(scene_, "");
+  const FrameSettings settings;
+  const realtime::Target target{.width = 64, .height = 36};
+  for (int i = 0; i < 3; ++i) renderer.draw(camera, settings, target);
+  const std::size_t memory = renderer.memory_bytes();
+  const long before = test::allocations();
+  for (int i = 0; i < 50; ++i) renderer.draw(camera, settings, target);
+  EXPECT_EQ(test::allocations() - before, 0);
+  EXPECT_EQ(renderer.memory_bytes(), memory);
+}
+
+TEST_F(RendererTest, ViewsShowWhatTheyName) {
+  Renderer renderer(gl(), scene_);
+  renderer.set_probes(test::made_up_probes(scene_));
+  FrameSettings settings;
+  settings.view = View::albedo;
+  frame(renderer, settings);
+  const vec3 wall = renderer.read_back().rgb(10, 12);
+  EXPECT_NEAR(wall.x, 0.7f, 0.01f);
+  settings.view = View::normal;
+  frame(renderer, settings);
+  for (int x = 4; x < 60; x += 8) {
+    const vec3 n = 2.0f * renderer.read_back().rgb(x, 12) - 1.0f;
+    EXPECT_NEAR(glm::length(n), 1, 1e-2f);
+  }
+  settings.view = View::shadow;
+  frame(renderer, settings);
+  const image::Image shadow = renderer.read_back();
+  for (const float v : shadow.pixels) EXPECT_TRUE(v >= 0 && v <= 1);
+  settings.view = View::chosen_sphl;
+  frame(renderer, settings);
+  EXPECT_GT(test::mean_luminance(renderer.read_back()), 0);
+}
+
+TEST_F(RendererTest, BadInputIsAnError) {
+  Renderer renderer(gl(), scene_);
+  EXPECT_THROW(renderer.read_back(), Error);
+  EXPECT_THROW(renderer.set_probes({}), Error);
+  EXPECT_THROW(renderer.draw(scene::camera_pose(scene_, ""), {}, {.width = 0, .height = 4}), Error);
+  EXPECT_THROW(renderer.set_group_scale(99, vec3(1)), Error);
+  EXPECT_THROW(renderer.set_material(99, {}), Error);
+  EXPECT_THROW(renderer.set_emission(0, {}, 1), Error);
+}
+
+}  // namespace
+}  // namespace ssphh

@@ -1,0 +1,157 @@
+/// Weights fitted to transport over Embree, where the answer is known.
+
+#include <gtest/gtest.h>
+
+#include <ssphh/gi/fitted_weights.h>
+#include <ssphh/gi/lookup.h>
+#include <ssphh/sh/evaluate.h>
+#include <ssphh/sh/irradiance.h>
+#include <ssphh/trace/path_tracer.h>
+
+#include "transport_fixtures.h"
+
+namespace ssphh::test {
+namespace {
+
+gi::ProbeSet set_of(const gi::RelightSession& session) {
+  gi::ProbeSet set;
+  set.degree = session.reflected().front().degree();
+  set.light_groups.push_back({"all", vec3(1)});
+  for (std::size_t i = 0; i < session.places().size(); ++i) {
+    gi::Probe& probe = set.probes.emplace_back();
+    probe.position = session.places()[i].position;
+    probe.groups.push_back({{}, session.reflected()[i]});
+  }
+  gi::merge_groups(set);
+  return set;
+}
+
+TEST(FittedWeights, ReproduceTheLightTheyWereFittedToEverywhere) {
+  // All walls of the box are as bright: E = π ρ/(1 − ρ) · π / π. Fitted to this light above all, the weights
+  // give it at every point of every wall; 256 directions leave 1e-3 in bands 1 and 2 of the probes.
+  constexpr float rho = 0.5f;
+  const GlowingBox box(rho);
+  gi::FitParams params;
+  params.own_weight = 1000;
+  gi::ProbeSet set = set_of(box.session);
+  set.fitted = gi::fit_weights(box.session.network(), box.source, gi::surfel_points(box.session.network()),
+                               params, box.session.direct_by_group());
+  const trace::PathTracer tracer(box.scene);
+  const gi::IrradianceLookup lookup(set, tracer);
+  const scene::Bounds bounds = scene::world_bounds(box.scene, scene::world_matrices(box.scene));
+  const Walls walls{bounds.min, bounds.max};
+  Pcg32 rng(3);
+  for (int i = 0; i < 300; ++i) {
+    const scene::SurfacePoint p = walls.at(i % 6, rng.uniform2());
+    EXPECT_NEAR(lookup.irradiance(p).y / (pi * rho / (1 - rho)), 1, 6e-3f);
+  }
+}
+
+/// Irradiance at fitted points for the session's light: gathered from the surfels, and looked up.
+struct Compared {
+  std::vector<vec3> truth, looked_up;
+
+  Compared(const gi::FittedPoints& fitted, const gi::RelightSession& session, int rays) {
+    const gi::TransportNetwork& network = session.network();
+    const std::vector<std::int32_t> seen = network.gather(fitted.points, rays);
+    const auto count = static_cast<std::size_t>(rays);
+    for (std::size_t p = 0; p < fitted.points.size(); ++p) {
+      vec3& t = truth.emplace_back(0);
+      for (std::size_t r = p * count; r < (p + 1) * count; ++r) {
+        if (seen[r] == gi::no_surfel) continue;
+        const auto s = static_cast<std::size_t>(seen[r]);
+        t += network.albedo()[s] * vec3(session.surfel_direct()[s] + session.surfel_irradiance()[s]) /
+             static_cast<float>(rays);
+      }
+      vec3& e = looked_up.emplace_back(0);
+      for (const gi::ProbeWeight& entry : fitted.weights[p].used()) {
+        const sh::IrradianceSh function =
+            sh::irradiance_from_radiance(session.reflected()[static_cast<std::size_t>(entry.probe)]);
+        std::vector<float> basis(function.values.size());
+        sh::eval_basis(function.degree(), fitted.points[p].normal, basis);
+        for (std::size_t k = 0; k < basis.size(); ++k) e += entry.weight * basis[k] * function.values[k];
+      }
+    }
+  }
+};
+
+TEST(FittedWeights, MeetTheSumOfTheirEquations) {
+  // One probe a point, among coloured walls: no weight meets all three channels. Plain least squares of
+  // relative errors would be too dark, by what the channels differ.
+  const scene::Scene scene = coloured_room({3, 2.5f, 2});
+  const trace::TransportScene source(scene);
+  gi::RelightParams session_params;
+  session_params.transport = small_network();
+  session_params.degree = 2;
+  gi::RelightSession session(source, places_of(scene), session_params);
+  session.update();
+  gi::FitParams params;
+  params.probes = 1;
+  params.training_lights = 1;
+  params.own_weight = 1000;
+  const gi::FittedPoints fitted = gi::fit_weights(
+      session.network(), source, gi::surfel_points(session.network()), params, session.direct_by_group());
+  const Compared compared(fitted, session, params.gather_rays);
+  double squares = 0;
+  for (std::size_t p = 0; p < fitted.points.size(); ++p) {
+    ASSERT_EQ(fitted.weights[p].count, 1);
+    EXPECT_GT(fitted.weights[p].used()[0].weight, 0);
+    const vec3 relative = compared.looked_up[p] / compared.truth[p];
+    // The single training light has a thousandth of a say; solving stops at 1e-4 or 1e-3.
+    EXPECT_NEAR((relative.x + relative.y + relative.z) / 3, 1, 5e-3f);
+    squares += double(glm::dot(relative - 1.0f, relative - 1.0f)) / 3 / double(fitted.points.size());
+  }
+  EXPECT_GT(squares, 0.02) << "or there is nothing to be too dark by";
+}
+
+/// Mean over the points with x > min_x of the relative error, green.
+double error_of(const gi::FittedPoints& fitted, const gi::RelightSession& session, float min_x) {
+  const Compared compared(fitted, session, 1024);
+  double sum = 0;
+  int count = 0;
+  for (std::size_t p = 0; p < fitted.points.size(); ++p) {
+    if (fitted.points[p].position.x < min_x) continue;
+    sum += double(std::abs(compared.looked_up[p].y - compared.truth[p].y) / compared.truth[p].y);
+    ++count;
+  }
+  return sum / count;
+}
+
+TEST(FittedWeights, OfBothPosesServeADoorThatMoves) {
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  const trace::TransportScene source(scene);
+  gi::RelightParams params;
+  params.transport = small_network();
+  params.degree = 2;
+  gi::RelightSession session(source, places_of(scene), params);
+  session.update();
+  const std::vector<scene::SurfacePoint> points = gi::surfel_points(session.network());
+  gi::WeightFit both(points);
+  both.add_pose(session.network(), source, session.direct_by_group());
+  EXPECT_EQ(both.solve(), gi::fit_weights(session.network(), source, points, {}, session.direct_by_group()))
+      << "one pose is a fit of its own";
+  const gi::FittedPoints shut = both.solve();
+
+  session.set_time(1);
+  session.update();
+  both.add_pose(session.network(), source, session.direct_by_group());
+  const gi::FittedPoints open =
+      gi::fit_weights(session.network(), source, points, {}, session.direct_by_group());
+  // In room B, the door open: weights that know the pose are best, those of the shut door alone useless.
+  const double joint_error = error_of(both.solve(), session, 0.3f);
+  EXPECT_LT(joint_error, 0.6 * error_of(shut, session, 0.3f));
+  EXPECT_LT(error_of(open, session, 0.3f), 1.2 * joint_error);
+  RecordProperty("errors", std::to_string(error_of(shut, session, 0.3f)) + " " + std::to_string(joint_error) +
+                               " " + std::to_string(error_of(open, session, 0.3f)));
+}
+
+TEST(FittedWeights, RefuseParametersOutOfRange) {
+  for (const gi::FitParams& params :
+       {gi::FitParams{.probes = 0}, gi::FitParams{.probes = 17}, gi::FitParams{.training_lights = 0},
+        gi::FitParams{.own_weight = 0}, gi::FitParams{.own_weight = NAN}, gi::FitParams{.gather_rays = 1},
+        gi::FitParams{.degree = 11}})
+    EXPECT_THROW(gi::WeightFit({}, params), Error);
+}
+
+}  // namespace
+}  // namespace ssphh::test

@@ -1,0 +1,225 @@
+/// VIZ from links over Embree: closed forms where nothing reflects, path tracing where everything does.
+
+#include <gmock/gmock.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/core/log.h>
+#include <ssphh/core/parallel.h>
+#include <ssphh/gi/bake.h>
+#include <ssphh/gi/hier.h>
+#include <ssphh/gi/init.h>
+#include <ssphh/gi/probe_file.h>
+#include <ssphh/gi/transport_bake.h>
+#include <ssphh/trace/path_tracer.h>
+
+#include "transport_fixtures.h"
+#include "z_test.h"
+
+namespace ssphh::test {
+namespace {
+
+constexpr double root_4pi = 3.5449077018110318;
+
+/// The box [−4, 4]³ without any reflection.
+scene::Scene black_box() {
+  scene::Scene scene;
+  add_body(scene, "walls", scene::flipped(scene::make_box(vec3(-4), vec3(4))), vec3(0));
+  return scene;
+}
+
+gi::ProbeSet with_edges(const scene::Scene& scene, int degree, const gi::LinkVizParams& viz = {},
+                        float time = 0, const gi::TransportParams& transport = small_network()) {
+  set_log_level(LogLevel::error);  // Dark rooms are meant here.
+  gi::TransportBakeParams params;
+  params.transport = transport;
+  params.viz = true;
+  params.viz_params = viz;
+  gi::TransportBakeReport report;
+  return gi::bake_transport(trace::TransportScene(scene), gi::init_from_scene(scene, degree, time), params,
+                            report);
+}
+
+const gi::Edge* edge(const gi::ProbeSet& set, std::size_t i, int from) {
+  for (const gi::Edge& e : set.probes[i].edges) {
+    if (e.from == from) return &e;
+  }
+  return nullptr;
+}
+
+TEST(LinkViz, WithoutReflectionASphereIsItsDisc) {
+  scene::Scene scene = black_box();
+  const float r = 0.25f;
+  const std::vector<vec3> places = {{0, 0, 0}, {0, 1, 0}, {0, 0, 3}, {0.1f, 0.1f, 0}};
+  for (const vec3& p : places) add_sphl(scene, "SPHL", p, r);
+  const gi::ProbeSet set = with_edges(scene, 2);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    ASSERT_EQ(set.probes[i].edges.size(), places.size() - 1);
+    for (const gi::Edge& e : set.probes[i].edges) {
+      const vec3 way = places[static_cast<std::size_t>(e.from)] - places[i];
+      const double sine = double(r) / double(glm::length(way));
+      const double share = sine >= 1 ? 1 : (1 - std::sqrt(1 - sine * sine)) / 2;
+      EXPECT_NEAR(double(e.transfer), share, 1e-5 * share) << i << " " << e.from;
+      // Band 1 points at it: ∫ ω dω over the disc is π sin², over the whole sphere 0.
+      const double along = sine >= 1 ? 0 : 0.48860251190292 * pi_d * sine * sine;
+      const vec3 band1{e.h.values[3].x, e.h.values[1].x, e.h.values[2].x};
+      EXPECT_LT(glm::distance(band1, float(along) * glm::normalize(way)), 1e-5 + 1e-5 * along);
+    }
+  }
+}
+
+TEST(LinkViz, WhatStandsInFrontHidesAsMuchOfTheSphereAsItCovers) {
+  scene::Scene scene = black_box();
+  // A screen halfway whose edge, seen from the origin, runs through the sphere's centre, or beside it.
+  add_body(scene, "screen", scene::make_box({-3, 0, 1.49f}, {3, 3, 1.5f}), vec3(0));
+  add_sphl(scene, "origin", {0, 0, 0}, 0.2f);
+  add_sphl(scene, "half", {0, 0, 3}, 0.2f);
+  add_sphl(scene, "whole", {0, -0.5f, 3}, 0.2f);
+  add_sphl(scene, "hidden", {0, 0.5f, 3}, 0.2f);
+  const gi::ProbeSet set = with_edges(scene, 1);
+  const double sine = 0.2 / 3, share = (1 - std::sqrt(1 - sine * sine)) / 2;
+  ASSERT_TRUE(edge(set, 0, 1));
+  EXPECT_NEAR(double(edge(set, 0, 1)->transfer), share / 2, share / 16);  // one of 16 rays
+  ASSERT_TRUE(edge(set, 0, 2));
+  const double away = 0.2 / std::sqrt(9.25);
+  EXPECT_NEAR(double(edge(set, 0, 2)->transfer), (1 - std::sqrt(1 - away * away)) / 2, 1e-6 * share);
+  EXPECT_EQ(edge(set, 0, 3), nullptr);
+}
+
+TEST(LinkViz, AgreesWithTracedPathsInAClosedRoomOfColouredWalls) {
+  const scene::Scene scene = coloured_room(vec3(0));
+  gi::TransportParams fine = small_network();
+  fine.directions = 1536, fine.surfel_size = 0.2f, fine.link_rays = 128;
+  const gi::ProbeSet links = with_edges(scene, 1, {}, 0, fine);
+
+  const trace::PathTracer tracer(scene);
+  const std::size_t n = links.probes.size();
+  std::vector<Samples> transfer(n * n), red(n * n);
+  gi::BakeParams paths;
+  paths.keep_light = true;
+  paths.face_size = 8;
+  paths.path.spp = 8;
+  paths.path.max_depth = 24;  // 0.75^24 of the light is left
+  for (int seed = 0; seed < 32; ++seed) {
+    paths.path.seed = static_cast<std::uint64_t>(seed);
+    gi::BakeReport report;
+    const gi::ProbeSet traced = gi::bake(tracer, links, paths, {}, report);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (const gi::Edge& e : traced.probes[i].edges) {
+        transfer[i * n + static_cast<std::size_t>(e.from)].add(double(e.transfer));
+        red[i * n + static_cast<std::size_t>(e.from)].add(double(e.h[0].x) / root_4pi);
+      }
+    }
+  }
+  const Significance significance{1e-3, static_cast<int>(2 * n * (n - 1))};
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      if (j == i) continue;
+      const gi::Edge* e = edge(links, i, static_cast<int>(j));
+      ASSERT_TRUE(e) << i << " " << j;
+      // Surfels of a tenth of the room, spheres' shadows by one ray, solved to a hundredth: 2.5 %.
+      EXPECT_TRUE(
+          mean_is(transfer[i * n + j], double(e->transfer), significance, 0.025 * double(e->transfer)))
+          << i << " " << j;
+      const double x = double(e->h[0].x) / root_4pi;
+      EXPECT_TRUE(mean_is(red[i * n + j], x, significance, 0.025 * x)) << i << " " << j;
+    }
+  }
+}
+
+TEST(LinkViz, AShutDoorLetsExactlyNothingThroughAnOpenOneAsMuchAsTracedPaths) {
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  const auto in_b = [](const gi::Probe& probe) { return probe.position.x > 0.1f; };
+  for (const float time : {0.0f, 1.0f}) {
+    const gi::ProbeSet set = with_edges(scene, 1, {}, time);
+    double across = 0;
+    int count_across = 0, count_within = 0;
+    for (const gi::Probe& probe : set.probes) {
+      for (const gi::Edge& e : probe.edges) {
+        const bool crosses = in_b(probe) != in_b(set.probes[static_cast<std::size_t>(e.from)]);
+        ++(crosses ? count_across : count_within);
+        if (crosses) across += double(e.transfer);
+      }
+    }
+    EXPECT_EQ(count_within, 3 * 2 + 3 * 2);
+    EXPECT_EQ(count_across, time == 0 ? 0 : 2 * 9);
+    if (time == 0) continue;
+
+    Samples traced_across;
+    const trace::PathTracer tracer(scene, time);
+    gi::BakeParams paths;
+    paths.keep_light = true;
+    paths.face_size = 8;
+    paths.path.spp = 4;
+    paths.path.max_depth = 24;
+    for (int seed = 0; seed < 32; ++seed) {
+      paths.path.seed = static_cast<std::uint64_t>(seed);
+      gi::BakeReport report;
+      double sum = 0;
+      for (const gi::Probe& probe : gi::bake(tracer, set, paths, {}, report).probes) {
+        for (const gi::Edge& e : probe.edges) {
+          if (in_b(probe) != in_b(set.probes[static_cast<std::size_t>(e.from)])) sum += double(e.transfer);
+        }
+      }
+      traced_across.add(sum);
+    }
+    // Through a doorway 0.9 m wide that surfels of 0.4 m and 256 directions see coarsely.
+    EXPECT_TRUE(mean_is(traced_across, across, {}, 0.06 * across));
+  }
+}
+
+TEST(LinkViz, KeepsTheStrongestNeighboursOverTheThreshold) {
+  const scene::Scene scene = scene::make_builtin("gallery1");
+  const gi::ProbeSet all = with_edges(scene, 1, {.neighbors = -1});
+  const gi::ProbeSet two = with_edges(scene, 1, {.neighbors = 2});
+  const gi::ProbeSet none = with_edges(scene, 1, {.neighbors = 0});
+  const float threshold = all.probes[0].edges[0].transfer;
+  const gi::ProbeSet strong = with_edges(scene, 1, {.neighbors = -1, .threshold = threshold});
+  EXPECT_EQ(all.generator.viz, gi::VizMethod::links);
+  EXPECT_EQ(gi::edge_count(none), 0u);
+  for (std::size_t i = 0; i < all.probes.size(); ++i) {
+    std::vector<int> best = gi::select_neighbors(all.probes[i], {.neighbors = 2});
+    std::ranges::sort(best);
+    ASSERT_EQ(two.probes[i].edges.size(), 2u);
+    for (std::size_t k = 0; k < 2; ++k)
+      EXPECT_EQ(two.probes[i].edges[k], all.probes[i].edges[static_cast<std::size_t>(best[k])]);
+    std::size_t over = 0;
+    for (const gi::Edge& e : all.probes[i].edges) over += e.transfer > threshold;
+    EXPECT_EQ(strong.probes[i].edges.size(), over);
+    EXPECT_TRUE(std::ranges::is_sorted(all.probes[i].edges, {}, &gi::Edge::from));
+  }
+  EXPECT_THROW(with_edges(scene, 1, {.neighbors = -2}), Error);
+  EXPECT_THROW(with_edges(scene, 1, {.threshold = 1.5f}), Error);
+}
+
+TEST(LinkViz, TracedEdgesAreCutAlike) {
+  const scene::Scene scene = scene::make_builtin("gallery1");
+  const trace::PathTracer tracer(scene);
+  const gi::ProbeSet places = gi::init_from_scene(scene, 1);
+  gi::BakeParams params;
+  params.face_size = 4;
+  params.path.spp = 1;
+  gi::BakeReport report;
+  const gi::ProbeSet all = gi::bake(tracer, places, params, {}, report);
+  params.viz_params.neighbors = 2;
+  const gi::ProbeSet two = gi::bake(tracer, places, params, {}, report);
+  EXPECT_EQ(all.generator.viz, gi::VizMethod::path);
+  for (std::size_t i = 0; i < all.probes.size(); ++i) {
+    std::vector<int> best = gi::select_neighbors(all.probes[i], {.neighbors = 2});
+    std::ranges::sort(best);
+    ASSERT_EQ(two.probes[i].edges.size(), 2u);
+    for (std::size_t k = 0; k < 2; ++k)
+      EXPECT_EQ(two.probes[i].edges[k], all.probes[i].edges[static_cast<std::size_t>(best[k])]);
+  }
+}
+
+TEST(LinkViz, TheNumberOfThreadsChangesNoBit) {
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  const auto bytes = [&] { return gi::probes_to_binary(with_edges(scene, 3, {.neighbors = 2}, 1)); };
+  set_thread_count(1);
+  const auto one = bytes();
+  set_thread_count(0);
+  EXPECT_EQ(bytes(), one);
+}
+
+}  // namespace
+}  // namespace ssphh::test
