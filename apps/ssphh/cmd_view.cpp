@@ -1,9 +1,10 @@
 #include <fmt/format.h>
-#include <model/settings.h>
-#include <viewer.h>
+#include <fmt/ranges.h>
 
 #include "command.h"
+#include "model/settings.h"
 #include "scene_options.h"
+#include "viewer.h"
 
 namespace ssphh::app {
 namespace {
@@ -71,6 +72,8 @@ void add_setting_options(CLI::App& command, ViewOptions& o) {
           }
         },
         ""));
+    option->type_name(setting.choices.empty() ? "NUMBER"
+                                              : fmt::format("{{{}}}", fmt::join(setting.choices, ",")));
   }
 }
 

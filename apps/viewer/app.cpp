@@ -33,8 +33,9 @@ App::App(Window& window_, const ViewerOptions& options_, const Control&)
   panels = options.panels;
   report.renderer = gl_.info().renderer;
   for (const auto& [name, value] : options.settings) set_setting(settings, name, value);
-  // Software renderers: a bake beside the picture may take its time, a preview may not.
-  bake_params.path.spp = 16;
+  // For looking at: a twentieth of the work of `ssphh bake`.
+  bake_params.path.spp = 8;
+  bake_params.face_size = 20;
   last_turn_ = last_change_ = Clock::now();
 }
 
@@ -76,6 +77,7 @@ double App::turn(const InjectedInput& input) {
     update_light();
     draw_scene();
     update_truth();
+    draw_picture(*this);
     draw_overlay(*this, visible_);
   }
   const auto ui = Clock::now();
@@ -185,6 +187,7 @@ void App::update_light() {
 
 void App::draw_scene() {
   const bool changed = !drawn_ || !(drawn_->view == view) || !same_picture(drawn_->settings, settings) ||
+                       (settings.balls && !(drawn_->selection == selection)) ||
                        drawn_->width != picture.width() || drawn_->height != picture.height();
   const bool linear_missing = needs_truth(settings) && picture.linear().empty();
   if (!changed && !scene_dirty_ && waiting_maps_ == 0 && !linear_missing) return;
@@ -215,7 +218,7 @@ void App::draw_scene() {
     look.selected = selection.is(Kind::sphl) ? probe_of_sphl(*this, selection.index) : -1;
     balls_->draw(light.set(), visible_, look, picture.framebuffer(), picture.width(), picture.height());
   }
-  drawn_ = {view, settings, document.time, picture.width(), picture.height()};
+  drawn_ = {view, settings, selection, picture.width(), picture.height()};
   scene_dirty_ = false;
   truth_dirty_ = true;
   redraw();

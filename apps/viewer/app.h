@@ -141,7 +141,7 @@ class App {
   struct Drawn {
     View view;
     Settings settings;
-    float time = -1;
+    Selection selection;
     int width = 0, height = 0;
   };
   std::optional<Drawn> drawn_;

@@ -62,8 +62,9 @@ void App::take_scene(std::string source, scene::Scene scene) {
   next.time = std::clamp(document.source.empty() ? options.time : 0, 0.0f, next.duration);
   auto renderer =
       std::make_unique<realtime::Renderer>(gl_, *next.scene, realtime::RendererParams{}, next.time);
+  auto picking = std::make_unique<trace::TransportScene>(*next.scene);
   // Nothing is thrown from here on: a file that is refused leaves the open one alone.
-  picking_ = std::make_unique<trace::TransportScene>(*next.scene);
+  picking_ = std::move(picking);
   picking_scene_ = next.scene;
   renderer_ = std::move(renderer);
   document = std::move(next);

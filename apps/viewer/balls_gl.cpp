@@ -21,15 +21,16 @@ uniform mat4 world_to_clip;
 uniform float radius;
 uniform float lobes;
 uniform int vertex_count;
+uniform int corner_count;
 uniform int selected;
 out vec3 radiance;
 out vec3 normal;
 out vec3 place_seen;
 flat out int chosen;
 void main() {
-  vec4 place = shown[gl_InstanceID];
+  vec4 place = shown[gl_VertexID / corner_count];
   int probe = int(place.w + 0.5);
-  uint corner = corners[gl_VertexID];
+  uint corner = corners[gl_VertexID % corner_count];
   vec4 color = colors[probe * vertex_count + int(corner)];
   vec3 direction = directions[corner].xyz;
   radiance = color.rgb;
@@ -157,12 +158,13 @@ void BallsGl::draw(const gi::ProbeSet& set, const std::vector<unsigned char>& vi
   d.program.set("radius", look.radius);
   d.program.set("lobes", look.lobes ? 1.0f : 0.0f);
   d.program.set("vertex_count", static_cast<int>(d.shader->mesh().vertices.size()));
+  d.program.set("corner_count", d.corner_count);
   d.program.set("selected", look.selected);
   d.program.set("exposure", std::exp2(look.tone.exposure));
   d.program.set("gamma", look.tone.gamma);
   d.program.set("filmic", look.tone.curve == image::ToneCurve::filmic ? 1 : 0);
   d.program.set("eye", look.view.eye);
-  gl::draw_triangles(d.corner_count, static_cast<int>(d.places.size()));
+  gl::draw_triangles(d.corner_count * static_cast<int>(d.places.size()));
 }
 
 }  // namespace ssphh::viewer

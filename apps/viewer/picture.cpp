@@ -68,7 +68,6 @@ void Picture::update_truth(const ReferenceImage& truth, const Settings& settings
 realtime::FrameSettings frame_settings(const Settings& settings) {
   realtime::FrameSettings out;
   out.lookup = settings.lookup;
-  out.irradiance_degree = settings.degree;
   out.tone = {settings.exposure, settings.curve, 0};
   switch (settings.debug) {
     case DebugView::none:

@@ -206,7 +206,7 @@ void ScriptPlayer::run(App& app, const ScriptLine& line) {
 
 InjectedInput ScriptPlayer::next(App& app) {
   if (done()) return {};
-  app.redraw();
+  if (!settling_ || !app.job.running()) app.redraw();
   if (!input_.empty()) {
     InjectedInput input = input_.front();
     input_.pop_front();

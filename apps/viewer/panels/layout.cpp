@@ -18,21 +18,6 @@ ImTextureID texture_id(unsigned texture) {
   return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));  // ImGui's way with OpenGL
 }
 
-/// Real-time picture, ground truth or both, behind all windows.
-void draw_picture(const App& app) {
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const Rect2& r = app.viewport;
-  const ImVec2 from{r.x, r.y}, to{r.x + r.width, r.y + r.height};
-  const bool truth = needs_truth(app.settings) && app.picture.has_truth();
-  const float line =
-      app.settings.show == Show::wipe && app.settings.debug != DebugView::leak ? app.settings.wipe : 0;
-  if (app.picture.width() == 0) return;
-  // OpenGL's first row is the lowest one, a file's the highest.
-  list.AddImage(texture_id(app.picture.realtime_texture()), from, to, {0, 1}, {1, 0});
-  if (!truth) return;
-  list.AddImage(texture_id(app.picture.truth_texture()), {r.x + line * r.width, r.y}, to, {line, 0}, {1, 1});
-}
-
 void draw_welcome(const App& app) {
   const Rect2& r = app.viewport;
   const char* lines[] = {"Drop a scene here", ".glb .gltf .obj .ssphh.json", "",
@@ -118,6 +103,19 @@ void draw_sidebar(App& app, float y, float width, float height) {
 
 }  // namespace
 
+void draw_picture(const App& app) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const Rect2& r = app.viewport;
+  const ImVec2 from{r.x, r.y}, to{r.x + r.width, r.y + r.height};
+  const bool truth = needs_truth(app.settings) && app.picture.has_truth();
+  const float line =
+      app.settings.show == Show::wipe && app.settings.debug != DebugView::leak ? app.settings.wipe : 0;
+  // OpenGL's first row is the lowest one, a file's the highest.
+  list.AddImage(texture_id(app.picture.realtime_texture()), from, to, {0, 1}, {1, 0});
+  if (!truth) return;
+  list.AddImage(texture_id(app.picture.truth_texture()), {r.x + line * r.width, r.y}, to, {line, 0}, {1, 1});
+}
+
 void draw_help(App& app) {
   if (!app.help) return;
   const Rect2& r = app.viewport;
@@ -151,11 +149,7 @@ void draw_panels(App& app) {
   }
   app.viewport = {left, top, std::max(width - left, 1.0f), std::max(height - top - bottom, 1.0f)};
   if (app.panels) draw_time_bar(app);
-  if (app.scene_open()) {
-    draw_picture(app);
-  } else {
-    draw_welcome(app);
-  }
+  if (!app.scene_open()) draw_welcome(app);
   if (app.panels) draw_offer(app);
   draw_message(app);
   draw_help(app);

@@ -6,8 +6,10 @@ namespace ssphh::viewer {
 
 class App;
 
-/// Menu, sidebar, time bar, messages and the picture behind them; sets App::viewport.
+/// Menu, sidebar, time bar and messages; sets App::viewport.
 void draw_panels(App& app);
+/// The picture behind them. Call when its textures are those of this frame.
+void draw_picture(const App& app);
 
 void draw_menu(App& app);
 void draw_light_panel(App& app);

@@ -39,7 +39,7 @@ void draw_picture_panel(App& app) {
   heading("Picture");
   setting_slider(app, "exposure", "exposure", -8, 8, "%+.1f EV");
   setting_widget(app, "tone curve", "tonemap");
-  setting_widget(app, "shown light", "debug");
+  setting_widget(app, "debug view", "debug");
   if (app.settings.debug == DebugView::leak)
     note("Looked-up indirect light on places where path tracing finds next to none, as it comes in.");
   setting_slider(app, "pixels", "scale", 0.25f, 2, "× %.2f");

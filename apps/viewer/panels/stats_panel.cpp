@@ -20,7 +20,7 @@ void draw_graph(const FrameTimes::Stage& stage) {
   ImGui::PushID(stage.name.c_str());
   ImGui::PlotLines("##ms", value_at, &values, values.count(), 0,
                    fmt::format("{}   {:.2f} ms", stage.name, values.median()).c_str(), 0, 1.2f * highest,
-                   {-1, 2.6f * ImGui::GetTextLineHeight()});
+                   {ImGui::GetContentRegionAvail().x, 2.6f * ImGui::GetTextLineHeight()});
   tip(fmt::format("median {:.3f} ms, 99th percentile {:.3f} ms, last {:.3f} ms, of {} frames",
                   values.median(), values.quantile(0.99), values.last(), values.count())
           .c_str());
