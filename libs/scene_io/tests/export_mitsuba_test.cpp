@@ -358,10 +358,9 @@ TEST(ExportMitsuba, WhatDiffersIsSaid) {
   const TempDir dir;
   const scene_io::ExportReport report =
       scene_io::export_mitsuba(scene_of_everything(), export_settings(), dir.path());
-  for (const char* part :
-       {"range: lamp", "spots fade", "unseen: sun", "sphere lights block: globe", "roughplastic",
-        "roughconductor", "principled", "Blinn-Phong", "Oren-Nayar", "normal maps", "cut-outs", "unlit",
-        "glows on the front alone: panel"}) {
+  for (const char* part : {"range: lamp", "spots fade", "unseen: sun", "sphere lights block: globe",
+                           "roughplastic", "roughconductor", "principled", "Blinn-Phong", "Oren-Nayar",
+                           "normal maps", "cut-outs", "unlit", "glows on the front alone: panel"}) {
     std::string key = part;
     if (key == "sphere lights block: globe") key = "sphere lights block other light: globe";
     EXPECT_EQ(differences_with(report, key).size(), 1u) << part;
