@@ -289,7 +289,7 @@ void write_light(Export& e, std::size_t index, const FlatLight& flat, const scen
 
 // The inside of a large sphere with the image on it: no convention of the format's comes in.
 void write_sky(Export& e, const scene::Environment& environment, const scene::Bounds& bounds) {
-  constexpr unsigned columns = 256, rows = 128;
+  constexpr unsigned columns = 128, rows = 64;
   const float distance = distance_of_sky * glm::max(bounds.radius(), 1e-3f);
   const mat3 turn(glm::rotate(mat4(1), environment.rotation, vec3(0, 1, 0)));
   scene::Mesh mesh;
