@@ -235,6 +235,23 @@ TEST(ExportCorona, LampsGiveTheSameLight) {
   EXPECT_LT(glm::distance(center, vec3(world[static_cast<std::size_t>(scene.lights[0].node)][3])), 1e-3f);
   EXPECT_NEAR(area(lamp) * pi_d * static_cast<double>(emission_of(e, "light0").x) / (4 * pi_d * 8), 1, 1e-3);
 
+  // The spot: outside the hole the shell is whole, and its mean over the cone is the hole's.
+  const vec3 place(world[static_cast<std::size_t>(scene.lights[1].node)][3]);
+  const vec3 axis = -vec3(world[static_cast<std::size_t>(scene.lights[1].node)][2]);
+  const Obj shell = mesh_of(e, "light1_shell", dir.path());
+  float cos_hole = -1;
+  for (const vec3& p : shell.positions)
+    cos_hole = std::max(cos_hole, glm::dot(glm::normalize(p - place), axis));
+  double power = 0;  // of glTF's cone, by quadrature
+  for (int i = 0; i < 100000; ++i) {
+    const double c = std::cos(0.5) + (1 - std::cos(0.5)) * (i + 0.5) / 100000;
+    const double ramp = std::min(1.0, (c - std::cos(0.5)) / (std::cos(0.2) - std::cos(0.5)));
+    power += ramp * ramp * (1 - std::cos(0.5)) / 100000;
+  }
+  EXPECT_NEAR((1 - static_cast<double>(cos_hole)) / power, 1, 1e-3);
+  // The shell's area: all of the sphere but the hole.
+  EXPECT_NEAR(area(shell) / (2 * pi_d * 4e-4 * (1 + static_cast<double>(cos_hole))), 1, 0.01);
+
   // The sun: irradiance = radiance · projected solid angle, its front toward the scene.
   const Obj sun = mesh_of(e, "light3", dir.path());
   const vec3 direction = -vec3(world[static_cast<std::size_t>(scene.lights[3].node)][2]);
@@ -284,7 +301,7 @@ TEST(ExportCorona, WhatDiffersIsSaid) {
   const scene_io::ExportReport report =
       scene_io::export_corona(scene_of_everything(), export_settings(), dir.path());
   for (const char* part :
-       {"point lights become", "range: lamp", "spots are left out", "directional lights get", "suns stand",
+       {"point lights become", "range: lamp", "spots become a sphere", "directional lights get", "suns stand",
         "sphere lights block other light: globe", "Corona's own lobe", "partial metals", "Oren-Nayar",
         "normal maps are left out", "cut-outs are left out", "unlit", "vertex colours", "which side"})
     EXPECT_EQ(differences_with(report, part).size(), 1u) << part;

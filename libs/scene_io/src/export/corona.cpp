@@ -30,7 +30,9 @@ struct Export {
   std::size_t meshes = 0;
 };
 
-constexpr float point_light_radius = 0.01f;     // metres
+constexpr float point_light_radius = 0.01f;  // metres
+constexpr float spot_radius = 0.001f;        // of the sphere that glows, in a shell of
+constexpr float spot_shell_radius = 0.02f;
 constexpr float sun_angular_radius = 0.00465f;  // radians, of suns without a size
 constexpr float distance_of_sky = 1000;         // in radii of the scene
 
@@ -210,6 +212,27 @@ scene::Mesh disc_around(const vec3& center, const vec3& normal, float radius) {
   return mesh;
 }
 
+// Sphere with a round hole of half angle acos(cos_hole) toward `axis`.
+scene::Mesh shell_around(const vec3& center, float radius, const vec3& axis, float cos_hole) {
+  constexpr unsigned segments = 64, rings = 16;
+  const Frame frame = Frame::around(axis);
+  const float edge = std::acos(cos_hole);
+  scene::Mesh mesh;
+  for (unsigned y = 0; y <= rings; ++y) {
+    const float theta = edge + (pi - edge) * static_cast<float>(y) / rings;
+    for (unsigned x = 0; x < segments; ++x) {
+      const float phi = 2 * pi * static_cast<float>(x) / segments;
+      const vec3 direction(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+      mesh.positions.push_back(center + radius * frame.to_world(direction));
+      if (y == rings) continue;
+      const unsigned a = y * segments + x, b = y * segments + (x + 1) % segments;
+      if (y + 1 < rings) mesh.triangles.emplace_back(a, a + segments, b + segments);
+      mesh.triangles.emplace_back(a, y + 1 < rings ? b + segments : a + segments, b);
+    }
+  }
+  return mesh;
+}
+
 scene::Bounds bounds_of(const FlatScene& flat) {
   scene::Bounds bounds;
   for (const FlatMesh& mesh : flat.meshes)
@@ -229,9 +252,20 @@ void write_light(Export& e, std::size_t index, const FlatLight& flat, const scen
       write_mesh(e, light.name, id, sphere_around(flat.position, point_light_radius), {});
       e.differences.add("point lights become spheres of 1 cm that block other light", light.name);
       break;
-    case scene::LightType::spot:
-      e.differences.add("spots are left out: Corona Standalone has none", light.name);
+    case scene::LightType::spot: {
+      // The hole that lets the cone's power through: the squared ramp's mean is a third.
+      const float inner = std::cos(light.inner_cone), outer = std::cos(light.outer_cone);
+      write_emitter(e, id, strength / (pi * spot_radius * spot_radius));
+      write_mesh(e, light.name, id, sphere_around(flat.position, spot_radius), {});
+      write_emitter(e, id + "_shell", vec3(0));
+      write_mesh(e, light.name, id + "_shell",
+                 shell_around(flat.position, spot_shell_radius, flat.direction, inner - (inner - outer) / 3),
+                 {});
+      e.differences.add(
+          "spots become a sphere of 1 mm in a black shell of 2 cm with a hole: as much light, a hard edge",
+          light.name);
       break;
+    }
     case scene::LightType::directional: {
       const float angle = light.angular_radius > 0 ? light.angular_radius : sun_angular_radius;
       if (light.angular_radius == 0)
@@ -255,7 +289,7 @@ void write_light(Export& e, std::size_t index, const FlatLight& flat, const scen
 
 // The inside of a large sphere with the image on it: no convention of the format's comes in.
 void write_sky(Export& e, const scene::Environment& environment, const scene::Bounds& bounds) {
-  constexpr unsigned columns = 256, rows = 128;
+  constexpr unsigned columns = 128, rows = 64;
   const float distance = distance_of_sky * glm::max(bounds.radius(), 1e-3f);
   const mat3 turn(glm::rotate(mat4(1), environment.rotation, vec3(0, 1, 0)));
   scene::Mesh mesh;

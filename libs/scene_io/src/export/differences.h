@@ -9,7 +9,9 @@ namespace ssphh::scene_io {
 
 class Differences {
  public:
-  void add(const std::string& kind, const std::string& name) { names_[kind].push_back(name); }
+  void add(const std::string& kind, const std::string& name) {
+    names_[kind].push_back(name.empty() ? "(unnamed)" : name);
+  }
 
   /// "kind: first, second, third and 4 more", in alphabetical order of the kinds.
   std::vector<std::string> lines() const {

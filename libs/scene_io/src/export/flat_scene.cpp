@@ -5,6 +5,20 @@
 namespace ssphh::scene_io {
 namespace {
 
+// Other renderers let a vertex normal decide which side is the front, and so which side glows.
+void turn_to_front(scene::Mesh& mesh) {
+  std::vector<float> agreement(mesh.normals.size());
+  if (agreement.empty()) return;
+  for (const uvec3& t : mesh.triangles) {
+    const vec3 a = mesh.positions[t.x];
+    const vec3 front = glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a);
+    for (int c = 0; c < 3; ++c) agreement[t[c]] += glm::dot(front, mesh.normals[t[c]]);
+  }
+  for (std::size_t i = 0; i < agreement.size(); ++i) {
+    if (agreement[i] < 0) mesh.normals[i] = -mesh.normals[i];
+  }
+}
+
 FlatMesh flat_mesh(const scene::Scene& scene, const scene::Instance& instance, const mat4& world) {
   const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
   FlatMesh flat;
@@ -19,6 +33,7 @@ FlatMesh flat_mesh(const scene::Scene& scene, const scene::Instance& instance, c
   if (glm::determinant(mat3(world)) < 0) {
     for (uvec3& t : flat.mesh.triangles) std::swap(t.y, t.z);
   }
+  turn_to_front(flat.mesh);
   return flat;
 }
 

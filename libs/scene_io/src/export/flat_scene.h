@@ -9,7 +9,7 @@
 namespace ssphh::scene_io {
 
 /// One instance's triangles in world space, wound counter-clockwise seen from the front also where the node
-/// mirrors.
+/// mirrors. Normals that point to the back are turned around, as shading does.
 struct FlatMesh {
   std::string name;
   int material = -1;  ///< −1: the default Material{}
