@@ -58,7 +58,7 @@ TEST(FarmBake, LocalOptionAndJsonSayWhatWasDone) {
 
 TEST(FarmBake, KilledWorkersCostNothingButTime) {
   const TempDir dir;
-  const SmallBake bake(dir, "300");
+  const SmallBake bake(dir, "60");
   FarmProcesses farm(3, {"--attempts", "20"});  // or a job that is struck three times is set aside
   const auto file = dir / "out.sphl";
   ToolProcess process(bake.on(farm.endpoint(), file));
@@ -73,7 +73,7 @@ TEST(FarmBake, KilledWorkersCostNothingButTime) {
 
 TEST(FarmBake, FrozenWorkerCostsNothingButTime) {
   const TempDir dir;
-  const SmallBake bake(dir, "100");
+  const SmallBake bake(dir, "40");
   FarmProcesses farm(2);
   const auto file = dir / "out.sphl";
   ToolProcess process(bake.on(farm.endpoint(), file));
@@ -85,7 +85,7 @@ TEST(FarmBake, FrozenWorkerCostsNothingButTime) {
 
 TEST(FarmBake, BrokerThatIsKilledAndComesBackLosesNothing) {
   const TempDir dir;
-  const SmallBake bake(dir, "100");
+  const SmallBake bake(dir, "40");
   FarmProcesses farm(2, {"--store", (dir / "store").string()});
   const auto file = dir / "out.sphl";
   ToolProcess process(bake.on(farm.endpoint(), file));
@@ -99,7 +99,7 @@ TEST(FarmBake, BrokerThatIsKilledAndComesBackLosesNothing) {
 
 TEST(FarmBake, CancelledBakeGoesOnWhereItStopped) {
   const TempDir dir;
-  const SmallBake bake(dir, "100");
+  const SmallBake bake(dir, "40");
   FarmProcesses farm(1);
   const auto file = dir / "out.sphl";
   const std::string cache = (dir / "results").string();
