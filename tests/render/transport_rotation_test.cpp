@@ -120,7 +120,7 @@ TEST(TransportRotation, CoefficientHierarchyDependsOnTheAxes) {
     gi::BakeParams params;
     params.face_size = 16;
     params.path = {3, 1, 16, seed};
-    params.viz_transfer = true;
+    params.viz_params.matrix = true;
     gi::BakeReport report;
     return gi::bake(trace::PathTracer(s), gi::init_from_scene(s, 4), params, {}, report);
   };

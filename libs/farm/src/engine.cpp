@@ -23,8 +23,8 @@ std::string compute_id() {
   set.generator.face_size = 6;
   set.generator.max_depth = 4;
   set.generator.spp = 4;
-  add(hasher, gi::bake_stage(tracer, set, false, {gi::BakeStage::gen, 0}).groups);
-  for (const gi::Edge& edge : gi::bake_stage(tracer, set, false, {gi::BakeStage::viz, 1}).edges)
+  add(hasher, gi::bake_stage(tracer, set, {}, {gi::BakeStage::gen, 0}).groups);
+  for (const gi::Edge& edge : gi::bake_stage(tracer, set, {}, {gi::BakeStage::viz, 1}).edges)
     hasher.array(edge.h.values);
   return hasher.finish().hex().substr(0, 16);
 }

@@ -60,7 +60,7 @@ struct Broker::Impl {
 
   void open() {
     router = zmq::socket_t(context, zmq::socket_type::router);
-    set_common_options(router, options.limits.frame_bytes, linger);
+    set_common_options(router, options.limits.frame_bytes, linger, options.connection_timeout);
     router.set(zmq::sockopt::router_mandatory, true);
     if (options.security) {
       router.set(zmq::sockopt::curve_server, true);

@@ -116,8 +116,11 @@ AllowList read_allow_list(const fs::path& path) {
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
-    const std::vector<std::string> fields = words(line.substr(0, line.find('#')));
-    if (fields.empty()) continue;
+    std::vector<std::string> fields = words(line);
+    if (fields.empty() || fields[0].starts_with('#')) continue;
+    // A key may hold a #, so a comment begins only where a role could.
+    for (std::size_t i = 2; i < fields.size(); ++i)
+      if (fields[i].starts_with('#')) fields.resize(i);
     const std::string where = path.string() + ":" + std::to_string(number);
     AllowedKey entry = parse_line(fields, where);
     for (const AllowedKey& other : list)

@@ -10,7 +10,7 @@
 namespace ssphh::majordomo {
 namespace {
 
-constexpr int heartbeat_interval = 500, heartbeat_timeout = 1500;
+constexpr int heartbeat_interval = 1000;
 constexpr std::size_t copy_below = 64 << 10;
 
 void release(void*, void* hint) {
@@ -29,10 +29,10 @@ Millis steady_now() {
   return duration_cast<milliseconds>(steady_clock::now().time_since_epoch()).count();
 }
 
-void set_common_options(zmq::socket_t& socket, std::size_t frame_bytes, Millis linger) {
+void set_common_options(zmq::socket_t& socket, std::size_t frame_bytes, Millis linger, Millis timeout) {
   socket.set(zmq::sockopt::linger, static_cast<int>(linger));
   socket.set(zmq::sockopt::heartbeat_ivl, heartbeat_interval);
-  socket.set(zmq::sockopt::heartbeat_timeout, heartbeat_timeout);
+  socket.set(zmq::sockopt::heartbeat_timeout, static_cast<int>(timeout));
   socket.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(frame_bytes));
 }
 

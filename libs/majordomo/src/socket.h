@@ -14,9 +14,9 @@ namespace ssphh::majordomo {
 /// Milliseconds of the steady clock.
 Millis steady_now();
 
-/// Options of every socket: ZMTP heartbeats (500/1500 ms, so that a dead or frozen peer's connection ends in
-/// seconds whatever its MDP does), a limit on frames, and no waiting at the end but `linger`.
-void set_common_options(zmq::socket_t& socket, std::size_t frame_bytes, Millis linger);
+/// Options of every socket: ZMTP heartbeats every second, so that the connection of a dead or frozen peer
+/// ends after `timeout` whatever its MDP does, a limit on frames, and no waiting at the end but `linger`.
+void set_common_options(zmq::socket_t& socket, std::size_t frame_bytes, Millis linger, Millis timeout = 6000);
 void set_peer_security(zmq::socket_t& socket, const std::optional<PeerSecurity>& security);
 
 /// Connects. Throws Error for what is no endpoint, and for plain ones beyond this machine.

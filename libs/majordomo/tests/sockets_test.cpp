@@ -377,7 +377,7 @@ TEST(Foreign, DeadClientAndWorkerAreNoticedByTheirConnection) {
 }
 
 TEST(Foreign, SlowReaderLosesNothing) {
-  RunningBroker broker;
+  RunningBroker broker({.connection_timeout = 120'000});
   RunningWorker worker({.endpoint = broker.endpoint(), .service = "echo"}, echo);
   RawPeer client(zmq::socket_type::dealer, broker.endpoint());
   constexpr int count = 4000;
@@ -466,6 +466,9 @@ TEST(Security, KeyFilesAndAllowLists) {
   EXPECT_TRUE(good[0].rights.may_serve("gen"));
   EXPECT_TRUE(good[0].rights.may_serve("viz.1"));
   EXPECT_FALSE(good[0].rights.may_serve("gen2"));
+  std::string hash = keys.public_key;  // Z85 has a #
+  hash[4] = '#';
+  EXPECT_EQ(list("ann " + hash + " client #x\n").at(0).public_key, hash);
   for (const std::string& bad :
        {"ann\n"s, "ann short client\n"s, "ann " + keys.public_key + " king\n",
         "ann " + keys.public_key + " client\nbob " + keys.public_key + " client\n"}) {

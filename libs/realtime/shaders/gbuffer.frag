@@ -19,7 +19,7 @@ vec3 normalize_or(vec3 v, vec3 fallback) {
   return l2 > 0 ? v * inversesqrt(l2) : fallback;
 }
 
-#ifdef TEXTURED
+#ifdef NORMAL_TEXTURE
 // Tangent along +u of the normal map and handedness, from how texture coordinates change on the triangle:
 // for meshes without tangents.
 vec4 tangent_of_triangle(vec2 place, vec3 front) {
@@ -48,8 +48,8 @@ void main() {
 
   vec3 n = normalize_or(world_normal, front);
   if (dot(n, front) < 0) n = -n;
-#ifdef TEXTURED
-  if (material.normal_use.offset.w != 0) {
+#ifdef NORMAL_TEXTURE
+  {
     vec2 place = texture_place(material.normal_use, uv.xy, uv.zw);
     vec4 tangent = world_tangent == vec4(0) ? tangent_of_triangle(place, front) : world_tangent;
     vec3 t = normalize_or(tangent.xyz - n * dot(n, tangent.xyz), vec3(0));
@@ -69,8 +69,8 @@ void main() {
 
   float metallic = material.emission.w;
   vec2 roughness = material.rough.xy;
-#ifdef TEXTURED
-  if (material.rough_use.offset.w != 0) {
+#ifdef ROUGH_TEXTURE
+  {
     vec4 texel = texture(rough_texture, texture_place(material.rough_use, uv.xy, uv.zw));
     metallic *= texel.b;
     roughness.y *= texel.g;
@@ -82,9 +82,8 @@ void main() {
     emission = base.rgb;
   } else if (from_front || material.alpha.w != 0) {
     emission = material.emission.rgb;
-#ifdef TEXTURED
-    if (material.emission_use.offset.w != 0)
-      emission *= texture(emission_texture, texture_place(material.emission_use, uv.xy, uv.zw)).rgb;
+#ifdef EMISSION_TEXTURE
+    emission *= texture(emission_texture, texture_place(material.emission_use, uv.xy, uv.zw)).rgb;
 #endif
   }
   emission *= instance.emission_scale.rgb;

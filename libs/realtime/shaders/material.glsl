@@ -30,8 +30,8 @@ vec2 texture_place(TextureUse use, vec2 uv0, vec2 uv1) {
 
 vec4 base_color(vec2 uv0, vec2 uv1, vec4 color) {
   vec4 base = material.base * color;
-#ifdef TEXTURED
-  if (material.base_use.offset.w != 0) base *= texture(base_texture, texture_place(material.base_use, uv0, uv1));
+#ifdef BASE_TEXTURE
+  base *= texture(base_texture, texture_place(material.base_use, uv0, uv1));
 #endif
   return base;
 }

@@ -1,6 +1,6 @@
 #version 450 core
 #ifdef ALPHA
-#define TEXTURED
+#define BASE_TEXTURE
 #include "material.glsl"
 
 layout(location = 0) in vec4 uv;

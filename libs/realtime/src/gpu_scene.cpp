@@ -38,9 +38,10 @@ int class_of(const scene::Material& m) {
   return specular || m.diffuse_roughness != 0 ? surface_class::full : surface_class::lambertian;
 }
 
-bool textured(const scene::Material& m) {
-  return std::max({m.base_color_texture.texture, m.metallic_roughness_texture.texture,
-                   m.emission_texture.texture, m.normal_texture.texture}) >= 0;
+int textures_of(const scene::Material& m) {
+  const bool base = m.base_color_texture.texture >= 0, rough = m.metallic_roughness_texture.texture >= 0,
+             emission = m.emission_texture.texture >= 0, normal = m.normal_texture.texture >= 0;
+  return int{base} | int{rough} << 1 | int{emission} << 2 | int{normal} << 3;
 }
 
 bool partial_cover(const scene::Material& m, const scene::Mesh& mesh) {
@@ -79,7 +80,9 @@ void set_world(GpuInstance& instance, const mat4& world) {
 
 }  // namespace
 
-GpuScene::GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, FrameCounters& counters) {
+GpuScene::GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, float anisotropy,
+                   FrameCounters& counters)
+    : anisotropy_(anisotropy) {
   // Materials; the last one stands for "none"
   for (const scene::Material& m : scene.materials) materials_.push_back(gpu_material(m));
   materials_.push_back(gpu_material(plain_material));
@@ -129,7 +132,7 @@ GpuScene::GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, Fr
                         piece.bounds,
                         {},
                         partial,
-                        textured(none ? plain_material : scene.materials[m])});
+                        textures_of(none ? plain_material : scene.materials[m])});
     }
   }
   classify(scene.materials);
@@ -166,8 +169,8 @@ void GpuScene::classify(const std::vector<scene::Material>& materials) {
     any_full_ |= item.surface_class == surface_class::full;
   }
   std::stable_sort(items_.begin(), items_.end(), [](const DrawItem& a, const DrawItem& b) {
-    return std::tuple(a.partial, a.textured, a.surface_class, a.material) <
-           std::tuple(b.partial, b.textured, b.surface_class, b.material);
+    return std::tuple(a.partial, a.textures, a.surface_class, a.material) <
+           std::tuple(b.partial, b.textures, b.surface_class, b.material);
   });
 }
 

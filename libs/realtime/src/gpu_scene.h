@@ -22,13 +22,15 @@ struct DrawItem {
   int index_count, base_vertex;
   std::size_t first_index;
   scene::Bounds local, world;
-  bool partial;   ///< may be covered in part only
-  bool textured;  ///< reads any texture
+  bool partial;  ///< may be covered in part only
+  int textures;  ///< those that its material reads: a bit for each of Shaders::texture_names
 };
 
 class GpuScene {
  public:
-  GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, FrameCounters& counters);
+  /// `anisotropy`: samples of a texture at a slant at most.
+  GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, float anisotropy,
+           FrameCounters& counters);
 
   /// Poses instances; adds the boxes of what moved, before and after.
   void pose(const std::vector<mat4>& world, std::vector<scene::Bounds>& moved, FrameCounters& counters);
@@ -73,6 +75,7 @@ class GpuScene {
   gl::Buffer material_buffer_, instance_buffer_;
   gl::VertexArray all_, position_only_;
   scene::Bounds bounds_;
+  float anisotropy_;
   std::size_t bytes_ = 0;
   bool any_full_ = false;
   mutable int bound_material_ = -2, bound_instance_ = -1;

@@ -3,8 +3,6 @@
 namespace ssphh::realtime {
 namespace {
 
-constexpr float anisotropy = 4;
-
 gl::Address address(scene::Wrap wrap) {
   switch (wrap) {
     case scene::Wrap::repeat:
@@ -58,7 +56,7 @@ int GpuScene::texture_for(const scene::Scene& scene, int texture, bool srgb, Fra
 int GpuScene::sampler_for(const scene::TextureUse& use) {
   const int key = static_cast<int>(use.wrap_u) + 3 * static_cast<int>(use.wrap_v) + (use.nearest ? 9 : 0);
   const auto [place, is_new] = sampler_index_.try_emplace(key, static_cast<int>(samplers_.size()));
-  if (is_new) samplers_.emplace_back(address(use.wrap_u), address(use.wrap_v), use.nearest, anisotropy);
+  if (is_new) samplers_.emplace_back(address(use.wrap_u), address(use.wrap_v), use.nearest, anisotropy_);
   return place->second;
 }
 

@@ -58,7 +58,8 @@ struct Renderer::Data {
         files(shader_table(), params_in.shader_directory),
         shaders(files),
         shaders_from(files.newest_change()),
-        scene(scene_in, scene::world_matrices(scene_in, time_in), counters),
+        scene(scene_in, scene::world_matrices(scene_in, time_in), context_in.info().software ? 1.0f : 8.0f,
+              counters),
         lights(scene_in, scene::world_matrices(scene_in, time_in), scene.bounds(), params_in),
         albedo(make_albedo_table()),
         sky(environment_map(lights.environment())),
@@ -319,11 +320,11 @@ void Renderer::Data::draw_geometry(const FrameSettings& settings) {
   gl::clear_color(2, 0, 0, 0, 0);
   const bool emission = settings.direct && (settings.view == View::lit || settings.view == View::direct);
   scene.begin(false);
-  int surface = -1, textured = -1;
+  int surface = -1, textures = -1;
   for (const DrawItem& item : scene.items()) {
-    if (item.textured != textured) {
-      textured = item.textured;
-      gl::Program& program = shaders.geometry(item.textured);
+    if (item.textures != textures) {
+      textures = item.textures;
+      gl::Program& program = shaders.geometry(textures);
       program.set("emission_shown", emission || settings.view == View::albedo ? 1 : 0);
       program.use();
     }

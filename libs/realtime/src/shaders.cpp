@@ -19,10 +19,12 @@ gl::Program& Shaders::get(Slot& slot, const char* vertex, const char* fragment, 
   return *slot;
 }
 
-gl::Program& Shaders::geometry(bool textured) {
-  return geometry_[textured]
-             ? *geometry_[textured]
-             : get(geometry_[textured], "gbuffer.vert", "gbuffer.frag", define("TEXTURED", textured));
+gl::Program& Shaders::geometry(int textures) {
+  Slot& slot = geometry_[textures];
+  if (slot) return *slot;
+  std::string defines;
+  for (int i = 0; i < 4; ++i) defines += define(texture_names[i], (textures >> i & 1) != 0);
+  return get(slot, "gbuffer.vert", "gbuffer.frag", defines);
 }
 
 gl::Program& Shaders::shadow(bool alpha) {
@@ -59,9 +61,9 @@ gl::Program& Shaders::seen(EmitterKind kind) {
 }
 
 std::string Shaders::compile_all() {
+  for (int textures = 0; textures < 16; ++textures) geometry(textures);
   occlusion(), view(), resolve(), display();
   for (const bool full : {false, true}) {
-    geometry(full);
     shadow(full);
     apply(full);
     for (int k = 0; k < emitter_kinds; ++k) {

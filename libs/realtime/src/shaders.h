@@ -19,7 +19,10 @@ class Shaders {
  public:
   explicit Shaders(const gl::ShaderFiles& files) : files_(&files) {}
 
-  gl::Program& geometry(bool textured);
+  /// A bit for each texture that materials may have.
+  static constexpr const char* texture_names[] = {"BASE_TEXTURE", "ROUGH_TEXTURE", "EMISSION_TEXTURE",
+                                                  "NORMAL_TEXTURE"};
+  gl::Program& geometry(int textures);
   gl::Program& shadow(bool alpha);
   /// Light of one emitter on surfaces that are Lambertian or not; or the share that arrives.
   gl::Program& direct(EmitterKind kind, bool full, bool shadow_view);
@@ -42,7 +45,7 @@ class Shaders {
 
   const gl::ShaderFiles* files_;
   std::string warnings_;
-  Slot geometry_[2], shadow_[2], direct_[emitter_kinds][2][2], indirect_[2][2][3], apply_[2], occlusion_,
+  Slot geometry_[16], shadow_[2], direct_[emitter_kinds][2][2], indirect_[2][2][3], apply_[2], occlusion_,
       seen_[emitter_kinds], view_, resolve_, display_;
 };
 

@@ -141,10 +141,6 @@ BrokerStats BrokerCore::Impl::stats() const {
   return s;
 }
 
-std::string BrokerCore::stats_json() const {
-  return impl_->mmi({.name = "mmi.stats"}, {Frame()}, {})[1];
-}
-
 std::string BrokerCore::metrics_text() const {
   const BrokerStats s = stats();
   std::string out;

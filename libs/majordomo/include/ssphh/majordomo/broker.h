@@ -22,6 +22,9 @@ struct BrokerOptions {
   std::filesystem::path store = {};             ///< folder of the store; empty: nothing survives a restart
   BrokerLimits limits = {};
   BrokerTimers timers = {};
+  /// A connection that answers no ZMTP heartbeat for so long is closed. A foreign client that stops reading a
+  /// full queue answers none either: shorter finds dead links sooner, longer is kinder to slow readers.
+  Millis connection_timeout = 6000;
   Millis drain = 10'000;  ///< how long stop() waits for requests that are running
   /// Told every event (docs/protocol.md lists them) on the thread of run(); empty: core's log.
   std::function<void(const BrokerEvent&)> on_event = {};

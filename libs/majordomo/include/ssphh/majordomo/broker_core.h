@@ -91,8 +91,6 @@ class BrokerCore {
   /// What the calls since the last take() want done.
   BrokerOutputs take();
   BrokerStats stats() const;
-  /// The body of mmi.stats (schemas/broker-stats.schema.json).
-  std::string stats_json() const;
   /// The stats in Prometheus' text format.
   std::string metrics_text() const;
 

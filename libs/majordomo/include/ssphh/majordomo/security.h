@@ -43,7 +43,7 @@ struct AllowedKey {
 };
 
 /// One key per line: `NAME PUBLIC-KEY ROLE...`, where a role is `client`, `admin`, `worker` (any service) or
-/// `worker:SERVICE` (a final * stands for any rest); # begins a comment.
+/// `worker:SERVICE` (a final * stands for any rest); a word with # at its start begins a comment.
 using AllowList = std::vector<AllowedKey>;
 /// Throws Error naming the line.
 AllowList read_allow_list(const std::filesystem::path& path);
