@@ -275,8 +275,8 @@ void App::update_truth() {
 }
 
 bool App::settled() const {
-  if (!scene_open()) return !job.running();
-  if (job.running() || light_stale_ || scene_dirty_ || waiting_maps_ > 0 || !drawn_) return false;
+  if (!scene_open()) return job.idle();
+  if (!job.idle() || light_stale_ || scene_dirty_ || waiting_maps_ > 0 || !drawn_) return false;
   if (!(drawn_->view == view) || !same_picture(drawn_->settings, settings) || coarse_) return false;
   return !needs_truth(settings) || (reference.image().passes >= settings.truth_passes && !truth_dirty_);
 }

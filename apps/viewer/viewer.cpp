@@ -36,7 +36,7 @@ class Session {
 
   bool settle() {
     do {
-      if (!app_.job.running()) app_.redraw();
+      if (!app_.job.running() && !app_.reference.status().running) app_.redraw();
       if (!turn()) return false;
       if (app_.message_is_error) throw Error("view", app_.message);
     } while (!app_.settled());

@@ -96,6 +96,11 @@ JobStatus BackgroundJob::status() const {
   return status;
 }
 
+bool BackgroundJob::idle() const {
+  const std::lock_guard lock(mutex_);
+  return !running_ && handed_.empty();
+}
+
 std::string BackgroundJob::take_error() {
   const std::lock_guard lock(mutex_);
   return std::exchange(error_, {});

@@ -41,6 +41,8 @@ class BackgroundJob {
   void cancel();
   JobStatus status() const;
   bool running() const { return status().running; }
+  /// Nothing runs, and nothing waits for poll().
+  bool idle() const;
   /// Why the last job failed, once; empty: it did not.
   std::string take_error();
 

@@ -42,9 +42,11 @@ TEST(BackgroundJob, HandsOverOnTheCallersThreadInOrder) {
   });
   EXPECT_TRUE(wait_for([&] { return !job.running(); }));
   EXPECT_TRUE(got.empty()) << "nothing happens behind the window's back";
+  EXPECT_FALSE(job.idle()) << "a result waits";
   EXPECT_TRUE(job.poll());
   EXPECT_THAT(got, testing::ElementsAre(0, 1, 2, 3));
   EXPECT_FALSE(job.poll());
+  EXPECT_TRUE(job.idle());
   EXPECT_EQ(job.status().stage, "counting");
   EXPECT_EQ(job.status().fraction, 1);
 }

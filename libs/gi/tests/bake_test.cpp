@@ -165,6 +165,20 @@ TEST(Gen, LocalMeansDepthOne) {
   EXPECT_EQ(bake_now(source, places({{0, 0, 0}}, 0.1f, 1), params).generator.max_depth, 1);
 }
 
+TEST(Bake, TellsOfEveryProbeWhenItsStageIsDone) {
+  const FakeSource source;
+  const ProbeSet start = places({{0, 0, 0}, {1, 0, 0}}, 0.2f, 2);
+  BakeParams params = small();
+  std::vector<std::pair<std::size_t, bool>> told;
+  params.on_probe = [&](std::size_t i, const Probe& probe) { told.emplace_back(i, probe.edges.empty()); };
+  const ProbeSet set = bake_now(source, start, params);
+  using testing::Pair;
+  EXPECT_THAT(told, testing::ElementsAre(Pair(0, true), Pair(1, true), Pair(0, false), Pair(1, false)))
+      << "GEN of all, then VIZ";
+  params.on_probe = nullptr;
+  EXPECT_EQ(bake_now(source, start, params), set);
+}
+
 TEST(Viz, ASphereInEmptySpaceIsSeenUnderItsSolidAngle) {
   // ∫H dω = 2π(1 − √(1 − (r/d)²)), and P is its share of the sphere.
   const float r = 0.5f, d = 2;
