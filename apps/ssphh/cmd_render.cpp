@@ -215,7 +215,7 @@ void refuse_with_gl(const RenderOptions& o) {
   };
   if (o.method != "ssphh") refuse("--method", "path tracing");
   if (o.projection != "camera") refuse("--projection", "a picture of the whole sphere");
-  if (!o.weights.empty() && o.weights != "distance") refuse("--weights", "any weight but distance");
+  if (o.weights == "trilinear" || o.weights == "fitted") refuse("--weights", o.weights);
   if (o.resume) refuse("--resume", "resuming");
   if (o.farm.any()) refuse("--broker or --local", "a farm");
   if (o.probes.empty() && o.max_depth >= 2)
@@ -234,7 +234,7 @@ void render_gl(const RenderOptions& o, const Context& context) {
   const auto start = std::chrono::steady_clock::now();
   gl::Context gl = gl::Context::headless();
   realtime::Renderer renderer(gl, scene, {}, o.scene.time);
-  const GlLookup lookup{o.max_depth >= 2 ? o.probes : "", o.lookup, o.light, o.force};
+  const GlLookup lookup{o.max_depth >= 2 ? o.probes : "", o.lookup, o.weights, o.light, o.force};
   set_probes(renderer, lookup, scene, o.scene.time);
   int side = 1;
   while (side < 4 && side * side < o.spp * o.passes) ++side;

@@ -38,7 +38,7 @@ BlockMeans block_means(const image::Image& image) {
 
 class OneTruth : public test::WithGl, public testing::WithParamInterface<std::string> {
  protected:
-  void compare(gi::LookupMethod method);
+  void compare(gi::LookupMethod method, gi::WeightMethod weights = gi::WeightMethod::mls);
 };
 
 /// What may differ in a block:
@@ -48,20 +48,23 @@ class OneTruth : public test::WithGl, public testing::WithParamInterface<std::st
 ///   distance d, d as much as the width the picture shows, against a block of 16 of 128 pixels of that width;
 /// - half shadows of lights with an extent come in steps of one of 16 points (8 on spheres).
 /// A block with an edge through it has all of that at once.
-void OneTruth::compare(gi::LookupMethod method) {
+void OneTruth::compare(gi::LookupMethod method, gi::WeightMethod weights) {
   constexpr double edge = 1.5 * 2.0 / 256 / (16.0 / 128), steps = 1.0 / 16;
   const scene::Scene scene = scene::make_builtin(GetParam());
   const gi::ProbeSet probes = test::made_up_probes(scene);
   const PictureSize size;
 
   const trace::PathTracer tracer(scene);
-  const auto lookup = gi::make_lookup(method, probes, tracer);
+  gi::LookupParams params;
+  params.weights.method = weights;
+  const auto lookup = gi::make_lookup(method, probes, tracer, params);
   const BlockMeans a = block_means(test::traced(scene, lookup.get(), size, 24, 1, tracer));
   const BlockMeans b = block_means(test::traced(scene, lookup.get(), size, 24, 2, tracer));
   realtime::Renderer renderer(gl(), scene);
   renderer.set_probes(probes);
   realtime::FrameSettings settings;
   settings.lookup = method;
+  settings.weights = weights;
   const BlockMeans picture = block_means(test::drawn(renderer, scene, size, settings));
 
   double mean = 0, squares = 0, noise2 = 0;
@@ -87,6 +90,12 @@ void OneTruth::compare(gi::LookupMethod method) {
 TEST_P(OneTruth, PictureIsTheTracedOne) {
   compare(gi::LookupMethod::irradiance);
 }
+
+using OneTruthDistance = OneTruth;
+TEST_P(OneTruthDistance, PictureWithWeightsByDistanceIsTheTracedOne) {
+  compare(gi::LookupMethod::irradiance, gi::WeightMethod::distance);
+}
+INSTANTIATE_TEST_SUITE_P(Builtin, OneTruthDistance, testing::Values("gallery3"));
 
 INSTANTIATE_TEST_SUITE_P(Builtin, OneTruth,
                          testing::Values("cornell", "furnace", "box", "two-rooms", "gallery1", "gallery2",

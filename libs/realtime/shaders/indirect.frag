@@ -1,5 +1,6 @@
 #version 450 core
-// Light from SPHLs, as libs/gi's lookups find it. Variants: LOOKUP_LIGHT, else irradiance; FULL_BSDF, else
+// Light from SPHLs, as libs/gi's lookups find it. Variants: LOOKUP_LIGHT, else irradiance; MLS, else weights by
+// distance; FULL_BSDF, else
 // surfaces are Lambertian; TO_IMAGES gives irradiance and glossy radiance for apply.frag, at some pixels only;
 // CHOSEN_VIEW the probe that counts most.
 #include "gbuffer_read.glsl"
@@ -50,6 +51,30 @@ Found look_up(Surface s, vec3 mirror, float roughness) {
   return found;
 }
 #else
+// A linear fit to what the probes in sight give, weighted by a bump of two spacings, and its value at x
+// (gi::WeightMethod::mls). The fit is linear in the probes' light, so that sums over them do.
+struct LinearFit {
+  mat4 matrix;
+  mat4x3 e, l;
+};
+
+void add(inout LinearFit fit, vec3 offset, float bump, vec3 e, vec3 l) {
+  vec4 p = vec4(1, offset);
+  fit.matrix += bump * outerProduct(p, p);
+  fit.e += bump * outerProduct(e, p);
+  fit.l += bump * outerProduct(l, p);
+}
+
+// Weights at x of the four sums: the value there is their product.
+vec4 at_center(LinearFit fit) {
+  const float ridge = 0.05;  // keeps the fit flat where the probes do not differ
+  vec4 sums = fit.matrix[0];
+  mat4 m = fit.matrix / sums.x;
+  for (int c = 1; c < 4; ++c) m[c][c] += ridge;
+  vec4 row = inverse(m)[0];
+  return row / dot(row, sums);
+}
+
 // Inverse squared distance times a wrapped cosine over the nearest that x sees; over the nearest if it sees
 // none.
 Found look_up(Surface s, vec3 mirror, float roughness) {
@@ -58,9 +83,17 @@ Found look_up(Surface s, vec3 mirror, float roughness) {
   float seen = 0, all_weights = 0, most = -1;
   Found found;
   found.count = found.chosen = 0;
+#ifdef MLS
+  LinearFit fit = LinearFit(mat4(0), mat4x3(0), mat4x3(0));
+  float spacing = frame.tone.w, reach2 = 4 * spacing * spacing;
+#endif
   for (int i = 0; i < MAX_NEAR; ++i) {
     int probe = probe_grid[base + i];
+#ifdef MLS
+    if (probe < 0) break;
+#else
     if (probe < 0 || found.count == MAX_BLEND) break;
+#endif
     vec3 place = probe_places[probe].xyz, d = place - s.position;
     float d2 = max(dot(d, d), 1e-12), distance = sqrt(d2);
     float wrapped = 0.5 + 0.5 * dot(s.normal, d) / distance;
@@ -76,6 +109,12 @@ Found look_up(Surface s, vec3 mirror, float roughness) {
     vec3 l = radiance_of(probe, mirror, roughness);
     l_seen += seen_weight * l;
     l_all += near_weight * l;
+#else
+    const vec3 l = vec3(0);
+#endif
+#ifdef MLS
+    float falloff = max(0, 1 - d2 / reach2);
+    add(fit, d / spacing, sees && d2 < reach2 ? falloff * falloff + 1e-6 : 0, e, l);
 #endif
     found.count += sees ? 1 : 0;
     found.chosen = seen_weight > most ? probe : found.chosen;
@@ -83,6 +122,13 @@ Found look_up(Surface s, vec3 mirror, float roughness) {
   }
   found.irradiance = seen > 0 ? e_seen / seen : e_all / all_weights;
   found.glossy = seen > 0 ? l_seen / seen : l_all / all_weights;
+#ifdef MLS
+  if (fit.matrix[0].x > 0) {
+    vec4 center = at_center(fit);
+    found.irradiance = max(fit.e * center, 0);
+    found.glossy = max(fit.l * center, 0);
+  }
+#endif
   return found;
 }
 #endif

@@ -95,6 +95,7 @@ struct Renderer::Data {
   void draw_shadows();
   void draw_geometry(const FrameSettings& settings);
   void draw_direct(bool shadow_view);
+  IndirectLookup lookup_of(const FrameSettings& settings) const;
   void draw_indirect(const FrameSettings& settings);
   void draw_indirect_by_images(const FrameSettings& settings);
   void draw_seen(const FrameSettings& settings);
@@ -353,20 +354,27 @@ void Renderer::Data::draw_direct(bool shadow_view) {
   }
 }
 
+IndirectLookup Renderer::Data::lookup_of(const FrameSettings& settings) const {
+  if (settings.lookup == gi::LookupMethod::light) return IndirectLookup::light;
+  // One probe has no spacing, nor anything to fit
+  const bool fits = settings.weights != gi::WeightMethod::distance && probes.count() > 1;
+  return fits ? IndirectLookup::mls : IndirectLookup::distance;
+}
+
 void Renderer::Data::draw_indirect(const FrameSettings& settings) {
   const bool chosen = settings.view == View::chosen_sphl;
   if (!chosen && (images.indirect_scale > 1 || settings.ambient_occlusion))
     return draw_indirect_by_images(settings);
   for_each_class([&](bool full, const gl::DrawState& where) {
-    gl::Program& program =
-        shaders.indirect(settings.lookup, full, chosen ? IndirectOutput::chosen : IndirectOutput::radiance);
+    gl::Program& program = shaders.indirect(lookup_of(settings), full,
+                                            chosen ? IndirectOutput::chosen : IndirectOutput::radiance);
     probes.bind_lookup(program);
     fullscreen(program, images.light_pass.id(), images.full(), where);
   });
 }
 
 void Renderer::Data::draw_indirect_by_images(const FrameSettings& settings) {
-  gl::Program& program = shaders.indirect(settings.lookup, scene.any_full(), IndirectOutput::images);
+  gl::Program& program = shaders.indirect(lookup_of(settings), scene.any_full(), IndirectOutput::images);
   probes.bind_lookup(program);
   fullscreen(program, images.indirect_pass.id(), images.indirect());
   if (settings.ambient_occlusion) fullscreen(shaders.occlusion(), images.occlusion_pass.id(), images.full());

@@ -40,12 +40,12 @@ gl::Program& Shaders::direct(EmitterKind kind, bool full, bool shadow_view) {
              define(kind_names[k]) + define("FULL_BSDF", full) + define("SHADOW_VIEW", shadow_view));
 }
 
-gl::Program& Shaders::indirect(gi::LookupMethod lookup, bool full, IndirectOutput output) {
-  const bool light = lookup == gi::LookupMethod::light;
-  Slot& slot = indirect_[light][full][static_cast<int>(output)];
+gl::Program& Shaders::indirect(IndirectLookup lookup, bool full, IndirectOutput output) {
+  Slot& slot = indirect_[static_cast<int>(lookup)][full][static_cast<int>(output)];
   if (slot) return *slot;
   return get(slot, fullscreen, "indirect.frag",
-             define("LOOKUP_LIGHT", light) + define("FULL_BSDF", full) +
+             define("LOOKUP_LIGHT", lookup == IndirectLookup::light) +
+                 define("MLS", lookup == IndirectLookup::mls) + define("FULL_BSDF", full) +
                  define("TO_IMAGES", output == IndirectOutput::images) +
                  define("CHOSEN_VIEW", output == IndirectOutput::chosen));
 }
@@ -69,7 +69,7 @@ std::string Shaders::compile_all() {
     for (int k = 0; k < emitter_kinds; ++k) {
       for (const bool shadow_view : {false, true}) direct(static_cast<EmitterKind>(k), full, shadow_view);
     }
-    for (const auto lookup : {gi::LookupMethod::light, gi::LookupMethod::irradiance}) {
+    for (const auto lookup : {IndirectLookup::light, IndirectLookup::distance, IndirectLookup::mls}) {
       for (const auto output : {IndirectOutput::radiance, IndirectOutput::images, IndirectOutput::chosen})
         indirect(lookup, full, output);
     }

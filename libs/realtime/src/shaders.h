@@ -12,7 +12,9 @@
 
 namespace ssphh::realtime {
 
-/// What indirect.frag gives: radiance, images for apply.frag, or a view of the choice.
+/// How indirect.frag finds light.
+enum class IndirectLookup : int { light, distance, mls };
+/// What it gives: radiance, images for apply.frag, or a view of the choice.
 enum class IndirectOutput : int { radiance, images, chosen };
 
 class Shaders {
@@ -26,7 +28,7 @@ class Shaders {
   gl::Program& shadow(bool alpha);
   /// Light of one emitter on surfaces that are Lambertian or not; or the share that arrives.
   gl::Program& direct(EmitterKind kind, bool full, bool shadow_view);
-  gl::Program& indirect(gi::LookupMethod lookup, bool full, IndirectOutput output);
+  gl::Program& indirect(IndirectLookup lookup, bool full, IndirectOutput output);
   gl::Program& apply(bool full);
   gl::Program& occlusion() { return get(occlusion_, fullscreen, "occlusion.frag"); }
   /// An emitter that is no surface, as the eye sees it.
@@ -45,7 +47,7 @@ class Shaders {
 
   const gl::ShaderFiles* files_;
   std::string warnings_;
-  Slot geometry_[16], shadow_[2], direct_[emitter_kinds][2][2], indirect_[2][2][3], apply_[2], occlusion_,
+  Slot geometry_[16], shadow_[2], direct_[emitter_kinds][2][2], indirect_[3][2][3], apply_[2], occlusion_,
       seen_[emitter_kinds], view_, resolve_, display_;
 };
 

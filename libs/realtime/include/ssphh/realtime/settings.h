@@ -25,6 +25,8 @@ struct FrameSettings {
   bool direct = true;
   bool indirect = true;
   gi::LookupMethod lookup = gi::LookupMethod::irradiance;
+  /// Of lookup `irradiance`: distance or mls; the others are drawn as mls.
+  gi::WeightMethod weights = gi::WeightMethod::mls;
   int indirect_scale = 1;  ///< n: indirect light at every n-th pixel each way, filled in along surfaces
   int supersample = 1;     ///< samples per pixel along each side, 1..4
   bool ambient_occlusion = false;
