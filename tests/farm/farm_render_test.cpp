@@ -46,7 +46,7 @@ TEST(FarmCommand, StatusDrainAndKeys) {
   const TempDir dir;
   FarmProcesses farm(2);
   ASSERT_TRUE(farm.worker(1).wait_for_stderr("worker-ready"));
-  nlohmann::json status;
+  nlohmann::json status = nlohmann::json::object();
   for (int i = 0; i < 100 && status.value("workers", nlohmann::json::array()).size() < 2; ++i)
     status = run_json({"farm", "status", "--broker", farm.endpoint()});
   ASSERT_EQ(status["workers"].size(), 2u) << status.dump(1);
