@@ -68,6 +68,7 @@ void Picture::update_truth(const ReferenceImage& truth, const Settings& settings
 realtime::FrameSettings frame_settings(const Settings& settings) {
   realtime::FrameSettings out;
   out.lookup = settings.lookup;
+  out.weights = settings.weights;
   out.tone = {settings.exposure, settings.curve, 0};
   switch (settings.debug) {
     case DebugView::none:
@@ -97,8 +98,9 @@ realtime::FrameSettings frame_settings(const Settings& settings) {
 
 bool same_picture(const Settings& a, const Settings& b) {
   return a.exposure == b.exposure && a.curve == b.curve && a.debug == b.debug && a.lookup == b.lookup &&
-         a.layer == b.layer && a.degree == b.degree && a.hier == b.hier && a.hier_params == b.hier_params &&
-         a.balls == b.balls && a.lobes == b.lobes && a.ball == b.ball && a.ball_size == b.ball_size;
+         a.weights == b.weights && a.layer == b.layer && a.degree == b.degree && a.hier == b.hier &&
+         a.hier_params == b.hier_params && a.balls == b.balls && a.lobes == b.lobes && a.ball == b.ball &&
+         a.ball_size == b.ball_size;
 }
 
 bool needs_truth(const Settings& settings) {

@@ -61,6 +61,7 @@ void draw_bake(App& app) {
 void draw_lookup(App& app) {
   heading("How surfaces take it");
   setting_widget(app, "lookup", "lookup");
+  if (app.settings.lookup == gi::LookupMethod::irradiance) setting_widget(app, "weights", "weights");
   setting_slider(app, "bands", "degree", 0, 10, "%.0f");
   const std::size_t edges = app.light.empty() ? 0 : gi::edge_count(app.light.set());
   ImGui::BeginDisabled(edges == 0);
