@@ -46,6 +46,7 @@ void add_cubemap_commands(CLI::App& app, Context& context);
 void add_compare_command(CLI::App& app, Context& context);
 void add_export_command(CLI::App& app, Context& context);
 void add_truth_command(CLI::App& app, Context& context);
+void add_report_command(CLI::App& app, Context& context);
 void add_leak_command(CLI::App& app, Context& context);
 void add_relight_command(CLI::App& app, Context& context);
 

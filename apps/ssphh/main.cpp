@@ -49,6 +49,7 @@ int run(int argc, char** argv) {
   add_export_command(app, context);
   add_leak_command(app, context);
   add_relight_command(app, context);
+  add_report_command(app, context);
 
   const auto called = [&](const CLI::App* command) { return command->check_name(argv[1]); };
   if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(called).empty()) {
