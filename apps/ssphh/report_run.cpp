@@ -1,7 +1,7 @@
 #include "report_run.h"
 
+#include <algorithm>
 #include <ctime>
-#include <set>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -47,12 +47,19 @@ class WorkFolder {
   fs::path path_;
 };
 
-std::string tail(const fs::path& log) {
+// The message without the log's path, which is gone with the folder; and the log, where the message does not
+// hold all of it.
+std::string failure_text(const Error& error, const fs::path& log) {
   constexpr std::size_t most = 4000;
+  std::string text = error.problem();
+  const std::string where = log.string() + " says";
+  if (const std::size_t at = text.find(where); at != std::string::npos)
+    text.replace(at, where.size(), "it said");
   std::error_code ignored;
-  if (!fs::exists(log, ignored)) return {};
-  const std::string text = read_text_file(log);
-  return text.size() > most ? "…" + text.substr(text.size() - most) : text;
+  const std::string all = fs::exists(log, ignored) ? read_text_file(log) : "";
+  if (std::count(all.begin(), all.end(), '\n') > 8)
+    text += "\nAll of it:\n" + (all.size() > most ? "…" + all.substr(all.size() - most) : all);
+  return text;
 }
 
 JobRecord run_job(const Job& job, const RunPlace& place, int time_limit, const Control& control) {
@@ -71,7 +78,7 @@ JobRecord run_job(const Job& job, const RunPlace& place, int time_limit, const C
     record.peak_bytes = usage.peak_bytes;
     report::keep_run(place.cache, job, work.path(), record);
   } catch (const Error& e) {
-    throw Error("ssphh " + job.words.front(), e.problem() + "\n" + tail(log), e.hint());
+    throw Error("ssphh " + job.words.front(), failure_text(e, log), e.hint());
   }
   const auto kept = report::find_run(place.cache, job.key, place.build);
   if (!kept) throw Error((place.cache / job.key).string(), "cannot be read back", "is the disk full?");

@@ -33,8 +33,9 @@ bool is_written_by(const Job& job, const std::string& name) {
   });
 }
 
+// Only words that look like a path: a folder may well hold a file called "path" or "4".
 std::string resolve(const std::string& word, const fs::path& folder) {
-  if (word.empty() || word.front() == '-') return word;
+  if (word.empty() || word.front() == '-' || word.find_first_of("./") == std::string::npos) return word;
   std::error_code ignored;
   for (const fs::path& path : {folder / word, fs::path(word)}) {
     if (fs::is_regular_file(path, ignored)) return fs::absolute(path).lexically_normal().string();

@@ -120,6 +120,16 @@ TEST(Jobs, FilesCountByContentNotByPlace) {
   EXPECT_NE(keys(expand(plan, there)), base);
 }
 
+TEST(Jobs, AFileThatIsCalledLikeAValueIsNoPath) {
+  const TempDir dir;
+  write_file(dir / "path", std::string_view("x"));
+  ExpandContext here = context();
+  here.folder = dir.path();
+  const Expansion e =
+      expand(plan_of(R"([{"name": "m", "steps": ["render {scene} --method path -o o.exr"]}])"), here);
+  EXPECT_THAT(e.jobs[0].words, testing::Contains("path"));
+}
+
 TEST(Jobs, ScenesWithoutAHashAreLeftOut) {
   ExpandContext none = context();
   none.scene_hashes.clear();
