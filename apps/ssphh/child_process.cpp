@@ -9,6 +9,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -27,9 +28,15 @@ std::string last_lines(const std::filesystem::path& log, int count) {
   return text;
 }
 
-pid_t start(const std::vector<std::string>& command, const std::filesystem::path& log) {
-  const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  if (out < 0) throw Error(log.string(), std::string("cannot write: ") + std::strerror(errno));
+int open_to_write(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (file < 0) throw Error(path.string(), std::string("cannot write: ") + std::strerror(errno));
+  return file;
+}
+
+pid_t start(const std::vector<std::string>& command, const std::filesystem::path& log,
+            const std::filesystem::path& result) {
+  const int err = open_to_write(log), out = open_to_write(result.empty() ? log : result);
   std::vector<char*> arguments;
   for (const std::string& a : command) arguments.push_back(const_cast<char*>(a.c_str()));
   arguments.push_back(nullptr);
@@ -37,27 +44,30 @@ pid_t start(const std::vector<std::string>& command, const std::filesystem::path
   if (pid == 0) {
     ::setpgid(0, 0);  // so that its children end with it
     const int nothing = ::open("/dev/null", O_RDONLY);
-    ::dup2(nothing, 0), ::dup2(out, 1), ::dup2(out, 2);
+    ::dup2(nothing, 0), ::dup2(out, 1), ::dup2(err, 2);
     ::execvp(arguments[0], arguments.data());
     ::_exit(127);
   }
-  ::close(out);
+  ::close(out), ::close(err);
   if (pid < 0) throw Error(command[0], std::string("cannot start: ") + std::strerror(errno));
   return pid;
 }
 
 }  // namespace
 
-void run_program(const std::vector<std::string>& command, const std::filesystem::path& log,
-                 std::chrono::seconds limit, const Control& control) {
-  const pid_t pid = start(command, log);
-  const auto deadline = std::chrono::steady_clock::now() + limit;
+ProgramUsage run_program(const std::vector<std::string>& command, const std::filesystem::path& log,
+                         std::chrono::seconds limit, const Control& control,
+                         const std::filesystem::path& result) {
+  const auto begin = std::chrono::steady_clock::now();
+  const pid_t pid = start(command, log, result);
+  const auto deadline = begin + limit;
   int status = 0;
+  rusage usage{};
   const auto end_it = [&] {
     ::kill(-pid, SIGKILL), ::kill(pid, SIGKILL);
     ::waitpid(pid, &status, 0);
   };
-  while (::waitpid(pid, &status, WNOHANG) == 0) {
+  while (::wait4(pid, &status, WNOHANG, &usage) == 0) {
     if (control.cancelled()) {
       end_it();
       throw Cancelled();
@@ -79,6 +89,12 @@ void run_program(const std::vector<std::string>& command, const std::filesystem:
     throw Error(command[0], fmt::format("exited with {}; {} says:{}", WEXITSTATUS(status), log.string(),
                                         last_lines(log, 8)));
   }
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+          seconds(usage.ru_utime) + seconds(usage.ru_stime),
+          static_cast<std::uint64_t>(usage.ru_maxrss) * 1024};
 }
 
 bool program_exists(const std::string& name) {

@@ -2,6 +2,7 @@
 /// Another program, run to its end.
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,12 +11,20 @@
 
 namespace ssphh::app {
 
-/// Runs `command` (found on PATH) with its output appended to `log`, and waits. Ctrl-C and the time limit end
-/// it with SIGKILL, its own children included. Throws Error when it cannot be started, exits with another
-/// code than 0, is killed by a signal or exceeds the limit: the message names the log and shows its last
-/// lines. Throws Cancelled on Ctrl-C.
-void run_program(const std::vector<std::string>& command, const std::filesystem::path& log,
-                 std::chrono::seconds limit, const Control& control);
+/// What a program took.
+struct ProgramUsage {
+  double seconds = 0;            ///< wall time
+  double cpu_seconds = 0;        ///< of all its threads, user and system
+  std::uint64_t peak_bytes = 0;  ///< largest resident set
+};
+
+/// Runs `command` (found on PATH) with its output appended to `log` (its standard output alone to `result`,
+/// if that is not empty), and waits. Ctrl-C and the time limit end it with SIGKILL, its own children
+/// included. Throws Error when it cannot be started, exits with another code than 0, is killed by a signal or
+/// exceeds the limit: the message names the log and shows its last lines. Throws Cancelled on Ctrl-C.
+ProgramUsage run_program(const std::vector<std::string>& command, const std::filesystem::path& log,
+                         std::chrono::seconds limit, const Control& control,
+                         const std::filesystem::path& result = {});
 
 /// Whether a program of this name is on PATH.
 bool program_exists(const std::string& name);

@@ -47,6 +47,7 @@ void add_broker_command(CLI::App& app, Context& context);
 void add_compare_command(CLI::App& app, Context& context);
 void add_export_command(CLI::App& app, Context& context);
 void add_truth_command(CLI::App& app, Context& context);
+void add_report_command(CLI::App& app, Context& context);
 void add_leak_command(CLI::App& app, Context& context);
 void add_measure_command(CLI::App& app, Context& context);
 void add_relight_command(CLI::App& app, Context& context);

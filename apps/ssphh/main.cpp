@@ -56,6 +56,7 @@ int run(int argc, char** argv) {
   add_view_command(app, context);
   add_worker_command(app, context);
   add_farm_commands(app, context);
+  add_report_command(app, context);
 
   const auto called = [&](const CLI::App* command) { return command->check_name(argv[1]); };
   if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(called).empty()) {

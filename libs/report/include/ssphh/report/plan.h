@@ -1,0 +1,98 @@
+#pragma once
+/// A plan: which command lines are measured, in which scenes, and what of their results is shown
+/// (docs/report.md). Plain data, read from JSON.
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace ssphh::report {
+
+/// A part of the picture, shown enlarged and measured by itself: fractions of width and height from the upper
+/// left.
+struct Inset {
+  std::string name;
+  double x0 = 0, y0 = 0, x1 = 1, y1 = 1;
+};
+
+/// Names and values, in the order in which the plan has them.
+using Parameters = std::vector<std::pair<std::string, std::string>>;
+
+struct PlanScene {
+  std::string name, title;
+  std::vector<std::string> words;  ///< what {scene} stands for: a file or builtin:NAME, then options
+  double exposure = 0;             ///< EV at which the page opens
+  Parameters variables;            ///< in place of the plan's
+  std::vector<Inset> insets;
+  bool optional = false;  ///< left out, with a note, where it cannot be loaded
+};
+
+/// One command line of the tool, without its name; `{…}` stands for the scene, a parameter or a variable.
+struct Step {
+  std::string name;  ///< by which columns refer to it; the command's name unless given
+  std::vector<std::string> words;
+};
+
+/// Steps run one after the other; a word that names an output of an earlier step stands for that file.
+struct PlanMethod {
+  std::string name, title, about;
+  std::vector<Step> steps;
+  std::string picture;               ///< output that is looked at; empty: only numbers
+  std::vector<std::string> halves;   ///< instead: two pictures of independent random numbers
+  std::vector<Parameters> variants;  ///< at least one, which may be empty
+  int repetitions = 1;               ///< runs with --seed 0, 1, …
+  std::vector<std::string> scenes;   ///< empty: all
+};
+
+struct Column {
+  std::string value;  ///< name of a value of a cell, "relmse" or "bake.gen_seconds"
+  std::string title, unit;
+  int better = 0;  ///< −1: smaller is better, 1: larger
+};
+
+struct Chart {
+  std::string title, x, y;  ///< names of a parameter or value
+  bool log_x = false, log_y = false;
+};
+
+/// Numbers that somebody else printed for the same cell; by column title.
+struct Published {
+  std::string scene, method;  ///< method with its parameters, as label() gives it
+  std::map<std::string, double> values;
+};
+
+struct Plan {
+  std::string title, about;
+  Parameters variables;
+  std::vector<PlanScene> scenes;
+  bool has_reference = false;
+  PlanMethod reference;
+  std::vector<PlanMethod> methods;
+  /// Pictures beside the one named, OUT.LAYER.exr, that are compared as well; "irradiance" is made of
+  /// indirect and albedo.
+  std::vector<std::string> layers;
+  std::vector<Column> columns;
+  std::vector<Chart> charts;
+  std::string published_source;
+  std::vector<Published> published;
+  int block = 16;         ///< pixels along a block of the pixelated map
+  int time_limit = 3600;  ///< seconds that a command may take
+};
+
+/// Reads a plan. `name` stands for the file in messages; `commands` are the tool's. Throws Error for what is
+/// no plan, naming the place and for an unknown key, command or variable the nearest known one.
+Plan parse_plan(std::string_view json, const std::string& name, const std::vector<std::string>& commands);
+
+/// Replaces a variable's value, "spp=16". Throws Error for one that the plan does not have, naming the
+/// nearest.
+void set_variable(Plan& plan, const std::string& assignment);
+
+/// "ssphh, degree 4": the method's name and the variant's parameters.
+std::string label(const PlanMethod& method, const Parameters& parameters);
+
+/// The candidate with the fewest edits from `name`, or "" when there is none within half of its length.
+std::string nearest(const std::string& name, const std::vector<std::string>& candidates);
+
+}  // namespace ssphh::report

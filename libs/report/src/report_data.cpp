@@ -1,0 +1,131 @@
+#include "report_data.h"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace ssphh::report {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json finite(double x) {
+  return std::isfinite(x) ? ordered_json(x) : ordered_json(nullptr);
+}
+
+ordered_json scenes_data(const Report& report) {
+  ordered_json scenes = ordered_json::array();
+  for (const PlanScene& scene : report.plan.scenes) {
+    ordered_json insets = ordered_json::array();
+    for (const Inset& i : scene.insets)
+      insets.push_back({{"name", i.name}, {"at", {i.x0, i.y0, i.x1, i.y1}}});
+    const auto hash = report.provenance.scene_hashes.find(scene.name);
+    scenes.push_back({{"name", scene.name},
+                      {"title", scene.title},
+                      {"exposure", scene.exposure},
+                      {"insets", std::move(insets)},
+                      {"hash", hash == report.provenance.scene_hashes.end() ? ordered_json()
+                                                                            : ordered_json(hash->second)}});
+  }
+  return scenes;
+}
+
+ordered_json cell_data(const Report& report, const ReportCell& cell) {
+  const Plan& plan = report.plan;
+  const PlanMethod& method =
+      cell.method < 0 ? plan.reference : plan.methods[static_cast<std::size_t>(cell.method)];
+  ordered_json parameters = ordered_json::object(), values = ordered_json::object(),
+               steps = ordered_json::array();
+  for (const auto& [name, text] : cell.parameters) parameters[name] = text;
+  for (const auto& [name, value] : cell.values) {
+    values[name] = {{"mean", finite(value.mean)},
+                    {"median", finite(value.median)},
+                    {"deviation", finite(value.deviation)},
+                    {"count", value.count}};
+  }
+  for (const StepRun& step : cell.steps) {
+    steps.push_back({{"name", step.name},
+                     {"repetition", step.repetition},
+                     {"command", step.command},
+                     {"key", step.key},
+                     {"seconds", step.seconds},
+                     {"peak_bytes", step.peak_bytes},
+                     {"started", step.started},
+                     {"machine", step.machine}});
+  }
+  return {{"scene", plan.scenes[cell.scene].name},
+          {"method", method.name},
+          {"title", method.title},
+          {"about", method.about},
+          {"label", cell.label},
+          {"reference", cell.method < 0},
+          {"parameters", std::move(parameters)},
+          {"failure", cell.failure.empty() ? ordered_json() : ordered_json(cell.failure)},
+          {"values", std::move(values)},
+          {"steps", std::move(steps)}};
+}
+
+}  // namespace
+
+std::string number_text(double value) {
+  if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
+  return std::isnan(value) ? "" : fmt::format("{:.4g}", value);
+}
+
+double published_value(const Report& report, const ReportCell& cell, const std::string& column) {
+  for (const Published& row : report.plan.published) {
+    const auto it = row.values.find(column);
+    if (row.scene == report.plan.scenes[cell.scene].name && row.method == cell.label &&
+        it != row.values.end())
+      return it->second;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+ordered_json report_data(const Report& report) {
+  const Provenance& p = report.provenance;
+  ordered_json columns = ordered_json::array(), charts = ordered_json::array(),
+               published = ordered_json::array(), cells = ordered_json::array(),
+               variables = ordered_json::object();
+  for (const Column& c : columns_of(report))
+    columns.push_back({{"value", c.value}, {"title", c.title}, {"unit", c.unit}, {"better", c.better}});
+  for (const Chart& c : report.plan.charts)
+    charts.push_back({{"title", c.title}, {"x", c.x}, {"y", c.y}, {"log_x", c.log_x}, {"log_y", c.log_y}});
+  for (const Published& row : report.plan.published)
+    published.push_back({{"scene", row.scene}, {"method", row.method}, {"values", row.values}});
+  for (const auto& [name, text] : report.plan.variables) variables[name] = text;
+  for (const ReportCell& cell : report.cells) cells.push_back(cell_data(report, cell));
+  return {{"title", report.plan.title},
+          {"about", report.plan.about},
+          {"provenance",
+           {{"identity", p.identity},
+            {"version", p.version},
+            {"build", p.build},
+            {"commit", p.commit},
+            {"machine", p.machine},
+            {"created", p.created},
+            {"command", p.command}}},
+          {"notes", report.notes},
+          {"variables", std::move(variables)},
+          {"block", report.plan.block},
+          {"layers", report.plan.layers},
+          {"scenes", scenes_data(report)},
+          {"columns", std::move(columns)},
+          {"charts", std::move(charts)},
+          {"published", {{"source", report.plan.published_source}, {"rows", std::move(published)}}},
+          {"cells", std::move(cells)}};
+}
+
+std::string report_json(const Report& report) {
+  return report_data(report).dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string identity_of(const std::string& text) {
+  const ordered_json json = ordered_json::parse(text, nullptr, false);
+  if (!json.is_object() || !json.contains("provenance")) return "";
+  const ordered_json& p = json["provenance"];
+  return p.is_object() ? p.value("identity", "") : "";
+}
+
+}  // namespace ssphh::report

@@ -1,0 +1,18 @@
+#pragma once
+/// The report as JSON, for report.json and, with where its pictures are, for the page.
+
+#include <nlohmann/json.hpp>
+
+#include <ssphh/report/report.h>
+
+namespace ssphh::report {
+
+nlohmann::ordered_json report_data(const Report& report);
+
+/// Numbers for people: four significant digits; "" for NaN.
+std::string number_text(double value);
+
+/// The number that was published for this cell, or NaN.
+double published_value(const Report& report, const ReportCell& cell, const std::string& column);
+
+}  // namespace ssphh::report
