@@ -84,7 +84,7 @@ TEST(TransportBakeCli, RenderTakesFittedWeightsWhereTheFileHasThem) {
   };
   EXPECT_EQ(mean(fitted, {}), mean(fitted, {"--weights", "fitted"}));
   EXPECT_NE(mean(fitted, {}), mean(fitted, {"--weights", "distance"}));
-  EXPECT_EQ(mean(plain, {}), mean(plain, {"--weights", "distance"}));
+  EXPECT_EQ(mean(plain, {}), mean(plain, {"--weights", "mls"}));
   expect_failure(small_render("builtin:box", plain, picture, {"--weights", "fitted"}),
                  "has no fitted weights");
 }

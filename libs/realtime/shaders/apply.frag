@@ -30,7 +30,8 @@ void main() {
     float turned = max(dot(other, s.normal), 0);
     turned *= turned;
     turned *= turned;
-    float weight = (b.x * b.y + 1e-3) * (exp(-off) * turned * turned + 1e-4);
+    // Where all four are far in depth the least must count; where every pixel was found, itself alone does
+    float weight = (b.x * b.y + (n > 1 ? 1e-3 : 0)) * (exp(-off) * turned * turned + 1e-4);
     weight = depth > 0 ? weight : 0;
     e += weight * vec4(texelFetch(irradiance_image, q, 0).rgb, 1);
     l += weight * texelFetch(glossy_image, q, 0).rgb;
