@@ -44,7 +44,7 @@ pid_t start(const std::vector<std::string>& command, const std::filesystem::path
   if (pid == 0) {
     ::setpgid(0, 0);  // so that its children end with it
     const int nothing = ::open("/dev/null", O_RDONLY);
-    ::dup2(nothing, 0), ::dup2(out, 1), ::dup2(err, 2);
+    ::dup2(err, 2), ::dup2(out, 1), ::dup2(nothing, 0);  // in this order: 0 may have been closed and be err
     ::execvp(arguments[0], arguments.data());
     ::_exit(127);
   }

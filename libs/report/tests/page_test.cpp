@@ -138,7 +138,7 @@ TEST(Page, WorksInABrowser) {
   }
   EXPECT_EQ(seen["start"]["name"], "m, n 1");
   EXPECT_EQ(seen["flipped"]["name"], "truth");
-  EXPECT_NE(seen["flipped"]["middle"], seen["start"]["middle"]);
+  EXPECT_NE(seen["flipped"]["mean"], seen["start"]["mean"]);
   EXPECT_EQ(seen["back"], seen["start"]);
   EXPECT_EQ(seen["second"]["name"], "m, n 2");
   EXPECT_DOUBLE_EQ(seen["exposure"], 1.5);
@@ -149,7 +149,10 @@ TEST(Page, WorksInABrowser) {
     EXPECT_THAT(maps, Not(testing::Contains(map))) << name << " looks like another map";
     maps.push_back(map);
   }
-  EXPECT_EQ(seen["w"], 1), EXPECT_EQ(seen["s"], 2), EXPECT_EQ(seen["a"], 3), EXPECT_EQ(seen["o"], 1);
+  EXPECT_EQ(seen["w"], 1);
+  EXPECT_EQ(seen["s"], 2);
+  EXPECT_EQ(seen["a"], 3);
+  EXPECT_EQ(seen["o"], 1);
   EXPECT_THAT(seen["readout"].get<std::string>(), HasSubstr("pixel 3, 2"));
   EXPECT_EQ(seen["ascending"].front(), "m, n 1");
   EXPECT_EQ(seen["descending"].front(), "m, n 2");
