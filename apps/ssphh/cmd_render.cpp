@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -11,28 +10,15 @@
 #include <ssphh/farm/farm_render.h>
 #include <ssphh/gi/lookup.h>
 #include <ssphh/image/io.h>
-#include <ssphh/image/tonemap.h>
 #include <ssphh/trace/path_tracer.h>
 
 #include "command.h"
-#include "farm_options.h"
-#include "gl_options.h"
 #include "probe_options.h"
-#include "scene_options.h"
+#include "render_gl.h"
+#include "render_options.h"
 
 namespace ssphh::app {
 namespace {
-
-struct RenderOptions {
-  SceneOptions scene;
-  FarmChoice farm;
-  std::string output, png, method = "path", probes, lookup = "irradiance", weights, light = "sum", camera,
-                           projection = "camera", tonemap = "clip", backend = "cpu";
-  std::vector<std::string> aovs;
-  int width = 1280, height = 720, max_depth = 3, passes = 1, spp = 16;
-  float exposure = 0;
-  bool resume = false, force = false;
-};
 
 const std::vector<std::string> aov_names = {"direct", "indirect", "albedo", "normal", "depth", "groups"};
 
@@ -55,24 +41,6 @@ trace::RenderParams render_params(const RenderOptions& o, const Context& context
     params.projection = trace::Projection::orthographic;
   }
   return params;
-}
-
-void write_display(const std::filesystem::path& path, const image::Image& linear, const RenderOptions& o) {
-  const auto curve = o.tonemap == "filmic" ? image::ToneCurve::filmic : image::ToneCurve::clip;
-  image::write_image(path, image::tone_map(linear, {.exposure = o.exposure, .curve = curve}));
-}
-
-bool is_display_format(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
-}
-
-void write_picture(const std::filesystem::path& path, const image::Image& linear, const RenderOptions& o) {
-  if (is_display_format(path)) {
-    write_display(path, linear, o);
-  } else {
-    image::write_image(path, linear);
-  }
 }
 
 // OUT.exr gives OUT.albedo.exr and so on: float data, whatever the format of the picture.
@@ -195,93 +163,6 @@ trace::RenderState render_on_farm(const FarmSession& session, const trace::PathT
   }
   return farm::render(session.options(), scene, o.scene.time, params, probes, wanted_layers(o), report,
                       control);
-}
-
-std::array<double, 3> mean_radiance(const image::Image& picture) {
-  std::array<double, 3> mean{};
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
-      for (int c = 0; c < 3; ++c)
-        mean[static_cast<std::size_t>(c)] += static_cast<double>(picture.rgb(x, y)[c]);
-    }
-  }
-  for (double& m : mean) m /= static_cast<double>(picture.width) * picture.height;
-  return mean;
-}
-
-void refuse_with_gl(const RenderOptions& o) {
-  const auto refuse = [](const std::string& option, const std::string& problem) {
-    throw Error(option, problem + " is not for --backend gl", "leave it out, or take --backend cpu");
-  };
-  if (o.method != "ssphh") refuse("--method", "path tracing");
-  if (o.projection != "camera") refuse("--projection", "a picture of the whole sphere");
-  if (o.weights == "trilinear" || o.weights == "fitted") refuse("--weights", o.weights);
-  if (o.resume) refuse("--resume", "resuming");
-  if (o.farm.any()) refuse("--broker or --local", "a farm");
-  if (o.probes.empty() && o.max_depth >= 2)
-    throw Error(
-        "--probes", "method ssphh needs a probe file",
-        fmt::format("make one with `ssphh bake {} -o probes.sphl`, or take --max-depth 1", o.scene.source));
-  for (const std::string& aov : o.aovs) {
-    if (aov == "depth" || aov == "groups") refuse("--aov", aov);
-  }
-}
-
-// One frame of the real-time renderer; samples per pixel stand on a square grid.
-void render_gl(const RenderOptions& o, const Context& context) {
-  refuse_with_gl(o);
-  const scene::Scene scene = load_scene(o.scene);
-  const auto start = std::chrono::steady_clock::now();
-  gl::Context gl = gl::Context::headless();
-  realtime::Renderer renderer(gl, scene, {}, o.scene.time);
-  const GlLookup lookup{o.max_depth >= 2 ? o.probes : "", o.lookup, o.weights, o.light, o.force};
-  set_probes(renderer, lookup, scene, o.scene.time);
-  int side = 1;
-  while (side < 4 && side * side < o.spp * o.passes) ++side;
-  realtime::FrameSettings settings = still_settings(lookup, side);
-  const scene::CameraPose camera = scene::camera_pose(scene, o.camera, o.scene.time);
-  const auto draw = [&](realtime::View view) {
-    settings.view = view;
-    renderer.draw(camera, settings, {.width = o.width, .height = o.height});
-    return renderer.read_back();
-  };
-  const image::Image picture = draw(realtime::View::lit);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  write_picture(o.output, picture, o);
-  if (!o.png.empty()) write_display(o.png, picture, o);
-  const std::filesystem::path output = o.output;
-  for (const std::string& aov : o.aovs) {
-    using realtime::View;
-    const View view = aov == "direct"     ? View::direct
-                      : aov == "indirect" ? View::indirect
-                      : aov == "albedo"   ? View::albedo
-                                          : View::normal;
-    image::Image image = draw(view);
-    // The view shows 0.5 + 0.5 n, and black where nothing stands.
-    if (view == View::normal) {
-      for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-          const vec3 n = image.rgb(x, y);
-          if (n != vec3(0)) image.set_rgb(x, y, 2.0f * n - 1.0f);
-        }
-      }
-    }
-    image::write_image((output.parent_path() / output.stem()).string() + "." + aov + ".exr", image);
-  }
-  const auto mean = mean_radiance(picture);
-  context.result(
-      {{"output", o.output},
-       {"method", o.method},
-       {"backend", "gl"},
-       {"renderer", gl.info().renderer},
-       {"width", picture.width},
-       {"height", picture.height},
-       {"samples", side * side},
-       {"seconds", seconds},
-       {"mean", mean}},
-      fmt::format("{}: {}×{}, {} samples per pixel in {:.2f} s on {}, mean radiance {:.4g} {:.4g} {:.4g}",
-                  o.output, picture.width, picture.height, side * side, seconds, gl.info().renderer, mean[0],
-                  mean[1], mean[2]));
 }
 
 void render(const RenderOptions& o, const Context& context) {
