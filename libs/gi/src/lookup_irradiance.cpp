@@ -12,7 +12,8 @@ struct IrradianceLookup::Data {
   template <class Value>
   vec3 blend(const scene::SurfacePoint& at, const Value& value) const {
     vec3 sum(0);
-    for (const ProbeWeight& entry : weights->at(at).used()) sum += entry.weight * value(entry.probe);
+    const ProbeWeights found = weights->at(at);
+    for (const ProbeWeight& entry : found.used()) sum += entry.weight * value(entry.probe);
     return glm::max(sum, vec3(0));
   }
 };
