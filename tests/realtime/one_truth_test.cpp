@@ -83,8 +83,8 @@ void OneTruth::compare(gi::LookupMethod method, gi::WeightMethod weights) {
     noise2 += noise * noise / (by * by);
   }
   const auto n = static_cast<double>(a.values.size());
-  // Few blocks have edges, and those rarely all of their light; a fit changes more than an average does where a
-  // probe comes into sight, so that more of its edges count
+  // Few blocks have edges, and those rarely all of their light; a fit changes more than an average does where
+  // a probe comes into sight, so that more of its edges count
   const double share = weights == gi::WeightMethod::mls ? 0.2 : 0.1;
   EXPECT_LT(squares / n, 4 * noise2 / n + share * edge * edge);
 }
