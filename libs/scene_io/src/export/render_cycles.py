@@ -12,8 +12,13 @@ import os
 import sys
 
 import bpy
-import numpy as np
 from mathutils import Matrix
+
+try:
+    import numpy as np
+except ImportError as error:  # Blender itself would go on and exit with 0
+    print("render.py: %s: Blender's Python finds no numpy; is another Python first on PATH?" % error, file=sys.stderr)
+    sys.exit(1)
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 TO_BLENDER = Matrix(((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
