@@ -42,7 +42,7 @@ struct RelightOptions {
 /// A frame whose light is kept for what comes after the timed run.
 struct KeptFrame {
   int frame;
-  FrameState state;
+  gi::FrameState state;
   std::vector<sh::RadianceSh> reflected;
 };
 
@@ -112,7 +112,7 @@ class Relighting {
     ProgressStage progress(context_.control, "relighting", static_cast<std::uint64_t>(o_.frames), "frames");
     for (int f = 0; f < o_.frames; ++f) {
       context_.control.check();
-      FrameState state = animation_.frame(share(f));
+      gi::FrameState state = animation_.frame(share(f));
       animation_.apply(state, session);
       run_.updates.push_back(session.update());
       if (is_due(f, o_.truth) || (!o_.output.empty() && is_due(f, o_.pictures)))
@@ -122,7 +122,7 @@ class Relighting {
   }
 
   void save(const gi::RelightSession& session) {
-    const FrameState state = animation_.frame(share(o_.frames - 1));
+    const gi::FrameState state = animation_.frame(share(o_.frames - 1));
     gi::GeneratorInfo generator;
     generator.op = o_.params.op;
     generator.directions = session.network().params().directions;
@@ -149,7 +149,7 @@ class Relighting {
       const scene::Scene lit =
           scene::with_lights(scene_, kept.state.time, kept.state.lights, kept.state.group_scales);
       const trace::PathTracer tracer(lit, kept.state.time);
-      gi::ProbeSet set = lookup_set(session.places(), kept.reflected);
+      gi::ProbeSet set = gi::lookup_set(session.places(), kept.reflected);
       set.fitted = fitted;
       const gi::IrradianceLookup lookup(set, tracer, params);
       if (is_due(kept.frame, o_.truth)) measure(session, kept, tracer, lookup, quiet);

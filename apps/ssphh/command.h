@@ -50,6 +50,7 @@ void add_truth_command(CLI::App& app, Context& context);
 void add_report_command(CLI::App& app, Context& context);
 void add_leak_command(CLI::App& app, Context& context);
 void add_measure_command(CLI::App& app, Context& context);
+void add_methods_command(CLI::App& app, Context& context);
 void add_relight_command(CLI::App& app, Context& context);
 void add_bench_frame_command(CLI::App& app, Context& context);
 void add_turntable_command(CLI::App& app, Context& context);

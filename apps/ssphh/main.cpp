@@ -49,6 +49,7 @@ int run(int argc, char** argv) {
   add_export_command(app, context);
   add_leak_command(app, context);
   add_measure_command(app, context);
+  add_methods_command(app, context);
   add_relight_command(app, context);
   add_broker_command(app, context);
   add_bench_frame_command(app, context);

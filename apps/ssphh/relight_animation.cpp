@@ -167,14 +167,12 @@ bool RelightAnimation::moves_time() const {
                      [](const Track& track) { return track.property == TrackProperty::time; });
 }
 
-FrameState RelightAnimation::frame(float u) const {
-  FrameState state;
-  state.time = time_;
+gi::FrameState RelightAnimation::frame(float u) const {
+  float time = time_;
   for (const Track& track : tracks_) {
-    if (track.property == TrackProperty::time) state.time = track.at(u).x;
+    if (track.property == TrackProperty::time) time = track.at(u).x;
   }
-  state.lights = source_.lights(state.time);
-  state.group_scales.assign(source_.light_groups().size(), vec3(1));
+  gi::FrameState state = gi::frame_at(source_, time);
   for (const Track& track : tracks_) {
     const vec3 value = track.at(u);
     const auto target = static_cast<std::size_t>(std::max(track.target, 0));
@@ -201,7 +199,7 @@ FrameState RelightAnimation::frame(float u) const {
   return state;
 }
 
-void RelightAnimation::apply(const FrameState& state, gi::RelightSession& session) const {
+void RelightAnimation::apply(const gi::FrameState& state, gi::RelightSession& session) const {
   session.set_time(state.time);
   for (const Track& track : tracks_) {
     if (track.property == TrackProperty::time) continue;

@@ -396,4 +396,20 @@ const TransportNetwork& RelightSession::network() const {
   return data_->network;
 }
 
+ProbeSet lookup_set(const std::vector<ProbePlace>& places, const std::vector<sh::RadianceSh>& reflected) {
+  ProbeSet set;
+  set.degree = reflected.front().degree();
+  set.light_groups.push_back({"all"});
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Probe probe;
+    probe.name = places[i].name;
+    probe.position = places[i].position;
+    probe.radius = places[i].radius;
+    probe.groups.push_back({{}, reflected[i]});
+    set.probes.push_back(std::move(probe));
+  }
+  merge_groups(set);
+  return set;
+}
+
 }  // namespace ssphh::gi

@@ -50,6 +50,9 @@ struct RelightReport {
   double total_ms() const { return pose_ms + direct_ms + solve_ms + project_ms; }
 };
 
+/// The places with their reflected light as one group, as lookups want it.
+ProbeSet lookup_set(const std::vector<ProbePlace>& places, const std::vector<sh::RadianceSh>& reflected);
+
 class RelightSession {
  public:
   /// Keeps a reference to `source`. Throws Error as TransportNetwork does, for an operator that is none of

@@ -1,0 +1,121 @@
+#include <cmath>
+
+#include <ssphh/core/error.h>
+#include <ssphh/core/random.h>
+#include <ssphh/core/sphere.h>
+#include <ssphh/gi/place.h>
+#include <ssphh/gi/surface_points.h>
+
+#include "../entries.h"
+
+namespace ssphh::gi::methods {
+namespace {
+
+/// The same irradiance everywhere.
+class Constant final : public scene::IndirectLight {
+ public:
+  vec3 value{0};
+  vec3 irradiance(const scene::SurfacePoint&) const override { return value; }
+  vec3 glossy(const scene::SurfacePoint&, const vec3&, float) const override { return value / pi; }
+};
+
+class Direct final : public Method {
+ public:
+  void update(const FrameState&, const Control&) override {}
+  const scene::IndirectLight& light() const override { return light_; }
+  MethodMemory memory() const override { return {}; }
+
+ private:
+  Constant light_;
+};
+
+/// The ambient term of radiosity (Cohen, Chen, Wallace & Greenberg, A Progressive Refinement Approach to Fast
+/// Radiosity Image Generation, 1988, eq. 9-11), by sampling. Over points uniform by area, with E the mean
+/// direct irradiance and E₁ the mean irradiance after one bounce, further bounces are taken to shrink light
+/// by the same factor r = E₁/E: the ambient irradiance is E·r/(1 − r).
+class Ambient final : public Method {
+ public:
+  Ambient(const MethodScene& scene, int points, float factor)
+      : scene_(scene), points_(points), factor_(factor) {}
+
+  void update(const FrameState& state, const Control& control) override {
+    const PlaceParams seen_from = place_params(scene_.scene, state.time);
+    std::vector<vec3> origins = seen_from.interest;
+    for (const scene::SphlPlace& place : seen_from.manual) origins.push_back(place.position);
+    if (origins.empty()) origins.push_back(PosedSurfaces(scene_.source, state.time).bounds().center());
+    const std::vector<scene::SurfacePoint> points =
+        reachable_points(scene_.source, origins, state.time, {points_, 0}, {nullptr, control.cancel});
+
+    // One cosine ray from each point: the radiosity of what it meets is the irradiance that it brings.
+    const PosedSurfaces surfaces(scene_.source, state.time);
+    const float lift = 1e-4f * surfaces.bounds().radius();
+    std::vector<scene::RayQuery> rays;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      Pcg32 random(1, i);
+      rays.push_back({points[i].position + lift * points[i].normal,
+                      Frame::around(points[i].normal).to_world(sample_cosine_hemisphere(random.uniform2()))});
+    }
+    std::vector<scene::RayHit> hits(rays.size());
+    surfaces.intersect(rays, hits);
+    std::vector<scene::SurfacePoint> met;
+    std::vector<vec3> albedo;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (hits[i].escaped() || hits[i].back) continue;
+      met.push_back({rays[i].origin + hits[i].distance * rays[i].direction, hits[i].normal});
+      albedo.push_back(hits[i].albedo);
+    }
+
+    vec3 direct(0), bounced(0);
+    const auto lights = scene_.source.direct_light(state.lights, part_poses(scene_.source, state.time));
+    std::vector<vec3> at_points(points.size()), at_met(met.size());
+    for (std::size_t g = 0; g < state.group_scales.size(); ++g) {
+      lights->irradiance(static_cast<int>(g), points, at_points);
+      lights->irradiance(static_cast<int>(g), met, at_met);
+      for (const vec3& e : at_points) direct += state.group_scales[g] * e;
+      for (std::size_t i = 0; i < met.size(); ++i) bounced += state.group_scales[g] * albedo[i] * at_met[i];
+    }
+    const auto count = static_cast<float>(points.size());
+    direct /= count, bounced /= count;
+    for (int c = 0; c < 3; ++c) {
+      constexpr float most = 0.98f;  // of light kept by a bounce
+      const float kept = direct[c] > 0 ? std::min(bounced[c] / direct[c], most) : 0;
+      light_.value[c] = factor_ * bounced[c] / (1 - kept);
+    }
+  }
+
+  const scene::IndirectLight& light() const override { return light_; }
+  MethodMemory memory() const override { return {sizeof light_.value, 0}; }
+  MethodNumbers numbers() const override {
+    return {{"red", light_.value.r}, {"green", light_.value.g}, {"blue", light_.value.b}};
+  }
+
+ private:
+  MethodScene scene_;
+  int points_;
+  float factor_;
+  Constant light_;
+};
+
+}  // namespace
+
+MethodEntry direct_entry() {
+  return {"direct",
+          "no indirect light at all: what every other method has to win",
+          {},
+          [](const MethodScene&, const MethodParameters&, const Control&) -> std::unique_ptr<Method> {
+            return std::make_unique<Direct>();
+          }};
+}
+
+MethodEntry ambient_entry() {
+  return {"ambient",
+          "one constant for the whole scene, the ambient term of radiosity",
+          {{"points", 4096, 16, 1 << 22, "surface points that are sampled", true},
+           {"factor", 1, 0, 1e3, "multiplies the constant"}},
+          [](const MethodScene& scene, const MethodParameters& p, const Control&) -> std::unique_ptr<Method> {
+            return std::make_unique<Ambient>(scene, p.integer("points"),
+                                             static_cast<float>(p.number("factor")));
+          }};
+}
+
+}  // namespace ssphh::gi::methods

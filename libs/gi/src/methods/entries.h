@@ -1,0 +1,12 @@
+#pragma once
+/// One function per method, in its folder.
+
+#include <ssphh/gi/methods/table.h>
+
+namespace ssphh::gi::methods {
+
+MethodEntry direct_entry();
+MethodEntry ambient_entry();
+MethodEntry ssphh_entry();
+
+}  // namespace ssphh::gi::methods
