@@ -8,5 +8,6 @@ namespace ssphh::gi::methods {
 MethodEntry direct_entry();
 MethodEntry ambient_entry();
 MethodEntry ssphh_entry();
+MethodEntry vct_entry();
 
 }  // namespace ssphh::gi::methods

@@ -12,6 +12,7 @@ std::span<const MethodEntry> method_table() {
       methods::direct_entry(),
       methods::ambient_entry(),
       methods::ssphh_entry(),
+      methods::vct_entry(),
   };
   return table;
 }
