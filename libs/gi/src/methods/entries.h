@@ -8,5 +8,7 @@ namespace ssphh::gi::methods {
 MethodEntry direct_entry();
 MethodEntry ambient_entry();
 MethodEntry ssphh_entry();
+MethodEntry ddgi_entry();
+MethodEntry vpl_entry();
 
 }  // namespace ssphh::gi::methods

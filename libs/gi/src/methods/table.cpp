@@ -9,9 +9,8 @@ namespace ssphh::gi {
 
 std::span<const MethodEntry> method_table() {
   static const std::vector<MethodEntry> table = {
-      methods::direct_entry(),
-      methods::ambient_entry(),
-      methods::ssphh_entry(),
+      methods::direct_entry(), methods::ambient_entry(), methods::ssphh_entry(),
+      methods::ddgi_entry(),   methods::vpl_entry(),
   };
   return table;
 }
