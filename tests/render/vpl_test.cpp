@@ -109,8 +109,7 @@ TEST(Vpl, FurnaceHoldsEveryBounce) {
 TEST(Vpl, ErrorFallsWithTheCount) {
   const scene::Scene scene = scene::make_builtin("cornell");
   const trace::TransportScene source(scene);
-  const auto points =
-      gi::reachable_points(source, std::vector<vec3>{positions_of(places_of(scene))}, 0, {100, 1, 0.05f});
+  const auto points = gi::reachable_points(source, positions_of(places_of(scene)), 0, {100, 1, 0.05f});
   const auto truth = trace::PathTracer(scene).surface_irradiance(points, {25, 1, 512, 3}, {});
   double last = 10;
   for (const char* photons : {"photons=16", "photons=256", "photons=4096"}) {
@@ -126,7 +125,7 @@ TEST(Vpl, ErrorFallsWithTheCount) {
 TEST(Vpl, TheBoundLosesWhatItSaysAndSpheresKeepIt) {
   const Room room;
   const trace::TransportScene source(room.scene);
-  const auto points = gi::reachable_points(source, positions_of(places_of(room.scene)), 0, {400, 2});
+  const auto points = gi::reachable_points(source, positions_of(places_of(room.scene)), 0, {200, 2});
   Vpls::check_points = 64;
   const Vpls open(room.scene, source, {"photons=2048", "clamp=0"});
   const Vpls bounded(room.scene, source, {"photons=2048", "clamp=0.3"});
@@ -152,12 +151,12 @@ TEST(Vpl, TheBoundLosesWhatItSaysAndSpheresKeepIt) {
 TEST(Vpl, CutsErrAsLittleAsAsked) {
   const scene::Scene scene = scene::make_builtin("cornell");
   const trace::TransportScene source(scene);
-  const auto points = gi::reachable_points(source, positions_of(places_of(scene)), 0, {100, 1});
+  const auto points = gi::reachable_points(source, positions_of(places_of(scene)), 0, {50, 1});
   for (const char* kind : {"kind=point", "kind=sphere"}) {
     Vpls::check_points = 16;
-    const Vpls all(scene, source, {"photons=2048", kind});
-    const Vpls exact(scene, source, {"photons=2048", kind, "cluster_error=1e-7"});
-    const Vpls cut(scene, source, {"photons=2048", kind, "cluster_error=0.02"});
+    const Vpls all(scene, source, {"photons=1024", kind});
+    const Vpls exact(scene, source, {"photons=1024", kind, "cluster_error=1e-7"});
+    const Vpls cut(scene, source, {"photons=1024", kind, "cluster_error=0.02"});
     Vpls::check_points = 0;
     const auto a = all.at(points), e = exact.at(points), c = cut.at(points);
     double error = 0;

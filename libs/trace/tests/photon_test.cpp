@@ -90,7 +90,7 @@ std::vector<Case> cases() {
          image::Image& sky = s.environment->equirect = image::Image(8, 4, 3);
          for (int y = 0; y < 4; ++y) {
            for (int x = 0; x < 8; ++x) {
-             for (int c = 0; c < 3; ++c) sky.at(x, y, c) = static_cast<float>(1 + (x * 3 + y * 5 + c) % 7);
+             for (int c = 0; c < 3; ++c) sky.at(x, y)[c] = static_cast<float>(1 + (x * 3 + y * 5 + c) % 7);
            }
          }
        }},

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int most_probes = 1 << 18;
 constexpr double most_rays = 1 << 27;  // of a frame: two gigabytes
-constexpr int bound_points = 4096;
+constexpr int bound_points = 1024;
 
 /// Of what can be reached at any time: doors may uncover more than is open at first.
 scene::Bounds reachable_bounds(const MethodScene& scene, const Control& control) {
@@ -75,6 +75,7 @@ class Ddgi final : public Method {
         const int half = frames / 2;
         const float mean = 1 - 1 / static_cast<float>(std::max(i - half, 0) + 2);
         blend.hysteresis = std::min(blend.hysteresis, mean);
+        blend.change = 0;
       }
       frame(*lights, state.group_scales, blend, control);
       progress.advance(1);
@@ -133,7 +134,7 @@ MethodEntry ddgi_entry() {
            {"rays", 128, 8, 4096, "of a probe and frame", true},
            {"hysteresis", 0.97, 0, 0.999, "share of a probe's light that stays from the last frame"},
            {"warmup", 64, 1, 65536, "frames that the first update does", true},
-           {"change", 0, 0, 10, "relative change of light that makes a probe forget; 0: it never does"},
+           {"change", 0.5, 0, 10, "relative change of light that makes a probe forget; 0: it never does"},
            {"bias", 0.3, 0, 4, "shift off the surface that is looked up, in 3/4 of the spacing"},
            {"gamma", 1, 1, 8, "light is averaged over frames as its 1/gamma-th power"},
            {"visibility", 1, 0, 1, "probes weighed by the distances they see", true},

@@ -12,8 +12,9 @@ namespace {
 /// Flat scenes have cells too [m].
 constexpr float least_extent = 1e-3f;
 
+/// A thousandth of a cell more is rounding, and no reason for another one.
 glm::dvec3 cells(const vec3& extent, double spacing) {
-  return glm::max(glm::ceil(glm::dvec3(extent) / spacing - 1e-6), glm::dvec3(1));
+  return glm::max(glm::ceil(glm::dvec3(extent) / spacing - 1e-3), glm::dvec3(1));
 }
 
 double total(const glm::dvec3& count) {

@@ -17,7 +17,10 @@ float response(const Receiver& at, const vec3& wi) {
   return lobe > 0 ? (at.exponent + 1) / (2 * pi) * std::pow(lobe, at.exponent) : 0;
 }
 
-float sphere_transfer(const Receiver& at, const Vpl& light, const vec3& toward, float distance2) {
+float sphere_transfer(const Receiver& at, const Vpl& light, const vec3& way, float distance2) {
+  // All of it below the receiver's horizon, or the receiver below the light's by the width of the sphere?
+  if (glm::dot(at.normal, way) < -light.radius || glm::dot(light.normal, way) > light.radius) return 0;
+  const vec3 toward = distance2 > 0 ? way / std::sqrt(distance2) : at.normal;
   // Uniform directions in the cone that the sphere fills; from inside, in a hemisphere.
   constexpr int rings = 4, spokes = 8;
   const float sine2 = std::min(light.radius * light.radius / std::max(distance2, 1e-20f), 1.0f);
@@ -63,11 +66,8 @@ float transfer(const Receiver& at, const Vpl& light, const VplParams& params) {
     const vec3 way = light.position - at.position;
     const float distance2 = glm::dot(way, way);
     // From afar the cosines are the same all over the disc.
-    constexpr float far2 = 400;
-    if (distance2 < far2 * light.radius * light.radius) {
-      const vec3 toward = distance2 > 0 ? way / std::sqrt(distance2) : at.normal;
-      return sphere_transfer(at, light, toward, distance2);
-    }
+    constexpr float far2 = 64;
+    if (distance2 < far2 * light.radius * light.radius) return sphere_transfer(at, light, way, distance2);
     return unbounded_transfer(at, light);
   }
   const float open = unbounded_transfer(at, light);
@@ -83,7 +83,7 @@ float transfer_bound(const Receiver& at, const VplCluster& cluster, const VplPar
   const float arrives = cosine_bound(at.normal, middle, reach);
   if (!(arrives > 0)) return 0;
   const float away = std::acos(std::min(cosine_bound(cluster.axis, -middle, reach), 1.0f));
-  const float leaves = away > cluster.spread ? std::cos(away - cluster.spread) : 1;
+  const float leaves = away > cluster.spread ? std::max(std::cos(away - cluster.spread), 0.0f) : 1;
   const vec3 gap = glm::max(glm::abs(middle) - half, vec3(0));
   const float distance2 = glm::dot(gap, gap);
   // A cone has at most twice the solid angle of the disc that it frames.
