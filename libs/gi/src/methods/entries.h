@@ -9,5 +9,7 @@ MethodEntry direct_entry();
 MethodEntry ambient_entry();
 MethodEntry ssphh_entry();
 MethodEntry vct_entry();
+MethodEntry ddgi_entry();
+MethodEntry vpl_entry();
 
 }  // namespace ssphh::gi::methods

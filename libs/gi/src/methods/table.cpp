@@ -13,6 +13,8 @@ std::span<const MethodEntry> method_table() {
       methods::ambient_entry(),
       methods::ssphh_entry(),
       methods::vct_entry(),
+      methods::direct_entry(), methods::ambient_entry(), methods::ssphh_entry(),
+      methods::ddgi_entry(),   methods::vpl_entry(),
   };
   return table;
 }
