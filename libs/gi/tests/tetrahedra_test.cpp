@@ -79,10 +79,10 @@ TEST(Tetrahedra, ContinuousInsideAndOutside) {
   const auto rough = [](const vec3& p) { return std::sin(20 * p.x) * std::cos(13 * p.y + 7 * p.z); };
   Pcg32 random(4);
   float steepest = 0;
-  for (int line = 0; line < 40; ++line) {
+  for (int line = 0; line < 12; ++line) {
     const vec3 a = vec3(8, 6, 10) * random.uniform3() - vec3(3, 2, 4);
     const vec3 b = vec3(8, 6, 10) * random.uniform3() - vec3(3, 2, 4);
-    constexpr int steps = 20000;
+    constexpr int steps = 10000;
     float last = blend(tetrahedra, points, a, rough);
     for (int i = 1; i <= steps; ++i) {
       const float now = blend(tetrahedra, points, glm::mix(a, b, static_cast<float>(i) / steps), rough);
@@ -90,8 +90,8 @@ TEST(Tetrahedra, ContinuousInsideAndOutside) {
       last = now;
     }
   }
-  // Values of ±1; a jump would be of their size, a step of half a millimetre is not.
-  EXPECT_LT(steepest, 0.05f);
+  // Values of ±1; a jump would be of their size, a step of a millimetre is not.
+  EXPECT_LT(steepest, 0.1f);
 }
 
 TEST(Tetrahedra, OutsideTakesTheHullsNearestPoint) {

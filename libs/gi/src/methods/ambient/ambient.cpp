@@ -66,7 +66,8 @@ class Ambient final : public Method {
     }
 
     vec3 direct(0), bounced(0);
-    const auto lights = scene_.source.direct_light(state.lights, part_poses(scene_.source, state.time));
+    const auto lights = scene_.source.direct_light(state.lights, part_poses(scene_.source, state.time),
+                                                   state.environment_rotation);
     std::vector<vec3> at_points(points.size()), at_met(met.size());
     for (std::size_t g = 0; g < state.group_scales.size(); ++g) {
       lights->irradiance(static_cast<int>(g), points, at_points);
