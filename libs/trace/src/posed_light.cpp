@@ -29,8 +29,9 @@ vec3 farthest(const scene::Bounds& box, const vec3& direction) {
 }  // namespace
 
 PosedLight::PosedLight(std::shared_ptr<const TransportData> data, std::span<const scene::LightState> lights,
-                       std::span<const mat4> poses)
-    : data_(std::move(data)), lights_(data_->lights, data_->node_matrices(poses), lights) {
+                       std::span<const mat4> poses, float environment_rotation)
+    : data_(std::move(data)),
+      lights_(data_->lights, data_->node_matrices(poses), lights, environment_rotation) {
   groups_.resize(lights_.groups().size());
   for (int i = 0; i < lights_.emitter_count(); ++i) {
     const shading::Emitter emitter = lights_.emitter(i);

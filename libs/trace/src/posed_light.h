@@ -11,7 +11,7 @@ namespace ssphh::trace {
 class PosedLight final : public scene::DirectLight {
  public:
   PosedLight(std::shared_ptr<const TransportData> data, std::span<const scene::LightState> lights,
-             std::span<const mat4> poses);
+             std::span<const mat4> poses, float environment_rotation);
 
   void irradiance(int group, std::span<const scene::SurfacePoint> points, std::span<vec3> out) const override;
   bool may_shadow(int group, const scene::SurfacePoint& point, const scene::Bounds& box) const override;

@@ -40,6 +40,9 @@ class EnvironmentLight {
  public:
   EnvironmentLight(const scene::Environment& environment, int group);
 
+  /// The same with another rotation [rad]: nothing is computed anew.
+  EnvironmentLight turned(float rotation) const;
+
   int group() const { return group_; }
   /// Mean luminance over the sphere times π: the irradiance of a mean plane.
   float mean_irradiance() const { return mean_irradiance_; }

@@ -128,7 +128,7 @@ LightSet::LightSet(const scene::Scene& scene, const std::vector<mat4>& world)
 }
 
 LightSet::LightSet(const LightSet& base, const std::vector<mat4>& world,
-                   std::span<const scene::LightState> states)
+                   std::span<const scene::LightState> states, float environment_rotation)
     : data_(std::make_unique<Data>()) {
   Data& d = *data_;
   d.scene = base.data_->scene;
@@ -143,7 +143,12 @@ LightSet::LightSet(const LightSet& base, const std::vector<mat4>& world,
   }
   d.add_lights(lights);
   d.add_meshes(world, base.data_.get());
-  d.distant = DistantLights(lights, base.data_->distant.environment(), d.groups);
+  std::shared_ptr<const EnvironmentLight> environment = base.data_->distant.environment();
+  if (environment && environment_rotation != 0) {
+    const float rotation = d.scene->environment->rotation + environment_rotation;
+    environment = std::make_shared<const EnvironmentLight>(environment->turned(rotation));
+  }
+  d.distant = DistantLights(lights, std::move(environment), d.groups);
   d.divide_choices();
 }
 

@@ -132,9 +132,13 @@ class TransportSource {
   /// Whether the group has emitters beside lights(): emissive meshes on the given part. Part 0 also stands
   /// for the environment.
   virtual bool group_emits_from(int group, int part) const = 0;
-  /// `lights` as from lights(), perhaps changed; `poses` one matrix per part.
+  /// Group index of the environment; −1: there is none.
+  virtual int environment_group() const { return -1; }
+  /// `lights` as from lights(), perhaps changed; `poses` one matrix per part; the environment turned about +y
+  /// by so many radians beyond its own rotation.
   virtual std::unique_ptr<DirectLight> direct_light(std::span<const LightState> lights,
-                                                    std::span<const mat4> poses) const = 0;
+                                                    std::span<const mat4> poses,
+                                                    float environment_rotation = 0) const = 0;
 
   /// Rays traced so far by this object and its DirectLights.
   virtual std::uint64_t rays_traced() const = 0;

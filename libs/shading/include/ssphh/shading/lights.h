@@ -59,9 +59,11 @@ class LightSet {
   /// Reads all lights, emissive instances and the environment of `scene` posed by `world`.
   LightSet(const scene::Scene& scene, const std::vector<mat4>& world);
   /// The emitters of `base`'s scene with its lights as `lights` say, one state per scene::Light, and its
-  /// emissive instances posed by `world`. What has not moved is shared with `base`, and so is the size of the
-  /// scene, by which sample() divides its choices between near and distant lights.
-  LightSet(const LightSet& base, const std::vector<mat4>& world, std::span<const scene::LightState> lights);
+  /// emissive instances posed by `world`, and its environment turned about +y by so many radians beyond its
+  /// own rotation. What has not moved is shared with `base`, and so is the size of the scene, by which
+  /// sample() divides its choices between near and distant lights.
+  LightSet(const LightSet& base, const std::vector<mat4>& world, std::span<const scene::LightState> lights,
+           float environment_rotation = 0);
   ~LightSet();
   LightSet(LightSet&&) noexcept;
   LightSet& operator=(LightSet&&) noexcept;
