@@ -74,11 +74,11 @@ MethodEntry vpl_entry() {
           {{"photons", 512, 1, 1 << 20, "that leave the lights; most make more than one virtual light", true},
            {"depth", 25, 2, 1000, "scattering events of a path", true},
            {"kind", 0, 0, 1, "of the virtual lights", true, {"point", "sphere"}},
-           {"clamp", 0.1, 0, 10,
+           {"clamp", 0.05, 0, 10,
             "points count for no more than straight ahead at this share of the scene's radius; 0: unbounded"},
            {"radius", 1, 0.01, 100, "of spheres, in distances to the eighth neighbour"},
            {"cluster_error", 0, 0, 1, "share of the light that a cluster may err by (lightcuts); 0: none"},
-           {"check_points", 64, 0, 1 << 16, "surface points at which lost_energy is measured; 0: it is not",
+           {"check_points", 256, 0, 1 << 16, "surface points at which lost_energy is measured; 0: it is not",
             true},
            {"seed", 0, 0, 1e9, "of the photons", true}},
           [](const MethodScene& scene, const MethodParameters& p, const Control&) -> std::unique_ptr<Method> {
