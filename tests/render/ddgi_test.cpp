@@ -173,6 +173,21 @@ TEST(Ddgi, AnOpenedDoorTakesFrames) {
   EXPECT_LT(errors.back(), 0.5 * errors.front());
 }
 
+TEST(Ddgi, ARoofSeenFromOutsideStaysDark) {
+  // The lit room has a roof of 15 cm; probes stand above that, too.
+  scene::Scene scene = coloured_room({3, 3, 3});
+  add_body(scene, "roof", scene::make_box({-1.2f, 1.001f, -1.2f}, {1.2f, 1.15f, 1.2f}), vec3(0.5f));
+  add_sphl(scene, "outside", {0, 1.8f, 0});
+  scene::validate(scene);
+  const trace::TransportScene source(scene);
+  const auto ddgi = make("ddgi", scene, source, {"spacing=0.4", "rays=64", "warmup=8"});
+  ddgi->update(gi::frame_at(source, 0), {});
+  const float inside = ddgi->light().irradiance({{0, -0.99f, 0}, {0, 1, 0}}).g;
+  EXPECT_GT(inside, 1);
+  for (const vec2& at : {vec2(0), vec2(0.5f, 0.3f), vec2(-0.7f, 0.6f)})
+    EXPECT_LT(ddgi->light().irradiance({{at.x, 1.15f, at.y}, {0, 1, 0}}).g, 0.01f * inside) << at.x;
+}
+
 TEST(Ddgi, ProbesLeaveWallsOrSleep) {
   // A thick block fills the middle of the room: probes deep inside of it sleep.
   scene::Scene scene = coloured_room({3, 3, 3});

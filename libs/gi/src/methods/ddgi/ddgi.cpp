@@ -6,8 +6,8 @@
 #include <ssphh/core/error.h>
 
 #include "../entries.h"
-#include "../points.h"
 #include "blend.h"
+#include "reach.h"
 #include "relocate.h"
 
 namespace ssphh::gi::methods {
@@ -15,19 +15,6 @@ namespace {
 
 constexpr int most_probes = 1 << 18;
 constexpr double most_rays = 1 << 27;  // of a frame: two gigabytes
-constexpr int bound_points = 1024;
-
-/// Of what can be reached at any time: doors may uncover more than is open at first.
-scene::Bounds reachable_bounds(const MethodScene& scene, const Control& control) {
-  scene::Bounds bounds;
-  const float duration = scene.source.duration();
-  for (const float time : {0.0f, 0.5f * duration, duration}) {
-    for (const scene::SurfacePoint& point : points_in_reach(scene, time, bound_points, control))
-      bounds.add(point.position);
-    if (!(duration > 0)) break;
-  }
-  return bounds;
-}
 
 /// Dynamic diffuse global illumination (Majercik, Guertin, Nowrouzezahrai & McGuire, JCGT 2019; Majercik,
 /// Marrs, Spjut & McGuire, JCGT 2021): docs/methods/ddgi.md.
@@ -39,8 +26,8 @@ class Ddgi final : public Method {
         warmup_(p.integer("warmup")),
         relocates_(p.flag("relocate")),
         seed_(static_cast<std::uint64_t>(p.integer("seed"))),
-        field_(make_grid(reachable_bounds(scene, control), static_cast<float>(p.number("spacing")),
-                         p.integer("probes"), most_probes)),
+        field_(grid_in_reach(scene, static_cast<float>(p.number("spacing")), p.integer("probes"), most_probes,
+                             control)),
         fresh_(field_.active.size(), 1) {
     if (static_cast<double>(field_.grid.size()) * rays_ > most_rays) {
       throw Error("method ddgi",
