@@ -50,17 +50,18 @@ void add_choice(CLI::App& command, Choice& choice) {
 
 void add_farm_parked_commands(CLI::App& group, Context& context) {
   const auto broker = std::make_shared<BrokerChoice>();
-  CLI::App* parked = add_command(
-      group, context, "parked", "Jobs that were set aside because workers failed on them, and why", [=, &context] {
-        majordomo::Client client = connect(*broker);
-        const ordered_json answer = ask_json(client, "mmi.parked", context.control);
-        context.result({{"jobs", answer["jobs"]}}, parked_text(answer["jobs"]));
-      });
+  CLI::App* parked =
+      add_command(group, context, "parked",
+                  "Jobs that were set aside because workers failed on them, and why", [=, &context] {
+                    majordomo::Client client = connect(*broker);
+                    const ordered_json answer = ask_json(client, "mmi.parked", context.control);
+                    context.result({{"jobs", answer["jobs"]}}, parked_text(answer["jobs"]));
+                  });
   add_broker_options(*parked, *broker, "client", "Broker")->required();
 
   const auto again = std::make_shared<Choice>(), gone = std::make_shared<Choice>();
-  CLI::App* release =
-      add_command(group, context, "release", "Put jobs that were set aside back into the queue", [=, &context] {
+  CLI::App* release = add_command(
+      group, context, "release", "Put jobs that were set aside back into the queue", [=, &context] {
         const int count = tell(*again, "mmi.release", context.control);
         context.result({{"released", count}}, fmt::format("{} jobs are queued again", count));
       });
@@ -68,11 +69,10 @@ void add_farm_parked_commands(CLI::App& group, Context& context) {
   release->footer(
       "A result goes to whoever left the request on the broker's disk; without such a one it is kept for ten "
       "minutes\nfor a client that sends the same job.");
-  CLI::App* drop =
-      add_command(group, context, "drop", "Forget jobs that were set aside", [=, &context] {
-        const int count = tell(*gone, "mmi.drop", context.control);
-        context.result({{"dropped", count}}, fmt::format("{} jobs are forgotten", count));
-      });
+  CLI::App* drop = add_command(group, context, "drop", "Forget jobs that were set aside", [=, &context] {
+    const int count = tell(*gone, "mmi.drop", context.control);
+    context.result({{"dropped", count}}, fmt::format("{} jobs are forgotten", count));
+  });
   add_choice(*drop, *gone);
 }
 

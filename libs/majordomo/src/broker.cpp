@@ -18,8 +18,9 @@
 namespace ssphh::majordomo {
 namespace {
 
-constexpr int batch = 256;          // messages between two looks at clock and outbox
-constexpr int rounds_between_looks = 16;  // at what is not the socket, while there is always something to hear
+constexpr int batch = 256;  // messages between two looks at clock and outbox
+constexpr int rounds_between_looks =
+    16;                             // at what is not the socket, while there is always something to hear
 constexpr Millis outbox_pause = 5;  // between two tries for slow peers
 constexpr Millis linger = 1000;
 constexpr Millis look_at_allow_list = 1000;
@@ -168,8 +169,8 @@ struct Broker::Impl {
     }
   }
 
-  /// One round: hear, do what is due, send. Waits only when there was nothing to hear, for ZeroMQ's descriptors
-  /// tell of a message once, and sending may swallow that.
+  /// One round: hear, do what is due, send. Waits only when there was nothing to hear, for ZeroMQ's
+  /// descriptors tell of a message once, and sending may swallow that.
   void step(Millis longest) {
     if (!receive()) {
       wait(longest);
@@ -187,7 +188,8 @@ struct Broker::Impl {
   void wait(Millis longest) {
     if (gate && gate->follows_a_file()) longest = std::min(longest, look_at_allow_list);
     if (!outbox.empty()) longest = std::min(longest, outbox_pause);
-    const Millis timeout = std::clamp<Millis>(std::min(core.next_deadline() - steady_now(), longest), 0, 60'000);
+    const Millis timeout =
+        std::clamp<Millis>(std::min(core.next_deadline() - steady_now(), longest), 0, 60'000);
     ::pollfd items[] = {{router.get(zmq::sockopt::fd), POLLIN, 0},
                         {monitor.get(zmq::sockopt::fd), POLLIN, 0},
                         {wakeup.fd(), POLLIN, 0},

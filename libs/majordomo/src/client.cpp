@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t reply_frame_bytes = std::size_t{1} << 30;
 constexpr Millis cancel_linger = 500;
-constexpr Millis look = 100;  // how often `call` looks whether it is cancelled
+constexpr Millis look = 100;          // how often `call` looks whether it is cancelled
 constexpr Millis knock_again = 2000;  // ZeroMQ gives a connection up whose key was refused; lists change
 
 constexpr int watched = ZMQ_EVENT_HANDSHAKE_SUCCEEDED | ZMQ_EVENT_DISCONNECTED |

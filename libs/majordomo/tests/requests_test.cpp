@@ -1,4 +1,5 @@
-/// Requests of our clients and of foreign ones: deadlines, cancelling, asking again, equal ones, vanished clients.
+/// Requests of our clients and of foreign ones: deadlines, cancelling, asking again, equal ones, vanished
+/// clients.
 
 #include "broker_harness.h"
 

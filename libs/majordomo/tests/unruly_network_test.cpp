@@ -106,11 +106,9 @@ TEST(UnrulyNetwork, EveryRequestIsAnsweredOnceWithItsOwnResult) {
   UnrulyNetwork network(broker.endpoint(), 30, 0.2f);
   std::vector<std::unique_ptr<RunningWorker>> workers;
   for (int i = 0; i < 3; ++i)
-    workers.push_back(
-        std::make_unique<RunningWorker>(WorkerOptions{.endpoint = network.endpoint(), .service = "double"},
-                                        [](const Job& job) -> Frames {
-                                          return {job.body.at(0) + job.body.at(0)};
-                                        }));
+    workers.push_back(std::make_unique<RunningWorker>(
+        WorkerOptions{.endpoint = network.endpoint(), .service = "double"},
+        [](const Job& job) -> Frames { return {job.body.at(0) + job.body.at(0)}; }));
   Client client({.endpoint = network.endpoint(), .window = 20});
   std::map<std::string, std::string> expected;
   for (int i = 0; i < 200; ++i) {

@@ -123,8 +123,7 @@ void BrokerCore::Impl::submit(const std::string& id, Peer& peer, Message&& messa
                    .retry_after = full ? busy_pause : drain_pause});
   }
   Request request{.id = request_id, .route = Route::own, .peer = id, .persistent = envelope.persistent};
-  if (!orphans.empty() && !request.persistent &&
-      adopt_orphan(request, peer, message.name, message.body))
+  if (!orphans.empty() && !request.persistent && adopt_orphan(request, peer, message.name, message.body))
     return;
   peer.requests.insert(request_id);
   const auto body = std::make_shared<const Frames>(std::move(message.body));

@@ -45,11 +45,9 @@ void BrokerCore::Impl::release(const Parked& entry) {
   for (const RequestId& id : entry.persistent) {
     if (!records.contains(id)) continue;
     forget_record(id);
-    out.store.push_back({StoreOperation::add,
-                         {.id = id,
-                          .service = entry.service,
-                          .body = entry.body,
-                          .attempt_timeout = entry.attempt_timeout}});
+    out.store.push_back(
+        {StoreOperation::add,
+         {.id = id, .service = entry.service, .body = entry.body, .attempt_timeout = entry.attempt_timeout}});
     stored_bytes += byte_count(*entry.body);
     Request request{.id = id, .route = Route::stored, .persistent = true};
     if (QueuedJob* job = find_job(released)) {
