@@ -56,6 +56,5 @@ void add_turntable_command(CLI::App& app, Context& context);
 void add_view_command(CLI::App& app, Context& context);
 void add_worker_command(CLI::App& app, Context& context);
 void add_farm_commands(CLI::App& app, Context& context);
-void add_farm_parked_commands(CLI::App& group, Context& context);
 
 }  // namespace ssphh::app

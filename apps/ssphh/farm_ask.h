@@ -7,6 +7,7 @@
 
 #include <ssphh/majordomo/client.h>
 
+#include "command.h"
 #include "farm_options.h"
 
 namespace ssphh::app {
@@ -19,5 +20,8 @@ std::string ask(majordomo::Client& client, const std::string& service, const std
                 const Control& control, const std::string& not_found = "the broker does not know it");
 nlohmann::ordered_json ask_json(majordomo::Client& client, const std::string& service,
                                 const Control& control);
+
+/// `ssphh farm parked`, `release` and `drop`.
+void add_farm_parked_commands(CLI::App& group, Context& context);
 
 }  // namespace ssphh::app

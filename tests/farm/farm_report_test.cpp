@@ -24,8 +24,8 @@ TEST(FarmReport, RunsOfAFarmHaveTheKeysAndTheBitsOfLocalOnes) {
   const TempDir dir;
   const std::string plan = std::string(SSPHH_SOURCE_DIR) + "/plans/tiny.json";
   const auto report = [&](const std::string& name, std::vector<std::string> more) {
-    std::vector<std::string> command = {"report", plan, "-o", (dir / name / "out").string(), "--cache",
-                                        (dir / name / "cache").string()};
+    std::vector<std::string> command = {
+        "report", plan, "-o", (dir / name / "out").string(), "--cache", (dir / name / "cache").string()};
     command.insert(command.end(), more.begin(), more.end());
     return run_json(command);
   };

@@ -45,7 +45,8 @@ class Relay {
   void stall(bool on) { stalled_ = on; }
   /// Ends all connections; new ones are taken.
   void cut() { cut_ = true; }
-  /// Every byte arrives so much later, and at most so many of them a second in each direction of a connection.
+  /// Every byte arrives so much later, and at most so many of them a second in each direction of a
+  /// connection.
   void slow(std::chrono::milliseconds delay, double bytes_per_second) {
     delay_ms_ = delay.count(), rate_ = bytes_per_second;
   }
@@ -70,7 +71,8 @@ class Relay {
     auto last = Clock::now();
     while (!ended_) {
       std::vector<pollfd> items = {{listener_, POLLIN, 0}};
-      for (const Link& link : links_) items.push_back({link.near, POLLIN, 0}), items.push_back({link.far, POLLIN, 0});
+      for (const Link& link : links_)
+        items.push_back({link.near, POLLIN, 0}), items.push_back({link.far, POLLIN, 0});
       ::poll(items.data(), items.size(), stalled_ ? 0 : 2);
       if (stalled_) std::this_thread::sleep_for(std::chrono::milliseconds(2));
       if (items[0].revents & POLLIN) accept_one();
@@ -111,14 +113,16 @@ class Relay {
       const ssize_t got = ::recv(way.from, buffer, sizeof buffer, 0);
       if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR)) way.over = true;
       if (got <= 0) break;
-      way.flying.emplace_back(now + std::chrono::milliseconds(delay_ms_), std::string(buffer, static_cast<std::size_t>(got)));
+      way.flying.emplace_back(now + std::chrono::milliseconds(delay_ms_),
+                              std::string(buffer, static_cast<std::size_t>(got)));
       way.waiting += static_cast<std::size_t>(got);
     }
     const double rate = rate_;
     way.allowance = std::min(way.allowance + rate * seconds, rate / 20);
     while (!way.flying.empty() && way.flying.front().first <= now && (rate <= 0 || way.allowance >= 1)) {
       std::string& bytes = way.flying.front().second;
-      const std::size_t size = rate > 0 ? std::min(bytes.size(), static_cast<std::size_t>(way.allowance)) : bytes.size();
+      const std::size_t size =
+          rate > 0 ? std::min(bytes.size(), static_cast<std::size_t>(way.allowance)) : bytes.size();
       const ssize_t sent = ::send(way.to, bytes.data(), size, MSG_NOSIGNAL);
       if (sent <= 0) break;
       passed_ += static_cast<std::uint64_t>(sent);

@@ -12,7 +12,8 @@ void load_masks(Plan& plan, const std::filesystem::path& folder) {
     for (Inset& inset : scene.insets) {
       if (inset.mask_file.empty()) continue;
       const std::filesystem::path beside = folder / inset.mask_file;
-      inset.mask = image::read_image(std::filesystem::exists(beside) ? beside : std::filesystem::path(inset.mask_file));
+      inset.mask = image::read_image(
+          std::filesystem::exists(beside) ? beside : std::filesystem::path(inset.mask_file));
       const int width = inset.mask.width, height = inset.mask.height;
       int left = width, right = 0, top = height, bottom = 0;
       for (int y = 0; y < height; ++y) {

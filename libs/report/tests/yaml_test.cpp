@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::vector<std::string> commands = {"render", "bake",    "hier",     "truth", "sh",
+const std::vector<std::string> commands = {"render",  "bake",    "hier",    "truth", "sh",
                                            "measure", "compare", "relight", "leak"};
 
 const char* const plan = R"(# Degrees
@@ -84,7 +84,8 @@ TEST(YamlPlan, ErrorsNameTheLineAndTheNearestKey) {
   EXPECT_THAT(unknown, HasSubstr("p.yaml:18: methods[0]"));
   EXPECT_THAT(unknown, HasSubstr("did you mean \"picture\"?"));
   EXPECT_THAT(message_of(plan, "        run:", "        ran:"), HasSubstr("p.yaml:17: methods[0]/steps[1]"));
-  EXPECT_THAT(message_of(plan, "optional: true", "optional: maybe"), HasSubstr("p.yaml:10: scenes[0]/optional"));
+  EXPECT_THAT(message_of(plan, "optional: true", "optional: maybe"),
+              HasSubstr("p.yaml:10: scenes[0]/optional"));
   EXPECT_THAT(message_of(plan, "- bake", "- bak"), HasSubstr("p.yaml:15: methods[0]/steps[0]"));
   EXPECT_THAT(message_of(plan, "title: Degrees", "title: [Degrees"), HasSubstr("is not YAML"));
   EXPECT_THAT(message_of(plan, "  exposure", "  width"), HasSubstr("p.yaml:5: \"width\" stands twice"));
