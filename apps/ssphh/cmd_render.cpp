@@ -201,12 +201,9 @@ trace::RenderState render_on_farm(const FarmSession& session, const trace::PathT
 
 void render(const RenderOptions& o, const Context& context) {
   if (o.backend == "gl") return render_gl(o, context);
-<<<<<<< HEAD
   check_method(o);
-=======
   if (o.occlusion > 0)
     throw Error("--occlusion", "is an approximation of the real-time renderer", "add --backend gl");
->>>>>>> h-farm
   if (o.farm.any() && o.resume)
     throw Error("--resume", "is of renders in this process; a farm keeps finished tiles in --cache",
                 "repeat the command without it");
