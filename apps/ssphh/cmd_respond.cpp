@@ -61,7 +61,8 @@ void respond(Context& context, RespondOptions& o) {
   const gi::FrameState before = event.frame(0), after = event.frame(1);
   if (before == after) throw Error("--event", "nothing changes", "give two different keys, as in time=0:1");
 
-  const scene::Scene lit = scene::with_lights(scene, after.time, after.lights, after.group_scales);
+  const scene::Scene lit =
+      scene::with_lights(scene, after.time, after.lights, after.group_scales, after.environment_rotation);
   const trace::PathTracer tracer(lit, after.time);
   o.truth.path.seed = context.seed;
   const std::vector<scene::SurfacePoint> points =
