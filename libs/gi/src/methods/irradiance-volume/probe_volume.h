@@ -52,6 +52,7 @@ class ProbeVolume {
   std::unique_ptr<VolumeWeights> weights_;
   std::unique_ptr<RelightSession> session_;
   float spacing_ = 0;
+  int environment_group_ = -1;
 };
 
 std::vector<MethodParameter> probe_volume_parameters();

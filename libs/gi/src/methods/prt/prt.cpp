@@ -82,18 +82,19 @@ class Prt final : public Method {
     light_.index = MeshIndex(mesh, mesh_reach * radius);
     probes_.emplace(mesh, volume_.weights());
 
-    TransferParams params{p.integer("degree"), p.integer("rays"), 0, p.integer("interreflect")};
-    if (const auto share = static_cast<float>(p.number("self_shadow")); share > 0)
-      params.reach = share * std::min(volume_.spacing(), 2 * radius);
-    near_ =
-        find_transfer(mesh, light_.index, source_, params.reach > 0 ? params : unshadowed(params), control);
+    const VertexRings rings(mesh);
+    const VertexRays rays = find_vertex_rays(mesh, rings, light_.index, source_, p.integer("rays"), control);
+    TransferParams params{p.integer("degree"), 0, p.integer("interreflect")};
+    params.reach = static_cast<float>(p.number("self_shadow")) * std::min(volume_.spacing(), 2 * radius);
+    near_ = params.reach > 0 ? find_transfer(mesh, rings, rays, params, control)
+                             : open_transfer(mesh, params.degree);
 
     if (!scene.scene.environment || p.choice("environment") != "transfer") return;
     require_own_group(scene);
     params.reach = std::numeric_limits<float>::infinity();
     sky_ = project_environment(*scene.scene.environment, params.degree);
     sky_rotation_ = scene.scene.environment->rotation;
-    from_sky_ = find_transfer(mesh, light_.index, source_, params, control);
+    from_sky_ = find_transfer(mesh, rings, rays, params, control);
     std::vector<vec3> places;
     for (const ProbePlace& place : volume_.places()) places.push_back(place.position);
     sky_to_probes_ =
@@ -147,12 +148,6 @@ class Prt final : public Method {
   }
 
  private:
-  /// Nothing is hidden: the rays have nothing to tell.
-  static TransferParams unshadowed(TransferParams params) {
-    params.rays = 1, params.bounces = 0;
-    return params;
-  }
-
   void require_own_group(const MethodScene& scene) const {
     const int group = source_.environment_group();
     bool shared = false;
@@ -208,9 +203,9 @@ MethodEntry prt_entry() {
        "by transfer vectors from infinity, or in the probes as all other light",
        true,
        {"transfer", "probes"}},
-      {"rays", 256, 16, 65536, "per vertex and bounce", true},
+      {"rays", 256, 16, 65536, "per vertex", true},
       {"edge", 0, 0, 1e4, "longest of the mesh [m]; 0: a 24th of the scene's radius"},
-      {"vertices", 1 << 20, 3, 1 << 26, "more are refused", true}};
+      {"vertices", 1 << 18, 3, 1 << 26, "more are refused", true}};
   parameters.insert(parameters.end(), std::begin(own), std::end(own));
   return {"prt", "precomputed radiance transfer: vertices that know how distant light reaches them",
           std::move(parameters),
