@@ -72,6 +72,8 @@ class Prt final : public Method {
  public:
   Prt(const MethodScene& scene, const MethodParameters& p, const Control& control)
       : source_(scene.source), volume_(scene, p, p.integer("degree"), control) {
+    const bool by_transfer = scene.scene.environment && p.choice("environment") == "transfer";
+    if (by_transfer) require_own_group(scene);
     const float radius = scene.source.part_bounds(0).radius();
     TransferMeshParams mesh_params;
     mesh_params.edge = static_cast<float>(p.number("edge"));
@@ -89,8 +91,7 @@ class Prt final : public Method {
     near_ = params.reach > 0 ? find_transfer(mesh, rings, rays, params, control)
                              : open_transfer(mesh, params.degree);
 
-    if (!scene.scene.environment || p.choice("environment") != "transfer") return;
-    require_own_group(scene);
+    if (!by_transfer) return;
     params.reach = std::numeric_limits<float>::infinity();
     sky_ = project_environment(*scene.scene.environment, params.degree);
     sky_rotation_ = scene.scene.environment->rotation;
