@@ -17,7 +17,7 @@ namespace {
 
 constexpr int moving_degree = 2;  ///< of irradiance where there are no transfer vectors
 /// Of the scene's radius: how far surface points may lie off the mesh, and the longest edge.
-constexpr float mesh_reach = 2e-3f, usual_edge = 1.0f / 24;
+constexpr float mesh_reach = 2e-3f, usual_edge = 1.0f / 14;
 
 /// Weights that outlive the lookups of single frames.
 class SharedWeights final : public LookupWeights {
@@ -205,7 +205,7 @@ MethodEntry prt_entry() {
        true,
        {"transfer", "probes"}},
       {"rays", 256, 16, 65536, "per vertex", true},
-      {"edge", 0, 0, 1e4, "longest of the mesh [m]; 0: a 24th of the scene's radius"},
+      {"edge", 0, 0, 1e4, "longest of the mesh [m]; 0: a 14th of the scene's radius"},
       {"vertices", 1 << 18, 3, 1 << 26, "more are refused", true}};
   parameters.insert(parameters.end(), std::begin(own), std::end(own));
   return {"prt", "precomputed radiance transfer: vertices that know how distant light reaches them",

@@ -19,32 +19,40 @@ SampleSequence sequence(std::size_t vertex, int ray) {
   return {hash_combine(0x7472616e73666572, vertex), static_cast<std::uint32_t>(ray)};
 }
 
-/// A point of a triangle around the vertex, near this, just above the triangle.
-vec3 start(const TransferMesh& mesh, std::size_t vertex, std::uint32_t triangle, const vec2& u, float lift) {
-  const Corners c = mesh.corners(triangle);
-  const float root = std::sqrt(u.x);
-  const vec3 at = (1 - root) * c[0] + root * (1 - u.y) * c[1] + root * u.y * c[2];
-  const vec3 normal = glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
-  return glm::mix(mesh.vertices[vertex].position, at, spread) + lift * normal;
+/// A triangle around a vertex.
+struct RingTriangle {
+  Corners corners;
+  vec3 lift;    ///< along its normal
+  float below;  ///< twice the area of it and those before
+};
+
+std::vector<RingTriangle> ring_of(const TransferMesh& mesh, std::span<const std::uint32_t> ring, float lift) {
+  std::vector<RingTriangle> result;
+  float area = 0;
+  for (const std::uint32_t triangle : ring) {
+    const Corners c = mesh.corners(triangle);
+    const vec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);
+    area += glm::length(normal);
+    result.push_back({c, lift * glm::normalize(normal), area});
+  }
+  return result;
 }
 
 void add_rays(const TransferMesh& mesh, const VertexRings& rings, std::size_t vertex, int count, float lift,
               std::vector<scene::RayQuery>& rays) {
-  const std::span<const std::uint32_t> ring = rings.of(vertex);
-  std::vector<float> below;
-  float area = 0;
-  for (const std::uint32_t triangle : ring) {
-    const Corners c = mesh.corners(triangle);
-    below.push_back(area += glm::length(glm::cross(c[1] - c[0], c[2] - c[0])));
-  }
+  const std::vector<RingTriangle> ring = ring_of(mesh, rings.of(vertex), lift);
   for (int r = 0; r < count; ++r) {
     SampleSequence sample = sequence(vertex, r);
     sample.next2();  // the direction's
-    const float pick = sample.next() * area;
-    const auto chosen = std::upper_bound(below.begin(), below.end(), pick) - below.begin();
-    const std::uint32_t triangle = ring[std::min(static_cast<std::size_t>(chosen), ring.size() - 1)];
-    rays.push_back(
-        {start(mesh, vertex, triangle, sample.next2(), lift), vertex_ray_direction(mesh, vertex, r)});
+    const float pick = sample.next() * ring.back().below;
+    const auto found = std::ranges::upper_bound(ring, pick, {}, &RingTriangle::below);
+    const RingTriangle& triangle = found == ring.end() ? ring.back() : *found;
+    const vec2 u = sample.next2();
+    const float root = std::sqrt(u.x);
+    const vec3 at = (1 - root) * triangle.corners[0] + root * (1 - u.y) * triangle.corners[1] +
+                    root * u.y * triangle.corners[2];
+    rays.push_back({glm::mix(mesh.vertices[vertex].position, at, spread) + triangle.lift,
+                    vertex_ray_direction(mesh, vertex, r)});
   }
 }
 
