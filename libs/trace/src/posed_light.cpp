@@ -37,8 +37,15 @@ PosedLight::PosedLight(std::shared_ptr<const TransportData> data, std::span<cons
     const shading::Emitter emitter = lights_.emitter(i);
     groups_[static_cast<std::size_t>(emitter.group)].push_back({i, emitter});
   }
+  bounds_ = data_->parts[0].bounds;
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const TransportPart& part = data_->parts[i];
+    for (int corner = 0; corner < 8 && !part.bounds.empty(); ++corner) {
+      const vec3 at((corner & 1) != 0 ? part.bounds.max.x : part.bounds.min.x,
+                    (corner & 2) != 0 ? part.bounds.max.y : part.bounds.min.y,
+                    (corner & 4) != 0 ? part.bounds.max.z : part.bounds.min.z);
+      bounds_.add(vec3(poses[i] * vec4(at, 1)));
+    }
     // What is scaled to nothing shadows nothing.
     const float det = glm::determinant(mat3(poses[i]));
     if (part.bounds.empty() || !(std::abs(det) > 0) || !std::isfinite(1 / det)) continue;

@@ -10,5 +10,8 @@ MethodEntry ambient_entry();
 MethodEntry irradiance_volume_entry();
 MethodEntry prt_entry();
 MethodEntry ssphh_entry();
+MethodEntry vct_entry();
+MethodEntry ddgi_entry();
+MethodEntry vpl_entry();
 
 }  // namespace ssphh::gi::methods

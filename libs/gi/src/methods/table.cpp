@@ -9,8 +9,10 @@ namespace ssphh::gi {
 
 std::span<const MethodEntry> method_table() {
   static const std::vector<MethodEntry> table = {
-      methods::direct_entry(), methods::ambient_entry(), methods::irradiance_volume_entry(),
-      methods::prt_entry(),    methods::ssphh_entry(),
+      methods::direct_entry(), methods::ambient_entry(),
+      methods::ssphh_entry(),  methods::irradiance_volume_entry(),
+      methods::prt_entry(),    methods::vpl_entry(),
+      methods::vct_entry(),    methods::ddgi_entry(),
   };
   return table;
 }
