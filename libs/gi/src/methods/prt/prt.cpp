@@ -19,16 +19,6 @@ constexpr int moving_degree = 2;  ///< of irradiance where there are no transfer
 /// Of the scene's radius: how far surface points may lie off the mesh, and the longest edge.
 constexpr float mesh_reach = 2e-3f, usual_edge = 1.0f / 14;
 
-/// Weights that outlive the lookups of single frames.
-class SharedWeights final : public LookupWeights {
- public:
-  explicit SharedWeights(const VolumeWeights& weights) : weights_(weights) {}
-  ProbeWeights at(const scene::SurfacePoint& point) const override { return weights_.at(point); }
-
- private:
-  const VolumeWeights& weights_;
-};
-
 /// Irradiance kept at vertices; between probes for what moves, and for glossy lobes.
 class VertexLight final : public scene::IndirectLight {
  public:
