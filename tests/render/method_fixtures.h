@@ -48,6 +48,17 @@ inline std::vector<scene::IrradianceEstimate> truth_at(const scene::Scene& scene
   return tracer.surface_irradiance(points, {.max_depth = max_depth, .passes = 1, .spp = spp, .seed = 5}, {});
 }
 
+/// Σ |looked up − true| / Σ true, as luminance: unlike relative errors, not decided by a dark nook.
+inline double absolute_error(std::span<const vec3> found, std::span<const scene::IrradianceEstimate> truth) {
+  double sum = 0, all = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const float t = luminance(truth[i].indirect);
+    sum += static_cast<double>(std::abs(luminance(found[i]) - t));
+    all += static_cast<double>(t);
+  }
+  return sum / all;
+}
+
 /// The scene as path tracing sees it in a state.
 inline scene::Scene scene_in(const scene::Scene& scene, const gi::FrameState& state) {
   return scene::with_lights(scene, state.time, state.lights, state.group_scales, state.environment_rotation);

@@ -29,14 +29,16 @@ sh::RadianceSh random_sky(int degree, std::uint64_t seed) {
 }
 
 struct Baked {
-  Baked(const scene::Scene& scene, const TransferParams& params, float edge)
+  Baked(const scene::Scene& scene, const TransferParams& params, int rays, float edge)
       : source(scene),
         mesh(make_transfer_mesh(scene, source, {.edge = edge})),
         index(mesh, 0.01f),
-        transfer(find_transfer(mesh, index, source, params)) {}
+        rings(mesh),
+        transfer(find_transfer(mesh, rings, find_vertex_rays(mesh, rings, index, source, rays), params)) {}
   test::TriangleSource source;
   TransferMesh mesh;
   MeshIndex index;
+  VertexRings rings;
   TransferVectors transfer;
 };
 
@@ -44,7 +46,7 @@ TEST(Transfer, OpenPlaneIsTheClosedForm) {
   scene::Scene scene;
   add(scene, scene::make_quad({-1, 0, 1}, {2, 0, 0.5f}, {0, 1, -2}));
   for (const int degree : {0, 2, 4, 5}) {
-    const Baked plane(scene, {.degree = degree, .rays = 32, .bounces = 1}, 1);
+    const Baked plane(scene, {.degree = degree, .bounces = 1}, 32, 1);
     const sh::RadianceSh sky = random_sky(degree, 1);
     ASSERT_GT(plane.mesh.vertices.size(), 8u);
     for (std::size_t v = 0; v < plane.mesh.vertices.size(); ++v) {
@@ -68,10 +70,10 @@ TEST(Transfer, AWallHidesHalfTheSky) {
     mesh.vertices.push_back({p, up});
   mesh.triangles.push_back({0, 1, 2});
   const MeshIndex index(mesh, 0.01f);
-  constexpr int rays = 4096;
-  const TransferVectors transfer = find_transfer(mesh, index, source, {.degree = 4, .rays = rays});
-  const TransferVectors near =
-      find_transfer(mesh, index, source, {.degree = 4, .rays = rays, .reach = 1e-3f});
+  const VertexRings rings(mesh);
+  const VertexRays rays = find_vertex_rays(mesh, rings, index, source, 4096);
+  const TransferVectors transfer = find_transfer(mesh, rings, rays, {.degree = 4});
+  const TransferVectors near = find_transfer(mesh, rings, rays, {.degree = 4, .reach = 1e-3f});
   // An independent sum: the sky where x > 0 and y > 0, times the cosine.
   const sh::RadianceSh sky = random_sky(4, 2);
   vec3 expected(0);
@@ -101,7 +103,7 @@ TEST(Transfer, BuriedVerticesTakeTheirNeighboursValue) {
   scene::Scene scene;
   add(scene, scene::make_quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}));
   add(scene, scene::make_box({-0.3f, -0.1f, -0.3f}, {0.3f, 0.4f, 0.3f}));
-  const Baked baked(scene, {.degree = 0, .rays = 128}, 0.25f);
+  const Baked baked(scene, {.degree = 0}, 128, 0.25f);
   sh::RadianceSh sky(0);
   sky[0] = vec3(std::sqrt(4 * pi));  // radiance 1
   int under = 0;

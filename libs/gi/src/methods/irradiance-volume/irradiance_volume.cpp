@@ -11,16 +11,6 @@ namespace {
 
 constexpr int irradiance_degree = 2;
 
-/// Weights that outlive the lookups of single frames.
-class SharedWeights final : public LookupWeights {
- public:
-  explicit SharedWeights(const VolumeWeights& weights) : weights_(weights) {}
-  ProbeWeights at(const scene::SurfacePoint& point) const override { return weights_.at(point); }
-
- private:
-  const VolumeWeights& weights_;
-};
-
 /// Greger, Shirley, Hubbard & Greenberg, The Irradiance Volume, 1998, with spherical harmonics of degree 2
 /// for irradiance (Ramamoorthi & Hanrahan 2001).
 class IrradianceVolume final : public Method {

@@ -72,7 +72,8 @@ std::size_t VolumeWeights::cell_count() const {
 }
 
 ProbeVolume::ProbeVolume(const MethodScene& scene, const MethodParameters& p, int degree,
-                         const Control& control) {
+                         const Control& control)
+    : environment_group_(scene.source.environment_group()) {
   const PlaceParams seen = place_params(scene.scene);
   const bool trilinear = p.choice("interpolation") == "trilinear";
   std::vector<ProbePlace> places;
@@ -99,7 +100,8 @@ ProbeVolume::ProbeVolume(const MethodScene& scene, const MethodParameters& p, in
 
 void ProbeVolume::update(const FrameState& state, int dark) {
   session_->set_time(state.time);
-  session_->set_environment_rotation(state.environment_rotation);
+  // What does not light the probes need not be found anew for them.
+  if (dark < 0 || dark != environment_group_) session_->set_environment_rotation(state.environment_rotation);
   for (std::size_t i = 0; i < state.lights.size(); ++i) {
     const int light = static_cast<int>(i);
     if (!(session_->light(light) == state.lights[i])) session_->set_light(light, state.lights[i]);

@@ -30,6 +30,16 @@ class VolumeWeights final : public LookupWeights {
   std::variant<Tetrahedra, GridWeights> by_;
 };
 
+/// Weights that outlive the lookups of single frames.
+class SharedWeights final : public LookupWeights {
+ public:
+  explicit SharedWeights(const VolumeWeights& weights) : weights_(weights) {}
+  ProbeWeights at(const scene::SurfacePoint& point) const override { return weights_.at(point); }
+
+ private:
+  const VolumeWeights& weights_;
+};
+
 class ProbeVolume {
  public:
   /// With the parameters that probe_volume_parameters() declares; `degree` of the probes' radiance.
@@ -52,6 +62,7 @@ class ProbeVolume {
   std::unique_ptr<VolumeWeights> weights_;
   std::unique_ptr<RelightSession> session_;
   float spacing_ = 0;
+  int environment_group_ = -1;
 };
 
 std::vector<MethodParameter> probe_volume_parameters();

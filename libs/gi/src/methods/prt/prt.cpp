@@ -17,17 +17,7 @@ namespace {
 
 constexpr int moving_degree = 2;  ///< of irradiance where there are no transfer vectors
 /// Of the scene's radius: how far surface points may lie off the mesh, and the longest edge.
-constexpr float mesh_reach = 2e-3f, usual_edge = 1.0f / 24;
-
-/// Weights that outlive the lookups of single frames.
-class SharedWeights final : public LookupWeights {
- public:
-  explicit SharedWeights(const VolumeWeights& weights) : weights_(weights) {}
-  ProbeWeights at(const scene::SurfacePoint& point) const override { return weights_.at(point); }
-
- private:
-  const VolumeWeights& weights_;
-};
+constexpr float mesh_reach = 2e-3f, usual_edge = 1.0f / 14;
 
 /// Irradiance kept at vertices; between probes for what moves, and for glossy lobes.
 class VertexLight final : public scene::IndirectLight {
@@ -72,6 +62,8 @@ class Prt final : public Method {
  public:
   Prt(const MethodScene& scene, const MethodParameters& p, const Control& control)
       : source_(scene.source), volume_(scene, p, p.integer("degree"), control) {
+    const bool by_transfer = scene.scene.environment && p.choice("environment") == "transfer";
+    if (by_transfer) require_own_group(scene);
     const float radius = scene.source.part_bounds(0).radius();
     TransferMeshParams mesh_params;
     mesh_params.edge = static_cast<float>(p.number("edge"));
@@ -82,18 +74,18 @@ class Prt final : public Method {
     light_.index = MeshIndex(mesh, mesh_reach * radius);
     probes_.emplace(mesh, volume_.weights());
 
-    TransferParams params{p.integer("degree"), p.integer("rays"), 0, p.integer("interreflect")};
-    if (const auto share = static_cast<float>(p.number("self_shadow")); share > 0)
-      params.reach = share * std::min(volume_.spacing(), 2 * radius);
-    near_ =
-        find_transfer(mesh, light_.index, source_, params.reach > 0 ? params : unshadowed(params), control);
+    const VertexRings rings(mesh);
+    const VertexRays rays = find_vertex_rays(mesh, rings, light_.index, source_, p.integer("rays"), control);
+    TransferParams params{p.integer("degree"), 0, p.integer("interreflect")};
+    params.reach = static_cast<float>(p.number("self_shadow")) * std::min(volume_.spacing(), 2 * radius);
+    near_ = params.reach > 0 ? find_transfer(mesh, rings, rays, params, control)
+                             : open_transfer(mesh, params.degree);
 
-    if (!scene.scene.environment || p.choice("environment") != "transfer") return;
-    require_own_group(scene);
+    if (!by_transfer) return;
     params.reach = std::numeric_limits<float>::infinity();
     sky_ = project_environment(*scene.scene.environment, params.degree);
     sky_rotation_ = scene.scene.environment->rotation;
-    from_sky_ = find_transfer(mesh, light_.index, source_, params, control);
+    from_sky_ = find_transfer(mesh, rings, rays, params, control);
     std::vector<vec3> places;
     for (const ProbePlace& place : volume_.places()) places.push_back(place.position);
     sky_to_probes_ =
@@ -147,12 +139,6 @@ class Prt final : public Method {
   }
 
  private:
-  /// Nothing is hidden: the rays have nothing to tell.
-  static TransferParams unshadowed(TransferParams params) {
-    params.rays = 1, params.bounces = 0;
-    return params;
-  }
-
   void require_own_group(const MethodScene& scene) const {
     const int group = source_.environment_group();
     bool shared = false;
@@ -208,9 +194,9 @@ MethodEntry prt_entry() {
        "by transfer vectors from infinity, or in the probes as all other light",
        true,
        {"transfer", "probes"}},
-      {"rays", 256, 16, 65536, "per vertex and bounce", true},
-      {"edge", 0, 0, 1e4, "longest of the mesh [m]; 0: a 24th of the scene's radius"},
-      {"vertices", 1 << 20, 3, 1 << 26, "more are refused", true}};
+      {"rays", 256, 16, 65536, "per vertex", true},
+      {"edge", 0, 0, 1e4, "longest of the mesh [m]; 0: a 14th of the scene's radius"},
+      {"vertices", 1 << 18, 3, 1 << 26, "more are refused", true}};
   parameters.insert(parameters.end(), std::begin(own), std::end(own));
   return {"prt", "precomputed radiance transfer: vertices that know how distant light reaches them",
           std::move(parameters),

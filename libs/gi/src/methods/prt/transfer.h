@@ -10,13 +10,12 @@
 #include <ssphh/core/control.h>
 #include <ssphh/sh/coefficients.h>
 
-#include "transfer_mesh.h"
+#include "vertex_rays.h"
 
 namespace ssphh::gi {
 
 struct TransferParams {
   int degree = 4;
-  int rays = 256;  ///< per vertex and bounce, cosine-distributed
   /// Surfaces nearer than this hide light, and reflect it; beyond it a ray sees the distant light [m].
   float reach = std::numeric_limits<float>::infinity();
   int bounces = 0;  ///< Sloan's interreflected transfer; 0: shadowed only
@@ -34,12 +33,11 @@ struct TransferVectors {
   vec3 reflected_irradiance(std::size_t v, const sh::RadianceSh& light) const;
 };
 
-/// Rays start on the triangles around a vertex, near it: a vertex in a corner would start them within its
-/// neighbour's wall. What lies within a body (more than half of what it sees shows its back) takes the value
-/// of its neighbours. Rays see part 0 of the source alone: what moves neither hides nor reflects. The same
-/// input gives the same bits.
-TransferVectors find_transfer(const TransferMesh& mesh, const MeshIndex& index,
-                              const scene::TransportSource& source, const TransferParams& params,
-                              const Control& control = {});
+/// What lies within a body takes the value of its neighbours. The same input gives the same bits.
+TransferVectors find_transfer(const TransferMesh& mesh, const VertexRings& rings, const VertexRays& rays,
+                              const TransferParams& params, const Control& control = {});
+
+/// Nothing hides anything: the cosine lobe.
+TransferVectors open_transfer(const TransferMesh& mesh, int degree);
 
 }  // namespace ssphh::gi
