@@ -214,6 +214,7 @@ bool runs_on_farm(const std::vector<std::string>& words) {
     return std::find(words.begin(), words.end(), option) != words.end();
   };
   if (words.front() == "bake") return value_of("--operator").empty() || value_of("--operator") == "path";
+  if (words.front() == "truth") return value_of("--renderer") != "cycles";
   return words.front() == "render" && value_of("--backend") != "gl" && !has("--resume");
 }
 
