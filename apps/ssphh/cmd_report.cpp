@@ -14,6 +14,7 @@
 #include <ssphh/core/file.h>
 #include <ssphh/core/hash.h>
 #include <ssphh/core/log.h>
+#include <ssphh/core/nearest_word.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/scene/query.h>
 
@@ -140,7 +141,7 @@ void note_unknown_values(report::Report& result) {
   const std::vector<std::string> names(known.begin(), known.end());
   const auto check = [&](const std::string& name, const char* where) {
     if (known.count(name)) return;
-    const std::string best = report::nearest(name, names);
+    const std::string best = nearest_word(name, names);
     result.notes.push_back(fmt::format("no cell has the value \"{}\" of {}{}", name, where,
                                        best.empty() ? "" : fmt::format("; did you mean \"{}\"?", best)));
     log_warning("{}", result.notes.back());

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/nearest_word.h>
 #include <ssphh/report/plan.h>
 
 #include "json_reader.h"

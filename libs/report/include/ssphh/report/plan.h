@@ -102,7 +102,4 @@ void set_variable(Plan& plan, const std::string& assignment);
 /// "ssphh, degree 4": the method's name and the variant's parameters.
 std::string label(const PlanMethod& method, const Parameters& parameters);
 
-/// The candidate with the fewest edits from `name`, or "" when there is none within half of its length.
-std::string nearest(const std::string& name, const std::vector<std::string>& candidates);
-
 }  // namespace ssphh::report
