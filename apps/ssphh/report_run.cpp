@@ -215,7 +215,9 @@ bool runs_on_farm(const std::vector<std::string>& words) {
   };
   if (words.front() == "bake") return value_of("--operator").empty() || value_of("--operator") == "path";
   if (words.front() == "truth") return value_of("--renderer") != "cycles";
-  return words.front() == "render" && value_of("--backend") != "gl" && !has("--resume");
+  const std::string method = value_of("--method");
+  const bool known = method.empty() || method == "path" || (method == "ssphh" && has("--probes"));
+  return words.front() == "render" && known && value_of("--backend") != "gl" && !has("--resume");
 }
 
 RunResult run_jobs(const report::Expansion& expansion, const RunPlace& place, int time_limit,
