@@ -63,7 +63,9 @@ void add_farm_parked_commands(CLI::App& group, Context& context) {
   CLI::App* release = add_command(
       group, context, "release", "Put jobs that were set aside back into the queue", [=, &context] {
         const int count = tell(*again, "mmi.release", context.control);
-        context.result({{"released", count}}, fmt::format("{} jobs are queued again", count));
+        context.result(
+            {{"released", count}},
+            fmt::format("{} queued again", count == 1 ? "1 job is" : fmt::format("{} jobs are", count)));
       });
   add_choice(*release, *again);
   release->footer(
@@ -71,7 +73,8 @@ void add_farm_parked_commands(CLI::App& group, Context& context) {
       "minutes\nfor a client that sends the same job.");
   CLI::App* drop = add_command(group, context, "drop", "Forget jobs that were set aside", [=, &context] {
     const int count = tell(*gone, "mmi.drop", context.control);
-    context.result({{"dropped", count}}, fmt::format("{} jobs are forgotten", count));
+    context.result({{"dropped", count}},
+                   fmt::format("{} forgotten", count == 1 ? "1 job is" : fmt::format("{} jobs are", count)));
   });
   add_choice(*drop, *gone);
 }

@@ -274,7 +274,8 @@ void add_report_command(CLI::App& app, Context& context) {
       "a "
       "failed cell\n"
       "of the page, with its log, and is tried again next time; exit code 1.\n"
-      "With --broker or --local a farm does path-traced bakes and renders, to the same bits; other commands "
+      "With --broker or --local a farm does path-traced bakes, renders and truths, to the same bits; other "
+      "commands "
       "run "
       "here.");
 }

@@ -214,7 +214,10 @@ bool runs_on_farm(const std::vector<std::string>& words) {
     return std::find(words.begin(), words.end(), option) != words.end();
   };
   if (words.front() == "bake") return value_of("--operator").empty() || value_of("--operator") == "path";
-  return words.front() == "render" && value_of("--backend") != "gl" && !has("--resume");
+  if (words.front() == "truth") return value_of("--renderer") != "cycles";
+  const std::string method = value_of("--method");
+  const bool known = method.empty() || method == "path" || (method == "ssphh" && has("--probes"));
+  return words.front() == "render" && known && value_of("--backend") != "gl" && !has("--resume");
 }
 
 RunResult run_jobs(const report::Expansion& expansion, const RunPlace& place, int time_limit,

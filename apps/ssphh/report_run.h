@@ -21,7 +21,8 @@ struct RunPlace {
   std::vector<std::string> farm = {};
 };
 
-/// Whether a farm can do this command: a bake by path tracing, or a render that is not by OpenGL.
+/// Whether a farm can do this command: a bake or truth by path tracing, or a render by path tracing or
+/// from a probe file that is not by OpenGL.
 bool runs_on_farm(const std::vector<std::string>& words);
 
 /// By key; a run that failed has no record but a message.

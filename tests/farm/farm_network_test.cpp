@@ -28,7 +28,7 @@ void expect_wanted(ToolProcess& process, const std::filesystem::path& file, cons
 
 TEST(FarmNetwork, LinkThatIsCutAgainAndAgainCostsNothingButTime) {
   const TempDir dir;
-  const SmallBake bake(dir, "60");
+  const SmallBake bake(dir, "30");
   FarAwayWorker far(1);
   const auto file = dir / "out.sphl";
   ToolProcess process(bake.on(far.farm.endpoint(), file));
@@ -42,7 +42,7 @@ TEST(FarmNetwork, LinkThatIsCutAgainAndAgainCostsNothingButTime) {
 // Nobody is told that the cable is out: heartbeats find it, and after it is in again the worker is back.
 TEST(FarmNetwork, SilentLinkCostsARetryAndTheWorkerComesBack) {
   const TempDir dir;
-  const SmallBake bake(dir, "60");
+  const SmallBake bake(dir, "30");
   FarAwayWorker far(1);
   const auto file = dir / "out.sphl";
   ToolProcess process(bake.on(far.farm.endpoint(), file));
@@ -50,11 +50,12 @@ TEST(FarmNetwork, SilentLinkCostsARetryAndTheWorkerComesBack) {
   far.relay.stall(true);
   expect_wanted(process, file, bake);
   far.relay.stall(false);
-  const auto again = dir / "again.sphl";
-  far.farm.worker(1).signal(SIGTERM);
-  far.farm.worker(1).wait();
-  ToolProcess second(bake.on(far.farm.endpoint(), again));
-  expect_wanted(second, again, bake);
+  std::size_t workers = 0;
+  for (int i = 0; i < 100 && workers < 2; ++i) {
+    workers = run_json({"farm", "status", "--broker", far.farm.endpoint()})["workers"].size();
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
+  EXPECT_EQ(workers, 2u);
 }
 
 TEST(FarmNetwork, SlowLinkCostsNothingButTime) {

@@ -25,6 +25,7 @@ class FarmProcesses {
 
   std::string endpoint() const { return "ipc://" + (dir_ / "broker").string(); }
   const TempDir& dir() const { return dir_; }
+  ToolProcess& broker() { return *broker_; }
   ToolProcess& worker(std::size_t i) { return *workers_[i]; }
   std::size_t worker_count() const { return workers_.size(); }
 

@@ -19,8 +19,8 @@ namespace ssphh::majordomo {
 namespace {
 
 constexpr int batch = 256;  // messages between two looks at clock and outbox
-constexpr int rounds_between_looks =
-    16;                             // at what is not the socket, while there is always something to hear
+// While there is always something to hear: rounds between two looks at connections, signals and metrics.
+constexpr int rounds_between_looks = 16;
 constexpr Millis outbox_pause = 5;  // between two tries for slow peers
 constexpr Millis linger = 1000;
 constexpr Millis look_at_allow_list = 1000;
