@@ -92,8 +92,10 @@ vec3 ConeLight::irradiance(const scene::SurfacePoint& at) const {
   const vec3 origin = start(at);
   VoxelReader reader(voxels_);
   vec3 sum(0);
-  for (const Cone& cone : cones_)
-    sum += cone.weight * vec3(trace(reader, origin, frame.to_world(cone.direction), cone.tangent, params_));
+  for (const Cone& cone : cones_) {
+    const vec3 direction = frame.to_world(cone.direction);
+    sum += cone.weight * vec3(trace(reader, origin, direction, cone.tangent, params_));
+  }
   return sum;
 }
 
