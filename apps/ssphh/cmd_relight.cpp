@@ -129,7 +129,8 @@ class Relighting {
     generator.surfel_size = session.network().params().surfel_size;
     generator.link_rays = session.network().params().link_rays;
     generator.scene = scene_.name;
-    generator.scene_hash = scene::light_hash(scene::with_lights(scene_, state.time, state.lights));
+    generator.scene_hash = scene::light_hash(
+        scene::with_lights(scene_, state.time, state.lights, {}, state.environment_rotation));
     generator.time = state.time;
     gi::write_probe_file(bake_of(session, source_, state.group_scales, generator, context_.control), o_.save);
     saved_ = true;
@@ -146,8 +147,8 @@ class Relighting {
     std::optional<gi::FittedPoints> fitted;
     if (params.weights.method == gi::WeightMethod::fitted) fitted = fit(session, quiet);
     for (const KeptFrame& kept : kept_) {
-      const scene::Scene lit =
-          scene::with_lights(scene_, kept.state.time, kept.state.lights, kept.state.group_scales);
+      const scene::Scene lit = scene::with_lights(scene_, kept.state.time, kept.state.lights,
+                                                  kept.state.group_scales, kept.state.environment_rotation);
       const trace::PathTracer tracer(lit, kept.state.time);
       gi::ProbeSet set = gi::lookup_set(session.places(), kept.reflected);
       set.fitted = fitted;

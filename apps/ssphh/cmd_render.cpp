@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -27,6 +29,22 @@ std::filesystem::path checkpoint_path(const RenderOptions& o) {
   return o.output + ".state";
 }
 
+// A SPHL by its name, or "X,Y,Z".
+vec3 place_of(const scene::Scene& scene, const std::string& text, float time) {
+  std::string names;
+  for (const scene::SphlPlace& sphl : scene::sphl_places(scene, time)) {
+    if (sphl.name == text) return sphl.position;
+    names += (names.empty() ? "" : ", ") + sphl.name;
+  }
+  vec3 place;
+  int end = 0;
+  const int read = std::sscanf(text.c_str(), "%f,%f,%f%n", &place.x, &place.y, &place.z, &end);
+  if (read == 3 && end == static_cast<int>(text.size()) && std::isfinite(place.x + place.y + place.z))
+    return place;
+  throw Error("--at " + text, "is neither a SPHL of the scene nor X,Y,Z",
+              names.empty() ? "the scene has no SPHLs" : "its SPHLs: " + names);
+}
+
 trace::RenderParams render_params(const RenderOptions& o, const Context& context, const scene::Scene& scene) {
   trace::RenderParams params;
   params.width = o.width;
@@ -40,6 +58,13 @@ trace::RenderParams render_params(const RenderOptions& o, const Context& context
     params.projection = trace::Projection::cube_strip;
   } else if (params.camera.camera.orthographic) {
     params.projection = trace::Projection::orthographic;
+  }
+  if (!o.at.empty()) {
+    if (o.projection == "camera")
+      throw Error("--at", "is the place of a picture of the whole sphere",
+                  "add --projection cube or equirect");
+    params.camera.world = mat4(1);
+    params.camera.world[3] = vec4(place_of(scene, o.at, o.scene.time), 1);
   }
   return params;
 }
@@ -177,6 +202,8 @@ trace::RenderState render_on_farm(const FarmSession& session, const trace::PathT
 void render(const RenderOptions& o, const Context& context) {
   if (o.backend == "gl") return render_gl(o, context);
   check_method(o);
+  if (o.occlusion > 0)
+    throw Error("--occlusion", "is an approximation of the real-time renderer", "add --backend gl");
   if (o.farm.any() && o.resume)
     throw Error("--resume", "is of renders in this process; a farm keeps finished tiles in --cache",
                 "repeat the command without it");
@@ -264,6 +291,9 @@ void add_render_command(CLI::App& app, Context& context) {
           "camera; or the whole sphere at its position: equirect, or cube (6×1 strip, width = 6 × height)")
       ->check(CLI::IsMember({"camera", "equirect", "cube"}))
       ->capture_default_str();
+  command->add_option(
+      "--at", o.at,
+      "Place of the sphere, its axes the world's: a SPHL by name, or X,Y,Z; default: the camera's");
 
   const std::string paths = "Light paths";
   command
@@ -301,6 +331,13 @@ void add_render_command(CLI::App& app, Context& context) {
           "cpu: traced, any number of samples; gl: a frame of the real-time renderer, up to 4×4 samples "
           "per pixel (docs/methods/realtime.md)")
       ->check(CLI::IsMember({"cpu", "gl"}))
+      ->capture_default_str()
+      ->group(probes);
+  command
+      ->add_option(
+          "--occlusion", o.occlusion,
+          "With --backend gl: dim SPHLs' light in corners by what stands within so many metres; 0: off")
+      ->check(CLI::Range(0.0f, 100.0f))
       ->capture_default_str()
       ->group(probes);
   add_weights_option(*command, o.weights)->group(probes);

@@ -16,7 +16,8 @@ enum class TrackProperty {
   direction,  ///< of a spot or directional light, world, the way the light goes
   intensity,  ///< of a light, units as scene::Light
   color,      ///< of a light, linear RGB
-  scale       ///< factor on a light group, one number or linear RGB
+  scale,      ///< factor on a light group, one number or linear RGB
+  turn        ///< of the environment about +y beyond the scene's own rotation, radians
 };
 
 /// Values at evenly spaced times, linear between them.

@@ -9,10 +9,10 @@ namespace ssphh::gi {
 
 std::span<const MethodEntry> method_table() {
   static const std::vector<MethodEntry> table = {
-      methods::direct_entry(),
-      methods::ambient_entry(),
-      methods::ssphh_entry(),
-      methods::vct_entry(),
+      methods::direct_entry(), methods::ambient_entry(),
+      methods::ssphh_entry(),  methods::irradiance_volume_entry(),
+      methods::prt_entry(),    methods::vpl_entry(),
+      methods::vct_entry(),    methods::ddgi_entry(),
   };
   return table;
 }
@@ -27,7 +27,7 @@ const MethodEntry& find_method(const std::string& name) {
 }
 
 FrameState frame_at(const scene::TransportSource& source, float time) {
-  return {time, source.lights(time), std::vector<vec3>(source.light_groups().size(), vec3(1))};
+  return {time, source.lights(time), std::vector<vec3>(source.light_groups().size(), vec3(1)), 0};
 }
 
 std::vector<mat4> part_poses(const scene::TransportSource& source, float time) {

@@ -67,6 +67,8 @@ class RelightSession {
   const scene::LightState& light(int light) const;
   /// Factor on a whole group: dims lamps, emissive surfaces and the environment without a ray.
   void set_group_scale(int group, const vec3& scale);
+  /// Turns the environment about +y beyond the scene's own rotation, counter-clockwise seen from above [rad].
+  void set_environment_rotation(float rotation);
   /// Poses parts, and the lights that set_light left alone.
   void set_time(float time);
   /// Makes the probe a light of its own (`matrix` transport): radiance leaving a sphere of the place's radius

@@ -3,10 +3,10 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
-#include <ssphh/gi/place.h>
 #include <ssphh/gi/surface_points.h>
 
 #include "../entries.h"
+#include "../points.h"
 
 namespace ssphh::gi::methods {
 namespace {
@@ -39,12 +39,7 @@ class Ambient final : public Method {
       : scene_(scene), points_(points), factor_(factor) {}
 
   void update(const FrameState& state, const Control& control) override {
-    const PlaceParams seen_from = place_params(scene_.scene, state.time);
-    std::vector<vec3> origins = seen_from.interest;
-    for (const scene::SphlPlace& place : seen_from.manual) origins.push_back(place.position);
-    if (origins.empty()) origins.push_back(PosedSurfaces(scene_.source, state.time).bounds().center());
-    const std::vector<scene::SurfacePoint> points =
-        reachable_points(scene_.source, origins, state.time, {points_, 0}, {nullptr, control.cancel});
+    const std::vector<scene::SurfacePoint> points = points_in_reach(scene_, state.time, points_, control);
 
     // One cosine ray from each point: the radiosity of what it meets is the irradiance that it brings.
     const PosedSurfaces surfaces(scene_.source, state.time);
@@ -66,14 +61,11 @@ class Ambient final : public Method {
     }
 
     vec3 direct(0), bounced(0);
-    const auto lights = scene_.source.direct_light(state.lights, part_poses(scene_.source, state.time));
-    std::vector<vec3> at_points(points.size()), at_met(met.size());
-    for (std::size_t g = 0; g < state.group_scales.size(); ++g) {
-      lights->irradiance(static_cast<int>(g), points, at_points);
-      lights->irradiance(static_cast<int>(g), met, at_met);
-      for (const vec3& e : at_points) direct += state.group_scales[g] * e;
-      for (std::size_t i = 0; i < met.size(); ++i) bounced += state.group_scales[g] * albedo[i] * at_met[i];
-    }
+    const auto lights = scene_.source.direct_light(state.lights, part_poses(scene_.source, state.time),
+                                                   state.environment_rotation);
+    for (const vec3& e : scaled_direct(*lights, state.group_scales, points)) direct += e;
+    const std::vector<vec3> at_met = scaled_direct(*lights, state.group_scales, met);
+    for (std::size_t i = 0; i < met.size(); ++i) bounced += albedo[i] * at_met[i];
     const auto count = static_cast<float>(points.size());
     direct /= count, bounced /= count;
     for (int c = 0; c < 3; ++c) {

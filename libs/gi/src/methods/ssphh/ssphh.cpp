@@ -8,6 +8,7 @@
 #include <ssphh/gi/surface_points.h>
 
 #include "../entries.h"
+#include "../network_memory.h"
 
 namespace ssphh::gi::methods {
 namespace {
@@ -67,6 +68,7 @@ class Ssphh final : public Method {
 
   void update(const FrameState& state, const Control&) override {
     session_.set_time(state.time);
+    session_.set_environment_rotation(state.environment_rotation);
     for (std::size_t i = 0; i < state.lights.size(); ++i) {
       const int light = static_cast<int>(i);
       if (!(session_.light(light) == state.lights[i])) session_.set_light(light, state.lights[i]);
@@ -82,7 +84,6 @@ class Ssphh final : public Method {
   const scene::IndirectLight& light() const override { return *lookup_; }
 
   MethodMemory memory() const override {
-    const TransportNetwork& network = session_.network();
     MethodMemory bytes;
     bytes.lookup =
         session_.places().size() * (sizeof(vec3) + session_.reflected().front().values.size() * sizeof(vec3));
@@ -91,11 +92,7 @@ class Ssphh final : public Method {
       for (const PointWeights& weights : fitted_->weights)
         bytes.lookup += static_cast<std::size_t>(weights.count) * sizeof(ProbeWeight);
     }
-    bytes.update = network.links().link_count() * sizeof(Link) + network.seen().size() * sizeof(SeenPatch) +
-                   network.seen_distance().size() * sizeof(float) +
-                   network.gbuffer().hits.size() * sizeof(PackedHit) +
-                   network.samples().size() * (sizeof(scene::SurfacePoint) + 1) +
-                   network.surfel_count() * (sizeof(Surfel) + sizeof(vec3) + 4 * sizeof(Irradiance4));
+    bytes.update = network_bytes(session_.network());
     return bytes;
   }
 

@@ -25,6 +25,9 @@ struct FrameState {
   float time = 0;                         ///< poses the moving parts [s]
   std::vector<scene::LightState> lights;  ///< in the order of TransportSource::lights(time)
   std::vector<vec3> group_scales;         ///< a factor per light group
+  /// The environment turned about +y beyond the scene's own rotation, counter-clockwise seen from above
+  /// [rad].
+  float environment_rotation = 0;
 
   friend bool operator==(const FrameState&, const FrameState&) = default;
 };
