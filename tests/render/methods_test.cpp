@@ -39,7 +39,7 @@ std::vector<vec3> after(gi::Method& method, const gi::FrameState& state,
 std::unique_ptr<gi::Method> make_small(const gi::MethodEntry& entry, const scene::Scene& scene,
                                        const scene::TransportSource& source) {
   static const std::map<std::string, std::vector<std::string>> small = {
-      {"ssphh", {"probes=8", "directions=64", "surfel_size=0.4"}}};
+      {"ssphh", {"probes=8", "directions=64", "surfel_size=0.4"}}, {"vct", {"resolution=32", "bounces=2"}}};
   const auto found = small.find(entry.name);
   return make(entry, scene, source, found == small.end() ? std::vector<std::string>{} : found->second);
 }

@@ -26,24 +26,26 @@ struct Facing {
     for (int axis = 0; axis < 3; ++axis)
       side[static_cast<std::size_t>(axis)] = static_cast<std::size_t>(facing_side(direction, axis));
   }
-  vec4 of(const Voxel& voxel) const {
-    return weight.x * voxel.side[side[0]] + weight.y * voxel.side[side[1]] + weight.z * voxel.side[side[2]];
+  void add(const Voxel& voxel, float share, vec4& sum) const {
+    sum += (share * weight.x) * voxel.side[side[0]];
+    sum += (share * weight.y) * voxel.side[side[1]];
+    sum += (share * weight.z) * voxel.side[side[2]];
   }
 };
 
 /// Opacity, and opacity times radiance, per unit of length at a place in grid units, from one level.
 vec4 read_level(VoxelReader& reader, int level, const vec3& place, const Facing& facing) {
-  const float scale = std::ldexp(1.0f, -level);
+  const float scale = 1 / static_cast<float>(1 << level);
   const vec3 at = place * scale - 0.5f;
   const vec3 low = glm::floor(at), f = at - low;
   const Cell c{static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(low.z)};
+  std::array<const Voxel*, 8> around;
+  if (!reader.find8(level, c, around)) return vec4(0);
   vec4 sum(0);
-  for (int k = 0; k < 8; ++k) {
-    const int x = k & 1, y = k >> 1 & 1, z = k >> 2;
-    const Voxel* voxel = reader.find(level, {c.x + x, c.y + y, c.z + z});
-    if (!voxel) continue;
-    const float weight = (x ? f.x : 1 - f.x) * (y ? f.y : 1 - f.y) * (z ? f.z : 1 - f.z);
-    sum += weight * facing.of(*voxel);
+  for (std::size_t k = 0; k < 8; ++k) {
+    if (!around[k]) continue;
+    const float weight = (k & 1 ? f.x : 1 - f.x) * (k & 2 ? f.y : 1 - f.y) * (k & 4 ? f.z : 1 - f.z);
+    facing.add(*around[k], weight, sum);
   }
   return scale * sum;
 }
