@@ -9,6 +9,7 @@
 #include <ssphh/gi/vct/cone_light.h>
 
 #include "../entries.h"
+#include "gather_points.h"
 #include "inject.h"
 #include "patch_light.h"
 
@@ -88,7 +89,10 @@ class Vct final : public Method {
   const scene::IndirectLight& light() const override { return *light_; }
 
   MethodMemory memory() const override {
-    return {pyramid_->bytes(), still_.bytes() + moving_.bytes() + voxels_.size() * sizeof(VoxelPatches)};
+    return {pyramid_->bytes(),
+            still_.bytes() + moving_.bytes() + voxels_.size() * sizeof(VoxelPatches) +
+                gather_.points.size() * sizeof(scene::SurfacePoint) +
+                (gather_.of_still.size() + gather_.of_moving.size()) * sizeof(std::uint32_t)};
   }
 
   MethodNumbers numbers() const override {
@@ -97,6 +101,7 @@ class Vct final : public Method {
             {"bricks", static_cast<double>(pyramid_->bricks(0))},
             {"voxels", static_cast<double>(voxels_.size())},
             {"patches", static_cast<double>(still_.set.patches.size() + moving_.set.patches.size())},
+            {"gather_points", static_cast<double>(gather_.points.size())},
             {"points_relit", static_cast<double>(points_relit_)}};
   }
 
@@ -132,6 +137,7 @@ class Vct final : public Method {
     moving_.light.reset(moving_.set.patches.size(), scene_.source.light_groups().size());
     moving_.irradiance.resize(moving_.set.patches.size());
     voxels_ = by_voxel(still_.set.patches, moving_.set.patches);
+    gather_ = gather_points(still_.set.patches, moving_.set.patches);
     std::vector<VoxelKey> occupied;
     for (const VoxelPatches& voxel : voxels_) occupied.push_back(voxel.voxel);
     light_.reset();
@@ -180,21 +186,20 @@ class Vct final : public Method {
     ConeParams cones = params_.cones;
     cones.cones = params_.bounce_cones;
     const ConeLight gather(*pyramid_, cones);
-    const auto add = [&](const Lit& lit, std::vector<vec3>& sum) {
+    std::vector<vec3> gathered(gather_.points.size());
+    const auto add = [&](const Lit& lit, const std::vector<std::uint32_t>& point, std::vector<vec3>& sum) {
       sum.resize(lit.irradiance.size());
-      parallel_for(
-          sum.size(), 64,
-          [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-              const Patch& patch = lit.set.patches[i];
-              sum[i] = lit.irradiance[i] + gather.irradiance({patch.position, patch.normal});
-            }
-          },
-          control);
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = lit.irradiance[i] + gathered[point[i]];
     };
     std::vector<vec3> still, moving;
     for (int b = 1; b < params_.bounces; ++b) {
-      add(still_, still), add(moving_, moving);
+      parallel_for(
+          gathered.size(), 32,
+          [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) gathered[i] = gather.irradiance(gather_.points[i]);
+          },
+          control);
+      add(still_, gather_.of_still, still), add(moving_, gather_.of_moving, moving);
       fill(still, moving);
     }
   }
@@ -204,6 +209,7 @@ class Vct final : public Method {
   VoxelGrid grid_;
   Lit still_, moving_;
   std::vector<VoxelPatches> voxels_;
+  GatherPoints gather_;
   std::optional<Pyramid> pyramid_;
   std::optional<ConeLight> light_;
   std::vector<mat4> poses_;  ///< of the last update; empty: none yet
