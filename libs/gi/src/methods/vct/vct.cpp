@@ -46,7 +46,7 @@ scene::Bounds in_world(const scene::Bounds& local, const mat4& pose) {
 struct VctParams {
   int resolution = 128;
   Storage storage = Storage::sparse;
-  int bounces = 3;
+  int bounces = 6;
   int samples = 4;
   ConeParams cones;
   int bounce_cones = 10;
@@ -246,7 +246,7 @@ MethodEntry vct_entry() {
         true,
         {"8", "16", "32", "64", "128", "256", "512"}},
        {"storage", 0, 0, 1, "of the voxels: octree of bricks, or whole arrays", true, {"sparse", "dense"}},
-       {"bounces", 3, 1, 32, "of indirect light; 1: what directly lit surfaces scatter", true},
+       {"bounces", 6, 1, 32, "of indirect light; 1: what directly lit surfaces scatter", true},
        {"cones", 16, 3, 4096, "over the hemisphere of a point that is lit", true},
        {"bounce_cones", 10, 3, 4096, "over the hemisphere of a voxel, from the second bounce on", true},
        {"offset", 1, 0, 16, "of a cone's start from the surface, in voxels"},
