@@ -40,8 +40,11 @@ std::unique_ptr<gi::Method> make_small(const gi::MethodEntry& entry, const scene
                                        const scene::TransportSource& source) {
   static const std::map<std::string, std::vector<std::string>> small = {
       {"ssphh", {"probes=8", "directions=64", "surfel_size=0.4"}},
-      {"ddgi", {"probes=27", "rays=32", "warmup=8"}},
-      {"vpl", {"photons=256", "cluster_error=0.02"}}};
+      {"irradiance-volume", {"probes=8", "directions=64", "surfel_size=0.4"}},
+      {"prt", {"probes=8", "directions=64", "surfel_size=0.4", "rays=32", "edge=0.5"}},
+      {"vpl", {"photons=256", "cluster_error=0.02"}},
+      {"vct", {"resolution=32", "bounces=2"}},
+      {"ddgi", {"probes=27", "rays=32", "warmup=8"}}};
   const auto found = small.find(entry.name);
   return make(entry, scene, source, found == small.end() ? std::vector<std::string>{} : found->second);
 }

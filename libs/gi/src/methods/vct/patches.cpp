@@ -7,6 +7,8 @@
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
 
+#include "gather_points.h"
+
 namespace ssphh::gi::vct {
 namespace {
 
@@ -34,12 +36,6 @@ struct Draft {
     if (piece > largest) largest = piece, on_surface = centroid, its_normal = fragment.area / piece;
   }
 };
-
-int main_side(const vec3& normal) {
-  const vec3 a = glm::abs(normal);
-  const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-  return 2 * axis + (normal[axis] < 0 ? 1 : 0);
-}
 
 /// The draft that a fragment continues: it faces the same way and lies in the same plane, more or less. A
 /// panel before a wall must not be mixed with what it hides.

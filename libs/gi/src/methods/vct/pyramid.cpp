@@ -94,21 +94,26 @@ const Pyramid::Node* Pyramid::descend(int level, const Cell& brick_cell) const {
   return node;
 }
 
-const Voxel* Pyramid::find(int level, const Cell& cell) const {
-  const Level& at = levels_[static_cast<std::size_t>(level)];
-  if (cell.x < 0 || cell.y < 0 || cell.z < 0 || cell.x >= at.size.x || cell.y >= at.size.y ||
-      cell.z >= at.size.z)
-    return nullptr;
-  if (storage_ == Storage::dense) return &at.voxels[place_in(at.size, cell)];
-  const Node* node = descend(level, {cell.x / brick, cell.y / brick, cell.z / brick});
-  if (!node) return nullptr;
-  const auto index = static_cast<std::size_t>(node - at.nodes.data());
-  return &at.voxels[index * brick_voxels +
-                    place_in({brick, brick, brick}, {cell.x % brick, cell.y % brick, cell.z % brick})];
+BrickView Pyramid::view(int level, const Cell& at) const {
+  const Level& stored = levels_[static_cast<std::size_t>(level)];
+  const Cell& size = stored.size;
+  if (at.x < 0 || at.y < 0 || at.z < 0 || at.x >= size.x / brick || at.y >= size.y / brick ||
+      at.z >= size.z / brick)
+    return {};
+  if (storage_ == Storage::dense)
+    return {&stored.voxels[place_in(size, {at.x * brick, at.y * brick, at.z * brick})], size.x,
+            size.x * size.y};
+  const Node* node = descend(level, at);
+  if (!node) return {};
+  return {&stored.voxels[static_cast<std::size_t>(node - stored.nodes.data()) * brick_voxels], brick,
+          brick * brick};
 }
 
-void Pyramid::clear() {
-  for (Level& level : levels_) std::ranges::fill(level.voxels, Voxel{});
+const Voxel* Pyramid::find(int level, const Cell& c) const {
+  if (c.x < 0 || c.y < 0 || c.z < 0) return nullptr;
+  const BrickView found = view(level, {c.x / brick, c.y / brick, c.z / brick});
+  if (!found.first) return nullptr;
+  return found.first + (c.z % brick) * found.layer + (c.y % brick) * found.row + c.x % brick;
 }
 
 std::size_t Pyramid::bricks(int level) const {

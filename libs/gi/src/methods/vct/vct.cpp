@@ -9,6 +9,7 @@
 #include <ssphh/gi/vct/cone_light.h>
 
 #include "../entries.h"
+#include "gather_points.h"
 #include "inject.h"
 #include "patch_light.h"
 
@@ -45,7 +46,7 @@ scene::Bounds in_world(const scene::Bounds& local, const mat4& pose) {
 struct VctParams {
   int resolution = 128;
   Storage storage = Storage::sparse;
-  int bounces = 3;
+  int bounces = 6;
   int samples = 4;
   ConeParams cones;
   int bounce_cones = 10;
@@ -75,8 +76,9 @@ class Vct final : public Method {
       boxes = boxes_of_moved(poses);
       place(state.time, control);
     }
-    if (moved || state.lights != lights_) relight(state, poses, first ? nullptr : &boxes, moved);
-    poses_ = poses, lights_ = state.lights;
+    if (moved || state.lights != lights_ || state.environment_rotation != environment_rotation_)
+      relight(state, poses, first ? nullptr : &boxes, moved);
+    poses_ = poses, lights_ = state.lights, environment_rotation_ = state.environment_rotation;
 
     still_.light.sum(state.group_scales, still_.irradiance);
     moving_.light.sum(state.group_scales, moving_.irradiance);
@@ -87,7 +89,10 @@ class Vct final : public Method {
   const scene::IndirectLight& light() const override { return *light_; }
 
   MethodMemory memory() const override {
-    return {pyramid_->bytes(), still_.bytes() + moving_.bytes() + voxels_.size() * sizeof(VoxelPatches)};
+    return {pyramid_->bytes(),
+            still_.bytes() + moving_.bytes() + voxels_.size() * sizeof(VoxelPatches) +
+                gather_.points.size() * sizeof(scene::SurfacePoint) +
+                (gather_.of_still.size() + gather_.of_moving.size()) * sizeof(std::uint32_t)};
   }
 
   MethodNumbers numbers() const override {
@@ -96,6 +101,7 @@ class Vct final : public Method {
             {"bricks", static_cast<double>(pyramid_->bricks(0))},
             {"voxels", static_cast<double>(voxels_.size())},
             {"patches", static_cast<double>(still_.set.patches.size() + moving_.set.patches.size())},
+            {"gather_points", static_cast<double>(gather_.points.size())},
             {"points_relit", static_cast<double>(points_relit_)}};
   }
 
@@ -131,6 +137,7 @@ class Vct final : public Method {
     moving_.light.reset(moving_.set.patches.size(), scene_.source.light_groups().size());
     moving_.irradiance.resize(moving_.set.patches.size());
     voxels_ = by_voxel(still_.set.patches, moving_.set.patches);
+    gather_ = gather_points(still_.set.patches, moving_.set.patches);
     std::vector<VoxelKey> occupied;
     for (const VoxelPatches& voxel : voxels_) occupied.push_back(voxel.voxel);
     light_.reset();
@@ -142,7 +149,7 @@ class Vct final : public Method {
   /// Asks for direct light where lamps or shadows changed; `boxes` null: everywhere.
   void relight(const FrameState& state, const std::vector<mat4>& poses,
                const std::vector<scene::Bounds>* boxes, bool moved) {
-    const auto direct = scene_.source.direct_light(state.lights, poses);
+    const auto direct = scene_.source.direct_light(state.lights, poses, state.environment_rotation);
     points_relit_ = 0;
     for (int g = 0; g < static_cast<int>(state.group_scales.size()); ++g) {
       if (!boxes || group_changed(g, state, poses)) {
@@ -157,6 +164,8 @@ class Vct final : public Method {
 
   /// Whether emitters of the group changed or went elsewhere.
   bool group_changed(int group, const FrameState& state, const std::vector<mat4>& poses) const {
+    if (group == scene_.source.environment_group() && state.environment_rotation != environment_rotation_)
+      return true;
     for (std::size_t i = 0; i < state.lights.size(); ++i) {
       if (scene_.source.light_group_of(static_cast<int>(i)) == group && !(state.lights[i] == lights_[i]))
         return true;
@@ -177,21 +186,20 @@ class Vct final : public Method {
     ConeParams cones = params_.cones;
     cones.cones = params_.bounce_cones;
     const ConeLight gather(*pyramid_, cones);
-    const auto add = [&](const Lit& lit, std::vector<vec3>& sum) {
+    std::vector<vec3> gathered(gather_.points.size());
+    const auto add = [&](const Lit& lit, const std::vector<std::uint32_t>& point, std::vector<vec3>& sum) {
       sum.resize(lit.irradiance.size());
-      parallel_for(
-          sum.size(), 64,
-          [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-              const Patch& patch = lit.set.patches[i];
-              sum[i] = lit.irradiance[i] + gather.irradiance({patch.position, patch.normal});
-            }
-          },
-          control);
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = lit.irradiance[i] + gathered[point[i]];
     };
     std::vector<vec3> still, moving;
     for (int b = 1; b < params_.bounces; ++b) {
-      add(still_, still), add(moving_, moving);
+      parallel_for(
+          gathered.size(), 32,
+          [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) gathered[i] = gather.irradiance(gather_.points[i]);
+          },
+          control);
+      add(still_, gather_.of_still, still), add(moving_, gather_.of_moving, moving);
       fill(still, moving);
     }
   }
@@ -201,10 +209,12 @@ class Vct final : public Method {
   VoxelGrid grid_;
   Lit still_, moving_;
   std::vector<VoxelPatches> voxels_;
+  GatherPoints gather_;
   std::optional<Pyramid> pyramid_;
   std::optional<ConeLight> light_;
   std::vector<mat4> poses_;  ///< of the last update; empty: none yet
   std::vector<scene::LightState> lights_;
+  float environment_rotation_ = 0;
   std::size_t points_relit_ = 0;
 };
 
@@ -236,7 +246,7 @@ MethodEntry vct_entry() {
         true,
         {"8", "16", "32", "64", "128", "256", "512"}},
        {"storage", 0, 0, 1, "of the voxels: octree of bricks, or whole arrays", true, {"sparse", "dense"}},
-       {"bounces", 3, 1, 32, "of indirect light; 1: what directly lit surfaces scatter", true},
+       {"bounces", 6, 1, 32, "of indirect light; 1: what directly lit surfaces scatter", true},
        {"cones", 16, 3, 4096, "over the hemisphere of a point that is lit", true},
        {"bounce_cones", 10, 3, 4096, "over the hemisphere of a voxel, from the second bounce on", true},
        {"offset", 1, 0, 16, "of a cone's start from the surface, in voxels"},

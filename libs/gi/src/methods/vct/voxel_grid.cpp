@@ -12,7 +12,10 @@ int VoxelGrid::levels() const {
 }
 
 Cell VoxelGrid::level_size(int level) const {
-  const auto coarse = [&](int n) { return std::max((n + (1 << level) - 1) >> level, 1); };
+  const auto coarse = [&](int n) {
+    const int edge = brick << level;
+    return (n + edge - 1) / edge * brick;
+  };
   return {coarse(size.x), coarse(size.y), coarse(size.z)};
 }
 

@@ -16,14 +16,16 @@ struct ConeParams {
   float step = 0.5f;  ///< in voxels of the level that is read
 };
 
-/// Light that comes back along a cone from `origin` (grid units) on.
+/// What a cone from `origin` (grid units) on sees: w is the share of it that surfaces cover, xyz their
+/// radiance times that share.
 ///
 /// At distance t the cone has the radius r = t·tangent. The voxels read there have the edge s = max(r, 1),
 /// between two levels by linear interpolation: a voxel and the trilinear kernel together have the variance
-/// s²/12 + s²/6 along each axis, and a disk of radius r has r²/4. Depth per metre along direction d is Σ_i
-/// |d_i| τ_i/s over the axes, τ_i of the sides that face the cone: a plane then stops the same share of light
-/// at any angle, since the way through it grows as 1/|d_i|.
-vec3 trace_cone(const Pyramid& voxels, const vec3& origin, const vec3& direction, float tangent,
+/// s²/12 + s²/6 along each axis, and a disk of radius r has r²/4. A step of length l along direction d meets
+/// Σ_i |d_i| a_i l/s, a_i being the opacity of the side that faces the cone along axis i; over the whole way
+/// through a plane this sums to 1 at any angle. As long as a surface is being crossed, s stays as it is, for
+/// the same plane lies elsewhere in another level and would be met less or more than once.
+vec4 trace_cone(const Pyramid& voxels, const vec3& origin, const vec3& direction, float tangent,
                 const ConeParams& params);
 
 /// Reads the pyramid at every question; both may change between questions.

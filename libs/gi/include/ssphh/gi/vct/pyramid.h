@@ -11,6 +11,12 @@ namespace ssphh::gi::vct {
 
 enum class Storage { sparse, dense };
 
+/// Where the 4³ voxels of a brick lie: `first` and from there on `row` voxels further per y, `layer` per z.
+struct BrickView {
+  const Voxel* first = nullptr;  ///< null: the brick is not stored
+  int row = 0, layer = 0;
+};
+
 /// Sparse: a node of the octree is a brick of 4³ voxels of one level and has up to eight children, the bricks
 /// of the next finer level in its octants; bricks without surface do not exist (Crassin et al., Interactive
 /// Indirect Illumination Using Voxel Cone Tracing, 2011, §4). Dense: every voxel of every level.
@@ -31,11 +37,13 @@ class Pyramid {
     return const_cast<Voxel*>(static_cast<const Pyramid*>(this)->find(level, cell));
   }
 
+  /// `brick` in bricks of the level.
+  BrickView view(int level, const Cell& brick) const;
+
   /// Fills the coarser levels from level 0. A voxel shows to a side the mean of its four columns along that
   /// axis, and a column what its front voxel shows and lets through of the one behind.
   void filter();
 
-  void clear();
   /// Bricks of level 0, of all levels; dense: as many as would fill the arrays.
   std::size_t bricks(int level) const;
   std::size_t bytes() const;

@@ -19,6 +19,7 @@ struct Cell {
 /// into one brick.
 struct VoxelGrid {
   static constexpr int brick = 4;  ///< voxels along the edge of a brick
+  static constexpr int most_levels = 9;
 
   vec3 origin{0};          ///< [m]
   float voxel = 1;         ///< [m]
@@ -26,6 +27,7 @@ struct VoxelGrid {
   Cell size{brick, brick, brick};  ///< of level 0, each a multiple of the brick
 
   int levels() const;
+  /// In voxels of the level, whole bricks.
   Cell level_size(int level) const;
   /// World to units of level 0's voxels, 0 at the grid's corner.
   vec3 to_grid(const vec3& p) const { return (p - origin) / voxel; }
