@@ -52,4 +52,14 @@ FrameBlock frame_block(const scene::CameraPose& camera, const FrameSettings& set
   return b;
 }
 
+mat4 clip_matrix(const FrameBlock& b) {
+  const vec3 eye(b.camera_position), right(b.camera_right), up(b.camera_up), forward(b.camera_forward);
+  const bool orthographic = b.camera_position.w != 0;
+  const auto along = [&](const vec3& axis) { return vec4(axis, -glm::dot(axis, eye)); };
+  const vec4 x = along(right / glm::dot(right, right)), y = along(up / glm::dot(up, up)), z = along(forward);
+  const vec4 one(0, 0, 0, 1);
+  return glm::transpose(orthographic ? mat4(x, y, one - z / b.camera_forward.w, one)
+                                     : mat4(x, y, b.camera_forward.w * one, z));
+}
+
 }  // namespace ssphh::realtime

@@ -83,6 +83,13 @@ class Renderer {
   /// The last frame as scene-linear radiance, before exposure and tone curve; row 0 on top.
   image::Image read_back() const;
 
+  /// What drew the last frame's surfaces, for those who draw more into it: OpenGL's name of the depth at
+  /// every sample (the target's size times supersample; 32-bit float with stencil, 1 near, 0 far away; row 0
+  /// at the bottom), and world to clip space with z in 0..1. The texture is another after a frame of another
+  /// size.
+  unsigned depth_texture() const;
+  mat4 view_projection() const;
+
   /// Bytes of OpenGL memory that this renderer asked for.
   std::size_t memory_bytes() const;
   /// Compiles every variant of every shader and tells what the compiler said beside errors; empty: nothing.
