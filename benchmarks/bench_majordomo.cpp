@@ -1,26 +1,25 @@
 /// Requests per second and latency through the broker, beside a bare zmq_proxy of the same topology and, when
 /// $SSPHH_MDBROKER names the guide's mdbroker (it listens on $SSPHH_MDBROKER_ENDPOINT, default
-/// tcp://127.0.0.1:5555), that one; and what a long queue costs. Peers are the same raw 7/MDP frames for all.
+/// tcp://127.0.0.1:5555), that one. Peers are the same raw 7/MDP frames for all.
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <map>
-#include <memory>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <benchmark/benchmark.h>
-#include <malloc.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <zmq.hpp>
 
 #include <ssphh/majordomo/broker.h>
-#include <ssphh/majordomo/broker_core.h>
 
 namespace {
 
@@ -56,80 +55,74 @@ zmq::socket_t dealer(zmq::context_t& context, const std::string& endpoint, int t
   return socket;
 }
 
-/// What clients and workers connect to.
-struct Middle {
-  virtual ~Middle() = default;
+/// What clients and workers connect to: a process of its own, whose CPU time tells the work of a request also
+/// where other programs disturb the clock.
+class Middle {
+ public:
+  explicit Middle(Kind kind) : mdp(kind != bare) {
+    int ends[2];
+    if (::pipe(ends) != 0) std::abort();
+    pid_ = ::fork();
+    if (pid_ == 0) {
+      if (kind == ours) serve_broker(ends[1]);
+      if (kind == bare) serve_proxy(ends[1]);
+      const char* path = std::getenv("SSPHH_MDBROKER");
+      ::execl(path, path, nullptr);
+      ::_exit(127);
+    }
+    if (kind == guide) {
+      const char* endpoint = std::getenv("SSPHH_MDBROKER_ENDPOINT");
+      front = back = endpoint ? endpoint : "tcp://127.0.0.1:5555";
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    } else {
+      char text[200] = {};
+      if (::read(ends[0], text, sizeof text - 1) < 1) std::abort();
+      front = text, back = std::strchr(text, ' ') + 1;
+      front.resize(front.find(' '));
+    }
+    ::close(ends[0]), ::close(ends[1]);
+  }
+  ~Middle() {
+    if (pid_ > 0) cpu_seconds();
+  }
+  /// Of the whole process; ends it.
+  double cpu_seconds() {
+    ::kill(std::exchange(pid_, -1), SIGKILL);
+    rusage usage{};
+    ::wait4(-1, nullptr, 0, &usage);
+    const auto seconds = [](const timeval& t) {
+      return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  }
+
+  const bool mdp;
   std::string front, back;
-  bool mdp = true;
-};
 
-struct OurBroker : Middle {
-  OurBroker() : broker({.bind = "tcp://127.0.0.1:0", .on_event = [](const BrokerEvent&) {}}) {
-    front = back = broker.endpoint();
-    thread = std::thread([this] { broker.run(); });
+ private:
+  static void tell(int end, const std::string& text) {
+    if (::write(end, text.c_str(), text.size() + 1) < 0) ::_exit(1);
   }
-  ~OurBroker() override {
-    broker.stop();
-    broker.stop();
-    thread.join();
+  [[noreturn]] static void serve_broker(int end) {
+    Broker broker({.bind = "tcp://127.0.0.1:0", .on_event = [](const BrokerEvent&) {}});
+    tell(end, broker.endpoint() + " " + broker.endpoint());
+    broker.run();
+    ::_exit(0);
   }
-  Broker broker;
-  std::thread thread;
-};
-
-struct Proxy : Middle {
-  Proxy()
-      : router(context, zmq::socket_type::router),
-        out(context, zmq::socket_type::dealer),
-        control(context, zmq::socket_type::pair),
-        peer(context, zmq::socket_type::pair) {
+  [[noreturn]] static void serve_proxy(int end) {
+    zmq::context_t context;
+    zmq::socket_t router(context, zmq::socket_type::router), out(context, zmq::socket_type::dealer);
     for (zmq::socket_t* socket : {&router, &out}) {
-      socket->set(zmq::sockopt::linger, 0);
       socket->set(zmq::sockopt::sndhwm, 0);
       socket->set(zmq::sockopt::rcvhwm, 0);
       socket->bind("tcp://127.0.0.1:*");
     }
-    control.bind("inproc://control");
-    peer.connect("inproc://control");
-    front = router.get(zmq::sockopt::last_endpoint);
-    back = out.get(zmq::sockopt::last_endpoint);
-    mdp = false;
-    thread = std::thread(
-        [this] { zmq_proxy_steerable(router.handle(), out.handle(), nullptr, control.handle()); });
+    tell(end, router.get(zmq::sockopt::last_endpoint) + " " + out.get(zmq::sockopt::last_endpoint));
+    zmq::proxy(router, out);
+    ::_exit(0);
   }
-  ~Proxy() override {
-    peer.send(zmq::str_buffer("TERMINATE"), zmq::send_flags::none);
-    thread.join();
-  }
-  zmq::context_t context;
-  zmq::socket_t router, out, control, peer;
-  std::thread thread;
+  pid_t pid_;
 };
-
-struct GuideBroker : Middle {
-  GuideBroker() {
-    const char* endpoint = std::getenv("SSPHH_MDBROKER_ENDPOINT");
-    front = back = endpoint ? endpoint : "tcp://127.0.0.1:5555";
-    const char* path = std::getenv("SSPHH_MDBROKER");
-    pid = ::fork();
-    if (pid == 0) {
-      ::execl(path, path, nullptr);
-      ::_exit(127);
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
-  }
-  ~GuideBroker() override {
-    ::kill(pid, SIGKILL);
-    ::waitpid(pid, nullptr, 0);
-  }
-  pid_t pid;
-};
-
-std::unique_ptr<Middle> make(Kind kind) {
-  if (kind == ours) return std::make_unique<OurBroker>();
-  if (kind == bare) return std::make_unique<Proxy>();
-  return std::make_unique<GuideBroker>();
-}
 
 /// Echoes until it is asked to end by a body "end".
 void work(zmq::context_t& context, const Middle& middle) {
@@ -160,12 +153,12 @@ void round_trips(benchmark::State& state) {
     return state.SkipWithError("SSPHH_MDBROKER is not set");
   state.SetLabel(kind_names[kind]);
   const std::size_t count = window == 1 ? 2000 : 10'000;
-  const auto middle = make(kind);
+  Middle middle(kind);
   zmq::context_t context;
   std::vector<std::thread> threads;
-  for (std::size_t i = 0; i < workers; ++i) threads.emplace_back([&] { work(context, *middle); });
+  for (std::size_t i = 0; i < workers; ++i) threads.emplace_back([&] { work(context, middle); });
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  zmq::socket_t client = dealer(context, middle->front, 10'000);
+  zmq::socket_t client = dealer(context, middle.front, 10'000);
   // The same four frames through the proxy, which looks at none of them.
   const auto request = [&](const std::string& content) { send(client, {"", "MDPC01", "echo", content}); };
   std::vector<double> latencies;
@@ -192,64 +185,18 @@ void round_trips(benchmark::State& state) {
   }
   for (std::size_t i = 0; i < workers; ++i) request("end");
   for (std::thread& thread : threads) thread.join();
+  const double cpu = middle.cpu_seconds();
   std::sort(latencies.begin(), latencies.end());
   if (latencies.empty()) return;
   state.counters["requests_per_s"] =
       benchmark::Counter(static_cast<double>(count * state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["broker_cpu_us"] = 1e6 * cpu / static_cast<double>(count * state.iterations());
   state.counters["p50_us"] = latencies[latencies.size() / 2];
   state.counters["p99_us"] = latencies[latencies.size() * 99 / 100];
 }
 BENCHMARK(round_trips)
     ->ArgNames({"broker", "window", "bytes", "workers"})
     ->ArgsProduct({{ours, bare, guide}, {1, 200}, {100, 4096}, {1, 16}})
-    ->UseManualTime()
-    ->Iterations(3)
-    ->Unit(benchmark::kMillisecond);
-
-/// The state machine alone: `queued` requests of ten clients wait, then 1000 workers come and answer them
-/// all.
-void long_queue(benchmark::State& state) {
-  const auto queued = static_cast<int>(state.range(0));
-  constexpr int workers = 1000;
-  double bytes = 0;
-  for (auto _ : state) {
-    const auto before = mallinfo2().uordblks;
-    std::uint64_t n = 0;
-    BrokerCore core({}, {}, [&n] {
-      ++n;
-      return std::array<std::uint64_t, 2>{n * 0x9e3779b97f4a7c15ull, n};
-    });
-    Millis now = 0;
-    const auto start = Clock::now();
-    for (int i = 0; i < queued; ++i) {
-      now = i / 100;
-      core.receive(now, "client" + std::to_string(i % 10), {"", "MDPC01", "echo", std::string(100, 'x')});
-    }
-    bytes = static_cast<double>(mallinfo2().uordblks - before) / queued;
-    for (int i = 0; i < workers; ++i)
-      core.receive(now, "w" + std::to_string(i), {"", "MDPW01", "\x01", "echo"});
-    int answered = 0;
-    while (answered < queued) {
-      const BrokerOutputs out = core.take();
-      for (const Outgoing& message : out.messages) {
-        if (message.head.at(1) == "MDPC01") ++answered;
-        if (message.head.at(1) == "MDPW01" && message.head.at(2) == "\x02")
-          core.receive(now, message.peer, {"", "MDPW01", "\x03", message.head.at(3), "", "reply"});
-      }
-      ++now;
-      if (core.next_deadline() <= now) core.tick(now);
-    }
-    state.SetIterationTime(std::chrono::duration<double>(Clock::now() - start).count());
-  }
-  state.counters["requests_per_s"] = benchmark::Counter(
-      static_cast<double>(queued) * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
-  state.counters["bytes_per_request"] = bytes;
-}
-BENCHMARK(long_queue)
-    ->ArgName("queued")
-    ->Arg(1000)
-    ->Arg(10'000)
-    ->Arg(100'000)
     ->UseManualTime()
     ->Iterations(3)
     ->Unit(benchmark::kMillisecond);

@@ -1,12 +1,12 @@
 # ssphh_module(<name> [DEPENDS <module>...] [LINK_PUBLIC <target>...] [LINK_PRIVATE <target>...] [TEST_LINK <target>...])
 #
-# Makes the static library ssphh::<name> from src/*.cpp and src/*/*.cpp with its own include directory, and
+# Makes the static library ssphh::<name> from src/, two folders deep, with its own include directory, and
 # test_<name> from tests/*.cpp. DEPENDS is exactly the list of modules it may include. Third-party targets go to
 # LINK_PRIVATE unless their types stand in public headers.
 function(ssphh_module name)
   cmake_parse_arguments(ARG "" "" "DEPENDS;LINK_PUBLIC;LINK_PRIVATE;TEST_LINK" ${ARGN})
   set(target ssphh_${name})
-  file(GLOB sources CONFIGURE_DEPENDS src/*.cpp src/*/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS src/*.cpp src/*/*.cpp src/*/*/*.cpp)
   add_library(${target} STATIC ${sources})
   add_library(ssphh::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})

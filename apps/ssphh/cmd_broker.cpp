@@ -24,6 +24,10 @@ extern "C" void stop_broker(int) {
   running->stop();
 }
 
+extern "C" void reload_broker(int) {
+  running->reload();
+}
+
 void serve(Context& context, BrokerCommand& options) {
   majordomo::BrokerOptions broker_options = options.broker;
   if (!options.keys.empty()) broker_options.security = majordomo::read_broker_security(options.keys);
@@ -35,8 +39,8 @@ void serve(Context& context, BrokerCommand& options) {
   const bool json = context.json;
   const LogLevel least = options.verbose ? LogLevel::debug : LogLevel::info;
   set_log_level(least);
-  broker_options.on_event = [json, least](const majordomo::BrokerEvent& event) {
-    if (event.level < least) return;
+  broker_options.least_event = least;
+  broker_options.on_event = [json](const majordomo::BrokerEvent& event) {
     if (json) {
       std::cout << event.json() << std::endl;
     } else {
@@ -47,6 +51,7 @@ void serve(Context& context, BrokerCommand& options) {
   running = &broker;
   std::signal(SIGINT, stop_broker);
   std::signal(SIGTERM, stop_broker);
+  std::signal(SIGHUP, reload_broker);
   majordomo::BrokerEvent ready{LogLevel::info, "broker-ready", {{"endpoint", broker.endpoint()}}};
   if (!broker.metrics_endpoint().empty()) ready.fields.emplace_back("metrics", broker.metrics_endpoint());
   // The one line on stdout that scripts wait for.
@@ -55,6 +60,7 @@ void serve(Context& context, BrokerCommand& options) {
   broker.run();
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_IGN);
+  std::signal(SIGHUP, SIG_IGN);
 }
 
 }  // namespace
@@ -100,6 +106,7 @@ void add_broker_command(CLI::App& app, Context& context) {
   command->footer(
       "Prints the endpoint on stdout and events on stderr (with --json: all as JSON lines on stdout).\n"
       "SIGTERM or Ctrl-C: running requests finish, then it ends; a second one ends it at once.\n"
+      "SIGHUP: allow.txt is read again, as it is by itself within a second of a change.\n"
       "docs/protocol.md tells frames, timers, limits and events.");
 }
 

@@ -8,6 +8,7 @@
 #include <ssphh/metrics/compare.h>
 #include <ssphh/metrics/flip.h>
 #include <ssphh/metrics/heat_map.h>
+#include <ssphh/metrics/mask.h>
 #include <ssphh/metrics/perceptual.h>
 
 #include "command.h"
@@ -19,7 +20,7 @@ using image::Image;
 using nlohmann::ordered_json;
 
 struct CompareOptions {
-  std::string reference, test, output, map = "absolute";
+  std::string reference, test, output, mask, map = "absolute";
   int block = 16;
   float scale = 0, exposure = 0;
   double pixels_per_degree = metrics::FlipParams{}.pixels_per_degree;
@@ -161,13 +162,20 @@ void compare(Context& context, const CompareOptions& options) {
       throw Error(options.output, "an error map is written as .png (colours) or .exr (numbers)");
     }
   }
-  const Image reference = read_exposed(options.reference, options.exposure);
+  Image reference = read_exposed(options.reference, options.exposure);
   const Image test = read_exposed(options.test, options.exposure);
   if (reference.width != test.width || reference.height != test.height) {
     throw Error(options.test, fmt::format("is {} x {} pixels, but {} is {} x {}", test.width, test.height,
                                           options.reference, reference.width, reference.height));
   }
-  const Errors errors = measure(options, reference, test);
+  std::uint64_t outside = 0;
+  if (!options.mask.empty()) {
+    const Image mask = image::read_image(options.mask);
+    outside = metrics::pixels_outside(mask, reference.width, reference.height);
+    reference = metrics::masked(reference, mask);
+  }
+  Errors errors = measure(options, reference, test);
+  errors.linear.nonfinite_pixels -= outside;
   ordered_json object = to_json(errors);
   std::string text = to_text(errors);
   if (!options.output.empty()) {
@@ -195,6 +203,8 @@ void add_compare_command(CLI::App& app, Context& context) {
                   [&context, options] { compare(context, *options); });
   command->add_option("REF", options->reference, "Reference image: .exr .hdr .png .jpg")->required();
   command->add_option("TEST", options->test, "Image of the same size")->required();
+  command->add_option("--mask", options->mask,
+                      "Picture of any size that is white where to measure; everything else is left out");
   command->add_option("--block", options->block, "Side of the blocks of the pixelated map, in pixels")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();

@@ -3,43 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <ssphh/majordomo/client.h>
 #include <ssphh/majordomo/security.h>
 
 #include "command.h"
-#include "farm_options.h"
+#include "farm_ask.h"
 
 namespace ssphh::app {
 namespace {
 
 using nlohmann::ordered_json;
-
-majordomo::Client connect(const BrokerChoice& choice) {
-  const farm::BrokerAddress address = broker_address(choice);
-  majordomo::ClientOptions options;
-  options.endpoint = address.endpoint;
-  options.security = address.security;
-  return majordomo::Client(options);
-}
-
-/// The second frame of an mmi service's answer.
-std::string ask(majordomo::Client& client, const std::string& service, const std::string& body,
-                const Control& control) {
-  majordomo::RequestOptions request;
-  request.deadline = 5000;
-  const majordomo::Frames reply = client.call(service, {body}, request, control);
-  if (reply.empty() || reply[0] != "200") {
-    throw Error(service, reply.empty() || reply[0] != "403" ? "the broker does not know it"
-                                                            : "this key has no admin role");
-  }
-  return reply.size() > 1 ? reply[1] : "";
-}
-
-ordered_json ask_json(majordomo::Client& client, const std::string& service, const Control& control) {
-  ordered_json object = ordered_json::parse(ask(client, service, "", control), nullptr, false);
-  if (!object.is_object()) throw Error(service, "the broker's answer is no JSON object");
-  return object;
-}
 
 struct Status {
   ordered_json stats, workers;
@@ -129,7 +101,7 @@ void keygen(const std::string& folder, const std::string& name, const std::strin
 }  // namespace
 
 void add_farm_commands(CLI::App& app, Context& context) {
-  CLI::App* group = add_group(app, "farm", "Look after a farm: status, top, drain, keygen");
+  CLI::App* group = add_group(app, "farm", "Look after a farm: status, top, drain, parked jobs, keys");
   const auto choice = std::make_shared<BrokerChoice>();
   const auto with_broker = [&](CLI::App* command, const std::string& key) {
     add_broker_options(*command, *choice, key, "Broker")->required();
@@ -160,6 +132,8 @@ void add_farm_commands(CLI::App& app, Context& context) {
                   }),
       "admin");
   drain->add_option("--workers", *prefix, "Only those whose name begins so");
+
+  add_farm_parked_commands(*group, context);
 
   const auto folder = std::make_shared<std::string>("ssphh-keys");
   const auto name = std::make_shared<std::string>(), role = std::make_shared<std::string>();

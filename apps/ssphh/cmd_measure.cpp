@@ -1,8 +1,11 @@
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
 
+#include <ssphh/core/parallel.h>
 #include <ssphh/gi/leak.h>
 #include <ssphh/gi/lookup_error.h>
 #include <ssphh/gi/surface_points.h>
@@ -10,6 +13,7 @@
 #include <ssphh/trace/transport_scene.h>
 
 #include "command.h"
+#include "live_method.h"
 #include "probe_options.h"
 #include "scene_options.h"
 
@@ -18,7 +22,7 @@ namespace {
 
 struct MeasureOptions {
   SceneOptions scene;
-  std::vector<std::string> probes, weights;
+  std::vector<std::string> probes, methods, weights;
   std::vector<float> box;
   float clearance = 0.05f;
   bool open = false, force = false;
@@ -43,7 +47,89 @@ std::vector<scene::SurfacePoint> find_points(const MeasureOptions& o, const scen
   return points;
 }
 
+/// A way to look light up, and what its line and its JSON object say beside the errors.
+struct Candidate {
+  std::string name, detail;
+  std::shared_ptr<const scene::IndirectLight> light;
+  nlohmann::ordered_json json;
+  std::shared_ptr<LiveMethod> live = nullptr;  ///< null for probe files
+};
+
+std::vector<Candidate> probe_candidates(const MeasureOptions& o, const std::vector<gi::ProbeSet>& sets,
+                                        const trace::PathTracer& tracer) {
+  std::vector<std::string> weights = o.weights;
+  if (weights.empty()) weights.emplace_back();
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    for (const std::string& name : weights) {
+      gi::LookupParams params;
+      params.weights = weight_params(o.probes[i], sets[i], name);
+      const std::string used = gi::to_string(params.weights.chosen(sets[i].fitted.has_value()));
+      candidates.push_back({o.probes[i],
+                            used,
+                            std::make_shared<gi::IrradianceLookup>(sets[i], tracer, params),
+                            {{"probes", o.probes[i]}, {"weights", used}}});
+    }
+  }
+  return candidates;
+}
+
+/// "NAME,PARAMETER=VALUE,...": the method stays alive as long as its light.
+Candidate method_candidate(const std::string& spec, const scene::Scene& scene, float time,
+                           const Control& control) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at <= spec.size();) {
+    const std::size_t comma = std::min(spec.find(',', at), spec.size());
+    words.push_back(spec.substr(at, comma - at));
+    at = comma + 1;
+  }
+  const std::string name = words.front();
+  words.erase(words.begin());
+  auto live = std::make_shared<LiveMethod>(name, words, scene, control);
+  live->update(gi::frame_at(live->source(), time), control);
+  nlohmann::ordered_json json = {{"method", spec}};
+  json.update(live->json());
+  const scene::IndirectLight* light = &live->method().light();
+  return {spec, "", {live, light}, std::move(json), live};
+}
+
+/// Microseconds of all threads' time together for one lookup, from batches of at least 50 ms.
+double lookup_microseconds(const scene::IndirectLight& light, std::span<const scene::SurfacePoint> points,
+                           const Control& control) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  double seconds = 0;
+  std::size_t lookups = 0;
+  do {
+    gi::look_up(light, points, control);
+    lookups += points.size();
+    seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  } while (seconds < 0.05);
+  return 1e6 * seconds * thread_count() / static_cast<double>(lookups);
+}
+
+/// Median milliseconds of an update for which every lamp went a centimetre aside (or, without lamps, all
+/// light changed its strength). Leaves the method in another state.
+double frame_milliseconds(LiveMethod& live, float time, const Control& control) {
+  constexpr int frames = 7;
+  std::vector<double> ms;
+  for (int f = 0; f < frames; ++f) {
+    gi::FrameState state = gi::frame_at(live.source(), time);
+    const float step = f % 2 == 0 ? 0.01f : 0;
+    for (scene::LightState& light : state.lights) light.world[3].x += step;
+    if (state.lights.empty()) {
+      for (vec3& scale : state.group_scales) scale = vec3(1 + step);
+    }
+    live.update(state, control);
+    ms.push_back(1e3 * live.update_seconds());
+  }
+  std::nth_element(ms.begin(), ms.begin() + frames / 2, ms.end());
+  return ms[frames / 2];
+}
+
 void measure(Context& context, MeasureOptions& o) {
+  if (o.probes.empty() && o.methods.empty())
+    throw Error("measure", "there is nothing to compare", "give --probes FILE or --method NAME");
   const scene::Scene scene = load_scene(o.scene);
   const trace::PathTracer tracer(scene, o.scene.time);
   std::vector<gi::ProbeSet> sets;
@@ -59,37 +145,38 @@ void measure(Context& context, MeasureOptions& o) {
 
   nlohmann::ordered_json results = nlohmann::ordered_json::array();
   std::string text = fmt::format(
-      "{} points of {} paths, {} of them dark; mean {:.5g} W/m2\n{:<24}{:<11}{:>8}{:>11}{:>9}{:>10}{:>9}",
-      points.size(), o.params.path.spp, truth.dark, truth.mean, "probes", "weights", "ratio", "mean error",
-      "95 %", "relMSE", "leak");
+      "{} points of {} paths, {} of them dark; mean {:.5g} "
+      "W/m2\n{:<24}{:<11}{:>8}{:>11}{:>9}{:>10}{:>9}{:>9}",
+      points.size(), o.params.path.spp, truth.dark, truth.mean, "light", "weights", "ratio", "mean error",
+      "95 %", "relMSE", "leak", "lookup");
   double noise = 0;
-  if (o.weights.empty()) o.weights.emplace_back();
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    for (const std::string& weights : o.weights) {
-      gi::LookupParams lookup_params;
-      lookup_params.weights = weight_params(o.probes[i], sets[i], weights);
-      const gi::IrradianceLookup lookup(sets[i], tracer, lookup_params);
-      const std::string used = gi::to_string(lookup_params.weights.chosen(sets[i].fitted.has_value()));
-      const std::vector<vec3> looked_up = gi::look_up(lookup, points, context.control);
-      const gi::LookupError e = gi::lookup_error(looked_up, truth.estimates);
-      const double leak = gi::leak_ratio(looked_up, truth);
-      noise = e.noise;
-      const auto number = [](double value) {
-        return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-      };
-      results.push_back({{"probes", o.probes[i]},
-                         {"weights", used},
-                         {"ratio", number(e.ratio)},
-                         {"mean_error", e.mean_error},
-                         {"mean_relative", e.mean_relative},
-                         {"median_relative", e.median_relative},
-                         {"p95_relative", e.p95_relative},
-                         {"relmse", e.relmse},
-                         {"leak_ratio", leak}});
-      text += fmt::format("\n{:<24}{:<11}{:>8.3f}{:>9.1f} %{:>7.1f} %{:>10.4f}{:>7.2f} %", o.probes[i], used,
-                          e.ratio, 100 * e.mean_error, 100 * e.p95_relative, e.relmse, 100 * leak);
-    }
-  }
+  const auto compare = [&](Candidate candidate) {
+    const std::vector<vec3> looked_up = gi::look_up(*candidate.light, points, context.control);
+    const double lookup_us = lookup_microseconds(*candidate.light, points, context.control);
+    const gi::LookupError e = gi::lookup_error(looked_up, truth.estimates);
+    const double leak = gi::leak_ratio(looked_up, truth);
+    noise = e.noise;
+    const auto number = [](double value) {
+      return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+    };
+    candidate.json.update({{"ratio", number(e.ratio)},
+                           {"mean_error", e.mean_error},
+                           {"mean_relative", e.mean_relative},
+                           {"median_relative", e.median_relative},
+                           {"p95_relative", e.p95_relative},
+                           {"relmse", e.relmse},
+                           {"leak_ratio", leak},
+                           {"lookup_us", lookup_us}});
+    if (candidate.live)
+      candidate.json["frame_ms"] = frame_milliseconds(*candidate.live, o.scene.time, context.control);
+    text += fmt::format("\n{:<24}{:<11}{:>8.3f}{:>9.1f} %{:>7.1f} %{:>10.4f}{:>7.2f} %{:>6.3g} us",
+                        candidate.name, candidate.detail, e.ratio, 100 * e.mean_error, 100 * e.p95_relative,
+                        e.relmse, 100 * leak, lookup_us);
+    results.push_back(std::move(candidate.json));
+  };
+  for (Candidate& candidate : probe_candidates(o, sets, tracer)) compare(std::move(candidate));
+  for (const std::string& spec : o.methods)
+    compare(method_candidate(spec, scene, o.scene.time, context.control));
   context.result({{"points", points.size()},
                   {"dark_points", truth.dark},
                   {"mean_truth", truth.mean},
@@ -107,12 +194,17 @@ void add_measure_command(CLI::App& app, Context& context) {
   auto options = std::make_shared<MeasureOptions>();
   MeasureOptions& o = *options;
   CLI::App* command =
-      add_command(app, context, "measure", "Compare the light looked up from probes with path tracing",
+      add_command(app, context, "measure",
+                  "Compare light looked up from probes, or found by any method, with path tracing",
                   [&context, options] { measure(context, *options); });
   add_scene_options(*command, o.scene);
   command->add_option("--probes", o.probes, "Probe files; all are compared with the same truth")
-      ->check(probe_file_name())
-      ->required();
+      ->check(probe_file_name());
+  command
+      ->add_option("--method", o.methods,
+                   "Method with its parameters, NAME[,PARAMETER=VALUE ...], made here; may be repeated; "
+                   "`ssphh methods` lists them")
+      ->allow_extra_args(false);
   command
       ->add_option(
           "--weights", o.weights,

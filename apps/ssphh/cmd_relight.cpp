@@ -42,7 +42,7 @@ struct RelightOptions {
 /// A frame whose light is kept for what comes after the timed run.
 struct KeptFrame {
   int frame;
-  FrameState state;
+  gi::FrameState state;
   std::vector<sh::RadianceSh> reflected;
 };
 
@@ -112,7 +112,7 @@ class Relighting {
     ProgressStage progress(context_.control, "relighting", static_cast<std::uint64_t>(o_.frames), "frames");
     for (int f = 0; f < o_.frames; ++f) {
       context_.control.check();
-      FrameState state = animation_.frame(share(f));
+      gi::FrameState state = animation_.frame(share(f));
       animation_.apply(state, session);
       run_.updates.push_back(session.update());
       if (is_due(f, o_.truth) || (!o_.output.empty() && is_due(f, o_.pictures)))
@@ -122,14 +122,15 @@ class Relighting {
   }
 
   void save(const gi::RelightSession& session) {
-    const FrameState state = animation_.frame(share(o_.frames - 1));
+    const gi::FrameState state = animation_.frame(share(o_.frames - 1));
     gi::GeneratorInfo generator;
     generator.op = o_.params.op;
     generator.directions = session.network().params().directions;
     generator.surfel_size = session.network().params().surfel_size;
     generator.link_rays = session.network().params().link_rays;
     generator.scene = scene_.name;
-    generator.scene_hash = scene::light_hash(scene::with_lights(scene_, state.time, state.lights));
+    generator.scene_hash = scene::light_hash(
+        scene::with_lights(scene_, state.time, state.lights, {}, state.environment_rotation));
     generator.time = state.time;
     gi::write_probe_file(bake_of(session, source_, state.group_scales, generator, context_.control), o_.save);
     saved_ = true;
@@ -146,10 +147,10 @@ class Relighting {
     std::optional<gi::FittedPoints> fitted;
     if (params.weights.method == gi::WeightMethod::fitted) fitted = fit(session, quiet);
     for (const KeptFrame& kept : kept_) {
-      const scene::Scene lit =
-          scene::with_lights(scene_, kept.state.time, kept.state.lights, kept.state.group_scales);
+      const scene::Scene lit = scene::with_lights(scene_, kept.state.time, kept.state.lights,
+                                                  kept.state.group_scales, kept.state.environment_rotation);
       const trace::PathTracer tracer(lit, kept.state.time);
-      gi::ProbeSet set = lookup_set(session.places(), kept.reflected);
+      gi::ProbeSet set = gi::lookup_set(session.places(), kept.reflected);
       set.fitted = fitted;
       const gi::IrradianceLookup lookup(set, tracer, params);
       if (is_due(kept.frame, o_.truth)) measure(session, kept, tracer, lookup, quiet);

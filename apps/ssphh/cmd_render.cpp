@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -13,6 +15,7 @@
 #include <ssphh/trace/path_tracer.h>
 
 #include "command.h"
+#include "live_method.h"
 #include "probe_options.h"
 #include "render_gl.h"
 #include "render_options.h"
@@ -24,6 +27,22 @@ const std::vector<std::string> aov_names = {"direct", "indirect", "albedo", "nor
 
 std::filesystem::path checkpoint_path(const RenderOptions& o) {
   return o.output + ".state";
+}
+
+// A SPHL by its name, or "X,Y,Z".
+vec3 place_of(const scene::Scene& scene, const std::string& text, float time) {
+  std::string names;
+  for (const scene::SphlPlace& sphl : scene::sphl_places(scene, time)) {
+    if (sphl.name == text) return sphl.position;
+    names += (names.empty() ? "" : ", ") + sphl.name;
+  }
+  vec3 place;
+  int end = 0;
+  const int read = std::sscanf(text.c_str(), "%f,%f,%f%n", &place.x, &place.y, &place.z, &end);
+  if (read == 3 && end == static_cast<int>(text.size()) && std::isfinite(place.x + place.y + place.z))
+    return place;
+  throw Error("--at " + text, "is neither a SPHL of the scene nor X,Y,Z",
+              names.empty() ? "the scene has no SPHLs" : "its SPHLs: " + names);
 }
 
 trace::RenderParams render_params(const RenderOptions& o, const Context& context, const scene::Scene& scene) {
@@ -39,6 +58,13 @@ trace::RenderParams render_params(const RenderOptions& o, const Context& context
     params.projection = trace::Projection::cube_strip;
   } else if (params.camera.camera.orthographic) {
     params.projection = trace::Projection::orthographic;
+  }
+  if (!o.at.empty()) {
+    if (o.projection == "camera")
+      throw Error("--at", "is the place of a picture of the whole sphere",
+                  "add --projection cube or equirect");
+    params.camera.world = mat4(1);
+    params.camera.world[3] = vec4(place_of(scene, o.at, o.scene.time), 1);
   }
   return params;
 }
@@ -84,14 +110,9 @@ void run_passes(const RenderOptions& o, trace::RenderState& state, const Render&
   std::filesystem::remove(checkpoint_path(o), ignored);
 }
 
-void render_path(const trace::PathTracer& tracer, const scene::Scene&, const RenderOptions&,
-                 const trace::RenderParams& params, trace::RenderState& state, const Control& control) {
-  tracer.render(params, state, control);
-}
-
 gi::ProbeSet read_probes(const RenderOptions& o, const trace::PathTracer& tracer, const scene::Scene& scene) {
   if (o.probes.empty()) {
-    throw Error("--probes", "method ssphh needs a probe file",
+    throw Error("--probes", "a farm needs a probe file for the method ssphh",
                 fmt::format("make one with `ssphh bake {} -o probes.sphl`", o.scene.source));
   }
   gi::ProbeSet probes = gi::read_probe_file(o.probes);
@@ -99,8 +120,9 @@ gi::ProbeSet read_probes(const RenderOptions& o, const trace::PathTracer& tracer
   return probes;
 }
 
-void render_ssphh(const trace::PathTracer& tracer, const scene::Scene& scene, const RenderOptions& o,
-                  const trace::RenderParams& params, trace::RenderState& state, const Control& control) {
+void render_with_probes(const trace::PathTracer& tracer, const scene::Scene& scene, const RenderOptions& o,
+                        const trace::RenderParams& params, trace::RenderState& state,
+                        const Control& control) {
   const gi::ProbeSet probes = read_probes(o, tracer, scene);
   gi::LookupParams lookup;
   if (o.light == "self") lookup.layer = gi::ProbeLayer::self;
@@ -119,28 +141,40 @@ Hash128 content_hash(const RenderOptions& o, const scene::Scene& scene) {
   const Hash128 hash = scene::scene_hash(scene);
   Hasher hasher;
   hasher.value(hash.high).value(hash.low).text(o.method);
+  for (const std::string& parameter : o.parameters) hasher.text(parameter);
   if (!o.probes.empty()) hasher.bytes(read_file(o.probes)).text(o.lookup).text(o.weights).text(o.light);
   return hasher.finish();
 }
 
-struct Method {
-  const char* name;
-  const char* description;
-  void (*render)(const trace::PathTracer&, const scene::Scene&, const RenderOptions&,
-                 const trace::RenderParams&, trace::RenderState&, const Control&);
-};
-
-constexpr Method methods[] = {
-    {"path", "path tracing, the ground truth", render_path},
-    {"ssphh", "direct light traced, indirect light looked up from SPHLs at the first hit", render_ssphh},
-};
-
-const Method& find_method(const std::string& name) {
-  for (const Method& method : methods) {
-    if (name == method.name) return method;
+// The method's extra numbers; null for those that have none.
+nlohmann::ordered_json render_here(const trace::PathTracer& tracer, const scene::Scene& scene,
+                                   const RenderOptions& o, const trace::RenderParams& params,
+                                   trace::RenderState& state, const Control& control) {
+  if (o.method == "path") {
+    tracer.render(params, state, control);
+    return nullptr;
   }
-  SSPHH_CHECK(!"the option's check admits known methods only");
-  return methods[0];
+  if (!o.probes.empty()) {
+    render_with_probes(tracer, scene, o, params, state, control);
+    return nullptr;
+  }
+  LiveMethod live(o.method, o.parameters, scene, control);
+  live.update(gi::frame_at(live.source(), o.scene.time), control);
+  log_info("{}: {}", o.method, live.text());
+  tracer.render_with(live.method().light(), params, state, control);
+  return live.json();
+}
+
+void check_method(const RenderOptions& o) {
+  if (!o.probes.empty() && o.method != "ssphh")
+    throw Error("--probes", fmt::format("is of method ssphh, not of {}", o.method));
+  if (!o.parameters.empty() && o.method == "path")
+    throw Error("--param", "method path has none", "see --max-depth, --spp and --passes");
+  if (!o.parameters.empty() && !o.probes.empty())
+    throw Error("--param", "tells how probes are made, and --probes gives made ones",
+                "leave out one of them");
+  if (o.farm.any() && o.method != "path" && o.method != "ssphh")
+    throw Error("--method " + o.method, "is rendered in this process only", "leave out --broker and --local");
 }
 
 /// The images that are written, in the order of farm::layer_names().
@@ -167,6 +201,9 @@ trace::RenderState render_on_farm(const FarmSession& session, const trace::PathT
 
 void render(const RenderOptions& o, const Context& context) {
   if (o.backend == "gl") return render_gl(o, context);
+  check_method(o);
+  if (o.occlusion > 0)
+    throw Error("--occlusion", "is an approximation of the real-time renderer", "add --backend gl");
   if (o.farm.any() && o.resume)
     throw Error("--resume", "is of renders in this process; a farm keeps finished tiles in --cache",
                 "repeat the command without it");
@@ -183,8 +220,6 @@ void render(const RenderOptions& o, const Context& context) {
         "--sun-sky)",
         o.scene.source);
   }
-  const Method& method = find_method(o.method);
-
   trace::RenderState state;
   const Hash128 key = trace::render_key(content_hash(o, scene), o.scene.time, params);
   state.key = key;
@@ -194,10 +229,11 @@ void render(const RenderOptions& o, const Context& context) {
   }
   const auto start = std::chrono::steady_clock::now();
   farm::FarmReport farm_report;
+  nlohmann::ordered_json numbers;
   if (session) {
     state = render_on_farm(*session, tracer, scene, o, params, farm_report, context.control);
   } else {
-    run_passes(o, state, [&] { method.render(tracer, scene, o, params, state, context.control); });
+    run_passes(o, state, [&] { numbers = render_here(tracer, scene, o, params, state, context.control); });
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
@@ -214,6 +250,7 @@ void render(const RenderOptions& o, const Context& context) {
   std::string text =
       fmt::format("{}: {}×{}, {} paths, {} rays in {:.2f} s, mean radiance {:.4g} {:.4g} {:.4g}", o.output,
                   picture.width, picture.height, state.paths, state.rays, seconds, mean[0], mean[1], mean[2]);
+  if (!numbers.is_null()) object.update(numbers);
   if (session) {
     object["farm"] = farm_json(farm_report);
     text += "\n" + farm_text(farm_report);
@@ -231,14 +268,15 @@ void add_render_command(CLI::App& app, Context& context) {
   add_scene_options(*command, o.scene);
   add_farm_options(*command, o.farm);
 
-  std::vector<std::string> names;
-  std::string description = "How indirect light is found:";
-  for (const Method& method : methods) {
-    names.emplace_back(method.name);
-    description += fmt::format(" {} ({});", method.name, method.description);
+  std::vector<std::string> names = {"path"};
+  std::string description = "How indirect light is found: path (path tracing, the ground truth);";
+  for (const gi::MethodEntry& entry : gi::method_table()) {
+    names.emplace_back(entry.name);
+    description += fmt::format(" {} ({});", entry.name, entry.about);
   }
   description.pop_back();
   command->add_option("--method", o.method, description)->check(CLI::IsMember(names))->capture_default_str();
+  add_method_parameters(*command, o.parameters);
   command
       ->add_option("-o,--output", o.output,
                    "Picture: .exr or .hdr (linear radiance), .png or .jpg (tone mapped)")
@@ -253,6 +291,9 @@ void add_render_command(CLI::App& app, Context& context) {
           "camera; or the whole sphere at its position: equirect, or cube (6×1 strip, width = 6 × height)")
       ->check(CLI::IsMember({"camera", "equirect", "cube"}))
       ->capture_default_str();
+  command->add_option(
+      "--at", o.at,
+      "Place of the sphere, its axes the world's: a SPHL by name, or X,Y,Z; default: the camera's");
 
   const std::string paths = "Light paths";
   command
@@ -274,7 +315,10 @@ void add_render_command(CLI::App& app, Context& context) {
       ->group(paths);
 
   const std::string probes = "Method ssphh";
-  command->add_option("--probes", o.probes, "Probe file (.sphl or .sphl.json)")->group(probes);
+  command
+      ->add_option("--probes", o.probes,
+                   "Probe file (.sphl or .sphl.json); none: probes are placed and lit for this picture")
+      ->group(probes);
   command
       ->add_option("--lookup", o.lookup,
                    "irradiance: blend of visible SPHLs; light: nearest visible SPHL, as the paper")
@@ -287,6 +331,13 @@ void add_render_command(CLI::App& app, Context& context) {
           "cpu: traced, any number of samples; gl: a frame of the real-time renderer, up to 4×4 samples "
           "per pixel (docs/methods/realtime.md)")
       ->check(CLI::IsMember({"cpu", "gl"}))
+      ->capture_default_str()
+      ->group(probes);
+  command
+      ->add_option(
+          "--occlusion", o.occlusion,
+          "With --backend gl: dim SPHLs' light in corners by what stands within so many metres; 0: off")
+      ->check(CLI::Range(0.0f, 100.0f))
       ->capture_default_str()
       ->group(probes);
   add_weights_option(*command, o.weights)->group(probes);

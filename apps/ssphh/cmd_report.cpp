@@ -5,6 +5,7 @@
 #include <fstream>
 #include <memory>
 #include <set>
+#include <span>
 #include <thread>
 
 #include <fmt/chrono.h>
@@ -13,11 +14,13 @@
 #include <ssphh/core/file.h>
 #include <ssphh/core/hash.h>
 #include <ssphh/core/log.h>
+#include <ssphh/core/nearest_word.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/scene/query.h>
 
 #include "child_process.h"
 #include "command.h"
+#include "farm_options.h"
 #include "report_run.h"
 #include "scene_options.h"
 
@@ -31,6 +34,7 @@ struct ReportOptions {
   std::vector<std::string> assignments;
   int time_limit = 0;  // 0: the plan's
   bool any_build = false;
+  FarmChoice farm;
 };
 
 // All commands that can stand in a step: this one would call itself.
@@ -115,6 +119,8 @@ std::string report_identity(const std::string& plan_text, const report::Plan& pl
   hasher.text(plan_text).text(build);
   for (const auto& [name, value] : plan.variables) hasher.text(name).text(value);
   for (const report::Job& job : expansion.jobs) hasher.text(job.key);
+  for (const report::PlanScene& scene : plan.scenes)
+    for (const report::Inset& inset : scene.insets) hasher.bytes(std::as_bytes(std::span(inset.mask.pixels)));
   return hasher.finish().hex();
 }
 
@@ -135,7 +141,7 @@ void note_unknown_values(report::Report& result) {
   const std::vector<std::string> names(known.begin(), known.end());
   const auto check = [&](const std::string& name, const char* where) {
     if (known.count(name)) return;
-    const std::string best = report::nearest(name, names);
+    const std::string best = nearest_word(name, names);
     result.notes.push_back(fmt::format("no cell has the value \"{}\" of {}{}", name, where,
                                        best.empty() ? "" : fmt::format("; did you mean \"{}\"?", best)));
     log_warning("{}", result.notes.back());
@@ -160,6 +166,7 @@ void run_report(const ReportOptions& o, Context& context, const std::vector<std:
   report::Report result;
   result.plan = report::parse_plan(plan_text, plan_file.string(), commands);
   for (const std::string& assignment : o.assignments) report::set_variable(result.plan, assignment);
+  report::load_masks(result.plan, folder);
 
   RunPlace place;
   place.tool = fs::read_symlink("/proc/self/exe");
@@ -183,6 +190,16 @@ void run_report(const ReportOptions& o, Context& context, const std::vector<std:
     return;
   }
 
+  std::optional<FarmSession> farm;
+  if (o.farm.any()) {
+    FarmChoice choice = o.farm;
+    choice.cache = "none";
+    farm.emplace(choice);
+    // Not the farm's own results: seconds would tell of work that was done another day.
+    place.farm = {"--broker", farm->options().broker.endpoint, "--cache", "none"};
+    if (!o.farm.broker.keys.empty())
+      place.farm.insert(place.farm.end(), {"--keys", o.farm.broker.keys, "--key", o.farm.broker.key});
+  }
   const RunResult runs =
       run_jobs(expansion, place, o.time_limit > 0 ? o.time_limit : result.plan.time_limit, context.control);
   result.cells = measure_cells(result.plan, expansion, runs, place.cache, context.control);
@@ -191,6 +208,8 @@ void run_report(const ReportOptions& o, Context& context, const std::vector<std:
   p.created = fmt::format("{:%Y-%m-%d %H:%M UTC}", fmt::gmtime(std::time(nullptr)));
   p.command = fmt::format("ssphh report {}", o.plan);
   for (const std::string& assignment : o.assignments) p.command += " --set " + assignment;
+  if (o.farm.local > 0) p.command += fmt::format(" --local {}", o.farm.local);
+  if (!o.farm.broker.endpoint.empty()) p.command += " --broker " + o.farm.broker.endpoint;
   note_unknown_values(result);
   const auto failed = std::count_if(result.cells.begin(), result.cells.end(),
                                     [](const report::ReportCell& cell) { return !cell.failure.empty(); });
@@ -224,7 +243,9 @@ void add_report_command(CLI::App& app, Context& context) {
   CLI::App* command =
       add_command(app, context, "report", "Run a plan of scenes and methods and show what it gave",
                   [options, &context, &app] { run_report(*options, context, step_commands(app)); });
-  command->add_option("PLAN", o.plan, "Plan (JSON; docs/report.md)")->required()->check(CLI::ExistingFile);
+  command->add_option("PLAN", o.plan, "Plan (JSON or YAML; docs/report.md)")
+      ->required()
+      ->check(CLI::ExistingFile);
   command
       ->add_option("-o,--output", o.output, "Folder for report.html, report.json, report.csv and report.md")
       ->required();
@@ -236,6 +257,14 @@ void add_report_command(CLI::App& app, Context& context) {
       ->add_option("--time-limit", o.time_limit,
                    "Seconds that a command may take; default: what the plan says")
       ->check(CLI::Range(1, 1000000));
+  add_broker_options(*command, o.farm.broker, "client", "Farm")
+      ->excludes(
+          command
+              ->add_option(
+                  "--local", o.farm.local,
+                  "Start a broker and so many workers on this machine for the plan's bakes and renders")
+              ->check(CLI::Range(1, 1024))
+              ->group("Farm"));
   command->add_flag("--any-build", o.any_build,
                     "Also take finished runs of other builds of this version of the tool");
   command->footer(
@@ -244,7 +273,11 @@ void add_report_command(CLI::App& app, Context& context) {
       "was interrupted continues, and one with a method more runs that method alone. A command that fails is "
       "a "
       "failed cell\n"
-      "of the page, with its log, and is tried again next time; exit code 1.");
+      "of the page, with its log, and is tried again next time; exit code 1.\n"
+      "With --broker or --local a farm does path-traced bakes, renders and truths, to the same bits; other "
+      "commands "
+      "run "
+      "here.");
 }
 
 }  // namespace ssphh::app

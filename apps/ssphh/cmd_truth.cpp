@@ -2,15 +2,18 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include <ssphh/farm/farm_render.h>
 #include <ssphh/image/io.h>
 #include <ssphh/metrics/compare.h>
 #include <ssphh/trace/path_tracer.h>
 
 #include "child_process.h"
 #include "command.h"
+#include "farm_options.h"
 #include "picture_options.h"
 
 namespace ssphh::app {
@@ -20,6 +23,7 @@ using image::Image;
 
 struct TruthOptions {
   PictureOptions picture;
+  FarmChoice farm;
   std::string renderer = "path", projection = "camera", output, work;
   int time_limit = 3600;
   bool halves = false;
@@ -31,8 +35,10 @@ struct Halves {
   std::vector<std::string> differences;
 };
 
-Halves render_path(const TruthOptions& o, const scene::Scene& scene, const Context& context) {
-  const trace::PathTracer tracer(scene, o.picture.scene.time);
+Halves render_path(const TruthOptions& o, const scene::Scene& scene, const FarmSession* session,
+                   const Context& context) {
+  std::optional<trace::PathTracer> tracer;
+  if (!session) tracer.emplace(scene, o.picture.scene.time);
   const auto half = [&](std::uint64_t seed) {
     trace::RenderParams params;
     params.width = o.picture.width, params.height = o.picture.height;
@@ -44,7 +50,13 @@ Halves render_path(const TruthOptions& o, const scene::Scene& scene, const Conte
     }
     params.path = {o.picture.max_depth, 1, o.picture.spp / 2, seed};
     trace::RenderState state;
-    tracer.render(params, state, context.control);
+    if (session) {
+      farm::FarmReport report;
+      state = farm::render(session->options(), scene, o.picture.scene.time, params, std::nullopt, {"color"},
+                           report, context.control);
+    } else {
+      tracer->render(params, state, context.control);
+    }
     return trace::resolve(state.color, state.passes_done);
   };
   return {half(2 * context.seed), half(2 * context.seed + 1), {}};
@@ -125,10 +137,15 @@ nlohmann::ordered_json array(const glm::dvec3& v) {
 }
 
 void run(const TruthOptions& o, const Context& context) {
+  if (o.farm.any() && o.renderer != "path")
+    throw Error("--renderer " + o.renderer, "is not for a farm", "leave out --broker and --local");
+  std::optional<FarmSession> session;  // first: its processes start while this one reads the scene
+  if (o.farm.any()) session.emplace(o.farm);
   const scene::Scene scene = load_scene(o.picture.scene);
   const auto start = std::chrono::steady_clock::now();
-  const Halves halves =
-      o.renderer == "cycles" ? render_cycles(o, scene, context) : render_path(o, scene, context);
+  const Halves halves = o.renderer == "cycles"
+                            ? render_cycles(o, scene, context)
+                            : render_path(o, scene, session ? &*session : nullptr, context);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const Image picture = mean_of(halves.first, halves.second);
   image::write_image(o.output, picture);
@@ -172,6 +189,7 @@ void add_truth_command(CLI::App& app, Context& context) {
   CLI::App* command = add_command(app, context, "truth", "Render a reference picture and tell its own noise",
                                   [&context, options] { run(*options, context); });
   add_picture_options(*command, o.picture);
+  add_farm_options(*command, o.farm);
   command
       ->add_option("--renderer", o.renderer,
                    "path: our path tracer; cycles: Blender, which must be installed")

@@ -34,6 +34,7 @@ CLI::App* add_command(CLI::App& parent, Context& context, const std::string& nam
 /// A command that only groups subcommands ("sh project", "probe info").
 CLI::App* add_group(CLI::App& parent, const std::string& name, const std::string& description);
 
+void add_respond_command(CLI::App& app, Context& context);
 void add_scene_commands(CLI::App& app, Context& context);
 void add_render_command(CLI::App& app, Context& context);
 void add_bake_command(CLI::App& app, Context& context);
@@ -50,6 +51,7 @@ void add_truth_command(CLI::App& app, Context& context);
 void add_report_command(CLI::App& app, Context& context);
 void add_leak_command(CLI::App& app, Context& context);
 void add_measure_command(CLI::App& app, Context& context);
+void add_methods_command(CLI::App& app, Context& context);
 void add_relight_command(CLI::App& app, Context& context);
 void add_bench_frame_command(CLI::App& app, Context& context);
 void add_turntable_command(CLI::App& app, Context& context);

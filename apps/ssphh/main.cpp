@@ -36,6 +36,7 @@ int run(int argc, char** argv) {
       "SCENE is a file (.glb .gltf .obj) or builtin:NAME (see `ssphh scene list`).\n"
       "Exit codes: 0 success, 1 failure (bad input, cancelled), 2 wrong usage.");
 
+  add_respond_command(app, context);
   add_scene_commands(app, context);
   add_render_command(app, context);
   add_bake_command(app, context);
@@ -49,6 +50,7 @@ int run(int argc, char** argv) {
   add_export_command(app, context);
   add_leak_command(app, context);
   add_measure_command(app, context);
+  add_methods_command(app, context);
   add_relight_command(app, context);
   add_broker_command(app, context);
   add_bench_frame_command(app, context);
@@ -74,6 +76,7 @@ int run(int argc, char** argv) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit is an error that is told, as a full disk
   set_thread_count(context.threads);
   try {
     context.run();

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <ssphh/core/log.h>
+#include <ssphh/gi/place.h>
 #include <ssphh/scene/query.h>
 
 namespace ssphh::app {
@@ -61,6 +62,11 @@ std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const gi::Prob
     places.emplace_back(world[static_cast<std::size_t>(camera.node)][3]);
   for (const gi::ProbeSet& set : sets) {
     for (const gi::Probe& probe : set.probes) places.push_back(probe.position);
+  }
+  if (sets.empty()) {
+    const gi::PlaceParams own = gi::place_params(scene, time);
+    places.insert(places.end(), own.interest.begin(), own.interest.end());
+    for (const scene::SphlPlace& place : own.manual) places.push_back(place.position);
   }
   return places;
 }

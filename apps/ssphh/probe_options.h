@@ -39,7 +39,8 @@ std::string scene_difference(const gi::ProbeSet& set, const scene::Scene& scene,
 void require_same_scene(const std::string& file, const gi::ProbeSet& set, const scene::Scene& scene,
                         const std::vector<std::string>& light_groups, std::optional<float> time, bool force);
 
-/// Places of the cameras and probes: what they can reach is what counts.
+/// Places of the cameras and probes (without any: also of lamps and SPHLs): what they can reach is what
+/// counts.
 std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const gi::ProbeSet> sets, float time);
 
 /// --weights of the lookup `irradiance`; empty: the library chooses.

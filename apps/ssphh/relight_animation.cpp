@@ -54,8 +54,8 @@ vec3 read_key(const std::string& where, std::string_view text, TrackProperty pro
     throw Error(where, fmt::format("\"{}\" is not {}", text, vector ? "three numbers x,y,z" : "a number"),
                 "keys are parted by ':', as in lamp.position=0,2,0:1,2,0 or lamp.intensity=0:4");
   }
-  const bool signed_value = property == TrackProperty::time || property == TrackProperty::position ||
-                            property == TrackProperty::direction;
+  const bool signed_value = property == TrackProperty::time || property == TrackProperty::turn ||
+                            property == TrackProperty::position || property == TrackProperty::direction;
   if (!signed_value && glm::any(glm::lessThan(key, vec3(0)))) throw Error(where, "light cannot be negative");
   if (property == TrackProperty::direction && !(glm::length(key) > 0))
     throw Error(where, "a direction of length 0 is none");
@@ -94,14 +94,18 @@ Track read_track(const std::string& spec, const scene::TransportSource& source, 
   if (equals == std::string::npos) throw Error(where, "has no '='", "write time=0:1 or lamp.intensity=0:4");
   const std::string what = spec.substr(0, equals);
   Track track;
-  if (what != "time") {
+  if (what == "environment.rotation") {
+    if (source.environment_group() < 0) throw Error(where, "the scene has no environment");
+    track.property = TrackProperty::turn;
+  } else if (what != "time") {
     const std::size_t dot = what.rfind('.');
     const std::string property = dot == std::string::npos ? "" : what.substr(dot + 1);
     const auto* known = std::find_if(std::begin(properties), std::end(properties),
                                      [&](const auto& p) { return property == p.name; });
     if (known == std::end(properties)) {
       throw Error(where, fmt::format("\"{}\" cannot be animated", what),
-                  "time, LIGHT.position, LIGHT.direction, LIGHT.intensity, LIGHT.color or GROUP.scale");
+                  "time, environment.rotation, LIGHT.position, LIGHT.direction, LIGHT.intensity, LIGHT.color "
+                  "or GROUP.scale");
     }
     track.property = known->property;
     const std::string name = what.substr(0, dot);
@@ -119,6 +123,8 @@ Track read_track(const std::string& spec, const scene::TransportSource& source, 
   }
   for (const std::string_view key : split(std::string_view(spec).substr(equals + 1), ':'))
     track.keys.push_back(read_key(where, key, track.property));
+  if (track.property == TrackProperty::turn)
+    for (vec3& key : track.keys) key = glm::radians(key);
   return track;
 }
 
@@ -132,8 +138,9 @@ mat4 turned(const mat4& world, const vec3& direction) {
 
 const char* const animation_help =
     "What moves, as NAME=KEY[:KEY ...]; the keys are spread evenly over the frames. time (the scene's "
-    "animations [s]), LIGHT.position, LIGHT.direction, LIGHT.color (x,y,z), LIGHT.intensity, GROUP.scale "
-    "(number or r,g,b). May be repeated. Default: time=0:END if the scene has animations";
+    "animations [s]), environment.rotation (degrees), LIGHT.position, LIGHT.direction, LIGHT.color (x,y,z), "
+    "LIGHT.intensity, GROUP.scale (number or r,g,b). May be repeated. Default: time=0:END if the scene has "
+    "animations";
 
 vec3 Track::at(float u) const {
   const float place = u * static_cast<float>(keys.size() - 1);
@@ -167,14 +174,12 @@ bool RelightAnimation::moves_time() const {
                      [](const Track& track) { return track.property == TrackProperty::time; });
 }
 
-FrameState RelightAnimation::frame(float u) const {
-  FrameState state;
-  state.time = time_;
+gi::FrameState RelightAnimation::frame(float u) const {
+  float time = time_;
   for (const Track& track : tracks_) {
-    if (track.property == TrackProperty::time) state.time = track.at(u).x;
+    if (track.property == TrackProperty::time) time = track.at(u).x;
   }
-  state.lights = source_.lights(state.time);
-  state.group_scales.assign(source_.light_groups().size(), vec3(1));
+  gi::FrameState state = gi::frame_at(source_, time);
   for (const Track& track : tracks_) {
     const vec3 value = track.at(u);
     const auto target = static_cast<std::size_t>(std::max(track.target, 0));
@@ -196,15 +201,19 @@ FrameState RelightAnimation::frame(float u) const {
       case TrackProperty::scale:
         state.group_scales[target] = value;
         break;
+      case TrackProperty::turn:
+        state.environment_rotation = value.x;
+        break;
     }
   }
   return state;
 }
 
-void RelightAnimation::apply(const FrameState& state, gi::RelightSession& session) const {
+void RelightAnimation::apply(const gi::FrameState& state, gi::RelightSession& session) const {
   session.set_time(state.time);
+  session.set_environment_rotation(state.environment_rotation);
   for (const Track& track : tracks_) {
-    if (track.property == TrackProperty::time) continue;
+    if (track.property == TrackProperty::time || track.property == TrackProperty::turn) continue;
     const auto target = static_cast<std::size_t>(track.target);
     if (track.property == TrackProperty::scale) {
       session.set_group_scale(track.target, state.group_scales[target]);

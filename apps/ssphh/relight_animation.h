@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <ssphh/gi/methods/method.h>
 #include <ssphh/gi/relight_session.h>
 #include <ssphh/scene/scene.h>
 
@@ -15,7 +16,8 @@ enum class TrackProperty {
   direction,  ///< of a spot or directional light, world, the way the light goes
   intensity,  ///< of a light, units as scene::Light
   color,      ///< of a light, linear RGB
-  scale       ///< factor on a light group, one number or linear RGB
+  scale,      ///< factor on a light group, one number or linear RGB
+  turn        ///< of the environment about +y beyond the scene's own rotation, radians
 };
 
 /// Values at evenly spaced times, linear between them.
@@ -28,13 +30,6 @@ struct Track {
   vec3 at(float u) const;
 };
 
-/// Everything that a frame sets.
-struct FrameState {
-  float time = 0;
-  std::vector<scene::LightState> lights;
-  std::vector<vec3> group_scales;
-};
-
 class RelightAnimation {
  public:
   /// Reads "time=0:1", "LIGHT.position=x,y,z:x,y,z", "GROUP.scale=1:0" … Throws Error that lists the scene's
@@ -43,9 +38,9 @@ class RelightAnimation {
   RelightAnimation(const scene::TransportSource& source, const scene::Scene& scene, float time,
                    const std::vector<std::string>& specs);
 
-  FrameState frame(float u) const;
+  gi::FrameState frame(float u) const;
   /// Sets what moves; lights without a track are left to the scene's own animation.
-  void apply(const FrameState& state, gi::RelightSession& session) const;
+  void apply(const gi::FrameState& state, gi::RelightSession& session) const;
   bool moves_time() const;
 
  private:

@@ -2,23 +2,6 @@
 
 namespace ssphh::app {
 
-gi::ProbeSet lookup_set(const std::vector<gi::ProbePlace>& places,
-                        const std::vector<sh::RadianceSh>& reflected) {
-  gi::ProbeSet set;
-  set.degree = reflected.front().degree();
-  set.light_groups.push_back({"all"});
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    gi::Probe probe;
-    probe.name = places[i].name;
-    probe.position = places[i].position;
-    probe.radius = places[i].radius;
-    probe.groups.push_back({{}, reflected[i]});
-    set.probes.push_back(std::move(probe));
-  }
-  gi::merge_groups(set);
-  return set;
-}
-
 gi::ProbeSet bake_of(const gi::RelightSession& session, const scene::TransportSource& source,
                      const std::vector<vec3>& scales, gi::GeneratorInfo generator, const Control& control) {
   const std::vector<std::vector<sh::RadianceSh>> reflected = session.reflected_by_group(control);

@@ -11,10 +11,6 @@
 
 namespace ssphh::app {
 
-/// The places with their reflected light, as lookups want it.
-gi::ProbeSet lookup_set(const std::vector<gi::ProbePlace>& places,
-                        const std::vector<sh::RadianceSh>& reflected);
-
 /// A set of the session's light as a bake would write it: groups apart and unscaled, `scales` beside them.
 gi::ProbeSet bake_of(const gi::RelightSession& session, const scene::TransportSource& source,
                      const std::vector<vec3>& scales, gi::GeneratorInfo generator, const Control& control);

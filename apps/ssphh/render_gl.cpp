@@ -43,6 +43,8 @@ void render_gl(const RenderOptions& o, const Context& context) {
   int side = 1;
   while (side < 4 && side * side < o.spp * o.passes) ++side;
   realtime::FrameSettings settings = still_settings(lookup, side);
+  settings.ambient_occlusion = o.occlusion > 0;
+  if (o.occlusion > 0) settings.occlusion_radius = o.occlusion;
   const scene::CameraPose camera = scene::camera_pose(scene, o.camera, o.scene.time);
   const auto draw = [&](realtime::View view) {
     settings.view = view;

@@ -16,11 +16,12 @@ namespace ssphh::app {
 struct RenderOptions {
   SceneOptions scene;
   FarmChoice farm;
-  std::string output, png, method = "path", probes, lookup = "irradiance", weights, light = "sum", camera,
+  std::string output, png, method = "path", probes, lookup = "irradiance", weights, light = "sum", camera, at,
                            projection = "camera", tonemap = "clip", backend = "cpu";
-  std::vector<std::string> aovs;
+  std::vector<std::string> aovs, parameters;
   int width = 1280, height = 720, max_depth = 3, passes = 1, spp = 16;
   float exposure = 0;
+  float occlusion = 0;  ///< metres; 0: none
   bool resume = false, force = false;
 };
 

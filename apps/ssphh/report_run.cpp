@@ -68,8 +68,11 @@ JobRecord run_job(const Job& job, const RunPlace& place, int time_limit, const C
   for (std::string& word : report::command_line(job, place.cache, work.path()))
     command.push_back(std::move(word));
   command.insert(command.end(), {"--json", "--progress", "none"});
+  const bool far = !place.farm.empty() && runs_on_farm(job.words);
+  if (far) command.insert(command.end(), place.farm.begin(), place.farm.end());
   JobRecord record;
-  record.build = place.build, record.machine = place.machine, record.started = utc_now();
+  record.build = place.build, record.started = utc_now();
+  record.machine = place.machine + (far ? " and a farm" : "");
   const fs::path log = work.path() / "log";
   try {
     const ProgramUsage usage =
@@ -201,6 +204,21 @@ class CellMeasurer {
 };
 
 }  // namespace
+
+bool runs_on_farm(const std::vector<std::string>& words) {
+  const auto value_of = [&](const char* option) -> std::string {
+    const auto found = std::find(words.begin(), words.end(), option);
+    return found == words.end() || std::next(found) == words.end() ? "" : *std::next(found);
+  };
+  const auto has = [&](const char* option) {
+    return std::find(words.begin(), words.end(), option) != words.end();
+  };
+  if (words.front() == "bake") return value_of("--operator").empty() || value_of("--operator") == "path";
+  if (words.front() == "truth") return value_of("--renderer") != "cycles";
+  const std::string method = value_of("--method");
+  const bool known = method.empty() || method == "path" || (method == "ssphh" && has("--probes"));
+  return words.front() == "render" && known && value_of("--backend") != "gl" && !has("--resume");
+}
 
 RunResult run_jobs(const report::Expansion& expansion, const RunPlace& place, int time_limit,
                    const Control& control) {

@@ -16,7 +16,14 @@ struct RunPlace {
   std::filesystem::path tool, cache;
   std::string build, machine;
   bool any_build = false;  ///< runs of other builds of the tool's version count as well
+  /// Options that send a bake or render to a farm (--broker …); empty: all is done here. What comes out has
+  /// the same bits, so they are no part of a run's key.
+  std::vector<std::string> farm = {};
 };
+
+/// Whether a farm can do this command: a bake or truth by path tracing, or a render by path tracing or
+/// from a probe file that is not by OpenGL.
+bool runs_on_farm(const std::vector<std::string>& words);
 
 /// By key; a run that failed has no record but a message.
 struct RunResult {

@@ -31,7 +31,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options, bool posed, con
       ->group(group);
   command
       .add_option("--environment-rotation", options.environment_rotation,
-                  "Degrees about +y, counter-clockwise seen from above")
+                  "Degrees about +y, counter-clockwise seen from above; also turns a scene's own")
       ->capture_default_str()
       ->group(group);
   command

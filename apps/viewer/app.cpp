@@ -254,6 +254,12 @@ void App::update_truth() {
     if (reference.status().running) reference.stop();
     return;
   }
+  const auto asked = std::make_pair(settings.against, settings.truth_depth);
+  if (asked != truth_asked_) {
+    picture.forget_truth();
+    reference.clear();
+    truth_asked_ = asked;
+  }
   const bool started = reference.status().running || reference.image().passes > 0;
   if (!started) {
     redraw();
@@ -264,6 +270,7 @@ void App::update_truth() {
     params.time = document.time;
     params.camera = pose_of(view);
     params.width = picture.width(), params.height = picture.height();
+    params.method = settings.against;
     params.max_depth = settings.truth_depth;
     params.passes = settings.truth_passes;
     reference.start(params);

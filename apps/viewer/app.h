@@ -154,9 +154,10 @@ class App {
   int redraw_ = 3;
   std::chrono::steady_clock::time_point last_turn_, last_change_, stale_since_;
   int waiting_maps_ = 0;
-  bool coarse_ = false;                     ///< something moves and frames are slow: fewer pixels meanwhile
-  std::optional<Settings> truth_settings_;  ///< that the truth on the screen was made for
-  std::string window_shot_;                 ///< file that is to get the window's next frame; empty: none
+  bool coarse_ = false;                      ///< something moves and frames are slow: fewer pixels meanwhile
+  std::optional<Settings> truth_settings_;   ///< that the truth on the screen was made for
+  std::pair<std::string, int> truth_asked_;  ///< method and depth of what is traced
+  std::string window_shot_;                  ///< file that is to get the window's next frame; empty: none
 };
 
 }  // namespace ssphh::viewer

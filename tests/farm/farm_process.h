@@ -25,14 +25,16 @@ class FarmProcesses {
 
   std::string endpoint() const { return "ipc://" + (dir_ / "broker").string(); }
   const TempDir& dir() const { return dir_; }
+  ToolProcess& broker() { return *broker_; }
   ToolProcess& worker(std::size_t i) { return *workers_[i]; }
   std::size_t worker_count() const { return workers_.size(); }
 
-  /// A cache of its own, so that every worker fetches the scene.
-  void start_worker(std::vector<std::string> more = {}) {
+  /// A cache of its own, so that every worker fetches the scene. `by`: another endpoint that leads to the
+  /// broker.
+  void start_worker(std::vector<std::string> more = {}, const std::string& by = {}) {
     std::vector<std::string> arguments = {"worker",
                                           "--broker",
-                                          endpoint(),
+                                          by.empty() ? endpoint() : by,
                                           "--threads",
                                           "1",
                                           "--name",

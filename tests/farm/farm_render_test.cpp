@@ -78,5 +78,26 @@ TEST(FarmCommand, BakeWithKeys) {
   EXPECT_EQ(read_file(dir / "out.sphl"), bake.wanted);
 }
 
+TEST(FarmCommand, AKeyTakenOffTheListIsRefusedAfterSighup) {
+  const TempDir dir;
+  const std::string keys = (dir / "keys").string();
+  for (const char* who : {"alice", "bob"})
+    run_json({"farm", "keygen", who, "--role", "client", "--keys", keys});
+  FarmProcesses farm(0, {"--keys", keys});
+  const auto status = [&](const char* who) {
+    return run_tool({"farm", "status", "--broker", farm.endpoint(), "--keys", keys, "--key", who}).exit_code;
+  };
+  EXPECT_EQ(status("alice"), 0);
+  std::string kept;
+  std::istringstream lines(read_text_file(dir / "keys/allow.txt"));
+  for (std::string line; std::getline(lines, line);)
+    if (!line.starts_with("alice ")) kept += line + "\n";
+  write_file(dir / "keys/allow.txt", kept);
+  farm.broker().signal(SIGHUP);
+  EXPECT_TRUE(farm.broker().wait_for_stderr("allow-list-read keys=1"));
+  EXPECT_EQ(status("bob"), 0);
+  EXPECT_EQ(status("alice"), 1);
+}
+
 }  // namespace
 }  // namespace ssphh::test

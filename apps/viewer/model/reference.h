@@ -1,5 +1,6 @@
 #pragma once
-/// The ground truth of one view, path traced in the background pass after pass.
+/// The ground truth of one view, or what another method makes of it, traced in the background pass after
+/// pass.
 
 #include <memory>
 
@@ -15,6 +16,7 @@ struct ReferenceParams {
   float time = 0;
   scene::CameraPose camera;
   int width = 0, height = 0;
+  std::string method = "path";  ///< or one of gi::method_table(), with its default parameters
   int max_depth = 8;
   int passes = 256;  ///< one sample per pixel each
 };

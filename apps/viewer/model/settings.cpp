@@ -1,10 +1,13 @@
 #include "settings.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <ssphh/gi/methods/table.h>
 
 namespace ssphh::viewer {
 namespace {
@@ -70,6 +73,29 @@ SettingName choice(const char* name, const char* group, const char* help, const 
   return setting;
 }
 
+/// A word out of a list that is known at run time only.
+template <class Member>
+SettingName word(const char* name, const char* group, const char* help, std::vector<std::string> words,
+                 Member member) {
+  SettingName setting{name, group, help, std::move(words), {}, {}};
+  setting.set = [member, name, words = setting.choices](Settings& s, const std::string& text) {
+    if (std::ranges::find(words, text) == words.end())
+      throw Error(name, fmt::format("\"{}\" is none of: {}", text, fmt::join(words, ", ")));
+    member(s) = text;
+  };
+  setting.get = [member](const Settings& s) {
+    Settings copy = s;
+    return member(copy);
+  };
+  return setting;
+}
+
+std::vector<std::string> truth_names() {
+  std::vector<std::string> names = {"path"};
+  for (const gi::MethodEntry& entry : gi::method_table()) names.emplace_back(entry.name);
+  return names;
+}
+
 template <class Member>
 SettingName toggle(const char* name, const char* group, const char* help, Member member) {
   return choice(name, group, help, switches, member);
@@ -118,6 +144,10 @@ const std::vector<SettingName>& setting_names() {
              [](Settings& s) -> float& { return s.wipe; }),
       number("block", "Ground truth", "Pixels along a block of the pixelated difference", 1, 1024,
              [](Settings& s) -> int& { return s.block; }),
+      word("against", "Ground truth",
+           "What is traced beside the real-time picture: path (the truth), or direct light with another "
+           "method's indirect light; `ssphh methods` tells of each",
+           truth_names(), [](Settings& s) -> std::string& { return s.against; }),
       number("truth-depth", "Ground truth", "Scattering events of a path", 0, 1000,
              [](Settings& s) -> int& { return s.truth_depth; }),
       number("truth-spp", "Ground truth", "Samples per pixel, one a pass", 1, 1000000,

@@ -40,11 +40,12 @@ struct Settings {
   image::ToneCurve curve = image::ToneCurve::clip;
   Show show = Show::realtime;
   DebugView debug = DebugView::none;
-  float wipe = 0.5f;       ///< place of the line, share of the width
-  int block = 16;          ///< pixels, of `pixelated`
-  int truth_depth = 8;     ///< scattering events of the ground truth
-  int truth_passes = 256;  ///< samples per pixel
-  float scale = 1;         ///< pixels of the real-time picture per pixel of the window, along each axis
+  float wipe = 0.5f;             ///< place of the line, share of the width
+  int block = 16;                ///< pixels, of `pixelated`
+  std::string against = "path";  ///< what the truth's place holds: path, or a method of gi::method_table()
+  int truth_depth = 8;           ///< scattering events of the ground truth
+  int truth_passes = 256;        ///< samples per pixel
+  float scale = 1;               ///< pixels of the real-time picture per pixel of the window, along each axis
 
   // Probes' light
   gi::LookupMethod lookup = gi::LookupMethod::irradiance;

@@ -13,10 +13,11 @@ void draw_truth(App& app) {
   setting_widget(app, "show", "show");
   if (app.settings.show == Show::wipe) setting_slider(app, "line", "wipe", 0, 1);
   if (app.settings.show == Show::pixelated) setting_slider(app, "block [pixels]", "block", 1, 64, "%.0f");
+  setting_widget(app, "against", "against");
   setting_slider(app, "bounces", "truth-depth", 1, 32, "%.0f");
   setting_slider(app, "samples", "truth-spp", 1, 4096, "%.0f");
   if (!needs_truth(app.settings)) {
-    note("Press T to see path tracing beside the picture.");
+    note("Press T to see path tracing, or another method, beside the picture.");
     return;
   }
   const ReferenceImage& truth = app.reference.image();

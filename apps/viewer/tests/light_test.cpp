@@ -110,6 +110,25 @@ TEST(Reference, AddsPassesUntilItsLimit) {
   EXPECT_FALSE(reference.image().color);
 }
 
+TEST(Reference, TakesIndirectLightFromAnotherMethod) {
+  const Document document = make_document("cornell", scene::make_builtin("cornell"), 0);
+  const auto indirect = [&](const char* method) {
+    Reference reference;
+    ReferenceParams params;
+    params.scene = document.scene;
+    params.camera = pose_of(start_view(document, ""));
+    params.width = 24, params.height = 16, params.passes = 4;
+    params.method = method;
+    reference.start(params);
+    EXPECT_TRUE(wait_for([&] { return reference.poll(), reference.image().passes == 4; })) << method;
+    float sum = 0;
+    for (const float v : reference.image().indirect->pixels) sum += v;
+    return sum;
+  };
+  EXPECT_EQ(indirect("direct"), 0);
+  EXPECT_GT(indirect("ambient"), 0);
+}
+
 TEST(LiveLight, AnOpenedDoorLightsRoomB) {
   const Document document = make_document("rooms", scene::make_builtin("two-rooms"), 0);
   LiveLightParams params;

@@ -93,8 +93,11 @@ class Dispatcher {
     sent_.erase(found);
     if (event.attempts > 1) report_.retries += static_cast<std::uint64_t>(event.attempts - 1);
     if (event.outcome != majordomo::Outcome::ok) {
-      throw Error("the farm", fmt::format("a job of {} units ended as \"{}\": {}", job.units.size(),
-                                          to_string(event.outcome), event.reason));
+      throw Error(
+          "the farm",
+          fmt::format("a job of {} units ended as \"{}\": {}", job.units.size(), to_string(event.outcome),
+                      event.reason),
+          event.outcome == majordomo::Outcome::parked ? "the broker keeps it: see `ssphh farm parked`" : "");
     }
     if (event.body.empty()) throw Error("the farm", "a worker answered without a result");
     JobResult result = decode_result(event.body[0]);

@@ -98,6 +98,7 @@ struct RelightSession::Data {
   std::vector<vec3> emission;  ///< at each sample, from the emitters; empty: none
   bool emission_dirty = false, scale_dirty = false;
   float pending_time;
+  float environment_rotation = 0;
 
   std::unique_ptr<scene::DirectLight> direct_light;
   std::vector<Irradiance4> direct, indirect;
@@ -142,7 +143,7 @@ struct RelightSession::Data {
 
   void update_direct(const std::vector<scene::Bounds>& moved) {
     if (any_group_dirty() || !moved.empty() || !direct_light)
-      direct_light = source.direct_light(lights, network.poses());
+      direct_light = source.direct_light(lights, network.poses(), environment_rotation);
     for (std::size_t g = 0; g < group_dirty.size(); ++g) {
       if (group_dirty[g]) {
         field.update_all(static_cast<int>(g), *direct_light);
@@ -230,6 +231,15 @@ void RelightSession::set_group_scale(int group, const vec3& scale) {
   vec3& slot = d.group_scale[static_cast<std::size_t>(group)];
   d.scale_dirty |= slot != scale;
   slot = scale;
+}
+
+void RelightSession::set_environment_rotation(float rotation) {
+  Data& d = *data_;
+  if (!std::isfinite(rotation)) throw Error("environment", "its rotation must be a finite angle");
+  const int group = d.source.environment_group();
+  if (group < 0 || rotation == d.environment_rotation) return;
+  d.environment_rotation = rotation;
+  d.group_dirty[static_cast<std::size_t>(group)] = true;
 }
 
 void RelightSession::set_time(float time) {
@@ -394,6 +404,22 @@ const std::vector<Irradiance4>& RelightSession::surfel_direct() const {
 }
 const TransportNetwork& RelightSession::network() const {
   return data_->network;
+}
+
+ProbeSet lookup_set(const std::vector<ProbePlace>& places, const std::vector<sh::RadianceSh>& reflected) {
+  ProbeSet set;
+  set.degree = reflected.front().degree();
+  set.light_groups.push_back({"all"});
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Probe probe;
+    probe.name = places[i].name;
+    probe.position = places[i].position;
+    probe.radius = places[i].radius;
+    probe.groups.push_back({{}, reflected[i]});
+    set.probes.push_back(std::move(probe));
+  }
+  merge_groups(set);
+  return set;
 }
 
 }  // namespace ssphh::gi

@@ -201,6 +201,16 @@ void PosedSurfaces::occluded(std::span<const scene::RayQuery> rays, std::span<st
   }
 }
 
+bool PosedSurfaces::visible(const vec3& a, const vec3& b) const {
+  for (const Part& part : parts_) {
+    const scene::RayQuery segment{vec3(part.to_part * vec4(a, 1)), mat3(part.to_part) * (b - a), 1};
+    std::uint8_t blocked = 0;
+    source_.occluded(part.index, {&segment, 1}, {&blocked, 1});
+    if (blocked) return false;
+  }
+  return true;
+}
+
 std::vector<scene::SurfacePoint> reachable_points(const scene::TransportSource& source,
                                                   std::span<const vec3> origins, float time,
                                                   const SurfacePointParams& params, const Control& control) {

@@ -86,8 +86,8 @@ class TriangleSource final : public scene::TransportSource {
   const std::vector<std::string>& light_names() const override { return none_; }
   int light_group_of(int) const override { return -1; }
   bool group_emits_from(int, int) const override { return false; }
-  std::unique_ptr<scene::DirectLight> direct_light(std::span<const scene::LightState>,
-                                                   std::span<const mat4>) const override {
+  std::unique_ptr<scene::DirectLight> direct_light(std::span<const scene::LightState>, std::span<const mat4>,
+                                                   float) const override {
     return nullptr;
   }
   std::uint64_t rays_traced() const override { return rays_; }

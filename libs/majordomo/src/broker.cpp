@@ -1,39 +1,45 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <span>
+
+#include <poll.h>
 
 #include <ssphh/core/error.h>
 #include <ssphh/majordomo/broker.h>
 #include <ssphh/majordomo/broker_core.h>
 
+#include "gate.h"
 #include "metrics_server.h"
 #include "outbox.h"
 #include "socket.h"
 #include "store.h"
-#include "zap.h"
 
 namespace ssphh::majordomo {
 namespace {
 
-constexpr int batch = 256;          // messages between two looks at clock and outbox
+constexpr int batch = 256;  // messages between two looks at clock and outbox
+// While there is always something to hear: rounds between two looks at connections, signals and metrics.
+constexpr int rounds_between_looks = 16;
 constexpr Millis outbox_pause = 5;  // between two tries for slow peers
 constexpr Millis linger = 1000;
+constexpr Millis look_at_allow_list = 1000;
 
 /// Random numbers from the system, fetched many at a time.
 class SystemRandom {
  public:
   std::array<std::uint64_t, 2> operator()() {
     if (next_ == pool_.size()) {
-      for (RequestId& id : pool_) id = RequestId::random();
+      fill_random(std::as_writable_bytes(std::span(pool_)));
       next_ = 0;
     }
-    const RequestId& id = pool_[next_++];
-    return {id.high, id.low};
+    return pool_[next_++];
   }
 
  private:
-  std::array<RequestId, 64> pool_;
-  std::size_t next_ = 64;
+  // The system gives up to 256 bytes whole.
+  std::array<std::array<std::uint64_t, 2>, 16> pool_;
+  std::size_t next_ = 16;
 };
 
 }  // namespace
@@ -44,13 +50,11 @@ struct Broker::Impl {
         store(options.store.empty() ? nullptr : std::make_unique<Store>(options.store)),
         core(options.limits, options.timers, SystemRandom(), store != nullptr),
         outbox(options.limits.outbox_bytes) {
+    core.set_least_event(options.least_event);
     require_keys(options.bind, options.security.has_value(), "--bind");
     if (options.timers.worker_expiry < 7500)
       throw Error("worker expiry", "is shorter than 7500 ms", "the guide's workers beat every 2500 ms");
-    if (options.security) {
-      zap = std::make_unique<Zap>(context, options.security->allowed);
-      for (const AllowedKey& entry : options.security->allowed) rights[entry.rights.name] = entry.rights;
-    }
+    if (options.security) gate = std::make_unique<Gate>(context, *options.security);
     open();
     if (!options.metrics_bind.empty())
       metrics = std::make_unique<MetricsServer>(context, options.metrics_bind);
@@ -92,32 +96,52 @@ struct Broker::Impl {
       if (found == peer_of.end()) continue;
       const std::string peer = std::move(found->second);
       peer_of.erase(found);
-      fd_of.erase(peer);
+      connections.erase(peer);
       outbox.forget(peer);
       core.peer_gone(steady_now(), peer);
     }
   }
 
-  void receive() {
+  /// Hears at most a batch; whether there was anything.
+  bool receive() {
     static const Rights plain;
+    const Millis now = steady_now();
     for (int i = 0; i < batch; ++i) {
-      auto received = receive_message(router, options.limits.message_frames + 1);
-      if (!received) return;
-      const std::string peer = std::move(received->frames[0]);
-      received->frames.erase(received->frames.begin());
-      const auto known = fd_of.find(peer);
-      if (received->fd >= 0 && (known == fd_of.end() || known->second != received->fd)) {
+      auto received = receive_routed(router, options.limits.message_frames, gate != nullptr);
+      if (!received) return i > 0;
+      const std::string& peer = received->peer;
+      const auto known = connections.find(peer);
+      if (received->fd >= 0 && (known == connections.end() || known->second.fd != received->fd)) {
         // A new connection: whoever had its descriptor, or its name, before is gone, and the monitor knew
         // first.
         hear_monitor();
-        fd_of[peer] = received->fd;
+        connections[peer] = {received->fd, received->user};
         peer_of[received->fd] = peer;
       }
-      const auto allowed = rights.find(received->user);
-      if (options.security && allowed == rights.end()) continue;  // the handshake lets no such peer in
-      core.receive(steady_now(), peer, std::move(received->frames),
-                   options.security ? allowed->second : plain);
+      const Rights* const rights = gate ? gate->rights(received->user) : &plain;
+      if (rights) {
+        core.receive(now, peer, std::move(received->frames), *rights);
+      } else {
+        core.dropped(now, peer, "key was withdrawn");
+      }
     }
+    return true;
+  }
+
+  void follow_allow_list(Millis now) {
+    const bool asked = reloads.exchange(false);
+    if (!asked && now < look_at) return;
+    look_at = now + look_at_allow_list;
+    if (!gate->follows_a_file() || (!asked && !gate->file_changed())) return;
+    const auto rights_of = [this](const Connection& connection) {
+      const Rights* const rights = gate->rights(connection.key);
+      return rights ? std::optional(*rights) : std::nullopt;
+    };
+    std::unordered_map<std::string, std::optional<Rights>> before;
+    for (const auto& [peer, connection] : connections) before[peer] = rights_of(connection);
+    tell(gate->reload());
+    for (const auto& [peer, rights] : before)
+      if (rights_of(connections.at(peer)) != rights) core.revoke(now, peer);
   }
 
   void flush(bool retry) {
@@ -140,33 +164,40 @@ struct Broker::Impl {
   void tell(const BrokerEvent& event) const {
     if (options.on_event) {
       options.on_event(event);
-    } else if (event.level != LogLevel::debug) {
+    } else {
       log(event.level, event.text());
     }
   }
 
+  /// One round: hear, do what is due, send. Waits only when there was nothing to hear, for ZeroMQ's
+  /// descriptors tell of a message once, and sending may swallow that.
   void step(Millis longest) {
-    const Millis now = steady_now();
-    const Millis wait = std::clamp<Millis>(std::min(core.next_deadline() - now, longest), 0, 60'000);
-    zmq::pollitem_t items[] = {{router.handle(), 0, ZMQ_POLLIN, 0},
-                               {monitor.handle(), 0, ZMQ_POLLIN, 0},
-                               {nullptr, wakeup.fd(), ZMQ_POLLIN, 0},
-                               {metrics ? metrics->socket().handle() : nullptr, 0, ZMQ_POLLIN, 0}};
-    try {
-      zmq::poll(items, metrics ? 4 : 3,
-                std::chrono::milliseconds(outbox.empty() ? wait : std::min(wait, outbox_pause)));
-    } catch (const zmq::error_t& e) {
-      if (e.num() != EINTR) throw;
+    if (!receive()) {
+      wait(longest);
+    } else if (++busy_rounds % rounds_between_looks == 0) {
+      wait(0);
     }
-    if (items[2].revents) wakeup.clear();
-    receive();
-    if (items[1].revents) hear_monitor();
-    if (metrics && items[3].revents) metrics->serve([this] { return core.metrics_text(); });
-    const Millis after = steady_now();
-    if (core.next_deadline() <= after) core.tick(after);
-    const bool retry = !outbox.empty() && after >= retry_at;
-    if (retry) retry_at = after + outbox_pause;
+    const Millis now = steady_now();
+    if (core.next_deadline() <= now) core.tick(now);
+    if (gate) follow_allow_list(now);
+    const bool retry = !outbox.empty() && now >= retry_at;
+    if (retry) retry_at = now + outbox_pause;
     flush(retry);
+  }
+
+  void wait(Millis longest) {
+    if (gate && gate->follows_a_file()) longest = std::min(longest, look_at_allow_list);
+    if (!outbox.empty()) longest = std::min(longest, outbox_pause);
+    const Millis timeout =
+        std::clamp<Millis>(std::min(core.next_deadline() - steady_now(), longest), 0, 60'000);
+    ::pollfd items[] = {{router.get(zmq::sockopt::fd), POLLIN, 0},
+                        {monitor.get(zmq::sockopt::fd), POLLIN, 0},
+                        {wakeup.fd(), POLLIN, 0},
+                        {metrics ? metrics->socket().get(zmq::sockopt::fd) : -1, POLLIN, 0}};
+    if (::poll(items, 4, static_cast<int>(timeout)) <= 0) return;  // a signal is as good as a timeout
+    if (items[1].revents) hear_monitor();
+    if (items[2].revents) wakeup.clear();
+    if (items[3].revents) metrics->serve([this] { return core.metrics_text(); });
   }
 
   void run() {
@@ -190,15 +221,20 @@ struct Broker::Impl {
   BrokerCore core;
   Outbox outbox;
   zmq::context_t context;
-  std::unique_ptr<Zap> zap;
+  std::unique_ptr<Gate> gate;  // null: plain
   std::unique_ptr<MetricsServer> metrics;
   zmq::socket_t router, monitor;
   Wakeup wakeup;
-  std::unordered_map<std::string, Rights> rights;
-  std::unordered_map<std::string, int> fd_of;
+  struct Connection {
+    int fd = -1;
+    std::string key;  ///< public key; empty for plain connections
+  };
+  std::unordered_map<std::string, Connection> connections;  // by peer
   std::unordered_map<int, std::string> peer_of;
-  Millis retry_at = 0;
+  Millis retry_at = 0, look_at = 0;
+  std::uint64_t busy_rounds = 0;
   std::atomic<int> stops{0};
+  std::atomic<bool> reloads{false};
 };
 
 Broker::Broker(BrokerOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
@@ -218,6 +254,11 @@ void Broker::run() {
 
 void Broker::stop() noexcept {
   ++impl_->stops;
+  impl_->wakeup.notify();
+}
+
+void Broker::reload() noexcept {
+  impl_->reloads = true;
   impl_->wakeup.notify();
 }
 

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t reply_frame_bytes = std::size_t{1} << 30;
 constexpr Millis cancel_linger = 500;
-constexpr Millis look = 100;  // how often `call` looks whether it is cancelled
+constexpr Millis look = 100;          // how often `call` looks whether it is cancelled
+constexpr Millis knock_again = 2000;  // ZeroMQ gives a connection up whose key was refused; lists change
 
 constexpr int watched = ZMQ_EVENT_HANDSHAKE_SUCCEEDED | ZMQ_EVENT_DISCONNECTED |
                         ZMQ_EVENT_HANDSHAKE_FAILED_AUTH | ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL |
@@ -51,6 +52,7 @@ struct Client::Impl {
     monitor.set(zmq::sockopt::linger, 0);
     monitor.connect(name);
     up = false;
+    knock_at = Timers::never;
     connect(socket, options.endpoint, options.security.has_value());
   }
 
@@ -64,10 +66,13 @@ struct Client::Impl {
         core.connected(now);
       } else if (event == ZMQ_EVENT_DISCONNECTED) {
         up = false;
-      } else if (!std::exchange(warned, true)) {
-        log_warning(
-            "{}: the broker refuses the connection; is this key in its allow.txt, and broker.pub its own?",
-            options.endpoint);
+      } else {
+        knock_at = now + knock_again;
+        if (!std::exchange(warned, true))
+          log_warning(
+              "{}: the broker refuses the connection; is this key in its allow.txt, and broker.pub its own? "
+              "Still trying",
+              options.endpoint);
       }
     }
   }
@@ -84,9 +89,11 @@ struct Client::Impl {
   /// Sends, waits at most `timeout`, hears.
   void step(Millis timeout) {
     Millis now = steady_now();
+    if (knock_at <= now) open();
     core.tick(now);
     flush();
-    const Millis wait = std::clamp<Millis>(std::min(timeout, core.next_deadline() - now), 0, 60'000);
+    const Millis due = std::min(core.next_deadline(), knock_at);
+    const Millis wait = std::clamp<Millis>(std::min(timeout, due - now), 0, 60'000);
     zmq::pollitem_t items[] = {
         {socket.handle(), 0, static_cast<short>(unsent.empty() ? ZMQ_POLLIN : ZMQ_POLLIN | ZMQ_POLLOUT), 0},
         {monitor.handle(), 0, ZMQ_POLLIN, 0}};
@@ -108,6 +115,7 @@ struct Client::Impl {
   ClientCore core;
   std::deque<ToBroker> unsent;
   std::deque<ClientEvent> kept;  ///< of other requests, while call() waits for its own
+  Millis knock_at = Timers::never;
   bool up = false, warned = false;
 };
 

@@ -31,10 +31,14 @@ std::optional<RequestId> RequestId::parse(std::string_view text) {
   return RequestId{half[0], half[1]};
 }
 
+void fill_random(std::span<std::byte> bytes) {
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+    throw Error("random numbers", "the system gives none", "see getrandom(2)");
+}
+
 RequestId RequestId::random() {
   RequestId id;
-  if (::getrandom(&id, sizeof id, 0) != sizeof id)
-    throw Error("random numbers", "the system gives none", "see getrandom(2)");
+  fill_random(std::as_writable_bytes(std::span(&id, 1)));
   return id;
 }
 

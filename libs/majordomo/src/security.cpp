@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 #include <sys/stat.h>
@@ -113,6 +114,7 @@ bool Rights::may_serve(std::string_view service) const {
 AllowList read_allow_list(const fs::path& path) {
   std::istringstream lines(read_text_file(path, allow_list_bytes));
   AllowList list;
+  std::set<std::string> seen;
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
@@ -123,9 +125,8 @@ AllowList read_allow_list(const fs::path& path) {
       if (fields[i].starts_with('#')) fields.resize(i);
     const std::string where = path.string() + ":" + std::to_string(number);
     AllowedKey entry = parse_line(fields, where);
-    for (const AllowedKey& other : list)
-      if (other.public_key == entry.public_key || other.rights.name == entry.rights.name)
-        throw Error(where, "this name or key stands here twice", "one line per key");
+    if (!seen.insert(entry.public_key).second || !seen.insert("name " + entry.rights.name).second)
+      throw Error(where, "this name or key stands here twice", "one line per key");
     list.push_back(std::move(entry));
   }
   return list;
@@ -150,7 +151,8 @@ PeerSecurity read_peer_security(const fs::path& dir, const std::string& name) {
 }
 
 BrokerSecurity read_broker_security(const fs::path& dir) {
-  return {read_key_pair(dir / "broker.key"), read_allow_list(dir / "allow.txt")};
+  const fs::path list = dir / "allow.txt";
+  return {read_key_pair(dir / "broker.key"), read_allow_list(list), list};
 }
 
 bool is_local_endpoint(std::string_view endpoint) {

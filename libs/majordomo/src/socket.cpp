@@ -12,6 +12,7 @@ namespace {
 
 constexpr int heartbeat_interval = 1000;
 constexpr std::size_t copy_below = 64 << 10;
+constexpr std::size_t usual_frames = 8;
 
 void release(void*, void* hint) {
   delete static_cast<Body*>(hint);
@@ -78,14 +79,28 @@ std::optional<Received> receive_message(zmq::socket_t& socket, std::size_t max_f
   zmq::message_t part;
   if (!socket.recv(part, zmq::recv_flags::dontwait)) return std::nullopt;
   while (true) {
-    if (received.fd < 0) {
-      received.fd = zmq_msg_get(part.handle(), ZMQ_SRCFD);
-      if (const char* user = zmq_msg_gets(part.handle(), "User-Id")) received.user = user;
-    }
     if (received.frames.size() <= max_frames) received.frames.push_back(part.to_string());
     if (!part.more()) return received;
     (void)socket.recv(part, zmq::recv_flags::none);  // the rest of a message is there at once
   }
+}
+
+std::optional<Routed> receive_routed(zmq::socket_t& router, std::size_t max_frames, bool want_user) {
+  Routed received;
+  zmq::message_t part;
+  if (!router.recv(part, zmq::recv_flags::dontwait)) return std::nullopt;
+  received.peer = part.to_string();
+  received.frames.reserve(usual_frames);
+  while (part.more()) {
+    (void)router.recv(part, zmq::recv_flags::none);  // the rest of a message is there at once
+    if (received.fd < 0) {
+      received.fd = zmq_msg_get(part.handle(), ZMQ_SRCFD);
+      const char* const user = want_user ? zmq_msg_gets(part.handle(), "User-Id") : nullptr;
+      if (user) received.user = user;
+    }
+    if (received.frames.size() <= max_frames) received.frames.push_back(part.to_string());
+  }
+  return received;
 }
 
 Wakeup::Wakeup() : fd_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {

@@ -26,15 +26,22 @@ enum class Sent { yes, full, unreachable };
 /// Sends identity (unless null), head and body without waiting. Frames of 64 KB and more are not copied.
 Sent send_message(zmq::socket_t& socket, const std::string* identity, const Frames& head, const Body& body);
 
-/// What is known of a received message beside its frames.
 struct Received {
   Frames frames;
-  int fd = -1;       ///< of the connection it came by; −1 when ZeroMQ does not tell
-  std::string user;  ///< name of its CURVE key, from the allow-list; empty for plain connections
 };
 /// Receives one message without waiting; none when there is none. More than `max_frames` frames are read and
 /// thrown away, leaving max_frames + 1.
 std::optional<Received> receive_message(zmq::socket_t& socket, std::size_t max_frames = 1024);
+
+/// What a ROUTER knows of a message.
+struct Routed {
+  std::string peer;  ///< the identity
+  Frames frames;
+  int fd = -1;       ///< of the connection it came by; −1 when ZeroMQ does not tell
+  std::string user;  ///< public CURVE key (what the allow-list let in), if asked for; empty for plain ones
+};
+/// As receive_message, for a ROUTER; `max_frames` counts those behind the identity.
+std::optional<Routed> receive_routed(zmq::socket_t& router, std::size_t max_frames, bool want_user);
 
 /// Wakes a poll from another thread or a signal handler.
 class Wakeup {

@@ -5,14 +5,21 @@
 namespace ssphh::majordomo {
 
 Zap::Zap(zmq::context_t& context, const AllowList& allowed) : socket_(context, zmq::socket_type::rep) {
-  for (const AllowedKey& entry : allowed) {
-    std::string raw(32, '\0');
-    zmq_z85_decode(reinterpret_cast<std::uint8_t*>(raw.data()), entry.public_key.c_str());
-    names_[raw] = entry.rights.name;
-  }
+  allow(allowed);
   socket_.set(zmq::sockopt::linger, 0);
   socket_.bind("inproc://zeromq.zap.01");
   thread_ = std::thread([this] { serve(); });
+}
+
+void Zap::allow(const AllowList& allowed) {
+  std::unordered_map<std::string, std::string> keys;
+  for (const AllowedKey& entry : allowed) {
+    std::string raw(32, '\0');
+    zmq_z85_decode(reinterpret_cast<std::uint8_t*>(raw.data()), entry.public_key.c_str());
+    keys[raw] = entry.public_key;
+  }
+  const std::lock_guard lock(mutex_);
+  keys_ = std::move(keys);
 }
 
 Zap::~Zap() {
@@ -36,18 +43,20 @@ void Zap::serve() {
 // Frames: version, request id, domain, address, identity, mechanism, credentials.
 void Zap::answer(const Frames& request) {
   const bool curve = request.size() == 7 && request[0] == "1.0" && request[5] == "CURVE";
-  const auto found = curve ? names_.find(request[6]) : names_.end();
-  const bool known = found != names_.end();
-  if (!known) {
-    ++refused_;
+  std::string key;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = curve ? keys_.find(request[6]) : keys_.end();
+    if (found != keys_.end()) key = found->second;
+  }
+  if (key.empty())
     log_warning("connection-refused address={} reason=\"key is not in the allow-list\"",
                 request.size() > 3 ? request[3] : "");
-  }
   const Frames reply = {"1.0",
                         request.size() > 1 ? request[1] : Frame(),
-                        known ? "200" : "400",
-                        known ? "OK" : "unknown key",
-                        known ? found->second : Frame(),
+                        key.empty() ? "400" : "200",
+                        key.empty() ? "unknown key" : "OK",
+                        key,
                         ""};
   send_message(socket_, nullptr, reply, nullptr);
 }

@@ -1,7 +1,9 @@
 #pragma once
-/// Lets in the CURVE keys of an allow-list (ZeroMQ RFC 27/ZAP) and gives each connection its key's name.
+/// Lets in the CURVE keys of an allow-list (ZeroMQ RFC 27/ZAP) and gives each connection its public key as
+/// User-Id.
 
 #include <atomic>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <unordered_map>
@@ -22,18 +24,18 @@ class Zap {
   Zap(const Zap&) = delete;
   Zap& operator=(const Zap&) = delete;
 
-  /// Connections that were turned away.
-  std::uint64_t refused() const { return refused_; }
+  /// From now on these keys. Connections that are open stay open.
+  void allow(const AllowList& allowed);
 
  private:
   void serve();
   void answer(const Frames& request);
 
-  std::unordered_map<std::string, std::string> names_;  ///< by raw key
+  std::mutex mutex_;
+  std::unordered_map<std::string, std::string> keys_;  ///< Z85 text by raw key
   zmq::socket_t socket_;
   Wakeup end_;
   std::atomic<bool> ended_{false};
-  std::atomic<std::uint64_t> refused_{0};
   std::thread thread_;
 };
 

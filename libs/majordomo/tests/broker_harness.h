@@ -64,6 +64,16 @@ inline Frames control(EnvelopeKind kind, std::vector<RequestId> ids) {
   return client02(std::string(control_service), {encode_envelope({.kind = kind, .ids = std::move(ids)})});
 }
 
+/// Identities of workers of ours, as the broker sees them.
+inline const std::string own_a = "ssphh1:a#1", own_b = "ssphh1:b#2", own_c = "ssphh1:c#3";
+
+/// The FINAL of a worker of ours.
+inline Frames result(const std::string& address, Envelope envelope, const std::string& body = "result") {
+  envelope.kind = EnvelopeKind::result;
+  envelope.token = Token::parse(address);
+  return final02(address, {encode_envelope(envelope), body});
+}
+
 class Harness {
  public:
   explicit Harness(BrokerLimits limits = {}, BrokerTimers timers = {}, bool has_store = false)
@@ -77,6 +87,10 @@ class Harness {
   }
   void gone(const std::string& peer) {
     core.peer_gone(now, peer);
+    collect();
+  }
+  void revoke(const std::string& peer) {
+    core.revoke(now, peer);
     collect();
   }
   /// Lets time pass and everything happen that is due on the way.

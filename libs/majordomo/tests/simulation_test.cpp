@@ -19,6 +19,7 @@ struct Faults {
   double worker_dies = 0;  ///< per worker and second
   double client_reconnects = 0, broker_restarts = 0;  ///< per second
   bool store = false;
+  double clock_jumps = 0;  ///< per second and clock: some seconds back, or up to an hour ahead
 };
 
 class World {
@@ -86,6 +87,7 @@ class World {
     ClientCore core;
     std::map<std::string, std::string> expected = {};
     std::map<std::string, std::vector<std::string>> answers = {};
+    Millis skew = 0;
   };
   struct Worker {
     std::unique_ptr<WorkerCore> core;
@@ -93,6 +95,7 @@ class World {
     std::string body = {};
     Millis done_at = Timers::never;
     Millis frozen_until = 0;
+    Millis skew = 0;
   };
   struct Flying {
     int kind;  // 0: to the broker, 1: to a client, 2: to a worker
@@ -100,6 +103,12 @@ class World {
     Frames frames;
   };
 
+  /// A clock that is put: up to twenty seconds back, or up to an hour ahead.
+  void jump(Millis& skew, double per_step) {
+    if (faults_.clock_jumps == 0 || !chance(faults_.clock_jumps * per_step)) return;
+    const float most = chance(0.5) ? -20'000.0f : 3'600'000.0f;
+    skew += static_cast<Millis>(random_.uniform() * most);
+  }
   bool chance(double p) { return static_cast<double>(random_.uniform()) < p; }
 
   Worker new_worker() {
@@ -111,8 +120,8 @@ class World {
   void start_broker() {
     broker_ =
         std::make_unique<BrokerCore>(limits_, timers_, sequence(seed_ + 1000 * ++generation_), faults_.store);
-    broker_->tick(now_);
-    for (StoredRequest& stored : std::vector(stored_)) broker_->restore(now_, std::move(stored));
+    broker_->tick(now_ + skew_);
+    for (StoredRequest& stored : std::vector(stored_)) broker_->restore(now_ + skew_, std::move(stored));
   }
 
   void fly(int kind, const std::string& peer, const Frames& head, const Body& body) {
@@ -142,7 +151,7 @@ class World {
 
   void drop_connection(const std::string& peer, bool noticed) {
     std::erase_if(flying_, [&](const auto& entry) { return entry.second.peer == peer; });
-    if (noticed) broker_->peer_gone(now_, peer);
+    if (noticed) broker_->peer_gone(now_ + skew_, peer);
   }
 
   void step() {
@@ -153,14 +162,17 @@ class World {
       deliver(message);
     }
     const double per_step = static_cast<double>(step_ms) / 1000;
+    jump(skew_, per_step);
+    for (Client& client : clients_) jump(client.skew, per_step);
+    for (Worker& worker : workers_) jump(worker.skew, per_step);
     for (std::size_t i = 0; i < workers_.size(); ++i) step_worker(i, per_step);
     for (std::size_t i = 0; i < clients_.size(); ++i) {
       const std::string name = "client " + std::to_string(i);
       if (chance(faults_.client_reconnects * per_step)) {
         drop_connection(name, true);
-        clients_[i].core.connected(now_);
+        clients_[i].core.connected(now_ + clients_[i].skew);
       }
-      clients_[i].core.tick(now_);
+      clients_[i].core.tick(now_ + clients_[i].skew);
       for (const ToBroker& message : clients_[i].core.take()) fly(0, name, message.head, message.body);
       while (const auto event = clients_[i].core.next_event()) {
         std::string text = event->outcome == Outcome::ok ? "" : to_string(event->outcome);
@@ -171,9 +183,9 @@ class World {
     if (chance(faults_.broker_restarts * per_step)) {
       flying_.clear();
       start_broker();
-      for (Client& client : clients_) client.core.connected(now_);
+      for (Client& client : clients_) client.core.connected(now_ + client.skew);
     }
-    broker_->tick(now_);
+    broker_->tick(now_ + skew_);
     const BrokerOutputs out = broker_->take();
     for (const StoreOperation& operation : out.store) apply(operation);
     for (const Outgoing& message : out.messages)
@@ -191,21 +203,22 @@ class World {
       }
     }
     if (now_ < worker.frozen_until) return;
-    if (worker.core->connect_at().value_or(Timers::never) <= now_) {
+    const Millis now = now_ + worker.skew;
+    if (worker.core->connect_at().value_or(Timers::never) <= now) {
       if (!worker.identity.empty()) drop_connection(worker.identity, true);
       worker.identity = "ssphh1:worker" + std::to_string(i) + "#" + std::to_string(++connections_);
-      worker.core->connected(now_);
+      worker.core->connected(now);
     }
     if (now_ >= worker.done_at) {
       worker.done_at = Timers::never;
       ++executions_;
       if (chance(0.05)) {
-        worker.core->done(now_, {.outcome = Outcome::failed, .retry = true, .reason = "unlucky"});
+        worker.core->done(now, {.outcome = Outcome::failed, .retry = true, .reason = "unlucky"});
       } else {
-        worker.core->done(now_, {.body = {"result of ", worker.body}});
+        worker.core->done(now, {.body = {"result of ", worker.body}});
       }
     }
-    worker.core->tick(now_);
+    worker.core->tick(now);
     if (auto job = worker.core->take_job()) {
       worker.body = job->body.at(0);
       worker.done_at = now_ + 50 + static_cast<Millis>(random_.uniform() * 500);
@@ -214,12 +227,14 @@ class World {
   }
 
   void deliver(const Flying& message) {
-    if (message.kind == 0) return broker_->receive(now_, message.peer, Frames(message.frames));
-    if (message.kind == 1)
-      return clients_.at(std::stoul(message.peer.substr(7))).core.receive(now_, Frames(message.frames));
+    if (message.kind == 0) return broker_->receive(now_ + skew_, message.peer, Frames(message.frames));
+    if (message.kind == 1) {
+      Client& client = clients_.at(std::stoul(message.peer.substr(7)));
+      return client.core.receive(now_ + client.skew, Frames(message.frames));
+    }
     for (Worker& worker : workers_)
       if (worker.identity == message.peer && now_ >= worker.frozen_until)
-        worker.core->receive(now_, Frames(message.frames));
+        worker.core->receive(now_ + worker.skew, Frames(message.frames));
   }
 
   Faults faults_;
@@ -228,7 +243,8 @@ class World {
   BrokerCore::Random id_random_ = sequence(99);
   BrokerLimits limits_;
   BrokerTimers timers_;
-  Millis now_ = 1000;
+  Millis now_ = 1'000'000;
+  Millis skew_ = 0;  ///< of the broker's clock
   std::uint64_t generation_ = 0;
   int connections_ = 0, executions_ = 0;
   std::unique_ptr<BrokerCore> broker_;
@@ -270,6 +286,10 @@ TEST(Simulation, DyingAndFreezingWorkers) {
 
 TEST(Simulation, ReconnectingClientsAndRestartingBroker) {
   answered_exactly_once({.delay = 20, .client_reconnects = 0.2, .broker_restarts = 0.1}, 10);
+}
+
+TEST(Simulation, JumpingClocks) {
+  answered_exactly_once({.delay = 20, .clock_jumps = 0.02}, 10);
 }
 
 TEST(Simulation, Everything) {

@@ -1,17 +1,11 @@
 #include "json_reader.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include <ssphh/core/nearest_word.h>
 #include <ssphh/report/plan.h>
 
 namespace ssphh::report {
-
-std::string nearest_hint(const std::string& name, const std::vector<std::string>& candidates) {
-  const std::string best = nearest(name, candidates);
-  return best.empty() ? fmt::format("known: {}", fmt::join(candidates, ", "))
-                      : fmt::format("did you mean \"{}\"?", best);
-}
 
 Object::Object(const Json& json, std::string where, std::vector<std::string> known)
     : json_(json), where_(std::move(where)) {

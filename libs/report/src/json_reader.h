@@ -37,7 +37,4 @@ class Object {
   std::string where_;
 };
 
-/// "; nearest is 'x'" or "".
-std::string nearest_hint(const std::string& name, const std::vector<std::string>& candidates);
-
 }  // namespace ssphh::report

@@ -9,6 +9,7 @@
 #include <ssphh/image/io.h>
 #include <ssphh/metrics/compare.h>
 #include <ssphh/metrics/flip.h>
+#include <ssphh/metrics/mask.h>
 #include <ssphh/metrics/perceptual.h>
 #include <ssphh/report/measure.h>
 
@@ -115,7 +116,9 @@ void measure_run(const Image& reference, const Image& test, const MeasureParams&
   add("flip", flip.mean);
   if (out.flip.empty()) out.flip = std::move(flip.map);
   for (const Inset& inset : params.insets) {
-    const metrics::ImageError part = metrics::compare(crop(reference, inset), crop(test, inset));
+    const metrics::ImageError part = inset.mask.pixels.empty()
+                                         ? metrics::compare(crop(reference, inset), crop(test, inset))
+                                         : metrics::compare(metrics::masked(reference, inset.mask), test);
     add("relmse@" + inset.name, part.relmse), add("mean_ratio@" + inset.name, mean_ratio(part));
   }
 }

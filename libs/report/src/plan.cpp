@@ -3,55 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/nearest_word.h>
 #include <ssphh/report/plan.h>
 
 #include "json_reader.h"
+#include "parameters.h"
 #include "words.h"
+#include "yaml_reader.h"
 
 namespace ssphh::report {
 namespace {
 
 const std::vector<std::string> picture_layers = {"direct", "indirect", "irradiance"};
-
-std::string value_text(const Json& value, const std::string& where) {
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_number()) return value.dump();
-  throw Error(where, "must be a number or text");
-}
-
-Parameters read_parameters(const Json& json, const std::string& where) {
-  if (!json.is_object()) throw Error(where, "must be an object of names and values");
-  Parameters parameters;
-  for (const auto& [key, value] : json.items())
-    parameters.emplace_back(key, value_text(value, where + "/" + key));
-  return parameters;
-}
-
-// An object of lists stands for every combination, a list of objects for itself.
-std::vector<Parameters> read_variants(const Json* json, const std::string& where) {
-  if (!json) return {{}};
-  std::vector<Parameters> variants;
-  if (json->is_array()) {
-    for (const Json& item : *json) variants.push_back(read_parameters(item, where));
-  } else if (json->is_object()) {
-    variants.emplace_back();
-    for (const auto& [key, values] : json->items()) {
-      if (!values.is_array() || values.empty()) throw Error(where + "/" + key, "must be a list of values");
-      std::vector<Parameters> longer;
-      for (const Parameters& start : variants) {
-        for (const Json& value : values) {
-          longer.push_back(start);
-          longer.back().emplace_back(key, value_text(value, where + "/" + key));
-        }
-      }
-      variants = std::move(longer);
-    }
-  } else {
-    throw Error(where, "must be an object of lists or a list of objects");
-  }
-  if (variants.empty()) throw Error(where, "is empty");
-  return variants;
-}
 
 class PlanReader {
  public:
@@ -84,8 +47,11 @@ class PlanReader {
         throw Error(o.at("layers"), fmt::format("unknown layer \"{}\"", layer),
                     nearest_hint(layer, picture_layers));
     }
-    for (const Json* item : o.items("columns")) plan_.columns.push_back(read_column(*item, o.at("columns")));
-    for (const Json* item : o.items("charts")) plan_.charts.push_back(read_chart(*item, o.at("charts")));
+    for (const Json* item : o.items("columns"))
+      plan_.columns.push_back(
+          read_column(*item, fmt::format("{}[{}]", o.at("columns"), plan_.columns.size())));
+    for (const Json* item : o.items("charts"))
+      plan_.charts.push_back(read_chart(*item, fmt::format("{}[{}]", o.at("charts"), plan_.charts.size())));
     if (const Json* published = o.find("published")) read_published(*published, o.at("published"));
     plan_.block = o.integer("block", 16, 1, 4096);
     plan_.time_limit = o.integer("time_limit", 3600, 1, 1000000);
@@ -113,20 +79,30 @@ class PlanReader {
         throw Error(o.at("variables"), fmt::format("the plan has no variable \"{}\"", key),
                     nearest_hint(key, known));
     }
-    for (const Json* item : o.items("insets")) {
-      const Object inset(*item, o.at("insets"), {"name", "at"});
-      Inset result{inset.text("name")};
-      const std::vector<const Json*> at = inset.items("at");
-      if (at.size() != 4 || !std::all_of(at.begin(), at.end(), [](const Json* x) { return x->is_number(); }))
-        throw Error(inset.at("at"), "must be four numbers: left, top, right, bottom as fractions");
-      result.x0 = at[0]->get<double>(), result.y0 = at[1]->get<double>();
-      result.x1 = at[2]->get<double>(), result.y1 = at[3]->get<double>();
-      if (!(0 <= result.x0 && result.x0 < result.x1 && result.x1 <= 1 && 0 <= result.y0 &&
-            result.y0 < result.y1 && result.y1 <= 1))
-        throw Error(inset.at("at"), "must be left < right and top < bottom, all within 0..1");
-      scene.insets.push_back(result);
-    }
+    for (const Json* item : o.items("insets"))
+      scene.insets.push_back(read_inset(*item, fmt::format("{}[{}]", o.at("insets"), scene.insets.size())));
     return scene;
+  }
+
+  static Inset read_inset(const Json& json, const std::string& where) {
+    const Object o(json, where, {"name", "at", "mask"});
+    Inset inset;
+    inset.name = o.text("name");
+    inset.mask_file = o.text("mask");
+    if (!inset.mask_file.empty()) {
+      if (o.find("at")) throw Error(where, "\"at\" and \"mask\" exclude each other");
+      return inset;
+    }
+    const std::vector<const Json*> at = o.items("at");
+    if (at.size() != 4 || !std::all_of(at.begin(), at.end(), [](const Json* x) { return x->is_number(); }))
+      throw Error(o.at("at"), "must be four numbers: left, top, right, bottom as fractions",
+                  "or give a picture of the region as \"mask\"");
+    inset.x0 = at[0]->get<double>(), inset.y0 = at[1]->get<double>();
+    inset.x1 = at[2]->get<double>(), inset.y1 = at[3]->get<double>();
+    if (!(0 <= inset.x0 && inset.x0 < inset.x1 && inset.x1 <= 1 && 0 <= inset.y0 && inset.y0 < inset.y1 &&
+          inset.y1 <= 1))
+      throw Error(o.at("at"), "must be left < right and top < bottom, all within 0..1");
+    return inset;
   }
 
   Step read_step(const Json& json, const std::string& where) const {
@@ -278,10 +254,36 @@ std::string label(const PlanMethod& method, const Parameters& parameters) {
   return text;
 }
 
-Plan parse_plan(std::string_view json, const std::string& name, const std::vector<std::string>& commands) {
+namespace {
+
+/// The key in 'unknown key "x"', "" for other problems.
+std::string quoted_key(const std::string& problem) {
+  const std::string_view start = "unknown key \"";
+  if (!problem.starts_with(start)) return {};
+  return problem.substr(start.size(), problem.rfind('"') - start.size());
+}
+
+Plan parse_yaml_plan(std::string_view yaml, const std::string& name,
+                     const std::vector<std::string>& commands) {
+  const Json document = parse_yaml(yaml, name);
+  try {
+    return PlanReader(name, commands).read(document);
+  } catch (const Error& e) {
+    const int line = yaml_line(yaml, name, e.where(), quoted_key(e.problem()));
+    if (line == 0) throw;
+    const std::string place = e.where().substr(std::min(e.where().size(), name.size() + 1));
+    throw Error(fmt::format("{}:{}{}{}", name, line, place.empty() ? "" : ": ", place), e.problem(),
+                e.hint());
+  }
+}
+
+}  // namespace
+
+Plan parse_plan(std::string_view text, const std::string& name, const std::vector<std::string>& commands) {
+  if (is_yaml_name(name)) return parse_yaml_plan(text, name, commands);
   Json document;
   try {
-    document = Json::parse(json);
+    document = Json::parse(text);
   } catch (const Json::parse_error& e) {
     throw Error(name, fmt::format("is not JSON: {}", e.what()));
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <ssphh/report/report.h>
@@ -10,10 +11,14 @@
 namespace ssphh::report {
 namespace {
 
+constexpr std::size_t longest_list = 16;  ///< of which the elements are values, NAME.0 and so on
+
 void add(const std::string& name, const nlohmann::ordered_json& json,
          std::map<std::string, std::vector<double>>& values) {
   if (json.is_object()) {
     for (const auto& [key, child] : json.items()) add(name + "." + key, child, values);
+  } else if (json.is_array() && json.size() <= longest_list) {
+    for (std::size_t i = 0; i < json.size(); ++i) add(fmt::format("{}.{}", name, i), json[i], values);
   } else if (json.is_boolean()) {
     values[name].push_back(json.get<bool>() ? 1 : 0);
   } else if (json.is_number()) {

@@ -108,5 +108,34 @@ TEST(Layers, HalvesAndIrradiance) {
   EXPECT_THROW(load_layer({dir / "b.exr"}, "indirect"), Error);
 }
 
+// The mask is of another size than the pictures and white in its right half.
+TEST(Measure, MaskedInsetsAreBoundedAndMeasuredByTheirPixelsAlone) {
+  test::TempDir dir;
+  Image mask(8, 4);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 4; x < 8; ++x) mask.set_rgb(x, y, vec3(1));
+  mask.set_rgb(7, 0, vec3(0));
+  image::write_image(dir / "right.png", mask);
+  Plan plan;
+  plan.scenes.resize(1);
+  plan.scenes[0].insets.push_back({.name = "right", .mask_file = "right.png"});
+  load_masks(plan, dir.path());
+  const Inset& inset = plan.scenes[0].insets[0];
+  EXPECT_EQ(inset.x0, 0.5);
+  EXPECT_EQ(inset.x1, 1);
+  EXPECT_EQ(inset.y0, 0);
+
+  const Image reference = constant(16, 8, 1);
+  Image picture = constant(16, 8, 2);
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 16; ++x)
+      if (x < 8 || (x >= 14 && y < 2)) picture.set_rgb(x, y, vec3(9));  // outside, also within the bounds
+  const auto values = measure_layer({reference, {}}, {{picture, {}}}, {16, plan.scenes[0].insets}).values;
+  EXPECT_FLOAT_EQ(static_cast<float>(values.at("mean_ratio@right")[0]), 2.0f);
+
+  image::write_image(dir / "right.png", Image(8, 4));
+  EXPECT_THROW(load_masks(plan, dir.path()), Error) << "black";
+}
+
 }  // namespace
 }  // namespace ssphh::report

@@ -130,11 +130,6 @@ TEST(Plan, VariablesAreSetByName) {
   EXPECT_THROW(set_variable(plan, "width"), Error);
 }
 
-TEST(Plan, NearestWantsHalfOfTheName) {
-  EXPECT_EQ(nearest("recieve", {"receive", "relative"}), "receive");
-  EXPECT_EQ(nearest("zzzz", {"receive", "relative"}), "");
-}
-
 TEST(Plan, SchemaAndReaderAgree) {
   EXPECT_THAT(schema_errors(valid()), testing::IsEmpty());
   const std::vector<std::function<void(ordered_json&)>> bad = {

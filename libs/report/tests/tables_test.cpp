@@ -77,12 +77,15 @@ TEST(Tables, MarkdownShowsValuesBesidePublishedOnes) {
 
 TEST(Values, NumbersOfAResultAreNamedByTheirPath) {
   std::map<std::string, std::vector<double>> values;
-  add_numbers("bake", R"({"a": 1, "b": {"c": 2.5}, "d": "text", "e": [1, 2], "f": true, "g": null})", values);
+  add_numbers("bake", R"({"a": 1, "b": {"c": 2.5}, "d": "text", "e": [{"x": 1}, 2], "f": true, "g": null})",
+              values);
   EXPECT_THAT(values, testing::ElementsAre(testing::Pair("bake.a", testing::ElementsAre(1)),
                                            testing::Pair("bake.b.c", testing::ElementsAre(2.5)),
+                                           testing::Pair("bake.e.0.x", testing::ElementsAre(1)),
+                                           testing::Pair("bake.e.1", testing::ElementsAre(2)),
                                            testing::Pair("bake.f", testing::ElementsAre(1))));
   add_numbers("bake", "no json", values);
-  EXPECT_EQ(values.size(), 3u);
+  EXPECT_EQ(values.size(), 5u);
 }
 
 TEST(Values, MedianAndDeviation) {

@@ -15,6 +15,8 @@ const std::vector<BuiltinScene>& builtin_scenes() {
       {"box", "closed box seen from inside, Le = 1, albedo 0.5: radiance 2 everywhere", make_glowing_box},
       {"two-rooms", "two rooms, a doorway, a door that opens from time 0 to 1, a lamp in room A",
        make_two_rooms},
+      {"court", "open court under a smooth sky of degree 2 that shows how it is turned; no other light",
+       make_court},
       {"gallery1", "gallery lit by hidden lamps: colour bleeding from walls and panels to white bodies",
        make_gallery1},
       {"gallery2", "gallery lit by hidden lamps: spheres, boxes, tori and columns on plinths", make_gallery2},

@@ -20,7 +20,7 @@ void scale_emission(Scene& scene, Instance& instance, const vec3& factor) {
 }  // namespace
 
 Scene with_lights(Scene scene, float time, std::span<const LightState> lights,
-                  std::span<const vec3> group_scales) {
+                  std::span<const vec3> group_scales, float environment_rotation) {
   const std::vector<std::string> groups = light_groups(scene);
   if (lights.size() != scene.lights.size() ||
       (!group_scales.empty() && group_scales.size() != groups.size())) {
@@ -51,7 +51,10 @@ Scene with_lights(Scene scene, float time, std::span<const LightState> lights,
     const vec3 factor = scale_of(light_group(scene, instance));
     if (factor != vec3(1)) scale_emission(scene, instance, factor);
   }
-  if (scene.environment) scene.environment->color *= scale_of(light_group(*scene.environment));
+  if (scene.environment) {
+    scene.environment->color *= scale_of(light_group(*scene.environment));
+    scene.environment->rotation += environment_rotation;
+  }
   return scene;
 }
 

@@ -34,6 +34,14 @@ TEST(WithLights, MovesColoursAndDimsOneLamp) {
   EXPECT_EQ(light_groups(lit), light_groups(scene));
 }
 
+TEST(WithLights, TurnsTheEnvironment) {
+  Scene scene;
+  scene.environment = Environment{};
+  scene.environment->rotation = 0.5f;
+  EXPECT_EQ(with_lights(scene, 0, {}, {}, 0.25f).environment->rotation, 0.75f);
+  EXPECT_FALSE(with_lights(Scene{}, 0, {}, {}, 0.25f).environment);
+}
+
 TEST(WithLights, ScalesTheEmissionOfItsGroupAlone) {
   Scene scene;
   scene.nodes.resize(2);

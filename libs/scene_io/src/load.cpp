@@ -123,6 +123,8 @@ Scene load_scene(const std::string& source, const LoadOptions& options) {
     environment.color = vec3(options.environment_intensity);
     environment.rotation = options.environment_rotation;
     scene.environment = std::move(environment);
+  } else if (scene.environment) {
+    scene.environment->rotation += options.environment_rotation;
   }
 
   if (options.sun_sky) scene::add_sun_sky(scene, *options.sun_sky);

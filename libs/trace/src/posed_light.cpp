@@ -29,15 +29,23 @@ vec3 farthest(const scene::Bounds& box, const vec3& direction) {
 }  // namespace
 
 PosedLight::PosedLight(std::shared_ptr<const TransportData> data, std::span<const scene::LightState> lights,
-                       std::span<const mat4> poses)
-    : data_(std::move(data)), lights_(data_->lights, data_->node_matrices(poses), lights) {
+                       std::span<const mat4> poses, float environment_rotation)
+    : data_(std::move(data)),
+      lights_(data_->lights, data_->node_matrices(poses), lights, environment_rotation) {
   groups_.resize(lights_.groups().size());
   for (int i = 0; i < lights_.emitter_count(); ++i) {
     const shading::Emitter emitter = lights_.emitter(i);
     groups_[static_cast<std::size_t>(emitter.group)].push_back({i, emitter});
   }
+  bounds_ = data_->parts[0].bounds;
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const TransportPart& part = data_->parts[i];
+    for (int corner = 0; corner < 8 && !part.bounds.empty(); ++corner) {
+      const vec3 at((corner & 1) != 0 ? part.bounds.max.x : part.bounds.min.x,
+                    (corner & 2) != 0 ? part.bounds.max.y : part.bounds.min.y,
+                    (corner & 4) != 0 ? part.bounds.max.z : part.bounds.min.z);
+      bounds_.add(vec3(poses[i] * vec4(at, 1)));
+    }
     // What is scaled to nothing shadows nothing.
     const float det = glm::determinant(mat3(poses[i]));
     if (part.bounds.empty() || !(std::abs(det) > 0) || !std::isfinite(1 / det)) continue;

@@ -11,11 +11,13 @@ namespace ssphh::trace {
 class PosedLight final : public scene::DirectLight {
  public:
   PosedLight(std::shared_ptr<const TransportData> data, std::span<const scene::LightState> lights,
-             std::span<const mat4> poses);
+             std::span<const mat4> poses, float environment_rotation);
 
   void irradiance(int group, std::span<const scene::SurfacePoint> points, std::span<vec3> out) const override;
   bool may_shadow(int group, const scene::SurfacePoint& point, const scene::Bounds& box) const override;
   vec3 emitted(int group, const scene::RayQuery& ray, float distance) const override;
+  float flux(int group) const override;
+  std::optional<scene::Photon> emit(int group, const scene::PhotonNumbers& numbers) const override;
 
  private:
   struct MovingPart {
@@ -51,6 +53,7 @@ class PosedLight final : public scene::DirectLight {
   shading::LightSet lights_;
   std::vector<std::vector<GroupEmitter>> groups_;
   std::vector<MovingPart> moving_;
+  scene::Bounds bounds_;  ///< of all parts, in the world
 };
 
 }  // namespace ssphh::trace

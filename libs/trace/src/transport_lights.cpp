@@ -34,14 +34,19 @@ bool TransportScene::group_emits_from(int group, int part) const {
   for (const int i : data_->part(part).instances) {
     if (data_->lights.instance_group(i) == group) return true;
   }
-  return part == 0 && scene.environment &&
-         scene::light_group_index(light_groups(), scene::light_group(*scene.environment)) == group;
+  return part == 0 && scene.environment && environment_group() == group;
+}
+
+int TransportScene::environment_group() const {
+  const std::optional<scene::Environment>& environment = data_->scene.environment;
+  return environment ? scene::light_group_index(light_groups(), scene::light_group(*environment)) : -1;
 }
 
 std::unique_ptr<scene::DirectLight> TransportScene::direct_light(std::span<const scene::LightState> lights,
-                                                                 std::span<const mat4> poses) const {
+                                                                 std::span<const mat4> poses,
+                                                                 float environment_rotation) const {
   SSPHH_CHECK(lights.size() == data_->scene.lights.size() && poses.size() == data_->parts.size());
-  return std::make_unique<PosedLight>(data_, lights, poses);
+  return std::make_unique<PosedLight>(data_, lights, poses, environment_rotation);
 }
 
 }  // namespace ssphh::trace

@@ -10,18 +10,18 @@ namespace {
 constexpr Millis busy_pause = 250;
 constexpr Millis drain_pause = 1000;
 
+Hash128 key_in(std::string_view service, const Hash128& key) {
+  return Hasher().text(service).value(key.high).value(key.low).finish();
+}
+
+}  // namespace
+
 Hash128 content_hash(std::string_view service, const Frames& body) {
   Hasher hasher;
   hasher.text(service);
   for (const Frame& frame : body) hasher.text(frame);
   return hasher.finish();
 }
-
-Hash128 key_in(std::string_view service, const Hash128& key) {
-  return Hasher().text(service).value(key.high).value(key.low).finish();
-}
-
-}  // namespace
 
 void BrokerCore::Impl::from_client(const std::string& id, Peer& peer, Message&& message,
                                    const Rights& rights) {
@@ -122,8 +122,10 @@ void BrokerCore::Impl::submit(const std::string& id, Peer& peer, Message&& messa
                    .reason = full ? full : "draining",
                    .retry_after = full ? busy_pause : drain_pause});
   }
-  peer.requests.insert(request_id);
   Request request{.id = request_id, .route = Route::own, .peer = id, .persistent = envelope.persistent};
+  if (!orphans.empty() && !request.persistent && adopt_orphan(request, peer, message.name, message.body))
+    return;
+  peer.requests.insert(request_id);
   const auto body = std::make_shared<const Frames>(std::move(message.body));
   if (envelope.persistent) {
     stored_bytes += bytes;
@@ -138,18 +140,19 @@ void BrokerCore::Impl::submit(const std::string& id, Peer& peer, Message&& messa
 }
 
 void BrokerCore::Impl::submit_foreign(const std::string& id, Peer& peer, Message&& message) {
-  if (!orphans.empty() && adopt_orphan(id, peer, message)) return;
+  const auto bits = random();
+  Request request{.id = {bits[0], bits[1]},
+                  .route = message.version == Version::v01 ? Route::mdp01 : Route::mdp02,
+                  .peer = id};
+  if (!orphans.empty() && adopt_orphan(request, peer, message.name, message.body)) return;
   const std::string owner = owner_of(id, peer);
   if (draining) return drop(id, "broker is draining");
   if (const char* full = over_limits(owner, byte_count(message.body))) return drop(id, full);
   if (!services.contains(message.name) && services.size() >= limits.services)
     return drop(id, "too many services");
-  const auto bits = random();
-  const RequestId request_id{bits[0], bits[1]};
-  peer.requests.insert(request_id);
-  enqueue(
-      {.id = request_id, .route = message.version == Version::v01 ? Route::mdp01 : Route::mdp02, .peer = id},
-      owner, message.name, std::make_shared<const Frames>(std::move(message.body)), {});
+  peer.requests.insert(request.id);
+  enqueue(std::move(request), owner, message.name, std::make_shared<const Frames>(std::move(message.body)),
+          {});
 }
 
 void BrokerCore::Impl::enqueue(Request&& request, const std::string& owner, const std::string& service_name,
@@ -198,30 +201,31 @@ void BrokerCore::Impl::enqueue(Request&& request, const std::string& owner, cons
   dispatch(service);
 }
 
-bool BrokerCore::Impl::adopt_orphan(const std::string& id, Peer& peer, const Message& message) {
-  const auto found = orphans.find(content_hash(message.name, message.body));
-  if (found == orphans.end() || *found->second.body != message.body) return false;
+bool BrokerCore::Impl::adopt_orphan(Request& request, Peer& peer, const std::string& service,
+                                    const Frames& body) {
+  const auto found = orphans.find(content_hash(service, body));
+  if (found == orphans.end() || *found->second.body != body) return false;
   const Orphan orphan = found->second;
   forget_orphan(found->first);
   ++sums.repeated;
-  const auto bits = random();
-  Request request{.id = {bits[0], bits[1]},
-                  .job = orphan.job,
-                  .route = message.version == Version::v01 ? Route::mdp01 : Route::mdp02,
-                  .peer = id};
   if (orphan.reply) {
     for (std::size_t i = 0; i < orphan.partials.size(); ++i)
-      deliver_partial(request, message.name, orphan.partials[i], static_cast<std::uint32_t>(i));
-    deliver(request, message.name, Outcome::ok, {}, 1, orphan.partials, orphan.reply);
+      deliver_partial(request, service, orphan.partials[i], static_cast<std::uint32_t>(i));
+    deliver(request, service, Outcome::ok, {}, 1, orphan.partials, orphan.reply);
+    if (request.route == Route::own)
+      keep_record(request.id,
+                  {.service = service, .attempts = 1, .partials = orphan.partials, .reply = orphan.reply});
     return true;
   }
   QueuedJob& job = jobs.at(orphan.job);
   job.orphan.reset();
+  request.job = job.number;
   job.requests.push_back(request.id);
   peer.requests.insert(request.id);
   for (std::size_t i = 0; i < job.partials.size(); ++i)
-    deliver_partial(request, message.name, job.partials[i], static_cast<std::uint32_t>(i));
-  requests.emplace(request.id, std::move(request));
+    deliver_partial(request, service, job.partials[i], static_cast<std::uint32_t>(i));
+  const RequestId id = request.id;
+  requests.emplace(id, std::move(request));
   return true;
 }
 

@@ -33,6 +33,16 @@ void BrokerCore::peer_gone(Millis now, const std::string& peer) {
   impl_->peer_gone(peer);
 }
 
+void BrokerCore::revoke(Millis now, const std::string& peer) {
+  impl_->set_time(now);
+  impl_->revoke(peer);
+}
+
+void BrokerCore::dropped(Millis now, const std::string& peer, const char* reason) {
+  impl_->set_time(now);
+  impl_->drop(peer, reason);
+}
+
 void BrokerCore::tick(Millis now) {
   impl_->set_time(now);
   impl_->timers.run(impl_->now);
@@ -46,6 +56,14 @@ void BrokerCore::restore(Millis now, StoredRequest&& stored) {
   Impl& s = *impl_;
   s.set_time(now);
   if (stored.finished) {
+    if (stored.outcome == Outcome::parked)
+      s.keep_parked({.job = ++s.last_job,
+                     .service = stored.service,
+                     .failures = {stored.reason},
+                     .body = stored.body,
+                     .attempt_timeout = stored.attempt_timeout,
+                     .since = now,
+                     .persistent = {stored.id}});
     s.keep_record(stored.id, {.service = stored.service,
                               .outcome = stored.outcome,
                               .reason = stored.reason,
@@ -60,6 +78,10 @@ void BrokerCore::restore(Millis now, StoredRequest&& stored) {
   options.attempt_timeout = stored.attempt_timeout;
   s.enqueue({.id = stored.id, .route = Route::stored, .persistent = true}, "store", stored.service,
             std::move(stored.body), options);
+}
+
+void BrokerCore::set_least_event(LogLevel level) {
+  impl_->least_event = level;
 }
 
 void BrokerCore::drain(Millis now) {

@@ -170,9 +170,10 @@ void BrokerCore::Impl::start(QueuedJob& job, const std::string& worker_id) {
   job.attempts.push_back({.token = worker.token, .worker = id, .started = now});
   tokens.emplace(RequestId{bits[0], bits[1]}, job.number);
   ++sums.attempts;
-  event(LogLevel::debug, "job-started", Field("job", std::to_string(job.number)),
-        Field("service", service.name), Field("worker", worker.name),
-        Field("attempt", std::to_string(job.attempts.size())));
+  if (wants(LogLevel::debug))
+    event(LogLevel::debug, "job-started", Field("job", std::to_string(job.number)),
+          Field("service", service.name), Field("worker", worker.name),
+          Field("attempt", std::to_string(job.attempts.size())));
   to_worker(id, worker, Command::request, worker.token.frame(), job.body);
 }
 
@@ -194,14 +195,7 @@ void BrokerCore::Impl::fail_attempt(QueuedJob& job, Attempt& attempt, const std:
   if (job.requests.empty()) return erase_job(job);
   if (job.failures.size() >= static_cast<std::size_t>(limits.attempts) ||
       job.attempts.size() >= most_attempts) {
-    std::string reason = fmt::format("failed on {} workers", job.failures.size());
-    for (const std::string& failure : job.failures) reason += "; " + failure;
-    ++sums.parked;
-    event(LogLevel::error, "job-parked", Field("job", std::to_string(job.number)),
-          Field("service", service.name), Field("reason", reason));
-    parked.push_back({job.number, service.name, job.failures});
-    if (parked.size() > limits.parked_jobs) parked.pop_front();
-    return finish(job, Outcome::parked, reason, std::make_shared<const Frames>(Frames{Frame()}));
+    return park(job);
   }
   if (job.place != Place::none) return;
   ++sums.retries;

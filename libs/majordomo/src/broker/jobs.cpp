@@ -7,7 +7,8 @@
 namespace ssphh::majordomo {
 namespace {
 
-constexpr Millis orphan_reply = 30'000;  // longer than a guide client's three tries
+constexpr Millis orphan_reply = 30'000;     // longer than a guide client's three tries
+constexpr Millis released_reply = 600'000;  // for people, who start their bake again
 
 }  // namespace
 
@@ -53,7 +54,7 @@ void BrokerCore::Impl::result(QueuedJob& job, Attempt& attempt, const std::strin
         return;
       }
       outcome = Outcome::failed;
-      reason = worker + ": " + envelope->reason;
+      reason = peer_text(worker) + ": " + envelope->reason;
     }
   }
   if (body.empty()) body.emplace_back();
@@ -75,10 +76,12 @@ void BrokerCore::Impl::finish(QueuedJob& job, Outcome outcome, const std::string
   const auto attempts = static_cast<std::uint32_t>(job.attempts.size());
   ++(outcome == Outcome::ok ? sums.finished : sums.failed);
   ++job.service->finished;
-  event(outcome == Outcome::ok ? LogLevel::debug : LogLevel::warning, "job-finished",
-        Field("job", std::to_string(job.number)), Field("service", job.service->name),
-        Field("outcome", to_string(outcome)), Field("attempts", std::to_string(attempts)),
-        Field("ms", std::to_string(now - job.submitted)), Field("reason", reason));
+  const LogLevel level = outcome == Outcome::ok ? LogLevel::debug : LogLevel::warning;
+  if (wants(level))
+    event(level, "job-finished", Field("job", std::to_string(job.number)),
+          Field("service", job.service->name), Field("outcome", to_string(outcome)),
+          Field("attempts", std::to_string(attempts)), Field("ms", std::to_string(now - job.submitted)),
+          Field("reason", reason));
   const std::vector<RequestId> ids = std::move(job.requests);
   job.requests.clear();
   for (const RequestId& id : ids) {
@@ -119,10 +122,11 @@ void BrokerCore::Impl::keep_orphan(QueuedJob& job, const Body& reply) {
   const std::size_t bytes = job.reply_bytes + byte_count(*reply);
   if (orphan_bytes + bytes > limits.record_bytes / 4) return;
   const Hash128 key = *job.orphan;
+  const Millis life = job.owner == released_owner ? released_reply : orphan_reply;
   job.orphan.reset();
   orphans[key] = {.job = 0, .body = job.body, .partials = job.partials, .reply = reply, .bytes = bytes};
   orphan_bytes += bytes;
-  timers.set(now + orphan_reply, [this, key, reply](Millis) {
+  timers.set(now + life, [this, key, reply](Millis) {
     if (const auto it = orphans.find(key); it != orphans.end() && it->second.reply == reply)
       forget_orphan(key);
   });

@@ -107,8 +107,16 @@ Frames BrokerCore::Impl::mmi(const Message& message, const Frames& body, const R
   if (message.name == "mmi.parked") {
     Json list = Json::array();
     for (const Parked& job : parked)
-      list.push_back({{"job", job.job}, {"service", job.service}, {"failures", job.failures}});
+      list.push_back({{"job", job.job},
+                      {"service", job.service},
+                      {"failures", job.failures},
+                      {"since_ms", now - job.since},
+                      {"bytes", byte_count(*job.body)}});
     return {"200", text({{"format", "ssphh-broker-parked"}, {"version", 1}, {"jobs", std::move(list)}})};
+  }
+  if (message.name == "mmi.release" || message.name == "mmi.drop") {
+    if (!rights.admin) return {"403"};
+    return unpark(body[0], message.name == "mmi.release");
   }
   if (message.name == "mmi.drain") {
     if (!rights.admin) return {"403"};

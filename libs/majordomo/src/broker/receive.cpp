@@ -116,6 +116,18 @@ void BrokerCore::Impl::peer_gone(const std::string& id) {
   client_vanished(id);
 }
 
+void BrokerCore::Impl::revoke(const std::string& id) {
+  const auto found = peers.find(id);
+  if (found == peers.end()) return;
+  event(LogLevel::warning, "peer-revoked", Field("peer", peer_text(id)), Field("key", found->second.user));
+  if (found->second.worker) {
+    const Version version = found->second.worker->version;
+    lose_worker(id, found->second, "its key was withdrawn", false);
+    disconnect(id, found->second, version);
+  }
+  peer_gone(id);
+}
+
 void BrokerCore::Impl::client_vanished(const std::string& id) {
   Peer& peer = peers.at(id);
   const std::vector<RequestId> all(peer.requests.begin(), peer.requests.end());

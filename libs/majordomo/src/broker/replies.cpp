@@ -60,6 +60,7 @@ void BrokerCore::Impl::deliver(const Request& request, const std::string& servic
                      .sequence = static_cast<std::uint32_t>(partials.size())},
                     reply);
     case Route::stored:
+    case Route::released:
       return;
   }
 }

@@ -81,7 +81,8 @@ struct QueuedJob {
   std::size_t live() const;
 };
 
-enum class Route : std::uint8_t { mdp01, mdp02, own, stored };
+/// `stored`: nobody is connected, the reply goes on record; `released`: nobody waits at all.
+enum class Route : std::uint8_t { mdp01, mdp02, own, stored, released };
 
 struct Request {
   RequestId id = {};
@@ -141,10 +142,14 @@ struct Orphan {
   std::size_t bytes = 0;
 };
 
+/// Set aside after failing on several workers; kept whole, so that it can run again.
 struct Parked {
   JobNumber job = 0;
   std::string service = {};
   std::vector<std::string> failures = {};
+  Body body = {};
+  Millis attempt_timeout = 0, since = 0;
+  std::vector<RequestId> persistent = {};  ///< requests whose reply lies in the store
 };
 
 struct BrokerCore::Impl {
@@ -166,8 +171,9 @@ struct BrokerCore::Impl {
   std::unordered_map<RequestId, Record> records;
   std::list<RequestId> record_order;
   std::size_t record_bytes = 0, orphan_bytes = 0, stored_bytes = 0, queued_bytes = 0, worker_count = 0,
-              running_count = 0, queued_count = 0;
+              running_count = 0, queued_count = 0, parked_bytes = 0;
   std::deque<Parked> parked;
+  LogLevel least_event = LogLevel::debug;
   BrokerOutputs out;
   BrokerStats sums;
   std::map<std::string, std::uint64_t> dropped;
@@ -182,6 +188,7 @@ struct BrokerCore::Impl {
   bool over_rate(Peer& peer);
   void drop(const std::string& id, const char* reason);
   void peer_gone(const std::string& id);
+  void revoke(const std::string& id);
   void client_vanished(const std::string& id);
   void sweep();
 
@@ -192,7 +199,7 @@ struct BrokerCore::Impl {
   const char* over_limits(const std::string& owner, std::size_t bytes) const;
   void enqueue(Request&& request, const std::string& owner, const std::string& service, Body body,
                const Envelope& options);
-  bool adopt_orphan(const std::string& id, Peer& peer, const Message& message);
+  bool adopt_orphan(Request& request, Peer& peer, const std::string& service, const Frames& body);
   void attach(const std::string& id, Request& request);
   void end_request(const RequestId& id, Outcome outcome, const std::string& reason);
   void detach(const RequestId& id);
@@ -243,6 +250,12 @@ struct BrokerCore::Impl {
   void result(QueuedJob& job, Attempt& attempt, const std::string& worker, Frames&& body);
   void partial(QueuedJob& job, Attempt& attempt, Frames&& body);
 
+  // parked.cpp
+  void park(QueuedJob& job);
+  void keep_parked(Parked&& entry);
+  void release(const Parked& entry);
+  Frames unpark(const std::string& which, bool run_again);
+
   // mmi.cpp, titanic.cpp
   bool is_internal(std::string_view service) const;
   void internal(const std::string& id, Peer& peer, const Message& message, const Envelope* envelope,
@@ -251,12 +264,18 @@ struct BrokerCore::Impl {
   Frames titanic(const Message& message, const Frames& body, const std::string& owner);
   BrokerStats stats() const;
 
+  /// Events below `least` are not even put together.
+  bool wants(LogLevel level) const { return level >= least_event; }
   template <class... Fields>
   void event(LogLevel level, const char* name, Fields... fields) {
-    out.events.push_back({level, name, {std::move(fields)...}});
+    if (wants(level)) out.events.push_back({level, name, {std::move(fields)...}});
   }
 };
 
+/// Lane of jobs that an administrator put back.
+inline const std::string released_owner = "released";
+/// Names equal work: service and bytes of the body.
+Hash128 content_hash(std::string_view service, const Frames& body);
 /// Field of an event.
 using Field = std::pair<const char*, std::string>;
 /// An identity as text: the worker's name of an own worker, else printable bytes as they are, others in

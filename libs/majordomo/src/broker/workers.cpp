@@ -146,7 +146,7 @@ void BrokerCore::Impl::from_attempt(const std::string& id, Peer& peer, Message&&
       disconnect(id, peer, version);
     }
   } else if (last) {
-    result(*job, *attempt, peer_text(id), std::move(message.body));
+    result(*job, *attempt, id, std::move(message.body));
   } else {
     partial(*job, *attempt, std::move(message.body));
   }

@@ -9,6 +9,7 @@ Scene make_cornell();
 Scene make_furnace();
 Scene make_glowing_box();
 Scene make_two_rooms();
+Scene make_court();
 Scene make_gallery1();
 Scene make_gallery2();
 Scene make_gallery3();

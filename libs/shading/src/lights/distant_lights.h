@@ -40,6 +40,9 @@ class EnvironmentLight {
  public:
   EnvironmentLight(const scene::Environment& environment, int group);
 
+  /// The same with another rotation [rad]: nothing is computed anew.
+  EnvironmentLight turned(float rotation) const;
+
   int group() const { return group_; }
   /// Mean luminance over the sphere times π: the irradiance of a mean plane.
   float mean_irradiance() const { return mean_irradiance_; }
@@ -90,6 +93,10 @@ class DistantLights {
   Emitter emitter(std::size_t i) const;
   std::optional<LightSample> sample_one(std::size_t i, const vec2& u) const;
   std::optional<EmitterHit> radiance_of(std::size_t i, const vec3& direction) const;
+  /// As LightSet::flux and emit.
+  float flux(std::size_t i, float radius) const;
+  std::optional<scene::Photon> emit(std::size_t i, const vec2& u_place, const vec2& u_direction,
+                                    const vec3& center, float radius) const;
   const std::shared_ptr<const EnvironmentLight>& environment() const { return environment_; }
 
  private:

@@ -58,6 +58,12 @@ EnvironmentLight::EnvironmentLight(const scene::Environment& environment, int gr
   for (int y = 0; y <= height; ++y) row_cos_.push_back(static_cast<float>(std::cos(pi_d * y / height)));
 }
 
+EnvironmentLight EnvironmentLight::turned(float rotation) const {
+  EnvironmentLight other = *this;
+  other.cos_ = std::cos(rotation), other.sin_ = std::sin(rotation);
+  return other;
+}
+
 vec3 EnvironmentLight::lookup(const vec3& image_direction) const {
   return color_ * image::sample_equirect(*image_, image_direction);
 }

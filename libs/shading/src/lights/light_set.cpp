@@ -128,7 +128,7 @@ LightSet::LightSet(const scene::Scene& scene, const std::vector<mat4>& world)
 }
 
 LightSet::LightSet(const LightSet& base, const std::vector<mat4>& world,
-                   std::span<const scene::LightState> states)
+                   std::span<const scene::LightState> states, float environment_rotation)
     : data_(std::make_unique<Data>()) {
   Data& d = *data_;
   d.scene = base.data_->scene;
@@ -143,7 +143,12 @@ LightSet::LightSet(const LightSet& base, const std::vector<mat4>& world,
   }
   d.add_lights(lights);
   d.add_meshes(world, base.data_.get());
-  d.distant = DistantLights(lights, base.data_->distant.environment(), d.groups);
+  std::shared_ptr<const EnvironmentLight> environment = base.data_->distant.environment();
+  if (environment && environment_rotation != 0) {
+    const float rotation = d.scene->environment->rotation + environment_rotation;
+    environment = std::make_shared<const EnvironmentLight>(environment->turned(rotation));
+  }
+  d.distant = DistantLights(lights, std::move(environment), d.groups);
   d.divide_choices();
 }
 
@@ -254,6 +259,25 @@ std::optional<LightSample> LightSet::sample_emitter(int index, const vec3& posit
   i -= d.spheres.size();
   if (i < d.meshes.size()) return d.meshes[i]->sample(position, u);
   return d.distant.sample_one(i - d.meshes.size(), u);
+}
+
+float LightSet::flux(int index, float radius) const {
+  const auto i = static_cast<std::size_t>(index);
+  const std::size_t local = data_->local_count();
+  return i < local ? 4 * pi * data_->power(i) : data_->distant.flux(i - local, radius);
+}
+
+std::optional<EmittedPhoton> LightSet::emit(int index, const vec2& u_place, const vec2& u_direction,
+                                            const vec3& center, float radius) const {
+  const Data& d = *data_;
+  auto i = static_cast<std::size_t>(index);
+  if (i < d.points.size()) return EmittedPhoton{d.points[i].emit(u_direction)};
+  i -= d.points.size();
+  if (i < d.spheres.size()) return EmittedPhoton{d.spheres[i].emit(u_place, u_direction)};
+  i -= d.spheres.size();
+  if (i < d.meshes.size()) return d.meshes[i]->emit(u_place, u_direction);
+  const auto photon = d.distant.emit(i - d.meshes.size(), u_place, u_direction, center, radius);
+  return photon ? std::optional(EmittedPhoton{*photon}) : std::nullopt;
 }
 
 std::optional<MeshView> LightSet::view_mesh(int index, const vec3& position, const vec3& normal) const {

@@ -3,17 +3,9 @@
 #include <cmath>
 
 #include "../surface/material_lookup.h"
+#include "triangle_map.h"
 
 namespace ssphh::shading {
-namespace {
-
-/// Heitz, A Low-Distortion Map Between Triangle and Square, 2019: weights of the second and third corner.
-vec2 square_to_triangle(const vec2& u) {
-  return u.y > u.x ? vec2(0.5f * u.x, u.y - 0.5f * u.x) : vec2(u.x - 0.5f * u.y, 0.5f * u.y);
-}
-
-}  // namespace
-
 MeshLight::MeshLight(const scene::Scene& scene, const scene::Instance& instance, const mat4& world, int group)
     : scene_(&scene),
       mesh_(&scene.meshes[static_cast<std::size_t>(instance.mesh)]),

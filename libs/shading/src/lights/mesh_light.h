@@ -19,6 +19,7 @@ class MeshLight {
   std::optional<LightSample> sample(const vec3& from, float u_choice, const vec2& u) const;
   /// The same from two numbers: the place of u.x within the chosen triangle's share serves again.
   std::optional<LightSample> sample(const vec3& from, const vec2& u) const;
+  std::optional<EmittedPhoton> emit(const vec2& u_place, const vec2& u_direction) const;
   /// As LightSet::view_mesh.
   std::optional<MeshView> view(const vec3& position, const vec3& normal) const;
   float pdf(const vec3& from, std::uint32_t triangle, float distance, float cos_light) const;

@@ -50,6 +50,9 @@ struct RelightReport {
   double total_ms() const { return pose_ms + direct_ms + solve_ms + project_ms; }
 };
 
+/// The places with their reflected light as one group, as lookups want it.
+ProbeSet lookup_set(const std::vector<ProbePlace>& places, const std::vector<sh::RadianceSh>& reflected);
+
 class RelightSession {
  public:
   /// Keeps a reference to `source`. Throws Error as TransportNetwork does, for an operator that is none of
@@ -64,6 +67,8 @@ class RelightSession {
   const scene::LightState& light(int light) const;
   /// Factor on a whole group: dims lamps, emissive surfaces and the environment without a ray.
   void set_group_scale(int group, const vec3& scale);
+  /// Turns the environment about +y beyond the scene's own rotation, counter-clockwise seen from above [rad].
+  void set_environment_rotation(float rotation);
   /// Poses parts, and the lights that set_light left alone.
   void set_time(float time);
   /// Makes the probe a light of its own (`matrix` transport): radiance leaving a sphere of the place's radius

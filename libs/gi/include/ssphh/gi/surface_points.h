@@ -21,6 +21,8 @@ class PosedSurfaces {
                  std::span<std::uint8_t> moves = {}) const;
   /// blocked[i] = 1 where any part meets segment i, else 0.
   void occluded(std::span<const scene::RayQuery> rays, std::span<std::uint8_t> blocked) const;
+  /// Whether nothing blocks the open segment between two points.
+  bool visible(const vec3& a, const vec3& b) const;
   /// Of all parts; empty for a scene without triangles.
   const scene::Bounds& bounds() const { return bounds_; }
 

@@ -28,6 +28,8 @@ struct BrokerOptions {
   Millis drain = 10'000;  ///< how long stop() waits for requests that are running
   /// Told every event (docs/protocol.md lists them) on the thread of run(); empty: core's log.
   std::function<void(const BrokerEvent&)> on_event = {};
+  /// Lesser events are not made; `debug` tells every job.
+  LogLevel least_event = LogLevel::info;
 };
 
 class Broker {
@@ -47,6 +49,10 @@ class Broker {
   void run();
   /// From any thread and from signal handlers; the second call ends the waiting.
   void stop() noexcept;
+  /// Reads the allow-list again (as run() does by itself when the file has changed). Peers whose key is gone
+  /// or has other roles are cut off: their jobs run elsewhere, their requests are dropped after the grace. A
+  /// list that cannot be read changes nothing and is logged. From any thread and from signal handlers.
+  void reload() noexcept;
 
  private:
   struct Impl;

@@ -74,12 +74,19 @@ class BrokerCore {
   void receive(Millis now, const std::string& peer, Frames&& frames, const Rights& rights = {});
   /// The connection of a peer has ended, or it cannot be reached.
   void peer_gone(Millis now, const std::string& peer);
+  /// The peer's rights were taken away or changed: a worker is disconnected, and all is as if it were gone.
+  void revoke(Millis now, const std::string& peer);
+  /// A message that was not handed to receive(), counted and logged as a dropped one.
+  void dropped(Millis now, const std::string& peer, const char* reason);
   /// Does what is due. To be called when next_deadline() is reached.
   void tick(Millis now);
   /// When tick() wants to be called; never before the last `now`.
   Millis next_deadline() const;
   /// Puts back what a store held, before anything else.
   void restore(Millis now, StoredRequest&& request);
+
+  /// Lesser events do not come out (at first all do): those of every job cost time.
+  void set_least_event(LogLevel level);
 
   /// New requests are told `busy`; what is queued stays where it is.
   void drain(Millis now);

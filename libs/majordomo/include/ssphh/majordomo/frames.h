@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,9 @@ using Millis = std::int64_t;
 
 /// Bytes of all frames.
 std::size_t byte_count(const Frames& frames);
+
+/// Fills with bytes from the system's random source. Throws Error when there is none.
+void fill_random(std::span<std::byte> bytes);
 
 /// A request's name: 128 random bits, so that nobody else can ask for its result. In text 32 lower-case
 /// hexadecimal digits, which is also the uuid of 9/TSP.

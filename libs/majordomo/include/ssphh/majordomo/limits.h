@@ -27,6 +27,7 @@ struct BrokerLimits {
   std::size_t record_bytes = std::size_t{256} << 20;  ///< finished replies kept for clients that ask again
   std::size_t stored_bytes = std::size_t{16} << 30;   ///< persistent requests and results on disk
   std::size_t parked_jobs = 1000;                     ///< set aside; the oldest are forgotten first
+  std::size_t parked_bytes = std::size_t{256} << 20;  ///< of their bodies
   double messages_per_second = 200'000;               ///< of one peer, with a burst of as many; 0: unlimited
   int attempts = 3;  ///< workers that a job may take down or time out on before it is parked
 };

@@ -35,6 +35,7 @@ struct Rights {
       "*"};  ///< that it may serve as a worker; a final * stands for any rest
 
   bool may_serve(std::string_view service) const;
+  friend bool operator==(const Rights&, const Rights&) = default;
 };
 
 struct AllowedKey {
@@ -62,6 +63,7 @@ PeerSecurity read_peer_security(const std::filesystem::path& dir, const std::str
 struct BrokerSecurity {
   KeyPair keys = {};
   AllowList allowed = {};
+  std::filesystem::path allow_file = {};  ///< where `allowed` came from and is read again; empty: never
 };
 /// DIR/broker.key and DIR/allow.txt.
 BrokerSecurity read_broker_security(const std::filesystem::path& dir);

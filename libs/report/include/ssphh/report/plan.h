@@ -1,20 +1,25 @@
 #pragma once
 /// A plan: which command lines are measured, in which scenes, and what of their results is shown
-/// (docs/report.md). Plain data, read from JSON.
+/// (docs/report.md). Plain data, read from JSON or YAML.
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include <ssphh/image/image.h>
+
 namespace ssphh::report {
 
 /// A part of the picture, shown enlarged and measured by itself: fractions of width and height from the upper
-/// left.
+/// left. With a mask the rectangle bounds it, and only its pixels are measured.
 struct Inset {
   std::string name;
   double x0 = 0, y0 = 0, x1 = 1, y1 = 1;
+  std::string mask_file = {};  ///< picture that is white where the region is; empty: the whole rectangle
+  image::Image mask = {};      ///< by load_masks(); may have another size than the pictures
 };
 
 /// Names and values, in the order in which the plan has them.
@@ -81,9 +86,14 @@ struct Plan {
   int time_limit = 3600;  ///< seconds that a command may take
 };
 
-/// Reads a plan. `name` stands for the file in messages; `commands` are the tool's. Throws Error for what is
-/// no plan, naming the place and for an unknown key, command or variable the nearest known one.
-Plan parse_plan(std::string_view json, const std::string& name, const std::vector<std::string>& commands);
+/// Reads a plan: YAML when `name`, which stands for the file in messages, ends with .yaml or .yml, else JSON.
+/// `commands` are the tool's. Throws Error for what is no plan, naming the place (in YAML with its line) and
+/// for an unknown key, command or variable the nearest known one.
+Plan parse_plan(std::string_view text, const std::string& name, const std::vector<std::string>& commands);
+
+/// Reads the masks of insets, from the plan's folder first, and bounds them. Throws Error for a file that is
+/// no picture or a mask without a white pixel.
+void load_masks(Plan& plan, const std::filesystem::path& folder);
 
 /// Replaces a variable's value, "spp=16". Throws Error for one that the plan does not have, naming the
 /// nearest.
@@ -91,8 +101,5 @@ void set_variable(Plan& plan, const std::string& assignment);
 
 /// "ssphh, degree 4": the method's name and the variant's parameters.
 std::string label(const PlanMethod& method, const Parameters& parameters);
-
-/// The candidate with the fewest edits from `name`, or "" when there is none within half of its length.
-std::string nearest(const std::string& name, const std::vector<std::string>& candidates);
 
 }  // namespace ssphh::report

@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <ssphh/core/error.h>
 #include <ssphh/scene/query.h>
 
 namespace ssphh::scene {
@@ -56,6 +58,26 @@ struct LightState {
   friend bool operator==(const LightState&, const LightState&) = default;
 };
 
+/// Light on its way from an emitter.
+struct Photon {
+  vec3 origin{0};
+  vec3 direction{0, 0, -1};  ///< unit
+  vec3 power{0};  ///< [W], divided by the density it was chosen with: its mean is what the emitters send out
+  float range = 0;  ///< of its light [m]: what arrives is held back by range_share; 0: nothing is
+
+  /// Share of the power that arrives after `distance` metres (KHR_lights_punctual's recommended falloff).
+  float range_share(float distance) const {
+    const float r = distance / range;
+    return range > 0 ? glm::clamp(1 - r * r * r * r, 0.0f, 1.0f) : 1;
+  }
+};
+
+/// Uniform numbers in [0, 1) that choose a photon.
+struct PhotonNumbers {
+  float emitter = 0;
+  vec2 place{0}, direction{0};
+};
+
 /// Light that comes straight from emitters, for one state of the lights and one pose of the parts.
 class DirectLight {
  public:
@@ -69,6 +91,14 @@ class DirectLight {
   /// world-space ray whose nearest surface is at `distance`, infinite if it escapes: darkness there is
   /// darkness at any distance.
   virtual vec3 emitted(int group, const RayQuery& ray, float distance) const = 0;
+  /// Luminance of the flux [W] that the group's emitters send out; of those at infinity, through the sphere
+  /// around the surfaces. Near enough to share photons out by.
+  virtual float flux(int /*group*/) const { throw Error("direct light", "it cannot emit photons"); }
+  /// A photon of the group's emitters, which arrives at surfaces as irradiance() has it; none where `numbers`
+  /// fall on darkness.
+  virtual std::optional<Photon> emit(int /*group*/, const PhotonNumbers& /*numbers*/) const {
+    throw Error("direct light", "it cannot emit photons");
+  }
 };
 
 class TransportSource {
@@ -102,9 +132,13 @@ class TransportSource {
   /// Whether the group has emitters beside lights(): emissive meshes on the given part. Part 0 also stands
   /// for the environment.
   virtual bool group_emits_from(int group, int part) const = 0;
-  /// `lights` as from lights(), perhaps changed; `poses` one matrix per part.
+  /// Group index of the environment; −1: there is none.
+  virtual int environment_group() const { return -1; }
+  /// `lights` as from lights(), perhaps changed; `poses` one matrix per part; the environment turned about +y
+  /// by so many radians beyond its own rotation.
   virtual std::unique_ptr<DirectLight> direct_light(std::span<const LightState> lights,
-                                                    std::span<const mat4> poses) const = 0;
+                                                    std::span<const mat4> poses,
+                                                    float environment_rotation = 0) const = 0;
 
   /// Rays traced so far by this object and its DirectLights.
   virtual std::uint64_t rays_traced() const = 0;

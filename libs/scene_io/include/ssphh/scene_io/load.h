@@ -16,7 +16,9 @@ struct LoadOptions {
   /// Equirectangular .hdr or .exr (or any image); replaces the scene's own environment. Empty: none.
   std::string environment;
   float environment_intensity = 1;  ///< factor on the image
-  float environment_rotation = 0;   ///< radians about +y, counter-clockwise seen from above
+  /// Radians about +y, counter-clockwise seen from above; of the scene's own environment, beyond its
+  /// rotation.
+  float environment_rotation = 0;
   /// Clear sky and sun; replaces any environment.
   std::optional<scene::SunSkyParams> sun_sky;
 };

@@ -32,6 +32,12 @@ struct EmitterHit {
   int group;
 };
 
+/// A photon as it leaves emitter i.
+struct EmittedPhoton {
+  scene::Photon photon;
+  vec3 normal{0};  ///< of the emissive surface on the photon's side; zero: no surface
+};
+
 class MeshView;
 
 enum class EmitterKind { point, sphere, mesh, directional, disc, environment };
@@ -53,9 +59,11 @@ class LightSet {
   /// Reads all lights, emissive instances and the environment of `scene` posed by `world`.
   LightSet(const scene::Scene& scene, const std::vector<mat4>& world);
   /// The emitters of `base`'s scene with its lights as `lights` say, one state per scene::Light, and its
-  /// emissive instances posed by `world`. What has not moved is shared with `base`, and so is the size of the
-  /// scene, by which sample() divides its choices between near and distant lights.
-  LightSet(const LightSet& base, const std::vector<mat4>& world, std::span<const scene::LightState> lights);
+  /// emissive instances posed by `world`, and its environment turned about +y by so many radians beyond its
+  /// own rotation. What has not moved is shared with `base`, and so is the size of the scene, by which
+  /// sample() divides its choices between near and distant lights.
+  LightSet(const LightSet& base, const std::vector<mat4>& world, std::span<const scene::LightState> lights,
+           float environment_rotation = 0);
   ~LightSet();
   LightSet(LightSet&&) noexcept;
   LightSet& operator=(LightSet&&) noexcept;
@@ -73,6 +81,12 @@ class LightSet {
   /// As sample(), of emitter i alone: `pdf` holds no probability of a choice and is 1 where `delta`.
   /// Stratified `u` give stratified samples.
   std::optional<LightSample> sample_emitter(int i, const vec3& position, const vec2& u) const;
+  /// Luminance of the flux of emitter i [W]; of distant ones, through a sphere of `radius` metres.
+  float flux(int i, float radius) const;
+  /// A photon of emitter i; of distant ones, on its way into the sphere around `center`. Stratified numbers
+  /// give stratified photons. Sphere lights send photons outward only.
+  std::optional<EmittedPhoton> emit(int i, const vec2& u_place, const vec2& u_direction, const vec3& center,
+                                    float radius) const;
   /// Emissive mesh i as a surface point sees it; empty for other emitters, and for meshes that have no closed
   /// form: textured, of partial coverage, or with more than MeshView::max_triangles triangles.
   std::optional<MeshView> view_mesh(int i, const vec3& position, const vec3& normal) const;

@@ -49,9 +49,11 @@ class TransportScene final : public scene::TransportSource {
   const std::vector<std::string>& light_names() const override;
   int light_group_of(int light) const override;
   bool group_emits_from(int group, int part) const override;
+  int environment_group() const override;
   /// What it returns may outlive this object, but not the scene.
   std::unique_ptr<scene::DirectLight> direct_light(std::span<const scene::LightState> lights,
-                                                   std::span<const mat4> poses) const override;
+                                                   std::span<const mat4> poses,
+                                                   float environment_rotation = 0) const override;
 
   std::uint64_t rays_traced() const override;
 

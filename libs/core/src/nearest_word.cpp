@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <numeric>
 
-#include <ssphh/report/plan.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
-namespace ssphh::report {
+#include <ssphh/core/nearest_word.h>
+
+namespace ssphh {
 namespace {
 
 // Levenshtein's distance, one row at a time.
@@ -24,7 +27,7 @@ std::size_t edits(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::string nearest(const std::string& name, const std::vector<std::string>& candidates) {
+std::string nearest_word(const std::string& name, const std::vector<std::string>& candidates) {
   std::string best;
   std::size_t least = name.size() / 2 + 1;
   for (const std::string& candidate : candidates) {
@@ -34,4 +37,10 @@ std::string nearest(const std::string& name, const std::vector<std::string>& can
   return best;
 }
 
-}  // namespace ssphh::report
+std::string nearest_hint(const std::string& name, const std::vector<std::string>& candidates) {
+  const std::string best = nearest_word(name, candidates);
+  return best.empty() ? fmt::format("known: {}", fmt::join(candidates, ", "))
+                      : fmt::format("did you mean \"{}\"?", best);
+}
+
+}  // namespace ssphh

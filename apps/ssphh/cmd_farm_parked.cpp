@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <ssphh/core/error.h>
+
+#include "command.h"
+#include "farm_ask.h"
+
+namespace ssphh::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string parked_text(const ordered_json& jobs) {
+  if (jobs.empty()) return "no job is set aside";
+  std::string text;
+  for (const auto& job : jobs) {
+    text += fmt::format("{}job {} of {}, {:.1f} KB, set aside {:.0f} s ago", text.empty() ? "" : "\n",
+                        job.value("job", 0ull), job.value("service", ""), 1e-3 * job.value("bytes", 0.0),
+                        1e-3 * job.value("since_ms", 0.0));
+    for (const auto& failure : job.value("failures", ordered_json::array()))
+      text += "\n  " + failure.get<std::string>();
+  }
+  return text;
+}
+
+/// Jobs by their numbers, or all of them.
+struct Choice {
+  BrokerChoice broker;
+  std::vector<std::uint64_t> jobs;
+  bool all = false;
+};
+
+int tell(const Choice& choice, const std::string& service, const Control& control) {
+  if (choice.jobs.empty() && !choice.all)
+    throw Error("jobs", "none are named", "give their numbers (`ssphh farm parked`) or --all");
+  majordomo::Client client = connect(choice.broker);
+  if (choice.all) return std::stoi(ask(client, service, "all", control));
+  for (const std::uint64_t job : choice.jobs)
+    ask(client, service, std::to_string(job), control, fmt::format("job {} is not set aside", job));
+  return static_cast<int>(choice.jobs.size());
+}
+
+void add_choice(CLI::App& command, Choice& choice) {
+  add_broker_options(command, choice.broker, "admin", "Broker")->required();
+  CLI::Option* jobs = command.add_option("JOB", choice.jobs, "Numbers, as `ssphh farm parked` shows them");
+  command.add_flag("--all", choice.all, "All that are set aside")->excludes(jobs);
+}
+
+}  // namespace
+
+void add_farm_parked_commands(CLI::App& group, Context& context) {
+  const auto broker = std::make_shared<BrokerChoice>();
+  CLI::App* parked =
+      add_command(group, context, "parked",
+                  "Jobs that were set aside because workers failed on them, and why", [=, &context] {
+                    majordomo::Client client = connect(*broker);
+                    const ordered_json answer = ask_json(client, "mmi.parked", context.control);
+                    context.result({{"jobs", answer["jobs"]}}, parked_text(answer["jobs"]));
+                  });
+  add_broker_options(*parked, *broker, "client", "Broker")->required();
+
+  const auto again = std::make_shared<Choice>(), gone = std::make_shared<Choice>();
+  CLI::App* release = add_command(
+      group, context, "release", "Put jobs that were set aside back into the queue", [=, &context] {
+        const int count = tell(*again, "mmi.release", context.control);
+        context.result(
+            {{"released", count}},
+            fmt::format("{} queued again", count == 1 ? "1 job is" : fmt::format("{} jobs are", count)));
+      });
+  add_choice(*release, *again);
+  release->footer(
+      "A result goes to whoever left the request on the broker's disk; without such a one it is kept for ten "
+      "minutes\nfor a client that sends the same job.");
+  CLI::App* drop = add_command(group, context, "drop", "Forget jobs that were set aside", [=, &context] {
+    const int count = tell(*gone, "mmi.drop", context.control);
+    context.result({{"dropped", count}},
+                   fmt::format("{} forgotten", count == 1 ? "1 job is" : fmt::format("{} jobs are", count)));
+  });
+  add_choice(*drop, *gone);
+}
+
+}  // namespace ssphh::app

@@ -1,0 +1,27 @@
+#pragma once
+/// Questions to a broker's management services (mmi.*, docs/protocol.md).
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include <ssphh/majordomo/client.h>
+
+#include "command.h"
+#include "farm_options.h"
+
+namespace ssphh::app {
+
+majordomo::Client connect(const BrokerChoice& choice);
+
+/// The second frame of the answer. Throws Error when the code is not 200 (`not_found` is what 404 means) or
+/// none comes within five seconds.
+std::string ask(majordomo::Client& client, const std::string& service, const std::string& body,
+                const Control& control, const std::string& not_found = "the broker does not know it");
+nlohmann::ordered_json ask_json(majordomo::Client& client, const std::string& service,
+                                const Control& control);
+
+/// `ssphh farm parked`, `release` and `drop`.
+void add_farm_parked_commands(CLI::App& group, Context& context);
+
+}  // namespace ssphh::app

@@ -1,0 +1,42 @@
+#pragma once
+/// Parameters of a method by name, checked against what the method declares.
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace ssphh::gi {
+
+/// A number, or one of a few words.
+struct MethodParameter {
+  const char* name;
+  double value;  ///< default; of a choice: its index
+  double least, most;
+  const char* about;                      ///< with its unit
+  bool whole = false;                     ///< integers only
+  std::vector<std::string> choices = {};  ///< the words, in place of numbers
+};
+
+class MethodParameters {
+ public:
+  /// The defaults, changed by `settings` of the form "name=value". Throws Error for a name that is not
+  /// declared (with the nearest one that is), for what is no number or choice, and for values out of range.
+  MethodParameters(const std::string& method, std::span<const MethodParameter> declared,
+                   std::span<const std::string> settings = {});
+
+  /// `name` must be declared.
+  double number(const std::string& name) const;
+  int integer(const std::string& name) const;
+  bool flag(const std::string& name) const { return integer(name) != 0; }
+  const std::string& choice(const std::string& name) const;
+
+ private:
+  struct Value {
+    double number;
+    std::vector<std::string> choices;
+  };
+  std::map<std::string, Value> values_;
+};
+
+}  // namespace ssphh::gi

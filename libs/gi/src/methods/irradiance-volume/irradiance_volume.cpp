@@ -1,0 +1,55 @@
+#include <algorithm>
+#include <optional>
+
+#include <ssphh/gi/lookup.h>
+
+#include "methods/entries.h"
+#include "probe_volume.h"
+
+namespace ssphh::gi::methods {
+namespace {
+
+constexpr int irradiance_degree = 2;
+
+/// Greger, Shirley, Hubbard & Greenberg, The Irradiance Volume, 1998, with spherical harmonics of degree 2
+/// for irradiance (Ramamoorthi & Hanrahan 2001).
+class IrradianceVolume final : public Method {
+ public:
+  IrradianceVolume(const MethodScene& scene, const MethodParameters& p, const Control& control)
+      : volume_(scene, p, p.integer("degree"), control) {}
+
+  void update(const FrameState& state, const Control&) override {
+    volume_.update(state);
+    LookupParams params;
+    params.irradiance_degree = irradiance_degree;
+    lookup_.emplace(lookup_set(volume_.places(), volume_.radiance()),
+                    std::make_unique<SharedWeights>(volume_.weights()), params);
+  }
+
+  const scene::IndirectLight& light() const override { return *lookup_; }
+
+  MethodMemory memory() const override {
+    MethodMemory bytes = volume_.memory();
+    // beside the radiance for glossy lookups, irradiance without negative values
+    bytes.lookup += volume_.places().size() * sh::coefficient_count(irradiance_degree) * sizeof(vec3);
+    return bytes;
+  }
+  MethodNumbers numbers() const override { return volume_.numbers(); }
+
+ private:
+  ProbeVolume volume_;
+  std::optional<IrradianceLookup> lookup_;
+};
+
+}  // namespace
+
+MethodEntry irradiance_volume_entry() {
+  std::vector<MethodParameter> parameters = probe_volume_parameters();
+  parameters.push_back({"degree", 4, 2, 10, "of a probe's radiance, for glossy lookups", true});
+  return {"irradiance-volume", "radiance probes interpolated within tetrahedra, without visibility",
+          std::move(parameters),
+          [](const MethodScene& scene, const MethodParameters& p, const Control& control)
+              -> std::unique_ptr<Method> { return std::make_unique<IrradianceVolume>(scene, p, control); }};
+}
+
+}  // namespace ssphh::gi::methods

@@ -1,0 +1,70 @@
+#pragma once
+/// Radiance probes that know nothing of visibility: places, the light that RelightSession finds for them, and
+/// interpolation between them. `irradiance-volume` looks irradiance up in it, `prt` radiance.
+
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include <ssphh/gi/methods/method.h>
+#include <ssphh/gi/methods/parameters.h>
+#include <ssphh/gi/relight_session.h>
+
+#include "probe_grid.h"
+#include "tetrahedra.h"
+
+namespace ssphh::gi::methods {
+
+/// How weights at a place are found.
+class VolumeWeights final : public LookupWeights {
+ public:
+  explicit VolumeWeights(std::span<const vec3> positions) : by_(Tetrahedra(positions)) {}
+  explicit VolumeWeights(const ProbeGrid& grid) : by_(GridWeights(grid)) {}
+  ProbeWeights at(const scene::SurfacePoint& point) const override { return at(point.position); }
+  ProbeWeights at(const vec3& position) const;
+  std::size_t bytes() const;
+  /// Of tetrahedra; 0 on a grid.
+  std::size_t cell_count() const;
+
+ private:
+  std::variant<Tetrahedra, GridWeights> by_;
+};
+
+/// Weights that outlive the lookups of single frames.
+class SharedWeights final : public LookupWeights {
+ public:
+  explicit SharedWeights(const VolumeWeights& weights) : weights_(weights) {}
+  ProbeWeights at(const scene::SurfacePoint& point) const override { return weights_.at(point); }
+
+ private:
+  const VolumeWeights& weights_;
+};
+
+class ProbeVolume {
+ public:
+  /// With the parameters that probe_volume_parameters() declares; `degree` of the probes' radiance.
+  ProbeVolume(const MethodScene& scene, const MethodParameters& parameters, int degree,
+              const Control& control);
+
+  /// `dark`: a light group that does not light the probes; −1: none.
+  void update(const FrameState& state, int dark = -1);
+
+  const std::vector<ProbePlace>& places() const { return session_->places(); }
+  /// Reflected light, after any number of bounces, of each probe.
+  const std::vector<sh::RadianceSh>& radiance() const { return session_->reflected(); }
+  const VolumeWeights& weights() const { return *weights_; }
+  /// Median distance between neighbours [m].
+  float spacing() const { return spacing_; }
+  MethodMemory memory() const;
+  MethodNumbers numbers() const;
+
+ private:
+  std::unique_ptr<VolumeWeights> weights_;
+  std::unique_ptr<RelightSession> session_;
+  float spacing_ = 0;
+  int environment_group_ = -1;
+};
+
+std::vector<MethodParameter> probe_volume_parameters();
+
+}  // namespace ssphh::gi::methods

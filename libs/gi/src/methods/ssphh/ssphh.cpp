@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <optional>
+
+#include <ssphh/gi/fitted_weights.h>
+#include <ssphh/gi/lookup.h>
+#include <ssphh/gi/place.h>
+#include <ssphh/gi/relight_session.h>
+#include <ssphh/gi/surface_points.h>
+
+#include "../entries.h"
+#include "../network_memory.h"
+
+namespace ssphh::gi::methods {
+namespace {
+
+std::vector<ProbePlace> find_places(const MethodScene& scene, const MethodParameters& p,
+                                    const Control& control) {
+  PlaceParams params = place_params(scene.scene);
+  std::vector<ProbePlace> places;
+  if (p.choice("places") == "scene") {
+    for (const scene::SphlPlace& place : params.manual)
+      places.push_back({place.name, place.position, place.radius});
+    if (places.empty())
+      throw Error("method ssphh", "the scene has no SPHLs of its own", "let places=auto find some");
+    return places;
+  }
+  params.spacing = static_cast<float>(p.number("spacing"));
+  params.count = p.integer("probes");
+  for (const PlacedProbe& probe : place_probes(scene.source, params, control).probes)
+    places.push_back({probe.name, probe.position, probe.radius});
+  return places;
+}
+
+RelightParams relight_params(const MethodParameters& p) {
+  RelightParams params;
+  params.degree = p.integer("degree");
+  params.transport.surfel_size = static_cast<float>(p.number("surfel_size"));
+  params.transport.directions = p.integer("directions");
+  params.warm_start = p.flag("warm_start");
+  return params;
+}
+
+/// Weights that outlive the lookups of single frames.
+class KeptWeights final : public LookupWeights {
+ public:
+  explicit KeptWeights(const LookupWeights& weights) : weights_(weights) {}
+  ProbeWeights at(const scene::SurfacePoint& point) const override { return weights_.at(point); }
+
+ private:
+  const LookupWeights& weights_;
+};
+
+/// SPHLs lit by `surfel` transport, blended by visible or fitted weights.
+class Ssphh final : public Method {
+ public:
+  Ssphh(const MethodScene& scene, const MethodParameters& p, const Control& control)
+      : source_(scene.source),
+        session_(scene.source, find_places(scene, p, control), relight_params(p), 0, control),
+        surfaces_(std::in_place, scene.source, 0.0f) {
+    WeightParams weights = weights_named(p.choice("weights"));
+    if (weights.method == WeightMethod::fitted) fit(p.integer("fit_poses"), control);
+    std::vector<vec3> positions;
+    for (const ProbePlace& place : session_.places()) positions.push_back(place.position);
+    weights_ = make_weights(
+        positions, [this](const vec3& a, const vec3& b) { return surfaces_->visible(a, b); }, weights,
+        fitted_ ? &*fitted_ : nullptr);
+  }
+
+  void update(const FrameState& state, const Control&) override {
+    session_.set_time(state.time);
+    session_.set_environment_rotation(state.environment_rotation);
+    for (std::size_t i = 0; i < state.lights.size(); ++i) {
+      const int light = static_cast<int>(i);
+      if (!(session_.light(light) == state.lights[i])) session_.set_light(light, state.lights[i]);
+    }
+    for (std::size_t g = 0; g < state.group_scales.size(); ++g)
+      session_.set_group_scale(static_cast<int>(g), state.group_scales[g]);
+    session_.update();
+    surfaces_.emplace(source_, state.time);
+    lookup_.emplace(lookup_set(session_.places(), session_.reflected()),
+                    std::make_unique<KeptWeights>(*weights_));
+  }
+
+  const scene::IndirectLight& light() const override { return *lookup_; }
+
+  MethodMemory memory() const override {
+    MethodMemory bytes;
+    bytes.lookup =
+        session_.places().size() * (sizeof(vec3) + session_.reflected().front().values.size() * sizeof(vec3));
+    if (fitted_) {
+      bytes.lookup += fitted_->points.size() * 2 * sizeof(vec3);
+      for (const PointWeights& weights : fitted_->weights)
+        bytes.lookup += static_cast<std::size_t>(weights.count) * sizeof(ProbeWeight);
+    }
+    bytes.update = network_bytes(session_.network());
+    return bytes;
+  }
+
+  MethodNumbers numbers() const override {
+    return {{"probes", static_cast<double>(session_.places().size())},
+            {"surfels", static_cast<double>(session_.network().surfel_count())},
+            {"fitted_points", fitted_ ? static_cast<double>(fitted_->points.size()) : 0}};
+  }
+
+ private:
+  /// To poses evenly spaced over the scene's animation, under its own lights.
+  void fit(int poses, const Control& control) {
+    WeightFit fit(surfel_points(session_.network()));
+    const int count = source_.duration() > 0 ? poses : 1;
+    for (int k = 0; k < count; ++k) {
+      session_.set_time(count > 1 ? source_.duration() * static_cast<float>(k) / static_cast<float>(count - 1)
+                                  : 0);
+      session_.update();
+      fit.add_pose(session_.network(), source_, session_.direct_by_group(), control);
+    }
+    fitted_ = fit.solve(control);
+  }
+
+  const scene::TransportSource& source_;
+  RelightSession session_;
+  std::optional<PosedSurfaces> surfaces_;
+  std::optional<FittedPoints> fitted_;
+  std::unique_ptr<LookupWeights> weights_;
+  std::optional<IrradianceLookup> lookup_;
+};
+
+}  // namespace
+
+MethodEntry ssphh_entry() {
+  return {"ssphh",
+          "SPHLs lit by transport between surfels",
+          {{"places", 0, 0, 1, "of the probes: found, or the scene's own SPHLs", true, {"auto", "scene"}},
+           {"spacing", 0, 0, 1e4, "between probes that are placed [m]; 0: some 100 to 200 probes"},
+           {"probes", 0, 0, 4096, "so many are placed; 0: as the spacing gives", true},
+           {"degree", 4, 0, 10, "highest band kept of a probe's light", true},
+           {"weights", 3, 0, 3, "of the probes at a point", true, {"distance", "trilinear", "mls", "fitted"}},
+           {"fit_poses", 3, 1, 64, "of the doors, to which weights are fitted", true},
+           {"surfel_size", 0, 0, 1e3, "edge of a surfel [m]; 0: a twentieth of the scene's radius"},
+           {"directions", 384, 16, 65536, "rays of a probe", true},
+           {"warm_start", 1, 0, 1, "solve from the last frame's light", true}},
+          [](const MethodScene& scene, const MethodParameters& p, const Control& control)
+              -> std::unique_ptr<Method> { return std::make_unique<Ssphh>(scene, p, control); }};
+}
+
+}  // namespace ssphh::gi::methods

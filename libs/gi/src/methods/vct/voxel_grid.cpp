@@ -1,0 +1,40 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include <ssphh/core/error.h>
+#include <ssphh/gi/vct/voxel_grid.h>
+
+namespace ssphh::gi::vct {
+
+int VoxelGrid::levels() const {
+  return std::bit_width(static_cast<unsigned>(resolution / brick));
+}
+
+Cell VoxelGrid::level_size(int level) const {
+  const auto coarse = [&](int n) { return std::max((n + (1 << level) - 1) >> level, 1); };
+  return {coarse(size.x), coarse(size.y), coarse(size.z)};
+}
+
+VoxelGrid make_grid(const scene::Bounds& bounds, int resolution) {
+  SSPHH_CHECK(resolution >= 8 && resolution <= 1024 &&
+              std::has_single_bit(static_cast<unsigned>(resolution)));
+  const vec3 extent = bounds.max - bounds.min;
+  VoxelGrid grid;
+  grid.resolution = resolution;
+  grid.voxel = max_component(extent) / static_cast<float>(resolution - 2);
+  if (bounds.empty() || !(grid.voxel > 0) || !std::isfinite(grid.voxel))
+    throw Error("voxels", "the scene has no surfaces, or no extent");
+  const auto cells = [&](float length) {
+    const int needed = static_cast<int>(std::ceil(length / grid.voxel)) + 2;
+    const int bricks = (needed + VoxelGrid::brick - 1) / VoxelGrid::brick;
+    return std::min(bricks * VoxelGrid::brick, resolution);
+  };
+  grid.size = {cells(extent.x), cells(extent.y), cells(extent.z)};
+  const vec3 whole(static_cast<float>(grid.size.x), static_cast<float>(grid.size.y),
+                   static_cast<float>(grid.size.z));
+  grid.origin = bounds.center() - 0.5f * grid.voxel * whole;
+  return grid;
+}
+
+}  // namespace ssphh::gi::vct

@@ -1,0 +1,110 @@
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/core/file.h>
+#include <ssphh/report/jobs.h>
+#include <ssphh/report/plan.h>
+
+namespace ssphh::report {
+namespace {
+
+using testing::HasSubstr;
+
+const std::vector<std::string> commands = {"render",  "bake",    "hier",    "truth", "sh",
+                                           "measure", "compare", "relight", "leak"};
+
+const char* const plan = R"(# Degrees
+title: Degrees
+variables:
+  width: 48
+  exposure: 0.50
+  label: "016"
+scenes:
+  - name: rooms
+    scene: builtin:two-rooms --time 1
+    optional: true
+methods:
+  - name: ssphh
+    parameters: {degree: [2, 4, 9]}
+    steps:
+      - bake {scene} --degree {degree} -o p.sphl
+      - name: picture
+        run: render {scene} --width {width} -o p.exr
+    picture: p.exr
+)";
+
+std::string message_of(std::string text, const std::string& what, const std::string& with) {
+  text.replace(text.find(what), what.size(), with);
+  try {
+    parse_plan(text, "p.yaml", commands);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+std::vector<std::string> keys(const Plan& p, const std::filesystem::path& folder) {
+  ExpandContext context{folder, "1", {}, 0};
+  for (const PlanScene& scene : p.scenes) context.scene_hashes[scene.name] = scene.name;
+  std::vector<std::string> all;
+  for (const Job& job : expand(p, context).jobs) all.push_back(job.key);
+  return all;
+}
+
+// Every JSON document is a YAML document too: both readers must see the same in it.
+TEST(YamlPlan, ShippedPlansSayTheSameInYamlAsInJson) {
+  const std::filesystem::path folder = std::filesystem::path(SSPHH_SOURCE_DIR) / "plans";
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".json") continue;
+    const std::string text = read_text_file(entry.path());
+    const Plan json = parse_plan(text, "plan.json", commands), yaml = parse_plan(text, "plan.yaml", commands);
+    EXPECT_EQ(keys(json, folder), keys(yaml, folder)) << entry.path();
+    EXPECT_EQ(json.title, yaml.title);
+    EXPECT_EQ(json.columns.size(), yaml.columns.size());
+    ++count;
+  }
+  EXPECT_GT(count, 5);
+}
+
+TEST(YamlPlan, PlainScalarsHaveTheirTypeAndQuotedOnesAreText) {
+  const Plan p = parse_plan(plan, "p.yaml", commands);
+  EXPECT_EQ(p.title, "Degrees");
+  EXPECT_EQ(p.variables, (Parameters{{"width", "48"}, {"exposure", "0.5"}, {"label", "016"}}));
+  EXPECT_TRUE(p.scenes[0].optional);
+  EXPECT_EQ(p.methods[0].variants.size(), 3u);
+  EXPECT_EQ(p.methods[0].steps[1].name, "picture");
+}
+
+TEST(YamlPlan, ErrorsNameTheLineAndTheNearestKey) {
+  const std::string unknown = message_of(plan, "    picture: p.exr", "    pictures: p.exr");
+  EXPECT_THAT(unknown, HasSubstr("p.yaml:18: methods[0]"));
+  EXPECT_THAT(unknown, HasSubstr("did you mean \"picture\"?"));
+  EXPECT_THAT(message_of(plan, "        run:", "        ran:"), HasSubstr("p.yaml:17: methods[0]/steps[1]"));
+  EXPECT_THAT(message_of(plan, "optional: true", "optional: maybe"),
+              HasSubstr("p.yaml:10: scenes[0]/optional"));
+  EXPECT_THAT(message_of(plan, "- bake", "- bak"), HasSubstr("p.yaml:15: methods[0]/steps[0]"));
+  EXPECT_THAT(message_of(plan, "title: Degrees", "title: [Degrees"), HasSubstr("is not YAML"));
+  EXPECT_THAT(message_of(plan, "  exposure", "  width"), HasSubstr("p.yaml:5: \"width\" stands twice"));
+}
+
+TEST(YamlPlan, AliasesThatMultiplyAreRefused) {
+  std::string bomb = "a: &a [x, x, x, x, x, x, x, x, x, x]\n";
+  for (char c = 'b'; c < 'j'; ++c) {
+    bomb += fmt::format("{}: &{} [", c, c);
+    for (int i = 0; i < 10; ++i) bomb += fmt::format("{}*{} ", i ? ", " : "", static_cast<char>(c - 1));
+    bomb += "]\n";
+  }
+  try {
+    parse_plan(bomb, "p.yaml", commands);
+    ADD_FAILURE();
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("over a million values"));
+  }
+}
+
+}  // namespace
+}  // namespace ssphh::report

@@ -1,0 +1,36 @@
+/// Photons of the groups of posed lights.
+
+#include "posed_light.h"
+#include "surface_gap.h"
+
+namespace ssphh::trace {
+
+float PosedLight::flux(int group) const {
+  float sum = 0;
+  for (const GroupEmitter& light : emitters_of(group)) sum += lights_.flux(light.index, bounds_.radius());
+  return sum;
+}
+
+std::optional<scene::Photon> PosedLight::emit(int group, const scene::PhotonNumbers& numbers) const {
+  // Choose an emitter by its flux; what is left of the number is not needed.
+  const float all = flux(group);
+  if (!(all > 0)) return std::nullopt;
+  const GroupEmitter* chosen = nullptr;
+  float below = 0, probability = 0;
+  for (const GroupEmitter& light : emitters_of(group)) {
+    const float share = lights_.flux(light.index, bounds_.radius()) / all;
+    if (!(share > 0)) continue;
+    chosen = &light, probability = share;
+    below += share;
+    if (numbers.emitter < below) break;
+  }
+  auto emitted = lights_.emit(chosen->index, numbers.place, numbers.direction, bounds_.center(),
+                              1.001f * bounds_.radius());
+  if (!emitted) return std::nullopt;
+  scene::Photon& photon = emitted->photon;
+  photon.power /= probability;
+  if (emitted->normal != vec3(0)) photon.origin = above_surface(photon.origin, emitted->normal, data_->gap);
+  return photon;
+}
+
+}  // namespace ssphh::trace

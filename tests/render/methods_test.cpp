@@ -1,0 +1,133 @@
+// What every method of indirect light promises, whatever it does inside, and the simplest of them against
+// closed forms.
+
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include <ssphh/core/parallel.h>
+#include <ssphh/gi/leak.h>
+#include <ssphh/gi/methods/table.h>
+#include <ssphh/gi/surface_points.h>
+#include <ssphh/trace/path_tracer.h>
+
+#include "transport_fixtures.h"
+
+namespace ssphh {
+namespace {
+
+using test::coloured_room;
+
+std::vector<scene::SurfacePoint> points_of(const scene::TransportSource& source, int count) {
+  const vec3 middle(0, 0.1f, 0);
+  return gi::reachable_points(source, {&middle, 1}, 0, {count, 0});
+}
+
+std::unique_ptr<gi::Method> make(const gi::MethodEntry& entry, const scene::Scene& scene,
+                                 const scene::TransportSource& source,
+                                 const std::vector<std::string>& settings = {}) {
+  return entry.make({scene, source}, gi::MethodParameters(entry.name, entry.parameters, settings), {});
+}
+
+std::vector<vec3> after(gi::Method& method, const gi::FrameState& state,
+                        std::span<const scene::SurfacePoint> points) {
+  method.update(state, {});
+  return gi::look_up(method.light(), points);
+}
+
+/// Enough to see what is promised.
+std::unique_ptr<gi::Method> make_small(const gi::MethodEntry& entry, const scene::Scene& scene,
+                                       const scene::TransportSource& source) {
+  static const std::map<std::string, std::vector<std::string>> small = {
+      {"ssphh", {"probes=8", "directions=64", "surfel_size=0.4"}},
+      {"ddgi", {"probes=27", "rays=32", "warmup=8"}},
+      {"vpl", {"photons=256", "cluster_error=0.02"}}};
+  const auto found = small.find(entry.name);
+  return make(entry, scene, source, found == small.end() ? std::vector<std::string>{} : found->second);
+}
+
+class EveryMethod : public testing::TestWithParam<const gi::MethodEntry*> {};
+
+TEST_P(EveryMethod, GivesLightInProportionToTheLamps) {
+  const scene::Scene scene = coloured_room(vec3(2, 1, 0.5f));
+  const trace::TransportScene source(scene);
+  const std::vector<scene::SurfacePoint> points = points_of(source, 32);
+  const auto method = make_small(*GetParam(), scene, source);
+  gi::FrameState state = gi::frame_at(source, 0);
+  const std::vector<vec3> once = after(*method, state, points);
+  const auto brighter = make_small(*GetParam(), scene, source);
+  state.group_scales.assign(state.group_scales.size(), vec3(4));
+  const std::vector<vec3> four = after(*brighter, state, points);
+  const auto dark = make_small(*GetParam(), scene, source);
+  state.group_scales.assign(state.group_scales.size(), vec3(0));
+  const std::vector<vec3> none = after(*dark, state, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_TRUE(std::isfinite(once[i][c]));
+      EXPECT_GE(once[i][c], 0);
+      EXPECT_EQ(none[i][c], 0);
+      EXPECT_NEAR(four[i][c], 4 * once[i][c], 4e-3f * (once[i][c] + 1e-3f)) << i << " " << c;
+    }
+  }
+}
+
+TEST_P(EveryMethod, GivesTheSameBitsOnOneThread) {
+  const scene::Scene scene = coloured_room(vec3(1));
+  const trace::TransportScene source(scene);
+  const std::vector<scene::SurfacePoint> points = points_of(source, 32);
+  const gi::FrameState state = gi::frame_at(source, 0);
+  const std::vector<vec3> many = after(*make_small(*GetParam(), scene, source), state, points);
+  set_thread_count(1);
+  const std::vector<vec3> one = after(*make_small(*GetParam(), scene, source), state, points);
+  set_thread_count(0);
+  EXPECT_EQ(one, many);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::ValuesIn([] {
+                           std::vector<const gi::MethodEntry*> entries;
+                           for (const gi::MethodEntry& entry : gi::method_table()) entries.push_back(&entry);
+                           return entries;
+                         }()),
+                         [](const testing::TestParamInfo<const gi::MethodEntry*>& method) {
+                           std::string name = method.param->name;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+// A closed room of one albedo ρ keeps the share ρ of its light at each bounce, so that the mean irradiance
+// of all bounces is ρ/(1 − ρ) of the direct one: energy balance.
+TEST(Ambient, IsTheMeanOfAClosedRoom) {
+  scene::Scene scene = coloured_room(vec3(3));
+  constexpr float albedo = 0.6f;
+  for (scene::Material& material : scene.materials) material.base_color = vec3(albedo);
+  const trace::TransportScene source(scene);
+  const std::vector<scene::SurfacePoint> points = points_of(source, 4096);
+  const auto lights = source.direct_light(source.lights(0), gi::part_poses(source, 0));
+  std::vector<vec3> direct(points.size());
+  lights->irradiance(0, points, direct);
+  double mean = 0;
+  for (const vec3& e : direct) mean += e.g / static_cast<double>(points.size());
+
+  const auto method = make(gi::find_method("ambient"), scene, source, {"points=16384"});
+  const vec3 found = after(*method, gi::frame_at(source, 0), {points.data(), 1})[0];
+  EXPECT_NEAR(found.g, mean * albedo / (1 - albedo), 0.04 * mean);
+}
+
+// A method that follows events ends where one that never saw another state begins.
+TEST(SsphhMethod, ForgetsWhatWas) {
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  const trace::TransportScene source(scene);
+  const std::vector<vec3> origins = {vec3(-1, 1, 0), vec3(1, 1, 0)};
+  const std::vector<scene::SurfacePoint> points = gi::reachable_points(source, origins, 0, {64, 0});
+  const std::vector<std::string> settings = {"places=scene", "weights=mls", "warm_start=0"};
+  const gi::MethodEntry& entry = gi::find_method("ssphh");
+  const auto moved = make(entry, scene, source, settings), fresh = make(entry, scene, source, settings);
+  const gi::FrameState shut = gi::frame_at(source, 0), open = gi::frame_at(source, 1);
+  const std::vector<vec3> before = after(*moved, shut, points);
+  const std::vector<vec3> now = after(*moved, open, points);
+  EXPECT_NE(before, now);
+  EXPECT_EQ(now, after(*fresh, open, points));
+}
+
+}  // namespace
+}  // namespace ssphh
