@@ -1,8 +1,12 @@
 #include <algorithm>
+#include <cmath>
+#include <fstream>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <ssphh/core/log.h>
 #include <ssphh/realtime/renderer.h>
@@ -21,7 +25,7 @@ struct BenchOptions {
   GlLookup lookup;
   std::string camera;
   int width = 1280, height = 720, frames = 60, warm_up = 5, supersample = 1, indirect_scale = 1;
-  bool turn = false;
+  bool turn = false, ratio = false, move = false;
 };
 
 double rank(std::vector<double> values, double share) {
@@ -41,32 +45,74 @@ scene::CameraPose turned(scene::CameraPose pose, float share) {
   return pose;
 }
 
+/// Bytes of this process that stand in memory.
+std::int64_t resident_bytes() {
+  std::ifstream statm("/proc/self/statm");
+  std::int64_t all = 0, resident = 0;
+  statm >> all >> resident;
+  return resident * static_cast<std::int64_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// Animations forth and back, the first lamp up and down, once in 100 frames.
+void move_scene(realtime::Renderer& renderer, const scene::Scene& scene, const scene::LightState* lamp,
+                float start, int frame) {
+  const float wave = 0.5f - 0.5f * std::cos(2 * pi * static_cast<float>(frame % 100) / 100);
+  renderer.set_time(start + wave * scene::animation_duration(scene));
+  if (!lamp) return;
+  scene::LightState moved = *lamp;
+  moved.world[3].y += 0.25f * (wave - 0.5f);
+  renderer.set_light(0, moved);
+}
+
+/// Times of one kind over all frames; room is taken before they start, so that memory shows what frames take.
+using Times = std::vector<double>;
+
 void bench_frame(const BenchOptions& o, const Context& context) {
+  if (o.ratio && o.lookup.probes.empty())
+    throw Error("--ratio", "needs a probe file", "give one with --probes");
   const scene::Scene scene = load_scene(o.scene);
   gl::Context gl = gl::Context::headless();
   realtime::Renderer renderer(gl, scene, {}, o.scene.time);
   set_probes(renderer, o.lookup, scene, o.scene.time);
   realtime::FrameSettings settings = still_settings(o.lookup, o.supersample);
   settings.indirect_scale = o.indirect_scale;
+  realtime::FrameSettings direct_only = settings;
+  direct_only.indirect = false;
   const realtime::Target target{.width = o.width, .height = o.height};
   const scene::CameraPose camera = scene::camera_pose(scene, o.camera, o.scene.time);
+  const std::optional<scene::LightState> lamp =
+      scene.lights.empty() ? std::nullopt : std::optional(renderer.light(0));
 
-  std::vector<double> frames;
-  std::map<std::string, std::vector<double>> passes;
-  std::uint64_t uploaded = 0, draw_calls = 0;
+  const auto count = static_cast<std::size_t>(o.frames);
+  Times frames(count, 0), direct_frames(o.ratio ? count : 0, 0);
+  std::map<std::string, Times> passes;
+  std::uint64_t uploaded = 0, draw_calls = 0, shaded = 0;
+  std::int64_t resident_before = 0;
   ProgressStage stage(context.control, "frames", static_cast<std::uint64_t>(o.warm_up + o.frames), "frames");
   for (int i = -o.warm_up; i < o.frames; ++i) {
     context.control.check();
-    const float share = static_cast<float>(i) / static_cast<float>(std::max(o.frames, 1));
-    const realtime::FrameStats& stats =
-        renderer.draw(o.turn ? turned(camera, share) : camera, settings, target);
+    const float share = static_cast<float>(i) / static_cast<float>(o.frames);
+    const scene::CameraPose pose = o.turn ? turned(camera, share) : camera;
+    if (o.move) move_scene(renderer, scene, lamp ? &*lamp : nullptr, o.scene.time, i + o.warm_up);
+    if (i == 0) resident_before = resident_bytes();
+    if (o.ratio) {
+      const double ms = renderer.draw(pose, direct_only, target).cpu_ms;
+      if (i >= 0) direct_frames[static_cast<std::size_t>(i)] = ms;
+    }
+    const realtime::FrameStats& stats = renderer.draw(pose, settings, target);
     stage.advance(1);
+    for (const realtime::PassTime& pass : stats.passes) {
+      Times& times = passes.try_emplace(pass.name, count, 0).first->second;
+      if (i >= 0) times[static_cast<std::size_t>(i)] = pass.gpu_ms;
+    }
     if (i < 0) continue;
-    frames.push_back(stats.cpu_ms);
-    for (const realtime::PassTime& pass : stats.passes) passes[pass.name].push_back(pass.gpu_ms);
+    frames[static_cast<std::size_t>(i)] = stats.cpu_ms;
     uploaded = std::max(uploaded, stats.bytes_uploaded);
     draw_calls = stats.draw_calls;
+    shaded = stats.samples_shaded;
   }
+  const std::int64_t resident_after = resident_bytes();
+  const double samples = static_cast<double>(o.supersample) * o.supersample * o.width * o.height;
 
   const double median = rank(frames, 0.5), p99 = rank(frames, 0.99);
   nlohmann::ordered_json medians;
@@ -78,19 +124,29 @@ void bench_frame(const BenchOptions& o, const Context& context) {
     medians[name] = rank(times, 0.5);
     text += fmt::format("\n{:<10} {:>10.2f} {:>10.2f}", name, rank(times, 0.5), rank(times, 0.99));
   }
-  context.result({{"scene", o.scene.source},
-                  {"renderer", gl.info().renderer},
-                  {"width", o.width},
-                  {"height", o.height},
-                  {"frames", o.frames},
-                  {"probes", renderer.probe_count()},
-                  {"median_ms", median},
-                  {"p99_ms", p99},
-                  {"passes", medians},
-                  {"draw_calls", draw_calls},
-                  {"largest_upload_bytes", uploaded},
-                  {"memory_bytes", renderer.memory_bytes()}},
-                 text);
+  nlohmann::ordered_json result{{"scene", o.scene.source},
+                                {"renderer", gl.info().renderer},
+                                {"width", o.width},
+                                {"height", o.height},
+                                {"frames", o.frames},
+                                {"probes", renderer.probe_count()},
+                                {"median_ms", median},
+                                {"p99_ms", p99},
+                                {"passes", medians},
+                                {"draw_calls", draw_calls},
+                                {"overdraw", static_cast<double>(shaded) / samples},
+                                {"largest_upload_bytes", uploaded},
+                                {"memory_bytes", renderer.memory_bytes()},
+                                {"resident_bytes", resident_after},
+                                {"memory_growth_bytes", resident_after - resident_before}};
+  if (o.ratio) {
+    const double direct = rank(direct_frames, 0.5);
+    result["direct_only_median_ms"] = direct;
+    result["sphl_ratio"] = median / direct;
+    text += fmt::format("\nwithout probes {:.2f} ms: probes make a frame {:.3f} times as long", direct,
+                        median / direct);
+  }
+  context.result(result, text);
 }
 
 }  // namespace
@@ -116,6 +172,9 @@ void add_bench_frame_command(CLI::App& app, Context& context) {
   command->add_option("--height", o.height, "Pixels")->check(CLI::Range(1, 16384))->capture_default_str();
   command->add_option("--camera", o.camera, "Camera by name; default: the scene's first");
   command->add_flag("--turn", o.turn, "The camera turns once about itself on the way");
+  command->add_flag("--ratio", o.ratio, "Draw each frame without probes' light, too, and compare the times");
+  command->add_flag("--move", o.move,
+                    "Animations run forth and back and the first lamp moves up and down, once in 100 frames");
   command->add_option("--samples", o.supersample, "Samples per pixel along each side")
       ->check(CLI::Range(1, 4))
       ->capture_default_str();

@@ -220,6 +220,24 @@ TEST_F(RendererTest, ViewsShowWhatTheyName) {
   EXPECT_GT(test::mean_luminance(renderer.read_back()), 0);
 }
 
+TEST_F(RendererTest, TellsHowTheLastFrameProjectsSoThatOthersMayDrawIntoIt) {
+  Renderer renderer(gl(), scene_);
+  frame(renderer);
+  EXPECT_NE(renderer.depth_texture(), 0u);
+  const scene::CameraPose camera = scene::camera_pose(scene_, "");
+  const float up = std::tan(0.5f * camera.camera.yfov), right = up * 64 / 36;
+  for (const vec2& place : {vec2(0, 0), vec2(1, 0), vec2(-0.5f, 1)}) {
+    for (const float distance : {0.5f, 3.0f}) {
+      const vec4 world = camera.world * vec4(distance * vec3(place.x * right, place.y * up, -1), 1);
+      const vec4 clip = renderer.view_projection() * world;
+      EXPECT_NEAR(clip.w, distance, 1e-4f);
+      EXPECT_NEAR(clip.x / clip.w, place.x, 1e-4f);
+      EXPECT_NEAR(clip.y / clip.w, place.y, 1e-4f);
+      EXPECT_TRUE(clip.z > 0 && clip.z < clip.w) << "1 at the near plane, 0 far away";
+    }
+  }
+}
+
 TEST_F(RendererTest, BadInputIsAnError) {
   Renderer renderer(gl(), scene_);
   EXPECT_THROW(renderer.read_back(), Error);

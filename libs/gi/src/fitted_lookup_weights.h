@@ -4,8 +4,7 @@
 #include <memory>
 
 #include <ssphh/gi/fitted_points.h>
-
-#include "nearest.h"
+#include <ssphh/gi/nearest.h>
 
 namespace ssphh::gi {
 

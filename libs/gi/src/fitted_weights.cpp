@@ -7,10 +7,10 @@
 #include <ssphh/core/parallel.h>
 #include <ssphh/gi/fitted_weights.h>
 #include <ssphh/gi/lookup_weights.h>
+#include <ssphh/gi/nearest.h>
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/sh/irradiance.h>
 
-#include "nearest.h"
 #include "transport/probe_light.h"
 #include "transport/sphl_emission.h"
 

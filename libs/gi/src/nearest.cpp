@@ -1,6 +1,6 @@
-#include "nearest.h"
-
 #include <algorithm>
+
+#include <ssphh/gi/nearest.h>
 
 namespace ssphh::gi {
 

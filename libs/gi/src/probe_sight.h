@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include <ssphh/gi/lookup_weights.h>
-
-#include "nearest.h"
+#include <ssphh/gi/nearest.h>
 
 namespace ssphh::gi {
 

@@ -1,13 +1,12 @@
 /// The k-d tree against a sort of all points.
 
-#include "nearest.h"
-
 #include <algorithm>
 #include <array>
 
 #include <gtest/gtest.h>
 
 #include <ssphh/core/random.h>
+#include <ssphh/gi/nearest.h>
 
 namespace ssphh::gi {
 namespace {

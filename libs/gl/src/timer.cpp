@@ -58,4 +58,31 @@ void Timer::end() {
   ++pending_;
 }
 
+SampleCounter::SampleCounter(bool software) : software_(software) {
+  unsigned id = 0;
+  glCreateQueries(GL_SAMPLES_PASSED, 1, &id);
+  query_ = Handle<delete_query>(id);
+}
+
+void SampleCounter::begin() {
+  if (waiting_) {
+    GLint ready = 0;
+    glGetQueryObjectiv(query_.get(), GL_QUERY_RESULT_AVAILABLE, &ready);
+    if (!ready && !software_) return;
+    GLuint64 samples = 0;
+    glGetQueryObjectui64v(query_.get(), GL_QUERY_RESULT, &samples);
+    count_ = samples;
+    waiting_ = false;
+  }
+  glBeginQuery(GL_SAMPLES_PASSED, query_.get());
+  counting_ = true;
+}
+
+void SampleCounter::end() {
+  if (!counting_) return;
+  glEndQuery(GL_SAMPLES_PASSED);
+  counting_ = false;
+  waiting_ = true;
+}
+
 }  // namespace ssphh::gl

@@ -11,7 +11,7 @@ layout(std140, binding = 0) uniform FrameBlock {
   vec4 tone;             // exposure factor, curve, 1/gamma or 0, probe spacing
   vec4 environment;      // cos, sin of its rotation
   ivec4 maps;            // texels of a face: lights, areas, probes; of a sun map
-  ivec4 map_tiles;       // tiles along a side of a layer, likewise
+  ivec4 map_tiles;       // log2 of tiles in a row, likewise
   vec4 map_near;         // near plane of the cube maps, likewise
   vec4 extra;            // occlusion radius, 0 off; indirect scale
 } frame;
@@ -19,6 +19,12 @@ layout(std140, binding = 0) uniform FrameBlock {
 #include "hash.glsl"
 
 const float PI = 3.14159265358979;
+
+// Column, row and layer of a tile, columns a power of two (TileLayout).
+ivec3 tile_place(int tile, int columns_log2) {
+  int low = (1 << columns_log2) - 1;
+  return ivec3(tile & low, tile >> columns_log2 & low, tile >> 2 * columns_log2);
+}
 
 float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 float max_component(vec3 v) { return max(v.x, max(v.y, v.z)); }

@@ -57,7 +57,7 @@ void main() {
   vec3 leaving = vec3(0);
   FOR_EACH_HARMONIC(MAX_DEGREE, -wi, leaving += y * emitter.corners[k].rgb)
   e *= max(leaving, vec3(0)) * PI * emitter.place.w * emitter.place.w;
-  float v = probe_visibility(emitter.items.w, s.position, s.geometric_normal);
+  float v = probe_visibility(emitter.items.w, emitter.place.xyz, s.position, s.geometric_normal);
 #else
   float v = cube_visibility(light_maps, frame.maps.x, frame.map_tiles.x, frame.map_near.x, emitter.items.y,
                             emitter.place.xyz, s.position, s.geometric_normal);

@@ -1,8 +1,7 @@
 #version 450 core
 // Light from SPHLs, as libs/gi's lookups find it. Variants: LOOKUP_LIGHT, else irradiance; MLS, else weights by
-// distance; FULL_BSDF, else
-// surfaces are Lambertian; TO_IMAGES gives irradiance and glossy radiance for apply.frag, at some pixels only;
-// CHOSEN_VIEW the probe that counts most.
+// distance; FULL_BSDF, else surfaces are Lambertian; TO_IMAGES gives irradiance and glossy radiance for apply.frag,
+// at some pixels only; CHOSEN_VIEW the probe that counts most.
 #include "gbuffer_read.glsl"
 #ifdef FULL_BSDF
 #include "bsdf.glsl"
@@ -22,113 +21,175 @@ struct Found {
   int chosen, count;
 };
 
+// Software renderers run both sides of every branch but leave loops early: what few probes need stands in loops
+// over their bits.
+int next_bit(inout uint bits) {
+  int i = findLSB(bits);
+  bits &= bits - 1;
+  return i;
+}
+
 #ifdef LOOKUP_LIGHT
 // The nearest visible one above the horizon as a lamp, I = L / (N . w); else the nearest as if it stood here.
 Found look_up(Surface s, vec3 mirror, float roughness) {
   int base = candidates_at(s.position);
-  int chosen = -1, nearest = 0;
-  float best = 1e30, least = 1e30;
-  for (int i = 0; i < MAX_NEAR; ++i) {
-    int probe = probe_grid[base + i];
-    if (probe < 0) break;
-    vec3 place = probe_places[probe].xyz, d = place - s.position;
+  uint above = 0;
+  vec4 nearest = vec4(0), chosen = vec4(0);
+  float least = 1e30, best = 1e30;
+  for (int i = 0; i < frame.counts.z; ++i) {
+    vec4 near = candidate(base + i);
+    if (near.w < 0) break;
+    vec3 d = near.xyz - s.position;
     float d2 = dot(d, d);
-    bool nearer = d2 < least;
-    least = nearer ? d2 : least;
-    nearest = nearer ? probe : nearest;
-    bool lights = d2 > 0 && d2 < best && dot(d, s.normal) > 0;
-    lights = lights && sees_probe(place, probe, s.position, s.normal, s.geometric_normal, sqrt(d2));
+    nearest = d2 < least ? near : nearest;
+    least = min(d2, least);
+    above |= dot(d, s.normal) > 0 ? 1u << i : 0u;
+  }
+  while (above != 0) {
+    vec4 near = candidate(base + next_bit(above));
+    vec3 d = near.xyz - s.position;
+    float d2 = dot(d, d);
+    bool lights = d2 < best && sees_probe(near.xyz, int(near.w), s.position, s.normal, s.geometric_normal, sqrt(d2));
     best = lights ? d2 : best;
-    chosen = lights ? probe : chosen;
+    chosen = lights ? near : chosen;
   }
   Found found;
-  found.count = chosen >= 0 ? 1 : 0;
-  found.chosen = chosen >= 0 ? chosen : nearest;
-  vec3 w = normalize(probe_places[found.chosen].xyz - s.position);
-  vec3 as_lamp = radiance_of(found.chosen, w, 0) / max(dot(s.normal, w), 0.05);
-  found.irradiance = chosen >= 0 ? as_lamp : irradiance_of(found.chosen, s.normal);
-  found.glossy = radiance_of(found.chosen, mirror, roughness);
+  found.count = best < 1e30 ? 1 : 0;
+  found.chosen = int(found.count > 0 ? chosen.w : nearest.w);
+  vec3 w = normalize(chosen.xyz - s.position);
+  vec3 as_lamp = radiance_of(found.chosen, radiance_at(w, 0)) / max(dot(s.normal, w), 0.05);
+  found.irradiance = found.count > 0 ? as_lamp : irradiance_of(found.chosen, irradiance_at(s.normal));
+  found.glossy = radiance_of(found.chosen, radiance_at(mirror, roughness));
   return found;
 }
 #else
-// A linear fit to what the probes in sight give, weighted by a bump of two spacings, and its value at x
-// (gi::WeightMethod::mls). The fit is linear in the probes' light, so that sums over them do.
-struct LinearFit {
-  mat4 matrix;
-  mat4x3 e, l;
-};
-
-void add(inout LinearFit fit, vec3 offset, float bump, vec3 e, vec3 l) {
-  vec4 p = vec4(1, offset);
-  fit.matrix += bump * outerProduct(p, p);
-  fit.e += bump * outerProduct(e, p);
-  fit.l += bump * outerProduct(l, p);
+// Whether a probe in direction d is worth a look: from one this far below the tangent plane, light reaches x only
+// over an edge that is nearer than 4 % of the distance, for sight begins 1 % of it off the surface.
+bool maybe_above(vec3 d, float d2, vec3 n) {
+  float height = dot(d, n);
+  return height >= 0 || height * height <= 0.0625 * d2;
 }
 
-// Weights at x of the four sums: the value there is their product.
-vec4 at_center(LinearFit fit) {
-  const float ridge = 0.05;  // keeps the fit flat where the probes do not differ
-  vec4 sums = fit.matrix[0];
-  mat4 m = fit.matrix / sums.x;
-  for (int c = 1; c < 4; ++c) m[c][c] += ridge;
-  vec4 row = inverse(m)[0];
-  return row / dot(row, sums);
+float bump_of(float d2) {
+  float spacing = frame.tone.w, falloff = max(0, 1 - d2 / (4 * spacing * spacing));
+  return falloff * falloff + 1e-6;
 }
 
-// Inverse squared distance times a wrapped cosine over the nearest that x sees; over the nearest if it sees
-// none.
+// Those of the candidates that are the MAX_NEAR nearest to x; `within` of them are no farther than far2.
+uint nearest_of(int base, vec3 x, int within, float far2) {
+  // Look for a distance with so many inside; there is none where several are equally far
+  float low = 0, high = far2, middle = far2 * pow(float(MAX_NEAR) / float(max(within, 1)), 2.0 / 3.0);
+  uint inside = 0;
+  int found = within;
+  for (int step = 0; step < 12 && found != MAX_NEAR && within > MAX_NEAR; ++step) {
+    inside = 0;
+    for (int i = 0; i < frame.counts.z; ++i) {
+      vec4 near = candidate(base + i);
+      if (near.w < 0) break;
+      vec3 d = near.xyz - x;
+      inside |= dot(d, d) <= middle ? 1u << i : 0u;
+    }
+    found = bitCount(inside);
+    low = found < MAX_NEAR ? middle : low;
+    high = found < MAX_NEAR ? high : middle;
+    middle = 0.5 * (low + high);
+  }
+  return inside;
+}
+
+// MLS: a linear fit to what the probes in sight within two spacings give, weighted by a bump, and its value at x
+// (gi::WeightMethod::mls). Else, or where x sees none of those: inverse squared distance times a wrapped cosine
+// over the nearest that x sees; over the nearest if it sees none.
 Found look_up(Surface s, vec3 mirror, float roughness) {
   int base = candidates_at(s.position);
-  vec3 e_seen = vec3(0), e_all = vec3(0), l_seen = vec3(0), l_all = vec3(0);
-  float seen = 0, all_weights = 0, most = -1;
-  Found found;
-  found.count = found.chosen = 0;
+  float spacing = frame.tone.w;
 #ifdef MLS
-  LinearFit fit = LinearFit(mat4(0), mat4x3(0), mat4x3(0));
-  float spacing = frame.tone.w, reach2 = 4 * spacing * spacing;
+  float reach2 = 4 * spacing * spacing;
+  mat4 matrix = mat4(0);
 #endif
-  for (int i = 0; i < MAX_NEAR; ++i) {
-    int probe = probe_grid[base + i];
+  uint listed = 0, pending = 0, beyond = 0, seen = 0;
+  int within = 0;
+  float far2 = 0;
+  for (int i = 0; i < frame.counts.z; ++i) {
+    vec4 near = candidate(base + i);
+    if (near.w < 0) break;
+    vec3 d = near.xyz - s.position;
+    float d2 = dot(d, d);
+    uint bit = 1u << i;
+    listed |= bit;
+    bool above = maybe_above(d, d2, s.normal);
 #ifdef MLS
-    if (probe < 0) break;
+    bool reached = d2 < reach2;
+    beyond |= above && !reached ? bit : 0u;
 #else
-    if (probe < 0 || found.count == MAX_BLEND) break;
+    const bool reached = true;
 #endif
-    vec3 place = probe_places[probe].xyz, d = place - s.position;
-    float d2 = max(dot(d, d), 1e-12), distance = sqrt(d2);
-    float wrapped = 0.5 + 0.5 * dot(s.normal, d) / distance;
-    float weight = (wrapped * wrapped + 0.05) / d2;
-    bool sees = sees_probe(place, probe, s.position, s.normal, s.geometric_normal, distance);
-    float near_weight = i < MAX_BLEND ? weight : 0, seen_weight = sees ? weight : 0;
-    vec3 e = irradiance_of(probe, s.normal);
-    e_seen += seen_weight * e;
-    e_all += near_weight * e;
-    seen += seen_weight;
-    all_weights += near_weight;
+    pending |= above && reached ? bit : 0u;
+    within += reached ? 1 : 0;
+    far2 = reached ? max(far2, d2) : far2;
+  }
+  if (within > MAX_NEAR) pending &= nearest_of(base, s.position, within, far2);
+#ifdef MLS
+  bool fits = pending != 0;
+  if (!fits) pending = beyond;
+#else
+  const bool fits = false;
+#endif
+  while (pending != 0) {
+    int i = next_bit(pending);
+    vec4 near = candidate(base + i);
+    vec3 d = near.xyz - s.position;
+    float d2 = dot(d, d);
+    bool sees = sees_probe(near.xyz, int(near.w), s.position, s.normal, s.geometric_normal, sqrt(d2));
+    seen |= sees ? 1u << i : 0u;
+#ifdef MLS
+    float bump = sees && fits ? bump_of(d2) : 0;
+    vec4 p = vec4(1, d / spacing);
+    matrix += bump * outerProduct(p, p);
+    // Beyond the fit's reach, once it has found nothing
+    bool further = pending == 0 && seen == 0 && fits;
+    fits = fits && !further;
+    pending = further ? beyond : pending;
+#else
+    if (bitCount(seen) == MAX_BLEND) pending = 0;
+#endif
+  }
+#ifdef MLS
+  const float ridge = 0.05;  // keeps the fit flat where the probes do not differ
+  mat4 m = matrix / max(matrix[0].x, 1e-30);
+  for (int c = 0; c < 4; ++c) m[c][c] += c == 0 ? (fits ? 0 : 1) : ridge;
+  vec4 row = inverse(m)[0];
+#endif
+  uint used = seen != 0 ? seen : listed & uint((1 << MAX_BLEND) - 1);
+  vec2 e_place = irradiance_at(s.normal);
 #ifdef FULL_BSDF
-    vec3 l = radiance_of(probe, mirror, roughness);
-    l_seen += seen_weight * l;
-    l_all += near_weight * l;
-#else
-    const vec3 l = vec3(0);
+  RadiancePlace l_place = radiance_at(mirror, roughness);
 #endif
+  Found found;
+  found.count = bitCount(seen);
+  found.chosen = 0;
+  found.irradiance = found.glossy = vec3(0);
+  float sum = 0, most = -1;
+  while (used != 0) {
+    vec4 near = candidate(base + next_bit(used));
+    int probe = int(near.w);
+    vec3 d = near.xyz - s.position;
+    float d2 = max(dot(d, d), 1e-12);
+    float wrapped = 0.5 + 0.5 * dot(s.normal, d) * inversesqrt(d2);
+    float weight = (wrapped * wrapped + 0.05) / d2;
+    found.chosen = weight > most ? probe : found.chosen;
+    most = max(most, weight);
 #ifdef MLS
-    float falloff = max(0, 1 - d2 / reach2);
-    add(fit, d / spacing, sees && d2 < reach2 ? falloff * falloff + 1e-6 : 0, e, l);
+    weight = fits ? bump_of(d2) * dot(row, vec4(1, d / spacing)) : weight;
 #endif
-    found.count += sees ? 1 : 0;
-    found.chosen = seen_weight > most ? probe : found.chosen;
-    most = max(most, seen_weight);
-  }
-  found.irradiance = seen > 0 ? e_seen / seen : e_all / all_weights;
-  found.glossy = seen > 0 ? l_seen / seen : l_all / all_weights;
-#ifdef MLS
-  if (fit.matrix[0].x > 0) {
-    vec4 center = at_center(fit);
-    found.irradiance = max(fit.e * center, 0);
-    found.glossy = max(fit.l * center, 0);
-  }
+    sum += weight;
+    found.irradiance += weight * irradiance_of(probe, e_place);
+#ifdef FULL_BSDF
+    found.glossy += weight * radiance_of(probe, l_place);
 #endif
+  }
+  found.irradiance = max(found.irradiance / sum, 0);
+  found.glossy = max(found.glossy / sum, 0);
   return found;
 }
 #endif

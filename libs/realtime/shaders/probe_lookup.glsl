@@ -1,44 +1,61 @@
 // SPHLs as surfaces look them up: which stand around a point, which of them it sees, and their light.
 #include "probe_data.glsl"
 
+// ProbeGrid's lists, CELLS_WIDTH entries in a row: position; w: probe, -1 where a list ends.
+layout(binding = 14) uniform sampler2D probe_cells;
+const int CELLS_WIDTH_LOG2 = 11;
+const int MAX_NEAR = 16;  // probes among which a point chooses
+const int MAX_BLEND = 8;  // probes that light a point by distance
+
 // Octahedral tiles: irradiance of a probe by normal; radiance by mirror direction, one tile per roughness.
 layout(binding = 12) uniform sampler2DArray irradiance_tiles;
 layout(binding = 13) uniform sampler2DArray radiance_tiles;
 
-uniform ivec4 irradiance_layout;  // texels of a tile without its border, tiles along a side
+uniform ivec4 irradiance_layout;  // texels of a tile without its border, log2 of tiles in a row
 uniform ivec4 radiance_layout;    // likewise; z: tiles of a probe
 const int RADIANCE_LEVELS = 6;
 uniform float level_roughness[RADIANCE_LEVELS];
 
-const int MAX_NEAR = 16;   // candidates of a cell
-const int MAX_BLEND = 8;   // probes that light a point
-
-// First entry of the list of candidates around x, nearest to the cell's middle first.
+// First entry of the list of candidates around x, nearest to the cell's middle first; frame.counts.z entries.
 int candidates_at(vec3 x) {
   ivec3 cell = ivec3(floor((x - frame.grid_origin.xyz) / frame.grid_origin.w));
   cell = clamp(cell, ivec3(0), frame.grid_size.xyz - 1);
-  return ((cell.z * frame.grid_size.y + cell.y) * frame.grid_size.x + cell.x) * MAX_NEAR;
+  return ((cell.z * frame.grid_size.y + cell.y) * frame.grid_size.x + cell.x) * frame.counts.z;
+}
+vec4 candidate(int entry) {
+  return texelFetch(probe_cells, ivec2(entry & (1 << CELLS_WIDTH_LOG2) - 1, entry >> CELLS_WIDTH_LOG2), 0);
 }
 
-vec3 sample_tile(sampler2DArray tiles, ivec2 shape, int tile, vec3 d) {
-  int side = shape.x + 2, per_layer = shape.y * shape.y;
-  int layer = tile / per_layer, rest = tile - layer * per_layer;
-  vec2 corner = vec2(rest % shape.y, rest / shape.y) * float(side);
-  vec2 place = corner + 1 + (0.5 + 0.5 * oct_encode(d)) * float(shape.x);
-  return textureLod(tiles, vec3(place / float(side * shape.y), layer), 0).rgb;
+// Texel of a direction in a tile of `size`.
+vec2 in_tile(vec3 d, int size) { return 1 + (0.5 + 0.5 * oct_encode(d)) * float(size); }
+
+vec3 sample_tile(sampler2DArray tiles, ivec2 shape, int tile, vec2 texel) {
+  ivec3 place = tile_place(tile, shape.y);
+  vec2 at = (vec2(place.xy * (shape.x + 2)) + texel) / vec2(textureSize(tiles, 0).xy);
+  return textureLod(tiles, vec3(at, place.z), 0).rgb;
 }
 
-vec3 irradiance_of(int probe, vec3 n) { return sample_tile(irradiance_tiles, irradiance_layout.xy, probe, n); }
+vec2 irradiance_at(vec3 n) { return in_tile(n, irradiance_layout.x); }
+vec3 irradiance_of(int probe, vec2 at) { return sample_tile(irradiance_tiles, irradiance_layout.xy, probe, at); }
 
-vec3 radiance_of(int probe, vec3 d, float roughness) {
-  // The two levels around the roughness
+// Where a probe's tiles hold radiance by direction and roughness: the two levels around it.
+struct RadiancePlace {
+  vec2 texel;
+  int low, high;
+  float share;
+};
+RadiancePlace radiance_at(vec3 d, float roughness) {
   int level = 0;
   for (int i = 1; i + 1 < RADIANCE_LEVELS; ++i) level = roughness >= level_roughness[i] ? i : level;
   float low = level_roughness[level], high = level_roughness[level + 1];
-  float f = clamp((roughness - low) / (high - low), 0, 1);
-  int levels = radiance_layout.z, tile = probe * levels + min(level, levels - 1);
-  return mix(sample_tile(radiance_tiles, radiance_layout.xy, tile, d),
-             sample_tile(radiance_tiles, radiance_layout.xy, tile + min(1, levels - 1), d), f);
+  int last = radiance_layout.z - 1;
+  return RadiancePlace(in_tile(d, radiance_layout.x), min(level, last), min(level + 1, last),
+                       clamp((roughness - low) / (high - low), 0, 1));
+}
+vec3 radiance_of(int probe, RadiancePlace at) {
+  int tile = probe * radiance_layout.z;
+  return mix(sample_tile(radiance_tiles, radiance_layout.xy, tile + at.low, at.texel),
+             sample_tile(radiance_tiles, radiance_layout.xy, tile + at.high, at.texel), at.share);
 }
 
 // From off the surface by 1 % of the distance, as gi::ProbeSight starts its rays; one texel decides.

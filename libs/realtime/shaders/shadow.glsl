@@ -28,13 +28,13 @@ vec3 in_face(int face, vec3 v) {
 
 // Share of light in the 2 x 2 texels around `texel` (in the tile) of tile `tile`. `here` is the receiver's own
 // depth value, `slope` its change per texel; what is nearer than both by `margin` blocks.
-float compare_tile(sampler2DArray maps, int size, int tiles, int tile, vec2 texel, float here, vec2 slope,
+float compare_tile(sampler2DArray maps, int size, int columns_log2, int tile, vec2 texel, float here, vec2 slope,
                    float margin) {
-  int layer = tile / (tiles * tiles), rest = tile - layer * tiles * tiles;
-  vec2 corner = vec2(rest % tiles, rest / tiles) * float(size);
+  ivec3 place = tile_place(tile, columns_log2);
+  vec2 corner = vec2(place.xy * size);
   vec2 at = clamp(texel, vec2(1), vec2(size - 1));
   vec2 low = floor(at - 0.5), f = at - 0.5 - low;
-  vec4 stored = textureGather(maps, vec3((corner + low + 1) / float(size * tiles), layer));
+  vec4 stored = textureGather(maps, vec3((corner + low + 1) / vec2(textureSize(maps, 0).xy), place.z));
   vec2 from = low + 0.5 - texel;
   vec4 plane = here + vec4(dot(slope, from + vec2(0, 1)), dot(slope, from + vec2(1, 1)),
                            dot(slope, from + vec2(1, 0)), dot(slope, from));
@@ -44,7 +44,7 @@ float compare_tile(sampler2DArray maps, int size, int tiles, int tile, vec2 texe
 
 // Share of the light at `light` that arrives at x, whose surface has the normal n. `size` is the texels of a
 // face, two of which are border.
-float cube_visibility(sampler2DArray maps, int size, int tiles, float near, int slot, vec3 light, vec3 x,
+float cube_visibility(sampler2DArray maps, int size, int columns_log2, float near, int slot, vec3 light, vec3 x,
                       vec3 n) {
   vec3 d = x - light, place;
   int face = cube_face(d, place);
@@ -54,23 +54,26 @@ float cube_visibility(sampler2DArray maps, int size, int tiles, float near, int 
   vec3 local = in_face(face, n);
   float across = min(-abs(dot(n, d)), -1e-3 * place.z);
   vec2 slope = (dot(n, d) <= 0 ? 1 : -1) * near * local.xy / across * (2 / inner);
-  return compare_tile(maps, size, tiles, slot * 6 + face, texel, here, slope, here * 1.5 / inner);
+  return compare_tile(maps, size, columns_log2, slot * 6 + face, texel, here, slope, here * 1.5 / inner);
 }
 
-// The same for one texel alone: whether x sees the light.
-bool cube_sight(sampler2DArray maps, int size, int tiles, float near, int slot, vec3 light, vec3 x, vec3 n) {
-  vec3 d = x - light, place;
-  int face = cube_face(d, place);
-  float inner = float(size - 2), here = near / place.z;
-  vec2 texel = 0.5 * (place.xy / place.z) * inner + 0.5 * float(size);
-  vec3 local = in_face(face, n);
-  float across = dot(n, d);
-  across = across < 0 ? min(across, -1e-3 * place.z) : max(across, 1e-3 * place.z);
-  vec2 off = floor(texel) + 0.5 - texel;
-  float plane = here + dot(near * local.xy / across * (2 / inner), off);
-  int tile = slot * 6 + face;
-  int layer = tile / (tiles * tiles), rest = tile - layer * tiles * tiles;
-  ivec2 corner = ivec2(rest % tiles, rest / tiles) * size;
-  float stored = texelFetch(maps, ivec3(corner + ivec2(texel), layer), 0).x;
+// The same for one texel alone: whether x sees the light. Without branches, of which software renderers run both
+// sides.
+bool cube_sight(sampler2DArray maps, int size, int columns_log2, float near, int slot, vec3 light, vec3 x, vec3 n) {
+  vec3 d = x - light, a = abs(d);
+  bool along_x = a.x >= a.y && a.x >= a.z, along_y = !along_x && a.y >= a.z;
+  float major = along_x ? d.x : along_y ? d.y : d.z, turn = major < 0 ? -1 : 1;
+  float inverse_z = 1 / abs(major);
+  // Right and up of the face
+  vec2 place = vec2(along_x ? -turn * d.z : along_y ? d.x : turn * d.x, along_y ? -turn * d.z : d.y) * inverse_z;
+  vec2 local = vec2(along_x ? -turn * n.z : along_y ? n.x : turn * n.x, along_y ? -turn * n.z : n.y);
+  int face = (along_x ? 0 : along_y ? 2 : 4) + (major < 0 ? 1 : 0);
+  float inner = float(size - 2), here = near * inverse_z;
+  vec2 texel = 0.5 * place * inner + 0.5 * float(size);
+  float across = dot(n, d), least = 1e-3 * abs(major);
+  across = across < 0 ? min(across, -least) : max(across, least);
+  float plane = here + dot(local, floor(texel) + 0.5 - texel) * (near * 2 / inner) / across;
+  ivec3 tile = tile_place(slot * 6 + face, columns_log2);
+  float stored = texelFetch(maps, ivec3(tile.xy * size + ivec2(texel), tile.z), 0).x;
   return stored <= max(plane, here) * (1 + 1.5 / inner);
 }

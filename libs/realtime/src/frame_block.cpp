@@ -30,7 +30,7 @@ FrameBlock frame_block(const scene::CameraPose& camera, const FrameSettings& set
   b.camera_up = vec4(half_height * up, height);
   b.camera_forward = vec4(forward, lens.orthographic ? far : near);
   const ProbeGrid& grid = probes.grid();
-  b.counts = ivec4(static_cast<int>(lights.lit().size()), probes.count(), ProbeGrid::list_length, 0);
+  b.counts = ivec4(static_cast<int>(lights.lit().size()), probes.count(), grid.length, 0);
   b.switches =
       ivec4(settings.direct, settings.indirect && probes.count() > 0,
             static_cast<int>(settings.lookup == gi::LookupMethod::light), static_cast<int>(settings.view));
@@ -44,12 +44,22 @@ FrameBlock frame_block(const scene::CameraPose& camera, const FrameSettings& set
   b.environment = vec4(std::cos(turn), std::sin(turn), 0, environment ? 1 : 0);
   b.maps = ivec4(lights.lamp_maps().size(), lights.area_maps().size(), probes.maps().size(),
                  lights.parallel_maps().size());
-  b.map_tiles = ivec4(lights.lamp_maps().tiles_per_side(), lights.area_maps().tiles_per_side(),
-                      probes.maps().tiles_per_side(), lights.parallel_maps().tiles_per_side());
+  b.map_tiles = ivec4(lights.lamp_maps().layout().columns_log2, lights.area_maps().layout().columns_log2,
+                      probes.maps().layout().columns_log2, lights.parallel_maps().layout().columns_log2);
   b.map_near = vec4(lights.near_plane(), lights.near_plane(), probes.near_plane(), 0);
   b.extra = vec4(settings.ambient_occlusion ? settings.occlusion_radius : 0,
                  static_cast<float>(images.indirect_scale), 0, 0);
   return b;
+}
+
+mat4 clip_matrix(const FrameBlock& b) {
+  const vec3 eye(b.camera_position), right(b.camera_right), up(b.camera_up), forward(b.camera_forward);
+  const bool orthographic = b.camera_position.w != 0;
+  const auto along = [&](const vec3& axis) { return vec4(axis, -glm::dot(axis, eye)); };
+  const vec4 x = along(right / glm::dot(right, right)), y = along(up / glm::dot(up, up)), z = along(forward);
+  const vec4 one(0, 0, 0, 1);
+  return glm::transpose(orthographic ? mat4(x, y, one - z / b.camera_forward.w, one)
+                                     : mat4(x, y, b.camera_forward.w * one, z));
 }
 
 }  // namespace ssphh::realtime

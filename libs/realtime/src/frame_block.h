@@ -15,4 +15,7 @@ FrameBlock frame_block(const scene::CameraPose& camera, const FrameSettings& set
                        const FrameImages& images, const Lights& lights, const Probes& probes,
                        const scene::Bounds& bounds);
 
+/// World to clip space as the geometry pass takes it: depth 1 at the near plane, 0 far away.
+mat4 clip_matrix(const FrameBlock& block);
+
 }  // namespace ssphh::realtime

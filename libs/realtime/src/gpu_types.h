@@ -85,7 +85,6 @@ static_assert(sizeof(GpuVertex) == 60);
 
 /// Where shaders expect what.
 namespace binding {
-inline constexpr unsigned probe_places = 0, probe_grid = 6;
 inline constexpr unsigned frame_block = 0, distant_block = 1, emitter_block = 2, material_block = 3,
                           instance_block = 4;
 }  // namespace binding
@@ -94,7 +93,7 @@ inline constexpr unsigned gbuffer0 = 0, gbuffer1 = 1, albedo_table = 3, light_ma
                           parallel_maps = 6, probe_maps = 7;
 inline constexpr unsigned base_texture = 8, rough_texture = 9, emission_texture = 10, normal_texture = 11;
 inline constexpr unsigned irradiance = 8, glossy = 9, occlusion = 10, shadow_image = 8;
-inline constexpr unsigned irradiance_tiles = 12, radiance_tiles = 13, environment = 13;
+inline constexpr unsigned irradiance_tiles = 12, radiance_tiles = 13, environment = 13, probe_cells = 14;
 inline constexpr unsigned count = 16;
 }  // namespace unit
 

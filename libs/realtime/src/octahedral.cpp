@@ -56,20 +56,16 @@ void TileBasis::evaluate(std::span<const vec3> coefficients, std::span<const flo
   for (vec4& texel : out) texel = glm::max(texel, vec4(0));
 }
 
-TileAtlas::TileAtlas(int size, int tiles) : size_(size) {
+TileAtlas::TileAtlas(int size, int tiles) : size_(size), layout_(tiles, preferred_side / (size + 2)) {
   const int side = size + 2;
-  per_side_ = std::max(1, preferred_side / side);
-  while (per_side_ > 1 && (per_side_ - 1) * (per_side_ - 1) >= tiles) --per_side_;
-  const int per_layer = per_side_ * per_side_;
-  texture_ = gl::Texture(gl::Format::rgba16f, side * per_side_, side * per_side_,
-                         std::max(1, (tiles + per_layer - 1) / per_layer));
+  texture_ = gl::Texture(gl::Format::rgba16f, side * layout_.columns(), side * layout_.rows, layout_.layers);
   texture_.set_filter(true);
 }
 
 void TileAtlas::upload(int tile, std::span<const vec4> texels) {
-  const int side = size_ + 2, per_layer = per_side_ * per_side_, rest = tile % per_layer;
-  texture_.upload_rect(std::as_bytes(texels), rest % per_side_ * side, rest / per_side_ * side, side, side,
-                       tile / per_layer);
+  const int side = size_ + 2;
+  texture_.upload_rect(std::as_bytes(texels), layout_.column(tile) * side, layout_.row(tile) * side, side,
+                       side, layout_.layer(tile));
 }
 
 }  // namespace ssphh::realtime

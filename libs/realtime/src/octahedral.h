@@ -9,6 +9,8 @@
 #include <ssphh/gl/texture.h>
 #include <ssphh/sh/coefficients.h>
 
+#include "tile_layout.h"
+
 namespace ssphh::realtime {
 
 /// Unit direction of a place in [−1, 1]²; places a little outside are those across the edge.
@@ -39,13 +41,14 @@ class TileAtlas {
   TileAtlas(int size, int tiles);
 
   int size() const { return size_; }
-  int tiles_per_side() const { return per_side_; }
+  const TileLayout& layout() const { return layout_; }
   std::size_t bytes() const { return texture_.id() ? texture_.bytes() / 2 : 0; }
   void upload(int tile, std::span<const vec4> texels);
   void bind(unsigned unit) const { texture_.bind(unit); }
 
  private:
-  int size_ = 0, per_side_ = 1;
+  int size_ = 0;
+  TileLayout layout_;
   gl::Texture texture_;
 };
 

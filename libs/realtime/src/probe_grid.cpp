@@ -1,18 +1,42 @@
 #include "probe_grid.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include <ssphh/core/parallel.h>
+#include <ssphh/gi/nearest.h>
 
 namespace ssphh::realtime {
+namespace {
+
+/// The part of `near`, sorted by distance from the middle of a cube of half side `half`, that may be among
+/// the `wanted` nearest of some point of the cube; moved to the front, in order.
+std::size_t keep_possible(std::span<gi::Near> near, std::span<const vec3> probes, const vec3& middle,
+                          float half) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    // |x − a|² − |x − b|² is linear in x: it is below 0 all over the cube if it is at its worst corner
+    int nearer = 0;
+    const vec3 b = probes[static_cast<std::size_t>(near[i].index)] - middle;
+    for (std::size_t j = 0; j < i && nearer < ProbeGrid::wanted; ++j) {
+      const vec3 a = probes[static_cast<std::size_t>(near[j].index)] - middle;
+      const vec3 apart = glm::abs(a - b);
+      nearer += glm::dot(a, a) - glm::dot(b, b) + 2 * half * (apart.x + apart.y + apart.z) < 0;
+    }
+    if (nearer < ProbeGrid::wanted) near[kept++] = near[i];
+  }
+  return kept;
+}
+
+}  // namespace
 
 ProbeGrid make_probe_grid(std::span<const vec3> probes, const scene::Bounds& bounds, float spacing,
                           std::size_t most_cells) {
   ProbeGrid grid;
   const vec3 extent = glm::max(bounds.max - bounds.min, vec3(1e-6f));
   grid.origin = bounds.min;
-  grid.cell_size = std::isfinite(spacing) ? 0.5f * spacing : max_component(extent);
+  grid.cell_size = std::isfinite(spacing) ? spacing / 3 : max_component(extent);
   const auto cells_of = [&](float size) { return glm::max(glm::ivec3(glm::ceil(extent / size)), 1); };
   // Twice the side, an eighth of the cells; as floats, for absurd spacings overflow integers
   const auto too_many = [&](float size) {
@@ -24,23 +48,37 @@ ProbeGrid make_probe_grid(std::span<const vec3> probes, const scene::Bounds& bou
 
   const auto count = static_cast<std::size_t>(grid.cells.x) * static_cast<std::size_t>(grid.cells.y) *
                      static_cast<std::size_t>(grid.cells.z);
-  constexpr auto length = static_cast<std::size_t>(ProbeGrid::list_length);
-  grid.lists.assign(count * length, -1);
+  constexpr auto stride = static_cast<std::size_t>(ProbeGrid::longest);
+  std::vector<int> lists(count * stride, -1);
+  std::atomic<int> longest = 1;
+  const gi::NearestPoints nearest(probes);
+  const float half = 0.5f * grid.cell_size, diagonal = 2 * std::sqrt(3.0f) * half;
   parallel_for(count, 64, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::pair<float, int>> order(probes.size());
+    std::vector<gi::Near> near(4 * stride);
     for (std::size_t cell = begin; cell < end; ++cell) {
       const auto c = static_cast<int>(cell);
       const vec3 place(c % grid.cells.x, c / grid.cells.x % grid.cells.y, c / (grid.cells.x * grid.cells.y));
       const vec3 middle = grid.origin + grid.cell_size * (place + 0.5f);
-      for (std::size_t i = 0; i < probes.size(); ++i) {
-        const vec3 d = probes[i] - middle;
-        order[i] = {glm::dot(d, d), static_cast<int>(i)};
+      const int wanted = nearest.find(middle, std::span(near).first(ProbeGrid::wanted));
+      const float farthest = std::sqrt(near[static_cast<std::size_t>(wanted - 1)].distance2);
+      const int found = nearest.find(middle, near, farthest + diagonal);
+      const std::size_t possible =
+          keep_possible(std::span(near).first(static_cast<std::size_t>(found)), probes, middle, half);
+      const std::size_t kept = std::min(possible, stride);
+      for (std::size_t i = 0; i < kept; ++i) lists[cell * stride + i] = near[i].index;
+      int before = longest;
+      while (before < static_cast<int>(kept) &&
+             !longest.compare_exchange_weak(before, static_cast<int>(kept))) {
       }
-      const std::size_t kept = std::min(length, order.size());
-      std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(kept), order.end());
-      for (std::size_t i = 0; i < kept; ++i) grid.lists[cell * length + i] = order[i].second;
     }
   });
+  grid.length = longest;
+  const auto length = static_cast<std::size_t>(grid.length);
+  for (std::size_t cell = 0; cell < count; ++cell)
+    std::copy_n(lists.begin() + static_cast<std::ptrdiff_t>(cell * stride), length,
+                lists.begin() + static_cast<std::ptrdiff_t>(cell * length));
+  lists.resize(count * length);
+  grid.lists = std::move(lists);
   return grid;
 }
 

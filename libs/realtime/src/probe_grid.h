@@ -10,17 +10,22 @@
 namespace ssphh::realtime {
 
 struct ProbeGrid {
-  static constexpr int list_length = 16;
+  /// A point chooses among so many nearest probes, as gi's lookups do.
+  static constexpr int wanted = 16;
+  static constexpr int longest = 32;
 
   glm::ivec3 cells{1};
   vec3 origin{0};
   float cell_size = 1;
-  /// list_length probes for each cell, x fastest, those nearest to its middle first; −1: no more.
+  int length = 1;  ///< of each list
+  /// `length` probes for each cell, x fastest, nearest to its middle first; −1: no more. Holds the `wanted`
+  /// nearest of every point of the cell; where those are more than `longest` probes, the nearest to the
+  /// middle.
   std::vector<int> lists;
 };
 
-/// Cells of half the probes' spacing or larger, at most `most_cells`, over `bounds`.
+/// Cells of a third of the probes' spacing or larger, at most `most_cells`, over `bounds`.
 ProbeGrid make_probe_grid(std::span<const vec3> probes, const scene::Bounds& bounds, float spacing,
-                          std::size_t most_cells = 1 << 18);
+                          std::size_t most_cells = 1 << 17);
 
 }  // namespace ssphh::realtime

@@ -40,11 +40,23 @@ int face_size(std::size_t probes, std::size_t bytes) {
   return size;
 }
 
+/// The grid's lists as probe_lookup.glsl reads them: places, and probes' numbers, which floats hold exactly.
+gl::Texture cell_texture(const ProbeGrid& grid, std::span<const vec3> places) {
+  constexpr std::size_t width = 2048;
+  std::vector<vec4> texels((grid.lists.size() + width - 1) / width * width, vec4(0, 0, 0, -1));
+  for (std::size_t i = 0; i < grid.lists.size(); ++i) {
+    const int probe = grid.lists[i];
+    if (probe >= 0) texels[i] = vec4(places[static_cast<std::size_t>(probe)], static_cast<float>(probe));
+  }
+  gl::Texture texture(gl::Format::rgba32f, width, static_cast<int>(texels.size() / width));
+  texture.upload(std::as_bytes(std::span(texels)));
+  return texture;
+}
+
 }  // namespace
 
 Probes::Probes() {
-  place_buffer_ = gl::Buffer(16);
-  grid_buffer_ = gl::Buffer(16);
+  cells_ = gl::Texture(gl::Format::rgba32f, 1, 1);
   irradiance_ = TileAtlas(irradiance_tile, 1);
   radiance_ = TileAtlas(radiance_tile, 1);
   maps_ = MapAtlas(smallest_face, 1);
@@ -63,21 +75,18 @@ Probes::Probes(const gi::ProbeSet& set, const gi::LookupParams& params, const Re
     throw Error("probe lookup", "the probe set has no hierarchy", "run `ssphh hier` on the file first");
 
   scene::Bounds all = bounds;
-  std::vector<vec4> places;
   for (const gi::Probe& probe : set.probes) {
     places_.push_back(probe.position);
-    places.emplace_back(probe.position, probe.radius);
     all.add(probe.position);
   }
   spacing_ = params.weights.spacing > 0 ? params.weights.spacing : gi::median_spacing(places_);
   grid_ = make_probe_grid(places_, all, spacing_);
-  place_buffer_ = gl::Buffer(std::span<const vec4>(places));
-  grid_buffer_ = gl::Buffer(std::span<const int>(grid_.lists));
+  cells_ = cell_texture(grid_, places_);
   irradiance_basis_ = TileBasis(irradiance_tile, irradiance_degree_);
   irradiance_ = TileAtlas(irradiance_tile, count());
   radiance_ = TileAtlas(radiance_tile, 1);
   levels_ = glossy ? static_cast<int>(level_roughness.size()) : 1;
-  counters.bytes_uploaded += place_buffer_.size() + grid_buffer_.size();
+  counters.bytes_uploaded += cells_.bytes();
 
   std::vector<int> all_probes;
   for (std::size_t i = 0; i < set.probes.size(); ++i) {
@@ -151,22 +160,21 @@ int Probes::update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program&
 }
 
 void Probes::bind_sight() const {
-  place_buffer_.bind_storage(binding::probe_places);
-  grid_buffer_.bind_storage(binding::probe_grid);
   maps_.texture().bind(unit::probe_maps);
 }
 
 void Probes::bind_lookup(gl::Program& program) const {
   bind_sight();
+  cells_.bind(unit::probe_cells);
   irradiance_.bind(unit::irradiance_tiles);
   radiance_.bind(unit::radiance_tiles);
-  program.set("irradiance_layout", irradiance_.size(), irradiance_.tiles_per_side());
-  program.set("radiance_layout", radiance_.size(), radiance_.tiles_per_side(), levels_);
+  program.set("irradiance_layout", irradiance_.size(), irradiance_.layout().columns_log2);
+  program.set("radiance_layout", radiance_.size(), radiance_.layout().columns_log2, levels_);
   program.set("level_roughness", std::span<const float>(level_roughness));
 }
 
 std::size_t Probes::bytes() const {
-  return maps_.bytes() + irradiance_.bytes() + radiance_.bytes() + place_buffer_.size() + grid_buffer_.size();
+  return maps_.bytes() + irradiance_.bytes() + radiance_.bytes() + cells_.bytes();
 }
 
 }  // namespace ssphh::realtime

@@ -38,7 +38,7 @@ class Probes {
                   FrameCounters& counters);
   /// For a program that looks probes up.
   void bind_lookup(gl::Program& program) const;
-  /// Places and shadow maps alone.
+  /// Shadow maps alone.
   void bind_sight() const;
   std::size_t bytes() const;
 
@@ -57,7 +57,7 @@ class Probes {
   int levels_ = 1;             ///< roughnesses of which radiance is kept
   bool has_radiance_ = false;  ///< its tiles are there
   std::vector<vec4> texels_;   ///< of the probes that change, while they are made
-  gl::Buffer place_buffer_, grid_buffer_;
+  gl::Texture cells_;
 };
 
 }  // namespace ssphh::realtime

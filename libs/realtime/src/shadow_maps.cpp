@@ -41,14 +41,9 @@ bool sees_box(const MapView& view, const scene::Bounds& box) {
   return !(left || right || below || above || behind);
 }
 
-MapAtlas::MapAtlas(int size, int tiles) : size_(size) {
-  per_side_ = std::max(1, preferred_side / size);
-  // A layer need not be larger than what it holds
-  while (per_side_ > 1 && (per_side_ - 1) * (per_side_ - 1) >= tiles) --per_side_;
-  const int per_layer = per_side_ * per_side_;
-  const int layers = std::max(1, (tiles + per_layer - 1) / per_layer);
-  texture_ = gl::Texture(gl::Format::depth32f, size * per_side_, size * per_side_, layers);
-  for (int i = 0; i < layers; ++i) layers_.emplace_back(texture_, i);
+MapAtlas::MapAtlas(int size, int tiles) : size_(size), layout_(tiles, preferred_side / size) {
+  texture_ = gl::Texture(gl::Format::depth32f, size * layout_.columns(), size * layout_.rows, layout_.layers);
+  for (int i = 0; i < layout_.layers; ++i) layers_.emplace_back(texture_, i);
   views_.resize(static_cast<std::size_t>(tiles));
   fresh_.assign(static_cast<std::size_t>(tiles), unused);
 }
@@ -92,9 +87,8 @@ int MapAtlas::update(const GpuScene& scene, gl::Program& opaque, gl::Program& al
 
 void MapAtlas::draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, gl::Program& alpha,
                          FrameCounters& counters) {
-  const int per_layer = per_side_ * per_side_, rest = tile % per_layer;
-  const gl::Rect rect{rest % per_side_ * size_, rest / per_side_ * size_, size_, size_};
-  gl::bind_framebuffer(layers_[static_cast<std::size_t>(tile / per_layer)].id(), rect);
+  const gl::Rect rect{layout_.column(tile) * size_, layout_.row(tile) * size_, size_, size_};
+  gl::bind_framebuffer(layers_[static_cast<std::size_t>(layout_.layer(tile))].id(), rect);
   gl::apply({.depth = gl::Depth::test_and_write, .color_write = false});
   gl::clear_depth(rect, 0);
 

@@ -8,6 +8,7 @@
 #include <ssphh/gl/program.h>
 
 #include "gpu_scene.h"
+#include "tile_layout.h"
 
 namespace ssphh::realtime {
 
@@ -30,7 +31,7 @@ class MapAtlas {
   MapAtlas(int size, int tiles);
 
   int size() const { return size_; }
-  int tiles_per_side() const { return per_side_; }
+  const TileLayout& layout() const { return layout_; }
   int count() const { return static_cast<int>(fresh_.size()); }
   std::size_t bytes() const { return texture_.id() ? texture_.bytes() : 0; }
   const gl::Texture& texture() const { return texture_; }
@@ -49,7 +50,8 @@ class MapAtlas {
   void draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, gl::Program& alpha,
                  FrameCounters& counters);
 
-  int size_ = 0, per_side_ = 1, stale_ = 0;
+  int size_ = 0, stale_ = 0;
+  TileLayout layout_;
   gl::Texture texture_;
   std::vector<gl::Framebuffer> layers_;
   std::vector<MapView> views_;

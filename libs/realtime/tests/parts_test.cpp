@@ -27,32 +27,52 @@ std::vector<vec3> random_points(std::size_t count, float extent) {
   return points;
 }
 
-TEST(ProbeGrid, ListsTheNearestOfEachCellsMiddleInOrder) {
+TEST(ProbeGrid, ListsHoldTheNearestOfEveryPointInOrderFromTheMiddle) {
   const std::vector<vec3> probes = random_points(300, 4);
-  scene::Bounds bounds{vec3(-4), vec3(4)};
-  const ProbeGrid grid = make_probe_grid(probes, bounds, 1.1f);
-  for (const int cell : {0, 17, grid.cells.x * grid.cells.y * grid.cells.z - 1}) {
-    const vec3 place(cell % grid.cells.x, cell / grid.cells.x % grid.cells.y,
-                     cell / (grid.cells.x * grid.cells.y));
-    const vec3 middle = grid.origin + grid.cell_size * (place + 0.5f);
-    std::vector<int> order(probes.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-    std::sort(order.begin(), order.end(), [&](int a, int b) {
-      return glm::distance(probes[static_cast<std::size_t>(a)], middle) <
-             glm::distance(probes[static_cast<std::size_t>(b)], middle);
-    });
-    for (int i = 0; i < ProbeGrid::list_length; ++i) {
-      EXPECT_EQ(grid.lists[static_cast<std::size_t>(cell * ProbeGrid::list_length + i)],
-                order[static_cast<std::size_t>(i)]);
+  const ProbeGrid grid = make_probe_grid(probes, {vec3(-4), vec3(4)}, 1.1f);
+  ASSERT_GT(grid.length, ProbeGrid::wanted);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> inside(0, 1);
+  const auto nearest = [&](const vec3& x) {
+    std::vector<std::pair<float, int>> order;
+    for (std::size_t i = 0; i < probes.size(); ++i)
+      order.emplace_back(glm::distance(probes[i], x), static_cast<int>(i));
+    std::sort(order.begin(), order.end());
+    return order;
+  };
+  int full = 0;
+  const int cells = grid.cells.x * grid.cells.y * grid.cells.z;
+  for (int cell = 0; cell < cells; cell += 41) {
+    const vec3 low =
+        grid.origin + grid.cell_size * vec3(cell % grid.cells.x, cell / grid.cells.x % grid.cells.y,
+                                            cell / (grid.cells.x * grid.cells.y));
+    std::vector<int> list(static_cast<std::size_t>(grid.length));
+    std::copy_n(grid.lists.begin() + cell * grid.length, grid.length, list.begin());
+    std::erase(list, -1);
+    float before = 0;
+    for (const int probe : list) {
+      const float d = glm::distance(probes[static_cast<std::size_t>(probe)], low + 0.5f * grid.cell_size);
+      EXPECT_GE(d, before);
+      before = d;
+    }
+    if (list.size() == ProbeGrid::longest) {
+      ++full;  // some may have been left out
+      continue;
+    }
+    for (int i = 0; i < 20; ++i) {
+      const auto order = nearest(low + grid.cell_size * vec3(inside(random), inside(random), inside(random)));
+      for (std::size_t k = 0; k < ProbeGrid::wanted; ++k)
+        EXPECT_THAT(list, testing::Contains(order[k].second));
     }
   }
+  EXPECT_LT(full, cells / 41 / 3) << "most cells have all their probes";
 }
 
 TEST(ProbeGrid, StaysWithinItsCellsForAnySpacing) {
   const std::vector<vec3> probes = random_points(5, 1);
   const ProbeGrid fine = make_probe_grid(probes, {vec3(-50), vec3(50)}, 1e-6f, 1000);
   EXPECT_LE(fine.cells.x * fine.cells.y * fine.cells.z, 1000);
-  EXPECT_EQ(fine.lists[5], -1) << "there are five probes only";
+  EXPECT_EQ(fine.length, 5) << "there are five probes only";
   const ProbeGrid one = make_probe_grid(std::span(probes).first(1), {vec3(-1), vec3(1)},
                                         std::numeric_limits<float>::infinity());
   EXPECT_EQ(one.lists[0], 0);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include <ssphh/gl/handle.h>
 
@@ -25,6 +26,23 @@ class Timer {
   double start_ = 0, gpu_ms_ = 0, cpu_ms_ = 0;
   int next_ = 0, pending_ = 0;
   std::array<Handle<delete_query>, in_flight> queries_;
+};
+
+/// Counts samples that pass the depth test between begin and end.
+class SampleCounter {
+ public:
+  explicit SampleCounter(bool software);
+
+  void begin();
+  void end();
+  /// Of the last span whose count is known: on a GPU some frames ago. 0 before the first.
+  std::uint64_t count() const { return count_; }
+
+ private:
+  bool software_;
+  bool counting_ = false, waiting_ = false;
+  std::uint64_t count_ = 0;
+  Handle<delete_query> query_;
 };
 
 }  // namespace ssphh::gl

@@ -37,7 +37,7 @@ struct RendererParams {
   int light_map_size = 1024;  ///< pixels of a shadow map's face: point and spot lights
   int area_map_size = 256;    ///< of each point on a light with an extent
   int sun_map_size = 1024;    ///< of a cascade, and of a direction of the environment
-  std::size_t probe_map_bytes = std::size_t{192} << 20;  ///< for all probes' maps together
+  std::size_t probe_map_bytes = std::size_t{64} << 20;  ///< for all probes' maps together
   int area_samples = 16;         ///< points that stand for a light with an extent, each with a shadow map
   int environment_samples = 32;  ///< directions in which the environment casts shadows
   int maps_per_frame = 1 << 30;  ///< cube maps drawn in one frame at most; the rest wait for the next
@@ -82,6 +82,13 @@ class Renderer {
                          const Target& target);
   /// The last frame as scene-linear radiance, before exposure and tone curve; row 0 on top.
   image::Image read_back() const;
+
+  /// What drew the last frame's surfaces, for those who draw more into it: OpenGL's name of the depth at
+  /// every sample (the target's size times supersample; 32-bit float with stencil, 1 near, 0 far away; row 0
+  /// at the bottom), and world to clip space with z in 0..1. The texture is another after a frame of another
+  /// size.
+  unsigned depth_texture() const;
+  mat4 view_projection() const;
 
   /// Bytes of OpenGL memory that this renderer asked for.
   std::size_t memory_bytes() const;

@@ -1,6 +1,7 @@
 #pragma once
 /// Nearest neighbours among fixed points.
 
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>

@@ -1,0 +1,136 @@
+#include <algorithm>
+
+#include "renderer_data.h"
+
+namespace ssphh::realtime {
+
+void Renderer::Data::fullscreen(gl::Program& program, unsigned framebuffer, const gl::Rect& rect,
+                                const gl::DrawState& where) {
+  gl::bind_framebuffer(framebuffer, rect);
+  gl::apply(where);
+  program.use();
+  no_vertices.bind();
+  gl::draw_triangles(3);
+  ++counters.draw_calls;
+}
+
+void Renderer::Data::draw_shadows() {
+  int left = params.maps_per_frame;
+  int& waiting = stats.shadow_maps_waiting;
+  gl::Program &opaque = shaders.shadow(false), &alpha = shaders.shadow(true);
+  const int lamps = lights.update_maps(scene, opaque, alpha, left, waiting, counters);
+  left = std::max(left - lamps, 0);
+  stats.shadow_maps_drawn = lamps + probes.update_maps(scene, opaque, alpha, left, waiting, counters);
+}
+
+void Renderer::Data::draw_geometry(const FrameSettings& settings) {
+  gl::bind_framebuffer(images.geometry_pass.id(), images.full());
+  gl::apply({.depth = gl::Depth::test_and_write});
+  gl::clear_depth(images.full(), 0);
+  gl::clear_stencil(surface_class::nothing);
+  gl::clear_color_uint(0, 0, 0, 0, 0);
+  gl::clear_color_uint(1, 0, 0, 0, 0);
+  gl::clear_color(2, 0, 0, 0, 0);
+  const bool emission = settings.direct && (settings.view == View::lit || settings.view == View::direct);
+  scene.begin(false);
+  int surface = -1, textures = -1;
+  for (const DrawItem& item : scene.items()) {
+    if (item.textures != textures) {
+      textures = item.textures;
+      gl::Program& program = shaders.geometry(textures);
+      program.set("emission_shown", emission || settings.view == View::albedo ? 1 : 0);
+      program.use();
+    }
+    if (item.surface_class != surface) {
+      surface = item.surface_class;
+      gl::apply({.depth = gl::Depth::test_and_write, .lines = settings.wireframe, .stencil_write = surface});
+    }
+    scene.draw(item, true, counters);
+  }
+  for (unsigned i = 0; i < unit::count; ++i) gl::Sampler::unbind(i);
+}
+
+void Renderer::Data::draw_direct(bool shadow_view) {
+  lights.bind();
+  if (probes.count() > 0) probes.bind_sight();
+  const gl::Framebuffer& target = shadow_view ? images.shadow_pass : images.light_pass;
+  if (shadow_view) {
+    gl::bind_framebuffer(target.id(), images.full());
+    gl::clear_color(0, 0, 0, 0, 0);
+  }
+  for (const Lights::Lit& lit : lights.lit()) {
+    lights.bind_emitter(lit);
+    for_each_class([&](bool full, const gl::DrawState& where) {
+      fullscreen(shaders.direct(lit.kind, full, shadow_view), target.id(), images.full(), where);
+    });
+  }
+}
+
+IndirectLookup Renderer::Data::lookup_of(const FrameSettings& settings) const {
+  if (settings.lookup == gi::LookupMethod::light) return IndirectLookup::light;
+  // One probe has no spacing, nor anything to fit
+  const bool fits = settings.weights != gi::WeightMethod::distance && probes.count() > 1;
+  return fits ? IndirectLookup::mls : IndirectLookup::distance;
+}
+
+void Renderer::Data::draw_indirect(const FrameSettings& settings) {
+  const bool chosen = settings.view == View::chosen_sphl;
+  if (!chosen && (images.indirect_scale > 1 || settings.ambient_occlusion))
+    return draw_indirect_by_images(settings);
+  for_each_class([&](bool full, const gl::DrawState& where) {
+    gl::Program& program = shaders.indirect(lookup_of(settings), full,
+                                            chosen ? IndirectOutput::chosen : IndirectOutput::radiance);
+    probes.bind_lookup(program);
+    fullscreen(program, images.light_pass.id(), images.full(), where);
+  });
+}
+
+void Renderer::Data::draw_indirect_by_images(const FrameSettings& settings) {
+  gl::Program& program = shaders.indirect(lookup_of(settings), scene.any_full(), IndirectOutput::images);
+  probes.bind_lookup(program);
+  fullscreen(program, images.indirect_pass.id(), images.indirect());
+  if (settings.ambient_occlusion) fullscreen(shaders.occlusion(), images.occlusion_pass.id(), images.full());
+  images.irradiance.bind(unit::irradiance);
+  images.glossy.bind(unit::glossy);
+  images.occlusion.bind(unit::occlusion);
+  for_each_class([&](bool full, const gl::DrawState& where) {
+    fullscreen(shaders.apply(full), images.light_pass.id(), images.full(), where);
+  });
+}
+
+void Renderer::Data::draw_seen(const FrameSettings& settings) {
+  lights.bind();
+  for (const Lights::Lit& lit : lights.lit()) {
+    if (!lit.seen) continue;
+    const bool behind = lit.kind != EmitterKind::sphere;
+    if (behind && settings.sky == Sky::black) continue;
+    lights.bind_emitter(lit);
+    if (lit.kind == EmitterKind::environment) {
+      sky.bind(unit::environment);
+      sky_sampler.bind(unit::environment);
+    }
+    gl::DrawState where{.blend = gl::Blend::add};
+    if (behind) where.stencil_equal = surface_class::nothing;
+    fullscreen(shaders.seen(lit.kind), images.light_pass.id(), images.full(), where);
+    gl::Sampler::unbind(unit::environment);
+  }
+}
+
+void Renderer::Data::draw_view() {
+  images.shadow.bind(unit::shadow_image);
+  for_each_class([&](bool, const gl::DrawState& where) {
+    fullscreen(shaders.view(), images.light_pass.id(), images.full(), where);
+  });
+}
+
+void Renderer::Data::draw_display(const FrameSettings& settings, const Target& target) {
+  const bool light =
+      settings.view == View::lit || settings.view == View::direct || settings.view == View::indirect;
+  gl::Program& program = shaders.display();
+  program.set("plain", light ? 0 : 1);
+  program.set("corner", target.x, target.y);
+  images.result().bind(0);
+  fullscreen(program, target.framebuffer, {target.x, target.y, target.width, target.height});
+}
+
+}  // namespace ssphh::realtime

@@ -1,0 +1,96 @@
+// The commands that draw with OpenGL, as a user types them.
+
+#include <cstdlib>
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <ssphh/image/io.h>
+
+#include "temp_dir.h"
+#include "tool_checks.h"
+
+namespace ssphh {
+namespace {
+
+using nlohmann::json;
+using test::expect_failure;
+using test::expect_keys;
+using test::run_json;
+using test::run_tool;
+using test::TempDir;
+
+class GlTool : public testing::Test {
+ protected:
+  void SetUp() override {
+    const test::ToolResult drawn =
+        run_tool({"bench-frame", "builtin:furnace", "--frames", "1", "--width", "8", "--height", "8"});
+    if (drawn.err.find("OpenGL") != std::string::npos) GTEST_SKIP() << drawn.err;
+  }
+};
+
+const std::vector<std::string> tiny = {"--width", "48", "--height", "27"};
+
+std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST_F(GlTool, BenchFrameTellsTimesOfPasses) {
+  const json bench = run_json(with({"bench-frame", "builtin:cornell", "--frames", "3"}, tiny));
+  expect_keys(bench, {"median_ms", "p99_ms", "passes", "renderer", "width", "height", "memory_growth_bytes"});
+  EXPECT_EQ(bench["frames"], 3);
+  EXPECT_EQ(bench["probes"], 0);
+  EXPECT_FALSE(bench.contains("sphl_ratio"));
+  for (const char* pass : {"geometry", "direct", "shadows"})
+    EXPECT_TRUE(bench["passes"].contains(pass)) << pass;
+  EXPECT_FALSE(bench["passes"].contains("indirect"));
+  EXPECT_GT(bench["overdraw"], 0.1);
+}
+
+TEST_F(GlTool, BenchFrameComparesWithDirectLightAlone) {
+  const TempDir dir;
+  run_json({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--degree", "1", "--face", "4", "--spp", "1",
+            "--viz", "off"});
+  const json bench = run_json(with(
+      {"bench-frame", "builtin:two-rooms", "--probes", dir / "a.sphl", "--frames", "3", "--ratio", "--move"},
+      tiny));
+  EXPECT_EQ(bench["probes"], 6);
+  EXPECT_TRUE(bench["passes"].contains("indirect"));
+  EXPECT_NEAR(bench["sphl_ratio"],
+              bench["median_ms"].get<double>() / bench["direct_only_median_ms"].get<double>(), 1e-6);
+  expect_failure({"bench-frame", "builtin:two-rooms", "--ratio"}, "--probes");
+}
+
+TEST_F(GlTool, TurntableWritesPicturesFromAllAround) {
+  const TempDir dir;
+  const json turn = run_json(
+      with({"turntable", "builtin:cornell", "-o", dir / "turn", "--frames", "2", "--samples", "1"}, tiny));
+  EXPECT_EQ(turn["frames"], 2);
+  const image::Image front = image::read_image(dir / "turn/0000.png"),
+                     back = image::read_image(dir / "turn/0001.png");
+  EXPECT_EQ(front.width, 48);
+  EXPECT_EQ(front.height, 27);
+  EXPECT_NE(front.pixels, back.pixels);
+  EXPECT_FALSE(std::filesystem::exists(dir / "turn/0002.png"));
+  expect_failure({"turntable", "builtin:gallery1", "-o", "/proc/no/such"}, "/proc/no/such");
+}
+
+TEST(GlToolWithoutGl, AMissingOpenGlIsToldWithWhatToInstall) {
+  const TempDir dir;
+  // EGL's loader finds its drivers by such files
+  ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent/egl.json", 1);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"bench-frame", "builtin:furnace", "--frames", "1"},
+        {"turntable", "builtin:furnace", "-o", dir / "turn"},
+        {"render", "builtin:furnace", "--method", "ssphh", "--max-depth", "1", "--backend", "gl", "-o",
+         dir / "a.png"}})
+    expect_failure(command, {"OpenGL", "install a graphics driver"});
+  ::unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
+  EXPECT_FALSE(std::filesystem::exists(dir / "a.png"));
+}
+
+}  // namespace
+}  // namespace ssphh
