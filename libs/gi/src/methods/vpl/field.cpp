@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include <ssphh/core/parallel.h>
-
-#include "../../nearest.h"
+#include <ssphh/gi/nearest.h>
 
 namespace ssphh::gi::methods {
 namespace {
