@@ -12,10 +12,30 @@ namespace {
 
 // About 4° apart: degree 10 has 18° from a crest to a trough, so no trough lies between the samples unseen.
 constexpr int sample_count = 2562;
+// No direction is farther than this from a sample [rad]; the test finds 0.048.
+constexpr double sample_reach = 0.055;
 // Descents per channel, from the lowest samples.
 constexpr int descent_count = 8;
 
 using Channel = std::array<double, max_coefficient_count>;
+
+struct Samples {
+  std::vector<glm::dvec3> directions;
+  std::vector<Channel> basis;
+};
+
+const Samples& samples() {
+  static const Samples all = [] {
+    Samples made;
+    made.basis.resize(sample_count);
+    for (int i = 0; i < sample_count; ++i) {
+      made.directions.push_back(glm::normalize(glm::dvec3(spherical_fibonacci(i, sample_count))));
+      eval_basis(max_degree, made.directions.back(), made.basis[static_cast<std::size_t>(i)]);
+    }
+    return made;
+  }();
+  return all;
+}
 
 double eval_channel(const Channel& values, int degree, const glm::dvec3& direction) {
   std::array<double, max_coefficient_count> basis;
@@ -44,23 +64,27 @@ double descend(const Channel& values, int degree, glm::dvec3 at, double value) {
   return value;
 }
 
+// The lowest of the samples (value, index) first, at most `descent_count` of them.
+void keep_lowest(std::vector<std::pair<double, std::size_t>>& found) {
+  const std::size_t kept = std::min<std::size_t>(found.size(), descent_count);
+  std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end());
+  found.resize(kept);
+}
+
 double channel_minimum(const Channel& values, int degree) {
-  static const auto directions = [] {
-    std::vector<glm::dvec3> points;
-    for (int i = 0; i < sample_count; ++i)
-      points.push_back(glm::normalize(glm::dvec3(spherical_fibonacci(i, sample_count))));
-    return points;
-  }();
-  std::vector<std::pair<double, std::size_t>> samples;
-  samples.reserve(directions.size());
-  for (std::size_t i = 0; i < directions.size(); ++i)
-    samples.emplace_back(eval_channel(values, degree, directions[i]), i);
-  std::partial_sort(samples.begin(), samples.begin() + descent_count, samples.end());
-  double lowest = samples.front().first;
-  for (int i = 0; i < descent_count; ++i) {
-    const auto& [value, index] = samples[static_cast<std::size_t>(i)];
-    lowest = std::min(lowest, descend(values, degree, directions[index], value));
+  const auto count = static_cast<std::size_t>(coefficient_count(degree));
+  std::vector<std::pair<double, std::size_t>> found;
+  found.reserve(sample_count);
+  for (std::size_t i = 0; i < sample_count; ++i) {
+    const Channel& basis = samples().basis[i];
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k) sum += basis[k] * values[k];
+    found.emplace_back(sum, i);
   }
+  keep_lowest(found);
+  double lowest = found.front().first;
+  for (const auto& [value, index] : found)
+    lowest = std::min(lowest, descend(values, degree, samples().directions[index], value));
   return lowest;
 }
 
@@ -80,8 +104,80 @@ glm::dvec3 minima(const Sh& sh) {
   return result;
 }
 
-glm::dvec3 goal_minima(const RadianceSh& radiance, NonNegative goal) {
-  return goal == NonNegative::radiance ? minima(radiance) : minima(irradiance_from_radiance(radiance));
+/// One channel of a function whose bands are about to be scaled: is it anywhere below a level?
+class WindowedChannel {
+ public:
+  WindowedChannel(const Channel& values, int degree) : values_(values), degree_(degree) {
+    for (int l = 0; l <= degree; ++l) {
+      double squares = 0;
+      for (int k = coefficient_index(l, -l); k <= coefficient_index(l, l); ++k)
+        squares += values[static_cast<std::size_t>(k)] * values[static_cast<std::size_t>(k)];
+      // Addition theorem and Cauchy–Schwarz.
+      largest_[static_cast<std::size_t>(l)] = std::sqrt(squares * (2 * l + 1) / (4 * pi_d));
+    }
+  }
+
+  bool below(double level, const BandScales& scales) {
+    const double mean = values_[0] / std::sqrt(4 * pi_d);
+    double swing = 0, curvature = 0;
+    for (int l = 1; l <= degree_; ++l) {
+      const double most =
+          static_cast<double>(scales[static_cast<std::size_t>(l)]) * largest_[static_cast<std::size_t>(l)];
+      swing += most;
+      curvature += l * l * most;
+    }
+    if (mean - swing >= level) return false;
+
+    // A trough is at most `hidden` deeper than the sample next to it: along the great circle between them
+    // each band is a trigonometric polynomial, whose second derivative Bernstein's inequality bounds.
+    const double hidden = 0.5 * sample_reach * sample_reach * curvature;
+    sample_bands();
+    std::vector<std::pair<double, std::size_t>> suspects;
+    for (std::size_t i = 0; i < sample_count; ++i) {
+      const double* bands = &bands_[i * static_cast<std::size_t>(degree_ + 1)];
+      double sum = 0;
+      for (int l = 0; l <= degree_; ++l)
+        sum += static_cast<double>(scales[static_cast<std::size_t>(l)]) * bands[l];
+      if (sum < level) return true;
+      if (sum < level + hidden) suspects.emplace_back(sum, i);
+    }
+    keep_lowest(suspects);
+    Channel scaled = values_;
+    for (int l = 0; l <= degree_; ++l) {
+      for (int k = coefficient_index(l, -l); k <= coefficient_index(l, l); ++k)
+        scaled[static_cast<std::size_t>(k)] *= static_cast<double>(scales[static_cast<std::size_t>(l)]);
+    }
+    return std::ranges::any_of(suspects, [&](const auto& suspect) {
+      return descend(scaled, degree_, samples().directions[suspect.second], suspect.first) < level;
+    });
+  }
+
+ private:
+  /// Every band at every sample, once.
+  void sample_bands() {
+    if (!bands_.empty()) return;
+    bands_.reserve(static_cast<std::size_t>(sample_count * (degree_ + 1)));
+    for (const Channel& basis : samples().basis) {
+      for (int l = 0; l <= degree_; ++l) {
+        double sum = 0;
+        for (int k = coefficient_index(l, -l); k <= coefficient_index(l, l); ++k)
+          sum += basis[static_cast<std::size_t>(k)] * values_[static_cast<std::size_t>(k)];
+        bands_.push_back(sum);
+      }
+    }
+  }
+
+  Channel values_;
+  int degree_;
+  std::array<double, max_degree + 1> largest_{};
+  std::vector<double> bands_;
+};
+
+template <class Sh>
+std::vector<WindowedChannel> channels(const Sh& sh) {
+  std::vector<WindowedChannel> all;
+  for (int c = 0; c < 3; ++c) all.emplace_back(channel_values(sh, c), sh.degree());
+  return all;
 }
 
 template <class Shape>
@@ -126,18 +222,27 @@ vec3 minimum(const IrradianceSh& irradiance) {
 AutoWindow choose_window(const RadianceSh& radiance, NonNegative goal) {
   AutoWindow result;
   if (radiance.empty()) return result;
-  const auto lowest = [](const glm::dvec3& v) { return std::min({v.x, v.y, v.z}); };
-  if (lowest(goal_minima(radiance, goal)) >= 0) return result;
+  std::vector<WindowedChannel> wanted =
+      goal == NonNegative::radiance ? channels(radiance) : channels(irradiance_from_radiance(radiance));
+  const auto all_above = [&](const glm::dvec3& levels, const BandScales& scales) {
+    for (int c = 0; c < 3; ++c) {
+      if (wanted[static_cast<std::size_t>(c)].below(levels[c], scales)) return false;
+    }
+    return true;
+  };
+  BandScales no_window;
+  no_window.fill(1);
+  if (all_above(glm::dvec3(0), no_window)) return result;
 
   // Keep a little above 0, so that single-precision evaluation does not fall below.
   const glm::dvec3 margin = 1e-5 * glm::abs(glm::dvec3(radiance[0]));
   const auto good = [&](double inverse_width) {
-    return lowest(goal_minima(apply_window(radiance, lanczos_window(1 / inverse_width)), goal) - margin) >= 0;
+    return all_above(margin, lanczos_window(1 / inverse_width));
   };
 
   // Bisect 1/width between no window (0, known to fail) and the mean alone (1).
   double fails = 0, works = 1;
-  if (!good(works)) return {1, lowest(glm::dvec3(radiance[0])) >= 0};
+  if (!good(works)) return {1, std::min({radiance[0].x, radiance[0].y, radiance[0].z}) >= 0};
   for (int i = 0; i < 20; ++i) {
     const double middle = 0.5 * (fails + works);
     (good(middle) ? works : fails) = middle;

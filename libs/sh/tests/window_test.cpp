@@ -107,6 +107,22 @@ TEST(Dering, IsTheMildestWindowThatWorks) {
   EXPECT_LT(choose_window(grace, NonNegative::radiance).width, window.width);
 }
 
+// What choose_window takes for granted about its 2562 samples.
+TEST(Dering, SamplesLieClose) {
+  std::vector<vec3> samples;
+  for (int i = 0; i < 2562; ++i) samples.push_back(spherical_fibonacci(i, 2562));
+  float farthest = 0;
+  for (int i = 0; i < 20000; ++i) {
+    Pcg32 random(7, static_cast<std::uint64_t>(i));
+    const vec3 direction = sample_uniform_sphere(random.uniform2());
+    float largest_cosine = -1;
+    for (const vec3& sample : samples) largest_cosine = std::max(largest_cosine, glm::dot(sample, direction));
+    farthest = std::max(farthest, std::acos(largest_cosine));
+  }
+  EXPECT_LT(farthest, 0.055f);
+  EXPECT_GT(farthest, 0.03f);
+}
+
 TEST(Dering, LeavesStPetersBitForBit) {
   const RadianceSh probe = test::st_peters_basilica();
   EXPECT_GT(lowest(minimum(irradiance_from_radiance(probe))), 0.08f);
