@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-const std::vector<std::string> commands = {"render", "bake", "hier", "truth", "sh"};
+const std::vector<std::string> commands = {"render", "bake", "hier", "truth", "sh", "measure"};
 
 ordered_json valid() {
   return ordered_json::parse(R"({
