@@ -97,9 +97,10 @@ TEST(BadInput, BakeWithoutProbesSaysHowToAddThem) {
   expect_failure({"bake", dir / "plain.obj", "-o", dir / "x.sphl", "--probes", "scene"}, "--probes auto");
 }
 
-TEST(BadInput, SsphhWithoutProbesSaysHowToBake) {
+TEST(BadInput, SsphhOnAFarmWithoutProbesSaysHowToBake) {
   const TempDir dir;
-  expect_failure(with({"render", "builtin:box", "--method", "ssphh", "-o", dir / "x.exr"}), "ssphh bake");
+  expect_failure(with({"render", "builtin:box", "--method", "ssphh", "--local", "1", "-o", dir / "x.exr"}),
+                 "ssphh bake");
 }
 
 TEST(BadInput, BrokenProbeFilesAndImages) {

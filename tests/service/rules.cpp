@@ -239,7 +239,9 @@ bool reconnected_worker_answers(const std::string& e) {
 }
 
 bool impatient_client(const std::string& e) {
-  Worker01 worker(e, "p.slow"), spare(e, "p.slow");
+  Worker01 worker(e, "p.slow");
+  pause(100);  // the first to be ready is the first to work
+  Worker01 spare(e, "p.slow");
   pause(100);
   {
     Peer client(e);
