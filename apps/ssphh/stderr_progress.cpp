@@ -17,6 +17,14 @@ std::string scaled(double value) {
   return fmt::format("{:.{}f}{}", value, i == 0 ? 0 : 1, suffixes[i]);
 }
 
+/// By the second, minute or hour: the first that makes it more than one.
+std::string rate_text(double per_second, const std::string& unit) {
+  if (per_second >= 1 || per_second <= 0) return fmt::format("{} {}/s", scaled(per_second), unit);
+  const double per_minute = 60 * per_second;
+  return per_minute >= 1 ? fmt::format("{:.1f} {}/min", per_minute, unit)
+                         : fmt::format("{:.1f} {}/h", 60 * per_minute, unit);
+}
+
 std::string clock_text(double seconds) {
   const auto s = static_cast<long>(seconds + 0.5);
   return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60)
@@ -68,9 +76,9 @@ void StderrProgress::print(bool last) {
     return;
   }
   const std::string text =
-      last ? fmt::format("{}: {} {} in {:.1f} s, {} {}/s", stage_, scaled(static_cast<double>(done_)), unit_,
-                         seconds, scaled(rate), unit_)
-           : fmt::format("{}: {:3.0f} %, {} {}/s, {} left", stage_, 100 * fraction, scaled(rate), unit_,
+      last ? fmt::format("{}: {} {} in {:.1f} s, {}", stage_, scaled(static_cast<double>(done_)), unit_,
+                         seconds, rate_text(rate, unit_))
+           : fmt::format("{}: {:3.0f} %, {}, {} left", stage_, 100 * fraction, rate_text(rate, unit_),
                          clock_text(eta));
   if (style_ == ProgressStyle::bar) {
     constexpr int cells = 24;

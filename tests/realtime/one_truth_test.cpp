@@ -42,9 +42,9 @@ class OneTruth : public test::WithGl, public testing::WithParamInterface<std::st
     const scene::Scene scene = scene::make_builtin(GetParam());
     compare(scene, method, weights, test::made_up_probes(scene));
   }
-  /// `edges`: something throws shadows.
+  /// `edges`: something throws shadows. `sharing`: so many probes, about, light a point.
   void compare(const scene::Scene& scene, gi::LookupMethod method, gi::WeightMethod weights,
-               const gi::ProbeSet& probes, bool edges = true);
+               const gi::ProbeSet& probes, bool edges = true, int sharing = 8);
 };
 
 /// What may differ in a block:
@@ -55,11 +55,12 @@ class OneTruth : public test::WithGl, public testing::WithParamInterface<std::st
 /// - half shadows of lights with an extent come in steps of one of 16 points (8 on spheres).
 /// A block with an edge through it has all of that at once.
 void OneTruth::compare(const scene::Scene& scene, gi::LookupMethod method, gi::WeightMethod weights,
-                       const gi::ProbeSet& probes, bool edges) {
+                       const gi::ProbeSet& probes, bool edges, int sharing) {
   const double edge = edges ? 1.5 * 2.0 / 256 / (16.0 / 128) : 0, steps = edges ? 1.0 / 16 : 0;
   // What is left is interpolation within a probe's tile: seen to be 0.2 % in a block; one probe of sixteen
-  // missed makes 1.5 %. 0.5 % lies between; a quarter of it counts four times
-  const double least = edges ? 0.005 : 0.00125;
+  // missed makes 1.5 %. 0.5 % lies between; a quarter of it counts four times. It falls as the probes'
+  // number's root
+  const double least = edges ? 0.005 : 0.00125 * std::sqrt(8.0 / sharing);
   const PictureSize size;
 
   const trace::PathTracer tracer(scene);
@@ -141,6 +142,23 @@ TEST_P(OneTruthCrowded, PictureWithMoreProbesAroundThanAPointTakesIsTheTracedOne
   compare(scene, gi::LookupMethod::irradiance, gi::WeightMethod::mls, probes, false);
 }
 INSTANTIATE_TEST_SUITE_P(Builtin, OneTruthCrowded, testing::Values("box"));
+
+/// No probe is seen: those serve that do not stand behind the surface.
+using OneTruthHidden = OneTruth;
+TEST_P(OneTruthHidden, PictureWithoutAProbeInSightIsTheTracedOne) {
+  scene::Scene scene = scene::make_builtin(GetParam());
+  scene.lights.clear();
+  const scene::Bounds room = scene::world_bounds(scene, scene::world_matrices(scene, 0));
+  std::vector<vec3> outside;
+  for (const float u : {-0.3f, 1.3f}) {
+    outside.push_back(glm::mix(room.min, room.max, vec3(u, 0.4f, 0.6f)));
+    outside.push_back(glm::mix(room.min, room.max, vec3(0.6f, u, 0.4f)));
+    outside.push_back(glm::mix(room.min, room.max, vec3(0.4f, 0.6f, u)));
+  }
+  compare(scene, gi::LookupMethod::irradiance, gi::WeightMethod::distance, test::made_up_probes(outside),
+          false, 2);
+}
+INSTANTIATE_TEST_SUITE_P(Builtin, OneTruthHidden, testing::Values("two-rooms"));
 
 using OneTruthLight = OneTruth;
 TEST_P(OneTruthLight, PictureOfSphlsAsLightsIsTheTracedOne) {

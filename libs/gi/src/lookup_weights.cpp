@@ -24,7 +24,8 @@ class VisibleWeights : public LookupWeights {
     NearList near;
     const int count = sight_.nearest(x, near);
     int visible = sight_.visible_first(near, count, wanted_, x, n);
-    if (visible == 0) {
+    const bool none_seen = visible == 0;
+    if (none_seen) {
       std::sort(near.begin(), near.begin() + count);
       visible = std::min(count, wanted_);
     }
@@ -37,6 +38,9 @@ class VisibleWeights : public LookupWeights {
       out.add(probe.index, distance_weight(probe, nearest2, x, n));
     }
     normalise(out);
+    if (none_seen) {
+      for (ProbeWeight& entry : out.used()) entry.weight *= hidden_share(sight_.cosine(entry.probe, x, n));
+    }
     return out;
   }
 
@@ -50,13 +54,16 @@ class VisibleWeights : public LookupWeights {
   int wanted_;
 
  private:
+  /// What a hidden probe that stands in for visible ones keeps of its weight: nothing below the tangent
+  /// plane, for on the far side of a roof or wall there is another room's light.
+  static float hidden_share(float cosine) { return std::clamp(4 * cosine, 0.0f, 1.0f); }
+
   /// Inverse squared distance, relative to the nearest so that nothing overflows, times a wrapped cosine
   /// (Majercik et al., Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields, JCGT 2019): a
   /// probe behind the surface sees the light of other surfaces.
   float distance_weight(const Near& probe, float nearest2, const vec3& x, const vec3& n) const {
     if (!(probe.distance2 > 0)) return 1;
-    const float cosine = glm::dot(n, sight_.position(probe.index) - x) / std::sqrt(probe.distance2);
-    const float wrapped = 0.5f * (1 + cosine);
+    const float wrapped = 0.5f * (1 + sight_.cosine(probe.index, x, n));
     constexpr float floor = 0.05f;
     return nearest2 / probe.distance2 * (wrapped * wrapped + floor);
   }

@@ -23,6 +23,13 @@ class ProbeSight {
   float spacing() const { return spacing_; }
   const vec3& position(int probe) const { return positions_[static_cast<std::size_t>(probe)]; }
 
+  /// Of the angle between n and the way from x to the probe; 1 where it stands at x.
+  float cosine(int probe, const vec3& x, const vec3& n) const {
+    const vec3 d = position(probe) - x;
+    const float length = glm::length(d);
+    return length > 0 ? glm::dot(n, d) / length : 1;
+  }
+
   int nearest(const vec3& x, std::span<Near> near,
               float radius = std::numeric_limits<float>::infinity()) const {
     return nearest_.find(x, near, radius);

@@ -125,8 +125,30 @@ TEST(IrradianceLookup, WithoutAVisibleProbeTheNearestOnesServe) {
   source.free = [](const vec3&, const vec3&) { return false; };
   const auto set =
       make_set({{{0, 0, 0}, linear(2, vec3(1), vec3(0)), {}}, {{9, 0, 0}, linear(2, vec3(1), vec3(0)), {}}});
-  expect_near(IrradianceLookup(set, source).irradiance({{1, 0, 0}, {0, 1, 0}}), vec3(pi));
-  expect_near(LightLookup(set, source).irradiance({{1, 0, 0}, {0, 1, 0}}), vec3(pi));
+  expect_near(IrradianceLookup(set, source).irradiance({{1, -5, 0}, {0, 1, 0}}), vec3(pi));
+  expect_near(LightLookup(set, source).irradiance({{1, -5, 0}, {0, 1, 0}}), vec3(pi));
+}
+
+TEST(IrradianceLookup, HiddenProbesBelowTheTangentPlaneGiveNothing) {
+  // A roof at y = 0: all probes but one stand in the room under it, and none sees the roof's upper side.
+  FakeSource source;
+  source.free = [](const vec3&, const vec3&) { return false; };
+  const auto room = make_set(
+      {{{0, -1, 0}, linear(2, vec3(100), vec3(0)), {}}, {{2, -1, 0}, linear(2, vec3(100), vec3(0)), {}}});
+  const vec3 up(0, 1, 0);
+  for (const WeightMethod method : {WeightMethod::distance, WeightMethod::trilinear, WeightMethod::mls}) {
+    LookupParams params;
+    params.weights.method = method;
+    const IrradianceLookup lookup(room, source, params);
+    expect_near(lookup.irradiance({{0.5f, 0, 0}, up}), vec3(0));
+    expect_near(lookup.glossy({{0.5f, 0, 0}, up}, up, 0.5f), vec3(0));
+    expect_near(lookup.irradiance({{0.5f, 0, 0}, -up}), vec3(100 * pi), 1e-3f);
+  }
+  // One above it as far away as one below: wrapped cosines squared 1 and 0, each plus 0.05; the first counts.
+  const auto both = make_set(
+      {{{0, -1, 0}, linear(2, vec3(100), vec3(0)), {}}, {{0, 1, 0}, linear(2, vec3(1), vec3(0)), {}}});
+  expect_near(IrradianceLookup(both, source, by_distance()).irradiance({{0, 0, 0}, up}),
+              vec3(pi * 1.05f / 1.1f));
 }
 
 TEST(IrradianceLookup, BlendsTheNearestVisibleProbesOnly) {

@@ -99,7 +99,7 @@ uint nearest_of(int base, vec3 x, int within, float far2) {
 
 // MLS: a linear fit to what the probes in sight within two spacings give, weighted by a bump, and its value at x
 // (gi::WeightMethod::mls). Else, or where x sees none of those: inverse squared distance times a wrapped cosine
-// over the nearest that x sees; over the nearest if it sees none.
+// over the nearest that x sees; if it sees none, over the nearest, less those below the tangent plane.
 Found look_up(Surface s, vec3 mirror, float roughness) {
   int base = candidates_at(s.position);
   float spacing = frame.tone.w;
@@ -175,7 +175,8 @@ Found look_up(Surface s, vec3 mirror, float roughness) {
     int probe = int(near.w);
     vec3 d = near.xyz - s.position;
     float d2 = max(dot(d, d), 1e-12);
-    float wrapped = 0.5 + 0.5 * dot(s.normal, d) * inversesqrt(d2);
+    float cosine = dot(s.normal, d) * inversesqrt(d2);
+    float wrapped = 0.5 + 0.5 * cosine;
     float weight = (wrapped * wrapped + 0.05) / d2;
     found.chosen = weight > most ? probe : found.chosen;
     most = max(most, weight);
@@ -183,6 +184,7 @@ Found look_up(Surface s, vec3 mirror, float roughness) {
     weight = fits ? bump_of(d2) * dot(row, vec4(1, d / spacing)) : weight;
 #endif
     sum += weight;
+    weight *= seen != 0 ? 1 : clamp(4 * cosine, 0, 1);  // as gi::LookupWeights
     found.irradiance += weight * irradiance_of(probe, e_place);
 #ifdef FULL_BSDF
     found.glossy += weight * radiance_of(probe, l_place);

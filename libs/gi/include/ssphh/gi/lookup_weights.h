@@ -79,8 +79,8 @@ class LookupWeights {
  public:
   virtual ~LookupWeights() = default;
   /// Weights at a surface point: never empty, finite, with a sum of 1 (fitted weights: about 1); `mls` and
-  /// `fitted` may have negative ones. When no probe sees the point, the nearest ones serve. Safe to call from
-  /// several threads.
+  /// `fitted` may have negative ones. When no probe sees the point, the nearest ones serve, less those that
+  /// stand below its tangent plane: the sum is then from 0 to 1. Safe to call from several threads.
   virtual ProbeWeights at(const scene::SurfacePoint& point) const = 0;
 };
 
