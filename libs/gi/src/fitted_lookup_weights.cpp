@@ -6,41 +6,59 @@
 
 #include <ssphh/core/error.h>
 
+#include "probe_limits.h"
+
 namespace ssphh::gi {
 namespace {
 
-constexpr std::size_t most_near = 24;
+constexpr std::size_t most_near = 12;
 
-FittedPoints with_weights(const FittedPoints& fitted, std::size_t probe_count) {
-  FittedPoints kept;
-  for (std::size_t i = 0; i < fitted.points.size(); ++i) {
-    for (const ProbeWeight& weight : fitted.weights[i].used()) {
-      if (weight.probe < 0 || static_cast<std::size_t>(weight.probe) >= probe_count)
-        throw Error(fmt::format("fitted point {}", i),
-                    fmt::format("it names probe {}, which there is not", weight.probe));
+/// Sums weights by probe, in the order in which probes first come.
+class SumByProbe {
+ public:
+  SumByProbe() { slots_.fill(none); }
+  void add(int probe, float weight) {
+    std::size_t slot = static_cast<std::size_t>(probe) % slots_.size();
+    while (slots_[slot] != none && sums_[slots_[slot]].probe != probe) slot = (slot + 1) % slots_.size();
+    if (slots_[slot] == none) {
+      slots_[slot] = static_cast<std::uint16_t>(count_);
+      sums_[count_++] = {probe, 0};
     }
-    if (fitted.weights[i].count == 0) continue;
-    kept.points.push_back(fitted.points[i]);
-    kept.weights.push_back(fitted.weights[i]);
+    sums_[slots_[slot]].weight += weight;
   }
-  return kept;
-}
+  std::span<ProbeWeight> sums() { return {sums_.data(), count_}; }
 
-std::vector<vec3> positions_of(const FittedPoints& fitted) {
-  std::vector<vec3> positions;
-  for (const scene::SurfacePoint& point : fitted.points) positions.push_back(point.position);
-  return positions;
-}
-
-/// A fitted point that serves, and how much.
-struct Share {
-  std::size_t point;
-  float weight;
-  vec3 place;  ///< 1 and the tangential offset in spacings
+ private:
+  static constexpr std::uint16_t none = 0xffff;
+  std::array<std::uint16_t, 256> slots_;  ///< of an open hash table that is never full
+  std::array<ProbeWeight, most_near * max_weights> sums_;
+  static_assert(std::tuple_size_v<decltype(sums_)> < std::tuple_size_v<decltype(slots_)>);
+  std::size_t count_ = 0;
 };
 
+}  // namespace
+
+FittedLookupWeights::Points::Points(const FittedPoints& fitted, std::size_t probe_count) {
+  static_assert(limits::probes <= 65536);
+  for (std::size_t i = 0; i < fitted.points.size(); ++i) {
+    const std::span<const ProbeWeight> weights = fitted.weights[i].used();
+    if (weights.empty()) continue;
+    position.push_back(fitted.points[i].position);
+    normal.emplace_back(glm::round(32767.0f * fitted.points[i].normal));
+    begin.push_back(static_cast<std::uint32_t>(probe.size()));
+    for (const ProbeWeight& entry : weights) {
+      if (entry.probe < 0 || static_cast<std::size_t>(entry.probe) >= std::min(probe_count, limits::probes))
+        throw Error(fmt::format("fitted point {}", i),
+                    fmt::format("it names probe {}, which there is not", entry.probe));
+      probe.push_back(static_cast<std::uint16_t>(entry.probe));
+      weight.push_back(entry.weight);
+    }
+  }
+  begin.push_back(static_cast<std::uint32_t>(probe.size()));
+}
+
 /// Turns the weights into those of a linear fit's value at x.
-void fit_linearly(std::span<Share> shares) {
+void FittedLookupWeights::fit_linearly(std::span<Share> shares) {
   mat3 gram(0);
   float total = 0;
   for (const Share& s : shares) {
@@ -66,49 +84,36 @@ void fit_linearly(std::span<Share> shares) {
 }
 
 /// Σ of the points' weights by probe; the largest where there are too many, at the same sum.
-ProbeWeights join(const FittedPoints& fitted, std::span<const Share> shares) {
-  std::array<ProbeWeight, most_near * max_weights> all;
-  std::size_t count = 0;
+ProbeWeights FittedLookupWeights::join(std::span<const Share> shares) const {
+  SumByProbe by_probe;
   for (const Share& share : shares) {
-    for (const ProbeWeight& entry : fitted.weights[share.point].used())
-      all[count++] = {entry.probe, share.weight * entry.weight};
+    for (std::uint32_t i = points_.begin[share.point]; i < points_.begin[share.point + 1]; ++i)
+      by_probe.add(points_.probe[i], share.weight * points_.weight[i]);
   }
-  const auto end = all.begin() + static_cast<std::ptrdiff_t>(count);
-  std::stable_sort(all.begin(), end,
-                   [](const ProbeWeight& a, const ProbeWeight& b) { return a.probe < b.probe; });
-  std::size_t joined = 0;
-  for (std::size_t i = 1; i < count; ++i) {
-    if (all[i].probe == all[joined].probe) {
-      all[joined].weight += all[i].weight;
-    } else {
-      all[++joined] = all[i];
-    }
-  }
-  ++joined;
+  const std::span<ProbeWeight> all = by_probe.sums();
   ProbeWeights out;
-  const auto first = all.begin(), last = first + static_cast<std::ptrdiff_t>(joined);
-  const std::size_t kept = std::min(joined, out.entries.size());
+  const std::size_t kept = std::min(all.size(), out.entries.size());
   float scale = 1;
-  if (kept < joined) {
+  if (kept < all.size()) {
     float before = 0, after = 0;
-    std::for_each(first, last, [&](const ProbeWeight& w) { before += w.weight; });
-    std::stable_sort(first, last, [](const ProbeWeight& a, const ProbeWeight& b) {
-      return std::abs(a.weight) > std::abs(b.weight);
-    });
-    for (std::size_t i = 0; i < kept; ++i) after += all[i].weight;
+    for (const ProbeWeight& w : all) before += w.weight;
+    std::ranges::nth_element(
+        all, all.begin() + static_cast<std::ptrdiff_t>(kept), [](const ProbeWeight& a, const ProbeWeight& b) {
+          const float wa = std::abs(a.weight), wb = std::abs(b.weight);
+          return wa > wb || (wa == wb && a.probe < b.probe);
+        });
+    for (const ProbeWeight& w : all.first(kept)) after += w.weight;
     if (after > 0) scale = before / after;
   }
-  for (std::size_t i = 0; i < kept; ++i) out.add(all[i].probe, scale * all[i].weight);
+  for (const ProbeWeight& w : all.first(kept)) out.add(w.probe, scale * w.weight);
   return out;
 }
 
-}  // namespace
-
 FittedLookupWeights::FittedLookupWeights(const FittedPoints& fitted, std::size_t probe_count, SeesProbe sees,
                                          std::unique_ptr<LookupWeights> elsewhere)
-    : points_(with_weights(fitted, probe_count)),
-      near_(positions_of(points_)),
-      spacing_(median_spacing(positions_of(points_))),
+    : points_(fitted, probe_count),
+      near_(points_.position),
+      spacing_(median_spacing(points_.position)),
       sees_(std::move(sees)),
       elsewhere_(std::move(elsewhere)) {}
 
@@ -128,12 +133,12 @@ ProbeWeights FittedLookupWeights::at(const scene::SurfacePoint& point) const {
   for (int i = 0; i < count; ++i) {
     const Near& found = near[static_cast<std::size_t>(i)];
     const auto p = static_cast<std::size_t>(found.index);
-    const scene::SurfacePoint& other = points_.points[p];
-    const float cosine = glm::dot(other.normal, n);
-    const vec3 local = frame.to_local(other.position - x);
+    const vec3 other = points_.position[p], other_normal = vec3(points_.normal[p]) / 32767.0f;
+    const float cosine = glm::dot(other_normal, n);
+    const vec3 local = frame.to_local(other - x);
     if (cosine < 0.7f || std::abs(local.z) > 0.5f * spacing_ + 0.1f * std::sqrt(found.distance2)) continue;
     if (found.distance2 > 1e-6f * spacing_ * spacing_ &&
-        !sees_(x + lift * n, other.position + lift * other.normal))
+        !sees_(x + lift * n, other + lift * other_normal))
       continue;
     const float t = 1 - found.distance2 / (reach * reach);
     shares[used++] = {p, t * t * cosine, vec3(1, local.x / spacing_, local.y / spacing_)};
@@ -143,7 +148,13 @@ ProbeWeights FittedLookupWeights::at(const scene::SurfacePoint& point) const {
   for (const Share& s : found) total += s.weight;
   if (!(total > 0)) return elsewhere_->at(point);
   fit_linearly(found);
-  return join(points_, found);
+  return join(found);
+}
+
+std::size_t FittedLookupWeights::bytes() const {
+  const Points& p = points_;
+  return p.position.size() * (sizeof(p.position[0]) + sizeof(p.normal[0])) + p.begin.size() * sizeof(p.begin[0]) +
+         p.probe.size() * (sizeof(p.probe[0]) + sizeof(p.weight[0])) + near_.bytes() + elsewhere_->bytes();
 }
 
 }  // namespace ssphh::gi

@@ -1,7 +1,11 @@
 #pragma once
 /// Weights at any point of a surface that stands still, from the fitted points around it.
 
+#include <cstdint>
 #include <memory>
+#include <vector>
+
+#include <glm/gtc/type_precision.hpp>
 
 #include <ssphh/gi/fitted_points.h>
 #include <ssphh/gi/nearest.h>
@@ -18,9 +22,30 @@ class FittedLookupWeights final : public LookupWeights {
   FittedLookupWeights(const FittedPoints& fitted, std::size_t probe_count, SeesProbe sees,
                       std::unique_ptr<LookupWeights> elsewhere);
   ProbeWeights at(const scene::SurfacePoint& point) const override;
+  std::size_t bytes() const override;
 
  private:
-  FittedPoints points_;  ///< those that have weights
+  /// The points that have weights, packed.
+  struct Points {
+    Points(const FittedPoints& fitted, std::size_t probe_count);
+
+    std::vector<vec3> position;
+    std::vector<glm::i16vec3> normal;  ///< times 32767
+    std::vector<std::uint32_t> begin;  ///< of each point's weights, and the end
+    std::vector<std::uint16_t> probe;
+    std::vector<float> weight;
+  };
+
+  /// A point that serves, and how much.
+  struct Share {
+    std::size_t point;
+    float weight;
+    vec3 place;  ///< 1 and the tangential offset in spacings
+  };
+  static void fit_linearly(std::span<Share> shares);
+  ProbeWeights join(std::span<const Share> shares) const;
+
+  Points points_;
   NearestPoints near_;
   float spacing_;
   SeesProbe sees_;

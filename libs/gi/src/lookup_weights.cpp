@@ -17,6 +17,7 @@ class VisibleWeights : public LookupWeights {
  public:
   VisibleWeights(std::span<const vec3> positions, SeesProbe sees, const WeightParams& params)
       : sight_(positions, std::move(sees), params), wanted_(std::clamp(params.nearest, 1, max_weights)) {}
+  std::size_t bytes() const override { return sight_.bytes(); }
 
  protected:
   /// The method `distance`, which also serves where the others find nothing.

@@ -3,6 +3,9 @@
 #include <ssphh/gi/nearest.h>
 
 namespace ssphh::gi {
+namespace {
+constexpr std::size_t leaf = 8;  // points that are not split any further
+}
 
 /// A sorted list of the best so far.
 struct NearestPoints::Search {
@@ -20,6 +23,11 @@ struct NearestPoints::Search {
     out[static_cast<std::size_t>(at)] = candidate;
     if (count == wanted) limit2 = std::min(limit2, out[static_cast<std::size_t>(count - 1)].distance2);
   }
+  void look_at(const Item& item) {
+    const vec3 d = item.position - x;
+    const float d2 = glm::dot(d, d);
+    if (d2 <= limit2) offer({d2, item.index});
+  }
 };
 
 NearestPoints::NearestPoints(std::span<const vec3> points) : axis_(points.size()) {
@@ -28,7 +36,7 @@ NearestPoints::NearestPoints(std::span<const vec3> points) : axis_(points.size()
 }
 
 void NearestPoints::sort(std::size_t begin, std::size_t end) {
-  if (end - begin < 2) return;
+  if (end - begin <= leaf) return;
   vec3 low = items_[begin].position, high = low;
   for (std::size_t i = begin; i < end; ++i) {
     low = glm::min(low, items_[i].position);
@@ -47,13 +55,13 @@ void NearestPoints::sort(std::size_t begin, std::size_t end) {
 }
 
 void NearestPoints::visit(std::size_t begin, std::size_t end, Search& search) const {
-  if (begin == end) return;
+  if (end - begin <= leaf) {
+    for (std::size_t i = begin; i < end; ++i) search.look_at(items_[i]);
+    return;
+  }
   const std::size_t middle = begin + (end - begin) / 2;
-  const Item& item = items_[middle];
-  const vec3 d = item.position - search.x;
-  const float d2 = glm::dot(d, d);
-  if (d2 <= search.limit2) search.offer({d2, item.index});
-  const float side = search.x[axis_[middle]] - item.position[axis_[middle]];
+  search.look_at(items_[middle]);
+  const float side = search.x[axis_[middle]] - items_[middle].position[axis_[middle]];
   const bool low_first = side < 0;
   low_first ? visit(begin, middle, search) : visit(middle + 1, end, search);
   if (side * side <= search.limit2) low_first ? visit(middle + 1, end, search) : visit(begin, middle, search);

@@ -20,6 +20,7 @@ class ProbeSight {
 
   using NearList = std::array<Near, max_weights>;
 
+  std::size_t bytes() const { return positions_.size() * sizeof(vec3) + nearest_.bytes(); }
   float spacing() const { return spacing_; }
   const vec3& position(int probe) const { return positions_[static_cast<std::size_t>(probe)]; }
 

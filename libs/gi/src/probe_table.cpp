@@ -25,53 +25,66 @@ sh::RadianceSh chosen_light(const ProbeSet& set, std::size_t i, ProbeLayer layer
 }  // namespace
 
 ProbeTable::ProbeTable(const ProbeSet& set, const LookupParams& params)
-    : radiance_degree_(set.degree), irradiance_degree_(std::clamp(params.irradiance_degree, 0, set.degree)) {
+    : radiance_(set.probes.size(), set.degree),
+      irradiance_(set.probes.size(), std::clamp(params.irradiance_degree, 0, set.degree)) {
   if (set.probes.empty()) throw Error("probe lookup", "the probe set is empty", "bake a scene with SPHLs");
   const ProbeLayer layer = params.layer.value_or(set.hierarchy ? ProbeLayer::sum : ProbeLayer::self);
   if (layer != ProbeLayer::self && !set.hierarchy) {
     throw Error("probe lookup", "the probe set has no hierarchy", "run `ssphh hier` on the file first");
   }
 
-  // Lay the functions out probe after probe.
-  const auto radiance_count = static_cast<std::size_t>(sh::coefficient_count(radiance_degree_));
-  const auto irradiance_count = static_cast<std::size_t>(sh::coefficient_count(irradiance_degree_));
-  radiance_.resize(set.probes.size() * radiance_count);
-  irradiance_.resize(set.probes.size() * irradiance_count);
+  const auto irradiance_count = static_cast<std::size_t>(sh::coefficient_count(irradiance_.degree));
   for (const Probe& probe : set.probes) positions_.push_back(probe.position);
   parallel_for(set.probes.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       sh::RadianceSh light = chosen_light(set, i, layer, params.light);
-      std::copy(light.values.begin(), light.values.end(),
-                radiance_.begin() + static_cast<std::ptrdiff_t>(i * radiance_count));
+      radiance_.set(i, light.values);
       light.values.resize(irradiance_count);
       if (params.dering) light = sh::dering(light, sh::NonNegative::irradiance);
-      const sh::IrradianceSh e = sh::irradiance_from_radiance(light);
-      std::copy(e.values.begin(), e.values.end(),
-                irradiance_.begin() + static_cast<std::ptrdiff_t>(i * irradiance_count));
+      irradiance_.set(i, sh::irradiance_from_radiance(light).values);
     }
   });
 }
 
-vec3 ProbeTable::dot(const std::vector<vec3>& functions, int probe, const float* basis, int degree) {
-  const auto count = static_cast<std::size_t>(sh::coefficient_count(degree));
-  const vec3* f = functions.data() + static_cast<std::size_t>(probe) * count;
+ProbeTable::Functions::Functions(std::size_t probes, int d)
+    : degree(d),
+      stride(whole_lanes(static_cast<std::size_t>(sh::coefficient_count(d)))),
+      values(probes * 3 * stride, 0.0f) {}
+
+void ProbeTable::Functions::set(std::size_t probe, std::span<const vec3> coefficients) {
+  float* f = values.data() + probe * 3 * stride;
+  for (std::size_t k = 0; k < coefficients.size(); ++k) {
+    for (std::size_t c = 0; c < 3; ++c) f[c * stride + k] = coefficients[k][static_cast<glm::length_t>(c)];
+  }
+}
+
+vec3 ProbeTable::Functions::dot(int probe, const float* basis) const {
+  const float* f = values.data() + static_cast<std::size_t>(probe) * 3 * stride;
+  std::array<std::array<float, table_lanes>, 3> sums{};
+  for (std::size_t k = 0; k < stride; k += table_lanes) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t i = 0; i < table_lanes; ++i) sums[c][i] += f[c * stride + k + i] * basis[k + i];
+    }
+  }
   vec3 sum(0);
-  for (std::size_t k = 0; k < count; ++k) sum += f[k] * basis[k];
+  for (std::size_t i = 0; i < table_lanes; ++i) sum += vec3(sums[0][i], sums[1][i], sums[2][i]);
   return glm::max(sum, vec3(0));
 }
 
 void ProbeTable::irradiance_basis(const vec3& n, Basis& basis) const {
-  sh::eval_basis(irradiance_degree_, n, basis);
+  basis.fill(0);
+  sh::eval_basis(irradiance_.degree, n, basis);
 }
 
 void ProbeTable::radiance_basis(const vec3& direction, Basis& basis) const {
-  sh::eval_basis(radiance_degree_, direction, basis);
+  basis.fill(0);
+  sh::eval_basis(radiance_.degree, direction, basis);
 }
 
 void ProbeTable::glossy_basis(const vec3& direction, float roughness, Basis& basis) const {
   radiance_basis(direction, basis);
   const auto scales = sh::glossy_band_scales(roughness);
-  for (int l = 0; l <= radiance_degree_; ++l) {
+  for (int l = 0; l <= radiance_.degree; ++l) {
     for (int k = l * l; k < (l + 1) * (l + 1); ++k)
       basis[static_cast<std::size_t>(k)] *= scales[static_cast<std::size_t>(l)];
   }

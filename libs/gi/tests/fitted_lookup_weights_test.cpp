@@ -118,7 +118,7 @@ TEST(FittedLookupWeights, PointsWithoutWeightsAreNoPoints) {
 }
 
 TEST(FittedLookupWeights, ManyProbesKeepTheSumOfTheirWeights) {
-  // Each point has 16 probes of its own: 24 points bring more than a lookup returns.
+  // Each point has 16 probes of its own: 12 points bring more than a lookup returns.
   FittedPoints fitted = floor_points();
   std::vector<vec3> many;
   for (std::size_t i = 0; i < fitted.points.size(); ++i) {

@@ -61,4 +61,8 @@ std::vector<double> fit_non_negative(std::span<const double> rows, std::span<con
 /// Places for fitted points that cover all static surfels: at most `per_surfel` of each one's samples.
 std::vector<scene::SurfacePoint> surfel_points(const TransportNetwork& network, int per_surfel = 1);
 
+/// At most `count` of the points, spread evenly over place and the six directions that normals face, in their
+/// order; all, if there are no more. Throws Error for a count under 1.
+std::vector<scene::SurfacePoint> spread_points(std::span<const scene::SurfacePoint> points, int count);
+
 }  // namespace ssphh::gi

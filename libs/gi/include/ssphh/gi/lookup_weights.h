@@ -82,6 +82,8 @@ class LookupWeights {
   /// `fitted` may have negative ones. When no probe sees the point, the nearest ones serve, less those that
   /// stand below its tangent plane: the sum is then from 0 to 1. Safe to call from several threads.
   virtual ProbeWeights at(const scene::SurfacePoint& point) const = 0;
+  /// Memory of what at() reads, without the scene that its rays meet.
+  virtual std::size_t bytes() const = 0;
 };
 
 /// `fitted` is needed by the method of that name alone and is copied. Throws Error without positions, for the

@@ -18,13 +18,14 @@ struct Near {
   }
 };
 
-/// A k-d tree (Bentley 1975) in the order of its points: the middle of a range splits it.
+/// A k-d tree (Bentley 1975) in the order of its points: the middle of a range splits it, down to a few points.
 class NearestPoints {
  public:
   explicit NearestPoints(std::span<const vec3> points);
 
   /// The out.size() nearest points within `radius`, by distance, ties by index; returns how many there are.
   int find(const vec3& x, std::span<Near> out, float radius = std::numeric_limits<float>::infinity()) const;
+  std::size_t bytes() const { return items_.size() * (sizeof(Item) + 1); }
 
  private:
   struct Item {

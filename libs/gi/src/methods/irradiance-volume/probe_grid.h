@@ -39,7 +39,7 @@ class GridWeights final : public LookupWeights {
   explicit GridWeights(const ProbeGrid& grid);
   ProbeWeights at(const scene::SurfacePoint& point) const override { return at(point.position); }
   ProbeWeights at(const vec3& position) const;
-  std::size_t bytes() const;
+  std::size_t bytes() const override;
 
  private:
   std::int32_t probe_at(const glm::ivec3& place) const;

@@ -22,7 +22,7 @@ class VolumeWeights final : public LookupWeights {
   explicit VolumeWeights(const ProbeGrid& grid) : by_(GridWeights(grid)) {}
   ProbeWeights at(const scene::SurfacePoint& point) const override { return at(point.position); }
   ProbeWeights at(const vec3& position) const;
-  std::size_t bytes() const;
+  std::size_t bytes() const override;
   /// Of tetrahedra; 0 on a grid.
   std::size_t cell_count() const;
 
@@ -35,6 +35,7 @@ class SharedWeights final : public LookupWeights {
  public:
   explicit SharedWeights(const VolumeWeights& weights) : weights_(weights) {}
   ProbeWeights at(const scene::SurfacePoint& point) const override { return weights_.at(point); }
+  std::size_t bytes() const override { return weights_.bytes(); }
 
  private:
   const VolumeWeights& weights_;

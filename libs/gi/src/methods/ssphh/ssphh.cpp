@@ -45,6 +45,7 @@ class KeptWeights final : public LookupWeights {
  public:
   explicit KeptWeights(const LookupWeights& weights) : weights_(weights) {}
   ProbeWeights at(const scene::SurfacePoint& point) const override { return weights_.at(point); }
+  std::size_t bytes() const override { return weights_.bytes(); }
 
  private:
   const LookupWeights& weights_;
@@ -58,12 +59,14 @@ class Ssphh final : public Method {
         session_(scene.source, find_places(scene, p, control), relight_params(p), 0, control),
         surfaces_(std::in_place, scene.source, 0.0f) {
     WeightParams weights = weights_named(p.choice("weights"));
-    if (weights.method == WeightMethod::fitted) fit(p.integer("fit_poses"), control);
+    std::optional<FittedPoints> fitted;
+    if (weights.method == WeightMethod::fitted) fitted = fit(p.integer("fit_poses"), p.integer("fit_points"), control);
     std::vector<vec3> positions;
     for (const ProbePlace& place : session_.places()) positions.push_back(place.position);
     weights_ = make_weights(
         positions, [this](const vec3& a, const vec3& b) { return surfaces_->visible(a, b); }, weights,
-        fitted_ ? &*fitted_ : nullptr);
+        fitted ? &*fitted : nullptr);
+    fitted_points_ = fitted ? fitted->points.size() : 0;
   }
 
   void update(const FrameState& state, const Control&) override {
@@ -84,14 +87,12 @@ class Ssphh final : public Method {
   const scene::IndirectLight& light() const override { return *lookup_; }
 
   MethodMemory memory() const override {
+    // Of each probe radiance for glossy lookups, and irradiance without negative values
+    const int irradiance_degree = std::min(session_.reflected().front().degree(), LookupParams{}.irradiance_degree);
     MethodMemory bytes;
-    bytes.lookup =
-        session_.places().size() * (sizeof(vec3) + session_.reflected().front().values.size() * sizeof(vec3));
-    if (fitted_) {
-      bytes.lookup += fitted_->points.size() * 2 * sizeof(vec3);
-      for (const PointWeights& weights : fitted_->weights)
-        bytes.lookup += static_cast<std::size_t>(weights.count) * sizeof(ProbeWeight);
-    }
+    bytes.lookup = weights_->bytes() + session_.places().size() * sizeof(vec3) *
+                                           (session_.reflected().front().values.size() +
+                                            static_cast<std::size_t>(sh::coefficient_count(irradiance_degree)));
     bytes.update = network_bytes(session_.network());
     return bytes;
   }
@@ -99,13 +100,15 @@ class Ssphh final : public Method {
   MethodNumbers numbers() const override {
     return {{"probes", static_cast<double>(session_.places().size())},
             {"surfels", static_cast<double>(session_.network().surfel_count())},
-            {"fitted_points", fitted_ ? static_cast<double>(fitted_->points.size()) : 0}};
+            {"fitted_points", static_cast<double>(fitted_points_)}};
   }
 
  private:
   /// To poses evenly spaced over the scene's animation, under its own lights.
-  void fit(int poses, const Control& control) {
-    WeightFit fit(surfel_points(session_.network()));
+  FittedPoints fit(int poses, int points, const Control& control) {
+    std::vector<scene::SurfacePoint> places = surfel_points(session_.network());
+    if (points > 0) places = spread_points(places, points);
+    WeightFit fit(std::move(places));
     const int count = source_.duration() > 0 ? poses : 1;
     for (int k = 0; k < count; ++k) {
       session_.set_time(count > 1 ? source_.duration() * static_cast<float>(k) / static_cast<float>(count - 1)
@@ -113,13 +116,13 @@ class Ssphh final : public Method {
       session_.update();
       fit.add_pose(session_.network(), source_, session_.direct_by_group(), control);
     }
-    fitted_ = fit.solve(control);
+    return fit.solve(control);
   }
 
   const scene::TransportSource& source_;
   RelightSession session_;
   std::optional<PosedSurfaces> surfaces_;
-  std::optional<FittedPoints> fitted_;
+  std::size_t fitted_points_ = 0;
   std::unique_ptr<LookupWeights> weights_;
   std::optional<IrradianceLookup> lookup_;
 };
@@ -135,6 +138,7 @@ MethodEntry ssphh_entry() {
            {"degree", 4, 0, 10, "highest band kept of a probe's light", true},
            {"weights", 3, 0, 3, "of the probes at a point", true, {"distance", "trilinear", "mls", "fitted"}},
            {"fit_poses", 3, 1, 64, "of the doors, to which weights are fitted", true},
+           {"fit_points", 0, 0, 262144, "at most so many have weights; 0: one for each surfel", true},
            {"surfel_size", 0, 0, 1e3, "edge of a surfel [m]; 0: a twentieth of the scene's radius"},
            {"directions", 384, 16, 65536, "rays of a probe", true},
            {"warm_start", 1, 0, 1, "solve from the last frame's light", true}},
