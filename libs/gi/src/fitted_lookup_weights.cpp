@@ -97,11 +97,11 @@ ProbeWeights FittedLookupWeights::join(std::span<const Share> shares) const {
   if (kept < all.size()) {
     float before = 0, after = 0;
     for (const ProbeWeight& w : all) before += w.weight;
-    std::ranges::nth_element(
-        all, all.begin() + static_cast<std::ptrdiff_t>(kept), [](const ProbeWeight& a, const ProbeWeight& b) {
-          const float wa = std::abs(a.weight), wb = std::abs(b.weight);
-          return wa > wb || (wa == wb && a.probe < b.probe);
-        });
+    std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>(kept),
+                             [](const ProbeWeight& a, const ProbeWeight& b) {
+                               const float wa = std::abs(a.weight), wb = std::abs(b.weight);
+                               return wa > wb || (wa == wb && a.probe < b.probe);
+                             });
     for (const ProbeWeight& w : all.first(kept)) after += w.weight;
     if (after > 0) scale = before / after;
   }
@@ -137,8 +137,7 @@ ProbeWeights FittedLookupWeights::at(const scene::SurfacePoint& point) const {
     const float cosine = glm::dot(other_normal, n);
     const vec3 local = frame.to_local(other - x);
     if (cosine < 0.7f || std::abs(local.z) > 0.5f * spacing_ + 0.1f * std::sqrt(found.distance2)) continue;
-    if (found.distance2 > 1e-6f * spacing_ * spacing_ &&
-        !sees_(x + lift * n, other + lift * other_normal))
+    if (found.distance2 > 1e-6f * spacing_ * spacing_ && !sees_(x + lift * n, other + lift * other_normal))
       continue;
     const float t = 1 - found.distance2 / (reach * reach);
     shares[used++] = {p, t * t * cosine, vec3(1, local.x / spacing_, local.y / spacing_)};
@@ -153,8 +152,9 @@ ProbeWeights FittedLookupWeights::at(const scene::SurfacePoint& point) const {
 
 std::size_t FittedLookupWeights::bytes() const {
   const Points& p = points_;
-  return p.position.size() * (sizeof(p.position[0]) + sizeof(p.normal[0])) + p.begin.size() * sizeof(p.begin[0]) +
-         p.probe.size() * (sizeof(p.probe[0]) + sizeof(p.weight[0])) + near_.bytes() + elsewhere_->bytes();
+  return p.position.size() * (sizeof(p.position[0]) + sizeof(p.normal[0])) +
+         p.begin.size() * sizeof(p.begin[0]) + p.probe.size() * (sizeof(p.probe[0]) + sizeof(p.weight[0])) +
+         near_.bytes() + elsewhere_->bytes();
 }
 
 }  // namespace ssphh::gi

@@ -18,7 +18,8 @@ struct Near {
   }
 };
 
-/// A k-d tree (Bentley 1975) in the order of its points: the middle of a range splits it, down to a few points.
+/// A k-d tree (Bentley 1975) in the order of its points: the middle of a range splits it, down to a few
+/// points.
 class NearestPoints {
  public:
   explicit NearestPoints(std::span<const vec3> points);

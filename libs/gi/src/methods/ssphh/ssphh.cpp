@@ -60,7 +60,8 @@ class Ssphh final : public Method {
         surfaces_(std::in_place, scene.source, 0.0f) {
     WeightParams weights = weights_named(p.choice("weights"));
     std::optional<FittedPoints> fitted;
-    if (weights.method == WeightMethod::fitted) fitted = fit(p.integer("fit_poses"), p.integer("fit_points"), control);
+    if (weights.method == WeightMethod::fitted)
+      fitted = fit(p.integer("fit_poses"), p.integer("fit_points"), control);
     std::vector<vec3> positions;
     for (const ProbePlace& place : session_.places()) positions.push_back(place.position);
     weights_ = make_weights(
@@ -88,11 +89,13 @@ class Ssphh final : public Method {
 
   MethodMemory memory() const override {
     // Of each probe radiance for glossy lookups, and irradiance without negative values
-    const int irradiance_degree = std::min(session_.reflected().front().degree(), LookupParams{}.irradiance_degree);
+    const int irradiance_degree =
+        std::min(session_.reflected().front().degree(), LookupParams{}.irradiance_degree);
     MethodMemory bytes;
-    bytes.lookup = weights_->bytes() + session_.places().size() * sizeof(vec3) *
-                                           (session_.reflected().front().values.size() +
-                                            static_cast<std::size_t>(sh::coefficient_count(irradiance_degree)));
+    bytes.lookup =
+        weights_->bytes() + session_.places().size() * sizeof(vec3) *
+                                (session_.reflected().front().values.size() +
+                                 static_cast<std::size_t>(sh::coefficient_count(irradiance_degree)));
     bytes.update = network_bytes(session_.network());
     return bytes;
   }
