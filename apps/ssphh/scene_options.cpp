@@ -1,5 +1,8 @@
 #include "scene_options.h"
 
+#include <utility>
+
+#include <ssphh/scene/lambertian.h>
 #include <ssphh/scene_io/load.h>
 
 namespace ssphh::app {
@@ -18,6 +21,10 @@ void add_scene_options(CLI::App& command, SceneOptions& options, bool posed, con
       .add_option("--overlay", options.overlay,
                   "Side file that adds lights, cameras, SPHLs (docs/scenes.md); default: SCENE.ssphh.json if "
                   "there is one")
+      ->group(group);
+  command
+      .add_flag("--lambert", options.lambert,
+                "All surfaces Lambertian of their base colour: what every renderer computes alike")
       ->group(group);
   auto* environment = command
                           .add_option("--environment", options.environment,
@@ -63,7 +70,8 @@ scene::Scene load_scene(const SceneOptions& options) {
     sky.azimuth = glm::radians(options.sun_azimuth - 90);
     sky.turbidity = options.turbidity;
   }
-  return scene_io::load_scene(options.source, load);
+  scene::Scene scene = scene_io::load_scene(options.source, load);
+  return options.lambert ? scene::lambertian(std::move(scene)) : scene;
 }
 
 }  // namespace ssphh::app

@@ -127,6 +127,48 @@ TEST(Truth, CyclesAgrees) {
   }
 }
 
+/// Means of green over the middle of a picture of builtin:furnace and over its limb, seen at 60 to 80
+/// degrees.
+std::array<double, 2> middle_and_limb(const image::Image& picture) {
+  std::array<double, 2> sum{}, count{};
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const double r = std::hypot(x + 0.5 - picture.width / 2.0, y + 0.5 - picture.height / 2.0);
+      const bool middle = r < 3.5, limb = r >= 7.5 && r < 8.5;  // of 24 pixels
+      if (!middle && !limb) continue;
+      sum[limb] += static_cast<double>(picture.rgb(x, y).y);
+      count[limb] += 1;
+    }
+  }
+  return {sum[0] / count[0], sum[1] / count[1]};
+}
+
+// In an even environment of 1 a surface shows its albedo, and a white one shows 1 whatever its lobe: light
+// that the lobe does not reflect reaches the layer under it. Cycles' lobes must keep that at every view
+// angle.
+TEST(Truth, CyclesLosesNoLightOfRoughLobes) {
+  if (!blender_is_there()) GTEST_SKIP() << "no blender: scripts/install-deps --with-blender";
+  const TempDir dir;
+  const auto truth = [&](const std::string& renderer, const std::string& material) {
+    const std::string scene = dir / "ball.ssphh.json", output = dir / (renderer + ".exr");
+    std::ofstream(scene) << R"({"scene": "builtin:furnace", "materials": [{"name": "half", )" << material
+                         << "}]}";
+    run_json({"truth", scene, "--renderer", renderer, "--width", "24", "--height", "24", "--spp", "64",
+              "--max-depth", "1", "-o", output});
+    return middle_and_limb(image::read_image(output));
+  };
+  const auto white = truth("cycles", R"("specular": 1, "base_color": [1, 1, 1], "specular_roughness": 1)");
+  EXPECT_NEAR(white[0], 1, 0.01);
+  EXPECT_NEAR(white[1], 1, 0.02);
+  for (const char* material :
+       {R"("specular": 1, "base_color": [0.3, 0.3, 0.3], "specular_roughness": 0.6)",
+        R"("specular": 1, "base_color": [0.3, 0.3, 0.3], "specular_roughness": -0.6)"}) {
+    const auto ours = truth("path", material), cycles = truth("cycles", material);
+    EXPECT_NEAR(cycles[0], ours[0], 0.01) << material;
+    EXPECT_NEAR(cycles[1], ours[1], 0.01) << material;
+  }
+}
+
 // The whole sphere: a picture that is turned or mirrored would differ by far more than noise.
 TEST(Truth, CyclesAgreesOnTheWholeSphere) {
   if (!blender_is_there()) GTEST_SKIP() << "no blender: scripts/install-deps --with-blender";

@@ -95,13 +95,12 @@ void note_material(const scene::Material& m, Differences& differences) {
   const bool layered = m.metallic > 0 || m.specular > 0;
   if (layered && !m.unlit) {
     differences.add(
-        "specular reflection is Cycles' glossy lobe weighted by Schlick's Fresnel term of the view angle "
-        "(here: of the "
-        "half vector, over a diffuse layer that keeps the energy)",
+        "specular reflection is a lobe of Cycles' own with the same albedo at every view angle; the diffuse "
+        "layer under it does not depend on the light's angle",
         m.name);
   }
   if (layered && m.specular_roughness < 0) {
-    differences.add("Blinn-Phong becomes Beckmann", m.name);
+    differences.add("Blinn-Phong becomes Beckmann, its Fresnel term that of the view angle", m.name);
   }
   if (m.diffuse_roughness > 0) differences.add("Disney's diffuse model becomes Lambert's", m.name);
   if (m.normal_texture.texture >= 0) {
@@ -196,6 +195,8 @@ ExportReport export_cycles(const scene::Scene& scene, const ExportSettings& sett
   write_file(directory / "scene.bin", binary);
   write_file(directory / "scene.json", json.dump(1));
   write_file(directory / "render.py", cycles_script);
+  write_file(directory / "specular_albedo.py", cycles_albedo_script);
+  report.files.push_back(directory / "specular_albedo.py");
   report.files.push_back(directory / "scene.json");
   report.files.push_back(directory / "scene.bin");
   report.command = fmt::format("blender --background --factory-startup --python {} -- --output picture.exr",

@@ -8,4 +8,7 @@ namespace ssphh::scene_io {
 /// It is the same for every scene. Source: render_cycles.py, turned into a string when the library is built.
 extern const std::string_view cycles_script;
 
+/// The module specular_albedo.py, which render.py imports from its own folder.
+extern const std::string_view cycles_albedo_script;
+
 }  // namespace ssphh::scene_io

@@ -21,6 +21,10 @@ except ImportError as error:  # Blender itself would go on and exit with 0
     sys.exit(1)
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE)
+sys.dont_write_bytecode = True
+import specular_albedo  # noqa: E402
+
 TO_BLENDER = Matrix(((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
 
 
@@ -59,8 +63,8 @@ class Nodes:
         else:
             socket.default_value = value
 
-    def math(self, operation, a, b=0.0, clamp=False):
-        node = self.add("ShaderNodeMath", {0: a, 1: b}, operation=operation, use_clamp=clamp)
+    def math(self, operation, a, b=0.0, c=0.0, clamp=False):
+        node = self.add("ShaderNodeMath", {0: a, 1: b, 2: c}, operation=operation, use_clamp=clamp)
         return node.outputs[0]
 
     def vector_math(self, operation, a, b):
@@ -174,18 +178,65 @@ def reflection(nodes, m, scene, base, normal):
         channels = nodes.add("ShaderNodeSeparateColor", {0: texture.outputs["Color"]}).outputs
         roughness = nodes.math("MULTIPLY", channels[1], roughness)
         metallic = nodes.math("MULTIPLY", channels[2], metallic)
-    # Schlick's term of the view angle; Layer Weight's Facing at blend 0.5 is 1 - cos.
-    facing = nodes.add("ShaderNodeLayerWeight", {"Blend": 0.5, **shading}).outputs["Facing"]
-    schlick = nodes.math("POWER", facing, 5.0)
     f0 = nodes.add("ShaderNodeMixRGB", {"Fac": metallic, "Color1": (m["f0"],) * 3, "Color2": base}).outputs[0]
-    fresnel = nodes.add("ShaderNodeMixRGB", {"Fac": schlick, "Color1": f0, "Color2": (1.0, 1.0, 1.0)}).outputs[0]
-    left = nodes.vector_math("SUBTRACT", (1.0, 1.0, 1.0), fresnel)
+    phong = m["specular_roughness"] < 0
+    ours, theirs = (albedo_node(nodes, name, roughness, shading) for name in albedo_images(phong))
+    parts = nodes.add("ShaderNodeSeparateXYZ", {0: f0}).outputs
+    f90 = nodes.math("MULTIPLY", nodes.math("MAXIMUM", nodes.math("MAXIMUM", parts[0], parts[1]), parts[2]), 50.0,
+                     clamp=True)
+    grazing = nodes.math("MULTIPLY", f90, ours[1])
+    albedo = nodes.vector_math("ADD", nodes.vector_math("MULTIPLY", f0, ours[0]), grazing)
+    if phong:
+        color = nodes.vector_math("DIVIDE", albedo, theirs[0])
+        glossy = nodes.add("ShaderNodeBsdfGlossy", {"Color": color, "Roughness": roughness, **shading},
+                           distribution="BECKMANN").outputs[0]
+    else:
+        glossy = ggx_lobe(nodes, f0, parts, roughness, shading, ours, theirs, grazing)
+    # The diffuse layer gets what the lobe leaves, so that white stays white.
+    left = nodes.vector_math("MAXIMUM", nodes.vector_math("SUBTRACT", (1.0, 1.0, 1.0), albedo), (0.0, 0.0, 0.0))
     dielectric = nodes.math("SUBTRACT", 1.0, metallic)
     diffuse_color = nodes.vector_math("MULTIPLY", nodes.vector_math("MULTIPLY", base, left), dielectric)
     diffuse = nodes.add("ShaderNodeBsdfDiffuse", {"Color": diffuse_color, "Roughness": sigma, **shading}).outputs[0]
-    glossy = nodes.add("ShaderNodeBsdfGlossy", {"Color": fresnel, "Roughness": roughness, **shading},
-                       distribution="GGX" if m["specular_roughness"] >= 0 else "BECKMANN").outputs[0]
     return nodes.sum(diffuse, glossy)
+
+
+def albedo_images(phong):
+    """Names of the images of specular_albedo.tables: view cosine to the right, roughness upwards."""
+    names = [kind + (" Blinn-Phong" if phong else " GGX") for kind in ("ours", "Cycles'")]
+    if names[0] not in bpy.data.images:
+        for name, table in zip(names, specular_albedo.tables(phong)):
+            size = table.shape[0]
+            image = bpy.data.images.new(name, size, size, float_buffer=True, is_data=True)
+            pixels = np.ones((size, size, 4), np.float32)
+            pixels[..., :2] = table
+            image.pixels.foreach_set(pixels.ravel())
+            image.pack()
+    return names
+
+
+def albedo_node(nodes, name, roughness, shading):
+    """(A, B) of a table at this point's view angle. Layer Weight's Facing at blend 0.5 is 1 - cos."""
+    facing = nodes.add("ShaderNodeLayerWeight", {"Blend": 0.5, **shading}).outputs["Facing"]
+    # Nodes stand at the centres of texels.
+    last, size = specular_albedo.SIZE - 1, specular_albedo.SIZE
+    place = [nodes.math("MULTIPLY_ADD", value, last / size, 0.5 / size)
+             for value in (nodes.math("SUBTRACT", 1.0, facing), roughness)]
+    uv = nodes.add("ShaderNodeCombineXYZ", {0: place[0], 1: place[1]}).outputs[0]
+    image = nodes.add("ShaderNodeTexImage", {0: uv}, image=bpy.data.images[name], interpolation="Linear",
+                      extension="EXTEND")
+    return nodes.add("ShaderNodeSeparateXYZ", {0: image.outputs["Color"]}).outputs
+
+
+def ggx_lobe(nodes, f0, parts, roughness, shading, ours, theirs, grazing):
+    """The Principled BSDF's lobe alone, whose Fresnel term is of the half vector, times the ratio of the albedos."""
+    lobe = nodes.add("ShaderNodeBsdfPrincipled", {"Base Color": f0, "Metallic": 1.0, "Specular": 0.5,
+                                                  "Roughness": roughness, **shading}, distribution="GGX").outputs[0]
+    mean = nodes.math("DIVIDE", nodes.math("ADD", nodes.math("ADD", parts[0], parts[1]), parts[2]), 3.0)
+    wanted = nodes.math("MULTIPLY_ADD", mean, ours[0], grazing)
+    given = nodes.math("MULTIPLY_ADD", mean, theirs[0], theirs[1])
+    # A mix takes factors up to 1, and the ratio may be larger: half of it, of twice the lobe.
+    half = nodes.math("MULTIPLY", nodes.math("DIVIDE", wanted, given), 0.5)
+    return nodes.add("ShaderNodeMixShader", {0: half, 2: nodes.sum(lobe, lobe)}).outputs[0]
 
 
 def array(binary, offset, dtype, count, width):

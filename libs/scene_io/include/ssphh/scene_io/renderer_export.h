@@ -37,10 +37,12 @@ struct RendererFormat {
 /// All formats there are: cycles, mitsuba, pbrt, corona.
 const std::vector<RendererFormat>& renderer_formats();
 
-/// Blender's Cycles: `render.py` with `scene.json`, `scene.bin` and textures beside it. The script takes
+/// Blender's Cycles: `render.py` with `specular_albedo.py`, `scene.json`, `scene.bin` and textures beside it.
+/// The script takes
 /// "-- --output FILE.exr [--seed N] [--spp N] [--threads N]" after Blender's own arguments and builds the
 /// scene from the files; it was written for Blender 3.4. Materials of Lambert, Oren–Nayar, emission, textures
-/// and coverage, all lights, environments and cameras have the same meaning there; see the report for others.
+/// and coverage, all lights, environments and cameras have the same meaning there; specular lobes have the
+/// same albedo at every view angle. See the report for others.
 ExportReport export_cycles(const scene::Scene& scene, const ExportSettings& settings,
                            const std::filesystem::path& directory);
 

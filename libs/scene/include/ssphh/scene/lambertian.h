@@ -1,0 +1,13 @@
+#pragma once
+/// The common denominator of renderers' materials.
+
+#include <ssphh/scene/scene.h>
+
+namespace ssphh::scene {
+
+/// The scene with every surface Lambertian: the base colour, its texture and vertex colours are the albedo,
+/// of metals too. Specular lobes, diffuse roughness and normal maps are gone; coverage and emission stay, and
+/// unlit surfaces stay unlit. Meshes without a material get one.
+Scene lambertian(Scene scene);
+
+}  // namespace ssphh::scene
