@@ -46,7 +46,9 @@ vec4 trace_cone(vec3 origin, vec3 direction, float tangent) {
   vec4 seen = vec4(0);
   float edge = 1, t = 0;
   bool crossing = false;
-  while (seen.w < 1) {
+  // Lanes that draw no pixel read zeros from buffers on some drivers: a cone without a width ends at once
+  float farthest = tangent > 0 ? length(size) + cones.march.x + 4 * widest : 0;
+  while (seen.w < 1 && t < farthest) {
     edge = crossing ? edge : clamp(t * tangent, 1, widest);
     float way = cones.march.z * edge, level = log2(edge);
     vec3 place = origin + (t + 0.5 * way) * direction;
