@@ -179,9 +179,12 @@ TEST_P(MethodPicture, OfConesThroughVoxelsIsTheCpus) {
 TEST_P(MethodPicture, OfVirtualLightsIsTheCpus) {
   const View& view = GetParam();
   for (const char* kind : {"kind=point", "kind=sphere"}) {
-    const Subject subject(view.scene, "vpl", {"photons=128", "check_points=0", kind}, view.time);
-    const Difference d = difference(draw(subject, view.camera), looked_up(subject, view.camera));
-    std::printf("vpl %s %g %s: relMSE %.2e largest %.4f ratio %.5f\n", view.camera.c_str(), double(view.time), kind, d.relmse, d.largest, d.ratio);
+    const Subject subject(view.scene, "vpl", {"photons=48", "check_points=0", kind}, view.time);
+    const Picture truth = looked_up(subject, view.camera);
+    for (const std::size_t mib : {4, 16, 64, 256}) {
+      const Difference d = difference(draw(subject, view.camera, {.virtual_light_map_bytes = mib << 20}), truth);
+      std::printf("vpl %s %g %s: %d relMSE %.2e largest %.4f ratio %.5f\n", view.camera.c_str(), double(view.time), kind, int(mib), d.relmse, d.largest, d.ratio);
+    }
   }
 }
 
