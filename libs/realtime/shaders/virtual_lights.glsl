@@ -71,13 +71,15 @@ void look_up(Surface s, vec3 mirror, float roughness, out vec3 irradiance, out v
 #endif
   for (int i = lights_drawn.x; i < lights_drawn.y; ++i) {
     VirtualLight light = virtual_lights[i];
+    vec3 way = light.place.xyz - s.position;
     float to_diffuse = transfer(diffuse, light), to_lobe = 0;
 #ifdef FULL_BSDF
-    vec3 way = light.place.xyz - s.position;
     to_lobe = dot(way, mirror) >= least * length(way) ? transfer(lobe, light) : 0;
 #endif
-    // In front of the triangle, as a ray would have to start
-    bool reached = dot(light.place.xyz - s.position, s.geometric_normal) > 0 && to_diffuse + to_lobe > 0;
+    // In front of both surfaces, or a ray would meet one of them; lights stand a little above theirs, of which no
+    // map holds what is behind
+    bool reached = dot(way, s.geometric_normal) > 0 && dot(way, light.normal.xyz) < 0.5 * map_near &&
+                   to_diffuse + to_lobe > 0;
     if (!reached) continue;
     float visible = cube_visibility(virtual_light_maps, map_layout.x, map_layout.y, map_near, i, light.place.xyz,
                                     s.position, s.geometric_normal);
