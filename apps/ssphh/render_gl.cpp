@@ -25,15 +25,16 @@ void refuse_with_gl(const RenderOptions& o) {
     throw Error(option, problem + " is not for --backend gl", "leave it out, or take --backend cpu");
   };
   if (o.method == "path") refuse("--method", "path tracing");
-  if (!gl_method(o.method)) refuse("--method", o.method);
+  if (!gl_method(o.method))
+    throw Error("--method " + o.method, "has no OpenGL version",
+                "take --backend cpu, or one of ssphh, vct, vpl, direct");
   if (o.projection != "camera") refuse("--projection", "a picture of the whole sphere");
   if (o.weights == "trilinear" || o.weights == "fitted") refuse("--weights", o.weights);
   if (o.resume) refuse("--resume", "resuming");
   if (o.farm.any()) refuse("--broker or --local", "a farm");
   if (!o.probes.empty() && o.method != "ssphh")
     throw Error("--probes", fmt::format("is of method ssphh, not of {}", o.method));
-  if (!o.parameters.empty() && o.method == "ssphh")
-    refuse("--param", "making probes for one picture");
+  if (!o.parameters.empty() && o.method == "ssphh") refuse("--param", "making probes for one picture");
   if (o.method == "ssphh" && o.probes.empty() && o.max_depth >= 2)
     throw Error(
         "--probes", "method ssphh needs a probe file",
@@ -105,10 +106,9 @@ void render_gl(const RenderOptions& o, const Context& context) {
                                    {"samples", side * side},
                                    {"seconds", seconds},
                                    {"mean", mean}};
-  std::string text =
-      fmt::format("{}: {}×{}, {} samples per pixel in {:.2f} s on {}, mean radiance {:.4g} {:.4g} {:.4g}",
-                  o.output, picture.width, picture.height, side * side, seconds, gl.info().renderer, mean[0],
-                  mean[1], mean[2]);
+  std::string text = fmt::format(
+      "{}: {}×{}, {} samples per pixel in {:.2f} s on {}, mean radiance {:.4g} {:.4g} {:.4g}", o.output,
+      picture.width, picture.height, side * side, seconds, gl.info().renderer, mean[0], mean[1], mean[2]);
   if (live) object.update(live->json());
   for (const auto& [name, value] : renderer.method_numbers()) {
     object[name] = value;

@@ -1,5 +1,5 @@
-/// Methods that keep no light in probes: the drawn picture is what the method itself finds at the middle of every
-/// pixel, where nothing has noise.
+/// Methods that keep no light in probes: the drawn picture is what the method itself finds at the middle of
+/// every pixel, where nothing has noise.
 
 #include <cmath>
 
@@ -9,6 +9,7 @@
 #include <ssphh/gi/methods/table.h>
 #include <ssphh/gi/surface_points.h>
 #include <ssphh/scene/builtin.h>
+#include <ssphh/shading/bsdf.h>
 #include <ssphh/trace/transport_scene.h>
 
 #include "count_allocations.h"
@@ -69,8 +70,10 @@ struct Picture {
   image::Image radiance, normal;
 };
 
-/// ρ E/π by the method's own lookup.
-Picture looked_up(const Subject& subject, const std::string& camera) {
+/// What the surfaces reflect of the method's own lookups: ρ E/π, or as trace does where all have one glossy
+/// material.
+Picture looked_up(const Subject& subject, const std::string& camera,
+                  const shading::BsdfParams* glossy = nullptr) {
   const std::vector<scene::RayQuery> rays = pixel_rays(subject.camera(camera));
   std::vector<scene::RayHit> hits(rays.size());
   gi::PosedSurfaces(subject.source, subject.time).intersect(rays, hits);
@@ -80,8 +83,17 @@ Picture looked_up(const Subject& subject, const std::string& camera) {
       if (hits[i].escaped()) continue;
       const int x = static_cast<int>(i) % size.width, y = static_cast<int>(i) / size.width;
       const vec3 at = rays[i].origin + hits[i].distance * rays[i].direction;
-      const vec3 e = subject.method->light().irradiance({at, hits[i].normal});
-      picture.radiance.set_rgb(x, y, hits[i].albedo / pi * e);
+      const scene::SurfacePoint point{at, hits[i].normal};
+      const vec3 irradiance = subject.method->light().irradiance(point);
+      vec3 radiance = hits[i].albedo / pi * irradiance;
+      if (glossy) {
+        const vec3 wo = -glm::normalize(rays[i].direction), mirror = glm::reflect(-wo, point.normal);
+        const vec3 e = shading::directional_albedo({vec3(0), glossy->f0, 0, glossy->specular_roughness},
+                                                   glm::dot(wo, point.normal));
+        radiance = glossy->diffuse * (vec3(1) - e) / pi * irradiance +
+                   e * subject.method->light().glossy(point, mirror, glossy->specular_roughness);
+      }
+      picture.radiance.set_rgb(x, y, radiance);
       picture.normal.set_rgb(x, y, hits[i].normal);
     }
   });
@@ -167,14 +179,15 @@ void PrintTo(const View& view, std::ostream* out) {
 
 class MethodPicture : public MethodLight, public testing::WithParamInterface<View> {};
 
-/// The same arithmetic on the same voxels. What differs: voxels are halves (2⁻¹¹), normals have 16 bits; and where
-/// a rounding decides whether a surface is still being crossed, one of 16 cones goes on with another size of
-/// voxels: it may err by half of what it sees, 1/32 of the whole.
+/// The same arithmetic on the same voxels. What differs: voxels are halves (2⁻¹¹), normals have 16 bits; and
+/// where a rounding decides whether a surface is still being crossed, one of 16 cones goes on with another
+/// size of voxels: it may err by half of what it sees, 1/32 of the whole.
 TEST_P(MethodPicture, OfConesThroughVoxelsIsTheCpus) {
   const View& view = GetParam();
   const bool dense = view.time > 0;  // both ways to keep voxels give the same ones
   const Subject subject(view.scene, "vct",
-                        {"resolution=32", "bounces=2", dense ? "storage=dense" : "storage=sparse"}, view.time);
+                        {"resolution=32", "bounces=2", dense ? "storage=dense" : "storage=sparse"},
+                        view.time);
   const Difference d = difference(draw(subject, view.camera), looked_up(subject, view.camera));
   EXPECT_LT(d.relmse, 1e-4);
   EXPECT_LT(d.largest, 1.0 / 32);
@@ -208,37 +221,24 @@ INSTANTIATE_TEST_SUITE_P(Builtin, MethodPicture,
                            return name;
                          });
 
-/// Everything reflects a lobe and a diffuse rest: the tracer's picture of the lookups, edges smoothed in both.
+/// F0 has 10 bits and the lobes' albedo a table of 32² entries; sharp lobes show the edges of single maps.
 TEST_F(MethodLight, IsReflectedByGlossySurfacesAsTheTracerDoes) {
-  scene::Scene scene = scene::make_builtin("cornell");
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    scene.materials[i].specular = 1;
-    scene.materials[i].specular_roughness = i % 2 == 0 ? 0.35f : 0.8f;
-    scene.materials[i].metallic = i % 3 == 0 ? 1 : 0;
-  }
-  for (const auto& [name, settings] :
-       std::vector<std::pair<std::string, Settings>>{{"vct", {"resolution=16", "bounces=1"}},
-                                                     {"vpl", {"photons=24", "check_points=0"}}}) {
-    const Subject subject(scene, name, settings);
-    const trace::PathTracer tracer(subject.scene);
-    trace::RenderParams params;
-    params.width = size.width, params.height = size.height;
-    params.camera = subject.camera("");
-    params.path = {2, 1, 4, 1};
-    trace::RenderState state;
-    tracer.render_with(subject.method->light(), params, state);
-    const image::Image truth = trace::resolve(state.indirect, state.passes_done);
-
-    realtime::Renderer renderer(gl(), subject.scene);
-    renderer.set_method_light(subject.method->light_data());
-    realtime::FrameSettings frame;
-    frame.supersample = 2;
-    const Picture picture = draw(renderer, subject, "", frame);
-    const Difference d = difference({picture.radiance, picture.normal}, {truth, picture.normal});
-    // Four random places in a pixel for four on a grid: of 36 pixels, those at edges err by up to a quarter. F0 has
-    // 10 bits, the lobes' albedo 32² entries, maps their texels
-    EXPECT_LT(d.largest, 0.25) << name;
-    EXPECT_NEAR(d.ratio, 1, 0.02) << name;
+  for (const float roughness : {0.45f, 0.9f}) {
+    scene::Scene scene = scene::make_builtin("cornell");
+    for (scene::Material& material : scene.materials) {
+      material.base_color = vec3(0.5f);
+      material.metallic = 0.5f, material.specular = 1;
+      material.specular_roughness = roughness;
+    }
+    const shading::BsdfParams bsdf{vec3(0.25f), vec3(0.27f), 0, roughness};
+    const Subject cones(scene, "vct", {"resolution=16", "bounces=1"});
+    const Difference by_cones = difference(draw(cones, ""), looked_up(cones, "", &bsdf));
+    EXPECT_LT(by_cones.largest, 0.02) << roughness;
+    EXPECT_NEAR(by_cones.ratio, 1, 0.005) << roughness;
+    const Subject lights(scene, "vpl", {"photons=32", "check_points=0"});
+    const Difference by_lights = difference(draw(lights, ""), looked_up(lights, "", &bsdf));
+    EXPECT_LT(by_lights.largest, 0.06) << roughness;
+    EXPECT_NEAR(by_lights.ratio, 1, 0.01) << roughness;
   }
 }
 
@@ -281,7 +281,8 @@ TEST_F(MethodLight, KeepsToTheMemoryItIsGiven) {
   EXPECT_EQ(number(renderer, "gl_bytes"), static_cast<double>(added));
   EXPECT_LE(added, params.virtual_light_map_bytes + 170 * 48);
   const Difference d = difference(draw(renderer, lights, ""), looked_up(lights, ""));
-  EXPECT_NEAR(d.ratio, 1, 0.05) << "the same power; the means of 170 random lights of some size differ by 1/√170";
+  EXPECT_NEAR(d.ratio, 1, 0.05)
+      << "the same power; the means of 170 random lights of some size differ by 1/√170";
   renderer.clear_method_light();
   EXPECT_TRUE(renderer.method_numbers().empty());
   EXPECT_EQ(test::mean_luminance(draw(renderer, lights, "").radiance), 0);
@@ -321,8 +322,8 @@ TEST_F(MethodLight, FollowsLampsAndKeepsMapsThatHold) {
 }
 
 TEST_F(MethodLight, ByImagesIsTheSameLight) {
-  const std::vector<std::pair<std::string, Settings>> methods = {
-      {"vct", {"resolution=16", "bounces=1"}}, {"vpl", {"photons=64", "check_points=0"}}};
+  const std::vector<std::pair<std::string, Settings>> methods = {{"vct", {"resolution=16", "bounces=1"}},
+                                                                 {"vpl", {"photons=64", "check_points=0"}}};
   for (const auto& [name, settings] : methods) {
     const Subject subject("two-rooms", name, settings);
     realtime::Renderer renderer(gl(), subject.scene);

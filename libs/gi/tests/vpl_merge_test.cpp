@@ -80,8 +80,7 @@ TEST(MergeLights, ErrLessTheMoreAreLeft) {
     double error = 0;
     constexpr int places = 64;
     for (int i = 0; i < places; ++i) {
-      const methods::Receiver at{1.2f * random.uniform3() - 0.6f,
-                                 sample_uniform_sphere(random.uniform2())};
+      const methods::Receiver at{1.2f * random.uniform3() - 0.6f, sample_uniform_sphere(random.uniform2())};
       const double all = irradiance(at, lights);
       error += std::abs(irradiance(at, merged) - all) / all / places;
     }

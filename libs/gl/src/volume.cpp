@@ -27,8 +27,7 @@ Volume::Volume(const ivec3& size) : size_(size) {
   glTextureStorage3D(id, 1, GL_RGBA16F, size.x, size.y, size.z);
   GLint width = 0;  // 0 where there was no memory
   glGetTextureLevelParameteriv(id, 0, GL_TEXTURE_WIDTH, &width);
-  if (width != size.x)
-    throw Error("OpenGL", fmt::format("no memory for a volume of {} MiB", bytes() >> 20));
+  if (width != size.x) throw Error("OpenGL", fmt::format("no memory for a volume of {} MiB", bytes() >> 20));
   glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})

@@ -58,9 +58,9 @@ gl::Program& Shaders::apply(bool full) {
 gl::Program& Shaders::method(MethodKind kind, bool full, bool images) {
   Slot& slot = method_[static_cast<int>(kind)][full][images];
   if (slot) return *slot;
-  return get(slot, fullscreen, "method.frag",
-             define("CONES", kind == MethodKind::cones) + define("FULL_BSDF", full) +
-                 define("TO_IMAGES", images));
+  return get(
+      slot, fullscreen, "method.frag",
+      define("CONES", kind == MethodKind::cones) + define("FULL_BSDF", full) + define("TO_IMAGES", images));
 }
 
 gl::Program& Shaders::seen(EmitterKind kind) {
