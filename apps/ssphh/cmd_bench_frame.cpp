@@ -14,6 +14,7 @@
 
 #include "command.h"
 #include "gl_options.h"
+#include "live_method.h"
 #include "probe_options.h"
 #include "scene_options.h"
 
@@ -23,7 +24,8 @@ namespace {
 struct BenchOptions {
   SceneOptions scene;
   GlLookup lookup;
-  std::string camera;
+  std::string camera, method = "ssphh";
+  std::vector<std::string> parameters;
   int width = 1280, height = 720, frames = 60, warm_up = 5, supersample = 1, indirect_scale = 1;
   bool turn = false, ratio = false, move = false;
 };
@@ -64,16 +66,32 @@ void move_scene(realtime::Renderer& renderer, const scene::Scene& scene, const s
   renderer.set_light(0, moved);
 }
 
+/// Lights the scene by the method: from here on nothing of it is asked for.
+void set_method(realtime::Renderer& renderer, const BenchOptions& o, const scene::Scene& scene,
+                const Context& context) {
+  LiveMethod live(o.method, o.parameters, scene, context.control);
+  live.update(gi::frame_at(live.source(), o.scene.time), context.control);
+  renderer.set_method_light(live.method().light_data());
+}
+
 /// Times of one kind over all frames; room is taken before they start, so that memory shows what frames take.
 using Times = std::vector<double>;
 
 void bench_frame(const BenchOptions& o, const Context& context) {
-  if (o.ratio && o.lookup.probes.empty())
+  const bool probes = o.method == "ssphh";
+  if (o.ratio && probes && o.lookup.probes.empty())
     throw Error("--ratio", "needs a probe file", "give one with --probes");
+  if (!probes && !o.lookup.probes.empty()) throw Error("--probes", "is of method ssphh, not of " + o.method);
+  if (!probes && o.move)
+    throw Error("--move", "is for SPHLs: the light of method " + o.method + " would stay behind");
+  if (probes && !o.parameters.empty()) throw Error("--param", "is of methods that have no probe file");
   const scene::Scene scene = load_scene(o.scene);
   gl::Context gl = gl::Context::headless();
   realtime::Renderer renderer(gl, scene, {}, o.scene.time);
-  set_probes(renderer, o.lookup, scene, o.scene.time);
+  if (probes)
+    set_probes(renderer, o.lookup, scene, o.scene.time);
+  else
+    set_method(renderer, o, scene, context);
   realtime::FrameSettings settings = still_settings(o.lookup, o.supersample);
   settings.indirect_scale = o.indirect_scale;
   realtime::FrameSettings direct_only = settings;
@@ -139,12 +157,16 @@ void bench_frame(const BenchOptions& o, const Context& context) {
                                 {"memory_bytes", renderer.memory_bytes()},
                                 {"resident_bytes", resident_after},
                                 {"memory_growth_bytes", resident_after - resident_before}};
+  for (const auto& [name, value] : renderer.method_numbers()) {
+    result[name] = value;
+    text += fmt::format("\n{:<12} {:>15.6g}", name, value);
+  }
   if (o.ratio) {
     const double direct = rank(direct_frames, 0.5);
     result["direct_only_median_ms"] = direct;
-    result["sphl_ratio"] = median / direct;
-    text += fmt::format("\nwithout probes {:.2f} ms: probes make a frame {:.3f} times as long", direct,
-                        median / direct);
+    result[probes ? "sphl_ratio" : "method_ratio"] = median / direct;
+    text += fmt::format("\nwithout {0} {1:.2f} ms: {0} make a frame {2:.3f} times as long",
+                        probes ? "probes" : o.method + "'s lookups", direct, median / direct);
   }
   context.result(result, text);
 }
@@ -158,6 +180,14 @@ void add_bench_frame_command(CLI::App& app, Context& context) {
                                   [options, &context] { bench_frame(*options, context); });
   add_scene_options(*command, o.scene);
   command->add_option("--probes", o.lookup.probes, "Probe file; without one: direct light alone");
+  std::vector<std::string> methods = {"ssphh"};
+  for (const gi::MethodEntry& entry : gi::method_table()) {
+    if (entry.has_light_data) methods.emplace_back(entry.name);
+  }
+  command->add_option("--method", o.method, "What lights the scene: probes, or another method, made first")
+      ->check(CLI::IsMember(methods))
+      ->capture_default_str();
+  add_method_parameters(*command, o.parameters);
   command->add_option("--lookup", o.lookup.lookup, "irradiance, or light as the paper")
       ->check(CLI::IsMember({"light", "irradiance"}))
       ->capture_default_str();

@@ -328,8 +328,8 @@ void add_render_command(CLI::App& app, Context& context) {
   command
       ->add_option(
           "--backend", o.backend,
-          "cpu: traced, any number of samples; gl: a frame of the real-time renderer, up to 4×4 samples "
-          "per pixel (docs/methods/realtime.md)")
+          "cpu: traced, any number of samples; gl: a frame of the real-time renderer (methods ssphh, "
+          "vct, vpl, direct), up to 4×4 samples per pixel (docs/methods/realtime.md)")
       ->check(CLI::IsMember({"cpu", "gl"}))
       ->capture_default_str()
       ->group(probes);

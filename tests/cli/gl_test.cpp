@@ -1,5 +1,6 @@
 // The commands that draw with OpenGL, as a user types them.
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -76,6 +77,37 @@ TEST_F(GlTool, TurntableWritesPicturesFromAllAround) {
   EXPECT_NE(front.pixels, back.pixels);
   EXPECT_FALSE(std::filesystem::exists(dir / "turn/0002.png"));
   expect_failure({"turntable", "builtin:gallery1", "-o", "/proc/no/such"}, "/proc/no/such");
+}
+
+TEST_F(GlTool, DrawsMethodsThatGiveTheirLightAsData) {
+  const TempDir dir;
+  const auto render = [&](const std::vector<std::string>& more) {
+    return run_json(with(with({"render", "builtin:cornell", "--backend", "gl", "--spp", "1", "-o",
+                               dir / "a.exr", "--aov", "indirect"},
+                              more),
+                         tiny));
+  };
+  const json cones = render({"--method", "vct", "--param", "resolution=16", "--param", "bounces=1"});
+  expect_keys(cones, {"renderer", "bake_seconds", "update_seconds", "lookup_bytes", "gl_bytes", "gl_cones"});
+  EXPECT_EQ(cones["gl_cones"], 16);
+  const json lights = render({"--method", "vpl", "--param", "photons=16", "--param", "check_points=0"});
+  EXPECT_EQ(lights["gl_lights"], lights["vpls"]);
+  EXPECT_GT(lights["gl_map_size"], 0);
+  const image::Image indirect = image::read_image(dir / "a.indirect.exr");
+  EXPECT_GT(*std::ranges::max_element(indirect.pixels), 0);
+  EXPECT_FALSE(render({"--method", "direct"}).contains("gl_bytes"));
+  const json bench = run_json(with({"bench-frame", "builtin:cornell", "--method", "vct", "--param",
+                                    "resolution=8", "--frames", "2", "--ratio"},
+                                   tiny));
+  expect_keys(bench, {"method_ratio", "gl_bytes"});
+  EXPECT_TRUE(bench["passes"].contains("indirect"));
+
+  const std::vector<std::string> gl = {"render", "builtin:cornell", "--backend", "gl", "-o", dir / "b.exr"};
+  expect_failure(with(gl, {"--method", "ddgi"}), {"ddgi", "no OpenGL version", "vct"});
+  expect_failure(with(gl, {"--method", "vct", "--probes", "x.sphl"}), {"--probes", "vct"});
+  expect_failure(with(gl, {"--method", "ssphh", "--param", "probes=8"}), {"--param"});
+  expect_failure({"bench-frame", "builtin:cornell", "--method", "vpl", "--move"}, {"--move"});
+  EXPECT_FALSE(std::filesystem::exists(dir / "b.exr"));
 }
 
 TEST(GlToolWithoutGl, AMissingOpenGlIsToldWithWhatToInstall) {

@@ -52,8 +52,9 @@ const FrameStats& Renderer::draw(const scene::CameraPose& camera, const FrameSet
   d.lights.prepare(camera, aspect, d.scene.bounds(), d.counters);
   const bool lit = settings.view == View::lit;
   const bool wants_direct = settings.direct && (lit || settings.view == View::direct);
+  const bool wants_method = d.method && settings.indirect && (lit || settings.view == View::indirect);
   const bool wants_indirect =
-      d.probes.count() > 0 &&
+      !wants_method && d.probes.count() > 0 &&
       (settings.view == View::chosen_sphl || (settings.indirect && (lit || settings.view == View::indirect)));
   if (wants_indirect && (d.scene.any_full() || settings.lookup == gi::LookupMethod::light))
     d.probes.want_radiance(d.counters);
@@ -72,6 +73,7 @@ const FrameStats& Renderer::draw(const scene::CameraPose& camera, const FrameSet
   if (wants_direct || settings.view == View::shadow)
     d.run(direct, [&] { d.draw_direct(settings.view == View::shadow); });
   if (wants_indirect) d.run(indirect, [&] { d.draw_indirect(settings); });
+  if (wants_method) d.run(indirect, [&] { d.draw_method(settings); });
   if (wants_direct) d.run(seen, [&] { d.draw_seen(settings); });
   if (settings.view >= View::albedo && settings.view != View::chosen_sphl)
     d.run(seen, [&] { d.draw_view(); });

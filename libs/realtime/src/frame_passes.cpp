@@ -20,7 +20,11 @@ void Renderer::Data::draw_shadows() {
   gl::Program &opaque = shaders.shadow(false), &alpha = shaders.shadow(true);
   const int lamps = lights.update_maps(scene, opaque, alpha, left, waiting, counters);
   left = std::max(left - lamps, 0);
-  stats.shadow_maps_drawn = lamps + probes.update_maps(scene, opaque, alpha, left, waiting, counters);
+  const int of_probes = probes.update_maps(scene, opaque, alpha, left, waiting, counters);
+  stats.shadow_maps_drawn = lamps + of_probes;
+  if (!method) return;
+  left -= of_probes;
+  stats.shadow_maps_drawn += method->update_maps(scene, opaque, alpha, left, waiting, counters);
 }
 
 void Renderer::Data::draw_geometry(const FrameSettings& settings) {
@@ -89,6 +93,10 @@ void Renderer::Data::draw_indirect_by_images(const FrameSettings& settings) {
   gl::Program& program = shaders.indirect(lookup_of(settings), scene.any_full(), IndirectOutput::images);
   probes.bind_lookup(program);
   fullscreen(program, images.indirect_pass.id(), images.indirect());
+  apply_images(settings);
+}
+
+void Renderer::Data::apply_images(const FrameSettings& settings) {
   if (settings.ambient_occlusion) fullscreen(shaders.occlusion(), images.occlusion_pass.id(), images.full());
   images.irradiance.bind(unit::irradiance);
   images.glossy.bind(unit::glossy);

@@ -78,6 +78,7 @@ void Renderer::set_time(float time) {
   d.scene.pose(world, d.moved, d.counters);
   d.lights.invalidate(d.moved);
   d.probes.invalidate(d.moved);
+  if (d.method) d.method->invalidate(d.moved);
   d.lights.set_time(world);
 }
 
@@ -147,6 +148,23 @@ void Renderer::set_emission(int probe, const sh::RadianceSh& leaving, float radi
   data_->lights.set_emission(probe, data_->probes.position(probe), none ? 0 : radius, leaving);
 }
 
+void Renderer::set_method_light(const gi::LightData& light) {
+  Data& d = *data_;
+  if (!d.method || !d.method->take(light, d.counters)) {
+    d.method.reset();  // first: the two would not always fit side by side
+    d.method = make_method_light(light, d.params, d.scene.bounds(), d.counters);
+  }
+  d.context.throw_on_error("uploading a method's light");
+}
+
+void Renderer::clear_method_light() {
+  data_->method.reset();
+}
+
+gi::MethodNumbers Renderer::method_numbers() const {
+  return data_->method ? data_->method->numbers() : gi::MethodNumbers();
+}
+
 image::Image Renderer::read_back() const {
   const FrameImages& f = data_->images;
   if (!data_->drawn) throw Error("real-time renderer", "no frame was drawn yet");
@@ -173,7 +191,8 @@ mat4 Renderer::view_projection() const {
 
 std::size_t Renderer::memory_bytes() const {
   const Data& d = *data_;
-  return d.scene.bytes() + d.lights.bytes() + d.probes.bytes() + d.images.bytes() + d.sky.bytes();
+  return d.scene.bytes() + d.lights.bytes() + d.probes.bytes() + d.images.bytes() + d.sky.bytes() +
+         (d.method ? d.method->bytes() : 0);
 }
 
 std::string Renderer::shader_warnings() {

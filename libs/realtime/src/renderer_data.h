@@ -12,6 +12,7 @@
 #include "frame_images.h"
 #include "gpu_scene.h"
 #include "lights.h"
+#include "method_light.h"
 #include "probes.h"
 #include "shaders.h"
 
@@ -48,6 +49,9 @@ struct Renderer::Data {
   IndirectLookup lookup_of(const FrameSettings& settings) const;
   void draw_indirect(const FrameSettings& settings);
   void draw_indirect_by_images(const FrameSettings& settings);
+  /// From the images of indirect light to all pixels.
+  void apply_images(const FrameSettings& settings);
+  void draw_method(const FrameSettings& settings);
   void draw_seen(const FrameSettings& settings);
   void draw_view();
   void draw_display(const FrameSettings& settings, const Target& target);
@@ -63,6 +67,7 @@ struct Renderer::Data {
   GpuScene scene;
   Lights lights;
   Probes probes;
+  std::unique_ptr<MethodLight> method;  ///< null: probes light the scene
   gl::Texture albedo, sky;
   gl::Sampler sky_sampler;
   gl::Buffer frame_buffer;

@@ -55,6 +55,14 @@ gl::Program& Shaders::apply(bool full) {
                       : get(apply_[full], fullscreen, "apply.frag", define("FULL_BSDF", full));
 }
 
+gl::Program& Shaders::method(MethodKind kind, bool full, bool images) {
+  Slot& slot = method_[static_cast<int>(kind)][full][images];
+  if (slot) return *slot;
+  return get(
+      slot, fullscreen, "method.frag",
+      define("CONES", kind == MethodKind::cones) + define("FULL_BSDF", full) + define("TO_IMAGES", images));
+}
+
 gl::Program& Shaders::seen(EmitterKind kind) {
   const auto k = static_cast<int>(kind);
   return seen_[k] ? *seen_[k] : get(seen_[k], fullscreen, "seen.frag", define(kind_names[k]));
@@ -66,6 +74,9 @@ std::string Shaders::compile_all() {
   for (const bool full : {false, true}) {
     shadow(full);
     apply(full);
+    for (const bool images : {false, true}) {
+      for (int k = 0; k < method_kinds; ++k) method(static_cast<MethodKind>(k), full, images);
+    }
     for (int k = 0; k < emitter_kinds; ++k) {
       for (const bool shadow_view : {false, true}) direct(static_cast<EmitterKind>(k), full, shadow_view);
     }

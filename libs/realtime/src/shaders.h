@@ -9,6 +9,7 @@
 #include <ssphh/gl/program.h>
 
 #include "gpu_types.h"
+#include "method_kind.h"
 
 namespace ssphh::realtime {
 
@@ -30,6 +31,8 @@ class Shaders {
   gl::Program& direct(EmitterKind kind, bool full, bool shadow_view);
   gl::Program& indirect(IndirectLookup lookup, bool full, IndirectOutput output);
   gl::Program& apply(bool full);
+  /// Light of a method that keeps none in SPHLs; `images`: for apply.frag.
+  gl::Program& method(MethodKind kind, bool full, bool images);
   gl::Program& occlusion() { return get(occlusion_, fullscreen, "occlusion.frag"); }
   /// An emitter that is no surface, as the eye sees it.
   gl::Program& seen(EmitterKind kind);
@@ -48,7 +51,7 @@ class Shaders {
   const gl::ShaderFiles* files_;
   std::string warnings_;
   Slot geometry_[16], shadow_[2], direct_[emitter_kinds][2][2], indirect_[3][2][3], apply_[2], occlusion_,
-      seen_[emitter_kinds], view_, resolve_, display_;
+      method_[method_kinds][2][2], seen_[emitter_kinds], view_, resolve_, display_;
 };
 
 }  // namespace ssphh::realtime

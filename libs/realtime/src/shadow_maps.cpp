@@ -48,6 +48,12 @@ MapAtlas::MapAtlas(int size, int tiles) : size_(size), layout_(tiles, preferred_
   fresh_.assign(static_cast<std::size_t>(tiles), unused);
 }
 
+std::size_t MapAtlas::bytes_of(int size, int tiles) {
+  const TileLayout layout(tiles, preferred_side / size);
+  return static_cast<std::size_t>(size * layout.columns()) * static_cast<std::size_t>(size * layout.rows) *
+         static_cast<std::size_t>(layout.layers) * gl::bytes_per_texel(gl::Format::depth32f);
+}
+
 void MapAtlas::set_view(int tile, const MapView& view, bool used) {
   const auto t = static_cast<std::size_t>(tile);
   views_[t] = view;

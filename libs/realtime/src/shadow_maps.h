@@ -29,6 +29,8 @@ class MapAtlas {
   MapAtlas() = default;
   /// `size` texels along a tile's side. Throws Error when the driver cannot hold so many.
   MapAtlas(int size, int tiles);
+  /// What so many tiles would take.
+  static std::size_t bytes_of(int size, int tiles);
 
   int size() const { return size_; }
   const TileLayout& layout() const { return layout_; }

@@ -87,6 +87,7 @@ class Vct final : public Method {
   }
 
   const scene::IndirectLight& light() const override { return *light_; }
+  LightData light_data() const override { return VoxelCones{&*pyramid_, params_.cones}; }
 
   MethodMemory memory() const override {
     return {pyramid_->bytes(),
@@ -254,7 +255,8 @@ MethodEntry vct_entry() {
        {"opacity", 1, 1, 8, "multiplies what voxels cover"},
        {"samples", 4, 1, 16, "points of a voxel's side at which lamps are asked for", true}},
       [](const MethodScene& scene, const MethodParameters& p, const Control& control)
-          -> std::unique_ptr<Method> { return std::make_unique<Vct>(scene, vct_params(p), control); }};
+          -> std::unique_ptr<Method> { return std::make_unique<Vct>(scene, vct_params(p), control); },
+      true};
 }
 
 }  // namespace ssphh::gi::methods

@@ -10,7 +10,6 @@ namespace ssphh::gi::methods {
 namespace {
 
 constexpr std::size_t shadow_batch = 512;
-constexpr float sharpest = 100;
 
 }  // namespace
 
@@ -61,7 +60,7 @@ vec3 VplField::irradiance(const scene::SurfacePoint& at) const {
 
 vec3 VplField::glossy(const scene::SurfacePoint& at, const vec3& r, float roughness) const {
   const float a = std::max(roughness * roughness, 1e-3f);
-  Receiver receiver{at.position, at.normal, std::min(2 / (a * a) - 2, sharpest), r};
+  Receiver receiver{at.position, at.normal, std::min(2 / (a * a) - 2, vpl::sharpest_lobe), r};
   receiver.exponent = std::max(receiver.exponent, 1.0f);
   // What the lobe leaves less than a thousandth of is not worth a ray.
   const float least = std::pow(1e-3f, 1 / receiver.exponent);

@@ -25,6 +25,7 @@ class VplField final : public scene::IndirectLight {
   double mean_cut(std::span<const scene::SurfacePoint> points) const;
 
   const std::vector<Vpl>& lights() const { return lights_; }
+  const VplParams& params() const { return params_; }
   std::size_t bytes() const { return lights_.size() * sizeof(Vpl) + tree_.size() * sizeof(LightNode); }
 
  private:

@@ -7,16 +7,11 @@
 
 #include <ssphh/core/control.h>
 #include <ssphh/gi/surface_points.h>
+#include <ssphh/gi/vpl/virtual_lights.h>
 
 namespace ssphh::gi::methods {
 
-/// A diffuse emitter at a point: radiant intensity power/π · cos θ around the normal [W/sr].
-struct Vpl {
-  vec3 position{0};  ///< a little above its surface
-  vec3 normal{0};    ///< unit
-  vec3 power{0};     ///< flux that leaves the surface again [W]
-  float radius = 0;  ///< over which a spherical light spreads it [m]
-};
+using vpl::Vpl;
 
 struct PhotonParams {
   int photons = 512;  ///< leave the lights, shared out among the groups by their flux

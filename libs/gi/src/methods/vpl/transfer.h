@@ -5,13 +5,8 @@
 
 namespace ssphh::gi::methods {
 
-enum class VplKind { point, sphere };
-
-struct VplParams {
-  VplKind kind = VplKind::point;
-  /// Of points: no light counts for more than one straight ahead at this distance [m]; 0: unbounded.
-  float least_distance = 0;
-};
+using vpl::VplKind;
+using vpl::VplParams;
 
 /// A lit point.
 struct Receiver {

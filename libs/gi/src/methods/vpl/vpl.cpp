@@ -42,6 +42,7 @@ class Vpls final : public Method {
   }
 
   const scene::IndirectLight& light() const override { return *field_; }
+  LightData light_data() const override { return VirtualLights{field_->lights(), field_->params()}; }
 
   MethodMemory memory() const override { return {field_->bytes(), 0}; }
 
@@ -84,7 +85,8 @@ MethodEntry vpl_entry() {
            {"seed", 0, 0, 1e9, "of the photons", true}},
           [](const MethodScene& scene, const MethodParameters& p, const Control&) -> std::unique_ptr<Method> {
             return std::make_unique<Vpls>(scene, p);
-          }};
+          },
+          true};
 }
 
 }  // namespace ssphh::gi::methods

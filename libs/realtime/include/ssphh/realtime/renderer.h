@@ -1,6 +1,6 @@
 #pragma once
-/// Draws a scene lit by its lamps and by SPHLs with OpenGL, in a window or without one
-/// (docs/methods/realtime.md).
+/// Draws a scene lit by its lamps and by SPHLs, or another method's indirect light, with OpenGL, in a window
+/// or without one (docs/methods/realtime.md).
 ///
 ///   gl::Context context = gl::Context::headless();
 ///   realtime::Renderer renderer(context, scene);
@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 
+#include <ssphh/gi/methods/method.h>
 #include <ssphh/gi/probe_set.h>
 #include <ssphh/gl/context.h>
 #include <ssphh/image/image.h>
@@ -37,7 +38,9 @@ struct RendererParams {
   int light_map_size = 1024;  ///< pixels of a shadow map's face: point and spot lights
   int area_map_size = 256;    ///< of each point on a light with an extent
   int sun_map_size = 1024;    ///< of a cascade, and of a direction of the environment
-  std::size_t probe_map_bytes = std::size_t{64} << 20;  ///< for all probes' maps together
+  std::size_t probe_map_bytes = std::size_t{64} << 20;           ///< for all probes' maps together
+  std::size_t voxel_bytes = std::size_t{2} << 30;                ///< for the voxels of method vct at most
+  std::size_t virtual_light_map_bytes = std::size_t{128} << 20;  ///< for the maps of all lights of method vpl
   int area_samples = 16;         ///< points that stand for a light with an extent, each with a shadow map
   int environment_samples = 32;  ///< directions in which the environment casts shadows
   int maps_per_frame = 1 << 30;  ///< cube maps drawn in one frame at most; the rest wait for the next
@@ -76,6 +79,15 @@ class Renderer {
   /// Makes a probe an anisotropic light: radiance leaving a sphere of `radius` around it into each direction,
   /// as gi::RelightSession::set_emission takes it. Empty: none.
   void set_emission(int probe, const sh::RadianceSh& leaving, float radius);
+
+  /// Indirect light of another method, for one state of lamps and doors: takes the place of the probes' until
+  /// cleared. Copies what it needs, and keeps of what was set before what still holds. Throws Error for data
+  /// that only the CPU can look up, and for what does not fit into the memory that the parameters allow.
+  void set_method_light(const gi::LightData& light);
+  void clear_method_light();
+  /// Its memory here ("gl_bytes") and what there is of it: "gl_cones"; "gl_lights", of which more than have
+  /// room for shadow maps were merged, and "gl_map_size". Empty: none is set.
+  gi::MethodNumbers method_numbers() const;
 
   /// Draws a frame. Restores no OpenGL state. Throws Error when OpenGL reports an error.
   const FrameStats& draw(const scene::CameraPose& camera, const FrameSettings& settings,

@@ -11,7 +11,7 @@ namespace ssphh::realtime {
 enum class View {
   lit,
   direct,    ///< emission and light of lamps, path depth ≤ 1
-  indirect,  ///< light looked up from probes
+  indirect,  ///< light looked up from probes, or of the method that takes their place
   albedo,
   normal,      ///< shading normal, 0.5 + 0.5 n
   depth,       ///< along the view axis, 1 m: 1/2, 2 m: 2/3, …

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <ssphh/core/control.h>
+#include <ssphh/gi/methods/light_data.h>
 #include <ssphh/scene/radiance_source.h>
 
 namespace ssphh::gi {
@@ -59,6 +60,9 @@ class Method {
   /// Indirect light after the last update(); valid until the next one. Emitters that a surface sees straight
   /// are not in it. Safe to call from several threads.
   virtual const scene::IndirectLight& light() const = 0;
+
+  /// The same light as data, where the method's entry says so. As long valid as light().
+  virtual LightData light_data() const { return {}; }
 
   virtual MethodMemory memory() const = 0;
 

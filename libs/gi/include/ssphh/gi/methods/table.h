@@ -17,6 +17,7 @@ struct MethodEntry {
   /// Bakes whatever the method keeps for all frames. Throws Error for a scene that the method cannot do.
   std::unique_ptr<Method> (*make)(const MethodScene& scene, const MethodParameters& parameters,
                                   const Control& control);
+  bool has_light_data = false;  ///< Method::light_data() gives some: OpenGL can draw it
 };
 
 std::span<const MethodEntry> method_table();
