@@ -18,7 +18,6 @@ void refuse_with_gl(const RenderOptions& o) {
   };
   if (o.method != "ssphh") refuse("--method", "path tracing");
   if (o.projection != "camera") refuse("--projection", "a picture of the whole sphere");
-  if (o.weights == "trilinear" || o.weights == "fitted") refuse("--weights", o.weights);
   if (o.resume) refuse("--resume", "resuming");
   if (o.farm.any()) refuse("--broker or --local", "a farm");
   if (o.probes.empty() && o.max_depth >= 2)

@@ -9,6 +9,7 @@
 #include <ssphh/gl/vertex_array.h>
 #include <ssphh/realtime/renderer.h>
 
+#include "environment_tiles.h"
 #include "frame_images.h"
 #include "gpu_scene.h"
 #include "lights.h"
@@ -44,6 +45,7 @@ struct Renderer::Data {
   }
   void draw_shadows();
   void draw_geometry(const FrameSettings& settings);
+  void bind_sky_lobes(gl::Program& program);
   void draw_direct(bool shadow_view);
   IndirectLookup lookup_of(const FrameSettings& settings) const;
   void draw_indirect(const FrameSettings& settings);
@@ -65,6 +67,7 @@ struct Renderer::Data {
   Probes probes;
   gl::Texture albedo, sky;
   gl::Sampler sky_sampler;
+  TileAtlas sky_lobes;  ///< made when something glossy is first lit by an environment
   gl::Buffer frame_buffer;
   gl::VertexArray no_vertices;
   FrameImages images;
