@@ -191,6 +191,7 @@ void add_bench_frame_command(CLI::App& app, Context& context) {
   command->add_option("--lookup", o.lookup.lookup, "irradiance, or light as the paper")
       ->check(CLI::IsMember({"light", "irradiance"}))
       ->capture_default_str();
+  add_weights_option(*command, o.lookup.weights);
   add_force_option(*command, o.lookup.force);
   command->add_option("--frames", o.frames, "Frames to time")
       ->check(CLI::Range(1, 10000000))

@@ -1,8 +1,8 @@
 #include "gl_options.h"
 
-#include <ssphh/core/log.h>
 #include <ssphh/gi/probe_file.h>
 #include <ssphh/scene/query.h>
+#include <ssphh/trace/path_tracer.h>
 
 #include "probe_options.h"
 
@@ -13,18 +13,22 @@ void set_probes(realtime::Renderer& renderer, const GlLookup& options, const sce
   if (options.probes.empty()) return;
   const gi::ProbeSet set = gi::read_probe_file(options.probes);
   require_same_scene(options.probes, set, scene, scene::light_groups(scene), time, options.force);
-  if (set.fitted && options.lookup == "irradiance" && options.weights.empty()) {
-    log_warning("{}: has fitted weights, which are for --backend cpu: drawn with mls", options.probes);
-  }
   gi::LookupParams params;
+  params.weights = weight_params(options.probes, set, options.weights);
   if (options.light == "self") params.layer = gi::ProbeLayer::self;
   renderer.set_probes(set, params);
+  if (options.lookup != "irradiance" ||
+      params.weights.chosen(set.fitted.has_value()) != gi::WeightMethod::fitted)
+    return;
+  const trace::PathTracer tracer(scene, time);
+  renderer.set_fitted(realtime::prepare_fitted(
+      scene, time, *set.fitted, [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); }));
 }
 
 realtime::FrameSettings still_settings(const GlLookup& options, int samples) {
   realtime::FrameSettings settings;
   settings.lookup = options.lookup == "light" ? gi::LookupMethod::light : gi::LookupMethod::irradiance;
-  if (options.weights == "distance") settings.weights = gi::WeightMethod::distance;
+  settings.weights = gi::parse_weight_method(options.weights).value_or(gi::WeightMethod::fitted);
   settings.supersample = samples;
   return settings;
 }

@@ -29,7 +29,6 @@ void refuse_with_gl(const RenderOptions& o) {
     throw Error("--method " + o.method, "has no OpenGL version",
                 "take --backend cpu, or one of ssphh, vct, vpl, direct");
   if (o.projection != "camera") refuse("--projection", "a picture of the whole sphere");
-  if (o.weights == "trilinear" || o.weights == "fitted") refuse("--weights", o.weights);
   if (o.resume) refuse("--resume", "resuming");
   if (o.farm.any()) refuse("--broker or --local", "a farm");
   if (!o.probes.empty() && o.method != "ssphh")

@@ -216,7 +216,8 @@ void App::draw_scene() {
     look.lobes = settings.lobes;
     look.tone = {settings.exposure, settings.curve, 0};
     look.selected = selection.is(Kind::sphl) ? probe_of_sphl(*this, selection.index) : -1;
-    balls_->draw(light.set(), visible_, look, picture.framebuffer(), picture.width(), picture.height());
+    balls_->draw(light.set(), look, {renderer_->depth_texture(), renderer_->view_projection()},
+                 picture.framebuffer(), picture.width(), picture.height());
   }
   drawn_ = {view, settings, selection, picture.width(), picture.height()};
   scene_dirty_ = false;
@@ -224,11 +225,11 @@ void App::draw_scene() {
   redraw();
 }
 
-/// Which probes the eye sees: their balls and names are shown, the others' are not.
+/// Which probes the eye sees: their names are shown, the others' are not.
 void App::update_visible() {
   if (light.empty()) return visible_.clear();
   const std::vector<gi::Probe>& probes = light.set().probes;
-  const bool wanted = settings.balls || settings.names || settings.graph || place_mode;
+  const bool wanted = settings.names || settings.graph || place_mode;
   if (!wanted || !picking_) return visible_.assign(probes.size(), 1);
   if (visible_view_ && *visible_view_ == view && visible_.size() == probes.size() && !settings.play) return;
   visible_view_ = view;

@@ -76,6 +76,8 @@ class App {
   void rebuild_light();
   void start_gen(bool viz_only);
   void take_probe_file(const std::string& file);
+  /// Makes fitted weights of the probes ready, in the background.
+  void prepare_fitted(const gi::FittedPoints& fitted);
   void delete_selection();
   void add_sphl(const vec3& position);
   void say(const std::string& message);

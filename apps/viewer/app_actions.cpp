@@ -373,7 +373,26 @@ void App::take_probe_file(const std::string& file) {
   applied_sphls_ = document.edits().sphls;
   selection = {};
   say(fmt::format("{}: {} probes", file, set.probes.size()));
+  const std::optional<gi::FittedPoints> fitted = set.fitted;
   light.take(std::move(set), file);
+  if (fitted) prepare_fitted(*fitted);
+}
+
+void App::prepare_fitted(const gi::FittedPoints& fitted) {
+  job.start("fitted weights", [this, fitted, scene = document.scene,
+                               time = document.time](const Control& control) {
+    // What a door hides at any of these times lights nothing behind it at any other
+    std::vector<std::unique_ptr<trace::PathTracer>> poses;
+    for (const float t : {time, 0.0f, scene::animation_duration(*scene)}) {
+      if (poses.empty() || t != time) poses.push_back(std::make_unique<trace::PathTracer>(*scene, t));
+    }
+    const gi::SeesProbe sees = [&](const vec3& a, const vec3& b) {
+      return std::all_of(poses.begin(), poses.end(), [&](const auto& pose) { return pose->visible(a, b); });
+    };
+    auto prepared = std::make_shared<realtime::FittedSurfaces>(
+        realtime::prepare_fitted(*scene, time, fitted, sees, control));
+    return [this, prepared] { light.take_fitted(std::move(*prepared)); };
+  });
 }
 
 }  // namespace ssphh::viewer

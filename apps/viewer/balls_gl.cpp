@@ -52,8 +52,14 @@ uniform float exposure;
 uniform float gamma;
 uniform int filmic;
 uniform vec3 eye;
+uniform int behind;  // 1: what surfaces hide, faint; 0: what they do not
+uniform vec2 depth_scale;
+layout(binding = 0) uniform sampler2D scene_depth;
 layout(location = 0) out vec4 color;
 void main() {
+  // Nearer is greater
+  float surface = texelFetch(scene_depth, ivec2(gl_FragCoord.xy * depth_scale), 0).x;
+  if ((gl_FragCoord.z < surface) != (behind == 1)) discard;
   vec3 c = radiance * exposure;
   c = filmic == 1 ? c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14) : c;
   c = clamp(c, 0.0, 1.0);
@@ -62,29 +68,12 @@ void main() {
   // A rim keeps balls apart from a wall of their own colour.
   float facing = abs(dot(normalize(normal), normalize(eye - place_seen)));
   vec3 rim = chosen == 1 ? vec3(1.0, 0.75, 0.3) : vec3(0.08);
-  color = vec4(mix(rim, c, smoothstep(0.15, chosen == 1 ? 0.6 : 0.4, facing)), 1.0);
+  color = vec4(mix(rim, c, smoothstep(0.15, chosen == 1 ? 0.6 : 0.4, facing)),
+               behind == 0 ? 1.0 : chosen == 1 ? 0.5 : 0.12);
 }
 )";
 
 const gl::ShaderFiles::Embedded sources[] = {{"balls.vert", vertex_shader}, {"balls.frag", fragment_shader}};
-
-/// Reversed depth, 1 at `near` and 0 at infinity, as all of this project's.
-mat4 world_to_clip(const View& view, float aspect) {
-  const mat3 rows = glm::mat3_cast(glm::conjugate(view.orientation));
-  mat4 to_view(rows);
-  to_view[3] = vec4(rows * -view.eye, 1);
-  mat4 projection(0);
-  if (view.orthographic) {
-    const float far = 1e4f;
-    projection[0][0] = 2 / (view.yheight * aspect), projection[1][1] = 2 / view.yheight;
-    projection[2][2] = 1 / far, projection[3][2] = 1, projection[3][3] = 1;
-  } else {
-    const float f = 1 / std::tan(0.5f * view.yfov), near = 0.02f;
-    projection[0][0] = f / aspect, projection[1][1] = f;
-    projection[2][3] = -1, projection[3][2] = near;
-  }
-  return projection * to_view;
-}
 
 }  // namespace
 
@@ -131,21 +120,19 @@ void BallsGl::update(const gi::ProbeSet& set, Ball ball) {
   d.colors.update(std::span<const vec4>(d.values));
 }
 
-void BallsGl::draw(const gi::ProbeSet& set, const std::vector<unsigned char>& visible, const Look& look,
-                   unsigned framebuffer, int width, int height) {
+void BallsGl::draw(const gi::ProbeSet& set, const Look& look, const Behind& frame, unsigned framebuffer,
+                   int width, int height) {
   Data& d = *data_;
   d.places.clear();
-  for (std::size_t i = 0; i < set.probes.size(); ++i) {
-    if (visible[i] == 0) continue;
+  for (std::size_t i = 0; i < set.probes.size(); ++i)
     d.places.emplace_back(set.probes[i].position, static_cast<float>(i));
-  }
   if (d.places.empty() || d.values.empty()) return;
   d.shown.reserve(d.places.size() * sizeof(vec4));
   d.shown.update(std::span<const vec4>(d.places));
 
   gl::bind_framebuffer(framebuffer, {0, 0, width, height});
   gl::apply_conventions();
-  gl::apply({.depth = gl::Depth::test_and_write, .cull = gl::Cull::back});
+  gl::apply({.depth = gl::Depth::test_and_write});
   gl::clear_depth({0, 0, width, height}, 0);
   d.no_attributes.bind();
   d.colors.bind_storage(0);
@@ -153,8 +140,8 @@ void BallsGl::draw(const gi::ProbeSet& set, const std::vector<unsigned char>& vi
   d.corners.bind_storage(2);
   d.shown.bind_storage(3);
   d.program.use();
-  d.program.set("world_to_clip",
-                world_to_clip(look.view, static_cast<float>(width) / static_cast<float>(height)));
+  d.program.set("world_to_clip", frame.view_projection);
+  d.program.set("depth_scale", vec2(frame.depth.width(), frame.depth.height()) / vec2(width, height));
   d.program.set("radius", look.radius);
   d.program.set("lobes", look.lobes ? 1.0f : 0.0f);
   d.program.set("vertex_count", static_cast<int>(d.shader->mesh().vertices.size()));
@@ -164,7 +151,14 @@ void BallsGl::draw(const gi::ProbeSet& set, const std::vector<unsigned char>& vi
   d.program.set("gamma", look.tone.gamma);
   d.program.set("filmic", look.tone.curve == image::ToneCurve::filmic ? 1 : 0);
   d.program.set("eye", look.view.eye);
-  gl::draw_triangles(d.corner_count * static_cast<int>(d.places.size()));
+  frame.depth.bind(0);
+  for (const bool behind : {false, true}) {
+    gl::apply({.depth = gl::Depth::test_and_write,
+               .blend = behind ? gl::Blend::over : gl::Blend::off,
+               .cull = gl::Cull::back});
+    d.program.set("behind", behind ? 1 : 0);
+    gl::draw_triangles(d.corner_count * static_cast<int>(d.places.size()));
+  }
 }
 
 }  // namespace ssphh::viewer

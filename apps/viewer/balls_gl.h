@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include <ssphh/gl/texture.h>
 #include <ssphh/scene/query.h>
 
 #include "model/balls.h"
@@ -27,10 +28,15 @@ class BallsGl {
     image::ToneMap tone;
     int selected = -1;
   };
-  /// Draws the probes for which visible[i] is not 0 into a framebuffer that has a depth buffer, the picture's
-  /// lower left corner at (0, 0); hides them behind each other only.
-  void draw(const gi::ProbeSet& set, const std::vector<unsigned char>& visible, const Look& look,
-            unsigned framebuffer, int width, int height);
+  /// The frame that the balls stand in, as realtime::Renderer tells of it.
+  struct Behind {
+    const gl::Texture& depth;
+    mat4 view_projection;
+  };
+  /// Draws all probes into a framebuffer that has a depth buffer of its own, the picture's lower left corner
+  /// at (0, 0): behind each other they are hidden, behind the frame's surfaces faint.
+  void draw(const gi::ProbeSet& set, const Look& look, const Behind& frame, unsigned framebuffer, int width,
+            int height);
 
  private:
   struct Data;

@@ -34,6 +34,7 @@ void ProbeLight::take(std::shared_ptr<LiveLight> live) {
   set_ = live_->probes();
   for (std::size_t i = 0; i < edges.size(); ++i) set_->probes[i].edges = std::move(edges[i]);
   origin_ = "live";
+  fitted_ = {};
   lights_.clear();
   places_new_ = light_new_ = true;
 }
@@ -43,8 +44,14 @@ void ProbeLight::take(gi::ProbeSet set, const std::string& origin) {
   set_ = std::move(set);
   gi::merge_groups(*set_);
   origin_ = origin;
+  fitted_ = {};
   scales_.clear();
   places_new_ = light_new_ = true;
+}
+
+void ProbeLight::take_fitted(realtime::FittedSurfaces fitted) {
+  fitted_ = std::move(fitted);
+  fitted_new_ = true;
 }
 
 void ProbeLight::clear() {
@@ -143,6 +150,7 @@ ProbeLight::Update ProbeLight::update(const Document& document, const Settings& 
   start = std::chrono::steady_clock::now();
   if (places_new_ || lookup_changed) {
     renderer.set_probes(*set_, lookup_params(settings));
+    renderer.set_fitted(fitted_);
     out.replaced = places_new_;
     out.relit = true;
   } else if (relit || hierarchy_new) {
@@ -158,8 +166,12 @@ ProbeLight::Update ProbeLight::update(const Document& document, const Settings& 
     renderer.update_probes(changed, light);
     out.relit = true;
   }
+  if (fitted_new_) {
+    renderer.set_fitted(fitted_);
+    out.relit = true;
+  }
   out.upload_ms = ms_since(start);
-  places_new_ = light_new_ = false;
+  places_new_ = light_new_ = fitted_new_ = false;
   settings_ = settings;
   return out;
 }

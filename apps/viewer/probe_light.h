@@ -20,6 +20,8 @@ class ProbeLight {
   void take(std::shared_ptr<LiveLight> live);
   /// Fixed light, of a file or a bake. Only its light groups can still be scaled.
   void take(gi::ProbeSet set, const std::string& origin);
+  /// Fitted weights of the set that was taken last, made ready.
+  void take_fitted(realtime::FittedSurfaces fitted);
   void clear();
   /// Light of one probe of a bake that is under way: `set` was taken at its start.
   void take_probe(std::size_t i, const gi::Probe& probe);
@@ -53,9 +55,10 @@ class ProbeLight {
   std::optional<gi::ProbeSet> set_;
   std::string origin_;
   gi::RelightReport report_;
+  realtime::FittedSurfaces fitted_;
 
   // What was last brought to the set and the renderer.
-  bool places_new_ = false, light_new_ = false;
+  bool places_new_ = false, light_new_ = false, fitted_new_ = false;
   std::vector<scene::LightState> lights_;
   std::vector<vec3> scales_;
   float time_ = 0;

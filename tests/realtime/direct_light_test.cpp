@@ -1,5 +1,7 @@
 /// Light of lamps without an extent: the drawn picture is path tracing at depth 1.
 
+#include <map>
+
 #include <gmock/gmock.h>
 
 #include <ssphh/scene/primitives.h>
@@ -137,6 +139,72 @@ TEST_F(DirectLight, IsReflectedByEveryModelAsOnTheCpu) {
   for (const scene::Material& m : {glossy, phong, metal, rough, disney}) {
     SCOPED_TRACE(testing::Message() << "roughness " << m.diffuse_roughness << ", " << m.specular_roughness);
     expect_equal(with_light(stage(m), lamp(scene::LightType::point, 20)));
+  }
+}
+
+/// A ball in the open under a sky that grows dark downwards and has a window in it.
+scene::Scene ball_under_sky() {
+  scene::Scene s;
+  s.materials.resize(1);
+  s.meshes.push_back(scene::make_sphere(1, 96, 48));
+  s.meshes[0].material = 0;
+  scene::Instance ball;
+  ball.mesh = 0;
+  s.instances.push_back(ball);
+  scene::Node eye;
+  eye.local.translation = {0, 0, 3.4f};
+  s.nodes.push_back(eye);
+  s.cameras.emplace_back().node = 0;
+  s.environment.emplace().equirect = image::Image(128, 64, 3);
+  s.environment->rotation = 0.6f;
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 128; ++x) {
+      const bool window = x > 78 && x < 100 && y > 14 && y < 30;
+      const float up = 1 - static_cast<float>(y) / 64;
+      s.environment->equirect.set_rgb(x, y, window ? vec3(6, 5, 3) : vec3(0.2f, 0.5f, 1) * up);
+    }
+  }
+  scene::validate(s);
+  return s;
+}
+
+/// Mean absolute difference of 8 x 8 blocks over the mean.
+double block_difference(const image::Image& a, const image::Image& b) {
+  std::map<std::pair<int, int>, double> blocks;
+  double sum = 0;
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = 0; x < a.width; ++x) {
+      const auto la = static_cast<double>(luminance(a.rgb(x, y))),
+                 lb = static_cast<double>(luminance(b.rgb(x, y)));
+      blocks[{x / 8, y / 8}] += la - lb;
+      sum += la;
+    }
+  }
+  double off = 0;
+  for (const auto& [place, difference] : blocks) off += std::abs(difference);
+  return off / sum;
+}
+
+TEST_F(DirectLight, ABallMirrorsTheEnvironmentByItsRoughnessAsTraced) {
+  // What the split sum leaves: lobes are round about one direction, those of rough surfaces are not. Seen to
+  // be 0.9, 2.1, 5.3 %; 7.2 % of a Blinn-Phong lobe, which has less of a tail than the tiles' GGX
+  struct Case {
+    float roughness;
+    double most;
+  };
+  scene::Scene s = ball_under_sky();
+  realtime::Renderer renderer(gl(), s);
+  for (const Case& c : {Case{0.12f, 0.015}, {0.35f, 0.03}, {0.7f, 0.07}, {-0.4f, 0.09}}) {
+    SCOPED_TRACE(testing::Message() << "roughness " << c.roughness);
+    scene::Material& metal = s.materials[0];
+    metal.metallic = 1, metal.specular_roughness = c.roughness, metal.base_color = {0.9f, 0.7f, 0.5f};
+    renderer.set_material(0, metal);
+    const PictureSize size{96, 96};
+    const trace::PathTracer tracer(s);
+    const image::Image truth = test::traced(s, nullptr, size, 32, 1, tracer);
+    const image::Image picture = test::drawn(renderer, s, size);
+    EXPECT_LT(block_difference(truth, picture), c.most);
+    EXPECT_NEAR(test::mean_luminance(picture) / test::mean_luminance(truth), 1, 0.03);
   }
 }
 

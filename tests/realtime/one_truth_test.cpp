@@ -71,6 +71,7 @@ void OneTruth::compare(const scene::Scene& scene, gi::LookupMethod method, gi::W
   const BlockMeans b = block_means(test::traced(scene, lookup.get(), size, 24, 2, tracer));
   realtime::Renderer renderer(gl(), scene);
   renderer.set_probes(probes);
+  if (weights == gi::WeightMethod::fitted) renderer.set_fitted(test::prepared(scene, *probes.fitted, tracer));
   realtime::FrameSettings settings;
   settings.lookup = method;
   settings.weights = weights;
@@ -159,6 +160,29 @@ TEST_P(OneTruthHidden, PictureWithoutAProbeInSightIsTheTracedOne) {
           false, 2);
 }
 INSTANTIATE_TEST_SUITE_P(Builtin, OneTruthHidden, testing::Values("two-rooms"));
+
+/// Weights at points that lie at random: lists hold many, and walls between them have to be found.
+using OneTruthFitted = OneTruth;
+TEST_P(OneTruthFitted, PictureWithFittedWeightsIsTheTracedOne) {
+  const scene::Scene scene = scene::make_builtin(GetParam());
+  gi::ProbeSet probes = test::made_up_probes(scene);
+  probes.fitted = test::made_up_fit(scene, probes, 1200);
+  compare(scene, gi::LookupMethod::irradiance, gi::WeightMethod::fitted, probes);
+}
+INSTANTIATE_TEST_SUITE_P(Builtin, OneTruthFitted, testing::Values("cornell", "two-rooms"));
+
+using OneTruthTrilinear = OneTruth;
+TEST_P(OneTruthTrilinear, PictureWithTrilinearWeightsIsTheTracedOne) {
+  const scene::Scene scene = scene::make_builtin(GetParam());
+  const scene::Bounds room = scene::world_bounds(scene, scene::world_matrices(scene, 0));
+  std::vector<vec3> places;
+  for (int i = 0; i < 64; ++i) {
+    const vec3 cell(static_cast<float>(i % 4), static_cast<float>(i / 4 % 4), static_cast<float>(i / 16));
+    places.push_back(glm::mix(room.min, room.max, (cell + 0.5f) / 4.0f));
+  }
+  compare(scene, gi::LookupMethod::irradiance, gi::WeightMethod::trilinear, test::made_up_probes(places));
+}
+INSTANTIATE_TEST_SUITE_P(Builtin, OneTruthTrilinear, testing::Values("box"));
 
 using OneTruthLight = OneTruth;
 TEST_P(OneTruthLight, PictureOfSphlsAsLightsIsTheTracedOne) {

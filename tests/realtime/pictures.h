@@ -4,8 +4,10 @@
 #include <random>
 
 #include <ssphh/gi/lookup.h>
+#include <ssphh/gi/surface_points.h>
 #include <ssphh/realtime/renderer.h>
 #include <ssphh/trace/path_tracer.h>
+#include <ssphh/trace/transport_scene.h>
 
 namespace ssphh::test {
 
@@ -34,6 +36,40 @@ inline gi::ProbeSet made_up_probes(const scene::Scene& scene) {
   std::vector<vec3> places;
   for (const scene::SphlPlace& p : scene::sphl_places(scene)) places.push_back(p.position);
   return made_up_probes(places);
+}
+
+/// Points all over the still surfaces with smooth weights of the nearest visible probes.
+inline gi::FittedPoints made_up_fit(const scene::Scene& scene, const gi::ProbeSet& probes, int count) {
+  const trace::TransportScene source(scene);
+  const trace::PathTracer tracer(scene);
+  std::vector<vec3> places;
+  for (const gi::Probe& probe : probes.probes) places.push_back(probe.position);
+  gi::WeightParams params;
+  params.method = gi::WeightMethod::distance;
+  const auto weights = gi::make_weights(
+      places, [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); }, params);
+  gi::SurfacePointParams points;
+  points.count = count;
+  gi::FittedPoints fitted;
+  for (const scene::SurfacePoint& point : gi::reachable_points(source, places, 0, points)) {
+    if (point.moves) continue;
+    const gi::ProbeWeights found = weights->at(point);
+    fitted.points.push_back(point);
+    gi::PointWeights& kept = fitted.weights.emplace_back();
+    for (const gi::ProbeWeight& weight : found.used()) kept.add(weight.probe, weight.weight);
+  }
+  return fitted;
+}
+
+inline mat4 light_world(const scene::Scene& scene, std::size_t light) {
+  const int node = scene.lights[light].node;
+  return node < 0 ? mat4(1) : scene::world_matrices(scene, 0)[static_cast<std::size_t>(node)];
+}
+
+inline realtime::FittedSurfaces prepared(const scene::Scene& scene, const gi::FittedPoints& fitted,
+                                         const trace::PathTracer& tracer) {
+  return realtime::prepare_fitted(scene, 0, fitted,
+                                  [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); });
 }
 
 struct PictureSize {

@@ -133,6 +133,66 @@ TEST_F(RendererTest, ProbesChangeByWhatIsUploadedForThem) {
   EXPECT_THROW(renderer.update_probes(std::array{6}, std::span(light).first(1)), Error);
 }
 
+TEST_F(RendererTest, FittedWeightsDoNotLeakThroughAShutDoor) {
+  gi::ProbeSet set = test::made_up_probes(scene_);
+  const trace::PathTracer tracer(scene_);
+  // Light in room A alone: at probes that its lamp sees
+  const vec3 lamp(test::light_world(scene_, 0)[3]);
+  int lit = 0;
+  for (gi::Probe& probe : set.probes) {
+    const bool in_a = tracer.visible(probe.position, lamp);
+    lit += in_a;
+    for (gi::GroupLight& light : probe.groups) light.reflected *= vec3(in_a ? 1 : 0);
+  }
+  ASSERT_TRUE(lit > 0 && lit < static_cast<int>(set.probes.size()));
+  gi::merge_groups(set);
+  Renderer renderer(gl(), scene_);
+  renderer.set_probes(set);
+  renderer.set_fitted(test::prepared(scene_, test::made_up_fit(scene_, set, 1200), tracer));
+  EXPECT_GT(brightness(renderer, "room-a", View::indirect), 0.1);
+  frame(renderer);
+  renderer.draw(scene::camera_pose(scene_, "room-b"), {.view = View::indirect},
+                {.width = 256, .height = 144});
+  float brightest = 0;
+  for (const float v : renderer.read_back().pixels) brightest = std::max(brightest, v);
+  // Probes of room B are dark and points there name no others: what is not 0 has come through a wall
+  EXPECT_EQ(brightest, 0);
+}
+
+TEST_F(RendererTest, NewLightOfAProbeCostsThePointsThatItLightsAlone) {
+  const gi::ProbeSet set = test::made_up_probes(scene_);
+  const trace::PathTracer tracer(scene_);
+  const gi::FittedPoints fitted = test::made_up_fit(scene_, set, 600);
+  std::size_t lit_by_it = 0;
+  for (const gi::PointWeights& weights : fitted.weights) {
+    for (const gi::ProbeWeight& weight : weights.used()) lit_by_it += weight.probe == 0;
+  }
+  Renderer renderer(gl(), scene_);
+  renderer.set_probes(set);
+  frame(renderer);
+  const std::array<sh::RadianceSh, 1> light{set.probes[1].self};
+  renderer.update_probes(std::array{0}, light);
+  const std::uint64_t without = frame(renderer).bytes_uploaded;
+  realtime::FittedSurfaces prepared = test::prepared(scene_, fitted, tracer);
+  renderer.set_fitted(prepared);
+  frame(renderer);
+  renderer.update_probes(std::array{0}, light);
+  EXPECT_EQ(frame(renderer).bytes_uploaded - without, 64 * lit_by_it);
+
+  // The same as all light new
+  const image::Image updated = renderer.read_back();
+  gi::ProbeSet changed = set;
+  changed.probes[0].groups = set.probes[1].groups;
+  gi::merge_groups(changed);
+  renderer.set_probes(changed);
+  renderer.set_fitted(prepared);
+  frame(renderer);
+  EXPECT_EQ(renderer.read_back().pixels, updated.pixels);
+
+  prepared.points.weights[0].entries[0].probe = 99;
+  EXPECT_THROW(renderer.set_fitted(prepared), Error);
+}
+
 TEST_F(RendererTest, FewerPixelsLookedUpGiveNearlyTheSameLight) {
   Renderer renderer(gl(), scene_);
   renderer.set_probes(test::made_up_probes(scene_));
@@ -223,7 +283,7 @@ TEST_F(RendererTest, ViewsShowWhatTheyName) {
 TEST_F(RendererTest, TellsHowTheLastFrameProjectsSoThatOthersMayDrawIntoIt) {
   Renderer renderer(gl(), scene_);
   frame(renderer);
-  EXPECT_NE(renderer.depth_texture(), 0u);
+  EXPECT_NE(renderer.depth_texture().id(), 0u);
   const scene::CameraPose camera = scene::camera_pose(scene_, "");
   const float up = std::tan(0.5f * camera.camera.yfov), right = up * 64 / 36;
   for (const vec2& place : {vec2(0, 0), vec2(1, 0), vec2(-0.5f, 1)}) {

@@ -34,7 +34,9 @@ constexpr Choice<image::ToneCurve> curves[] = {{"clip", image::ToneCurve::clip},
                                                {"filmic", image::ToneCurve::filmic}};
 constexpr Choice<gi::LookupMethod> lookups[] = {{"irradiance", gi::LookupMethod::irradiance},
                                                 {"light", gi::LookupMethod::light}};
-constexpr Choice<gi::WeightMethod> weights[] = {{"mls", gi::WeightMethod::mls},
+constexpr Choice<gi::WeightMethod> weights[] = {{"fitted", gi::WeightMethod::fitted},
+                                                {"mls", gi::WeightMethod::mls},
+                                                {"trilinear", gi::WeightMethod::trilinear},
                                                 {"distance", gi::WeightMethod::distance}};
 constexpr Choice<gi::ProbeLayer> layers[] = {
     {"sum", gi::ProbeLayer::sum}, {"self", gi::ProbeLayer::self}, {"neighbor", gi::ProbeLayer::neighbor}};
@@ -155,7 +157,10 @@ const std::vector<SettingName>& setting_names() {
       choice("lookup", "Probes",
              "irradiance: blend of visible SPHLs; light: nearest visible SPHL, as the paper", lookups,
              [](Settings& s) -> gi::LookupMethod& { return s.lookup; }),
-      choice("weights", "Probes", "How the lookup irradiance blends probes: mls fits, distance averages",
+      choice("weights", "Probes",
+             "How the lookup irradiance blends probes: fitted where a file has such weights, else as mls, "
+             "which fits; distance "
+             "averages",
              weights, [](Settings& s) -> gi::WeightMethod& { return s.weights; }),
       choice("layer", "Probes", "Light of the probes that surfaces get: sum, self or neighbor", layers,
              [](Settings& s) -> gi::ProbeLayer& { return s.layer; }),

@@ -49,10 +49,10 @@ struct Settings {
 
   // Probes' light
   gi::LookupMethod lookup = gi::LookupMethod::irradiance;
-  gi::WeightMethod weights = gi::WeightMethod::mls;  ///< of lookup `irradiance`: distance or mls
-  gi::ProbeLayer layer = gi::ProbeLayer::sum;        ///< self where there is no hierarchy
-  int degree = 4;                                    ///< bands kept by the lookup
-  bool hier = false;                                 ///< HIER over the edges that the set has
+  gi::WeightMethod weights = gi::WeightMethod::fitted;  ///< of lookup `irradiance`
+  gi::ProbeLayer layer = gi::ProbeLayer::sum;           ///< self where there is no hierarchy
+  int degree = 4;                                       ///< bands kept by the lookup
+  bool hier = false;                                    ///< HIER over the edges that the set has
   gi::HierParams hier_params{.op = gi::HierOperator::mean};
 
   // Probes on the screen

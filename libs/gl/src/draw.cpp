@@ -17,7 +17,11 @@ void apply(const DrawState& state) {
   glDepthFunc(GL_GEQUAL);
   enable(GL_BLEND, state.blend != Blend::off);
   glBlendEquation(GL_FUNC_ADD);
-  state.blend == Blend::add ? glBlendFunc(GL_ONE, GL_ONE) : glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  if (state.blend == Blend::add) {
+    glBlendFunc(GL_ONE, GL_ONE);
+  } else {
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  }
   enable(GL_CULL_FACE, state.cull != Cull::off);
   glCullFace(state.cull == Cull::front ? GL_FRONT : GL_BACK);
   const GLboolean color = state.color_write ? GL_TRUE : GL_FALSE;

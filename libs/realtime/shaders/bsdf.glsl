@@ -80,16 +80,22 @@ Bsdf bsdf_from(vec3 diffuse, vec3 f0, float diffuse_roughness, float specular_ro
   return b;
 }
 
-vec3 eval_bsdf(Bsdf b, vec3 wo, vec3 wi) {
+// The diffuse layer under the lobe.
+vec3 eval_diffuse(Bsdf b, vec3 wo, vec3 wi) {
   if (wo.z <= 0 || wi.z <= 0) return vec3(0);
   float d = b.diffuse_roughness == 0 ? wi.z / PI
             : b.diffuse_roughness < 0 ? oren_nayar(min(-b.diffuse_roughness, 1), wo, wi)
                                       : disney_diffuse(min(b.diffuse_roughness, 1), wo, wi);
   if (!b.specular) return b.diffuse * d;
-  vec3 h = normalize(wo + wi);
-  float s = schlick_weight(dot(wo, h));
-  vec3 result = (b.f0 * (1 - s) + b.f90 * s) * (b.phong ? blinn_phong(b.alpha, wo, wi, h) : ggx(b.alpha, wo, wi, h));
   vec4 table = albedo_entry(b.phong, wi.z, b.roughness);
   vec3 share = 1 - min(b.f0 * table.x + b.f90 * table.y, vec3(1));
-  return result + b.diffuse * b.left * share * d;
+  return b.diffuse * b.left * share * d;
+}
+
+vec3 eval_bsdf(Bsdf b, vec3 wo, vec3 wi) {
+  vec3 diffuse = eval_diffuse(b, wo, wi);
+  if (!b.specular || wo.z <= 0 || wi.z <= 0) return diffuse;
+  vec3 h = normalize(wo + wi);
+  float s = schlick_weight(dot(wo, h));
+  return diffuse + (b.f0 * (1 - s) + b.f90 * s) * (b.phong ? blinn_phong(b.alpha, wo, wi, h) : ggx(b.alpha, wo, wi, h));
 }

@@ -141,7 +141,36 @@ void main() {
 #endif
 
 #ifdef ENVIRONMENT
-// Irradiance by spherical harmonics, divided among directions with shadow maps.
+#ifdef FULL_BSDF
+// Octahedral tiles of what lobes of some roughnesses see (environment_tiles.h).
+layout(binding = 12) uniform sampler2DArray environment_tiles;
+uniform ivec4 environment_layout;  // texels of a tile without its border, log2 of tiles in a row
+const int ENVIRONMENT_LEVELS = 8;
+uniform float environment_roughness[ENVIRONMENT_LEVELS];
+
+vec3 environment_tile(int level, vec2 texel) {
+  ivec3 place = tile_place(level, environment_layout.y);
+  vec2 at = vec2(place.xy * (environment_layout.x + 2)) + texel;
+  return textureLod(environment_tiles, vec3(at / vec2(textureSize(environment_tiles, 0).xy), place.z), 0).rgb;
+}
+vec3 through_lobe(vec3 d, float roughness) {
+  int level = 0;
+  for (int i = 1; i + 1 < ENVIRONMENT_LEVELS; ++i) level = roughness >= environment_roughness[i] ? i : level;
+  float low = environment_roughness[level], high = environment_roughness[level + 1];
+  vec2 texel = 1 + (0.5 + 0.5 * oct_encode(d)) * float(environment_layout.x);
+  return mix(environment_tile(level, texel), environment_tile(level + 1, texel),
+             clamp((roughness - low) / (high - low), 0, 1));
+}
+vec3 diffusely(Surface s, vec3 wi) {
+  vec3 local = wi * basis;
+  return local.z > 0 ? eval_diffuse(bsdf, wo, local) / local.z : vec3(0);
+}
+#else
+vec3 diffusely(Surface s, vec3 wi) { return reflected(s, wi); }
+#endif
+
+// Irradiance by spherical harmonics, divided among directions with shadow maps. What the specular lobe mirrors comes from
+// tiles, dimmed by the share of the directions around the mirrored one that are free.
 void main() {
   Surface s = read_surface(ivec2(gl_FragCoord.xy));
   prepare(s);
@@ -151,17 +180,34 @@ void main() {
   for (int k = 0; k < 25; ++k) whole += environment_sh[k].rgb * harmonics[k];
   whole = max(whole, vec3(0)) * emitter.light.rgb;
   vec3 total = vec3(0), sum = vec3(0), lit = vec3(0);
+#ifdef FULL_BSDF
+  // Rough lobes lean toward the normal (Lagarde & de Rousiers, Moving Frostbite to PBR, SIGGRAPH 2014 course)
+  float keep = (1 - bsdf.alpha) * (sqrt(1 - bsdf.alpha) + bsdf.alpha);
+  vec3 mirror = normalize(mix(s.normal, reflect(-s.wo, s.normal), keep));
+  float narrow = min(1 / max(bsdf.alpha * bsdf.alpha, 1e-3), 8), around = 0, free = 0;
+#endif
   for (int i = 0; i < emitter.items.z; ++i) {
     AreaSample q = emitter.samples[i];
     vec3 wi = q.place.xyz;
     vec3 weight = q.light.rgb * max(dot(s.normal, wi), 0);
     total += weight;
-    if (dot(s.geometric_normal, wi) <= 0) weight = vec3(0);
+    bool above = dot(s.geometric_normal, wi) > 0;
+    if (!above) weight = vec3(0);
     float v = parallel_visibility(sun_maps[int(q.normal.w)], s.position, s.geometric_normal);
     lit += weight * v;
-    sum += max_component(weight) > 0 ? weight * v * reflected(s, wi) : vec3(0);
+    sum += max_component(weight) > 0 ? weight * v * diffusely(s, wi) : vec3(0);
+#ifdef FULL_BSDF
+    float near = above ? luminance(q.light.rgb) * exp(narrow * (dot(mirror, wi) - 1)) : 0;
+    around += near;
+    free += near * v;
+#endif
   }
   vec3 scale = whole / max(total, vec3(1e-20));
-  store(sum * scale, luminance(whole), luminance(lit * scale));
+  vec3 reflects = sum * scale;
+#ifdef FULL_BSDF
+  float open = around > 0 ? free / around : 1;
+  reflects += bsdf.albedo * open * emitter.light.rgb * through_lobe(mirror, bsdf.roughness);
+#endif
+  store(reflects, luminance(whole), luminance(lit * scale));
 }
 #endif

@@ -35,7 +35,8 @@ vec4 tangent_of_triangle(vec2 place, vec3 front) {
 #endif
 
 void main() {
-  bool mirrored = instance.emission_scale.w != 0;
+  int flags = int(instance.emission_scale.w);
+  bool mirrored = (flags & 1) != 0;
   vec4 base = base_color(uv.xy, uv.zw, color);
   if (!covered(base.a, gl_FragCoord.xy, gl_FragCoord.z)) discard;
 
@@ -91,7 +92,7 @@ void main() {
   vec3 diffuse = unlit ? vec3(0) : base.rgb * (1 - metallic);
   vec3 f0 = unlit ? vec3(0) : mix(vec3(material.rough.z), base.rgb, metallic);
   gbuffer0 = uvec4(packSnorm2x16(oct_encode(n)), packSnorm2x16(oct_encode(toward_viewer)),
-                   pack_color(diffuse, 0u), pack_color(f0, 0u));
+                   pack_color(diffuse, (flags & 2) != 0 ? 1u : 0u), pack_color(f0, 0u));
   gbuffer1 = uvec2(packSnorm2x16(roughness), floatBitsToUint(dot(from_camera, frame.camera_forward.xyz)));
   color_out = vec4(emission_shown != 0 ? emission : vec3(0), 1);
 }

@@ -8,6 +8,7 @@ struct Surface {
   vec3 diffuse, f0;
   float diffuse_roughness, specular_roughness;
   float depth;  // along the view axis
+  bool moves;   // on a body that an animation moves
 };
 
 // Direction to the viewer's world through a pixel; for an orthographic camera its offset on the image plane.
@@ -42,6 +43,7 @@ Surface read_surface(ivec2 at) {
   s.normal = oct_decode(unpackSnorm2x16(g0.x));
   s.geometric_normal = oct_decode(unpackSnorm2x16(g0.y));
   s.diffuse = unpack_color(g0.z);
+  s.moves = g0.z >> 30 != 0u;
   s.f0 = unpack_color(g0.w);
   vec2 roughness = unpackSnorm2x16(g1.x);
   s.diffuse_roughness = roughness.x;

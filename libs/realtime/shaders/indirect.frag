@@ -1,6 +1,6 @@
 #version 450 core
-// Light from SPHLs, as libs/gi's lookups find it. Variants: LOOKUP_LIGHT, else irradiance; MLS, else weights by
-// distance; FULL_BSDF, else surfaces are Lambertian; TO_IMAGES gives irradiance and glossy radiance for apply.frag,
+// Light from SPHLs, as libs/gi's lookups find it. Variants: LOOKUP_LIGHT, else irradiance; MLS or TRILINEAR, else weights
+// by distance; FITTED with MLS, irradiance from fitted points where there are any; FULL_BSDF, else surfaces are Lambertian; TO_IMAGES gives irradiance and glossy radiance for apply.frag,
 // at some pixels only; CHOSEN_VIEW the probe that counts most.
 #include "gbuffer_read.glsl"
 #ifdef FULL_BSDF
@@ -8,6 +8,12 @@
 #endif
 #include "shadow.glsl"
 #include "probe_lookup.glsl"
+#ifdef FITTED
+#include "fitted_lookup.glsl"
+#endif
+#if defined(MLS) || defined(TRILINEAR)
+#define FIT
+#endif
 
 #ifdef TO_IMAGES
 layout(location = 0) out vec4 irradiance_out;
@@ -31,7 +37,7 @@ int next_bit(inout uint bits) {
 
 #ifdef LOOKUP_LIGHT
 // The nearest visible one above the horizon as a lamp, I = L / (N . w); else the nearest as if it stood here.
-Found look_up(Surface s, vec3 mirror, float roughness) {
+Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
   int base = candidates_at(s.position);
   uint above = 0;
   vec4 nearest = vec4(0), chosen = vec4(0);
@@ -75,6 +81,11 @@ float bump_of(float d2) {
   return falloff * falloff + 1e-6;
 }
 
+float tent_of(vec3 d) {
+  vec3 t = max(1 - abs(d) / frame.tone.w, 0);
+  return min(t.x, min(t.y, t.z)) > 1e-4 ? t.x * t.y * t.z : 0;
+}
+
 // Those of the candidates that are the MAX_NEAR nearest to x; `within` of them are no farther than far2.
 uint nearest_of(int base, vec3 x, int within, float far2) {
   // Look for a distance with so many inside; there is none where several are equally far
@@ -98,9 +109,10 @@ uint nearest_of(int base, vec3 x, int within, float far2) {
 }
 
 // MLS: a linear fit to what the probes in sight within two spacings give, weighted by a bump, and its value at x
-// (gi::WeightMethod::mls). Else, or where x sees none of those: inverse squared distance times a wrapped cosine
-// over the nearest that x sees; if it sees none, over the nearest, less those below the tangent plane.
-Found look_up(Surface s, vec3 mirror, float roughness) {
+// (gi::WeightMethod::mls). TRILINEAR: a tent of one spacing along each axis. Else, or where x sees none of those: inverse
+// squared distance times a wrapped cosine over the nearest that x sees; if it sees none, over the nearest, less those
+// below the tangent plane. Without `wanted` the result means nothing and costs little.
+Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
   int base = candidates_at(s.position);
   float spacing = frame.tone.w;
 #ifdef MLS
@@ -112,14 +124,18 @@ Found look_up(Surface s, vec3 mirror, float roughness) {
   float far2 = 0;
   for (int i = 0; i < frame.counts.z; ++i) {
     vec4 near = candidate(base + i);
-    if (near.w < 0) break;
+    if (near.w < 0 || !wanted) break;
     vec3 d = near.xyz - s.position;
     float d2 = dot(d, d);
     uint bit = 1u << i;
     listed |= bit;
     bool above = maybe_above(d, d2, s.normal);
+#ifdef FIT
 #ifdef MLS
     bool reached = d2 < reach2;
+#else
+    bool reached = tent_of(d) > 0;
+#endif
     beyond |= above && !reached ? bit : 0u;
 #else
     const bool reached = true;
@@ -129,7 +145,7 @@ Found look_up(Surface s, vec3 mirror, float roughness) {
     far2 = reached ? max(far2, d2) : far2;
   }
   if (within > MAX_NEAR) pending &= nearest_of(base, s.position, within, far2);
-#ifdef MLS
+#ifdef FIT
   bool fits = pending != 0;
   if (!fits) pending = beyond;
 #else
@@ -146,13 +162,14 @@ Found look_up(Surface s, vec3 mirror, float roughness) {
     float bump = sees && fits ? bump_of(d2) : 0;
     vec4 p = vec4(1, d / spacing);
     matrix += bump * outerProduct(p, p);
+#endif
+#ifdef FIT
     // Beyond the fit's reach, once it has found nothing
     bool further = pending == 0 && seen == 0 && fits;
     fits = fits && !further;
     pending = further ? beyond : pending;
-#else
-    if (bitCount(seen) == MAX_BLEND) pending = 0;
 #endif
+    if (!fits && bitCount(seen) == MAX_BLEND) pending = 0;
   }
 #ifdef MLS
   const float ridge = 0.05;  // keeps the fit flat where the probes do not differ
@@ -182,6 +199,8 @@ Found look_up(Surface s, vec3 mirror, float roughness) {
     most = max(most, weight);
 #ifdef MLS
     weight = fits ? bump_of(d2) * dot(row, vec4(1, d / spacing)) : weight;
+#elif defined(TRILINEAR)
+    weight = fits ? tent_of(d) : weight;
 #endif
     sum += weight;
     weight *= seen != 0 ? 1 : clamp(4 * cosine, 0, 1);  // as gi::LookupWeights
@@ -203,7 +222,19 @@ void main() {
 #endif
   Surface s = read_surface(at);
   float roughness = min(abs(s.specular_roughness), 1);
-  Found found = look_up(s, reflect(-s.wo, s.normal), roughness);
+#ifdef FITTED
+  vec3 fitted;
+  bool is_fitted = fitted_irradiance(s, fitted);
+#endif
+#if defined(FITTED) && !defined(FULL_BSDF)
+  bool wanted = !is_fitted;
+#else
+  const bool wanted = true;
+#endif
+  Found found = look_up(s, reflect(-s.wo, s.normal), roughness, wanted);
+#ifdef FITTED
+  found.irradiance = is_fitted ? fitted : found.irradiance;
+#endif
 #if defined(CHOSEN_VIEW)
   vec3 hue = vec3(hash01(uvec3(found.chosen, 1, 0)), hash01(uvec3(found.chosen, 2, 0)), hash01(uvec3(found.chosen, 3, 0)));
   color = vec4((0.15 + 0.85 * hue) * (found.count > 0 ? 0.4 + 0.6 * min(float(found.count) / 8, 1) : 0.15), 1);

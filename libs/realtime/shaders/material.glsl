@@ -15,7 +15,7 @@ layout(std140, binding = 3) uniform MaterialBlock {
 layout(std140, binding = 4) uniform InstanceBlock {
   mat4 world;
   mat3x4 normal;        // inverse transpose, columns
-  vec4 emission_scale;  // of its light group; w: 1 if it mirrors
+  vec4 emission_scale;  // of its light group; w: 1 if it mirrors, and 2 if an animation moves it
 } instance;
 
 layout(binding = 8) uniform sampler2D base_texture;

@@ -18,13 +18,6 @@ struct Place {
   vec3 world, normal;
 };
 
-/// Radical inverse: the van der Corput and Halton sequences.
-double radical_inverse(unsigned i, unsigned base) {
-  double value = 0, digit = 1.0 / base;
-  for (; i > 0; i /= base, digit /= base) value += digit * (i % base);
-  return value;
-}
-
 std::vector<Place> points_by_area(const scene::Mesh& mesh, const mat4& to_world, int count) {
   std::vector<double> sum;
   double total = 0;
@@ -53,6 +46,12 @@ std::vector<Place> points_by_area(const scene::Mesh& mesh, const mat4& to_world,
 }
 
 }  // namespace
+
+double radical_inverse(unsigned i, unsigned base) {
+  double value = 0, digit = 1.0 / base;
+  for (; i > 0; i /= base, digit /= base) value += digit * (i % base);
+  return value;
+}
 
 std::vector<AreaPoint> spread_points(const scene::Mesh& mesh, const mat4& to_world, int count) {
   constexpr int candidates_each = 64, rounds = 12;

@@ -8,6 +8,9 @@
 
 namespace ssphh::realtime {
 
+/// Radical inverse: the van der Corput and Halton sequences, 0..1.
+double radical_inverse(unsigned i, unsigned base);
+
 struct AreaPoint {
   vec3 position{0};
   vec3 normal{0};   ///< unit; zero: shines everywhere

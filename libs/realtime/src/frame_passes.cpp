@@ -54,6 +54,13 @@ void Renderer::Data::draw_geometry(const FrameSettings& settings) {
   for (unsigned i = 0; i < unit::count; ++i) gl::Sampler::unbind(i);
 }
 
+void Renderer::Data::bind_sky_lobes(gl::Program& program) {
+  if (sky_lobes.bytes() == 0) sky_lobes = environment_tiles(*lights.environment());
+  sky_lobes.bind(unit::environment_tiles);
+  program.set("environment_layout", sky_lobes.size(), sky_lobes.layout().columns_log2);
+  program.set("environment_roughness", std::span<const float>(environment_roughness));
+}
+
 void Renderer::Data::draw_direct(bool shadow_view) {
   lights.bind();
   if (probes.count() > 0) probes.bind_sight();
@@ -65,16 +72,19 @@ void Renderer::Data::draw_direct(bool shadow_view) {
   for (const Lights::Lit& lit : lights.lit()) {
     lights.bind_emitter(lit);
     for_each_class([&](bool full, const gl::DrawState& where) {
-      fullscreen(shaders.direct(lit.kind, full, shadow_view), target.id(), images.full(), where);
+      gl::Program& program = shaders.direct(lit.kind, full, shadow_view);
+      if (full && lit.kind == EmitterKind::environment) bind_sky_lobes(program);
+      fullscreen(program, target.id(), images.full(), where);
     });
   }
 }
 
 IndirectLookup Renderer::Data::lookup_of(const FrameSettings& settings) const {
   if (settings.lookup == gi::LookupMethod::light) return IndirectLookup::light;
+  if (settings.weights == gi::WeightMethod::fitted && probes.has_fitted()) return IndirectLookup::fitted;
   // One probe has no spacing, nor anything to fit
-  const bool fits = settings.weights != gi::WeightMethod::distance && probes.count() > 1;
-  return fits ? IndirectLookup::mls : IndirectLookup::distance;
+  if (settings.weights == gi::WeightMethod::distance || probes.count() < 2) return IndirectLookup::distance;
+  return settings.weights == gi::WeightMethod::trilinear ? IndirectLookup::trilinear : IndirectLookup::mls;
 }
 
 void Renderer::Data::draw_indirect(const FrameSettings& settings) {

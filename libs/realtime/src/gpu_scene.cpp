@@ -75,7 +75,8 @@ void set_world(GpuInstance& instance, const mat4& world) {
   const mat3 normal = singular ? linear : glm::transpose(glm::inverse(linear));
   instance.world = world;
   for (int c = 0; c < 3; ++c) instance.normal[c] = vec4(normal[c], 0);
-  instance.emission_scale.w = det < 0 ? 1 : 0;
+  const bool moves = instance.emission_scale.w >= 2;
+  instance.emission_scale.w = static_cast<float>((det < 0 ? 1 : 0) + (moves ? 2 : 0));
 }
 
 }  // namespace
@@ -117,6 +118,8 @@ GpuScene::GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, fl
     const auto m = none ? materials_.size() - 1 : static_cast<std::size_t>(material);
     const bool emissive = !none && scene.materials[m].emissive();
     groups_.push_back(emissive ? scene::light_group_index(groups, scene::light_group(scene, instance)) : -1);
+    const bool moves = instance.node >= 0 && scene.nodes[static_cast<std::size_t>(instance.node)].movable;
+    gpu.emission_scale.w = moves ? 2 : 0;
     instances_.push_back(gpu);
     nodes_.push_back(instance.node);
     if (instance.mesh < 0) continue;

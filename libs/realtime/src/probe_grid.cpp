@@ -82,4 +82,23 @@ ProbeGrid make_probe_grid(std::span<const vec3> probes, const scene::Bounds& bou
   return grid;
 }
 
+std::vector<float> probe_reach(const ProbeGrid& grid, std::span<const vec3> probes) {
+  std::vector<float> reach(probes.size(), 0);
+  std::size_t entry = 0;
+  for (int z = 0; z < grid.cells.z; ++z) {
+    for (int y = 0; y < grid.cells.y; ++y) {
+      for (int x = 0; x < grid.cells.x; ++x) {
+        const vec3 low = grid.origin + grid.cell_size * vec3(x, y, z), high = low + grid.cell_size;
+        for (int i = 0; i < grid.length; ++i, ++entry) {
+          if (grid.lists[entry] < 0) continue;
+          const auto probe = static_cast<std::size_t>(grid.lists[entry]);
+          const vec3 farthest = glm::max(glm::abs(low - probes[probe]), glm::abs(high - probes[probe]));
+          reach[probe] = std::max(reach[probe], glm::length(farthest));
+        }
+      }
+    }
+  }
+  return reach;
+}
+
 }  // namespace ssphh::realtime

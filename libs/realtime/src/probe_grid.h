@@ -24,6 +24,10 @@ struct ProbeGrid {
   std::vector<int> lists;
 };
 
+/// How far from each probe the points may be that choose among it [m]: the farthest corner of a cell that
+/// lists it.
+std::vector<float> probe_reach(const ProbeGrid& grid, std::span<const vec3> probes);
+
 /// Cells of a third of the probes' spacing or larger, at most `most_cells`, over `bounds`.
 ProbeGrid make_probe_grid(std::span<const vec3> probes, const scene::Bounds& bounds, float spacing,
                           std::size_t most_cells = 1 << 17);

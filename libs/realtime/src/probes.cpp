@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <ssphh/core/error.h>
@@ -88,23 +89,48 @@ Probes::Probes(const gi::ProbeSet& set, const gi::LookupParams& params, const Re
   levels_ = glossy ? static_cast<int>(level_roughness.size()) : 1;
   counters.bytes_uploaded += cells_.bytes();
 
-  std::vector<int> all_probes;
-  for (std::size_t i = 0; i < set.probes.size(); ++i) {
-    all_probes.push_back(static_cast<int>(i));
+  for (std::size_t i = 0; i < set.probes.size(); ++i)
     light_.push_back(chosen_light(set, i, layer, params.light));
-  }
-  make_tiles(all_probes, true, false, counters);
+  irradiance_functions_.resize(light_.size() * irradiance_count());
+  make_tiles(all_probes(), true, false, counters);
 
   maps_ = MapAtlas(face_size(places_.size(), renderer.probe_map_bytes), 6 * count());
-  for (int i = 0; i < count(); ++i) {
-    for (int face = 0; face < 6; ++face) maps_.set_view(6 * i + face, cube_view(position(i), face, near_));
-  }
+  const std::vector<float> reach = probe_reach(grid_, places_);
+  for (int i = 0; i < count(); ++i) place_maps(i, reach[static_cast<std::size_t>(i)]);
+}
+
+void Probes::place_maps(int probe, float reach) {
+  for (int face = 0; face < 6; ++face)
+    maps_.set_view(6 * probe + face, cube_view(position(probe), face, near_, reach));
+}
+
+void Probes::see_all(int probe) {
+  if (sees_all_.empty()) sees_all_.assign(places_.size(), 0);
+  unsigned char& known = sees_all_[static_cast<std::size_t>(probe)];
+  if (!known) place_maps(probe, std::numeric_limits<float>::infinity());
+  known = 1;
 }
 
 void Probes::set_light(std::span<const int> probes, std::span<const sh::RadianceSh> light,
                        FrameCounters& counters) {
   for (std::size_t i = 0; i < probes.size(); ++i) light_[static_cast<std::size_t>(probes[i])] = light[i];
   make_tiles(probes, true, has_radiance_, counters);
+  if (has_fitted()) fitted_.update(probes, irradiance_functions_, irradiance_count(), counters);
+}
+
+void Probes::set_fitted(const FittedSurfaces& fitted, FrameCounters& counters) {
+  fitted_ = fitted.empty() ? FittedLight() : FittedLight(fitted, count(), counters);
+  if (has_fitted()) fitted_.update(all_probes(), irradiance_functions_, irradiance_count(), counters);
+}
+
+std::vector<int> Probes::all_probes() const {
+  std::vector<int> all(places_.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+std::size_t Probes::irradiance_count() const {
+  return static_cast<std::size_t>(sh::coefficient_count(irradiance_degree_));
 }
 
 void Probes::want_radiance(FrameCounters& counters) {
@@ -112,15 +138,12 @@ void Probes::want_radiance(FrameCounters& counters) {
   has_radiance_ = true;
   radiance_basis_ = TileBasis(radiance_tile, radiance_degree_);
   radiance_ = TileAtlas(radiance_tile, levels_ * count());
-  std::vector<int> all(light_.size());
-  std::iota(all.begin(), all.end(), 0);
-  make_tiles(all, false, true, counters);
+  make_tiles(all_probes(), false, true, counters);
 }
 
 void Probes::make_tiles(std::span<const int> probes, bool irradiance, bool radiance,
                         FrameCounters& counters) {
   static constexpr std::array<float, sh::max_degree + 1> ones = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
-  const auto irradiance_count = static_cast<std::size_t>(sh::coefficient_count(irradiance_degree_));
   const std::size_t small = irradiance ? irradiance_basis_.texels() : 0;
   const std::size_t large = radiance ? radiance_basis_.texels() : 0;
   const std::size_t each = small + static_cast<std::size_t>(levels_) * large;
@@ -138,10 +161,14 @@ void Probes::make_tiles(std::span<const int> probes, bool irradiance, bool radia
         for (std::size_t r = 0; radiance && r < static_cast<std::size_t>(levels_); ++r)
           radiance_basis_.evaluate(l.values, sh::glossy_band_scales(level_roughness[r]), tile(i, r));
         if (!irradiance) continue;
-        l.values.resize(irradiance_count, vec3(0));
+        l.values.resize(irradiance_count(), vec3(0));
         if (dering_) l = sh::dering(l, sh::NonNegative::irradiance);
-        irradiance_basis_.evaluate(sh::irradiance_from_radiance(l).values, ones,
-                                   std::span<vec4>(texels_.data() + i * each, small));
+        const sh::IrradianceSh e = sh::irradiance_from_radiance(l);
+        irradiance_basis_.evaluate(e.values, ones, std::span<vec4>(texels_.data() + i * each, small));
+        std::copy_n(e.values.begin(), irradiance_count(),
+                    irradiance_functions_.begin() +
+                        static_cast<std::ptrdiff_t>(static_cast<std::size_t>(probes[first + i]) *
+                                                    irradiance_count()));
       }
     });
     for (std::size_t i = 0; i < n; ++i) {
@@ -171,10 +198,11 @@ void Probes::bind_lookup(gl::Program& program) const {
   program.set("irradiance_layout", irradiance_.size(), irradiance_.layout().columns_log2);
   program.set("radiance_layout", radiance_.size(), radiance_.layout().columns_log2, levels_);
   program.set("level_roughness", std::span<const float>(level_roughness));
+  if (has_fitted()) fitted_.bind(program);
 }
 
 std::size_t Probes::bytes() const {
-  return maps_.bytes() + irradiance_.bytes() + radiance_.bytes() + cells_.bytes();
+  return maps_.bytes() + irradiance_.bytes() + radiance_.bytes() + cells_.bytes() + fitted_.bytes();
 }
 
 }  // namespace ssphh::realtime

@@ -9,6 +9,7 @@
 #include <ssphh/gi/probe_set.h>
 #include <ssphh/realtime/renderer.h>
 
+#include "fitted_light.h"
 #include "octahedral.h"
 #include "probe_grid.h"
 #include "shadow_maps.h"
@@ -31,8 +32,14 @@ class Probes {
   float near_plane() const { return near_; }
 
   void set_light(std::span<const int> probes, std::span<const sh::RadianceSh> light, FrameCounters& counters);
+  /// Points with weights of their own; empty: none. Throws Error for points that name a probe which there is
+  /// not.
+  void set_fitted(const FittedSurfaces& fitted, FrameCounters& counters);
+  bool has_fitted() const { return !fitted_.empty(); }
   /// Makes the tiles of radiance, which only glossy surfaces and SPHLs as lights need, unless they are there.
   void want_radiance(FrameCounters& counters);
+  /// The probe's shadow map shall hold what is beyond those that look it up, too: it is a light.
+  void see_all(int probe);
   void invalidate(const std::vector<scene::Bounds>& moved) { maps_.invalidate(moved); }
   int update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most, int& waiting,
                   FrameCounters& counters);
@@ -51,12 +58,18 @@ class Probes {
   MapAtlas maps_;
   TileBasis irradiance_basis_, radiance_basis_;
   TileAtlas irradiance_, radiance_;
+  void place_maps(int probe, float reach);
+  std::vector<int> all_probes() const;
+  std::size_t irradiance_count() const;
   void make_tiles(std::span<const int> probes, bool irradiance, bool radiance, FrameCounters& counters);
 
   std::vector<sh::RadianceSh> light_;
-  int levels_ = 1;             ///< roughnesses of which radiance is kept
-  bool has_radiance_ = false;  ///< its tiles are there
-  std::vector<vec4> texels_;   ///< of the probes that change, while they are made
+  std::vector<vec3> irradiance_functions_;  ///< coefficients, probe after probe
+  FittedLight fitted_;
+  int levels_ = 1;                       ///< roughnesses of which radiance is kept
+  bool has_radiance_ = false;            ///< its tiles are there
+  std::vector<unsigned char> sees_all_;  ///< of each probe; empty: none does
+  std::vector<vec4> texels_;             ///< of the probes that change, while they are made
   gl::Texture cells_;
 };
 

@@ -123,6 +123,12 @@ void Renderer::set_probes(const gi::ProbeSet& set, const gi::LookupParams& param
   d.context.throw_on_error("uploading probes");
 }
 
+void Renderer::set_fitted(const FittedSurfaces& fitted) {
+  Data& d = *data_;
+  d.probes.set_fitted(fitted, d.counters);
+  d.context.throw_on_error("uploading fitted weights");
+}
+
 void Renderer::update_probes(std::span<const int> probes, std::span<const sh::RadianceSh> light) {
   SSPHH_CHECK(probes.size() == light.size());
   for (const int probe : probes) {
@@ -145,6 +151,7 @@ void Renderer::set_emission(int probe, const sh::RadianceSh& leaving, float radi
   if (probe < 0 || probe >= probe_count())
     throw Error(fmt::format("probe {}", probe), fmt::format("there are {}", probe_count()));
   const bool none = leaving.empty() || !(radius > 0);
+  if (!none) data_->probes.see_all(probe);
   data_->lights.set_emission(probe, data_->probes.position(probe), none ? 0 : radius, leaving);
 }
 
@@ -181,8 +188,8 @@ image::Image Renderer::read_back() const {
   return out;
 }
 
-unsigned Renderer::depth_texture() const {
-  return data_->images.depth.id();
+const gl::Texture& Renderer::depth_texture() const {
+  return data_->images.depth;
 }
 
 mat4 Renderer::view_projection() const {
@@ -192,7 +199,7 @@ mat4 Renderer::view_projection() const {
 std::size_t Renderer::memory_bytes() const {
   const Data& d = *data_;
   return d.scene.bytes() + d.lights.bytes() + d.probes.bytes() + d.images.bytes() + d.sky.bytes() +
-         (d.method ? d.method->bytes() : 0);
+         d.sky_lobes.bytes() + (d.method ? d.method->bytes() : 0);
 }
 
 std::string Renderer::shader_warnings() {

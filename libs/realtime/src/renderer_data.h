@@ -9,6 +9,7 @@
 #include <ssphh/gl/vertex_array.h>
 #include <ssphh/realtime/renderer.h>
 
+#include "environment_tiles.h"
 #include "frame_images.h"
 #include "gpu_scene.h"
 #include "lights.h"
@@ -45,6 +46,7 @@ struct Renderer::Data {
   }
   void draw_shadows();
   void draw_geometry(const FrameSettings& settings);
+  void bind_sky_lobes(gl::Program& program);
   void draw_direct(bool shadow_view);
   IndirectLookup lookup_of(const FrameSettings& settings) const;
   void draw_indirect(const FrameSettings& settings);
@@ -70,6 +72,7 @@ struct Renderer::Data {
   std::unique_ptr<MethodLight> method;  ///< null: probes light the scene
   gl::Texture albedo, sky;
   gl::Sampler sky_sampler;
+  TileAtlas sky_lobes;  ///< made when something glossy is first lit by an environment
   gl::Buffer frame_buffer;
   gl::VertexArray no_vertices;
   FrameImages images;

@@ -45,8 +45,10 @@ gl::Program& Shaders::indirect(IndirectLookup lookup, bool full, IndirectOutput 
   if (slot) return *slot;
   return get(slot, fullscreen, "indirect.frag",
              define("LOOKUP_LIGHT", lookup == IndirectLookup::light) +
-                 define("MLS", lookup == IndirectLookup::mls) + define("FULL_BSDF", full) +
-                 define("TO_IMAGES", output == IndirectOutput::images) +
+                 define("TRILINEAR", lookup == IndirectLookup::trilinear) +
+                 define("MLS", lookup == IndirectLookup::mls || lookup == IndirectLookup::fitted) +
+                 define("FITTED", lookup == IndirectLookup::fitted && output != IndirectOutput::chosen) +
+                 define("FULL_BSDF", full) + define("TO_IMAGES", output == IndirectOutput::images) +
                  define("CHOSEN_VIEW", output == IndirectOutput::chosen));
 }
 
@@ -80,9 +82,9 @@ std::string Shaders::compile_all() {
     for (int k = 0; k < emitter_kinds; ++k) {
       for (const bool shadow_view : {false, true}) direct(static_cast<EmitterKind>(k), full, shadow_view);
     }
-    for (const auto lookup : {IndirectLookup::light, IndirectLookup::distance, IndirectLookup::mls}) {
+    for (int lookup = 0; lookup < indirect_lookups; ++lookup) {
       for (const auto output : {IndirectOutput::radiance, IndirectOutput::images, IndirectOutput::chosen})
-        indirect(lookup, full, output);
+        indirect(static_cast<IndirectLookup>(lookup), full, output);
     }
   }
   for (const auto kind : {EmitterKind::sun, EmitterKind::sphere, EmitterKind::environment}) seen(kind);

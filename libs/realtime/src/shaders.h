@@ -14,7 +14,8 @@
 namespace ssphh::realtime {
 
 /// How indirect.frag finds light.
-enum class IndirectLookup : int { light, distance, mls };
+enum class IndirectLookup : int { light, distance, trilinear, mls, fitted };
+inline constexpr int indirect_lookups = 5;
 /// What it gives: radiance, images for apply.frag, or a view of the choice.
 enum class IndirectOutput : int { radiance, images, chosen };
 
@@ -50,8 +51,8 @@ class Shaders {
 
   const gl::ShaderFiles* files_;
   std::string warnings_;
-  Slot geometry_[16], shadow_[2], direct_[emitter_kinds][2][2], indirect_[3][2][3], apply_[2], occlusion_,
-      method_[method_kinds][2][2], seen_[emitter_kinds], view_, resolve_, display_;
+  Slot geometry_[16], shadow_[2], direct_[emitter_kinds][2][2], indirect_[indirect_lookups][2][3], apply_[2],
+      occlusion_, method_[method_kinds][2][2], seen_[emitter_kinds], view_, resolve_, display_;
 };
 
 }  // namespace ssphh::realtime

@@ -21,12 +21,14 @@ constexpr FaceAxes axes[6] = {{{0, 0, -1}, {0, 1, 0}, {1, 0, 0}}, {{0, 0, 1}, {0
 
 }  // namespace
 
-MapView cube_view(const vec3& origin, int face, float near_plane) {
+MapView cube_view(const vec3& origin, int face, float near_plane, float reach) {
   const FaceAxes& a = axes[static_cast<std::size_t>(face)];
-  return {origin, a.right, a.up, a.forward, near_plane};
+  return {origin, a.right, a.up, a.forward, near_plane, reach};
 }
 
 bool sees_box(const MapView& view, const scene::Bounds& box) {
+  const vec3 away = glm::clamp(view.origin, box.min, box.max) - view.origin;
+  if (glm::dot(away, away) > view.reach * view.reach) return false;
   // Outside if all corners lie beyond one and the same edge
   bool left = true, right = true, below = true, above = true, behind = true;
   for (int i = 0; i < 8; ++i) {

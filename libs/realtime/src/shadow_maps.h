@@ -2,6 +2,7 @@
 /// Shadow maps as tiles of depth arrays: six tiles per cube map, one per parallel map. Tiles are drawn when
 /// they are out of date and kept otherwise.
 
+#include <limits>
 #include <vector>
 
 #include <ssphh/gl/framebuffer.h>
@@ -17,11 +18,14 @@ namespace ssphh::realtime {
 struct MapView {
   vec3 origin{0}, right{0}, up{0}, forward{0};
   float near_plane = 0;  ///< 0: parallel
+  /// Of a cube face, metres: nobody farther away asks, so what stands beyond blocks nothing.
+  float reach = std::numeric_limits<float>::infinity();
 };
 
 /// Face 0..5 in the order and with the axes of shadow.glsl.
-MapView cube_view(const vec3& origin, int face, float near_plane);
-/// Whether the view can see anything of the box.
+MapView cube_view(const vec3& origin, int face, float near_plane,
+                  float reach = std::numeric_limits<float>::infinity());
+/// Whether the view can see anything of the box within its reach.
 bool sees_box(const MapView& view, const scene::Bounds& box);
 
 class MapAtlas {

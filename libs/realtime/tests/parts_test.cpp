@@ -10,10 +10,12 @@
 #include <ssphh/sh/evaluate.h>
 
 #include "emitter_samples.h"
+#include "fitted_entry.h"
 #include "mesh_pieces.h"
 #include "octahedral.h"
 #include "probe_grid.h"
 #include "shadow_maps.h"
+#include "still_surface.h"
 
 namespace ssphh::realtime {
 namespace {
@@ -66,6 +68,53 @@ TEST(ProbeGrid, ListsHoldTheNearestOfEveryPointInOrderFromTheMiddle) {
     }
   }
   EXPECT_LT(full, cells / 41 / 3) << "most cells have all their probes";
+}
+
+TEST(ProbeGrid, NoPointIsFartherThanTheReachOfAProbeThatItMayChoose) {
+  const std::vector<vec3> probes = random_points(300, 4);
+  const ProbeGrid grid = make_probe_grid(probes, {vec3(-4), vec3(4)}, 1.1f);
+  const std::vector<float> reach = probe_reach(grid, probes);
+  float closest = 0;  // of all distances to their probe's reach
+  for (const vec3& x : random_points(2000, 4)) {
+    const glm::ivec3 c(glm::floor((x - grid.origin) / grid.cell_size));
+    const int cell = (c.z * grid.cells.y + c.y) * grid.cells.x + c.x;
+    for (int i = 0; i < grid.length; ++i) {
+      const int probe = grid.lists[static_cast<std::size_t>(cell * grid.length + i)];
+      if (probe < 0) break;
+      const auto p = static_cast<std::size_t>(probe);
+      EXPECT_LE(glm::distance(probes[p], x), reach[p]);
+      closest = std::max(closest, glm::distance(probes[p], x) / reach[p]);
+    }
+  }
+  EXPECT_GT(closest, 0.9f) << "and some are nearly as far";
+}
+
+TEST(FittedEntry, NormalsKeepTheirDirectionAndAxesExactly) {
+  for (const vec3& n : {vec3(1, 0, 0), vec3(0, -1, 0), vec3(0, 0, -1)})
+    EXPECT_EQ(CoarseNormal::of(n).unit(), n);
+  for (vec3 n : random_points(500, 1)) {
+    n = glm::normalize(n);
+    // A step of 2/62 on the map is at most 0.09 on the sphere, of which half and that across the diagonal
+    EXPECT_GT(glm::dot(CoarseNormal::of(n).unit(), n), std::cos(0.07f));
+  }
+}
+
+TEST(StillSurface, PartsCoverTheirTriangleWithinTheBox) {
+  const StillTriangle whole{{0, 0, 0}, {4, 0, 0}, {0, 3, 1}};
+  const auto area = [](const StillTriangle& t) {
+    return 0.5f * glm::length(glm::cross(t.b - t.a, t.c - t.a));
+  };
+  float sum = 0;
+  visit_parts(whole, vec3(-1), vec3(5), 0.3f, [&](const StillTriangle& t) {
+    sum += area(t);
+    EXPECT_LE(std::max({glm::distance(t.a, t.b), glm::distance(t.b, t.c), glm::distance(t.c, t.a)}), 0.3f);
+  });
+  EXPECT_NEAR(sum, area(whole), 1e-3f);
+  float some = 0;
+  visit_parts(whole, {0, 0, -1}, {1, 1, 1}, 0.3f, [&](const StillTriangle& t) { some += area(t); });
+  const float inside = std::sqrt(1 + 1.0f / 9);  // a unit square seen along z, on the triangle's slope
+  EXPECT_GT(some, inside);
+  EXPECT_LT(some, inside + 0.3f * 2.2f);
 }
 
 TEST(ProbeGrid, StaysWithinItsCellsForAnySpacing) {
@@ -178,6 +227,9 @@ TEST(ShadowMaps, AFaceSeesABoxThatReachesIntoIt) {
   EXPECT_FALSE(sees_box(view, {{-3, 1.5f, 2.5f}, {-2, 2.5f, 3.5f}})) << "behind";
   EXPECT_FALSE(sees_box(view, {{2, 6, 2.5f}, {3, 7, 3.5f}})) << "above";
   EXPECT_TRUE(sees_box(view, {{-9, -9, -9}, {9, 9, 9}})) << "around";
+  const MapView near = cube_view({1, 2, 3}, 0, 0.01f, 2.5f);
+  EXPECT_TRUE(sees_box(near, {{3, 1.5f, 2.5f}, {4, 2.5f, 3.5f}}));
+  EXPECT_FALSE(sees_box(near, {{3.6f, 1.5f, 2.5f}, {4, 2.5f, 3.5f}})) << "farther than anybody asks";
 }
 
 }  // namespace

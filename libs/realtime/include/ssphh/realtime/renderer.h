@@ -16,7 +16,9 @@
 #include <ssphh/gi/methods/method.h>
 #include <ssphh/gi/probe_set.h>
 #include <ssphh/gl/context.h>
+#include <ssphh/gl/texture.h>
 #include <ssphh/image/image.h>
+#include <ssphh/realtime/fitted_surfaces.h>
 #include <ssphh/realtime/frame_stats.h>
 #include <ssphh/realtime/settings.h>
 #include <ssphh/scene/query.h>
@@ -71,6 +73,9 @@ class Renderer {
   /// Probes that light the scene: copies what it needs. `params.weights` and `params.irradiance_degree` limit
   /// what FrameSettings may ask for. Throws Error as gi::IrradianceLookup does.
   void set_probes(const gi::ProbeSet& set, const gi::LookupParams& params = {});
+  /// Fitted weights of the last set_probes' probes, for FrameSettings::weights `fitted`; set_probes forgets
+  /// them. Empty: none. Throws Error for points that name a probe which there is not.
+  void set_fitted(const FittedSurfaces& fitted);
   /// New light for some probes of the last set_probes, one function each: what surfaces look up. Cost and
   /// upload are proportional to their number.
   void update_probes(std::span<const int> probes, std::span<const sh::RadianceSh> light);
@@ -95,11 +100,11 @@ class Renderer {
   /// The last frame as scene-linear radiance, before exposure and tone curve; row 0 on top.
   image::Image read_back() const;
 
-  /// What drew the last frame's surfaces, for those who draw more into it: OpenGL's name of the depth at
-  /// every sample (the target's size times supersample; 32-bit float with stencil, 1 near, 0 far away; row 0
+  /// What drew the last frame's surfaces, for those who draw more into it: the depth at every sample
+  /// (the target's size times supersample; 32-bit float with stencil, 1 near, 0 far away; row 0
   /// at the bottom), and world to clip space with z in 0..1. The texture is another after a frame of another
   /// size.
-  unsigned depth_texture() const;
+  const gl::Texture& depth_texture() const;
   mat4 view_projection() const;
 
   /// Bytes of OpenGL memory that this renderer asked for.

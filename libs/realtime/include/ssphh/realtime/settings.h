@@ -25,8 +25,9 @@ struct FrameSettings {
   bool direct = true;
   bool indirect = true;
   gi::LookupMethod lookup = gi::LookupMethod::irradiance;
-  /// Of lookup `irradiance`: distance or mls; the others are drawn as mls.
-  gi::WeightMethod weights = gi::WeightMethod::mls;
+  /// Of lookup `irradiance`. `fitted` holds where Renderer::set_fitted prepared points and surfaces stand
+  /// still; elsewhere it is mls, as by default on the CPU.
+  gi::WeightMethod weights = gi::WeightMethod::fitted;
   int indirect_scale = 1;  ///< n: indirect light at every n-th pixel each way, filled in along surfaces
   int supersample = 1;     ///< samples per pixel along each side, 1..4
   bool ambient_occlusion = false;

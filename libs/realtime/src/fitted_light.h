@@ -1,0 +1,47 @@
+#pragma once
+/// Light at fitted points in OpenGL's memory, and which of them light a surface: what fitted_lookup.glsl
+/// reads.
+
+#include <span>
+#include <vector>
+
+#include <ssphh/gl/program.h>
+#include <ssphh/gl/texture.h>
+#include <ssphh/realtime/fitted_surfaces.h>
+
+#include "upload_count.h"
+
+namespace ssphh::realtime {
+
+class FittedLight {
+ public:
+  FittedLight() = default;
+  /// Uploads the lists. Throws Error for points that name a probe which there is not.
+  FittedLight(const FittedSurfaces& surfaces, int probe_count, FrameCounters& counters);
+
+  bool empty() const { return points_.points.empty(); }
+  /// New irradiance of some probes: evaluates the points that any of them lights. `irradiance` holds `count`
+  /// coefficients, 25 at most, for each probe of the set, those changed or not.
+  void update(std::span<const int> probes, std::span<const vec3> irradiance, std::size_t count,
+              FrameCounters& counters);
+  void bind(gl::Program& program) const;
+  std::size_t bytes() const;
+
+ private:
+  void evaluate(std::size_t point, std::span<const vec3> irradiance, std::size_t count,
+                std::span<uvec4> texels) const;
+  void upload_changed(FrameCounters& counters);
+
+  gi::FittedPoints points_;
+  float spacing_ = 0, cell_size_ = 1;
+  vec3 origin_{0};
+  ivec3 cells_{0};
+  std::vector<std::size_t> first_of_probe_;  ///< in lit_by_: points that each probe lights
+  std::vector<std::uint32_t> lit_by_;
+  std::vector<unsigned char> marked_;  ///< points, while an update gathers them
+  std::vector<std::uint32_t> changed_;
+  std::vector<uvec4> texels_;
+  gl::Texture ranges_, lists_, light_;
+};
+
+}  // namespace ssphh::realtime

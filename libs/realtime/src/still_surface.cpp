@@ -1,0 +1,63 @@
+#include "still_surface.h"
+
+#include <algorithm>
+
+namespace ssphh::realtime {
+
+std::vector<StillTriangle> still_triangles(const scene::Scene& scene, float time) {
+  const std::vector<mat4> world = scene::world_matrices(scene, time);
+  std::vector<StillTriangle> out;
+  for (const scene::Instance& instance : scene.instances) {
+    if (instance.mesh < 0) continue;
+    const bool posed = instance.node >= 0;
+    if (posed && scene.nodes[static_cast<std::size_t>(instance.node)].movable) continue;
+    const int material = scene::instance_material(scene, instance);
+    if (material >= 0 && scene.materials[static_cast<std::size_t>(material)].unlit) continue;
+    const mat4 to_world = posed ? world[static_cast<std::size_t>(instance.node)] : mat4(1);
+    const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    const auto corner = [&](unsigned i) { return vec3(to_world * vec4(mesh.positions[i], 1)); };
+    for (const uvec3& t : mesh.triangles) {
+      const StillTriangle now{corner(t.x), corner(t.y), corner(t.z)};
+      if (glm::length(glm::cross(now.b - now.a, now.c - now.a)) > 0) out.push_back(now);
+    }
+  }
+  return out;
+}
+
+TriangleCells triangle_cells(const std::vector<StillTriangle>& triangles, const vec3& origin, float size,
+                             const ivec3& cells) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  // cell, triangle
+  const vec3 all(1e30f);
+  const auto cell_of = [&](const vec3& x) {
+    return glm::clamp(ivec3(glm::floor((x - origin) / size)), ivec3(0), cells - 1);
+  };
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const std::size_t begin = pairs.size();
+    visit_parts(triangles[i], -all, all, 0.5f * size, [&](const StillTriangle& t) {
+      const ivec3 low = cell_of(glm::min(t.a, glm::min(t.b, t.c)));
+      const ivec3 high = cell_of(glm::max(t.a, glm::max(t.b, t.c)));
+      for (int z = low.z; z <= high.z; ++z) {
+        for (int y = low.y; y <= high.y; ++y) {
+          for (int x = low.x; x <= high.x; ++x)
+            pairs.emplace_back((z * cells.y + y) * cells.x + x, static_cast<std::uint32_t>(i));
+        }
+      }
+    });
+    const auto from = pairs.begin() + static_cast<std::ptrdiff_t>(begin);
+    std::sort(from, pairs.end());
+    pairs.erase(std::unique(from, pairs.end()), pairs.end());
+  }
+  std::sort(pairs.begin(), pairs.end());
+  TriangleCells out;
+  const auto count = static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y) *
+                     static_cast<std::size_t>(cells.z);
+  out.first.assign(count + 1, 0);
+  for (const auto& [cell, triangle] : pairs) {
+    ++out.first[cell + 1];
+    out.triangles.push_back(triangle);
+  }
+  for (std::size_t cell = 0; cell < count; ++cell) out.first[cell + 1] += out.first[cell];
+  return out;
+}
+
+}  // namespace ssphh::realtime
