@@ -11,8 +11,6 @@
 namespace ssphh::gi {
 namespace {
 
-constexpr std::size_t most_near = 12;
-
 /// Sums weights by probe, in the order in which probes first come.
 class SumByProbe {
  public:
@@ -31,7 +29,7 @@ class SumByProbe {
  private:
   static constexpr std::uint16_t none = 0xffff;
   std::array<std::uint16_t, 256> slots_;  ///< of an open hash table that is never full
-  std::array<ProbeWeight, most_near * max_weights> sums_;
+  std::array<ProbeWeight, most_fitted_points * max_weights> sums_;
   static_assert(std::tuple_size_v<decltype(sums_)> < std::tuple_size_v<decltype(slots_)>);
   std::size_t count_ = 0;
 };
@@ -121,14 +119,14 @@ ProbeWeights FittedLookupWeights::at(const scene::SurfacePoint& point) const {
   if (point.moves) return elsewhere_->at(point);
   const vec3 &x = point.position, &n = point.normal;
   const float radius = 4 * spacing_;
-  std::array<Near, most_near> near;
+  std::array<Near, most_fitted_points> near;
   const int count = near_.find(x, near, radius);
   const Frame frame = Frame::around(n);
   const float lift = 0.02f * spacing_;
   // Points fade out toward the farthest that is looked at.
   const float reach =
-      count == static_cast<int>(most_near) ? std::sqrt(near[most_near - 1].distance2) * 1.0001f : radius;
-  std::array<Share, most_near> shares;
+      count == static_cast<int>(most_fitted_points) ? std::sqrt(near[most_fitted_points - 1].distance2) * 1.0001f : radius;
+  std::array<Share, most_fitted_points> shares;
   std::size_t used = 0;
   for (int i = 0; i < count; ++i) {
     const Near& found = near[static_cast<std::size_t>(i)];

@@ -16,9 +16,8 @@
 namespace ssphh::realtime {
 namespace {
 
-// What gi::FittedLookupWeights takes, and by how much more may serve a shading normal that is not the
-// surface's.
-constexpr std::size_t most_near = 24;
+// By how much less than gi::FittedLookupWeights takes a point's normal may agree with the surface's: shading
+// normals are not those.
 constexpr float least_cosine = 0.2f;
 
 gi::FittedPoints with_weights(const gi::FittedPoints& fitted) {
@@ -105,9 +104,9 @@ class Preparation {
   /// How far a lookup at x looks [m].
   float reach(const vec3& x) const {
     const float radius = 4 * out_.spacing;
-    std::array<gi::Near, most_near> near;
+    std::array<gi::Near, gi::most_fitted_points> near;
     const int count = near_.find(x, near, radius);
-    return count == static_cast<int>(most_near) ? std::sqrt(near[most_near - 1].distance2) * 1.0001f : radius;
+    return count == static_cast<int>(gi::most_fitted_points) ? std::sqrt(near[gi::most_fitted_points - 1].distance2) * 1.0001f : radius;
   }
 
   std::vector<uvec4> list_of(std::size_t cell, Work& work) const {
