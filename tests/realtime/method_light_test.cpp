@@ -24,6 +24,8 @@ using Settings = std::vector<std::string>;
 using testing::HasSubstr;
 
 constexpr PictureSize size{96, 54};
+/// Small maps, to be quick.
+const realtime::RendererParams quick{.virtual_light_map_bytes = std::size_t{16} << 20};
 
 /// A method in a scene, lit for one time.
 struct Subject {
@@ -153,7 +155,7 @@ class MethodLight : public test::WithGl {
     return picture;
   }
   Picture draw(const Subject& subject, const std::string& camera,
-               const realtime::RendererParams& params = {}) {
+               const realtime::RendererParams& params = quick) {
     realtime::Renderer renderer(gl(), subject.scene, params, subject.time);
     renderer.set_method_light(subject.method->light_data());
     return draw(renderer, subject, camera);
@@ -243,9 +245,10 @@ TEST_F(MethodLight, IsReflectedByGlossySurfacesAsTheTracerDoes) {
 }
 
 TEST_F(MethodLight, BehindAShutDoorIsDark) {
-  const Subject lights("two-rooms", "vpl", {"photons=256", "check_points=0"});
-  const double lit = test::mean_luminance(draw(lights, "room-a").radiance);
-  const double dark = test::mean_luminance(draw(lights, "room-b").radiance);
+  const Subject lights("two-rooms", "vpl", {"photons=64", "check_points=0"});
+  const realtime::RendererParams fine{.virtual_light_map_bytes = std::size_t{64} << 20};
+  const double lit = test::mean_luminance(draw(lights, "room-a", fine).radiance);
+  const double dark = test::mean_luminance(draw(lights, "room-b", fine).radiance);
   ASSERT_EQ(test::mean_luminance(looked_up(lights, "room-b").radiance), 0);
   // The door is 4 cm thick; what stands within 1.5 texels behind it, 7 cm at 1.5 m, may be lit
   EXPECT_LT(dark, 2e-3 * lit);
@@ -295,7 +298,7 @@ TEST_F(MethodLight, KeepsToTheMemoryItIsGiven) {
 
 TEST_F(MethodLight, FollowsLampsAndKeepsMapsThatHold) {
   Subject lights("two-rooms", "vpl", {"photons=64", "check_points=0"});
-  realtime::Renderer renderer(gl(), lights.scene);
+  realtime::Renderer renderer(gl(), lights.scene, quick);
   renderer.set_method_light(lights.method->light_data());
   const double once = test::mean_luminance(draw(renderer, lights, "room-a").radiance);
   gi::FrameState state = gi::frame_at(lights.source, 0);
@@ -326,7 +329,7 @@ TEST_F(MethodLight, ByImagesIsTheSameLight) {
                                                                  {"vpl", {"photons=64", "check_points=0"}}};
   for (const auto& [name, settings] : methods) {
     const Subject subject("two-rooms", name, settings);
-    realtime::Renderer renderer(gl(), subject.scene);
+    realtime::Renderer renderer(gl(), subject.scene, quick);
     renderer.set_method_light(subject.method->light_data());
     const double every = test::mean_luminance(draw(renderer, subject, "room-a").radiance);
     realtime::FrameSettings frame;
@@ -344,7 +347,7 @@ TEST_F(MethodLight, FramesInSteadyStateAllocateNothing) {
     const Subject subject("two-rooms", name,
                           name == std::string("vct") ? Settings{"resolution=8", "bounces=1"}
                                                      : Settings{"photons=8", "check_points=0"});
-    realtime::Renderer renderer(gl(), subject.scene);
+    realtime::Renderer renderer(gl(), subject.scene, quick);
     renderer.set_method_light(subject.method->light_data());
     const scene::CameraPose camera = subject.camera("");
     const realtime::Target target{.width = 16, .height = 9};

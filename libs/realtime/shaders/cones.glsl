@@ -56,9 +56,7 @@ vec4 trace_cone(vec3 origin, vec3 direction, float tangent) {
     int fine = min(int(level), top);
     float share = fine < top ? level - float(fine) : 0;
     vec4 read = read_level(fine, place, facing);
-    // Software renderers run both sides of a branch but no empty loop
-    for (int coarse = fine + 1; share > 0 && coarse == fine + 1; ++coarse)
-      read = mix(read, read_level(coarse, place, facing), share);
+    read = mix(read, read_level(min(fine + 1, top), place, facing), share);
     crossing = read.w > 0;
     vec4 behind = cones.march.y * way * read;
     // As gi::vct::cover
