@@ -86,20 +86,16 @@ float tent_of(vec3 d) {
   return min(t.x, min(t.y, t.z)) > 1e-4 ? t.x * t.y * t.z : 0;
 }
 
-// Those of the candidates that are the MAX_NEAR nearest to x; `within` of them are no farther than far2.
-uint nearest_of(int base, vec3 x, int within, float far2) {
+// Those of the candidates, of squared distances d2_of, that are the MAX_NEAR nearest; `within` of them are no farther
+// than far2.
+uint nearest_of(float d2_of[MAX_LISTED], int listed, int within, float far2) {
   // Look for a distance with so many inside; there is none where several are equally far
   float low = 0, high = far2, middle = far2 * pow(float(MAX_NEAR) / float(max(within, 1)), 2.0 / 3.0);
   uint inside = 0;
   int found = within;
   for (int step = 0; step < 12 && found != MAX_NEAR && within > MAX_NEAR; ++step) {
     inside = 0;
-    for (int i = 0; i < frame.counts.z; ++i) {
-      vec4 near = candidate(base + i);
-      if (near.w < 0) break;
-      vec3 d = near.xyz - x;
-      inside |= dot(d, d) <= middle ? 1u << i : 0u;
-    }
+    for (int i = 0; i < listed; ++i) inside |= d2_of[i] <= middle ? 1u << i : 0u;
     found = bitCount(inside);
     low = found < MAX_NEAR ? middle : low;
     high = found < MAX_NEAR ? high : middle;
@@ -121,13 +117,14 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
 #endif
   uint listed = 0, pending = 0, beyond = 0, seen = 0;
   int within = 0;
-  float far2 = 0;
+  float far2 = 0, d2_of[MAX_LISTED];
   for (int i = 0; i < frame.counts.z; ++i) {
     vec4 near = candidate(base + i);
     if (near.w < 0 || !wanted) break;
     vec3 d = near.xyz - s.position;
     float d2 = dot(d, d);
     uint bit = 1u << i;
+    d2_of[i] = d2;
     listed |= bit;
     bool above = maybe_above(d, d2, s.normal);
 #ifdef FIT
@@ -144,7 +141,7 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
     within += reached ? 1 : 0;
     far2 = reached ? max(far2, d2) : far2;
   }
-  if (within > MAX_NEAR) pending &= nearest_of(base, s.position, within, far2);
+  if (within > MAX_NEAR) pending &= nearest_of(d2_of, bitCount(listed), within, far2);
 #ifdef FIT
   bool fits = pending != 0;
   if (!fits) pending = beyond;

@@ -4,6 +4,7 @@
 // ProbeGrid's lists, CELLS_WIDTH entries in a row: position; w: probe, -1 where a list ends.
 layout(binding = 14) uniform sampler2D probe_cells;
 const int CELLS_WIDTH_LOG2 = 11;
+const int MAX_LISTED = 32;  // ProbeGrid::longest
 const int MAX_NEAR = 16;  // probes among which a point chooses
 const int MAX_BLEND = 8;  // probes that light a point by distance
 
