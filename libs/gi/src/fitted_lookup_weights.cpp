@@ -124,8 +124,9 @@ ProbeWeights FittedLookupWeights::at(const scene::SurfacePoint& point) const {
   const Frame frame = Frame::around(n);
   const float lift = 0.02f * spacing_;
   // Points fade out toward the farthest that is looked at.
-  const float reach =
-      count == static_cast<int>(most_fitted_points) ? std::sqrt(near[most_fitted_points - 1].distance2) * 1.0001f : radius;
+  const float reach = count == static_cast<int>(most_fitted_points)
+                          ? std::sqrt(near[most_fitted_points - 1].distance2) * 1.0001f
+                          : radius;
   std::array<Share, most_fitted_points> shares;
   std::size_t used = 0;
   for (int i = 0; i < count; ++i) {

@@ -106,7 +106,9 @@ class Preparation {
     const float radius = 4 * out_.spacing;
     std::array<gi::Near, gi::most_fitted_points> near;
     const int count = near_.find(x, near, radius);
-    return count == static_cast<int>(gi::most_fitted_points) ? std::sqrt(near[gi::most_fitted_points - 1].distance2) * 1.0001f : radius;
+    return count == static_cast<int>(gi::most_fitted_points)
+               ? std::sqrt(near[gi::most_fitted_points - 1].distance2) * 1.0001f
+               : radius;
   }
 
   std::vector<uvec4> list_of(std::size_t cell, Work& work) const {
