@@ -38,7 +38,9 @@ std::vector<vec3> positions_of(const gi::FittedPoints& fitted) {
 
 struct Sample {
   vec3 position, normal;  ///< of one side; the other's is −normal
-  bool alive = false;     ///< sees any of the points that were asked for at every sample
+  /// Whether any point that faces this side's way, or the other's, is seen from there. What sees none lies
+  /// within a body, and has no say.
+  std::array<bool, 2> alive{};
 };
 
 /// What one thread needs while it makes a cell's list.
@@ -128,8 +130,10 @@ class Preparation {
     find_candidates(corner, farthest, work);
     for (Work::Candidate& candidate : work.candidates) ask(candidate, work);
     for (const Work::Candidate& candidate : work.candidates) {
-      for (std::size_t i = 0; i < candidate.asked.size(); ++i)
-        work.samples[candidate.asked[i]].alive |= candidate.seen.empty() || candidate.seen[i];
+      for (std::size_t i = 0; i < candidate.asked.size(); ++i) {
+        Sample& s = work.samples[candidate.asked[i]];
+        s.alive[side(s, candidate.point)] |= candidate.seen.empty() || candidate.seen[i];
+      }
     }
 
     work.list.assign(1, uvec4(0));
@@ -165,7 +169,7 @@ class Preparation {
         if (glm::any(glm::lessThan(at, ivec3(0))) || glm::any(glm::greaterThan(at, ivec3(7)))) return;
         unsigned char& taken =
             work.taken[static_cast<std::size_t>(((at.z * 8 + at.y) * 8 + at.x) * 3 + axis)];
-        if (taken++ < 2) work.samples.push_back({x, normal, false});
+        if (taken++ < 2) work.samples.push_back({x, normal});
         taken = std::min<unsigned char>(taken, 2);
       });
     }
@@ -197,10 +201,15 @@ class Preparation {
     }
   }
 
+  /// 1 where the point faces the other side's way.
+  std::size_t side(const Sample& sample, std::uint32_t p) const {
+    return glm::dot(sample.normal, out_.points.points[p].normal) < 0;
+  }
+
   bool sees(const Sample& sample, std::uint32_t p) const {
     const scene::SurfacePoint& point = out_.points.points[p];
     const float lift = 0.02f * out_.spacing;
-    const vec3 n = glm::dot(sample.normal, point.normal) < 0 ? -sample.normal : sample.normal;
+    const vec3 n = side(sample, p) ? -sample.normal : sample.normal;
     return sees_(sample.position + lift * n, point.position + lift * point.normal);
   }
 
@@ -218,7 +227,7 @@ class Preparation {
       candidate.seen[i] = sees(work.samples[candidate.asked[i]], candidate.point);
   }
 
-  /// Squares in which every sample sees the point, those within walls apart, which see nothing. A square
+  /// Squares in which every sample sees the point, sides within bodies apart. A square
   /// without samples is as those around it.
   std::uint64_t squares_of(const Work::Candidate& candidate, int axis, const vec3& corner,
                            const Work& work) const {
@@ -226,7 +235,7 @@ class Preparation {
     std::uint64_t known = 0, hidden = 0;
     for (std::size_t i = 0; i < candidate.asked.size(); ++i) {
       const Sample& s = work.samples[candidate.asked[i]];
-      if (!s.alive) continue;
+      if (!s.alive[side(s, candidate.point)]) continue;
       const std::uint64_t bit = std::uint64_t{1}
                                 << fitted_square((s.position - corner) / out_.cell_size, axis);
       known |= bit;

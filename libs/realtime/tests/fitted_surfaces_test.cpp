@@ -1,0 +1,94 @@
+/// Which fitted points light which squares of a surface, under a body that almost touches it.
+
+#include <gtest/gtest.h>
+
+#include <ssphh/realtime/fitted_surfaces.h>
+#include <ssphh/scene/primitives.h>
+
+#include "fitted_entry.h"
+
+namespace ssphh::realtime {
+namespace {
+
+const vec3 low(-0.6f, 0.1f, -0.6f), high(0.6f, 1.2f, 0.6f);  // of the body
+
+/// Whether the way from a to b stays out of the body, by slabs.
+bool free_way(const vec3& a, const vec3& b) {
+  float enter = 0, leave = 1;
+  for (glm::length_t c = 0; c < 3; ++c) {
+    const float d = b[c] - a[c];
+    if (std::abs(d) < 1e-9f) {
+      if (a[c] <= low[c] || a[c] >= high[c]) return true;
+      continue;
+    }
+    const float t0 = (low[c] - a[c]) / d, t1 = (high[c] - a[c]) / d;
+    enter = std::max(enter, std::min(t0, t1));
+    leave = std::min(leave, std::max(t0, t1));
+  }
+  return enter >= leave;
+}
+
+scene::Scene body_on_a_floor() {
+  scene::Scene scene;
+  scene.nodes.emplace_back();
+  scene.materials.emplace_back();
+  scene.meshes.push_back(scene::make_quad({-3, 0, -3}, {0, 0, 6}, {6, 0, 0}));
+  scene.meshes.push_back(scene::make_box(low, high));
+  for (scene::Mesh& mesh : scene.meshes) mesh.material = 0;
+  scene.instances = {{0, 0, -1, ""}, {1, 0, -1, ""}};
+  return scene;
+}
+
+/// On the floor, half a metre apart, and one in the middle of the body's lower side.
+gi::FittedPoints points() {
+  gi::FittedPoints fitted;
+  const auto add = [&](const vec3& place, const vec3& normal) {
+    fitted.points.push_back({place, normal});
+    fitted.weights.emplace_back().add(0, 1);
+  };
+  for (int i = 0; i < 100; ++i)
+    add({0.5f * static_cast<float>(i % 10) - 2.25f, 0, 0.5f * static_cast<float>(i / 10) - 2.25f}, {0, 1, 0});
+  add({0, low.y, 0}, {0, -1, 0});
+  return fitted;
+}
+
+/// Places of the floor points that may light the floor at x and are well within a lookup's reach, about 1 m.
+std::vector<vec3> lighting(const FittedSurfaces& surfaces, const vec3& x) {
+  const vec3 u = (x - surfaces.origin) / surfaces.cell_size;
+  const ivec3 cell(glm::floor(u));
+  const int index = (cell.z * surfaces.cells.y + cell.y) * surfaces.cells.x + cell.x;
+  const uvec2 range = surfaces.ranges[static_cast<std::size_t>(index)];
+  const int square = fitted_square(u - vec3(cell), 1);
+  std::vector<vec3> places;
+  for (unsigned i = 1; i <= range.y; ++i) {
+    const uvec4 entry = surfaces.lists[range.x + i];
+    const scene::SurfacePoint& point = surfaces.points.points[entry.x >> 10];
+    if (point.normal.y > 0 && glm::distance(point.position, x) < 0.8f &&
+        ((square < 32 ? entry.z : entry.w) >> (square & 31) & 1u))
+      places.push_back(point.position);
+  }
+  return places;
+}
+
+TEST(FittedSurfaces, TheFloorUnderABodySeesItsNeighboursOnTheFloor) {
+  // The body's lower side lies in the same squares, faces the other way, and sees the one point on it.
+  const FittedSurfaces surfaces = prepare_fitted(body_on_a_floor(), 0, points(), free_way);
+  for (const vec3& x :
+       {vec3(0.45f, 0, 0.1f), vec3(-0.3f, 0, -0.35f), vec3(0.1f, 0, 0.1f), vec3(1.5f, 0, 0.2f)}) {
+    EXPECT_GE(lighting(surfaces, x).size(), 4u) << x.x << " " << x.z;
+  }
+}
+
+TEST(FittedSurfaces, TheFloorBesideABodySeesNothingThroughIt) {
+  gi::FittedPoints fitted = points();
+  const auto walled = [](const vec3& a, const vec3& b) { return (a.x < 0) == (b.x < 0); };
+  const FittedSurfaces surfaces = prepare_fitted(body_on_a_floor(), 0, fitted, walled);
+  for (const float x : {-0.4f, -0.2f, 0.2f, 0.4f}) {
+    const std::vector<vec3> places = lighting(surfaces, {x, 0, 0.1f});
+    EXPECT_FALSE(places.empty());
+    for (const vec3& p : places) EXPECT_EQ(p.x < 0, x < 0) << p.x << " from " << x;
+  }
+}
+
+}  // namespace
+}  // namespace ssphh::realtime
