@@ -8,7 +8,7 @@
 #include <ssphh/image/io.h>
 #include <ssphh/scene_io/renderer_export.h>
 
-#include "cycles_script.h"
+#include "cycles_scripts.h"
 #include "differences.h"
 #include "flat_scene.h"
 
@@ -194,9 +194,10 @@ ExportReport export_cycles(const scene::Scene& scene, const ExportSettings& sett
   }
   write_file(directory / "scene.bin", binary);
   write_file(directory / "scene.json", json.dump(1));
-  write_file(directory / "render.py", cycles_script);
-  write_file(directory / "specular_albedo.py", cycles_albedo_script);
-  report.files.push_back(directory / "specular_albedo.py");
+  for (const CyclesScript& script : cycles_scripts()) {
+    write_file(directory / script.name, script.text);
+    if (script.name != std::string_view("render.py")) report.files.push_back(directory / script.name);
+  }
   report.files.push_back(directory / "scene.json");
   report.files.push_back(directory / "scene.bin");
   report.command = fmt::format("blender --background --factory-startup --python {} -- --output picture.exr",

@@ -1,0 +1,184 @@
+"""Renders scene.json and scene.bin, which stand beside this file, with Blender's Cycles (written for Blender 3.4):
+
+  blender --background --factory-startup --python render.py -- --output picture.exr [--seed N] [--spp N] [--threads N]
+          [--projection camera|equirect]
+
+The picture is scene-linear radiance, 32-bit OpenEXR. World: y up there, z up in Blender.
+"""
+import argparse
+import json
+import os
+import sys
+
+import bpy
+from mathutils import Matrix
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE)
+sys.dont_write_bytecode = True
+try:
+    import numpy as np
+
+    from lights import TO_BLENDER, build_light, build_world
+    from materials import build_material
+except ImportError as error:  # Blender itself would go on and exit with 0
+    print("render.py: %s: another Python first on PATH hides Blender's numpy, or a file beside this one is missing"
+          % error, file=sys.stderr)
+    sys.exit(1)
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog="render.py", description=__doc__)
+    parser.add_argument("--output", required=True, help="picture to write (.exr)")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--spp", type=int, default=0, help="samples per pixel; 0: as exported")
+    parser.add_argument("--max-depth", type=int, default=-1, help="scattering events; -1: as exported")
+    parser.add_argument("--threads", type=int, default=0, help="0: all")
+    parser.add_argument("--projection", choices=("camera", "equirect"), default="camera",
+                        help="equirect: all around the camera's place, the centre looking to the world's +x")
+    return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
+
+
+def array(binary, offset, dtype, count, width):
+    return np.frombuffer(binary, dtype, count * width, offset).reshape(count, width)
+
+
+def build_mesh(m, binary, material):
+    mesh = bpy.data.meshes.new(m["name"])
+    points = array(binary, m["positions"], np.float32, m["vertices"], 3)
+    points = np.stack([points[:, 0], -points[:, 2], points[:, 1]], axis=1)
+    corners = array(binary, m["indices"], np.uint32, m["triangles"], 3).reshape(-1).astype(np.int32)
+    mesh.vertices.add(m["vertices"])
+    mesh.vertices.foreach_set("co", np.ascontiguousarray(points).reshape(-1))
+    mesh.loops.add(len(corners))
+    mesh.loops.foreach_set("vertex_index", corners)
+    mesh.polygons.add(m["triangles"])
+    mesh.polygons.foreach_set("loop_start", np.arange(0, len(corners), 3, dtype=np.int32))
+    mesh.polygons.foreach_set("loop_total", np.full(m["triangles"], 3, dtype=np.int32))
+    for name in ("uv0", "uv1"):
+        if name in m:
+            uv = array(binary, m[name], np.float32, m["vertices"], 2)
+            mesh.uv_layers.new(name=name).data.foreach_set("uv", np.ascontiguousarray(uv[corners]).reshape(-1))
+    if "colors" in m:
+        colors = array(binary, m["colors"], np.float32, m["vertices"], 4)
+        mesh.attributes.new("colors", "FLOAT_COLOR", "POINT").data.foreach_set("color", colors.reshape(-1))
+    mesh.update()
+    if "normals" in m:
+        normals = array(binary, m["normals"], np.float32, m["vertices"], 3)
+        normals = np.stack([normals[:, 0], -normals[:, 2], normals[:, 1]], axis=1)
+        mesh.polygons.foreach_set("use_smooth", np.ones(m["triangles"], dtype=bool))
+        mesh.use_auto_smooth = True
+        mesh.normals_split_custom_set_from_vertices(normals.tolist())
+    mesh.materials.append(material)
+    bpy.context.scene.collection.objects.link(bpy.data.objects.new(m["name"], mesh))
+
+
+def build_camera(c, render, projection):
+    data = bpy.data.cameras.new("camera")
+    camera = bpy.data.objects.new("camera", data)
+    bpy.context.scene.collection.objects.link(camera)
+    world = Matrix(c["world"])
+    if projection == "equirect":
+        # Forward to +x, up to +y: the right hand to +z.
+        axes = Matrix(((0, 0, -1, 0), (0, 1, 0, 0), (1, 0, 0, 0), (0, 0, 0, 1)))
+        world = Matrix.Translation(world.translation) @ axes
+    camera.matrix_world = TO_BLENDER @ world
+    aspect = render.resolution_x / render.resolution_y
+    if projection == "equirect":
+        data.type = "PANO"
+        data.cycles.panorama_type = "EQUIRECTANGULAR"
+    elif c["orthographic"]:
+        data.type = "ORTHO"
+        data.ortho_scale = c["yheight"] * max(1.0, aspect)  # of the longer side
+    else:
+        data.sensor_fit = "VERTICAL"
+        data.angle_y = c["yfov"]
+    data.clip_start, data.clip_end = 1e-4, 1e6
+    bpy.context.scene.camera = camera
+
+
+def choose_settings(scene, options):
+    s = bpy.context.scene
+    render, cycles = s.render, s.cycles
+    render.engine = "CYCLES"
+    render.resolution_x, render.resolution_y = scene["width"], scene["height"]
+    render.resolution_percentage = 100
+    render.film_transparent = False
+    render.image_settings.file_format = "OPEN_EXR"
+    render.image_settings.color_mode = "RGB"
+    render.image_settings.color_depth = "32"
+    render.image_settings.exr_codec = "ZIP"
+    render.use_persistent_data = False
+    if options.threads > 0:
+        render.threads_mode, render.threads = "FIXED", options.threads
+    s.view_settings.view_transform = "Raw"
+    cycles.device = "CPU"
+    cycles.samples = options.spp or scene["spp"]
+    cycles.seed = options.seed
+    cycles.use_adaptive_sampling = False
+    cycles.use_denoising = False
+    cycles.pixel_filter_type = "BOX"
+    cycles.filter_width = 1.0
+    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
+    cycles.light_sampling_threshold = 0
+    cycles.blur_glossy = 0
+    cycles.caustics_reflective = cycles.caustics_refractive = True
+    depth = scene["max_depth"] if options.max_depth < 0 else options.max_depth
+    # Cycles counts bounces after the first surface; depth 0 (emitters alone) is its emission pass.
+    bounces = max(0, depth - 1)
+    cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = bounces
+    cycles.transmission_bounces = cycles.volume_bounces = 0
+    cycles.transparent_max_bounces = 256
+    return depth
+
+
+def emitters_alone(scene):
+    """The picture of depth 0: emission pass plus environment pass."""
+    s = bpy.context.scene
+    layer = s.view_layers[0]
+    layer.use_pass_emit = layer.use_pass_environment = True
+    s.use_nodes = True
+    tree = s.node_tree
+    tree.nodes.clear()
+    layers = tree.nodes.new("CompositorNodeRLayers")
+    add = tree.nodes.new("CompositorNodeMixRGB")
+    add.blend_type = "ADD"
+    tree.links.new(layers.outputs["Emit"], add.inputs[1])
+    tree.links.new(layers.outputs["Env"], add.inputs[2])
+    out = tree.nodes.new("CompositorNodeComposite")
+    tree.links.new(add.outputs[0], out.inputs[0])
+
+
+def main():
+    options = arguments()
+    with open(os.path.join(HERE, "scene.json")) as file:
+        scene = json.load(file)
+    with open(os.path.join(HERE, "scene.bin"), "rb") as file:
+        binary = file.read()
+    for item in list(bpy.data.objects):
+        bpy.data.objects.remove(item)
+    materials = {}
+    for mesh in scene["meshes"]:
+        key = (mesh["material"], "colors" in mesh)
+        if key not in materials:
+            m = scene["default_material"] if key[0] < 0 else scene["materials"][key[0]]
+            materials[key] = build_material(m, scene, key[1])
+        build_mesh(mesh, binary, materials[key])
+    for light in scene["lights"]:
+        build_light(light)
+    build_world(scene.get("environment"))
+    depth = choose_settings(scene, options)
+    build_camera(scene["camera"], bpy.context.scene.render, options.projection)
+    if depth == 0:
+        emitters_alone(scene)
+    bpy.context.scene.render.filepath = os.path.abspath(options.output)
+    bpy.ops.render.render(write_still=True)
+
+
+try:
+    main()
+except Exception as error:  # Blender itself would go on and exit with 0
+    import traceback
+    traceback.print_exc()
+    print("render.py: failed: %s" % error, file=sys.stderr)
+    sys.exit(1)
