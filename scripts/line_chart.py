@@ -30,8 +30,9 @@ def label(value):
     return f"{value / 1e6:g}M" if value >= 1e6 else f"{value / 1e3:g}k" if value >= 1e4 else f"{value:g}"
 
 
-def write_chart(path, title, x_title, y_title, lines, log_x=False, log_y=False):
-    """`lines`: {name: [(x, y), …]}."""
+def write_chart(path, title, x_title, y_title, lines, log_x=False, log_y=False, names=()):
+    """`lines`: {name: [(x, y), …]}. `names`: all that charts of one page show, so that a name has one colour in all of them."""
+    names = list(names) or list(lines)
     points = [p for line in lines.values() for p in line]
     x_low, x_high, to_x = axis([p[0] for p in points], log_x)
     y_low, y_high, to_y = axis([p[1] for p in points], log_y)
@@ -48,7 +49,7 @@ def write_chart(path, title, x_title, y_title, lines, log_x=False, log_y=False):
     out.append(f"<text x='{(LEFT + WIDTH - RIGHT) / 2}' y='{HEIGHT - 8}' text-anchor='middle'>{x_title}</text>")
     out.append(f"<text transform='translate(16 {(TOP + HEIGHT - BOTTOM) / 2}) rotate(-90)' text-anchor='middle'>{y_title}</text>")
     for i, (name, line) in enumerate(lines.items()):
-        color = COLORS[i % len(COLORS)]
+        color = COLORS[names.index(name) % len(COLORS)]
         out.append(f"<polyline fill='none' stroke='{color}' stroke-width='1.6' points='"
                    + " ".join(f"{px(x):.1f},{py(y):.1f}" for x, y in line) + "'/>")
         out += [f"<circle cx='{px(x):.1f}' cy='{py(y):.1f}' r='2.5' fill='{color}'/>" for x, y in line if len(line) <= 12]

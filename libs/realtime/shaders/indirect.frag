@@ -1,11 +1,9 @@
 #version 450 core
-// Light from SPHLs, as libs/gi's lookups find it. Variants: LOOKUP_LIGHT, else irradiance; MLS or TRILINEAR, else weights
-// by distance; FITTED with MLS, irradiance from fitted points where there are any; FULL_BSDF, else surfaces are Lambertian; TO_IMAGES gives irradiance and glossy radiance for apply.frag,
-// at some pixels only; CHOSEN_VIEW the probe that counts most.
+// Light from SPHLs, as libs/gi's lookups find it. Variants: LOOKUP_LIGHT, else irradiance; MLS or TRILINEAR, else
+// weights by distance; FITTED with MLS, irradiance from fitted points where there are any; those of indirect_out.glsl;
+// CHOSEN_VIEW the probe that counts most.
 #include "gbuffer_read.glsl"
-#ifdef FULL_BSDF
-#include "bsdf.glsl"
-#endif
+#include "indirect_out.glsl"
 #include "shadow.glsl"
 #include "probe_lookup.glsl"
 #ifdef FITTED
@@ -13,13 +11,6 @@
 #endif
 #if defined(MLS) || defined(TRILINEAR)
 #define FIT
-#endif
-
-#ifdef TO_IMAGES
-layout(location = 0) out vec4 irradiance_out;
-layout(location = 1) out vec4 glossy_out;
-#else
-layout(location = 0) out vec4 color;
 #endif
 
 struct Found {
@@ -213,11 +204,7 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
 #endif
 
 void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-#ifdef TO_IMAGES
-  at *= int(frame.extra.y);
-#endif
-  Surface s = read_surface(at);
+  Surface s = read_surface(lit_pixel());
   float roughness = min(abs(s.specular_roughness), 1);
 #ifdef FITTED
   vec3 fitted;
@@ -232,16 +219,10 @@ void main() {
 #ifdef FITTED
   found.irradiance = is_fitted ? fitted : found.irradiance;
 #endif
-#if defined(CHOSEN_VIEW)
+#ifdef CHOSEN_VIEW
   vec3 hue = vec3(hash01(uvec3(found.chosen, 1, 0)), hash01(uvec3(found.chosen, 2, 0)), hash01(uvec3(found.chosen, 3, 0)));
   color = vec4((0.15 + 0.85 * hue) * (found.count > 0 ? 0.4 + 0.6 * min(float(found.count) / 8, 1) : 0.15), 1);
-#elif defined(TO_IMAGES)
-  irradiance_out = vec4(found.irradiance, 1);
-  glossy_out = vec4(found.glossy, 1);
-#elif defined(FULL_BSDF)
-  Bsdf bsdf = bsdf_from(s.diffuse, s.f0, s.diffuse_roughness, s.specular_roughness, dot(s.normal, s.wo));
-  color = vec4(s.diffuse * (1 - bsdf.albedo) / PI * found.irradiance + bsdf.albedo * found.glossy, 0);
 #else
-  color = vec4(s.diffuse / PI * found.irradiance, 0);
+  put_light(s, found.irradiance, found.glossy);
 #endif
 }

@@ -4,6 +4,7 @@
 #include <ssphh/gi/lookup.h>
 
 #include "methods/entries.h"
+#include "methods/kept_weights.h"
 #include "probe_volume.h"
 
 namespace ssphh::gi::methods {
@@ -23,7 +24,7 @@ class IrradianceVolume final : public Method {
     LookupParams params;
     params.irradiance_degree = irradiance_degree;
     lookup_.emplace(lookup_set(volume_.places(), volume_.radiance()),
-                    std::make_unique<SharedWeights>(volume_.weights()), params);
+                    std::make_unique<KeptWeights>(volume_.weights()), params);
   }
 
   const scene::IndirectLight& light() const override { return *lookup_; }

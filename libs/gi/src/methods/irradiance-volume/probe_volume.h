@@ -30,17 +30,6 @@ class VolumeWeights final : public LookupWeights {
   std::variant<Tetrahedra, GridWeights> by_;
 };
 
-/// Weights that outlive the lookups of single frames.
-class SharedWeights final : public LookupWeights {
- public:
-  explicit SharedWeights(const VolumeWeights& weights) : weights_(weights) {}
-  ProbeWeights at(const scene::SurfacePoint& point) const override { return weights_.at(point); }
-  std::size_t bytes() const override { return weights_.bytes(); }
-
- private:
-  const VolumeWeights& weights_;
-};
-
 class ProbeVolume {
  public:
   /// With the parameters that probe_volume_parameters() declares; `degree` of the probes' radiance.

@@ -9,6 +9,7 @@
 #include <ssphh/sh/rotate.h>
 
 #include "methods/entries.h"
+#include "methods/kept_weights.h"
 #include "methods/irradiance-volume/probe_volume.h"
 #include "sky_transfer.h"
 
@@ -113,7 +114,7 @@ class Prt final : public Method {
     LookupParams params;
     params.irradiance_degree = moving_degree;
     light_.between_probes.emplace(lookup_set(volume_.places(), around),
-                                  std::make_unique<SharedWeights>(volume_.weights()), params);
+                                  std::make_unique<KeptWeights>(volume_.weights()), params);
   }
 
   const scene::IndirectLight& light() const override { return light_; }

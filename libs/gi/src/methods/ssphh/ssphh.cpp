@@ -8,6 +8,7 @@
 #include <ssphh/gi/surface_points.h>
 
 #include "../entries.h"
+#include "../kept_weights.h"
 #include "../network_memory.h"
 
 namespace ssphh::gi::methods {
@@ -39,17 +40,6 @@ RelightParams relight_params(const MethodParameters& p) {
   params.warm_start = p.flag("warm_start");
   return params;
 }
-
-/// Weights that outlive the lookups of single frames.
-class KeptWeights final : public LookupWeights {
- public:
-  explicit KeptWeights(const LookupWeights& weights) : weights_(weights) {}
-  ProbeWeights at(const scene::SurfacePoint& point) const override { return weights_.at(point); }
-  std::size_t bytes() const override { return weights_.bytes(); }
-
- private:
-  const LookupWeights& weights_;
-};
 
 /// SPHLs lit by `surfel` transport, blended by visible or fitted weights.
 class Ssphh final : public Method {
