@@ -9,8 +9,8 @@
 #include <ssphh/sh/rotate.h>
 
 #include "methods/entries.h"
-#include "methods/kept_weights.h"
 #include "methods/irradiance-volume/probe_volume.h"
+#include "methods/kept_weights.h"
 #include "sky_transfer.h"
 
 namespace ssphh::gi::methods {
