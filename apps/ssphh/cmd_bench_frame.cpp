@@ -26,7 +26,8 @@ struct BenchOptions {
   GlLookup lookup;
   std::string camera, method = "ssphh";
   std::vector<std::string> parameters;
-  int width = 1280, height = 720, frames = 60, warm_up = 5, supersample = 1, indirect_scale = 1;
+  int width = 1280, height = 720, frames = 60, warm_up = 5, supersample = 1,
+      indirect_scale = 3;  // as in the viewer
   bool turn = false, ratio = false, move = false;
 };
 
@@ -148,6 +149,7 @@ void bench_frame(const BenchOptions& o, const Context& context) {
                                 {"height", o.height},
                                 {"frames", o.frames},
                                 {"probes", renderer.probe_count()},
+                                {"indirect_scale", o.indirect_scale},
                                 {"median_ms", median},
                                 {"p99_ms", p99},
                                 {"passes", medians},
@@ -210,7 +212,9 @@ void add_bench_frame_command(CLI::App& app, Context& context) {
       ->check(CLI::Range(1, 4))
       ->capture_default_str();
   command
-      ->add_option("--indirect-scale", o.indirect_scale, "Look probes up at every n-th pixel along each side")
+      ->add_option("--indirect-scale", o.indirect_scale,
+                   "Look indirect light up at every n-th pixel each way, and between them where they differ; "
+                   "1: at all")
       ->check(CLI::Range(1, 8))
       ->capture_default_str();
 }

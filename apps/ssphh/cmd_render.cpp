@@ -204,6 +204,8 @@ void render(const RenderOptions& o, const Context& context) {
   check_method(o);
   if (o.occlusion > 0)
     throw Error("--occlusion", "is an approximation of the real-time renderer", "add --backend gl");
+  if (o.indirect_scale > 1)
+    throw Error("--indirect-scale", "is of the real-time renderer", "add --backend gl");
   if (o.farm.any() && o.resume)
     throw Error("--resume", "is of renders in this process; a farm keeps finished tiles in --cache",
                 "repeat the command without it");
@@ -338,6 +340,14 @@ void add_render_command(CLI::App& app, Context& context) {
           "--occlusion", o.occlusion,
           "With --backend gl: dim SPHLs' light in corners by what stands within so many metres; 0: off")
       ->check(CLI::Range(0.0f, 100.0f))
+      ->capture_default_str()
+      ->group(probes);
+  command
+      ->add_option(
+          "--indirect-scale", o.indirect_scale,
+          "With --backend gl: look indirect light up at every n-th pixel each way, and interpolate where "
+          "that shows no difference (docs/methods/realtime.md)")
+      ->check(CLI::Range(1, 8))
       ->capture_default_str()
       ->group(probes);
   add_weights_option(*command, o.weights)->group(probes);

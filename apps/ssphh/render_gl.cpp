@@ -64,6 +64,7 @@ void render_gl(const RenderOptions& o, const Context& context) {
   int side = 1;
   while (side < 4 && side * side < o.spp * o.passes) ++side;
   realtime::FrameSettings settings = still_settings(lookup, side);
+  settings.indirect_scale = o.indirect_scale;
   settings.ambient_occlusion = o.occlusion > 0;
   if (o.occlusion > 0) settings.occlusion_radius = o.occlusion;
   const scene::CameraPose camera = scene::camera_pose(scene, o.camera, o.scene.time);

@@ -22,6 +22,7 @@ struct RenderOptions {
   int width = 1280, height = 720, max_depth = 3, passes = 1, spp = 16;
   float exposure = 0;
   float occlusion = 0;  ///< metres; 0: none
+  int indirect_scale = 1;
   bool resume = false, force = false;
 };
 

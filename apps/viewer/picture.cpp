@@ -70,6 +70,7 @@ realtime::FrameSettings frame_settings(const Settings& settings) {
   out.lookup = settings.lookup;
   out.weights = settings.weights;
   out.tone = {settings.exposure, settings.curve, 0};
+  out.indirect_scale = needs_truth(settings) ? 1 : settings.indirect_scale;
   switch (settings.debug) {
     case DebugView::none:
       break;
@@ -97,10 +98,10 @@ realtime::FrameSettings frame_settings(const Settings& settings) {
 }
 
 bool same_picture(const Settings& a, const Settings& b) {
-  return a.exposure == b.exposure && a.curve == b.curve && a.debug == b.debug && a.lookup == b.lookup &&
-         a.weights == b.weights && a.layer == b.layer && a.degree == b.degree && a.hier == b.hier &&
-         a.hier_params == b.hier_params && a.balls == b.balls && a.lobes == b.lobes && a.ball == b.ball &&
-         a.ball_size == b.ball_size;
+  return a.exposure == b.exposure && a.curve == b.curve && a.debug == b.debug &&
+         a.indirect_scale == b.indirect_scale && a.lookup == b.lookup && a.weights == b.weights &&
+         a.layer == b.layer && a.degree == b.degree && a.hier == b.hier && a.hier_params == b.hier_params &&
+         a.balls == b.balls && a.lobes == b.lobes && a.ball == b.ball && a.ball_size == b.ball_size;
 }
 
 bool needs_truth(const Settings& settings) {

@@ -334,7 +334,7 @@ TEST_F(MethodLight, ByImagesIsTheSameLight) {
     const double every = test::mean_luminance(draw(renderer, subject, "room-a").radiance);
     realtime::FrameSettings frame;
     frame.indirect_scale = 2;
-    EXPECT_NEAR(test::mean_luminance(draw(renderer, subject, "room-a", frame).radiance) / every, 1, 0.02);
+    EXPECT_NEAR(test::mean_luminance(draw(renderer, subject, "room-a", frame).radiance) / every, 1, 0.005);
     frame.ambient_occlusion = true;
     EXPECT_LT(test::mean_luminance(draw(renderer, subject, "room-a", frame).radiance), 0.99 * every);
     frame.indirect = false;

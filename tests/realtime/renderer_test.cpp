@@ -193,18 +193,6 @@ TEST_F(RendererTest, NewLightOfAProbeCostsThePointsThatItLightsAlone) {
   EXPECT_THROW(renderer.set_fitted(prepared), Error);
 }
 
-TEST_F(RendererTest, FewerPixelsLookedUpGiveNearlyTheSameLight) {
-  Renderer renderer(gl(), scene_);
-  renderer.set_probes(test::made_up_probes(scene_));
-  FrameSettings settings;
-  settings.view = View::indirect;
-  frame(renderer, settings);
-  const double every = test::mean_luminance(renderer.read_back());
-  settings.indirect_scale = 2;
-  frame(renderer, settings);
-  EXPECT_NEAR(test::mean_luminance(renderer.read_back()) / every, 1, 0.02);
-}
-
 TEST_F(RendererTest, OcclusionDarkensCornersAndNothingBrightens) {
   Renderer renderer(gl(), scene_);
   renderer.set_probes(test::made_up_probes(scene_));

@@ -137,6 +137,11 @@ const std::vector<SettingName>& setting_names() {
              debug_views, [](Settings& s) -> DebugView& { return s.debug; }),
       number("scale", "Picture", "Pixels drawn per pixel of the window, along each axis", 0.1f, 2,
              [](Settings& s) -> float& { return s.scale; }),
+      number("indirect-scale", "Picture",
+             "Look indirect light up at every n-th pixel each way, interpolate where that hardly differs; 1 "
+             "where "
+             "a truth is shown beside",
+             1, 8, [](Settings& s) -> int& { return s.indirect_scale; }),
       choice(
           "show", "Ground truth",
           "realtime; truth (path traced); wipe (one beside the other); their difference: absolute, signed, "

@@ -46,6 +46,7 @@ struct Settings {
   int truth_depth = 8;           ///< scattering events of the ground truth
   int truth_passes = 256;        ///< samples per pixel
   float scale = 1;               ///< pixels of the real-time picture per pixel of the window, along each axis
+  int indirect_scale = 3;        ///< of the real-time picture where no truth is beside it
 
   // Probes' light
   gi::LookupMethod lookup = gi::LookupMethod::irradiance;

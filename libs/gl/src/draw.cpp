@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <epoxy/gl.h>
 
 #include <ssphh/gl/draw.h>
@@ -28,11 +30,12 @@ void apply(const DrawState& state) {
   glColorMask(color, color, color, color);
   glPolygonMode(GL_FRONT_AND_BACK, state.lines ? GL_LINE : GL_FILL);
   glDisable(GL_SCISSOR_TEST);
-  const bool writes = state.stencil_write >= 0;
-  enable(GL_STENCIL_TEST, writes || state.stencil_equal >= 0);
-  glStencilMask(writes ? 0xff : 0);
-  glStencilFunc(writes ? GL_ALWAYS : GL_EQUAL, writes ? state.stencil_write : state.stencil_equal, 0xff);
-  glStencilOp(GL_KEEP, GL_KEEP, writes ? GL_REPLACE : GL_KEEP);
+  const bool writes = state.stencil_write >= 0, compares = state.stencil_equal >= 0;
+  const int mark = state.stencil_mark, value = std::max({state.stencil_write, state.stencil_equal, 0});
+  enable(GL_STENCIL_TEST, writes || compares || mark != 0);
+  glStencilMask(static_cast<GLuint>(writes ? 0xff : mark));
+  glStencilFunc(compares ? GL_EQUAL : GL_ALWAYS, value | mark, static_cast<GLuint>(0xff & ~mark));
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
 }
 
 void apply_conventions() {
@@ -53,6 +56,17 @@ void draw_lines(int vertex_count) {
 void draw_indexed(int count, std::size_t first_index, int base_vertex) {
   const void* offset = reinterpret_cast<const void*>(first_index * sizeof(unsigned));  // as GL wants it
   glDrawElementsBaseVertex(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset, base_vertex);
+}
+
+void dispatch(const Buffer& groups) {
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups.id());
+  glDispatchComputeIndirect(0);
+}
+
+void shader_memory_barrier() {
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                  GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
+                  GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 void finish() {

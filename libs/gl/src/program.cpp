@@ -159,6 +159,15 @@ Program::Program(const ShaderFiles& files, const std::string& vertex, const std:
   link(id(), vertex + " + " + fragment, warnings_);
 }
 
+Program Program::compute(const ShaderFiles& files, const std::string& name, std::string_view defines) {
+  Program program;
+  const Shader shader(GL_COMPUTE_SHADER, files, name, defines, program.warnings_);
+  program.handle_ = Handle<delete_program>(glCreateProgram());
+  glAttachShader(program.id(), shader.id());
+  link(program.id(), name, program.warnings_);
+  return program;
+}
+
 void Program::use() const {
   glUseProgram(id());
 }

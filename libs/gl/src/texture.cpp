@@ -135,6 +135,10 @@ void Texture::bind(unsigned unit) const {
   glBindTextureUnit(unit, id());
 }
 
+void Texture::bind_image(unsigned unit) const {
+  glBindImageTexture(unit, id(), 0, layers_ > 0, 0, GL_READ_WRITE, info_of(format_).internal);
+}
+
 Sampler::Sampler(Address u, Address v, bool nearest, float anisotropy) {
   unsigned id = 0;
   glCreateSamplers(1, &id);

@@ -90,6 +90,76 @@ TEST_F(Gl, FilesOnDiskReplaceBuiltInOnes) {
   EXPECT_GT(both.newest_change(), std::filesystem::file_time_type::min());
 }
 
+TEST_F(Gl, MarksOfTheStencilStandBesideTheClass) {
+  // Fragments of the left half are discarded: only the right half is marked, and the class stays
+  const std::array<ShaderFiles::Embedded, 2> table{
+      {{"triangle.vert", triangle},
+       {"half.frag",
+        "#version 450 core\nlayout(location = 0) out vec4 color;\n"
+        "void main() { if (HALF != 0 && gl_FragCoord.x < 2) discard; color = vec4(1); }\n"}}};
+  const ShaderFiles sources(table);
+  const Program whole(sources, "triangle.vert", "half.frag", "#define HALF 0"),
+      half(sources, "triangle.vert", "half.frag", "#define HALF 1");
+  const Texture color(Format::rgba32f, 4, 1), depth(Format::depth32f_stencil8, 4, 1);
+  const Framebuffer target(std::array<const Texture*, 1>{&color}, &depth);
+  const VertexArray nothing;
+  nothing.bind();
+  apply_conventions();
+  const auto draw = [&](const Program& program, const DrawState& state) {
+    bind_framebuffer(target.id(), {0, 0, 4, 1});
+    apply(state);
+    program.use();
+    draw_triangles(3);
+  };
+  bind_framebuffer(target.id(), {0, 0, 4, 1});
+  clear_stencil(2);
+  draw(half, {.color_write = false, .stencil_equal = 2, .stencil_mark = 0x80});
+  const auto drawn_where = [&](int stencil) {
+    clear_color(0, 0, 0, 0, 0);
+    draw(whole, {.stencil_equal = stencil});
+    std::vector<float> texels(4 * 4);
+    color.read(texels, 4);
+    return std::vector<float>{texels[0], texels[4], texels[8], texels[12]};
+  };
+  EXPECT_THAT(drawn_where(2), testing::ElementsAre(1, 1, 0, 0));
+  EXPECT_THAT(drawn_where(2 | 0x80), testing::ElementsAre(0, 0, 1, 1));
+  EXPECT_THAT(drawn_where(1), testing::ElementsAre(0, 0, 0, 0));
+}
+
+TEST_F(Gl, ComputeRunsOnAsManyGroupsAsABufferSays) {
+  const std::array<ShaderFiles::Embedded, 1> table{
+      {{"add.comp",
+        "#version 450 core\nlayout(local_size_x = 2) in;\n"
+        "layout(rgba32f, binding = 0) uniform image2D picture;\n"
+        "void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy);\n"
+        "  imageStore(picture, at, imageLoad(picture, at) + vec4(STEP, at, 1)); }\n"}}};
+  Program program = Program::compute(ShaderFiles(table), "add.comp", "#define STEP 5");
+  EXPECT_THAT(program.warnings(), IsEmpty());
+  Texture picture(Format::rgba32f, 6, 2);
+  const std::vector<float> zeros(6 * 2 * 4, 0);
+  picture.upload(std::as_bytes(std::span(zeros)));
+  const std::array<unsigned, 3> groups{2, 2, 1};
+  const Buffer buffer{std::span<const unsigned>(groups)};
+  picture.bind_image(0);
+  program.use();
+  for (int i = 0; i < 2; ++i) {
+    dispatch(buffer);
+    shader_memory_barrier();
+  }
+  std::vector<float> texels(zeros.size());
+  picture.read(texels, 4);
+  for (std::size_t x = 0; x < 6; ++x) {
+    for (std::size_t y = 0; y < 2; ++y) {
+      const float once = x < 4 ? 1 : 0;  // two groups of two
+      const std::size_t i = 4 * (6 * y + x);
+      EXPECT_THAT(std::vector<float>(texels.begin() + static_cast<std::ptrdiff_t>(i),
+                                     texels.begin() + static_cast<std::ptrdiff_t>(i) + 4),
+                  testing::ElementsAre(10 * once, 2 * static_cast<float>(x) * once,
+                                       2 * static_cast<float>(y) * once, 2 * once));
+    }
+  }
+}
+
 TEST_F(Gl, TexelsSurviveTheRoundTrip) {
   Texture image(Format::rgba32f, 4, 3, 2);
   std::vector<float> texels(4 * 3 * 4);

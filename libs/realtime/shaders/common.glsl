@@ -13,7 +13,7 @@ layout(std140, binding = 0) uniform FrameBlock {
   ivec4 maps;            // texels of a face: lights, areas, probes; of a sun map
   ivec4 map_tiles;       // log2 of tiles in a row, likewise
   vec4 map_near;         // near plane of the cube maps, likewise
-  vec4 extra;            // occlusion radius, 0 off; indirect scale
+  vec4 extra;            // occlusion radius, 0 off; indirect scale, tolerance
 } frame;
 
 #include "hash.glsl"

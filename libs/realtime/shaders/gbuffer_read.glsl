@@ -26,6 +26,11 @@ vec3 view_origin(vec2 pixel) {
 
 // Along the view axis; 0 where nothing stands.
 float depth_at(ivec2 at) { return uintBitsToFloat(texelFetch(gbuffer1, at, 0).y); }
+// Linear on the picture of a plane; 0 where nothing stands.
+float linear_depth(ivec2 at) {
+  float depth = depth_at(at);
+  return orthographic() ? depth : depth > 0 ? 1 / depth : 0;
+}
 vec3 position_at(vec2 pixel, float depth) {
   vec3 plane = pixel_ray(pixel);
   return frame.camera_position.xyz + (orthographic() ? plane : plane * depth) + depth * frame.camera_forward.xyz;

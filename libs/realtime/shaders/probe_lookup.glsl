@@ -39,7 +39,7 @@ vec3 sample_tile(sampler2DArray tiles, ivec2 shape, int tile, vec2 texel) {
 vec2 irradiance_at(vec3 n) { return in_tile(n, irradiance_layout.x); }
 vec3 irradiance_of(int probe, vec2 at) { return sample_tile(irradiance_tiles, irradiance_layout.xy, probe, at); }
 
-// Where a probe's tiles hold radiance by direction and roughness: the two levels around it.
+// Where a probe's tiles hold radiance by direction and roughness: the two levels around it, or the one that it is.
 struct RadiancePlace {
   vec2 texel;
   int low, high;
@@ -49,14 +49,18 @@ RadiancePlace radiance_at(vec3 d, float roughness) {
   int level = 0;
   for (int i = 1; i + 1 < RADIANCE_LEVELS; ++i) level = roughness >= level_roughness[i] ? i : level;
   float low = level_roughness[level], high = level_roughness[level + 1];
-  int last = radiance_layout.z - 1;
-  return RadiancePlace(in_tile(d, radiance_layout.x), min(level, last), min(level + 1, last),
-                       clamp((roughness - low) / (high - low), 0, 1));
+  float share = clamp((roughness - low) / (high - low), 0, 1);
+  ivec2 levels = level + ivec2(share == 1 ? 1 : 0, share == 0 ? 0 : 1);
+  levels = min(levels, radiance_layout.z - 1);
+  return RadiancePlace(in_tile(d, radiance_layout.x), levels.x, levels.y, levels.x == levels.y ? 0 : share);
 }
 vec3 radiance_of(int probe, RadiancePlace at) {
-  int tile = probe * radiance_layout.z;
-  return mix(sample_tile(radiance_tiles, radiance_layout.xy, tile + at.low, at.texel),
-             sample_tile(radiance_tiles, radiance_layout.xy, tile + at.high, at.texel), at.share);
+  vec3 sum = vec3(0);
+  for (int level = at.low; level <= at.high; ++level) {
+    float weight = level == at.low ? 1 - at.share : at.share;
+    sum += weight * sample_tile(radiance_tiles, radiance_layout.xy, probe * radiance_layout.z + level, at.texel);
+  }
+  return sum;
 }
 
 // From off the surface by 1 % of the distance, as gi::ProbeSight starts its rays; one texel decides.

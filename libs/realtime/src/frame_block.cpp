@@ -48,7 +48,7 @@ FrameBlock frame_block(const scene::CameraPose& camera, const FrameSettings& set
                       probes.maps().layout().columns_log2, lights.parallel_maps().layout().columns_log2);
   b.map_near = vec4(lights.near_plane(), lights.near_plane(), probes.near_plane(), 0);
   b.extra = vec4(settings.ambient_occlusion ? settings.occlusion_radius : 0,
-                 static_cast<float>(images.indirect_scale), 0, 0);
+                 static_cast<float>(images.indirect_scale), settings.indirect_tolerance, 0);
   return b;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// The images that a frame is drawn through, for one size.
 
+#include <ssphh/gl/buffer.h>
 #include <ssphh/gl/framebuffer.h>
 
 namespace ssphh::realtime {
@@ -8,10 +9,13 @@ namespace ssphh::realtime {
 struct FrameImages {
   int width = 0, height = 0;                ///< of the picture
   int supersample = 1, indirect_scale = 1;  ///< as FrameSettings
-  gl::Texture gbuffer0, gbuffer1, depth, irradiance, glossy, occlusion, shadow;
-  gl::Texture color;     ///< radiance of every sample
-  gl::Texture resolved;  ///< of every pixel, where a pixel has several samples
-  gl::Framebuffer geometry_pass, light_pass, indirect_pass, occlusion_pass, shadow_pass, resolve_pass;
+  gl::Texture gbuffer0, gbuffer1, depth, occlusion, shadow;
+  gl::Texture irradiance, glossy, cells;  ///< with `listed`, for an indirect_scale above 1 alone
+  gl::Texture color;                      ///< radiance of every sample
+  gl::Buffer listed;                      ///< ListHead, and room for every sample
+  gl::Texture resolved;                   ///< of every pixel, where a pixel has several samples
+  gl::Framebuffer geometry_pass, light_pass, indirect_pass, cells_pass, occlusion_pass, shadow_pass,
+      resolve_pass;
 
   FrameImages() = default;
   FrameImages(int width, int height, int supersample, int indirect_scale);
@@ -24,6 +28,9 @@ struct FrameImages {
     return w == width && h == height && samples == supersample && scale == indirect_scale;
   }
   std::size_t bytes() const;
+
+ private:
+  void make_interpolation();
 };
 
 }  // namespace ssphh::realtime

@@ -89,31 +89,51 @@ IndirectLookup Renderer::Data::lookup_of(const FrameSettings& settings) const {
 
 void Renderer::Data::draw_indirect(const FrameSettings& settings) {
   const bool chosen = settings.view == View::chosen_sphl;
-  if (!chosen && (images.indirect_scale > 1 || settings.ambient_occlusion))
-    return draw_indirect_by_images(settings);
-  for_each_class([&](bool full, const gl::DrawState& where) {
-    gl::Program& program = shaders.indirect(lookup_of(settings), full,
-                                            chosen ? IndirectOutput::chosen : IndirectOutput::radiance);
+  const auto prepared = [&](bool full, IndirectOutput output) -> gl::Program& {
+    gl::Program& program = shaders.indirect(lookup_of(settings), full, output);
     probes.bind_lookup(program);
-    fullscreen(program, images.light_pass.id(), images.full(), where);
+    return program;
+  };
+  if (settings.ambient_occlusion) draw_occlusion();
+  if (images.indirect_scale > 1 && !chosen) {
+    fullscreen(prepared(scene.any_full(), IndirectOutput::images), images.indirect_pass.id(),
+               images.indirect());
+    interpolate_indirect();
+    draw_listed(prepared(scene.any_full(), IndirectOutput::listed));
+    return;
+  }
+  for_each_class([&](bool full, const gl::DrawState& where) {
+    fullscreen(prepared(full, chosen ? IndirectOutput::chosen : IndirectOutput::radiance),
+               images.light_pass.id(), images.full(), where);
   });
 }
 
-void Renderer::Data::draw_indirect_by_images(const FrameSettings& settings) {
-  gl::Program& program = shaders.indirect(lookup_of(settings), scene.any_full(), IndirectOutput::images);
-  probes.bind_lookup(program);
-  fullscreen(program, images.indirect_pass.id(), images.indirect());
-  apply_images(settings);
+void Renderer::Data::draw_occlusion() {
+  fullscreen(shaders.occlusion(), images.occlusion_pass.id(), images.full());
+  images.occlusion.bind(unit::occlusion);
 }
 
-void Renderer::Data::apply_images(const FrameSettings& settings) {
-  if (settings.ambient_occlusion) fullscreen(shaders.occlusion(), images.occlusion_pass.id(), images.full());
+void Renderer::Data::interpolate_indirect() {
   images.irradiance.bind(unit::irradiance);
   images.glossy.bind(unit::glossy);
-  images.occlusion.bind(unit::occlusion);
-  for_each_class([&](bool full, const gl::DrawState& where) {
-    fullscreen(shaders.apply(full), images.light_pass.id(), images.full(), where);
+  fullscreen(shaders.agree(scene.any_full()), images.cells_pass.id(), images.indirect());
+  images.cells.bind(unit::cells);
+  upload(counters, images.listed, std::span<const ListHead>(&empty_list, 1));
+  images.listed.bind_storage(binding::listed_pixels);
+  fullscreen(shaders.mark(), images.light_pass.id(), images.full(),
+             {.color_write = false, .stencil_mark = surface_class::lit});
+  for_each_class([&](bool full, gl::DrawState where) {
+    where.stencil_equal |= surface_class::lit;
+    fullscreen(shaders.interpolate(full), images.light_pass.id(), images.full(), where);
   });
+}
+
+void Renderer::Data::draw_listed(gl::Program& program) {
+  images.color.bind_image(unit::color_image);
+  program.use();
+  gl::shader_memory_barrier();
+  gl::dispatch(images.listed);
+  gl::shader_memory_barrier();
 }
 
 void Renderer::Data::draw_seen(const FrameSettings& settings) {

@@ -8,6 +8,7 @@
 namespace ssphh::realtime {
 
 using glm::ivec4;
+using glm::uvec4;
 
 /// FrameBlock of common.glsl.
 struct FrameBlock {
@@ -87,21 +88,30 @@ static_assert(sizeof(GpuVertex) == 60);
 namespace binding {
 inline constexpr unsigned frame_block = 0, distant_block = 1, emitter_block = 2, material_block = 3,
                           instance_block = 4;
+inline constexpr unsigned listed_pixels = 2;  // storage
 }  // namespace binding
 namespace unit {
+/// Of images that shaders write.
+inline constexpr unsigned color_image = 0;
 inline constexpr unsigned gbuffer0 = 0, gbuffer1 = 1, albedo_table = 3, light_maps = 4, area_maps = 5,
                           parallel_maps = 6, probe_maps = 7;
 inline constexpr unsigned base_texture = 8, rough_texture = 9, emission_texture = 10, normal_texture = 11;
-inline constexpr unsigned irradiance = 8, glossy = 9, occlusion = 10, shadow_image = 8;
+inline constexpr unsigned irradiance = 8, glossy = 9, cells = 10, shadow_image = 8, occlusion = 2;
 inline constexpr unsigned fitted_ranges = 8, fitted_lists = 9, fitted_light = 10;
 inline constexpr unsigned irradiance_tiles = 12, radiance_tiles = 13, environment = 13,
                           environment_tiles = 12, probe_cells = 14;
 inline constexpr unsigned count = 16;
 }  // namespace unit
 
+/// Head of ListedPixels (std430): groups of a dispatch, and how many pixels follow.
+using ListHead = uvec4;
+inline constexpr ListHead empty_list{0, 1, 1, 0};
+
 /// What the stencil tells of a pixel: how its surface reflects.
 namespace surface_class {
 inline constexpr int nothing = 0, lambertian = 1, full = 2, unlit = 3;
-}
+/// Beside the class: its indirect light is there.
+inline constexpr int lit = 0x80;
+}  // namespace surface_class
 
 }  // namespace ssphh::realtime

@@ -1,23 +1,30 @@
-/// The pass of a method's light: straight into the picture, or by images as the probes' pass.
+/// The pass of a method's light: as the probes' pass.
 
 #include "renderer_data.h"
 
 namespace ssphh::realtime {
 
 void Renderer::Data::draw_method(const FrameSettings& settings) {
-  if (images.indirect_scale > 1 || settings.ambient_occlusion) {
+  if (settings.ambient_occlusion) draw_occlusion();
+  if (images.indirect_scale > 1) {
     gl::bind_framebuffer(images.indirect_pass.id(), images.indirect());
     gl::clear_color(0, 0, 0, 0, 0);
     gl::clear_color(1, 0, 0, 0, 0);
-    gl::Program& program = shaders.method(method->kind(), scene.any_full(), true);
+    gl::Program& some = shaders.method(method->kind(), scene.any_full(), IndirectOutput::images);
     for (int pass = 0; pass < method->passes(); ++pass) {
-      method->bind(program, pass);
-      fullscreen(program, images.indirect_pass.id(), images.indirect(), {.blend = gl::Blend::add});
+      method->bind(some, pass);
+      fullscreen(some, images.indirect_pass.id(), images.indirect(), {.blend = gl::Blend::add});
     }
-    return apply_images(settings);
+    interpolate_indirect();
+    gl::Program& others = shaders.method(method->kind(), scene.any_full(), IndirectOutput::listed);
+    for (int pass = 0; pass < method->passes(); ++pass) {
+      method->bind(others, pass);
+      draw_listed(others);
+    }
+    return;
   }
   for_each_class([&](bool full, const gl::DrawState& where) {
-    gl::Program& program = shaders.method(method->kind(), full, false);
+    gl::Program& program = shaders.method(method->kind(), full, IndirectOutput::radiance);
     for (int pass = 0; pass < method->passes(); ++pass) {
       method->bind(program, pass);
       fullscreen(program, images.light_pass.id(), images.full(), where);

@@ -50,9 +50,11 @@ struct Renderer::Data {
   void draw_direct(bool shadow_view);
   IndirectLookup lookup_of(const FrameSettings& settings) const;
   void draw_indirect(const FrameSettings& settings);
-  void draw_indirect_by_images(const FrameSettings& settings);
-  /// From the images of indirect light to all pixels.
-  void apply_images(const FrameSettings& settings);
+  void draw_occlusion();
+  /// Images of indirect light to the pixels between, as far as they agree; lists the others.
+  void interpolate_indirect();
+  /// Adds what the program, a compute shader, finds at the listed pixels.
+  void draw_listed(gl::Program& program);
   void draw_method(const FrameSettings& settings);
   void draw_seen(const FrameSettings& settings);
   void draw_view();

@@ -40,29 +40,43 @@ gl::Program& Shaders::direct(EmitterKind kind, bool full, bool shadow_view) {
              define(kind_names[k]) + define("FULL_BSDF", full) + define("SHADOW_VIEW", shadow_view));
 }
 
+gl::Program& Shaders::indirect_pass(Slot& slot, const char* file, bool full, IndirectOutput output,
+                                    const std::string& defines) {
+  const std::string all = defines + define("FULL_BSDF", full) +
+                          define("TO_IMAGES", output == IndirectOutput::images) +
+                          define("LISTED", output == IndirectOutput::listed) +
+                          define("CHOSEN_VIEW", output == IndirectOutput::chosen);
+  if (output != IndirectOutput::listed) return get(slot, fullscreen, file, all);
+  slot = gl::Program::compute(*files_, file, all);
+  warnings_ += slot->warnings();
+  return *slot;
+}
+
 gl::Program& Shaders::indirect(IndirectLookup lookup, bool full, IndirectOutput output) {
   Slot& slot = indirect_[static_cast<int>(lookup)][full][static_cast<int>(output)];
   if (slot) return *slot;
-  return get(slot, fullscreen, "indirect.frag",
-             define("LOOKUP_LIGHT", lookup == IndirectLookup::light) +
-                 define("TRILINEAR", lookup == IndirectLookup::trilinear) +
-                 define("MLS", lookup == IndirectLookup::mls || lookup == IndirectLookup::fitted) +
-                 define("FITTED", lookup == IndirectLookup::fitted && output != IndirectOutput::chosen) +
-                 define("FULL_BSDF", full) + define("TO_IMAGES", output == IndirectOutput::images) +
-                 define("CHOSEN_VIEW", output == IndirectOutput::chosen));
+  return indirect_pass(
+      slot, "indirect.glsl", full, output,
+      define("LOOKUP_LIGHT", lookup == IndirectLookup::light) +
+          define("TRILINEAR", lookup == IndirectLookup::trilinear) +
+          define("MLS", lookup == IndirectLookup::mls || lookup == IndirectLookup::fitted) +
+          define("FITTED", lookup == IndirectLookup::fitted && output != IndirectOutput::chosen));
 }
 
-gl::Program& Shaders::apply(bool full) {
-  return apply_[full] ? *apply_[full]
-                      : get(apply_[full], fullscreen, "apply.frag", define("FULL_BSDF", full));
+gl::Program& Shaders::agree(bool full) {
+  return agree_[full] ? *agree_[full]
+                      : get(agree_[full], fullscreen, "agree.frag", define("FULL_BSDF", full));
 }
 
-gl::Program& Shaders::method(MethodKind kind, bool full, bool images) {
-  Slot& slot = method_[static_cast<int>(kind)][full][images];
+gl::Program& Shaders::interpolate(bool full) {
+  Slot& slot = interpolate_[full];
+  return slot ? *slot : get(slot, fullscreen, "interpolate.frag", define("FULL_BSDF", full));
+}
+
+gl::Program& Shaders::method(MethodKind kind, bool full, IndirectOutput output) {
+  Slot& slot = method_[static_cast<int>(kind)][full][static_cast<int>(output)];
   if (slot) return *slot;
-  return get(
-      slot, fullscreen, "method.frag",
-      define("CONES", kind == MethodKind::cones) + define("FULL_BSDF", full) + define("TO_IMAGES", images));
+  return indirect_pass(slot, "method.glsl", full, output, define("CONES", kind == MethodKind::cones));
 }
 
 gl::Program& Shaders::seen(EmitterKind kind) {
@@ -72,19 +86,19 @@ gl::Program& Shaders::seen(EmitterKind kind) {
 
 std::string Shaders::compile_all() {
   for (int textures = 0; textures < 16; ++textures) geometry(textures);
-  occlusion(), view(), resolve(), display();
+  occlusion(), mark(), view(), resolve(), display();
   for (const bool full : {false, true}) {
     shadow(full);
-    apply(full);
-    for (const bool images : {false, true}) {
-      for (int k = 0; k < method_kinds; ++k) method(static_cast<MethodKind>(k), full, images);
+    agree(full), interpolate(full);
+    for (const auto output : {IndirectOutput::radiance, IndirectOutput::images, IndirectOutput::listed}) {
+      for (int k = 0; k < method_kinds; ++k) method(static_cast<MethodKind>(k), full, output);
     }
     for (int k = 0; k < emitter_kinds; ++k) {
       for (const bool shadow_view : {false, true}) direct(static_cast<EmitterKind>(k), full, shadow_view);
     }
     for (int lookup = 0; lookup < indirect_lookups; ++lookup) {
-      for (const auto output : {IndirectOutput::radiance, IndirectOutput::images, IndirectOutput::chosen})
-        indirect(static_cast<IndirectLookup>(lookup), full, output);
+      for (int output = 0; output < indirect_outputs; ++output)
+        indirect(static_cast<IndirectLookup>(lookup), full, static_cast<IndirectOutput>(output));
     }
   }
   for (const auto kind : {EmitterKind::sun, EmitterKind::sphere, EmitterKind::environment}) seen(kind);

@@ -13,11 +13,13 @@
 
 namespace ssphh::realtime {
 
-/// How indirect.frag finds light.
+/// How indirect.glsl finds light.
 enum class IndirectLookup : int { light, distance, trilinear, mls, fitted };
 inline constexpr int indirect_lookups = 5;
-/// What it gives: radiance, images for apply.frag, or a view of the choice.
-enum class IndirectOutput : int { radiance, images, chosen };
+/// What passes of indirect light give: radiance, images of some pixels, radiance of listed pixels (compute
+/// shaders), or a view of the choice.
+enum class IndirectOutput : int { radiance, images, listed, chosen };
+inline constexpr int indirect_outputs = 4;
 
 class Shaders {
  public:
@@ -31,9 +33,12 @@ class Shaders {
   /// Light of one emitter on surfaces that are Lambertian or not; or the share that arrives.
   gl::Program& direct(EmitterKind kind, bool full, bool shadow_view);
   gl::Program& indirect(IndirectLookup lookup, bool full, IndirectOutput output);
-  gl::Program& apply(bool full);
-  /// Light of a method that keeps none in SPHLs; `images`: for apply.frag.
-  gl::Program& method(MethodKind kind, bool full, bool images);
+  /// Whether pixels of images agree, which pixels between may be interpolated, and the light of those.
+  gl::Program& agree(bool full);
+  gl::Program& mark() { return get(mark_, fullscreen, "mark.frag"); }
+  gl::Program& interpolate(bool full);
+  /// Light of a method that keeps none in SPHLs.
+  gl::Program& method(MethodKind kind, bool full, IndirectOutput output);
   gl::Program& occlusion() { return get(occlusion_, fullscreen, "occlusion.frag"); }
   /// An emitter that is no surface, as the eye sees it.
   gl::Program& seen(EmitterKind kind);
@@ -49,10 +54,14 @@ class Shaders {
   static constexpr const char* fullscreen = "fullscreen.vert";
   gl::Program& get(Slot& slot, const char* vertex, const char* fragment, const std::string& defines = {});
 
+  gl::Program& indirect_pass(Slot& slot, const char* file, bool full, IndirectOutput output,
+                             const std::string& defines);
+
   const gl::ShaderFiles* files_;
   std::string warnings_;
-  Slot geometry_[16], shadow_[2], direct_[emitter_kinds][2][2], indirect_[indirect_lookups][2][3], apply_[2],
-      occlusion_, method_[method_kinds][2][2], seen_[emitter_kinds], view_, resolve_, display_;
+  Slot geometry_[16], shadow_[2], direct_[emitter_kinds][2][2],
+      indirect_[indirect_lookups][2][indirect_outputs], agree_[2], mark_, interpolate_[2], occlusion_,
+      method_[method_kinds][2][indirect_outputs], seen_[emitter_kinds], view_, resolve_, display_;
 };
 
 }  // namespace ssphh::realtime

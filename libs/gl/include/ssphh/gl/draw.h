@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include <ssphh/gl/buffer.h>
+
 namespace ssphh::gl {
 
 enum class Depth { off, test, test_and_write };
@@ -18,6 +20,7 @@ struct DrawState {
   bool lines = false;      ///< draw triangles' edges only
   int stencil_equal = -1;  ///< only where the stencil has this value; −1: everywhere
   int stencil_write = -1;  ///< the stencil's new value where the depth test passes; −1: as it was
+  int stencil_mark = 0;  ///< bits set where a fragment is drawn and not discarded; stencil_equal ignores them
 };
 
 /// Sets all of it, also what somebody else may have left behind.
@@ -29,6 +32,10 @@ void draw_triangles(int vertex_count);
 void draw_lines(int vertex_count);
 /// 32-bit indices [first_index, first_index + count).
 void draw_indexed(int count, std::size_t first_index, int base_vertex);
+/// Runs the program in use, a compute shader, on as many groups as the buffer's first three integers say.
+void dispatch(const Buffer& groups);
+/// What shaders wrote into buffers and images is there for what follows, and the other way round.
+void shader_memory_barrier();
 /// Waits for everything.
 void finish();
 

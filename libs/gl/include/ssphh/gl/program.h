@@ -32,7 +32,7 @@ class ShaderFiles {
   std::filesystem::path directory_;
 };
 
-/// A linked vertex and fragment shader.
+/// A linked vertex and fragment shader, or a compute shader.
 class Program {
  public:
   Program() = default;
@@ -40,6 +40,7 @@ class Program {
   /// Throws Error whose message names file and line as the author knows them.
   Program(const ShaderFiles& files, const std::string& vertex, const std::string& fragment,
           std::string_view defines = {});
+  static Program compute(const ShaderFiles& files, const std::string& name, std::string_view defines = {});
 
   unsigned id() const { return handle_.get(); }
   /// What the compiler said beside errors; empty: nothing.

@@ -36,6 +36,9 @@ class Texture {
   Format format() const { return format_; }
   std::size_t bytes() const;
 
+  /// As an image that shaders read and write texel by texel, level 0.
+  void bind_image(unsigned unit) const;
+
   /// Whole level 0 of one layer, rows as in memory: row 0 first. 8-bit formats take bytes, others floats.
   void upload(std::span<const std::byte> data, int layer = 0);
   /// A rectangle of level 0.

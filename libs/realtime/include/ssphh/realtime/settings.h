@@ -28,8 +28,12 @@ struct FrameSettings {
   /// Of lookup `irradiance`. `fitted` holds where Renderer::set_fitted prepared points and surfaces stand
   /// still; elsewhere it is mls, as by default on the CPU.
   gi::WeightMethod weights = gi::WeightMethod::fitted;
-  int indirect_scale = 1;  ///< n: indirect light at every n-th pixel each way, filled in along surfaces
-  int supersample = 1;     ///< samples per pixel along each side, 1..4
+  /// n: indirect light is looked up at every n-th pixel each way, and at those between where the four around
+  /// them differ by more than `indirect_tolerance` of the brightest or lie on another surface; interpolated
+  /// elsewhere.
+  int indirect_scale = 1;
+  float indirect_tolerance = 0.1f;
+  int supersample = 1;  ///< samples per pixel along each side, 1..4
   bool ambient_occlusion = false;
   float occlusion_radius = 0.5f;  ///< metres
   View view = View::lit;

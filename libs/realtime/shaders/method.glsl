@@ -11,8 +11,10 @@
 #endif
 
 void main() {
-  Surface s = read_surface(lit_pixel());
+  ivec2 at = lit_pixel();
+  if (at.x < 0) return;
+  Surface s = read_surface(at);
   vec3 irradiance, glossy;
   look_up(s, reflect(-s.wo, s.normal), min(abs(s.specular_roughness), 1), irradiance, glossy);
-  put_light(s, irradiance, glossy);
+  put_light(at, s, irradiance, glossy);
 }

@@ -204,7 +204,9 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
 #endif
 
 void main() {
-  Surface s = read_surface(lit_pixel());
+  ivec2 at = lit_pixel();
+  if (at.x < 0) return;
+  Surface s = read_surface(at);
   float roughness = min(abs(s.specular_roughness), 1);
 #ifdef FITTED
   vec3 fitted;
@@ -223,6 +225,6 @@ void main() {
   vec3 hue = vec3(hash01(uvec3(found.chosen, 1, 0)), hash01(uvec3(found.chosen, 2, 0)), hash01(uvec3(found.chosen, 3, 0)));
   color = vec4((0.15 + 0.85 * hue) * (found.count > 0 ? 0.4 + 0.6 * min(float(found.count) / 8, 1) : 0.15), 1);
 #else
-  put_light(s, found.irradiance, found.glossy);
+  put_light(at, s, found.irradiance, found.glossy);
 #endif
 }
