@@ -31,16 +31,18 @@ Framebuffer::Framebuffer(std::span<const Texture* const> colors, const Texture* 
   check();
 }
 
-Framebuffer::Framebuffer(const Texture& depth, int layer) {
+Framebuffer::Framebuffer(const Texture& texture, int layer, int level) {
   unsigned id = 0;
   glCreateFramebuffers(1, &id);
   handle_ = Handle<delete_framebuffer>(id);
-  glNamedFramebufferDrawBuffer(id, GL_NONE);
-  glNamedFramebufferReadBuffer(id, GL_NONE);
-  if (depth.layers() > 0) {
-    glNamedFramebufferTextureLayer(id, GL_DEPTH_ATTACHMENT, depth.id(), 0, layer);
+  const bool depth = texture.format() == Format::depth32f;
+  const GLenum attachment = depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0;
+  glNamedFramebufferDrawBuffer(id, depth ? GL_NONE : attachment);
+  glNamedFramebufferReadBuffer(id, depth ? GL_NONE : attachment);
+  if (texture.layers() > 0) {
+    glNamedFramebufferTextureLayer(id, attachment, texture.id(), level, layer);
   } else {
-    glNamedFramebufferTexture(id, GL_DEPTH_ATTACHMENT, depth.id(), 0);
+    glNamedFramebufferTexture(id, attachment, texture.id(), level);
   }
   check();
 }
@@ -79,6 +81,10 @@ void clear_color_uint(int attachment, unsigned r, unsigned g, unsigned b, unsign
   const unsigned color[] = {r, g, b, a};
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glClearBufferuiv(GL_COLOR, attachment, color);
+}
+
+void texture_barrier() {
+  glTextureBarrier();
 }
 
 unsigned current_framebuffer() {

@@ -27,6 +27,8 @@ FormatInfo info_of(Format format) {
       return {GL_RGBA16F, GL_RGBA, GL_FLOAT, 16};
     case Format::r32f:
       return {GL_R32F, GL_RED, GL_FLOAT, 4};
+    case Format::rg32f:
+      return {GL_RG32F, GL_RG, GL_FLOAT, 8};
     case Format::rgba32f:
       return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
     case Format::rg32ui:

@@ -1,6 +1,6 @@
 #version 450 core
-// What surfaces reflect of one emitter's light. Variants: the kind of emitter (POINT, SPHL, SUN, SPHERE, MESH,
-// ENVIRONMENT); FULL_BSDF, else surfaces are Lambertian; SHADOW_VIEW gives the light's share that arrives.
+// What surfaces reflect of one emitter's light. Variants: the kind of emitter (POINT, SPHL, SUN, DISC, SPHERE,
+// MESH, ENVIRONMENT); FULL_BSDF, else surfaces are Lambertian; SHADOW_VIEW gives the light's share that arrives.
 #include "gbuffer_read.glsl"
 #ifdef FULL_BSDF
 #include "bsdf.glsl"
@@ -13,6 +13,9 @@
 #endif
 #ifdef ENVIRONMENT
 #include "sh.glsl"
+#endif
+#ifdef DISC
+#include "disc.glsl"
 #endif
 
 layout(location = 0) out vec4 color;
@@ -74,7 +77,7 @@ void main() {
   vec3 wi = emitter.place.xyz;
   float cosine = dot(s.geometric_normal, wi) > 0 ? max(dot(s.normal, wi), 0) : 0;
   // The finest cascade that holds the point
-  int map = emitter.items.y, last = map + emitter.items.z - 1;
+  int map = emitter.items.y, last = map + SUN_CASCADES - 1;
   for (; map < last; ++map) {
     vec3 d = s.position - sun_maps[map].origin.xyz;
     vec2 plane = vec2(dot(d, sun_maps[map].right.xyz) * sun_maps[map].right.w,
@@ -84,6 +87,29 @@ void main() {
   float v = cosine > 0 ? parallel_visibility(sun_maps[map], s.position, s.geometric_normal) : 0;
   vec3 e = emitter.light.rgb * cosine;
   store(v * e * reflected(s, wi), luminance(e), luminance(e) * v);
+}
+#endif
+
+#ifdef DISC
+// Irradiance of each part of the disc above the horizon, times the share of it that is seen. What is glossy
+// reflects the middles of the parts.
+void main() {
+  Surface s = read_surface(ivec2(gl_FragCoord.xy));
+  prepare(s);
+  float sine = emitter.more.x, total = 0, lit = 0;
+  vec3 sum = vec3(0);
+  for (int i = 0; i < emitter.items.z; ++i) {
+    vec3 wi = emitter.samples[i].place.xyz;
+    float cosine = dot(s.normal, wi);
+    float e = emitter.samples[i].place.w * disc_irradiance(cosine, sine);
+    total += e;
+    if (e <= 0 || dot(s.geometric_normal, wi) <= -sine) continue;
+    e *= disc_visibility(i, sine, s.position, s.geometric_normal);
+    lit += e;
+    // Half sunk, its middle is that of what is left above the horizon
+    sum += e * reflected(s, normalize(wi + max(0.5 * (sine - cosine), 0) * s.normal));
+  }
+  store(emitter.light.rgb * sum, luminance(emitter.light.rgb) * total, luminance(emitter.light.rgb) * lit);
 }
 #endif
 

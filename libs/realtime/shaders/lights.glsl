@@ -2,10 +2,10 @@
 
 // One emitter of the scene; mirrors GpuEmitter, GpuAreaSample in gpu_types.h. Passes light the scene by one
 // emitter each.
-const int MAX_SAMPLES = 64, MAX_CORNERS = 121;
+const int MAX_SAMPLES = 64, MAX_CORNERS = 121, SUN_CASCADES = 4;
 
 struct AreaSample {
-  vec4 place;   // position, or direction toward it (environment); w: share of the area
+  vec4 place;   // position, or direction toward it (environment, disc); w: share of the area or light
   vec4 normal;  // where it shines to, 0: everywhere; w: its map
   vec4 light;   // radiance times solid angle (environment)
 };
@@ -13,11 +13,13 @@ layout(std140, binding = 2) uniform EmitterBlock {
   vec4 place;  // position, or direction toward it; w: radius of a sphere or SPHL, of a sun's disc in radians
   vec4 light;  // as scene::Light: intensity, irradiance or radiance; w: range, 0 none
   vec4 cone;   // a spot's axis; w: scale, 0 none
-  vec4 more;   // cone offset; both sides emit (mesh); area [m2]
-  ivec4 items; // kind; map or first map; samples; probe of an SPHL
-  ivec4 count; // triangles with a closed form
+  vec4 more;   // cone offset, or sine of the radius of a disc's parts; both sides emit (mesh); area [m2]
+  ivec4 items; // kind; map or first map; samples; probe of an SPHL, or log2 of tiles in a row (bounds of a disc's maps)
+  ivec4 count; // triangles with a closed form, or levels of the bounds of a disc's maps
   AreaSample samples[MAX_SAMPLES];
-  vec4 corners[MAX_CORNERS];  // of triangles; coefficients of an SPHL's light
+  // Of triangles; coefficients of an SPHL's light; cascades of a disc's parts: centre across the light [m], 1 / half
+  // width, tile
+  vec4 corners[MAX_CORNERS];
 } emitter;
 
 struct SunMap {

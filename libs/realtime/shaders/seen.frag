@@ -1,5 +1,5 @@
 #version 450 core
-// Emitters that are no surfaces, as the eye sees them: ENVIRONMENT and SUN behind everything, SPHERE before it.
+// Emitters that are no surfaces, as the eye sees them: ENVIRONMENT and DISC behind everything, SPHERE before it.
 #include "gbuffer_read.glsl"
 #include "lights.glsl"
 
@@ -18,7 +18,7 @@ void main() {
   vec3 e = vec3(c * d.x - s * d.z, d.y, s * d.x + c * d.z);
   vec2 uv = vec2(0.5 + atan(e.z, e.x) / (2 * PI), atan(length(e.xz), e.y) / PI);
   color.rgb = emitter.light.rgb * textureLod(environment_map, uv, 0).rgb;
-#elif defined(SUN)
+#elif defined(DISC)
   vec3 off = d - emitter.place.xyz;
   float s = sin(emitter.place.w);
   if (s > 0 && dot(off, off) <= 2 * (1 - sqrt(1 - s * s))) color.rgb = emitter.light.rgb / (PI * s * s);

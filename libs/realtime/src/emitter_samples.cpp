@@ -119,6 +119,40 @@ std::vector<AreaPoint> ball_points(float radius, int count) {
   return points;
 }
 
+std::vector<vec3> disc_parts(float radius, int most) {
+  // A map of depth knows no sides of what stands along the light: a ray that leans by more may pass through
+  constexpr double widest = 0.04;
+  // In up to three rings. Of a straight edge's shadow these err by at most 0, 0.038, 0.019, 0.022, 0.014 of
+  // the light
+  constexpr int rings[][3] = {{1, 0, 0}, {4, 0, 0}, {1, 6, 0}, {3, 9, 0}, {1, 5, 10}};
+  const auto number = [](const int(&ring)[3]) { return ring[0] + ring[1] + ring[2]; };
+  const double sine = std::sin(std::min(static_cast<double>(radius), pi_d / 2));
+  std::size_t chosen = 0;
+  while (chosen + 1 < std::size(rings) && number(rings[chosen + 1]) <= most &&
+         number(rings[chosen]) * widest * widest < sine * sine)
+    ++chosen;
+
+  const int count = number(rings[chosen]);
+  std::vector<glm::dvec2> places;
+  double spread = 0;  // mean square
+  for (int ring = 0, inside = 0; ring < 3; ++ring) {
+    const int n = rings[chosen][ring];
+    const double r = n == 1 ? 0 : std::sqrt((inside + 0.5 * n) / count);
+    for (int i = 0; i < n; ++i) {
+      const double angle = 2 * pi_d * (i + 0.5 * ring) / n;
+      places.emplace_back(r * std::cos(angle), r * std::sin(angle));
+      spread += r * r / count;
+    }
+    inside += n;
+  }
+  // The mean square of a disc of radius 1 is 1/2, of which a part has 1/(2 count)
+  const double scale = count > 1 ? sine * std::sqrt((0.5 - 0.5 / count) / spread) : 0;
+  std::vector<vec3> parts;
+  for (const glm::dvec2& p : places)
+    parts.emplace_back(glm::dvec3(scale * p, std::sqrt(1 - scale * scale * glm::dot(p, p))));
+  return parts;
+}
+
 std::vector<EnvironmentSample> environment_directions(const scene::Environment& environment, int count) {
   scene::Scene alone;
   alone.environment = environment;

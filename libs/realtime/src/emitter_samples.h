@@ -24,6 +24,11 @@ std::vector<AreaPoint> spread_points(const scene::Mesh& mesh, const mat4& to_wor
 /// Points within a ball around the origin, equal shares.
 std::vector<AreaPoint> ball_points(float radius, int count);
 
+/// Directions toward parts of equal size that a sun's disc around +z is cut into: so many that the shadows of
+/// one map will do for each, or `most` of 1, 4, 7, 12, 16. The sine of a part's radius is sin(radius) /
+/// √number; together they spread as much as the disc. radius [radians] 0: one.
+std::vector<vec3> disc_parts(float radius, int most);
+
 struct EnvironmentSample {
   vec3 direction{0, 1, 0};
   vec3 weight{0};  ///< radiance × solid angle

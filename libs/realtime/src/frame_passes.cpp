@@ -20,6 +20,7 @@ void Renderer::Data::draw_shadows() {
   gl::Program &opaque = shaders.shadow(false), &alpha = shaders.shadow(true);
   const int lamps = lights.update_maps(scene, opaque, alpha, left, waiting, counters);
   left = std::max(left - lamps, 0);
+  lights.update_bounds(shaders, no_vertices, counters);
   const int of_probes = probes.update_maps(scene, opaque, alpha, left, waiting, counters);
   stats.shadow_maps_drawn = lamps + of_probes;
   if (!method) return;

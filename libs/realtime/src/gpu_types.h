@@ -42,8 +42,9 @@ inline constexpr std::size_t block_stride = 256;
 static_assert(sizeof(GpuMaterial) <= block_stride && sizeof(GpuInstance) <= block_stride);
 
 /// AreaSample and EmitterBlock of lights.glsl.
-enum class EmitterKind : int { point, sphl, sun, sphere, mesh, environment };
-inline constexpr int emitter_kinds = 6;
+/// A disc is a sun with an extent.
+enum class EmitterKind : int { point, sphl, sun, disc, sphere, mesh, environment };
+inline constexpr int emitter_kinds = 7;
 struct GpuAreaSample {
   vec4 place{0}, normal{0}, light{0};
 };
@@ -99,7 +100,7 @@ inline constexpr unsigned base_texture = 8, rough_texture = 9, emission_texture 
 inline constexpr unsigned irradiance = 8, glossy = 9, cells = 10, shadow_image = 8, occlusion = 2;
 inline constexpr unsigned fitted_ranges = 8, fitted_lists = 9, fitted_light = 10;
 inline constexpr unsigned irradiance_tiles = 12, radiance_tiles = 13, environment = 13,
-                          environment_tiles = 12, probe_cells = 14;
+                          environment_tiles = 12, probe_cells = 14, depth_bounds = 15;
 inline constexpr unsigned count = 16;
 }  // namespace unit
 

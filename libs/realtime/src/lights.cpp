@@ -38,7 +38,7 @@ Lights::Lights(const scene::Scene& scene, const std::vector<mat4>& world, const 
     : world_(world), near_(std::max(5e-4f * bounds.radius(), 1e-6f)) {
   const std::vector<std::string> groups = scene::light_groups(scene);
   scales_.assign(groups.size(), vec3(1));
-  add_lights(scene, groups);
+  add_lights(scene, groups, most_sun_parts(scene, params));
   add_meshes(scene, groups, std::clamp(params.area_samples, 1, max_area_samples));
   add_environment(scene, groups, std::clamp(params.environment_samples, 1, max_area_samples));
   if (parallel_slots_ > max_parallel_maps)
@@ -47,6 +47,11 @@ Lights::Lights(const scene::Scene& scene, const std::vector<mat4>& world, const 
   lamps_ = MapAtlas(params.light_map_size, std::max(6 * lamp_slots_, 1));
   areas_ = MapAtlas(params.area_map_size, std::max(6 * area_slots_, 1));
   parallel_ = MapAtlas(params.sun_map_size, std::max(parallel_slots_, 1));
+  int bounded = 0;
+  for (const GpuEmitter& e : emitters_) {
+    if (e.items.x == static_cast<int>(EmitterKind::disc)) bounded = e.items.y + sun_cascades * e.items.z;
+  }
+  if (bounded > 0) bounds_ = DepthBounds(params.sun_map_size, bounded);
   parallel_key_.assign(static_cast<std::size_t>(parallel_slots_), vec3(-1e30f));
   scene_emitters_ = static_cast<int>(emitters_.size());
   distant_buffer_ = gl::Buffer(sizeof(DistantBlock));
@@ -57,7 +62,7 @@ Lights::Lights(const scene::Scene& scene, const std::vector<mat4>& world, const 
   place_environment(bounds);
 }
 
-void Lights::add_lights(const scene::Scene& scene, const std::vector<std::string>& groups) {
+void Lights::add_lights(const scene::Scene& scene, const std::vector<std::string>& groups, int most_parts) {
   for (const scene::Light& light : scene.lights) {
     lights_.push_back(light);
     states_.push_back({world_of(world_, light.node), light.color, light.intensity});
@@ -74,9 +79,13 @@ void Lights::add_lights(const scene::Scene& scene, const std::vector<std::string
       source.first_map = area_slots_;
       area_slots_ += sphere_points;
     } else if (light.type == scene::LightType::directional) {
-      e.items = ivec4(static_cast<int>(EmitterKind::sun), parallel_slots_, sun_cascades, 0);
+      const bool disc = light.angular_radius > 0;
+      source.parts = disc_parts(light.angular_radius, most_parts);
+      const auto parts = static_cast<int>(source.parts.size());
+      e.items =
+          ivec4(static_cast<int>(disc ? EmitterKind::disc : EmitterKind::sun), parallel_slots_, parts, 0);
       source.first_map = parallel_slots_;
-      parallel_slots_ += sun_cascades;
+      parallel_slots_ += sun_cascades * parts;
     } else {
       e.items = ivec4(static_cast<int>(EmitterKind::point), lamp_slots_, 1, 0);
       source.first_map = lamp_slots_++;
@@ -217,7 +226,7 @@ void Lights::place(Source& source, const mat4& world) {
   const float length = glm::length(back);
   const vec3 axis = length > 0 ? back / length : vec3(0, 0, 1);
   if (light.type == scene::LightType::directional) {
-    e.place = vec4(axis, std::min(light.angular_radius, pi / 2));
+    point_sun(source, axis, std::min(light.angular_radius, pi / 2));
     return;
   }
   e.place = vec4(vec3(world[3]), 0);
@@ -283,6 +292,7 @@ void Lights::prepare(const scene::CameraPose& camera, float aspect, const scene:
         lights_[static_cast<std::size_t>(source.light)].type == scene::LightType::directional)
       place_sun(source, camera, aspect, bounds);
   }
+  sun_bounds_ = bounds;
   if (environment_ && (bounds.min != environment_bounds_.min || bounds.max != environment_bounds_.max))
     place_environment(bounds);
   if (emitters_changed_) {
@@ -316,9 +326,9 @@ void Lights::list_lit() {
     const GpuEmitter& e = emitters_[i];
     if (!(max_component(vec3(e.light)) > black)) continue;
     const auto kind = static_cast<EmitterKind>(e.items.x);
-    const bool disc = kind == EmitterKind::sun && e.place.w > 0;
     lit_.push_back(
-        {kind, static_cast<int>(i), disc || kind == EmitterKind::sphere || kind == EmitterKind::environment});
+        {kind, static_cast<int>(i),
+         kind == EmitterKind::disc || kind == EmitterKind::sphere || kind == EmitterKind::environment});
   }
 }
 
@@ -341,10 +351,11 @@ void Lights::bind() const {
   lamps_.texture().bind(unit::light_maps);
   areas_.texture().bind(unit::area_maps);
   parallel_.texture().bind(unit::parallel_maps);
+  bounds_.bind();
 }
 
 std::size_t Lights::bytes() const {
-  return lamps_.bytes() + areas_.bytes() + parallel_.bytes() + emitter_buffer_.size() +
+  return lamps_.bytes() + areas_.bytes() + parallel_.bytes() + emitter_buffer_.size() + bounds_.bytes() +
          distant_buffer_.size();
 }
 

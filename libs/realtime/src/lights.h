@@ -7,6 +7,7 @@
 
 #include <ssphh/realtime/renderer.h>
 
+#include "depth_bounds.h"
 #include "emitter_samples.h"
 #include "shadow_maps.h"
 
@@ -35,6 +36,10 @@ class Lights {
                FrameCounters& counters);
   int update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most, int& waiting,
                   FrameCounters& counters);
+  /// Call it after update_maps.
+  void update_bounds(Shaders& shaders, const gl::VertexArray& no_vertices, FrameCounters& counters) {
+    bounds_.update(parallel_, shaders, no_vertices, counters);
+  }
   /// Everything but the emitter itself.
   void bind() const;
 
@@ -61,15 +66,18 @@ class Lights {
     int node = -1;                  ///< of an emissive mesh
     vec3 radiance{0};               ///< mean of a mesh's
     std::vector<AreaPoint> points;  ///< in the space of the light or mesh
+    std::vector<vec3> parts;        ///< of a sun: directions toward them, its middle at +z
     std::vector<vec3> corners;      ///< of triangles with a closed form, likewise
     mat4 placed{0};                 ///< pose of what is in the buffers
     int first_map = 0;
   };
-  void add_lights(const scene::Scene& scene, const std::vector<std::string>& groups);
+  static int most_sun_parts(const scene::Scene& scene, const RendererParams& params);
+  void add_lights(const scene::Scene& scene, const std::vector<std::string>& groups, int most_parts);
   void add_meshes(const scene::Scene& scene, const std::vector<std::string>& groups, int samples);
   void add_environment(const scene::Scene& scene, const std::vector<std::string>& groups, int samples);
   void place(Source& source, const mat4& world);
   void place_samples(Source& source, const mat4& world);
+  void point_sun(const Source& source, const vec3& axis, float radius);
   void place_sun(const Source& source, const scene::CameraPose& camera, float aspect,
                  const scene::Bounds& bounds);
   void place_environment(const scene::Bounds& bounds);
@@ -95,9 +103,10 @@ class Lights {
   int lamp_slots_ = 0, area_slots_ = 0, parallel_slots_ = 0, scene_emitters_ = 0;
   float near_;
   MapAtlas lamps_, areas_, parallel_;
+  DepthBounds bounds_;  ///< of maps of suns with an extent
   gl::Buffer emitter_buffer_, distant_buffer_;
   bool emitters_changed_ = true, distant_changed_ = true;
-  scene::Bounds environment_bounds_;
+  scene::Bounds sun_bounds_, environment_bounds_;
 };
 
 }  // namespace ssphh::realtime

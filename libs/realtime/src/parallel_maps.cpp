@@ -1,6 +1,7 @@
 /// Shadow maps of what is infinitely far: the sun's cascades, fitted to the view, and one map over the whole
 /// scene for each direction that stands for the environment.
 
+#include <algorithm>
 #include <cmath>
 
 #include "lights.h"
@@ -13,6 +14,33 @@ constexpr float cascade_share[] = {1.0f / 64, 1.0f / 16, 1.0f / 4};
 static_assert(std::size(cascade_share) + 1 == Lights::sun_cascades);
 
 }  // namespace
+
+int Lights::most_sun_parts(const scene::Scene& scene, const RendererParams& params) {
+  int suns = 0, discs = 0;
+  for (const scene::Light& light : scene.lights) {
+    if (light.type != scene::LightType::directional) continue;
+    ++suns;
+    discs += light.angular_radius > 0;
+  }
+  const int environment = scene.environment ? std::clamp(params.environment_samples, 1, max_area_samples) : 0;
+  const int spare = (max_parallel_maps - environment) / sun_cascades - suns;
+  return std::clamp(1 + spare / std::max(discs, 1), 1, std::clamp(params.sun_samples, 1, max_area_samples));
+}
+
+void Lights::point_sun(const Source& source, const vec3& axis, float radius) {
+  GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
+  e.place = vec4(axis, radius);
+  e.items.w = bounds_.layout().columns_log2;
+  e.count.x = bounds_.levels();
+  e.more.x = std::sin(radius) / std::sqrt(static_cast<float>(source.parts.size()));
+  const Frame frame = Frame::around(axis);
+  float along = 0;
+  for (const vec3& part : source.parts) along += part.z;
+  for (std::size_t i = 0; i < source.parts.size(); ++i) {
+    e.samples[i].place = vec4(frame.to_world(source.parts[i]), 1 / along);  // all together 1 along the axis
+    e.samples[i].normal.w = static_cast<float>(source.first_map + sun_cascades * static_cast<int>(i));
+  }
+}
 
 void Lights::set_parallel(int map, const vec3& forward, const vec3& center, float radius,
                           const scene::Bounds& bounds) {
@@ -33,17 +61,21 @@ void Lights::set_parallel(int map, const vec3& forward, const vec3& center, floa
 
 void Lights::place_sun(const Source& source, const scene::CameraPose& camera, float aspect,
                        const scene::Bounds& bounds) {
-  const vec3 forward = -vec3(emitters_[static_cast<std::size_t>(source.emitter)].place);
+  GpuEmitter& emitter = emitters_[static_cast<std::size_t>(source.emitter)];
   const vec3 eye(camera.world[3]), ahead = -glm::normalize(vec3(camera.world[2]));
   const float half_height =
       camera.camera.orthographic ? 0.5f * camera.camera.yheight : std::tan(0.5f * camera.camera.yfov);
   const float across = half_height * std::sqrt(1 + aspect * aspect);
   const float farthest = 2 * bounds.radius();
-  for (int i = 0; i < sun_cascades; ++i) {
+  // Depth is measured through the whole scene, by all cascades alike
+  const bool stretched = bounds.min != sun_bounds_.min || bounds.max != sun_bounds_.max;
+  for (int i = 0; i < emitter.items.z * sun_cascades; ++i) {
+    const int cascade = i % sun_cascades;
+    const vec3 forward(-emitter.samples[i / sun_cascades].place);
     vec3 center = bounds.center();
     float radius = bounds.radius();
-    if (i + 1 < sun_cascades) {
-      const float end = farthest * cascade_share[i];
+    if (cascade + 1 < sun_cascades) {
+      const float end = farthest * cascade_share[cascade];
       const float side = camera.camera.orthographic ? across : across * end;
       const float own = 0.5f * std::sqrt(end * end + 4 * side * side);
       if (own < radius) {
@@ -56,9 +88,13 @@ void Lights::place_sun(const Source& source, const scene::CameraPose& camera, fl
     const int map = source.first_map + i;
     const vec3 key = center + 17.0f * forward + vec3(radius);
     vec3& last = parallel_key_[static_cast<std::size_t>(map)];
-    if (key == last) continue;
+    if (key == last && !stretched) continue;
     last = key;
     set_parallel(map, forward, center, radius, bounds);
+    const GpuSunMap& gpu = distant_.maps[map];
+    emitter.corners[i] =
+        vec4(glm::dot(center, vec3(gpu.right)), glm::dot(center, vec3(gpu.up)), 1 / radius, map);
+    emitters_changed_ = true;
   }
 }
 

@@ -3,7 +3,8 @@
 namespace ssphh::realtime {
 namespace {
 
-constexpr const char* kind_names[emitter_kinds] = {"POINT", "SPHL", "SUN", "SPHERE", "MESH", "ENVIRONMENT"};
+constexpr const char* kind_names[emitter_kinds] = {"POINT",  "SPHL", "SUN",        "DISC",
+                                                   "SPHERE", "MESH", "ENVIRONMENT"};
 
 std::string define(const char* name, bool on = true) {
   return on ? std::string("#define ") + name + "\n" : std::string();
@@ -30,6 +31,12 @@ gl::Program& Shaders::geometry(int textures) {
 gl::Program& Shaders::shadow(bool alpha) {
   return shadow_[alpha] ? *shadow_[alpha]
                         : get(shadow_[alpha], "shadow.vert", "shadow.frag", define("ALPHA", alpha));
+}
+
+gl::Program& Shaders::depth_bounds(bool first) {
+  return depth_bounds_[first]
+             ? *depth_bounds_[first]
+             : get(depth_bounds_[first], fullscreen, "depth_bounds.frag", define("FIRST", first));
 }
 
 gl::Program& Shaders::direct(EmitterKind kind, bool full, bool shadow_view) {
@@ -89,7 +96,7 @@ std::string Shaders::compile_all() {
   occlusion(), mark(), view(), resolve(), display();
   for (const bool full : {false, true}) {
     shadow(full);
-    agree(full), interpolate(full);
+    depth_bounds(full), agree(full), interpolate(full);
     for (const auto output : {IndirectOutput::radiance, IndirectOutput::images, IndirectOutput::listed}) {
       for (int k = 0; k < method_kinds; ++k) method(static_cast<MethodKind>(k), full, output);
     }
@@ -101,7 +108,7 @@ std::string Shaders::compile_all() {
         indirect(static_cast<IndirectLookup>(lookup), full, static_cast<IndirectOutput>(output));
     }
   }
-  for (const auto kind : {EmitterKind::sun, EmitterKind::sphere, EmitterKind::environment}) seen(kind);
+  for (const auto kind : {EmitterKind::disc, EmitterKind::sphere, EmitterKind::environment}) seen(kind);
   return warnings_;
 }
 

@@ -30,6 +30,8 @@ class Shaders {
                                                   "NORMAL_TEXTURE"};
   gl::Program& geometry(int textures);
   gl::Program& shadow(bool alpha);
+  /// A level of the bounds of depth, from the map itself or from the level before.
+  gl::Program& depth_bounds(bool first);
   /// Light of one emitter on surfaces that are Lambertian or not; or the share that arrives.
   gl::Program& direct(EmitterKind kind, bool full, bool shadow_view);
   gl::Program& indirect(IndirectLookup lookup, bool full, IndirectOutput output);
@@ -59,7 +61,7 @@ class Shaders {
 
   const gl::ShaderFiles* files_;
   std::string warnings_;
-  Slot geometry_[16], shadow_[2], direct_[emitter_kinds][2][2],
+  Slot geometry_[16], shadow_[2], depth_bounds_[2], direct_[emitter_kinds][2][2],
       indirect_[indirect_lookups][2][indirect_outputs], agree_[2], mark_, interpolate_[2], occlusion_,
       method_[method_kinds][2][indirect_outputs], seen_[emitter_kinds], view_, resolve_, display_;
 };

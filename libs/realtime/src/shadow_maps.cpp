@@ -48,6 +48,7 @@ MapAtlas::MapAtlas(int size, int tiles) : size_(size), layout_(tiles, preferred_
   for (int i = 0; i < layout_.layers; ++i) layers_.emplace_back(texture_, i);
   views_.resize(static_cast<std::size_t>(tiles));
   fresh_.assign(static_cast<std::size_t>(tiles), unused);
+  drawn_.reserve(static_cast<std::size_t>(tiles));
 }
 
 std::size_t MapAtlas::bytes_of(int size, int tiles) {
@@ -81,16 +82,16 @@ void MapAtlas::invalidate_all() {
 
 int MapAtlas::update(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most, int& waiting,
                      FrameCounters& counters) {
-  int drawn = 0;
-  for (std::size_t t = 0; t < fresh_.size() && stale_ > 0 && drawn < most; ++t) {
+  drawn_.clear();
+  for (std::size_t t = 0; t < fresh_.size() && stale_ > 0 && static_cast<int>(drawn_.size()) < most; ++t) {
     if (fresh_[t] != stale) continue;
     draw_tile(static_cast<int>(t), scene, opaque, alpha, counters);
     fresh_[t] = fresh;
     --stale_;
-    ++drawn;
+    drawn_.push_back(static_cast<int>(t));
   }
   waiting += stale_;
-  return drawn;
+  return static_cast<int>(drawn_.size());
 }
 
 void MapAtlas::draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, gl::Program& alpha,

@@ -3,6 +3,7 @@
 /// they are out of date and kept otherwise.
 
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <ssphh/gl/framebuffer.h>
@@ -51,6 +52,8 @@ class MapAtlas {
   /// Draws tiles that are out of date, at most `most`; returns how many. `waiting` grows by those left.
   int update(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most, int& waiting,
              FrameCounters& counters);
+  /// Tiles that the last update drew.
+  std::span<const int> drawn() const { return drawn_; }
 
  private:
   void draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, gl::Program& alpha,
@@ -61,6 +64,7 @@ class MapAtlas {
   gl::Texture texture_;
   std::vector<gl::Framebuffer> layers_;
   std::vector<MapView> views_;
+  std::vector<int> drawn_;
   std::vector<std::uint8_t> fresh_;  ///< 0 stale, 1 fresh, 2 unused
 };
 

@@ -211,6 +211,43 @@ TEST(EmitterSamples, PointsOnAStripLieApartAndShareItsArea) {
   EXPECT_GT(nearest, 0.25f) << "half a metre each on average";
 }
 
+TEST(EmitterSamples, PartsOfADiscSpreadAsItDoes) {
+  EXPECT_THAT(disc_parts(0, 16), testing::ElementsAre(vec3(0, 0, 1)));
+  EXPECT_THAT(disc_parts(0.00465f, 16), testing::ElementsAre(vec3(0, 0, 1)));
+  EXPECT_EQ(disc_parts(0.2f, 11).size(), 7u) << "sixteen are wanted, seven are the most below eleven";
+  // Of a disc beyond a line at t
+  const auto beyond = [](double t) {
+    t = std::clamp(t, -1.0, 1.0);
+    return (std::acos(t) - t * std::sqrt(1 - t * t)) / pi_d;
+  };
+  struct Case {
+    float radius;
+    std::size_t parts;
+    double most;
+  };
+  for (const Case& c : {Case{0.07f, 4, 0.039}, {0.1f, 7, 0.019}, {0.12f, 12, 0.022}, {1.0f, 16, 0.015}}) {
+    SCOPED_TRACE(testing::Message() << "radius " << c.radius);
+    const std::vector<vec3> parts = disc_parts(c.radius, 16);
+    ASSERT_EQ(parts.size(), c.parts);
+    const double sine = std::sin(static_cast<double>(c.radius));
+    double worst = 0;
+    for (double turn = 0; turn < 2 * pi_d; turn += 0.05) {
+      for (double t = -1.2; t <= 1.2; t += 0.01) {
+        double share = 0;
+        for (const vec3& p : parts) {
+          EXPECT_NEAR(glm::length(p), 1, 1e-6f);
+          const double at =
+              (static_cast<double>(p.x) * std::cos(turn) + static_cast<double>(p.y) * std::sin(turn)) / sine;
+          const auto count = static_cast<double>(parts.size());
+          share += beyond((t - at) * std::sqrt(count)) / count;
+        }
+        worst = std::max(worst, std::abs(share - beyond(t)));
+      }
+    }
+    EXPECT_LT(worst, c.most);
+  }
+}
+
 TEST(EmitterSamples, ConstantEnvironmentGivesPiEverywhere) {
   scene::Environment environment;
   const auto sh = environment_irradiance(environment);

@@ -12,8 +12,8 @@ class Framebuffer {
   Framebuffer() = default;
   /// `depth` may be null. Throws Error when the driver refuses the combination.
   Framebuffer(std::span<const Texture* const> colors, const Texture* depth);
-  /// One layer of a depth array, nothing else.
-  Framebuffer(const Texture& depth, int layer);
+  /// One layer of an array, depth or colour, nothing else; of a mipmap level.
+  Framebuffer(const Texture& texture, int layer, int level = 0);
 
   unsigned id() const { return handle_.get(); }
 
@@ -33,6 +33,8 @@ void clear_depth(const Rect& rect, float value);
 void clear_stencil(int value);
 void clear_color(int attachment, float r, float g, float b, float a);
 void clear_color_uint(int attachment, unsigned r, unsigned g, unsigned b, unsigned a);
+/// What was drawn into a texture may be read by what is drawn into other texels of it next.
+void texture_barrier();
 /// The framebuffer that is bound for drawing now.
 unsigned current_framebuffer();
 

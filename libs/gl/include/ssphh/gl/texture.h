@@ -13,6 +13,7 @@ enum class Format {
   r16f,
   rgba16f,
   r32f,
+  rg32f,
   rgba32f,
   rg32ui,
   rgba32ui,

@@ -43,7 +43,8 @@ struct RendererParams {
   std::size_t probe_map_bytes = std::size_t{64} << 20;           ///< for all probes' maps together
   std::size_t voxel_bytes = std::size_t{2} << 30;                ///< for the voxels of method vct at most
   std::size_t virtual_light_map_bytes = std::size_t{256} << 20;  ///< for the maps of all lights of method vpl
-  int area_samples = 16;         ///< points that stand for a light with an extent, each with a shadow map
+  int area_samples = 16;  ///< points that stand for a light with an extent, each with a shadow map
+  int sun_samples = 7;  ///< parts of a wide sun's disc at most (1, 4, 7, 12, 16), each with four shadow maps
   int environment_samples = 32;  ///< directions in which the environment casts shadows
   int maps_per_frame = 1 << 30;  ///< cube maps drawn in one frame at most; the rest wait for the next
 };
