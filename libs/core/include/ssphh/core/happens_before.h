@@ -1,7 +1,7 @@
 #pragma once
-/// What ThreadSanitizer cannot see: an order between threads that a library without instrumentation makes, such as
-/// TBB between the thread that starts a loop and those that run it. Say so as narrowly as it is true, or real
-/// races are hidden. Without the sanitizer (CMake: SSPHH_SANITIZE=thread) these functions are empty.
+/// What ThreadSanitizer cannot see: an order between threads that a library without instrumentation makes,
+/// such as TBB between the thread that starts a loop and those that run it. Say so as narrowly as it is true,
+/// or real races are hidden. Without the sanitizer (CMake: SSPHH_SANITIZE=thread) these functions are empty.
 
 #ifdef SSPHH_THREAD_SANITIZER
 #include <sanitizer/tsan_interface.h>
@@ -18,7 +18,8 @@ inline void happens_before([[maybe_unused]] void* address) {
 #endif
 }
 
-/// What threads did before their happens_before() of this address comes before all that this thread does from now on.
+/// What threads did before their happens_before() of this address comes before all that this thread does from
+/// now on.
 inline void happens_after([[maybe_unused]] void* address) {
 #ifdef SSPHH_THREAD_SANITIZER
   __tsan_acquire(address);
@@ -29,8 +30,12 @@ inline void happens_after([[maybe_unused]] void* address) {
 class LibraryWrites {
  public:
 #ifdef SSPHH_THREAD_SANITIZER
-  LibraryWrites() { AnnotateIgnoreWritesBegin(__FILE__, __LINE__); }
-  ~LibraryWrites() { AnnotateIgnoreWritesEnd(__FILE__, __LINE__); }
+  LibraryWrites() {
+    AnnotateIgnoreWritesBegin(__FILE__, __LINE__);
+  }
+  ~LibraryWrites() {
+    AnnotateIgnoreWritesEnd(__FILE__, __LINE__);
+  }
 #else
   LibraryWrites() {}
   ~LibraryWrites() {}
