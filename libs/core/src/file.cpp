@@ -1,6 +1,6 @@
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
+#include <random>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -72,6 +72,18 @@ int write_all(int fd, std::span<const std::byte> data) {
   return 0;
 }
 
+// Opens a new file whose name nobody else has; -1 and errno when it cannot be. mkostemps would make it
+// private, and its umask-ed mode could only be found by setting the umask, which all threads share.
+int open_beside(const std::filesystem::path& path, unsigned permissions, std::string& name) {
+  std::random_device random;
+  int fd = -1;
+  do {
+    name = fmt::format("{}.{:08x}.part", path.string(), random());
+    fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, static_cast<mode_t>(permissions));
+  } while (fd < 0 && errno == EEXIST);
+  return fd;
+}
+
 }  // namespace
 
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t limit) {
@@ -82,7 +94,7 @@ std::string read_text_file(const std::filesystem::path& path, std::uint64_t limi
   return read_whole<std::string>(path, limit);
 }
 
-void write_file(const std::filesystem::path& path, std::span<const std::byte> data) {
+void write_file(const std::filesystem::path& path, std::span<const std::byte> data, unsigned permissions) {
   // A device or pipe has no old content to keep and must not be replaced by a file.
   struct stat status {};
   if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
@@ -92,24 +104,20 @@ void write_file(const std::filesystem::path& path, std::span<const std::byte> da
     if (const int error = write_all(device.get(), data)) fail(path, "write", error);
     return;
   }
-  std::string temporary = path.string() + ".XXXXXX.part";
-  Descriptor file(::mkostemps(temporary.data(), 5, O_CLOEXEC));
+  std::string temporary;
+  Descriptor file(open_beside(path, permissions, temporary));
   if (file.get() < 0) fail(path, "write", errno);
   const auto abandon = [&](int error) {
     ::unlink(temporary.c_str());
     fail(path, "write", error);
   };
   if (const int error = write_all(file.get(), data)) abandon(error);
-  // mkostemps makes the file private; an ordinary output has the umask's mode.
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  if (::fchmod(file.get(), 0666 & ~mask) != 0 || ::fsync(file.get()) != 0 || file.close() != 0)
-    abandon(errno);
+  if (::fsync(file.get()) != 0 || file.close() != 0) abandon(errno);
   if (::rename(temporary.c_str(), path.c_str()) != 0) abandon(errno);
 }
 
-void write_file(const std::filesystem::path& path, std::string_view text) {
-  write_file(path, std::as_bytes(std::span(text.data(), text.size())));
+void write_file(const std::filesystem::path& path, std::string_view text, unsigned permissions) {
+  write_file(path, std::as_bytes(std::span(text.data(), text.size())), permissions);
 }
 
 }  // namespace ssphh

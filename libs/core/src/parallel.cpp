@@ -8,6 +8,8 @@
 
 #include <ssphh/core/parallel.h>
 
+#include "fork_join.h"
+
 namespace ssphh {
 namespace {
 
@@ -36,10 +38,12 @@ int thread_count() {
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body, const Control& control) {
   SSPHH_CHECK(grain > 0);
+  ForkJoin loop;
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, (count + grain - 1) / grain, 1),
       [&](const tbb::blocked_range<std::size_t>& chunks) {
         for (std::size_t chunk = chunks.begin(); chunk != chunks.end(); ++chunk) {
+          const ForkJoin::Chunk within(loop);
           control.check();
           body(chunk * grain, std::min(count, (chunk + 1) * grain));
         }

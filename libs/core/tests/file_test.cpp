@@ -1,8 +1,11 @@
 #include <csignal>
+#include <thread>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
@@ -66,6 +69,52 @@ TEST(File, AFailedWriteKeepsTheOldFileAndLeavesNothingBehind) {
   EXPECT_THAT(message, HasSubstr("cannot write"));
   EXPECT_EQ(read_text_file(dir / "kept"), "precious");
   EXPECT_EQ(file_count(dir.path()), 1);
+}
+
+unsigned permissions(const std::filesystem::path& path) {
+  return static_cast<unsigned>(std::filesystem::status(path).permissions());
+}
+
+/// The umask of the process while a test runs.
+class Umask {
+ public:
+  explicit Umask(mode_t mask) : before_(::umask(mask)) {}
+  ~Umask() { ::umask(before_); }
+  Umask(const Umask&) = delete;
+  Umask& operator=(const Umask&) = delete;
+
+ private:
+  mode_t before_;
+};
+
+TEST(File, HasThePermissionsAskedForLessTheUmasks) {
+  const test::TempDir dir;
+  const Umask umask(027);
+  write_file(dir / "open", "x");
+  write_file(dir / "secret", "x", 0600);
+  write_file(dir / "secret", "y", 0600);
+  EXPECT_EQ(permissions(dir / "open"), 0640u);
+  EXPECT_EQ(permissions(dir / "secret"), 0600u);
+}
+
+// The umask is the process's: a thread that sets it, and be it to read it, opens other threads' files to all.
+TEST(File, WritingOpensNoFileOfAnotherThread) {
+  // In memory: a disk's syncs would keep the threads apart.
+  const std::filesystem::path memory = "/dev/shm";
+  const test::TempDir dir(std::filesystem::exists(memory) ? memory : std::filesystem::temp_directory_path());
+  const Umask umask(027);
+  constexpr int threads = 8, files = 2000;
+  std::vector<std::thread> writers;
+  for (int t = 0; t < threads; ++t)
+    writers.emplace_back([&dir, t] {
+      for (int i = 0; i < files; ++i) write_file(dir / fmt::format("{}-{}", t, i), "x");
+    });
+  for (std::thread& writer : writers) writer.join();
+  int wrong = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(dir.path()))
+    wrong += permissions(entry.path()) != 0640;
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(::umask(027), mode_t{027}) << "of the process, afterwards";
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 #include <atomic>
+#include <chrono>
+#include <cstdlib>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -43,6 +45,33 @@ TEST(ParallelFor, StopsWhenCancelled) {
                Cancelled);
   EXPECT_LT(calls, 100000);
 }
+
+#ifdef SSPHH_THREAD_SANITIZER
+// parallel_for tells the sanitizer of its fork and join. Told too much, it would find nothing any more.
+TEST(ParallelForDeathTest, ARaceBetweenRangesIsReported) {
+  if (thread_count() < 2) GTEST_SKIP() << "one hardware thread";
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto race = [] {
+    int shared = 0;
+    std::atomic<int> step = 0;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    // Relaxed, so that nothing but time orders the two ranges, each on a thread of its own.
+    const auto wait_for = [&](int wanted) {
+      while (step.load(std::memory_order_relaxed) < wanted && std::chrono::steady_clock::now() < end) {
+      }
+    };
+    parallel_for(2, 1, [&](std::size_t range, std::size_t) {
+      step.fetch_add(1, std::memory_order_relaxed);
+      wait_for(range == 0 ? 2 : 3);
+      ++shared;
+      step.fetch_add(1, std::memory_order_relaxed);
+    });
+    std::exit(shared < 0);
+  };
+  constexpr int reported = 66;
+  EXPECT_EXIT(race(), testing::ExitedWithCode(reported), "data race");
+}
+#endif
 
 TEST(Threads, CountCanBeLimitedAndRestored) {
   set_thread_count(1);

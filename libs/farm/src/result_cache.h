@@ -20,7 +20,7 @@ inline std::optional<JobResult> find_result(DiskCache* cache, const Hash128& key
 }
 
 /// A full disk costs the cache, not the work.
-inline void keep_result(DiskCache* cache, const Hash128& key, JobResult result) {
+inline void keep_result(DiskCache* cache, const Hash128& key, const JobResult& result) {
   if (!cache) return;
   const std::string body = encode_result(result, ContentType::binary);
   try {

@@ -84,6 +84,7 @@ struct Broker::Impl {
                   e.num() == EADDRINUSE ? "does another broker run there? Port 0 finds a free one"
                                         : "write tcp://ADDRESS:PORT or ipc://PATH");
     }
+    endpoint = router.get(zmq::sockopt::last_endpoint);
   }
 
   // ROUTER does not say when a peer goes; its connection's descriptor does.
@@ -224,6 +225,7 @@ struct Broker::Impl {
   std::unique_ptr<Gate> gate;  // null: plain
   std::unique_ptr<MetricsServer> metrics;
   zmq::socket_t router, monitor;
+  std::string endpoint;  // a socket may be asked by the thread of run() alone
   Wakeup wakeup;
   struct Connection {
     int fd = -1;
@@ -241,7 +243,7 @@ Broker::Broker(BrokerOptions options) : impl_(std::make_unique<Impl>(std::move(o
 Broker::~Broker() = default;
 
 std::string Broker::endpoint() const {
-  return impl_->router.get(zmq::sockopt::last_endpoint);
+  return impl_->endpoint;
 }
 
 std::string Broker::metrics_endpoint() const {

@@ -28,9 +28,13 @@ struct Client::Impl {
   }
 
   ~Impl() {
-    for (const RequestId& id : core.to_cancel()) core.cancel(steady_now(), id);
-    core.tick(steady_now());
-    flush();
+    try {
+      for (const RequestId& id : core.to_cancel()) core.cancel(steady_now(), id);
+      core.tick(steady_now());
+      flush();
+    } catch (const std::exception&) {
+      // No socket, no memory: the broker cancels after its grace for clients that are gone.
+    }
     if (monitor) monitor.close();
     socket.close();
   }

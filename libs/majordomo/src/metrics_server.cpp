@@ -21,6 +21,7 @@ MetricsServer::MetricsServer(zmq::context_t& context, const std::string& bind)
   } catch (const zmq::error_t& e) {
     throw Error(bind, std::string("cannot bind the metrics: ") + e.what(), "choose another port");
   }
+  endpoint_ = socket_.get(zmq::sockopt::last_endpoint);
 }
 
 void MetricsServer::serve(const std::function<std::string()>& text) {

@@ -14,12 +14,13 @@ class MetricsServer {
   /// Throws Error when the endpoint cannot be bound.
   MetricsServer(zmq::context_t& context, const std::string& bind);
   zmq::socket_t& socket() { return socket_; }
-  std::string endpoint() const { return socket_.get(zmq::sockopt::last_endpoint); }
+  const std::string& endpoint() const { return endpoint_; }
   /// Answers what has arrived; `text` gives the metrics.
   void serve(const std::function<std::string()>& text);
 
  private:
   zmq::socket_t socket_;
+  std::string endpoint_;
   std::unordered_map<std::string, std::string> requests_;  ///< bytes so far, by connection
 };
 

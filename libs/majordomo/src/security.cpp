@@ -73,15 +73,8 @@ void write_key_pair(const fs::path& dir, const std::string& name, const KeyPair&
     if (fs::exists(path))
       throw Error(path.string(), "exists already", "choose another name or remove it first");
   fs::create_directories(dir);
-  const mode_t before = ::umask(077);  // the secret must never lie readable, not even for a moment
-  try {
-    write_file(secret, "public " + keys.public_key + "\nsecret " + keys.secret_key + "\n");
-  } catch (...) {
-    ::umask(before);
-    throw;
-  }
-  ::umask(before);
-  fs::permissions(secret, fs::perms::owner_read | fs::perms::owner_write);
+  write_file(secret, "public " + keys.public_key + "\nsecret " + keys.secret_key + "\n",
+             0600);  // nobody else's, not even for a moment
   write_file(open, keys.public_key + "\n");
 }
 

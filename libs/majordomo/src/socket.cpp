@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/core/happens_before.h>
 
 namespace ssphh::majordomo {
 namespace {
@@ -15,12 +16,15 @@ constexpr std::size_t copy_below = 64 << 10;
 constexpr std::size_t usual_frames = 8;
 
 void release(void*, void* hint) {
+  happens_after(hint);
   delete static_cast<Body*>(hint);
 }
 
 zmq::message_t message_of(const Frame& frame, const Body& owner) {
   if (!owner || frame.size() < copy_below) return zmq::message_t(frame.data(), frame.size());
-  return zmq::message_t(const_cast<char*>(frame.data()), frame.size(), release, new Body(owner));
+  auto* const hint = new Body(owner);
+  happens_before(hint);  // ZeroMQ's thread releases it
+  return zmq::message_t(const_cast<char*>(frame.data()), frame.size(), release, hint);
 }
 
 }  // namespace

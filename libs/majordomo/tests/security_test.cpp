@@ -140,6 +140,8 @@ TEST(Security, KeyFilesAndAllowLists) {
   TempDir dir;
   const KeyPair keys = make_key_pair();
   write_key_pair(dir.path(), "a", keys);
+  EXPECT_EQ(std::filesystem::status(dir / "a.key").permissions(),
+            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
   EXPECT_EQ(read_key_pair(dir / "a.key").secret_key, keys.secret_key);
   EXPECT_EQ(read_public_key(dir / "a.pub"), keys.public_key);
   EXPECT_THROW(write_key_pair(dir.path(), "a", keys), Error);

@@ -5,6 +5,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <ssphh/core/happens_before.h>
 #include <ssphh/core/random.h>
 #include <ssphh/scene/query.h>
 
@@ -100,7 +101,10 @@ RTCGeometry new_triangles(RTCDevice device, const scene::Mesh& mesh, const std::
 EmbreeScene::EmbreeScene(const scene::Scene& scene, const std::vector<mat4>& world,
                          std::uint64_t flatten_limit, const std::vector<bool>& only)
     : scene_(scene), parts_(scene.instances.size()), embree_(std::make_unique<Embree>()) {
-  embree_->device = rtcNewDevice(nullptr);
+  {
+    const LibraryWrites settings;  // strings that Embree's tasks compare
+    embree_->device = rtcNewDevice(nullptr);
+  }
   if (!embree_->device) throw Error("ray tracer", "Embree does not start on this machine");
   embree_->scene = new_scene(embree_->device);
 

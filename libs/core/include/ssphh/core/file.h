@@ -17,9 +17,11 @@ std::vector<std::byte> read_file(const std::filesystem::path& path,
                                  std::uint64_t limit = std::uint64_t{4} << 30);
 std::string read_text_file(const std::filesystem::path& path, std::uint64_t limit = std::uint64_t{256} << 20);
 
-/// Writes to "PATH.XXXX.part" beside the target and renames it on success, so that an existing file stays
-/// whole when the disk is full or the process dies. Throws Error with the system's reason.
-void write_file(const std::filesystem::path& path, std::span<const std::byte> data);
-void write_file(const std::filesystem::path& path, std::string_view text);
+/// Writes to "PATH.XXXXXXXX.part" beside the target and renames it on success, so that an existing file stays
+/// whole when the disk is full or the process dies. The file has `permissions` (chmod's bits) less the
+/// umask's from its first moment on. Throws Error with the system's reason. From any thread.
+void write_file(const std::filesystem::path& path, std::span<const std::byte> data,
+                unsigned permissions = 0666);
+void write_file(const std::filesystem::path& path, std::string_view text, unsigned permissions = 0666);
 
 }  // namespace ssphh

@@ -40,9 +40,9 @@ class Broker {
   Broker(const Broker&) = delete;
   Broker& operator=(const Broker&) = delete;
 
-  /// What was bound, with the port that was found.
+  /// What was bound, with the port that was found. From any thread, also while run() serves.
   std::string endpoint() const;
-  /// Of the metrics; empty when there is none.
+  /// Of the metrics; empty when there is none. From any thread.
   std::string metrics_endpoint() const;
   /// Serves until stop(); then takes no new requests, waits for running ones for at most `drain`, tells the
   /// workers and returns. Throws Error when the store fails.
