@@ -235,14 +235,17 @@ TEST_F(RendererTest, FramesInSteadyStateAllocateNothing) {
   Renderer renderer(gl(), scene_);
   renderer.set_probes(test::made_up_probes(scene_));
   const scene::CameraPose camera = scene::camera_pose(scene_, "");
-  const FrameSettings settings;
   const realtime::Target target{.width = 64, .height = 36};
-  for (int i = 0; i < 3; ++i) renderer.draw(camera, settings, target);
-  const std::size_t memory = renderer.memory_bytes();
-  const long before = test::allocations();
-  for (int i = 0; i < 50; ++i) renderer.draw(camera, settings, target);
-  EXPECT_EQ(test::allocations() - before, 0);
-  EXPECT_EQ(renderer.memory_bytes(), memory);
+  for (const int scale : {1, 3}) {
+    FrameSettings settings;
+    settings.indirect_scale = scale;
+    for (int i = 0; i < 3; ++i) renderer.draw(camera, settings, target);
+    const std::size_t memory = renderer.memory_bytes();
+    const long before = test::allocations();
+    for (int i = 0; i < 50; ++i) renderer.draw(camera, settings, target);
+    EXPECT_EQ(test::allocations() - before, 0) << scale;
+    EXPECT_EQ(renderer.memory_bytes(), memory) << scale;
+  }
 }
 
 TEST_F(RendererTest, ViewsShowWhatTheyName) {
