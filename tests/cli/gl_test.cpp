@@ -59,10 +59,25 @@ TEST_F(GlTool, BenchFrameComparesWithDirectLightAlone) {
       {"bench-frame", "builtin:two-rooms", "--probes", dir / "a.sphl", "--frames", "3", "--ratio", "--move"},
       tiny));
   EXPECT_EQ(bench["probes"], 6);
+  EXPECT_EQ(bench["indirect_scale"], 3) << "as in the viewer";
   EXPECT_TRUE(bench["passes"].contains("indirect"));
   EXPECT_NEAR(bench["sphl_ratio"],
               bench["median_ms"].get<double>() / bench["direct_only_median_ms"].get<double>(), 1e-6);
   expect_failure({"bench-frame", "builtin:two-rooms", "--ratio"}, "--probes");
+}
+
+TEST_F(GlTool, LightAtSomePixelsIsOfTheRealTimeRenderer) {
+  const TempDir dir;
+  expect_failure(
+      {"render", "builtin:cornell", "--method", "direct", "--indirect-scale", "3", "-o", dir / "a.exr"},
+      "--backend gl");
+  EXPECT_FALSE(std::filesystem::exists(dir / "a.exr"));
+  const json done =
+      run_json(with({"render", "builtin:cornell", "--method", "vpl", "--param", "photons=8", "--param",
+                     "check_points=0", "--backend", "gl", "--indirect-scale", "3", "-o", dir / "b.exr"},
+                    tiny));
+  EXPECT_EQ(done["backend"], "gl");
+  EXPECT_TRUE(std::filesystem::exists(dir / "b.exr"));
 }
 
 TEST_F(GlTool, EveryKindOfWeightsIsDrawnAsTheCpuDoes) {
