@@ -41,10 +41,7 @@ endfunction()
 function(ssphh_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gmock_main ssphh_compile_options)
-  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
-  target_compile_definitions(${name} PRIVATE
-    SSPHH_SOURCE_DIR="${PROJECT_SOURCE_DIR}" SSPHH_TOOL="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/ssphh")
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} ssphh_test_support GTest::gmock_main ssphh_compile_options)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 600)
 endfunction()
 

@@ -34,18 +34,38 @@ int open_to_write(const std::filesystem::path& path) {
   return file;
 }
 
+/// This process' environment with the program's own folder first on PATH. A distribution's Blender takes the
+/// first python3 there for its own, and that of a version manager or a virtual environment has no numpy.
+std::vector<std::string> environment_for(const std::string& program) {
+  const std::filesystem::path found = find_program(program);
+  std::vector<std::string> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const bool is_path = std::string_view(*variable).starts_with("PATH=");
+    variables.emplace_back(is_path && !found.empty()
+                               ? fmt::format("PATH={}:{}", found.parent_path().string(), *variable + 5)
+                               : *variable);
+  }
+  return variables;
+}
+
+std::vector<char*> pointers(const std::vector<std::string>& texts) {
+  std::vector<char*> result;
+  for (const std::string& text : texts) result.push_back(const_cast<char*>(text.c_str()));
+  result.push_back(nullptr);
+  return result;
+}
+
 pid_t start(const std::vector<std::string>& command, const std::filesystem::path& log,
             const std::filesystem::path& result) {
   const int err = open_to_write(log), out = open_to_write(result.empty() ? log : result);
-  std::vector<char*> arguments;
-  for (const std::string& a : command) arguments.push_back(const_cast<char*>(a.c_str()));
-  arguments.push_back(nullptr);
+  const std::vector<std::string> variables = environment_for(command[0]);
+  const std::vector<char*> arguments = pointers(command), environment = pointers(variables);
   const pid_t pid = ::fork();
   if (pid == 0) {
     ::setpgid(0, 0);  // so that its children end with it
     const int nothing = ::open("/dev/null", O_RDONLY);
     ::dup2(err, 2), ::dup2(out, 1), ::dup2(nothing, 0);  // in this order: 0 may have been closed and be err
-    ::execvp(arguments[0], arguments.data());
+    ::execvpe(arguments[0], arguments.data(), environment.data());
     ::_exit(127);
   }
   ::close(out), ::close(err);
@@ -97,13 +117,16 @@ ProgramUsage run_program(const std::vector<std::string>& command, const std::fil
           static_cast<std::uint64_t>(usage.ru_maxrss) * 1024};
 }
 
-bool program_exists(const std::string& name) {
+std::filesystem::path find_program(const std::string& name) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path != nullptr ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
-    if (::access((folder + "/" + name).c_str(), X_OK) == 0) return true;
+    const std::filesystem::path file = std::filesystem::path(folder) / name;
+    std::error_code unreadable;
+    if (std::filesystem::is_regular_file(file, unreadable) && ::access(file.c_str(), X_OK) == 0)
+      return std::filesystem::canonical(file);
   }
-  return false;
+  return {};
 }
 
 }  // namespace ssphh::app

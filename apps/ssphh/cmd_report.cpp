@@ -97,7 +97,7 @@ std::string file_hash(const fs::path& path) {
 
 // Of the work tree in which the tool was built, if it lies in one.
 std::string work_tree_commit(const fs::path& tool, const fs::path& scratch, const Control& control) {
-  if (!program_exists("git")) return {};
+  if (find_program("git").empty()) return {};
   const fs::path out = scratch / "git-describe", log = scratch / "git-log";
   fs::remove(out);
   std::string commit;

@@ -1,5 +1,6 @@
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -63,9 +64,12 @@ Halves render_path(const TruthOptions& o, const scene::Scene& scene, const FarmS
 }
 
 Halves render_cycles(const TruthOptions& o, const scene::Scene& scene, const Context& context) {
-  if (!program_exists("blender")) {
-    throw Error("--renderer cycles", "there is no `blender` on PATH",
-                "scripts/install-deps --with-blender installs it");
+  if (find_program("blender").empty()) {
+    const char* path = std::getenv("PATH");
+    throw Error(
+        "--renderer cycles",
+        fmt::format("there is no `blender` in the folders of PATH, {}", path ? path : "(which is not set)"),
+        "scripts/install-deps --with-blender installs it");
   }
   const std::filesystem::path work = o.work.empty() ? o.output + ".cycles" : o.work;
   const scene_io::ExportReport report =

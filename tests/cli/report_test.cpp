@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "places.h"
 #include "temp_dir.h"
 #include "tool_checks.h"
 
@@ -20,7 +21,7 @@ using test::run_json;
 using test::TempDir;
 using testing::HasSubstr;
 
-const std::string tiny = std::string(SSPHH_SOURCE_DIR) + "/plans/tiny.json";
+const std::string tiny = test::source_dir() / "plans/tiny.json";
 
 std::string slurp(const fs::path& path) {
   std::ifstream file(path);

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "farm_process.h"
+#include "places.h"
 
 namespace ssphh::test {
 namespace {
@@ -22,7 +23,7 @@ std::map<std::string, std::vector<std::byte>> results_in(const fs::path& cache) 
 
 TEST(FarmReport, RunsOfAFarmHaveTheKeysAndTheBitsOfLocalOnes) {
   const TempDir dir;
-  const std::string plan = std::string(SSPHH_SOURCE_DIR) + "/plans/tiny.json";
+  const std::string plan = test::source_dir() / "plans/tiny.json";
   const auto report = [&](const std::string& name, std::vector<std::string> more) {
     std::vector<std::string> command = {
         "report", plan, "-o", (dir / name / "out").string(), "--cache", (dir / name / "cache").string()};

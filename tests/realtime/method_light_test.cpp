@@ -51,23 +51,6 @@ struct Subject {
   std::unique_ptr<gi::Method> method;
 };
 
-/// What stands in the middle of each pixel.
-std::vector<scene::RayQuery> pixel_rays(const scene::CameraPose& pose) {
-  const float up = std::tan(0.5f * pose.camera.yfov),
-              right = up * static_cast<float>(size.width) / static_cast<float>(size.height);
-  std::vector<scene::RayQuery> rays;
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      const vec2 place = 2.0f * vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f) /
-                             vec2(size.width, size.height) -
-                         1.0f;
-      const vec3 local = glm::normalize(vec3(place.x * right, -place.y * up, -1));
-      rays.push_back({vec3(pose.world[3]), vec3(pose.world * vec4(local, 0))});
-    }
-  }
-  return rays;
-}
-
 struct Picture {
   image::Image radiance, normal;
 };
@@ -76,7 +59,7 @@ struct Picture {
 /// material.
 Picture looked_up(const Subject& subject, const std::string& camera,
                   const shading::BsdfParams* glossy = nullptr) {
-  const std::vector<scene::RayQuery> rays = pixel_rays(subject.camera(camera));
+  const std::vector<scene::RayQuery> rays = test::pixel_rays(subject.camera(camera), size);
   std::vector<scene::RayHit> hits(rays.size());
   gi::PosedSurfaces(subject.source, subject.time).intersect(rays, hits);
   Picture picture{{size.width, size.height, 3}, {size.width, size.height, 3}};

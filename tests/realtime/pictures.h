@@ -9,6 +9,8 @@
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
+#include "pixel_points.h"
+
 namespace ssphh::test {
 
 /// Probes at the scene's SPHLs with made-up light of degree 4, positive and different in every direction: a
@@ -71,10 +73,6 @@ inline realtime::FittedSurfaces prepared(const scene::Scene& scene, const gi::Fi
   return realtime::prepare_fitted(scene, 0, fitted,
                                   [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); });
 }
-
-struct PictureSize {
-  int width = 128, height = 72;
-};
 
 /// Direct light traced, indirect light looked up (none: max_depth 1).
 inline image::Image traced(const scene::Scene& scene, const scene::IndirectLight* indirect, PictureSize size,

@@ -15,6 +15,8 @@ struct Check {
 
 /// Checks that leave the broker as it was.
 std::vector<Check> rules();
+/// And such that take times in heartbeats, which the broker sends every `beat` milliseconds.
+std::vector<Check> times(int beat);
 /// Hostile messages: after each, the broker must still serve others.
 std::vector<Check> hostile();
 

@@ -9,7 +9,7 @@ std::function<bool(const std::string&)> survives(Frames message) {
   return [message](const std::string& endpoint) {
     Peer hostile(endpoint);
     hostile.send(message);
-    pause(50);
+    if (!hostile.connected()) return false;
     static int number = 0;
     const std::string service = "p.survivor" + std::to_string(++number);
     Worker01 worker(endpoint, service);

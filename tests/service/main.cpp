@@ -3,11 +3,14 @@
 ///
 ///   mdp_probe --endpoint tcp://127.0.0.1:5555
 ///   mdp_probe -- ssphh broker --bind tcp://127.0.0.1:5555      (endpoint: --endpoint, else 127.0.0.1:5555)
+///   mdp_probe --only times --beat 400 -- quick_broker ENDPOINT 400  (those that wait for heartbeats: 2500 ms
+///                                                                    unless --beat says otherwise)
 ///
 /// With a command, the broker is started, started again when a check kills it, and must end on SIGTERM.
 /// Prints one line per check; exit code 0 when all pass, 1 otherwise, 2 for wrong usage.
 
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <future>
@@ -26,7 +29,8 @@ namespace {
 
 class BrokerProcess {
  public:
-  explicit BrokerProcess(std::vector<char*> command) : command_(std::move(command)) {
+  BrokerProcess(std::string endpoint, std::vector<char*> command)
+      : endpoint_(std::move(endpoint)), command_(std::move(command)) {
     if (!command_.empty()) command_.push_back(nullptr);
     start();
   }
@@ -65,9 +69,10 @@ class BrokerProcess {
       ::execvp(command_[0], command_.data());
       ::_exit(127);
     }
-    pause(500);
+    Peer(endpoint_).connected();
   }
 
+  std::string endpoint_;
   std::vector<char*> command_;
   pid_t pid_ = 0;
 };
@@ -90,18 +95,32 @@ bool passes(const Check& check, const std::string& endpoint) {
   }
 }
 
-int run(const std::string& endpoint, std::vector<char*> command) {
-  BrokerProcess broker(std::move(command));
-  Tally tally;
-  const std::vector<Check> side_by_side = rules();
+struct Options {
+  std::string endpoint = "tcp://127.0.0.1:5555", only;
+  int beat = 2500;
+  std::vector<char*> command;
+  bool wants(const char* part) const { return only.empty() || only == part; }
+};
+
+void check_side_by_side(const std::vector<Check>& checks, const std::string& endpoint, Tally& tally) {
   std::vector<std::future<bool>> verdicts;
-  for (const Check& check : side_by_side)
+  for (const Check& check : checks)
     verdicts.push_back(
         std::async(std::launch::async, [&check, &endpoint] { return passes(check, endpoint); }));
-  for (std::size_t i = 0; i < side_by_side.size(); ++i)
-    tally.tell(side_by_side[i], verdicts[i].get() ? "pass" : "FAIL");
+  for (std::size_t i = 0; i < checks.size(); ++i) tally.tell(checks[i], verdicts[i].get() ? "pass" : "FAIL");
+}
+
+int run(const Options& options) {
+  const std::string& endpoint = options.endpoint;
+  BrokerProcess broker(endpoint, options.command);
+  Tally tally;
+  std::vector<Check> side_by_side;
+  if (options.wants("rules")) side_by_side = rules();
+  if (options.wants("times"))
+    for (Check& check : times(options.beat)) side_by_side.push_back(std::move(check));
+  check_side_by_side(side_by_side, endpoint, tally);
   broker.died();
-  for (const Check& check : hostile()) {
+  for (const Check& check : options.wants("rules") ? hostile() : std::vector<Check>{}) {
     const bool good = passes(check, endpoint);
     tally.tell(check, broker.died() ? "CRASH" : good ? "pass" : "FAIL");
   }
@@ -119,18 +138,24 @@ int run(const std::string& endpoint, std::vector<char*> command) {
 }  // namespace ssphh::probe
 
 int main(int argc, char** argv) {
-  std::string endpoint = "tcp://127.0.0.1:5555";
-  std::vector<char*> command;
+  ssphh::probe::Options options;
   for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--endpoint") == 0 && i + 1 < argc) {
-      endpoint = argv[++i];
-    } else if (std::strcmp(argv[i], "--") == 0 && i + 1 < argc) {
-      command.assign(argv + i + 1, argv + argc);
+    const std::string word = argv[i];
+    if (word == "--endpoint" && i + 1 < argc) {
+      options.endpoint = argv[++i];
+    } else if (word == "--beat" && i + 1 < argc) {
+      options.beat = std::atoi(argv[++i]);
+    } else if (word == "--only" && i + 1 < argc) {
+      options.only = argv[++i];
+    } else if (word == "--" && i + 1 < argc) {
+      options.command.assign(argv + i + 1, argv + argc);
       break;
     } else {
-      std::fprintf(stderr, "usage: mdp_probe [--endpoint ENDPOINT] [-- COMMAND...]\n");
+      std::fprintf(
+          stderr,
+          "usage: mdp_probe [--endpoint ENDPOINT] [--only rules|times] [--beat MS] [-- COMMAND...]\n");
       return 2;
     }
   }
-  return ssphh::probe::run(endpoint, std::move(command));
+  return ssphh::probe::run(options);
 }

@@ -19,11 +19,21 @@ inline const Frames disconnect01 = {"", "MDPW01", "\x05"}, disconnect02 = {"MDPW
 
 class Peer {
  public:
-  explicit Peer(const std::string& endpoint) : socket_(context_, zmq::socket_type::dealer) {
+  explicit Peer(const std::string& endpoint)
+      : socket_(context_, zmq::socket_type::dealer), monitor_(context_, zmq::socket_type::pair) {
     socket_.set(zmq::sockopt::linger, 100);
     socket_.set(zmq::sockopt::sndhwm, 0);
     socket_.set(zmq::sockopt::rcvhwm, 0);
+    socket_.set(zmq::sockopt::reconnect_ivl, 10);
+    zmq_socket_monitor(socket_.handle(), "inproc://connected", ZMQ_EVENT_HANDSHAKE_SUCCEEDED);
+    monitor_.connect("inproc://connected");
     socket_.connect(endpoint);
+  }
+
+  /// Whether there is a connection, once; messages sent until then travel on it now.
+  bool connected(Milliseconds timeout = Milliseconds(10'000)) {
+    zmq::pollitem_t item{monitor_.handle(), 0, ZMQ_POLLIN, 0};
+    return zmq::poll(&item, 1, timeout) > 0;
   }
 
   void send(const Frames& frames) {
@@ -56,7 +66,7 @@ class Peer {
 
  private:
   zmq::context_t context_;
-  zmq::socket_t socket_;
+  zmq::socket_t socket_, monitor_;
 };
 
 inline Frames join(Frames head, const Frames& body) {
@@ -111,6 +121,18 @@ class Worker02 : public Peer {
 
 inline void pause(int milliseconds) {
   std::this_thread::sleep_for(Milliseconds(milliseconds));
+}
+
+/// Whether mmi.service tells this status of a service, within so many tries.
+inline bool mmi_status(const std::string& endpoint, const std::string& service, const std::string& status,
+                       int tries = 1) {
+  Peer client(endpoint);
+  for (; tries > 0; --tries) {
+    client.send(request01("mmi.service", {service}));
+    if (client.receive() == Frames{"", "MDPC01", "mmi.service", status}) return true;
+    pause(20);
+  }
+  return false;
 }
 
 }  // namespace ssphh::probe

@@ -8,12 +8,14 @@
 
 #include <gtest/gtest.h>
 
+#include "places.h"
+
 namespace ssphh::test {
 
 inline std::optional<std::filesystem::path> shared_scenes() {
   namespace fs = std::filesystem;
   const char* named = std::getenv("SSPHH_SCENES");
-  const fs::path folder = named ? fs::path(named) : fs::path(SSPHH_SOURCE_DIR) / "../shared/scenes";
+  const fs::path folder = named ? fs::path(named) : source_dir() / "../shared/scenes";
   if (!fs::is_directory(folder)) return std::nullopt;
   return fs::canonical(folder);
 }

@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "places.h"
 #include "temp_dir.h"
 
 namespace ssphh::test {
@@ -33,10 +34,10 @@ class ToolProcess {
       redirect(dir_ / "out", STDOUT_FILENO);
       redirect(dir_ / "err", STDERR_FILENO);
       ::close(STDIN_FILENO);
-      std::vector<char*> argv = {const_cast<char*>(SSPHH_TOOL)};
+      std::vector<char*> argv = {const_cast<char*>(tool_path().c_str())};
       for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
       argv.push_back(nullptr);
-      ::execv(SSPHH_TOOL, argv.data());
+      ::execv(tool_path().c_str(), argv.data());
       ::_exit(127);
     }
   }

@@ -6,6 +6,7 @@
 
 #include "json_schema.h"
 #include "model/camera_path.h"
+#include "places.h"
 #include "temp_dir.h"
 
 namespace ssphh::viewer {
@@ -166,7 +167,7 @@ TEST(CameraPathFile, ComesBackToTheBitAndFitsItsSchema) {
     EXPECT_EQ(back.keys[i].scene_time, path.keys[i].scene_time);
     EXPECT_EQ(back.keys[i].name, path.keys[i].name);
   }
-  EXPECT_THAT(test::schema_errors(std::string(SSPHH_SOURCE_DIR) + "/schemas/camera-path.schema.json",
+  EXPECT_THAT(test::schema_errors(test::source_dir() / "schemas/camera-path.schema.json",
                                   read_text_file(dir / "path.json")),
               testing::IsEmpty());
 }

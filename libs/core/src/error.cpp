@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 
 namespace ssphh {
 namespace {
@@ -20,6 +20,10 @@ Error::Error(std::string where, std::string problem, std::string hint)
       where_(std::move(where)),
       problem_(std::move(problem)),
       hint_(std::move(hint)) {}
+
+void refuse(const char* where, const char* problem) {
+  throw Error(where, problem);
+}
 
 void check_failed(const char* expression, const char* file, int line) {
   std::fprintf(stderr, "%s:%d: internal error, please report: check failed: %s\n", file, line, expression);

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/require.h>
 
 #include "fork_join.h"
 
@@ -21,7 +22,7 @@ std::unique_ptr<tbb::global_control>& limit() {
 }  // namespace
 
 void set_thread_count(int count) {
-  SSPHH_CHECK(count >= 0);
+  require(count >= 0, "thread count", "it must not be negative");
   limit().reset();
   if (count > 0) {
     limit() = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
@@ -37,7 +38,8 @@ int thread_count() {
 
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body, const Control& control) {
-  SSPHH_CHECK(grain > 0);
+  require(grain > 0, "parallel loop", "its grain must be over 0");
+  require(body != nullptr, "parallel loop", "it has no body");
   ForkJoin loop;
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, (count + grain - 1) / grain, 1),

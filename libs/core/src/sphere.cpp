@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/core/sphere.h>
 
 namespace ssphh {
@@ -21,8 +21,7 @@ vec3 cube_direction_unnormalized(const CubePoint& point) {
     case CubeFace::negative_z:
       return {-s, -t, -1};
   }
-  SSPHH_CHECK(!"cube face 0..5");
-  return {};
+  refuse("cube map", "its faces are 0..5");
 }
 
 vec3 cube_direction(const CubePoint& point) {

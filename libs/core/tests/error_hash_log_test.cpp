@@ -36,6 +36,13 @@ TEST(Hasher, DependsOnValuesOrderAndBoundaries) {
   EXPECT_NE(Hasher().array(std::vector<float>{}).finish(), Hasher().finish());
 }
 
+TEST(Hasher, TakesEveryBitOfAValue) {
+  const Hash128 zero = Hasher().value(std::uint64_t{0}).finish();
+  for (int bit = 0; bit < 64; ++bit) EXPECT_NE(Hasher().value(std::uint64_t{1} << bit).finish(), zero) << bit;
+  EXPECT_NE(Hasher().array(std::vector{1.0f, 2.0f}).finish(),
+            Hasher().array(std::vector{2.0f, 1.0f}).finish());
+}
+
 TEST(Log, SinkReceivesWhatReachesTheThreshold) {
   std::vector<std::string> lines;
   LogSink old = set_log_sink([&](LogLevel, const std::string& line) { lines.push_back(line); });
@@ -43,6 +50,22 @@ TEST(Log, SinkReceivesWhatReachesTheThreshold) {
   log_warning("{} and {}", 1, 2);
   set_log_sink(old);
   EXPECT_EQ(lines, std::vector<std::string>{"1 and 2"});
+}
+
+/// What the log writes to stderr at a threshold.
+std::string written(LogLevel threshold) {
+  testing::internal::CaptureStderr();
+  set_log_level(threshold);
+  log(LogLevel::debug, "a"), log(LogLevel::info, "b"), log(LogLevel::warning, "c"), log(LogLevel::error, "d");
+  set_log_level(LogLevel::info);
+  return testing::internal::GetCapturedStderr();
+}
+
+TEST(Log, LinesSayTheirLevelAndThoseBelowTheThresholdAreLeftOut) {
+  EXPECT_EQ(written(LogLevel::debug), "debug: a\nb\nwarning: c\nerror: d\n");
+  EXPECT_EQ(written(LogLevel::info), "b\nwarning: c\nerror: d\n");
+  EXPECT_EQ(written(LogLevel::warning), "warning: c\nerror: d\n");
+  EXPECT_EQ(written(LogLevel::error), "error: d\n");
 }
 
 }  // namespace

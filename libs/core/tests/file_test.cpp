@@ -10,21 +10,15 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
 
+#include "error_message.h"
+#include "memory_dir.h"
 #include "temp_dir.h"
 
 namespace ssphh {
 namespace {
 
+using test::message_of;
 using testing::HasSubstr;
-
-std::string failure(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "no error";
-}
 
 int file_count(const std::filesystem::path& folder) {
   int count = 0;
@@ -43,16 +37,19 @@ TEST(File, RoundTripsAndReplaces) {
 TEST(File, MissingDirectoryTooLargeAndUnwritableAreErrorsThatNameTheFile) {
   const test::TempDir dir;
   write_file(dir / "five", "12345");
-  EXPECT_THAT(failure([&] { read_file(dir / "none"); }), HasSubstr("none: cannot open: No such file"));
-  EXPECT_THAT(failure([&] { read_file(dir.path()); }), HasSubstr("Is a directory"));
-  EXPECT_THAT(failure([&] { read_file(dir / "five", 4); }), HasSubstr("too large: 5 bytes, the limit is 4"));
-  EXPECT_THAT(failure([&] { write_file(dir / "no/such/file", "x"); }),
+  EXPECT_THAT(message_of([&] { read_file(dir / "none"); }), HasSubstr("none: cannot open: No such file"));
+  EXPECT_THAT(message_of([&] { read_file(dir.path()); }), HasSubstr("Is a directory"));
+  EXPECT_THAT(message_of([&] { read_file(dir / "five", 4); }),
+              HasSubstr("too large: 5 bytes, the limit is 4"));
+  EXPECT_EQ(read_file(dir / "five", 5).size(), 5u) << "as long as the limit";
+  EXPECT_THAT(message_of([] { read_file("/dev/null"); }), HasSubstr("/dev/null: is not a regular file"));
+  EXPECT_THAT(message_of([&] { write_file(dir / "no/such/file", "x"); }),
               HasSubstr("cannot write: No such file"));
-  EXPECT_THAT(failure([&] { write_file(dir.path(), "x"); }), HasSubstr("Is a directory"));
+  EXPECT_THAT(message_of([&] { write_file(dir.path(), "x"); }), HasSubstr("Is a directory"));
 }
 
 TEST(File, FullDeviceIsAnError) {
-  EXPECT_THAT(failure([] { write_file("/dev/full", "x"); }), HasSubstr("No space left on device"));
+  EXPECT_THAT(message_of([] { write_file("/dev/full", "x"); }), HasSubstr("No space left on device"));
 }
 
 TEST(File, AFailedWriteKeepsTheOldFileAndLeavesNothingBehind) {
@@ -64,7 +61,7 @@ TEST(File, AFailedWriteKeepsTheOldFileAndLeavesNothingBehind) {
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
   const rlimit small{4096, old.rlim_max};
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-  const std::string message = failure([&] { write_file(dir / "kept", std::string(1 << 20, 'x')); });
+  const std::string message = message_of([&] { write_file(dir / "kept", std::string(1 << 20, 'x')); });
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &old), 0);
   EXPECT_THAT(message, HasSubstr("cannot write"));
   EXPECT_EQ(read_text_file(dir / "kept"), "precious");
@@ -99,9 +96,8 @@ TEST(File, HasThePermissionsAskedForLessTheUmasks) {
 
 // The umask is the process's: a thread that sets it, and be it to read it, opens other threads' files to all.
 TEST(File, WritingOpensNoFileOfAnotherThread) {
-  // In memory: a disk's syncs would keep the threads apart.
-  const std::filesystem::path memory = "/dev/shm";
-  const test::TempDir dir(std::filesystem::exists(memory) ? memory : std::filesystem::temp_directory_path());
+  // A disk's syncs would keep the threads apart.
+  const test::TempDir dir(test::memory_dir());
   const Umask umask(027);
   constexpr int threads = 8, files = 2000;
   std::vector<std::thread> writers;

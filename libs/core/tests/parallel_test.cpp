@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
@@ -21,6 +22,18 @@ TEST(ParallelFor, CoversEveryIndexOnceInRangesOfAtMostTheGrain) {
     for (const auto& times : seen) EXPECT_EQ(times, 1);
     EXPECT_FALSE(too_long);
   }
+}
+
+// What is summed range by range has the same bits on every machine.
+TEST(ParallelFor, RangesAreTheSameOnAnyNumberOfThreads) {
+  for (const int threads : {1, 2, 7}) {
+    set_thread_count(threads);
+    std::vector<std::atomic<std::size_t>> end_of(100);
+    parallel_for(100, 7, [&](std::size_t begin, std::size_t end) { end_of[begin] = end; });
+    for (std::size_t i = 0; i < 100; ++i)
+      EXPECT_EQ(end_of[i], i % 7 != 0 ? 0 : std::min<std::size_t>(i + 7, 100)) << i << " of " << threads;
+  }
+  set_thread_count(0);
 }
 
 TEST(ParallelFor, RethrowsTheBodysException) {

@@ -114,6 +114,24 @@ TEST(Pcg32, SeedsAndStreamsDiffer) {
   EXPECT_EQ(Pcg32(3, 4).next(), Pcg32(3, 4).next());
 }
 
+// SplitMix64 (Steele et al. 2014) from state 0 and from its second state, as the reference implementation
+// prints.
+TEST(Mix64, HasThePublishedValues) {
+  EXPECT_EQ(mix64(0), 0xe220a8397b1dcdafull);
+  EXPECT_EQ(mix64(0x9e3779b97f4a7c15ull), 0x6e789e6aa1b965f4ull);
+}
+
+TEST(PixelSeed, IsAnotherForEachPlaceAndEachSeed) {
+  std::set<std::uint64_t> seeds;
+  for (const std::uint64_t seed : {0, 1}) {
+    for (std::uint32_t x = 0; x < 4; ++x)
+      for (std::uint32_t y = 0; y < 4; ++y)
+        for (std::uint32_t face = 0; face < 6; ++face) seeds.insert(pixel_seed(seed, x, y, face));
+  }
+  EXPECT_EQ(seeds.size(), 2u * 4 * 4 * 6);
+  EXPECT_NE(hash_combine(1, 2), hash_combine(2, 1));
+}
+
 TEST(ToUnitFloat, NeverReachesOne) {
   EXPECT_LT(to_unit_float(0xffffffffu), 1.0f);
 }

@@ -45,16 +45,28 @@ TEST(Sphere, CubePointInvertsCubeDirection) {
   }
 }
 
+TEST(Sphere, FibonacciPointsTurnByTheGoldenRatioFromTheTopDown) {
+  // Point i of 5 lies at z = 1 - (2 i + 1) / 5, turned by i of the golden ratio's turns from +x toward +y.
+  for (int i = 0; i < 5; ++i) {
+    const double z = 1 - (2.0 * i + 1) / 5, turn = 2 * pi_d * i * (std::sqrt(5.0) + 1) / 2;
+    const glm::dvec3 point(std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z);
+    EXPECT_LT(glm::distance(glm::dvec3(spherical_fibonacci(i, 5)), point), 1e-6)
+        << "float rounding; point " << i;
+  }
+}
+
 TEST(Sphere, FibonacciPointsIntegrateLowPolynomials) {
   const int n = 1024;
-  double first = 0, second = 0;
+  double first = 0, second = 0, height = 0;
   for (int i = 0; i < n; ++i) {
     const vec3 d = spherical_fibonacci(i, n);
     EXPECT_NEAR(glm::length(d), 1, 1e-6);
     first += d.x + d.y + d.z;
+    height += d.z;
     second += d.x * d.x;
   }
   EXPECT_NEAR(first / n, 0, 1e-3);
+  EXPECT_NEAR(height / n, 0, 1e-7) << "as many above as below: only rounding to floats is left";
   EXPECT_NEAR(second / n, 1.0 / 3, 1e-3);
 }
 

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
-#include <ssphh/farm/engine.h>
 #include <ssphh/farm/farm_bake.h>
 #include <ssphh/scene/query.h>
 
 #include "farm_progress.h"
 #include "result_cache.h"
+#include "unit_key.h"
 
 namespace ssphh::farm {
 namespace {
@@ -14,21 +14,6 @@ namespace {
 using gi::BakeStage;
 using gi::ProbeStage;
 using gi::ProbeStageResult;
-
-/// The job of all of the set's places, without probes.
-ProbeJob job_template(const gi::ProbeSet& set, const gi::VizParams& viz_params, BakeStage stage,
-                      const SceneRef& scene) {
-  const gi::GeneratorInfo& g = set.generator;
-  ProbeJob job;
-  job.scene = scene;
-  job.stage = stage;
-  job.degree = set.degree;
-  job.face_size = g.face_size;
-  job.path = {g.max_depth, g.passes, g.spp, g.seed};
-  job.viz_params = viz_params;
-  for (const gi::Probe& probe : set.probes) job.places.push_back({probe.position, probe.radius});
-  return job;
-}
 
 /// The probes' own places for GEN, all of them for VIZ.
 ProbeJob job_of(const ProbeJob& all, std::vector<std::uint32_t> probes) {
@@ -39,28 +24,6 @@ ProbeJob job_of(const ProbeJob& all, std::vector<std::uint32_t> probes) {
   }
   job.probes = std::move(probes);
   return job;
-}
-
-void add(Hasher& h, const ProbePlace& place) {
-  for (int c = 0; c < 3; ++c) h.value(place.position[c]);
-  h.value(place.radius);
-}
-
-/// Everything that decides one probe's result.
-Hash128 unit_key(const ProbeJob& all, std::uint32_t probe) {
-  Hasher h;
-  h.text("probe").text(engine_id()).value(job_version).value(all.stage);
-  h.value(all.scene.light.high).value(all.scene.light.low).value(all.scene.time);
-  h.value(all.degree).value(all.face_size).value(all.path.max_depth).value(all.path.passes);
-  h.value(all.path.spp).value(all.path.seed).value(probe);
-  if (all.stage == BakeStage::gen) {
-    add(h, all.places[probe]);
-  } else {
-    const gi::VizParams& viz = all.viz_params;
-    h.value(viz.matrix).value(viz.neighbors).value(viz.threshold);
-    for (const ProbePlace& place : all.places) add(h, place);
-  }
-  return h.finish();
 }
 
 /// Whether a result answers the probes that were asked for.
@@ -99,7 +62,7 @@ void FarmCrew::run(const gi::ProbeSet& set, const gi::BakeParams& params, std::s
   };
   std::vector<Group> groups;
   for (const BakeStage stage : {BakeStage::gen, BakeStage::viz})
-    groups.push_back({job_template(set, params.viz_params, stage, scene), {}});
+    groups.push_back({job_of_set(set, params.viz_params, stage, scene), {}});
   const std::size_t light_groups = set.light_groups.size();
 
   // Take what is known.

@@ -1,10 +1,10 @@
-#include <ssphh/farm/engine.h>
 #include <ssphh/farm/farm_render.h>
 #include <ssphh/gi/probe_file.h>
 #include <ssphh/scene/query.h>
 
 #include "farm_progress.h"
 #include "result_cache.h"
+#include "unit_key.h"
 
 namespace ssphh::farm {
 namespace {
@@ -17,20 +17,6 @@ std::vector<trace::Tile> tiles_of(const trace::RenderParams& params) {
     }
   }
   return tiles;
-}
-
-/// Everything that decides a tile's pixels.
-Hash128 unit_key(const TileJob& job, const trace::Tile& tile) {
-  const Hash128 render = trace::render_key(job.scene.light, job.scene.time, job.params);
-  Hasher h;
-  h.text("tile").text(engine_id()).value(job_version).value(render.high).value(render.low);
-  h.value(job.params.path.passes).value(tile.x).value(tile.y).value(tile.width).value(tile.height);
-  for (const std::string& layer : job.layers) h.text(layer);
-  if (job.lighting) {
-    const ProbeLighting& l = *job.lighting;
-    h.value(l.probes.high).value(l.probes.low).text(l.lookup).text(l.weights).text(l.layer);
-  }
-  return h.finish();
 }
 
 /// Puts a tile into the picture, with black for the layers that were not asked for. False when the result
@@ -77,7 +63,7 @@ trace::RenderState render(const FarmOptions& options, const scene::Scene& scene,
   if (probes) {
     Blob& blob = more.emplace_back(Blob{{}, gi::probes_to_binary(*probes->set)});
     blob.hash = content_hash(blob.bytes);
-    job.lighting = {blob.hash, blob.bytes.size(), probes->lookup, probes->weights, probes->layer};
+    job.lighting = lighting_of(*probes, blob);
   }
   const std::vector<trace::Tile> tiles = tiles_of(params);
   job.tiles = {tiles.front()};

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include <ssphh/core/require.h>
 #include <ssphh/farm/job_cutter.h>
 
 namespace ssphh::farm {
 
 std::size_t JobCutter::next(std::size_t left, std::size_t workers) const {
+  require(seconds_ >= 0 && most_ > 0, "job cutter", "the time of a job must be a number, and units over 0");
   if (left == 0) return 0;
   // Until something is known, one unit: it may take a minute.
   const double wanted = per_unit_ > 0 ? seconds_ / per_unit_ : 1;

@@ -76,6 +76,22 @@ TEST(DiskCache, StaysBelowItsBoundAndDropsWhatWasUnusedLongest) {
   EXPECT_THROW(cache.put(key(1), value(200'000, 0)), Error);
 }
 
+TEST(DiskCache, CountsWhatWasFoundMissedAndDropped) {
+  const TempDir dir;
+  DiskCache cache(dir.path(), 100);
+  cache.put(key(1), value(60, 1));
+  EXPECT_TRUE(cache.get(key(1)));
+  EXPECT_FALSE(cache.get(key(2)));
+  EXPECT_FALSE(cache.get(key(3)));
+  EXPECT_EQ(cache.counts().hits, 1u);
+  EXPECT_EQ(cache.counts().misses, 2u);
+  EXPECT_EQ(cache.counts().evicted, 0u);
+  cache.put(key(2), value(100, 1));
+  EXPECT_EQ(cache.counts().evicted, 1u);
+  EXPECT_TRUE(cache.get(key(2))) << "as large as the bound";
+  EXPECT_THROW(cache.put(key(3), value(101, 1)), Error);
+}
+
 TEST(DiskCache, FolderThatCannotBeMadeIsAnError) {
   EXPECT_THROW(DiskCache("/proc/nowhere", 1000), Error);
 }
@@ -99,6 +115,50 @@ TEST(FetchBlob, ContinuesWhereItWasCutOff) {
   EXPECT_EQ(sent, bytes.size()) << "no byte travelled twice";
   EXPECT_EQ(fetch_blob(cache, {}, hash, bytes.size(), fetch, {}), bytes);
   EXPECT_EQ(sent, bytes.size()) << "cached";
+}
+
+TEST(FetchBlob, AsksForAMebibyteAtATimeAndForTheRest) {
+  const TempDir dir;
+  DiskCache cache(dir.path(), 64 << 20);
+  const auto bytes = value((2 << 20) + 123, 9);
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> asked;
+  const FetchChunk fetch = [&](const Hash128& package, const Hash128&, std::uint64_t offset,
+                               std::uint64_t length) {
+    EXPECT_EQ(package, key(7));
+    asked.emplace_back(offset, length);
+    const auto chunk = std::span(bytes).subspan(offset, length);
+    return std::vector<std::byte>(chunk.begin(), chunk.end());
+  };
+  EXPECT_EQ(fetch_blob(cache, key(7), content_hash(bytes), bytes.size(), fetch, {}), bytes);
+  constexpr std::uint64_t mebibyte = 1 << 20;
+  const std::vector<std::pair<std::uint64_t, std::uint64_t>> wanted = {
+      {0, mebibyte}, {mebibyte, mebibyte}, {2 * mebibyte, 123}};
+  EXPECT_EQ(asked, wanted);
+}
+
+TEST(FetchBlob, NoChunkAndOneThatIsTooLongAreRefused) {
+  const TempDir dir;
+  DiskCache cache(dir.path(), 64 << 20);
+  for (const std::size_t size : {0, 101}) {
+    const FetchChunk fetch = [&](const Hash128&, const Hash128&, std::uint64_t, std::uint64_t) {
+      return std::vector<std::byte>(size);
+    };
+    EXPECT_THROW(fetch_blob(cache, {}, key(1), 100, fetch, {}), BlobUnavailable) << size;
+  }
+}
+
+TEST(FetchBlob, WhatIsLongerThanTheBlobIsBegunAgain) {
+  const TempDir dir;
+  DiskCache cache(dir.path(), 64 << 20);
+  const auto bytes = value(1000, 9);
+  const Hash128 hash = content_hash(bytes);
+  write_file(dir / (hash.hex() + ".part"), value(1001, 3));
+  const FetchChunk fetch = [&](const Hash128&, const Hash128&, std::uint64_t offset, std::uint64_t length) {
+    const auto chunk = std::span(bytes).subspan(offset, length);
+    return std::vector<std::byte>(chunk.begin(), chunk.end());
+  };
+  EXPECT_EQ(fetch_blob(cache, {}, hash, bytes.size(), fetch, {}), bytes);
+  EXPECT_FALSE(std::filesystem::exists(dir / (hash.hex() + ".part")));
 }
 
 TEST(FetchBlob, WhatArrivesDamagedIsRefusedAndFetchedAgain) {

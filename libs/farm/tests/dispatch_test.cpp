@@ -5,7 +5,7 @@
 #include <ssphh/core/log.h>
 #include <ssphh/farm/engine.h>
 #include <ssphh/farm/farm_bake.h>
-#include <ssphh/farm/job_cutter.h>
+#include <ssphh/farm/farm_render.h>
 #include <ssphh/farm/worker_pool.h>
 #include <ssphh/majordomo/broker.h>
 #include <ssphh/majordomo/worker.h>
@@ -16,26 +16,6 @@ namespace ssphh::farm {
 namespace {
 
 using ssphh::test::TempDir;
-
-TEST(JobCutter, AimsAtTheTimeAskedFor) {
-  JobCutter cutter(1.5);
-  EXPECT_EQ(cutter.next(1000, 4), 1u) << "nothing is known";
-  cutter.learn(1, 0.1);
-  EXPECT_EQ(cutter.next(1000, 4), 15u);
-  for (int i = 0; i < 50; ++i) cutter.learn(10, 0.1);
-  EXPECT_NEAR(static_cast<double>(cutter.next(100'000, 4)), 150, 3);
-  cutter.learn(1, 1e6);
-  EXPECT_EQ(cutter.next(1000, 4), 1u) << "never none";
-}
-
-TEST(JobCutter, SharesWhatIsLeftAtTheEnd) {
-  JobCutter cutter(1.5);
-  cutter.learn(1, 0.001);
-  EXPECT_EQ(cutter.next(80, 4), 10u) << "two jobs for each worker";
-  EXPECT_EQ(cutter.next(3, 4), 1u);
-  EXPECT_EQ(cutter.next(0, 4), 0u);
-  EXPECT_EQ(cutter.next(10, 0), 5u) << "workers that are not known yet";
-}
 
 /// A broker on a thread; its events are not shown.
 class BrokerThread {
@@ -139,6 +119,44 @@ TEST(Dispatch, KnownResultsAreNotComputedAgain) {
   EXPECT_EQ(bake(scene, &crew), first);
   EXPECT_EQ(crew.report().cached, 12u);
   EXPECT_EQ(crew.report().jobs, 0u);
+}
+
+TEST(Dispatch, TilesHaveTheBitsOfALocalRenderAndAreNotRenderedAgain) {
+  const Quiet quiet;
+  const TempDir dir;
+  const scene::Scene scene = scene::make_builtin("gallery1");
+  trace::RenderParams params;
+  params.width = 40, params.height = 35;  // four tiles, each of another size
+  params.camera = scene::camera_pose(scene, "", 0);
+  params.path = {2, 3, 1, 5};
+  trace::RenderState wanted;
+  trace::PathTracer(scene).render(params, wanted);
+  DiskCache results(dir / "results", 64 << 20);
+  FarmOptions options;
+  options.results = &results;
+  const auto expect_wanted = [&](std::uint64_t cached) {
+    FarmReport report;
+    const trace::RenderState got =
+        render(options, scene, 0, params, std::nullopt, {"color", "normal", "depth"}, report);
+    EXPECT_EQ(got.color.pixels, wanted.color.pixels);
+    EXPECT_EQ(got.normal.pixels, wanted.normal.pixels);
+    EXPECT_EQ(got.depth.pixels, wanted.depth.pixels);
+    EXPECT_EQ(got.albedo.pixels, std::vector<float>(wanted.albedo.pixels.size())) << "was not asked for";
+    EXPECT_EQ(got.passes_done, 3);
+    EXPECT_EQ(got.paths, wanted.paths);
+    EXPECT_EQ(got.rays, wanted.rays);
+    EXPECT_EQ(report.units, 4u);
+    EXPECT_EQ(report.cached, cached);
+    EXPECT_EQ(report.jobs > 0, cached < 4);
+    EXPECT_EQ(report.compute_seconds > 0, cached < 4);
+  };
+  {
+    BrokerThread broker;
+    WorkerThread worker(broker.address(), dir / "cache", 1);
+    options.broker = broker.address();
+    expect_wanted(0);
+  }
+  expect_wanted(4);  // nobody serves any more
 }
 
 TEST(Dispatch, ResultThatAnswersAnotherJobIsRefused) {

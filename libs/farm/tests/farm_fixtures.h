@@ -43,7 +43,7 @@ inline ProbeJob gen_job(const PackedScene& packed) {
   job.scene = packed.ref();
   job.degree = 5;
   job.face_size = 8;
-  job.path = {3, 1, 2, 0x123456789abcdef0};
+  job.path = {2, 3, 2, 0x123456789abcdef0};  // all other than the defaults
   job.probes = {1, 3};
   for (const std::uint32_t i : job.probes)
     job.places.push_back({set.probes[i].position, set.probes[i].radius});

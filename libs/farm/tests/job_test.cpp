@@ -8,6 +8,7 @@
 
 #include "farm_fixtures.h"
 #include "json_schema.h"
+#include "places.h"
 
 namespace ssphh::farm {
 namespace {
@@ -170,7 +171,7 @@ TEST(Job, CodecsKeepEveryBitOfAFloat) {
 }
 
 std::vector<std::string> schema_errors(const std::string& schema, const std::string& document) {
-  return ssphh::test::schema_errors(std::filesystem::path(SSPHH_SOURCE_DIR) / "schemas" / schema, document);
+  return ssphh::test::schema_errors(ssphh::test::source_dir() / "schemas" / schema, document);
 }
 
 TEST(Job, MessagesAgreeWithTheirSchemas) {

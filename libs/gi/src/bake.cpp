@@ -135,6 +135,34 @@ struct Work {
   }
 };
 
+/// Looks at what a crew hands in before it is kept.
+class CrewCheck {
+ public:
+  CrewCheck(const ProbeSet& set, const std::vector<ProbeStage>& left) : set_(set), left_(left) {}
+
+  void take(const ProbeStageResult& result) {
+    const auto asked = std::ranges::find(left_, result.done);
+    require(asked != left_.end(), "bake crew", "it did a probe that it was not asked for");
+    const auto count = static_cast<std::size_t>(sh::coefficient_count(set_.degree));
+    const auto fits = [count](const sh::RadianceSh& f) { return f.values.size() == count; };
+    const bool gen = result.done.stage == BakeStage::gen;
+    require(!gen || result.groups.size() == set_.light_groups.size(), "bake crew",
+            "its light is of other light groups");
+    for (const GroupLight& light : result.groups)
+      require((light.emitted.empty() || fits(light.emitted)) && fits(light.reflected), "bake crew",
+              "its light is not of the set's degree");
+    for (const Edge& edge : result.edges)
+      require(edge.from >= 0 && static_cast<std::size_t>(edge.from) < set_.probes.size() && fits(edge.h),
+              "bake crew", "an edge comes from no probe or is not of the set's degree");
+    left_.erase(asked);
+  }
+  void expect_end() const { require(left_.empty(), "bake crew", "it left probes out"); }
+
+ private:
+  const ProbeSet& set_;
+  std::vector<ProbeStage> left_;
+};
+
 void check_probes(const scene::RadianceSource& source, const ProbeSet& set, BakeReport& report) {
   for (const Probe& probe : set.probes) {
     const bool dark = std::all_of(probe.groups.begin(), probe.groups.end(), [](const GroupLight& light) {
@@ -163,6 +191,7 @@ void check_probes(const scene::RadianceSource& source, const ProbeSet& set, Bake
 
 ProbeStageResult bake_stage(const scene::RadianceSource& source, const ProbeSet& set,
                             const VizParams& viz_params, const ProbeStage& stage, const Control& control) {
+  require(stage.probe < set.probes.size(), "bake", "there is no probe of that index");
   const auto start = std::chrono::steady_clock::now();
   const std::uint64_t rays_before = source.rays_traced();
   const scene::CubeRequest request = request_of(set, stage);
@@ -213,8 +242,13 @@ ProbeSet bake(const scene::RadianceSource& source, ProbeSet set, const BakeParam
   const Work work{source, params, checkpoint, set, report};
   const std::vector<ProbeStage> left = work.resume(stages);
   if (crew) {
-    crew->run(
-        set, params, left, [&](ProbeStageResult result) { work.finish(std::move(result)); }, control);
+    CrewCheck check(set, left);
+    const auto done = [&](ProbeStageResult result) {
+      check.take(result);
+      work.finish(std::move(result));
+    };
+    crew->run(set, params, left, done, control);
+    check.expect_end();
   } else {
     for (const BakeStage stage : stages) work.trace(stage, left, control);
   }

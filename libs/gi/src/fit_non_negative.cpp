@@ -63,6 +63,8 @@ struct NormalEquations {
 
 std::vector<double> fit_non_negative(std::span<const double> rows, std::span<const double> targets,
                                      std::span<const double> prior, double ridge) {
+  require(!prior.empty() && rows.size() == targets.size() * prior.size(), "least squares",
+          "rows, targets and prior are not of matching sizes");
   const NormalEquations equations(rows, targets, prior, ridge);
   const std::size_t n = equations.n;
   std::vector<double> v(n, 0), x;

@@ -36,8 +36,28 @@ class SumByProbe {
 
 }  // namespace
 
+void require_whole(const FittedPoints& fitted, std::size_t probe_count) {
+  require(fitted.weights.size() == fitted.points.size(), "fitted points", "not every point has its weights");
+  for (std::size_t i = 0; i < fitted.points.size(); ++i) {
+    const auto fail = [i](const std::string& problem) {
+      throw Error(fmt::format("fitted point {}", i), problem);
+    };
+    if (!is_finite(fitted.points[i].position) || !is_finite(fitted.points[i].normal))
+      fail("its place is not finite");
+    const int count = fitted.weights[i].count;
+    if (count < 0 || count > max_weights)
+      fail(fmt::format("it has {} weights, not 0..{}", count, max_weights));
+    for (const ProbeWeight& entry : fitted.weights[i].used()) {
+      if (entry.probe < 0 || static_cast<std::size_t>(entry.probe) >= probe_count)
+        fail(fmt::format("it names probe {}, which there is not", entry.probe));
+      if (!std::isfinite(entry.weight)) fail("a weight is not finite");
+    }
+  }
+}
+
 FittedLookupWeights::Points::Points(const FittedPoints& fitted, std::size_t probe_count) {
   static_assert(limits::probes <= 65536);
+  require_whole(fitted, std::min(probe_count, limits::probes));
   for (std::size_t i = 0; i < fitted.points.size(); ++i) {
     const std::span<const ProbeWeight> weights = fitted.weights[i].used();
     if (weights.empty()) continue;
@@ -45,9 +65,6 @@ FittedLookupWeights::Points::Points(const FittedPoints& fitted, std::size_t prob
     normal.emplace_back(glm::round(32767.0f * fitted.points[i].normal));
     begin.push_back(static_cast<std::uint32_t>(probe.size()));
     for (const ProbeWeight& entry : weights) {
-      if (entry.probe < 0 || static_cast<std::size_t>(entry.probe) >= std::min(probe_count, limits::probes))
-        throw Error(fmt::format("fitted point {}", i),
-                    fmt::format("it names probe {}, which there is not", entry.probe));
       probe.push_back(static_cast<std::uint16_t>(entry.probe));
       weight.push_back(entry.weight);
     }

@@ -181,7 +181,8 @@ PointWeights WeightFit::Data::fit(std::size_t point) const {
 WeightFit::WeightFit(std::vector<scene::SurfacePoint> points, const FitParams& params) {
   check(params);
   const std::size_t count = points.size();
-  data_.reset(new Data{params, std::move(points), {}, std::vector<std::vector<int>>(count)});
+  data_ =
+      std::unique_ptr<Data>(new Data{params, std::move(points), {}, std::vector<std::vector<int>>(count)});
 }
 WeightFit::~WeightFit() = default;
 WeightFit::WeightFit(WeightFit&&) noexcept = default;

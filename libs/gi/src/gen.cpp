@@ -27,8 +27,10 @@ void check_finite(const sh::RadianceSh& function, const scene::CubeRequest& requ
 
 std::vector<GroupLight> gen(const scene::RadianceSource& source, const scene::CubeRequest& request,
                             int degree, const Control& control) {
+  sh::require_degree(degree, "GEN");
   const std::vector<scene::GroupRadiance> radiance = source.incident_radiance(request, control);
-  SSPHH_CHECK(radiance.size() == source.light_groups().size());
+  require(radiance.size() == source.light_groups().size(), "radiance source",
+          "it answers with another number of light groups than it names");
   const sh::CubeProjector projector(degree, request.face_size);
   std::vector<GroupLight> groups(radiance.size());
   for (std::size_t g = 0; g < groups.size(); ++g) {

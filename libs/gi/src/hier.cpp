@@ -2,6 +2,8 @@
 #include <atomic>
 #include <numeric>
 
+#include <fmt/format.h>
+
 #include <ssphh/core/parallel.h>
 #include <ssphh/gi/hier.h>
 
@@ -60,13 +62,25 @@ std::size_t gather(const ProbeSet& set, const HierParams& params, std::size_t i,
 void check(const ProbeSet& set, const HierParams& params) {
   if (params.neighbors < -1) throw Error("neighbors", "must be -1 (all) or a count");
   if (!(params.threshold >= 0 && params.threshold <= 1)) throw Error("threshold", "must be 0..1, as P is");
-  if (params.op != HierOperator::matrix) return;
-  for (const Probe& probe : set.probes) {
+  sh::require_degree(set.degree, "probe set");
+  for (std::size_t i = 0; i < set.probes.size(); ++i) {
+    const Probe& probe = set.probes[i];
+    const auto count = static_cast<std::size_t>(sh::coefficient_count(set.degree));
+    const auto needs = [i](bool good, const char* problem, const char* hint = "") {
+      if (!good) throw Error(fmt::format("probe {}", i), problem, hint);
+    };
+    needs(probe.self.values.size() == count, "its light is not of the set's degree", "call merge_groups");
     for (const Edge& edge : probe.edges) {
-      if (edge.matrix.values.empty()) {
+      needs(edge.from >= 0 && static_cast<std::size_t>(edge.from) < set.probes.size(),
+            "an edge comes from no probe");
+      needs(edge.h.values.size() == count, "an edge is not of the set's degree");
+      if (params.op != HierOperator::matrix) continue;
+      if (edge.matrix.values.empty())
         throw Error("operator matrix", "the probes were baked without transfer matrices",
                     "bake with --viz-transfer");
-      }
+      needs(edge.matrix.arriving_degree == set.degree && edge.matrix.emitted_degree == set.degree &&
+                edge.matrix.values.size() == count * count,
+            "an edge's matrix is not of the set's degree");
     }
   }
 }
@@ -109,6 +123,7 @@ std::size_t hier(ProbeSet& set, const HierParams& params) {
 
 std::optional<Contraction> hier_contraction(const ProbeSet& set, const HierParams& params) {
   if (params.op != HierOperator::mean) return std::nullopt;
+  check(set, params);
   std::vector<std::vector<Link>> rows;
   LinkRows links;
   for (const Probe& probe : set.probes) {

@@ -28,7 +28,13 @@ TruthAtPoints trace_truth(const scene::RadianceSource& source, std::span<const s
                           const LeakParams& params, const Control& control) {
   check(points, params);
   TruthAtPoints truth;
-  truth.estimates = source.surface_irradiance(points, params.path, control);
+  const auto trace = [&](std::span<const scene::SurfacePoint> at, const scene::PathParams& path) {
+    auto estimates = source.surface_irradiance(at, path, control);
+    require(estimates.size() == at.size(), "radiance source",
+            "it answers with not one estimate for each point");
+    return estimates;
+  };
+  truth.estimates = trace(points, params.path);
   double sum = 0, deviations = 0;
   for (const scene::IrradianceEstimate& estimate : truth.estimates) {
     sum += true_luminance(estimate);
@@ -55,7 +61,7 @@ TruthAtPoints trace_truth(const scene::RadianceSource& source, std::span<const s
   scene::PathParams again = params.path;
   again.spp *= 4;
   again.seed = mix64(again.seed);
-  const auto second = source.surface_irradiance(suspects, again, control);
+  const auto second = trace(suspects, again);
   for (std::size_t s = 0; s < suspects.size(); ++s) {
     if (!is_dark(second[s])) continue;
     truth.dark_at[of[s]] = 1;
@@ -77,7 +83,7 @@ std::vector<vec3> look_up(const scene::IndirectLight& lookup, std::span<const sc
 }
 
 double leak_ratio(std::span<const vec3> looked_up, const TruthAtPoints& truth) {
-  SSPHH_CHECK(looked_up.size() == truth.dark_at.size());
+  require(looked_up.size() == truth.dark_at.size(), "leak", "there is not one lookup for each point");
   double all = 0, leaked = 0;
   for (std::size_t i = 0; i < looked_up.size(); ++i) {
     const auto value = static_cast<double>(luminance(looked_up[i]));

@@ -10,7 +10,7 @@
 namespace ssphh::gi {
 
 LookupError lookup_error(std::span<const vec3> looked_up, std::span<const scene::IrradianceEstimate> truth) {
-  SSPHH_CHECK(looked_up.size() == truth.size());
+  require(looked_up.size() == truth.size(), "lookup error", "there is not one lookup for each truth");
   LookupError error;
   error.points = truth.size();
   double truth_sum = 0, sum = 0;

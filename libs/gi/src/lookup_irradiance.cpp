@@ -13,7 +13,11 @@ struct IrradianceLookup::Data {
   vec3 blend(const scene::SurfacePoint& at, const Value& value) const {
     vec3 sum(0);
     const ProbeWeights found = weights->at(at);
-    for (const ProbeWeight& entry : found.used()) sum += entry.weight * value(entry.probe);
+    for (const ProbeWeight& entry : found.used()) {
+      require(entry.probe >= 0 && entry.probe < table.count(), "lookup weights",
+              "they name a probe that is not there");
+      sum += entry.weight * value(entry.probe);
+    }
     return glm::max(sum, vec3(0));
   }
 };
@@ -27,7 +31,9 @@ IrradianceLookup::IrradianceLookup(const ProbeSet& set, const scene::RadianceSou
 }
 IrradianceLookup::IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWeights> weights,
                                    const LookupParams& params)
-    : data_(new Data{ProbeTable(set, params), std::move(weights)}) {}
+    : data_(new Data{ProbeTable(set, params), std::move(weights)}) {
+  require(data_->weights != nullptr, "probe lookup", "there are no weights");
+}
 IrradianceLookup::~IrradianceLookup() = default;
 
 vec3 IrradianceLookup::irradiance(const scene::SurfacePoint& at) const {

@@ -25,7 +25,7 @@ struct LightLookup::Data {
       const float cosine = glm::dot(n, direction);
       if (cosine > 0 && sight.sees(candidate, x, n)) return {candidate.index, direction, cosine, true};
     }
-    return {near[0].index, n, 1, false};
+    return {count > 0 ? near[0].index : 0, n, 1, false};  // none is near a point that is no number
   }
 };
 

@@ -198,6 +198,11 @@ float median_spacing(std::span<const vec3> positions) {
 std::unique_ptr<LookupWeights> make_weights(std::span<const vec3> positions, SeesProbe sees,
                                             const WeightParams& params, const FittedPoints* fitted) {
   if (positions.empty()) throw Error("probe lookup", "the probe set is empty", "bake a scene with SPHLs");
+  require(std::ranges::all_of(positions, is_finite), "probe lookup", "a probe's position is not finite");
+  require(sees != nullptr, "probe lookup", "nothing tells what sees the probes");
+  require(params.spacing >= 0 && std::isfinite(params.spacing) && params.normal_offset >= 0 &&
+              std::isfinite(params.normal_offset),
+          "probe lookup", "spacing and normal offset must be lengths");
   switch (params.chosen(fitted != nullptr)) {
     case WeightMethod::fitted: {
       if (!fitted) throw Error("probe lookup", "there are no fitted weights", "fit some, or choose others");

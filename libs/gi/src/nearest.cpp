@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <ssphh/core/require.h>
 #include <ssphh/gi/nearest.h>
 
 namespace ssphh::gi {
@@ -31,6 +32,7 @@ struct NearestPoints::Search {
 };
 
 NearestPoints::NearestPoints(std::span<const vec3> points) : axis_(points.size()) {
+  require(std::ranges::all_of(points, is_finite), "nearest points", "a point is not finite");
   for (std::size_t i = 0; i < points.size(); ++i) items_.push_back({points[i], static_cast<int>(i)});
   sort(0, items_.size());
 }

@@ -1,6 +1,8 @@
 #include <array>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include <ssphh/gi/probe_set.h>
 
 #include "probe_limits.h"
@@ -24,9 +26,29 @@ void add_scaled(sh::RadianceSh& sum, const sh::RadianceSh& term, const vec3& sca
   for (std::size_t k = 0; k < term.values.size(); ++k) sum.values[k] += scale * term.values[k];
 }
 
+/// Whether the groups can be merged.
+void check_groups(const ProbeSet& set) {
+  sh::require_degree(set.degree, "probe set");
+  const auto count = static_cast<std::size_t>(sh::coefficient_count(set.degree));
+  for (std::size_t i = 0; i < set.probes.size(); ++i) {
+    const std::vector<GroupLight>& groups = set.probes[i].groups;
+    if (groups.size() > set.light_groups.size())
+      throw Error(fmt::format("probe {}", i), fmt::format("has the light of {} groups; the set has {}",
+                                                          groups.size(), set.light_groups.size()));
+    for (const GroupLight& light : groups) {
+      for (const sh::RadianceSh* f : {&light.emitted, &light.reflected}) {
+        if (!f->empty() && f->values.size() != count)
+          throw Error(fmt::format("probe {}", i), fmt::format("has {} RGB coefficients; degree {} has {}",
+                                                              f->values.size(), set.degree, count));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void merge_groups(ProbeSet& set) {
+  check_groups(set);
   for (Probe& probe : set.probes) {
     probe.reflected = sh::RadianceSh(set.degree);
     probe.self = sh::RadianceSh(set.degree);
@@ -46,6 +68,7 @@ void relight(ProbeSet& set, const std::string& group, const vec3& scale) {
   for (LightGroup& candidate : set.light_groups) {
     known += (known.empty() ? "\"" : ", \"") + candidate.name + "\"";
     if (candidate.name != group) continue;
+    check_groups(set);
     candidate.scale = scale;
     merge_groups(set);
     set.hierarchy.reset();

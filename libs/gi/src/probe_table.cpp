@@ -11,33 +11,18 @@
 #include <ssphh/sh/zonal.h>
 
 namespace ssphh::gi {
-namespace {
-
-/// The function of probe i that lights surfaces.
-sh::RadianceSh chosen_light(const ProbeSet& set, std::size_t i, ProbeLayer layer, ProbeLight light) {
-  const Probe& probe = set.probes[i];
-  if (layer == ProbeLayer::neighbor) return set.hierarchy->neighbor[i];
-  sh::RadianceSh own = light == ProbeLight::reflected ? probe.reflected : probe.self;
-  if (layer == ProbeLayer::sum) own += set.hierarchy->neighbor[i];
-  return own;
-}
-
-}  // namespace
 
 ProbeTable::ProbeTable(const ProbeSet& set, const LookupParams& params)
+    : ProbeTable(set, surface_light(set, params), params) {}
+
+ProbeTable::ProbeTable(const ProbeSet& set, std::vector<sh::RadianceSh> lights, const LookupParams& params)
     : radiance_(set.probes.size(), set.degree),
       irradiance_(set.probes.size(), std::clamp(params.irradiance_degree, 0, set.degree)) {
-  if (set.probes.empty()) throw Error("probe lookup", "the probe set is empty", "bake a scene with SPHLs");
-  const ProbeLayer layer = params.layer.value_or(set.hierarchy ? ProbeLayer::sum : ProbeLayer::self);
-  if (layer != ProbeLayer::self && !set.hierarchy) {
-    throw Error("probe lookup", "the probe set has no hierarchy", "run `ssphh hier` on the file first");
-  }
-
   const auto irradiance_count = static_cast<std::size_t>(sh::coefficient_count(irradiance_.degree));
   for (const Probe& probe : set.probes) positions_.push_back(probe.position);
   parallel_for(set.probes.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      sh::RadianceSh light = chosen_light(set, i, layer, params.light);
+      sh::RadianceSh light = std::move(lights[i]);
       radiance_.set(i, light.values);
       light.values.resize(irradiance_count);
       if (params.dering) light = sh::dering(light, sh::NonNegative::irradiance);

@@ -17,6 +17,8 @@ class ProbeTable {
  public:
   ProbeTable(const ProbeSet& set, const LookupParams& params);
 
+  int count() const { return static_cast<int>(positions_.size()); }
+
   const std::vector<vec3>& positions() const { return positions_; }
   const vec3& position(int probe) const { return positions_[static_cast<std::size_t>(probe)]; }
   /// L(ω), not negative. `basis` holds Y_k(ω), perhaps scaled by band.
@@ -31,6 +33,8 @@ class ProbeTable {
   void glossy_basis(const vec3& direction, float roughness, Basis& basis) const;
 
  private:
+  ProbeTable(const ProbeSet& set, std::vector<sh::RadianceSh> lights, const LookupParams& params);
+
   /// Functions of all probes, laid out so that one is evaluated by whole vectors.
   struct Functions {
     Functions(std::size_t probes, int degree);

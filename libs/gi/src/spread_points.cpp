@@ -42,6 +42,8 @@ std::size_t middle_one(std::span<const scene::SurfacePoint> points, std::span<co
 std::vector<scene::SurfacePoint> spread_points(std::span<const scene::SurfacePoint> points, int count) {
   if (count < 1) throw Error("points to spread", "there must be at least one");
   if (points.size() <= static_cast<std::size_t>(count)) return {points.begin(), points.end()};
+  require(std::ranges::all_of(points, is_finite, &scene::SurfacePoint::position), "points to spread",
+          "a place is not finite");
   vec3 low = points[0].position, high = low;
   for (const scene::SurfacePoint& p : points) {
     low = glm::min(low, p.position);

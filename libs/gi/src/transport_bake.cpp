@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <ssphh/core/error.h>
 #include <ssphh/core/log.h>
+#include <ssphh/core/require.h>
 #include <ssphh/gi/probe_file.h>
 #include <ssphh/gi/transport_bake.h>
 
@@ -136,7 +136,7 @@ void require_probes(const ProbeSet& set) {
 ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, const TransportBakeParams& params,
                         TransportBakeReport& report, const Control& control) {
   require_probes(set);
-  SSPHH_CHECK(params.op != LightOperator::path);
+  require(params.op != LightOperator::path, "transport bake", "path tracing is no transport between probes");
   report = {};
   const std::uint64_t rays_before = source.rays_traced();
   const auto start = Clock::now();

@@ -22,6 +22,9 @@ class MatrixAccumulator {
     }
     chunks_.resize(scene::RadianceSource::ghost_chunk_count);
     return [this](int chunk, const scene::GhostPath& path) {
+      require(chunk >= 0 && static_cast<std::size_t>(chunk) < chunks_.size() && path.emitter >= 0 &&
+                  static_cast<std::size_t>(path.emitter) < emitter_count_,
+              "radiance source", "a path is of a sphere or chunk that there is not");
       // Only one thread at a time works on a chunk, so it may make its matrices when the first path comes.
       std::vector<sh::TransferMatrix>& matrices = chunks_[static_cast<std::size_t>(chunk)];
       if (matrices.empty()) matrices.resize(emitter_count_);
@@ -53,6 +56,8 @@ float transfer_coefficient(const sh::RadianceSh& h) {
 
 std::vector<Edge> viz(const scene::RadianceSource& source, const ProbeSet& set, std::size_t i,
                       const scene::CubeRequest& request, const VizParams& params, const Control& control) {
+  require(i < set.probes.size(), "VIZ", "there is no probe of that index");
+  sh::require_degree(set.degree, "VIZ");
   // Light every other probe's sphere.
   std::vector<scene::GhostSphere> ghosts;
   std::vector<int> from;
@@ -69,7 +74,8 @@ std::vector<Edge> viz(const scene::RadianceSource& source, const ProbeSet& set, 
   MatrixAccumulator matrices(ghosts.size(), set.degree);
   const std::vector<image::CubeMap> cubes =
       source.ghost_radiance(at_probe, ghosts, params.matrix ? matrices.sink() : nullptr, control);
-  SSPHH_CHECK(cubes.size() == ghosts.size());
+  require(cubes.size() == ghosts.size(), "radiance source",
+          "it answers with not one cube map for each sphere");
 
   // Project, and keep the edges that carry light.
   const sh::CubeProjector projector(set.degree, request.face_size);

@@ -9,7 +9,10 @@
 namespace ssphh::gi {
 namespace {
 
-/// Truth by place: `mean` W/m² with standard deviation `deviation`, in every channel.
+/// A colour of luminance 1: 0.2126 · 2 + 0.7152 · 0.5 + 0.0722 · 3.0083.
+const vec3 tint(2, 0.5f, 3.0083102f);
+
+/// Truth by place: a luminance of `mean` W/m² with standard deviation `deviation`.
 struct Truth {
   float mean, deviation;
 };
@@ -26,7 +29,7 @@ class TruthSource final : public test::DarkSpace {
     std::vector<scene::IrradianceEstimate> estimates;
     for (const scene::SurfacePoint& point : points) {
       const Truth t = truth(point.position, path);
-      estimates.push_back({vec3(100), vec3(t.mean), vec3(t.deviation * t.deviation)});
+      estimates.push_back({vec3(100), t.mean * tint, t.deviation * t.deviation * tint * tint});
     }
     return estimates;
   }
@@ -36,7 +39,7 @@ class TruthSource final : public test::DarkSpace {
 class FakeLookup final : public scene::IndirectLight {
  public:
   explicit FakeLookup(std::function<float(const vec3&)> value) : value_(std::move(value)) {}
-  vec3 irradiance(const scene::SurfacePoint& at) const override { return vec3(value_(at.position)); }
+  vec3 irradiance(const scene::SurfacePoint& at) const override { return value_(at.position) * tint; }
   vec3 glossy(const scene::SurfacePoint&, const vec3&, float) const override { return vec3(0); }
 
  private:
@@ -115,10 +118,10 @@ TEST(Leak, RefusesWhatItCannotMeasure) {
 }
 
 TEST(LookupError, OfPointsByHand) {
-  const std::vector<vec3> looked_up = {vec3(1.2f), vec3(2.7f)};
+  const std::vector<vec3> looked_up = {1.2f * tint, 2.7f * tint};
   std::vector<scene::IrradianceEstimate> truth(2);
-  truth[0].indirect = vec3(1), truth[0].indirect_variance = vec3(0.01f);
-  truth[1].indirect = vec3(3), truth[1].indirect_variance = vec3(0.04f);
+  truth[0].indirect = tint, truth[0].indirect_variance = 0.01f * tint * tint;
+  truth[1].indirect = 3.0f * tint, truth[1].indirect_variance = 0.04f * tint * tint;
   const LookupError e = lookup_error(looked_up, truth);
   // ε = 0.02.
   EXPECT_EQ(e.points, 2u);

@@ -16,11 +16,11 @@ using gi::LintParams;
 using gi::LintProblem;
 using gi::ProbeProblem;
 
-/// Constant radiance 1 with `tilt` of band 1 toward +y.
+/// Constant radiance, of another colour in each channel, with `tilt` of band 1 toward +y in blue alone.
 sh::RadianceSh light(float level, float tilt = 0) {
   sh::RadianceSh f(2);
-  f[0] = vec3(level * 3.5449077f);
-  f[1] = vec3(tilt);
+  f[0] = level * 3.5449077f * vec3(1, 2, 0.5f);
+  f[1] = vec3(0, 0, 0.5f * tilt);
   return f;
 }
 

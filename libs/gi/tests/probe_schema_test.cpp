@@ -7,6 +7,7 @@
 #include <ssphh/gi/probe_file.h>
 
 #include "json_schema.h"
+#include "places.h"
 #include "random_set.h"
 
 namespace ssphh::gi {
@@ -16,7 +17,7 @@ using nlohmann::json;
 using test::random_set;
 
 std::vector<std::string> errors_of(const std::string& document) {
-  return test::schema_errors(std::string(SSPHH_SOURCE_DIR) + "/schemas/probes.schema.json", document);
+  return test::schema_errors(test::source_dir() / "schemas/probes.schema.json", document);
 }
 
 bool reader_accepts(const std::string& document) {

@@ -1,7 +1,7 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/gl/buffer.h>
 
 namespace ssphh::gl {
@@ -27,7 +27,7 @@ void Buffer::reserve(std::size_t bytes) {
 }
 
 void Buffer::update_bytes(std::size_t offset, std::span<const std::byte> data) {
-  SSPHH_CHECK(offset + data.size() <= bytes_);
+  require(offset <= bytes_ && data.size() <= bytes_ - offset, "buffer", "there is no room for so many bytes");
   if (data.empty()) return;
   glNamedBufferSubData(handle_.get(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()),
                        data.data());

@@ -1,4 +1,5 @@
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include <epoxy/egl.h>
@@ -17,9 +18,21 @@ struct Context::Data {
   EGLContext context = EGL_NO_CONTEXT;
   std::string errors;  ///< reported since the last throw_on_error
 
+  /// Of an adopted context: what its owner listened with.
+  GLDEBUGPROC host_callback = nullptr;
+  void* host_user = nullptr;
+  bool host_output = false, host_synchronous = false, listening = false;
+
+  void listen();
+  void stop_listening() const;
+
   ~Data() {
-    if (context == EGL_NO_CONTEXT) return;
-    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (context == EGL_NO_CONTEXT) {
+      stop_listening();
+      return;
+    }
+    if (eglGetCurrentContext() == context)
+      eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display, context);
   }
 };
@@ -103,16 +116,6 @@ std::string text_of(GLenum name) {
   return text ? reinterpret_cast<const char*>(text) : "";
 }
 
-void GLAPIENTRY on_message(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* message,
-                           const void* user) {
-  if (type == GL_DEBUG_TYPE_ERROR) {
-    auto& errors = *static_cast<std::string*>(const_cast<void*>(user));
-    if (errors.size() < 4096) errors += (errors.empty() ? "" : "; ") + std::string(message);
-  } else if (severity == GL_DEBUG_SEVERITY_HIGH || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR) {
-    log_warning("OpenGL: {}", message);
-  }
-}
-
 void read_info(ContextInfo& info) {
   info.vendor = text_of(GL_VENDOR);
   info.renderer = text_of(GL_RENDERER);
@@ -123,17 +126,47 @@ void read_info(ContextInfo& info) {
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &info.max_array_layers);
 }
 
-void listen(std::string& errors) {
-  glEnable(GL_DEBUG_OUTPUT);
-  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-  glDebugMessageCallback(on_message, &errors);
+template <class Data>
+void GLAPIENTRY on_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                           const GLchar* message, const void* user) {
+  auto& data = *static_cast<Data*>(const_cast<void*>(user));
+  if (data.host_callback) data.host_callback(source, type, id, severity, length, message, data.host_user);
+  if (type == GL_DEBUG_TYPE_ERROR) {
+    if (data.errors.size() < 4096) data.errors += (data.errors.empty() ? "" : "; ") + std::string(message);
+  } else if (severity == GL_DEBUG_SEVERITY_HIGH || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR) {
+    log_warning("OpenGL: {}", message);
+  }
 }
 
 }  // namespace
 
+void Context::Data::listen() {
+  void* callback = nullptr;
+  glGetPointerv(GL_DEBUG_CALLBACK_FUNCTION, &callback);
+  glGetPointerv(GL_DEBUG_CALLBACK_USER_PARAM, &host_user);
+  host_callback = reinterpret_cast<GLDEBUGPROC>(callback);
+  host_output = glIsEnabled(GL_DEBUG_OUTPUT);
+  host_synchronous = glIsEnabled(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  glEnable(GL_DEBUG_OUTPUT);
+  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  glDebugMessageCallback(on_message<Data>, this);
+  listening = true;
+}
+
+void Context::Data::stop_listening() const {
+  if (!listening) return;
+  void* user = nullptr;  // somebody else's, where the context is no longer current or others listen by now
+  glGetPointerv(GL_DEBUG_CALLBACK_USER_PARAM, &user);
+  if (user != this) return;
+  glDebugMessageCallback(host_callback, host_user);
+  (host_output ? glEnable : glDisable)(GL_DEBUG_OUTPUT);
+  (host_synchronous ? glEnable : glDisable)(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+}
+
 Context::Context(std::unique_ptr<Data> data) : data_(std::move(data)) {
   read_info(data_->info);
-  listen(data_->errors);
+  data_->listen();
+  forget_errors();
 }
 Context::~Context() = default;
 Context::Context(Context&&) noexcept = default;
@@ -171,14 +204,21 @@ void Context::make_current() {
     eglMakeCurrent(data_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, data_->context);
 }
 
-void Context::throw_on_error(const std::string& where) {
+std::string Context::take_errors() {
   // Drivers need not report messages in contexts without debugging: ask as well.
   if (const GLenum code = glGetError(); code != GL_NO_ERROR && data_->errors.empty())
     data_->errors = fmt::format("error {:#06x}", code);
-  if (data_->errors.empty()) return;
-  std::string errors;
-  std::swap(errors, data_->errors);
-  throw Error(where, "OpenGL reports: " + errors);
+  return std::exchange(data_->errors, {});
+}
+
+void Context::throw_on_error(const std::string& where) {
+  const std::string errors = take_errors();
+  if (!errors.empty()) throw Error(where, "OpenGL reports: " + errors);
+}
+
+void Context::forget_errors() {
+  const std::string errors = take_errors();
+  if (!errors.empty()) log_warning("OpenGL reported before: {}", errors);
 }
 
 }  // namespace ssphh::gl

@@ -3,7 +3,7 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/gl/framebuffer.h>
 
 namespace ssphh::gl {
@@ -17,7 +17,7 @@ Framebuffer::Framebuffer(std::span<const Texture* const> colors, const Texture* 
   glCreateFramebuffers(1, &id);
   handle_ = Handle<delete_framebuffer>(id);
   GLenum attachments[8];
-  SSPHH_CHECK(colors.size() <= 8);
+  require(colors.size() <= 8, "framebuffer", "it takes at most 8 colour textures");
   for (std::size_t i = 0; i < colors.size(); ++i) {
     attachments[i] = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i);
     glNamedFramebufferTexture(id, attachments[i], colors[i]->id(), 0);

@@ -4,7 +4,7 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/gl/texture.h>
 
 namespace ssphh::gl {
@@ -40,8 +40,7 @@ FormatInfo info_of(Format format) {
     case Format::depth32f_stencil8:
       return {GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 8};
   }
-  SSPHH_CHECK(!"texture format");
-  return {};
+  refuse("texture format", "there is none of that number");
 }
 
 GLenum wrap_of(Address address) {
@@ -71,7 +70,7 @@ std::size_t bytes_per_texel(Format format) {
 
 Texture::Texture(Format format, int width, int height, int layers, bool mipmaps)
     : format_(format), width_(width), height_(height), layers_(layers) {
-  SSPHH_CHECK(width > 0 && height > 0 && layers >= 0);
+  require(width > 0 && height > 0 && layers >= 0, "texture", "its size must be over 0");
   GLint most = 0, most_layers = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most_layers);
@@ -103,7 +102,11 @@ void Texture::upload(std::span<const std::byte> data, int layer) {
 
 void Texture::upload_rect(std::span<const std::byte> data, int x, int y, int width, int height, int layer) {
   const FormatInfo info = info_of(format_);
-  SSPHH_CHECK(data.size() == info.bytes * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  require(x >= 0 && y >= 0 && width >= 0 && height >= 0 && x <= width_ - width && y <= height_ - height &&
+              layer >= 0 && layer < std::max(layers_, 1),
+          "texture", "the rectangle does not lie inside");
+  require(data.size() == info.bytes * static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+          "texture", "there are not the bytes of the rectangle");
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   if (layers_ > 0) {
     glTextureSubImage3D(id(), 0, x, y, layer, width, height, 1, info.external, info.type, data.data());
@@ -126,7 +129,11 @@ void Texture::set_filter(bool linear) {
 
 void Texture::read(std::span<float> out, int channels) const {
   constexpr GLenum externals[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
-  SSPHH_CHECK(channels >= 1 && channels <= 4);
+  require(channels >= 1 && channels <= 4, "texture", "a texel has 1 to 4 channels");
+  require(out.size() >= static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) *
+                            static_cast<std::size_t>(std::max(layers_, 1)) *
+                            static_cast<std::size_t>(format_ == Format::depth32f ? 1 : channels),
+          "texture", "there is no room for its texels");
   const GLenum external =
       format_ == Format::depth32f ? GL_DEPTH_COMPONENT : externals[static_cast<std::size_t>(channels) - 1];
   glPixelStorei(GL_PACK_ALIGNMENT, 1);

@@ -1,7 +1,7 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/gl/volume.h>
 
 namespace ssphh::gl {
@@ -15,7 +15,7 @@ std::size_t volume_of(const ivec3& size) {
 }  // namespace
 
 Volume::Volume(const ivec3& size) : size_(size) {
-  SSPHH_CHECK(size.x > 0 && size.y > 0 && size.z > 0);
+  require(size.x > 0 && size.y > 0 && size.z > 0, "volume texture", "its size must be over 0");
   GLint most = 0;
   glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
   if (size.x > most || size.y > most || size.z > most)
@@ -44,7 +44,10 @@ void Volume::clear() {
 }
 
 void Volume::upload_box(std::span<const std::uint64_t> texels, const ivec3& corner, const ivec3& size) {
-  SSPHH_CHECK(texels.size() == volume_of(size));
+  require(glm::all(glm::greaterThanEqual(glm::min(corner, size), ivec3(0))) &&
+              glm::all(glm::lessThanEqual(corner, size_ - size)),
+          "volume texture", "the box does not lie inside");
+  require(texels.size() == volume_of(size), "volume texture", "there are not the texels of the box");
   glPixelStorei(GL_UNPACK_ALIGNMENT, 8);
   glTextureSubImage3D(id(), 0, corner.x, corner.y, corner.z, size.x, size.y, size.z, GL_RGBA, GL_HALF_FLOAT,
                       texels.data());

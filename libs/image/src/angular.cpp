@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include <ssphh/image/sphere_map.h>
 
@@ -79,6 +80,8 @@ double angular_solid_angle(int x, int y, int size) {
 }
 
 vec3 sample_angular(const Image& image, const vec3& direction) {
+  require(!image.empty() && image.width == image.height, "angular map", "it must be a square with pixels");
+  if (!is_finite(direction)) return vec3(std::numeric_limits<float>::quiet_NaN());
   const vec2 uv = angular_uv(direction);
   const int size = image.width;
   const BilinearTap tap(uv.x * static_cast<float>(size), uv.y * static_cast<float>(size));

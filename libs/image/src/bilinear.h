@@ -13,10 +13,12 @@ struct BilinearTap {
   int x, y;
   float fx, fy;
 
-  /// u, v in texels, with texel centres at half-integers.
+  /// u, v in texels, with texel centres at half-integers. A place that is not a number gives weights that are
+  /// none.
   BilinearTap(float u, float v) {
     const float x0 = std::floor(u - 0.5f), y0 = std::floor(v - 0.5f);
-    x = static_cast<int>(x0), y = static_cast<int>(y0);
+    const auto texel = [](float place) { return std::abs(place) < 1e9f ? static_cast<int>(place) : 0; };
+    x = texel(x0), y = texel(y0);
     fx = u - 0.5f - x0, fy = v - 0.5f - y0;
   }
 };

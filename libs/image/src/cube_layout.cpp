@@ -42,8 +42,7 @@ const CubeLayout& cube_layout(Layout layout) {
     default:
       break;
   }
-  SSPHH_CHECK(is_cube_layout(layout));
-  return strip_h;
+  refuse("layout", "there is none of that number");
 }
 
 // Copies a face between its own image and its cell of a layout.
@@ -165,6 +164,7 @@ bool is_cube_layout(Layout layout) {
 }
 
 int layout_size(const Image& image, Layout layout) {
+  require_whole(image, "layout");
   const int columns = is_cube_layout(layout)       ? cube_layout(layout).columns
                       : layout == Layout::equirect ? 2
                                                    : 1;
@@ -189,7 +189,12 @@ CubeMap to_cube(const Image& image, Layout layout, int size, const Control& cont
 }
 
 Image from_cube(const CubeMap& cube, Layout layout, int size, const Control& control) {
-  SSPHH_CHECK(cube.size > 0);
+  require(cube.size > 0, "cube map", "it is empty");
+  for (const Image& face : cube.faces) {
+    require_whole(face, "cube map");
+    require(face.width == cube.size && face.height == cube.size && face.channels == cube.faces[0].channels,
+            "cube map", "its faces are not all squares of its size");
+  }
   const int wanted = size > 0 ? size : size_for_face(layout, cube.size);
   if (is_cube_layout(layout) && wanted == cube.size) return join_faces(cube, layout);
   return gather_layout(field_of(cube), layout, wanted, control);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include <ssphh/image/cube_map.h>
 
@@ -23,6 +24,7 @@ vec3 neighbour_texel(const CubeMap& cube, int face, int x, int y) {
 }  // namespace
 
 vec3 cube_texel(const CubeMap& cube, int face, int x, int y) {
+  require(cube.size > 0 && face >= 0 && face < 6, "cube map", "there is no such face");
   const int last = cube.size - 1;
   const int cx = std::clamp(x, 0, last), cy = std::clamp(y, 0, last);
   const bool out_x = cx != x, out_y = cy != y;
@@ -34,6 +36,8 @@ vec3 cube_texel(const CubeMap& cube, int face, int x, int y) {
 }
 
 vec3 sample_cube(const CubeMap& cube, const vec3& direction) {
+  require(cube.size > 0, "cube map", "it is empty");
+  if (!is_finite(direction)) return vec3(std::numeric_limits<float>::quiet_NaN());
   const CubePoint p = cube_point(direction);
   const auto size = static_cast<float>(cube.size);
   return bilinear(BilinearTap(p.s * size, p.t * size),

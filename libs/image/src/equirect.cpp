@@ -25,6 +25,7 @@ double equirect_solid_angle(int y, int width, int height) {
 }
 
 vec3 sample_equirect(const Image& image, const vec3& direction) {
+  require(!image.empty(), "equirectangular image", "it is empty");
   const vec2 uv = equirect_uv(direction);
   const int width = image.width, height = image.height;
   const BilinearTap tap(uv.x * static_cast<float>(width), uv.y * static_cast<float>(height));

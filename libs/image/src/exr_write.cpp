@@ -34,14 +34,14 @@ class MemoryOutput final : public Imf::OStream {
 }  // namespace
 
 std::vector<std::byte> encode_exr(const Image& image, std::span<const NamedChannel> extra) {
-  SSPHH_CHECK(!image.empty() && (image.channels == 1 || image.channels == 3 || image.channels == 4));
+  require_whole(image, "OpenEXR");
   const std::size_t pixel_count =
       static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   Imf::Header header(image.width, image.height);
   header.compression() = Imf::ZIP_COMPRESSION;
   Imf::FrameBuffer buffer;
   const auto add = [&](const std::string& name, const float* values, std::size_t stride) {
-    SSPHH_CHECK(!header.channels().findChannel(name));
+    if (header.channels().findChannel(name)) throw Error("OpenEXR", "there are two channels " + name);
     header.channels().insert(name, Imf::Channel(Imf::FLOAT));
     // OpenEXR reads through a non-const pointer.
     char* base = reinterpret_cast<char*>(const_cast<float*>(values));
@@ -54,7 +54,8 @@ std::vector<std::byte> encode_exr(const Image& image, std::span<const NamedChann
     add(channels == 1 ? "Y" : rgba[c], image.pixels.data() + c, channels);
   }
   for (const NamedChannel& channel : extra) {
-    SSPHH_CHECK(channel.values.size() == pixel_count);
+    if (channel.values.size() != pixel_count)
+      throw Error("OpenEXR", "channel " + channel.name + " has not one value for each pixel");
     add(channel.name, channel.values.data(), 1);
   }
   MemoryOutput stream;

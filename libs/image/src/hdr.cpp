@@ -218,7 +218,7 @@ Image decode_hdr(const Source& source) {
 }
 
 std::vector<std::byte> encode_hdr(const Image& image) {
-  SSPHH_CHECK(!image.empty());
+  require_whole(image, "Radiance HDR");
   const std::string header =
       fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", image.height, image.width);
   const auto bytes = std::as_bytes(std::span(header));

@@ -100,11 +100,14 @@ Image resize(const Image& image, int width, int height, Filter filter) {
     throw Error("resize", fmt::format("cannot resize {} x {} to {} x {} pixels", image.width, image.height,
                                       width, height));
   }
+  require(image.pixels.size() == image.offset(0, image.height), "resize",
+          "the image's size and its number of pixels do not agree");
   const Image rows = filter_axis(image, width, image.height, all_taps(image.width, width, filter), false);
   return filter_axis(rows, width, height, all_taps(image.height, height, filter), true);
 }
 
 vec3 sample_bilinear(const Image& image, float x, float y) {
+  require(!image.empty(), "image", "it is empty");
   return bilinear(BilinearTap(x, y), [&](int i, int j) {
     return image.rgb(std::clamp(i, 0, image.width - 1), std::clamp(j, 0, image.height - 1));
   });

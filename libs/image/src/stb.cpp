@@ -145,19 +145,21 @@ Rgba8 decode_stb_rgba8(const Source& source, FileFormat format) {
 }
 
 std::vector<std::byte> encode_png(const Image& image) {
-  SSPHH_CHECK(!image.empty());
+  require_whole(image, "PNG");
   return encode_png(to_8bit(image).data(), image.width, image.height, image.channels);
 }
 
 std::vector<std::byte> encode_png(const Rgba8& image) {
-  SSPHH_CHECK(image.width > 0 && image.height > 0 &&
+  require(image.width > 0 && image.height > 0 &&
               image.rgba.size() == std::size_t{4} * static_cast<std::size_t>(image.width) *
-                                       static_cast<std::size_t>(image.height));
+                                       static_cast<std::size_t>(image.height),
+          "PNG", "the image's size and its bytes do not agree");
   return encode_png(image.rgba.data(), image.width, image.height, 4);
 }
 
 std::vector<std::byte> encode_jpeg(const Image& image, int quality) {
-  SSPHH_CHECK(!image.empty() && quality >= 1 && quality <= 100);
+  require_whole(image, "JPEG");
+  require(quality >= 1 && quality <= 100, "JPEG", "the quality must be 1..100");
   constexpr int largest_side = 65535;
   if (image.width > largest_side || image.height > largest_side) {
     throw Error("JPEG", fmt::format("{} x {} pixels are too many", image.width, image.height));

@@ -27,6 +27,7 @@ vec3 tone_map(const vec3& color, const ToneMap& params) {
 }
 
 Image tone_map(const Image& image, const ToneMap& params) {
+  require_whole(image, "tone mapping");
   Image out(image.width, image.height, image.channels);
   const auto channels = static_cast<std::size_t>(image.channels);
   const float scale = std::exp2(params.exposure);
@@ -38,6 +39,7 @@ Image tone_map(const Image& image, const ToneMap& params) {
 }
 
 Rgba8 to_display(const Image& image, const ToneMap& params) {
+  require_whole(image, "tone mapping");
   Rgba8 out{image.width, image.height, {}};
   out.rgba.reserve(std::size_t{4} * static_cast<std::size_t>(image.width) *
                    static_cast<std::size_t>(image.height));

@@ -11,6 +11,7 @@
 #include <ssphh/core/log.h>
 #include <ssphh/image/io.h>
 
+#include "error_message.h"
 #include "shared_scenes.h"
 #include "test_images.h"
 
@@ -91,7 +92,8 @@ TEST_F(BrokenFiles, AJpegWithTooManyHuffmanCodesIsRefusedBeforeItIsDecoded) {
   ASSERT_NE(table, data.end());
   // Marker, length, class and identity, then the counts: 200 codes each of 15 and 16 bits.
   *(table + 5 + 14) = *(table + 5 + 15) = std::byte{200};
-  EXPECT_THAT(test::message_of([&] { decode_image(data, "a.jpg"); }), testing::HasSubstr("Huffman table"));
+  EXPECT_THAT(ssphh::test::message_of([&] { decode_image(data, "a.jpg"); }),
+              testing::HasSubstr("Huffman table"));
 }
 
 TEST_F(BrokenFiles, FilesThatOnceCrashedExrReadersDoNotCrashThisOne) {

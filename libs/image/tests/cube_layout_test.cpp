@@ -8,6 +8,7 @@
 #include <ssphh/image/io.h>
 #include <ssphh/image/sphere_map.h>
 
+#include "error_message.h"
 #include "shared_scenes.h"
 #include "test_images.h"
 
@@ -70,14 +71,14 @@ CubeMap smooth_cube(int size) {
 
 TEST(CubeLayout, NamesAndShapesAreRecognised) {
   for (const Layout layout : all_layouts) EXPECT_EQ(layout_from_name(layout_name(layout)), layout);
-  EXPECT_THAT(test::message_of([] { layout_from_name("cross"); }), testing::HasSubstr("cross-h"));
+  EXPECT_THAT(ssphh::test::message_of([] { layout_from_name("cross"); }), testing::HasSubstr("cross-h"));
   EXPECT_EQ(layout_size(Image(24, 4), Layout::strip_h), 4);
   EXPECT_EQ(layout_size(Image(4, 24), Layout::strip_v), 4);
   EXPECT_EQ(layout_size(Image(16, 12), Layout::cross_h), 4);
   EXPECT_EQ(layout_size(Image(12, 16), Layout::cross_v), 4);
   EXPECT_EQ(layout_size(Image(12, 6), Layout::equirect), 6);
   EXPECT_EQ(layout_size(Image(5, 5), Layout::angular), 5);
-  EXPECT_THAT(test::message_of([] { layout_size(Image(16, 13), Layout::cross_h); }),
+  EXPECT_THAT(ssphh::test::message_of([] { layout_size(Image(16, 13), Layout::cross_h); }),
               testing::HasSubstr("4 : 3"));
   EXPECT_THROW(layout_size(Image(6, 4), Layout::angular), Error);
 }
@@ -213,6 +214,47 @@ TEST(CubeLayout, IsTheSameForAnyNumberOfThreads) {
   const Image four = from_cube(cube, Layout::equirect);
   set_thread_count(0);
   EXPECT_EQ(one.pixels, four.pixels);
+}
+
+/// L = the direction itself.
+CubeMap direction_cube(int size) {
+  CubeMap cube(size);
+  for (int f = 0; f < 6; ++f)
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x)
+        cube.faces[static_cast<std::size_t>(f)].set_rgb(x, y, texel_direction(f, x, y, size));
+  return cube;
+}
+
+TEST(CubeLayout, WhatIsMirroredInTheCubeIsMirroredInAnEquirect) {
+  // Few samples a pixel, so that places aside of the middle would show; 1e-5 is rounding.
+  const Image image = from_cube(direction_cube(8), Layout::equirect, 8);
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 16; ++x) {
+      const vec3 here = image.rgb(x, y);
+      EXPECT_LT(glm::distance(here, image.rgb(15 - x, y) * vec3(1, 1, -1)), 1e-5f) << x << ' ' << y;
+      EXPECT_LT(glm::distance(here, image.rgb(x, 7 - y) * vec3(1, -1, 1)), 1e-5f) << x << ' ' << y;
+    }
+  }
+}
+
+TEST(CubeLayout, APixelOfAnEquirectIsTheMeanOverItsSolidAngle) {
+  // Over a pixel from (u0, v0), a 16th of a turn wide and an 8th of half a turn
+  // high, x is ∫ sin² θ dθ ∫ cos φ dφ over ∫ sin θ dθ ∫ dφ; z has sin φ, and y ∫ sin θ cos θ dθ.
+  const Image image = from_cube(direction_cube(64), Layout::equirect, 8);
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 16; ++x) {
+      const double t0 = pi_d * y / 8, t1 = pi_d * (y + 1) / 8;
+      const double p0 = 2 * pi_d * (x / 16.0 - 0.5), p1 = 2 * pi_d * ((x + 1) / 16.0 - 0.5);
+      const double squares = (t1 - t0) / 2 - (std::sin(2 * t1) - std::sin(2 * t0)) / 4;
+      const double all = (std::cos(t0) - std::cos(t1)) * (p1 - p0);
+      const glm::dvec3 mean(squares * (std::sin(p1) - std::sin(p0)),
+                            (std::sin(t1) * std::sin(t1) - std::sin(t0) * std::sin(t0)) / 2 * (p1 - p0),
+                            squares * (std::cos(p0) - std::cos(p1)));
+      // 2e-3: texels of 1.4°, interpolated, and the midpoint rule of a few samples each way.
+      EXPECT_LT(glm::distance(glm::dvec3(image.rgb(x, y)), mean / all), 2e-3) << x << ' ' << y;
+    }
+  }
 }
 
 TEST(SphereMean, IsNotThePixelMean) {

@@ -12,6 +12,7 @@
 #include <ssphh/image/io.h>
 #include <ssphh/image/transfer.h>
 
+#include "error_message.h"
 #include "shared_scenes.h"
 #include "temp_dir.h"
 #include "test_images.h"
@@ -19,7 +20,7 @@
 namespace ssphh::image {
 namespace {
 
-using test::message_of;
+using ssphh::test::message_of;
 using test::noise_image;
 
 bool same_bits(const Image& a, const Image& b) {
@@ -155,8 +156,8 @@ TEST(Hdr, RefusesBrokenHeadersAndScanlines) {
               testing::HasSubstr("resolution line"));
   EXPECT_THAT(message_of([] { decode_text("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 2\n"); }),
               testing::HasSubstr("32-bit_rle_xyze"));
-  EXPECT_THAT(message_of([] { decode_text("#?RADIANCE\n\n-Y 99999 +X 99999\n"); }),
-              testing::HasSubstr("limit"));
+  EXPECT_THAT(message_of([] { decode_text("#?RADIANCE\n\n-Y 3 +X 99999\n"); }),
+              testing::HasSubstr("is 99999 x 3 pixels, the limit is"));
   EXPECT_THAT(message_of([] { decode_text("#?RADIANCE\n\n-Y 16000 +X 16000\n"); }),
               testing::HasSubstr("only"));
   EXPECT_THAT(message_of([] { decode_text("#?RADIANCE\n\n-Y 1 +X 4\n\x01\x01\x01\x04"); }),
@@ -216,6 +217,10 @@ TEST(Transfer, MatchesTheStandardAndIsItsOwnInverse) {
   EXPECT_FLOAT_EQ(srgb_to_linear(0.5f), 0.2140411404715882f);
   EXPECT_FLOAT_EQ(srgb_to_linear(0.04f), 0.0030959752321981426f);
   EXPECT_FLOAT_EQ(linear_to_srgb(0.18f), 0.4613561295004415f);
+  // On both sides of the breaks, where line and power meet to 1e-4 only nearby.
+  EXPECT_FLOAT_EQ(linear_to_srgb(0.003f), 12.92f * 0.003f);
+  EXPECT_NEAR(linear_to_srgb(0.0035f), 1.055 * std::pow(0.0035, 1 / 2.4) - 0.055, 1e-7);
+  EXPECT_NEAR(srgb_to_linear(0.045f), std::pow((0.045 + 0.055) / 1.055, 2.4), 1e-8);
   for (int code = 0; code < 256; ++code) {
     EXPECT_EQ(linear_to_srgb8(srgb8_to_linear(static_cast<std::uint8_t>(code))), code);
   }

@@ -87,6 +87,40 @@ TEST(Resize, ShrinkingRemovesWhatTheNewPixelsCannotShow) {
   }
 }
 
+// Kernels in the units of the coarser image, as their authors wrote them.
+double published_kernel(Filter filter, double x) {
+  x = std::abs(x);
+  if (filter == Filter::bilinear) return x < 1 ? 1 - x : 0;
+  const auto sinc = [](double t) { return t == 0 ? 1 : std::sin(pi_d * t) / (pi_d * t); };
+  if (filter == Filter::lanczos) return x < 3 ? sinc(x) * sinc(x / 3) : 0;
+  // Mitchell and Netravali 1988, eq. 8 with B = C = 1/3.
+  const double b = 1.0 / 3, c = b;
+  if (x < 1) return ((12 - 9 * b - 6 * c) * x * x * x + (-18 + 12 * b + 6 * c) * x * x + 6 - 2 * b) / 6;
+  if (x < 2)
+    return ((-b - 6 * c) * x * x * x + (6 * b + 30 * c) * x * x + (-12 * b - 48 * c) * x + 8 * b + 24 * c) /
+           6;
+  return 0;
+}
+
+TEST(Resize, SpreadsAPointByThePublishedKernel) {
+  Image point(24, 1, 1);
+  point.pixels[12] = 1;
+  for (const Filter filter : {Filter::bilinear, Filter::mitchell, Filter::lanczos}) {
+    for (const int width : {8, 72}) {
+      const Image out = resize(point, width, 1, filter);
+      const double ratio = 24.0 / width, scale = std::max(1.0, ratio);
+      for (int x = 0; x < width; ++x) {
+        double sum = 0;
+        const double centre = (x + 0.5) * ratio;
+        for (int i = -100; i < 124; ++i) sum += published_kernel(filter, (i + 0.5 - centre) / scale);
+        EXPECT_NEAR(out.pixels[static_cast<std::size_t>(x)],
+                    published_kernel(filter, (12.5 - centre) / scale) / sum, 1e-6)
+            << x << " of " << width;
+      }
+    }
+  }
+}
+
 TEST(Resize, RefusesImpossibleSizes) {
   EXPECT_THROW(resize(Image(), 1, 1), Error);
   EXPECT_THROW(resize(Image(1, 1), 0, 1), Error);

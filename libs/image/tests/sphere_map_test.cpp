@@ -112,6 +112,38 @@ TEST(SampleEquirect, IsBilinearAndWraps) {
   EXPECT_NEAR(sample_equirect(image, {0, 1, 0}).x, 0.25f * (3 + 4 + 7 + 0), 1e-4f);
 }
 
+TEST(SampleEquirect, LeadsOverThePolesToTheOtherSide) {
+  // One bright pixel in the first row and one in the last, a quarter of a turn apart.
+  Image image(8, 4);
+  image.set_rgb(2, 0, vec3(1, 2, 4)), image.set_rgb(4, 3, vec3(8, 16, 32));
+  // A quarter of a pixel from the pole: a quarter of the weight lies half a turn away.
+  const float v = 0.25f / 4;
+  expect_near(sample_equirect(image, equirect_direction(2.5f / 8, v)), 0.75f * vec3(1, 2, 4));
+  expect_near(sample_equirect(image, equirect_direction(6.5f / 8, v)), 0.25f * vec3(1, 2, 4));
+  expect_near(sample_equirect(image, equirect_direction(4.5f / 8, 1 - v)), 0.75f * vec3(8, 16, 32), 1e-4f);
+  expect_near(sample_equirect(image, equirect_direction(0.5f / 8, 1 - v)), 0.25f * vec3(8, 16, 32), 1e-4f);
+}
+
+TEST(SampleAngular, NeverMixesInWhatLiesOutsideTheDisc) {
+  for (int size = 2; size < 40; ++size) {
+    Image image(size, size);
+    for (int y = 0; y < size; ++y) {
+      for (int x = 0; x < size; ++x) {
+        const double px = (2.0 * x + 1) / size - 1, py = (2.0 * y + 1) / size - 1;
+        image.set_rgb(x, y, px * px + py * py <= 1 ? vec3(1, 2, 3) : vec3(1000));
+      }
+    }
+    for (int i = 0; i < 4000; ++i) {
+      // Close to the edge.
+      const float turn = 2 * pi * static_cast<float>(i) / 4000,
+                  r = 0.9999f - 0.05f * static_cast<float>(i % 7);
+      const auto d = angular_direction(0.5f + 0.5f * r * std::cos(turn), 0.5f + 0.5f * r * std::sin(turn));
+      ASSERT_TRUE(d);
+      expect_near(sample_angular(image, *d), vec3(1, 2, 3));
+    }
+  }
+}
+
 TEST(SampleCube, IsContinuousAcrossEveryEdgeAndCorner) {
   CubeMap cube(4);
   for (std::size_t face = 0; face < 6; ++face) cube.faces[face] = test::noise_image(4, 4, 3, 1, face + 1);

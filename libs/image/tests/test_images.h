@@ -20,17 +20,6 @@ inline Image noise_image(int width, int height, int channels, float scale, std::
   return image;
 }
 
-/// The message of the Error that `action` throws; empty when it throws none.
-template <class Action>
-std::string message_of(const Action& action) {
-  try {
-    action();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return {};
-}
-
 /// One row of 16-bit grey as a PNG file.
 std::vector<std::byte> png_16bit_grey(const std::vector<std::uint16_t>& row);
 

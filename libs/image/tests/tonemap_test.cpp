@@ -46,6 +46,17 @@ TEST(ToneMap, TheDisplayCodesAreThoseOfThePng) {
   EXPECT_EQ(to_display(image, params).rgba, decode_rgba8(encode_png(tone_map(image, params)), "png").rgba);
 }
 
+TEST(ToneMap, ImagesAreMappedPixelByPixelAndKeepTheirAlpha) {
+  const ToneMap params{1.5f, ToneCurve::filmic, 0};
+  const Image image = test::noise_image(5, 3, 4, 1), mapped = tone_map(image, params);
+  for (int y = 0; y < 3; ++y) {
+    for (int x = 0; x < 5; ++x) {
+      EXPECT_EQ(mapped.rgb(x, y), tone_map(image.rgb(x, y), params));
+      EXPECT_EQ(mapped.at(x, y)[3], image.at(x, y)[3]);
+    }
+  }
+}
+
 TEST(ToneMap, GammaEncodesAsAPowerAndAlphaStaysLinear) {
   Image image(1, 1, 4);
   image.pixels = {0.5f, 1, 0, 0.5f};

@@ -52,8 +52,9 @@ struct Broker::Impl {
         outbox(options.limits.outbox_bytes) {
     core.set_least_event(options.least_event);
     require_keys(options.bind, options.security.has_value(), "--bind");
-    if (options.timers.worker_expiry < 7500)
-      throw Error("worker expiry", "is shorter than 7500 ms", "the guide's workers beat every 2500 ms");
+    if (options.timers.worker_expiry < 3 * options.timers.heartbeat)
+      throw Error("worker expiry", "is shorter than three heartbeats",
+                  "the guide's workers beat every 2500 ms: at least 7500 ms with them");
     if (options.security) gate = std::make_unique<Gate>(context, *options.security);
     open();
     if (!options.metrics_bind.empty())

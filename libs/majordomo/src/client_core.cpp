@@ -154,7 +154,6 @@ void ClientCore::receive_own(Millis now, Message&& message) {
   if (envelope->kind == EnvelopeKind::unknown) {
     for (const RequestId& id : envelope->ids)
       if (const Entry entry = pending_.find(id); entry != pending_.end() && entry->second.sent) {
-        entry->second.partials = 0;
         sent_.splice(sent_.end(), sent_, entry->second.place);
         send(now, entry);
       }

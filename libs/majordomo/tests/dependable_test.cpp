@@ -1,6 +1,7 @@
 /// What the published protocol leaves open: deaths, retries, late and doubled answers, copies of stragglers.
 
 #include "broker_harness.h"
+#include "recount.h"
 
 namespace ssphh::majordomo::test {
 namespace {
@@ -168,6 +169,19 @@ TEST(Dependable, SilentBusyForeignWorkerIsSuspectAndItsAnswerStillCounts) {
   EXPECT_THAT(h.taken("c"), IsEmpty());
 }
 
+TEST(Dependable, WorkerThatFallsSilentTwiceHasItsJobQueuedOnce) {
+  Harness h;
+  h.send("w1", ready01("echo"));
+  h.send("c", client01("echo", {"a"}));
+  h.pass(8000);
+  h.send("w1", heartbeat01);
+  h.pass(8000);
+  EXPECT_EQ(h.count_events("worker-suspect"), 2u);
+  EXPECT_EQ(h.core.stats().queued, 1u);
+  EXPECT_EQ(h.core.stats().hedged, 1u);
+  EXPECT_EQ(BrokerRecount::disagreements(h.core), "");
+}
+
 TEST(Dependable, SilentBusyOwnWorkerIsLost) {
   Harness h;
   h.send(own_a, ready02("echo"));
@@ -252,6 +266,46 @@ TEST(Dependable, PartialsOfARetryContinueWhereTheFirstStopped) {
   std::string all;
   for (const Frames& frames : h.taken("c")) all += frames.at(3);
   EXPECT_EQ(all, "0123");
+}
+
+// Its PARTIALs are the same each time a job runs; who sends fewer has said less, and the FINAL counts those.
+TEST(Dependable, FinalCountsThePartialsOfItsOwnAttempt) {
+  Harness h;
+  h.send("w1", ready02("echo"));
+  h.send("c", submit("echo", {.ids = {{1, 1}}}));
+  std::string address = h.job_of("w1");
+  for (const char* part : {"0", "1"}) h.send("w1", partial02(address, {part}));
+  h.gone("w1");
+  h.send("w2", ready02("echo"));
+  h.pass(200);
+  address = h.job_of("w2");
+  h.send("w2", partial02(address, {"0"}));
+  h.send("w2", final02(address, {"1 and the rest"}));
+  const auto news = h.envelopes("c");
+  ASSERT_THAT(news, SizeIs(3));
+  EXPECT_EQ(news[2].kind, EnvelopeKind::final);
+  EXPECT_EQ(news[2].sequence, 1u);
+}
+
+TEST(Dependable, WorkerThatWasSentAwayMayComeBackOverANewConnection) {
+  Harness h;
+  h.send("w", submit("other", {.ids = {{1, 1}}}));  // remembered after its connection has gone
+  h.send("w", heartbeat02);
+  EXPECT_THAT(h.taken("w"), ElementsAre(disconnect02));
+  h.gone("w");
+  h.send("w", ready02("echo"));
+  EXPECT_EQ(h.core.stats().workers, 1u);
+  h.send("w", ready02("echo"));
+  EXPECT_THAT(h.taken("w"), ElementsAre(disconnect02)) << "and be sent away again";
+}
+
+TEST(Dependable, WorkerThatChangesItsProtocolIsLost) {
+  Harness h;
+  h.send("w", ready02("echo"));
+  h.send("w", heartbeat01);
+  EXPECT_EQ(h.core.stats().workers, 0u);
+  EXPECT_EQ(h.core.stats().dropped, 1u);
+  EXPECT_THAT(h.taken("w"), ElementsAre(disconnect01));
 }
 
 }  // namespace

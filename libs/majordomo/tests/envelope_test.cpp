@@ -40,6 +40,30 @@ TEST(Envelope, UnknownTagsAreSkippedRepeatedOnesRefused) {
   EXPECT_FALSE(decode_envelope(plain + plain.substr(6)));
 }
 
+TEST(Envelope, HoldsFourThousandIdsAndBytesOfAReason) {
+  const Envelope large{.kind = EnvelopeKind::cancel,
+                       .ids = std::vector<RequestId>(4001, {1, 2}),
+                       .reason = std::string(4001, 'r')};
+  const auto cut = decode_envelope(encode_envelope(large));
+  ASSERT_TRUE(cut);
+  EXPECT_EQ(cut->ids.size(), 4000u);
+  EXPECT_EQ(cut->reason.size(), 4000u);
+}
+
+TEST(Envelope, TimesAreFromZeroToNineThousandYears) {
+  for (const auto& [time, good] :
+       {std::pair(Millis{1} << 48, true), {(Millis{1} << 48) + 1, false}, {Millis{-1}, false}}) {
+    EXPECT_EQ(decode_envelope(encode_envelope({.deadline = time})).has_value(), good) << time;
+    EXPECT_EQ(decode_envelope(encode_envelope({.attempt_timeout = time})).has_value(), good) << time;
+    EXPECT_EQ(decode_envelope(encode_envelope({.retry_after = time})).has_value(), good) << time;
+  }
+}
+
+TEST(Envelope, OutcomesAreThoseThatThereAre) {
+  EXPECT_TRUE(decode_envelope(encode_envelope({.outcome = Outcome::no_answer})));
+  EXPECT_FALSE(decode_envelope(encode_envelope({.outcome = static_cast<Outcome>(7)})));
+}
+
 TEST(Envelope, OtherVersionsAndKindsAreRefused) {
   Frame frame = encode_envelope({});
   frame[4] = 2;

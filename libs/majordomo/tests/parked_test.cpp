@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "broker_harness.h"
+#include "recount.h"
 
 namespace ssphh::majordomo::test {
 namespace {
@@ -117,6 +118,35 @@ TEST(Parked, PersistentRequestsGetTheResultUnderTheirIdAlsoAfterARestart) {
   again.send(own_a, result(again.job_of(own_a), {}, "seven"));
   again.send("c", client01("titanic.reply", {id.hex()}));
   EXPECT_THAT(again.taken("c"), ElementsAre(Frames{"", "MDPC01", "titanic.reply", "200", "seven"}));
+}
+
+TEST(Parked, ReleasedJobsKeepTheTimeOfTheirAttempts) {
+  Harness h;
+  h.send("c", submit("gen", {.ids = {{1, 1}}, .attempt_timeout = 4321}));
+  poison(h, "w");
+  ask(h, "mmi.release", "all");
+  h.send(own_a, ready02("gen"));
+  EXPECT_EQ(Token::parse(h.job_of(own_a))->timeout, 4321u);
+}
+
+// A foreign client asked for the same and vanished while it runs: its result is kept already.
+TEST(Parked, ReleasedJobLeavesTheResultOfAnEqualOneAlone) {
+  Harness h;
+  h.send("c", submit("gen", {.ids = {{1, 1}}}, "probe 7"));
+  poison(h, "w");
+  h.send(own_a, ready02("gen"));
+  h.send("f", client02("gen", {"probe 7"}));
+  const std::string foreign = h.job_of(own_a);
+  h.gone("f");
+  ask(h, "mmi.release", "all");
+  EXPECT_EQ(BrokerRecount::disagreements(h.core), "");
+  h.send(own_b, ready02("gen"));
+  h.send(own_b, result(h.job_of(own_b), {}, "of the released"));
+  EXPECT_EQ(BrokerRecount::disagreements(h.core), "");
+  h.send(own_a, result(foreign, {}, "of the first"));
+  EXPECT_EQ(BrokerRecount::disagreements(h.core), "");
+  h.send("f2", client02("gen", {"probe 7"}));
+  EXPECT_EQ(h.taken("f2").at(0).back(), "of the first");
 }
 
 TEST(Parked, OnlyAdministratorsReleaseAndDrop) {

@@ -241,6 +241,8 @@ TEST(Mdp, StrayReplyOfABusyWorkerCostsItNothing) {
   EXPECT_THAT(h.taken("c"),
               ElementsAre(Frames{"MDPC02", "\x03", "echo", "1"}, Frames{"MDPC02", "\x03", "echo", "2"}));
   EXPECT_EQ(h.core.stats().late_replies, 1u);
+  EXPECT_EQ(h.core.stats().workers, 1u);
+  EXPECT_EQ(h.core.stats().workers_lost, 0u);
 }
 
 TEST(Mdp, WorkerCannotAnswerWhatItWasNotAsked) {

@@ -38,6 +38,15 @@ TEST(Requests, CancelReachesTheWorker) {
   EXPECT_EQ(h.core.stats().idle, 1u);
 }
 
+TEST(Requests, ForeignWorkerIsNotToldOfACancellationThatItsProtocolHasNoWordFor) {
+  Harness h;
+  h.send("w", ready02("echo"));
+  h.send("c", submit("echo", {.ids = {{1, 1}}}));
+  ASSERT_FALSE(h.job_of("w").empty());
+  h.send("c", control(EnvelopeKind::cancel, {{1, 1}}));
+  EXPECT_THAT(h.taken("w"), IsEmpty());
+}
+
 TEST(Requests, SubmittedAgainIsRunOnce) {
   Harness h;
   h.send(own_a, ready02("echo"));

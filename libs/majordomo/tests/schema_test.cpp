@@ -5,6 +5,7 @@
 
 #include "broker_harness.h"
 #include "json_schema.h"
+#include "places.h"
 
 namespace ssphh::majordomo::test {
 namespace {
@@ -13,7 +14,7 @@ using testing::IsEmpty;
 using testing::Not;
 
 std::vector<std::string> errors(const std::string& schema, const std::string& document) {
-  return ssphh::test::schema_errors(std::string(SSPHH_SOURCE_DIR) + "/schemas/" + schema + ".schema.json",
+  return ssphh::test::schema_errors(ssphh::test::source_dir() / "schemas" / (schema + ".schema.json"),
                                     document);
 }
 

@@ -37,6 +37,34 @@ TEST(Store, OperationsAndRestore) {
   EXPECT_THAT(again.store, SizeIs(2));
 }
 
+TEST(Store, WhatItHeldIsAsItWas) {
+  const auto body = std::make_shared<const Frames>(Frames{"probe"});
+  const auto reply = std::make_shared<const Frames>(Frames{"reply"});
+  Harness h({}, {}, true);
+  h.core.restore(h.now, {.id = {1, 1}, .service = "gen", .body = body, .attempt_timeout = 1234});
+  h.core.restore(h.now, {.id = {2, 2},
+                         .service = "viz",
+                         .body = body,
+                         .attempt_timeout = 4321,
+                         .finished = true,
+                         .outcome = Outcome::parked,
+                         .reason = "failed on 3 workers",
+                         .attempts = 5,
+                         .reply = reply});
+  h.send(own_a, ready02("gen"));
+  EXPECT_EQ(Token::parse(h.job_of(own_a))->timeout, 1234u);
+  h.send("c", control(EnvelopeKind::query, {{2, 2}}));
+  const auto news = h.envelopes("c");
+  ASSERT_THAT(news, SizeIs(1));
+  EXPECT_EQ(news[0].outcome, Outcome::parked);
+  EXPECT_EQ(news[0].reason, "failed on 3 workers");
+  EXPECT_EQ(news[0].attempts, 5u);
+  h.send("admin", client02("mmi.release", {"all"}));
+  EXPECT_EQ(h.store.back().request.attempt_timeout, 4321);
+  h.send(own_b, ready02("viz"));
+  EXPECT_EQ(Token::parse(h.job_of(own_b))->timeout, 4321u);
+}
+
 TEST(Store, PersistentWithoutAStoreIsRefused) {
   Harness h;
   h.send("c", submit("echo", {.ids = {{1, 1}}, .persistent = true}));
@@ -73,6 +101,22 @@ TEST(Titanic, RequestReplyClose) {
   EXPECT_THAT(ask("titanic.else", {"x"}), ElementsAre("501"));
   h.send("v", ready01("titanic.request"));
   EXPECT_THAT(h.taken("v"), ElementsAre(disconnect01));
+}
+
+TEST(Titanic, FailedAndRefusedRequestsAreTold) {
+  Harness h({}, {}, true);
+  const auto code = [&](const std::string& service, Frames body) {
+    h.send("c", client01(service, std::move(body)));
+    return h.taken("c").at(0).at(3);
+  };
+  h.send("c", client01("titanic.request", {"echo", "a"}));
+  const std::string uuid = h.taken("c").at(0).at(4);
+  h.send(own_a, ready02("echo"));
+  h.send(own_a, result(h.job_of(own_a), {.outcome = Outcome::failed, .reason = "broken"}));
+  EXPECT_EQ(code("titanic.reply", {uuid}), "500");
+  EXPECT_EQ(code("titanic.request", {"echo"}), "400") << "no body";
+  h.core.drain(h.now);
+  EXPECT_EQ(code("titanic.request", {"echo", "a"}), "500");
 }
 
 }  // namespace

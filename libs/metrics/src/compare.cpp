@@ -156,7 +156,7 @@ Image pixelated_error_map(const Image& reference, const Image& test, int block) 
 }
 
 BlockError block_error(const Image& pixelated, int block) {
-  SSPHH_CHECK(!pixelated.empty());
+  image::require_whole(pixelated, "pixelated map");
   BlockError error{block, pixelated.width, pixelated.height, -1, 0, 0, 0};
   for (int y = 0; y < pixelated.height; ++y) {
     for (int x = 0; x < pixelated.width; ++x) {

@@ -319,9 +319,16 @@ std::pair<double, double> exposure_range(const std::vector<vec3>& reference) {
   return {std::log2(level / brightest), std::log2(level / median)};
 }
 
+/// Filters of more pixels than a screen has are no use, and take forever.
+void check(const FlipParams& params) {
+  require(params.pixels_per_degree > 0 && params.pixels_per_degree <= 1e4, "FLIP",
+          "pixels per degree must lie in 0..10000");
+}
+
 }  // namespace
 
 FlipError flip(const Image& reference, const Image& test, const FlipParams& params) {
+  check(params);
   const Pair pair = pixels_of(reference, test);
   return finish(
       pair, difference(clamped(pair.reference), clamped(pair.test), pair.width, pair.height,
@@ -329,6 +336,7 @@ FlipError flip(const Image& reference, const Image& test, const FlipParams& para
 }
 
 FlipError hdr_flip(const Image& reference, const Image& test, const FlipParams& params) {
+  check(params);
   const Pair pair = pixels_of(reference, test);
   const SpatialFilters spatial = spatial_filters(params.pixels_per_degree);
   const FeatureFilters feature = feature_filters(params.pixels_per_degree);

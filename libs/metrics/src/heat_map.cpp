@@ -49,11 +49,11 @@ vec3 ramp_color(ColorRamp ramp, float value) {
     case ColorRamp::grey:
       return vec3(std::clamp(value, 0.0f, 1.0f));
   }
-  SSPHH_CHECK(!"a color ramp");
-  return {};
+  refuse("colour ramp", "there is none of that number");
 }
 
 float automatic_scale(const Image& map) {
+  image::require_whole(map, "heat map");
   std::vector<float> magnitudes;
   magnitudes.reserve(map.pixels.size() / static_cast<std::size_t>(map.channels));
   for (int y = 0; y < map.height; ++y) {
@@ -71,6 +71,8 @@ float automatic_scale(const Image& map) {
 }
 
 Rgba8 heat_map(const Image& map, ColorRamp ramp, float scale) {
+  image::require_whole(map, "heat map");
+  require(std::isfinite(scale), "heat map", "its scale must be a number");
   if (scale <= 0) scale = automatic_scale(map);
   Rgba8 out{map.width, map.height, {}};
   out.rgba.reserve(std::size_t{4} * static_cast<std::size_t>(map.width) *
@@ -86,7 +88,9 @@ Rgba8 heat_map(const Image& map, ColorRamp ramp, float scale) {
 }
 
 Image enlarge_blocks(const Image& pixelated, int block, int width, int height) {
-  SSPHH_CHECK(block >= 1 && (width - 1) / block < pixelated.width && (height - 1) / block < pixelated.height);
+  require(block >= 1 && width >= 1 && height >= 1 && (width - 1) / block < pixelated.width &&
+              (height - 1) / block < pixelated.height,
+          "pixelated map", "its blocks do not cover the picture");
   Image out(width, height, pixelated.channels);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {

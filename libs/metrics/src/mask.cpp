@@ -5,6 +5,8 @@
 namespace ssphh::metrics {
 
 bool in_mask(const image::Image& mask, int x, int y, int width, int height) {
+  image::require_whole(mask, "mask");
+  require(x >= 0 && y >= 0 && x < width && y < height, "mask", "the pixel does not lie in the picture");
   const auto nearest = [](int at, int size, int of) {
     return static_cast<int>((static_cast<std::int64_t>(2 * at + 1) * of) /
                             (2 * static_cast<std::int64_t>(size)));
@@ -14,6 +16,7 @@ bool in_mask(const image::Image& mask, int x, int y, int width, int height) {
 }
 
 image::Image masked(const image::Image& picture, const image::Image& mask) {
+  image::require_whole(picture, "masked picture");
   image::Image result = picture;
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {

@@ -188,6 +188,11 @@ TEST(PixelatedMap, FindsTheWorstBlock) {
   EXPECT_EQ(blocks.max_column, 2);
   EXPECT_EQ(blocks.max_row, 1);
   EXPECT_EQ(blocks.mean, 6.0 / 16);
+  // Of two equally bad ones the first in reading order.
+  test.set_rgb(60, 20, {1, 2, 3}), test.set_rgb(0, 40, {1, 2, 3});
+  const BlockError first = block_error(pixelated_error_map(zero, test, 16), 16);
+  EXPECT_EQ(first.max_column, 2);
+  EXPECT_EQ(first.max_row, 1);
 }
 
 }  // namespace

@@ -40,6 +40,25 @@ TEST(ColorRamp, ClampsAndMarksNan) {
   EXPECT_GT(ramp_color(ColorRamp::diverging, -1).z, 2 * ramp_color(ColorRamp::diverging, -1).x);
 }
 
+// Moreland, Diverging Color Maps for Scientific Visualization, 2009: cool to warm.
+TEST(ColorRamp, DivergesFromGreyToBlueAndRed) {
+  EXPECT_EQ(ramp_color(ColorRamp::diverging, -1), vec3(0.230f, 0.299f, 0.754f));
+  EXPECT_EQ(ramp_color(ColorRamp::diverging, 0), vec3(0.865f));
+  EXPECT_EQ(ramp_color(ColorRamp::diverging, 1), vec3(0.706f, 0.016f, 0.150f));
+  EXPECT_LT(glm::length(ramp_color(ColorRamp::diverging, -0.5f) - vec3(0.5475f, 0.582f, 0.8095f)), 1e-6f);
+}
+
+TEST(HeatMap, ShowsTheMeanOfTheChannelsWithItsSign) {
+  Image map(2, 1);
+  map.set_rgb(0, 0, vec3(-1, -2, -6)), map.set_rgb(1, 0, vec3(0.5f, 1, 0));
+  EXPECT_FLOAT_EQ(automatic_scale(map), 0.5f)
+      << "of two magnitudes, 3 and 0.5, the lower is the 99th percentile";
+  const Rgba8 picture = heat_map(map, ColorRamp::diverging, 6);
+  const vec3 half = ramp_color(ColorRamp::diverging, -0.5f);
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(picture.rgba[static_cast<std::size_t>(c)], 255 * half[c], 0.51f) << c;
+}
+
 TEST(HeatMap, ScalesByThe99thPercentileAndIgnoresNan) {
   Image map(100, 1, 1);
   for (int x = 0; x < 100; ++x) map.pixels[static_cast<std::size_t>(x)] = static_cast<float>(x + 1);

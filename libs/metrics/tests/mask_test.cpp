@@ -28,6 +28,18 @@ TEST(Mask, OnlyItsPixelsAreMeasured) {
   EXPECT_EQ(compare(masked(reference, mask), test).mae, 1);
 }
 
+TEST(Mask, AColourCountsByItsMeanFromOneHalfOn) {
+  Image mask(1, 1);
+  const auto inside = [&](const vec3& color) {
+    mask.set_rgb(0, 0, color);
+    return in_mask(mask, 0, 0, 1, 1);
+  };
+  EXPECT_TRUE(inside(vec3(0.5f)));
+  EXPECT_FALSE(inside(vec3(0.499f)));
+  EXPECT_TRUE(inside(vec3(0, 0.75f, 0.75f)));
+  EXPECT_FALSE(inside(vec3(1, 0.25f, 0)));
+}
+
 TEST(Mask, EveryPixelOfOddSizesHasItsNearestOne) {
   Image mask(3, 3);
   for (int i = 0; i < 9; ++i) mask.set_rgb(i % 3, i / 3, vec3(i == 4 ? 1.0f : 0.4f));

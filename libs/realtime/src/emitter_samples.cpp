@@ -105,13 +105,27 @@ std::vector<AreaPoint> spread_points(const scene::Mesh& mesh, const mat4& to_wor
   return points;
 }
 
+namespace {
+
+/// The radius of a point of the unit ball by its share u of the points: their density falls as 1/sqrt(1 -
+/// r²), and so they fill a disc evenly from wherever they are seen. With r = sin a, u is (2 a - sin 2a) / pi.
+double even_disc_radius(double u) {
+  double low = 0, high = pi_d / 2;
+  while (high - low > 1e-9) {
+    const double middle = (low + high) / 2;
+    (2 * middle - std::sin(2 * middle) < u * pi_d ? low : high) = middle;
+  }
+  return std::sin(low);
+}
+
+}  // namespace
+
 std::vector<AreaPoint> ball_points(float radius, int count) {
   std::vector<AreaPoint> points;
   for (int i = 0; i < count; ++i) {
     const auto n = static_cast<unsigned>(i + 1);
     const double z = 1 - 2 * (i + 0.5) / count, phi = 2 * pi_d * radical_inverse(n, 2);
-    // A disc seen from anywhere: radius² uniform
-    const double r = count == 1 ? 0 : static_cast<double>(radius) * std::sqrt(radical_inverse(n, 3));
+    const double r = count == 1 ? 0 : static_cast<double>(radius) * even_disc_radius(radical_inverse(n, 3));
     const double s = std::sqrt(1 - z * z);
     points.push_back({vec3(glm::dvec3(r * s * std::cos(phi), r * s * std::sin(phi), r * z)), vec3(0),
                       1.0f / static_cast<float>(count)});

@@ -21,7 +21,8 @@ struct AreaPoint {
 /// points uniform by area. The same for the same input.
 std::vector<AreaPoint> spread_points(const scene::Mesh& mesh, const mat4& to_world, int count);
 
-/// Points within a ball around the origin, equal shares.
+/// Points within a ball around the origin, equal shares, that fill its disc evenly from wherever they are
+/// seen.
 std::vector<AreaPoint> ball_points(float radius, int count);
 
 /// Directions toward parts of equal size that a sun's disc around +z is cut into: so many that the shadows of

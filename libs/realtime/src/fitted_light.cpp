@@ -37,14 +37,11 @@ FittedLight::FittedLight(const FittedSurfaces& surfaces, int probe_count, FrameC
       cell_size_(surfaces.cell_size),
       origin_(surfaces.origin),
       cells_(surfaces.cells) {
+  gi::require_whole(points_, static_cast<std::size_t>(probe_count));
   first_of_probe_.assign(static_cast<std::size_t>(probe_count) + 1, 0);
   for (std::size_t i = 0; i < points_.points.size(); ++i) {
-    for (const gi::ProbeWeight& weight : points_.weights[i].used()) {
-      if (weight.probe < 0 || weight.probe >= probe_count)
-        throw Error(fmt::format("fitted point {}", i),
-                    fmt::format("it names probe {}, which there is not", weight.probe));
+    for (const gi::ProbeWeight& weight : points_.weights[i].used())
       ++first_of_probe_[static_cast<std::size_t>(weight.probe) + 1];
-    }
   }
   for (std::size_t p = 0; p + 1 < first_of_probe_.size(); ++p) first_of_probe_[p + 1] += first_of_probe_[p];
   lit_by_.resize(first_of_probe_.back());

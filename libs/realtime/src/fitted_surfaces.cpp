@@ -21,6 +21,7 @@ namespace {
 constexpr float least_cosine = 0.2f;
 
 gi::FittedPoints with_weights(const gi::FittedPoints& fitted) {
+  gi::require_whole(fitted, std::numeric_limits<std::size_t>::max());
   gi::FittedPoints kept;
   for (std::size_t i = 0; i < fitted.points.size(); ++i) {
     if (fitted.weights[i].count == 0) continue;

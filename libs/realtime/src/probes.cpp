@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include <fmt/format.h>
+
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/sh/irradiance.h>
@@ -21,16 +23,6 @@ constexpr int irradiance_tile = 24, radiance_tile = 30;
 /// Roughnesses of which a probe's radiance is kept; shaders interpolate.
 constexpr std::array<float, 6> level_roughness = {0, 0.3f, 0.45f, 0.6f, 0.8f, 1};
 constexpr int largest_face = 256, smallest_face = 32;
-
-/// What of a probe lights surfaces.
-sh::RadianceSh chosen_light(const gi::ProbeSet& set, std::size_t i, gi::ProbeLayer layer,
-                            gi::ProbeLight light) {
-  const gi::Probe& probe = set.probes[i];
-  if (layer == gi::ProbeLayer::neighbor) return set.hierarchy->neighbor[i];
-  sh::RadianceSh own = light == gi::ProbeLight::reflected ? probe.reflected : probe.self;
-  if (layer == gi::ProbeLayer::sum) own += set.hierarchy->neighbor[i];
-  return own;
-}
 
 /// The largest face of a power of two with which all probes' maps fit into `bytes`.
 int face_size(std::size_t probes, std::size_t bytes) {
@@ -68,13 +60,8 @@ Probes::Probes(const gi::ProbeSet& set, const gi::LookupParams& params, const Re
     : irradiance_degree_(std::clamp(params.irradiance_degree, 0, std::min(set.degree, 4))),
       radiance_degree_(set.degree),
       dering_(params.dering),
-      near_(std::max(5e-4f * bounds.radius(), 1e-6f)) {
-  if (set.probes.empty()) throw Error("probe lookup", "the probe set is empty", "bake a scene with SPHLs");
-  const gi::ProbeLayer layer =
-      params.layer.value_or(set.hierarchy ? gi::ProbeLayer::sum : gi::ProbeLayer::self);
-  if (layer != gi::ProbeLayer::self && !set.hierarchy)
-    throw Error("probe lookup", "the probe set has no hierarchy", "run `ssphh hier` on the file first");
-
+      near_(std::max(5e-4f * bounds.radius(), 1e-6f)),
+      light_(gi::surface_light(set, params)) {
   scene::Bounds all = bounds;
   for (const gi::Probe& probe : set.probes) {
     places_.push_back(probe.position);
@@ -89,8 +76,6 @@ Probes::Probes(const gi::ProbeSet& set, const gi::LookupParams& params, const Re
   levels_ = glossy ? static_cast<int>(level_roughness.size()) : 1;
   counters.bytes_uploaded += cells_.bytes();
 
-  for (std::size_t i = 0; i < set.probes.size(); ++i)
-    light_.push_back(chosen_light(set, i, layer, params.light));
   irradiance_functions_.resize(light_.size() * irradiance_count());
   make_tiles(all_probes(), true, false, counters);
 
@@ -113,6 +98,17 @@ void Probes::see_all(int probe) {
 
 void Probes::set_light(std::span<const int> probes, std::span<const sh::RadianceSh> light,
                        FrameCounters& counters) {
+  const auto coefficients = static_cast<std::size_t>(sh::coefficient_count(radiance_degree_));
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    if (probes[i] < 0 || probes[i] >= count())
+      throw Error(fmt::format("probe {}", probes[i]), fmt::format("there are {}", count()));
+    if (light[i].values.size() != coefficients)
+      throw Error(fmt::format("probe {}", probes[i]),
+                  fmt::format("has {} RGB coefficients; the set's degree has {}", light[i].values.size(),
+                              coefficients));
+    if (!std::ranges::all_of(light[i].values, is_finite))
+      throw Error(fmt::format("probe {}", probes[i]), "its light is not finite");
+  }
   for (std::size_t i = 0; i < probes.size(); ++i) light_[static_cast<std::size_t>(probes[i])] = light[i];
   make_tiles(probes, true, has_radiance_, counters);
   if (has_fitted()) fitted_.update(probes, irradiance_functions_, irradiance_count(), counters);

@@ -54,6 +54,7 @@ class Probes {
   int irradiance_degree_ = 0, radiance_degree_ = 0;
   bool dering_ = true;
   float spacing_ = 1, near_ = 1e-3f;
+  std::vector<sh::RadianceSh> light_;
   ProbeGrid grid_;
   MapAtlas maps_;
   TileBasis irradiance_basis_, radiance_basis_;
@@ -63,7 +64,6 @@ class Probes {
   std::size_t irradiance_count() const;
   void make_tiles(std::span<const int> probes, bool irradiance, bool radiance, FrameCounters& counters);
 
-  std::vector<sh::RadianceSh> light_;
   std::vector<vec3> irradiance_functions_;  ///< coefficients, probe after probe
   FittedLight fitted_;
   int levels_ = 1;                       ///< roughnesses of which radiance is kept

@@ -1,8 +1,9 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/realtime/renderer.h>
 
 #include "renderer_data.h"
@@ -61,8 +62,12 @@ Renderer::Data::Data(gl::Context& context_in, const scene::Scene& scene_in, cons
   stats.passes.reserve(pass_count);
 }
 
-Renderer::Renderer(gl::Context& context, const scene::Scene& scene, const RendererParams& params, float time)
-    : data_(std::make_unique<Data>(context, scene, params, time)) {
+Renderer::Renderer(gl::Context& context, const scene::Scene& scene, const RendererParams& params,
+                   float time) {
+  scene::check_indices(scene);
+  require(std::isfinite(time), "time", "it must be a finite number of seconds");
+  context.forget_errors();
+  data_ = std::make_unique<Data>(context, scene, params, time);
   context.throw_on_error("uploading the scene");
 }
 Renderer::~Renderer() = default;
@@ -70,6 +75,7 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::set_time(float time) {
+  require(std::isfinite(time), "time", "it must be a finite number of seconds");
   Data& d = *data_;
   if (time == d.time) return;
   d.time = time;
@@ -105,6 +111,8 @@ void Renderer::set_group_scale(int group, const vec3& scale) {
   if (group < 0 || group >= data_->lights.group_count())
     throw Error(fmt::format("light group {}", group),
                 fmt::format("the scene has {}", data_->lights.group_count()));
+  if (!is_finite(scale) || glm::any(glm::lessThan(scale, vec3(0))))
+    throw Error(fmt::format("light group {}", group), "its factor must be finite and not negative");
   data_->lights.set_group_scale(group, scale);
   data_->scene.set_group_scale(group, scale, data_->counters);
 }
@@ -130,11 +138,7 @@ void Renderer::set_fitted(const FittedSurfaces& fitted) {
 }
 
 void Renderer::update_probes(std::span<const int> probes, std::span<const sh::RadianceSh> light) {
-  SSPHH_CHECK(probes.size() == light.size());
-  for (const int probe : probes) {
-    if (probe < 0 || probe >= probe_count())
-      throw Error(fmt::format("probe {}", probe), fmt::format("there are {}", probe_count()));
-  }
+  require(probes.size() == light.size(), "probes", "there is not one function for each");
   data_->probes.set_light(probes, light, data_->counters);
 }
 
@@ -150,6 +154,9 @@ int Renderer::probe_count() const {
 void Renderer::set_emission(int probe, const sh::RadianceSh& leaving, float radius) {
   if (probe < 0 || probe >= probe_count())
     throw Error(fmt::format("probe {}", probe), fmt::format("there are {}", probe_count()));
+  sh::require_degree(std::max(leaving.degree(), 0), "emission");
+  require(std::ranges::all_of(leaving.values, is_finite) && std::isfinite(radius), "emission",
+          "it is not finite");
   const bool none = leaving.empty() || !(radius > 0);
   if (!none) data_->probes.see_all(probe);
   data_->lights.set_emission(probe, data_->probes.position(probe), none ? 0 : radius, leaving);

@@ -175,6 +175,63 @@ TEST(Octahedral, TileInterpolatesItsFunctionAlsoAcrossEdges) {
   }
 }
 
+/// A function that is different in every direction and colour, as a tile with its border.
+struct ColouredTile {
+  int size;
+  std::vector<vec4> texels;
+
+  explicit ColouredTile(int n) : size(n) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    std::vector<vec3> c(25);
+    for (vec3& v : c) v = vec3(uniform(random), uniform(random), uniform(random));
+    c[0] = vec3(30, 40, 50);  // keeps it positive, where the tile does not clamp
+    const TileBasis basis(size, 4);
+    texels.resize(basis.texels());
+    const std::array<float, 11> ones{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+    basis.evaluate(c, ones, texels);
+  }
+  vec3 at(int column, int row) const {
+    return vec3(texels[static_cast<std::size_t>(row * (size + 2) + column)]);
+  }
+};
+
+TEST(Octahedral, ABorderIsTheSameEdgeMirroredAboutItsMiddle) {
+  const ColouredTile tile(6);
+  const int last = tile.size, out = tile.size + 1;
+  const auto expect_same = [](const vec3& a, const vec3& b) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 1e-4f);
+  };
+  for (int i = 1; i <= last; ++i) {
+    SCOPED_TRACE(i);
+    expect_same(tile.at(0, i), tile.at(1, out - i));
+    expect_same(tile.at(out, i), tile.at(last, out - i));
+    expect_same(tile.at(i, 0), tile.at(out - i, 1));
+    expect_same(tile.at(i, out), tile.at(out - i, last));
+  }
+  // At a corner, -z, lies what does so at the opposite one
+  expect_same(tile.at(0, 0), tile.at(last, last));
+  expect_same(tile.at(out, 0), tile.at(1, last));
+  expect_same(tile.at(0, out), tile.at(last, 1));
+  expect_same(tile.at(out, out), tile.at(1, 1));
+}
+
+TEST(Octahedral, BothSidesOfTheCutAreOne) {
+  // The map is cut where x or y is 0 and z below it.
+  const ColouredTile tile(24);
+  const float aside = 1e-4f;
+  for (float t = -0.99f; t < 1; t += 0.01f) {
+    for (const bool swapped : {false, true}) {
+      const vec3 a(t, aside, std::abs(t) - 1), b(t, -aside, std::abs(t) - 1);
+      const auto value = [&](const vec3& d) {
+        return sample_tile(tile.texels, tile.size, swapped ? vec3(d.y, d.x, d.z) : d);
+      };
+      // Values change by less than 25 units of each function in a radian, 1e-4 of which lie between.
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(value(a)[c], value(b)[c], 0.02f) << t;
+    }
+  }
+}
+
 TEST(MeshPieces, KeepEveryTriangle) {
   const scene::Mesh mesh = scene::make_torus_knot(2, 3, 0.4f, 0.2f, 0.1f, 256, 16);
   std::vector<unsigned> indices;
@@ -209,6 +266,25 @@ TEST(EmitterSamples, PointsOnAStripLieApartAndShareItsArea) {
   }
   EXPECT_NEAR(sum, 1, 1e-5f);
   EXPECT_GT(nearest, 0.25f) << "half a metre each on average";
+}
+
+TEST(EmitterSamples, PointsOfABallFillItsDiscEvenlyFromWhereverItIsSeen) {
+  constexpr float radius = 0.3f;
+  const std::vector<AreaPoint> ball = ball_points(radius, 4096);
+  for (const vec3& view : {vec3(0, 0, 1), vec3(1, 0, 0), glm::normalize(vec3(1, -2, 3))}) {
+    // Within half of a disc's radius lies a quarter of it, within 0.9 of it 81 %; the mean square is a half.
+    double square = 0, inner = 0, most = 0;
+    for (const AreaPoint& point : ball) {
+      const float across = glm::length(point.position - glm::dot(point.position, view) * view) / radius;
+      square += point.share * across * across;
+      inner += across < 0.5f ? point.share : 0;
+      most += across < 0.9f ? point.share : 0;
+    }
+    // 0.01: six standard errors of as many points drawn at random is 0.04; these are spread evenly.
+    EXPECT_NEAR(square, 0.5, 0.01);
+    EXPECT_NEAR(inner, 0.25, 0.01);
+    EXPECT_NEAR(most, 0.81, 0.01);
+  }
 }
 
 TEST(EmitterSamples, PartsOfADiscSpreadAsItDoes) {

@@ -33,12 +33,19 @@ bool is_written_by(const Job& job, const std::string& name) {
   });
 }
 
+// "--option=" of "--option=value", "" of other words.
+std::string option_of(const std::string& word) {
+  const std::size_t equals = word.starts_with("--") ? word.find('=') : std::string::npos;
+  return equals == std::string::npos ? "" : word.substr(0, equals + 1);
+}
+
 // Only words that look like a path: a folder may well hold a file called "path" or "4".
 std::string resolve(const std::string& word, const fs::path& folder) {
-  if (word.empty() || word.front() == '-' || word.find_first_of("./") == std::string::npos) return word;
+  const std::string option = option_of(word), value = word.substr(option.size());
+  if (value.empty() || value.front() == '-' || value.find_first_of("./") == std::string::npos) return word;
   std::error_code ignored;
-  for (const fs::path& path : {folder / word, fs::path(word)}) {
-    if (fs::is_regular_file(path, ignored)) return fs::absolute(path).lexically_normal().string();
+  for (const fs::path& path : {folder / value, fs::path(value)}) {
+    if (fs::is_regular_file(path, ignored)) return option + fs::absolute(path).lexically_normal().string();
   }
   return word;
 }
@@ -158,8 +165,9 @@ class Expander {
   template <class Add>
   static void add_word(const std::string& word, const Add& add) {
     std::error_code ignored;
-    const bool file = !word.empty() && word.front() == '/' && fs::is_regular_file(word, ignored);
-    add(word, file ? "file " + file_hash(word) : "word " + word);
+    const std::string option = option_of(word), path = word.substr(option.size());
+    const bool file = path.starts_with('/') && fs::is_regular_file(path, ignored);
+    add(word, file ? "file " + option + file_hash(path) : "word " + word);
   }
 
   const Plan& plan_;

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/image/io.h>
 #include <ssphh/metrics/compare.h>
 #include <ssphh/metrics/flip.h>
@@ -30,8 +30,8 @@ Image read_layer(const fs::path& file, const std::string& layer) {
   if (layer != "irradiance") return image::read_image(layer_file(file, layer));
   Image light = image::read_image(layer_file(file, "indirect"));
   const Image albedo = image::read_image(layer_file(file, "albedo"));
-  if (light.pixels.size() != albedo.pixels.size())
-    throw Error(file.string(), "indirect light and albedo differ in size");
+  if (light.width != albedo.width || light.height != albedo.height || light.channels == 1)
+    throw Error(file.string(), "indirect light and albedo must be in colour and of one size");
   for (int y = 0; y < light.height; ++y) {
     for (int x = 0; x < light.width; ++x) {
       const vec3 a = albedo.rgb(x, y);
@@ -42,6 +42,11 @@ Image read_layer(const fs::path& file, const std::string& layer) {
     }
   }
   return light;
+}
+
+bool same_shape(const Image& a, const Image& b) {
+  return a.width == b.width && a.height == b.height && a.channels == b.channels &&
+         a.pixels.size() == b.pixels.size();
 }
 
 // Mean of variance/(reference² + ε) over finite values.
@@ -126,11 +131,11 @@ void measure_run(const Image& reference, const Image& test, const MeasureParams&
 }  // namespace
 
 LayerPicture load_layer(const std::vector<fs::path>& files, const std::string& layer) {
-  LayerPicture result{read_layer(files.at(0), layer), {}};
+  require(!files.empty(), "layer", "there is no picture");
+  LayerPicture result{read_layer(files[0], layer), {}};
   if (files.size() < 2) return result;
   const Image second = read_layer(files[1], layer);
-  if (second.pixels.size() != result.picture.pixels.size())
-    throw Error(files[1].string(), "the two halves differ in size");
+  if (!same_shape(second, result.picture)) throw Error(files[1].string(), "the two halves differ in size");
   result.variance = result.picture;
   for (std::size_t i = 0; i < second.pixels.size(); ++i) {
     const float a = result.picture.pixels[i], b = second.pixels[i];
@@ -142,6 +147,23 @@ LayerPicture load_layer(const std::vector<fs::path>& files, const std::string& l
 
 LayerMeasure measure_layer(const LayerPicture& reference, const std::vector<LayerPicture>& runs,
                            const MeasureParams& params) {
+  require(!runs.empty(), "layer", "there is no run to measure");
+  const auto check = [](const LayerPicture& layer) {
+    require(layer.variance.empty() || same_shape(layer.variance, layer.picture), "layer",
+            "the variance is not of the picture's size");
+  };
+  check(reference);
+  for (const LayerPicture& run : runs) {
+    check(run);
+    require(
+        same_shape(run.picture, reference.picture) && run.variance.empty() == runs.front().variance.empty(),
+        "layer", "sizes differ between the runs and the reference");
+  }
+  for (const Inset& inset : params.insets) {
+    if (!(inset.x0 >= 0 && inset.x0 < inset.x1 && inset.x1 <= 1 && inset.y0 >= 0 && inset.y0 < inset.y1 &&
+          inset.y1 <= 1))
+      throw Error("inset " + inset.name, "must be left < right and top < bottom, all within 0..1");
+  }
   LayerMeasure out;
   for (const LayerPicture& run : runs) measure_run(reference.picture, run.picture, params, out);
   const bool reference_known = !reference.variance.empty();

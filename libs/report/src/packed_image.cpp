@@ -4,7 +4,7 @@
 
 #include <zlib.h>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/report/packed_image.h>
 
 namespace ssphh::report {
@@ -74,6 +74,7 @@ std::uint16_t to_half(float value) {
 }
 
 PackedImage pack_half(const image::Image& image) {
+  image::require_whole(image, "packed image");
   const int channels = image.channels == 1 ? 1 : 3;
   std::vector<std::uint16_t> values;
   values.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
@@ -87,6 +88,7 @@ PackedImage pack_half(const image::Image& image) {
 }
 
 PackedImage pack_bytes(const image::Image& image) {
+  image::require_whole(image, "packed image");
   std::vector<std::uint16_t> values;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
@@ -99,6 +101,10 @@ PackedImage pack_bytes(const image::Image& image) {
 }
 
 std::vector<std::uint16_t> unpack(const PackedImage& packed) {
+  constexpr int largest_side = 65536;
+  require(packed.width >= 1 && packed.height >= 1 && packed.width <= largest_side &&
+              packed.height <= largest_side && (packed.channels == 1 || packed.channels == 3),
+          "packed image", "its size makes no sense");
   const std::size_t channels = static_cast<std::size_t>(packed.channels);
   const std::size_t pixels = static_cast<std::size_t>(packed.width) * static_cast<std::size_t>(packed.height);
   const std::size_t count = pixels * channels;

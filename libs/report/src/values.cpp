@@ -41,6 +41,10 @@ Value value_of(std::vector<double> numbers) {
   double squares = 0;
   for (const double x : numbers) squares += (x - value.mean) * (x - value.mean);
   if (numbers.size() > 1) value.deviation = std::sqrt(squares / (n - 1));
+  if (std::isnan(value.mean)) {  // which cannot be sorted
+    value.median = value.mean;
+    return value;
+  }
   std::sort(numbers.begin(), numbers.end());
   const std::size_t middle = numbers.size() / 2;
   value.median = numbers.size() % 2 != 0 ? numbers[middle] : 0.5 * (numbers[middle - 1] + numbers[middle]);

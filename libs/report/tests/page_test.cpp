@@ -124,6 +124,20 @@ TEST(Page, IsOneFileAndEscapesWhatItIsGiven) {
     EXPECT_THAT(page, Not(HasSubstr(remote)));
 }
 
+TEST(Page, TitlesOfEveryLanguageStandInItAndWhatIsNoTextIsReplaced) {
+  Report report = example_report();
+  // One to four bytes of UTF-8 a character; then a lone start, a cut one, and an unexpected middle.
+  report.plan.title = "a\xc3\xa4\xe2\x82\xac\xf0\x9f\x92\xa1|\xff|\xe2\x82|\x82|";
+  const std::string page = report_page(report);
+  std::u16string text;
+  for (std::size_t i = 2; i + 1 < page.size(); i += 2) {
+    const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(page[k]); };
+    text += static_cast<char16_t>(byte(i) | byte(i + 1) << 8);
+  }
+  EXPECT_EQ(page.substr(0, 2), "\xff\xfe") << "little endian";
+  EXPECT_NE(text.find(u"<title>a\u00e4\u20ac\U0001f4a1|\ufffd|\ufffd\ufffd|\ufffd|</title>"), text.npos);
+}
+
 TEST(Page, WorksInABrowser) {
   if (std::system("command -v chromium >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "no `chromium` on PATH (apt-get install chromium)";

@@ -8,6 +8,7 @@
 #include <ssphh/report/plan.h>
 
 #include "json_schema.h"
+#include "places.h"
 
 namespace ssphh::report {
 namespace {
@@ -50,7 +51,7 @@ std::string message_of(const std::function<void(ordered_json&)>& change) {
 }
 
 std::vector<std::string> schema_errors(const ordered_json& json) {
-  return test::schema_errors(std::string(SSPHH_SOURCE_DIR) + "/schemas/report-plan.schema.json", json.dump());
+  return test::schema_errors(test::source_dir() / "schemas/report-plan.schema.json", json.dump());
 }
 
 TEST(Plan, EverythingIsRead) {
@@ -151,7 +152,7 @@ TEST(Plan, SchemaAndReaderAgree) {
 
 TEST(Plan, ShippedPlansAreValid) {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(SSPHH_SOURCE_DIR) + "/plans")) {
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() / "plans")) {
     const std::string text = read_text_file(entry.path());
     EXPECT_THAT(schema_errors(ordered_json::parse(text)), testing::IsEmpty()) << entry.path();
     EXPECT_NO_THROW(parse_plan(text, entry.path().string(), commands));

@@ -61,6 +61,9 @@ TEST(Tables, JsonHoldsNumbersAndWhereTheyCameFrom) {
   EXPECT_EQ(data["cells"][2]["values"]["render.seconds"]["median"], 4);
   EXPECT_EQ(data["cells"][2]["values"]["render.seconds"]["count"], 3);
   EXPECT_EQ(data["cells"][3]["failure"], "it failed </script>");
+  const std::string methods[] = {"truth", "m", "m", "bad, \"quoted\""};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(data["cells"][i]["method"], methods[i]);
+  EXPECT_EQ(data["cells"][2]["parameters"], json({{"n", "2"}}));
   EXPECT_EQ(data["cells"][1]["steps"][0]["command"], "render 'a b' -o o.exr");
   EXPECT_EQ(data["scenes"][0]["hash"], "hash");
   EXPECT_EQ(identity_of(report_json(example_report())), "id");
@@ -71,6 +74,9 @@ TEST(Tables, MarkdownShowsValuesBesidePublishedOnes) {
   const std::string text = report_markdown(example_report());
   EXPECT_THAT(text, HasSubstr("| method | FLIP | run [s] |"));
   EXPECT_THAT(text, HasSubstr("4 ± 5.3 (99)"));  // 2 4 12: median 4, deviation √28
+  EXPECT_THAT(text, testing::ContainsRegex("m, n 1 \\| [0-9.]+ \\|"))
+      << "a value of one run has no deviation";
+  EXPECT_THAT(text, HasSubstr("(failed) |  |  |"));
   EXPECT_THAT(text, HasSubstr("Failed: s, bad"));
   EXPECT_THAT(text, HasSubstr("`ssphh render 'a b' -o o.exr`: 2.00 s, 5 MiB"));
 }
@@ -86,6 +92,16 @@ TEST(Values, NumbersOfAResultAreNamedByTheirPath) {
                                            testing::Pair("bake.f", testing::ElementsAre(1))));
   add_numbers("bake", "no json", values);
   EXPECT_EQ(values.size(), 5u);
+}
+
+TEST(Values, OfAListOfSixteenEachIsAValueAndOfALongerOneNone) {
+  const auto count = [](std::size_t length) {
+    std::map<std::string, std::vector<double>> values;
+    add_numbers("s", json{{"list", std::vector<int>(length, 1)}}.dump(), values);
+    return values.size();
+  };
+  EXPECT_EQ(count(16), 16u);
+  EXPECT_EQ(count(17), 0u);
 }
 
 TEST(Values, MedianAndDeviation) {

@@ -8,6 +8,8 @@
 #include <ssphh/report/jobs.h>
 #include <ssphh/report/plan.h>
 
+#include "places.h"
+
 namespace ssphh::report {
 namespace {
 
@@ -56,7 +58,7 @@ std::vector<std::string> keys(const Plan& p, const std::filesystem::path& folder
 
 // Every JSON document is a YAML document too: both readers must see the same in it.
 TEST(YamlPlan, ShippedPlansSayTheSameInYamlAsInJson) {
-  const std::filesystem::path folder = std::filesystem::path(SSPHH_SOURCE_DIR) / "plans";
+  const std::filesystem::path folder = test::source_dir() / "plans";
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".json") continue;

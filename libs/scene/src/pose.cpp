@@ -5,6 +5,8 @@
 
 #include <ssphh/scene/query.h>
 
+#include "check_indices.h"
+
 namespace ssphh::scene {
 namespace {
 
@@ -76,13 +78,14 @@ mat4 Transform::matrix() const {
 }
 
 std::vector<mat4> world_matrices(const Scene& scene, float time) {
+  check_nodes(scene);
   // Pose the animated nodes.
   std::vector<Transform> locals;
   locals.reserve(scene.nodes.size());
   for (const Node& node : scene.nodes) locals.push_back(node.local);
   for (const Animation& animation : scene.animations) {
     for (const AnimationChannel& channel : animation.channels) {
-      if (!channel.times.empty()) apply(channel, time, locals[static_cast<std::size_t>(channel.node)]);
+      apply(channel, time, locals[static_cast<std::size_t>(channel.node)]);
     }
   }
   // Multiply down the tree: parents stand before their children.

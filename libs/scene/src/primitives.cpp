@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/scene/primitives.h>
 
 namespace ssphh::scene {
@@ -29,7 +29,10 @@ Mesh make_quad(const vec3& corner, const vec3& u, const vec3& v) {
 }
 
 Mesh make_polygon(std::span<const vec3> corners, std::span<const uvec3> triangles) {
-  SSPHH_CHECK(corners.size() >= 3 && !triangles.empty());
+  require(corners.size() >= 3 && !triangles.empty(), "polygon", "it needs 3 corners and a triangle");
+  for (const uvec3& t : triangles)
+    require(std::max({t.x, t.y, t.z}) < corners.size(), "polygon",
+            "a triangle names a corner that is not there");
   const uvec3 t = triangles.front();
   const vec3 u = glm::normalize(corners[t.y] - corners[t.x]);
   const vec3 n = glm::normalize(glm::cross(u, corners[t.z] - corners[t.x]));
@@ -89,6 +92,14 @@ Mesh transformed(Mesh mesh, const mat4& m) {
 }
 
 void append(Mesh& mesh, const Mesh& part) {
+  if (&mesh == &part) return append(mesh, Mesh(part));
+  const std::size_t total = mesh.positions.size() + part.positions.size();
+  const auto agree = [total](std::size_t a, std::size_t b) { return a + b == 0 || a + b == total; };
+  require(agree(mesh.normals.size(), part.normals.size()) &&
+              agree(mesh.tangents.size(), part.tangents.size()) &&
+              agree(mesh.uvs[0].size(), part.uvs[0].size()) &&
+              agree(mesh.uvs[1].size(), part.uvs[1].size()) && agree(mesh.colors.size(), part.colors.size()),
+          "mesh", "what is appended has other arrays");
   const std::uint32_t first = index(mesh.positions.size());
   append_array(mesh.positions, part.positions);
   append_array(mesh.normals, part.normals);
@@ -97,9 +108,6 @@ void append(Mesh& mesh, const Mesh& part) {
   append_array(mesh.uvs[1], part.uvs[1]);
   append_array(mesh.colors, part.colors);
   for (const uvec3& t : part.triangles) mesh.triangles.push_back(t + first);
-  const auto complete = [&](std::size_t size) { return size == 0 || size == mesh.positions.size(); };
-  SSPHH_CHECK(complete(mesh.normals.size()) && complete(mesh.tangents.size()) &&
-              complete(mesh.uvs[0].size()) && complete(mesh.uvs[1].size()) && complete(mesh.colors.size()));
 }
 
 }  // namespace ssphh::scene

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <vector>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/scene/primitives.h>
 
 namespace ssphh::scene {
@@ -46,7 +46,7 @@ void add_band(Mesh& mesh, const vec2& low, const vec2& high, const vec2& normal_
 }  // namespace
 
 Mesh make_sphere(float radius, int segments, int rings) {
-  SSPHH_CHECK(segments >= 3 && rings >= 2);
+  require(segments >= 3 && rings >= 2, "sphere", "it needs at least 3 segments and 2 rings");
   Mesh mesh;
   for (int r = 0; r <= rings; ++r) {
     const double polar = pi_d * r / rings;  // from the south pole
@@ -67,7 +67,7 @@ Mesh make_sphere(float radius, int segments, int rings) {
 }
 
 Mesh make_torus(float major_radius, float minor_radius, int segments, int sides) {
-  SSPHH_CHECK(segments >= 3 && sides >= 3);
+  require(segments >= 3 && sides >= 3, "torus", "it needs at least 3 segments and 3 sides");
   Mesh mesh;
   for (int s = 0; s <= sides; ++s) {
     const vec2 section = circle(s, sides);
@@ -86,13 +86,15 @@ Mesh make_torus(float major_radius, float minor_radius, int segments, int sides)
 }
 
 Mesh make_lathe(std::span<const vec2> profile, int segments) {
-  SSPHH_CHECK(profile.size() >= 3 && segments >= 3 && profile.front().x == 0 && profile.back().x == 0);
+  require(profile.size() >= 3 && segments >= 3, "lathe", "it needs at least 3 points and 3 segments");
+  require(profile.front().x == 0 && profile.back().x == 0, "lathe",
+          "its profile must begin and end at radius 0");
   // Outward normal of each piece of the profile.
   std::vector<vec2> normals;
   std::vector<float> lengths{0};
   for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
     const vec2 d = profile[i + 1] - profile[i];
-    SSPHH_CHECK(glm::length(d) > 0);
+    require(glm::length(d) > 0, "lathe", "two points of its profile are one");
     normals.push_back(glm::normalize(vec2(d.y, -d.x)));
     lengths.push_back(lengths.back() + glm::length(d));
   }

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <vector>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/scene/primitives.h>
 
 namespace ssphh::scene {
@@ -74,7 +74,8 @@ void add_cap(Mesh& mesh, std::uint32_t first, int sides, const vec3& center, con
 }  // namespace
 
 Mesh make_tube(const std::function<vec3(float)>& curve, bool closed, float radius, int segments, int sides) {
-  SSPHH_CHECK(segments >= 3 && sides >= 3);
+  require(segments >= 3 && sides >= 3, "tube", "it needs at least 3 segments and 3 sides");
+  require(curve != nullptr, "tube", "it has no curve");
   const std::vector<TubeFrame> frames = tube_frames(curve, closed, segments);
   Mesh mesh;
   for (std::size_t i = 0; i < frames.size(); ++i) {

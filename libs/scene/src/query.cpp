@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/scene/query.h>
 
 namespace ssphh::scene {
@@ -37,6 +37,7 @@ CameraPose front_camera(const Scene& scene, const std::vector<mat4>& world) {
 }  // namespace
 
 Bounds world_bounds(const Scene& scene, const std::vector<mat4>& world) {
+  require(world.size() >= scene.nodes.size(), "scene", "there is not one matrix for each node");
   Bounds bounds;
   for (const Instance& instance : scene.instances) {
     const mat4& m = matrix_of(world, instance.node);
@@ -96,7 +97,7 @@ std::vector<std::string> light_groups(const Scene& scene) {
 }
 
 int light_group_index(const std::vector<std::string>& groups, const std::string& name) {
-  SSPHH_CHECK(!groups.empty());
+  require(!groups.empty(), "light groups", "there are none");
   const auto found = std::find(groups.begin(), groups.end(), name);
   // A name that is not there was merged into the last group.
   return static_cast<int>(found == groups.end() ? groups.size() - 1

@@ -8,20 +8,12 @@
 #include <ssphh/core/error.h>
 #include <ssphh/scene/query.h>
 
+#include "check_indices.h"
 #include "repairs.h"
 #include "validate_mesh.h"
 
 namespace ssphh::scene {
 namespace {
-
-std::string label(const char* kind, std::size_t index, const std::string& name) {
-  return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} \"{}\"", kind, index, name);
-}
-
-void check_index(int index, int lowest, std::size_t count, const std::string& where, const char* what) {
-  if (index >= lowest && index < static_cast<int>(count)) return;
-  throw Error(where, fmt::format("refers to {} {} of {}", what, index, count));
-}
 
 void check_finite(std::initializer_list<float> values, const std::string& where, const char* what) {
   for (const float v : values) {
@@ -49,26 +41,12 @@ void clamp(vec3& value, float low, float high, Repairs& repairs, const std::stri
 
 constexpr float unlimited = std::numeric_limits<float>::max();
 
-void validate_texture(const Texture& texture, const std::string& where) {
-  if (texture.width < 1 || texture.height < 1) {
-    throw Error(where, fmt::format("has {}×{} texels", texture.width, texture.height));
-  }
-  const std::size_t expected =
-      std::size_t{4} * static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height);
-  if (texture.rgba.size() != expected) {
-    throw Error(where, fmt::format("{} bytes instead of {}", texture.rgba.size(), expected));
-  }
-}
-
-void validate_use(const TextureUse& use, const Scene& scene, const std::string& where) {
-  check_index(use.texture, -1, scene.textures.size(), where, "texture");
-  if (use.uv_set < 0 || use.uv_set > 1)
-    throw Error(where, fmt::format("uses texture coordinates {}", use.uv_set));
+void validate_use(const TextureUse& use, const std::string& where) {
   check_finite({use.offset.x, use.offset.y, use.scale.x, use.scale.y, use.rotation}, where,
                "texture transform");
 }
 
-void validate_material(Material& m, const Scene& scene, const std::string& where, Repairs& repairs) {
+void validate_material(Material& m, const std::string& where, Repairs& repairs) {
   check_finite(m.base_color, where, "base colour");
   check_finite(m.emission, where, "emission");
   check_finite({m.alpha, m.metallic, m.diffuse_roughness, m.specular_roughness, m.specular, m.ior,
@@ -76,7 +54,7 @@ void validate_material(Material& m, const Scene& scene, const std::string& where
                where, "a parameter");
   for (const TextureUse* use :
        {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture, &m.normal_texture}) {
-    validate_use(*use, scene, where);
+    validate_use(*use, where);
   }
   const std::string kind = "material parameters out of range: clamped";
   clamp(m.base_color, 0, 1, repairs, kind);
@@ -96,10 +74,7 @@ void normalize_rotation(quat& q, Repairs& repairs) {
   repairs.count("rotations were not unit quaternions: normalised");
 }
 
-void validate_node(Node& node, std::size_t index, const std::string& where, Repairs& repairs) {
-  if (node.parent < -1 || node.parent >= static_cast<int>(index)) {
-    throw Error(where, fmt::format("has parent {}; parents stand before their children", node.parent));
-  }
+void validate_node(Node& node, const std::string& where, Repairs& repairs) {
   Transform& t = node.local;
   check_finite(t.translation, where, "translation");
   check_finite(t.scale, where, "scale");
@@ -113,13 +88,7 @@ void validate_node(Node& node, std::size_t index, const std::string& where, Repa
   }
 }
 
-void validate_channel(const AnimationChannel& channel, const Scene& scene, const std::string& where) {
-  check_index(channel.node, 0, scene.nodes.size(), where, "node");
-  const std::size_t per_key = channel.interpolation == Interpolation::cubic_spline ? 3 : 1;
-  if (channel.times.empty()) throw Error(where, "has no keys");
-  if (channel.values.size() != per_key * channel.times.size()) {
-    throw Error(where, fmt::format("{} values for {} keys", channel.values.size(), channel.times.size()));
-  }
+void validate_channel(const AnimationChannel& channel, const std::string& where) {
   check_finite({channel.times.front()}, where, "a key's time");
   for (std::size_t i = 1; i < channel.times.size(); ++i) {
     if (!(channel.times[i] > channel.times[i - 1]) || !std::isfinite(channel.times[i])) {
@@ -170,17 +139,18 @@ void validate_environment(const Environment& e) {
   }
 }
 
-/// TRS of an affine matrix; shear is lost.
+/// TRS of an affine matrix; shear is lost. In double: squares of large floats are no floats.
 Transform decompose(const mat4& m) {
-  mat3 axes(m);
+  glm::dmat3 axes{glm::dmat4(m)};
   Transform t;
   t.translation = vec3(m[3]);
   for (int i = 0; i < 3; ++i) {
-    t.scale[i] = glm::length(axes[i]);
-    axes[i] = t.scale[i] > 0 ? axes[i] / t.scale[i] : vec3(i == 0, i == 1, i == 2);
+    const double length = glm::length(axes[i]);
+    t.scale[i] = static_cast<float>(length);
+    axes[i] = length > 0 ? axes[i] / length : glm::dvec3(i == 0, i == 1, i == 2);
   }
   if (glm::determinant(axes) < 0) axes = -axes, t.scale = -t.scale;
-  t.rotation = glm::normalize(glm::quat_cast(axes));
+  t.rotation = quat(glm::normalize(glm::quat_cast(axes)));
   return t;
 }
 
@@ -208,32 +178,30 @@ class RootNode {
 }  // namespace
 
 std::vector<std::string> validate(Scene& scene) {
+  check_indices(scene);
   Repairs repairs;
   // Surfaces.
-  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
-    validate_texture(scene.textures[i], label("texture", i, scene.textures[i].name));
-  }
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    validate_material(scene.materials[i], scene, label("material", i, scene.materials[i].name), repairs);
+    validate_material(scene.materials[i], label("material", i, scene.materials[i].name), repairs);
   }
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-    const std::string where = label("mesh", i, scene.meshes[i].name);
-    check_index(scene.meshes[i].material, -1, scene.materials.size(), where, "material");
-    validate_mesh(scene.meshes[i], where, repairs);
+    validate_mesh(scene.meshes[i], label("mesh", i, scene.meshes[i].name), repairs);
   }
 
   // Nodes and what moves them.
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-    validate_node(scene.nodes[i], i, label("node", i, scene.nodes[i].name), repairs);
+    validate_node(scene.nodes[i], label("node", i, scene.nodes[i].name), repairs);
   }
   for (std::size_t i = 0; i < scene.animations.size(); ++i) {
     const std::string animation = label("animation", i, scene.animations[i].name);
     const std::vector<AnimationChannel>& channels = scene.animations[i].channels;
     for (std::size_t c = 0; c < channels.size(); ++c) {
-      validate_channel(channels[c], scene, fmt::format("{} channel {}", animation, c));
+      validate_channel(channels[c], fmt::format("{} channel {}", animation, c));
       Node& node = scene.nodes[static_cast<std::size_t>(channels[c].node)];
       if (!node.matrix) continue;
       node.local = decompose(*node.matrix);
+      check_finite(node.local.scale, label("node", static_cast<std::size_t>(channels[c].node), node.name),
+                   "the matrix's scale");
       node.matrix.reset();
       repairs.count("animated nodes with a matrix: decomposed");
     }
@@ -242,29 +210,19 @@ std::vector<std::string> validate(Scene& scene) {
 
   // What stands at nodes.
   RootNode root(scene, repairs);
-  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-    Instance& instance = scene.instances[i];
-    const std::string where = label("instance", i, "");
-    check_index(instance.mesh, 0, scene.meshes.size(), where, "mesh");
-    check_index(instance.material, -1, scene.materials.size(), where, "material");
-    check_index(instance.node, -1, scene.nodes.size(), where, "node");
-    root.attach(instance.node);
-  }
+  for (Instance& instance : scene.instances) root.attach(instance.node);
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     const std::string where = label("camera", i, scene.cameras[i].name);
-    check_index(scene.cameras[i].node, -1, scene.nodes.size(), where, "node");
     validate_camera(scene.cameras[i], where);
     root.attach(scene.cameras[i].node);
   }
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const std::string where = label("light", i, scene.lights[i].name);
-    check_index(scene.lights[i].node, -1, scene.nodes.size(), where, "node");
     validate_light(scene.lights[i], where, repairs);
     root.attach(scene.lights[i].node);
   }
   for (std::size_t i = 0; i < scene.sphls.size(); ++i) {
     const std::string where = label("SPHL", i, scene.sphls[i].name);
-    check_index(scene.sphls[i].node, -1, scene.nodes.size(), where, "node");
     if (!(scene.sphls[i].radius > 0) || !std::isfinite(scene.sphls[i].radius)) {
       throw Error(where, fmt::format("radius is {} m", scene.sphls[i].radius), "give it a radius above 0");
     }

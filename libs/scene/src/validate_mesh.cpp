@@ -29,11 +29,6 @@ bool nearly_unit(const vec3& v) {
   return std::abs(glm::dot(v, v) - 1) < 1e-3f;
 }
 
-void check_size(std::size_t size, const Mesh& mesh, const std::string& where, const char* what) {
-  if (size == 0 || size == mesh.positions.size()) return;
-  throw Error(where, fmt::format("{} {} for {} positions", size, what, mesh.positions.size()));
-}
-
 /// Unit normals; where there is no direction, the area-weighted mean of the triangles around the vertex.
 void repair_normals(Mesh& mesh, Repairs& repairs) {
   std::vector<std::size_t> lost;
@@ -76,13 +71,7 @@ void repair_tangents(Mesh& mesh, Repairs& repairs) {
 }  // namespace
 
 void validate_mesh(Mesh& mesh, const std::string& where, Repairs& repairs) {
-  // Check lengths.
-  check_size(mesh.normals.size(), mesh, where, "normals");
-  check_size(mesh.tangents.size(), mesh, where, "tangents");
-  check_size(mesh.colors.size(), mesh, where, "colours");
-  for (const auto& uvs : mesh.uvs) check_size(uvs.size(), mesh, where, "texture coordinates");
-
-  // Check numbers and indices.
+  // Check numbers.
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     if (!is_finite(mesh.positions[i])) throw Error(where, fmt::format("position {} is not finite", i));
   }
@@ -98,14 +87,6 @@ void validate_mesh(Mesh& mesh, const std::string& where, Repairs& repairs) {
       throw Error(where, fmt::format("colour {} is not finite", i));
     const vec4 clamped = glm::clamp(c, 0.0f, 1.0f);
     if (clamped != c) c = clamped, repairs.count("vertex colours outside 0..1: clamped");
-  }
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const uvec3& t = mesh.triangles[i];
-    const std::uint32_t largest = std::max({t.x, t.y, t.z});
-    if (largest >= mesh.positions.size()) {
-      throw Error(where,
-                  fmt::format("triangle {} refers to vertex {} of {}", i, largest, mesh.positions.size()));
-    }
   }
 
   // Repair.

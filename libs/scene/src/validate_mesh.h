@@ -6,7 +6,7 @@
 
 namespace ssphh::scene {
 
-/// The part of validate() for one mesh. `where` names it in errors.
+/// The part of validate() for one mesh, whose indices are in range. `where` names it in errors.
 void validate_mesh(Mesh& mesh, const std::string& where, Repairs& repairs);
 
 }  // namespace ssphh::scene

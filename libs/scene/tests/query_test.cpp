@@ -58,6 +58,13 @@ TEST(LightGroups, BeyondTheLimitShareTheLastOne) {
   EXPECT_EQ(light_group_index(groups, "299"), 255);
 }
 
+TEST(LightGroups, AsManyAsTheLimitKeepTheirNames) {
+  Scene scene;
+  scene.lights.resize(256);
+  for (std::size_t i = 0; i < 256; ++i) scene.lights[i].name = std::to_string(i);
+  EXPECT_EQ(light_groups(scene).back(), "255");
+}
+
 TEST(Cameras, AreFoundByNameAndTheFirstIsTheDefault) {
   const Scene scene = make_builtin("two-rooms");
   EXPECT_EQ(find_camera(scene, "").name, "room-a");
@@ -72,7 +79,7 @@ TEST(Cameras, AreFoundByNameAndTheFirstIsTheDefault) {
 
 TEST(Cameras, PoseHasNoScaleAndLooksAlongMinusZ) {
   Scene scene = make_builtin("two-rooms");
-  scene.nodes[static_cast<std::size_t>(scene.cameras[0].node)].local.scale = {2, 3, 4};
+  scene.nodes[static_cast<std::size_t>(scene.cameras[0].node)].local.scale = {2, 0.3f, 4};
   const mat4 pose = camera_pose(scene, "").world;
   EXPECT_NEAR(glm::determinant(mat3(pose)), 1, 1e-5f);  // float rounding
   const vec3 expected = glm::normalize(vec3(0, 1.2f, -0.1f) - vec3(-3.8f, 1.6f, 0.9f));
@@ -89,7 +96,9 @@ TEST(Cameras, SceneWithoutAnyIsSeenWhole) {
   const CameraPose pose = camera_pose(scene, "");
   const vec3 to_center = vec3(5, 6, 7) - vec3(pose.world[3]);
   EXPECT_LT(to_center.z, 0);
-  EXPECT_GE(std::sin(pose.camera.yfov / 2) * glm::length(to_center), 3);
+  EXPECT_LT(glm::distance(glm::normalize(to_center), vec3(0, 0, -1)), 1e-6f);  // float rounding
+  // As near as sees the sphere around the bounds, whose half diagonal is 3 √3, whole
+  EXPECT_NEAR(std::sin(pose.camera.yfov / 2) * glm::length(to_center), 3 * std::sqrt(3.0f), 1e-5f);
   EXPECT_NO_THROW(camera_pose(Scene{}, ""));
   EXPECT_THROW(camera_pose(scene, "main"), Error);
 }

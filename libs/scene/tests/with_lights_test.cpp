@@ -39,6 +39,7 @@ TEST(WithLights, TurnsTheEnvironment) {
   scene.environment = Environment{};
   scene.environment->rotation = 0.5f;
   EXPECT_EQ(with_lights(scene, 0, {}, {}, 0.25f).environment->rotation, 0.75f);
+  EXPECT_EQ(with_lights(scene, 0, {}).environment->rotation, 0.5f) << "by nothing, if not asked for";
   EXPECT_FALSE(with_lights(Scene{}, 0, {}, {}, 0.25f).environment);
 }
 

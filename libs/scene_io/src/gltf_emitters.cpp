@@ -34,12 +34,13 @@ Camera import_camera(const JsonView& camera) {
     }
   } else if (type.string() == "orthographic") {
     const JsonView orthographic = camera.at("orthographic");
-    const float xmag = std::abs(orthographic.at("xmag").number()),
-                ymag = std::abs(orthographic.at("ymag").number());
+    // In double: quotients of two floats are not every float, and the aspect is to come back as it was.
+    const double xmag = std::abs(orthographic.at("xmag").precise_number());
+    const float ymag = std::abs(orthographic.at("ymag").number());
     if (!(xmag > 0 && ymag > 0)) orthographic.fail("xmag and ymag must not be 0");
     out.orthographic = true;
     out.yheight = 2 * ymag;
-    out.aspect = xmag / ymag;
+    out.aspect = static_cast<float>(xmag / static_cast<double>(ymag));
     if (!std::isfinite(*out.aspect) || !(*out.aspect > 0) || !std::isfinite(out.yheight)) {
       orthographic.fail("xmag and ymag are out of proportion");
     }

@@ -2,6 +2,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
+#include <ssphh/scene/query.h>
 #include <ssphh/scene_io/gltf_export.h>
 
 #include "gltf_export_parts.h"
@@ -38,6 +39,7 @@ std::vector<std::byte> pack(std::string text, const std::vector<std::byte>& bina
 }  // namespace
 
 std::vector<std::byte> export_glb(const scene::Scene& scene) {
+  scene::check_indices(scene);
   GltfExport out(scene);
   export_materials(out);
   const Json roots = export_nodes(out);

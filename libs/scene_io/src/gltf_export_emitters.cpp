@@ -19,10 +19,8 @@ Json export_camera(const scene::Camera& camera) {
   if (camera.orthographic) {
     const float ymag = camera.yheight / 2;
     out["type"] = "orthographic";
-    out["orthographic"] = {{"xmag", number(ymag * camera.aspect.value_or(1.0f))},
-                           {"ymag", number(ymag)},
-                           {"zfar", 1000},
-                           {"znear", 0.01}};
+    const double xmag = static_cast<double>(ymag) * static_cast<double>(camera.aspect.value_or(1.0f));
+    out["orthographic"] = {{"xmag", xmag}, {"ymag", number(ymag)}, {"zfar", 1000}, {"znear", 0.01}};
     return out;
   }
   out["type"] = "perspective";

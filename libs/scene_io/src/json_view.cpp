@@ -111,12 +111,16 @@ int JsonView::index(std::size_t count, const char* noun) const {
   return static_cast<int>(i);
 }
 
-float JsonView::number() const {
+double JsonView::precise_number() const {
   if (!value_->is_number()) fail(fmt::format("must be a number, not {}", value_->type_name()));
   const double d = value_->get<double>();
   if (!(std::abs(d) <= double{std::numeric_limits<float>::max()}))
     fail(fmt::format("{} is too large a number", d));
-  return static_cast<float>(d);
+  return d;
+}
+
+float JsonView::number() const {
+  return static_cast<float>(precise_number());
 }
 
 float JsonView::number(float min, float max) const {

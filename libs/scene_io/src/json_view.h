@@ -48,6 +48,8 @@ class JsonView {
   int index(std::size_t count, const char* noun) const;
   /// Number that a float can hold.
   float number() const;
+  /// The same with all of its digits.
+  double precise_number() const;
   float number(float min, float max) const;
   bool boolean() const;
   const std::string& string() const;

@@ -1,11 +1,12 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
 #include <ssphh/core/log.h>
+#include <ssphh/core/require.h>
 #include <ssphh/image/io.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/scene/query.h>
@@ -97,6 +98,9 @@ void check_size(const Scene& scene, const std::string& source) {
 }  // namespace
 
 Scene load_scene(const std::string& source, const LoadOptions& options) {
+  require(std::isfinite(options.environment_intensity) && options.environment_intensity >= 0 &&
+              std::isfinite(options.environment_rotation),
+          "environment", "its intensity and rotation must be finite, the first not negative");
   // Read the scene, through the overlay that names it if SOURCE is one
   fs::path overlay = options.overlay;
   Scene scene;

@@ -33,7 +33,8 @@ std::string expand_variables(std::string_view text, const std::string& where) {
     }
     const char* value = std::getenv(std::string(name).c_str());
     if (value && *value) {
-      out += value;
+      // As a shell means it: where the user stands, not where the overlay lies.
+      out += out.empty() ? std::filesystem::absolute(value).string() : value;
     } else if (fallback) {
       out += *fallback;
     } else {

@@ -21,7 +21,7 @@ int add_node(scene::Scene& s, const std::string& name, const vec3& position, con
 void add_ball(scene::Scene& s, const scene::Material& material, bool colors = false) {
   const auto index = static_cast<int>(s.meshes.size());
   scene::Mesh mesh = scene::make_sphere(0.4f, 8, 4);
-  mesh.uvs[1] = mesh.uvs[0];
+  for (const vec2& uv : mesh.uvs[0]) mesh.uvs[1].emplace_back(0.5f * uv.y, 1 - uv.x);
   if (colors) mesh.colors.assign(mesh.positions.size(), vec4(0.5f, 0.25f, 1, 1));
   mesh.material = static_cast<int>(s.materials.size());
   s.materials.push_back(material);

@@ -11,20 +11,32 @@
 
 namespace ssphh::test {
 
-/// Collects binary data; each add() makes one bufferView and one accessor and returns the accessor's index.
+/// Collects binary data, buffer views and accessors.
 class GlbBuilder {
  public:
+  /// One bufferView, at a multiple of four bytes; its index.
   template <class T>
-  int add(const std::vector<T>& values, int component_type, const std::string& type, std::size_t count,
-          const std::string& more = {}) {
+  int view(const std::vector<T>& values, const std::string& more = {}) {
     const std::size_t offset = binary_.size(), size = values.size() * sizeof(T);
     binary_.resize(offset + ((size + 3) & ~std::size_t{3}));
     if (size > 0) std::memcpy(binary_.data() + offset, values.data(), size);
-    views_ += fmt::format("{}{{\"buffer\":0,\"byteOffset\":{},\"byteLength\":{}}}", separator(views_), offset,
-                          size);
-    accessors_ += fmt::format("{}{{\"bufferView\":{},\"componentType\":{},\"type\":\"{}\",\"count\":{}{}}}",
-                              separator(accessors_), next_, component_type, type, count, more);
-    return next_++;
+    views_ += fmt::format("{}{{\"buffer\":0,\"byteOffset\":{},\"byteLength\":{}{}}}", separator(views_),
+                          offset, size, more);
+    return next_view_++;
+  }
+
+  /// An accessor of these members; its index.
+  int accessor(const std::string& members) {
+    accessors_ += fmt::format("{}{{{}}}", separator(accessors_), members);
+    return next_accessor_++;
+  }
+
+  /// A view and the accessor of all of it; the accessor's index.
+  template <class T>
+  int add(const std::vector<T>& values, int component_type, const std::string& type, std::size_t count,
+          const std::string& more = {}) {
+    return accessor(fmt::format("\"bufferView\":{},\"componentType\":{},\"type\":\"{}\",\"count\":{}{}",
+                                view(values), component_type, type, count, more));
   }
 
   /// `members`: the JSON's other members, such as "\"nodes\":[…]".
@@ -54,7 +66,7 @@ class GlbBuilder {
  private:
   static const char* separator(const std::string& list) { return list.empty() ? "" : ","; }
 
-  int next_ = 0;
+  int next_view_ = 0, next_accessor_ = 0;
   std::string views_, accessors_;
   std::vector<std::byte> binary_;
 };

@@ -13,6 +13,7 @@
 
 #include "glb_builder.h"
 #include "json_schema.h"
+#include "places.h"
 #include "temp_dir.h"
 
 namespace ssphh::scene_io {
@@ -104,7 +105,7 @@ TEST(Overlay, ErrorsNameThePlace) {
 }
 
 TEST(Overlay, TheSchemaAgreesWithTheReader) {
-  const std::filesystem::path folder = SSPHH_SOURCE_DIR;
+  const std::filesystem::path folder = test::source_dir();
   const auto schema = folder / "schemas/scene-overlay.schema.json";
   const auto errors = [&](const std::string& text) { return test::schema_errors(schema, text); };
   EXPECT_THAT(errors(rich_overlay), testing::IsEmpty());
@@ -140,6 +141,10 @@ TEST(Overlay, VariablesAreOnlyThoseOfThisProject) {
   EXPECT_EQ(expand_variables("${SSPHH_TEST_FOLDER}/a.glb", "here"), "/somewhere/a.glb");
   EXPECT_EQ(expand_variables("${SSPHH_TEST_UNSET:-../x}/a.glb", "here"), "../x/a.glb");
   EXPECT_EQ(expand_variables("a$b", "here"), "a$b");
+  ::setenv("SSPHH_TEST_FOLDER", "rooms", 1);
+  const std::string rooms = std::filesystem::current_path() / "rooms";
+  EXPECT_EQ(expand_variables("${SSPHH_TEST_FOLDER}/a.glb", "here"), rooms + "/a.glb");
+  EXPECT_EQ(expand_variables("../${SSPHH_TEST_FOLDER}/a.glb", "here"), "../rooms/a.glb");
   EXPECT_THROW(expand_variables("${SSPHH_TEST_UNSET}", "here"), Error);
   EXPECT_THROW(expand_variables("${HOME}", "here"), Error);
   EXPECT_THROW(expand_variables("${SSPHH_", "here"), Error);

@@ -9,6 +9,7 @@
 #include <ssphh/scene/query.h>
 #include <ssphh/scene_io/load.h>
 
+#include "places.h"
 #include "shared_scenes.h"
 
 namespace ssphh::scene_io {
@@ -165,7 +166,7 @@ TEST_F(RealScenes, SponzaIsComplete) {
 TEST_F(RealScenes, SponzaOverlayAddsViewLightAndSphls) {
   SSPHH_SHARED_SCENE(path, "sponza/sponza.glb");
   LoadOptions options;
-  options.overlay = std::string(SSPHH_SOURCE_DIR) + "/examples/scenes/sponza.ssphh.json";
+  options.overlay = test::source_dir() / "examples/scenes/sponza.ssphh.json";
   const Scene scene = load_scene(path.string(), options);
   EXPECT_EQ(scene.sphls.size(), 6u);
   ASSERT_EQ(scene.lights.size(), 1u);

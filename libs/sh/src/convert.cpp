@@ -58,7 +58,8 @@ int convention_max_degree(Convention convention) {
 }
 
 double convention_factor(Convention convention, int k) {
-  SSPHH_CHECK(k >= 0 && k < coefficient_count(convention_max_degree(convention)));
+  require(k >= 0 && k < coefficient_count(convention_max_degree(convention)), "convention",
+          "it does not store that coefficient");
   int l = 0;
   while (coefficient_count(l) <= k) ++l;
   switch (convention) {
@@ -73,8 +74,7 @@ double convention_factor(Convention convention, int k) {
     case Convention::filament_mirrored:
       return (odd_in_x(k) ? -1 : 1) * convention_factor(Convention::filament, k);
   }
-  SSPHH_CHECK(!"a convention of the list");
-  return 1;
+  refuse("convention", "there is none of that number");
 }
 
 std::vector<vec3> to_convention(const RadianceSh& radiance, Convention convention) {

@@ -28,8 +28,9 @@ RecurrenceTable<Real> make_table() {
 }
 
 void check_degree(int degree, std::size_t room) {
-  SSPHH_CHECK(degree >= 0 && degree <= max_degree);
-  SSPHH_CHECK(room >= static_cast<std::size_t>(coefficient_count(degree)));
+  require_degree(degree, "basis functions");
+  require(room >= static_cast<std::size_t>(coefficient_count(degree)), "basis functions",
+          "there is no room for all of them");
 }
 
 }  // namespace
@@ -57,9 +58,10 @@ void eval_basis(int degree, const glm::dvec3& direction, std::span<double> out) 
 void eval_basis(int degree, std::span<const float> x, std::span<const float> y, std::span<const float> z,
                 std::span<float> out) {
   const std::size_t count = x.size();
+  require_degree(degree, "basis functions");
   const auto coefficients = static_cast<std::size_t>(coefficient_count(degree));
-  SSPHH_CHECK(degree >= 0 && degree <= max_degree);
-  SSPHH_CHECK(y.size() == count && z.size() == count && out.size() >= coefficients * count);
+  require(y.size() == count && z.size() == count, "basis functions", "x, y and z differ in number");
+  require(out.size() >= coefficients * count, "basis functions", "there is no room for all of them");
   const RecurrenceTable<float>& table = recurrence_table_float();
   float8 values[max_coefficient_count];
   for (std::size_t first = 0; first < count; first += lane_count) {

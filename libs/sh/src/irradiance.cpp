@@ -37,7 +37,7 @@ std::array<vec3, 9> first_bands(const RadianceSh& radiance) {
 }  // namespace
 
 double cosine_band_factor(int l) {
-  SSPHH_CHECK(l >= 0 && l <= max_degree);
+  require_degree(l, "cosine band factor");
   return factors[static_cast<std::size_t>(l)];
 }
 

@@ -11,7 +11,8 @@ namespace {
 template <class Weight>
 RadianceSh project_samples(int degree, std::span<const vec3> directions, std::span<const Weight> weights,
                            std::span<const vec3> radiance) {
-  SSPHH_CHECK(weights.size() == directions.size() && radiance.size() == directions.size());
+  require(weights.size() == directions.size() && radiance.size() == directions.size(), "projection",
+          "directions, weights and radiance differ in number");
   ProjectionSum sum(degree, 1, {});
   for (std::size_t first = 0; first < directions.size(); first += lane_count) {
     const auto lanes = static_cast<int>(std::min<std::size_t>(lane_count, directions.size() - first));
@@ -44,7 +45,10 @@ RadianceSh project(int degree, std::span<const vec3> directions, std::span<const
 
 RadianceSh project(int degree, const SphereQuadrature& rule,
                    const std::function<vec3(const vec3&)>& radiance) {
-  SSPHH_CHECK(degree >= 0 && degree <= max_degree);
+  require_degree(degree, "projection");
+  require(rule.weights.size() == rule.directions.size(), "projection",
+          "directions and weights differ in number");
+  require(radiance != nullptr, "projection", "there is no function to project");
   const auto count = static_cast<std::size_t>(coefficient_count(degree));
   std::array<double, max_coefficient_count> basis{};
   std::array<glm::dvec3, max_coefficient_count> totals{};

@@ -126,7 +126,8 @@ int padded(int count) {
 
 CubeProjector::CubeProjector(int degree, int face_size)
     : degree_(degree), face_size_(face_size), half_(face_size - face_size / 2) {
-  SSPHH_CHECK(degree >= 0 && degree <= max_degree && face_size >= 1);
+  require_degree(degree, "cube projector");
+  require(face_size >= 1, "cube projector", "a face needs texels");
   const int stride = padded(half_);
   half_coordinates_.resize(static_cast<std::size_t>(stride));
   half_major_.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(half_));
@@ -148,9 +149,11 @@ CubeProjector::CubeProjector(int degree, int face_size)
 }
 
 RadianceSh CubeProjector::project(const CubeFaces& faces, int channels) const {
-  SSPHH_CHECK(channels == 3 || channels == 4);
+  require(channels == 3 || channels == 4, "cube projector", "a texel must have 3 or 4 channels");
   const std::size_t texels = static_cast<std::size_t>(face_size_) * static_cast<std::size_t>(face_size_);
-  for (const auto& face : faces) SSPHH_CHECK(face.size() == texels * static_cast<std::size_t>(channels));
+  for (const auto& face : faces)
+    require(face.size() == texels * static_cast<std::size_t>(channels), "cube projector",
+            "a face is not of the projector's size");
 
   static const std::array<int, max_coefficient_count> classes = parity_classes();
   ProjectionSum sum(degree_, octant_count, classes);

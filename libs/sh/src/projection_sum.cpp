@@ -52,7 +52,7 @@ ProjectionSum::ProjectionSum(int degree, int light_count,
     : degree_(degree),
       light_count_(light_count),
       lights_(static_cast<std::size_t>(blocks_per_pass * light_count * 3)) {
-  SSPHH_CHECK(degree >= 0 && degree <= max_degree);
+  require_degree(degree, "projection");
   for (int light = 0; light < light_count; ++light) {
     CoefficientTile tile{.light = light};
     for (int k = 0; k < coefficient_count(degree); ++k) {

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include <ssphh/core/error.h>
 #include <ssphh/core/random.h>
+#include <ssphh/core/require.h>
 #include <ssphh/sh/quadrature.h>
 
 namespace ssphh::sh {
@@ -15,7 +15,7 @@ glm::dvec3 direction(double z, double azimuth) {
 }  // namespace
 
 LineQuadrature gauss_legendre(int count) {
-  SSPHH_CHECK(count >= 1);
+  require(count >= 1, "Gauss-Legendre quadrature", "it needs at least one node");
   LineQuadrature rule;
   for (int i = count; i >= 1; --i) {
     // Newton's iteration on P_count from Tricomi's estimate of the i-th root.
@@ -39,7 +39,7 @@ LineQuadrature gauss_legendre(int count) {
 }
 
 SphereQuadrature sphere_quadrature(int exact_degree) {
-  SSPHH_CHECK(exact_degree >= 0);
+  require(exact_degree >= 0, "sphere quadrature", "the degree must not be negative");
   const LineQuadrature polar = gauss_legendre(exact_degree / 2 + 1);
   const int azimuths = exact_degree + 1;
   SphereQuadrature rule;
@@ -53,7 +53,7 @@ SphereQuadrature sphere_quadrature(int exact_degree) {
 }
 
 SphereQuadrature stratified_sphere_samples(int side, std::uint64_t seed) {
-  SSPHH_CHECK(side >= 1);
+  require(side >= 1, "sphere samples", "there must be at least one cell");
   Pcg32 random(seed);
   const double cell = 1.0 / side;
   SphereQuadrature samples;

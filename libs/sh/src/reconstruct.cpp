@@ -18,7 +18,7 @@ vec3 eval_sum(const RgbSh<Quantity>& sh, int degree, const vec3& direction) {
 
 template <class Quantity>
 void eval_all(const RgbSh<Quantity>& sh, std::span<const vec3> directions, std::span<vec3> out) {
-  SSPHH_CHECK(out.size() == directions.size());
+  require(out.size() == directions.size(), "reconstruction", "there is not one value for each direction");
   const int degree = sh.degree();
   for (std::size_t i = 0; i < directions.size(); ++i) out[i] = eval_sum(sh, degree, directions[i]);
 }

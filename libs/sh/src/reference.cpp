@@ -1,13 +1,13 @@
 #include <cmath>
 #include <cstdlib>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/sh/reference.h>
 
 namespace ssphh::sh {
 
 double reference_legendre(int l, int m, double x) {
-  SSPHH_CHECK(0 <= m && m <= l);
+  require(0 <= m && m <= l, "Legendre function", "m must be 0..l");
   const auto factorial = [](int n) { return std::tgamma(n + 1.0); };
   double sum = 0;
   for (int j = 0; 2 * j <= l - m; ++j) {

@@ -47,7 +47,7 @@ struct BandStep {
 
 template <class Sh>
 Sh apply_bands(const Rotation& rotation, const Sh& sh) {
-  SSPHH_CHECK(sh.degree() <= rotation.degree());
+  require(sh.degree() <= rotation.degree(), "rotation", "the function's degree is over the rotation's");
   Sh result = sh;
   for (int l = 0; l <= sh.degree(); ++l) {
     for (int m = -l; m <= l; ++m) {
@@ -63,10 +63,11 @@ Sh apply_bands(const Rotation& rotation, const Sh& sh) {
 }  // namespace
 
 Rotation::Rotation(int degree, const glm::dmat3& matrix) : degree_(degree) {
-  SSPHH_CHECK(degree >= 0 && degree <= max_degree);
+  require_degree(degree, "rotation");
   const glm::dmat3 product = matrix * glm::transpose(matrix);
   for (int c = 0; c < 3; ++c) {
-    for (int r = 0; r < 3; ++r) SSPHH_CHECK(std::abs(product[c][r] - (c == r ? 1 : 0)) < 1e-4);
+    for (int r = 0; r < 3; ++r)
+      require(std::abs(product[c][r] - (c == r ? 1 : 0)) < 1e-4, "rotation", "the matrix is not orthogonal");
   }
   int size = 0;
   for (int l = 0; l <= degree; ++l) size += (2 * l + 1) * (2 * l + 1);

@@ -33,7 +33,7 @@ double azimuth_mean(int a, int b, int c) {
 
 TripleProductTensor::TripleProductTensor(int degree_i, int degree_j, int degree_k)
     : degree_i_(degree_i), degree_j_(degree_j), degree_k_(degree_k) {
-  for (const int degree : {degree_i, degree_j, degree_k}) SSPHH_CHECK(degree >= 0 && degree <= max_degree);
+  for (const int degree : {degree_i, degree_j, degree_k}) require_degree(degree, "triple product");
 
   // Polar factors: Y_l|m| at azimuth 0, at every node. The product of three is a polynomial of degree ≤ 30 in
   // z whenever the azimuth integral is not 0 (then the powers of sin θ are even).

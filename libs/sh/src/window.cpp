@@ -90,8 +90,10 @@ double channel_minimum(const Channel& values, int degree) {
 
 template <class Sh>
 Channel channel_values(const Sh& sh, int c) {
+  require_degree(sh.degree(), "window");
   Channel values{};
-  for (std::size_t k = 0; k < sh.values.size(); ++k) values[k] = static_cast<double>(sh.values[k][c]);
+  const auto count = static_cast<std::size_t>(coefficient_count(sh.degree()));
+  for (std::size_t k = 0; k < count; ++k) values[k] = static_cast<double>(sh.values[k][c]);
   return values;
 }
 
@@ -182,7 +184,7 @@ std::vector<WindowedChannel> channels(const Sh& sh) {
 
 template <class Shape>
 BandScales window(double width, const Shape& shape) {
-  SSPHH_CHECK(width > 0);
+  require(width > 0, "window", "its width must be over 0");
   BandScales scales{};
   for (int l = 0; l <= max_degree; ++l) {
     scales[static_cast<std::size_t>(l)] = l == 0      ? 1.0f
@@ -203,6 +205,7 @@ BandScales lanczos_window(double width) {
 }
 
 RadianceSh apply_window(const RadianceSh& sh, const BandScales& scales) {
+  require_degree(std::max(sh.degree(), 0), "window");
   RadianceSh result = sh;
   for (int l = 0; l <= sh.degree(); ++l) {
     const float scale = scales[static_cast<std::size_t>(l)];

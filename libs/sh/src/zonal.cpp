@@ -26,8 +26,9 @@ double zonal_norm(int l) {
 }
 
 int zonal_degree(const ZonalSh& zonal) {
-  SSPHH_CHECK(!zonal.empty() && zonal.size() <= static_cast<std::size_t>(max_degree) + 1);
-  return static_cast<int>(zonal.size()) - 1;
+  const int degree = static_cast<int>(zonal.size()) - 1;
+  require_degree(degree, "zonal harmonics");
+  return degree;
 }
 
 constexpr int roughness_steps = 128;
@@ -67,7 +68,9 @@ GlossyTable make_glossy_table() {
 }  // namespace
 
 ZonalSh zonal_from_function(int degree, const std::function<double(double)>& f, double from, int nodes) {
-  SSPHH_CHECK(degree >= 0 && degree <= max_degree && from >= -1 && from < 1);
+  require_degree(degree, "zonal harmonics");
+  require(from >= -1 && from < 1, "zonal harmonics", "the interval must begin in [-1, 1)");
+  require(f != nullptr, "zonal harmonics", "there is no function to project");
   const LineQuadrature rule = gauss_legendre(nodes);
   const double half = 0.5 * (1 - from);
   ZonalSh zonal(static_cast<std::size_t>(degree) + 1, 0.0);
@@ -83,7 +86,7 @@ ZonalSh zonal_from_function(int degree, const std::function<double(double)>& f, 
 }
 
 ZonalSh zonal_cosine_lobe(int degree) {
-  SSPHH_CHECK(degree >= 0 && degree <= max_degree);
+  require_degree(degree, "zonal harmonics");
   ZonalSh zonal;
   for (int l = 0; l <= degree; ++l) zonal.push_back(cosine_band_factor(l) * zonal_norm(l));
   return zonal;
@@ -120,7 +123,8 @@ RadianceSh convolve(const RadianceSh& sh, const ZonalSh& kernel) {
 }
 
 double ggx_band_scale(double alpha, int l) {
-  SSPHH_CHECK(alpha > 0 && l >= 0 && l <= max_degree);
+  require_degree(l, "glossy band scale");
+  require(alpha > 0, "glossy band scale", "alpha must be over 0");
   return ggx_band_scales(alpha)[static_cast<std::size_t>(l)];
 }
 

@@ -115,10 +115,5 @@ TEST(Rotation, ThereAndBackGivesTheSameFunction) {
   EXPECT_TRUE(rotate(RadianceSh(), q).empty());
 }
 
-TEST(RotationDeathTest, RefusesAMatrixThatIsNone) {
-  EXPECT_DEATH(Rotation(2, glm::dmat3(2)), "product");
-  EXPECT_DEATH(Rotation(2, glm::dmat3(NAN)), "product");
-}
-
 }  // namespace
 }  // namespace ssphh::sh

@@ -7,6 +7,7 @@
 #include "bsdf/disney_diffuse.h"
 #include "bsdf/ggx.h"
 #include "bsdf/oren_nayar.h"
+#include "bsdf/specular.h"
 #include "bsdf_models.h"
 
 namespace ssphh::shading::test {
@@ -161,6 +162,48 @@ TEST(DiffuseModels, DisneyPeakIsTheLargestAlbedoOfThePublishedModel) {
   EXPECT_NEAR(albedo(1, 1e-4f), disney_diffuse_peak(1), 1e-3f);  // quadrature
   EXPECT_NEAR(albedo(0.8f, 1e-4f), disney_diffuse_peak(0.8f), 1e-3f);
   EXPECT_NEAR(albedo(0.41f, 1), disney_diffuse_peak(0.41f), 1e-4f);
+}
+
+TEST(DiffuseModels, OrenNayarIsFujiisFormula) {
+  // The qualitative model in angles, A + B s/t with A = 1/(π + (π/2 − 2/3) σ), B = σ A.
+  for (const float sigma : {0.3f, 1.0f}) {
+    for (const float phi : {0.0f, 0.7f, 2.5f, 3.14159f}) {
+      for (const auto& [ti, to] : {std::pair{0.3, 1.2}, {1.1, 0.5}, {0.8, 0.8}}) {
+        const double s = std::sin(ti) * std::sin(to) * std::cos(double{phi});
+        const double t = s <= 0 ? 1 : std::max(std::cos(ti), std::cos(to));
+        const double a = 1 / (pi_d + (pi_d / 2 - 2.0 / 3) * double{sigma});
+        const vec3 wo = direction(static_cast<float>(std::cos(to)), 0.4f),
+                   wi = direction(static_cast<float>(std::cos(ti)), 0.4f + phi);
+        EXPECT_NEAR(oren_nayar(sigma, wo, wi), std::cos(ti) * (a + double{sigma} * a * s / t), 1e-6)
+            << sigma << " " << phi << " " << ti;
+      }
+    }
+  }
+}
+
+TEST(DiffuseModels, DisneyIsBurleysFormulaOverItsPeak) {
+  for (const float roughness : {0.0f, 0.35f, 1.0f}) {
+    for (const float phi : {0.0f, 1.0f, 3.0f}) {
+      const vec3 wo = direction(0.3f, 0.2f), wi = direction(0.6f, 0.2f + phi);
+      const double cos_d = double{glm::dot(wi, glm::normalize(wo + wi))};
+      const double fd90 = 0.5 + 2 * double{roughness} * cos_d * cos_d;
+      const double expected = 0.6 / pi_d * (1 + (fd90 - 1) * std::pow(1 - 0.3, 5)) *
+                              (1 + (fd90 - 1) * std::pow(1 - 0.6, 5)) /
+                              double{disney_diffuse_peak(roughness)};
+      EXPECT_NEAR(disney_diffuse(roughness, wo, wi), expected, 1e-6) << roughness << " " << phi;
+    }
+  }
+}
+
+TEST(SpecularModels, GrazingReflectanceIsOneButFadesWithADarkF0) {
+  const auto lobe = [](const vec3& f0) { return SpecularLobe({vec3(0), f0, 0, 0.5f}); };
+  EXPECT_EQ(lobe(vec3(0.04f)).f90, 1);
+  EXPECT_EQ(lobe(vec3(0.02f, 0, 0)).f90, 1);
+  EXPECT_FLOAT_EQ(lobe(vec3(0, 0.01f, 0.002f)).f90, 0.5f);
+  // Schlick's approximation with f90 = ½.
+  const double s = std::pow(1 - 0.3, 5);
+  EXPECT_NEAR(lobe(vec3(0, 0.01f, 0.002f)).fresnel(0.3f).y, 0.01 + (0.5 - 0.01) * s, 1e-6);
+  EXPECT_NEAR(lobe(vec3(0, 0.01f, 0.002f)).fresnel(0.3f).z, 0.002 + (0.5 - 0.002) * s, 1e-6);
 }
 
 TEST(SpecularModels, DistributionsProjectToUnitArea) {

@@ -57,6 +57,41 @@ TEST(Emitters, AddUpToTheChoiceAmongThem) {
   EXPECT_TRUE(means_agree(one_by_one, chosen));
 }
 
+TEST(Emitters, HaveTheFluxOfTheirClosedForms) {
+  scene::Scene scene;
+  const vec3 color(0.2f, 0.7f, 0.4f);
+  const double l = double{luminance(color)};
+  const auto add = [&](scene::LightType type, float intensity) -> scene::Light& {
+    scene::Light& light = add_light(scene, type, {0, 2, 0});
+    light.color = color, light.intensity = intensity;
+    return light;
+  };
+  add(scene::LightType::point, 3);
+  scene::Light& spot = add(scene::LightType::spot, 5);
+  spot.inner_cone = 0.3f, spot.outer_cone = 0.8f;
+  add(scene::LightType::sphere, 7).radius = 0.4f;
+  scene::Material panel = glowing(2.0f * color);
+  add_panel(scene, panel, {{0, 1, 0}, quat(1, 0, 0, 0), {2, 1, 3}});
+  panel.double_sided = true;
+  add_panel(scene, panel, {{0, 1, 0}, quat(1, 0, 0, 0), {1, 1, 3}});
+  add(scene::LightType::directional, 11);
+  add(scene::LightType::directional, 13).angular_radius = 0.2f;
+  scene.environment = scene::Environment{};
+  scene.environment->color = color;
+  const LightSet lights = make_lights(scene);
+  // A spot's (c − c_o)²/(c_i − c_o)² integrates to a third of the cosines between its cones. A panel of
+  // radiance L emits π L per square metre and side. Through a sphere of radius r goes π r² ∫ L dω: of a disc
+  // that gives E = π L sin² α that is 2 E/(1 + cos α), of a sky 4π L.
+  constexpr double radius = 1.5, disc = pi_d * radius * radius;
+  const double cone = 1 - std::cos(0.3) + (std::cos(0.3) - std::cos(0.8)) / 3;
+  const double expected[] = {
+      4 * pi_d * 3,     2 * pi_d * cone * 5, 4 * pi_d * pi_d * 0.16 * 7,          pi_d * 2 * 6,
+      2 * pi_d * 2 * 3, 11 * disc,           13 * disc * 2 / (1 + std::cos(0.2)), 4 * pi_d * disc};
+  ASSERT_EQ(lights.emitter_count(), 8);
+  for (int i = 0; i < 8; ++i)
+    EXPECT_NEAR(double{lights.flux(i, static_cast<float>(radius))} / (l * expected[i]), 1, 2e-6) << i;
+}
+
 TEST(Emitters, ExtentHoldsAllSamples) {
   const scene::Scene scene = all_kinds();
   const LightSet lights(scene, scene::world_matrices(scene));

@@ -98,6 +98,14 @@ TEST(SurfaceAt, NormalMapGreenPointsUpTheImage) {
   expect_near(look(scene, {0, 0, -1}).normal, -glm::normalize(vec3(0, 0.5f, 1)), 0.02f);
 }
 
+TEST(SurfaceAt, NormalMapIsFlatWhereItsCoordinatesLieOnALine) {
+  Scene scene = triangle_scene();
+  scene.materials[0].normal_texture.texture = add_texel(scene, 218, 128, 218);  // 45° toward +u
+  EXPECT_GT(look(scene, {0, 0, 1}).normal.x, 0.5f);
+  scene.meshes[0].uvs[0] = {{0, 0}, {1, 0.5f}, {0.5f, 0.25f}};  // u and v have no direction here
+  expect_near(look(scene, {0, 0, 1}).normal, {0, 0, 1}, 1e-6f);
+}
+
 TEST(SurfaceAt, NormalMapTurnsWithMirroredTextureAndMirroredInstance) {
   Scene scene = triangle_scene();
   auto& material = scene.materials[0];

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/core/sphere.h>
 #include <ssphh/image/sphere_map.h>
 
@@ -55,8 +55,7 @@ Ray CameraRays::ray(float x, float y) const {
       return {origin_, cube_direction({static_cast<int>(face), 6 * u - face, v})};
     }
   }
-  SSPHH_CHECK(!"projection");
-  return {};
+  refuse("projection", "there is none of that number");
 }
 
 float CameraRays::depth(const Ray& ray, float distance) const {

@@ -79,6 +79,7 @@ void check_image_memory(const std::string& where, std::uint64_t pixels, std::uin
 
 PathTracer::PathTracer(const scene::Scene& scene, float time) {
   if (!std::isfinite(time)) throw Error("time", "it must be a finite number of seconds");
+  scene::check_indices(scene);
   data_ = std::make_unique<Data>(scene, time);
 }
 

@@ -3,9 +3,9 @@
 #include <bit>
 #include <cmath>
 
-#include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/random.h>
+#include <ssphh/core/require.h>
 #include <ssphh/core/sphere.h>
 
 #include "surface_gap.h"
@@ -57,7 +57,8 @@ PosedLight::PosedLight(std::shared_ptr<const TransportData> data, std::span<cons
 }
 
 const std::vector<PosedLight::GroupEmitter>& PosedLight::emitters_of(int group) const {
-  SSPHH_CHECK(group >= 0 && static_cast<std::size_t>(group) < groups_.size());
+  require(group >= 0 && static_cast<std::size_t>(group) < groups_.size(), "light group",
+          "there is none of that index");
   return groups_[static_cast<std::size_t>(group)];
 }
 
@@ -198,7 +199,7 @@ vec3 PosedLight::sky_irradiance(const GroupEmitter& light, const Receiver& at, s
 
 void PosedLight::irradiance(int group, std::span<const scene::SurfacePoint> points,
                             std::span<vec3> out) const {
-  SSPHH_CHECK(points.size() == out.size());
+  require(points.size() == out.size(), "direct light", "there is not one value for each point");
   const std::vector<GroupEmitter>& emitters = emitters_of(group);
   const auto range = [&](std::size_t begin, std::size_t end) {
     RayTask task;

@@ -73,12 +73,14 @@ void paste(RenderState& whole, const RenderState& part, const Tile& tile) {
   std::vector<const image::Image*> from;
   for_each_image(whole, [&](image::Image& i, int) { to.push_back(&i); });
   for_each_image(part, [&](const image::Image& i, int) { from.push_back(&i); });
-  SSPHH_CHECK(to.size() == from.size());
+  require(to.size() == from.size(), "tile", "the picture and its part keep different images");
   for (std::size_t k = 0; k < to.size(); ++k) {
     const image::Image& source = *from[k];
-    SSPHH_CHECK(source.width == tile.width && source.height == tile.height && tile.x >= 0 && tile.y >= 0 &&
-                tile.x + tile.width <= to[k]->width && tile.y + tile.height <= to[k]->height &&
-                source.channels == to[k]->channels);
+    require(source.width == tile.width && source.height == tile.height && source.channels == to[k]->channels,
+            "tile", "an image of the part is not of its size");
+    require(tile.x >= 0 && tile.y >= 0 && tile.x <= to[k]->width - tile.width &&
+                tile.y <= to[k]->height - tile.height,
+            "tile", "it does not lie inside the picture");
     const auto row_floats = static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(source.channels);
     for (int y = 0; y < tile.height; ++y)
       std::copy_n(source.at(0, y), row_floats, to[k]->at(tile.x, tile.y + y));
@@ -108,7 +110,8 @@ void save_state(const RenderState& state, const std::filesystem::path& path) {
                 state.key.low};
   std::size_t floats = 0;
   for_each_image(state, [&](const image::Image& i, int channels) {
-    SSPHH_CHECK(i.width == header.width && i.height == header.height && i.channels == channels);
+    require(i.width == header.width && i.height == header.height && i.channels == channels, "render state",
+            "its images differ in size");
     floats += i.pixels.size();
   });
   std::vector<std::byte> data(sizeof(Header) + floats * sizeof(float) + sizeof(Hash128));

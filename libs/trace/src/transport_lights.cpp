@@ -1,6 +1,6 @@
 /// The lights as transport sees them.
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 
 #include "posed_light.h"
 #include "transport_data.h"
@@ -26,7 +26,9 @@ const std::vector<std::string>& TransportScene::light_names() const {
 }
 
 int TransportScene::light_group_of(int light) const {
-  return data_->light_group.at(static_cast<std::size_t>(light));
+  require(light >= 0 && static_cast<std::size_t>(light) < data_->light_group.size(), "light",
+          "there is none of that index");
+  return data_->light_group[static_cast<std::size_t>(light)];
 }
 
 bool TransportScene::group_emits_from(int group, int part) const {
@@ -45,7 +47,9 @@ int TransportScene::environment_group() const {
 std::unique_ptr<scene::DirectLight> TransportScene::direct_light(std::span<const scene::LightState> lights,
                                                                  std::span<const mat4> poses,
                                                                  float environment_rotation) const {
-  SSPHH_CHECK(lights.size() == data_->scene.lights.size() && poses.size() == data_->parts.size());
+  require(lights.size() == data_->scene.lights.size(), "direct light",
+          "there is not one state for each light");
+  require(poses.size() == data_->parts.size(), "direct light", "there is not one pose for each part");
   return std::make_unique<PosedLight>(data_, lights, poses, environment_rotation);
 }
 

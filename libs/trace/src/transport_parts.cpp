@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/scene/query.h>
 
 #include "surface_gap.h"
@@ -121,12 +121,15 @@ std::vector<mat4> TransportData::node_matrices(std::span<const mat4> poses) cons
 }
 
 const TransportPart& TransportData::part(int index) const {
-  SSPHH_CHECK(index >= 0 && static_cast<std::size_t>(index) < parts.size());
+  require(index >= 0 && static_cast<std::size_t>(index) < parts.size(), "part",
+          "there is none of that index");
   return parts[static_cast<std::size_t>(index)];
 }
 
-TransportScene::TransportScene(const scene::Scene& scene, const TransportOptions& options)
-    : data_(std::make_shared<const Data>(scene, options)) {}
+TransportScene::TransportScene(const scene::Scene& scene, const TransportOptions& options) {
+  scene::check_indices(scene);
+  data_ = std::make_shared<const Data>(scene, options);
+}
 
 TransportScene::~TransportScene() = default;
 

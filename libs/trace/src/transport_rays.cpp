@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/random.h>
+#include <ssphh/core/require.h>
 #include <ssphh/shading/bsdf.h>
 
 #include "transport_data.h"
@@ -76,7 +76,7 @@ void sample_triangle(const TransportData& data, const TransportPart& part, int i
 
 void TransportScene::intersect(int part, std::span<const scene::RayQuery> rays,
                                std::span<scene::RayHit> hits) const {
-  SSPHH_CHECK(rays.size() == hits.size());
+  require(rays.size() == hits.size(), "rays", "there is not one hit for each");
   const EmbreeScene& embree = *data_->part(part).embree;
   const shading::LightSet& lights = data_->lights;
   for_rays(rays.size(), data_->rays, [&](std::size_t begin, std::size_t end, RayTask& task) {
@@ -100,7 +100,7 @@ void TransportScene::intersect(int part, std::span<const scene::RayQuery> rays,
 
 void TransportScene::occluded(int part, std::span<const scene::RayQuery> rays,
                               std::span<std::uint8_t> blocked) const {
-  SSPHH_CHECK(rays.size() == blocked.size());
+  require(rays.size() == blocked.size(), "rays", "there is not one answer for each");
   const EmbreeScene& embree = *data_->part(part).embree;
   for_rays(rays.size(), data_->rays, [&](std::size_t begin, std::size_t end, RayTask& task) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -113,7 +113,7 @@ void TransportScene::occluded(int part, std::span<const scene::RayQuery> rays,
 std::vector<scene::PartPoint> TransportScene::sample_part(int part_index,
                                                           double points_per_square_metre) const {
   if (!(points_per_square_metre >= 0)) throw Error("points per square metre", "they must not be negative");
-  SSPHH_CHECK(part_index > 0);
+  require(part_index > 0, "part", "part 0 cannot be sampled");
   const TransportPart& part = data_->part(part_index);
   std::vector<scene::PartPoint> points;
   for (const int i : part.instances) {

@@ -170,6 +170,15 @@ TEST(Geometry, MaskIsAllOrNothing) {
   EXPECT_EQ(floor_radiance(scene::AlphaMode::blend, 1), 0);
 }
 
+TEST(Geometry, WithoutChanceHalfAlphaBlocksAndLessDoesNot) {
+  for (const float alpha : {0.3f, 0.4999f, 0.5f, 0.7f}) {
+    const scene::Scene scene = card_scene(scene::AlphaMode::blend, alpha);
+    const trace::EmbreeScene embree(scene, scene::world_matrices(scene));
+    trace::RayTask task;
+    EXPECT_EQ(embree.occluded({vec3(0, 0.5f, 0), vec3(0, 1, 0), 1}, 0, task), alpha >= 0.5f) << alpha;
+  }
+}
+
 TEST(Geometry, CameraAndAovsPassThroughAlpha) {
   trace::RenderParams params = view_down(vec3(0), 1e-3f, 32, 3);
   params.path = {0, 1, 16, 3};
@@ -206,6 +215,17 @@ TEST(Geometry, VisibleIsBlockedByAWallOnly) {
   EXPECT_FALSE(tracer.visible(vec3(-0.1f, 0, 0), vec3(1, 1, 0)));
   EXPECT_TRUE(tracer.visible(vec3(3), vec3(3))) << "an empty segment";
   EXPECT_EQ(tracer.rays_traced(), 5u);
+}
+
+TEST(Geometry, VisibleIsBlockedByWhatStandsNearAnEnd) {
+  // A sheet at 1/2000 of the way from an end: five times as far as the ends are shortened.
+  scene::Scene scene;
+  scene::Material sheet = lambertian(vec3(0.5f));
+  add_object(scene, scene::make_quad(vec3(0, -1, -1), vec3(0, 2, 0), vec3(0, 0, 2)), sheet);
+  const trace::PathTracer tracer(scene);
+  const vec3 near(-0.001f, 0, 0), far(1.999f, 0, 0);
+  EXPECT_FALSE(tracer.visible(near, far));
+  EXPECT_FALSE(tracer.visible(far, near));
 }
 
 TEST(Geometry, BackfaceFractionTellsInsideFromOutside) {

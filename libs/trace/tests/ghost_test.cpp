@@ -11,6 +11,8 @@
 namespace ssphh::test {
 namespace {
 
+const scene::Scene empty_space;
+
 /// ∫ L dω over a cube map, red.
 double integral(const image::CubeMap& map) {
   double sum = 0;
@@ -122,7 +124,7 @@ TEST(Ghost, SphereNeitherBlocksNorReflects) {
   const scene::CubeRequest request{vec3(0), 32, {1, 1, 4, 2}};
   const std::vector<scene::GhostSphere> both{{vec3(0, 0, 1), 0.3f}, {vec3(0, 0, 4), 0.5f}};
   const std::vector<image::CubeMap> maps =
-      trace::PathTracer(scene::Scene{}).ghost_radiance(request, both, nullptr, {});
+      trace::PathTracer(empty_space).ghost_radiance(request, both, nullptr, {});
   const double expected = 2 * pi_d * (1 - std::sqrt(1 - 1.0 / 64));
   EXPECT_NEAR(integral(maps[1]), expected, 2e-4 * expected);
 }
@@ -172,12 +174,12 @@ TEST(Ghost, EmissionDirectionOfADirectPathIsOppositeToTheView) {
     float& w = worst[static_cast<std::size_t>(chunk)];
     w = std::max(w, glm::dot(path.direction, path.emission));
   };
-  (void)trace::PathTracer(scene::Scene{}).ghost_radiance({vec3(0), 8, {1, 1, 4, 7}}, ghosts, sink, {});
+  (void)trace::PathTracer(empty_space).ghost_radiance({vec3(0), 8, {1, 1, 4, 7}}, ghosts, sink, {});
   for (const float w : worst) EXPECT_LT(w, -0.9999f);
 }
 
 TEST(Ghost, NoSpheresGiveNoMaps) {
-  EXPECT_TRUE(trace::PathTracer(scene::Scene{}).ghost_radiance({vec3(0), 4, {}}, {}, nullptr, {}).empty());
+  EXPECT_TRUE(trace::PathTracer(empty_space).ghost_radiance({vec3(0), 4, {}}, {}, nullptr, {}).empty());
 }
 
 }  // namespace

@@ -5,7 +5,10 @@
 #include <ssphh/core/file.h>
 
 #include "hand_made.h"
+#include "memory_dir.h"
+#include "render_fields.h"
 #include "temp_dir.h"
+#include "tracer_data.h"
 
 namespace ssphh::test {
 namespace {
@@ -20,7 +23,7 @@ trace::RenderState some_state() {
 }
 
 TEST(RenderState, DamagedCheckpointsAreRefused) {
-  const TempDir folder;
+  const TempDir folder(memory_dir());
   const trace::RenderState state = some_state();
   trace::save_state(state, folder / "good");
   EXPECT_EQ(trace::load_state(folder / "good", state.key).color.pixels, state.color.pixels);
@@ -61,27 +64,28 @@ TEST(RenderState, AnotherKeyIsRefused) {
   EXPECT_THROW(trace::load_state(folder / "state", Hash128{1, 2}), Error);
 }
 
-TEST(RenderState, KeyDependsOnEverythingButPasses) {
-  const Hash128 scene{3, 4};
-  const trace::RenderParams base = view_point(vec3(0), 4, 3);
-  const Hash128 key = trace::render_key(scene, 0, base);
-  const auto changed = [&](auto change) {
-    trace::RenderParams p = base;
-    change(p);
-    return trace::render_key(scene, 0, p) != key;
-  };
-  EXPECT_FALSE(changed([](auto& p) { p.path.passes = 99; }));
-  EXPECT_TRUE(changed([](auto& p) { p.path.spp = 5; }));
-  EXPECT_TRUE(changed([](auto& p) { p.path.max_depth = 5; }));
-  EXPECT_TRUE(changed([](auto& p) { p.path.seed = 77; }));
-  EXPECT_TRUE(changed([](auto& p) { p.width = 5; }));
-  EXPECT_TRUE(changed([](auto& p) { p.height = 5; }));
-  EXPECT_TRUE(changed([](auto& p) { p.per_group = true; }));
-  EXPECT_TRUE(changed([](auto& p) { p.projection = trace::Projection::equirect; }));
-  EXPECT_TRUE(changed([](auto& p) { p.camera.camera.yheight = 5; }));
-  EXPECT_TRUE(changed([](auto& p) { p.camera.world[3][1] += 0.5f; }));
-  EXPECT_NE(trace::render_key(scene, 1, base), key);
-  EXPECT_NE(trace::render_key({3, 5}, 0, base), key);
+TEST(RenderState, KeyHoldsEveryFieldOfItsParameters) {
+  trace::RenderParams params = view_point(vec3(0), 4, 3);
+  params.camera.camera.aspect = 1.5f;
+  for (const bool orthographic : {false, true}) {
+    params.camera.camera.orthographic = orthographic;
+    expect_a_key_of_every_field(params,
+                                [](const trace::RenderParams& p) {
+                                  return trace::render_key({3, 4}, 0, p);
+                                },
+                                {{"tile", "a state of a part has the key of the whole"},
+                                 {"path/passes", "a state is resumed to have more of them"},
+                                 {"camera/camera/name", "for people"},
+                                 {"camera/camera/node", "the pose is the camera's world matrix"},
+                                 {"camera/camera/aspect", "a render's own size wins"}});
+  }
+}
+
+TEST(RenderState, KeyHoldsSceneAndTime) {
+  const trace::RenderParams params = view_point(vec3(0), 4, 3);
+  expect_a_key_of_every_field(Hash128{3, 4},
+                              [&](const Hash128& scene) { return trace::render_key(scene, 0.5f, params); });
+  expect_a_key_of_every_field(0.5f, [&](float time) { return trace::render_key({3, 4}, time, params); });
 }
 
 TEST(RenderState, StateOfAnotherSizeIsRefused) {
@@ -104,17 +108,35 @@ TEST(RenderState, SenselessParametersAreErrors) {
   fails([](auto& p) { p.width = p.height = 1 << 20; });
   fails([](auto& p) { p.path.max_depth = -1; });
   fails([](auto& p) { p.path.spp = 0; });
+  fails([](auto& p) { p.path.passes = -1; });
   fails([](auto& p) { p.path.passes = p.path.spp = 1 << 20; });
+  fails([](auto& p) { p.path.passes = p.path.spp = 1 << 16; });
   fails([](auto& p) { p.camera.camera.yheight = 0; });
   fails([](auto& p) { p.camera.world[3][0] = NAN; });
   fails([](auto& p) { p.projection = trace::Projection::cube_strip; });
-  fails([](auto& p) { p.projection = trace::Projection::pinhole, p.camera.camera.yfov = 4; });
+  fails([](auto& p) { p.projection = trace::Projection::pinhole, p.camera.camera.yfov = pi; });
   EXPECT_THROW(trace::PathTracer(scene, INFINITY), Error);
   EXPECT_THROW(tracer.incident_radiance({vec3(NAN), 4, {}}, {}), Error);
   EXPECT_THROW(tracer.incident_radiance({vec3(0), 0, {}}, {}), Error);
   EXPECT_THROW(
       tracer.ghost_radiance({vec3(0), 4, {}}, std::vector<scene::GhostSphere>{{vec3(0), -1}}, nullptr, {}),
       Error);
+}
+
+TEST(RenderState, TheLastSampleThatHasANumberIsAllowed) {
+  // 65537 · 65535 = 2³² − 1; all passes are done already.
+  const scene::Scene scene;
+  trace::RenderParams params = view_point(vec3(0), 65535, 1);
+  params.path.passes = 65537;
+  trace::RenderState state = trace::empty_state(params, 0);
+  state.passes_done = params.path.passes;
+  EXPECT_NO_THROW(trace::PathTracer(scene).render(params, state));
+}
+
+TEST(RenderState, ImagesMayTakeEightGibibytesAndNotMore) {
+  // 2³¹ floats.
+  EXPECT_NO_THROW(trace::check_image_memory("here", std::uint64_t{1} << 30, 2));
+  EXPECT_THROW(trace::check_image_memory("here", (std::uint64_t{1} << 30) + 1, 2), Error);
 }
 
 TEST(RenderState, ResolveDividesByPasses) {

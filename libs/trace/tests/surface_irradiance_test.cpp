@@ -59,6 +59,23 @@ TEST(SurfaceIrradiance, GlowingBoxGivesTheGeometricSum) {
   }
 }
 
+TEST(SurfaceIrradiance, TwoPathsAlreadyGiveTheirVariance) {
+  // Depths 2 to 5 in the glowing box. The mean of squared errors is the mean of the variances.
+  const scene::Scene scene = scene::make_builtin("box");
+  const double expected = pi_d * (0.5 + 0.25 + 0.125 + 0.0625);
+  for (const int paths : {2, 3}) {
+    Samples excess, variance;
+    for (const auto& e :
+         trace::PathTracer(scene).surface_irradiance(wall_points(3000), {5, 1, paths, 3}, {})) {
+      const double error = static_cast<double>(e.indirect.x) - expected;
+      variance.add(static_cast<double>(e.indirect_variance.x));
+      excess.add(error * error - static_cast<double>(e.indirect_variance.x));
+    }
+    EXPECT_GT(variance.mean(), 0.01);
+    EXPECT_TRUE(mean_is(excess, 0, {1e-3, 2})) << paths << " paths, mean variance " << variance.mean();
+  }
+}
+
 TEST(SurfaceIrradiance, FurnaceSeesTheSkyAlone) {
   const scene::Scene scene = scene::make_builtin("furnace");
   const trace::PathTracer tracer(scene);

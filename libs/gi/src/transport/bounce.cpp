@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numeric>
 
-#include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/require.h>
 #include <ssphh/gi/transport/bounce.h>
 #include <ssphh/gi/transport/projection.h>
 #include <ssphh/sh/evaluate.h>
@@ -42,6 +42,7 @@ struct BounceOperator::Data {
   }
 
   /// What the weights of a ray were found for.
+  static constexpr std::int32_t unknown = -2;  ///< not even that: the source threw
   struct KnownHit {
     std::int32_t surfel = no_surfel;
     float distance = 0;
@@ -107,9 +108,14 @@ struct BounceOperator::Data {
   void look_up_anew(std::span<const std::uint32_t> which) {
     if (which.empty()) return;
     std::vector<ProbeWeights> found(which.size());
-    parallel_for(which.size(), 256, [&](std::size_t first, std::size_t end) {
-      for (std::size_t i = first; i < end; ++i) look_up_anew(which[i], found[i]);
-    });
+    try {
+      parallel_for(which.size(), 256, [&](std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i < end; ++i) look_up_anew(which[i], found[i]);
+      });
+    } catch (...) {
+      for (const std::uint32_t ray : which) known[ray].surfel = unknown;
+      throw;
+    }
     std::vector<ProbeWeight> row;
     row.reserve(weights.size());
     edges = 0;
@@ -199,8 +205,8 @@ BounceReport BounceOperator::solve(std::span<const Irradiance4> direct,
   const Data& d = *data_;
   BounceReport report;
   report.edges = d.edges;
-  SSPHH_CHECK(!warm ||
-              (reflected.size() == d.network.gbuffer().positions.size() && d.params.applications == 0));
+  require(!warm || (reflected.size() == d.network.gbuffer().positions.size() && d.params.applications == 0),
+          "bounce", "it can only begin with the light of all probes, and iterate as long as needed");
   std::vector<sh::RadianceSh> before(d.network.gbuffer().positions.size(),
                                      sh::RadianceSh(d.projector.degree()));
   if (!warm) {

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/require.h>
 #include <ssphh/gi/transport/direct_field.h>
 
 namespace ssphh::gi {
@@ -9,7 +9,13 @@ namespace ssphh::gi {
 DirectField::DirectField(const TransportNetwork& network, std::size_t group_count)
     : network_(network), groups_(group_count, std::vector<vec3>(network.samples().size(), vec3(0))) {}
 
+void DirectField::require_group(int group) const {
+  require(group >= 0 && static_cast<std::size_t>(group) < groups_.size(), "light group",
+          "there is none of that index");
+}
+
 std::size_t DirectField::update_all(int group, const scene::DirectLight& light) {
+  require_group(group);
   which_.clear();
   for (std::size_t i = 0; i < network_.samples().size(); ++i) {
     if (network_.sample_exists(i)) which_.push_back(static_cast<std::uint32_t>(i));
@@ -19,6 +25,7 @@ std::size_t DirectField::update_all(int group, const scene::DirectLight& light) 
 
 std::size_t DirectField::update_moved(int group, const scene::DirectLight& light,
                                       std::span<const scene::Bounds> moved) {
+  require_group(group);
   const auto samples = static_cast<std::size_t>(network_.params().samples);
   const std::vector<Surfel>& surfels = network_.surfels().surfels();
   std::vector<std::uint8_t> touched(network_.samples().size());
@@ -44,6 +51,7 @@ std::size_t DirectField::update(int group, const scene::DirectLight& light,
   values_.resize(which.size());
   for (std::size_t k = 0; k < which.size(); ++k) points_[k] = network_.samples()[which[k]];
   light.irradiance(group, points_, values_);
+  require(std::ranges::all_of(values_, is_finite), "transport source", "its direct light is not finite");
   std::vector<vec3>& field = groups_[static_cast<std::size_t>(group)];
   for (std::size_t k = 0; k < which.size(); ++k) field[which[k]] = values_[k];
   return which.size();
@@ -51,7 +59,9 @@ std::size_t DirectField::update(int group, const scene::DirectLight& light,
 
 void DirectField::sum(std::span<const vec3> group_scales, std::span<const vec3> extra,
                       std::vector<Irradiance4>& out) const {
-  SSPHH_CHECK(group_scales.size() == groups_.size());
+  require(group_scales.size() == groups_.size(), "direct light", "there is not one factor for each group");
+  require(extra.empty() || extra.size() == network_.samples().size(), "direct light",
+          "what is added is not one colour for each sample");
   const auto samples = static_cast<std::size_t>(network_.params().samples);
   const std::vector<std::uint8_t>& used = network_.sample_used();
   out.resize(network_.surfel_count());

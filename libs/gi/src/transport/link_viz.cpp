@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/random.h>
+#include <ssphh/core/require.h>
 #include <ssphh/gi/transport/direct_field.h>
 #include <ssphh/gi/transport/link_viz.h>
 #include <ssphh/gi/viz.h>
@@ -165,7 +165,8 @@ std::vector<std::vector<Edge>> viz_from_links(const TransportNetwork& network,
   if (!(params.threshold >= 0 && params.threshold <= 1))
     throw Error("VIZ from links", "the threshold must be 0..1, as P is");
   const std::vector<vec3>& positions = network.gbuffer().positions;
-  SSPHH_CHECK(std::ranges::equal(probes, positions, {}, &Probe::position));
+  require(std::ranges::equal(probes, positions, {}, &Probe::position), "VIZ from links",
+          "the probes do not stand where the network's do");
   return LinkViz(network, source, probes, degree, params).run(control);
 }
 

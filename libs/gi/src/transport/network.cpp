@@ -1,6 +1,8 @@
+#include <cmath>
+
 #include <fmt/format.h>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 
 #include "network_data.h"
 
@@ -21,6 +23,8 @@ TransportParams checked(const scene::TransportSource& source, std::span<const ve
   within("directions", params.directions, 8, 1 << 16);
   within("link rays", params.link_rays, 4, 1 << 16);
   within("samples", params.samples, 1, 32);
+  if (!(params.surfel_size >= 0) || !std::isfinite(params.surfel_size))
+    throw Error("surfel size", fmt::format("{} is no length", params.surfel_size));
   if (params.surfel_size == 0)
     params.surfel_size = glm::clamp(source.part_bounds(0).radius() / 20, 0.05f, 0.5f);
   return params;
@@ -31,12 +35,14 @@ TransportParams checked(const scene::TransportSource& source, std::span<const ve
 TransportNetwork::TransportNetwork(const scene::TransportSource& source, std::span<const vec3> positions,
                                    const TransportParams& params, float time, const Control& control)
     : data_(std::make_unique<Data>(source, checked(source, positions, params))) {
+  require(std::isfinite(time), "time", "it must be a finite number of seconds");
   data_->build(positions, time, control);
 }
 
 TransportNetwork::~TransportNetwork() = default;
 
 PoseReport TransportNetwork::set_time(float time) {
+  require(std::isfinite(time), "time", "it must be a finite number of seconds");
   PoseReport report;
   data_->place_parts(time);
   data_->pose_samples();
@@ -70,6 +76,7 @@ const std::vector<std::uint8_t>& TransportNetwork::sample_used() const {
   return data_->sample_used;
 }
 bool TransportNetwork::sample_exists(std::size_t sample) const {
+  require(sample < data_->sample_exists.size(), "sample", "there is none of that index");
   return data_->sample_exists[sample];
 }
 const LinkRows& TransportNetwork::links() const {
@@ -94,13 +101,16 @@ const std::vector<mat4>& TransportNetwork::poses() const {
   return data_->poses;
 }
 scene::Bounds TransportNetwork::part_world_bounds(int part) const {
+  data_->check_part(part);
   return transformed(data_->source.part_bounds(part), data_->poses[static_cast<std::size_t>(part)]);
 }
 int TransportNetwork::find(int part, const scene::SurfacePoint& point) const {
+  data_->check_part(part);
   return data_->find(part, point);
 }
 std::vector<std::int32_t> TransportNetwork::gather(std::span<const scene::SurfacePoint> points, int rays,
                                                    const Control& control) const {
+  require(rays >= 1, "gather rays", "there must be at least one for each point");
   const auto per_point = static_cast<std::size_t>(rays);
   std::vector<std::int32_t> surfel(points.size() * per_point);
   std::vector<scene::RayQuery> queries;

@@ -1,8 +1,9 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 
 #include "network_data.h"
 
@@ -40,7 +41,8 @@ void TransportNetwork::prepare_poses(int count, const Control& control) {
 
 PoseReport TransportNetwork::set_time_between(float time) {
   Data& d = *data_;
-  SSPHH_CHECK(d.prepared.size() >= 2);
+  require(d.prepared.size() >= 2, "poses", "none were prepared to blend between");
+  require(std::isfinite(time), "time", "it must be a finite number of seconds");
   PoseReport report;
   d.place_parts(time);
   d.pose_samples();

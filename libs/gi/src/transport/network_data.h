@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include <ssphh/core/require.h>
 #include <ssphh/gi/transport/network.h>
 
 namespace ssphh::gi {
@@ -80,6 +81,10 @@ struct TransportNetwork::Data {
   std::vector<mat4> poses;
   std::vector<PlacedPart> placed;
 
+  void check_part(int part) const {
+    require(part >= 0 && static_cast<std::size_t>(part) < poses.size(), "part",
+            "there is none of that index");
+  }
   std::size_t sample_count() const { return static_cast<std::size_t>(params.samples); }
   /// Samples of a surfel that are no padding.
   std::size_t used_samples(std::size_t surfel) const;

@@ -222,16 +222,15 @@ std::size_t TransportNetwork::Data::used_samples(std::size_t s) const {
 }
 
 void TransportNetwork::Data::place_parts(float new_time) {
-  time = new_time;
-  poses.assign(1, mat4(1));
-  placed.clear();
+  std::vector<mat4> new_poses(1, mat4(1));
+  std::vector<PlacedPart> new_placed;
   for (int part = 1; part < source.part_count(); ++part) {
     const auto p = static_cast<std::size_t>(part);
-    poses.push_back(source.part_pose(part, new_time));
+    const mat4 pose = new_poses.emplace_back(source.part_pose(part, new_time));
     const scene::Bounds local = source.part_bounds(part);
-    placed.push_back({part, local, poses[p], glm::inverse(poses[p])});
+    new_placed.push_back({part, local, pose, glm::inverse(pose)});
     if (local.empty()) continue;
-    const scene::Bounds now = transformed(local, poses[p]);
+    const scene::Bounds now = transformed(local, pose);
     if (glm::any(glm::lessThan(now.min, swept[p].min)) || glm::any(glm::greaterThan(now.max, swept[p].max))) {
       throw Error(
           fmt::format("part \"{}\"", source.part_name(part)),
@@ -239,6 +238,9 @@ void TransportNetwork::Data::place_parts(float new_time) {
           "give the animation slower or fewer oscillations");
     }
   }
+  time = new_time;
+  poses = std::move(new_poses);
+  placed = std::move(new_placed);
 }
 
 void TransportNetwork::Data::pose_samples() {

@@ -1,4 +1,4 @@
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/gi/transport/projection.h>
 #include <ssphh/sh/evaluate.h>
 
@@ -37,7 +37,8 @@ void project_tile(const float* basis, const float* radiance, std::size_t stride,
 
 DirectionProjector::DirectionProjector(int degree, std::span<const vec3> directions)
     : degree_(degree), stride_((directions.size() + lanes - 1) / lanes * lanes) {
-  SSPHH_CHECK(degree >= 0 && degree <= sh::max_degree && !directions.empty());
+  sh::require_degree(degree, "projection of probes");
+  require(!directions.empty(), "projection of probes", "there are no directions");
   const auto coefficients = static_cast<std::size_t>(sh::coefficient_count(degree));
   basis_.assign(coefficients * stride_, 0);
   const float weight = 4 * pi / static_cast<float>(directions.size());
@@ -49,7 +50,8 @@ DirectionProjector::DirectionProjector(int degree, std::span<const vec3> directi
 }
 
 void DirectionProjector::project(std::span<const float> radiance, sh::RadianceSh& out) const {
-  SSPHH_CHECK(radiance.size() == 3 * stride_ && out.degree() == degree_);
+  require(radiance.size() == 3 * stride_ && out.degree() == degree_, "projection of probes",
+          "radiance or function are not of the projector's size");
   const std::size_t count = out.values.size();
   std::size_t k = 0;
   for (; k + 4 <= count; k += 4)

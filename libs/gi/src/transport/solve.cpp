@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/require.h>
 #include <ssphh/gi/transport/solve.h>
 
 namespace ssphh::gi {
@@ -48,7 +48,8 @@ std::size_t LinkRows::link_count() const {
 }
 
 void bounce_once(const LinkRows& links, std::span<const Irradiance4> radiosity, std::span<Irradiance4> out) {
-  SSPHH_CHECK(radiosity.size() == links.rows.size() && out.size() == links.rows.size());
+  require(radiosity.size() == links.rows.size() && out.size() == links.rows.size(), "bounce",
+          "sizes differ from the number of rows");
   parallel_for(links.rows.size(), rows_per_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) out[i] = gather(links.rows[i], radiosity.data());
   });
@@ -88,7 +89,7 @@ SolveReport Solver::solve(const LinkRows& links, std::span<const vec3> albedo,
                           std::span<const Irradiance4> direct, double contraction_bound,
                           const SolveParams& params, std::vector<Irradiance4>& indirect) {
   const std::size_t count = links.rows.size();
-  SSPHH_CHECK(albedo.size() == count && direct.size() == count);
+  require(albedo.size() == count && direct.size() == count, "solver", "sizes differ from the number of rows");
   const std::size_t blocks = (count + rows_per_block - 1) / rows_per_block;
   indirect.resize(count, Irradiance4(0));
   previous_.resize(count);

@@ -10,6 +10,7 @@
 #include <ssphh/scene/primitives.h>
 #include <ssphh/scene_io/renderer_export.h>
 
+#include "begin_export.h"
 #include "flat_scene.h"
 #include "surface_model.h"
 #include "xml_writer.h"
@@ -356,7 +357,7 @@ std::string material_id(const scene::Scene& scene, const FlatMesh& mesh) {
 
 ExportReport export_corona(const scene::Scene& scene, const ExportSettings& settings,
                            const std::filesystem::path& directory) {
-  std::filesystem::create_directories(directory);
+  begin_export(scene, settings, directory);
   const FlatScene flat = flatten(scene, settings.time);
   const scene::Bounds bounds = bounds_of(flat);
   const std::filesystem::path file = directory / "scene.scn";

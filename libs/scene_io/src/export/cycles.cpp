@@ -8,6 +8,7 @@
 #include <ssphh/image/io.h>
 #include <ssphh/scene_io/renderer_export.h>
 
+#include "begin_export.h"
 #include "cycles_scripts.h"
 #include "differences.h"
 #include "flat_scene.h"
@@ -143,7 +144,7 @@ std::string texture_file(const scene::Texture& texture, std::size_t index) {
 
 ExportReport export_cycles(const scene::Scene& scene, const ExportSettings& settings,
                            const std::filesystem::path& directory) {
-  std::filesystem::create_directories(directory);
+  begin_export(scene, settings, directory);
   const FlatScene flat = flatten(scene, settings.time);
   ExportReport report;
   Differences differences;

@@ -6,6 +6,7 @@
 #include <ssphh/core/file.h>
 #include <ssphh/scene_io/renderer_export.h>
 
+#include "begin_export.h"
 #include "equal_area.h"
 #include "flat_scene.h"
 #include "ply.h"
@@ -280,7 +281,7 @@ std::string camera(const ExportSettings& settings) {
 
 ExportReport export_pbrt(const scene::Scene& scene, const ExportSettings& settings,
                          const std::filesystem::path& directory) {
-  std::filesystem::create_directories(directory);
+  begin_export(scene, settings, directory);
   const FlatScene flat = flatten(scene, settings.time);
   const std::filesystem::path file = directory / "scene.pbrt";
   Export e{scene, directory, TextureFiles(scene, directory), {}, {}, {file}, {}};

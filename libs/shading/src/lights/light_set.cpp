@@ -1,7 +1,7 @@
 #include <array>
 #include <cmath>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/shading/lights.h>
 #include <ssphh/shading/mesh_view.h>
 
@@ -110,6 +110,8 @@ struct LightSet::Data {
 
 LightSet::LightSet(const scene::Scene& scene, const std::vector<mat4>& world)
     : data_(std::make_unique<Data>()) {
+  scene::check_indices(scene);
+  require(world.size() >= scene.nodes.size(), "light set", "there is not one matrix for each node");
   Data& d = *data_;
   d.scene = &scene;
   d.groups = scene::light_groups(scene);
@@ -134,7 +136,8 @@ LightSet::LightSet(const LightSet& base, const std::vector<mat4>& world,
   d.scene = base.data_->scene;
   d.scene_radius = base.data_->scene_radius;
   d.groups = base.data_->groups;
-  SSPHH_CHECK(states.size() == d.scene->lights.size());
+  require(world.size() >= d.scene->nodes.size(), "light set", "there is not one matrix for each node");
+  require(states.size() == d.scene->lights.size(), "light set", "there is not one state for each light");
   std::vector<PosedLight> lights;
   for (std::size_t i = 0; i < states.size(); ++i) {
     lights.push_back({d.scene->lights[i], states[i].world});
@@ -229,11 +232,20 @@ std::optional<LightSample> LightSet::sample(const vec3& position, float u_choice
   return s;
 }
 
+namespace {
+
+void check_emitter(int index, const LightSet& lights) {
+  require(index >= 0 && index < lights.emitter_count(), "light set", "there is no emitter of that index");
+}
+
+}  // namespace
+
 int LightSet::emitter_count() const {
   return static_cast<int>(data_->local_count() + data_->distant.count());
 }
 
 Emitter LightSet::emitter(int index) const {
+  check_emitter(index, *this);
   const Data& d = *data_;
   auto i = static_cast<std::size_t>(index);
   if (i < d.points.size()) {
@@ -251,6 +263,7 @@ Emitter LightSet::emitter(int index) const {
 }
 
 std::optional<LightSample> LightSet::sample_emitter(int index, const vec3& position, const vec2& u) const {
+  check_emitter(index, *this);
   const Data& d = *data_;
   auto i = static_cast<std::size_t>(index);
   if (i < d.points.size()) return d.points[i].sample(position);
@@ -262,6 +275,7 @@ std::optional<LightSample> LightSet::sample_emitter(int index, const vec3& posit
 }
 
 float LightSet::flux(int index, float radius) const {
+  check_emitter(index, *this);
   const auto i = static_cast<std::size_t>(index);
   const std::size_t local = data_->local_count();
   return i < local ? 4 * pi * data_->power(i) : data_->distant.flux(i - local, radius);
@@ -269,6 +283,7 @@ float LightSet::flux(int index, float radius) const {
 
 std::optional<EmittedPhoton> LightSet::emit(int index, const vec2& u_place, const vec2& u_direction,
                                             const vec3& center, float radius) const {
+  check_emitter(index, *this);
   const Data& d = *data_;
   auto i = static_cast<std::size_t>(index);
   if (i < d.points.size()) return EmittedPhoton{d.points[i].emit(u_direction)};
@@ -281,20 +296,24 @@ std::optional<EmittedPhoton> LightSet::emit(int index, const vec2& u_place, cons
 }
 
 std::optional<MeshView> LightSet::view_mesh(int index, const vec3& position, const vec3& normal) const {
+  check_emitter(index, *this);
   const Data& d = *data_;
   const std::size_t i = static_cast<std::size_t>(index) - d.points.size() - d.spheres.size();
   return i < d.meshes.size() ? d.meshes[i]->view(position, normal) : std::nullopt;
 }
 
 std::optional<EmitterHit> LightSet::distant_radiance(int i, const vec3& direction) const {
+  check_emitter(i, *this);
   const std::size_t local = data_->local_count();
-  SSPHH_CHECK(static_cast<std::size_t>(i) >= local);
+  require(static_cast<std::size_t>(i) >= local, "light set", "that emitter is not distant");
   return data_->distant.radiance_of(static_cast<std::size_t>(i) - local, direction);
 }
 
 float LightSet::pdf_triangle(const vec3& position, int instance, std::uint32_t triangle, float distance,
                              float cos_light) const {
   const Data& d = *data_;
+  require(instance >= 0 && static_cast<std::size_t>(instance) < d.instance_mesh_light.size(), "light set",
+          "there is no instance of that index");
   const int mesh = d.instance_mesh_light[static_cast<std::size_t>(instance)];
   if (mesh < 0) return 0;
   const auto index = static_cast<std::size_t>(mesh);
@@ -303,7 +322,10 @@ float LightSet::pdf_triangle(const vec3& position, int instance, std::uint32_t t
 }
 
 int LightSet::instance_group(int instance) const {
-  return data_->instance_group[static_cast<std::size_t>(instance)];
+  const std::vector<int>& groups = data_->instance_group;
+  require(instance >= 0 && static_cast<std::size_t>(instance) < groups.size(), "light set",
+          "there is no instance of that index");
+  return groups[static_cast<std::size_t>(instance)];
 }
 
 int LightSet::sphere_count() const {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/shading/mesh_view.h>
 
 namespace ssphh::shading {
@@ -55,7 +55,7 @@ constexpr double flat = 1e-7;
 }  // namespace
 
 void MeshView::add(const vec3& p0, const vec3& p1, const vec3& p2) {
-  SSPHH_CHECK(count_ + 2 <= pieces_.size());
+  require(count_ + 2 <= pieces_.size(), "emissive mesh", "it has too many triangles for a closed form");
   const dvec3 corners[3] = {dvec3(p0) - position_, dvec3(p1) - position_, dvec3(p2) - position_};
   dvec3 clipped[4];
   int count = 0;

@@ -1,6 +1,6 @@
 #pragma once
 /// The kinds of failure: `Error` for bad input (what, where, what to do), `Cancelled` for a stop that was
-/// asked for, `SSPHH_CHECK` for a programmer's mistake. "None" is a std::optional, never an exception.
+/// asked for, `SSPHH_CHECK` for this library's own mistakes. "None" is a std::optional, never an exception.
 
 #include <stdexcept>
 #include <string>

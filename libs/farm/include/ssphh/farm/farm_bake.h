@@ -15,6 +15,10 @@ class FarmCrew final : public gi::BakeCrew {
   FarmCrew(const FarmOptions& options, const scene::Scene& scene, float time)
       : options_(options), scene_(scene), time_(time) {}
 
+  FarmCrew(const FarmOptions&, const scene::Scene&&, float) = delete;  // they would be gone
+  FarmCrew(const FarmOptions&&, const scene::Scene&, float) = delete;
+  FarmCrew(const FarmOptions&&, const scene::Scene&&, float) = delete;
+
   void run(const gi::ProbeSet& set, const gi::BakeParams& params, std::span<const gi::ProbeStage> stages,
            const std::function<void(gi::ProbeStageResult)>& done, const Control& control) override;
 

@@ -59,7 +59,7 @@ class BakeCrew {
  public:
   virtual ~BakeCrew() = default;
   /// Does all of `stages`, in any order, and hands each result to `done`, from one thread at a time. Throws
-  /// Cancelled, or Error when a unit cannot be done.
+  /// Cancelled, or Error when a unit cannot be done. What answers no stage is refused with an Error.
   virtual void run(const ProbeSet& set, const BakeParams& params, std::span<const ProbeStage> stages,
                    const std::function<void(ProbeStageResult)>& done, const Control& control) = 0;
 };

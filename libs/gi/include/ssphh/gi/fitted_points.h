@@ -27,4 +27,8 @@ struct FittedPoints {
   }
 };
 
+/// Throws Error unless every point stands at a finite place and has its weights: finite, at most max_weights,
+/// of probes 0..probe_count − 1.
+void require_whole(const FittedPoints& fitted, std::size_t probe_count);
+
 }  // namespace ssphh::gi

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <ssphh/core/control.h>
+#include <ssphh/core/held.h>
 #include <ssphh/gi/fitted_points.h>
 #include <ssphh/gi/transport/network.h>
 
@@ -44,7 +45,7 @@ class WeightFit {
 
  private:
   struct Data;
-  std::unique_ptr<Data> data_;
+  Held<Data> data_;
 };
 
 /// A fit in the network's pose alone.

@@ -9,7 +9,7 @@ namespace ssphh::gi {
 
 /// S_i^g of one place, for every light group g of the source: cube maps of request.face_size² × 6 texels,
 /// projected with exact texel solid angles. `emitted` is left empty where it is zero. Throws Error when the
-/// source answers with a number that is not finite.
+/// source answers with a number that is not finite or with cube maps of another size or number.
 std::vector<GroupLight> gen(const scene::RadianceSource& source, const scene::CubeRequest& request,
                             int degree, const Control& control = {});
 

@@ -27,9 +27,14 @@ struct LookupParams {
   bool dering = true;  ///< irradiance: windows a probe just enough that its E(n) is nowhere negative
 };
 
+/// What of each probe lights surfaces, as `params` choose. Throws Error for an empty set, for layer
+/// `neighbor` or `sum` without a hierarchy, for groups that were not merged, and for places and functions
+/// that are not finite or not of the set's degree.
+std::vector<sh::RadianceSh> surface_light(const ProbeSet& set, const LookupParams& params);
+
 /// Both are safe to call from several threads, never return a negative or non-finite number for finite input,
 /// and copy what they need of the set; `source` (for visibility) must outlive them. Constructors throw Error
-/// for an empty set, and for layer `neighbor` or `sum` without a hierarchy.
+/// as surface_light does.
 
 /// The paper's SPHL as a light (§3): the nearest visible SPHL above the horizon gives I = L_S(ω)/(N·ω), ω
 /// from x to it. When there is none, the nearest SPHL's irradiance, "as if the light probe is located around
@@ -37,6 +42,7 @@ struct LookupParams {
 class LightLookup final : public scene::IndirectLight {
  public:
   LightLookup(const ProbeSet& set, const scene::RadianceSource& source, const LookupParams& params = {});
+  LightLookup(const ProbeSet&, const scene::RadianceSource&&, const LookupParams& = {}) = delete;
   ~LightLookup() override;
   vec3 irradiance(const scene::SurfacePoint& at) const override;
   vec3 glossy(const scene::SurfacePoint& at, const vec3& r, float roughness) const override;
@@ -50,10 +56,11 @@ class LightLookup final : public scene::IndirectLight {
 };
 
 /// Irradiance volume: Σ_j v_j E_j(n), the weights by params.weights (and the set's fitted points) or as
-/// given.
+/// given, which may name no other probes than the set's.
 class IrradianceLookup final : public scene::IndirectLight {
  public:
   IrradianceLookup(const ProbeSet& set, const scene::RadianceSource& source, const LookupParams& params = {});
+  IrradianceLookup(const ProbeSet&, const scene::RadianceSource&&, const LookupParams& = {}) = delete;
   IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWeights> weights,
                    const LookupParams& params = {});
   ~IrradianceLookup() override;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <ssphh/core/require.h>
 #include <ssphh/scene/transport_source.h>
 
 namespace ssphh::gi {
@@ -39,9 +40,14 @@ struct WeightList {
   std::array<ProbeWeight, capacity> entries;
   int count = 0;
 
-  void add(int probe, float weight) { entries[static_cast<std::size_t>(count++)] = {probe, weight}; }
-  std::span<const ProbeWeight> used() const { return {entries.data(), static_cast<std::size_t>(count)}; }
-  std::span<ProbeWeight> used() { return {entries.data(), static_cast<std::size_t>(count)}; }
+  /// Throws Error when the list is full.
+  void add(int probe, float weight) {
+    require(count < capacity, "list of weights", "it is full");
+    entries[static_cast<std::size_t>(count++)] = {probe, weight};
+  }
+  std::span<const ProbeWeight> used() const& { return {entries.data(), static_cast<std::size_t>(count)}; }
+  std::span<ProbeWeight> used() & { return {entries.data(), static_cast<std::size_t>(count)}; }
+  void used() const&& = delete;  // the list would be gone
   friend bool operator==(const WeightList& a, const WeightList& b) {
     return std::ranges::equal(a.used(), b.used());
   }
@@ -86,8 +92,9 @@ class LookupWeights {
   virtual std::size_t bytes() const = 0;
 };
 
-/// `fitted` is needed by the method of that name alone and is copied. Throws Error without positions, for the
-/// method `fitted` without points, and for points that name a probe which there is not.
+/// `fitted` is needed by the method of that name alone and is copied. Throws Error without positions or
+/// `sees`, for positions and parameters that are not finite, for the method `fitted` without points, and for
+/// points that name a probe which there is not. `nearest` is clamped.
 std::unique_ptr<LookupWeights> make_weights(std::span<const vec3> positions, SeesProbe sees,
                                             const WeightParams& params = {},
                                             const FittedPoints* fitted = nullptr);

@@ -22,6 +22,7 @@ struct Near {
 /// points.
 class NearestPoints {
  public:
+  /// Throws Error for a point that is not finite.
   explicit NearestPoints(std::span<const vec3> points);
 
   /// The out.size() nearest points within `radius`, by distance, ties by index; returns how many there are.

@@ -112,7 +112,9 @@ struct ProbeSet {
   friend bool operator==(const ProbeSet&, const ProbeSet&) = default;
 };
 
-/// Recomputes `reflected` and `self` of every probe from its groups and the scales.
+/// Recomputes `reflected` and `self` of every probe from its groups and the scales. Throws Error, and leaves
+/// the set as it was, for a degree outside 0..10, for functions of another, and for more groups than the
+/// set's.
 void merge_groups(ProbeSet& set);
 
 /// Switches, dims or recolours a lamp without a bake: sets the group's scale, merges again and drops the

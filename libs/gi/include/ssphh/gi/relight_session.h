@@ -50,7 +50,8 @@ struct RelightReport {
   double total_ms() const { return pose_ms + direct_ms + solve_ms + project_ms; }
 };
 
-/// The places with their reflected light as one group, as lookups want it.
+/// The places with their reflected light as one group, as lookups want it. Throws Error when there is not one
+/// function of one degree for each place, as before a session's first update().
 ProbeSet lookup_set(const std::vector<ProbePlace>& places, const std::vector<sh::RadianceSh>& reflected);
 
 class RelightSession {
@@ -59,11 +60,14 @@ class RelightSession {
   /// transport, and for blended poses with bounce. The first update() lights everything.
   RelightSession(const scene::TransportSource& source, std::vector<ProbePlace> places,
                  const RelightParams& params = {}, float time = 0, const Control& control = {});
+  RelightSession(const scene::TransportSource&&, std::vector<ProbePlace>, const RelightParams& = {},
+                 float = 0, const Control& = {}) = delete;  // it would be gone
   ~RelightSession();
 
-  /// A light of source.lights(); stays as given when the time changes. Throws Error for an index out of range
-  /// or a state that is not finite.
+  /// A light of source.lights(); stays as given when the time changes. What is set throws Error for an index
+  /// out of range and for numbers that are not finite or negative where that has no meaning.
   void set_light(int light, const scene::LightState& state);
+  /// Throws Error for an index out of range.
   const scene::LightState& light(int light) const;
   /// Factor on a whole group: dims lamps, emissive surfaces and the environment without a ray.
   void set_group_scale(int group, const vec3& scale);
@@ -76,11 +80,13 @@ class RelightSession {
   /// none.
   void set_emission(int probe, const sh::RadianceSh& leaving);
 
-  /// Brings the probes up to date with what was set since the last call; does only what changed.
+  /// Brings the probes up to date with what was set since the last call; does only what changed. When the
+  /// source throws, the probes stay as they were, and the next call does all that this one should have done.
   RelightReport update();
 
   const std::vector<ProbePlace>& places() const;
-  /// S_loop: reflected light alone, for surfaces that get direct light from elsewhere.
+  /// S_loop: reflected light alone, for surfaces that get direct light from elsewhere. None before the first
+  /// update(); all other light is dark then.
   const std::vector<sh::RadianceSh>& reflected() const;
   /// Emitters that probe i sees directly; S_full = reflected + emitted. Found when asked for, by at
   /// most 16,384 rays: none where nothing can be met that emits.

@@ -15,6 +15,7 @@ namespace ssphh::gi {
 class PosedSurfaces {
  public:
   PosedSurfaces(const scene::TransportSource& source, float time);
+  PosedSurfaces(const scene::TransportSource&&, float) = delete;  // it would be gone
 
   /// Nearest hit of each ray with any part; where asked for, moves[i] = 1 if that part moves, else 0.
   void intersect(std::span<const scene::RayQuery> rays, std::span<scene::RayHit> hits,

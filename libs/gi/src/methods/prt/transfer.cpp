@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/require.h>
 #include <ssphh/gi/transport/gbuffer.h>
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/sh/irradiance.h>
@@ -132,7 +132,8 @@ vec3 TransferVectors::reflected_irradiance(std::size_t v, const sh::RadianceSh& 
 
 TransferVectors find_transfer(const TransferMesh& mesh, const VertexRings& rings, const VertexRays& rays,
                               const TransferParams& params, const Control& control) {
-  SSPHH_CHECK(params.bounces >= 0 && params.degree >= 0 && params.degree <= sh::max_degree);
+  sh::require_degree(params.degree, "radiance transfer");
+  require(params.bounces >= 0, "radiance transfer", "bounces must not be negative");
   const std::size_t count = mesh.vertices.size();
   TransferVectors result{params.degree, {}, {}};
   const std::size_t stride = result.stride();

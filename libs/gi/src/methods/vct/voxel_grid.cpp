@@ -2,7 +2,7 @@
 #include <bit>
 #include <cmath>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/gi/vct/voxel_grid.h>
 
 namespace ssphh::gi::vct {
@@ -20,8 +20,8 @@ Cell VoxelGrid::level_size(int level) const {
 }
 
 VoxelGrid make_grid(const scene::Bounds& bounds, int resolution) {
-  SSPHH_CHECK(resolution >= 8 && resolution <= 1024 &&
-              std::has_single_bit(static_cast<unsigned>(resolution)));
+  require(resolution >= 8 && resolution <= 1024 && std::has_single_bit(static_cast<unsigned>(resolution)),
+          "voxels", "their number along an axis must be a power of two, 8 to 1024");
   const vec3 extent = bounds.max - bounds.min;
   VoxelGrid grid;
   grid.resolution = resolution;

@@ -102,6 +102,7 @@ class BrokerCore {
   std::string metrics_text() const;
 
  private:
+  friend class BrokerRecount;  // of the tests: counts the books anew
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

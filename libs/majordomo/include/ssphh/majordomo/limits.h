@@ -34,8 +34,8 @@ struct BrokerLimits {
 
 /// All in milliseconds.
 struct BrokerTimers {
-  Millis heartbeat = 2500;          ///< to each worker that was sent nothing else
-  Millis worker_expiry = 8000;      ///< of silence; at least 7500, for the guide's workers beat every 2500
+  Millis heartbeat = 2500;          ///< to each worker that was sent nothing else; workers beat as often
+  Millis worker_expiry = 8000;      ///< of silence; at least three heartbeats
   Millis request_expiry = 600'000;  ///< of a foreign client's request that no worker ever took
   Millis retry_backoff = 100;       ///< before the second attempt; doubles with each further one
   Millis retry_backoff_max = 10'000;

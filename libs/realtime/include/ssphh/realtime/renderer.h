@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 
+#include <ssphh/core/held.h>
 #include <ssphh/gi/methods/method.h>
 #include <ssphh/gi/probe_set.h>
 #include <ssphh/gl/context.h>
@@ -51,8 +52,8 @@ struct RendererParams {
 
 class Renderer {
  public:
-  /// Uploads the scene and keeps a copy of what it needs of it; the scene may go. Throws Error when the
-  /// driver refuses something, or for a shader that does not compile.
+  /// Uploads the scene and keeps a copy of what it needs of it; the scene may go. Earlier errors of OpenGL
+  /// are the host's. Throws Error when the driver refuses something, or for a shader that does not compile.
   Renderer(gl::Context& context, const scene::Scene& scene, const RendererParams& params = {},
            float time = 0);
   ~Renderer();
@@ -78,7 +79,8 @@ class Renderer {
   /// them. Empty: none. Throws Error for points that name a probe which there is not.
   void set_fitted(const FittedSurfaces& fitted);
   /// New light for some probes of the last set_probes, one function each: what surfaces look up. Cost and
-  /// upload are proportional to their number.
+  /// upload are proportional to their number. Throws Error for an index out of range and for functions that
+  /// are not finite or not of the set's degree; all probes stay as they were then.
   void update_probes(std::span<const int> probes, std::span<const sh::RadianceSh> light);
   void clear_probes();
   int probe_count() const;
@@ -116,7 +118,7 @@ class Renderer {
 
  private:
   struct Data;
-  std::unique_ptr<Data> data_;
+  Held<Data> data_;
 };
 
 }  // namespace ssphh::realtime

@@ -1,5 +1,6 @@
 #pragma once
-/// Pure functions over a Scene.
+/// Pure functions over a Scene, which is as check_indices() wants it; world_matrices() looks at what it
+/// needs.
 
 #include <cstdint>
 #include <limits>
@@ -72,6 +73,10 @@ Hash128 scene_hash(const Scene& scene);
 /// Of everything that decides the light in the scene: as scene_hash, but cameras, SPHLs and nodes on which
 /// nothing else stands do not count.
 Hash128 light_hash(const Scene& scene);
+
+/// Throws Error naming the object for an index out of range or an array of wrong length: what nobody could
+/// use. Called by all that reads whole scenes (tracers, renderers, writers).
+void check_indices(const Scene& scene);
 
 /// Throws Error naming the object for an index out of range, a NaN or infinite number, or an array of wrong
 /// length. Repaired are: degenerate triangles (removed), normals and tangents that are not unit vectors,

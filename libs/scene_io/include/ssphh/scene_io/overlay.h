@@ -19,8 +19,9 @@ void apply_overlay(scene::Scene& scene, std::string_view text, const std::filesy
 std::string overlay_scene(std::string_view text, const std::filesystem::path& path);
 
 /// Replaces ${NAME} and ${NAME:-DEFAULT} by environment variables. Only names that begin with SSPHH_ are
-/// allowed, so that a file from elsewhere cannot ask for others. Throws Error(where, …) for an unset one
-/// without default.
+/// allowed, so that a file from elsewhere cannot ask for others. A value that begins the text and is a
+/// relative path becomes absolute, counted from the working directory. Throws Error(where, …) for an unset
+/// one without default.
 std::string expand_variables(std::string_view text, const std::string& where);
 
 }  // namespace ssphh::scene_io

@@ -22,8 +22,10 @@ try:
     from lights import TO_BLENDER, build_light, build_world
     from materials import build_material
 except ImportError as error:  # Blender itself would go on and exit with 0
-    print("render.py: %s: another Python first on PATH hides Blender's numpy, or a file beside this one is missing"
-          % error, file=sys.stderr)
+    print("render.py: %s. Blender's Python is %s, %s; it looked in\n  %s\n"
+          "The numpy that belongs to Blender is missing, or another Python stands before its own on PATH (as those of\n"
+          "pyenv and virtual environments do): run it as PATH=/usr/bin:$PATH blender ..., or a file beside this one is "
+          "missing." % (error, sys.version.split()[0], sys.executable, "\n  ".join(sys.path)), file=sys.stderr)
     sys.exit(1)
 
 

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include <ssphh/core/error.h>
 #include <ssphh/core/math.h>
+#include <ssphh/core/require.h>
 
 namespace ssphh::sh {
 
@@ -16,6 +16,11 @@ constexpr int coefficient_count(int degree) {
   return (degree + 1) * (degree + 1);
 }
 inline constexpr int max_coefficient_count = coefficient_count(max_degree);
+
+/// Throws Error unless the degree is 0..max_degree.
+inline void require_degree(int degree, const char* where) {
+  require(degree >= 0 && degree <= max_degree, where, "the degree must be 0..10");
+}
 
 /// Index of Y_lm, l = 0..degree, m = −l..l.
 constexpr int coefficient_index(int l, int m) {
@@ -30,9 +35,10 @@ struct RgbSh {
   std::vector<vec3> values;
 
   RgbSh() = default;
-  /// All zero. `degree` must be 0..max_degree.
-  explicit RgbSh(int degree) : values(static_cast<std::size_t>(coefficient_count(degree)), vec3(0)) {
-    SSPHH_CHECK(degree >= 0 && degree <= max_degree);
+  /// All zero. Throws Error unless `degree` is 0..max_degree.
+  explicit RgbSh(int degree) {
+    require_degree(degree, "spherical harmonics");
+    values.assign(static_cast<std::size_t>(coefficient_count(degree)), vec3(0));
   }
 
   bool empty() const { return values.empty(); }
@@ -45,9 +51,9 @@ struct RgbSh {
   vec3& operator[](int k) { return values[static_cast<std::size_t>(k)]; }
   const vec3& operator[](int k) const { return values[static_cast<std::size_t>(k)]; }
 
-  /// ⊕ of the paper: the sum of two functions. Both must have the same degree.
+  /// ⊕ of the paper: the sum of two functions. Throws Error unless both have the same degree.
   RgbSh& operator+=(const RgbSh& other) {
-    SSPHH_CHECK(values.size() == other.values.size());
+    require(values.size() == other.values.size(), "sum of spherical functions", "their degrees differ");
     for (std::size_t k = 0; k < values.size(); ++k) values[k] += other.values[k];
     return *this;
   }

@@ -24,10 +24,11 @@ class TripleProductTensor {
 
   /// Coefficients up to degree_k of f·g, where `f` has degree_i and `g`, a factor without unit (visibility,
   /// reflectance), degree_j. Exact when degree_k ≥ degree_i + degree_j, else its projection. The result has
-  /// f's unit.
+  /// f's unit. Throws Error for factors of other degrees.
   template <class F, class G>
   RgbSh<F> product(const RgbSh<F>& f, const RgbSh<G>& g) const {
-    SSPHH_CHECK(f.degree() == degree_i_ && g.degree() == degree_j_);
+    require(f.degree() == degree_i_ && g.degree() == degree_j_, "triple product",
+            "the factors' degrees are not those of the tensor");
     RgbSh<F> result(degree_k_);
     for (const Entry& e : entries_) result[e.k] += e.value * f[e.i] * g[e.j];
     return result;

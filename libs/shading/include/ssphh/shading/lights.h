@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <ssphh/core/held.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene/scene.h>
 #include <ssphh/scene/transport_source.h>
@@ -56,8 +57,10 @@ struct Emitter {
 
 class LightSet {
  public:
-  /// Reads all lights, emissive instances and the environment of `scene` posed by `world`.
+  /// Reads all lights, emissive instances and the environment of `scene` posed by `world`. Keeps a reference
+  /// to the scene.
   LightSet(const scene::Scene& scene, const std::vector<mat4>& world);
+  LightSet(const scene::Scene&&, const std::vector<mat4>&) = delete;  // it would be gone
   /// The emitters of `base`'s scene with its lights as `lights` say, one state per scene::Light, and its
   /// emissive instances posed by `world`, and its environment turned about +y by so many radians beyond its
   /// own rotation. What has not moved is shared with `base`, and so is the size of the scene, by which
@@ -129,7 +132,7 @@ class LightSet {
   std::optional<EmitterHit> distant(int i, const vec3& direction) const;
 
   struct Data;
-  std::unique_ptr<Data> data_;
+  Held<Data> data_;
 };
 
 /// Power heuristic (β = 2) of multiple importance sampling.

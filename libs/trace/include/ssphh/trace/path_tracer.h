@@ -15,6 +15,7 @@ class PathTracer final : public scene::RadianceSource {
  public:
   /// Throws Error when the geometry does not fit into memory.
   explicit PathTracer(const scene::Scene& scene, float time = 0);
+  explicit PathTracer(const scene::Scene&&, float = 0) = delete;  // it would be gone
   ~PathTracer() override;
 
   const std::vector<std::string>& light_groups() const override;

@@ -62,7 +62,7 @@ Hash128 render_key(const Hash128& scene_hash, float time, const RenderParams& pa
 RenderState empty_state(const RenderParams& params, std::size_t light_groups);
 
 /// Copies the pixels of `part`, which was rendered with `tile`, into `whole`. Counts of paths and rays add
-/// up; passes_done is left alone. SSPHH_CHECK: the tile lies inside and both keep the same images.
+/// up; passes_done is left alone. Throws Error unless the tile lies inside and both keep the same images.
 void paste(RenderState& whole, const RenderState& part, const Tile& tile);
 
 /// Mean of an accumulated image; zeros when no pass is done.

@@ -30,6 +30,7 @@ class TransportScene final : public scene::TransportSource {
   /// Keeps a reference to the scene. Throws Error when the geometry does not fit into memory, or for options
   /// out of range.
   explicit TransportScene(const scene::Scene& scene, const TransportOptions& options = {});
+  explicit TransportScene(const scene::Scene&&, const TransportOptions& = {}) = delete;  // it would be gone
   ~TransportScene() override;
 
   int part_count() const override;

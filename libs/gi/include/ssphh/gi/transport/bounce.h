@@ -34,6 +34,12 @@ class BounceOperator {
   /// Poses blended in time are not followed: rays see what TransportNetwork::seen() says.
   BounceOperator(const TransportNetwork& network, const scene::TransportSource& source, int degree,
                  const BounceParams& params = {});
+  BounceOperator(const TransportNetwork&&, const scene::TransportSource&, int,
+                 const BounceParams& = {}) = delete;
+  BounceOperator(const TransportNetwork&, const scene::TransportSource&&, int,
+                 const BounceParams& = {}) = delete;
+  BounceOperator(const TransportNetwork&&, const scene::TransportSource&&, int,
+                 const BounceParams& = {}) = delete;
   ~BounceOperator();
 
   /// Follows the network to its pose: weights are found anew at rays that see something else and at those

@@ -12,6 +12,7 @@ class DirectField {
  public:
   /// Keeps a reference to the network. Everything is dark until the first update.
   DirectField(const TransportNetwork& network, std::size_t group_count);
+  DirectField(const TransportNetwork&&, std::size_t) = delete;  // it would be gone
 
   /// Finds the group's light at all samples.
   std::size_t update_all(int group, const scene::DirectLight& light);
@@ -25,6 +26,7 @@ class DirectField {
            std::vector<Irradiance4>& out) const;
 
  private:
+  void require_group(int group) const;
   std::size_t update(int group, const scene::DirectLight& light, std::span<const std::uint32_t> which);
 
   const TransportNetwork& network_;

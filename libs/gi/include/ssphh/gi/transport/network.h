@@ -57,6 +57,8 @@ class TransportNetwork {
   /// of which the probes see nothing.
   TransportNetwork(const scene::TransportSource& source, std::span<const vec3> positions,
                    const TransportParams& params, float time = 0, const Control& control = {});
+  TransportNetwork(const scene::TransportSource&&, std::span<const vec3>, const TransportParams&, float = 0,
+                   const Control& = {}) = delete;  // it would be gone
   ~TransportNetwork();
 
   /// Moves the parts. The result equals a network built at this time, to the bit.

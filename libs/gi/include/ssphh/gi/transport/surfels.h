@@ -31,6 +31,7 @@ class SurfelSet {
   /// `size` [m] is the voxels' edge. Keeps a reference to `source`. Throws Error for a size that makes more
   /// than 2^15 voxels along an axis of a part.
   SurfelSet(const scene::TransportSource& source, float size);
+  SurfelSet(const scene::TransportSource&&, float) = delete;  // it would be gone
 
   float size() const { return size_; }
   const std::vector<Surfel>& surfels() const { return surfels_; }

@@ -1,0 +1,65 @@
+#include "unit_key.h"
+
+#include <ssphh/farm/engine.h>
+#include <ssphh/farm/job_codec.h>
+
+namespace ssphh::farm {
+namespace {
+
+using gi::BakeStage;
+
+void add(Hasher& h, const ProbePlace& place) {
+  for (int c = 0; c < 3; ++c) h.value(place.position[c]);
+  h.value(place.radius);
+}
+
+}  // namespace
+
+ProbeJob job_of_set(const gi::ProbeSet& set, const gi::VizParams& viz_params, BakeStage stage,
+                    const SceneRef& scene) {
+  const gi::GeneratorInfo& g = set.generator;
+  ProbeJob job;
+  job.scene = scene;
+  job.stage = stage;
+  job.degree = set.degree;
+  job.face_size = g.face_size;
+  job.path = {g.max_depth, g.passes, g.spp, g.seed};
+  job.viz_params = viz_params;
+  for (const gi::Probe& probe : set.probes) job.places.push_back({probe.position, probe.radius});
+  return job;
+}
+
+ProbeLighting lighting_of(const RenderProbes& probes, const Blob& file) {
+  return {file.hash, file.bytes.size(), probes.lookup, probes.weights, probes.layer};
+}
+
+Hash128 unit_key(const ProbeJob& all, std::uint32_t probe) {
+  Hasher h;
+  h.text("probe").text(engine_id()).value(job_version).value(all.stage);
+  h.value(all.scene.light.high).value(all.scene.light.low).value(all.scene.time);
+  h.value(all.degree).value(all.face_size).value(all.path.max_depth).value(all.path.passes);
+  h.value(all.path.spp).value(all.path.seed).value(probe);
+  if (all.stage == BakeStage::gen) {
+    add(h, all.places[probe]);
+  } else {
+    const gi::VizParams& viz = all.viz_params;
+    h.value(viz.matrix).value(viz.neighbors).value(viz.threshold);
+    for (const ProbePlace& place : all.places) add(h, place);
+  }
+  return h.finish();
+}
+
+Hash128 unit_key(const TileJob& job, const trace::Tile& tile) {
+  const Hash128 render = trace::render_key(job.scene.light, job.scene.time, job.params);
+  Hasher h;
+  h.text("tile").text(engine_id()).value(job_version).value(render.high).value(render.low);
+  h.value(job.params.path.passes).value(tile.x).value(tile.y).value(tile.width).value(tile.height);
+  for (const std::string& layer : job.layers) h.text(layer);
+  if (job.lighting) {
+    const ProbeLighting& l = *job.lighting;
+    h.value(l.probes.high).value(l.probes.low).text(l.lookup).text(l.weights).text(l.layer);
+  }
+  return h.finish();
+}
+
+}  // namespace ssphh::farm

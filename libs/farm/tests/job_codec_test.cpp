@@ -1,0 +1,114 @@
+/// Every field of a job and of a result travels, in both encodings.
+
+#include <gtest/gtest.h>
+
+#include <ssphh/farm/job_codec.h>
+
+#include "job_fields.h"
+
+namespace ssphh::farm {
+namespace {
+
+using ssphh::test::expect_same_fields;
+
+constexpr ContentType both[] = {ContentType::json, ContentType::binary};
+
+template <class Data>
+void expect_to_travel(const Data& job) {
+  for (const ContentType type : both)
+    expect_same_fields(std::get<Data>(decode_job(encode_job(job, type))), job);
+}
+
+template <class Data>
+void expect_result_to_travel(const Data& data) {
+  const JobStats stats{1.0 / 3, (std::uint64_t{1} << 40) + 5, "host:7"};
+  for (const ContentType type : both) {
+    const JobResult back = decode_result(encode_result({data, stats}, type));
+    expect_same_fields(std::get<Data>(back.data), data);
+    expect_same_fields(back.stats, stats);
+  }
+}
+
+TEST(JobCodec, EveryFieldOfAProbeJobTravels) {
+  expect_to_travel(test::some_probe_job(gi::BakeStage::gen));
+  expect_to_travel(test::some_probe_job(gi::BakeStage::viz));
+}
+
+// As the fields of a tile job that stay at home have their defaults in the example, it is the same after the
+// journey.
+TEST(JobCodec, EveryFieldOfATileJobTravels) {
+  TileJob job = test::some_tile_job();
+  expect_to_travel(job);
+  job.lighting.reset();
+  for (const auto projection :
+       {trace::Projection::pinhole, trace::Projection::orthographic, trace::Projection::equirect}) {
+    job.params.projection = projection;
+    expect_to_travel(job);
+  }
+  job.params.per_group = false, job.layers = {"color"};
+  job.params.camera.camera.orthographic = false;
+  expect_to_travel(job);
+}
+
+/// Coefficients that are all different.
+sh::RadianceSh some_function(int degree, float first) {
+  sh::RadianceSh function(degree);
+  for (vec3& v : function.values)
+    for (int c = 0; c < 3; ++c) v[c] = first *= 1.01f;
+  return function;
+}
+
+TEST(JobCodec, EveryFieldOfAGenResultTravels) {
+  ProbeJobResult result{gi::BakeStage::gen, 2, {}};
+  for (const std::uint32_t probe : {3u, 65535u}) {
+    const auto x = static_cast<float>(probe);
+    result.probes.push_back({{gi::BakeStage::gen, probe},
+                             0.1 * probe,
+                             (std::uint64_t{1} << 41) + probe,
+                             {{some_function(2, x), some_function(2, -x)}, {{}, some_function(2, 0.1f * x)}},
+                             {}});
+  }
+  expect_result_to_travel(result);
+}
+
+TEST(JobCodec, EveryFieldOfAVizResultTravels) {
+  ProbeJobResult result{gi::BakeStage::viz, 2, {{{gi::BakeStage::viz, 5}, 0.7, 9, {}, {}}}};
+  for (const int from : {2, 8}) {
+    const float x = 0.1f * static_cast<float>(from);
+    gi::Edge edge{from, x, some_function(2, x), sh::TransferMatrix(2, 2)};
+    edge.matrix.values = some_function(8, x + 1).values;  // 9 × 9, as the matrix
+    result.probes[0].edges.push_back(std::move(edge));
+  }
+  result.probes[0].edges.push_back({9, 1.0f / 3, some_function(2, 4), {}});
+  expect_result_to_travel(result);
+}
+
+image::Image some_image(const trace::Tile& tile, int channels, float first) {
+  image::Image image(tile.width, tile.height, channels);
+  for (float& value : image.pixels) value = first *= 1.01f;
+  return image;
+}
+
+TEST(JobCodec, EveryFieldOfATileResultTravels) {
+  TileJobResult result;
+  for (const trace::Tile& tile : {trace::Tile{7, 8, 3, 2}, trace::Tile{10, 8, 2, 4}}) {
+    trace::RenderState state;
+    state.passes_done = 3 + tile.x, state.paths = (std::uint64_t{1} << 42) + 5;
+    state.rays = (std::uint64_t{1} << 43) + 6;
+    float first = 0.3f;
+    for (image::Image* i : {&state.color, &state.direct, &state.indirect, &state.albedo, &state.normal})
+      *i = some_image(tile, 3, first += 1);
+    state.depth = some_image(tile, 1, 9.1f), state.coverage = some_image(tile, 1, 0.01f);
+    state.groups = {some_image(tile, 3, 11.1f), some_image(tile, 3, 13.1f)};
+    result.tiles.push_back({tile, state});
+  }
+  expect_result_to_travel(result);
+
+  // Images that were not asked for stay empty.
+  result.tiles[1].state.albedo = {}, result.tiles[1].state.groups.clear();
+  result.tiles[0].state.color = {}, result.tiles[0].state.depth = {};
+  expect_result_to_travel(result);
+}
+
+}  // namespace
+}  // namespace ssphh::farm

@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+
+#include "farm_fixtures.h"
+
+namespace ssphh::farm {
+namespace {
+
+using ssphh::test::TempDir;
+using test::PackedScene;
+
+TEST(SceneStore, KeepsTheScenesThatWereUsedLast) {
+  const PackedScene packed("cornell");
+  const TempDir dir;
+  DiskCache cache(dir.path(), 1 << 28);
+  SceneStore scenes(cache, 2);
+  const auto at_time = [&](float time) {
+    SceneRef ref = packed.ref();
+    ref.time = time;
+    return scenes.get(ref, packed.fetch(), {});
+  };
+  const auto first = at_time(0), second = at_time(1);
+  EXPECT_NE(first, second) << "another pose is another scene";
+  EXPECT_EQ(at_time(0), first);
+  at_time(2);
+  EXPECT_EQ(at_time(0), first) << "used after the second, which made room";
+  EXPECT_NE(at_time(1), second);
+}
+
+// The door of the two rooms opens from time 0 to 1.
+TEST(SceneStore, AJobIsDoneInThePoseThatItNames) {
+  const PackedScene packed("two-rooms");
+  const TempDir dir;
+  DiskCache cache(dir.path(), 1 << 28);
+  SceneStore scenes(cache);
+  ProbeJob job = test::gen_job(packed);
+  job.probes.resize(1), job.places.resize(1);
+  const auto light_at = [&](float time) {
+    job.scene.time = time;
+    return std::get<ProbeJobResult>(run_job(job, scenes, packed.fetch()).data).probes[0].groups;
+  };
+  gi::ProbeSet set;
+  set.degree = job.degree;
+  set.generator.max_depth = job.path.max_depth, set.generator.passes = job.path.passes;
+  set.generator.spp = job.path.spp, set.generator.seed = job.path.seed;
+  set.generator.face_size = job.face_size;
+  set.probes.resize(job.probes[0] + 1);
+  set.probes[job.probes[0]].position = job.places[0].position;
+  const trace::PathTracer open(packed.scene, 0.75f);
+  EXPECT_EQ(light_at(0.75f), gi::bake_stage(open, set, {}, {gi::BakeStage::gen, job.probes[0]}).groups);
+  EXPECT_NE(light_at(0.75f), light_at(0));
+}
+
+}  // namespace
+}  // namespace ssphh::farm

@@ -1,0 +1,241 @@
+#pragma once
+/// What a RelightSession keeps, and the stages of an update.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/require.h>
+#include <ssphh/gi/relight_session.h>
+#include <ssphh/gi/transport/direct_field.h>
+
+#include "transport/probe_light.h"
+#include "transport/sphl_emission.h"
+
+namespace ssphh::gi {
+
+inline std::vector<vec3> positions_of(const std::vector<ProbePlace>& places) {
+  std::vector<vec3> positions;
+  for (const ProbePlace& place : places) positions.push_back(place.position);
+  return positions;
+}
+
+/// Runs `body`, adds its time and rays.
+template <class Body>
+void measure(const scene::TransportSource& source, double& ms, std::uint64_t* rays, const Body& body) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::uint64_t before = source.rays_traced();
+  body();
+  if (rays) *rays += source.rays_traced() - before;
+  ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+inline bool differs(const sh::RadianceSh& a, const sh::RadianceSh& b, float tolerance) {
+  if (a.values.size() != b.values.size()) return true;
+  const float limit =
+      tolerance * std::max(max_component(glm::abs(a.values[0])), max_component(glm::abs(b.values[0])));
+  for (std::size_t k = 0; k < a.values.size(); ++k) {
+    if (max_component(glm::abs(a.values[k] - b.values[k])) > limit) return true;
+  }
+  return false;
+}
+
+/// What a source says of itself must hold together.
+inline void check_source(const scene::TransportSource& source, std::size_t lights) {
+  const auto groups = static_cast<int>(source.light_groups().size());
+  const auto is_group = [&](int group) { return group >= 0 && group < groups; };
+  for (std::size_t i = 0; i < lights; ++i)
+    require(is_group(source.light_group_of(static_cast<int>(i))), "transport source",
+            "a light is of a group that there is not");
+  const int environment = source.environment_group();
+  require(environment == -1 || is_group(environment), "transport source",
+          "the environment is of a group that there is not");
+}
+
+inline void check_places(const std::vector<ProbePlace>& places) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!(places[i].radius >= 0) || !std::isfinite(places[i].radius))
+      throw Error(fmt::format("probe {}", i), fmt::format("its radius {} is no length", places[i].radius));
+  }
+}
+
+inline std::vector<Irradiance4> total(std::span<const Irradiance4> direct,
+                                      std::span<const Irradiance4> indirect) {
+  std::vector<Irradiance4> sum(direct.size());
+  for (std::size_t s = 0; s < sum.size(); ++s) sum[s] = direct[s] + indirect[s];
+  return sum;
+}
+
+struct RelightSession::Data {
+  Data(const scene::TransportSource& source_in, std::vector<ProbePlace> places_in,
+       const RelightParams& params_in, float time, const Control& control)
+      : source(source_in),
+        places(std::move(places_in)),
+        params(params_in),
+        network(source_in, positions_of(places), params_in.transport, time, control),
+        projector(params_in.degree, network.gbuffer().directions),
+        emitter_view(emitter_directions()),
+        emitter_projector(params_in.degree, emitter_view),
+        field(network, source_in.light_groups().size()),
+        lights(source_in.lights(time)),
+        light_set(lights.size(), false),
+        group_dirty(source_in.light_groups().size(), true),
+        group_scale(source_in.light_groups().size(), vec3(1)),
+        pending_time(time) {
+    check_places(places);
+    check_source(source, lights.size());
+    if (params.op == LightOperator::path)
+      throw Error("relighting", "path tracing is no transport between probes",
+                  "use operator surfel or bounce");
+    if (params.op == LightOperator::bounce) {
+      if (params.poses != 0)
+        throw Error("relighting", "operator bounce cannot blend between poses",
+                    "pose exactly, or use surfel");
+      bounce = std::make_unique<BounceOperator>(network, source, params.degree, params.bounce);
+    }
+    if (params.poses != 0) network.prepare_poses(params.poses, control);
+    emitters.resize(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) emitters[i] = {places[i].position, places[i].radius, {}};
+  }
+
+  const scene::TransportSource& source;
+  std::vector<ProbePlace> places;
+  RelightParams params;
+  TransportNetwork network;
+  DirectionProjector projector;
+  std::vector<vec3> emitter_view;
+  DirectionProjector emitter_projector;
+  DirectField field;
+  Solver solver;
+  std::unique_ptr<BounceOperator> bounce;  ///< of that operator alone
+
+  std::vector<scene::LightState> lights;
+  std::vector<bool> light_set;  ///< by the user: stays when the time changes
+  std::vector<bool> group_dirty;
+  std::vector<vec3> group_scale;
+  std::vector<SphlEmitter> emitters;
+  std::vector<vec3> emission;  ///< at each sample, from the emitters; empty: none
+  bool emission_dirty = false, scale_dirty = false;
+  bool unfinished = false;  ///< an update() threw: nothing that it touched can be relied on
+  float pending_time;
+  float environment_rotation = 0;
+
+  std::unique_ptr<scene::DirectLight> direct_light;
+  std::vector<Irradiance4> direct, indirect;
+  std::vector<sh::RadianceSh> reflected, before;
+
+  void check_probe(int probe) const {
+    if (probe < 0 || static_cast<std::size_t>(probe) >= places.size())
+      throw Error(fmt::format("probe {}", probe), fmt::format("there are {} probes", places.size()));
+  }
+  void check_light(int light) const {
+    if (light < 0 || static_cast<std::size_t>(light) >= lights.size())
+      throw Error(fmt::format("light {}", light), fmt::format("the scene has {} lights", lights.size()));
+  }
+
+  std::vector<sh::RadianceSh> emitted(std::size_t probe) const {
+    if (!direct_light) return {group_scale.size(), sh::RadianceSh(params.degree)};
+    return project_emitted(network, source, emitter_projector, emitter_view, places[probe].position,
+                           *direct_light);
+  }
+
+  bool any_group_dirty() const {
+    return std::find(group_dirty.begin(), group_dirty.end(), true) != group_dirty.end();
+  }
+
+  /// Poses the parts and the lights on animated nodes; returns the world bounds that parts left or entered.
+  std::vector<scene::Bounds> move_parts(RelightReport& report) {
+    std::vector<scene::Bounds> moved;
+    const std::vector<mat4> old_poses = network.poses();
+    std::vector<scene::Bounds> old_bounds;
+    for (int p = 0; p < source.part_count(); ++p) old_bounds.push_back(network.part_world_bounds(p));
+    const PoseReport pose =
+        params.poses == 0 ? network.set_time(pending_time) : network.set_time_between(pending_time);
+    if (bounce) bounce->update_pose();
+    report.hits_changed = pose.hits_changed;
+    for (int p = 1; p < source.part_count(); ++p) {
+      const auto index = static_cast<std::size_t>(p);
+      if (network.poses()[index] == old_poses[index]) continue;
+      moved.push_back(old_bounds[index]);
+      moved.push_back(network.part_world_bounds(p));
+      for (std::size_t g = 0; g < group_dirty.size(); ++g) {
+        if (source.group_emits_from(static_cast<int>(g), p)) group_dirty[g] = true;
+      }
+    }
+    const std::vector<scene::LightState> posed = source.lights(pending_time);
+    require(posed.size() == lights.size(), "transport source", "it has another number of lights than before");
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      if (light_set[i] || posed[i] == lights[i]) continue;
+      lights[i] = posed[i];
+      group_dirty[static_cast<std::size_t>(source.light_group_of(static_cast<int>(i)))] = true;
+    }
+    return moved;
+  }
+
+  void forget_everything() {
+    group_dirty.assign(group_dirty.size(), true);
+    emission_dirty = true;
+  }
+
+  void update_direct(const std::vector<scene::Bounds>& moved) {
+    if (any_group_dirty() || !moved.empty() || !direct_light) {
+      direct_light = source.direct_light(lights, network.poses(), environment_rotation);
+      require(direct_light != nullptr, "transport source", "it gives no direct light");
+    }
+    for (std::size_t g = 0; g < group_dirty.size(); ++g) {
+      if (group_dirty[g]) {
+        field.update_all(static_cast<int>(g), *direct_light);
+      } else if (!moved.empty()) {
+        field.update_moved(static_cast<int>(g), *direct_light, moved);
+      }
+      group_dirty[g] = false;
+    }
+    if (emission_dirty || (!moved.empty() && !emission.empty())) {
+      emission.clear();
+      for (const SphlEmitter& emitter : emitters) {
+        if (emitter.leaving.empty()) continue;
+        emission.resize(network.samples().size(), vec3(0));
+        add_emission(network, source, emitter, emission);
+      }
+      emission_dirty = false;
+    }
+    field.sum(group_scale, emission, direct);
+    scale_dirty = false;
+  }
+
+  /// Lets the direct light bounce: `indirect`, or with bounce the probes themselves.
+  SolveReport solve(bool first) {
+    if (bounce) {
+      before = reflected;
+      return summary(
+          bounce->solve(direct, reflected, params.warm_start && !first && params.bounce.applications == 0));
+    }
+    if (!params.warm_start) indirect.clear();
+    return solver.solve(network.links(), network.albedo(), direct, network.contraction().upper, params.solve,
+                        indirect);
+  }
+  static SolveReport summary(const BounceReport& report) {
+    return {.iterations = report.iterations, .residual = 0, .converged = report.converged};
+  }
+
+  /// Reflected light of all probes under another direct light, from darkness.
+  std::vector<sh::RadianceSh> reflected_under(std::span<const Irradiance4> other, SolveReport& report) const {
+    std::vector<sh::RadianceSh> result;
+    if (bounce) {
+      report = summary(bounce->solve(other, result));
+      return result;
+    }
+    std::vector<Irradiance4> bounced;
+    report = Solver().solve(network.links(), network.albedo(), other, network.contraction().upper,
+                            params.solve, bounced);
+    project_reflected(network, projector, total(other, bounced), result);
+    return result;
+  }
+};
+
+}  // namespace ssphh::gi

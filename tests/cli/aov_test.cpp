@@ -1,0 +1,78 @@
+// Extra images beside a picture: that they are means over all passes, and add up to it.
+
+#include <gtest/gtest.h>
+
+#include <ssphh/image/io.h>
+
+#include "temp_dir.h"
+#include "tool_checks.h"
+
+namespace ssphh {
+namespace {
+
+using image::Image;
+using test::run_json;
+using test::TempDir;
+
+/// A scene with several light groups, in three passes.
+std::vector<std::string> picture(const std::string& output, const std::vector<std::string>& more) {
+  std::vector<std::string> arguments = {"render",   "builtin:gallery1",
+                                        "-o",       output,
+                                        "--width",  "24",
+                                        "--height", "16",
+                                        "--spp",    "2",
+                                        "--passes", "3",
+                                        "--aov",    "direct,indirect,groups"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+/// Sum of the pictures of all groups.
+Image sum_of_groups(const TempDir& dir, const std::string& stem) {
+  Image sum;
+  int groups = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(dir.path())) {
+    if (!entry.path().filename().string().starts_with(stem + ".group.")) continue;
+    const Image group = image::read_image(entry.path());
+    if (groups++ == 0) sum = Image(group.width, group.height);
+    for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += group.pixels[i];
+  }
+  EXPECT_GT(groups, 1);
+  return sum;
+}
+
+/// Each is a mean of three passes: sums in another order differ by a few roundings.
+void expect_sum(const Image& a, const Image& b, const Image& whole) {
+  ASSERT_EQ(a.pixels.size(), whole.pixels.size());
+  ASSERT_EQ(b.pixels.size(), whole.pixels.size());
+  for (std::size_t i = 0; i < whole.pixels.size(); ++i)
+    ASSERT_NEAR(a.pixels[i] + b.pixels[i], whole.pixels[i], 2e-6f * whole.pixels[i] + 1e-9f) << "float " << i;
+}
+
+float brightest(const Image& image) {
+  return *std::max_element(image.pixels.begin(), image.pixels.end());
+}
+
+TEST(Aovs, OfPathTracingAddUpToThePicture) {
+  const TempDir dir;
+  run_json(picture(dir / "path.exr", {}));
+  const Image whole = image::read_image(dir / "path.exr");
+  expect_sum(image::read_image(dir / "path.direct.exr"), image::read_image(dir / "path.indirect.exr"), whole);
+  expect_sum(sum_of_groups(dir, "path"), Image(whole.width, whole.height), whole);
+}
+
+TEST(Aovs, GroupsWithProbesHoldTheDirectLightAlone) {
+  const TempDir dir;
+  const std::string probes = dir / "probes.sphl";
+  run_json({"bake", "builtin:gallery1", "-o", probes, "--degree", "2", "--face", "4", "--spp", "1", "--viz",
+            "off"});
+  run_json(picture(dir / "lit.exr", {"--method", "ssphh", "--probes", probes}));
+  const Image groups = sum_of_groups(dir, "lit"), direct = image::read_image(dir / "lit.direct.exr"),
+              indirect = image::read_image(dir / "lit.indirect.exr");
+  EXPECT_GT(brightest(indirect), 0);
+  expect_sum(groups, Image(groups.width, groups.height), direct);
+  expect_sum(groups, indirect, image::read_image(dir / "lit.exr"));
+}
+
+}  // namespace
+}  // namespace ssphh

@@ -1,0 +1,249 @@
+/// Contracts of libs/gl and libs/realtime.
+
+#include <epoxy/gl.h>
+
+#include <ssphh/gl/buffer.h>
+#include <ssphh/gl/framebuffer.h>
+#include <ssphh/gl/program.h>
+#include <ssphh/gl/texture.h>
+#include <ssphh/gl/volume.h>
+#include <ssphh/realtime/renderer.h>
+
+#include "contract.h"
+#include "gl_context.h"
+#include "probe_sets.h"
+#include "spoilt_scenes.h"
+
+namespace ssphh::test {
+namespace {
+
+using realtime::Renderer;
+
+/// A row of which `run` needs a context.
+struct GlContract {
+  std::string entry, given;
+  std::function<void(gl::Context&)> run;
+};
+void PrintTo(const GlContract& row, std::ostream* out) {
+  *out << row.entry << " " << row.given;
+}
+
+class GlContractTest : public WithGl, public testing::WithParamInterface<GlContract> {};
+
+TEST_P(GlContractTest, Holds) {
+  GetParam().run(gl());
+  EXPECT_NO_THROW(gl().throw_on_error("afterwards"));
+}
+
+GlContract refuses_gl(std::string entry, std::string given, std::function<void()> call,
+                      std::vector<std::string> words) {
+  return {std::move(entry), std::move(given), [=](gl::Context&) { expect_refusal(call, words); }};
+}
+
+/// A renderer with probes; afterwards it still has them.
+GlContract refuses_frame(std::string given, std::function<void(Renderer&)> call,
+                         std::vector<std::string> words) {
+  return {"Renderer", std::move(given), [=](gl::Context& context) {
+            Renderer renderer(context, sound_scene());
+            renderer.set_probes(sound_set());
+            expect_refusal([&] { call(renderer); }, words);
+            EXPECT_EQ(renderer.probe_count(), 3);
+            EXPECT_EQ(renderer.time(), 0);
+            EXPECT_EQ(renderer.light(0).intensity, 1);
+          }};
+}
+
+const std::array<std::byte, 64> bytes{};
+
+std::vector<GlContract> of_objects() {
+  using gl::Buffer, gl::Format, gl::Texture, gl::Volume;
+  return {
+      refuses_gl("Buffer", "UpdatedPastItsEnd", [] { Buffer(8).update_bytes(4, std::span(bytes).first(8)); },
+                 {"buffer", "room"}),
+      refuses_gl("Buffer", "UpdatedFarPastItsEnd",
+                 [] { Buffer(8).update_bytes(~std::size_t{0} - 3, std::span(bytes).first(8)); },
+                 {"buffer", "room"}),
+      refuses_gl("Texture", "OfNoSize", [] { Texture(Format::rgba8, 0, 4); }, {"texture", "size"}),
+      refuses_gl("Texture", "OfMinusOneLayers", [] { Texture(Format::rgba8, 4, 4, -1); }, {"texture"}),
+      refuses_gl("Texture", "LargerThanAnyDriver", [] { Texture(Format::rgba8, 1 << 30, 1); }, {"texture"}),
+      refuses_gl("Texture", "UploadedWithTooFewBytes",
+                 [] { Texture(Format::rgba8, 4, 4).upload(std::span(bytes).first(8)); },
+                 {"texture", "bytes"}),
+      refuses_gl("Texture", "UploadedOutside",
+                 [] { Texture(Format::rgba8, 4, 4).upload_rect(std::span(bytes).first(16), 3, 0, 2, 2); },
+                 {"texture", "inside"}),
+      refuses_gl("Texture", "UploadedToNoLayer", [] { Texture(Format::rgba8, 4, 4, 2).upload(bytes, 2); },
+                 {"texture", "inside"}),
+      refuses_gl("Texture", "ReadIntoTooLittle",
+                 [] {
+                   std::array<float, 4> out;
+                   Texture(Format::rgba32f, 4, 4).read(out, 4);
+                 },
+                 {"texture", "room"}),
+      refuses_gl("Texture", "ReadWithFiveChannels",
+                 [] {
+                   std::array<float, 80> out;
+                   Texture(Format::rgba32f, 4, 4).read(out, 5);
+                 },
+                 {"texture", "channels"}),
+      refuses_gl("Volume", "OfNoSize", [] { Volume(glm::ivec3(4, 0, 4)); }, {"volume"}),
+      refuses_gl("Volume", "UploadedOutside",
+                 [] {
+                   const std::array<std::uint64_t, 8> texels{};
+                   Volume(glm::ivec3(2)).upload_box(texels, glm::ivec3(1), glm::ivec3(2));
+                 },
+                 {"volume", "inside"}),
+      refuses_gl("Volume", "UploadedWithTooFewTexels",
+                 [] { Volume(glm::ivec3(2)).upload_box({}, glm::ivec3(0), glm::ivec3(2)); },
+                 {"volume", "texels"}),
+      refuses_gl("Framebuffer", "OfNineTextures",
+                 [] {
+                   const Texture texture(Format::rgba8, 4, 4);
+                   const std::vector<const Texture*> nine(9, &texture);
+                   gl::Framebuffer(nine, nullptr);
+                 },
+                 {"framebuffer", "8"}),
+      refuses_gl("ShaderFiles", "OfNoName", [] { gl::ShaderFiles({}).text("x.frag"); }, {"x.frag"}),
+  };
+}
+
+std::vector<GlContract> of_renderer() {
+  std::vector<GlContract> rows = {
+      refuses_frame("ProbesOfHigherDegree",
+                    [](Renderer& r) {
+                      gi::ProbeSet set = sound_set();
+                      set.probes[1].reflected = sh::RadianceSh(4);
+                      r.set_probes(set);
+                    },
+                    {"probe 1", "25 RGB coefficients"}),
+      refuses_frame(
+          "UpdateOfHigherDegree",
+          [](Renderer& r) {
+            r.update_probes(std::vector<int>{0, 2}, std::vector{sh::RadianceSh(2), sh::RadianceSh(4)});
+          },
+          {"probe 2", "25 RGB coefficients", "9"}),
+      refuses_frame("UpdateThatIsNoNumber",
+                    [](Renderer& r) {
+                      sh::RadianceSh light(2);
+                      light[3].z = nan;
+                      r.update_probes(std::vector<int>{1}, std::vector{light});
+                    },
+                    {"probe 1", "not finite"}),
+      refuses_frame("UpdateOfNoProbe",
+                    [](Renderer& r) { r.update_probes(std::vector<int>{3}, std::vector{sh::RadianceSh(2)}); },
+                    {"probe 3"}),
+      refuses_frame("UpdateWithoutLight", [](Renderer& r) { r.update_probes(std::vector<int>{0}, {}); },
+                    {"probes", "function for each"}),
+      refuses_frame("EmissionOfNoProbe", [](Renderer& r) { r.set_emission(3, {}, 1); }, {"probe 3"}),
+      refuses_frame("EmissionThatIsNoNumber",
+                    [](Renderer& r) {
+                      sh::RadianceSh leaving(0);
+                      leaving[0] = vec3(nan);
+                      r.set_emission(0, leaving, 1);
+                    },
+                    {"emission", "finite"}),
+      refuses_frame("LightThatIsNotThere", [](Renderer& r) { r.set_light(1, {}); }, {"light 1"}),
+      refuses_frame("LightThatIsNoNumber", [](Renderer& r) { r.set_light(0, {.color = vec3(nan)}); },
+                    {"light 0", "finite"}),
+      refuses_frame("GroupThatIsNotThere", [](Renderer& r) { r.set_group_scale(1, vec3(1)); }, {"group 1"}),
+      refuses_frame("GroupScaleThatIsNoNumber", [](Renderer& r) { r.set_group_scale(0, vec3(nan)); },
+                    {"group 0", "finite"}),
+      refuses_frame("MaterialThatIsNotThere", [](Renderer& r) { r.set_material(1, {}); }, {"material 1"}),
+      refuses_frame("TimeThatIsNoNumber", [](Renderer& r) { r.set_time(nan); }, {"time"}),
+      refuses_frame("FrameOfNoSize", [](Renderer& r) { r.draw({}, {}, {.width = 0}); }, {"frame size"}),
+      refuses_frame("ReadBackBeforeAFrame", [](Renderer& r) { r.read_back(); }, {"no frame"}),
+      refuses_frame("FittedPointsOfNoProbe",
+                    [](Renderer& r) {
+                      realtime::FittedSurfaces fitted;
+                      fitted.points.points.resize(1);
+                      fitted.points.weights.resize(1);
+                      fitted.points.weights[0].add(3, 1);
+                      fitted.ranges.resize(1), fitted.lists.resize(1);
+                      r.set_fitted(fitted);
+                    },
+                    {"fitted point 0", "probe 3"}),
+      {"Renderer", "ThatWasMoved",
+       [](gl::Context& context) {
+         Renderer first(context, sound_scene());
+         Renderer second = std::move(first);
+         expect_refusal([&] { first.time(); }, {"moved from"});
+         expect_refusal([&] { first.read_back(); }, {"moved from"});
+         EXPECT_EQ(second.time(), 0);
+       }},
+      {"Renderer", "AfterAnErrorOfTheHost",
+       [](gl::Context& context) {
+         glEnable(GL_TEXTURE_2D + 7777);  // no capability
+         EXPECT_NO_THROW(Renderer(context, sound_scene()));
+       }},
+  };
+  for (const SpoiltScene& s : spoilt_scenes())
+    rows.push_back({"Renderer", s.name, [s](gl::Context& context) {
+                      expect_refusal([&] { Renderer(context, s.make()); }, s.words);
+                    }});
+  return rows;
+}
+
+std::vector<GlContract> of_contexts() {
+  static int heard = 0;
+  static constexpr auto listen = [](GLenum, GLenum, GLuint, GLenum, GLsizei, const GLchar*,
+                                    const void* user) {
+    EXPECT_EQ(user, &heard);
+    ++heard;
+  };
+  return {
+      {"AdoptedContext", "LeavesTheHostItsDebugCallback",
+       [](gl::Context& context) {
+         void *before = nullptr, *before_user = nullptr;
+         glGetPointerv(GL_DEBUG_CALLBACK_FUNCTION, &before);
+         glGetPointerv(GL_DEBUG_CALLBACK_USER_PARAM, &before_user);
+         heard = 0;
+         glDebugMessageCallback(listen, &heard);
+         {
+           gl::Context adopted = gl::Context::adopt_current();
+           glEnable(GL_TEXTURE_2D + 7777);
+           EXPECT_EQ(heard, 1) << "the host hears what happens meanwhile";
+           EXPECT_THROW(adopted.throw_on_error("x"), Error);
+         }
+         void *callback = nullptr, *user = nullptr;
+         glGetPointerv(GL_DEBUG_CALLBACK_FUNCTION, &callback);
+         glGetPointerv(GL_DEBUG_CALLBACK_USER_PARAM, &user);
+         EXPECT_EQ(callback, reinterpret_cast<void*>(+listen));
+         EXPECT_EQ(user, &heard);
+         glEnable(GL_TEXTURE_2D + 7777);
+         EXPECT_EQ(heard, 2);
+         glDebugMessageCallback(reinterpret_cast<GLDEBUGPROC>(before), before_user);
+         context.forget_errors();
+       }},
+      {"AdoptedContext", "AfterAnErrorOfTheHost",
+       [](gl::Context& context) {
+         glEnable(GL_TEXTURE_2D + 7777);
+         gl::Context adopted = gl::Context::adopt_current();
+         EXPECT_NO_THROW(adopted.throw_on_error("x"));
+         context.forget_errors();
+       }},
+      {"Context", "ThatWasMoved",
+       [](gl::Context& context) {
+         gl::Context first = gl::Context::adopt_current();
+         const gl::Context second = std::move(first);
+         expect_refusal([&] { first.info(); }, {"moved from"});
+         EXPECT_EQ(second.info().renderer, context.info().renderer);
+       }},
+      {"Context", "AssignedANewOneStaysCurrent",
+       [](gl::Context& context) {
+         gl::Context own = gl::Context::headless();
+         own = gl::Context::headless();
+         EXPECT_NE(glGetString(GL_VERSION), nullptr);
+         context.make_current();
+       }},
+  };
+}
+
+std::string name_of(const testing::TestParamInfo<GlContract>& row) {
+  return row.param.entry + row.param.given;
+}
+INSTANTIATE_TEST_SUITE_P(OfGl, GlContractTest, testing::ValuesIn(of_objects()), name_of);
+INSTANTIATE_TEST_SUITE_P(OfContexts, GlContractTest, testing::ValuesIn(of_contexts()), name_of);
+INSTANTIATE_TEST_SUITE_P(OfRenderer, GlContractTest, testing::ValuesIn(of_renderer()), name_of);
+
+}  // namespace
+}  // namespace ssphh::test

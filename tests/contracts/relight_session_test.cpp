@@ -1,0 +1,265 @@
+/// Contracts of gi::RelightSession: refused input, a source that fails, and the light afterwards.
+
+#include <ssphh/gi/relight_session.h>
+#include <ssphh/gi/transport/direct_field.h>
+#include <ssphh/scene/query.h>
+
+#include "contract.h"
+#include "unruly_source.h"
+
+namespace ssphh::test {
+namespace {
+
+std::vector<gi::ProbePlace> door_places() {
+  std::vector<gi::ProbePlace> places;
+  for (const scene::SphlPlace& place : scene::sphl_places(door_scene()))
+    places.push_back({place.name, place.position, place.radius});
+  places.resize(std::min<std::size_t>(places.size(), 3));
+  return places;
+}
+
+gi::RelightParams coarse(gi::LightOperator op = gi::LightOperator::surfel) {
+  gi::RelightParams params;
+  params.transport = {.directions = 32, .surfel_size = 0.5f, .link_rays = 8, .samples = 2};
+  params.degree = 1;
+  params.warm_start = false;  // so that the bits tell nothing of the past
+  params.op = op;
+  return params;
+}
+
+struct Session {
+  explicit Session(gi::LightOperator op = gi::LightOperator::surfel)
+      : source(door_scene()), session(source, door_places(), coarse(op)) {}
+  UnrulySource source;
+  gi::RelightSession session;
+};
+
+/// A lit session.
+std::unique_ptr<Session> lit() {
+  auto s = std::make_unique<Session>();
+  s->session.update();
+  return s;
+}
+std::unique_ptr<Session> unlit() {
+  return std::make_unique<Session>();
+}
+
+void is_up_to_date(Session& s) {
+  const std::vector<sh::RadianceSh> before = s.session.reflected();
+  EXPECT_TRUE(s.session.update().changed_probes.empty());
+  EXPECT_EQ(s.session.reflected(), before);
+}
+
+/// A row for input that a lit session refuses without a change of its light.
+Contract refuses_input(const std::string& given, std::function<void(gi::RelightSession&)> call,
+                       std::vector<std::string> words) {
+  return refuses(
+      "RelightSession", given, lit, [call](Session& s) { call(s.session); }, std::move(words), is_up_to_date);
+}
+
+void make_session(std::function<void(UnrulySource&)> spoil, gi::RelightParams params = coarse(),
+                  std::vector<gi::ProbePlace> places = door_places(), float time = 0) {
+  UnrulySource source(door_scene());
+  spoil(source);
+  gi::RelightSession session(source, std::move(places), params, time);
+  session.update();
+}
+
+void sound(UnrulySource&) {}
+
+std::vector<Contract> of_input() {
+  return {
+      refuses_input("LightThatIsNotThere", [](auto& s) { s.light(5); }, {"light 5"}),
+      refuses_input("SetLightThatIsNotThere", [](auto& s) { s.set_light(-1, {}); }, {"light -1"}),
+      refuses_input("SetLightOfAnIntensityThatIsNoNumber",
+                    [](auto& s) { s.set_light(0, {.intensity = nan}); }, {"light 0", "finite"}),
+      refuses_input("SetGroupScaleOfNoGroup", [](auto& s) { s.set_group_scale(99, vec3(1)); }, {"group 99"}),
+      refuses_input("SetGroupScaleBelowZero", [](auto& s) { s.set_group_scale(0, vec3(1, -1, 1)); },
+                    {"group 0", "negative"}),
+      refuses_input("SetTimeToNoNumber", [](auto& s) { s.set_time(nan); }, {"time"}),
+      refuses_input("SetEnvironmentRotationToNoNumber", [](auto& s) { s.set_environment_rotation(nan); },
+                    {"environment"}),
+      refuses_input("SetEmissionOfNoProbe", [](auto& s) { s.set_emission(99, {}); }, {"probe 99"}),
+      refuses_input("SetEmissionOfDegreeEleven",
+                    [](auto& s) {
+                      sh::RadianceSh leaving;
+                      leaving.values.assign(144, vec3(1));
+                      s.set_emission(0, leaving);
+                    },
+                    {"emission", "0..10"}),
+      refuses_input("SetEmissionOfFiveCoefficients",
+                    [](auto& s) {
+                      sh::RadianceSh leaving;
+                      leaving.values.assign(5, vec3(1));
+                      s.set_emission(0, leaving);
+                    },
+                    {"emission", "not those of a degree"}),
+      refuses_input("SetEmissionThatIsNoNumber",
+                    [](auto& s) {
+                      sh::RadianceSh leaving(0);
+                      leaving[0] = vec3(nan);
+                      s.set_emission(0, leaving);
+                    },
+                    {"probe 0", "finite"}),
+      refuses_input("EmittedOfNoProbe", [](auto& s) { s.emitted(99); }, {"probe 99"}),
+      refuses_input("EmissionProfileWithoutRays", [](auto& s) { s.emission_profile(vec3(0), 1, 2, 0); },
+                    {"rays"}),
+      refuses_input("EmissionProfileOfNoPlace", [](auto& s) { s.emission_profile(vec3(nan), 1, 2); },
+                    {"finite centre"}),
+      refuses_input("NetworkPartThatIsNotThere", [](auto& s) { s.network().part_world_bounds(99); },
+                    {"part"}),
+      refuses_input("NetworkFindOnNoPart", [](auto& s) { s.network().find(-1, {}); }, {"part"}),
+      refuses_input("NetworkSampleThatIsNotThere", [](auto& s) { s.network().sample_exists(1u << 30); },
+                    {"sample"}),
+      refuses_input("NetworkGatherWithoutRays",
+                    [](auto& s) { s.network().gather(std::vector<scene::SurfacePoint>(1), -1); },
+                    {"gather rays"}),
+      refuses_input("DirectFieldOfNoGroup",
+                    [](auto& s) {
+                      gi::DirectField field(s.network(), 1);
+                      const UnrulySource source(door_scene());
+                      const auto light = source.direct_light(source.lights(0), s.network().poses(), 0);
+                      field.update_all(1, *light);
+                    },
+                    {"light group"}),
+      refuses("RelightSession", "WithoutProbes", [] { make_session(sound, coarse(), {}); }, {"no probes"}),
+      refuses("RelightSession", "OfPathTracing", [] { make_session(sound, coarse(gi::LightOperator::path)); },
+              {"relighting", "surfel or bounce"}),
+      refuses("RelightSession", "OfDegreeEleven",
+              [] {
+                gi::RelightParams params = coarse();
+                params.degree = 11;
+                make_session(sound, params);
+              },
+              {"0..10"}),
+      refuses("RelightSession", "OfOnePose",
+              [] {
+                gi::RelightParams params = coarse();
+                params.poses = 1;
+                make_session(sound, params);
+              },
+              {"poses"}),
+      refuses("RelightSession", "OfASurfelSizeThatIsNoNumber",
+              [] {
+                gi::RelightParams params = coarse();
+                params.transport.surfel_size = nan;
+                make_session(sound, params);
+              },
+              {"surfel size"}),
+      refuses("RelightSession", "AtNoTime", [] { make_session(sound, coarse(), door_places(), nan); },
+              {"time"}),
+      refuses("RelightSession", "OfARadiusThatIsNone",
+              [] {
+                std::vector<gi::ProbePlace> places = door_places();
+                places[1].radius = nan;
+                make_session(sound, coarse(), places);
+              },
+              {"probe 1", "radius"}),
+      refuses("LookupSet", "BeforeTheFirstUpdate", [] { gi::lookup_set(door_places(), {}); },
+              {"lookup set", "update()"}),
+      refuses("LookupSet", "OfNoPlaces", [] { gi::lookup_set({}, {}); }, {"no probes"}),
+      refuses("LookupSet", "OfTwoDegrees",
+              [] {
+                gi::lookup_set({{}, {}}, {sh::RadianceSh(2), sh::RadianceSh(1)});
+              },
+              {"probe 1"}),
+      gives("RelightSession", "BeforeTheFirstUpdateIsDark",
+            [] {
+              const auto s = unlit();
+              EXPECT_TRUE(s->session.reflected().empty());
+              EXPECT_EQ(s->session.emitted(0), sh::RadianceSh(1));
+              const auto groups = s->session.emitted_by_group();
+              ASSERT_EQ(groups.size(), s->source.light_groups().size());
+              EXPECT_EQ(groups[0][2], sh::RadianceSh(1));
+              EXPECT_EQ(s->session.reflected_by_group()[0][2], sh::RadianceSh(1));
+            }),
+  };
+}
+
+std::vector<Contract> of_sources() {
+  return {
+      refuses("TransportSource", "WhoseLightIsOfNoGroup",
+              [] { make_session([](UnrulySource& s) { s.strayed_group = 99; }); },
+              {"transport source", "group"}),
+      refuses("TransportSource", "WithoutDirectLight",
+              [] { make_session([](UnrulySource& s) { s.gives_direct_light = false; }); },
+              {"transport source", "direct light"}),
+      refuses("TransportSource", "WhoseDirectLightIsNoNumber",
+              [] { make_session([](UnrulySource& s) { s.dazzles = true; }); },
+              {"transport source", "not finite"}),
+      refuses(
+          "TransportSource", "ThatForgetsItsLights", lit,
+          [](Session& s) {
+            s.source.forgets_lights = true;
+            s.session.set_time(0.5f);
+            s.session.update();
+          },
+          {"transport source", "lights"},
+          [](Session& s) {
+            s.source.forgets_lights = false;
+            s.session.set_time(0);
+            s.session.update();
+            EXPECT_EQ(s.session.reflected(), lit()->session.reflected());
+          }),
+  };
+}
+
+SSPHH_CONTRACTS(RelightSession, of_input());
+SSPHH_CONTRACTS(TransportSource, of_sources());
+
+/// A source that fails once, in each of the calls that an update makes in turn: the light stays, and the next
+/// update makes it what an undisturbed session has, to the bit.
+class FailingUpdate : public testing::TestWithParam<gi::LightOperator> {};
+
+TEST_P(FailingUpdate, IsDoneAgainByTheNextOne) {
+  const auto change = [](Session& s) {
+    s.session.set_time(0.5f);
+    scene::LightState lamp = s.session.light(0);
+    lamp.color *= vec3(0.5f, 2, 3);
+    s.session.set_light(0, lamp);
+  };
+  Session undisturbed(GetParam());
+  undisturbed.session.update();
+  const std::vector<sh::RadianceSh> old = undisturbed.session.reflected();
+  change(undisturbed);
+  undisturbed.source.count_anew();
+  undisturbed.session.update();
+  const int calls = undisturbed.source.calls();
+  ASSERT_NE(undisturbed.session.reflected(), old);
+
+  constexpr int times = 6;
+  for (int i = 0; i < times; ++i) {
+    const int succeed = (calls - 1) * i / (times - 1);
+    SCOPED_TRACE(testing::Message() << "failing after " << succeed << " of " << calls << " calls");
+    Session s(GetParam());
+    s.session.update();
+    change(s);
+    s.source.count_anew();
+    s.source.fails_after = succeed;
+    EXPECT_THROW(s.session.update(), std::runtime_error);
+    EXPECT_EQ(s.session.reflected(), old);
+    s.source.fails_after = -1;
+    EXPECT_FALSE(s.session.update().changed_probes.empty());
+    EXPECT_EQ(s.session.reflected(), undisturbed.session.reflected());
+    EXPECT_EQ(s.session.surfel_direct(), undisturbed.session.surfel_direct());
+  }
+}
+
+TEST_P(FailingUpdate, LeavesTheFirstOneToTheNext) {
+  Session s(GetParam()), undisturbed(GetParam());
+  s.source.count_anew();
+  s.source.fails_after = 0;
+  EXPECT_THROW(s.session.update(), std::runtime_error);
+  EXPECT_TRUE(s.session.reflected().empty());
+  s.source.fails_after = -1;
+  s.session.update();
+  undisturbed.session.update();
+  EXPECT_EQ(s.session.reflected(), undisturbed.session.reflected());
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, FailingUpdate,
+                         testing::Values(gi::LightOperator::surfel, gi::LightOperator::bounce),
+                         [](const auto& op) { return gi::to_string(op.param); });
+
+}  // namespace
+}  // namespace ssphh::test

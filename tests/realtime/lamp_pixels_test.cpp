@@ -1,0 +1,111 @@
+/// Direct light at the middle of every pixel, in colour: what OpenGL draws against closed forms and the light
+/// of transport, neither of which has noise.
+
+#include <gmock/gmock.h>
+
+#include <ssphh/shading/bsdf.h>
+
+#include "gl_context.h"
+#include "picture_bounds.h"
+#include "pictures.h"
+#include "stage_lamps.h"
+
+namespace ssphh::test {
+namespace {
+
+constexpr PictureSize size{80, 48};
+
+/// Of the G-buffer: 10 bits of a colour's root err by 0.1 % / root, of albedos over 0.2; sums of halves by
+/// 0.05 % each. Normals of 16 bits err by 3e-5 rad, which counts at grazing angles: a constant.
+constexpr float rounding = 0.004f;
+
+class LampPixels : public WithGl {
+ protected:
+  static image::Image draw(realtime::Renderer& renderer, const scene::Scene& scene) {
+    realtime::FrameSettings settings;
+    settings.view = realtime::View::direct;
+    settings.sky = realtime::Sky::black;
+    renderer.draw(scene::camera_pose(scene, ""), settings, {.width = size.width, .height = size.height});
+    return renderer.read_back();
+  }
+};
+
+/// What may be drawn of a lamp's light: shadows' edges may lie a pixel aside, and are few.
+PictureBounds bounds_of(const LampPicture& truth) {
+  PictureBounds bounds = PictureBounds::around(truth.picture, rounding,
+                                               2e-3f * static_cast<float>(mean_luminance(truth.picture)));
+  EXPECT_LT(bounds.widen([&](int x, int y) { return truth.edge_at(x, y); }), 0.15);
+  return bounds;
+}
+
+class LampWithoutExtent : public LampPixels, public testing::WithParamInterface<StageLamp> {};
+
+TEST_P(LampWithoutExtent, LightsEveryPixelAsItsClosedFormSays) {
+  for (const bool parallel : {false, true}) {
+    scene::Scene scene = stage(matte({0.9f, 0.3f, 0.5f}));
+    add_stage_lamp(scene, GetParam().light);
+    scene.cameras[0].orthographic = parallel, scene.cameras[0].yheight = 3.5f;
+    const LampPicture truth(scene, size, GetParam().arriving, lambertian);
+    realtime::Renderer renderer(gl(), scene);
+    EXPECT_TRUE(picture_is(draw(renderer, scene), bounds_of(truth)))
+        << (parallel ? "orthographic" : "perspective");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lamps, LampWithoutExtent, testing::ValuesIn(lamps_without_extent()),
+                         [](const auto& given) { return given.param.name; });
+
+TEST_F(LampPixels, EveryModelOfReflectionIsThatOfTheCpu) {
+  struct Model {
+    float diffuse, specular_roughness;
+    float metallic, specular;
+  };
+  const StageLamp lamp = lamps_without_extent()[0];
+  scene::Scene scene = stage(matte(vec3(1)));
+  add_stage_lamp(scene, lamp.light);
+  realtime::Renderer renderer(gl(), scene);
+  for (const Model& m : {Model{0, 0.4f, 0, 1},
+                         {0, -0.5f, 0, 1},
+                         {0, 0.35f, 1, 1},
+                         {-0.7f, 1, 0, 0},
+                         {0.6f, 0.7f, 0.4f, 0.5f}}) {
+    scene::Material material = matte({0.9f, 0.6f, 0.4f});
+    material.diffuse_roughness = m.diffuse, material.specular_roughness = m.specular_roughness;
+    material.metallic = m.metallic, material.specular = m.specular;
+    scene.materials[stage_ball_material] = material;
+    renderer.set_material(static_cast<int>(stage_ball_material), material);
+    const shading::BsdfParams ball{material.base_color * (1 - m.metallic),
+                                   glm::mix(vec3(0.04f * m.specular), material.base_color, m.metallic),
+                                   m.diffuse, m.specular_roughness};
+    const LampPicture truth(scene, size, lamp.arriving, [&](const PixelPoint& p, const vec3& wi) {
+      if (!on_stage_ball(p.point)) return lambertian(p, wi);
+      const Frame frame = Frame::around(stage_normal(p.point));
+      return shading::eval_bsdf(ball, frame.to_local(p.wo), frame.to_local(wi));
+    });
+    EXPECT_TRUE(picture_is(draw(renderer, scene), bounds_of(truth)))
+        << m.diffuse << ' ' << m.specular_roughness;
+  }
+}
+
+TEST_F(LampPixels, ShadowsOfAMaskedLeafHaveItsHoles) {
+  const StageLamp lamp = lamps_without_extent()[0];
+  scene::Scene s = stage(matte({0.9f, 0.3f, 0.5f}));
+  // Stripes, covered and not, on a leaf above the floor
+  scene::Texture& stripes = s.textures.emplace_back();
+  stripes.name = "stripes", stripes.width = 4, stripes.height = 1;
+  stripes.rgba.assign(16, 255);
+  stripes.rgba[7] = stripes.rgba[15] = 0;
+  scene::Material leaf = matte(vec3(0.8f));
+  leaf.alpha_mode = scene::AlphaMode::mask;
+  leaf.base_color_texture.texture = 0;
+  leaf.base_color_texture.nearest = true;
+  s.materials.push_back(leaf);
+  add_mesh(s, scene::make_quad({-0.2f, 1.6f, 1.6f}, {1.6f, 0, 0}, {0, 0, -1}), 4);
+  add_stage_lamp(s, lamp.light);
+  const LampPicture truth(s, size, lamp.arriving, lambertian);
+  realtime::Renderer renderer(gl(), s);
+  EXPECT_TRUE(picture_is(draw(renderer, s), bounds_of(truth)));
+}
+
+}  // namespace
+}  // namespace ssphh::test

@@ -1,0 +1,95 @@
+#pragma once
+/// Lamps without an extent above the stage, and the light that arrives from them by closed forms.
+
+#include <functional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <ssphh/trace/transport_scene.h>
+
+#include "pixel_points.h"
+#include "stage.h"
+
+namespace ssphh::test {
+
+/// What the stage's surfaces reflect of a lamp without an extent: its irradiance on a surface that faces it
+/// and the way to it, both by hand.
+struct Arriving {
+  vec3 irradiance, wi;
+  float distance;
+};
+using Lamp = std::function<Arriving(const vec3& x)>;
+
+struct StageLamp {
+  const char* name;
+  scene::Light light;
+  Lamp arriving;
+};
+inline void PrintTo(const StageLamp& c, std::ostream* out) {
+  *out << c.name;
+}
+
+inline Arriving toward(const vec3& x, const vec3& intensity) {
+  const vec3 d = stage_lamp_place - x;
+  const float d2 = glm::dot(d, d);
+  return {intensity / d2, d / std::sqrt(d2), std::sqrt(d2)};
+}
+
+inline std::vector<StageLamp> lamps_without_extent() {
+  const vec3 colour(1, 0.8f, 0.3f);
+  scene::Light point, spot, sun;
+  point.color = spot.color = sun.color = colour;
+  point.intensity = spot.intensity = 20, sun.intensity = 3;
+  point.type = scene::LightType::point, spot.type = scene::LightType::spot,
+  sun.type = scene::LightType::directional;
+  spot.inner_cone = 0.3f, spot.outer_cone = 0.7f, spot.range = 9;
+  return {{"Point", point, [=](const vec3& x) { return toward(x, 20.0f * colour); }},
+          {"Spot", spot,
+           [=](const vec3& x) {
+             // KHR_lights_punctual
+             Arriving a = toward(x, 20.0f * colour);
+             const float cosine = -glm::dot(a.wi, stage_lamp_axis), outer = std::cos(0.7f),
+                         inner = std::cos(0.3f);
+             const float cone = glm::clamp((cosine - outer) / (inner - outer), 0.0f, 1.0f);
+             a.irradiance *= cone * cone * glm::clamp(1 - std::pow(a.distance / 9, 4.0f), 0.0f, 1.0f);
+             return a;
+           }},
+          {"Sun", sun, [=](const vec3&) {
+             return Arriving{3.0f * colour, -stage_lamp_axis, 100};
+           }}};
+}
+
+/// Of a matte surface, for an irradiance of 1 that arrives from wi.
+inline vec3 lambertian(const PixelPoint& p, const vec3& wi) {
+  return p.hit.albedo / pi * std::max(glm::dot(stage_normal(p.point), wi), 0.0f);
+}
+
+/// Radiance of the stage by one lamp at the middle of every pixel. `reflected(pixel, wi)`: as lambertian.
+struct LampPicture {
+  template <class Reflected>
+  LampPicture(const scene::Scene& scene, PictureSize size, const Lamp& lamp, const Reflected& reflected)
+      : source(scene), points(source, scene::camera_pose(scene, ""), size) {
+    const gi::PosedSurfaces surfaces(source, 0);
+    for (const PixelPoint& p : points.pixels) {
+      const Arriving a = lamp(p.point.position);
+      lit.push_back(
+          !p.hit.escaped() && glm::dot(p.point.normal, a.wi) > 0 && max_component(a.irradiance) > 0 &&
+          surfaces.visible(p.point.position + 1e-4f * p.point.normal, p.point.position + a.distance * a.wi));
+    }
+    picture = points.picture([&](const PixelPoint& p) {
+      const Arriving a = lamp(p.point.position);
+      return lit[points.index(p)] ? a.irradiance * reflected(p, a.wi) : vec3(0);
+    });
+    edge = points.edges([&](std::size_t a, std::size_t b) { return lit[a] != lit[b]; });
+  }
+  bool edge_at(int x, int y) const { return edge[static_cast<std::size_t>(y * points.size.width + x)]; }
+
+  trace::TransportScene source;
+  PixelPoints points;
+  std::vector<bool> lit;
+  std::vector<bool> edge;  ///< of a shadow, at the pixel or beside it
+  image::Image picture;
+};
+
+}  // namespace ssphh::test
