@@ -49,6 +49,13 @@ def run(command, limit, cwd, memory=None):
             pass
 
 
+def confined(tree, command):
+    """The command, able to write nowhere but in `tree` and in a /tmp of its own: a fault in what writes files has once put
+    a plain file in place of /dev/full."""
+    return ["bwrap", "--ro-bind", "/", "/", "--dev", "/dev", "--proc", "/proc", "--tmpfs", "/tmp", "--bind", tree, tree,
+            "--unshare-pid", "--die-with-parent", *command]
+
+
 def end_all():
     """Ends what the lanes run and would run, so that their threads come back. Ninja, asked so, ends its compilers, too."""
     global ending
@@ -144,7 +151,7 @@ class Suite:
     @staticmethod
     def measure(lane, name):
         report = lane.build / f"{name}.json"
-        run([lane.program(name), f"--gtest_output=json:{report}"], 1800, lane.build)
+        run(confined(lane.tree, [lane.program(name), f"--gtest_output=json:{report}"]), 1800, lane.build)
         if not report.exists():
             sys.exit(f"mutate: {name} ends early in the tree as it is")
         times, broken = {}, []
@@ -164,8 +171,8 @@ class Suite:
         for chosen in ("*-" + ":".join(slow + self.broken[name]), ":".join(slow)):
             if not chosen:
                 continue
-            code, output = run([lane.program(name), "--gtest_fail_fast", "--gtest_brief=1", f"--gtest_filter={chosen}"],
-                               60 + 6 * sum(times.values()), lane.build, memory)
+            command = [lane.program(name), "--gtest_fail_fast", "--gtest_brief=1", f"--gtest_filter={chosen}"]
+            code, output = run(confined(lane.tree, command), 60 + 6 * sum(times.values()), lane.build, memory)
             if code is None:
                 return "hangs", name
             if code != 0:
@@ -185,7 +192,8 @@ class Suite:
             outcome, by = self.ask(lane, name, memory)
             if outcome:
                 return outcome, by
-        code, output = run(["ctest", "-R", OTHER_TESTS, "--stop-on-failure", "--timeout", "120"], 600, lane.build, memory)
+        code, output = run(confined(lane.tree, ["ctest", "-R", OTHER_TESTS, "--stop-on-failure", "--timeout", "120"]), 600,
+                           lane.build, memory)
         if code is None:
             return "hangs", "ctest"
         if code != 0:
