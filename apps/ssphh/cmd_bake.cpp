@@ -142,11 +142,9 @@ std::string result_text(const BakeOptions& o, const BakeResult& r) {
 }
 
 /// Numbers of transport are null where there was none; `iterations` also where only weights were fitted.
-nlohmann::ordered_json result_json(const BakeOptions& o, const BakeResult& r) {
+json::Value result_json(const BakeOptions& o, const BakeResult& r) {
   const gi::TransportBakeReport& t = r.transport;
-  const auto if_any = [](bool any, const auto& value) {
-    return any ? nlohmann::json(value) : nlohmann::json();
-  };
+  const auto if_any = [](bool any, const auto& value) { return any ? json::Value(value) : json::Value(); };
   const bool solved = o.op != "path", network = t.surfels > 0;
   std::vector<std::string> warnings = t.warnings;
   for (const std::string& warning : r.paths.warnings) {
@@ -194,7 +192,7 @@ void bake(Context& context, BakeOptions& options) {
   gi::write_probe_file(result.set, options.output);
   std::filesystem::remove(checkpoint);
 
-  nlohmann::ordered_json object = result_json(options, result);
+  json::Value object = result_json(options, result);
   if (result.farm) object["farm"] = farm_json(*result.farm);
   if (place) object["placement"] = place_json(*place);
   context.result(object, result_text(options, result) + (place ? "\n" + place_text(*place) : ""));

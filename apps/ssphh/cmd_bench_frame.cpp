@@ -134,7 +134,7 @@ void bench_frame(const BenchOptions& o, const Context& context) {
   const double samples = static_cast<double>(o.supersample) * o.supersample * o.width * o.height;
 
   const double median = rank(frames, 0.5), p99 = rank(frames, 0.99);
-  nlohmann::ordered_json medians;
+  json::Value medians;
   std::string text = fmt::format("{}: {} frames of {}×{} on {}\n", o.scene.source, o.frames, o.width,
                                  o.height, gl.info().renderer);
   text += fmt::format("{:<10} {:>10} {:>10}\n{:<10} {:>10.2f} {:>10.2f}", "", "median ms", "p99 ms", "frame",
@@ -143,22 +143,22 @@ void bench_frame(const BenchOptions& o, const Context& context) {
     medians[name] = rank(times, 0.5);
     text += fmt::format("\n{:<10} {:>10.2f} {:>10.2f}", name, rank(times, 0.5), rank(times, 0.99));
   }
-  nlohmann::ordered_json result{{"scene", o.scene.source},
-                                {"renderer", gl.info().renderer},
-                                {"width", o.width},
-                                {"height", o.height},
-                                {"frames", o.frames},
-                                {"probes", renderer.probe_count()},
-                                {"indirect_scale", o.indirect_scale},
-                                {"median_ms", median},
-                                {"p99_ms", p99},
-                                {"passes", medians},
-                                {"draw_calls", draw_calls},
-                                {"overdraw", static_cast<double>(shaded) / samples},
-                                {"largest_upload_bytes", uploaded},
-                                {"memory_bytes", renderer.memory_bytes()},
-                                {"resident_bytes", resident_after},
-                                {"memory_growth_bytes", resident_after - resident_before}};
+  json::Value result{{"scene", o.scene.source},
+                     {"renderer", gl.info().renderer},
+                     {"width", o.width},
+                     {"height", o.height},
+                     {"frames", o.frames},
+                     {"probes", renderer.probe_count()},
+                     {"indirect_scale", o.indirect_scale},
+                     {"median_ms", median},
+                     {"p99_ms", p99},
+                     {"passes", medians},
+                     {"draw_calls", draw_calls},
+                     {"overdraw", static_cast<double>(shaded) / samples},
+                     {"largest_upload_bytes", uploaded},
+                     {"memory_bytes", renderer.memory_bytes()},
+                     {"resident_bytes", resident_after},
+                     {"memory_growth_bytes", resident_after - resident_before}};
   for (const auto& [name, value] : renderer.method_numbers()) {
     result[name] = value;
     text += fmt::format("\n{:<12} {:>15.6g}", name, value);

@@ -17,8 +17,6 @@ namespace ssphh::app {
 namespace {
 
 using image::Image;
-using nlohmann::ordered_json;
-
 struct CompareOptions {
   std::string reference, test, output, mask, map = "absolute";
   int block = 16;
@@ -91,14 +89,14 @@ float write_map(const CompareOptions& options, const Image& reference, const Ima
 }
 
 // JSON knows no infinity: null says that the images are equal.
-ordered_json finite_or_null(double x) {
-  return std::isfinite(x) ? ordered_json(x) : ordered_json(nullptr);
+json::Value finite_or_null(double x) {
+  return std::isfinite(x) ? json::Value(x) : json::Value(nullptr);
 }
 
-ordered_json to_json(const Errors& errors) {
+json::Value to_json(const Errors& errors) {
   const metrics::ImageError& e = errors.linear;
   const metrics::BlockError& blocks = errors.blocks;
-  ordered_json flip = {{"mean", errors.flip.mean}, {"kind", errors.hdr ? "hdr" : "ldr"}};
+  json::Value flip = {{"mean", errors.flip.mean}, {"kind", errors.hdr ? "hdr" : "ldr"}};
   if (errors.hdr) {
     flip["exposures"] = {{"first", errors.flip.first_exposure},
                          {"last", errors.flip.last_exposure},
@@ -176,7 +174,7 @@ void compare(Context& context, const CompareOptions& options) {
   }
   Errors errors = measure(options, reference, test);
   errors.linear.nonfinite_pixels -= outside;
-  ordered_json object = to_json(errors);
+  json::Value object = to_json(errors);
   std::string text = to_text(errors);
   if (!options.output.empty()) {
     const float scale = write_map(options, reference, test, errors);

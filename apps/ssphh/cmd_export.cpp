@@ -36,7 +36,7 @@ scene_io::ExportReport write(const ExportOptions& o, const scene::Scene& scene) 
 void run(const ExportOptions& o, const Context& context) {
   const scene::Scene scene = load_scene(o.picture.scene);
   const scene_io::ExportReport report = write(o, scene);
-  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  json::Value files = json::Value::array();
   for (const auto& file : report.files) files.push_back(file.string());
   std::string text =
       fmt::format("{}: {} file{}, {} triangles", report.files.front().string(), report.files.size(),

@@ -11,43 +11,42 @@
 namespace ssphh::app {
 namespace {
 
-using nlohmann::ordered_json;
-
 struct Status {
-  ordered_json stats, workers;
+  json::Value stats, workers;
 };
 
 Status status_of(majordomo::Client& client, const Control& control) {
   return {ask_json(client, "mmi.stats", control), ask_json(client, "mmi.workers", control)};
 }
 
-double seconds(const ordered_json& object, const char* key) {
-  return object.value(key, 0.0) / 1000;
+double seconds(const json::Value& object, const char* key) {
+  return object.number_or(key, 0) / 1000;
 }
 
 /// `per_second`: jobs finished, where it is known.
 std::string status_text(const Status& s, std::optional<double> per_second) {
-  const ordered_json &now = s.stats["now"], &total = s.stats["total"];
-  std::string text = fmt::format(
-      "{} workers ({} idle), {} jobs queued, {} running, {} finished, {} retries, {} parked",
-      now.value("workers", 0), now.value("idle", 0), now.value("queued", 0), now.value("running", 0),
-      total.value("finished", 0), total.value("retries", 0), total.value("parked", 0));
+  const json::Value &now = s.stats["now"], &total = s.stats["total"];
+  std::string text =
+      fmt::format("{} workers ({} idle), {} jobs queued, {} running, {} finished, {} retries, {} parked",
+                  now.number_or("workers", 0), now.number_or("idle", 0), now.number_or("queued", 0),
+                  now.number_or("running", 0), total.number_or("finished", 0), total.number_or("retries", 0),
+                  total.number_or("parked", 0));
   if (per_second) {
-    const double left = now.value("queued", 0.0) + now.value("running", 0.0);
+    const double left = now.number_or("queued", 0) + now.number_or("running", 0);
     text += fmt::format("\n{:.2f} jobs/s", *per_second);
     if (*per_second > 0 && left > 0) text += fmt::format(", about {:.0f} s left", left / *per_second);
   }
   text += fmt::format("\n{:<48} {:>7} {:>6} {:>7} {:>9}", "service", "workers", "idle", "queued", "finished");
-  for (const auto& service : s.stats["services"]) {
-    text += fmt::format("\n{:<48} {:>7} {:>6} {:>7} {:>9}", service.value("name", ""),
-                        service.value("workers", 0), service.value("idle", 0), service.value("queued", 0),
-                        service.value("finished", 0));
+  for (const json::Value& service : s.stats["services"].elements()) {
+    text += fmt::format("\n{:<48} {:>7} {:>6} {:>7} {:>9}", service.text_or("name", ""),
+                        service.number_or("workers", 0), service.number_or("idle", 0),
+                        service.number_or("queued", 0), service.number_or("finished", 0));
   }
   text += fmt::format("\n{:<30} {:<8} {:>9} {:>7}  {}", "worker", "state", "for", "served", "service");
-  for (const auto& worker : s.workers["workers"]) {
-    text += fmt::format("\n{:<30} {:<8} {:>7.1f} s {:>7}  {}", worker.value("name", ""),
-                        worker.value("state", ""), seconds(worker, "since_ms"), worker.value("served", 0),
-                        worker.value("service", ""));
+  for (const json::Value& worker : s.workers["workers"].elements()) {
+    text += fmt::format("\n{:<30} {:<8} {:>7.1f} s {:>7}  {}", worker.text_or("name", ""),
+                        worker.text_or("state", ""), seconds(worker, "since_ms"),
+                        worker.number_or("served", 0), worker.text_or("service", ""));
   }
   return text;
 }
@@ -59,7 +58,7 @@ void top(const BrokerChoice& choice, double interval, int count, Context& contex
   for (int i = 0; count == 0 || i < count; ++i) {
     const Status status = status_of(client, context.control);
     const auto now = std::chrono::steady_clock::now();
-    const double finished = status.stats["total"].value("finished", 0.0);
+    const double finished = status.stats["total"].number_or("finished", 0);
     std::optional<double> rate;
     if (before) rate = (finished - *before) / std::chrono::duration<double>(now - asked).count();
     before = finished, asked = now;

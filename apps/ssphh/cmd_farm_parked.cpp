@@ -8,17 +8,16 @@
 namespace ssphh::app {
 namespace {
 
-using nlohmann::ordered_json;
-
-std::string parked_text(const ordered_json& jobs) {
+std::string parked_text(const json::Value& jobs) {
   if (jobs.empty()) return "no job is set aside";
   std::string text;
-  for (const auto& job : jobs) {
+  for (const json::Value& job : jobs.elements()) {
     text += fmt::format("{}job {} of {}, {:.1f} KB, set aside {:.0f} s ago", text.empty() ? "" : "\n",
-                        job.value("job", 0ull), job.value("service", ""), 1e-3 * job.value("bytes", 0.0),
-                        1e-3 * job.value("since_ms", 0.0));
-    for (const auto& failure : job.value("failures", ordered_json::array()))
-      text += "\n  " + failure.get<std::string>();
+                        job.number_or("job", 0), job.text_or("service", ""), 1e-3 * job.number_or("bytes", 0),
+                        1e-3 * job.number_or("since_ms", 0));
+    if (const json::Value* failures = job.find("failures"); failures && failures->is_array()) {
+      for (const json::Value& failure : failures->elements()) text += "\n  " + failure.string();
+    }
   }
   return text;
 }
@@ -54,7 +53,7 @@ void add_farm_parked_commands(CLI::App& group, Context& context) {
       add_command(group, context, "parked",
                   "Jobs that were set aside because workers failed on them, and why", [=, &context] {
                     majordomo::Client client = connect(*broker);
-                    const ordered_json answer = ask_json(client, "mmi.parked", context.control);
+                    const json::Value answer = ask_json(client, "mmi.parked", context.control);
                     context.result({{"jobs", answer["jobs"]}}, parked_text(answer["jobs"]));
                   });
   add_broker_options(*parked, *broker, "client", "Broker")->required();

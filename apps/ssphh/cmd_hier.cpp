@@ -84,7 +84,7 @@ void hier(Context& context, HierOptions& options) {
        {"neighbors", options.params.neighbors},
        {"threshold", options.params.threshold},
        {"probes", set.probes.size()},
-       {"contraction", contraction ? nlohmann::json(contraction->upper) : nlohmann::json()},
+       {"contraction", contraction ? json::Value(contraction->upper) : json::Value()},
        {"gen", gi::to_string(set.generator.gen)},
        {"light", gi::to_string(set.generator.op)},
        {"viz", gi::to_string(set.generator.viz)}},

@@ -57,17 +57,16 @@ void leak(Context& context, LeakOptions& o) {
   if (!(report.mean_truth > 0))
     log_warning("{}: path tracing finds no indirect light at all", o.scene.source);
 
-  nlohmann::ordered_json object = {
-      {"leak_ratio", report.ratio},
-      {"points", points.size()},
-      {"dark_points", report.dark},
-      {"dark_share", o.params.dark_share},
-      {"truth_noise", report.truth_noise},
-      {"truth_spp", o.params.path.spp},
-      {"mean_truth", report.mean_truth},
-      {"mean_looked_up", report.mean_looked_up},
-      {"weights", gi::to_string(lookup_params.weights.chosen(set.fitted.has_value()))},
-      {"time", time}};
+  json::Value object = {{"leak_ratio", report.ratio},
+                        {"points", points.size()},
+                        {"dark_points", report.dark},
+                        {"dark_share", o.params.dark_share},
+                        {"truth_noise", report.truth_noise},
+                        {"truth_spp", o.params.path.spp},
+                        {"mean_truth", report.mean_truth},
+                        {"mean_looked_up", report.mean_looked_up},
+                        {"weights", gi::to_string(lookup_params.weights.chosen(set.fitted.has_value()))},
+                        {"time", time}};
   std::string text = fmt::format(
       "leaked      {:.4g} % of the looked-up light stands on dark points\n"
       "dark        {} of {} points: path traced indirect irradiance under {:g} of the mean, at {:g} sigma\n"

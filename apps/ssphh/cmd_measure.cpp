@@ -51,7 +51,7 @@ std::vector<scene::SurfacePoint> find_points(const MeasureOptions& o, const scen
 struct Candidate {
   std::string name, detail;
   std::shared_ptr<const scene::IndirectLight> light;
-  nlohmann::ordered_json json;
+  json::Value json;
   std::shared_ptr<LiveMethod> live = nullptr;  ///< null for probe files
 };
 
@@ -87,7 +87,7 @@ Candidate method_candidate(const std::string& spec, const scene::Scene& scene, f
   words.erase(words.begin());
   auto live = std::make_shared<LiveMethod>(name, words, scene, control);
   live->update(gi::frame_at(live->source(), time), control);
-  nlohmann::ordered_json json = {{"method", spec}};
+  json::Value json = {{"method", spec}};
   json.update(live->json());
   const scene::IndirectLight* light = &live->method().light();
   return {spec, "", {live, light}, std::move(json), live};
@@ -146,7 +146,7 @@ void measure(Context& context, MeasureOptions& o) {
   o.params.path.seed = context.seed;
   const gi::TruthAtPoints truth = gi::trace_truth(tracer, points, o.params, context.control);
 
-  nlohmann::ordered_json results = nlohmann::ordered_json::array();
+  json::Value results = json::Value::array();
   std::string text = fmt::format(
       "{} points of {} paths, {} of them dark; mean {:.5g} "
       "W/m2\n{:<24}{:<11}{:>8}{:>11}{:>9}{:>10}{:>9}{:>9}",
@@ -160,7 +160,7 @@ void measure(Context& context, MeasureOptions& o) {
     const double leak = gi::leak_ratio(looked_up, truth);
     noise = e.noise;
     const auto number = [](double value) {
-      return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+      return std::isfinite(value) ? json::Value(value) : json::Value(nullptr);
     };
     candidate.json.update({{"ratio", number(e.ratio)},
                            {"mean_error", e.mean_error},

@@ -20,15 +20,15 @@ std::string range_text(const gi::MethodParameter& p) {
 
 void list(const std::string& wanted, const Context& context) {
   if (!wanted.empty()) gi::find_method(wanted);
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  json::Value all = json::Value::array();
   std::string text;
   for (const gi::MethodEntry& entry : gi::method_table()) {
     if (!wanted.empty() && wanted != entry.name) continue;
-    nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
+    json::Value parameters = json::Value::array();
     text += fmt::format("{}{}\n    {}\n", text.empty() ? "" : "\n", entry.name, entry.about);
     for (const gi::MethodParameter& p : entry.parameters) {
       text += fmt::format("    {:<16} {:<10} {} ({})\n", p.name, default_text(p), p.about, range_text(p));
-      nlohmann::ordered_json item = {{"name", p.name}, {"default", default_text(p)}, {"about", p.about}};
+      json::Value item = {{"name", p.name}, {"default", default_text(p)}, {"about", p.about}};
       if (p.choices.empty()) {
         item["default"] = p.value, item["least"] = p.least, item["most"] = p.most, item["whole"] = p.whole;
       } else {

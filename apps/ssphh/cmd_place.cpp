@@ -14,8 +14,6 @@ namespace ssphh::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 struct PlaceCommand {
   SceneOptions scene;
   PlaceOptions place;
@@ -33,9 +31,9 @@ std::string from_output(const fs::path& path, const fs::path& output) {
 }
 
 /// The overlay that lies on the scene, if there is one, else an empty one; its paths as `output` needs them.
-Json base_overlay(const SceneOptions& scene, const fs::path& output) {
+json::Value base_overlay(const SceneOptions& scene, const fs::path& output) {
   fs::path overlay = scene.overlay;
-  Json base = Json::object();
+  json::Value base = json::Value::object();
   std::string named = scene.source;
   if (is_overlay_name(scene.source)) {
     if (!overlay.empty()) {
@@ -49,10 +47,10 @@ Json base_overlay(const SceneOptions& scene, const fs::path& output) {
     overlay = beside;
   }
   if (!overlay.empty()) {
-    base = Json::parse(read_text_file(overlay));
+    base = json::parse(read_text_file(overlay), overlay.string());
     if (base.contains("environment") && base["environment"].contains("image")) {
-      Json& image = base["environment"]["image"];
-      const fs::path path = scene_io::expand_variables(image.get<std::string>(), overlay.string());
+      json::Value& image = base["environment"]["image"];
+      const fs::path path = scene_io::expand_variables(image.string(), overlay.string());
       image = from_output(path.is_absolute() ? path : overlay.parent_path() / path, output);
     }
     base.erase("$schema");
@@ -71,15 +69,15 @@ void place(Context& context, const PlaceCommand& options) {
   if (!result)
     throw Error("--probes scene", "there is nothing to place", "use auto, auto:METRES or a number");
 
-  Json overlay = base_overlay(options.scene, options.output);
+  json::Value overlay = base_overlay(options.scene, options.output);
   for (const gi::PlacedProbe& probe : result->placement.probes) {
     if (probe.kind == gi::PlaceKind::manual) continue;
     overlay["sphls"].push_back({{"name", probe.name},
                                 {"position", {probe.position.x, probe.position.y, probe.position.z}},
                                 {"radius", probe.radius}});
   }
-  write_file(options.output, overlay.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-  Json object = place_json(*result);
+  write_file(options.output, json::print(overlay, 1) + "\n");
+  json::Value object = place_json(*result);
   object["output"] = options.output;
   context.result(object, fmt::format("{}: {}", options.output, place_text(*result)));
 }

@@ -13,9 +13,7 @@
 namespace ssphh::app {
 namespace {
 
-using nlohmann::ordered_json;
-
-ordered_json rgb(const vec3& v) {
+json::Value rgb(const vec3& v) {
   return {v.x, v.y, v.z};
 }
 std::string rgb_text(const vec3& v) {
@@ -28,7 +26,7 @@ float lowest_irradiance(const sh::RadianceSh& light) {
   return std::min({lowest.x, lowest.y, lowest.z});
 }
 
-ordered_json generator_json(const gi::GeneratorInfo& g) {
+json::Value generator_json(const gi::GeneratorInfo& g) {
   return {{"operator", gi::to_string(g.op)},
           {"viz", gi::to_string(g.viz)},
           {"gen", gi::to_string(g.gen)},
@@ -45,9 +43,9 @@ ordered_json generator_json(const gi::GeneratorInfo& g) {
           {"time", g.time}};
 }
 
-ordered_json probe_json(const gi::ProbeSet& set, std::size_t i) {
+json::Value probe_json(const gi::ProbeSet& set, std::size_t i) {
   const gi::Probe& probe = set.probes[i];
-  ordered_json groups = ordered_json::array(), edges = ordered_json::array();
+  json::Value groups = json::Value::array(), edges = json::Value::array();
   for (const gi::GroupLight& group : probe.groups) {
     groups.push_back(
         {{"emitted", rgb(sh::mean(group.emitted))}, {"reflected", rgb(sh::mean(group.reflected))}});
@@ -56,14 +54,14 @@ ordered_json probe_json(const gi::ProbeSet& set, std::size_t i) {
     edges.push_back(
         {{"from", edge.from}, {"transfer", edge.transfer}, {"matrix", !edge.matrix.values.empty()}});
   }
-  ordered_json object = {{"name", probe.name},
-                         {"position", rgb(probe.position)},
-                         {"radius", probe.radius},
-                         {"mean", rgb(sh::mean(probe.self))},
-                         {"reflected_mean", rgb(sh::mean(probe.reflected))},
-                         {"min_irradiance", lowest_irradiance(probe.self)},
-                         {"groups", groups},
-                         {"edges", edges}};
+  json::Value object = {{"name", probe.name},
+                        {"position", rgb(probe.position)},
+                        {"radius", probe.radius},
+                        {"mean", rgb(sh::mean(probe.self))},
+                        {"reflected_mean", rgb(sh::mean(probe.reflected))},
+                        {"min_irradiance", lowest_irradiance(probe.self)},
+                        {"groups", groups},
+                        {"edges", edges}};
   if (set.hierarchy) object["neighbor_mean"] = rgb(sh::mean(set.hierarchy->neighbor[i]));
   return object;
 }
@@ -94,7 +92,7 @@ std::string probe_text(const gi::ProbeSet& set, std::size_t i) {
 void info(Context& context, const std::string& path) {
   const gi::ProbeSet set = gi::read_probe_file(path);
   const gi::GeneratorInfo& g = set.generator;
-  ordered_json groups = ordered_json::array(), probes = ordered_json::array();
+  json::Value groups = json::Value::array(), probes = json::Value::array();
   std::string text =
       fmt::format("{}: {} probes of degree {}, {} edges\nscene {} at {} s; light by {}, edges by {}\n", path,
                   set.probes.size(), set.degree, gi::edge_count(set), g.scene, g.time, gi::to_string(g.op),
@@ -113,12 +111,12 @@ void info(Context& context, const std::string& path) {
     text += fmt::format("light group {}, scale {:g} {:g} {:g}\n", group.name, group.scale.x, group.scale.y,
                         group.scale.z);
   }
-  ordered_json object = {{"file", path},
-                         {"degree", set.degree},
-                         {"generator", generator_json(g)},
-                         {"light_groups", groups},
-                         {"edges", gi::edge_count(set)},
-                         {"fitted", set.fitted ? set.fitted->points.size() : 0}};
+  json::Value object = {{"file", path},
+                        {"degree", set.degree},
+                        {"generator", generator_json(g)},
+                        {"light_groups", groups},
+                        {"edges", gi::edge_count(set)},
+                        {"fitted", set.fitted ? set.fitted->points.size() : 0}};
   if (set.hierarchy) {
     const gi::Hierarchy& h = *set.hierarchy;
     object["hierarchy"] = {
@@ -148,7 +146,7 @@ void preview(Context& context, const PreviewOptions& options) {
   std::string text =
       fmt::format("{}: {} x {} pixels, one row per probe, columns from the left:", options.output,
                   sheet.image.width, sheet.image.height);
-  ordered_json columns = ordered_json::array(), rows = ordered_json::array();
+  json::Value columns = json::Value::array(), rows = json::Value::array();
   for (const ProbeSheet::Column& column : sheet.columns) {
     columns.push_back({{"layer", column.name}, {"exposure", column.exposure}});
     text += fmt::format(" {} (exposure {:+.2f} EV)", column.name, column.exposure);

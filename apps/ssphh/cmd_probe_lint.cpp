@@ -29,16 +29,16 @@ void lint(Context& context, LintOptions& options) {
   require_same_scene(options.input, set, scene, source.light_groups(), {}, options.force);
   const std::vector<gi::LintProblem> problems = gi::lint_probes(set, source, options.params, context.control);
 
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  json::Value list = json::Value::array();
   std::string text;
   for (const gi::LintProblem& problem : problems) {
     const std::string name =
         problem.probe < 0 ? "" : set.probes[static_cast<std::size_t>(problem.probe)].name;
     const vec3& p = problem.position;
-    nlohmann::ordered_json entry = {{"kind", gi::to_string(problem.kind)},
-                                    {"probe", nullptr},
-                                    {"position", {p.x, p.y, p.z}},
-                                    {"message", problem.message}};
+    json::Value entry = {{"kind", gi::to_string(problem.kind)},
+                         {"probe", nullptr},
+                         {"position", {p.x, p.y, p.z}},
+                         {"message", problem.message}};
     if (problem.probe >= 0) entry["probe"] = name;
     list.push_back(std::move(entry));
     text += fmt::format("{}: {}at ({:.6g}, {:.6g}, {:.6g}) m: {}\n", gi::to_string(problem.kind),

@@ -207,7 +207,7 @@ class Relighting {
   }
 
   void report(const gi::RelightSession& session) const {
-    nlohmann::ordered_json object = relight_json(run_);
+    json::Value object = relight_json(run_);
     object["operator"] = o_.method;
     object["weights"] = o_.weights;
     object["probes"] = session.places().size();

@@ -147,9 +147,9 @@ Hash128 content_hash(const RenderOptions& o, const scene::Scene& scene) {
 }
 
 // The method's extra numbers; null for those that have none.
-nlohmann::ordered_json render_here(const trace::PathTracer& tracer, const scene::Scene& scene,
-                                   const RenderOptions& o, const trace::RenderParams& params,
-                                   trace::RenderState& state, const Control& control) {
+json::Value render_here(const trace::PathTracer& tracer, const scene::Scene& scene, const RenderOptions& o,
+                        const trace::RenderParams& params, trace::RenderState& state,
+                        const Control& control) {
   if (o.method == "path") {
     tracer.render(params, state, control);
     return nullptr;
@@ -231,7 +231,7 @@ void render(const RenderOptions& o, const Context& context) {
   }
   const auto start = std::chrono::steady_clock::now();
   farm::FarmReport farm_report;
-  nlohmann::ordered_json numbers;
+  json::Value numbers;
   if (session) {
     state = render_on_farm(*session, tracer, scene, o, params, farm_report, context.control);
   } else {
@@ -245,10 +245,9 @@ void render(const RenderOptions& o, const Context& context) {
   write_aovs(o, state, tracer.light_groups());
 
   const auto mean = mean_radiance(picture);
-  nlohmann::ordered_json object = {
-      {"output", o.output},       {"method", o.method},          {"width", picture.width},
-      {"height", picture.height}, {"passes", state.passes_done}, {"seconds", seconds},
-      {"rays", state.rays},       {"paths", state.paths},        {"mean", mean}};
+  json::Value object = {{"output", o.output},       {"method", o.method},          {"width", picture.width},
+                        {"height", picture.height}, {"passes", state.passes_done}, {"seconds", seconds},
+                        {"rays", state.rays},       {"paths", state.paths},        {"mean", mean}};
   std::string text =
       fmt::format("{}: {}×{}, {} paths, {} rays in {:.2f} s, mean radiance {:.4g} {:.4g} {:.4g}", o.output,
                   picture.width, picture.height, state.paths, state.rays, seconds, mean[0], mean[1], mean[2]);

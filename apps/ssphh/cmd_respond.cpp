@@ -87,7 +87,7 @@ void respond(Context& context, RespondOptions& o) {
   }
 
   std::vector<double> ms;
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  json::Value list = json::Value::array();
   for (const Frame& frame : frames) {
     ms.push_back(frame.ms);
     list.push_back({{"ms", frame.ms}, {"ratio", frame.error.ratio}, {"mean_error", frame.error.mean_error}});
@@ -98,17 +98,17 @@ void respond(Context& context, RespondOptions& o) {
   if (!o.output.empty()) write_file(o.output, csv_text(frames));
 
   const gi::LookupError& last = frames.back().error;
-  nlohmann::ordered_json object = {{"method", o.method},
-                                   {"points", points.size()},
-                                   {"noise", last.noise},
-                                   {"before_error", stale.mean_error},
-                                   {"first_error", frames.front().error.mean_error},
-                                   {"last_error", last.mean_error},
-                                   {"last_ratio", last.ratio},
-                                   {"frames_to_settle", settled},
-                                   {"first_ms", frames.front().ms},
-                                   {"median_ms", median_ms},
-                                   {"before_ms", first_ms}};
+  json::Value object = {{"method", o.method},
+                        {"points", points.size()},
+                        {"noise", last.noise},
+                        {"before_error", stale.mean_error},
+                        {"first_error", frames.front().error.mean_error},
+                        {"last_error", last.mean_error},
+                        {"last_ratio", last.ratio},
+                        {"frames_to_settle", settled},
+                        {"first_ms", frames.front().ms},
+                        {"median_ms", median_ms},
+                        {"before_ms", first_ms}};
   object.update(live.json());
   object["frames"] = std::move(list);
   context.result(

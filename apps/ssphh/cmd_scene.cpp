@@ -15,10 +15,8 @@
 namespace ssphh::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 void list_scenes(const Context& context) {
-  Json scenes = Json::array();
+  json::Value scenes = json::Value::array();
   std::string text;
   for (const scene::BuiltinScene& scene : scene::builtin_scenes()) {
     const std::string name = "builtin:" + scene.name;
@@ -35,7 +33,7 @@ std::vector<std::string> names_of(const std::vector<T>& items) {
   return names;
 }
 
-Json to_json(const vec3& v) {
+json::Value to_json(const vec3& v) {
   return {v.x, v.y, v.z};
 }
 
@@ -51,12 +49,12 @@ void show_scene(const Context& context, const SceneOptions& options) {
       });
   const std::vector<std::string> groups = scene::light_groups(scene);
   const float duration = scene::animation_duration(scene);
-  Json sphls = Json::array();
+  json::Value sphls = json::Value::array();
   for (const scene::SphlPlace& place : scene::sphl_places(scene, options.time)) {
     sphls.push_back({{"name", place.name}, {"position", to_json(place.position)}, {"radius", place.radius}});
   }
 
-  const Json object = {
+  const json::Value object = {
       {"scene", options.source},
       {"name", scene.name},
       {"triangles", scene::triangle_count(scene)},
@@ -75,8 +73,8 @@ void show_scene(const Context& context, const SceneOptions& options) {
       {"movable", movable},
       {"animations", scene.animations.size()},
       {"animation_seconds", duration},
-      {"bounds",
-       bounds.empty() ? Json(nullptr) : Json{{"min", to_json(bounds.min)}, {"max", to_json(bounds.max)}}},
+      {"bounds", bounds.empty() ? json::Value(nullptr)
+                                : json::Value{{"min", to_json(bounds.min)}, {"max", to_json(bounds.max)}}},
       {"hash", scene::scene_hash(scene).hex()},
       {"ignored", scene.ignored}};
 

@@ -23,8 +23,6 @@
 namespace ssphh::app {
 namespace {
 
-using nlohmann::ordered_json;
-
 // ---- options
 // ------------------------------------------------------------------------------------------------------
 
@@ -44,8 +42,8 @@ struct Output {
   void option(CLI::App& command) {
     command.add_option("-o,--output", path, "Also write the JSON object to this file");
   }
-  void give(const Context& context, const ordered_json& object) const {
-    if (!path.empty()) write_file(path, object.dump(1) + "\n");
+  void give(const Context& context, const json::Value& object) const {
+    if (!path.empty()) write_file(path, json::print(object, 1) + "\n");
     context.result(object, sh_text(object));
   }
   void give(const Context& context, const sh::RadianceSh& sh) const {
@@ -261,7 +259,7 @@ void add_convert(CLI::App& group, Context& context) {
                       log_warning("{}: bands {}..{} are dropped, {} holds degree {}", o->file, degree + 1,
                                   radiance.degree(), sh::convention_name(to), degree);
                     }
-                    ordered_json object = sh_to_json(stored, degree);
+                    json::Value object = sh_to_json(stored, degree);
                     object["convention"] = std::string(sh::convention_name(to));
                     o->output.give(context, object);
                   });

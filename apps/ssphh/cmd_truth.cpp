@@ -136,7 +136,7 @@ MeanRadiance mean_radiance(const Halves& halves) {
   return result;
 }
 
-nlohmann::ordered_json array(const glm::dvec3& v) {
+json::Value array(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
 }
 

@@ -6,9 +6,8 @@
 
 namespace ssphh::app {
 
-void Context::result(const nlohmann::ordered_json& object, const std::string& text) const {
-  const std::string out =
-      json ? object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) : text;
+void Context::result(const json::Value& object, const std::string& text) const {
+  const std::string out = json ? json::print(object, 2) : text;
   if (std::fputs(out.c_str(), stdout) < 0 || std::fputc('\n', stdout) == EOF || std::fflush(stdout) != 0) {
     throw Error("stdout", "cannot write the result");
   }

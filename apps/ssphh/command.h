@@ -6,9 +6,9 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include <ssphh/core/control.h>
+#include <ssphh/core/json.h>
 
 namespace ssphh::app {
 
@@ -23,7 +23,7 @@ struct Context {
   int exit_code = 0;          ///< of a command that gave a result and still has to report a failure
 
   /// The command's result: with --json the object alone on stdout, else `text`.
-  void result(const nlohmann::ordered_json& object, const std::string& text) const;
+  void result(const json::Value& object, const std::string& text) const;
 };
 
 /// A leaf command with the common options (--json, --seed, --threads, --progress). `action` runs after

@@ -24,9 +24,8 @@ std::string ask(majordomo::Client& client, const std::string& service, const std
   return reply.size() > 1 ? reply[1] : "";
 }
 
-nlohmann::ordered_json ask_json(majordomo::Client& client, const std::string& service,
-                                const Control& control) {
-  auto object = nlohmann::ordered_json::parse(ask(client, service, "", control), nullptr, false);
+json::Value ask_json(majordomo::Client& client, const std::string& service, const Control& control) {
+  json::Value object = json::parse(ask(client, service, "", control), service);
   if (!object.is_object()) throw Error(service, "the broker's answer is no JSON object");
   return object;
 }

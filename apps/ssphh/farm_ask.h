@@ -3,8 +3,7 @@
 
 #include <string>
 
-#include <nlohmann/json.hpp>
-
+#include <ssphh/core/json.h>
 #include <ssphh/majordomo/client.h>
 
 #include "command.h"
@@ -18,8 +17,7 @@ majordomo::Client connect(const BrokerChoice& choice);
 /// none comes within five seconds.
 std::string ask(majordomo::Client& client, const std::string& service, const std::string& body,
                 const Control& control, const std::string& not_found = "the broker does not know it");
-nlohmann::ordered_json ask_json(majordomo::Client& client, const std::string& service,
-                                const Control& control);
+json::Value ask_json(majordomo::Client& client, const std::string& service, const Control& control);
 
 /// `ssphh farm parked`, `release` and `drop`.
 void add_farm_parked_commands(CLI::App& group, Context& context);

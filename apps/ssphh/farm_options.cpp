@@ -67,7 +67,7 @@ FarmSession::FarmSession(const FarmChoice& choice) {
   options_.results = results_.get();
 }
 
-nlohmann::ordered_json farm_json(const farm::FarmReport& report) {
+json::Value farm_json(const farm::FarmReport& report) {
   return {{"jobs", report.jobs},       {"retries", report.retries},
           {"units", report.units},     {"cached", report.cached},
           {"workers", report.workers}, {"compute_seconds", report.compute_seconds},

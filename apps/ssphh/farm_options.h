@@ -6,8 +6,8 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
+#include <ssphh/core/json.h>
 #include <ssphh/farm/dispatch.h>
 #include <ssphh/farm/local_farm.h>
 
@@ -45,7 +45,7 @@ class FarmSession {
   farm::FarmOptions options_;
 };
 
-nlohmann::ordered_json farm_json(const farm::FarmReport& report);
+json::Value farm_json(const farm::FarmReport& report);
 std::string farm_text(const farm::FarmReport& report);
 
 }  // namespace ssphh::app

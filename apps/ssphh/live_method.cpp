@@ -34,12 +34,12 @@ void LiveMethod::update(const gi::FrameState& state, const Control& control) {
   update_seconds_ = seconds_since(start);
 }
 
-nlohmann::ordered_json LiveMethod::json() const {
+json::Value LiveMethod::json() const {
   const gi::MethodMemory memory = method_->memory();
-  nlohmann::ordered_json object = {{"bake_seconds", bake_seconds_},
-                                   {"update_seconds", update_seconds_},
-                                   {"lookup_bytes", memory.lookup},
-                                   {"update_bytes", memory.update}};
+  json::Value object = {{"bake_seconds", bake_seconds_},
+                        {"update_seconds", update_seconds_},
+                        {"lookup_bytes", memory.lookup},
+                        {"update_bytes", memory.update}};
   for (const auto& [name, value] : method_->numbers()) object[name] = value;
   return object;
 }

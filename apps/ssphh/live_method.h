@@ -29,7 +29,7 @@ class LiveMethod {
   double update_seconds() const { return update_seconds_; }
 
   /// bake_seconds, update_seconds (of the last update), lookup_bytes, update_bytes and the method's numbers.
-  nlohmann::ordered_json json() const;
+  json::Value json() const;
   std::string text() const;
 
  private:

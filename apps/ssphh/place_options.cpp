@@ -96,7 +96,7 @@ std::optional<PlaceResult> place_for(const scene::Scene& scene, float time, cons
   return result;
 }
 
-nlohmann::ordered_json place_json(const PlaceResult& result) {
+json::Value place_json(const PlaceResult& result) {
   const gi::Placement& p = result.placement;
   const gi::PlaceCounts& c = p.counts;
   const auto moving =

@@ -5,8 +5,8 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
+#include <ssphh/core/json.h>
 #include <ssphh/gi/place.h>
 
 namespace ssphh::app {
@@ -33,7 +33,7 @@ struct PlaceResult {
 std::optional<PlaceResult> place_for(const scene::Scene& scene, float time, const PlaceOptions& options,
                                      const std::string& fallback, const Control& control);
 
-nlohmann::ordered_json place_json(const PlaceResult& result);
+json::Value place_json(const PlaceResult& result);
 std::string place_text(const PlaceResult& result);
 
 }  // namespace ssphh::app

@@ -11,7 +11,6 @@
 namespace ssphh::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Value = std::function<double(const gi::RelightReport&)>;
 
 const struct {
@@ -61,14 +60,14 @@ std::size_t over_budget(const RelightRun& run) {
       std::count_if(times.begin(), times.end(), [&](double ms) { return ms > 1000 / run.fps; }));
 }
 
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
+json::Value number(double value) {
+  return std::isfinite(value) ? json::Value(value) : json::Value(nullptr);
 }
 
 }  // namespace
 
-Json relight_json(const RelightRun& run) {
-  Json stage_times = Json::object();
+json::Value relight_json(const RelightRun& run) {
+  json::Value stage_times = json::Value::object();
   for (const auto& stage : stages) {
     const std::vector<double> times = sorted(run, stage.ms);
     stage_times[stage.name] = {{"median_ms", percentile(times, 0.5)}, {"p99_ms", percentile(times, 0.99)}};
@@ -78,7 +77,7 @@ Json relight_json(const RelightRun& run) {
   stage_times["solve"]["iterations"] =
       mean(run, [](const gi::RelightReport& r) { return static_cast<double>(r.solve.iterations); });
 
-  Json errors = Json::array();
+  json::Value errors = json::Value::array();
   for (const FrameError& e : run.errors) {
     errors.push_back({{"frame", e.frame},
                       {"seconds", e.frame / run.fps},
@@ -91,7 +90,7 @@ Json relight_json(const RelightRun& run) {
                       {"mean_truth", e.error.mean_truth},
                       {"points", e.error.points}});
   }
-  Json frame_ms = Json::array();
+  json::Value frame_ms = json::Value::array();
   for (const gi::RelightReport& r : run.updates) frame_ms.push_back(r.total_ms());
   const std::vector<double> times = sorted(run, total);
   const auto unconverged = std::count_if(run.updates.begin(), run.updates.end(),

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include <ssphh/core/json.h>
 #include <ssphh/gi/lookup_error.h>
 #include <ssphh/gi/relight_session.h>
 
@@ -26,7 +25,7 @@ struct RelightRun {
   bool cancelled = false;
 };
 
-nlohmann::ordered_json relight_json(const RelightRun& run);
+json::Value relight_json(const RelightRun& run);
 std::string relight_text(const RelightRun& run);
 
 /// Ratio and relative errors over seconds, as SVG.

@@ -97,15 +97,15 @@ void render_gl(const RenderOptions& o, const Context& context) {
     image::write_image((output.parent_path() / output.stem()).string() + "." + aov + ".exr", image);
   }
   const auto mean = mean_radiance(picture);
-  nlohmann::ordered_json object = {{"output", o.output},
-                                   {"method", o.method},
-                                   {"backend", "gl"},
-                                   {"renderer", gl.info().renderer},
-                                   {"width", picture.width},
-                                   {"height", picture.height},
-                                   {"samples", side * side},
-                                   {"seconds", seconds},
-                                   {"mean", mean}};
+  json::Value object = {{"output", o.output},
+                        {"method", o.method},
+                        {"backend", "gl"},
+                        {"renderer", gl.info().renderer},
+                        {"width", picture.width},
+                        {"height", picture.height},
+                        {"samples", side * side},
+                        {"seconds", seconds},
+                        {"mean", mean}};
   std::string text = fmt::format(
       "{}: {}×{}, {} samples per pixel in {:.2f} s on {}, mean radiance {:.4g} {:.4g} {:.4g}", o.output,
       picture.width, picture.height, side * side, seconds, gl.info().renderer, mean[0], mean[1], mean[2]);

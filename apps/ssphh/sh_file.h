@@ -6,19 +6,18 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include <ssphh/core/json.h>
 #include <ssphh/sh/convert.h>
 
 namespace ssphh::app {
 
 /// [r, g, b], each as the shortest decimal that reads back to the same float.
-nlohmann::ordered_json rgb_to_json(const vec3& rgb);
+json::Value rgb_to_json(const vec3& rgb);
 
-nlohmann::ordered_json sh_to_json(std::span<const vec3> coefficients, int degree);
+json::Value sh_to_json(std::span<const vec3> coefficients, int degree);
 
 /// The object as a table of l, m, R, G, B.
-std::string sh_text(const nlohmann::ordered_json& object);
+std::string sh_text(const json::Value& object);
 
 /// The stored values in a file, or on stdin for "-", of any convention. Throws Error unless it is an object
 /// of the form above whose degree the convention has, with as many finite values as the degree asks for. A

@@ -4,8 +4,9 @@
 #include <cstdio>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
+
+#include <ssphh/core/json.h>
 
 namespace ssphh::app {
 namespace {
@@ -69,10 +70,9 @@ void StderrProgress::print(bool last) {
   const double rate = seconds > 0 ? static_cast<double>(done_) / seconds : 0;
   const double eta = rate > 0 && total_ > done_ ? static_cast<double>(total_ - done_) / rate : 0;
   if (style_ == ProgressStyle::json) {
-    const nlohmann::ordered_json line = {{"stage", stage_}, {"done", done_}, {"total", total_},
-                                         {"unit", unit_},   {"rate", rate},  {"seconds", seconds},
-                                         {"eta", eta}};
-    fmt::print(stderr, "{}\n", line.dump());
+    const json::Value line = {{"stage", stage_}, {"done", done_},      {"total", total_}, {"unit", unit_},
+                              {"rate", rate},    {"seconds", seconds}, {"eta", eta}};
+    fmt::print(stderr, "{}\n", json::print(line));
     return;
   }
   const std::string text =

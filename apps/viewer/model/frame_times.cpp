@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
+
+#include <ssphh/core/json.h>
 
 namespace ssphh::viewer {
 
@@ -33,9 +34,9 @@ void FrameTimes::add(const std::string& stage, double ms) {
 }
 
 std::string FrameTimes::to_json(const std::map<std::string, std::string>& about) const {
-  nlohmann::ordered_json out;
+  json::Value out;
   for (const auto& [name, value] : about) out[name] = value;
-  out["stages"] = nlohmann::ordered_json::array();
+  out["stages"] = json::Value::array();
   for (const Stage& stage : stages_) {
     out["stages"].push_back({{"name", stage.name},
                              {"frames", stage.ms.count()},
@@ -43,7 +44,7 @@ std::string FrameTimes::to_json(const std::map<std::string, std::string>& about)
                              {"p99_ms", stage.ms.quantile(0.99)},
                              {"last_ms", stage.ms.last()}});
   }
-  return out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json::print(out, 2) + "\n";
 }
 
 std::string FrameTimes::to_csv() const {

@@ -17,12 +17,12 @@ constexpr std::int64_t max_chunk = std::int64_t{8} << 20;
 constexpr majordomo::Millis answer_within = 60'000;
 
 std::string encode_request(const Hash128& blob, std::uint64_t offset, std::uint64_t length) {
-  const Json request = {{"format", "ssphh-blob-request"},
-                        {"version", 1},
-                        {"blob", blob.hex()},
-                        {"offset", offset},
-                        {"length", length}};
-  return request.dump();
+  const json::Value request = {{"format", "ssphh-blob-request"},
+                               {"version", 1},
+                               {"blob", blob.hex()},
+                               {"offset", offset},
+                               {"length", length}};
+  return json::print(request);
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ struct BlobServer::Impl {
 
   majordomo::Frames serve(const majordomo::Job& job) {
     const Message message = parse_message(job.body.at(0), "blob request");
-    const Field root = message.root("blob request");
+    const Field root = message.root();
     if (root["format"].text() != "ssphh-blob-request" || root["version"].integer(0, 1000) != 1)
       root.fail("is of another format or version");
     const auto found = blobs.find(root["blob"].hash().hex());

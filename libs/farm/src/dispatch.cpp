@@ -3,8 +3,8 @@
 #include <unordered_map>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include <ssphh/core/json.h>
 #include <ssphh/core/log.h>
 #include <ssphh/farm/dispatch.h>
 #include <ssphh/farm/engine.h>
@@ -111,12 +111,13 @@ class Dispatcher {
 
   void take_stats(const majordomo::Frames& body) {
     if (body.size() < 2 || body[0] != "200") return;
-    const auto stats = nlohmann::json::parse(body[1], nullptr, false);
-    if (!stats.is_object() || !stats.contains("services") || !stats["services"].is_array()) return;
+    const std::optional<json::Value> stats = json::try_parse(body[1]);
+    const json::Value* services = stats ? stats->find("services") : nullptr;
+    if (!services || !services->is_array()) return;
     workers_ = 0;
-    for (const auto& service : stats["services"]) {
-      if (service.is_object() && service.value("name", "") == job_service())
-        workers_ = service.value("workers", 0);
+    for (const json::Value& service : services->elements()) {
+      if (service.text_or("name", "") == job_service())
+        workers_ = static_cast<int>(service.number_or("workers", 0));
     }
     known_ = true;
     report_.workers = std::max(report_.workers, workers_);

@@ -9,7 +9,7 @@ constexpr const char* projection_names[] = {"pinhole", "orthographic", "equirect
 
 // --- scene and paths
 
-Json put(const SceneRef& scene) {
+json::Value put(const SceneRef& scene) {
   return {{"package", scene.package.hex()},
           {"manifest_bytes", scene.manifest_bytes},
           {"light_hash", scene.light.hex()},
@@ -25,7 +25,7 @@ SceneRef get_scene(const Field& f) {
   return scene;
 }
 
-Json put(const scene::PathParams& path) {
+json::Value put(const scene::PathParams& path) {
   return {{"max_depth", path.max_depth},
           {"passes", path.passes},
           {"spp", path.spp},
@@ -34,13 +34,13 @@ Json put(const scene::PathParams& path) {
 
 scene::PathParams get_path(const Field& f) {
   const auto number = [&](const char* key) { return static_cast<int>(f[key].integer(0, INT32_MAX)); };
-  return {number("max_depth"), number("passes"), number("spp"), f["seed"].hex64()};
+  return {number("max_depth"), number("passes"), number("spp"), f["seed"].hexadecimal()};
 }
 
 // --- probes
 
-Json put(const ProbeJob& job, MessageWriter& out) {
-  Json places = Json::array();
+json::Value put(const ProbeJob& job, MessageWriter& out) {
+  json::Value places = json::Value::array();
   if (job.places.size() > 0) {
     std::vector<float> values;
     for (const ProbePlace& p : job.places)
@@ -67,12 +67,12 @@ ProbeJob get_probe_job(const Field& f, gi::BakeStage stage) {
   job.face_size = static_cast<int>(f["face_size"].integer(1, 4096));
   job.path = get_path(f["path"]);
   const Field viz = f["viz"];
-  job.viz_params = {viz["matrix"].flag(), static_cast<int>(viz["neighbors"].integer(-1, INT32_MAX)),
+  job.viz_params = {viz["matrix"].boolean(), static_cast<int>(viz["neighbors"].integer(-1, INT32_MAX)),
                     viz["threshold"].number()};
   const Field probes = f["probes"];
-  const std::size_t count = probes.size(job_limits::units);
+  const std::size_t count = probes.size(0, job_limits::units);
   for (std::size_t i = 0; i < count; ++i)
-    job.probes.push_back(static_cast<std::uint32_t>(probes.at(i).integer(0, job_limits::places - 1)));
+    job.probes.push_back(static_cast<std::uint32_t>(probes[i].integer(0, job_limits::places - 1)));
   const Field places = f["places"];
   const std::size_t floats = places.float_count();
   if (floats % 4 != 0 || floats > 4 * job_limits::places)
@@ -84,19 +84,20 @@ ProbeJob get_probe_job(const Field& f, gi::BakeStage stage) {
   return job;
 }
 
-Json put(const gi::ProbeStageResult& result, MessageWriter& out) {
-  Json probe = {{"probe", result.done.probe}, {"seconds", result.seconds}, {"rays", result.rays}};
+json::Value put(const gi::ProbeStageResult& result, MessageWriter& out) {
+  json::Value probe = {{"probe", result.done.probe}, {"seconds", result.seconds}, {"rays", result.rays}};
   if (result.done.stage == gi::BakeStage::gen) {
-    Json& groups = probe["groups"] = Json::array();
+    json::Value& groups = probe["groups"] = json::Value::array();
     for (const gi::GroupLight& light : result.groups) {
       groups.push_back({{"emitted", out.vectors(light.emitted.values)},
                         {"reflected", out.vectors(light.reflected.values)}});
     }
     return probe;
   }
-  Json& edges = probe["edges"] = Json::array();
+  json::Value& edges = probe["edges"] = json::Value::array();
   for (const gi::Edge& edge : result.edges) {
-    Json e = {{"from", edge.from}, {"transfer", exact(edge.transfer)}, {"h", out.vectors(edge.h.values)}};
+    json::Value e = {
+        {"from", edge.from}, {"transfer", exact(edge.transfer)}, {"h", out.vectors(edge.h.values)}};
     if (!edge.matrix.values.empty()) e["matrix"] = out.vectors(edge.matrix.values);
     edges.push_back(std::move(e));
   }
@@ -128,22 +129,22 @@ gi::Edge get_edge(const Field& f, int degree) {
 gi::ProbeStageResult get_probe(const Field& f, gi::BakeStage stage, int degree) {
   gi::ProbeStageResult result;
   result.done = {stage, static_cast<std::uint32_t>(f["probe"].integer(0, job_limits::places - 1))};
-  result.seconds = f["seconds"].real();
+  result.seconds = f["seconds"].precise_number();
   result.rays = static_cast<std::uint64_t>(f["rays"].integer(0, INT64_MAX));
   if (stage == gi::BakeStage::gen) {
     const Field groups = f["groups"];
-    const std::size_t count = groups.size(256);
+    const std::size_t count = groups.size(0, 256);
     for (std::size_t g = 0; g < count; ++g) {
-      const Field light = groups.at(g);
+      const Field light = groups[g];
       result.groups.push_back(
           {get_sh(light["emitted"], degree, true), get_sh(light["reflected"], degree, false)});
     }
     return result;
   }
   const Field edges = f["edges"];
-  const std::size_t count = edges.size(job_limits::places);
+  const std::size_t count = edges.size(0, job_limits::places);
   for (std::size_t e = 0; e < count; ++e) {
-    result.edges.push_back(get_edge(edges.at(e), degree));
+    result.edges.push_back(get_edge(edges[e], degree));
     if (e > 0 && result.edges[e].from <= result.edges[e - 1].from) edges.fail("must ascend by \"from\"");
   }
   return result;
@@ -151,35 +152,33 @@ gi::ProbeStageResult get_probe(const Field& f, gi::BakeStage stage, int degree) 
 
 // --- tiles
 
-Json put(const trace::Tile& t) {
-  return Json::array({t.x, t.y, t.width, t.height});
+json::Value put(const trace::Tile& t) {
+  return json::Value::array({t.x, t.y, t.width, t.height});
 }
 
 trace::Tile get_tile(const Field& f) {
-  if (f.size(4) != 4) f.fail("must be [x, y, width, height]");
-  const auto n = [&](std::size_t i) {
-    return static_cast<int>(f.at(i).integer(0, job_limits::picture_size));
-  };
+  if (f.size(0, 4) != 4) f.fail("must be [x, y, width, height]");
+  const auto n = [&](std::size_t i) { return static_cast<int>(f[i].integer(0, job_limits::picture_size)); };
   return {n(0), n(1), n(2), n(3)};
 }
 
-Json put(const TileJob& job, MessageWriter& out) {
+json::Value put(const TileJob& job, MessageWriter& out) {
   const trace::RenderParams& p = job.params;
   const scene::Camera& camera = p.camera.camera;
-  Json tiles = Json::array();
+  json::Value tiles = json::Value::array();
   for (const trace::Tile& tile : job.tiles) tiles.push_back(put(tile));
-  Json document = {{"scene", put(job.scene)},
-                   {"width", p.width},
-                   {"height", p.height},
-                   {"camera",
-                    {{"world", out.floats({&p.camera.world[0][0], 16})},
-                     {"orthographic", camera.orthographic},
-                     {"yfov", exact(camera.yfov)},
-                     {"yheight", exact(camera.yheight)}}},
-                   {"projection", projection_names[static_cast<int>(p.projection)]},
-                   {"path", put(p.path)},
-                   {"layers", job.layers},
-                   {"tiles", tiles}};
+  json::Value document = {{"scene", put(job.scene)},
+                          {"width", p.width},
+                          {"height", p.height},
+                          {"camera",
+                           {{"world", out.floats({&p.camera.world[0][0], 16})},
+                            {"orthographic", camera.orthographic},
+                            {"yfov", exact(camera.yfov)},
+                            {"yheight", exact(camera.yheight)}}},
+                          {"projection", projection_names[static_cast<int>(p.projection)]},
+                          {"path", put(p.path)},
+                          {"layers", job.layers},
+                          {"tiles", tiles}};
   if (job.lighting) {
     const ProbeLighting& l = *job.lighting;
     document["lighting"] = {{"probes", l.probes.hex()},
@@ -199,7 +198,7 @@ TileJob get_tile_job(const Field& f) {
   p.height = static_cast<int>(f["height"].integer(1, job_limits::picture_size));
   const Field camera = f["camera"];
   camera["world"].floats({&p.camera.world[0][0], 16});
-  p.camera.camera.orthographic = camera["orthographic"].flag();
+  p.camera.camera.orthographic = camera["orthographic"].boolean();
   p.camera.camera.yfov = camera["yfov"].number();
   p.camera.camera.yheight = camera["yheight"].number();
   const std::string projection = f["projection"].text();
@@ -210,11 +209,11 @@ TileJob get_tile_job(const Field& f) {
   p.path = get_path(f["path"]);
   const Field layers = f["layers"];
   for (std::size_t i = 0, n = layers.size(layer_names().size()); i < n; ++i)
-    job.layers.push_back(layers.at(i).text(32));
+    job.layers.push_back(layers[i].text(32));
   p.per_group = !job.layers.empty() && job.layers.back() == "groups";
   const Field tiles = f["tiles"];
-  for (std::size_t i = 0, n = tiles.size(job_limits::units); i < n; ++i)
-    job.tiles.push_back(get_tile(tiles.at(i)));
+  for (std::size_t i = 0, n = tiles.size(0, job_limits::units); i < n; ++i)
+    job.tiles.push_back(get_tile(tiles[i]));
   if (const auto l = f.find("lighting")) {
     job.lighting = {(*l)["probes"].hash(),
                     static_cast<std::uint64_t>((*l)["bytes"].integer(1, std::int64_t{1} << 40)),
@@ -223,9 +222,9 @@ TileJob get_tile_job(const Field& f) {
   return job;
 }
 
-Json put(const TileResult& result, MessageWriter& out) {
+json::Value put(const TileResult& result, MessageWriter& out) {
   const trace::RenderState& state = result.state;
-  Json layers = Json::object();
+  json::Value layers = json::Value::object();
   const auto add = [&](const char* name, const image::Image& image, int) {
     if (!image.empty()) layers[name] = out.floats(image.pixels);
   };
@@ -233,7 +232,7 @@ Json put(const TileResult& result, MessageWriter& out) {
   add("albedo", state.albedo, 3), add("normal", state.normal, 3), add("depth", state.depth, 1);
   add("coverage", state.coverage, 1);
   if (!state.groups.empty()) {
-    Json& groups = layers["groups"] = Json::array();
+    json::Value& groups = layers["groups"] = json::Value::array();
     for (const image::Image& group : state.groups) groups.push_back(out.floats(group.pixels));
   }
   return {{"tile", put(result.tile)},
@@ -268,7 +267,7 @@ TileResult get_tile_result(const Field& f) {
   take("albedo", state.albedo, 3), take("normal", state.normal, 3), take("depth", state.depth, 1);
   take("coverage", state.coverage, 1);
   if (const auto groups = layers.find("groups")) {
-    for (std::size_t g = 0, n = groups->size(256); g < n; ++g) state.groups.push_back(read(groups->at(g), 3));
+    for (std::size_t g = 0, n = groups->size(256); g < n; ++g) state.groups.push_back(read((*groups)[g], 3));
   }
   return result;
 }
@@ -294,14 +293,14 @@ void check_head(const Field& root, const char* format) {
 std::string encode_job(const Job& job, ContentType type) {
   validate(job);
   MessageWriter out(type);
-  Json document = {{"format", "ssphh-job"}, {"version", job_version}, {"kind", kind_of(job)}};
+  json::Value document = {{"format", "ssphh-job"}, {"version", job_version}, {"kind", kind_of(job)}};
   document.update(std::visit([&](const auto& j) { return put(j, out); }, job));
   return out.finish(document);
 }
 
 Job decode_job(std::string_view body) {
   const Message message = parse_message(body, "job");
-  const Field root = message.root("job");
+  const Field root = message.root();
   check_head(root, "ssphh-job");
   const std::string kind = root["kind"].text();
   Job job;
@@ -318,15 +317,15 @@ Job decode_job(std::string_view body) {
 
 std::string encode_result(const JobResult& result, ContentType type) {
   MessageWriter out(type);
-  Json document = {{"format", "ssphh-result"}, {"version", job_version}};
+  json::Value document = {{"format", "ssphh-result"}, {"version", job_version}};
   if (const auto* probes = std::get_if<ProbeJobResult>(&result.data)) {
     document["kind"] = probes->stage == gi::BakeStage::gen ? "gen" : "viz";
     document["degree"] = probes->degree;
-    Json& list = document["probes"] = Json::array();
+    json::Value& list = document["probes"] = json::Value::array();
     for (const gi::ProbeStageResult& probe : probes->probes) list.push_back(put(probe, out));
   } else {
     document["kind"] = "ref";
-    Json& list = document["tiles"] = Json::array();
+    json::Value& list = document["tiles"] = json::Value::array();
     for (const TileResult& tile : std::get<TileJobResult>(result.data).tiles) list.push_back(put(tile, out));
   }
   document["stats"] = {
@@ -336,28 +335,28 @@ std::string encode_result(const JobResult& result, ContentType type) {
 
 JobResult decode_result(std::string_view body) {
   const Message message = parse_message(body, "result");
-  const Field root = message.root("result");
+  const Field root = message.root();
   check_head(root, "ssphh-result");
   JobResult result;
   const std::string kind = root["kind"].text();
   if (kind == "ref") {
     auto& tiles = result.data.emplace<TileJobResult>().tiles;
     const Field list = root["tiles"];
-    for (std::size_t i = 0, n = list.size(job_limits::units); i < n; ++i)
-      tiles.push_back(get_tile_result(list.at(i)));
+    for (std::size_t i = 0, n = list.size(0, job_limits::units); i < n; ++i)
+      tiles.push_back(get_tile_result(list[i]));
   } else if (kind == "gen" || kind == "viz") {
     auto& probes = result.data.emplace<ProbeJobResult>();
     probes.stage = kind == "gen" ? gi::BakeStage::gen : gi::BakeStage::viz;
     probes.degree = static_cast<int>(root["degree"].integer(0, sh::max_degree));
     const Field list = root["probes"];
-    for (std::size_t i = 0, n = list.size(job_limits::units); i < n; ++i)
-      probes.probes.push_back(get_probe(list.at(i), probes.stage, probes.degree));
+    for (std::size_t i = 0, n = list.size(0, job_limits::units); i < n; ++i)
+      probes.probes.push_back(get_probe(list[i], probes.stage, probes.degree));
   } else {
     root["kind"].fail("must be gen, viz or ref");
   }
   const Field stats = root["stats"];
-  result.stats = {stats["seconds"].real(), static_cast<std::uint64_t>(stats["rays"].integer(0, INT64_MAX)),
-                  stats["worker"].text()};
+  result.stats = {stats["seconds"].precise_number(),
+                  static_cast<std::uint64_t>(stats["rays"].integer(0, INT64_MAX)), stats["worker"].text()};
   return result;
 }
 

@@ -2,8 +2,8 @@
 #include <iterator>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include <ssphh/core/json.h>
 #include <ssphh/gi/probe_file.h>
 
 #include "json_number.h"
@@ -51,9 +51,7 @@ class Writer {
     fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
   }
   static const char* comma(std::size_t i) { return i == 0 ? "" : ","; }
-  static std::string quoted(const std::string& text) {
-    return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  }
+  static std::string quoted(const std::string& text) { return json::print(text); }
   static std::string exact(float value) { return fmt::format("{}", value + 0.0f); }  // + 0: no negative zero
   static std::string exact(const vec3& v) {
     return fmt::format("[{},{},{}]", exact(v.x), exact(v.y), exact(v.z));

@@ -1,5 +1,5 @@
-#include <nlohmann/json.hpp>
 
+#include <ssphh/core/json.h>
 #include <ssphh/majordomo/event.h>
 
 namespace ssphh::majordomo {
@@ -21,7 +21,7 @@ const char* level_name(LogLevel level) {
 
 // What a peer sent may be anything; ensure_ascii and `replace` make any bytes one harmless line.
 std::string quoted(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  return json::print(text, -1, json::Letters::ascii);
 }
 
 bool is_plain(const std::string& text) {
@@ -44,9 +44,9 @@ std::string BrokerEvent::text() const {
 }
 
 std::string BrokerEvent::json() const {
-  nlohmann::ordered_json object = {{"event", name}, {"level", level_name(level)}};
+  json::Value object = {{"event", name}, {"level", level_name(level)}};
   for (const auto& [key, value] : fields) object[key] = value;
-  return object.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  return json::print(object, -1, json::Letters::ascii);
 }
 
 }  // namespace ssphh::majordomo

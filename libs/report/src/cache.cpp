@@ -1,7 +1,6 @@
-#include <nlohmann/json.hpp>
-
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
+#include <ssphh/core/json_cursor.h>
 #include <ssphh/report/cache.h>
 
 #include "words.h"
@@ -10,8 +9,6 @@ namespace ssphh::report {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::ordered_json;
-
 constexpr const char* record_name = "run.json";
 constexpr const char* result_name = "stdout";
 
@@ -21,23 +18,24 @@ std::optional<JobRecord> find_run(const fs::path& cache, const std::string& key,
   const fs::path folder = cache / key;
   std::error_code ignored;
   if (!fs::is_regular_file(folder / record_name, ignored)) return std::nullopt;
-  const ordered_json json = ordered_json::parse(read_text_file(folder / record_name), nullptr, false);
   JobRecord record;
   try {
-    record.command = json.at("command");
-    record.build = json.at("build");
-    record.machine = json.at("machine");
-    record.started = json.at("started");
-    record.seconds = json.at("seconds");
-    record.cpu_seconds = json.at("cpu_seconds");
-    record.peak_bytes = json.at("peak_bytes");
-    for (const auto& [name, bytes] : json.at("files").items()) {
-      if (fs::file_size(folder / name, ignored) != bytes.get<std::uint64_t>()) return std::nullopt;
+    const std::string file = (folder / record_name).string();
+    const json::Value document = json::parse(read_text_file(file), file);
+    const json::Cursor at(document, file);
+    record.command = at["command"].text();
+    record.build = at["build"].text();
+    record.machine = at["machine"].text();
+    record.started = at["started"].text();
+    record.seconds = at["seconds"].precise_number();
+    record.cpu_seconds = at["cpu_seconds"].precise_number();
+    record.peak_bytes = at["peak_bytes"].unsigned_integer();
+    for (const auto& [name, unused] : at["files"].entries()) {
+      const std::uint64_t bytes = at["files"][name.c_str()].unsigned_integer();
+      if (fs::file_size(folder / name, ignored) != bytes) return std::nullopt;
       record.files[name] = bytes;
     }
     record.result = read_text_file(folder / result_name);
-  } catch (const nlohmann::json::exception&) {
-    return std::nullopt;
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -52,16 +50,16 @@ void keep_run(const fs::path& cache, const Job& job, const fs::path& work, JobRe
   for (const fs::directory_entry& entry : fs::directory_iterator(work)) {
     if (entry.is_regular_file()) record.files[entry.path().filename().string()] = entry.file_size();
   }
-  const ordered_json json = {{"key", job.key},
-                             {"command", join_words(job.words)},
-                             {"build", record.build},
-                             {"machine", record.machine},
-                             {"started", record.started},
-                             {"seconds", record.seconds},
-                             {"cpu_seconds", record.cpu_seconds},
-                             {"peak_bytes", record.peak_bytes},
-                             {"files", record.files}};
-  write_file(work / record_name, json.dump(2) + "\n");
+  const json::Value document = {{"key", job.key},
+                                {"command", join_words(job.words)},
+                                {"build", record.build},
+                                {"machine", record.machine},
+                                {"started", record.started},
+                                {"seconds", record.seconds},
+                                {"cpu_seconds", record.cpu_seconds},
+                                {"peak_bytes", record.peak_bytes},
+                                {"files", record.files}};
+  write_file(work / record_name, json::print(document, 2) + "\n");
   fs::remove_all(cache / job.key);
   fs::rename(work, cache / job.key);
 }

@@ -61,11 +61,11 @@ std::string encoded(const std::u16string& page) {
 }  // namespace
 
 std::string report_page(const Report& report) {
-  nlohmann::ordered_json data = report_data(report);
+  json::Value data = report_data(report);
   std::u16string blobs;
   int count = 0;
   for (std::size_t i = 0; i < report.cells.size(); ++i) {
-    nlohmann::ordered_json pictures = nlohmann::ordered_json::array();
+    json::Value pictures = json::Value::array();
     for (const CellPicture& picture : report.cells[i].pictures) {
       const std::string id = "blob" + std::to_string(count++);
       pictures.push_back({{"id", id},
@@ -82,10 +82,9 @@ std::string report_page(const Report& report) {
     }
     data["cells"][i]["pictures"] = std::move(pictures);
   }
-  const std::string json =
-      script_safe(data.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace));
+  const std::string safe = script_safe(json::print(data, -1, json::Letters::ascii));
   std::u16string page;
-  page.reserve(blobs.size() + json.size() + (std::size_t{1} << 17));
+  page.reserve(blobs.size() + safe.size() + (std::size_t{1} << 17));
   const std::string_view html = page_html;
   for (std::size_t i = 0; i < html.size();) {
     const std::size_t open = html.find("%%", i);
@@ -95,7 +94,7 @@ std::string report_page(const Report& report) {
     const std::string_view name = html.substr(open + 2, close - open - 2);
     if (name == "title") append(page, html_text(report.plan.title));
     if (name == "style") append(page, page_style);
-    if (name == "data") append(page, json);
+    if (name == "data") append(page, safe);
     if (name == "blobs") page += blobs;
     if (name == "script") append(page, page_script);
     i = close + 2;

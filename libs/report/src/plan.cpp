@@ -6,7 +6,6 @@
 #include <ssphh/core/nearest_word.h>
 #include <ssphh/report/plan.h>
 
-#include "json_reader.h"
 #include "parameters.h"
 #include "words.h"
 #include "yaml_reader.h"
@@ -16,179 +15,194 @@ namespace {
 
 const std::vector<std::string> picture_layers = {"direct", "indirect", "irradiance"};
 
+using json::Cursor;
+
+double number(const Cursor& object, const char* name, double otherwise, double least, double most) {
+  const auto member = object.find(name);
+  return member ? member->precise_number(least, most) : otherwise;
+}
+
+int integer(const Cursor& object, const char* name, int otherwise, int least, int most) {
+  const auto member = object.find(name);
+  return member ? static_cast<int>(member->integer(least, most)) : otherwise;
+}
+
+/// A list of texts; a single text is a list of one, none an empty one.
+std::vector<std::string> texts(const Cursor& object, const char* name) {
+  const auto member = object.find(name);
+  if (!member) return {};
+  if (member->is_string()) return {member->text()};
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < member->size(); ++i) found.push_back((*member)[i].text());
+  return found;
+}
+
+/// What `read` makes of each element of the list that a member is.
+template <class Read>
+auto items(const Cursor& object, const char* name, const Read& read) {
+  std::vector<decltype(read(object))> found;
+  const std::size_t count = object.size_of(name);
+  for (std::size_t i = 0; i < count; ++i) found.push_back(read(object[name][i]));
+  return found;
+}
+
+bool among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 class PlanReader {
  public:
   PlanReader(std::string name, const std::vector<std::string>& commands)
       : name_(std::move(name)), commands_(commands) {}
 
-  Plan read(const Json& json) {
-    const Object o(json, name_,
-                   {"$schema", "title", "about", "variables", "scenes", "reference", "methods", "layers",
-                    "columns", "charts", "published", "block", "time_limit"});
-    plan_.title = o.text("title", name_);
-    plan_.about = o.text("about");
-    if (const Json* variables = o.find("variables"))
-      plan_.variables = read_parameters(*variables, o.at("variables"));
-    o.must("scenes"), o.must("methods");
-    for (const Json* item : o.items("scenes"))
-      plan_.scenes.push_back(read_scene(*item, fmt::format("{}/scenes[{}]", name_, plan_.scenes.size())));
-    if (plan_.scenes.empty()) throw Error(o.at("scenes"), "is empty");
-    if (const Json* reference = o.find("reference")) {
+  Plan read(const json::Value& document) {
+    const Cursor o(document, name_);
+    o.members({"scenes", "methods"}, {"$schema", "title", "about", "variables", "reference", "layers",
+                                      "columns", "charts", "published", "block", "time_limit"});
+    plan_.title = o.text_or("title", name_);
+    plan_.about = o.text_or("about");
+    if (const auto variables = o.find("variables")) plan_.variables = read_parameters(*variables);
+    plan_.scenes = items(o, "scenes", [&](const Cursor& at) { return read_scene(at); });
+    if (plan_.scenes.empty()) o["scenes"].fail("is empty");
+    if (const auto reference = o.find("reference")) {
       plan_.has_reference = true;
-      plan_.reference = read_method(*reference, o.at("reference"), true);
+      plan_.reference = read_method(*reference, true);
     }
-    for (const Json* item : o.items("methods"))
-      plan_.methods.push_back(
-          read_method(*item, fmt::format("{}/methods[{}]", name_, plan_.methods.size()), false));
-    if (plan_.methods.empty()) throw Error(o.at("methods"), "is empty");
-    plan_.layers = o.texts("layers");
+    plan_.methods = items(o, "methods", [&](const Cursor& at) { return read_method(at, false); });
+    if (plan_.methods.empty()) o["methods"].fail("is empty");
+    plan_.layers = texts(o, "layers");
     for (const std::string& layer : plan_.layers) {
-      if (std::find(picture_layers.begin(), picture_layers.end(), layer) == picture_layers.end())
-        throw Error(o.at("layers"), fmt::format("unknown layer \"{}\"", layer),
-                    nearest_hint(layer, picture_layers));
+      if (!among(picture_layers, layer))
+        o["layers"].fail(fmt::format("unknown layer \"{}\"", layer), nearest_hint(layer, picture_layers));
     }
-    for (const Json* item : o.items("columns"))
-      plan_.columns.push_back(
-          read_column(*item, fmt::format("{}[{}]", o.at("columns"), plan_.columns.size())));
-    for (const Json* item : o.items("charts"))
-      plan_.charts.push_back(read_chart(*item, fmt::format("{}[{}]", o.at("charts"), plan_.charts.size())));
-    if (const Json* published = o.find("published")) read_published(*published, o.at("published"));
-    plan_.block = o.integer("block", 16, 1, 4096);
-    plan_.time_limit = o.integer("time_limit", 3600, 1, 1000000);
+    plan_.columns = items(o, "columns", read_column);
+    plan_.charts = items(o, "charts", read_chart);
+    if (const auto published = o.find("published")) read_published(*published);
+    plan_.block = integer(o, "block", 16, 1, 4096);
+    plan_.time_limit = integer(o, "time_limit", 3600, 1, 1000000);
     check_names();
     return std::move(plan_);
   }
 
  private:
-  PlanScene read_scene(const Json& json, const std::string& where) const {
-    const Object o(json, where, {"name", "title", "scene", "exposure", "variables", "insets", "optional"});
+  PlanScene read_scene(const Cursor& o) const {
+    o.members({"name", "scene"}, {"title", "exposure", "variables", "insets", "optional"});
     PlanScene scene;
-    o.must("name"), o.must("scene");
-    scene.name = o.text("name");
-    scene.title = o.text("title", scene.name);
-    scene.words = split_words(o.text("scene"), o.at("scene"));
-    if (scene.words.empty()) throw Error(o.at("scene"), "is empty", "give a file or builtin:NAME");
-    scene.exposure = o.number("exposure", 0, -30, 30);
-    scene.optional = o.flag("optional", false);
-    if (const Json* variables = o.find("variables"))
-      scene.variables = read_parameters(*variables, o.at("variables"));
+    scene.name = o["name"].text();
+    scene.title = o.text_or("title", scene.name);
+    scene.words = split_words(o["scene"].text(), o["scene"].place());
+    if (scene.words.empty()) o["scene"].fail("is empty", "give a file or builtin:NAME");
+    scene.exposure = number(o, "exposure", 0, -30, 30);
+    scene.optional = o.boolean_or("optional", false);
+    if (const auto variables = o.find("variables")) scene.variables = read_parameters(*variables);
     std::vector<std::string> known;
     for (const auto& [key, value] : plan_.variables) known.push_back(key);
     for (const auto& [key, value] : scene.variables) {
-      if (std::find(known.begin(), known.end(), key) == known.end())
-        throw Error(o.at("variables"), fmt::format("the plan has no variable \"{}\"", key),
-                    nearest_hint(key, known));
+      if (!among(known, key))
+        o["variables"].fail(fmt::format("the plan has no variable \"{}\"", key), nearest_hint(key, known));
     }
-    for (const Json* item : o.items("insets"))
-      scene.insets.push_back(read_inset(*item, fmt::format("{}[{}]", o.at("insets"), scene.insets.size())));
+    scene.insets = items(o, "insets", read_inset);
     return scene;
   }
 
-  static Inset read_inset(const Json& json, const std::string& where) {
-    const Object o(json, where, {"name", "at", "mask"});
+  static Inset read_inset(const Cursor& o) {
+    o.members({}, {"name", "at", "mask"});
     Inset inset;
-    inset.name = o.text("name");
-    inset.mask_file = o.text("mask");
+    inset.name = o.text_or("name");
+    inset.mask_file = o.text_or("mask");
     if (!inset.mask_file.empty()) {
-      if (o.find("at")) throw Error(where, "\"at\" and \"mask\" exclude each other");
+      if (o.has("at")) o.fail("\"at\" and \"mask\" exclude each other");
       return inset;
     }
-    const std::vector<const Json*> at = o.items("at");
-    if (at.size() != 4 || !std::all_of(at.begin(), at.end(), [](const Json* x) { return x->is_number(); }))
-      throw Error(o.at("at"), "must be four numbers: left, top, right, bottom as fractions",
-                  "or give a picture of the region as \"mask\"");
-    inset.x0 = at[0]->get<double>(), inset.y0 = at[1]->get<double>();
-    inset.x1 = at[2]->get<double>(), inset.y1 = at[3]->get<double>();
+    if (!o.has("at"))
+      o.fail("\"at\" is missing", "give four fractions, or a picture of the region as \"mask\"");
+    const Cursor at = o["at"];
+    at.size(4, 4);
+    inset.x0 = at[0].precise_number(), inset.y0 = at[1].precise_number();
+    inset.x1 = at[2].precise_number(), inset.y1 = at[3].precise_number();
     if (!(0 <= inset.x0 && inset.x0 < inset.x1 && inset.x1 <= 1 && 0 <= inset.y0 && inset.y0 < inset.y1 &&
           inset.y1 <= 1))
-      throw Error(o.at("at"), "must be left < right and top < bottom, all within 0..1");
+      at.fail("must be left < right and top < bottom, all within 0..1");
     return inset;
   }
 
-  Step read_step(const Json& json, const std::string& where) const {
+  Step read_step(const Cursor& o) const {
     Step step;
-    if (json.is_string()) {
-      step.words = split_words(json.get<std::string>(), where);
+    if (o.is_string()) {
+      step.words = split_words(o.text(), o.place());
     } else {
-      const Object o(json, where, {"name", "run"});
-      o.must("run");
-      step.words = split_words(o.text("run"), o.at("run"));
-      step.name = o.text("name");
+      o.members({"run"}, {"name"});
+      step.words = split_words(o["run"].text(), o["run"].place());
+      step.name = o.text_or("name");
     }
     if (step.words.empty())
-      throw Error(where, "is empty", "give a command line of the tool, as render {scene} -o picture.exr");
+      o.fail("is empty", "give a command line of the tool, as render {scene} -o picture.exr");
     const std::string& command = step.words.front();
-    if (std::find(commands_.begin(), commands_.end(), command) == commands_.end())
-      throw Error(where, fmt::format("unknown command \"{}\"", command), nearest_hint(command, commands_));
+    if (!among(commands_, command))
+      o.fail(fmt::format("unknown command \"{}\"", command), nearest_hint(command, commands_));
     if (step.name.empty()) step.name = command;
     return step;
   }
 
-  PlanMethod read_method(const Json& json, const std::string& where, bool reference) const {
-    std::vector<std::string> known = {"name",   "title",      "about",       "steps", "picture",
-                                      "halves", "parameters", "repetitions", "scenes"};
-    if (reference) known = {"name", "title", "about", "steps", "picture", "halves"};
-    const Object o(json, where, known);
+  PlanMethod read_method(const Cursor& o, bool reference) const {
+    if (reference) {
+      o.members({"steps"}, {"name", "title", "about", "picture", "halves"});
+    } else {
+      o.members({"name", "steps"},
+                {"title", "about", "picture", "halves", "parameters", "repetitions", "scenes"});
+    }
     PlanMethod method;
-    if (!reference) o.must("name");
-    method.name = o.text("name", "reference");
-    method.title = o.text("title", method.name);
-    method.about = o.text("about");
-    o.must("steps");
-    for (const Json* item : o.items("steps"))
-      method.steps.push_back(read_step(*item, fmt::format("{}/steps[{}]", where, method.steps.size())));
-    if (method.steps.empty()) throw Error(o.at("steps"), "is empty");
+    method.name = o.text_or("name", "reference");
+    method.title = o.text_or("title", method.name);
+    method.about = o.text_or("about");
+    method.steps = items(o, "steps", [&](const Cursor& at) { return read_step(at); });
+    if (method.steps.empty()) o["steps"].fail("is empty");
     std::set<std::string> names;
     for (const Step& step : method.steps) {
       if (!names.insert(step.name).second)
-        throw Error(o.at("steps"), fmt::format("two steps are called \"{}\"", step.name),
-                    R"(name them: {"name": "…", "run": "…"})");
+        o["steps"].fail(fmt::format("two steps are called \"{}\"", step.name),
+                        R"(name them: {"name": "…", "run": "…"})");
     }
-    method.picture = o.text("picture");
-    method.halves = o.texts("halves");
-    if (!method.halves.empty() && method.halves.size() != 2)
-      throw Error(o.at("halves"), "must be two pictures");
+    method.picture = o.text_or("picture");
+    method.halves = texts(o, "halves");
+    if (!method.halves.empty() && method.halves.size() != 2) o["halves"].fail("must be two pictures");
     if (!method.halves.empty() && !method.picture.empty())
-      throw Error(where, "\"picture\" and \"halves\" exclude each other");
+      o.fail("\"picture\" and \"halves\" exclude each other");
     if (reference && method.picture.empty() && method.halves.empty())
-      throw Error(where, "\"picture\" or \"halves\" is missing");
-    method.variants = read_variants(o.find("parameters"), o.at("parameters"));
-    method.repetitions = o.integer("repetitions", 1, 1, 1000);
-    method.scenes = o.texts("scenes");
+      o.fail("\"picture\" or \"halves\" is missing");
+    method.variants = read_variants(o.find("parameters"));
+    method.repetitions = integer(o, "repetitions", 1, 1, 1000);
+    method.scenes = texts(o, "scenes");
     return method;
   }
 
-  static Column read_column(const Json& json, const std::string& where) {
-    if (json.is_string()) return {json.get<std::string>(), json.get<std::string>(), "", 0};
-    const Object o(json, where, {"value", "title", "unit", "better"});
-    o.must("value");
-    Column column{o.text("value"), o.text("title", o.text("value")), o.text("unit"), 0};
-    const std::string better = o.text("better", "none");
+  static Column read_column(const Cursor& o) {
+    if (o.is_string()) return {o.text(), o.text(), "", 0};
+    o.members({"value"}, {"title", "unit", "better"});
+    Column column{o["value"].text(), o.text_or("title", o["value"].text()), o.text_or("unit"), 0};
+    const std::string better = o.text_or("better", "none");
     if (better != "less" && better != "more" && better != "none")
-      throw Error(o.at("better"), "must be less, more or none");
+      o["better"].fail("must be less, more or none");
     column.better = better == "less" ? -1 : better == "more" ? 1 : 0;
     return column;
   }
 
-  static Chart read_chart(const Json& json, const std::string& where) {
-    const Object o(json, where, {"title", "x", "y", "log_x", "log_y"});
-    o.must("x"), o.must("y");
-    return {o.text("title", o.text("y")), o.text("x"), o.text("y"), o.flag("log_x", false),
-            o.flag("log_y", false)};
+  static Chart read_chart(const Cursor& o) {
+    o.members({"x", "y"}, {"title", "log_x", "log_y"});
+    return {o.text_or("title", o["y"].text()), o["x"].text(), o["y"].text(), o.boolean_or("log_x", false),
+            o.boolean_or("log_y", false)};
   }
 
-  void read_published(const Json& json, const std::string& where) {
-    const Object o(json, where, {"source", "rows"});
-    plan_.published_source = o.text("source");
-    for (const Json* item : o.items("rows")) {
-      const Object row(*item, o.at("rows"), {"scene", "method", "values"});
-      Published published{row.text("scene"), row.text("method"), {}};
-      for (const auto& [title, value] : row.must("values").items()) {
-        if (!value.is_number()) throw Error(row.at("values") + "/" + title, "must be a number");
-        published.values[title] = value.get<double>();
-      }
-      plan_.published.push_back(std::move(published));
-    }
+  void read_published(const Cursor& o) {
+    o.members({}, {"source", "rows"});
+    plan_.published_source = o.text_or("source");
+    plan_.published = items(o, "rows", [](const Cursor& row) {
+      row.members({"values"}, {"scene", "method"});
+      Published published{row.text_or("scene"), row.text_or("method"), {}};
+      for (const auto& [title, unused] : row["values"].entries())
+        published.values[title] = row["values"][title.c_str()].precise_number();
+      return published;
+    });
   }
 
   void check_words(const PlanMethod& method, const Parameters& parameters, const std::string& where) const {
@@ -213,13 +227,13 @@ class PlanReader {
     std::set<std::string> scenes, methods;
     for (const PlanScene& scene : plan_.scenes) {
       if (scene.name.empty() || !scenes.insert(scene.name).second)
-        throw Error(name_ + "/scenes", fmt::format("two scenes are called \"{}\"", scene.name));
+        throw Error(name_ + ": scenes", fmt::format("two scenes are called \"{}\"", scene.name));
     }
     const std::vector<std::string> scene_names(scenes.begin(), scenes.end());
-    if (plan_.has_reference) check_words(plan_.reference, {}, name_ + "/reference");
+    if (plan_.has_reference) check_words(plan_.reference, {}, name_ + ": reference");
     std::vector<std::string> labels;
     for (const PlanMethod& method : plan_.methods) {
-      const std::string where = name_ + "/methods/" + method.name;
+      const std::string where = name_ + ": methods/" + method.name;
       for (const std::string& scene : method.scenes) {
         if (!scenes.count(scene))
           throw Error(where, fmt::format("unknown scene \"{}\"", scene), nearest_hint(scene, scene_names));
@@ -233,10 +247,10 @@ class PlanReader {
     }
     for (const Published& row : plan_.published) {
       if (!scenes.count(row.scene))
-        throw Error(name_ + "/published", fmt::format("unknown scene \"{}\"", row.scene),
+        throw Error(name_ + ": published", fmt::format("unknown scene \"{}\"", row.scene),
                     nearest_hint(row.scene, scene_names));
       if (!methods.count(row.method))
-        throw Error(name_ + "/published", fmt::format("unknown method \"{}\"", row.method),
+        throw Error(name_ + ": published", fmt::format("unknown method \"{}\"", row.method),
                     nearest_hint(row.method, labels));
     }
   }
@@ -256,22 +270,22 @@ std::string label(const PlanMethod& method, const Parameters& parameters) {
 
 namespace {
 
-/// The key in 'unknown key "x"', "" for other problems.
+/// The name in 'unknown member "x"', "" for other problems.
 std::string quoted_key(const std::string& problem) {
-  const std::string_view start = "unknown key \"";
+  const std::string_view start = "unknown member \"";
   if (!problem.starts_with(start)) return {};
   return problem.substr(start.size(), problem.rfind('"') - start.size());
 }
 
 Plan parse_yaml_plan(std::string_view yaml, const std::string& name,
                      const std::vector<std::string>& commands) {
-  const Json document = parse_yaml(yaml, name);
+  const json::Value document = parse_yaml(yaml, name);
   try {
     return PlanReader(name, commands).read(document);
   } catch (const Error& e) {
     const int line = yaml_line(yaml, name, e.where(), quoted_key(e.problem()));
     if (line == 0) throw;
-    const std::string place = e.where().substr(std::min(e.where().size(), name.size() + 1));
+    const std::string place = e.where().substr(std::min(e.where().size(), name.size() + 2));
     throw Error(fmt::format("{}:{}{}{}", name, line, place.empty() ? "" : ": ", place), e.problem(),
                 e.hint());
   }
@@ -281,13 +295,7 @@ Plan parse_yaml_plan(std::string_view yaml, const std::string& name,
 
 Plan parse_plan(std::string_view text, const std::string& name, const std::vector<std::string>& commands) {
   if (is_yaml_name(name)) return parse_yaml_plan(text, name, commands);
-  Json document;
-  try {
-    document = Json::parse(text);
-  } catch (const Json::parse_error& e) {
-    throw Error(name, fmt::format("is not JSON: {}", e.what()));
-  }
-  return PlanReader(name, commands).read(document);
+  return PlanReader(name, commands).read(json::parse(text, name));
 }
 
 void set_variable(Plan& plan, const std::string& assignment) {

@@ -8,35 +8,33 @@
 namespace ssphh::report {
 namespace {
 
-using nlohmann::ordered_json;
-
-ordered_json finite(double x) {
-  return std::isfinite(x) ? ordered_json(x) : ordered_json(nullptr);
+json::Value finite(double x) {
+  return std::isfinite(x) ? json::Value(x) : json::Value(nullptr);
 }
 
-ordered_json scenes_data(const Report& report) {
-  ordered_json scenes = ordered_json::array();
+json::Value scenes_data(const Report& report) {
+  json::Value scenes = json::Value::array();
   for (const PlanScene& scene : report.plan.scenes) {
-    ordered_json insets = ordered_json::array();
+    json::Value insets = json::Value::array();
     for (const Inset& i : scene.insets)
       insets.push_back({{"name", i.name}, {"at", {i.x0, i.y0, i.x1, i.y1}}});
     const auto hash = report.provenance.scene_hashes.find(scene.name);
-    scenes.push_back({{"name", scene.name},
-                      {"title", scene.title},
-                      {"exposure", scene.exposure},
-                      {"insets", std::move(insets)},
-                      {"hash", hash == report.provenance.scene_hashes.end() ? ordered_json()
-                                                                            : ordered_json(hash->second)}});
+    scenes.push_back(
+        {{"name", scene.name},
+         {"title", scene.title},
+         {"exposure", scene.exposure},
+         {"insets", std::move(insets)},
+         {"hash", hash == report.provenance.scene_hashes.end() ? json::Value() : json::Value(hash->second)}});
   }
   return scenes;
 }
 
-ordered_json cell_data(const Report& report, const ReportCell& cell) {
+json::Value cell_data(const Report& report, const ReportCell& cell) {
   const Plan& plan = report.plan;
   const PlanMethod& method =
       cell.method < 0 ? plan.reference : plan.methods[static_cast<std::size_t>(cell.method)];
-  ordered_json parameters = ordered_json::object(), values = ordered_json::object(),
-               steps = ordered_json::array();
+  json::Value parameters = json::Value::object(), values = json::Value::object(),
+              steps = json::Value::array();
   for (const auto& [name, text] : cell.parameters) parameters[name] = text;
   for (const auto& [name, value] : cell.values) {
     values[name] = {{"mean", finite(value.mean)},
@@ -61,7 +59,7 @@ ordered_json cell_data(const Report& report, const ReportCell& cell) {
           {"label", cell.label},
           {"reference", cell.method < 0},
           {"parameters", std::move(parameters)},
-          {"failure", cell.failure.empty() ? ordered_json() : ordered_json(cell.failure)},
+          {"failure", cell.failure.empty() ? json::Value() : json::Value(cell.failure)},
           {"values", std::move(values)},
           {"steps", std::move(steps)}};
 }
@@ -83,11 +81,10 @@ double published_value(const Report& report, const ReportCell& cell, const std::
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-ordered_json report_data(const Report& report) {
+json::Value report_data(const Report& report) {
   const Provenance& p = report.provenance;
-  ordered_json columns = ordered_json::array(), charts = ordered_json::array(),
-               published = ordered_json::array(), cells = ordered_json::array(),
-               variables = ordered_json::object();
+  json::Value columns = json::Value::array(), charts = json::Value::array(), published = json::Value::array(),
+              cells = json::Value::array(), variables = json::Value::object();
   for (const Column& c : columns_of(report))
     columns.push_back({{"value", c.value}, {"title", c.title}, {"unit", c.unit}, {"better", c.better}});
   for (const Chart& c : report.plan.charts)
@@ -118,14 +115,13 @@ ordered_json report_data(const Report& report) {
 }
 
 std::string report_json(const Report& report) {
-  return report_data(report).dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json::print(report_data(report), 2) + "\n";
 }
 
 std::string identity_of(const std::string& text) {
-  const ordered_json json = ordered_json::parse(text, nullptr, false);
-  if (!json.is_object() || !json.contains("provenance")) return "";
-  const ordered_json& p = json["provenance"];
-  return p.is_object() ? p.value("identity", "") : "";
+  const std::optional<json::Value> report = json::try_parse(text);
+  const json::Value* provenance = report ? report->find("provenance") : nullptr;
+  return provenance ? provenance->text_or("identity", "") : "";
 }
 
 }  // namespace ssphh::report

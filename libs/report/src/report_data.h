@@ -1,13 +1,12 @@
 #pragma once
 /// The report as JSON, for report.json and, with where its pictures are, for the page.
 
-#include <nlohmann/json.hpp>
-
+#include <ssphh/core/json.h>
 #include <ssphh/report/report.h>
 
 namespace ssphh::report {
 
-nlohmann::ordered_json report_data(const Report& report);
+json::Value report_data(const Report& report);
 
 /// Numbers for people: four significant digits; "" for NaN.
 std::string number_text(double value);

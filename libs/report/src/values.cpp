@@ -4,8 +4,8 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include <ssphh/core/json.h>
 #include <ssphh/report/report.h>
 
 namespace ssphh::report {
@@ -13,16 +13,16 @@ namespace {
 
 constexpr std::size_t longest_list = 16;  ///< of which the elements are values, NAME.0 and so on
 
-void add(const std::string& name, const nlohmann::ordered_json& json,
+void add(const std::string& name, const json::Value& json,
          std::map<std::string, std::vector<double>>& values) {
   if (json.is_object()) {
-    for (const auto& [key, child] : json.items()) add(name + "." + key, child, values);
+    for (const auto& [key, child] : json.members()) add(name + "." + key, child, values);
   } else if (json.is_array() && json.size() <= longest_list) {
     for (std::size_t i = 0; i < json.size(); ++i) add(fmt::format("{}.{}", name, i), json[i], values);
   } else if (json.is_boolean()) {
-    values[name].push_back(json.get<bool>() ? 1 : 0);
+    values[name].push_back(json.boolean() ? 1 : 0);
   } else if (json.is_number()) {
-    values[name].push_back(json.get<double>());
+    values[name].push_back(json.number());
   }
 }
 
@@ -76,7 +76,7 @@ std::vector<Column> columns_of(const Report& report) {
 
 void add_numbers(const std::string& step, const std::string& text,
                  std::map<std::string, std::vector<double>>& values) {
-  add(step, nlohmann::ordered_json::parse(text, nullptr, false), values);
+  if (const auto printed = json::try_parse(text)) add(step, *printed, values);
 }
 
 }  // namespace ssphh::report

@@ -17,7 +17,7 @@ std::string at_line(const std::string& name, const YAML::Mark& mark) {
 }
 
 // Plain scalars by the core schema of YAML 1.2: null, true and false, whole numbers, other numbers, text.
-Json plain_scalar(const std::string& text) {
+json::Value plain_scalar(const std::string& text) {
   if (text.empty() || text == "~" || text == "null" || text == "Null" || text == "NULL") return nullptr;
   if (text == "true" || text == "True" || text == "TRUE") return true;
   if (text == "false" || text == "False" || text == "FALSE") return false;
@@ -36,18 +36,19 @@ class Converter {
  public:
   explicit Converter(const std::string& name) : name_(name) {}
 
-  Json convert(const YAML::Node& node) {
+  json::Value convert(const YAML::Node& node) {
     if (++values_ > most_values) throw Error(at_line(name_, node.Mark()), "holds over a million values");
     switch (node.Type()) {
       case YAML::NodeType::Scalar:
-        return node.Tag() == "!" ? Json(node.Scalar()) : plain_scalar(node.Scalar());  // "!": in quotes
+        return node.Tag() == "!" ? json::Value(node.Scalar())
+                                 : plain_scalar(node.Scalar());  // "!": in quotes
       case YAML::NodeType::Sequence: {
-        Json list = Json::array();
+        json::Value list = json::Value::array();
         for (const YAML::Node& item : node) list.push_back(convert(item));
         return list;
       }
       case YAML::NodeType::Map: {
-        Json object = Json::object();
+        json::Value object = json::Value::object();
         for (const auto& pair : node) {
           if (!pair.first.IsScalar()) throw Error(at_line(name_, pair.first.Mark()), "a key must be text");
           const std::string& key = pair.first.Scalar();
@@ -73,7 +74,7 @@ bool is_yaml_name(std::string_view name) {
   return name.ends_with(".yaml") || name.ends_with(".yml");
 }
 
-Json parse_yaml(std::string_view text, const std::string& name) {
+json::Value parse_yaml(std::string_view text, const std::string& name) {
   try {
     return Converter(name).convert(YAML::Load(std::string(text)));
   } catch (const YAML::Exception& e) {
@@ -87,7 +88,7 @@ int yaml_line(std::string_view text, const std::string& name, const std::string&
   YAML::Node node = YAML::Load(std::string(text));
   int line = node.Mark().line + 1;
   const std::string path = where.substr(name.size());
-  static const std::regex word(R"(/([^/\[\]]+)|\[(\d+)\])");
+  static const std::regex word(R"(([^.: \[\]]+)|\[(\d+)\])");
   for (auto it = std::sregex_iterator(path.begin(), path.end(), word); it != std::sregex_iterator(); ++it) {
     YAML::Node next;
     if ((*it)[2].matched) {

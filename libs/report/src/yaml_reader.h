@@ -4,7 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "json_reader.h"
+#include <ssphh/core/error.h>
+#include <ssphh/core/json.h>
 
 namespace ssphh::report {
 
@@ -13,10 +14,10 @@ bool is_yaml_name(std::string_view name);
 
 /// Throws Error with the line for what is no YAML, a key that stands twice, a key that is no text, or a
 /// document of over a million values (aliases may multiply).
-Json parse_yaml(std::string_view text, const std::string& name);
+json::Value parse_yaml(std::string_view text, const std::string& name);
 
-/// The line, from 1, of the place that an Error of Object names ("plan.yaml/methods[1]/steps"), or of the key
-/// `key` there; 0 when there is no such place.
+/// The line, from 1, of the place that an Error of a Cursor names ("plan.yaml: methods[1].steps"), or of the
+/// key `key` there; 0 when there is no such place.
 int yaml_line(std::string_view text, const std::string& name, const std::string& where,
               const std::string& key);
 

@@ -4,19 +4,19 @@
 
 namespace ssphh::scene_io {
 
-std::optional<JsonView> extension(const JsonView& object, const char* name) {
+std::optional<json::Cursor> extension(const json::Cursor& object, const char* name) {
   const auto extensions = object.find("extensions");
   return extensions ? extensions->find(name) : std::nullopt;
 }
 
-std::optional<JsonView> extra(const JsonView& object, const char* name) {
+std::optional<json::Cursor> extra(const json::Cursor& object, const char* name) {
   const auto extras = object.find("extras");
   return extras && extras->is_object() ? extras->find(name) : std::nullopt;
 }
 
-std::string light_group_extra(const JsonView& object) {
+std::string light_group_extra(const json::Cursor& object) {
   const auto group = extra(object, "light_group");
-  return group ? group->string() : std::string{};
+  return group ? group->text() : std::string{};
 }
 
 scene::Scene load_gltf(std::span<const std::byte> data, const std::filesystem::path& path) {

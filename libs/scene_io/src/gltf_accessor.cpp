@@ -13,9 +13,9 @@ namespace {
 
 enum class ComponentType { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
-ComponentType component_type(const JsonView& object) {
-  const JsonView type = object.at("componentType");
-  const auto code = type.integer();
+ComponentType component_type(const json::Cursor& object) {
+  const json::Cursor type = object["componentType"];
+  const auto code = type.unsigned_integer();
   if (code < 5120 || code > 5126 || code == 5124) type.fail(fmt::format("{} is no component type", code));
   return static_cast<ComponentType>(code);
 }
@@ -33,9 +33,9 @@ std::uint64_t component_size(ComponentType type) {
   }
 }
 
-int component_count(const JsonView& accessor) {
-  const JsonView type = accessor.at("type");
-  const std::string& name = type.string();
+int component_count(const json::Cursor& accessor) {
+  const json::Cursor type = accessor["type"];
+  const std::string& name = type.text();
   if (name == "SCALAR") return 1;
   if (name.size() == 4 && name.starts_with("VEC") && name[3] >= '2' && name[3] <= '4') return name[3] - '0';
   if (name == "MAT2" || name == "MAT3" || name == "MAT4") type.fail("a matrix is not expected here");
@@ -97,13 +97,13 @@ struct Elements {
   }
 };
 
-Elements elements(GltfDocument& document, const JsonView& owner, int view_index, std::uint64_t count,
+Elements elements(GltfDocument& document, const json::Cursor& owner, int view_index, std::uint64_t count,
                   int components, ComponentType type) {
   const auto view = document.buffer_view(view_index);
   const std::uint64_t component_bytes = component_size(type);
   const std::uint64_t element_bytes = component_bytes * static_cast<std::uint64_t>(components);
   const auto offset_member = owner.find("byteOffset");
-  const std::uint64_t offset = offset_member ? offset_member->integer() : 0;
+  const std::uint64_t offset = offset_member ? offset_member->unsigned_integer() : 0;
   const std::uint64_t stride = view.stride == 0 ? element_bytes : view.stride;
   if (stride < element_bytes) {
     owner.fail(fmt::format("elements of {} bytes do not fit the byteStride {}", element_bytes, stride));
@@ -119,16 +119,16 @@ Elements elements(GltfDocument& document, const JsonView& owner, int view_index,
 
 // Calls set(element, bytes) for each replaced element.
 template <class Set>
-void apply_sparse(GltfDocument& document, const JsonView& accessor, std::uint64_t count, int components,
+void apply_sparse(GltfDocument& document, const json::Cursor& accessor, std::uint64_t count, int components,
                   ComponentType type, const Set& set) {
   const auto sparse = accessor.find("sparse");
   if (!sparse) return;
-  const std::uint64_t changed = sparse->at("count").integer(count);
-  const JsonView indices = sparse->at("indices"), values = sparse->at("values");
+  const std::uint64_t changed = (*sparse)["count"].unsigned_integer(count);
+  const json::Cursor indices = (*sparse)["indices"], values = (*sparse)["values"];
   const ComponentType index_type = component_type(indices);
   if (!is_index_type(index_type)) indices.fail("the componentType must be an unsigned integer");
-  const auto view_of = [&](const JsonView& part) {
-    return part.at("bufferView").index(document.count("bufferViews"), "bufferViews");
+  const auto view_of = [&](const json::Cursor& part) {
+    return part["bufferView"].index(document.count("bufferViews"), "bufferViews");
   };
   const Elements index_elements = elements(document, indices, view_of(indices), changed, 1, index_type);
   const Elements value_elements = elements(document, values, view_of(values), changed, components, type);
@@ -143,9 +143,9 @@ void apply_sparse(GltfDocument& document, const JsonView& accessor, std::uint64_
 
 }  // namespace
 
-std::uint64_t accessor_element_bytes(const JsonView& accessor) {
+std::uint64_t accessor_element_bytes(const json::Cursor& accessor) {
   const std::uint64_t bytes = component_size(component_type(accessor));
-  const std::string& type = accessor.at("type").string();
+  const std::string& type = accessor["type"].text();
   // Columns of matrices begin at multiples of four bytes
   if (type.starts_with("MAT") && type.size() == 4 && type[3] >= '2' && type[3] <= '4') {
     const auto n = static_cast<std::uint64_t>(type[3] - '0');
@@ -155,7 +155,7 @@ std::uint64_t accessor_element_bytes(const JsonView& accessor) {
 }
 
 FloatArray read_floats(GltfDocument& document, int index, int min_components, int max_components) {
-  const JsonView accessor = document.item("accessors", index);
+  const json::Cursor accessor = document.item("accessors", index);
   FloatArray out;
   out.components = component_count(accessor);
   if (out.components < min_components || out.components > max_components) {
@@ -165,9 +165,9 @@ FloatArray read_floats(GltfDocument& document, int index, int min_components, in
                                   : fmt::format("{} to {}", min_components, max_components)));
   }
   const ComponentType type = component_type(accessor);
-  const bool normalized = boolean_or(accessor, "normalized", false);
+  const bool normalized = accessor.boolean_or("normalized", false);
   const auto components = static_cast<std::uint64_t>(out.components);
-  out.count = accessor.at("count").integer(std::numeric_limits<std::uint32_t>::max() - 1);
+  out.count = accessor["count"].unsigned_integer(std::numeric_limits<std::uint32_t>::max() - 1);
 
   Elements source;
   if (const auto view = document.reference(accessor, "bufferView", "bufferViews")) {
@@ -200,11 +200,12 @@ FloatArray read_floats(GltfDocument& document, int index, int min_components, in
 }
 
 std::vector<std::uint32_t> read_indices(GltfDocument& document, int index) {
-  const JsonView accessor = document.item("accessors", index);
+  const json::Cursor accessor = document.item("accessors", index);
   const ComponentType type = component_type(accessor);
   if (component_count(accessor) != 1 || !is_index_type(type))
     accessor.fail("indices must be unsigned scalars");
-  const std::uint64_t count = accessor.at("count").integer(std::numeric_limits<std::uint32_t>::max() - 1);
+  const std::uint64_t count =
+      accessor["count"].unsigned_integer(std::numeric_limits<std::uint32_t>::max() - 1);
   Elements source;
   if (const auto view = document.reference(accessor, "bufferView", "bufferViews")) {
     source = elements(document, accessor, *view, count, 1, type);

@@ -19,7 +19,7 @@ struct FloatArray {
 };
 
 /// Bytes of one element by componentType and type; fails for unknown ones.
-std::uint64_t accessor_element_bytes(const JsonView& accessor);
+std::uint64_t accessor_element_bytes(const json::Cursor& accessor);
 
 /// Decodes an accessor whose number of components lies in [min_components, max_components]. Throws Error for
 /// anything out of bounds and for NaN or infinite values.

@@ -12,17 +12,17 @@ using scene::AnimationChannel;
 using scene::AnimationPath;
 using scene::Interpolation;
 
-Interpolation import_interpolation(const JsonView& sampler) {
-  const std::string name = text_or(sampler, "interpolation", "LINEAR");
+Interpolation import_interpolation(const json::Cursor& sampler) {
+  const std::string name = sampler.text_or("interpolation", "LINEAR");
   if (name == "LINEAR") return Interpolation::linear;
   if (name == "STEP") return Interpolation::step;
   if (name == "CUBICSPLINE") return Interpolation::cubic_spline;
-  sampler.at("interpolation")
-      .fail(fmt::format("\"{}\" is none of LINEAR, STEP, CUBICSPLINE", printable(name, 40)));
+  sampler["interpolation"].fail(
+      fmt::format("\"{}\" is none of LINEAR, STEP, CUBICSPLINE", printable(name, 40)));
 }
 
-void import_keys(GltfDocument& document, const JsonView& sampler, AnimationChannel& out) {
-  const JsonView input = sampler.at("input"), output = sampler.at("output");
+void import_keys(GltfDocument& document, const json::Cursor& sampler, AnimationChannel& out) {
+  const json::Cursor input = sampler["input"], output = sampler["output"];
   const std::size_t accessors = document.count("accessors");
   out.interpolation = import_interpolation(sampler);
   out.times = read_floats(document, input.index(accessors, "accessors"), 1, 1).values;
@@ -47,13 +47,13 @@ void import_keys(GltfDocument& document, const JsonView& sampler, AnimationChann
 }
 
 // nullopt for what is ignored and listed.
-std::optional<AnimationChannel> import_channel(GltfImport& import, const JsonView& animation,
-                                               const JsonView& channel) {
+std::optional<AnimationChannel> import_channel(GltfImport& import, const json::Cursor& animation,
+                                               const json::Cursor& channel) {
   GltfDocument& document = import.document;
-  const JsonView target = channel.at("target");
-  const JsonView samplers = animation.at("samplers");
-  const int sampler = channel.at("sampler").index(samplers.size(), "samplers");
-  const std::string& path = target.at("path").string();
+  const json::Cursor target = channel["target"];
+  const json::Cursor samplers = animation["samplers"];
+  const int sampler = channel["sampler"].index(samplers.size(), "samplers");
+  const std::string& path = target["path"].text();
   const auto file_node = document.reference(target, "node", "nodes");
   AnimationChannel out;
   if (path == "translation") {
@@ -88,10 +88,10 @@ std::optional<AnimationChannel> import_channel(GltfImport& import, const JsonVie
 void import_animations(GltfImport& import) {
   const std::size_t count = import.document.count("animations");
   for (std::size_t i = 0; i < count; ++i) {
-    const JsonView animation = import.document.item("animations", static_cast<int>(i));
+    const json::Cursor animation = import.document.item("animations", static_cast<int>(i));
     scene::Animation out;
-    out.name = text_or(animation, "name", fmt::format("animation {}", i));
-    const JsonView channels = animation.at("channels");
+    out.name = animation.text_or("name", fmt::format("animation {}", i));
+    const json::Cursor channels = animation["channels"];
     for (std::size_t c = 0; c < channels.size(); ++c) {
       auto channel = import_channel(import, animation, channels[c]);
       if (!channel) continue;

@@ -22,27 +22,27 @@ class Checker {
       if (document_.item("buffers", index).find("uri") || (i == 0 && document_.is_glb()))
         document_.buffer(index);
     }
-    each("bufferViews", [&](const JsonView& v) { buffer_view(v); });
-    each("accessors", [&](const JsonView& v) { accessor(v); });
-    each("images", [&](const JsonView& v) { reference(v, "bufferView", "bufferViews"); });
-    each("textures", [&](const JsonView& v) {
+    each("bufferViews", [&](const json::Cursor& v) { buffer_view(v); });
+    each("accessors", [&](const json::Cursor& v) { accessor(v); });
+    each("images", [&](const json::Cursor& v) { reference(v, "bufferView", "bufferViews"); });
+    each("textures", [&](const json::Cursor& v) {
       reference(v, "source", "images");
       reference(v, "sampler", "samplers");
     });
-    each("meshes", [&](const JsonView& v) { mesh(v); });
-    each("skins", [&](const JsonView& v) {
+    each("meshes", [&](const json::Cursor& v) { mesh(v); });
+    each("skins", [&](const json::Cursor& v) {
       references(v, "joints", "nodes");
       reference(v, "inverseBindMatrices", "accessors");
       reference(v, "skeleton", "nodes");
     });
-    each("nodes", [&](const JsonView& v) {
+    each("nodes", [&](const json::Cursor& v) {
       reference(v, "mesh", "meshes");
       reference(v, "camera", "cameras");
       reference(v, "skin", "skins");
       references(v, "children", "nodes");
     });
-    each("scenes", [&](const JsonView& v) { references(v, "nodes", "nodes"); });
-    each("cameras", [&](const JsonView& v) { import_camera(v); });
+    each("scenes", [&](const json::Cursor& v) { references(v, "nodes", "nodes"); });
+    each("cameras", [&](const json::Cursor& v) { import_camera(v); });
     for (const char* collection : {"samplers", "materials", "animations"}) each(collection, [](auto&) {});
     if (const auto lights = extension(document_.root(), "KHR_lights_punctual")) {
       const auto list = lights->find("lights");
@@ -55,43 +55,45 @@ class Checker {
   void each(const char* collection, const Check& check) const {
     const std::size_t count = document_.count(collection);
     for (std::size_t i = 0; i < count; ++i) {
-      const JsonView item = document_.item(collection, static_cast<int>(i));
-      if (!item.is_object()) item.fail(fmt::format("must be an object, not {}", item.raw().type_name()));
+      const json::Cursor item = document_.item(collection, static_cast<int>(i));
+      if (!item.is_object()) item.fail(fmt::format("must be an object, not {}", item.value().type_name()));
       check(item);
     }
   }
 
-  void reference(const JsonView& object, const char* key, const char* collection) const {
+  void reference(const json::Cursor& object, const char* key, const char* collection) const {
     document_.reference(object, key, collection);
   }
 
-  void references(const JsonView& object, const char* key, const char* collection) const {
+  void references(const json::Cursor& object, const char* key, const char* collection) const {
     const auto list = object.find(key);
     for (std::size_t i = 0; list && i < list->size(); ++i)
       (*list)[i].index(document_.count(collection), collection);
   }
 
-  static std::uint64_t integer_or_zero(const JsonView& object, const char* key) {
+  static std::uint64_t integer_or_zero(const json::Cursor& object, const char* key) {
     const auto member = object.find(key);
-    return member ? member->integer() : 0;
+    return member ? member->unsigned_integer() : 0;
   }
 
-  void buffer_view(const JsonView& view) const {
-    const int index = view.at("buffer").index(document_.count("buffers"), "buffers");
-    const std::uint64_t size = document_.item("buffers", index).at("byteLength").integer();
-    const std::uint64_t begin = integer_or_zero(view, "byteOffset"), length = view.at("byteLength").integer();
+  void buffer_view(const json::Cursor& view) const {
+    const int index = view["buffer"].index(document_.count("buffers"), "buffers");
+    const std::uint64_t size = document_.item("buffers", index)["byteLength"].unsigned_integer();
+    const std::uint64_t begin = integer_or_zero(view, "byteOffset"),
+                        length = view["byteLength"].unsigned_integer();
     if (begin > size || length > size - begin) {
       view.fail(
           fmt::format("bytes {} to {} are out of range, the buffer has {}", begin, begin + length, size));
     }
   }
 
-  void accessor(const JsonView& accessor) const {
+  void accessor(const json::Cursor& accessor) const {
     const auto view_index = document_.reference(accessor, "bufferView", "bufferViews");
-    const std::uint64_t element = accessor_element_bytes(accessor), count = accessor.at("count").integer();
+    const std::uint64_t element = accessor_element_bytes(accessor),
+                        count = accessor["count"].unsigned_integer();
     if (!view_index) return;
-    const JsonView view = document_.item("bufferViews", *view_index);
-    const std::uint64_t size = view.at("byteLength").integer(),
+    const json::Cursor view = document_.item("bufferViews", *view_index);
+    const std::uint64_t size = view["byteLength"].unsigned_integer(),
                         offset = integer_or_zero(accessor, "byteOffset");
     const std::uint64_t stride = std::max(integer_or_zero(view, "byteStride"), element);
     if (offset > size ||
@@ -101,26 +103,26 @@ class Checker {
     }
   }
 
-  void mesh(const JsonView& mesh) const {
-    const JsonView primitives = mesh.at("primitives");
+  void mesh(const json::Cursor& mesh) const {
+    const json::Cursor primitives = mesh["primitives"];
     for (std::size_t i = 0; i < primitives.size(); ++i) {
-      const JsonView primitive = primitives[i];
+      const json::Cursor primitive = primitives[i];
       reference(primitive, "indices", "accessors");
       reference(primitive, "material", "materials");
-      attributes(primitive.at("attributes"));
+      attributes(primitive["attributes"]);
       const auto targets = primitive.find("targets");
       for (std::size_t t = 0; targets && t < targets->size(); ++t) attributes((*targets)[t]);
     }
   }
 
   // Attributes of one primitive must be equally long.
-  void attributes(const JsonView& attributes) const {
+  void attributes(const json::Cursor& attributes) const {
     std::optional<std::uint64_t> count;
     if (!attributes.is_object()) attributes.fail("must be an object");
-    for (const auto& [name, unused] : attributes.raw().items()) {
-      const JsonView member = attributes.at(name.c_str());
+    for (const auto& [name, unused] : attributes.value().members()) {
+      const json::Cursor member = attributes[name.c_str()];
       const int index = member.index(document_.count("accessors"), "accessors");
-      const std::uint64_t elements = document_.item("accessors", index).at("count").integer();
+      const std::uint64_t elements = document_.item("accessors", index)["count"].unsigned_integer();
       if (count && elements != *count) {
         member.fail(fmt::format("has {} elements, another attribute has {}", elements, *count));
       }

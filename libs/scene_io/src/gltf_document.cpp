@@ -57,18 +57,18 @@ bool supported(std::string_view name) {
                      [&](const KnownExtension& e) { return e.name == name && e.hint.empty(); });
 }
 
-// Counts the members of every "extensions" object; parse_json limits the depth.
-void count_extensions(const nlohmann::json& value, std::map<std::string, std::uint64_t>& uses) {
+// Counts the members of every "extensions" object; json::parse limits the depth.
+void count_extensions(const json::Value& value, std::map<std::string, std::uint64_t>& uses) {
   if (value.is_object()) {
-    for (const auto& [key, member] : value.items()) {
+    for (const auto& [key, member] : value.members()) {
       if (key == "extras") continue;
       if (key == "extensions" && member.is_object()) {
-        for (const auto& [name, unused] : member.items()) ++uses[name];
+        for (const auto& [name, unused] : member.members()) ++uses[name];
       }
       count_extensions(member, uses);
     }
   } else if (value.is_array()) {
-    for (const auto& member : value) count_extensions(member, uses);
+    for (const json::Value& element : value.elements()) count_extensions(element, uses);
   }
 }
 
@@ -79,7 +79,7 @@ GltfDocument::GltfDocument(std::span<const std::byte> data, std::filesystem::pat
   if (as_text(data).starts_with("glTF")) {
     parse_glb(data);
   } else {
-    json_ = parse_json(as_text(data), file_);
+    json_ = json::parse(as_text(data), file_);
   }
   if (!json_.is_object()) root().fail("must be a JSON object");
   check_version_and_extensions();
@@ -116,7 +116,7 @@ void GltfDocument::parse_glb(std::span<const std::byte> data) {
     const auto content = data.subspan(offset, size);
     if (chunk == 0) {
       if (type != 0x4e4f534a) throw Error(file_, "the first GLB chunk is not JSON");
-      json_ = parse_json(as_text(content), file_);
+      json_ = json::parse(as_text(content), file_);
     } else if (type == 0x004e4942 && !binary_chunk_) {
       binary_chunk_ = content;
     }
@@ -126,15 +126,14 @@ void GltfDocument::parse_glb(std::span<const std::byte> data) {
 }
 
 void GltfDocument::check_version_and_extensions() const {
-  const JsonView asset = root().at("asset");
-  const JsonView version = asset.find("minVersion").value_or(asset.at("version"));
-  if (version.string() != "2.0" &&
-      !(version.path() == "asset.version" && version.string().starts_with("2."))) {
-    version.fail(fmt::format("glTF {} cannot be read, only 2.0", version.string()));
+  const json::Cursor asset = root()["asset"];
+  const json::Cursor version = asset.find("minVersion").value_or(asset["version"]);
+  if (version.text() != "2.0" && !(version.path() == "asset.version" && version.text().starts_with("2."))) {
+    version.fail(fmt::format("glTF {} cannot be read, only 2.0", version.text()));
   }
   const auto required = root().find("extensionsRequired");
   for (std::size_t i = 0; required && i < required->size(); ++i) {
-    const std::string& name = (*required)[i].string();
+    const std::string& name = (*required)[i].text();
     // A material extension only adds to the look: it is ignored and listed like one that is not required.
     if (supported(name) || name.starts_with("KHR_materials_")) continue;
     const auto* known = std::find_if(known_extensions.begin(), known_extensions.end(),
@@ -144,11 +143,11 @@ void GltfDocument::check_version_and_extensions() const {
   }
 }
 
-JsonView GltfDocument::item(const char* collection, int index) const {
-  return root().at(collection)[static_cast<std::size_t>(index)];
+json::Cursor GltfDocument::item(const char* collection, int index) const {
+  return root()[collection][static_cast<std::size_t>(index)];
 }
 
-std::optional<int> GltfDocument::reference(const JsonView& object, const char* key,
+std::optional<int> GltfDocument::reference(const json::Cursor& object, const char* key,
                                            const char* collection) const {
   const auto member = object.find(key);
   if (!member) return std::nullopt;
@@ -156,8 +155,8 @@ std::optional<int> GltfDocument::reference(const JsonView& object, const char* k
 }
 
 std::span<const std::byte> GltfDocument::buffer(int index) {
-  const JsonView buffer = item("buffers", index);
-  const std::uint64_t length = buffer.at("byteLength").integer();
+  const json::Cursor buffer = item("buffers", index);
+  const std::uint64_t length = buffer["byteLength"].unsigned_integer();
   const auto uri = buffer.find("uri");
   std::span<const std::byte> bytes;
   if (!uri) {
@@ -167,15 +166,15 @@ std::span<const std::byte> GltfDocument::buffer(int index) {
     Bytes& owned = buffers_[index];
     if (!owned) {
       const std::string where = fmt::format("{}: {}", file_, uri->path());
-      if (auto decoded = decode_data_uri(uri->string(), where)) {
+      if (auto decoded = decode_data_uri(uri->text(), where)) {
         owned = std::make_shared<const std::vector<std::byte>>(*std::move(decoded));
         charge(owned->size(), buffer);
       } else {
-        Bytes& file = files_[resolve_uri(uri->string(), path_, where)];
+        Bytes& file = files_[resolve_uri(uri->text(), path_, where)];
         if (!file) {
           try {
             file = std::make_shared<const std::vector<std::byte>>(
-                read_file(resolve_uri(uri->string(), path_, where)));
+                read_file(resolve_uri(uri->text(), path_, where)));
           } catch (const Error& e) {
             throw Error(where, e.what(), "buffers lie beside the glTF file; copy them along with it");
           }
@@ -193,19 +192,20 @@ std::span<const std::byte> GltfDocument::buffer(int index) {
 }
 
 GltfDocument::BufferView GltfDocument::buffer_view(int index) {
-  const JsonView view = item("bufferViews", index);
-  const auto bytes = buffer(view.at("buffer").index(count("buffers"), "buffers"));
+  const json::Cursor view = item("bufferViews", index);
+  const auto bytes = buffer(view["buffer"].index(count("buffers"), "buffers"));
   const auto offset = view.find("byteOffset");
-  const std::uint64_t begin = offset ? offset->integer() : 0, length = view.at("byteLength").integer();
+  const std::uint64_t begin = offset ? offset->unsigned_integer() : 0,
+                      length = view["byteLength"].unsigned_integer();
   if (begin > bytes.size() || length > bytes.size() - begin) {
     view.fail(fmt::format("bytes {} to {} are out of range, the buffer has {}", begin, begin + length,
                           bytes.size()));
   }
   const auto stride = view.find("byteStride");
-  return {bytes.subspan(begin, length), stride ? stride->integer(252) : 0};
+  return {bytes.subspan(begin, length), stride ? stride->unsigned_integer(252) : 0};
 }
 
-void GltfDocument::charge(std::uint64_t bytes, const JsonView& place) {
+void GltfDocument::charge(std::uint64_t bytes, const json::Cursor& place) {
   const std::uint64_t limit = (std::uint64_t{64} << 20) + 64 * input_bytes_;
   charged_ = bytes > limit ? limit + 1 : charged_ + bytes;
   if (charged_ > limit) {

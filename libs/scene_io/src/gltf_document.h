@@ -8,8 +8,9 @@
 #include <span>
 #include <vector>
 
+#include <ssphh/core/json_cursor.h>
+
 #include "ignored.h"
-#include "json_view.h"
 
 namespace ssphh::scene_io {
 
@@ -21,13 +22,13 @@ class GltfDocument {
   GltfDocument(std::span<const std::byte> data, std::filesystem::path path);
 
   const std::filesystem::path& path() const { return path_; }
-  JsonView root() const { return {json_, file_}; }
+  json::Cursor root() const { return {json_, file_}; }
   /// Size of a top-level array ("meshes"), 0 when absent.
-  std::size_t count(const char* collection) const { return array_size(root(), collection); }
+  std::size_t count(const char* collection) const { return root().size_of(collection); }
   /// Element of a top-level array; `index` must be in range.
-  JsonView item(const char* collection, int index) const;
+  json::Cursor item(const char* collection, int index) const;
   /// Reads object.key as an index into a top-level array; nullopt when absent.
-  std::optional<int> reference(const JsonView& object, const char* key, const char* collection) const;
+  std::optional<int> reference(const json::Cursor& object, const char* key, const char* collection) const;
 
   /// Whether the file is a GLB with a binary chunk.
   bool is_glb() const { return binary_chunk_.has_value(); }
@@ -42,7 +43,7 @@ class GltfDocument {
 
   /// Counts memory about to be taken for decoded data; throws at 64 MiB + 64 × the bytes of the input, which
   /// no honest file comes near, so that a small file cannot ask for all memory.
-  void charge(std::uint64_t bytes, const JsonView& place);
+  void charge(std::uint64_t bytes, const json::Cursor& place);
 
   Ignored ignored;
 
@@ -53,7 +54,7 @@ class GltfDocument {
   using Bytes = std::shared_ptr<const std::vector<std::byte>>;
   std::filesystem::path path_;
   std::string file_;
-  nlohmann::json json_;
+  json::Value json_;
   std::optional<std::span<const std::byte>> binary_chunk_;
   std::map<int, Bytes> buffers_;
   std::map<std::filesystem::path, Bytes> files_;

@@ -18,25 +18,25 @@ using scene::Environment;
 using scene::Light;
 using scene::LightType;
 
-Camera import_camera(const JsonView& camera) {
+Camera import_camera(const json::Cursor& camera) {
   Camera out;
-  out.name = text_or(camera, "name");
-  const JsonView type = camera.at("type");
-  if (type.string() == "perspective") {
-    const JsonView perspective = camera.at("perspective");
-    out.yfov = perspective.at("yfov").number();
+  out.name = camera.text_or("name");
+  const json::Cursor type = camera["type"];
+  if (type.text() == "perspective") {
+    const json::Cursor perspective = camera["perspective"];
+    out.yfov = perspective["yfov"].number();
     if (!(out.yfov > 0 && out.yfov < pi)) {
-      perspective.at("yfov").fail(fmt::format("{} must be between 0 and π", out.yfov));
+      perspective["yfov"].fail(fmt::format("{} must be between 0 and π", out.yfov));
     }
     if (const auto aspect = perspective.find("aspectRatio")) {
       out.aspect = aspect->number();
       if (!(*out.aspect > 0)) aspect->fail("must be greater than 0");
     }
-  } else if (type.string() == "orthographic") {
-    const JsonView orthographic = camera.at("orthographic");
+  } else if (type.text() == "orthographic") {
+    const json::Cursor orthographic = camera["orthographic"];
     // In double: quotients of two floats are not every float, and the aspect is to come back as it was.
-    const double xmag = std::abs(orthographic.at("xmag").precise_number());
-    const float ymag = std::abs(orthographic.at("ymag").number());
+    const double xmag = std::abs(orthographic["xmag"].precise_number());
+    const float ymag = std::abs(orthographic["ymag"].number());
     if (!(xmag > 0 && ymag > 0)) orthographic.fail("xmag and ymag must not be 0");
     out.orthographic = true;
     out.yheight = 2 * ymag;
@@ -45,76 +45,76 @@ Camera import_camera(const JsonView& camera) {
       orthographic.fail("xmag and ymag are out of proportion");
     }
   } else {
-    type.fail(fmt::format("\"{}\" is neither perspective nor orthographic", printable(type.string(), 40)));
+    type.fail(fmt::format("\"{}\" is neither perspective nor orthographic", printable(type.text(), 40)));
   }
   return out;
 }
 
-Light import_light(const JsonView& light) {
+Light import_light(const json::Cursor& light) {
   Light out;
-  out.name = text_or(light, "name");
+  out.name = light.text_or("name");
   out.group = light_group_extra(light);
-  const JsonView type = light.at("type");
+  const json::Cursor type = light["type"];
   if (const auto color = light.find("color")) out.color = color->vector3();
   if (const auto intensity = light.find("intensity")) out.intensity = intensity->number(0, HUGE_VALF);
   if (const auto range = light.find("range")) {
     out.range = range->number();
     if (!(out.range > 0)) range->fail("must be greater than 0");
   }
-  if (type.string() == "point") {
+  if (type.text() == "point") {
     out.type = LightType::point;
-  } else if (type.string() == "directional") {
+  } else if (type.text() == "directional") {
     out.type = LightType::directional;
     out.range = 0;
-  } else if (type.string() == "spot") {
+  } else if (type.text() == "spot") {
     out.type = LightType::spot;
-    const JsonView spot = light.at("spot");
-    out.inner_cone = number_or(spot, "innerConeAngle", 0);
-    out.outer_cone = number_or(spot, "outerConeAngle", pi / 4);
+    const json::Cursor spot = light["spot"];
+    out.inner_cone = spot.number_or("innerConeAngle", 0);
+    out.outer_cone = spot.number_or("outerConeAngle", pi / 4);
     if (!(out.inner_cone >= 0 && out.inner_cone < out.outer_cone && out.outer_cone <= pi / 2 + 1e-6f)) {
       spot.fail(fmt::format("cone angles {} and {} must rise from 0 to at most π/2", out.inner_cone,
                             out.outer_cone));
     }
   } else {
-    type.fail(fmt::format("\"{}\" is none of point, spot, directional", printable(type.string(), 40)));
+    type.fail(fmt::format("\"{}\" is none of point, spot, directional", printable(type.text(), 40)));
   }
 
   // Spheres and discs of this project's extras
   const auto more = extra(light, "ssphh");
-  if (more && text_or(*more, "type") == "sphere") {
+  if (more && more->text_or("type") == "sphere") {
     if (out.type != LightType::point) more->fail("only a point light can be a sphere");
     out.type = LightType::sphere;
-    out.radius = more->at("radius").number();
-    if (!(out.radius > 0)) more->at("radius").fail("must be greater than 0");
+    out.radius = (*more)["radius"].number();
+    if (!(out.radius > 0)) (*more)["radius"].fail("must be greater than 0");
     const auto radiance = more->find("radiance");
     out.intensity =
         radiance ? radiance->number(0, HUGE_VALF) : out.intensity / (pi * out.radius * out.radius);
-    if (!std::isfinite(out.intensity)) more->at("radius").fail("is too small for the light's intensity");
+    if (!std::isfinite(out.intensity)) (*more)["radius"].fail("is too small for the light's intensity");
   } else if (more && more->find("type")) {
-    more->at("type").fail("can only be \"sphere\"");
+    (*more)["type"].fail("can only be \"sphere\"");
   }
   if (more && more->find("angular_radius")) {
     if (out.type != LightType::directional) more->fail("only a directional light can have an angular_radius");
-    out.angular_radius = more->at("angular_radius").number(0, pi / 2);
+    out.angular_radius = (*more)["angular_radius"].number(0, pi / 2);
   }
   return out;
 }
 
-void import_environment(GltfImport& import, const JsonView& gltf_scene) {
+void import_environment(GltfImport& import, const json::Cursor& gltf_scene) {
   const auto extras = extra(gltf_scene, "ssphh");
   const auto environment = extras ? extras->find("environment") : std::nullopt;
   if (!environment) return;
   Environment out;
-  out.name = text_or(*environment, "name", out.name);
-  out.group = text_or(*environment, "light_group");
+  out.name = environment->text_or("name", out.name);
+  out.group = environment->text_or("light_group");
   if (const auto color = environment->find("color")) out.color = color->vector3();
-  out.rotation = number_or(*environment, "rotation", 0);
+  out.rotation = environment->number_or("rotation", 0);
   if (const auto image = environment->find("image")) {
     std::vector<std::byte> storage;
     const auto bytes = image_bytes(import.document, *image, storage);
     if (image->find("bufferView")) {
-      const std::uint64_t width = image->at("width").integer(65536),
-                          height = image->at("height").integer(65536);
+      const std::uint64_t width = (*image)["width"].unsigned_integer(65536),
+                          height = (*image)["height"].unsigned_integer(65536);
       if (width == 0 || height == 0 || bytes.size() != width * height * 3 * sizeof(float)) {
         image->fail(fmt::format("{}×{} RGB floats are {} bytes, the bufferView has {}", width, height,
                                 width * height * 3 * sizeof(float), bytes.size()));

@@ -42,24 +42,25 @@ std::vector<std::byte> export_glb(const scene::Scene& scene) {
   scene::check_indices(scene);
   GltfExport out(scene);
   export_materials(out);
-  const Json roots = export_nodes(out);
+  const json::Value roots = export_nodes(out);
   export_animations(out);
-  Json shown;
+  json::Value shown;
   if (!scene.name.empty()) shown["name"] = scene.name;
   if (!roots.empty()) shown["nodes"] = roots;
-  if (Json extras = export_environment(out); !extras.is_null()) shown["extras"] = std::move(extras);
-  if (shown.is_null()) shown = Json::object();
+  if (json::Value extras = export_environment(out); !extras.is_null()) shown["extras"] = std::move(extras);
+  if (shown.is_null()) shown = json::Value::object();
 
-  Json document;
+  json::Value document;
   document["asset"] = {{"generator", "ssphh"}, {"version", "2.0"}};
   if (!out.lights.empty()) {
     document["extensions"]["KHR_lights_punctual"]["lights"] = std::move(out.lights);
   }
-  if (!out.extensions.empty()) document["extensionsUsed"] = out.extensions;
+  if (!out.extensions.empty())
+    document["extensionsUsed"] = json::Array(out.extensions.begin(), out.extensions.end());
   document["scene"] = 0;
-  document["scenes"] = Json::array({std::move(shown)});
+  document["scenes"] = json::Value::array({std::move(shown)});
   // Empty arrays are not allowed.
-  const auto add = [&](const char* key, Json& array) {
+  const auto add = [&](const char* key, json::Value& array) {
     if (!array.empty()) document[key] = std::move(array);
   };
   add("nodes", out.nodes);
@@ -72,9 +73,9 @@ std::vector<std::byte> export_glb(const scene::Scene& scene) {
   add("animations", out.animations);
   add("accessors", out.accessors);
   add("bufferViews", out.buffer_views);
-  if (!out.binary.empty()) document["buffers"] = Json::array({{{"byteLength", out.binary.size()}}});
+  if (!out.binary.empty()) document["buffers"] = json::Value::array({{{"byteLength", out.binary.size()}}});
   // Names that are not UTF-8 must not stop the export.
-  return pack(document.dump(-1, ' ', false, Json::error_handler_t::replace), out.binary);
+  return pack(json::print(document), out.binary);
 }
 
 void write_glb(const std::filesystem::path& path, const scene::Scene& scene) {

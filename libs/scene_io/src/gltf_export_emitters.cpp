@@ -12,8 +12,8 @@ using scene::AnimationPath;
 using scene::Interpolation;
 using scene::LightType;
 
-Json export_camera(const scene::Camera& camera) {
-  Json out;
+json::Value export_camera(const scene::Camera& camera) {
+  json::Value out;
   if (!camera.name.empty()) out["name"] = camera.name;
   // glTF asks for clip planes; nothing here uses them.
   if (camera.orthographic) {
@@ -24,14 +24,14 @@ Json export_camera(const scene::Camera& camera) {
     return out;
   }
   out["type"] = "perspective";
-  Json perspective = {{"yfov", number(camera.yfov)}, {"znear", 0.01}};
+  json::Value perspective = {{"yfov", number(camera.yfov)}, {"znear", 0.01}};
   if (camera.aspect) perspective["aspectRatio"] = number(*camera.aspect);
   out["perspective"] = std::move(perspective);
   return out;
 }
 
-Json export_light(const scene::Light& light) {
-  Json out;
+json::Value export_light(const scene::Light& light) {
+  json::Value out;
   if (!light.name.empty()) out["name"] = light.name;
   out["color"] = numbers(light.color);
   out["intensity"] = number(light.intensity);
@@ -63,10 +63,10 @@ Json export_light(const scene::Light& light) {
   return out;
 }
 
-Json export_environment(GltfExport& out) {
+json::Value export_environment(GltfExport& out) {
   if (!out.scene.environment) return nullptr;
   const scene::Environment& e = *out.scene.environment;
-  Json environment = {{"name", e.name}};
+  json::Value environment = {{"name", e.name}};
   if (!e.group.empty()) environment["light_group"] = e.group;
   environment["color"] = numbers(e.color);
   environment["rotation"] = number(e.rotation);
@@ -81,7 +81,7 @@ Json export_environment(GltfExport& out) {
     const int view = add_buffer_view(out, std::as_bytes(std::span<const float>(rgb)), 0);
     environment["image"] = {{"bufferView", view}, {"width", e.equirect.width}, {"height", e.equirect.height}};
   }
-  Json extras;
+  json::Value extras;
   extras["ssphh"]["environment"] = std::move(environment);
   return extras;
 }
@@ -89,7 +89,7 @@ Json export_environment(GltfExport& out) {
 void export_animations(GltfExport& out) {
   for (const scene::Animation& a : out.scene.animations) {
     if (a.channels.empty()) continue;  // glTF has no empty animations
-    Json animation, samplers = Json::array(), channels = Json::array();
+    json::Value animation, samplers = json::Value::array(), channels = json::Value::array();
     if (!a.name.empty()) animation["name"] = a.name;
     for (const AnimationChannel& c : a.channels) {
       static constexpr const char* modes[] = {"STEP", "LINEAR", "CUBICSPLINE"};
@@ -101,7 +101,7 @@ void export_animations(GltfExport& out) {
       const int output = add_float_accessor(out, values, components, false, 0);
       const char* mode = modes[static_cast<int>(c.interpolation)];
       const int sampler = push(samplers, {{"input", input}, {"interpolation", mode}, {"output", output}});
-      Json target = {{"node", c.node}, {"path", paths[static_cast<int>(c.path)]}};
+      json::Value target = {{"node", c.node}, {"path", paths[static_cast<int>(c.path)]}};
       channels.push_back({{"sampler", sampler}, {"target", std::move(target)}});
     }
     animation["samplers"] = std::move(samplers);

@@ -17,7 +17,7 @@ int export_image(GltfExport& out, int texture) {
   if (known != out.images_by_texture.end()) return known->second;
   const scene::Texture& t = out.scene.textures[static_cast<std::size_t>(texture)];
   const auto png = image::encode_png(image::Rgba8{t.width, t.height, t.rgba});
-  Json image;
+  json::Value image;
   if (!t.name.empty()) image["name"] = t.name;
   image["mimeType"] = "image/png";
   image["bufferView"] = add_buffer_view(out, png, 0);
@@ -40,15 +40,15 @@ int export_sampler(GltfExport& out, const TextureUse& use) {
   const std::tuple key(wrap_code(use.wrap_u), wrap_code(use.wrap_v), use.nearest ? 1 : 0);
   const auto known = out.samplers_by_wrap.find(key);
   if (known != out.samplers_by_wrap.end()) return known->second;
-  Json sampler = {{"magFilter", use.nearest ? 9728 : 9729},
-                  {"minFilter", use.nearest ? 9728 : 9987},
-                  {"wrapS", std::get<0>(key)},
-                  {"wrapT", std::get<1>(key)}};
+  json::Value sampler = {{"magFilter", use.nearest ? 9728 : 9729},
+                         {"minFilter", use.nearest ? 9728 : 9987},
+                         {"wrapS", std::get<0>(key)},
+                         {"wrapT", std::get<1>(key)}};
   return out.samplers_by_wrap[key] = push(out.samplers, std::move(sampler));
 }
 
 /// textureInfo of a use; null when there is none.
-Json export_use(GltfExport& out, const TextureUse& use) {
+json::Value export_use(GltfExport& out, const TextureUse& use) {
   if (use.texture < 0) return nullptr;
   const std::pair key(export_image(out, use.texture), export_sampler(out, use));
   const auto known = out.textures_by_parts.find(key);
@@ -57,9 +57,9 @@ Json export_use(GltfExport& out, const TextureUse& use) {
                           : push(out.textures, {{"sampler", key.second}, {"source", key.first}});
   out.textures_by_parts[key] = texture;
 
-  Json info = {{"index", texture}};
+  json::Value info = {{"index", texture}};
   if (use.uv_set != 0) info["texCoord"] = use.uv_set;
-  Json transform;
+  json::Value transform;
   if (use.offset != vec2(0)) transform["offset"] = numbers(std::span(&use.offset.x, 2));
   if (use.rotation != 0) transform["rotation"] = number(use.rotation);
   if (use.scale != vec2(1)) transform["scale"] = numbers(std::span(&use.scale.x, 2));
@@ -67,12 +67,12 @@ Json export_use(GltfExport& out, const TextureUse& use) {
   return info;
 }
 
-void set_unless_null(Json& object, const char* key, Json value) {
+void set_unless_null(json::Value& object, const char* key, json::Value value) {
   if (!value.is_null()) object[key] = std::move(value);
 }
 
 /// emissiveFactor may not exceed 1: the rest is a power of two, which loses no bit.
-void export_emission(GltfExport& out, const Material& m, Json& material) {
+void export_emission(GltfExport& out, const Material& m, json::Value& material) {
   const float largest = max_component(m.emission);
   if (!(largest > 0)) return;
   int exponent = 0;
@@ -84,17 +84,17 @@ void export_emission(GltfExport& out, const Material& m, Json& material) {
   }
 }
 
-Json export_material(GltfExport& out, const Material& m) {
-  Json material;
+json::Value export_material(GltfExport& out, const Material& m) {
+  json::Value material;
   if (!m.name.empty()) material["name"] = m.name;
   const vec4 color(m.base_color, m.alpha);
-  Json pbr = {{"baseColorFactor", numbers(std::span(&color.x, 4))},
-              {"metallicFactor", number(m.metallic)},
-              {"roughnessFactor", number(std::abs(m.specular_roughness))}};
+  json::Value pbr = {{"baseColorFactor", numbers(std::span(&color.x, 4))},
+                     {"metallicFactor", number(m.metallic)},
+                     {"roughnessFactor", number(std::abs(m.specular_roughness))}};
   set_unless_null(pbr, "baseColorTexture", export_use(out, m.base_color_texture));
   set_unless_null(pbr, "metallicRoughnessTexture", export_use(out, m.metallic_roughness_texture));
   material["pbrMetallicRoughness"] = std::move(pbr);
-  Json normal = export_use(out, m.normal_texture);
+  json::Value normal = export_use(out, m.normal_texture);
   if (!normal.is_null() && m.normal_scale != 1) normal["scale"] = number(m.normal_scale);
   set_unless_null(material, "normalTexture", std::move(normal));
   set_unless_null(material, "emissiveTexture", export_use(out, m.emission_texture));
@@ -111,9 +111,9 @@ Json export_material(GltfExport& out, const Material& m) {
     add_extension(out, material, "KHR_materials_specular", {{"specularFactor", number(m.specular)}});
   }
   if (m.ior != 1.5f) add_extension(out, material, "KHR_materials_ior", {{"ior", number(m.ior)}});
-  if (m.unlit) add_extension(out, material, "KHR_materials_unlit", Json::object());
+  if (m.unlit) add_extension(out, material, "KHR_materials_unlit", json::Value::object());
 
-  Json bipolar;
+  json::Value bipolar;
   if (m.diffuse_roughness != 0) bipolar["diffuse_roughness"] = number(m.diffuse_roughness);
   if (std::signbit(m.specular_roughness)) bipolar["specular_roughness"] = number(m.specular_roughness);
   if (!bipolar.is_null()) material["extras"]["ssphh"] = std::move(bipolar);

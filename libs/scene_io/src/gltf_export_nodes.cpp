@@ -28,12 +28,12 @@ void add_instance(Contents& contents, const Instance& instance) {
 }
 
 /// Attributes and indices of a mesh, without its material.
-Json export_primitive(GltfExport& out, const Mesh& mesh) {
+json::Value export_primitive(GltfExport& out, const Mesh& mesh) {
   constexpr int target = 34962;
   const auto floats = [](const auto& array, int components) {
     return std::span(&array.front().x, array.size() * static_cast<std::size_t>(components));
   };
-  Json attributes;
+  json::Value attributes;
   attributes["POSITION"] = add_float_accessor(out, floats(mesh.positions, 3), 3, true, target);
   if (!mesh.normals.empty())
     attributes["NORMAL"] = add_float_accessor(out, floats(mesh.normals, 3), 3, false, target);
@@ -71,11 +71,11 @@ class MeshExport {
     if (key.empty()) return std::nullopt;
     const auto known = meshes_.find(key);
     if (known != meshes_.end()) return known->second;
-    Json mesh, primitives = Json::array();
+    json::Value mesh, primitives = json::Value::array();
     const std::string& name = out_.scene.meshes[static_cast<std::size_t>(key.front().first)].name;
     if (!name.empty()) mesh["name"] = name;
     for (const auto& [scene_mesh, material] : key) {
-      Json part = primitive(scene_mesh);
+      json::Value part = primitive(scene_mesh);
       part["material"] = material;
       primitives.push_back(std::move(part));
     }
@@ -84,7 +84,7 @@ class MeshExport {
   }
 
  private:
-  Json primitive(int mesh) {
+  json::Value primitive(int mesh) {
     const auto known = primitives_.find(mesh);
     if (known != primitives_.end()) return known->second;
     return primitives_[mesh] = export_primitive(out_, out_.scene.meshes[static_cast<std::size_t>(mesh)]);
@@ -92,10 +92,10 @@ class MeshExport {
 
   GltfExport& out_;
   std::map<std::vector<std::pair<int, int>>, int> meshes_;
-  std::map<int, Json> primitives_;
+  std::map<int, json::Value> primitives_;
 };
 
-void export_transform(const scene::Node& node, Json& json) {
+void export_transform(const scene::Node& node, json::Value& json) {
   if (node.matrix) {
     if (*node.matrix != mat4(1)) json["matrix"] = numbers(std::span(glm::value_ptr(*node.matrix), 16));
     return;
@@ -109,8 +109,8 @@ void export_transform(const scene::Node& node, Json& json) {
   if (t.scale != vec3(1)) json["scale"] = numbers(t.scale);
 }
 
-Json export_sphl(const scene::Sphl& sphl, const std::string& node_name) {
-  Json out = Json::object();
+json::Value export_sphl(const scene::Sphl& sphl, const std::string& node_name) {
+  json::Value out = json::Value::object();
   if (sphl.name != node_name) out["name"] = sphl.name;
   out["radius"] = number(sphl.radius);
   if (!sphl.enabled) out["enabled"] = false;
@@ -119,7 +119,7 @@ Json export_sphl(const scene::Sphl& sphl, const std::string& node_name) {
 
 /// Writes the k-th of each kind of contents into a node. Returns whether there was any.
 bool export_contents(GltfExport& out, MeshExport& meshes, const Contents& contents, std::size_t k,
-                     const std::string& name, Json& json) {
+                     const std::string& name, json::Value& json) {
   bool any = false;
   if (k < contents.instances.size()) {
     const auto& [group, instances] = contents.instances[k];
@@ -147,7 +147,7 @@ bool export_contents(GltfExport& out, MeshExport& meshes, const Contents& conten
 
 }  // namespace
 
-Json export_nodes(GltfExport& out) {
+json::Value export_nodes(GltfExport& out) {
   // Sort what there is by node; what stands at none comes last.
   const scene::Scene& scene = out.scene;
   const std::size_t count = scene.nodes.size();
@@ -162,11 +162,11 @@ Json export_nodes(GltfExport& out) {
 
   // The scene's nodes keep their indices, with the first of each kind.
   MeshExport meshes(out);
-  Json roots = Json::array();
-  std::vector<Json> children(count, Json::array());
+  json::Value roots = json::Value::array();
+  std::vector<json::Value> children(count, json::Value::array());
   for (std::size_t i = 0; i < count; ++i) {
     const scene::Node& node = scene.nodes[i];
-    Json json = Json::object();
+    json::Value json = json::Value::object();
     if (!node.name.empty()) json["name"] = node.name;
     export_transform(node, json);
     export_contents(out, meshes, contents[i], 0, node.name, json);
@@ -177,7 +177,7 @@ Json export_nodes(GltfExport& out) {
   for (std::size_t i = 0; i <= count; ++i) {
     const std::string name = i < count ? scene.nodes[i].name : "root";
     for (std::size_t k = i < count ? 1 : 0;; ++k) {
-      Json json = Json::object();
+      json::Value json = json::Value::object();
       if (!name.empty()) json["name"] = name;
       if (!export_contents(out, meshes, contents[i], k, name, json)) break;
       push(i < count ? children[i] : roots, push(out.nodes, std::move(json)));

@@ -9,22 +9,21 @@
 #include <tuple>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include <ssphh/core/json.h>
 #include <ssphh/scene/scene.h>
 
 namespace ssphh::scene_io {
-
-using Json = nlohmann::ordered_json;
 
 /// The document under construction: its arrays in order, and the binary chunk.
 struct GltfExport {
   explicit GltfExport(const scene::Scene& scene_) : scene(scene_) {}
 
   const scene::Scene& scene;
-  Json accessors = Json::array(), animations = Json::array(), buffer_views = Json::array(),
-       cameras = Json::array(), images = Json::array(), lights = Json::array(), materials = Json::array(),
-       meshes = Json::array(), nodes = Json::array(), samplers = Json::array(), textures = Json::array();
+  json::Value accessors = json::Value::array(), animations = json::Value::array(),
+              buffer_views = json::Value::array(), cameras = json::Value::array(),
+              images = json::Value::array(), lights = json::Value::array(), materials = json::Value::array(),
+              meshes = json::Value::array(), nodes = json::Value::array(), samplers = json::Value::array(),
+              textures = json::Value::array();
   std::set<std::string> extensions;
   std::vector<std::byte> binary;
 
@@ -35,15 +34,15 @@ struct GltfExport {
 };
 
 /// The shortest decimal that reads back as the same float. Throws Error for NaN and infinities.
-Json number(float value);
-Json numbers(std::span<const float> values);
-Json numbers(const vec3& v);
+json::Value number(float value);
+json::Value numbers(std::span<const float> values);
+json::Value numbers(const vec3& v);
 
 /// Appends a value to an array and returns its index.
-int push(Json& array, Json value);
+int push(json::Value& array, json::Value value);
 
 /// Sets object.extensions.NAME and notes its use.
-void add_extension(GltfExport& out, Json& object, const std::string& name, Json value);
+void add_extension(GltfExport& out, json::Value& object, const std::string& name, json::Value value);
 
 /// Bytes in the binary chunk, four-byte aligned. Returns the buffer view's index. `target`: 34962 vertices,
 /// 34963 indices, 0 neither.
@@ -62,12 +61,12 @@ void export_materials(GltfExport& out);
 int export_material_index(GltfExport& out, int material);
 
 /// Nodes with the meshes, cameras, lights and SPHLs that stand at them. Returns the roots.
-Json export_nodes(GltfExport& out);
+json::Value export_nodes(GltfExport& out);
 
-Json export_camera(const scene::Camera& camera);
-Json export_light(const scene::Light& light);
+json::Value export_camera(const scene::Camera& camera);
+json::Value export_light(const scene::Light& light);
 /// extras of the glTF scene, or null.
-Json export_environment(GltfExport& out);
+json::Value export_environment(GltfExport& out);
 void export_animations(GltfExport& out);
 
 }  // namespace ssphh::scene_io

@@ -24,7 +24,7 @@ int import_image(GltfImport& import, int index) {
   int& texture = import.texture_of_image[static_cast<std::size_t>(index)];
   if (texture != -2) return texture;
   texture = -1;
-  const JsonView image = import.document.item("images", index);
+  const json::Cursor image = import.document.item("images", index);
   const std::string where = fmt::format("{}: {}", image.file(), image.path());
   std::vector<std::byte> storage;
   const auto bytes = image_bytes(import.document, image, storage);
@@ -32,7 +32,7 @@ int import_image(GltfImport& import, int index) {
   try {
     auto decoded = image::decode_rgba8(bytes, where);
     texture = static_cast<int>(import.scene.textures.size());
-    import.scene.textures.push_back({text_or(image, "name", fmt::format("image {}", index)), decoded.width,
+    import.scene.textures.push_back({image.text_or("name", fmt::format("image {}", index)), decoded.width,
                                      decoded.height, std::move(decoded.rgba)});
   } catch (const Error& e) {
     log_warning("{}; the texture is left out", e.what());
@@ -41,9 +41,9 @@ int import_image(GltfImport& import, int index) {
   return texture;
 }
 
-Wrap import_wrap(const JsonView& sampler, const char* key) {
+Wrap import_wrap(const json::Cursor& sampler, const char* key) {
   const auto member = sampler.find(key);
-  const auto code = member ? member->integer() : 10497;
+  const auto code = member ? member->unsigned_integer() : 10497;
   if (code == 10497) return Wrap::repeat;
   if (code == 33648) return Wrap::mirror;
   if (code == 33071) return Wrap::clamp;
@@ -51,36 +51,36 @@ Wrap import_wrap(const JsonView& sampler, const char* key) {
 }
 
 // textureInfo: index, texCoord, KHR_texture_transform; image and sampler of the texture.
-TextureUse import_texture(GltfImport& import, const JsonView& material, const char* key) {
+TextureUse import_texture(GltfImport& import, const json::Cursor& material, const char* key) {
   TextureUse use;
   const auto info = material.find(key);
   if (!info) return use;
   const GltfDocument& document = import.document;
-  const JsonView texture =
-      document.item("textures", info->at("index").index(document.count("textures"), "textures"));
+  const json::Cursor texture =
+      document.item("textures", (*info)["index"].index(document.count("textures"), "textures"));
   const auto source = document.reference(texture, "source", "images");
   if (!source) {
     log_warning("{}: {} has no PNG or JPEG image; the texture is left out", texture.file(), texture.path());
     import.document.ignored.add("texture without a PNG or JPEG image");
     return use;
   }
-  const auto coordinates = [](const JsonView& object, int fallback) {
+  const auto coordinates = [](const json::Cursor& object, int fallback) {
     const auto set = object.find("texCoord");
-    return set ? static_cast<int>(set->integer(1000)) : fallback;
+    return set ? static_cast<int>(set->unsigned_integer(1000)) : fallback;
   };
   use.uv_set = coordinates(*info, 0);
   if (const auto transform = extension(*info, "KHR_texture_transform")) {
     if (const auto offset = transform->find("offset")) use.offset = offset->vector2();
     if (const auto scale = transform->find("scale")) use.scale = scale->vector2();
-    use.rotation = number_or(*transform, "rotation", 0);
+    use.rotation = transform->number_or("rotation", 0);
     use.uv_set = coordinates(*transform, use.uv_set);
   }
   if (const auto sampler_index = document.reference(texture, "sampler", "samplers")) {
-    const JsonView sampler = document.item("samplers", *sampler_index);
+    const json::Cursor sampler = document.item("samplers", *sampler_index);
     use.wrap_u = import_wrap(sampler, "wrapS");
     use.wrap_v = import_wrap(sampler, "wrapT");
     const auto filter = sampler.find("magFilter");
-    use.nearest = filter && filter->integer() == 9728;
+    use.nearest = filter && filter->unsigned_integer() == 9728;
   }
   if (use.uv_set > 1) {
     import.document.ignored.add("texture with texture coordinate set above 1");
@@ -90,26 +90,26 @@ TextureUse import_texture(GltfImport& import, const JsonView& material, const ch
   return use.texture < 0 ? TextureUse{} : use;
 }
 
-void import_metallic_roughness(GltfImport& import, const JsonView& pbr, Material& out) {
+void import_metallic_roughness(GltfImport& import, const json::Cursor& pbr, Material& out) {
   if (const auto color = pbr.find("baseColorFactor")) {
     const vec4 rgba = color->vector4();
     out.base_color = vec3(rgba);
     out.alpha = rgba.w;
   }
-  out.metallic = number_or(pbr, "metallicFactor", 1);
-  out.specular_roughness = number_or(pbr, "roughnessFactor", 1);
+  out.metallic = pbr.number_or("metallicFactor", 1);
+  out.specular_roughness = pbr.number_or("roughnessFactor", 1);
   out.base_color_texture = import_texture(import, pbr, "baseColorTexture");
   out.metallic_roughness_texture = import_texture(import, pbr, "metallicRoughnessTexture");
 }
 
-void import_extensions(GltfImport& import, const JsonView& material, Material& out) {
+void import_extensions(GltfImport& import, const json::Cursor& material, Material& out) {
   if (const auto strength = extension(material, "KHR_materials_emissive_strength")) {
     if (const auto value = strength->find("emissiveStrength")) out.emission *= value->number(0, HUGE_VALF);
   }
   if (const auto ior = extension(material, "KHR_materials_ior")) {
-    const float value = number_or(*ior, "ior", 1.5f);
+    const float value = ior->number_or("ior", 1.5f);
     // 0 stands for the old specular-glossiness workflow's Fresnel term of 1
-    if (value != 0 && value < 1) ior->at("ior").fail(fmt::format("{} must be 0 or at least 1", value));
+    if (value != 0 && value < 1) (*ior)["ior"].fail(fmt::format("{} must be 0 or at least 1", value));
     out.ior = value == 0 ? 1e6f : value;
   }
   if (const auto specular = extension(material, "KHR_materials_specular")) {
@@ -121,9 +121,9 @@ void import_extensions(GltfImport& import, const JsonView& material, Material& o
   out.unlit = extension(material, "KHR_materials_unlit").has_value();
 }
 
-Material import_material(GltfImport& import, const JsonView& material) {
+Material import_material(GltfImport& import, const json::Cursor& material) {
   Material out;
-  out.name = text_or(material, "name");
+  out.name = material.text_or("name");
   out.base_color = vec3(1);
   out.metallic = 1;
   if (const auto pbr = material.find("pbrMetallicRoughness")) import_metallic_roughness(import, *pbr, out);
@@ -131,23 +131,23 @@ Material import_material(GltfImport& import, const JsonView& material) {
   out.emission_texture = import_texture(import, material, "emissiveTexture");
   if (const auto normal = material.find("normalTexture")) {
     out.normal_texture = import_texture(import, material, "normalTexture");
-    out.normal_scale = number_or(*normal, "scale", 1);
+    out.normal_scale = normal->number_or("scale", 1);
   }
   if (const auto occlusion = material.find("occlusionTexture")) {
-    occlusion->at("index").index(import.document.count("textures"), "textures");
+    (*occlusion)["index"].index(import.document.count("textures"), "textures");
     import.document.ignored.add("occlusion texture");  // light transport makes its own occlusion
   }
-  const std::string alpha_mode = text_or(material, "alphaMode", "OPAQUE");
+  const std::string alpha_mode = material.text_or("alphaMode", "OPAQUE");
   if (alpha_mode == "MASK") {
     out.alpha_mode = AlphaMode::mask;
   } else if (alpha_mode == "BLEND") {
     out.alpha_mode = AlphaMode::blend;
   } else if (alpha_mode != "OPAQUE") {
-    material.at("alphaMode")
-        .fail(fmt::format("\"{}\" is none of OPAQUE, MASK, BLEND", printable(alpha_mode, 40)));
+    material["alphaMode"].fail(
+        fmt::format("\"{}\" is none of OPAQUE, MASK, BLEND", printable(alpha_mode, 40)));
   }
-  out.alpha_cutoff = number_or(material, "alphaCutoff", 0.5f);
-  out.double_sided = boolean_or(material, "doubleSided", false);
+  out.alpha_cutoff = material.number_or("alphaCutoff", 0.5f);
+  out.double_sided = material.boolean_or("doubleSided", false);
   import_extensions(import, material, out);
 
   // Bipolar roughness of this project's extras
@@ -160,18 +160,18 @@ Material import_material(GltfImport& import, const JsonView& material) {
 
 }  // namespace
 
-std::span<const std::byte> image_bytes(GltfDocument& document, const JsonView& image,
+std::span<const std::byte> image_bytes(GltfDocument& document, const json::Cursor& image,
                                        std::vector<std::byte>& storage) {
   if (const auto view = document.reference(image, "bufferView", "bufferViews")) {
     return document.buffer_view(*view).bytes;
   }
-  const JsonView uri = image.at("uri");
+  const json::Cursor uri = image["uri"];
   const std::string where = fmt::format("{}: {}", uri.file(), uri.path());
-  if (auto decoded = decode_data_uri(uri.string(), where)) {
+  if (auto decoded = decode_data_uri(uri.text(), where)) {
     storage = *std::move(decoded);
     return storage;
   }
-  const auto path = resolve_uri(uri.string(), document.path(), where);
+  const auto path = resolve_uri(uri.text(), document.path(), where);
   try {
     storage = read_file(path, max_image_bytes);
   } catch (const Error& e) {
@@ -185,7 +185,7 @@ void import_materials(GltfImport& import) {
   import.texture_of_image.assign(import.document.count("images"), -2);
   const std::size_t count = import.document.count("materials");
   for (std::size_t i = 0; i < count; ++i) {
-    const JsonView material = import.document.item("materials", static_cast<int>(i));
+    const json::Cursor material = import.document.item("materials", static_cast<int>(i));
     import.scene.materials.push_back(import_material(import, material));
   }
 }

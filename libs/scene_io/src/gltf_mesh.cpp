@@ -81,14 +81,14 @@ const FloatArray& vertex_array(GltfImport& import, int accessor, int min_compone
 
 // Attribute as one T per vertex in `used`; empty when absent. Components that the file lacks (alpha) are 1.
 template <class T>
-std::vector<T> read_attribute(GltfImport& import, const JsonView& attributes, const char* name,
+std::vector<T> read_attribute(GltfImport& import, const json::Cursor& attributes, const char* name,
                               int min_components, std::size_t vertex_count,
                               const std::vector<std::uint32_t>& used) {
   const auto accessor = import.document.reference(attributes, name, "accessors");
   if (!accessor) return {};
   const FloatArray& array = vertex_array(import, *accessor, min_components, T::length());
   if (array.count != vertex_count) {
-    attributes.at(name).fail(fmt::format("has {} elements, POSITION has {}", array.count, vertex_count));
+    attributes[name].fail(fmt::format("has {} elements, POSITION has {}", array.count, vertex_count));
   }
   import.document.charge(used.size() * sizeof(T), attributes);
   std::vector<T> out(used.size(), T(1));
@@ -111,26 +111,26 @@ int default_material(GltfImport& import) {
   return static_cast<int>(import.document.count("materials"));
 }
 
-void list_ignored(GltfDocument& document, const JsonView& primitive) {
+void list_ignored(GltfDocument& document, const json::Cursor& primitive) {
   if (const auto targets = primitive.find("targets")) document.ignored.add("morph target", targets->size());
-  const JsonView attributes = primitive.at("attributes");
-  for (const auto& [name, unused] : attributes.raw().items()) {
+  const json::Cursor attributes = primitive["attributes"];
+  for (const auto& [name, unused] : attributes.value().members()) {
     const bool known = name == "POSITION" || name == "NORMAL" || name == "TANGENT" || name == "TEXCOORD_0" ||
                        name == "TEXCOORD_1" || name == "COLOR_0";
     if (!known) document.ignored.add(fmt::format("vertex attribute {}", printable(name, 40)));
   }
 }
 
-std::optional<Mesh> import_primitive(GltfImport& import, const JsonView& primitive) {
+std::optional<Mesh> import_primitive(GltfImport& import, const json::Cursor& primitive) {
   GltfDocument& document = import.document;
   const auto mode_member = primitive.find("mode");
-  const std::uint64_t mode = mode_member ? mode_member->integer(6) : 4;
+  const std::uint64_t mode = mode_member ? mode_member->unsigned_integer(6) : 4;
   if (mode < 4) {
     document.ignored.add(fmt::format("mesh of {}", mode_names[mode]));
     return std::nullopt;
   }
   list_ignored(document, primitive);
-  const JsonView attributes = primitive.at("attributes");
+  const json::Cursor attributes = primitive["attributes"];
   const auto material = document.reference(primitive, "material", "materials");
   const auto position_accessor = document.reference(attributes, "POSITION", "accessors");
   if (!position_accessor) {
@@ -147,7 +147,7 @@ std::optional<Mesh> import_primitive(GltfImport& import, const JsonView& primiti
     corners = indices.size();
     for (std::size_t i = 0; i < indices.size(); ++i) {
       if (indices[i] >= vertex_count) {
-        primitive.at("indices").fail(
+        primitive["indices"].fail(
             fmt::format("element {} is {}, the mesh has {} vertices", i, indices[i], vertex_count));
       }
     }
@@ -178,9 +178,9 @@ const std::vector<int>& import_mesh(GltfImport& import, int index) {
   auto& out = import.meshes_of_mesh[static_cast<std::size_t>(index)];
   if (import.mesh_read[static_cast<std::size_t>(index)]) return out;
   import.mesh_read[static_cast<std::size_t>(index)] = true;
-  const JsonView mesh = import.document.item("meshes", index);
-  const std::string name = text_or(mesh, "name", fmt::format("mesh {}", index));
-  const JsonView primitives = mesh.at("primitives");
+  const json::Cursor mesh = import.document.item("meshes", index);
+  const std::string name = mesh.text_or("name", fmt::format("mesh {}", index));
+  const json::Cursor primitives = mesh["primitives"];
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     auto primitive = import_primitive(import, primitives[i]);
     if (!primitive) continue;

@@ -17,11 +17,11 @@ struct Visit {
   std::string from;  // place of the reference, for messages
 };
 
-Node import_transform(const JsonView& node) {
+Node import_transform(const json::Cursor& node) {
   Node out;
   if (const auto matrix = node.find("matrix")) {
     mat4 m;
-    matrix->numbers(&m[0][0], 16);
+    matrix->numbers({&m[0][0], 16});
     if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1) {
       matrix->fail("is no affine transform: its last row must be 0 0 0 1");
     }
@@ -45,7 +45,7 @@ int add_node(GltfImport& import, Node node) {
   return static_cast<int>(import.scene.nodes.size()) - 1;
 }
 
-void add_instances(GltfImport& import, const JsonView& file_node, int mesh, int node) {
+void add_instances(GltfImport& import, const json::Cursor& file_node, int mesh, int node) {
   const auto& meshes = import_mesh(import, mesh);
   const std::string node_group = light_group_extra(file_node);
   for (const int m : meshes) {
@@ -59,10 +59,10 @@ void add_instances(GltfImport& import, const JsonView& file_node, int mesh, int 
 }
 
 // EXT_mesh_gpu_instancing: a child node with the mesh for each element of the attributes.
-void add_gpu_instances(GltfImport& import, const JsonView& file_node, const JsonView& instancing, int mesh,
-                       int node) {
+void add_gpu_instances(GltfImport& import, const json::Cursor& file_node, const json::Cursor& instancing,
+                       int mesh, int node) {
   GltfDocument& document = import.document;
-  const JsonView attributes = instancing.at("attributes");
+  const json::Cursor attributes = instancing["attributes"];
   std::optional<std::size_t> count;
   const auto read = [&](const char* name, int components) {
     const auto accessor = document.reference(attributes, name, "accessors");
@@ -74,7 +74,7 @@ void add_gpu_instances(GltfImport& import, const JsonView& file_node, const Json
   };
   const FloatArray translation = read("TRANSLATION", 3), rotation = read("ROTATION", 4),
                    scale = read("SCALE", 3);
-  for (const auto& [name, unused] : attributes.raw().items()) {
+  for (const auto& [name, unused] : attributes.value().members()) {
     if (name != "TRANSLATION" && name != "ROTATION" && name != "SCALE") {
       document.ignored.add(fmt::format("instance attribute {}", printable(name, 40)));
     }
@@ -90,46 +90,45 @@ void add_gpu_instances(GltfImport& import, const JsonView& file_node, const Json
     if (scale.count > 0) child.local.scale = {scale[i][0], scale[i][1], scale[i][2]};
     if (rotation.count > 0) {
       const quat q(rotation[i][3], rotation[i][0], rotation[i][1], rotation[i][2]);
-      if (!(glm::length(q) > 1e-6f))
-        attributes.at("ROTATION").fail(fmt::format("element {} is no rotation", i));
+      if (!(glm::length(q) > 1e-6f)) attributes["ROTATION"].fail(fmt::format("element {} is no rotation", i));
       child.local.rotation = glm::normalize(q);
     }
     add_instances(import, file_node, mesh, add_node(import, std::move(child)));
   }
 }
 
-void add_light(GltfImport& import, const JsonView& file_node, int node) {
+void add_light(GltfImport& import, const json::Cursor& file_node, int node) {
   const auto reference = extension(file_node, "KHR_lights_punctual");
   if (!reference) return;
   const auto lights = extension(import.document.root(), "KHR_lights_punctual");
-  const std::size_t count = lights ? array_size(*lights, "lights") : 0;
-  const int index = reference->at("light").index(count, "lights");
-  auto light = import_light(lights->at("lights")[static_cast<std::size_t>(index)]);
+  const std::size_t count = lights ? lights->size_of("lights") : 0;
+  const int index = (*reference)["light"].index(count, "lights");
+  auto light = import_light((*lights)["lights"][static_cast<std::size_t>(index)]);
   light.node = node;
   if (light.name.empty()) light.name = import.scene.nodes[static_cast<std::size_t>(node)].name;
   if (light.group.empty()) light.group = light_group_extra(file_node);
   import.scene.lights.push_back(std::move(light));
 }
 
-void add_sphl(GltfImport& import, const JsonView& file_node, int node) {
+void add_sphl(GltfImport& import, const json::Cursor& file_node, int node) {
   const auto settings = extra(file_node, "sphl");
   const std::string& name = import.scene.nodes[static_cast<std::size_t>(node)].name;
   if (!settings && !name.starts_with("SPHL")) return;
   scene::Sphl sphl;
   sphl.name = name;
   sphl.node = node;
-  if (settings && settings->raw().is_boolean()) {
+  if (settings && settings->value().is_boolean()) {
     if (!settings->boolean()) return;
   } else if (settings) {
-    sphl.name = text_or(*settings, "name", name);
-    sphl.radius = number_or(*settings, "radius", sphl.radius);
-    if (!(sphl.radius > 0)) settings->at("radius").fail("must be greater than 0");
-    sphl.enabled = boolean_or(*settings, "enabled", true);
+    sphl.name = settings->text_or("name", name);
+    sphl.radius = settings->number_or("radius", sphl.radius);
+    if (!(sphl.radius > 0)) (*settings)["radius"].fail("must be greater than 0");
+    sphl.enabled = settings->boolean_or("enabled", true);
   }
   import.scene.sphls.push_back(std::move(sphl));
 }
 
-void add_contents(GltfImport& import, const JsonView& file_node, int node) {
+void add_contents(GltfImport& import, const json::Cursor& file_node, int node) {
   GltfDocument& document = import.document;
   if (const auto mesh = document.reference(file_node, "mesh", "meshes")) {
     const auto instancing = extension(file_node, "EXT_mesh_gpu_instancing");
@@ -154,15 +153,15 @@ void add_contents(GltfImport& import, const JsonView& file_node, int node) {
 std::vector<Visit> roots(GltfImport& import) {
   GltfDocument& document = import.document;
   std::vector<Visit> out;
-  const auto add = [&](const JsonView& list) {
+  const auto add = [&](const json::Cursor& list) {
     for (std::size_t i = 0; i < list.size(); ++i) {
       out.push_back({list[i].index(document.count("nodes"), "nodes"), -1, list[i].path()});
     }
   };
   if (document.count("scenes") > 0) {
     const int shown = document.reference(document.root(), "scene", "scenes").value_or(0);
-    const JsonView gltf_scene = document.item("scenes", shown);
-    import.scene.name = text_or(gltf_scene, "name");
+    const json::Cursor gltf_scene = document.item("scenes", shown);
+    import.scene.name = gltf_scene.text_or("name");
     import_environment(import, gltf_scene);
     if (document.count("scenes") > 1) {
       document.ignored.add("scene that is not the default one", document.count("scenes") - 1);
@@ -172,7 +171,7 @@ std::vector<Visit> roots(GltfImport& import) {
   }
   std::vector<bool> is_child(document.count("nodes"), false);
   for (std::size_t n = 0; n < is_child.size(); ++n) {
-    const JsonView node = document.item("nodes", static_cast<int>(n));
+    const json::Cursor node = document.item("nodes", static_cast<int>(n));
     const auto children = node.find("children");
     for (std::size_t i = 0; children && i < children->size(); ++i) {
       is_child[static_cast<std::size_t>((*children)[i].index(is_child.size(), "nodes"))] = true;
@@ -198,21 +197,21 @@ void import_nodes(GltfImport& import) {
   while (!stack.empty()) {
     const Visit visit = std::move(stack.back());
     stack.pop_back();
-    const JsonView file_node = document.item("nodes", visit.node);
+    const json::Cursor file_node = document.item("nodes", visit.node);
     int& node = import.node_of_node[static_cast<std::size_t>(visit.node)];
     if (node >= 0) {
-      JsonView(file_node.raw(), file_node.file(), visit.from)
+      json::Cursor(file_node.value(), file_node.file(), visit.from)
           .fail(fmt::format("node {} is reached a second time: nodes must form trees", visit.node));
     }
     Node out = import_transform(file_node);
-    out.name = text_or(file_node, "name", fmt::format("node {}", visit.node));
+    out.name = file_node.text_or("name", fmt::format("node {}", visit.node));
     out.parent = visit.parent;
     node = add_node(import, std::move(out));
     const int parent = node;
     add_contents(import, file_node, parent);
     if (const auto children = file_node.find("children")) {
       for (std::size_t i = children->size(); i-- > 0;) {
-        const JsonView child = (*children)[i];
+        const json::Cursor child = (*children)[i];
         stack.push_back({child.index(document.count("nodes"), "nodes"), parent, child.path()});
       }
     }

@@ -34,25 +34,25 @@ const std::vector<int>& import_mesh(GltfImport& import, int mesh);
 void import_nodes(GltfImport& import);
 
 /// Light of KHR_lights_punctual, without its node.
-scene::Light import_light(const JsonView& light);
+scene::Light import_light(const json::Cursor& light);
 /// Camera, without its node.
-scene::Camera import_camera(const JsonView& camera);
+scene::Camera import_camera(const json::Cursor& camera);
 /// extras.ssphh.environment of the default scene.
-void import_environment(GltfImport& import, const JsonView& gltf_scene);
+void import_environment(GltfImport& import, const json::Cursor& gltf_scene);
 
 /// Keyframes; marks animated nodes and what is below them as movable.
 void import_animations(GltfImport& import);
 
 /// object.extensions.NAME
-std::optional<JsonView> extension(const JsonView& object, const char* name);
+std::optional<json::Cursor> extension(const json::Cursor& object, const char* name);
 /// object.extras.NAME; extras that are no object count as none.
-std::optional<JsonView> extra(const JsonView& object, const char* name);
+std::optional<json::Cursor> extra(const json::Cursor& object, const char* name);
 /// object.extras.light_group, or "".
-std::string light_group_extra(const JsonView& object);
+std::string light_group_extra(const json::Cursor& object);
 
 /// Bytes of an image or environment given by uri (data URI or file) or bufferView. Buffer views stay owned by
 /// the document; other bytes go to `storage`.
-std::span<const std::byte> image_bytes(GltfDocument& document, const JsonView& image,
+std::span<const std::byte> image_bytes(GltfDocument& document, const json::Cursor& image,
                                        std::vector<std::byte>& storage);
 
 }  // namespace ssphh::scene_io

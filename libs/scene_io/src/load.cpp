@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <ssphh/core/file.h>
+#include <ssphh/core/json_cursor.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/require.h>
 #include <ssphh/image/io.h>
@@ -14,8 +15,6 @@
 #include <ssphh/scene_io/load.h>
 #include <ssphh/scene_io/obj.h>
 #include <ssphh/scene_io/overlay.h>
-
-#include "json_view.h"
 
 namespace ssphh::scene_io {
 namespace {
@@ -47,7 +46,7 @@ Format format_of(std::span<const std::byte> data, const fs::path& path) {
   const auto first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
   if (first != text.npos && text[first] == '{') {
     const std::string file = path.string();
-    const nlohmann::json json = parse_json(text, file);
+    const json::Value json = json::parse(text, file);
     return json.contains("asset") ? Format::gltf : Format::overlay;
   }
   if (extension == ".obj") return Format::obj;

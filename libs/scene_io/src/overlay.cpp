@@ -5,11 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/core/json_cursor.h>
 #include <ssphh/image/io.h>
 #include <ssphh/scene/sun_sky.h>
 #include <ssphh/scene_io/overlay.h>
 
-#include "json_view.h"
 #include "overlay_paths.h"
 
 namespace ssphh::scene_io {
@@ -19,19 +19,19 @@ using scene::Scene;
 
 constexpr std::size_t max_entries = 100'000;
 
-float degrees(const JsonView& object, const char* key, float low, float high, float fallback) {
+float degrees(const json::Cursor& object, const char* key, float low, float high, float fallback) {
   const auto member = object.find(key);
   return glm::radians(member ? member->number(low, high) : fallback);
 }
 
-float positive(const JsonView& member) {
+float positive(const json::Cursor& member) {
   const float value = member.number();
   if (!(value > 0)) member.fail("must be greater than 0");
   return value;
 }
 
 // Rotation whose −z is `direction`, y as near to `up` as it can be.
-quat looking_along(const JsonView& place, const vec3& direction, const vec3& up) {
+quat looking_along(const json::Cursor& place, const vec3& direction, const vec3& up) {
   const float length = glm::length(direction);
   if (!(length > 0) || !std::isfinite(length)) place.fail("gives no direction to look in");
   const vec3 z = -direction / length;
@@ -43,7 +43,7 @@ quat looking_along(const JsonView& place, const vec3& direction, const vec3& up)
 }
 
 // A node for an entry: "position", "look_at" or "direction", "up", "node" (name of the node it hangs on).
-int add_node(Scene& scene, const JsonView& entry, const std::string& name) {
+int add_node(Scene& scene, const json::Cursor& entry, const std::string& name) {
   scene::Node node;
   node.name = name;
   if (const auto position = entry.find("position")) node.local.translation = position->vector3();
@@ -56,9 +56,8 @@ int add_node(Scene& scene, const JsonView& entry, const std::string& name) {
   if (direction) node.local.rotation = looking_along(*direction, direction->vector3(), up);
   if (const auto parent = entry.find("node")) {
     const auto found = std::find_if(scene.nodes.begin(), scene.nodes.end(),
-                                    [&](const scene::Node& n) { return n.name == parent->string(); });
-    if (found == scene.nodes.end())
-      parent->fail(fmt::format("the scene has no node \"{}\"", parent->string()));
+                                    [&](const scene::Node& n) { return n.name == parent->text(); });
+    if (found == scene.nodes.end()) parent->fail(fmt::format("the scene has no node \"{}\"", parent->text()));
     node.parent = static_cast<int>(found - scene.nodes.begin());
     node.movable = found->movable;
   }
@@ -66,11 +65,11 @@ int add_node(Scene& scene, const JsonView& entry, const std::string& name) {
   return static_cast<int>(scene.nodes.size()) - 1;
 }
 
-void add_camera(Scene& scene, const JsonView& entry, std::size_t number) {
-  entry.only_keys(
+void add_camera(Scene& scene, const json::Cursor& entry, std::size_t number) {
+  entry.only(
       {"name", "position", "look_at", "direction", "up", "node", "yfov_degrees", "xfov_degrees", "aspect"});
   scene::Camera camera;
-  camera.name = text_or(entry, "name", fmt::format("camera {}", number));
+  camera.name = entry.text_or("name", fmt::format("camera {}", number));
   if (const auto aspect = entry.find("aspect")) camera.aspect = positive(*aspect);
   const auto xfov = entry.find("xfov_degrees");
   if (xfov && entry.find("yfov_degrees")) entry.fail("has both \"xfov_degrees\" and \"yfov_degrees\"");
@@ -84,22 +83,22 @@ void add_camera(Scene& scene, const JsonView& entry, std::size_t number) {
   scene.cameras.push_back(std::move(camera));
 }
 
-void add_light(Scene& scene, const JsonView& entry, std::size_t number) {
-  entry.only_keys({"name", "light_group", "type", "position", "look_at", "direction", "up", "node", "color",
-                   "intensity", "radius", "angular_diameter_degrees", "inner_cone_degrees",
-                   "outer_cone_degrees", "range"});
+void add_light(Scene& scene, const json::Cursor& entry, std::size_t number) {
+  entry.only({"name", "light_group", "type", "position", "look_at", "direction", "up", "node", "color",
+              "intensity", "radius", "angular_diameter_degrees", "inner_cone_degrees", "outer_cone_degrees",
+              "range"});
   scene::Light light;
-  light.name = text_or(entry, "name", fmt::format("light {}", number));
-  light.group = text_or(entry, "light_group");
-  const JsonView type = entry.at("type");
+  light.name = entry.text_or("name", fmt::format("light {}", number));
+  light.group = entry.text_or("light_group");
+  const json::Cursor type = entry["type"];
   constexpr std::array names = {"point", "spot", "directional", "sphere"};  // in the order of LightType
-  const auto found = std::find(names.begin(), names.end(), type.string());
+  const auto found = std::find(names.begin(), names.end(), type.text());
   if (found == names.end()) type.fail(fmt::format("must be one of {}", fmt::join(names, ", ")));
   light.type = static_cast<scene::LightType>(found - names.begin());
   if (const auto color = entry.find("color")) light.color = color->vector3();
   if (const auto intensity = entry.find("intensity")) light.intensity = intensity->number(0, HUGE_VALF);
   if (const auto range = entry.find("range")) light.range = positive(*range);
-  if (light.type == scene::LightType::sphere) light.radius = positive(entry.at("radius"));
+  if (light.type == scene::LightType::sphere) light.radius = positive(entry["radius"]);
   light.angular_radius = degrees(entry, "angular_diameter_degrees", 0, 180, 0) / 2;
   light.inner_cone = degrees(entry, "inner_cone_degrees", 0, 90, 0);
   light.outer_cone = degrees(entry, "outer_cone_degrees", 0, 90, 45);
@@ -112,21 +111,21 @@ void add_light(Scene& scene, const JsonView& entry, std::size_t number) {
   scene.lights.push_back(std::move(light));
 }
 
-void add_sphl(Scene& scene, const JsonView& entry, std::size_t number) {
-  entry.only_keys({"name", "position", "node", "radius", "enabled"});
+void add_sphl(Scene& scene, const json::Cursor& entry, std::size_t number) {
+  entry.only({"name", "position", "node", "radius", "enabled"});
   scene::Sphl sphl;
-  sphl.name = text_or(entry, "name", fmt::format("SPHL-{}", number));
+  sphl.name = entry.text_or("name", fmt::format("SPHL-{}", number));
   if (const auto radius = entry.find("radius")) sphl.radius = positive(*radius);
-  sphl.enabled = boolean_or(entry, "enabled", true);
-  entry.at("position");
+  sphl.enabled = entry.boolean_or("enabled", true);
+  entry["position"];
   sphl.node = add_node(scene, entry, sphl.name);
   scene.sphls.push_back(std::move(sphl));
 }
 
-void override_material(Scene& scene, const JsonView& entry, std::size_t) {
-  entry.only_keys({"name", "base_color", "alpha", "metallic", "diffuse_roughness", "specular_roughness",
-                   "specular", "ior", "emission", "double_sided", "unlit"});
-  const std::string& name = entry.at("name").string();
+void override_material(Scene& scene, const json::Cursor& entry, std::size_t) {
+  entry.only({"name", "base_color", "alpha", "metallic", "diffuse_roughness", "specular_roughness",
+              "specular", "ior", "emission", "double_sided", "unlit"});
+  const std::string& name = entry["name"].text();
   bool found = false;
   for (auto& m : scene.materials) {
     if (m.name != name) continue;
@@ -142,22 +141,22 @@ void override_material(Scene& scene, const JsonView& entry, std::size_t) {
     number("specular_roughness", -1, 1, m.specular_roughness);
     number("specular", 0, 1, m.specular);
     number("ior", 1, HUGE_VALF, m.ior);
-    m.double_sided = boolean_or(entry, "double_sided", m.double_sided);
-    m.unlit = boolean_or(entry, "unlit", m.unlit);
+    m.double_sided = entry.boolean_or("double_sided", m.double_sided);
+    m.unlit = entry.boolean_or("unlit", m.unlit);
   }
   if (found) return;
   std::vector<std::string> names;
   for (const auto& m : scene.materials) names.push_back(m.name);
   if (names.size() > 20) names.resize(20);
-  entry.at("name").fail(fmt::format("the scene has no material \"{}\"", name),
-                        names.empty() ? "it has none" : fmt::format("it has: {}", fmt::join(names, ", ")));
+  entry["name"].fail(fmt::format("the scene has no material \"{}\"", name),
+                     names.empty() ? "it has none" : fmt::format("it has: {}", fmt::join(names, ", ")));
 }
 
-void set_environment(Scene& scene, const JsonView& entry, const std::filesystem::path& overlay) {
-  entry.only_keys({"name", "light_group", "image", "color", "intensity", "rotation_degrees"});
+void set_environment(Scene& scene, const json::Cursor& entry, const std::filesystem::path& overlay) {
+  entry.only({"name", "light_group", "image", "color", "intensity", "rotation_degrees"});
   scene::Environment environment;
-  environment.name = text_or(entry, "name", environment.name);
-  environment.group = text_or(entry, "light_group");
+  environment.name = entry.text_or("name", environment.name);
+  environment.group = entry.text_or("light_group");
   if (const auto color = entry.find("color")) environment.color = color->vector3();
   if (const auto intensity = entry.find("intensity")) environment.color *= intensity->number(0, HUGE_VALF);
   environment.rotation = degrees(entry, "rotation_degrees", -3600, 3600, 0);
@@ -166,17 +165,17 @@ void set_environment(Scene& scene, const JsonView& entry, const std::filesystem:
   scene.environment = std::move(environment);
 }
 
-void set_sun_sky(Scene& scene, const JsonView& entry) {
-  entry.only_keys({"elevation_degrees", "azimuth_degrees", "turbidity", "ground_albedo", "sun", "width"});
+void set_sun_sky(Scene& scene, const json::Cursor& entry) {
+  entry.only({"elevation_degrees", "azimuth_degrees", "turbidity", "ground_albedo", "sun", "width"});
   scene::SunSkyParams params;
   params.elevation = degrees(entry, "elevation_degrees", 0, 90, glm::degrees(params.elevation));
   // By compass: 0 is −z, 90 is +x
   const float azimuth = degrees(entry, "azimuth_degrees", -360, 360, glm::degrees(params.azimuth) + 90);
   params.azimuth = azimuth - pi / 2;
-  params.turbidity = number_or(entry, "turbidity", params.turbidity);
+  params.turbidity = entry.number_or("turbidity", params.turbidity);
   if (const auto albedo = entry.find("ground_albedo")) params.ground_albedo = albedo->vector3();
-  params.sun = boolean_or(entry, "sun", params.sun);
-  if (const auto width = entry.find("width")) params.width = static_cast<int>(width->integer(4096));
+  params.sun = entry.boolean_or("sun", params.sun);
+  if (const auto width = entry.find("width")) params.width = static_cast<int>(width->unsigned_integer(4096));
   try {
     scene::add_sun_sky(scene, params);
   } catch (const Error& e) {
@@ -203,7 +202,7 @@ void set_unit(Scene& scene, float unit, const vec3& origin) {
 }
 
 template <class Function>
-void for_each_entry(Scene& scene, const JsonView& root, const char* key, const Function& function) {
+void for_each_entry(Scene& scene, const json::Cursor& root, const char* key, const Function& function) {
   const auto list = root.find(key);
   if (!list) return;
   if (list->size() > max_entries) list->fail(fmt::format("has more than {} entries", max_entries));
@@ -214,11 +213,11 @@ void for_each_entry(Scene& scene, const JsonView& root, const char* key, const F
 
 void apply_overlay(Scene& scene, std::string_view text, const std::filesystem::path& path) {
   const std::string file = path.string();
-  const nlohmann::json json = parse_json(text, file);
-  const JsonView root(json, file);
-  root.only_keys({"$schema", "comment", "scene", "name", "unit", "origin", "cameras", "lights", "sphls",
-                  "environment", "sun_sky", "materials"});
-  scene.name = text_or(root, "name", scene.name);
+  const json::Value json = json::parse(text, file);
+  const json::Cursor root(json, file);
+  root.only({"$schema", "comment", "scene", "name", "unit", "origin", "cameras", "lights", "sphls",
+             "environment", "sun_sky", "materials"});
+  scene.name = root.text_or("name", scene.name);
   const auto unit = root.find("unit"), origin = root.find("origin");
   if (unit || origin) set_unit(scene, unit ? positive(*unit) : 1, origin ? origin->vector3() : vec3(0));
   for_each_entry(scene, root, "materials", override_material);

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/core/json_cursor.h>
 #include <ssphh/scene_io/overlay.h>
 
-#include "json_view.h"
 #include "printable.h"
 
 namespace ssphh::scene_io {
@@ -44,20 +44,20 @@ std::string expand_variables(std::string_view text, const std::string& where) {
   return out;
 }
 
-std::filesystem::path overlay_path(const JsonView& member, const std::filesystem::path& overlay) {
-  const std::filesystem::path named = expand_variables(member.string(), member.file() + ": " + member.path());
+std::filesystem::path overlay_path(const json::Cursor& member, const std::filesystem::path& overlay) {
+  const std::filesystem::path named = expand_variables(member.text(), member.file() + ": " + member.path());
   if (named.empty() || named.native().find('\0') != std::string::npos) member.fail("must be a file name");
   return named.is_absolute() ? named : overlay.parent_path() / named;
 }
 
 std::string overlay_scene(std::string_view text, const std::filesystem::path& path) {
   const std::string file = path.string();
-  const nlohmann::json json = parse_json(text, file);
-  const JsonView root(json, file);
+  const json::Value json = json::parse(text, file);
+  const json::Cursor root(json, file);
   const auto scene = root.find("scene");
   if (!scene)
     root.fail("\"scene\" is missing", "a JSON file is a scene when it names one: {\"scene\": \"FILE.glb\"}");
-  if (scene->string().starts_with("builtin:")) return scene->string();
+  if (scene->text().starts_with("builtin:")) return scene->text();
   return overlay_path(*scene, path).string();
 }
 

@@ -1,16 +1,14 @@
 #include <algorithm>
 
-#include <nlohmann/json.hpp>
+#include <ssphh/core/json.h>
 
 #include "state.h"
 
 namespace ssphh::majordomo {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-std::string text(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string text(const json::Value& json) {
+  return json::print(json);
 }
 
 }  // namespace
@@ -36,29 +34,31 @@ Frames BrokerCore::Impl::mmi(const Message& message, const Frames& body, const R
     return {found != services.end() && found->second.workers > 0 ? "200" : "404"};
   }
   if (message.name == "mmi.workers") {
-    Json list = Json::array();
+    json::Array list;
     for (const auto& [id, peer] : peers) {
       if (!peer.worker) continue;
       const WorkerState& worker = *peer.worker;
-      Json entry = {{"name", worker.name},
-                    {"service", worker.service->name},
-                    {"version", worker.version == Version::v01 ? "0.1" : "0.2"},
-                    {"state", worker.suspect   ? "suspect"
-                              : worker.busy    ? "busy"
-                              : worker.leaving ? "leaving"
-                                               : "idle"},
-                    {"since_ms", now - worker.since},
-                    {"heard_ms", now - peer.heard},
-                    {"served", worker.served}};
+      json::Value entry = {{"name", worker.name},
+                           {"service", worker.service->name},
+                           {"version", worker.version == Version::v01 ? "0.1" : "0.2"},
+                           {"state", worker.suspect   ? "suspect"
+                                     : worker.busy    ? "busy"
+                                     : worker.leaving ? "leaving"
+                                                      : "idle"},
+                           {"since_ms", now - worker.since},
+                           {"heard_ms", now - peer.heard},
+                           {"served", worker.served}};
       if (worker.busy) entry["job"] = worker.token.job;
       if (!peer.user.empty()) entry["key"] = peer.user;
       list.push_back(std::move(entry));
     }
-    std::sort(list.begin(), list.end(), [](const Json& a, const Json& b) { return a["name"] < b["name"]; });
+    std::sort(list.begin(), list.end(), [](const json::Value& a, const json::Value& b) {
+      return a["name"].string() < b["name"].string();
+    });
     return {"200", text({{"format", "ssphh-broker-workers"}, {"version", 1}, {"workers", std::move(list)}})};
   }
   if (message.name == "mmi.stats") {
-    Json list = Json::array();
+    json::Array list;
     for (const auto& [name, service] : services) {
       list.push_back({{"name", name},
                       {"workers", service.workers},
@@ -68,7 +68,9 @@ Frames BrokerCore::Impl::mmi(const Message& message, const Frames& body, const R
                       {"requests", service.requests},
                       {"finished", service.finished}});
     }
-    std::sort(list.begin(), list.end(), [](const Json& a, const Json& b) { return a["name"] < b["name"]; });
+    std::sort(list.begin(), list.end(), [](const json::Value& a, const json::Value& b) {
+      return a["name"].string() < b["name"].string();
+    });
     const BrokerStats s = stats();
     return {"200", text({{"format", "ssphh-broker-stats"},
                          {"version", 1},
@@ -101,11 +103,11 @@ Frames BrokerCore::Impl::mmi(const Message& message, const Frames& body, const R
                            {"running", s.running},
                            {"bytes", s.bytes},
                            {"records", s.records}}},
-                         {"dropped", dropped.empty() ? Json::object() : Json(dropped)},
+                         {"dropped", dropped},
                          {"services", std::move(list)}})};
   }
   if (message.name == "mmi.parked") {
-    Json list = Json::array();
+    json::Value list = json::Value::array();
     for (const Parked& job : parked)
       list.push_back({{"job", job.job},
                       {"service", job.service},

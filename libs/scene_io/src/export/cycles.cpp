@@ -2,9 +2,9 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <ssphh/core/file.h>
+#include <ssphh/core/json.h>
 #include <ssphh/image/io.h>
 #include <ssphh/scene_io/renderer_export.h>
 
@@ -16,15 +16,13 @@
 namespace ssphh::scene_io {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json array(const vec3& v) {
+json::Value array(const vec3& v) {
   return {v.x, v.y, v.z};
 }
 
 // Rows of the matrix.
-Json array(const mat4& m) {
-  Json rows = Json::array();
+json::Value array(const mat4& m) {
+  json::Value rows = json::Value::array();
   for (int r = 0; r < 4; ++r) rows.push_back({m[0][r], m[1][r], m[2][r], m[3][r]});
   return rows;
 }
@@ -37,14 +35,14 @@ std::size_t append(std::vector<std::byte>& binary, const std::vector<T>& values)
   return offset;
 }
 
-Json mesh_json(const FlatMesh& flat, std::vector<std::byte>& binary) {
+json::Value mesh_json(const FlatMesh& flat, std::vector<std::byte>& binary) {
   const scene::Mesh& mesh = flat.mesh;
-  Json json = {{"name", flat.name},
-               {"material", flat.material},
-               {"vertices", mesh.positions.size()},
-               {"triangles", mesh.triangles.size()},
-               {"positions", append(binary, mesh.positions)},
-               {"indices", append(binary, mesh.triangles)}};
+  json::Value json = {{"name", flat.name},
+                      {"material", flat.material},
+                      {"vertices", mesh.positions.size()},
+                      {"triangles", mesh.triangles.size()},
+                      {"positions", append(binary, mesh.positions)},
+                      {"indices", append(binary, mesh.triangles)}};
   if (!mesh.normals.empty()) json["normals"] = append(binary, mesh.normals);
   for (int set = 0; set < 2; ++set) {
     const auto& uv = mesh.uvs[static_cast<std::size_t>(set)];
@@ -58,7 +56,7 @@ const char* wrap_name(scene::Wrap wrap) {
   return wrap == scene::Wrap::repeat ? "repeat" : wrap == scene::Wrap::mirror ? "mirror" : "clamp";
 }
 
-Json texture_json(const scene::TextureUse& use) {
+json::Value texture_json(const scene::TextureUse& use) {
   if (use.texture < 0) return nullptr;
   return {{"texture", use.texture},
           {"uv_set", use.uv_set},
@@ -69,7 +67,7 @@ Json texture_json(const scene::TextureUse& use) {
           {"nearest", use.nearest}};
 }
 
-Json material_json(const scene::Material& m) {
+json::Value material_json(const scene::Material& m) {
   const float f0 = std::pow((m.ior - 1) / (m.ior + 1), 2.0f) * m.specular;
   return {{"name", m.name},
           {"base_color", array(m.base_color)},
@@ -109,7 +107,7 @@ void note_material(const scene::Material& m, Differences& differences) {
   }
 }
 
-Json light_json(const FlatLight& flat) {
+json::Value light_json(const FlatLight& flat) {
   const scene::Light& l = *flat.light;
   static constexpr const char* types[] = {"point", "spot", "directional", "sphere"};
   return {{"name", l.name},
@@ -125,7 +123,7 @@ Json light_json(const FlatLight& flat) {
           {"cos_outer", std::cos(l.outer_cone)}};
 }
 
-Json camera_json(const scene::CameraPose& pose) {
+json::Value camera_json(const scene::CameraPose& pose) {
   return {{"world", array(pose.world)},
           {"orthographic", pose.camera.orthographic},
           {"yfov", pose.camera.yfov},
@@ -150,15 +148,15 @@ ExportReport export_cycles(const scene::Scene& scene, const ExportSettings& sett
   Differences differences;
   report.files.push_back(directory / "render.py");
 
-  Json json = {{"format", "ssphh cycles scene"},
-               {"version", 1},
-               {"name", scene.name},
-               {"width", settings.width},
-               {"height", settings.height},
-               {"max_depth", settings.max_depth},
-               {"spp", settings.spp},
-               {"camera", camera_json(settings.camera)}};
-  json["textures"] = Json::array();
+  json::Value json = {{"format", "ssphh cycles scene"},
+                      {"version", 1},
+                      {"name", scene.name},
+                      {"width", settings.width},
+                      {"height", settings.height},
+                      {"max_depth", settings.max_depth},
+                      {"spp", settings.spp},
+                      {"camera", camera_json(settings.camera)}};
+  json["textures"] = json::Value::array();
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {
     const scene::Texture& texture = scene.textures[i];
     const std::string name = texture_file(texture, i);
@@ -167,19 +165,19 @@ ExportReport export_cycles(const scene::Scene& scene, const ExportSettings& sett
     report.files.push_back(directory / name);
     json["textures"].push_back({{"file", name}, {"width", texture.width}, {"height", texture.height}});
   }
-  json["materials"] = Json::array();
+  json["materials"] = json::Value::array();
   for (const scene::Material& material : scene.materials)
     json["materials"].push_back(material_json(material));
   json["default_material"] = material_json({});
 
   std::vector<std::byte> binary;
-  json["meshes"] = Json::array();
+  json["meshes"] = json::Value::array();
   std::set<int> used;
   for (const FlatMesh& mesh : flat.meshes) {
     json["meshes"].push_back(mesh_json(mesh, binary));
     if (used.insert(mesh.material).second) note_material(material_of(scene, mesh), differences);
   }
-  json["lights"] = Json::array();
+  json["lights"] = json::Value::array();
   for (const FlatLight& light : flat.lights) {
     json["lights"].push_back(light_json(light));
     if (light.light->range > 0) differences.add("lights reach beyond their range", light.light->name);
@@ -194,7 +192,7 @@ ExportReport export_cycles(const scene::Scene& scene, const ExportSettings& sett
     }
   }
   write_file(directory / "scene.bin", binary);
-  write_file(directory / "scene.json", json.dump(1));
+  write_file(directory / "scene.json", json::print(json, 1));
   for (const CyclesScript& script : cycles_scripts()) {
     write_file(directory / script.name, script.text);
     if (script.name != std::string_view("render.py")) report.files.push_back(directory / script.name);
