@@ -41,7 +41,7 @@ vec3 oct_decode(vec2 p) {
 
 // Colours 0..1 in 3 x 10 bits, finer where dark.
 uint pack_color(vec3 c, uint top) {
-  uvec3 q = uvec3(sqrt(clamp(c, 0, 1)) * 1023 + 0.5);
+  uvec3 q = uvec3(sqrt(clamp(c, 0.0, 1.0)) * 1023 + 0.5);
   return q.x | q.y << 10 | q.z << 20 | top << 30;
 }
 vec3 unpack_color(uint p) {

@@ -49,7 +49,7 @@ vec4 trace_cone(vec3 origin, vec3 direction, float tangent) {
   // Lanes that draw no pixel read zeros from buffers on some drivers: a cone without a width ends at once
   float farthest = tangent > 0 ? length(size) + cones.march.x + 4 * widest : 0;
   while (seen.w < 1 && t < farthest) {
-    edge = crossing ? edge : clamp(t * tangent, 1, widest);
+    edge = crossing ? edge : clamp(t * tangent, 1.0, widest);
     float way = cones.march.z * edge, level = log2(edge);
     vec3 place = origin + (t + 0.5 * way) * direction;
     if (gone(place, direction, size, 2 * edge)) break;
@@ -78,7 +78,7 @@ vec3 gather_hemisphere(vec3 origin, vec3 n) {
 }
 
 float lobe_cosine(float roughness) {
-  float place = clamp(roughness, 0, 1) * float(LOBE_STEPS);
+  float place = clamp(roughness, 0.0, 1.0) * float(LOBE_STEPS);
   int low = min(int(place), LOBE_STEPS - 1), high = low + 1;
   return mix(cones.lobe_cosines[low >> 2][low & 3], cones.lobe_cosines[high >> 2][high & 3], place - float(low));
 }

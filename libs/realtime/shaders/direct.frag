@@ -54,7 +54,7 @@ void main() {
   vec3 d = emitter.place.xyz - s.position;
   float d2 = max(dot(d, d), 1e-12);
   vec3 wi = d * inversesqrt(d2);
-  float cosine = dot(s.geometric_normal, wi) > 0 ? max(dot(s.normal, wi), 0) : 0;
+  float cosine = dot(s.geometric_normal, wi) > 0 ? max(dot(s.normal, wi), 0.0) : 0;
   vec3 e = emitter.light.rgb * (falloff(wi, d2) / d2 * cosine);
 #ifdef SPHL
   vec3 leaving = vec3(0);
@@ -75,7 +75,7 @@ void main() {
   Surface s = read_surface(ivec2(gl_FragCoord.xy));
   prepare(s);
   vec3 wi = emitter.place.xyz;
-  float cosine = dot(s.geometric_normal, wi) > 0 ? max(dot(s.normal, wi), 0) : 0;
+  float cosine = dot(s.geometric_normal, wi) > 0 ? max(dot(s.normal, wi), 0.0) : 0;
   // The finest cascade that holds the point
   int map = emitter.items.y, last = map + SUN_CASCADES - 1;
   for (; map < last; ++map) {
@@ -107,7 +107,7 @@ void main() {
     e *= disc_visibility(i, sine, s.position, s.geometric_normal);
     lit += e;
     // Half sunk, its middle is that of what is left above the horizon
-    sum += e * reflected(s, normalize(wi + max(0.5 * (sine - cosine), 0) * s.normal));
+    sum += e * reflected(s, normalize(wi + max(0.5 * (sine - cosine), 0.0) * s.normal));
   }
   store(emitter.light.rgb * sum, luminance(emitter.light.rgb) * total, luminance(emitter.light.rgb) * lit);
 }
@@ -149,10 +149,10 @@ void main() {
     float d2 = max(dot(d, d), 1e-12);
     vec3 wi = d * inversesqrt(d2);
     float toward = -dot(q.normal.xyz, wi);
-    float emits = q.normal.xyz == vec3(0) ? 1 : emitter.more.y != 0 ? abs(toward) : max(toward, 0);
+    float emits = q.normal.xyz == vec3(0) ? 1 : emitter.more.y != 0 ? abs(toward) : max(toward, 0.0);
     float area = q.place.w * emitter.more.z;
     // Without a closed form nearness must not let one point blow up
-    float weight = area * emits * max(dot(s.normal, wi), 0) / max(d2, area / PI);
+    float weight = area * emits * max(dot(s.normal, wi), 0.0) / max(d2, area / PI);
     total += weight;
     if (dot(s.geometric_normal, wi) <= 0) weight = 0;
     float v = cube_visibility(area_maps, frame.maps.y, frame.map_tiles.y, frame.map_near.y, int(q.normal.w), q.place.xyz,
@@ -185,7 +185,7 @@ vec3 through_lobe(vec3 d, float roughness) {
   float low = environment_roughness[level], high = environment_roughness[level + 1];
   vec2 texel = 1 + (0.5 + 0.5 * oct_encode(d)) * float(environment_layout.x);
   return mix(environment_tile(level, texel), environment_tile(level + 1, texel),
-             clamp((roughness - low) / (high - low), 0, 1));
+             clamp((roughness - low) / (high - low), 0.0, 1.0));
 }
 vec3 diffusely(Surface s, vec3 wi) {
   vec3 local = wi * basis;
@@ -210,12 +210,12 @@ void main() {
   // Rough lobes lean toward the normal (Lagarde & de Rousiers, Moving Frostbite to PBR, SIGGRAPH 2014 course)
   float keep = (1 - bsdf.alpha) * (sqrt(1 - bsdf.alpha) + bsdf.alpha);
   vec3 mirror = normalize(mix(s.normal, reflect(-s.wo, s.normal), keep));
-  float narrow = min(1 / max(bsdf.alpha * bsdf.alpha, 1e-3), 8), around = 0, free = 0;
+  float narrow = min(1 / max(bsdf.alpha * bsdf.alpha, 1e-3), 8.0), around = 0, free = 0;
 #endif
   for (int i = 0; i < emitter.items.z; ++i) {
     AreaSample q = emitter.samples[i];
     vec3 wi = q.place.xyz;
-    vec3 weight = q.light.rgb * max(dot(s.normal, wi), 0);
+    vec3 weight = q.light.rgb * max(dot(s.normal, wi), 0.0);
     total += weight;
     bool above = dot(s.geometric_normal, wi) > 0;
     if (!above) weight = vec3(0);

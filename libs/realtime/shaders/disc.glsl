@@ -13,8 +13,8 @@ float interleaved_noise(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel,
 // Mean of max(cosine, 0) over a small disc whose middle has this cosine: exactly
 // (t acos(-t) + (2 + t^2) sqrt(1 - t^2) / 3) sine / π between -1 and 1, of which this errs by 0.0013 sine.
 float disc_irradiance(float cosine, float sine) {
-  float t = clamp(cosine / sine, -1, 1), u = 1 - t * t;
-  return max(cosine - sine, 0) + sine * (0.25 * (1 + t) * (1 + t) - 0.0378 * u * u);
+  float t = clamp(cosine / sine, -1.0, 1.0), u = 1 - t * t;
+  return max(cosine - sine, 0.0) + sine * (0.25 * (1 + t) * (1 + t) - 0.0378 * u * u);
 }
 
 // A point of a surface, in metres across and toward the light.
@@ -77,12 +77,12 @@ float narrowed(Receiver r, Spot s, float tangent, float radius) {
   vec2 m0 = ((vec2(low) + 0.5) * square - s.texel) * s.width;
   float edge = square * s.width;
   vec4 x = vec4(m0.x, m0.x + edge, m0.x, m0.x + edge), y = vec4(m0.y, m0.y, m0.y + edge, m0.y + edge);
-  vec4 away_x = max(abs(x) - 0.5 * edge, 0), away_y = max(abs(y) - 0.5 * edge, 0);
+  vec4 away_x = max(abs(x) - 0.5 * edge, 0.0), away_y = max(abs(y) - 0.5 * edge, 0.0);
   vec4 away2 = away_x * away_x + away_y * away_y;
   vec4 plane = r.slope.x * x + r.slope.y * y + 0.5 * edge * (abs(r.slope.x) + abs(r.slope.y));
-  vec4 reaches = max(highest * tangent, 0);
+  vec4 reaches = max(highest * tangent, 0.0);
   reaches *= vec4(greaterThan(reaches * reaches, away2));
-  vec4 open = vec4(lessThan(away2, vec4(radius * radius))) * vec4(lessThanEqual(lowest, max(plane, 0) + s.margin));
+  vec4 open = vec4(lessThan(away2, vec4(radius * radius))) * vec4(lessThanEqual(lowest, max(plane, 0.0) + s.margin));
   return open == vec4(0) ? -1 : min(radius, max(max(reaches.x, reaches.y), max(reaches.z, reaches.w)));
 }
 
@@ -97,8 +97,8 @@ float narrowed_further(Receiver r, Spot s, float tangent, float radius) {
     for (int i = low.x; i <= high.x; ++i) {
       vec2 middle = ((vec2(i, j) + 0.5) * square - s.texel) * s.width;
       float height = (bounds_in(s, level, ivec2(i, j)).x - r.here) * r.range;
-      float away = length(max(abs(middle) - 0.5 * edge, 0));
-      bool blocks = height > max(dot(r.slope, middle) + rise, 0) && height * tangent > away;
+      float away = length(max(abs(middle) - 0.5 * edge, 0.0));
+      bool blocks = height > max(dot(r.slope, middle) + rise, 0.0) && height * tangent > away;
       reach = blocks ? max(reach, height * tangent) : reach;
     }
   }
@@ -117,7 +117,7 @@ float blocker_height(Receiver r, Spot s, float radius) {
     ivec2 inside = clamp(at, 0, frame.maps.w - 1);
     float depth = texelFetch(parallel_maps, ivec3(place.xy * frame.maps.w + inside, place.z), 0).x;
     float height = (depth - r.here) * r.range;
-    float plane = max(dot(r.slope, vec2(at) + 0.5 - s.texel) * s.width, 0);
+    float plane = max(dot(r.slope, vec2(at) + 0.5 - s.texel) * s.width, 0.0);
     float hides = height > plane + s.margin ? share / (height * height) : 0;
     heights += hides * height;
     shares += hides;
@@ -164,7 +164,7 @@ float disc_visibility(int part, float sine, vec3 x, vec3 n) {
   for (int i = 0; i < SHADOW_TAPS; ++i, to = GOLDEN_TURN * to) {
     float share2 = (float(i) + 0.5) / float(SHADOW_TAPS);
     vec2 lean = sine * sqrt(share2 / max(1 - share2 * sine * sine, 1e-2)) * to;
-    float weight = max(facing + dot(across, lean), 0), least = met ? 0 : height * sqrt(share2);
+    float weight = max(facing + dot(across, lean), 0.0), least = met ? 0 : height * sqrt(share2);
     total += weight;
     seen += weight * lit_at(r, s, height / s.width * lean, max(dot(r.slope, height * lean), least));
   }

@@ -12,7 +12,7 @@ float curve(float x) {
     if (x > 1e4) return 1;
     x = x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
   }
-  return min(x, 1);
+  return min(x, 1.0);
 }
 
 float encode(float x) {
@@ -23,7 +23,7 @@ float encode(float x) {
 void main() {
   vec3 c = texelFetch(image, ivec2(gl_FragCoord.xy) - corner.xy, 0).rgb;
   if (plain != 0) {
-    color = vec4(clamp(c, 0, 1), 1);
+    color = vec4(clamp(c, 0.0, 1.0), 1);
     return;
   }
   c *= frame.tone.x;

@@ -112,6 +112,6 @@ bool fitted_irradiance(Surface s, out vec3 irradiance) {
     most = relative < -0.25 ? min(most, 1.25 / (1 - relative)) : most;
   }
   vec3 share = mix(vec3(1, 0, 0), row, most);
-  irradiance = max(light * share / max(dot(gram[0], share), 1e-20), 0);
+  irradiance = max(light * share / max(dot(gram[0], share), 1e-20), 0.0);
   return any;
 }

@@ -68,12 +68,12 @@ bool maybe_above(vec3 d, float d2, vec3 n) {
 }
 
 float bump_of(float d2) {
-  float spacing = frame.tone.w, falloff = max(0, 1 - d2 / (4 * spacing * spacing));
+  float spacing = frame.tone.w, falloff = max(0.0, 1 - d2 / (4 * spacing * spacing));
   return falloff * falloff + 1e-6;
 }
 
 float tent_of(vec3 d) {
-  vec3 t = max(1 - abs(d) / frame.tone.w, 0);
+  vec3 t = max(1 - abs(d) / frame.tone.w, 0.0);
   return min(t.x, min(t.y, t.z)) > 1e-4 ? t.x * t.y * t.z : 0;
 }
 
@@ -191,14 +191,14 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
     weight = fits ? tent_of(d) : weight;
 #endif
     sum += weight;
-    weight *= seen != 0 ? 1 : clamp(4 * cosine, 0, 1);  // as gi::LookupWeights
+    weight *= seen != 0 ? 1 : clamp(4 * cosine, 0.0, 1.0);  // as gi::LookupWeights
     found.irradiance += weight * irradiance_of(probe, e_place);
 #ifdef FULL_BSDF
     found.glossy += weight * radiance_of(probe, l_place);
 #endif
   }
-  found.irradiance = max(found.irradiance / sum, 0);
-  found.glossy = max(found.glossy / sum, 0);
+  found.irradiance = max(found.irradiance / sum, 0.0);
+  found.glossy = max(found.glossy / sum, 0.0);
   return found;
 }
 #endif
@@ -207,7 +207,7 @@ void main() {
   ivec2 at = lit_pixel();
   if (at.x < 0) return;
   Surface s = read_surface(at);
-  float roughness = min(abs(s.specular_roughness), 1);
+  float roughness = min(abs(s.specular_roughness), 1.0);
 #ifdef FITTED
   vec3 fitted;
   bool is_fitted = fitted_irradiance(s, fitted);
@@ -223,7 +223,7 @@ void main() {
 #endif
 #ifdef CHOSEN_VIEW
   vec3 hue = vec3(hash01(uvec3(found.chosen, 1, 0)), hash01(uvec3(found.chosen, 2, 0)), hash01(uvec3(found.chosen, 3, 0)));
-  color = vec4((0.15 + 0.85 * hue) * (found.count > 0 ? 0.4 + 0.6 * min(float(found.count) / 8, 1) : 0.15), 1);
+  color = vec4((0.15 + 0.85 * hue) * (found.count > 0 ? 0.4 + 0.6 * min(float(found.count) / 8, 1.0) : 0.15), 1);
 #else
   put_light(at, s, found.irradiance, found.glossy);
 #endif

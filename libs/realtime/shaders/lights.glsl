@@ -42,12 +42,12 @@ layout(binding = 6) uniform sampler2DArray parallel_maps;
 float falloff(vec3 wi, float distance2) {
   float f = 1;
   if (emitter.cone.w > 0) {
-    f = clamp(-dot(emitter.cone.xyz, wi) * emitter.cone.w + emitter.more.x, 0, 1);
+    f = clamp(-dot(emitter.cone.xyz, wi) * emitter.cone.w + emitter.more.x, 0.0, 1.0);
     f *= f;
   }
   if (emitter.light.w > 0) {
     float q = distance2 / (emitter.light.w * emitter.light.w);
-    f *= clamp(1 - q * q, 0, 1);
+    f *= clamp(1 - q * q, 0.0, 1.0);
   }
   return f;
 }
@@ -101,15 +101,15 @@ float triangle_irradiance(vec3 n, vec3 a, vec3 b, vec3 c) {
     float l = length(s);
     if (l > 1e-7) sum += atan(l, dot(last, first)) * dot(n, s) / l;
   }
-  return max(0.5 * sum, 0);
+  return max(0.5 * sum, 0.0);
 }
 
 // The same of a sphere of sin(radius) = sin_r whose centre stands in direction `w` (Snyder, Area Light Sources
 // for Real-Time Graphics, 1996).
 float sphere_irradiance(float cosine, float sin2) {
   float c = clamp(cosine, -0.9999, 0.9999);
-  if (c * c > sin2) return PI * sin2 * max(c, 0);
+  if (c * c > sin2) return PI * sin2 * max(c, 0.0);
   float s = sqrt(1 - c * c), x = sqrt(1 / sin2 - 1);
-  float y = -x * c / s, r = s * sqrt(max(1 - y * y, 0));
-  return max((c * acos(clamp(y, -1, 1)) - x * r) * sin2 + atan(r, x), 0);
+  float y = -x * c / s, r = s * sqrt(max(1 - y * y, 0.0));
+  return max((c * acos(clamp(y, -1.0, 1.0)) - x * r) * sin2 + atan(r, x), 0.0);
 }

@@ -49,7 +49,7 @@ RadiancePlace radiance_at(vec3 d, float roughness) {
   int level = 0;
   for (int i = 1; i + 1 < RADIANCE_LEVELS; ++i) level = roughness >= level_roughness[i] ? i : level;
   float low = level_roughness[level], high = level_roughness[level + 1];
-  float share = clamp((roughness - low) / (high - low), 0, 1);
+  float share = clamp((roughness - low) / (high - low), 0.0, 1.0);
   ivec2 levels = level + ivec2(share == 1 ? 1 : 0, share == 0 ? 0 : 1);
   levels = min(levels, radiance_layout.z - 1);
   return RadiancePlace(in_tile(d, radiance_layout.x), levels.x, levels.y, levels.x == levels.y ? 0 : share);

@@ -20,6 +20,6 @@ void main() {
   if (view == DEPTH) color.rgb = vec3(s.depth / (1 + s.depth));
   if (view == SHADOW) {
     vec2 light = texelFetch(shadow_image, at, 0).xy;
-    color.rgb = vec3(light.y > 0 ? light.x / light.y : 0);
+    color.rgb = vec3(light.y > 0 ? min(light.x / light.y, 1.0) : 0);  // both sums are rounded
   }
 }

@@ -22,7 +22,7 @@ struct Receiver {
 };
 float response(Receiver at, vec3 wi) {
   float cosine = dot(at.normal, wi);
-  if (at.exponent < 0) return max(cosine, 0);
+  if (at.exponent < 0) return max(cosine, 0.0);
   float lobe = dot(at.axis, wi);
   return cosine > 0 && lobe > 0 ? (at.exponent + 1) / (2 * PI) * pow(lobe, at.exponent) : 0;
 }
@@ -32,7 +32,7 @@ float sphere_transfer(Receiver at, VirtualLight light, vec3 way, float distance2
   const int spokes = 8;
   float radius = light.place.w;
   bool hidden = dot(at.normal, way) < -radius || dot(light.normal.xyz, way) > radius;
-  float sine2 = min(radius * radius / max(distance2, 1e-20), 1);
+  float sine2 = min(radius * radius / max(distance2, 1e-20), 1.0);
   float one_minus = sine2 / (1 + sqrt(1 - sine2));
   mat3 basis = basis_around(distance2 > 0 ? way * inversesqrt(distance2) : at.normal);
   float sum = 0;
@@ -41,7 +41,7 @@ float sphere_transfer(Receiver at, VirtualLight light, vec3 way, float distance2
     for (int k = 0; k < spokes; ++k) {
       float turn = 2 * PI * (float(k) + 0.5 * float(i & 1)) / float(spokes);
       vec3 wi = basis * vec3(r * cos(turn), r * sin(turn), 1 - x);
-      sum += response(at, wi) * max(-dot(light.normal.xyz, wi), 0);
+      sum += response(at, wi) * max(-dot(light.normal.xyz, wi), 0.0);
     }
   }
   return hidden ? 0 : sum / float(max(rings, 1) * spokes) * 2 * one_minus / (radius * radius);
@@ -52,7 +52,7 @@ float transfer(Receiver at, VirtualLight light) {
   vec3 way = light.place.xyz - at.position;
   float distance2 = dot(way, way);
   vec3 wi = way * inversesqrt(max(distance2, 1e-30));
-  float open = response(at, wi) * max(-dot(light.normal.xyz, wi), 0) / max(distance2, 1e-30);
+  float open = response(at, wi) * max(-dot(light.normal.xyz, wi), 0.0) / max(distance2, 1e-30);
   bool near = spheres != 0 && distance2 < 64 * light.place.w * light.place.w;
   if (spheres == 0) return min(open, most_transfer);
   // Software renderers run both sides of every branch but leave loops early
@@ -65,7 +65,7 @@ void look_up(Surface s, vec3 mirror, float roughness, out vec3 irradiance, out v
   Receiver diffuse = Receiver(s.position, s.normal, vec3(0), -1);
 #ifdef FULL_BSDF
   float alpha = max(roughness * roughness, 1e-3);
-  Receiver lobe = Receiver(s.position, s.normal, mirror, clamp(2 / (alpha * alpha) - 2, 1, sharpest_lobe));
+  Receiver lobe = Receiver(s.position, s.normal, mirror, clamp(2 / (alpha * alpha) - 2, 1.0, sharpest_lobe));
   // What the lobe leaves less than a thousandth of does not count
   float least = spheres != 0 ? -1 : pow(1e-3, 1 / lobe.exponent);
 #endif

@@ -64,9 +64,10 @@ const FrameStats& Renderer::draw(const scene::CameraPose& camera, const FrameSet
   d.view_projection = clip_matrix(block);
 
   d.run(shadows, [&] { d.draw_shadows(); });
-  d.shaded.begin();
-  d.run(geometry, [&] { d.draw_geometry(settings); });
-  d.shaded.end();
+  d.run(geometry, [&] {
+    const gl::During counting(d.shaded);
+    d.draw_geometry(settings);
+  });
   d.images.gbuffer0.bind(unit::gbuffer0);
   d.images.gbuffer1.bind(unit::gbuffer1);
   d.albedo.bind(unit::albedo_table);

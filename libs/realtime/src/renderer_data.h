@@ -29,9 +29,10 @@ struct Renderer::Data {
   void reload_changed_shaders();
   template <class Draw>
   void run(Pass pass, const Draw& draw_pass) {
-    timers[pass].begin();
-    draw_pass();
-    timers[pass].end();
+    {
+      const gl::During timing(timers[pass]);
+      draw_pass();
+    }
     stats.passes.push_back({pass_names[pass], timers[pass].cpu_ms(), timers[pass].gpu_ms()});
   }
   /// One triangle over the rectangle; `where` tells which pixels and how.

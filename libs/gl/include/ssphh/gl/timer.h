@@ -45,4 +45,18 @@ class SampleCounter {
   Handle<delete_query> query_;
 };
 
+/// What a Timer or a SampleCounter looks at, from here to the end of the scope, also where that ends early: a
+/// query that nobody ends would refuse all that come after it.
+template <class Query>
+class During {
+ public:
+  explicit During(Query& query) : query_(query) { query_.begin(); }
+  ~During() { query_.end(); }
+  During(const During&) = delete;
+  During& operator=(const During&) = delete;
+
+ private:
+  Query& query_;
+};
+
 }  // namespace ssphh::gl
