@@ -89,8 +89,9 @@ TEST(MetricsMessages, OfBlocksMasksAndScales) {
   EXPECT_EQ(message_of([&] { enlarge_blocks(none, 1, 1, 1); }), cover);
   EXPECT_EQ(message_of([&] { in_mask(none, 0, 0, 1, 1); }), "mask: the image is empty");
   EXPECT_EQ(message_of([&] { in_mask(a, 7, 5, 8, 6); }), "no error");
-  for (const auto& [x, y] : {std::pair{-1, 0}, {0, -1}, {8, 0}, {0, 6}})
-    EXPECT_EQ(message_of([&] { in_mask(a, x, y, 8, 6); }), "mask: the pixel does not lie in the picture");
+  for (const auto& at : {std::pair{-1, 0}, {0, -1}, {8, 0}, {0, 6}})
+    EXPECT_EQ(message_of([&] { in_mask(a, at.first, at.second, 8, 6); }),
+              "mask: the pixel does not lie in the picture");
   EXPECT_EQ(message_of([&] { masked(none, a); }), "masked picture: the image is empty");
 }
 

@@ -161,17 +161,18 @@ TEST(SceneMessages, OfBodies) {
   EXPECT_EQ(message_of([&] { make_polygon(corners, beyond); }),
             "polygon: a triangle names a corner that is not there");
   EXPECT_EQ(message_of([] { make_sphere(1, 3, 2); }), "no error");
-  for (const auto& [segments, rings] : {std::pair{2, 2}, {3, 1}}) {
-    EXPECT_EQ(message_of([&] { make_sphere(1, segments, rings); }),
+  for (const auto& counts : {std::pair{2, 2}, {3, 1}}) {
+    EXPECT_EQ(message_of([&] { make_sphere(1, counts.first, counts.second); }),
               "sphere: it needs at least 3 segments and 2 rings");
   }
   EXPECT_EQ(message_of([] { make_torus(1, 0.1f, 3, 3); }), "no error");
-  for (const auto& [segments, sides] : {std::pair{2, 3}, {3, 2}}) {
-    EXPECT_EQ(message_of([&] { make_torus(1, 0.1f, segments, sides); }),
+  for (const auto& counts : {std::pair{2, 3}, {3, 2}}) {
+    EXPECT_EQ(message_of([&] { make_torus(1, 0.1f, counts.first, counts.second); }),
               "torus: it needs at least 3 segments and 3 sides");
-    EXPECT_EQ(
-        message_of([&] { make_tube([](float t) { return vec3(t, 0, 0); }, false, 1, segments, sides); }),
-        "tube: it needs at least 3 segments and 3 sides");
+    EXPECT_EQ(message_of([&] {
+                make_tube([](float t) { return vec3(t, 0, 0); }, false, 1, counts.first, counts.second);
+              }),
+              "tube: it needs at least 3 segments and 3 sides");
   }
   EXPECT_EQ(message_of([] { make_tube(nullptr, false, 1, 3, 3); }), "tube: it has no curve");
   const std::vector<vec2> profile = {{0, 0}, {1, 1}, {0, 2}};

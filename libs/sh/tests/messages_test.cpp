@@ -143,8 +143,8 @@ TEST(ShMessages, OfTurnsLobesAndWindows) {
     EXPECT_EQ(message_of([&] { hanning_window(width); }), "window: its width must be over 0");
     EXPECT_EQ(message_of([&] { lanczos_window(width); }), "window: its width must be over 0");
   }
-  for (const auto& [l, m] : {std::pair{1, 2}, {1, -1}})
-    EXPECT_EQ(message_of([&] { reference_legendre(l, m, 0.5); }), "Legendre function: m must be 0..l");
+  for (const int m : {2, -1})
+    EXPECT_EQ(message_of([&] { reference_legendre(1, m, 0.5); }), "Legendre function: m must be 0..l");
 }
 
 }  // namespace
