@@ -93,6 +93,11 @@ TEST_F(Keys, FilesHoldKeysAndNothingElse) {
   }
   const std::string large = write("k.pub", a_.public_key + std::string(4096, ' '));
   EXPECT_NE(message_of([&] { read_public_key(large); }), "no error");
+  const std::string pair = "public " + a_.public_key + " secret " + a_.secret_key;
+  for (const std::size_t size : {4096, 4097}) {
+    const std::string path = write("k.key", pair + std::string(size - pair.size(), ' '));
+    EXPECT_EQ(message_of([&] { read_key_pair(path); }) == "no error", size == 4096) << size;
+  }
 }
 
 TEST_F(Keys, ListsNameAKeyAndItsRoles) {
