@@ -172,6 +172,9 @@ TEST(LightTree, AClustersConeHoldsTheNormalsOfItsLights) {
   EXPECT_NEAR(root.spread, 0.5f * std::acos(0.6f) + 1e-3f, 1e-5f);
   EXPECT_NEAR(glm::dot(root.axis, glm::normalize(vec3(0, 1.6f, 0.8f))), 1, 1e-6f);
   EXPECT_EQ(root.bounds.max, vec3(1, 0, 0));
+  std::vector<Vpl> three(3, lights[0]);
+  three.push_back({vec3(1, 0, 0), {0, -1, 0}, vec3(2), 0});
+  EXPECT_NEAR(build_light_tree(three).back().cluster.spread, pi + 1e-3f, 1e-3f) << "one of four looks back";
   const std::vector<Vpl> opposite{lights[0], {vec3(1, 0, 0), {0, -1, 0}, vec3(2), 0}};
   EXPECT_GE(build_light_tree(opposite).back().cluster.spread, pi / 2)
       << "any axis, and all that faces away from it";
