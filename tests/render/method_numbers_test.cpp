@@ -168,6 +168,18 @@ TEST(MethodNumbers, OfDdgiAreItsProbesRaysAndFrames) {
   EXPECT_EQ(ddgi.numbers()["frames"], 4) << "one frame each from then on";
 }
 
+TEST(MethodNumbers, OfDdgiHoldTheRaysThatFollowADoor) {
+  Framed ddgi("ddgi", {"probes=27", "rays=16", "warmup=1"}, scene::make_builtin("two-rooms"));
+  const Numbers still = ddgi.numbers();
+  EXPECT_EQ(still.at("rays_per_frame"), 16 * still.at("active")) << "where all begin is not of a frame";
+  ddgi.frame(0.5f);
+  const Numbers moved = ddgi.numbers();
+  // 32 rays look around each probe, once before and once after each of two steps.
+  EXPECT_EQ(moved.at("rays_per_frame"), 16 * moved.at("active") + 3 * 32 * moved.at("probes"));
+  ddgi.frame(0.5f);
+  EXPECT_EQ(ddgi.numbers()["rays_per_frame"], 16 * moved.at("active"));
+}
+
 TEST(MethodNumbers, OfTheAmbientTermAreItsColour) {
   const Framed once("ambient", {"points=256"}), twice("ambient", {"points=256", "factor=2"});
   const scene::SurfacePoint anywhere{vec3(0.5f), {0, 0, 1}};

@@ -3,12 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/core/sphere.h>
+#include <ssphh/scene/primitives.h>
+#include <ssphh/scene/scene.h>
 
 #include "error_message.h"
 #include "given_light.h"
 #include "methods/ddgi/octahedral.h"
 #include "methods/ddgi/rays.h"
+#include "methods/ddgi/reach.h"
 #include "ray_source.h"
+#include "triangle_source.h"
 
 namespace ssphh::gi::methods {
 namespace {
@@ -146,6 +150,45 @@ TEST(DdgiRays, AddTheFieldsOwnLightSeenFromTheProbe) {
   const vec3 wo(0, 0, -1);
   const vec3 lookup = traced.field.irradiance({0.5f, 0, 1}, wo, wo, wo);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(lookup[c], vec3(2, 4, 6)[c], 1e-5f);
+}
+
+/// A floor of 2 m by 2 m, and above it a plate that goes 6 m aside and comes back within a second.
+scene::Scene with_shuttle() {
+  scene::Scene scene;
+  scene.materials.emplace_back();
+  scene.meshes = {scene::make_quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}),
+                  scene::make_quad({-0.5f, 0, 0.5f}, {1, 0, 0}, {0, 0, -1})};
+  for (int i = 0; i < 2; ++i) {
+    scene.meshes[static_cast<std::size_t>(i)].material = 0;
+    scene.nodes.emplace_back();
+    scene.instances.push_back({i, i, -1, ""});
+  }
+  scene::AnimationChannel channel;
+  channel.node = 1;
+  channel.path = scene::AnimationPath::translation;
+  channel.times = {0, 0.5f, 1};
+  channel.values = {{0, 1, 0, 0}, {6, 1, 0, 0}, {0, 1, 0, 0}};
+  scene.animations.push_back({"shuttle", {channel}});
+  scene.nodes.emplace_back().local.translation = vec3(2, 3, 0);
+  scene.cameras.resize(1);
+  scene.cameras[0].node = 2;
+  scene::validate(scene);
+  return scene;
+}
+
+TEST(DdgiGrid, ReachesAsFarAsThingsDoInTheMiddleAndOneSpacingIntoTheAir) {
+  const scene::Scene scene = with_shuttle();
+  const test::TriangleSource source(scene);
+  const ProbeGrid grid = grid_in_reach({scene, source}, 0.5f, 0, 4000, {});
+  // 1024 points a pose lie within centimetres of the edges; what is open above is gone into for a spacing.
+  const vec3 low = grid.first - 0.5f * grid.spacing,
+             high = grid.first + grid.spacing * (vec3(grid.count) - 0.5f);
+  EXPECT_NEAR(low.x, -1, 0.1f);
+  EXPECT_NEAR(high.x, 6.5f, 0.1f);
+  EXPECT_NEAR(low.z, -1, 0.1f);
+  EXPECT_NEAR(high.z, 1, 0.1f);
+  EXPECT_NEAR(low.y, 0, 0.6f);
+  EXPECT_NEAR(high.y, 1.5f, 0.05f) << "the plate's height and a cell";
 }
 
 }  // namespace
