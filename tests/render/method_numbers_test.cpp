@@ -20,13 +20,14 @@ const scene::Scene& room() {
   return scene;
 }
 
-/// After one frame.
+/// After one frame. Keeps a reference to the scene.
 struct Framed : MadeMethod {
   Framed(const std::string& name, const std::vector<std::string>& settings,
          const scene::Scene& scene = room())
       : MadeMethod(name, settings, scene) {
     frame();
   }
+  Framed(const std::string&, const std::vector<std::string>&, const scene::Scene&&) = delete;
   void frame(float time = 0) { method->update(gi::frame_at(source, time), {}); }
   Numbers numbers() const {
     const gi::MethodNumbers list = method->numbers();
@@ -169,7 +170,8 @@ TEST(MethodNumbers, OfDdgiAreItsProbesRaysAndFrames) {
 }
 
 TEST(MethodNumbers, OfDdgiHoldTheRaysThatFollowADoor) {
-  Framed ddgi("ddgi", {"probes=27", "rays=16", "warmup=1"}, scene::make_builtin("two-rooms"));
+  const scene::Scene rooms = scene::make_builtin("two-rooms");
+  Framed ddgi("ddgi", {"probes=27", "rays=16", "warmup=1"}, rooms);
   const Numbers still = ddgi.numbers();
   EXPECT_EQ(still.at("rays_per_frame"), 16 * still.at("active")) << "where all begin is not of a frame";
   ddgi.frame(0.5f);
