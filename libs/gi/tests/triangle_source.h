@@ -34,6 +34,9 @@ class TriangleSource final : public UnlitSource {
           triangle.corner[k] = index == 0 ? vec3(world[node] * vec4(p, 1)) : p;
           parts_[index].bounds.add(triangle.corner[k]);
         }
+        // A mirrored front stays the front.
+        if (index == 0 && glm::determinant(mat3(world[node])) < 0)
+          std::swap(triangle.corner[1], triangle.corner[2]);
         parts_[index].triangles.push_back(triangle);
       }
     }
