@@ -61,7 +61,7 @@ class Occlusion : public WithGl {
   /// that come out behind a surface by a hundredth of the radius or more, and less than the radius, are
   /// closed.
   static double expected(float x, float radius) {
-    constexpr int side = 160;
+    constexpr int side = 48;
     int closed = 0;
     for (int i = 0; i < side * side * 40; ++i) {
       const float u = (static_cast<float>(i % side) + 0.5f) / side,

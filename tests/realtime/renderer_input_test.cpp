@@ -61,8 +61,8 @@ TEST_F(RendererInput, RefusalsNameTheObjectAndHowManyThereAre) {
   scene::LightState state = renderer.light(0);
   state.world[3].y = INFINITY;
   EXPECT_EQ(message_of([&] { renderer.set_light(0, state); }), "light 0: its state is not finite");
-  for (const auto& [w, h] : {std::pair(0, 4), {4, 0}, {-1, 4}})
-    EXPECT_EQ(message_of([&] { renderer.draw({}, {}, {.width = w, .height = h}); }),
+  for (const PictureSize& size : {PictureSize{0, 4}, {4, 0}, {-1, 4}})
+    EXPECT_EQ(message_of([&] { renderer.draw({}, {}, {.width = size.width, .height = size.height}); }),
               "frame size: width and height must be positive");
   scene::CameraPose pose = scene::camera_pose(scene_, "");
   pose.world[0] = vec4(0);
@@ -74,9 +74,10 @@ TEST_F(RendererInput, LightsThatNeedMoreMapsThanThereAreAreRefused) {
   scene::Light sun = scene_.lights[0];
   sun.type = scene::LightType::directional;
   scene_.lights.assign(32, sun);
-  EXPECT_NO_THROW(Renderer(gl(), scene_)) << "four cascades each";
+  const realtime::RendererParams small{.sun_map_size = 16};
+  EXPECT_NO_THROW(Renderer(gl(), scene_, small)) << "four cascades each";
   scene_.lights.push_back(sun);
-  EXPECT_EQ(message_of([&] { Renderer(gl(), scene_); }),
+  EXPECT_EQ(message_of([&] { Renderer(gl(), scene_, small); }),
             "real-time renderer: the lights need 132 parallel shadow maps, 128 is the most");
 }
 
