@@ -13,6 +13,8 @@
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
+#include "transport_fixtures.h"
+
 namespace ssphh {
 namespace {
 
@@ -178,6 +180,71 @@ TEST(GiTransportBake, WhatIsWrongIsNamed) {
   gi::bake_transport(trace::TransportScene(cornell), buried, {}, report);
   EXPECT_THAT(report.warnings, testing::Contains(testing::AllOf(testing::HasSubstr("inside a body"),
                                                                 testing::HasSubstr("\"buried\""))));
+}
+
+gi::TransportBakeReport report_of(const scene::Scene& scene, gi::TransportBakeParams params) {
+  silence_warnings();
+  params.transport.directions = 64, params.transport.link_rays = 16;
+  if (params.transport.surfel_size == 0) params.transport.surfel_size = 0.4f;
+  return bake(scene, 1, params).report;
+}
+
+TEST(GiTransportBake, WarningsCountTheProbesAndNameTheFirstFive) {
+  scene::Scene dark = test::coloured_room(vec3(0));
+  const std::string four = "4 probes receive no light at all: \"middle\", \"low\", \"corner\", \"wall\"";
+  EXPECT_THAT(report_of(dark, {}).warnings, testing::ElementsAre(four));
+  test::add_sphl(dark, "fifth", {0.2f, 0, 0});
+  EXPECT_THAT(report_of(dark, {}).warnings, testing::ElementsAre("5" + four.substr(1) + ", \"fifth\""));
+  test::add_sphl(dark, "sixth", {0.4f, 0, 0});
+  EXPECT_THAT(report_of(dark, {}).warnings, testing::ElementsAre("6" + four.substr(1) + ", \"fifth\", ..."));
+}
+
+TEST(GiTransportBake, LightThatDidNotConvergeIsToldWithItsIterations) {
+  gi::TransportBakeParams params;
+  params.solve = {1e-9f, 2};
+  const gi::TransportBakeReport surfel = report_of(test::coloured_room(vec3(1)), params);
+  EXPECT_EQ(surfel.iterations, 2);
+  EXPECT_THAT(surfel.warnings, testing::ElementsAre(testing::HasSubstr("did not converge in 2 iterations")));
+  params.op = gi::LightOperator::bounce;
+  params.bounce.max_iterations = 3, params.bounce.tolerance = 1e-9f;
+  const gi::TransportBakeReport bounce = report_of(test::coloured_room(vec3(1)), params);
+  EXPECT_EQ(bounce.iterations, 3);
+  EXPECT_THAT(bounce.warnings, testing::ElementsAre(testing::HasSubstr("did not converge in 3 iterations")));
+  EXPECT_GT(bounce.contraction, 0.1);
+  EXPECT_LT(bounce.contraction, 0.8) << "of the brightest wall";
+}
+
+TEST(GiTransportBake, SurfelsAreAThirtySecondOfTheRadiusWithinFourCentimetresAndHalfAMetre) {
+  // A room of ±1 m has the radius √3 m.
+  const auto size_of = [](float scale) {
+    scene::Scene room = test::coloured_room(vec3(1));
+    for (scene::Mesh& mesh : room.meshes)
+      for (vec3& p : mesh.positions) p *= scale;
+    const trace::TransportScene source(room);
+    gi::ProbeSet set = gi::init_from_scene(room, 0);
+    set.probes.resize(1);
+    gi::TransportBakeParams params;
+    params.transport.directions = 16, params.transport.link_rays = 4, params.transport.samples = 1;
+    gi::TransportBakeReport report;
+    gi::add_transport(source, set, params, report);
+    return set.generator.surfel_size;
+  };
+  EXPECT_EQ(size_of(0.5f), 0.04f);
+  EXPECT_FLOAT_EQ(size_of(1), std::sqrt(3.0f) / 32);
+  EXPECT_EQ(size_of(9.5f), 0.5f);
+  // A session's own are a twentieth.
+  const auto session_size = [](float scale) {
+    scene::Scene room = test::coloured_room(vec3(1));
+    for (scene::Mesh& mesh : room.meshes)
+      for (vec3& p : mesh.positions) p *= scale;
+    const trace::TransportScene source(room);
+    gi::TransportParams params;
+    params.directions = 16, params.link_rays = 4, params.samples = 1;
+    return gi::TransportNetwork(source, std::vector<vec3>{vec3(0)}, params).params().surfel_size;
+  };
+  EXPECT_EQ(session_size(0.5f), 0.05f);
+  EXPECT_FLOAT_EQ(session_size(1), std::sqrt(3.0f) / 20);
+  EXPECT_EQ(session_size(6), 0.5f);
 }
 
 TEST(GiTransportBake, TheNumberOfThreadsChangesNoBit) {

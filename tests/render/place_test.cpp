@@ -34,6 +34,23 @@ TEST(Placement, TwoRoomsWithEmbree) {
   EXPECT_GT(placement.probes.size(), 300u);
 }
 
+TEST(Placement, EveryCandidateBecomesAProbeOrIsCounted) {
+  for (const char* name : {"two-rooms", "cornell"}) {
+    const scene::Scene scene = scene::make_builtin(name);
+    const trace::TransportScene source(scene);
+    for (const int count : {0, 20}) {
+      gi::PlaceParams params = gi::place_params(scene);
+      params.spacing = 1.2f;
+      params.count = count;
+      const gi::Placement placement = gi::place_probes(source, params);
+      const gi::PlaceCounts& c = placement.counts;
+      EXPECT_EQ(c.candidates + params.manual.size(), placement.probes.size() + c.removed()) << name;
+      EXPECT_TRUE(count == 0 || placement.probes.size() == 20u) << name;
+      EXPECT_EQ(c.surplus > 0, count > 0) << name;
+    }
+  }
+}
+
 TEST(Placement, TheGalleriesHallIsFilled) {
   const scene::Scene scene = scene::make_builtin("gallery1");
   const trace::TransportScene source(scene);

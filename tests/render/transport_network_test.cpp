@@ -314,6 +314,25 @@ TEST(TransportNetworkPose, NothingCrossesAShutDoor) {
   }
 }
 
+TEST(TransportNetworkPose, ContractionBoundsTheFirstAndTheLastPose) {
+  for (const bool backward : {false, true}) {
+    scene::Scene rooms = scene::make_builtin("two-rooms");
+    for (scene::AnimationChannel& channel : rooms.animations[0].channels)
+      if (backward) std::ranges::reverse(channel.values);
+    const trace::TransportScene source(rooms);
+    gi::TransportNetwork network(source, test::positions_of(test::places_of(rooms)), test::small_network(),
+                                 0.3f);
+    const gi::Contraction bounds = network.contraction();
+    network.set_time(0);
+    const gi::Contraction first = gi::contraction(network.links(), network.albedo());
+    network.set_time(source.duration());
+    const gi::Contraction last = gi::contraction(network.links(), network.albedo());
+    EXPECT_NE(first.upper, last.upper);
+    EXPECT_EQ(bounds.lower, std::min(first.lower, last.lower));
+    EXPECT_EQ(bounds.upper, std::max(first.upper, last.upper));
+  }
+}
+
 TEST(TransportNetworkErrors, SayWhatIsWrong) {
   const scene::Scene scene = scene::make_builtin("box");
   const trace::TransportScene source(scene);

@@ -7,10 +7,12 @@
 #include <ssphh/core/log.h>
 
 #include "farm_fixtures.h"
+#include "memory_dir.h"
 
 namespace ssphh::farm {
 namespace {
 
+using ssphh::test::memory_dir;
 using ssphh::test::TempDir;
 
 std::vector<std::byte> value(std::size_t size, int seed) {
@@ -92,8 +94,77 @@ TEST(DiskCache, CountsWhatWasFoundMissedAndDropped) {
   EXPECT_THROW(cache.put(key(3), value(101, 1)), Error);
 }
 
+/// Puts values that take `size` bytes with their hashes, begin..end−1, each used a second after the one
+/// before.
+void put_some(DiskCache& cache, const TempDir& dir, std::uint64_t begin, std::uint64_t end,
+              std::size_t size) {
+  const auto now = std::filesystem::file_time_type::clock::now();
+  for (std::uint64_t i = begin; i < end; ++i) {
+    cache.put(key(i), value(size - sizeof(Hash128), static_cast<int>(i)));
+    const auto age = std::chrono::seconds(1000 - static_cast<int>(i));
+    std::filesystem::last_write_time(file_of(dir, key(i)), now - age);
+  }
+}
+
+TEST(DiskCache, MakesRoomForATenthOrForWhatIsLarger) {
+  const TempDir dir(memory_dir());
+  DiskCache cache(dir.path(), 1000);
+  put_some(cache, dir, 0, 20, 50);
+  EXPECT_EQ(cache.counts().evicted, 0u) << "just full";
+  put_some(cache, dir, 20, 21, 50);
+  EXPECT_EQ(cache.counts().evicted, 2u) << "a tenth";
+  put_some(cache, dir, 21, 22, 50);
+  EXPECT_EQ(cache.counts().evicted, 2u) << "there is room again";
+  put_some(cache, dir, 22, 23, 300);
+  EXPECT_EQ(cache.counts().evicted, 8u);
+  for (std::uint64_t i = 0; i < 23; ++i) EXPECT_EQ(cache.contains(key(i)), i >= 8) << i;
+  DiskCache again(dir.path(), 1000);
+  put_some(again, dir, 23, 24, 50);
+  EXPECT_EQ(again.counts().evicted, 2u) << "knows what lay there when it began";
+}
+
+// It looks again after an eighth of the bound was put, so that the folder never has much more than that too
+// much.
+TEST(DiskCache, SeesWhatOtherProcessesHavePut) {
+  const TempDir dir(memory_dir());
+  DiskCache cache(dir.path(), 8000), other(dir.path(), 8000);
+  put_some(other, dir, 0, 160, 50);
+  put_some(cache, dir, 160, 181, 50);
+  EXPECT_EQ(cache.counts().evicted, 0u) << "thinks that it is alone";
+  put_some(cache, dir, 181, 182, 50);
+  EXPECT_EQ(cache.counts().evicted, 37u) << "of 181 so many that 144 are left: nine tenths of the bound";
+}
+
 TEST(DiskCache, FolderThatCannotBeMadeIsAnError) {
   EXPECT_THROW(DiskCache("/proc/nowhere", 1000), Error);
+}
+
+/// Sets a variable of the environment, or takes it away, until its end.
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    value ? ::setenv(name, value, 1) : ::unsetenv(name);
+  }
+  ~Variable() { before_ ? ::setenv(name_, before_->c_str(), 1) : ::unsetenv(name_); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+TEST(DiskCache, LiesWhereTheUsersCachesLie) {
+  const auto dir = [](const char* xdg, const char* home) {
+    const Variable first("XDG_CACHE_HOME", xdg), second("HOME", home);
+    return default_cache_dir("jobs");
+  };
+  EXPECT_EQ(dir("/caches", "/home/me"), "/caches/ssphh/jobs");
+  EXPECT_EQ(dir("", "/home/me"), "/home/me/.cache/ssphh/jobs");
+  EXPECT_EQ(dir(nullptr, "/home/me"), "/home/me/.cache/ssphh/jobs");
+  for (const char* home : {static_cast<const char*>(nullptr), ""})
+    EXPECT_EQ(dir(nullptr, home), std::filesystem::temp_directory_path() / "ssphh" / "jobs");
 }
 
 TEST(FetchBlob, ContinuesWhereItWasCutOff) {

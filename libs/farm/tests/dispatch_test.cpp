@@ -2,42 +2,23 @@
 
 #include <gtest/gtest.h>
 
-#include <ssphh/core/log.h>
 #include <ssphh/farm/engine.h>
 #include <ssphh/farm/farm_bake.h>
 #include <ssphh/farm/farm_render.h>
 #include <ssphh/farm/worker_pool.h>
-#include <ssphh/majordomo/broker.h>
 #include <ssphh/majordomo/worker.h>
 
+#include "broker_thread.h"
+#include "error_message.h"
 #include "farm_fixtures.h"
 
 namespace ssphh::farm {
 namespace {
 
+using ssphh::test::message_of;
 using ssphh::test::TempDir;
-
-/// A broker on a thread; its events are not shown.
-class BrokerThread {
- public:
-  BrokerThread() : broker_(options()), thread_([this] { broker_.run(); }) {}
-  ~BrokerThread() {
-    broker_.stop();
-    broker_.stop();
-    thread_.join();
-  }
-  BrokerAddress address() const { return {broker_.endpoint(), std::nullopt}; }
-
- private:
-  static majordomo::BrokerOptions options() {
-    majordomo::BrokerOptions options;
-    options.bind = "tcp://127.0.0.1:0";
-    options.on_event = [](const majordomo::BrokerEvent&) {};
-    return options;
-  }
-  majordomo::Broker broker_;
-  std::thread thread_;
-};
+using test::BrokerThread;
+using test::Quiet;
 
 /// Workers in this process.
 class WorkerThread {
@@ -61,11 +42,6 @@ class WorkerThread {
   CancelToken stop_;
   WorkerPoolReport report_;
   std::thread thread_;
-};
-
-struct Quiet {
-  Quiet() { set_log_level(LogLevel::error); }
-  ~Quiet() { set_log_level(LogLevel::info); }
 };
 
 gi::BakeParams small_bake() {
@@ -176,7 +152,7 @@ TEST(Dispatch, ResultThatAnswersAnotherJobIsRefused) {
   FarmOptions options;
   options.broker = broker.address();
   FarmCrew crew(options, scene, 0);
-  EXPECT_THROW(bake(scene, &crew), Error);
+  EXPECT_EQ(message_of([&] { bake(scene, &crew); }), "worker : its result does not answer the job");
   worker.stop();
   thread.join();
 }

@@ -1,13 +1,18 @@
+#include <algorithm>
+#include <cstring>
+
 #include <gtest/gtest.h>
 
 #include <ssphh/scene_io/load.h>
 
+#include "error_message.h"
 #include "farm_fixtures.h"
 #include "shared_scenes.h"
 
 namespace ssphh::farm {
 namespace {
 
+using ssphh::test::message_of;
 using test::PackedScene;
 
 scene::Scene unpacked(const ScenePackage& package) {
@@ -84,6 +89,82 @@ TEST(ScenePackage, BrokenManifestsAreRefused) {
     }
   }
   EXPECT_GT(refused, 0);
+}
+
+scene::Scene with_texture(int width, int height, std::size_t bytes) {
+  scene::Scene scene;
+  scene.textures = {{"t", width, height, std::vector<std::uint8_t>(bytes, 77)}};
+  return scene;
+}
+
+TEST(ScenePackage, ArraysOverAKibibyteTravelAlone) {
+  EXPECT_EQ(pack_scene(with_texture(16, 16, 1024)).blobs.size(), 0u);
+  EXPECT_EQ(pack_scene(with_texture(257, 1, 1028)).blobs.size(), 1u);
+  expect_same(with_texture(16, 16, 1024));
+  expect_same(with_texture(257, 1, 1028));
+}
+
+TEST(ScenePackage, PicturesAreAsLargeAsTheySay) {
+  const std::string wrong = "scene manifest: texture \"t\": its size does not fit its texels";
+  const auto texture = [](int width, int height, std::size_t bytes) {
+    return message_of([&] { unpacked(pack_scene(with_texture(width, height, bytes))); });
+  };
+  EXPECT_EQ(texture(1 << 20, 1, std::size_t{4} << 20), "no error");
+  EXPECT_EQ(texture(1, 1 << 20, std::size_t{4} << 20), "no error");
+  EXPECT_EQ(texture((1 << 20) + 1, 1, (std::size_t{4} << 20) + 4), wrong);
+  EXPECT_EQ(texture(1, (1 << 20) + 1, (std::size_t{4} << 20) + 4), wrong);
+  EXPECT_EQ(texture(-3, -3, 36), wrong);
+  EXPECT_EQ(texture(3, 3, 32), wrong);
+  EXPECT_EQ(texture(3, 3, 40), wrong);
+
+  const auto environment = [](int width, int height, int channels, std::size_t floats) {
+    scene::Scene scene;
+    image::Image& e = scene.environment.emplace().equirect;
+    e.width = width, e.height = height, e.channels = channels;
+    e.pixels.resize(floats, 1);
+    return message_of([&] { unpacked(pack_scene(scene)); });
+  };
+  EXPECT_EQ(environment(4, 2, 3, 24), "no error");
+  for (const int channels : {0, 5, -1}) {
+    EXPECT_EQ(environment(4, 2, channels, static_cast<std::size_t>(8 * std::abs(channels))),
+              "scene manifest: environment: its size does not fit its pixels");
+  }
+  EXPECT_EQ(environment(4, 2, 3, 25), "scene manifest: environment: its size does not fit its pixels");
+}
+
+TEST(ScenePackage, TextsHaveALimit) {
+  for (const std::size_t length : {std::size_t{1} << 16, (std::size_t{1} << 16) + 1}) {
+    scene::Scene scene = with_texture(1, 1, 4);
+    scene.name = std::string(length, 'x');
+    const ScenePackage package = pack_scene(scene);
+    EXPECT_EQ(message_of([&] { unpacked(package); }) == "no error", length == 1 << 16) << length;
+  }
+}
+
+// A manifest that announces more than it may is refused before anything is asked for.
+TEST(ScenePackage, BlobsFitIntoAPackage) {
+  const ScenePackage package = pack_scene(with_texture(257, 1, 1028));
+  std::vector<std::byte> size(8), manifest;
+  size[0] = std::byte{1028 & 255}, size[1] = std::byte{1028 >> 8};
+  const auto said_of_size = [&](std::uint64_t announced, std::size_t sent) {
+    manifest = package.manifest;
+    const auto at = std::search(manifest.begin(), manifest.end(), size.begin(), size.end());
+    EXPECT_NE(at, manifest.end());
+    std::memcpy(&*at, &announced, sizeof(announced));
+    return message_of([&] {
+      unpack_scene(manifest, [&](const Hash128&, std::uint64_t asked) {
+        EXPECT_EQ(asked, announced);
+        if (sent == 0) throw Error("blob", "was asked for");
+        return std::vector<std::byte>(sent);
+      });
+    });
+  };
+  EXPECT_EQ(said_of_size(1028, 1028), "no error");
+  const std::string hash = package.blobs.at(0).hash.hex();
+  for (const std::size_t sent : {1027, 1029})
+    EXPECT_NE(said_of_size(1028, sent).find(hash + " has another size"), std::string::npos);
+  EXPECT_EQ(said_of_size(max_package_bytes, 0), "blob: was asked for");
+  EXPECT_NE(said_of_size(max_package_bytes + 1, 0).find("larger than a package may be"), std::string::npos);
 }
 
 TEST(ScenePackage, MovedLampSendsTheManifestAlone) {

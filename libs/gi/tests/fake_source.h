@@ -11,7 +11,7 @@
 
 namespace ssphh::test {
 
-class FakeSource final : public scene::RadianceSource {
+class FakeSource : public scene::RadianceSource {
  public:
   using Field = std::function<vec3(const vec3& position, const vec3& direction)>;
 

@@ -3,11 +3,11 @@
 
 #include <functional>
 
-#include <ssphh/scene/transport_source.h>
+#include "unlit_source.h"
 
 namespace ssphh::test {
 
-class RaySource final : public scene::TransportSource {
+class RaySource final : public UnlitSource {
  public:
   using Meets = std::function<scene::RayHit(const vec3& origin, const vec3& direction)>;
   explicit RaySource(Meets meets) : meets_(std::move(meets)) {}
@@ -17,7 +17,6 @@ class RaySource final : public scene::TransportSource {
   scene::Bounds part_bounds(int) const override { return {vec3(-1), vec3(1)}; }
   float duration() const override { return 0; }
   mat4 part_pose(int, float) const override { return mat4(1); }
-  std::vector<scene::PartPoint> sample_part(int, double) const override { return {}; }
   void intersect(int, std::span<const scene::RayQuery> rays, std::span<scene::RayHit> hits) const override {
     for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = meets_(rays[i].origin, rays[i].direction);
   }
@@ -25,21 +24,11 @@ class RaySource final : public scene::TransportSource {
     for (std::size_t i = 0; i < rays.size(); ++i)
       blocked[i] = meets_(rays[i].origin, rays[i].direction).distance < rays[i].t_max;
   }
-  const std::vector<std::string>& light_groups() const override { return none_; }
-  std::vector<scene::LightState> lights(float) const override { return {}; }
-  const std::vector<std::string>& light_names() const override { return none_; }
-  int light_group_of(int) const override { return -1; }
-  bool group_emits_from(int, int) const override { return false; }
-  std::unique_ptr<scene::DirectLight> direct_light(std::span<const scene::LightState>, std::span<const mat4>,
-                                                   float) const override {
-    return nullptr;
-  }
   std::uint64_t rays_traced() const override { return 0; }
 
  private:
   Meets meets_;
   std::string name_ = "static";
-  std::vector<std::string> none_;
 };
 
 /// A surface that faces the ray, or shows its back.

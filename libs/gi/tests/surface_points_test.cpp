@@ -4,6 +4,7 @@
 #include <ssphh/gi/surface_points.h>
 #include <ssphh/scene/primitives.h>
 
+#include "ray_source.h"
 #include "triangle_source.h"
 
 namespace ssphh::gi {
@@ -139,6 +140,27 @@ TEST(SurfacePoints, InTheOpenStandBetweenSurfacesAndFaceAnywhere) {
   }
   // Each component of the mean has a standard deviation of 1/√(3 · 2000): five of them.
   for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(normal[c], 0, 5 / std::sqrt(6000.0f));
+}
+
+TEST(SurfacePoints, InTheOpenStandAfterATwentiethOfTheWayAndAsMuchBeforeItsEnd) {
+  // Whatever the way, it ends 2 m from its start; ±1 m are the bounds, by which surfaces are lifted.
+  const test::RaySource source([](const vec3&, const vec3& d) { return test::surface_at(2, d); });
+  const std::vector<scene::SurfacePoint> surfaces(4000, {vec3(1, 2, 3), {0, 1, 0}});
+  const vec3 start = vec3(1, 2, 3) + 1e-4f * std::sqrt(3.0f) * vec3(0, 1, 0);
+  float low = 2, high = 0, mean = 0;
+  vec3 direction(0);
+  for (const scene::SurfacePoint& p : points_in_the_open(source, surfaces, 0, 5)) {
+    const float way = glm::distance(p.position, start);
+    low = std::min(low, way), high = std::max(high, way), mean += way / 4000;
+    direction += (p.position - start) / way / 4000.0f;
+  }
+  // Uniform within 0.1 … 1.9 m: four thousand come within a 400th of its ends but for a chance of e⁻¹⁰.
+  EXPECT_GT(low, 0.0999f);
+  EXPECT_LT(low, 0.1f + 1.8f / 400);
+  EXPECT_LT(high, 1.9001f);
+  EXPECT_GT(high, 1.9f - 1.8f / 400);
+  EXPECT_NEAR(mean, 1, 5 * 1.8f / std::sqrt(12 * 4000.0f));
+  EXPECT_NEAR(direction.y, 2.0f / 3, 5 * std::sqrt(1.0f / 18 / 4000)) << "cosine-distributed";
 }
 
 TEST(SurfacePoints, ErrorsSayWhatIsMissing) {

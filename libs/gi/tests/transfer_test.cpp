@@ -167,6 +167,30 @@ TEST(Transfer, PlacesAreFoundOnTheirSide) {
   EXPECT_EQ(index.find({{0.3f, 0, 0.2f}, {0, 1, 0}, true}).triangle, -1);
 }
 
+TEST(Transfer, SmoothNormalsAreThoseOfTheSurfaceAsPosedMirroredOrNot) {
+  for (const float mirror : {1.0f, -1.0f}) {
+    scene::Scene scene;
+    add(scene, scene::make_sphere(1, 24, 12));
+    scene::Transform& pose = scene.nodes[0].local;
+    pose.translation = {3, 4, 5}, pose.scale = vec3(1.5f * mirror, 1, 0.8f);
+    pose.rotation = glm::angleAxis(0.7f, glm::normalize(vec3(1, 2, 3)));
+    const test::TriangleSource source(scene);
+    const TransferMesh mesh = make_transfer_mesh(scene, source, {.edge = 10});
+    ASSERT_GT(mesh.vertices.size(), 200u);
+    for (const scene::SurfacePoint& v : mesh.vertices) {
+      // An ellipsoid's gradient
+      const vec3 local = glm::inverse(pose.rotation) * (v.position - pose.translation);
+      const vec3 expected = pose.rotation * glm::normalize(local / (pose.scale * pose.scale));
+      EXPECT_GT(glm::dot(v.normal, expected), 0.9999f);
+    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Corners c = mesh.corners(t);
+      const vec3 out = c[0] + c[1] + c[2] - 3.0f * pose.translation;
+      EXPECT_GT(glm::dot(glm::cross(c[1] - c[0], c[2] - c[0]), out), 0) << "wound to be seen from outside";
+    }
+  }
+}
+
 TEST(Transfer, EnvironmentsAreProjectedAsTheyShine) {
   scene::Environment constant;
   constant.color = {1, 2, 3};

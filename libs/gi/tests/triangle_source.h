@@ -5,11 +5,11 @@
 #include <atomic>
 #include <map>
 
-#include <ssphh/scene/transport_source.h>
+#include "unlit_source.h"
 
 namespace ssphh::test {
 
-class TriangleSource final : public scene::TransportSource {
+class TriangleSource final : public UnlitSource {
  public:
   explicit TriangleSource(const scene::Scene& scene) : scene_(scene), parts_(1) {
     parts_[0].name = "static";
@@ -34,6 +34,9 @@ class TriangleSource final : public scene::TransportSource {
           triangle.corner[k] = index == 0 ? vec3(world[node] * vec4(p, 1)) : p;
           parts_[index].bounds.add(triangle.corner[k]);
         }
+        // A mirrored front stays the front.
+        if (index == 0 && glm::determinant(mat3(world[node])) < 0)
+          std::swap(triangle.corner[1], triangle.corner[2]);
         parts_[index].triangles.push_back(triangle);
       }
     }
@@ -47,7 +50,6 @@ class TriangleSource final : public scene::TransportSource {
     if (part == 0) return mat4(1);
     return scene::world_matrices(scene_, time)[static_cast<std::size_t>(at(part).node)];
   }
-  std::vector<scene::PartPoint> sample_part(int, double) const override { return {}; }
 
   void intersect(int part, std::span<const scene::RayQuery> rays,
                  std::span<scene::RayHit> hits) const override {
@@ -81,15 +83,6 @@ class TriangleSource final : public scene::TransportSource {
     rays_ += rays.size();
   }
 
-  const std::vector<std::string>& light_groups() const override { return none_; }
-  std::vector<scene::LightState> lights(float) const override { return {}; }
-  const std::vector<std::string>& light_names() const override { return none_; }
-  int light_group_of(int) const override { return -1; }
-  bool group_emits_from(int, int) const override { return false; }
-  std::unique_ptr<scene::DirectLight> direct_light(std::span<const scene::LightState>, std::span<const mat4>,
-                                                   float) const override {
-    return nullptr;
-  }
   std::uint64_t rays_traced() const override { return rays_; }
 
  private:
@@ -125,7 +118,6 @@ class TriangleSource final : public scene::TransportSource {
 
   scene::Scene scene_;
   std::vector<Part> parts_;
-  std::vector<std::string> none_;
   mutable std::atomic<std::uint64_t> rays_{0};
 };
 

@@ -132,6 +132,7 @@ void GLAPIENTRY on_message(GLenum source, GLenum type, GLuint id, GLenum severit
   auto& data = *static_cast<Data*>(const_cast<void*>(user));
   if (data.host_callback) data.host_callback(source, type, id, severity, length, message, data.host_user);
   if (type == GL_DEBUG_TYPE_ERROR) {
+    if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) return;  // Program throws these itself
     if (data.errors.size() < 4096) data.errors += (data.errors.empty() ? "" : "; ") + std::string(message);
   } else if (severity == GL_DEBUG_SEVERITY_HIGH || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR) {
     log_warning("OpenGL: {}", message);

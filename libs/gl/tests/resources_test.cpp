@@ -8,49 +8,18 @@
 
 #include <ssphh/gl/draw.h>
 #include <ssphh/gl/framebuffer.h>
-#include <ssphh/gl/program.h>
 #include <ssphh/gl/read_pixels.h>
 #include <ssphh/gl/texture.h>
 #include <ssphh/gl/volume.h>
 
-#include "gl_context.h"
+#include "shaders.h"
 
 namespace ssphh::gl {
 namespace {
 
 using testing::ElementsAre;
 
-class GlResources : public test::WithGl {
- protected:
-  /// What a compute shader makes for each of `count` texels: `value`, an expression of `i`.
-  static std::vector<vec4> computed(int count, const std::string& declarations, const std::string& value) {
-    const std::string source = "#version 450 core\nlayout(local_size_x = 1) in;\n" + declarations +
-                               "\nlayout(rgba32f, binding = 0) writeonly uniform image2D made;\n"
-                               "void main() { int i = int(gl_WorkGroupID.x);\n"
-                               "  imageStore(made, ivec2(i, 0), vec4(" +
-                               value + ")); }\n";
-    const std::array<ShaderFiles::Embedded, 1> table{{{"make.comp", source}}};
-    Program program = Program::compute(ShaderFiles(table), "make.comp", "");
-    Texture made(Format::rgba32f, count, 1);
-    made.bind_image(0);
-    program.use();
-    const std::array<unsigned, 3> groups{static_cast<unsigned>(count), 1, 1};
-    dispatch(Buffer{std::span<const unsigned>(groups)});
-    shader_memory_barrier();
-    std::vector<vec4> texels(static_cast<std::size_t>(count));
-    made.read({&texels[0].x, 4 * texels.size()}, 4);
-    return texels;
-  }
-  static std::vector<float> floats(int count, float first) {
-    std::vector<float> all;
-    for (int i = 0; i < count; ++i) all.push_back(first + static_cast<float>(i));
-    return all;
-  }
-  template <class T>
-  static std::span<const std::byte> bytes(const std::vector<T>& data) {
-    return std::as_bytes(std::span(data));
-  }
-};
+using GlResources = WithShaders;
 
 TEST_F(GlResources, RectangleOfATextureIsUploadedWhereItIsTold) {
   Texture image(Format::r32f, 4, 3);

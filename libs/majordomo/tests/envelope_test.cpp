@@ -5,6 +5,8 @@
 namespace ssphh::majordomo {
 namespace {
 
+using std::string_literals::operator""s;
+
 Envelope full() {
   return {.kind = EnvelopeKind::final,
           .ids = {{1, 2}, {3, 4}},
@@ -72,6 +74,37 @@ TEST(Envelope, OtherVersionsAndKindsAreRefused) {
   frame[5] = 99;
   EXPECT_FALSE(decode_envelope(frame));
   EXPECT_FALSE(decode_envelope("SSPJ"));
+}
+
+TEST(Envelope, KindsAreThoseThatThereAre) {
+  Frame frame = encode_envelope({});
+  for (int kind = 0; kind < 256; ++kind) {
+    frame[5] = static_cast<char>(kind);
+    const bool known =
+        (kind >= 1 && kind <= 4) || (kind >= 16 && kind <= 20) || kind == 32 || kind == 48 || kind == 49;
+    EXPECT_EQ(decode_envelope(frame).has_value(), known) << kind;
+  }
+}
+
+// As docs/protocol.md has it: other programs speak it, too.
+TEST(Envelope, LiesInItsFrameByteByByte) {
+  const std::string id = "\1\0\0\0\0\0\0\0\2\0\0\0\0\0\0\0"s;
+  const auto bytes = [](const Envelope& envelope) { return encode_envelope(envelope); };
+  EXPECT_EQ(bytes({}), "SSPJ\1\1"s);
+  EXPECT_EQ(bytes({.kind = EnvelopeKind::leave, .ids = {{1, 2}}}), "SSPJ\1\x31\1\x10\0"s + id);
+  EXPECT_EQ(bytes({.deadline = 0x0102}), "SSPJ\1\1\2\x08\0\2\1\0\0\0\0\0\0"s);
+  EXPECT_EQ(bytes({.attempt_timeout = 3}), "SSPJ\1\1\3\x08\0\3\0\0\0\0\0\0\0"s);
+  EXPECT_EQ(bytes({.content_key = Hash128{1, 2}}), "SSPJ\1\1\4\x10\0"s + id);
+  EXPECT_EQ(bytes({.persistent = true}), "SSPJ\1\1\5\1\0\1"s);
+  EXPECT_EQ(bytes({.retry = true}), "SSPJ\1\1\5\1\0\2"s);
+  EXPECT_EQ(bytes({.outcome = Outcome::parked}), "SSPJ\1\1\6\1\0\2"s);
+  EXPECT_EQ(bytes({.reason = "ab"}), "SSPJ\1\1\7\2\0ab"s);
+  EXPECT_EQ(bytes({.attempts = 7}), "SSPJ\1\1\x08\4\0\7\0\0\0"s);
+  EXPECT_EQ(bytes({.sequence = 8}), "SSPJ\1\1\x09\4\0\x08\0\0\0"s);
+  EXPECT_EQ(bytes({.retry_after = 9}), "SSPJ\1\1\x0a\x08\0\x09\0\0\0\0\0\0\0"s);
+  const Token token{1, 2, 3, 4, 5};
+  EXPECT_EQ(token.frame(), "SSJ\5\4\0\0\0\3\0\0\0\0\0\0\0"s + id);
+  EXPECT_EQ(bytes({.token = token}), "SSPJ\1\1\x0b\x20\0"s + token.frame());
 }
 
 TEST(Token, RoundTrip) {

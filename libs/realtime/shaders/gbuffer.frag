@@ -12,7 +12,7 @@ layout(location = 0) out uvec4 gbuffer0;
 layout(location = 1) out uvec2 gbuffer1;
 layout(location = 2) out vec4 color_out;
 
-uniform int emission_shown;
+uniform int emission_shown;  // 1: all; 2: of unlit surfaces, whose colour it is
 
 vec3 normalize_or(vec3 v, vec3 fallback) {
   float l2 = dot(v, v);
@@ -94,5 +94,5 @@ void main() {
   gbuffer0 = uvec4(packSnorm2x16(oct_encode(n)), packSnorm2x16(oct_encode(toward_viewer)),
                    pack_color(diffuse, (flags & 2) != 0 ? 1u : 0u), pack_color(f0, 0u));
   gbuffer1 = uvec2(packSnorm2x16(roughness), floatBitsToUint(dot(from_camera, frame.camera_forward.xyz)));
-  color_out = vec4(emission_shown != 0 ? emission : vec3(0), 1);
+  color_out = vec4(emission_shown == 1 || (emission_shown == 2 && unlit) ? emission : vec3(0), 1);
 }

@@ -43,7 +43,7 @@ void Renderer::Data::draw_geometry(const FrameSettings& settings) {
     if (item.textures != textures) {
       textures = item.textures;
       gl::Program& program = shaders.geometry(textures);
-      program.set("emission_shown", emission || settings.view == View::albedo ? 1 : 0);
+      program.set("emission_shown", emission ? 1 : settings.view == View::albedo ? 2 : 0);
       program.use();
     }
     if (item.surface_class != surface) {

@@ -97,5 +97,24 @@ TEST(BsdfSampling, EstimatesTheAlbedoThatQuadratureFinds) {
   }
 }
 
+// Far from the mirror direction the specular lobe has no density: what is left is the chance of the diffuse
+// one times its own, to 1e-5.
+TEST(BsdfSampling, LobesAreChosenByTheLightTheyReflectAndNoneIsStarved) {
+  const vec3 wo = direction(0.9f), wi = direction(0.5f);
+  const auto chance = [&](const vec3& diffuse, float f0) {
+    const float pdf = pdf_bsdf({diffuse, vec3(f0), 0, 0.02f}, wo, wi);
+    return 1 - pdf / (wi.z / pi);
+  };
+  const vec3 grey(0.9f, 0.5f, 0.2f);
+  for (const float f0 : {0.2f, 0.5f}) {
+    const vec3 specular = directional_albedo({vec3(0), vec3(f0), 0, 0.02f}, wo.z);
+    const float s = 3 * specular.x, d = glm::dot(grey, vec3(1) - specular);
+    EXPECT_NEAR(chance(grey, f0), s / (s + d), 1e-5f) << f0;
+  }
+  EXPECT_NEAR(chance(grey, 1e-3f), 0.1f, 1e-5f);
+  EXPECT_NEAR(chance(vec3(1e-3f), 0.9f), 0.9f, 1e-5f);
+  EXPECT_NEAR(chance(vec3(0), 0.9f), 1, 1e-5f) << "there is no diffuse lobe";
+}
+
 }  // namespace
 }  // namespace ssphh::shading::test

@@ -149,5 +149,38 @@ TEST(Emitters, PosedAnewTheyAreThoseOfTheSceneThatStandsSo) {
   }
 }
 
+TEST(Emitters, SendTheirPhotonsFromWhereTheyAre) {
+  scene::Scene scene;
+  add_light(scene, scene::LightType::point, {1, 2, 3});
+  add_light(scene, scene::LightType::spot, {4, 5, 6});
+  add_light(scene, scene::LightType::sphere, {0, 7, 0}).radius = 0.4f;
+  add_light(scene, scene::LightType::sphere, {0, 8, 0}).radius = 0.2f;
+  add_panel(scene, glowing(vec3(1)), {{0, 9, 0}});
+  add_panel(scene, glowing(vec3(3)), {{0, 10, 0}});
+  const LightSet lights = make_lights(scene);
+  ASSERT_EQ(lights.emitter_count(), 6);
+  for (int i = 0; i < 6; ++i) {
+    const scene::Bounds extent = lights.emitter(i).extent;
+    Samples power;
+    for (std::uint32_t s = 0; s < 4000; ++s) {
+      SampleSequence random(7, s);
+      const vec2 place = random.next2(), direction = random.next2();
+      const auto emitted = lights.emit(i, place, direction, vec3(0), 1);
+      if (!emitted) {
+        power.add(0);
+        continue;
+      }
+      const scene::Photon& photon = emitted->photon;
+      power.add(static_cast<double>(luminance(photon.power)));
+      EXPECT_LE(max_component(extent.min - photon.origin), 1e-5f) << i;
+      EXPECT_LE(max_component(photon.origin - extent.max), 1e-5f) << i;
+      EXPECT_NEAR(glm::length(photon.direction), 1, 1e-5f);
+      EXPECT_EQ(emitted->normal, i < 4 ? vec3(0) : vec3(0, -1, 0));
+    }
+    const auto flux = static_cast<double>(lights.flux(i, 1));
+    EXPECT_TRUE(ssphh::test::mean_is(power, flux, {1e-3, 6}, 1e-4 * flux)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace ssphh::shading::test

@@ -283,5 +283,17 @@ TEST(SampleTexture, SurvivesAbsurdCoordinates) {
   }
 }
 
+TEST(SampleTexture, IsWhiteWhereThereIsNone) {
+  Scene scene;
+  scene::TextureUse use;
+  const auto look_up = [&] { return sample_texture(scene, use, {vec2(0.5f), vec2(0.5f)}, true); };
+  EXPECT_EQ(look_up(), vec4(1)) << "no texture";
+  for (const bool wide : {false, true}) {
+    scene.textures = {{"empty", wide ? 1 : 0, wide ? 0 : 1, {}}};
+    use.texture = 0;
+    EXPECT_EQ(look_up(), vec4(1)) << "one without texels";
+  }
+}
+
 }  // namespace
 }  // namespace ssphh::shading::test

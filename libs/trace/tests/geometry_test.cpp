@@ -110,6 +110,25 @@ scene::Scene many_boxes() {
   return scene;
 }
 
+/// Of the corners of a triangle in the world.
+float largest_coordinate(const scene::Scene& scene, const std::vector<mat4>& world, const trace::Hit& hit) {
+  const scene::Instance& instance = scene.instances[static_cast<std::size_t>(hit.instance)];
+  const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+  float largest = 0;
+  for (int i = 0; i < 3; ++i) {
+    const vec3& corner = mesh.positions[mesh.triangles[hit.triangle][i]];
+    largest = std::max(largest, trace::max_abs_component(
+                                    vec3(world[static_cast<std::size_t>(instance.node)] * vec4(corner, 1))));
+  }
+  return largest;
+}
+
+/// Of an instance's origin.
+float world_distance(const scene::Scene& scene, const std::vector<mat4>& world, const trace::Hit& hit) {
+  const int node = scene.instances[static_cast<std::size_t>(hit.instance)].node;
+  return trace::max_abs_component(vec3(world[static_cast<std::size_t>(node)][3]));
+}
+
 TEST(Geometry, InstancedAndFlattenedScenesAreTheSame) {
   const scene::Scene scene = many_boxes();
   const std::vector<mat4> world = scene::world_matrices(scene);
@@ -134,6 +153,13 @@ TEST(Geometry, InstancedAndFlattenedScenesAreTheSame) {
     EXPECT_LT(glm::distance(sa.position, sb.position), 2e-5f);
     EXPECT_LT(glm::distance(sa.normal, sb.normal), 2e-4f);
     EXPECT_EQ(flat.is_back(a, ray.direction), instanced.is_back(b, ray.direction));
+    // New rays start above the surface, by more where a ray goes to an instance and back.
+    const float magnitude = largest_coordinate(scene, world, a), way = world_distance(scene, world, a);
+    const bool copy = a.instance < 6;
+    EXPECT_NEAR(glm::dot(origin_a - sa.position, sa.geometric_normal), trace::position_error(magnitude),
+                2e-7f);
+    EXPECT_NEAR(glm::dot(origin_b - sb.position, sb.geometric_normal),
+                trace::position_error(copy ? 4 * std::max(magnitude, way) : magnitude), 2e-7f);
   }
   EXPECT_GT(hits_on_copies, 200);
   // Rays at edges may choose the other triangle.

@@ -4,6 +4,7 @@
 
 #include <ssphh/core/file.h>
 
+#include "error_message.h"
 #include "hand_made.h"
 #include "memory_dir.h"
 #include "render_fields.h"
@@ -57,11 +58,69 @@ TEST(RenderState, HostileSizesAreRefusedBeforeMemoryIsTaken) {
   EXPECT_THROW(trace::load_state(folder / "bad", state.key), Error);
 }
 
-TEST(RenderState, AnotherKeyIsRefused) {
-  const TempDir folder;
-  const trace::RenderState state = some_state();
+/// What is said of a checkpoint without pixels but with a correct checksum, whose head has `value` at a
+/// place.
+template <class Value>
+std::string said_of_head(const TempDir& folder, std::size_t at, Value value, std::size_t floats = 0) {
+  trace::RenderParams params = view_point(vec3(0), 1, 1);
+  params.width = 0, params.height = 1;
+  trace::RenderState state = trace::empty_state(params, 0);
+  state.key = {3, 4};
+  trace::save_state(state, folder / "head");
+  std::vector<std::byte> data = read_file(folder / "head");
+  std::memcpy(data.data() + at, &value, sizeof(value));
+  data.resize(data.size() - sizeof(Hash128) + floats * sizeof(float));
+  const Hash128 hash = Hasher().bytes(data).finish();
+  data.resize(data.size() + sizeof(hash));
+  std::memcpy(data.data() + data.size() - sizeof(hash), &hash, sizeof(hash));
+  write_file(folder / "head", data);
+  const std::string said = message_of([&] { trace::load_state(folder / "head", {3, 4}); });
+  return said.substr(said.find(": ") == std::string::npos ? 0 : said.find(": ") + 2);
+}
+
+TEST(RenderState, HeadsAreWithinTheirLimits) {
+  const TempDir folder(memory_dir());
+  const auto number = [&](std::size_t at, std::int32_t value, std::size_t floats = 0) {
+    return said_of_head(folder, at, value, floats);
+  };
+  const auto damaged = [](const std::string& problem) {
+    return "not a usable render checkpoint: " + problem + " (remove it to start afresh)";
+  };
+  const std::string senseless = damaged("its header makes no sense"), size = damaged("its size is wrong");
+  EXPECT_EQ(number(8, 1), "no error");
+  EXPECT_EQ(number(8, 2), damaged("its version 2 is unknown"));
+  EXPECT_EQ(number(0, 0), damaged("it does not begin as one"));
+  EXPECT_EQ(number(12, 1, 17), "no error") << "seventeen floats for a pixel";
+  for (const std::size_t floats : {16, 18}) EXPECT_EQ(number(12, 1, floats), size);
+  EXPECT_EQ(number(16, 1 << 20), "no error");
+  for (const std::int32_t height : {(1 << 20) + 1, -1}) EXPECT_EQ(number(16, height), senseless);
+  EXPECT_EQ(number(12, 1 << 20), size);
+  for (const std::int32_t width : {(1 << 20) + 1, -1}) EXPECT_EQ(number(12, width), senseless);
+  EXPECT_EQ(number(20, 256), "no error");
+  for (const std::int32_t groups : {257, -1}) EXPECT_EQ(number(20, groups), senseless);
+  EXPECT_EQ(number(24, 7), "no error");
+  EXPECT_EQ(number(24, -1), senseless);
+  const std::string other =
+      "the checkpoint belongs to another scene or other render parameters (remove it, or repeat the options "
+      "it "
+      "was made with)";
+  for (const std::size_t at : {48, 56}) EXPECT_EQ(said_of_head(folder, at, std::uint64_t{7}), other);
+}
+
+TEST(RenderState, EveryCountAndImageIsLoadedAsItWasSaved) {
+  const TempDir folder(memory_dir());
+  trace::RenderState state = some_state();
+  ASSERT_EQ(state.groups.size(), 1u);
+  state.passes_done = 5, state.paths = (std::uint64_t{1} << 40) + 3,
+  state.rays = (std::uint64_t{1} << 41) + 4;
   trace::save_state(state, folder / "state");
-  EXPECT_THROW(trace::load_state(folder / "state", Hash128{1, 2}), Error);
+  const trace::RenderState back = trace::load_state(folder / "state", state.key);
+  expect_same_fields(back, state);
+  const std::vector<std::byte> whole = read_file(folder / "state");
+  write_file(folder / "short", std::span(whole).first(64 + 15));
+  EXPECT_TRUE(message_of([&] {
+                trace::load_state(folder / "short", state.key);
+              }).ends_with("checkpoint: the file is too short (remove it to start afresh)"));
 }
 
 TEST(RenderState, KeyHoldsEveryFieldOfItsParameters) {

@@ -12,6 +12,7 @@
 #include "gather_points.h"
 #include "inject.h"
 #include "patch_light.h"
+#include "transport/network_data.h"
 
 namespace ssphh::gi::methods {
 namespace {
@@ -30,17 +31,6 @@ scene::Bounds bounds_of_all_poses(const scene::TransportSource& source) {
     if (!bounds.empty()) all.add(bounds.min), all.add(bounds.max);
   }
   return all;
-}
-
-scene::Bounds in_world(const scene::Bounds& local, const mat4& pose) {
-  scene::Bounds box;
-  for (int corner = 0; corner < 8; ++corner) {
-    const vec3 at((corner & 1) != 0 ? local.max.x : local.min.x,
-                  (corner & 2) != 0 ? local.max.y : local.min.y,
-                  (corner & 4) != 0 ? local.max.z : local.min.z);
-    box.add(vec3(pose * vec4(at, 1)));
-  }
-  return box;
 }
 
 struct VctParams {
@@ -124,8 +114,8 @@ class Vct final : public Method {
     for (std::size_t p = 0; p < poses.size(); ++p) {
       const scene::Bounds local = scene_.source.part_bounds(static_cast<int>(p));
       if (local.empty() || poses_.empty() || poses[p] == poses_[p]) continue;
-      boxes.push_back(in_world(local, poses_[p]));
-      boxes.push_back(in_world(local, poses[p]));
+      boxes.push_back(transformed(local, poses_[p]));
+      boxes.push_back(transformed(local, poses[p]));
     }
     return boxes;
   }

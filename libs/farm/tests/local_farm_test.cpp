@@ -1,0 +1,165 @@
+/// A farm of this machine, with a program in place of the tool that tells what it was started with.
+
+#include <csignal>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <ssphh/core/log.h>
+#include <ssphh/core/parallel.h>
+#include <ssphh/farm/local_farm.h>
+
+#include "error_message.h"
+#include "temp_dir.h"
+
+namespace ssphh::farm {
+namespace {
+
+namespace fs = std::filesystem;
+using ssphh::test::message_of;
+using ssphh::test::TempDir;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// Far longer than it takes, so that only what never comes is a failure.
+bool comes_true(const std::function<bool()>& condition) {
+  for (int i = 0; i < 3000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+class LocalFarmTest : public testing::Test {
+ protected:
+  /// A program that prints its arguments and goes on with `rest`.
+  void write_tool(const std::string& rest) {
+    std::ofstream(options_.tool) << "#!/bin/sh\necho \"$@\"\n" << rest << "\n";
+    fs::permissions(options_.tool, fs::perms::owner_all);
+  }
+  static fs::path folder(const LocalFarm& farm) {
+    return fs::path(farm.address().endpoint.substr(std::string("ipc://").size())).parent_path();
+  }
+  static std::string started_with(const LocalFarm& farm, const std::string& log) {
+    EXPECT_TRUE(comes_true([&] { return text_of(folder(farm) / log).ends_with("\n"); })) << log;
+    return text_of(folder(farm) / log);
+  }
+  static std::string of_worker(const LocalFarm& farm, int threads, int worker, std::uint64_t mebibytes) {
+    return fmt::format(
+        "worker --broker {} --slots 1 --threads {} --name local:{} --cache /some/where --cache-size {}\n",
+        farm.address().endpoint, threads, worker, mebibytes);
+  }
+  /// Keeps the messages instead of showing them.
+  void SetUp() override {
+    options_.tool = dir_ / "tool";
+    options_.cache = "/some/where";
+    set_log_sink([this](LogLevel level, const std::string& message) {
+      const std::lock_guard lock(mutex_);
+      (level == LogLevel::error ? errors_ : warnings_).push_back(message);
+    });
+  }
+  void TearDown() override { set_log_sink({}); }
+
+  TempDir dir_;
+  LocalFarmOptions options_;
+  std::mutex mutex_;
+  std::vector<std::string> errors_, warnings_;
+};
+
+TEST_F(LocalFarmTest, StartsABrokerAndTwoWorkersThatShareTheMachine) {
+  write_tool("exec sleep 100");
+  fs::path folder_of_farm;
+  std::vector<int> pids;
+  {
+    const LocalFarm farm(options_);
+    folder_of_farm = folder(farm);
+    pids = farm.worker_pids();
+    ASSERT_EQ(pids.size(), 2u);
+    EXPECT_FALSE(farm.address().security);
+    EXPECT_EQ(farm.address().endpoint, "ipc://" + (folder_of_farm / "broker").string());
+    EXPECT_EQ(started_with(farm, "broker.log"),
+              "broker --bind " + farm.address().endpoint + " --attempts 5\n");
+    const int threads = std::max(1, thread_count() / 2);
+    EXPECT_EQ(started_with(farm, "worker-0.log"), of_worker(farm, threads, 0, 20 << 10));
+    EXPECT_EQ(started_with(farm, "worker-1.log"), of_worker(farm, threads, 1, 20 << 10));
+    EXPECT_EQ(fs::status(folder_of_farm / "worker-0.log").permissions(),
+              fs::perms::owner_read | fs::perms::owner_write);
+    for (const int pid : pids) EXPECT_EQ(::getpgid(pid), pid) << "Ctrl-C is for the parent alone";
+    EXPECT_EQ(farm.worker_pids(), pids);
+  }
+  EXPECT_FALSE(fs::exists(folder_of_farm));
+  for (const int pid : pids) EXPECT_EQ(::kill(pid, 0), -1) << "outlives its farm";
+  EXPECT_TRUE(warnings_.empty());
+  EXPECT_TRUE(errors_.empty());
+}
+
+TEST_F(LocalFarmTest, WorkersHaveThreadsAndCacheAsTheyAreAskedFor) {
+  write_tool("exec sleep 100");
+  options_.threads = 5;
+  for (const auto& [bytes, mebibytes] :
+       {std::pair{(std::uint64_t{7} << 20) + 12345, 7}, {std::uint64_t{1000}, 1}}) {
+    options_.workers = 3;
+    options_.cache_bytes = bytes;
+    const LocalFarm farm(options_);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(started_with(farm, fmt::format("worker-{}.log", i)),
+                of_worker(farm, 5, i, static_cast<std::uint64_t>(mebibytes)));
+    }
+  }
+}
+
+TEST_F(LocalFarmTest, WorkersThatDieAreStartedAgainEightTimesEach) {
+  write_tool("[ $1 = worker ] || exec sleep 100");
+  const LocalFarm farm(options_);
+  const auto given_up = [&] { return farm.worker_pids() == std::vector<int>{-1, -1}; };
+  ASSERT_TRUE(comes_true(given_up));
+  std::size_t starts = 0;
+  for (const char* log : {"worker-0.log", "worker-1.log"}) {
+    const std::string text = text_of(folder(farm) / log);
+    starts += static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  }
+  EXPECT_EQ(starts, 2u + 16u);
+  const std::lock_guard lock(mutex_);
+  ASSERT_EQ(warnings_.size(), 18u);
+  EXPECT_EQ(std::ranges::count(warnings_, "local worker 0 has ended; it is started again") +
+                std::ranges::count(warnings_, "local worker 1 has ended; it is started again"),
+            16);
+  EXPECT_EQ(std::ranges::count(warnings_, "local worker 0 has ended"), 1);
+  EXPECT_EQ(std::ranges::count(warnings_, "local worker 1 has ended"), 1);
+}
+
+TEST_F(LocalFarmTest, ABrokerThatEndsIsToldOnceWithTheEndOfItsLog) {
+  write_tool("[ $1 = broker ] || exec sleep 100\nprintf 'begin%01500dend' 7");
+  const LocalFarm farm(options_);
+  const auto count = [this] {
+    const std::lock_guard lock(mutex_);
+    return errors_.size();
+  };
+  ASSERT_TRUE(comes_true([&] { return count() > 0; }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));  // it looks ten times a second
+  const std::lock_guard lock(mutex_);
+  ASSERT_EQ(errors_.size(), 1u);
+  EXPECT_EQ(errors_[0], "the local broker has ended; its log: " + std::string(996, '0') + "7end");
+}
+
+TEST_F(LocalFarmTest, NumberOfWorkersHasLimits) {
+  for (const int workers : {-1, 0, 1025}) {
+    options_.workers = workers;
+    EXPECT_EQ(message_of([&] { LocalFarm farm(options_); }), "--local: must be 1 to 1024 workers");
+  }
+  write_tool("exec sleep 100");
+  options_.workers = 1;
+  EXPECT_NO_THROW(LocalFarm{options_});
+}
+
+}  // namespace
+}  // namespace ssphh::farm

@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+
+#include <ssphh/farm/engine.h>
+#include <ssphh/farm/job_codec.h>
+#include <ssphh/farm/worker_pool.h>
+
+#include "broker_thread.h"
+#include "error_message.h"
+#include "farm_fixtures.h"
+
+namespace ssphh::farm {
+namespace {
+
+using ssphh::test::message_of;
+using ssphh::test::TempDir;
+using test::BrokerThread;
+using test::PackedScene;
+using test::Quiet;
+using test::ServiceThread;
+
+WorkerPoolOptions pool_options(const BrokerAddress& broker, const TempDir& dir) {
+  WorkerPoolOptions options;
+  options.broker = broker;
+  options.cache = dir.path();
+  options.cache_bytes = 64 << 20;
+  return options;
+}
+
+TEST(WorkerPool, HasOneToAThousandAndTwentyFourSlots) {
+  for (const int slots : {-1, 0, 1025}) {
+    WorkerPoolOptions options;
+    options.slots = slots;
+    EXPECT_EQ(message_of([&] { run_workers(options, {}); }), "slots: must be 1 to 1024");
+  }
+}
+
+TEST(WorkerPool, LeavesWhenItHasHadNoJobForAsLongAsItWasTold) {
+  const Quiet quiet;
+  const TempDir dir;
+  const BrokerThread broker;
+  WorkerPoolOptions options = pool_options(broker.address(), dir);
+  options.slots = 2;
+  options.idle_exit = 0.1;
+  const WorkerPoolReport report = run_workers(options, {});
+  EXPECT_EQ(report.jobs, 0u);
+  EXPECT_EQ(report.busy_seconds, 0);
+  EXPECT_GE(report.seconds, 0.1);
+}
+
+// The first job waits for its scene for longer than the pool may be idle; the second is done nevertheless.
+TEST(WorkerPool, IsNotIdleWhileAJobRuns) {
+  const Quiet quiet;
+  const TempDir dir;
+  const BrokerThread broker;
+  const PackedScene packed("cornell");
+  const ServiceThread slow(broker.address(), blob_service(packed.package.id),
+                           [](const majordomo::Job&) -> majordomo::Frames {
+                             std::this_thread::sleep_for(std::chrono::milliseconds(400));
+                             throw Error("the scene", "is gone");
+                           });
+  WorkerPoolReport report;
+  std::thread pool([&] {
+    WorkerPoolOptions options = pool_options(broker.address(), dir);
+    options.idle_exit = 0.25;
+    report = run_workers(options, {});
+  });
+  {
+    majordomo::ClientOptions client_options;
+    client_options.endpoint = broker.address().endpoint;
+    majordomo::Client client(client_options);
+    ProbeJob job = test::gen_job(PackedScene("gallery1"));
+    job.scene = packed.ref();
+    client.submit(job_service(), {encode_job(job, ContentType::json)});
+    majordomo::RequestOptions second;
+    second.deadline = 20'000;
+    const std::string said = message_of([&] { client.call(job_service(), {"what?"}, second); });
+    EXPECT_NE(said.find("job: is no JSON object"), std::string::npos) << said;
+  }
+  pool.join();
+  EXPECT_GE(report.jobs, 1u);
+  EXPECT_GE(report.busy_seconds, 0.4);
+  EXPECT_LE(report.busy_seconds, report.seconds);
+}
+
+/// The worker's name in the result of a job that one of the pool's slots does.
+std::string name_in_result(const std::string& name, int slots) {
+  const TempDir dir;
+  const BrokerThread broker;
+  const PackedScene packed("gallery1");
+  const BlobServer server(broker.address(), packed.package);
+  CancelToken stop;
+  std::thread pool([&] {
+    WorkerPoolOptions options = pool_options(broker.address(), dir);
+    options.name = name;
+    options.slots = slots;
+    run_workers(options, {nullptr, &stop});
+  });
+  majordomo::ClientOptions client_options;
+  client_options.endpoint = broker.address().endpoint;
+  majordomo::Client client(client_options);
+  const majordomo::Frames reply =
+      client.call(job_service(), {encode_job(test::gen_job(packed), ContentType::json)});
+  stop.request();
+  pool.join();
+  EXPECT_EQ(content_type(reply.at(0)), ContentType::json) << "answers as it was asked";
+  return decode_result(reply.at(0)).stats.worker;
+}
+
+TEST(WorkerPool, TellsWhichSlotDidAJob) {
+  const Quiet quiet;
+  EXPECT_EQ(name_in_result("w", 1), "w");
+  const std::string slot = name_in_result("w", 2);
+  EXPECT_TRUE(slot == "w/0" || slot == "w/1") << slot;
+  EXPECT_EQ(name_in_result("", 1), test::name_of_this_process());
+}
+
+}  // namespace
+}  // namespace ssphh::farm
