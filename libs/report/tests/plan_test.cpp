@@ -286,12 +286,14 @@ TEST(Plan, WrongKindsAndDoublesAreNamed) {
   expect("methods: is empty", [](auto& j) { j["methods"] = ordered_json::array(), j.erase("published"); });
   expect("methods[0]/steps: is empty", [](auto& j) { j["methods"][0]["steps"] = ordered_json::array(); });
   expect("methods[0]/steps[0]: is empty", [](auto& j) { j["methods"][0]["steps"][0] = ""; });
-  expect("\"run\" is missing", [](auto& j) { j["methods"][0]["steps"][0] = {{"name", "x"}}; });
-  expect("\"name\" is missing", [](auto& j) { j["methods"][0].erase("name"); });
-  expect("\"steps\" is missing", [](auto& j) { j["methods"][0].erase("steps"); });
-  expect("\"scene\" is missing", [](auto& j) { j["scenes"][0].erase("scene"); });
-  expect("\"value\" is missing", [](auto& j) { j["columns"][1].erase("value"); });
-  expect("\"y\" is missing", [](auto& j) { j["charts"][0].erase("y"); });
+  expect("plan/methods[0]/steps[0]: \"run\" is missing", [](auto& j) {
+    j["methods"][0]["steps"][0] = {{"name", "x"}};
+  });
+  expect("plan/methods[0]: \"name\" is missing", [](auto& j) { j["methods"][0].erase("name"); });
+  expect("plan/methods[0]: \"steps\" is missing", [](auto& j) { j["methods"][0].erase("steps"); });
+  expect("plan/scenes[0]: \"scene\" is missing", [](auto& j) { j["scenes"][0].erase("scene"); });
+  expect("plan/columns[1]: \"value\" is missing", [](auto& j) { j["columns"][1].erase("value"); });
+  expect("plan/charts[0]: \"y\" is missing", [](auto& j) { j["charts"][0].erase("y"); });
   expect("\"picture\" or \"halves\" is missing", [](auto& j) { j["reference"].erase("halves"); });
   expect("unknown key \"repetitions\"", [](auto& j) { j["reference"]["repetitions"] = 2; });
   expect("halves: must be two pictures", [](auto& j) { j["reference"]["halves"] = {"a.exr"}; });
