@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -21,6 +22,13 @@ Status status_of(majordomo::Client& client, const Control& control) {
 
 double seconds(const json::Value& object, const char* key) {
   return object.number_or(key, 0) / 1000;
+}
+
+/// Without questions to the broker, as those of `top` itself, which its totals count as well.
+double finished_jobs(const json::Value& stats) {
+  double sum = 0;
+  for (const json::Value& service : stats["services"].elements()) sum += service.number_or("finished", 0);
+  return sum;
 }
 
 /// `per_second`: jobs finished, where it is known.
@@ -58,9 +66,9 @@ void top(const BrokerChoice& choice, double interval, int count, Context& contex
   for (int i = 0; count == 0 || i < count; ++i) {
     const Status status = status_of(client, context.control);
     const auto now = std::chrono::steady_clock::now();
-    const double finished = status.stats["total"].number_or("finished", 0);
+    const double finished = finished_jobs(status.stats);
     std::optional<double> rate;
-    if (before) rate = (finished - *before) / std::chrono::duration<double>(now - asked).count();
+    if (before) rate = std::max(0.0, finished - *before) / std::chrono::duration<double>(now - asked).count();
     before = finished, asked = now;
     if (!context.json && count != 1) fmt::print("\x1b[H\x1b[2J");
     context.result({{"stats", status.stats}, {"workers", status.workers["workers"]}},

@@ -40,4 +40,30 @@ CLI::App* add_group(CLI::App& parent, const std::string& name, const std::string
   return group;
 }
 
+void add_commands(CLI::App& app, Context& context) {
+  add_respond_command(app, context);
+  add_scene_commands(app, context);
+  add_render_command(app, context);
+  add_bake_command(app, context);
+  add_place_command(app, context);
+  add_hier_command(app, context);
+  add_probe_commands(app, context);
+  add_sh_commands(app, context);
+  add_cubemap_commands(app, context);
+  add_compare_command(app, context);
+  add_truth_command(app, context);
+  add_export_command(app, context);
+  add_leak_command(app, context);
+  add_measure_command(app, context);
+  add_methods_command(app, context);
+  add_relight_command(app, context);
+  add_broker_command(app, context);
+  add_bench_frame_command(app, context);
+  add_turntable_command(app, context);
+  add_view_command(app, context);
+  add_worker_command(app, context);
+  add_farm_commands(app, context);
+  add_report_command(app, context);
+}
+
 }  // namespace ssphh::app

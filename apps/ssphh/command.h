@@ -1,5 +1,5 @@
 #pragma once
-/// How a command of the tool is made: one file cmd_<name>.cpp per command, one line in the table of main.cpp.
+/// How a command of the tool is made: one file cmd_<name>.cpp per command, one line in add_commands().
 
 #include <cstdint>
 #include <functional>
@@ -33,6 +33,9 @@ CLI::App* add_command(CLI::App& parent, Context& context, const std::string& nam
 
 /// A command that only groups subcommands ("sh project", "probe info").
 CLI::App* add_group(CLI::App& parent, const std::string& name, const std::string& description);
+
+/// All of them.
+void add_commands(CLI::App& app, Context& context);
 
 void add_respond_command(CLI::App& app, Context& context);
 void add_scene_commands(CLI::App& app, Context& context);

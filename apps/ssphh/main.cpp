@@ -36,29 +36,7 @@ int run(int argc, char** argv) {
       "SCENE is a file (.glb .gltf .obj) or builtin:NAME (see `ssphh scene list`).\n"
       "Exit codes: 0 success, 1 failure (bad input, cancelled), 2 wrong usage.");
 
-  add_respond_command(app, context);
-  add_scene_commands(app, context);
-  add_render_command(app, context);
-  add_bake_command(app, context);
-  add_place_command(app, context);
-  add_hier_command(app, context);
-  add_probe_commands(app, context);
-  add_sh_commands(app, context);
-  add_cubemap_commands(app, context);
-  add_compare_command(app, context);
-  add_truth_command(app, context);
-  add_export_command(app, context);
-  add_leak_command(app, context);
-  add_measure_command(app, context);
-  add_methods_command(app, context);
-  add_relight_command(app, context);
-  add_broker_command(app, context);
-  add_bench_frame_command(app, context);
-  add_turntable_command(app, context);
-  add_view_command(app, context);
-  add_worker_command(app, context);
-  add_farm_commands(app, context);
-  add_report_command(app, context);
+  add_commands(app, context);
 
   const auto called = [&](const CLI::App* command) { return command->check_name(argv[1]); };
   if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(called).empty()) {

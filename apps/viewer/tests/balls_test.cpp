@@ -68,5 +68,35 @@ TEST(Balls, ShowTheValueOfTheFunctionAtEachVertex) {
   expect(Ball::sum, [&](const vec3& n) { return 2.0f * sh::eval(self, n); });
 }
 
+TEST(Balls, AreNeverDarkerThanBlack) {
+  gi::ProbeSet set = one_probe();
+  sh::RadianceSh& light = set.probes[0].self;
+  light[0] = vec3(-5, 0, 5), light[1] = vec3(0), light[2] = vec3(1);
+  const BallShader shader(make_ball(0));
+  std::vector<vec3> out(6);
+  shader.shade(set, 0, Ball::self, out);
+  for (std::size_t v = 0; v < 6; ++v)
+    EXPECT_EQ(out[v], glm::max(sh::eval(light, shader.mesh().vertices[v]), vec3(0)));
+  EXPECT_EQ(out[0].x, 0);
+  set.probes[0].self = {};
+  out.assign(6, vec3(7));
+  shader.shade(set, 0, Ball::self, out);
+  EXPECT_EQ(out, std::vector<vec3>(6, vec3(0))) << "a probe without light";
+}
+
+TEST(Balls, HaveASixthOfTheProbesDistanceAtMostTwelveCentimetres) {
+  const auto size = [](float spacing, int count) {
+    gi::ProbeSet set;
+    for (int i = 0; i < count; ++i)
+      set.probes.emplace_back().position = {spacing * static_cast<float>(i), 0, 0};
+    return default_ball_size(set);
+  };
+  EXPECT_FLOAT_EQ(size(0.3f, 4), 0.05f);
+  EXPECT_FLOAT_EQ(size(0.3f, 2), 0.05f);
+  EXPECT_FLOAT_EQ(size(3, 4), 0.12f);
+  EXPECT_FLOAT_EQ(size(0.001f, 4), 0.001f);
+  EXPECT_FLOAT_EQ(size(0.3f, 1), 0.12f);
+}
+
 }  // namespace
 }  // namespace ssphh::viewer

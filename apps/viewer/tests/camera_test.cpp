@@ -1,18 +1,11 @@
 #include <cmath>
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
-#include <ssphh/core/file.h>
-
-#include "json_schema.h"
-#include "model/camera_path.h"
-#include "places.h"
-#include "temp_dir.h"
+#include "model/view_camera.h"
 
 namespace ssphh::viewer {
 namespace {
-
-using testing::HasSubstr;
 
 void expect_near(const vec3& a, const vec3& b, float tolerance) {
   EXPECT_LT(glm::distance(a, b), tolerance)
@@ -89,113 +82,113 @@ TEST(ViewCamera, APixelsRayGoesThroughWhatIsProjectedThere) {
   }
 }
 
-/// A camera on the parabola p(t) = a + b t + c t², keyed at uneven times.
-CameraPath parabola(const std::vector<float>& times) {
-  CameraPath path;
-  for (const float t : times) {
-    CameraKey key;
-    key.time = t;
-    key.view =
-        look_at(vec3(1, 2, 3) + t * vec3(0.5f, -1, 2) + t * t * vec3(0.25f, 0.1f, -0.3f), {0, 0, 0}, 1);
-    path.keys.push_back(key);
-  }
-  return path;
+TEST(ViewCamera, EveryFieldGoesToTheSceneCameraAndBack) {
+  View view = look_at({1, 2, 3}, {-1, 1, 0}, 0.6f);
+  view.orthographic = true, view.yheight = 5, view.focus = 4;
+  const View back = view_of(pose_of(view), 4);
+  EXPECT_EQ(back.eye, view.eye);
+  EXPECT_NEAR(std::abs(glm::dot(back.orientation, view.orientation)), 1, 1e-6f);
+  EXPECT_EQ(back.yfov, 0.6f);
+  EXPECT_EQ(back.focus, 4);
+  EXPECT_TRUE(back.orthographic);
+  EXPECT_EQ(back.yheight, 5);
 }
 
-TEST(CameraPath, FollowsAParabolaExactly) {
-  // Every tangent is that of a parabola through three keys, so the spline has no error on one.
-  const CameraPath path = parabola({-1, 0.5f, 1, 3, 3.5f});
-  for (float t = -1; t <= 3.5f; t += 0.125f) {
-    const vec3 truth = vec3(1, 2, 3) + t * vec3(0.5f, -1, 2) + t * t * vec3(0.25f, 0.1f, -0.3f);
-    expect_near(at(path, t).view.eye, truth, 2e-5f);
-  }
+// Three axes of different lengths, one of them leaning.
+TEST(ViewCamera, LeavesScaleAndShearOfANodeOut) {
+  scene::CameraPose pose;
+  pose.world = {vec4(0, 2, 0, 0), vec4(-3, 1, 0, 0), vec4(0, 0, 5, 0), vec4(0, 0, 0, 1)};
+  const View view = view_of(pose, 1);
+  expect_near(view.forward(), {0, 0, -1}, 1e-6f);
+  expect_near(view.up(), glm::normalize(vec3(-3, 1, 0)), 1e-6f);
+  expect_near(view.right(), glm::normalize(vec3(1, 3, 0)), 1e-6f);
 }
 
-TEST(CameraPath, PassesItsKeysAndStaysAtItsEnds) {
-  CameraPath path = parabola({0, 1, 4});
-  path.keys[1].view.eye = {7, 7, 7};
-  for (const CameraKey& key : path.keys) EXPECT_EQ(at(path, key.time), key);
-  EXPECT_EQ(at(path, -5).view, path.keys.front().view);
-  EXPECT_EQ(at(path, 9).view, path.keys.back().view);
-  EXPECT_FLOAT_EQ(path.duration(), 4);
-}
-
-TEST(CameraPath, IsSmoothAtItsKeys) {
-  CameraPath path = parabola({0, 1, 4, 5});
-  path.keys[1].view.eye = {7, 7, 7}, path.keys[2].view.eye = {0, 3, 1};
-  const float h = 1e-2f;
-  for (const float t : {1.0f, 4.0f}) {
-    const vec3 before = (at(path, t).view.eye - at(path, t - h).view.eye) / h;
-    const vec3 after = (at(path, t + h).view.eye - at(path, t).view.eye) / h;
-    // Velocity is continuous; what differs is the acceleration over h.
-    EXPECT_LT(glm::distance(before, after), 0.05f * glm::length(before) + 0.5f);
+TEST(ViewCamera, StraightUpAndDownTheTopOfThePictureTellsWhereItFaces) {
+  expect_near(look_at({0, 0, 0}, {0, 5, 0}, 1).up(), {0, 0, 1}, 1e-6f);
+  expect_near(look_at({0, 0, 0}, {0, -5, 0}, 1).up(), {0, 0, -1}, 1e-6f);
+  // Facing −x; a turn to the left from straight above or below faces +z.
+  const View ahead = look_at({0, 0, 0}, {-1, 0, 0}, 1);
+  for (const float pole : {-1.0f, 1.0f}) {
+    View view = ahead;
+    view.orientation = glm::angleAxis(pi / 2, vec3(0, 1, 0)) * glm::angleAxis(pole * pi / 2, vec3(1, 0, 0));
+    const View turned_left = turned(turned(view, pi / 2, 0), 0, -pole * glm::radians(89.0f));
+    expect_near(turned_left.forward(), {0, 0, 1}, 1e-3f);
   }
 }
 
-TEST(CameraPath, TurnsTheShortWayAtConstantSpeed) {
-  CameraPath path;
-  append(path, {"a", 0, {}, look_at({0, 0, 0}, {0, 0, -1}, 1)});
-  append(path, {"b", 0, {}, look_at({0, 0, 0}, {1, 0, 0}, 1)});
-  path.keys[1].view.orientation *= -1.0f;  // the same orientation
-  const float right = glm::radians(22.5f);
-  expect_near(at(path, 0.5f).view.forward(), {std::sin(right), 0, -std::cos(right)}, 1e-5f);
+TEST(ViewCamera, TurnsKeepWhereItStandsAndWhatItSees) {
+  View view = look_at({1, 2, 3}, {4, 2, 2}, 0.7f);
+  view.focus = 9, view.yheight = 3;
+  const View out = turned(view, 0.25f, 0.5f);
+  EXPECT_EQ(out.eye, view.eye);
+  EXPECT_EQ(out.focus, 9);
+  EXPECT_EQ(out.yheight, 3);
+  EXPECT_EQ(out.yfov, 0.7f);
+  EXPECT_NEAR(out.forward().y, std::sin(0.5f), 1e-6f);
+  EXPECT_NEAR(turned(view, 0, -10).forward().y, -std::sin(glm::radians(89.0f)), 1e-6f);
+  View rolled = view;
+  rolled.orientation = view.orientation * glm::angleAxis(0.5f, vec3(0, 0, 1));
+  EXPECT_NEAR(turned(rolled, 0, 0).right().y, 0, 1e-6f) << "levels the horizon";
 }
 
-TEST(CameraPath, ScenePosesGoAlongOnlyWhereKeysHaveThem) {
-  CameraPath path = parabola({0, 1, 2});
-  EXPECT_FALSE(at(path, 0.5f).scene_time);
-  path.keys[0].scene_time = 0, path.keys[1].scene_time = 1;
-  EXPECT_FLOAT_EQ(*at(path, 0.25f).scene_time, 0.25f);
-  EXPECT_FLOAT_EQ(*at(path, 1.5f).scene_time, 1);
+TEST(ViewCamera, MovesAlongItsOwnAxes) {
+  const View view = look_at({1, 2, 3}, {0, 3, 1}, 1);
+  const View out = moved(view, {2, -3, 5});
+  expect_near(out.eye, view.eye + 2.0f * view.right() - 3.0f * view.up() + 5.0f * view.forward(), 1e-5f);
+  EXPECT_EQ(out.orientation, view.orientation);
+  EXPECT_EQ(out.focus, view.focus);
 }
 
-TEST(CameraPathFile, ComesBackToTheBitAndFitsItsSchema) {
-  CameraPath path = parabola({0, 0.1f, 2.7f});
-  path.keys[0].name = "door \"A\"";
-  path.keys[1].scene_time = 0.3f;
-  path.keys[2].view.orthographic = true;
-  for (CameraKey& key : path.keys) key.view.yfov = glm::radians(50.0f);
-  path.keys[2].view.yfov = View{}.yfov;  // an orthographic view has none
-  const test::TempDir dir;
-  write_camera_path(dir / "path.json", path);
-  const CameraPath back = read_camera_path(dir / "path.json");
-  ASSERT_EQ(back.keys.size(), path.keys.size());
-  for (std::size_t i = 0; i < path.keys.size(); ++i) {
-    EXPECT_EQ(back.keys[i].view.eye, path.keys[i].view.eye);
-    EXPECT_EQ(back.keys[i].view.orientation, path.keys[i].view.orientation);
-    EXPECT_NEAR(back.keys[i].view.yfov, path.keys[i].view.yfov, 1e-6f);  // degrees in the file
-    EXPECT_EQ(back.keys[i].scene_time, path.keys[i].scene_time);
-    EXPECT_EQ(back.keys[i].name, path.keys[i].name);
+TEST(ViewCamera, AMillimetreRemainsBeforeTheFocus) {
+  View view = look_at({0, 0, 0}, {0, 0, -2}, 1);
+  view.yheight = 3;
+  const View near = dollied(view, 1e-9f);
+  EXPECT_FLOAT_EQ(near.focus, 1e-3f);
+  EXPECT_FLOAT_EQ(near.yheight, 1e-3f);
+  expect_near(near.eye, {0, 0, -1.999f}, 1e-5f);
+  const View far = dollied(view, 2);
+  EXPECT_EQ(far.focus, 4);
+  EXPECT_EQ(far.yheight, 6);
+  expect_near(far.eye, {0, 0, 2}, 1e-5f);
+  EXPECT_EQ(look_at({1, 1, 1}, {1, 1, 1}, 1).focus, 1e-3f);
+}
+
+// The ball around the box touches the picture's nearer edges: half the angle's sine is radius over distance.
+TEST(ViewCamera, FramedIsNoFartherAwayThanNeeded) {
+  scene::Bounds box;
+  box.add({-2, -1, -2}), box.add({2, 1, 2});
+  const float radius = 3;
+  for (const float aspect : {0.5f, 1.0f, 2.0f}) {
+    const View view = framed(look_at({0, 0, 0}, {0, 0, -1}, 0.9f), box, aspect);
+    const float half = std::min(0.45f, std::atan(aspect * std::tan(0.45f)));
+    EXPECT_NEAR(view.focus, radius / std::sin(half), 1e-4f) << aspect;
+    expect_near(view.eye, {0, 0, view.focus}, 1e-4f);
+    EXPECT_NEAR(view.yheight, 2 * radius / std::min(aspect, 1.0f), 1e-4f) << aspect;
   }
-  EXPECT_THAT(test::schema_errors(test::source_dir() / "schemas/camera-path.schema.json",
-                                  read_text_file(dir / "path.json")),
-              testing::IsEmpty());
+  const View view = look_at({0, 0, 0}, {0, 0, -1}, 0.9f);
+  EXPECT_EQ(framed(view, scene::Bounds{}, 1), view);
 }
 
-TEST(CameraPathFile, NamesWhatIsWrongAndWhere) {
-  const auto message = [](const std::string& text) -> std::string {
-    try {
-      camera_path_from_json(text, "p.json");
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "no error";
-  };
-  EXPECT_THAT(message("{"), HasSubstr("p.json: is not JSON"));
-  EXPECT_THAT(message("[]"), HasSubstr("no array \"keys\""));
-  EXPECT_THAT(message(R"({"keys": []})"), HasSubstr("has no keys"));
-  EXPECT_THAT(message(R"({"keys": [7]})"), HasSubstr("keys[0]: is not an object"));
-  EXPECT_THAT(message(R"({"keys": [{"position": [0,0,0], "look": 1}]})"),
-              HasSubstr("unknown member \"look\""));
-  EXPECT_THAT(message(R"({"keys": [{"position": [0,0,0]}]})"), HasSubstr("look_at"));
-  EXPECT_THAT(message(R"({"keys": [{"position": [0,0], "look_at": [1,0,0]}]})"), HasSubstr("array of 3"));
-  EXPECT_THAT(message(R"({"keys": [{"position": [0,0,1e39], "look_at": [1,0,0]}]})"),
-              HasSubstr("out of range"));
-  EXPECT_THAT(message(R"({"keys": [{"position": [0,0,0], "rotation": [1,1,0,0]}]})"),
-              HasSubstr("unit quaternion"));
-  EXPECT_THAT(message(R"({"keys": [{"position": [0,0,0], "look_at": [1,0,0], "time": 1},
-                                   {"position": [0,0,0], "look_at": [1,0,0], "time": 1}]})"),
-              HasSubstr("keys[1]: \"time\" is not after"));
+// A view along −z, 90 degrees high: one metre at one metre's distance, twice as wide.
+TEST(ViewCamera, ProjectsByHandOverTwoAxes) {
+  View view = look_at({0, 0, 0}, {0, 0, -1}, pi / 2);
+  expect_near(project(view, {2, -1, -2}, 2), {0.75f, 0.25f, 2}, 1e-6f);
+  EXPECT_LT(project(view, {0, 0, 1}, 2).z, 0);
+  view.orthographic = true, view.yheight = 8;
+  expect_near(project(view, {2, -1, -2}, 2), {0.625f, 0.375f, 2}, 1e-6f);
+  const scene::RayQuery ray = pixel_ray(view, {0.625f, 0.375f}, 2);
+  expect_near(ray.origin, {2, -1, 0}, 1e-6f);
+  expect_near(ray.direction, {0, 0, -1}, 1e-6f);
+}
+
+TEST(ViewCamera, StartsWithTheseValues) {
+  const View view;
+  EXPECT_EQ(view.yfov, 0.8f);
+  EXPECT_EQ(view.focus, 3);
+  EXPECT_EQ(view.yheight, 2);
+  EXPECT_FALSE(view.orthographic);
+  EXPECT_EQ(view.forward(), vec3(0, 0, -1));
 }
 
 }  // namespace

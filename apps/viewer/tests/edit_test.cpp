@@ -42,6 +42,20 @@ TEST(History, ForgetsTheOldest) {
   EXPECT_EQ(history.now(), 10);
 }
 
+TEST(History, NamesWhatItWouldDo) {
+  History<int> history(0);
+  EXPECT_EQ(history.undo_name(), "");
+  EXPECT_EQ(history.redo_name(), "");
+  history.change(1, "a"), history.change(2, "b");
+  history.undo();
+  EXPECT_EQ(history.undo_name(), "a");
+  EXPECT_EQ(history.redo_name(), "b");
+  history.change(3, "a");
+  EXPECT_EQ(history.now(), 3);
+  history.undo();
+  EXPECT_EQ(history.now(), 1) << "undo ends a gesture: what follows is a step of its own";
+}
+
 Document two_rooms(float time = 0) {
   return make_document("builtin:two-rooms", scene::make_builtin("two-rooms"), time);
 }
@@ -103,6 +117,106 @@ TEST(Edits, MovedThingsAreWhereTheyWerePut) {
   EXPECT_EQ(light_position(world[static_cast<std::size_t>(scene.lights[0].node)]), vec3(1, 2, 0.5f));
 }
 
+TEST(Edits, OfASceneAreItsOwnValues) {
+  scene::Scene scene = scene::make_builtin("two-rooms");
+  scene.lights[0].color = {0.5f, 0.25f, 1};
+  scene.sphls[1].radius = 0.375f, scene.sphls[2].enabled = false;
+  const Edits edits = edits_of(scene);
+  EXPECT_EQ(edits.lights, (std::vector<LightEdit>{{{}, {0.5f, 0.25f, 1}, 4, true}}));
+  EXPECT_EQ(edits.materials.size(), scene.materials.size());
+  EXPECT_TRUE(edits.groups.empty());
+  ASSERT_EQ(edits.sphls.size(), 6u);
+  EXPECT_EQ(edits.sphls[1], (SphlEdit{1, {}, scene.sphls[1].name, 0.375f, true}));
+  EXPECT_FALSE(edits.sphls[2].enabled);
+}
+
+TEST(Edits, LightsAreAsTheyWereSet) {
+  const Document document = two_rooms();
+  Edits edits = document.edits();
+  edits.lights[0].color = {1, 0.5f, 0.25f}, edits.lights[0].intensity = 3;
+  const mat4 own = light_states(*document.scene, edits, 0)[0].world;
+  EXPECT_EQ(light_states(*document.scene, edits, 0)[0], (scene::LightState{own, {1, 0.5f, 0.25f}, 3}));
+  edits.lights[0].on = false;
+  EXPECT_EQ(light_states(*document.scene, edits, 0)[0].intensity, 0);
+  const mat4 there = with_position(own, {7, 8, 9});
+  edits.lights[0].world = there;
+  EXPECT_EQ(light_states(*document.scene, edits, 0)[0].world, there);
+  EXPECT_EQ(there[0], own[0]);
+  EXPECT_EQ(there[3], vec4(7, 8, 9, 1));
+}
+
+TEST(Edits, GroupsWithoutAFactorHaveOne) {
+  const scene::Scene scene = scene::make_builtin("gallery1");
+  Edits edits = edits_of(scene);
+  const std::vector<std::string> groups = scene::light_groups(scene);
+  ASSERT_GE(groups.size(), 2u);
+  edits.groups[groups[1]] = {1, 2, 3};
+  std::vector<vec3> wanted(groups.size(), vec3(1));
+  wanted[1] = {1, 2, 3};
+  EXPECT_EQ(group_scales(scene, edits), wanted);
+}
+
+TEST(Edits, SurfacesAreTheSameIfEveryValueIs) {
+  const scene::Material plain;
+  EXPECT_TRUE(same_surface(plain, plain));
+  scene::Material named = plain;
+  named.name = "other";
+  EXPECT_TRUE(same_surface(plain, named));
+  const std::vector<void (*)(scene::Material&)> changes = {
+      [](scene::Material& m) { m.base_color.y += 0.1f; },
+      [](scene::Material& m) { m.alpha -= 0.5f; },
+      [](scene::Material& m) { m.metallic += 0.1f; },
+      [](scene::Material& m) { m.diffuse_roughness += 0.1f; },
+      [](scene::Material& m) { m.specular_roughness += 0.1f; },
+      [](scene::Material& m) { m.specular += 0.1f; },
+      [](scene::Material& m) { m.ior += 0.1f; },
+      [](scene::Material& m) { m.emission.z += 0.1f; }};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    scene::Material changed = plain;
+    changes[i](changed);
+    EXPECT_FALSE(same_surface(plain, changed)) << i;
+  }
+}
+
+TEST(Edits, PlacesAreTheSameWhateverTheirNames) {
+  const std::vector<SphlEdit> base = {{0, {}, "a", 0.1f, true}, {-1, vec3(1, 2, 3), "b", 0.1f, true}};
+  std::vector<SphlEdit> other = base;
+  other[0].name = "c", other[1].radius = 2;
+  EXPECT_TRUE(same_places(base, other));
+  other[0].source = 1;
+  EXPECT_FALSE(same_places(base, other));
+  other = base, other[1].position = vec3(1, 2, 4);
+  EXPECT_FALSE(same_places(base, other));
+  other = base, other[0].enabled = false;
+  EXPECT_FALSE(same_places(base, other));
+  other = base, other.pop_back();
+  EXPECT_FALSE(same_places(base, other));
+}
+
+TEST(Edits, AnSphlStandsAtItsNodeUnlessMoved) {
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  const std::vector<mat4> world = scene::world_matrices(scene, 0);
+  const Edits edits = edits_of(scene);
+  const auto places = scene::sphl_places(scene, 0);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    EXPECT_EQ(sphl_position(scene, world, edits.sphls[i]), places[i].position);
+  SphlEdit moved = edits.sphls[0];
+  moved.position = vec3(1, 2, 3);
+  EXPECT_EQ(sphl_position(scene, world, moved), vec3(1, 2, 3));
+}
+
+TEST(Edits, MaterialsAloneLeaveLampsAndProbes) {
+  const Document document = two_rooms();
+  Edits edits = document.edits();
+  edits.materials[0].base_color = {0, 1, 0};
+  edits.lights[0].intensity = 99;
+  edits.sphls.clear();
+  const scene::Scene scene = with_materials(*document.scene, edits);
+  EXPECT_EQ(scene.materials[0].base_color, vec3(0, 1, 0));
+  EXPECT_EQ(scene.lights[0].intensity, document.scene->lights[0].intensity);
+  EXPECT_EQ(scene.sphls.size(), 6u);
+}
+
 TEST(Edits, DirectionTurnsALightOnTheSpot) {
   mat4 world(1);
   world[3] = vec4(4, 5, 6, 1);
@@ -118,7 +232,9 @@ TEST(Edits, ANewSphlGetsANameOfItsOwn) {
   Edits edits;
   for (int i = 0; i < 5; ++i) edits.sphls.push_back({-1, vec3(0), new_sphl_name(edits), 0.1f, true});
   edits.sphls.erase(edits.sphls.begin() + 1);
+  EXPECT_EQ(edits.sphls.back().name, "SPHL 5") << "the next number";
   const std::string name = new_sphl_name(edits);
+  EXPECT_EQ(name, "SPHL 6") << "5 is taken";
   for (const SphlEdit& sphl : edits.sphls) EXPECT_NE(sphl.name, name);
 }
 
@@ -144,6 +260,39 @@ TEST(Document, SavesASceneThatLoadsBackTheSame) {
   const Document again = make_document("again", back, 0.4f);
   EXPECT_EQ(light_states(back, again.edits(), 0.4f)[0].intensity, 7);
   EXPECT_THROW(save_document(document, dir / "rooms.obj"), Error);
+}
+
+TEST(Document, KnowsWhenAndHowLargeTheSceneIs) {
+  const Document document = two_rooms(0.25f);
+  EXPECT_EQ(document.source, "builtin:two-rooms");
+  EXPECT_EQ(document.time, 0.25f);
+  EXPECT_EQ(document.duration, scene::animation_duration(*document.scene));
+  EXPECT_GT(document.duration, 0);
+  const auto bounds = scene::world_bounds(*document.scene, scene::world_matrices(*document.scene, 0.25f));
+  EXPECT_EQ(document.bounds.min, bounds.min);
+  EXPECT_EQ(document.bounds.max, bounds.max);
+}
+
+TEST(Document, StartsWithTheMiddleOfTheSceneInFocus) {
+  const Document document = two_rooms();
+  const View view = start_view(document, "room-b");
+  EXPECT_FLOAT_EQ(view.focus, glm::distance(view.eye, document.bounds.center()));
+  Document empty = make_document("nothing", scene::Scene(*document.scene), 0);
+  empty.bounds = {};
+  EXPECT_EQ(start_view(empty, "room-b").focus, 3);
+  empty.bounds.add(view.eye - 0.01f), empty.bounds.add(view.eye + 0.01f);
+  EXPECT_FLOAT_EQ(start_view(empty, "room-b").focus, 0.1f) << "the camera stands there";
+}
+
+TEST(Document, IsSavedWithLightsAndProbesInTheOrderOfTheirNodes) {
+  Document document = two_rooms();
+  // A moved SPHL gets a node at the end.
+  document.edit("move", [](Edits& e) { e.sphls[0].position = vec3(-3, 1, 0); });
+  const scene::Scene scene = scene_to_save(document);
+  ASSERT_EQ(scene.sphls.size(), 6u);
+  for (std::size_t i = 1; i < scene.sphls.size(); ++i)
+    EXPECT_LT(scene.sphls[i - 1].node, scene.sphls[i].node);
+  EXPECT_EQ(scene.sphls.back().name, "A west");
 }
 
 TEST(Document, StartsAtTheNamedCamera) {

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <thread>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -8,126 +7,11 @@
 
 #include "model/document.h"
 #include "model/frame_times.h"
+#include "model/live_light.h"
 #include "model/pick.h"
-#include "model/reference.h"
 
 namespace ssphh::viewer {
 namespace {
-
-using namespace std::chrono_literals;
-
-template <class Condition>
-bool wait_for(const Condition& condition) {
-  for (int i = 0; i < 4000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(5ms);
-  }
-  return false;
-}
-
-TEST(BackgroundJob, HandsOverOnTheCallersThreadInOrder) {
-  BackgroundJob job;
-  std::vector<int> got;
-  const auto window = std::this_thread::get_id();
-  const auto step = [&](int i) {
-    return [&, i] {
-      EXPECT_EQ(std::this_thread::get_id(), window);
-      got.push_back(i);
-    };
-  };
-  job.start("count", [&](const Control& control) -> BackgroundJob::Finish {
-    ProgressStage stage(control, "counting", 3, "numbers");
-    for (int i = 0; i < 3; ++i) job.hand_over(step(i)), stage.advance(1);
-    return step(3);
-  });
-  EXPECT_TRUE(wait_for([&] { return !job.running(); }));
-  EXPECT_TRUE(got.empty()) << "nothing happens behind the window's back";
-  EXPECT_FALSE(job.idle()) << "a result waits";
-  EXPECT_TRUE(job.poll());
-  EXPECT_THAT(got, testing::ElementsAre(0, 1, 2, 3));
-  EXPECT_FALSE(job.poll());
-  EXPECT_TRUE(job.idle());
-  EXPECT_EQ(job.status().stage, "counting");
-  EXPECT_EQ(job.status().fraction, 1);
-}
-
-TEST(BackgroundJob, CancelStopsItAndDropsTheResult) {
-  BackgroundJob job;
-  bool handed = false;
-  job.start("forever", [&](const Control& control) -> BackgroundJob::Finish {
-    job.hand_over([&] { handed = true; });
-    for (;;) control.check(), std::this_thread::sleep_for(1ms);
-  });
-  job.cancel();
-  EXPECT_TRUE(wait_for([&] { return !job.running(); }));
-  EXPECT_FALSE(job.poll());
-  EXPECT_FALSE(handed);
-  EXPECT_EQ(job.status().error, "");
-}
-
-TEST(BackgroundJob, TellsWhyItFailedAndStartsAnew) {
-  BackgroundJob job;
-  job.start("bad", [](const Control&) -> BackgroundJob::Finish { throw Error("probes", "there are none"); });
-  EXPECT_TRUE(wait_for([&] { return !job.running(); }));
-  EXPECT_EQ(job.status().error, "probes: there are none");
-  bool done = false;
-  job.start("good", [&](const Control&) -> BackgroundJob::Finish { return [&] { done = true; }; });
-  EXPECT_TRUE(wait_for([&] { return job.poll(); }));
-  EXPECT_TRUE(done);
-  EXPECT_EQ(job.status().error, "");
-}
-
-TEST(BackgroundJob, AnewWhileOneRunsDropsTheOld) {
-  BackgroundJob job;
-  std::vector<int> got;
-  for (int i = 0; i < 20; ++i) {
-    job.start("racing", [&, i](const Control&) -> BackgroundJob::Finish {
-      job.hand_over([&, i] { got.push_back(i); });
-      return [] {};
-    });
-  }
-  EXPECT_TRUE(wait_for([&] { return !job.running(); }));
-  job.poll();
-  EXPECT_THAT(got, testing::ElementsAre(19));
-}
-
-TEST(Reference, AddsPassesUntilItsLimit) {
-  const Document document = make_document("cornell", scene::make_builtin("cornell"), 0);
-  Reference reference;
-  ReferenceParams params;
-  params.scene = document.scene;
-  params.camera = pose_of(start_view(document, ""));
-  params.width = 24, params.height = 16, params.passes = 4;
-  reference.start(params);
-  EXPECT_TRUE(wait_for([&] { return reference.poll(), reference.image().passes == 4; }));
-  const image::Image& picture = *reference.image().color;
-  EXPECT_EQ(picture.width, 24);
-  EXPECT_EQ(picture.height, 16);
-  float sum = 0;
-  for (const float v : picture.pixels) sum += v;
-  EXPECT_GT(sum, 0);
-  reference.clear();
-  EXPECT_FALSE(reference.image().color);
-}
-
-TEST(Reference, TakesIndirectLightFromAnotherMethod) {
-  const Document document = make_document("cornell", scene::make_builtin("cornell"), 0);
-  const auto indirect = [&](const char* method) {
-    Reference reference;
-    ReferenceParams params;
-    params.scene = document.scene;
-    params.camera = pose_of(start_view(document, ""));
-    params.width = 24, params.height = 16, params.passes = 4;
-    params.method = method;
-    reference.start(params);
-    EXPECT_TRUE(wait_for([&] { return reference.poll(), reference.image().passes == 4; })) << method;
-    float sum = 0;
-    for (const float v : reference.image().indirect->pixels) sum += v;
-    return sum;
-  };
-  EXPECT_EQ(indirect("direct"), 0);
-  EXPECT_GT(indirect("ambient"), 0);
-}
 
 TEST(LiveLight, AnOpenedDoorLightsRoomB) {
   const Document document = make_document("rooms", scene::make_builtin("two-rooms"), 0);
@@ -152,12 +36,112 @@ TEST(LiveLight, AnOpenedDoorLightsRoomB) {
   EXPECT_EQ(set, light.probes()) << "refreshing equals making anew";
 }
 
+LiveLightParams few_directions() {
+  LiveLightParams params;
+  params.relight.transport = {.directions = 32, .surfel_size = 0.5f, .link_rays = 8};
+  params.relight.degree = 2;
+  return params;
+}
+
+TEST(LiveLight, FollowsLampsAndFactorsAsASessionDoes) {
+  const Document document = make_document("rooms", scene::make_builtin("two-rooms"), 0);
+  LiveLightParams params = few_directions();
+  params.places = {{"p", {-2, 1, 0.5f}, 0.2f}, {"q", {-3, 2, 0}, 0.1f}};
+  LiveLight light(document.scene, params, 0.5f);
+  EXPECT_EQ(light.session().places().size(), 2u);
+  EXPECT_FALSE(light.session().reflected().empty()) << "lit at once";
+
+  std::vector<scene::LightState> lights = light_states(*document.scene, document.edits(), 0);
+  lights[0].intensity = 7, lights[0].world[3].x += 0.5f;
+  const std::vector<vec3> scales = {{1, 0.5f, 2}};
+  light.update(lights, scales, 1);
+  gi::RelightSession session(light.source(), params.places, params.relight, 0.5f);
+  session.update();
+  session.set_time(1);
+  session.set_light(0, lights[0]);
+  session.set_group_scale(0, scales[0]);
+  session.update();
+  EXPECT_EQ(light.session().reflected(), session.reflected());
+
+  const gi::ProbeSet set = light.probes();
+  EXPECT_EQ(set.degree, 2);
+  ASSERT_EQ(set.probes.size(), 2u);
+  EXPECT_EQ(set.probes[0].name, "p");
+  EXPECT_EQ(set.probes[0].position, vec3(-2, 1, 0.5f));
+  EXPECT_EQ(set.probes[0].radius, 0.2f);
+  EXPECT_EQ(set.probes[1].self, session.reflected()[1]);
+  EXPECT_EQ(set.generator.op, gi::LightOperator::surfel);
+}
+
+TEST(LiveLight, FindsPlacesWhereNoneAreGiven) {
+  const auto scene = std::make_shared<const scene::Scene>(scene::make_builtin("two-rooms"));
+  LiveLightParams params = few_directions();
+  params.spacing = 1.5f;
+  const LiveLight light(scene, params, 0);
+  gi::PlaceParams place = gi::place_params(*scene, 0);
+  place.spacing = 1.5f;
+  const gi::Placement wanted = gi::place_probes(light.source(), place);
+  ASSERT_EQ(light.session().places().size(), wanted.probes.size());
+  for (std::size_t i = 0; i < wanted.probes.size(); ++i) {
+    EXPECT_EQ(light.session().places()[i].name, wanted.probes[i].name);
+    EXPECT_EQ(light.session().places()[i].position, wanted.probes[i].position);
+    EXPECT_EQ(light.session().places()[i].radius, wanted.probes[i].radius);
+  }
+}
+
+TEST(LiveLight, ABakeHasGroupsApartAndTellsHowItWasMade) {
+  const Document document = make_document("gallery", scene::make_builtin("gallery1"), 0);
+  LiveLightParams params = few_directions();
+  params.places = {{"p", scene::sphl_places(*document.scene, 0)[0].position, 0.2f},
+                   {"q", scene::sphl_places(*document.scene, 0)[1].position, 0.3f}};
+  LiveLight light(document.scene, params, 0);
+  std::vector<vec3> scales = group_scales(*document.scene, document.edits());
+  ASSERT_GE(scales.size(), 2u);
+  scales[1] = {0.5f, 0.25f, 2};
+  const gi::ProbeSet set = light.bake(*document.scene, scales, 0.125f);
+  const gi::TransportParams& transport = light.session().network().params();
+  gi::GeneratorInfo generator;
+  generator.op = gi::LightOperator::surfel;
+  generator.directions = 32, generator.surfel_size = transport.surfel_size, generator.link_rays = 8;
+  generator.scene = document.scene->name, generator.scene_hash = scene::light_hash(*document.scene);
+  generator.time = 0.125f;
+  EXPECT_EQ(set.generator, generator);
+  EXPECT_GT(set.generator.surfel_size, 0);
+  EXPECT_EQ(set.degree, 2);
+  const auto reflected = light.session().reflected_by_group(), emitted = light.session().emitted_by_group();
+  ASSERT_EQ(set.light_groups.size(), scales.size());
+  for (std::size_t g = 0; g < scales.size(); ++g) {
+    EXPECT_EQ(set.light_groups[g], (gi::LightGroup{light.source().light_groups()[g], scales[g]}));
+    for (std::size_t i = 0; i < 2; ++i)
+      EXPECT_EQ(set.probes[i].groups[g], (gi::GroupLight{emitted[g][i], reflected[g][i]}));
+  }
+  EXPECT_EQ(set.probes[1].radius, 0.3f);
+  gi::ProbeSet merged = set;
+  gi::merge_groups(merged);
+  EXPECT_EQ(merged, set);
+  EXPECT_FALSE(set.probes[0].self.empty());
+}
+
 TEST(Pick, TakesTheNearestSphereInFront) {
   const std::vector<vec3> centers{{0, 0, -9}, {0, 0.05f, -4}, {0, 0, 3}, {2, 0, -4}};
   const scene::RayQuery ray{{0, 0, 0}, {0, 0, -1}, 100};
   EXPECT_EQ(pick_sphere(ray, centers, 0.1f, 100), 1);
   EXPECT_EQ(pick_sphere(ray, centers, 0.1f, 3), -1) << "a surface is nearer";
   EXPECT_EQ(pick_sphere(ray, centers, 0.01f, 100), 0);
+}
+
+// Spheres of radius 1 straight ahead, their front at a distance of 1 and 3.
+TEST(Pick, ASphereBeginsAtItsFront) {
+  const std::vector<vec3> two{{0, 0, -4}, {0, 0, -2}};
+  const scene::RayQuery ray{{0, 0, 0}, {0, 0, -1}, 100};
+  EXPECT_EQ(pick_sphere(ray, two, 1, 100), 1);
+  EXPECT_EQ(pick_sphere(ray, two, 1, 1.01f), 1);
+  EXPECT_EQ(pick_sphere(ray, two, 1, 1), -1) << "a surface as near hides it";
+  const std::vector<vec3> around{{0, 0, -0.5f}};
+  EXPECT_EQ(pick_sphere(ray, around, 1, 100), -1) << "from within";
+  const std::vector<vec3> beside{{0.6f, 0.7f, -4}};  // 0.922 from the ray
+  EXPECT_EQ(pick_sphere(ray, beside, 0.93f, 100), 0);
+  EXPECT_EQ(pick_sphere(ray, beside, 0.91f, 100), -1);
 }
 
 TEST(Pick, FindsTheDoorWhereItStandsAtThatTime) {
@@ -181,6 +165,21 @@ TEST(Pick, DragsAlongAnAxisAndOnAPlane) {
   EXPECT_FALSE(on_plane(ray, {0, 0, 11}, {0, 0, 1}));
 }
 
+TEST(Pick, TheNearestPointOfAnAxisIsThatOfTwoLines) {
+  // A ray that leans by 45 degrees, from (1, 2, 3) on: over the axis through (0, 2, 0) along x it passes at
+  // x = 1 − 3 = −2, wherever on the axis its origin is put.
+  const scene::RayQuery ray{{1, 2, 3}, glm::normalize(vec3(-1, 0, -1)), 100};
+  EXPECT_NEAR(*along_axis(ray, {0, 2, 0}, {1, 0, 0}), -2, 1e-5f);
+  EXPECT_NEAR(*along_axis(ray, {5, 2, 0}, {1, 0, 0}), -7, 1e-5f);
+  EXPECT_NEAR(*along_axis(ray, {0, 0, 0}, {1, 0, 0}), -2, 1e-5f) << "past it, two metres above";
+  const scene::RayQuery twice{{1, 2, 3}, {-2, 0, -2}, 100};
+  EXPECT_NEAR(*along_axis(twice, {0, 2, 0}, {1, 0, 0}), -2, 1e-5f) << "a direction of any length";
+  EXPECT_TRUE(along_axis({{0, 0, 0}, {1, 0.002f, 0}, 100}, {0, 1, 0}, {1, 0, 0}));
+  EXPECT_FALSE(along_axis({{0, 0, 0}, {1, 0.0005f, 0}, 100}, {0, 1, 0}, {1, 0, 0}));
+  EXPECT_NEAR(glm::distance(*on_plane(ray, {0, 0, 1}, {0, 0, 1}), vec3(-1, 2, 1)), 0, 1e-5f);
+  EXPECT_FALSE(on_plane(ray, {0, 0, 1}, {0, 1, 0})) << "along the plane";
+}
+
 TEST(FrameTimes, QuantilesAreOfTheLastFramesOnly) {
   History1d times;
   EXPECT_EQ(times.quantile(0.5), 0);
@@ -192,6 +191,12 @@ TEST(FrameTimes, QuantilesAreOfTheLastFramesOnly) {
   EXPECT_EQ(times.count(), History1d::length);
   EXPECT_EQ(times.at(0), 101);
   EXPECT_EQ(times.median(), 100 + History1d::length / 2);
+  EXPECT_EQ(times.quantile(0), 101);
+  EXPECT_EQ(times.quantile(1), 100 + History1d::length);
+  EXPECT_EQ(times.last(), 100 + History1d::length);
+  EXPECT_EQ(times.at(History1d::length - 1), times.last());
+  EXPECT_EQ(History1d{}.last(), 0);
+  EXPECT_EQ(History1d::length, 240);
 }
 
 TEST(FrameTimes, AreWrittenAsJsonAndCsv) {
@@ -200,7 +205,14 @@ TEST(FrameTimes, AreWrittenAsJsonAndCsv) {
   const auto json = nlohmann::json::parse(times.to_json({{"renderer", "x"}}));
   EXPECT_EQ(json["renderer"], "x");
   EXPECT_EQ(json["stages"][0]["median_ms"], 2);
+  EXPECT_EQ(
+      json["stages"][0],
+      nlohmann::json({{"name", "frame"}, {"frames", 2}, {"median_ms", 2}, {"p99_ms", 4}, {"last_ms", 4}}));
   EXPECT_EQ(json["stages"][1]["frames"], 1);
+  EXPECT_EQ(json["stages"].size(), 2u);
+  times.clear();
+  EXPECT_TRUE(times.stages().empty());
+  times.add("frame", 2), times.add("frame", 4), times.add("shadow", 1);
   EXPECT_EQ(times.to_csv(), "frame,frame [ms],shadow [ms]\n0,2.0000,\n1,4.0000,1.0000\n");
 }
 

@@ -2,12 +2,14 @@
 #include <set>
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
 #include <ssphh/report/cache.h>
 #include <ssphh/report/jobs.h>
 
+#include "error_message.h"
 #include "temp_dir.h"
 
 namespace ssphh::report {
@@ -136,6 +138,119 @@ TEST(Jobs, ScenesWithoutAHashAreLeftOut) {
   EXPECT_TRUE(expand(plan_of(chain), none).cells.empty());
 }
 
+TEST(Jobs, AllOptionsThatNameAnOutputDo) {
+  const Expansion e = expand(plan_of(R"([{"name": "m", "steps": [
+      "render {scene} -o a.exr --png b.png --save c.sphl --output d.exr --other e.exr"]}])"),
+                             context());
+  EXPECT_THAT(e.jobs[0].outputs, testing::ElementsAre("a.exr", "b.png", "c.sphl", "d.exr"));
+  EXPECT_THAT(
+      command_line(e.jobs[0], "/cache", "/work"),
+      testing::ElementsAre("render", "builtin:x", "--time", "1", "-o", "/work/a.exr", "--png", "/work/b.png",
+                           "--save", "/work/c.sphl", "--output", "/work/d.exr", "--other", "e.exr"));
+}
+
+TEST(Jobs, AnOutputIsABareName) {
+  for (const char* bad : {"a/b.exr", "''", ".", ".."}) {
+    const Plan plan = plan_of(R"([{"name": "m", "steps": [{"name": "first", "run": "render {scene} -o )" +
+                              std::string(bad) + R"("}]}])");
+    EXPECT_THAT(
+        test::message_of([&] { expand(plan, context()); }),
+        testing::HasSubstr("step first: output \"" + std::string(bad == std::string("''") ? "" : bad) +
+                           "\" must be a bare name"))
+        << bad;
+  }
+  EXPECT_THAT(test::message_of([&] {
+                expand(
+                    plan_of(R"([{"name": "m", "steps": ["render {scene} -o o.exr"], "picture": "p.exr"}])"),
+                    context());
+              }),
+              testing::HasSubstr("method m: no step writes \"p.exr\""));
+}
+
+// OUT.exr stands for OUT.a.exr, but not for OUT.a.hdr, OTHER.exr or a name without an extension.
+TEST(Jobs, WhatLiesBesideAnOutputHasItsStemAndExtension) {
+  const auto reads = [](const std::string& name) {
+    const Expansion e =
+        expand(plan_of(R"([{"name": "m", "steps": ["bake {scene} -o o.exr", "render {scene} --probes )" +
+                       name + R"("]}])"),
+               context());
+    return !e.jobs[1].needs.empty();
+  };
+  EXPECT_TRUE(reads("o.exr"));
+  EXPECT_TRUE(reads("o.a.exr"));
+  EXPECT_FALSE(reads("o.a.hdr"));
+  EXPECT_FALSE(reads("oo.exr"));
+  EXPECT_FALSE(reads("o"));
+}
+
+TEST(Jobs, AFileOfTwoWritersIsThatOfTheLast) {
+  const Expansion e = expand(plan_of(R"([{"name": "m", "picture": "p.exr", "steps": [
+      {"name": "a", "run": "bake {scene} -o p.exr"}, {"name": "b", "run": "render {scene} -o p.exr"}]}])"),
+                             context());
+  EXPECT_EQ(e.cells[0].runs[0].pictures[0], e.jobs[1].key + "/p.exr");
+}
+
+TEST(Jobs, CellsComeByScenesTheirReferenceFirst) {
+  const Plan plan = parse_plan(R"({
+    "scenes": [{"name": "s", "scene": "a"}, {"name": "t", "scene": "b"}, {"name": "gone", "scene": "c"}],
+    "reference": {"steps": ["render {scene} -o t.exr"], "picture": "t.exr"},
+    "methods": [{"name": "m", "parameters": {"n": [1, 2]}, "steps": ["render {scene} --n {n}"]},
+                {"name": "only t", "scenes": ["t"], "steps": ["render {scene} --x"], "repetitions": 2}]})",
+                               "plan", {"render"});
+  const Expansion e = expand(plan, {"/nowhere", "1.0", {{"s", "h"}, {"t", "i"}}, 0});
+  std::string cells;
+  for (const Cell& cell : e.cells)
+    cells += std::to_string(cell.scene) + " " + std::to_string(cell.method) + " " + cell.label + " " +
+             std::to_string(cell.runs.size()) + "; ";
+  EXPECT_EQ(cells,
+            "0 -1 reference 1; 0 0 m, n 1 1; 0 0 m, n 2 1; 1 -1 reference 1; 1 0 m, n 1 1; 1 0 m, n 2 1; "
+            "1 1 only t 2; ");
+  EXPECT_EQ(e.cells[1].parameters, (Parameters{{"n", "1"}}));
+  EXPECT_EQ(e.jobs[0].scene, "s");
+  EXPECT_EQ(e.jobs.back().scene, "t");
+}
+
+TEST(Jobs, ValuesOfTheSceneComeBeforeThePlansAndThoseOfTheMethodBeforeBoth) {
+  const Plan plan = parse_plan(R"({"variables": {"a": 1, "b": 1, "c": 1},
+    "scenes": [{"name": "s", "scene": "x", "variables": {"b": 2, "c": 2}}],
+    "methods": [{"name": "m", "parameters": {"c": [3]}, "steps": ["render {scene} {a} {b} {c}"]}]})",
+                               "plan", {"render"});
+  EXPECT_THAT(expand(plan, {"/nowhere", "1.0", {{"s", "h"}}, 2}).jobs[0].words,
+              testing::ElementsAre("render", "x", "1", "2", "3", "--threads", "2"));
+}
+
+TEST(Jobs, AnOptionOfThePlanIsNotGivenTwice) {
+  const Plan plan = plan_of(R"([{"name": "m", "steps": ["render {scene} --threads 7"]}])");
+  ExpandContext threads = context();
+  threads.threads = 3;
+  EXPECT_THAT(expand(plan, threads).jobs[0].words,
+              testing::ElementsAre("render", "builtin:x", "--time", "1", "--threads", "7"));
+}
+
+TEST(Jobs, AnEarlierFileIsNamedByItsKeyOf32Digits) {
+  Job job;
+  const std::string key(32, 'a');
+  job.words = {"hier", "@" + key + "/p", "@" + key, "@short/p", "@" + key + "x/p", "x" + key + "/p"};
+  EXPECT_THAT(command_line(job, "/cache", "/work"),
+              testing::ElementsAre("hier", "/cache/" + key + "/p", "@" + key, "@short/p", "@" + key + "x/p",
+                                   "x" + key + "/p"));
+}
+
+TEST(Jobs, AFileInThePlansFolderComesBeforeOneInTheCurrent) {
+  const TempDir dir, current;
+  write_file(dir / "sky.hdr", std::string_view("plan's"));
+  write_file(current / "sky.hdr", std::string_view("current"));
+  write_file(current / "other.hdr", std::string_view("current"));
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(current.path());
+  PlanScene scene;
+  scene.words = {"sky.hdr", "other.hdr", "-other.hdr", "--x=sky.hdr", "none.hdr"};
+  const std::vector<std::string> words = scene_words(scene, dir.path());
+  std::filesystem::current_path(before);
+  EXPECT_THAT(words, testing::ElementsAre((dir / "sky.hdr").string(), (current / "other.hdr").string(),
+                                          "-other.hdr", "--x=" + (dir / "sky.hdr").string(), "none.hdr"));
+}
+
 TEST(Cache, KeepsAndFindsARun) {
   const TempDir dir;
   const Job job = expand(plan_of(chain), context()).jobs[0];
@@ -162,11 +277,42 @@ TEST(Cache, KeepsAndFindsARun) {
   EXPECT_FALSE(find_run(dir.path(), job.key, "")) << "a file is not as it was";
 }
 
+TEST(Cache, WhatIsNotAsItWasWrittenIsNoRun) {
+  const TempDir dir;
+  const Job job = expand(plan_of(chain), context()).jobs[0];
+  const auto make = [&] {
+    std::filesystem::create_directories(dir / "work/folder");
+    write_file(dir / "work/p.sphl", std::string_view("1234"));
+    write_file(dir / "work/stdout", std::string_view("{}"));
+    keep_run(dir.path(), job, dir / "work", {});
+    return find_run(dir.path(), job.key, "");
+  };
+  const std::filesystem::path record = dir.path() / job.key / "run.json";
+  const auto kept = make();
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->files.size(), 2u) << "folders do not count";
+  const auto json = nlohmann::ordered_json::parse(read_text_file(record));
+  EXPECT_EQ(json["key"], job.key);
+  for (const auto& [key, value] : json.items()) {
+    if (key == "key") continue;
+    nlohmann::ordered_json less = json;
+    less.erase(key);
+    write_file(record, less.dump());
+    EXPECT_FALSE(find_run(dir.path(), job.key, "")) << "without " << key;
+  }
+  write_file(record, std::string_view("{"));
+  EXPECT_FALSE(find_run(dir.path(), job.key, ""));
+  EXPECT_TRUE(make());
+  std::filesystem::remove(dir.path() / job.key / "stdout");
+  EXPECT_FALSE(find_run(dir.path(), job.key, ""));
+}
+
 TEST(Cache, AMissingOutputIsNoRun) {
   const TempDir dir;
   const Job job = expand(plan_of(chain), context()).jobs[0];
   std::filesystem::create_directories(dir / "work");
-  EXPECT_THROW(keep_run(dir.path(), job, dir / "work", {}), Error);
+  EXPECT_EQ(test::message_of([&] { keep_run(dir.path(), job, dir / "work", {}); }),
+            "p.sphl: was not written by bake builtin:x --time 1 -o p.sphl");
 }
 
 }  // namespace

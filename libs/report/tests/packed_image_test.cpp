@@ -1,11 +1,15 @@
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include <gmock/gmock.h>
+#include <zlib.h>
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/random.h>
 #include <ssphh/report/packed_image.h>
+
+#include "error_message.h"
 
 namespace ssphh::report {
 namespace {
@@ -64,6 +68,61 @@ TEST(PackedImage, BytesAndAlpha) {
   image::Image rgba(1, 1, 4);
   rgba.pixels = {1, 2, 3, 4};
   EXPECT_EQ(unpack(pack_half(rgba)).size(), 3u);
+}
+
+TEST(PackedImage, TellsWhatItHolds) {
+  image::Image rgba(4, 3, 4), grey(5, 2, 1);
+  const PackedImage colour = pack_half(rgba), plain = pack_half(grey), bytes = pack_bytes(rgba);
+  EXPECT_EQ(colour.width, 4);
+  EXPECT_EQ(colour.height, 3);
+  EXPECT_EQ(colour.channels, 3);
+  EXPECT_EQ(colour.kind, "half");
+  EXPECT_EQ(plain.channels, 1);
+  EXPECT_EQ(bytes.channels, 1);
+  EXPECT_EQ(bytes.kind, "byte");
+}
+
+TEST(PackedImage, BytesAreRoundedAndWhatIsNoNumberIsBlack) {
+  image::Image map(5, 1, 1);
+  map.pixels = {0.0019f, 0.0020f, -1.0f, std::numeric_limits<float>::quiet_NaN(), 0.999f};
+  EXPECT_THAT(unpack(pack_bytes(map)), testing::ElementsAre(0, 1, 0, 0, 255));
+}
+
+// As unpack.js reads it: channels less the second one, less the left neighbour, low bytes before high ones.
+TEST(PackedImage, IsStoredAsItsDescriptionSays) {
+  const std::vector<std::uint16_t> halves = {0x3c00, 0x4000, 0x4200,  // 1 2 3
+                                             0x4400, 0x4500, 0x4600,  // 4 5 6
+                                             0x4700, 0x4800, 0x4880,  // 7 8 9
+                                             0x4900, 0x4980, 0x4a00};
+  image::Image picture(2, 2);
+  for (std::size_t i = 0; i < 12; ++i) picture.pixels[i] = static_cast<float>(i + 1);
+  std::vector<std::uint16_t> wanted(12);
+  const auto channel = [&](std::size_t pixel, std::size_t c) {
+    const int own = halves[3 * pixel + c];
+    return c == 1 ? own : own - halves[3 * pixel + 1];
+  };
+  for (std::size_t pixel = 0; pixel < 4; ++pixel)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int before = pixel == 0 ? 0 : channel(pixel == 2 ? 0 : pixel - 1, c);
+      wanted[4 * c + pixel] = static_cast<std::uint16_t>(channel(pixel, c) - before);
+    }
+  const PackedImage packed = pack_half(picture);
+  std::vector<std::uint8_t> planes(24);
+  uLongf size = planes.size();
+  ASSERT_EQ(::uncompress(planes.data(), &size, packed.bytes.data(), packed.bytes.size()), Z_OK);
+  ASSERT_EQ(size, 24u);
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(planes[i] | planes[12 + i] << 8, wanted[i]) << i;
+}
+
+TEST(PackedImage, SizesThatMakeNoSenseAreRefused) {
+  for (const auto& [width, height, channels] : std::vector<std::array<int, 3>>{
+           {0, 1, 1}, {1, 0, 1}, {65537, 1, 1}, {1, 65537, 1}, {1, 1, 2}, {-1, -1, 3}}) {
+    PackedImage packed = pack_half(image::Image(1, 1));
+    packed.width = width, packed.height = height, packed.channels = channels;
+    EXPECT_EQ(test::message_of([&] { unpack(packed); }), "packed image: its size makes no sense");
+  }
+  EXPECT_EQ(unpack(pack_half(image::Image(65536, 1, 1))).size(), 65536u);
+  EXPECT_EQ(unpack(pack_half(image::Image(1, 65536, 1))).size(), 65536u);
 }
 
 TEST(PackedImage, ABrokenStreamIsAnError) {

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -124,16 +125,67 @@ TEST(Page, IsOneFileAndEscapesWhatItIsGiven) {
     EXPECT_THAT(page, Not(HasSubstr(remote)));
 }
 
-TEST(Page, TitlesOfEveryLanguageStandInItAndWhatIsNoTextIsReplaced) {
-  Report report = example_report();
-  // One to four bytes of UTF-8 a character; then a lone start, a cut one, and an unexpected middle.
-  report.plan.title = "a\xc3\xa4\xe2\x82\xac\xf0\x9f\x92\xa1|\xff|\xe2\x82|\x82|";
-  const std::string page = report_page(report);
+/// The bytes that base32768() wrote, by its description.
+std::vector<std::uint8_t> bytes_of(const std::u16string& letters, std::size_t size) {
+  std::vector<std::uint8_t> bytes(size);
+  for (std::size_t bit = 0; bit < 8 * size; ++bit) {
+    const int letter = letters.at(bit / 15) - 0x3400;
+    bytes[bit / 8] =
+        static_cast<std::uint8_t>(bytes[bit / 8] | (letter >> (14 - bit % 15) & 1) << (7 - bit % 8));
+  }
+  return bytes;
+}
+
+std::u16string units_of(const std::string& page) {
   std::u16string text;
   for (std::size_t i = 2; i + 1 < page.size(); i += 2) {
     const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(page[k]); };
     text += static_cast<char16_t>(byte(i) | byte(i + 1) << 8);
   }
+  return text;
+}
+
+// What a browser would find by getElementById.
+TEST(Page, PicturesStandInItUnderTheNamesThatItsDataHas) {
+  const Report report = example_report();
+  const std::string bytes = report_page(report), page = ascii(bytes);
+  const std::u16string units = units_of(bytes);
+  const std::size_t begin = page.find("{\"title\":");
+  ASSERT_NE(begin, std::string::npos);
+  const json data = json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  EXPECT_EQ(data["title"], "A <small> report");
+  std::set<std::string> ids;
+  for (std::size_t c = 0; c < report.cells.size(); ++c) {
+    const json& pictures = data["cells"][c]["pictures"];
+    ASSERT_EQ(pictures.size(), report.cells[c].pictures.size());
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      const CellPicture& wanted = report.cells[c].pictures[i];
+      json picture = pictures[i];
+      const std::string id = picture["id"];
+      EXPECT_TRUE(ids.insert(id).second) << id << " twice";
+      picture.erase("id");
+      EXPECT_EQ(picture, json({{"layer", wanted.layer},
+                               {"map", wanted.map},
+                               {"kind", wanted.packed.kind},
+                               {"width", 32},
+                               {"height", 18},
+                               {"channels", wanted.packed.channels},
+                               {"bytes", wanted.packed.bytes.size()}}));
+      const std::string tag = "<script type=\"text/plain\" id=\"" + id + "\">";
+      const std::size_t at = page.find(tag) + tag.size();
+      EXPECT_EQ(bytes_of(units.substr(at, page.find("</script>", at) - at), wanted.packed.bytes.size()),
+                wanted.packed.bytes);
+    }
+  }
+  EXPECT_EQ(ids.size(), 5u);
+}
+
+TEST(Page, TitlesOfEveryLanguageStandInItAndWhatIsNoTextIsReplaced) {
+  Report report = example_report();
+  // One to four bytes of UTF-8 a character; then a lone start, a cut one, and an unexpected middle.
+  report.plan.title = "a\xc3\xa4\xe2\x82\xac\xf0\x9f\x92\xa1|\xff|\xe2\x82|\x82|";
+  const std::string page = report_page(report);
+  const std::u16string text = units_of(page);
   EXPECT_EQ(page.substr(0, 2), "\xff\xfe") << "little endian";
   EXPECT_NE(text.find(u"<title>a\u00e4\u20ac\U0001f4a1|\ufffd|\ufffd\ufffd|\ufffd|</title>"), text.npos);
 }

@@ -122,6 +122,198 @@ TEST(Plan, WrongValuesAreNamedWithTheirPlace) {
   EXPECT_THROW(parse_plan("[]", "plan", commands), Error);
 }
 
+TEST(Plan, WhatIsLeftOutHasItsDefault) {
+  const Plan plan = parse_plan(R"({
+    "scenes": [{"name": "s", "scene": "builtin:x"}], "reference": {"steps": ["truth {scene} -o t.exr"], "picture": "t.exr"},
+    "methods": [{"name": "m", "steps": ["render {scene}"]}],
+    "columns": ["flip", {"value": "mae"}], "charts": [{"x": "depth", "y": "relmse"}], "published": {}})",
+                               "folder/plan.json", commands);
+  EXPECT_EQ(plan.title, "folder/plan.json");
+  EXPECT_EQ(plan.about, "");
+  EXPECT_EQ(plan.block, 16);
+  EXPECT_EQ(plan.time_limit, 3600);
+  EXPECT_EQ(plan.published_source, "");
+  EXPECT_TRUE(plan.variables.empty() && plan.layers.empty() && plan.published.empty());
+  const PlanScene& scene = plan.scenes[0];
+  EXPECT_EQ(scene.title, "s");
+  EXPECT_EQ(scene.exposure, 0);
+  EXPECT_FALSE(scene.optional);
+  EXPECT_TRUE(scene.variables.empty() && scene.insets.empty());
+  EXPECT_EQ(plan.reference.name, "reference");
+  EXPECT_EQ(plan.reference.title, "reference");
+  EXPECT_EQ(plan.reference.repetitions, 1);
+  const PlanMethod& method = plan.methods[0];
+  EXPECT_EQ(method.title, "m");
+  EXPECT_EQ(method.about, "");
+  EXPECT_EQ(method.picture, "");
+  EXPECT_EQ(method.variants, (std::vector<Parameters>{{}}));
+  EXPECT_EQ(method.repetitions, 1);
+  EXPECT_TRUE(method.scenes.empty() && method.halves.empty());
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Column& column = plan.columns[i];
+    EXPECT_EQ(column.value, i == 0 ? "flip" : "mae");
+    EXPECT_EQ(column.title, column.value);
+    EXPECT_EQ(column.unit, "");
+    EXPECT_EQ(column.better, 0);
+  }
+  EXPECT_EQ(plan.charts[0].title, "relmse");
+  EXPECT_FALSE(plan.charts[0].log_x || plan.charts[0].log_y);
+  EXPECT_FALSE(
+      parse_plan(
+          R"({"scenes": [{"name": "s", "scene": "x"}], "methods": [{"name": "m", "steps": ["bake"]}]})", "p",
+          commands)
+          .has_reference);
+}
+
+TEST(Plan, EveryKeyGoesWhereItBelongs) {
+  ordered_json json = valid();
+  json["about"] = "A";
+  json["scenes"][0].update({{"title", "S"}, {"exposure", -1.5}, {"optional", true}});
+  json["reference"].update({{"name", "r"}, {"title", "R"}, {"about", "of r"}});
+  json["methods"][0].update({{"title", "M"}, {"about", "of m"}, {"scenes", "s"}});
+  json["methods"][0]["steps"] = {{{"name", "first"}, {"run", "bake {scene} -o p.sphl"}},
+                                 "render {scene} -o p.exr"};
+  json["charts"][0].update({{"title", "C"}, {"log_x", true}});
+  const Plan plan = parse(json);
+  EXPECT_EQ(plan.about, "A");
+  EXPECT_EQ(plan.time_limit, 60);
+  EXPECT_EQ(plan.variables, (Parameters{{"width", "48"}, {"spp", "2"}}));
+  EXPECT_EQ(plan.layers, std::vector<std::string>{"indirect"});
+  const PlanScene& scene = plan.scenes[0];
+  EXPECT_EQ(scene.title, "S");
+  EXPECT_EQ(scene.exposure, -1.5);
+  EXPECT_TRUE(scene.optional);
+  const Inset& inset = scene.insets[0];
+  EXPECT_EQ(inset.name, "i");
+  EXPECT_EQ((std::vector<double>{inset.x0, inset.y0, inset.x1, inset.y1}),
+            (std::vector<double>{0, 0.25, 0.5, 1}));
+  EXPECT_EQ(plan.reference.name, "r");
+  EXPECT_EQ(plan.reference.title, "R");
+  EXPECT_EQ(plan.reference.about, "of r");
+  EXPECT_THAT(plan.reference.halves, testing::ElementsAre("truth.a.exr", "truth.b.exr"));
+  const PlanMethod& method = plan.methods[0];
+  EXPECT_EQ(method.title, "M");
+  EXPECT_EQ(method.about, "of m");
+  EXPECT_EQ(method.picture, "p.exr");
+  EXPECT_THAT(method.scenes, testing::ElementsAre("s")) << "one text is a list of one";
+  EXPECT_EQ(method.steps[0].name, "first");
+  EXPECT_EQ(method.steps[1].name, "render");
+  EXPECT_EQ(plan.columns[0].value, "flip");
+  EXPECT_EQ(plan.columns[1].value, "render.seconds");
+  EXPECT_EQ(plan.columns[1].title, "R");
+  EXPECT_EQ(plan.columns[1].unit, "s");
+  const Chart& chart = plan.charts[0];
+  EXPECT_EQ(chart.title, "C");
+  EXPECT_EQ(chart.x, "depth");
+  EXPECT_EQ(chart.y, "relmse");
+  EXPECT_TRUE(chart.log_x);
+  EXPECT_EQ(plan.published_source, "me");
+  EXPECT_EQ(plan.published[0].scene, "s");
+  EXPECT_EQ(plan.published[0].method, "m, depth 1, n a");
+  json["columns"][1]["better"] = "more";
+  json["charts"][0]["log_x"] = false;
+  EXPECT_EQ(parse(json).columns[1].better, 1);
+  EXPECT_FALSE(parse(json).charts[0].log_x);
+}
+
+TEST(Plan, NumbersHaveLimits) {
+  const auto accepted = [](const std::function<void(ordered_json&)>& change) {
+    const std::string message = message_of(change);
+    EXPECT_TRUE(message == "accepted" || message.find(" is not in ") != std::string::npos) << message;
+    return message == "accepted";
+  };
+  const auto expect_range = [&](const std::function<ordered_json&(ordered_json&)>& at,
+                                const ordered_json& low, const ordered_json& high, const ordered_json& step) {
+    for (const auto& [value, good] :
+         std::vector<std::pair<double, bool>>{{low.get<double>(), true},
+                                              {high.get<double>(), true},
+                                              {low.get<double>() - step.get<double>(), false},
+                                              {high.get<double>() + step.get<double>(), false}})
+      EXPECT_EQ(accepted([&, value = value](auto& j) {
+                  if (step.is_number_integer())
+                    at(j) = static_cast<int>(value);
+                  else
+                    at(j) = value;
+                }),
+                good)
+          << value;
+  };
+  expect_range([](auto& j) -> ordered_json& { return j["block"]; }, 1, 4096, 1);
+  expect_range([](auto& j) -> ordered_json& { return j["time_limit"]; }, 1, 1000000, 1);
+  expect_range([](auto& j) -> ordered_json& { return j["methods"][0]["repetitions"]; }, 1, 1000, 1);
+  expect_range([](auto& j) -> ordered_json& { return j["scenes"][0]["exposure"]; }, -30, 30, 0.25);
+}
+
+TEST(Plan, AnInsetLiesWithinThePicture) {
+  const auto at = [](const ordered_json& value) {
+    return message_of([&](auto& j) { j["scenes"][0]["insets"][0]["at"] = value; });
+  };
+  EXPECT_EQ(at({0, 0, 1, 1}), "accepted");
+  for (const std::vector<double>& bad : std::vector<std::vector<double>>{{-0.01, 0, 1, 1},
+                                                                         {0, -0.01, 1, 1},
+                                                                         {0, 0, 1.01, 1},
+                                                                         {0, 0, 1, 1.01},
+                                                                         {0.5, 0, 0.5, 1},
+                                                                         {0, 0.5, 1, 0.5},
+                                                                         {0.6, 0, 0.4, 1},
+                                                                         {0, 0.6, 1, 0.4}})
+    EXPECT_THAT(at(bad), testing::HasSubstr("insets[0]/at: must be left < right and top < bottom"));
+  EXPECT_THAT(at({0, 0, 1}), testing::HasSubstr("four numbers"));
+  EXPECT_THAT(at({0, 0, 1, "1"}), testing::HasSubstr("four numbers"));
+  EXPECT_THAT(message_of([](auto& j) { j["scenes"][0]["insets"][0]["mask"] = "m.png"; }),
+              testing::HasSubstr("exclude each other"));
+  EXPECT_EQ(message_of([](auto& j) {
+              j["scenes"][0]["insets"][0] = {{"name", "i"}, {"mask", "m.png"}};
+            }),
+            "accepted");
+}
+
+TEST(Plan, WrongKindsAndDoublesAreNamed) {
+  using testing::HasSubstr;
+  const auto expect = [](const char* message, const std::function<void(ordered_json&)>& change) {
+    EXPECT_THAT(message_of(change), HasSubstr(message));
+  };
+  expect("plan: must be an object", [](auto& j) { j = ordered_json::array(); });
+  expect("plan/title: must be text", [](auto& j) { j["title"] = 7; });
+  expect("plan/block: must be a whole number", [](auto& j) { j["block"] = "8"; });
+  expect("scenes[0]/exposure: must be a number", [](auto& j) { j["scenes"][0]["exposure"] = "1"; });
+  expect("scenes[0]/optional: must be true or false", [](auto& j) { j["scenes"][0]["optional"] = 1; });
+  expect("plan/scenes: must be a list", [](auto& j) { j["scenes"] = "s"; });
+  expect("plan/layers: must be a list of texts", [](auto& j) { j["layers"] = {1}; });
+  expect("plan/variables: must be an object", [](auto& j) { j["variables"] = 1; });
+  expect("plan/variables/width: must be a number or text", [](auto& j) { j["variables"]["width"] = true; });
+  expect("scenes[0]/scene: is empty", [](auto& j) { j["scenes"][0]["scene"] = " "; });
+  expect("methods: is empty", [](auto& j) { j["methods"] = ordered_json::array(), j.erase("published"); });
+  expect("methods[0]/steps: is empty", [](auto& j) { j["methods"][0]["steps"] = ordered_json::array(); });
+  expect("methods[0]/steps[0]: is empty", [](auto& j) { j["methods"][0]["steps"][0] = ""; });
+  expect("plan/methods[0]/steps[0]: \"run\" is missing", [](auto& j) {
+    j["methods"][0]["steps"][0] = {{"name", "x"}};
+  });
+  expect("plan/methods[0]: \"name\" is missing", [](auto& j) { j["methods"][0].erase("name"); });
+  expect("plan/methods[0]: \"steps\" is missing", [](auto& j) { j["methods"][0].erase("steps"); });
+  expect("plan/scenes[0]: \"scene\" is missing", [](auto& j) { j["scenes"][0].erase("scene"); });
+  expect("plan/columns[1]: \"value\" is missing", [](auto& j) { j["columns"][1].erase("value"); });
+  expect("plan/charts[0]: \"y\" is missing", [](auto& j) { j["charts"][0].erase("y"); });
+  expect("\"picture\" or \"halves\" is missing", [](auto& j) { j["reference"].erase("halves"); });
+  expect("unknown key \"repetitions\"", [](auto& j) { j["reference"]["repetitions"] = 2; });
+  expect("halves: must be two pictures", [](auto& j) { j["reference"]["halves"] = {"a.exr"}; });
+  expect("better: must be less, more or none", [](auto& j) { j["columns"][1]["better"] = "yes"; });
+  expect("values/R: must be a number", [](auto& j) { j["published"]["rows"][0]["values"]["R"] = "x"; });
+  expect("unknown scene \"t\"", [](auto& j) { j["published"]["rows"][0]["scene"] = "t"; });
+  expect("methods/m: unknown scene \"t\" (known: s)", [](auto& j) { j["methods"][0]["scenes"] = {"t"}; });
+  expect("two scenes are called \"s\"", [](auto& j) { j["scenes"].push_back(j["scenes"][0]); });
+  expect("two scenes are called \"\"", [](auto& j) { j["scenes"][0]["name"] = ""; });
+  expect("methods/m: two methods are called \"m, depth 1, n a\"",
+         [](auto& j) { j["methods"].push_back(j["methods"][0]); });
+  expect("parameters/depth: must be a list of values",
+         [](auto& j) { j["methods"][0]["parameters"]["depth"] = 1; });
+  expect("parameters: must be an object of lists or a list",
+         [](auto& j) { j["methods"][0]["parameters"] = 1; });
+  expect("parameters: is empty", [](auto& j) { j["methods"][0]["parameters"] = ordered_json::array(); });
+  expect("plan/reference: unknown name {n} in \"truth '{n}'\"",
+         [](auto& j) { j["reference"]["steps"] = {"truth {n}"}; });
+}
+
 TEST(Plan, VariablesAreSetByName) {
   Plan plan = parse(valid());
   set_variable(plan, "width=7");

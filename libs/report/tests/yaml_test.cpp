@@ -8,7 +8,9 @@
 #include <ssphh/report/jobs.h>
 #include <ssphh/report/plan.h>
 
+#include "error_message.h"
 #include "places.h"
+#include "yaml_reader.h"
 
 namespace ssphh::report {
 namespace {
@@ -79,6 +81,56 @@ TEST(YamlPlan, PlainScalarsHaveTheirTypeAndQuotedOnesAreText) {
   EXPECT_TRUE(p.scenes[0].optional);
   EXPECT_EQ(p.methods[0].variants.size(), 3u);
   EXPECT_EQ(p.methods[0].steps[1].name, "picture");
+}
+
+TEST(Yaml, PlainScalarsFollowTheCoreSchema) {
+  const Json json = parse_yaml(R"(
+nothing: [~, null, Null, NULL, ]
+empty:
+yes: [true, True, TRUE]
+no: [false, False, FALSE]
+whole: [12, +12, -12]
+other: [1.5, +0.25, -1e3, .5]
+text: [on, nUll, tRUE, 1x, 1.5.2, inf, nan, "", "7", '7', 0x1f]
+)",
+                               "p");
+  EXPECT_EQ(json["nothing"], Json({nullptr, nullptr, nullptr, nullptr}));
+  EXPECT_EQ(json["empty"], Json());
+  EXPECT_EQ(json["yes"], Json({true, true, true}));
+  EXPECT_EQ(json["no"], Json({false, false, false}));
+  EXPECT_EQ(json["whole"], Json({12, 12, -12}));
+  EXPECT_TRUE(json["whole"][0].is_number_integer());
+  EXPECT_EQ(json["other"], Json({1.5, 0.25, -1000.0, 0.5}));
+  EXPECT_EQ(json["text"], Json({"on", "nUll", "tRUE", "1x", "1.5.2", "inf", "nan", "", "7", "7", "0x1f"}));
+}
+
+TEST(Yaml, FilesEndAsSuch) {
+  EXPECT_TRUE(is_yaml_name("a.yaml"));
+  EXPECT_TRUE(is_yaml_name("a.yml"));
+  EXPECT_FALSE(is_yaml_name("a.json"));
+  EXPECT_FALSE(is_yaml_name("yaml"));
+}
+
+TEST(Yaml, LinesAreThoseOfThePlaceAndItsKey) {
+  const std::string text = "a: 1\nb:\n  - x: 1\n    y: 2\n  - 7\nc:\n  d: 3\n";
+  const auto line = [&](const char* where, const char* key = "") { return yaml_line(text, "p", where, key); };
+  EXPECT_EQ(line("p"), 1);
+  EXPECT_EQ(line("p", "b"), 2);
+  EXPECT_EQ(line("p/b[0]"), 3);
+  EXPECT_EQ(line("p/b[0]", "y"), 4);
+  EXPECT_EQ(line("p/b[0]/y"), 4);
+  EXPECT_EQ(line("p/b[1]"), 5);
+  EXPECT_EQ(line("p/b[2]"), 3) << "the list, where there is no such item";
+  EXPECT_EQ(line("p/c/d"), 7);
+  EXPECT_EQ(line("p/c/e/f"), 7) << "as far as there is such a place";
+  EXPECT_EQ(line("q/c"), 0);
+}
+
+TEST(Yaml, WhatIsNoneIsToldWithItsLine) {
+  const auto message = [](const char* text) { return test::message_of([&] { parse_yaml(text, "p"); }); };
+  EXPECT_THAT(message("a: 1\nb: [1, 2\n"), HasSubstr("p:3: is not YAML: "));
+  EXPECT_THAT(message("a: 1\n[1, 2]: 3\n"), HasSubstr("p:2: a key must be text"));
+  EXPECT_THAT(message("a: 1\nb: 2\na: 3\n"), HasSubstr("p:3: \"a\" stands twice"));
 }
 
 TEST(YamlPlan, ErrorsNameTheLineAndTheNearestKey) {

@@ -1,0 +1,345 @@
+// `ssphh leak`, `measure`, `respond`, `place` and `bake`: figures against the library's, options where they
+// belong.
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/file.h>
+#include <ssphh/gi/init.h>
+#include <ssphh/gi/leak.h>
+#include <ssphh/gi/lookup.h>
+#include <ssphh/gi/lookup_error.h>
+#include <ssphh/gi/place.h>
+#include <ssphh/gi/probe_file.h>
+#include <ssphh/gi/surface_points.h>
+#include <ssphh/scene/builtin.h>
+#include <ssphh/trace/path_tracer.h>
+#include <ssphh/trace/transport_scene.h>
+
+#include "here.h"
+#include "probe_options.h"
+#include "temp_dir.h"
+
+namespace ssphh {
+namespace {
+
+using nlohmann::json;
+using test::joined;
+using test::json_here;
+using test::problem_here;
+using test::text_here;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// builtin:two-rooms with probes that hold some light of their own making.
+class Rooms : public testing::Test {
+ protected:
+  Rooms() {
+    set_.generator.scene = scene_.name;
+    set_.generator.scene_hash = scene::light_hash(scene_);
+    set_.generator.time = 0.25f;
+    for (const std::string& group : scene::light_groups(scene_)) set_.light_groups.push_back({group});
+    for (std::size_t i = 0; i < set_.probes.size(); ++i) {
+      sh::RadianceSh light(1);
+      light[0] = vec3(1, 2, 3) * static_cast<float>(i + 1);
+      light[2] = vec3(0.5f);
+      set_.probes[i].groups = {{{}, light}};
+    }
+    gi::merge_groups(set_);
+    gi::write_probe_file(set_, file_);
+  }
+  std::vector<scene::SurfacePoint> points(float clearance, int count, std::uint64_t seed) const {
+    return gi::reachable_points(source_, app::viewpoints(scene_, {&set_, 1}, 0.25f), 0.25f,
+                                {count, seed, clearance});
+  }
+
+  const test::TempDir dir_;
+  const std::string file_ = dir_ / "a.sphl";
+  const scene::Scene scene_ = scene::make_builtin("two-rooms");
+  const trace::TransportScene source_{scene_};
+  const trace::PathTracer tracer_{scene_, 0.25f};
+  gi::ProbeSet set_ = gi::init_from_scene(scene_, 1, 0.25f);
+};
+
+TEST_F(Rooms, LeakIsThatOfTheLibraryAtTheTimeOfTheProbes) {
+  gi::LeakParams params;
+  params.path.spp = 8, params.path.max_depth = 3, params.path.seed = 3;
+  params.dark_share = 0.01f;
+  gi::LookupParams lookup;
+  lookup.weights = gi::weights_named("distance");
+  const gi::LeakReport wanted =
+      gi::measure_leak(tracer_, gi::IrradianceLookup(set_, tracer_, lookup), points(0, 24, 3), params);
+  const std::vector<std::string> command = {
+      "leak",      "builtin:two-rooms", "--probes", file_,    "--points", "24",     "--truth-spp",
+      "8",         "--max-depth",       "3",        "--seed", "3",        "--dark", "0.01",
+      "--weights", "distance"};
+  const json leak = json_here(command);
+  EXPECT_EQ(leak["points"], 24);
+  EXPECT_EQ(leak["dark_points"], wanted.dark);
+  EXPECT_GT(wanted.dark, 0u);
+  EXPECT_NEAR(leak["leak_ratio"].get<double>(), wanted.ratio, 1e-9);
+  EXPECT_GT(wanted.ratio, 0);
+  EXPECT_NEAR(leak["mean_truth"].get<double>(), wanted.mean_truth, 1e-9);
+  EXPECT_NEAR(leak["mean_looked_up"].get<double>(), wanted.mean_looked_up, 1e-9);
+  EXPECT_NEAR(leak["truth_noise"].get<double>(), wanted.truth_noise, 1e-9);
+  EXPECT_NEAR(leak["dark_share"].get<double>(), 0.01, 1e-8);
+  EXPECT_EQ(leak["truth_spp"], 8);
+  EXPECT_EQ(leak["weights"], "distance");
+  EXPECT_EQ(leak["time"], 0.25);
+  EXPECT_EQ(
+      text_here(command),
+      fmt::format(
+          "leaked      {:.4g} % of the looked-up light stands on dark points\n"
+          "dark        {} of 24 points: path traced indirect irradiance under 0.01 of the mean, at 3 sigma\n"
+          "mean        {:.5g} W/m2 looked up, {:.5g} path traced (noise of a point {:.2g} %)",
+          100 * wanted.ratio, wanted.dark, wanted.mean_looked_up, wanted.mean_truth,
+          100 * wanted.truth_noise));
+  EXPECT_THAT(test::run_here(joined(command, {"--time", "0.5"})).err,
+              HasSubstr("was baked at 0.25 s, not at 0.5 s"));
+  EXPECT_THAT(problem_here(joined(command, {"-o", dir_ / "x.jpg"})),
+              HasSubstr("a leak map is written as .png"));
+}
+
+TEST_F(Rooms, MeasureIsThatOfTheLibrary) {
+  gi::LeakParams params{.path = {.max_depth = 3, .passes = 1, .spp = 8, .seed = 3}};
+  const std::vector<std::string> command = {
+      "measure", "builtin:two-rooms", "--time", "0.25",        "--probes", file_,    "--points",
+      "24",      "--truth-spp",       "8",      "--max-depth", "3",        "--seed", "3"};
+  const auto expect = [&](const json& all, const std::vector<scene::SurfacePoint>& at) {
+    const gi::TruthAtPoints truth = gi::trace_truth(tracer_, at, params);
+    EXPECT_EQ(all["points"], at.size());
+    EXPECT_EQ(all["dark_points"], truth.dark);
+    EXPECT_NEAR(all["mean_truth"].get<double>(), truth.mean, 1e-9);
+    EXPECT_EQ(all["truth_spp"], 8);
+    for (const json& one : all["results"]) {
+      gi::LookupParams lookup;
+      lookup.weights = gi::weights_named(one["weights"]);
+      const std::vector<vec3> found = gi::look_up(gi::IrradianceLookup(set_, tracer_, lookup), at);
+      const gi::LookupError e = gi::lookup_error(found, truth.estimates);
+      EXPECT_NEAR(all["noise"].get<double>(), e.noise, 1e-9);
+      const std::map<std::string, double> wanted = {{"ratio", e.ratio},
+                                                    {"mean_error", e.mean_error},
+                                                    {"mean_relative", e.mean_relative},
+                                                    {"median_relative", e.median_relative},
+                                                    {"p95_relative", e.p95_relative},
+                                                    {"relmse", e.relmse},
+                                                    {"leak_ratio", gi::leak_ratio(found, truth)}};
+      for (const auto& [name, value] : wanted)
+        EXPECT_NEAR(one[name].get<double>(), value, 1e-9 * (1 + std::abs(value))) << name;
+      EXPECT_GT(one["lookup_us"], 0);
+      EXPECT_EQ(one["probes"], file_);
+    }
+  };
+  const json all = json_here(joined(command, {"--weights", "mls,distance"}));
+  ASSERT_EQ(all["results"].size(), 2u);
+  EXPECT_EQ(all["results"][0]["weights"], "mls");
+  EXPECT_EQ(all["results"][1]["weights"], "distance");
+  expect(all, points(0.05f, 24, 3));
+  expect(json_here(joined(command, {"--open", "--clearance", "0.5"})),
+         gi::points_in_the_open(source_, points(0.5f, 24, 3), 0.25f, 3));
+  std::vector<scene::SurfacePoint> within = points(0.05f, 24, 3);
+  const vec3 low(-3, 0, -1), high(0, 2.5f, 1.5f);
+  std::erase_if(within, [&](const auto& p) {
+    return glm::any(glm::lessThan(p.position, low)) || glm::any(glm::greaterThan(p.position, high));
+  });
+  ASSERT_FALSE(within.empty());
+  expect(json_here(joined(command, {"--box", "-3,0,-1,0,2.5,1.5"})), within);
+  EXPECT_THAT(problem_here({"measure", "builtin:two-rooms"}),
+              HasSubstr("give --probes FILE or --method NAME"));
+}
+
+TEST_F(Rooms, RespondTellsTheSameInItsListAndItsTable) {
+  const std::string csv = dir_ / "f.csv";
+  const json run = json_here({"respond", "builtin:two-rooms", "--method", "direct", "--frames", "4",
+                              "--before", "2", "--points", "16", "--truth-spp", "8", "--max-depth", "2",
+                              "--event", "lamp.scale=1:2", "-o", csv});
+  EXPECT_EQ(run["method"], "direct");
+  EXPECT_EQ(run["points"], 16);
+  ASSERT_EQ(run["frames"].size(), 4u);
+  EXPECT_EQ(run["first_error"], run["frames"][0]["mean_error"]);
+  EXPECT_EQ(run["last_error"], run["frames"][3]["mean_error"]);
+  EXPECT_EQ(run["last_ratio"], 0) << "direct light has no indirect";
+  EXPECT_EQ(run["before_error"], run["last_error"]);
+  EXPECT_EQ(run["frames_to_settle"], 1);
+  EXPECT_EQ(run["first_ms"], run["frames"][0]["ms"]);
+  std::vector<double> ms;
+  for (const json& frame : run["frames"]) ms.push_back(frame["ms"]);
+  std::sort(ms.begin(), ms.end());
+  EXPECT_EQ(run["median_ms"], ms[2]);
+  std::istringstream lines(read_text_file(csv));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "frame,ms,ratio,mean_error,p95_relative,relmse");
+  for (std::size_t f = 0; f < 4; ++f) {
+    std::getline(lines, line);
+    EXPECT_THAT(line, testing::StartsWith(fmt::format("{},{:.4f},0,{:.6g},", f + 1,
+                                                      run["frames"][f]["ms"].get<double>(),
+                                                      run["frames"][f]["mean_error"].get<double>())));
+  }
+  EXPECT_FALSE(std::getline(lines, line));
+}
+
+TEST_F(Rooms, PlaceTellsWhatBecameOfEveryPlace) {
+  const std::string out = dir_ / "p.ssphh.json";
+  gi::PlaceParams params = gi::place_params(scene_, 0.5f);
+  params.spacing = 2, params.clearance = 0.1f, params.levels = 0;
+  const gi::Placement wanted = gi::place_probes(source_, params);
+  const std::vector<std::string> command = {
+      "place", "builtin:two-rooms", "--time", "0.5", "--probes", "auto:2", "--clearance",
+      "0.1",   "--refine",          "0",      "-o",  out};
+  const json place = json_here(command);
+  const auto count = [&](gi::PlaceKind kind) {
+    return std::ranges::count(wanted.probes, kind, &gi::PlacedProbe::kind);
+  };
+  EXPECT_EQ(place["output"], out);
+  EXPECT_EQ(place["probes"], wanted.probes.size());
+  EXPECT_EQ(place["manual"], count(gi::PlaceKind::manual));
+  EXPECT_EQ(place["refined"], count(gi::PlaceKind::refined));
+  EXPECT_EQ(place["passages"], count(gi::PlaceKind::passage));
+  EXPECT_EQ(place["spacing"], wanted.spacing);
+  EXPECT_EQ(place["clearance"], wanted.clearance);
+  EXPECT_EQ(place["origin"], json({wanted.origin.x, wanted.origin.y, wanted.origin.z}));
+  const gi::PlaceCounts& c = wanted.counts;
+  EXPECT_EQ(place["candidates"], c.candidates);
+  EXPECT_EQ(place["relocated"], c.relocated);
+  EXPECT_EQ(place["removed"], json({{"total", c.removed()},
+                                    {"inside", c.inside},
+                                    {"too_close", c.too_close},
+                                    {"open_air", c.open_air},
+                                    {"redundant", c.redundant},
+                                    {"swept", c.swept},
+                                    {"unreachable", c.unreachable},
+                                    {"surplus", c.surplus}}));
+  EXPECT_EQ(place["edges"], wanted.edges.size());
+  EXPECT_EQ(place["edges_behind_moving_parts"],
+            std::ranges::count(wanted.edges, true, &gi::PlacedEdge::moving));
+  const json overlay = json::parse(read_text_file(out));
+  EXPECT_EQ(overlay["scene"], "builtin:two-rooms");
+  std::vector<json> sphls;
+  for (const gi::PlacedProbe& probe : wanted.probes)
+    if (probe.kind != gi::PlaceKind::manual)
+      sphls.push_back({{"name", probe.name},
+                       {"position", {probe.position.x, probe.position.y, probe.position.z}},
+                       {"radius", probe.radius}});
+  EXPECT_EQ(overlay["sphls"], json(sphls));
+  EXPECT_THAT(text_here(command),
+              HasSubstr(fmt::format(
+                  "{} manual, {} near surfaces, {} in passages; {} edges\nof {} places {} were "
+                  "removed: {} inside bodies, {} too close to a surface, {} in open air, {} beside "
+                  "others, {} in a moving part's way, {} out of sight of cameras, lamps and SPHLs, "
+                  "{} more than asked for; {} moved",
+                  count(gi::PlaceKind::manual), count(gi::PlaceKind::refined), count(gi::PlaceKind::passage),
+                  wanted.edges.size(), c.candidates, c.removed(), c.inside, c.too_close, c.open_air,
+                  c.redundant, c.swept, c.unreachable, c.surplus, c.relocated)));
+  EXPECT_THAT(problem_here({"place", "builtin:two-rooms", "--probes", "scene", "-o", out}),
+              HasSubstr("there is nothing to place"));
+  EXPECT_THAT(problem_here({"place", out, "-o", out}), HasSubstr("is the scene itself"));
+  EXPECT_THAT(problem_here({"place", out, "--overlay", out, "-o", dir_ / "q.ssphh.json"}),
+              HasSubstr("cannot be written together with the overlay that is the scene"));
+}
+
+TEST_F(Rooms, DifferencesOfScenesAreNamed) {
+  const std::vector<std::string>& groups = source_.light_groups();
+  EXPECT_EQ(app::scene_difference(set_, scene_, groups, {}), "");
+  EXPECT_EQ(app::scene_difference(set_, scene_, groups, 0.25f), "");
+  EXPECT_EQ(app::scene_difference(set_, scene_, groups, 0.5f), "time 0.25 s, now 0.5 s");
+  gi::ProbeSet other = set_;
+  other.generator.scene_hash.high ^= 1;
+  const std::string hashes = fmt::format("geometry, materials or lights (hash {:.8}, now {:.8})",
+                                         other.generator.scene_hash.hex(), set_.generator.scene_hash.hex());
+  EXPECT_EQ(app::scene_difference(other, scene_, groups, {}), hashes);
+  other.generator.scene = "elsewhere";
+  other.light_groups.clear();
+  for (const char* name : {"a", "b", "c", "d", "e", "f", "g"}) other.light_groups.push_back({name});
+  EXPECT_EQ(app::scene_difference(other, scene_, groups, 1.0f),
+            "scene \"elsewhere\", now \"two-rooms\"; " + hashes +
+                "; light groups: 7 (a, b, c, d, e, f, ...), now 1 (lamp); time 0.25 s, now 1 s");
+}
+
+TEST_F(Rooms, ViewpointsAreCamerasAndProbesOrWhatTheSceneHas) {
+  const auto cameras = scene_.cameras.size();
+  EXPECT_EQ(app::viewpoints(scene_, {&set_, 1}, 0).size(), cameras + set_.probes.size());
+  const gi::PlaceParams own = gi::place_params(scene_, 0);
+  const std::vector<vec3> none = app::viewpoints(scene_, {}, 0);
+  ASSERT_EQ(none.size(), cameras + own.interest.size() + own.manual.size());
+  EXPECT_EQ(none[cameras], own.interest[0]);
+  EXPECT_EQ(none.back(), own.manual.back().position);
+  EXPECT_EQ(app::viewpoints(scene_, {&set_, 1}, 0).back(), set_.probes.back().position);
+}
+
+/// A bake of as little as can be.
+json small_bake(const std::string& output, const std::vector<std::string>& more) {
+  return json_here(
+      joined({"bake", "builtin:box", "-o", output, "--face", "1", "--spp", "1", "--degree", "0"}, more));
+}
+
+TEST(BakeOptions, ReachTheFile) {
+  const test::TempDir dir;
+  const std::string file = dir / "a.sphl";
+  const json bake = json_here({"bake",        "builtin:two-rooms",
+                               "-o",          file,
+                               "--face",      "3",
+                               "--spp",       "2",
+                               "--passes",    "4",
+                               "--max-depth", "2",
+                               "--seed",      "9",
+                               "--degree",    "2",
+                               "--time",      "0.5",
+                               "--viz",       "off"});
+  const gi::ProbeSet set = gi::read_probe_file(file);
+  EXPECT_EQ(set.degree, 2);
+  EXPECT_EQ(bake["degree"], 2);
+  const gi::GeneratorInfo& g = set.generator;
+  EXPECT_EQ(g.face_size, 3);
+  EXPECT_EQ(g.spp, 2);
+  EXPECT_EQ(g.passes, 4);
+  EXPECT_EQ(g.max_depth, 2);
+  EXPECT_EQ(g.seed, 9u);
+  EXPECT_EQ(g.time, 0.5f);
+  EXPECT_EQ(g.gen, gi::GenMode::full);
+  EXPECT_EQ(bake["output"], file);
+  EXPECT_EQ(bake["probes"], set.probes.size());
+  EXPECT_EQ(bake["light_groups"], set.light_groups.size());
+  EXPECT_EQ(bake["edges"], 0);
+  EXPECT_EQ(bake["gen"], "full");
+  EXPECT_EQ(bake["viz"], "off");
+  EXPECT_EQ(bake["resumed"], 0);
+  EXPECT_TRUE(bake["warnings"].is_array());
+  small_bake(file, {"--gen", "local", "--viz", "off"});
+  EXPECT_EQ(gi::read_probe_file(file).generator.gen, gi::GenMode::local);
+  // Four neighbours each, the strongest one kept; none is above 1.
+  const json few = small_bake(file, {"--neighbors", "1"});
+  EXPECT_EQ(few["edges"], 5);
+  EXPECT_EQ(small_bake(file, {"--threshold", "1"})["edges"], 0);
+  EXPECT_EQ(small_bake(file, {"--viz-transfer"})["viz"], "path");
+  EXPECT_FALSE(gi::read_probe_file(file).probes[0].edges[0].matrix.values.empty());
+}
+
+TEST(BakeOptions, VizIsLeftOutForManyProbes) {
+  const test::TempDir dir;
+  const auto overlay = [&](int count) {
+    json sphls = json::array();
+    for (int i = 0; i < count; ++i) {
+      const double x = -0.4 + 0.1 * (i % 8), y = -0.4 + 0.1 * (i / 8 % 8), z = -0.4 + 0.1 * (i / 64);
+      sphls.push_back({{"name", "p" + std::to_string(i)}, {"position", {x, y, z}}, {"radius", 0.01}});
+    }
+    const std::string file = dir / ("o" + std::to_string(count) + ".json");
+    std::ofstream(file) << json{{"sphls", sphls}};
+    return file;
+  };
+  const auto viz = [&](int count, const std::vector<std::string>& more = {}) {
+    const int own = 5;  // of builtin:box
+    const json bake = small_bake(dir / "a.sphl", joined({"--overlay", overlay(count - own)}, more));
+    EXPECT_EQ(bake["probes"], count);
+    return bake["viz"];
+  };
+  const std::vector<std::string> quick = {"--directions", "8", "--link-rays", "4", "--surfel-size", "0.5"};
+  EXPECT_EQ(viz(65, quick), "links");
+  EXPECT_EQ(viz(513), "off");
+}
+
+}  // namespace
+}  // namespace ssphh

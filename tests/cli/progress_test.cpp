@@ -1,0 +1,115 @@
+// Progress as the tool tells it on stderr.
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "stderr_progress.h"
+
+namespace ssphh::app {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+
+/// What stands on stderr after a stage of which `done` of `total` units were done at once.
+std::string told(ProgressStyle style, std::uint64_t total, std::uint64_t done, const char* unit = "rays") {
+  testing::internal::CaptureStderr();
+  StderrProgress progress(style);
+  progress.begin("baking", total, unit);
+  progress.advance(done - done / 2);
+  progress.advance(done / 2);
+  progress.end();
+  return testing::internal::GetCapturedStderr();
+}
+
+TEST(Progress, StylesHaveNames) {
+  EXPECT_EQ(progress_style("none"), ProgressStyle::none);
+  EXPECT_EQ(progress_style("json"), ProgressStyle::json);
+  EXPECT_EQ(progress_style("bar"), ProgressStyle::bar);
+  EXPECT_EQ(progress_style("plain"), ProgressStyle::plain);
+  testing::internal::CaptureStderr();  // a file
+  EXPECT_EQ(progress_style("auto"), ProgressStyle::plain) << "no terminal";
+  testing::internal::GetCapturedStderr();
+}
+
+TEST(Progress, NoneSaysNothing) {
+  EXPECT_EQ(told(ProgressStyle::none, 10, 10), "");
+}
+
+TEST(Progress, JsonTellsRateAndRemainingTimeOfOneLine) {
+  const json line = json::parse(told(ProgressStyle::json, 40, 10));
+  EXPECT_EQ(line["stage"], "baking");
+  EXPECT_EQ(line["unit"], "rays");
+  EXPECT_EQ(line["done"], 10);
+  EXPECT_EQ(line["total"], 40);
+  const double seconds = line["seconds"], rate = line["rate"], eta = line["eta"];
+  EXPECT_GT(seconds, 0);
+  EXPECT_NEAR(rate * seconds, 10, 1e-6);
+  EXPECT_NEAR(eta * rate, 30, 1e-6);
+  EXPECT_EQ(json::parse(told(ProgressStyle::json, 40, 40))["eta"], 0);
+  EXPECT_EQ(json::parse(told(ProgressStyle::json, 40, 0))["eta"], 0) << "not known";
+  EXPECT_EQ(json::parse(told(ProgressStyle::json, 40, 50))["eta"], 0) << "more than was said";
+}
+
+TEST(Progress, ANewStageBeginsAtNothing) {
+  testing::internal::CaptureStderr();
+  StderrProgress progress(ProgressStyle::json);
+  progress.begin("one", 5, "rays");
+  progress.advance(5);
+  progress.begin("two", 7, "texels");
+  progress.end();
+  const json line = json::parse(testing::internal::GetCapturedStderr());
+  EXPECT_EQ(line["stage"], "two");
+  EXPECT_EQ(line["unit"], "texels");
+  EXPECT_EQ(line["done"], 0);
+  EXPECT_EQ(line["total"], 7);
+}
+
+TEST(Progress, ALastLineTellsHowManyInThousandsAndMillions) {
+  const auto line = [](std::uint64_t done) { return told(ProgressStyle::plain, done, done); };
+  // "." stands for any digit; nothing here takes a second.
+  EXPECT_THAT(line(999), MatchesRegex("baking: 999 rays in 0\\.. s, [0-9.]+[kMGT]? rays/s\n"));
+  EXPECT_THAT(line(1000), HasSubstr("baking: 1.0k rays in"));
+  EXPECT_THAT(line(1250000), HasSubstr("baking: 1.2M rays in"));
+  EXPECT_THAT(line(3000000000), HasSubstr("baking: 3.0G rays in"));
+  EXPECT_THAT(line(4000000000000), HasSubstr("baking: 4.0T rays in"));
+  EXPECT_THAT(line(5000000000000000), HasSubstr("baking: 5000.0T rays in")) << "no unit is larger";
+}
+
+TEST(Progress, ABarFillsWithTheShareThatIsDone) {
+  const auto bar = [](std::uint64_t done) { return told(ProgressStyle::bar, 48, done); };
+  EXPECT_THAT(bar(0), testing::StartsWith("\r[" + std::string(24, '.') + "] baking: 0 rays in"));
+  EXPECT_THAT(bar(13), HasSubstr("\r[" + std::string(6, '#') + std::string(18, '.') + "] "));
+  EXPECT_THAT(bar(48), HasSubstr("\r[" + std::string(24, '#') + "] "));
+  EXPECT_THAT(bar(96), HasSubstr("\r[" + std::string(24, '#') + "] ")) << "never more than full";
+  EXPECT_THAT(bar(48), testing::EndsWith("\x1b[K\n"));
+  EXPECT_THAT(told(ProgressStyle::bar, 0, 0), HasSubstr("[" + std::string(24, '#') + "] "))
+      << "a stage without work is done";
+}
+
+TEST(Progress, WhatIsUnderWayTellsShareAndRemainingTime) {
+  testing::internal::CaptureStderr();
+  StderrProgress progress(ProgressStyle::bar);
+  progress.begin("baking", 1000, "rays");
+  // A bar is drawn anew ten times a second, at most.
+  const auto begin = std::chrono::steady_clock::now();
+  while (std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(101)) {
+  }
+  progress.advance(100);
+  progress.advance(1);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const std::string line = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(line, testing::StartsWith("\r[##" + std::string(22, '.') + "] baking:  10 %, "));
+  // 100 in a tenth of a second at most: 900 more take nine times as long.
+  const double left = 9 * seconds;
+  EXPECT_THAT(line, HasSubstr(" rays/s, 0:0"));
+  EXPECT_EQ(std::count(line.begin(), line.end(), '\r'), 1) << line;
+  EXPECT_THAT(line, testing::Not(HasSubstr("\n")));
+  const std::size_t at = line.find(" rays/s, ") + 9;
+  EXPECT_LE(std::stod(line.substr(at + 2)), left + 0.5);
+  EXPECT_GE(std::stod(line.substr(at + 2)), 0);
+}
+
+}  // namespace
+}  // namespace ssphh::app
