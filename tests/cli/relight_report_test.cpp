@@ -15,7 +15,6 @@ namespace ssphh::app {
 namespace {
 
 using testing::HasSubstr;
-using Json = nlohmann::ordered_json;
 
 gi::RelightReport update(double scale, std::uint64_t pose_rays, std::uint64_t direct_rays, int iterations) {
   gi::RelightReport report;
@@ -36,7 +35,7 @@ RelightRun five_frames() {
 }
 
 TEST(RelightReport, QuantilesAreOfAllFramesButTheFirst) {
-  const Json json = relight_json(five_frames());
+  const json::Value json = relight_json(five_frames());
   EXPECT_EQ(json["frames"], 5);
   EXPECT_EQ(json["frames_asked"], 5);
   EXPECT_EQ(json["cancelled"], false);
@@ -57,7 +56,7 @@ TEST(RelightReport, QuantilesAreOfAllFramesButTheFirst) {
   EXPECT_EQ(json["rays_per_frame"], 300);
   EXPECT_EQ(json["stages"]["solve"]["iterations"], 4);
   EXPECT_EQ(json["unconverged"], 1);
-  EXPECT_EQ(json["frame_ms"], Json({1500, 15, 45, 30, 60}));
+  EXPECT_EQ(json["frame_ms"], (json::Value{1500, 15, 45, 30, 60}));
 }
 
 TEST(RelightReport, AFrameIsOverItsBudgetAboveTheTimeOfAFrame) {
@@ -71,12 +70,12 @@ TEST(RelightReport, AFrameIsOverItsBudgetAboveTheTimeOfAFrame) {
 TEST(RelightReport, AOneFrameRunIsThatOfItsFirst) {
   RelightRun run = five_frames();
   run.updates.resize(1);
-  const Json json = relight_json(run);
+  const json::Value json = relight_json(run);
   EXPECT_EQ(json["median_ms"], 1500);
   EXPECT_EQ(json["rays_per_frame"], 17000);
   EXPECT_EQ(json["over_budget"], 1);
   run.updates.clear();
-  const Json none = relight_json(run);
+  const json::Value none = relight_json(run);
   for (const char* key : {"first_ms", "median_ms", "p99_ms", "rays_per_frame", "over_budget"})
     EXPECT_EQ(none[key], 0) << key;
   EXPECT_THAT(relight_text(run), HasSubstr("first frame 0.0 ms"));
@@ -94,18 +93,18 @@ FrameError error_at(int frame, double ratio, double mean_relative) {
 TEST(RelightReport, ErrorsStandBesideTheirTime) {
   RelightRun run = five_frames();
   run.errors = {error_at(0, 1.5, 0.5), error_at(4, std::numeric_limits<double>::quiet_NaN(), 0.375)};
-  const Json json = relight_json(run);
+  const json::Value json = relight_json(run);
   ASSERT_EQ(json["error"].size(), 2u);
-  EXPECT_EQ(json["error"][0], Json({{"frame", 0},
-                                    {"seconds", 0},
-                                    {"ratio", 1.5},
-                                    {"mean_relative", 0.5},
-                                    {"median_relative", 0.25},
-                                    {"p95_relative", 0.75},
-                                    {"noise", 0.125},
-                                    {"relmse", 0.04},
-                                    {"mean_truth", 7},
-                                    {"points", 99}}));
+  EXPECT_EQ(json["error"][0], json::Value({{"frame", 0},
+                                           {"seconds", 0},
+                                           {"ratio", 1.5},
+                                           {"mean_relative", 0.5},
+                                           {"median_relative", 0.25},
+                                           {"p95_relative", 0.75},
+                                           {"noise", 0.125},
+                                           {"relmse", 0.04},
+                                           {"mean_truth", 7},
+                                           {"points", 99}}));
   EXPECT_EQ(json["error"][1]["seconds"], 4 / 25.0);
   EXPECT_TRUE(json["error"][1]["ratio"].is_null());
 }

@@ -137,8 +137,8 @@ TEST(Relight, RefusesWrongUsageAndBrokenFiles) {
   json probes = json::parse(std::ifstream(file));
   probes["probes"][2]["position"][0] = "nan";
   std::ofstream(file) << probes;
-  expect_failure(relight({"--probes", file}), {"p.sphl.json", "probes/2/position"});
-  expect_failure({"leak", "builtin:two-rooms", "--probes", file}, {"p.sphl.json", "probes/2/position"});
+  expect_failure(relight({"--probes", file}), {"p.sphl.json", "probes[2].position"});
+  expect_failure({"leak", "builtin:two-rooms", "--probes", file}, {"p.sphl.json", "probes[2].position"});
   expect_failure({"leak", "builtin:two-rooms", "--probes", dir / "x.exr"}, {".sphl"}, 2);
 }
 

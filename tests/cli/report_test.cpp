@@ -158,7 +158,8 @@ TEST(Report, MistakesInThePlanAreNamed) {
   json plan = plan_of({method("m", "render {scene} -o o.exr")});
   plan["colums"] = json::array();
   write_json(dir / "key.json", plan);
-  expect_failure({"report", dir / "key.json", "-o", dir / "out"}, {"unknown key \"colums\"", "\"columns\""});
+  expect_failure({"report", dir / "key.json", "-o", dir / "out"},
+                 {"unknown member \"colums\"", "\"columns\""});
   plan = plan_of({method("m", "report {scene} -o o.exr")});
   write_json(dir / "self.json", plan);
   expect_failure({"report", dir / "self.json", "-o", dir / "out"}, "unknown command \"report\"");
@@ -168,7 +169,7 @@ TEST(Report, MistakesInThePlanAreNamed) {
   expect_failure({"report", dir / "scene.json", "-o", dir / "out"}, "scene box");
   expect_failure({"report", tiny, "-o", dir / "out", "--set", "sp=1"}, {"no variable \"sp\"", "\"spp\""});
   std::ofstream(dir / "broken.json") << "{";
-  expect_failure({"report", dir / "broken.json", "-o", dir / "out"}, "is not JSON");
+  expect_failure({"report", dir / "broken.json", "-o", dir / "out"}, "is not valid JSON");
   expect_failure({"report", dir / "absent.json", "-o", dir / "out"}, "absent.json", 2);
   EXPECT_FALSE(fs::exists(dir / "out"));
 }

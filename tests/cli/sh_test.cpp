@@ -47,7 +47,7 @@ class ShTool : public testing::Test {
  protected:
   ShTool() { write(light_); }
   void write(const sh::RadianceSh& light) const {
-    std::ofstream(file_) << app::sh_to_json(light.values, light.degree()).dump();
+    std::ofstream(file_) << print(app::sh_to_json(light.values, light.degree()));
   }
   std::vector<std::string> sh(const char* command, const std::vector<std::string>& more) const {
     return joined({"sh", command, file_}, more);
@@ -220,7 +220,7 @@ TEST_F(ShTool, TablesNameBandsAndOrders) {
             "  1   -1            0.5             0            -1\n"
             "  1    0          1e-07             4             5\n"
             "  1    1              6             7   1.23457e+06");
-  EXPECT_EQ(app::rgb_to_json({0.1f, 1, -2.5f}).dump(), "[0.1,1,-2.5]") << "the shortest that reads back";
+  EXPECT_EQ(print(app::rgb_to_json({0.1f, 1, -2.5f})), "[0.1,1,-2.5]") << "the shortest that reads back";
 }
 
 TEST_F(ShTool, FilesThatAreNoCoefficientsAreToldWhy) {
@@ -229,7 +229,7 @@ TEST_F(ShTool, FilesThatAreNoCoefficientsAreToldWhy) {
     return test::message_of([&] { app::read_radiance_sh(file_); });
   };
   EXPECT_THAT(problem("[]"), AllOf(HasSubstr("is no JSON object"), HasSubstr("expected {\"degree\": N")));
-  EXPECT_THAT(problem(std::string(9, '[')), HasSubstr("is no JSON object"));
+  EXPECT_THAT(problem(std::string(9, '[')), HasSubstr("nested deeper than 8 levels"));
   EXPECT_THAT(problem(R"({"degree": 1.5, "coefficients": []})"), HasSubstr("no whole number \"degree\""));
   EXPECT_THAT(problem(R"({"degree": 1})"), HasSubstr("no array \"coefficients\""));
   EXPECT_THAT(problem(R"({"degree": 11, "coefficients": []})"), HasSubstr("degree 11 is outside 0..10"));
@@ -243,11 +243,11 @@ TEST_F(ShTool, FilesThatAreNoCoefficientsAreToldWhy) {
   EXPECT_THAT(problem(R"({"degree": 0, "coefficients": [[1, 2, 1e39]]})"),
               HasSubstr("coefficients[0] does not fit a finite"));
   EXPECT_EQ(problem(R"({"degree": 0, "coefficients": [[1, 2, 3]], "deep": [[[[[[1]]]]]]})"), "no error");
-  EXPECT_THAT(problem(R"({"degree": 0, "coefficients": [[1, 2, 3]], "deep": [[[[[[[[[1]]]]]]]]]})"),
+              HasSubstr("nested deeper than 8 levels"));
               HasSubstr("is no JSON object"));
-  const std::string light = R"({"degree": 0, "coefficients": [[1, 2, 3]]})";
-  EXPECT_EQ(problem(light + std::string((16u << 20) - light.size(), ' ')), "no error");
-  EXPECT_NE(problem(light + std::string((16u << 20) - light.size() + 1, ' ')), "no error");
+              const std::string light = R"({"degree": 0, "coefficients": [[1, 2, 3]]})";
+              EXPECT_EQ(problem(light + std::string((16u << 20) - light.size(), ' ')), "no error");
+              EXPECT_NE(problem(light + std::string((16u << 20) - light.size() + 1, ' ')), "no error");
 }
 
 TEST_F(ShTool, CubemapConvertRearrangesAndResamples) {

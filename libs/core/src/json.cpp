@@ -326,7 +326,11 @@ void Value::update(const Value& object) {
   for (const Member& member : object.members()) (*this)[member.first] = member.second;
 }
 
-bool Value::operator==(const Value&) const = default;
+bool Value::operator==(const Value& other) const {
+  if (is_number() && other.is_number() && !(is_integer() && other.is_integer()))
+    return number() == other.number();
+  return data_ == other.data_;
+}
 
 Value parse(std::string_view text, const std::string& where, const Limits& limits) {
   if (text.size() > limits.bytes)

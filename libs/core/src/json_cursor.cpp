@@ -14,6 +14,11 @@ namespace {
 constexpr double largest_float = std::numeric_limits<float>::max();
 constexpr std::size_t shown_bytes = 64;  // of a name or value in a message
 
+/// Nine digits of the largest float are a little more than it.
+bool fits_float(double d) {
+  return std::isfinite(static_cast<float>(d));
+}
+
 std::string shown(const std::string& text) {
   return text.size() <= shown_bytes ? text : text.substr(0, shown_bytes) + "…";
 }
@@ -119,7 +124,7 @@ int Cursor::index(std::size_t count, const char* noun) const {
 double Cursor::precise_number() const {
   if (!value_->is_number()) fail(fmt::format("must be a number, not {}", value_->type_name()));
   const double d = value_->number();
-  if (!(std::abs(d) <= largest_float)) fail(fmt::format("{} is too large a number", d));
+  if (!fits_float(d)) fail(fmt::format("{} is too large a number", d));
   return d;
 }
 
@@ -167,7 +172,7 @@ void Cursor::numbers(std::span<float> out) const {
   size(out.size(), out.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
     const Value& element = (*value_)[i];  // a place is made where it is wanted alone: arrays may be long
-    const bool sound = element.is_number() && std::abs(element.number()) <= largest_float;
+    const bool sound = element.is_number() && fits_float(element.number());
     out[i] = sound ? static_cast<float>(element.number()) : (*this)[i].number();
   }
 }

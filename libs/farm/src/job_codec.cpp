@@ -157,7 +157,7 @@ json::Value put(const trace::Tile& t) {
 }
 
 trace::Tile get_tile(const Field& f) {
-  if (f.size(0, 4) != 4) f.fail("must be [x, y, width, height]");
+  if (f.size() != 4) f.fail("must be [x, y, width, height]");
   const auto n = [&](std::size_t i) { return static_cast<int>(f[i].integer(0, job_limits::picture_size)); };
   return {n(0), n(1), n(2), n(3)};
 }
@@ -208,7 +208,7 @@ TileJob get_tile_job(const Field& f) {
   p.projection = static_cast<trace::Projection>(choice);
   p.path = get_path(f["path"]);
   const Field layers = f["layers"];
-  for (std::size_t i = 0, n = layers.size(layer_names().size()); i < n; ++i)
+  for (std::size_t i = 0, n = layers.size(0, layer_names().size()); i < n; ++i)
     job.layers.push_back(layers[i].text(32));
   p.per_group = !job.layers.empty() && job.layers.back() == "groups";
   const Field tiles = f["tiles"];
@@ -267,7 +267,8 @@ TileResult get_tile_result(const Field& f) {
   take("albedo", state.albedo, 3), take("normal", state.normal, 3), take("depth", state.depth, 1);
   take("coverage", state.coverage, 1);
   if (const auto groups = layers.find("groups")) {
-    for (std::size_t g = 0, n = groups->size(256); g < n; ++g) state.groups.push_back(read((*groups)[g], 3));
+    for (std::size_t g = 0, n = groups->size(0, 256); g < n; ++g)
+      state.groups.push_back(read((*groups)[g], 3));
   }
   return result;
 }

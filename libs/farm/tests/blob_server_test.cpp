@@ -96,7 +96,7 @@ TEST_F(BlobServing, SaysWhatItDoesNotHaveOrUnderstand) {
                  "blob request: is of another format or version");
   expect_failure(said_to(request("ssphh-blob-request", 2, package.id.hex())),
                  "blob request: is of another format or version");
-  expect_failure(said_to("what?"), "blob request: is no JSON object");
+  expect_failure(said_to("what?"), "blob request: is not valid JSON");
   EXPECT_EQ(server.bytes_sent(), 9u);
 }
 

@@ -113,7 +113,7 @@ TEST_F(Units, FailuresAreToldWithTheirReason) {
   }
   {
     const ServiceThread serving = worker([&](const majordomo::Job&) { return majordomo::Frames{}; });
-    EXPECT_EQ(message_of([&] { run({numbered(0, 3, done)}); }), "result: is no JSON object");
+    EXPECT_TRUE(message_of([&] { run({numbered(0, 3, done)}); }).starts_with("result: is not valid JSON"));
   }
   EXPECT_TRUE(done.empty());
   EXPECT_TRUE(told.empty());

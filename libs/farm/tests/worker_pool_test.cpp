@@ -74,7 +74,7 @@ TEST(WorkerPool, IsNotIdleWhileAJobRuns) {
     majordomo::RequestOptions second;
     second.deadline = 20'000;
     const std::string said = message_of([&] { client.call(job_service(), {"what?"}, second); });
-    EXPECT_NE(said.find("job: is no JSON object"), std::string::npos) << said;
+    EXPECT_NE(said.find("job: is not valid JSON"), std::string::npos) << said;
   }
   pool.join();
   EXPECT_GE(report.jobs, 1u);

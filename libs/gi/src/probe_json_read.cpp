@@ -22,7 +22,7 @@ void require_version(const Cursor& at, int version) {
 }
 
 int integer(const Cursor& at, int least, int most) {
-  return static_cast<int>(integer(at, least, most));
+  return static_cast<int>(at.integer(least, most));
 }
 
 template <class Enum>

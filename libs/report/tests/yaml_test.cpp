@@ -84,7 +84,7 @@ TEST(YamlPlan, PlainScalarsHaveTheirTypeAndQuotedOnesAreText) {
 }
 
 TEST(Yaml, PlainScalarsFollowTheCoreSchema) {
-  const Json json = parse_yaml(R"(
+  const json::Value read = parse_yaml(R"(
 nothing: [~, null, Null, NULL, ]
 empty:
 yes: [true, True, TRUE]
@@ -93,15 +93,16 @@ whole: [12, +12, -12]
 other: [1.5, +0.25, -1e3, .5]
 text: [on, nUll, tRUE, 1x, 1.5.2, inf, nan, "", "7", '7', 0x1f]
 )",
-                               "p");
-  EXPECT_EQ(json["nothing"], Json({nullptr, nullptr, nullptr, nullptr}));
-  EXPECT_EQ(json["empty"], Json());
-  EXPECT_EQ(json["yes"], Json({true, true, true}));
-  EXPECT_EQ(json["no"], Json({false, false, false}));
-  EXPECT_EQ(json["whole"], Json({12, 12, -12}));
-  EXPECT_TRUE(json["whole"][0].is_number_integer());
-  EXPECT_EQ(json["other"], Json({1.5, 0.25, -1000.0, 0.5}));
-  EXPECT_EQ(json["text"], Json({"on", "nUll", "tRUE", "1x", "1.5.2", "inf", "nan", "", "7", "7", "0x1f"}));
+                                      "p");
+  EXPECT_EQ(read["nothing"], (json::Value{nullptr, nullptr, nullptr, nullptr}));
+  EXPECT_EQ(read["empty"], json::Value());
+  EXPECT_EQ(read["yes"], (json::Value{true, true, true}));
+  EXPECT_EQ(read["no"], (json::Value{false, false, false}));
+  EXPECT_EQ(read["whole"], (json::Value{12, 12, -12}));
+  EXPECT_TRUE(read["whole"][0].is_integer());
+  EXPECT_EQ(read["other"], (json::Value{1.5, 0.25, -1000.0, 0.5}));
+  EXPECT_EQ(read["text"],
+            (json::Value{"on", "nUll", "tRUE", "1x", "1.5.2", "inf", "nan", "", "7", "7", "0x1f"}));
 }
 
 TEST(Yaml, FilesEndAsSuch) {
@@ -116,14 +117,14 @@ TEST(Yaml, LinesAreThoseOfThePlaceAndItsKey) {
   const auto line = [&](const char* where, const char* key = "") { return yaml_line(text, "p", where, key); };
   EXPECT_EQ(line("p"), 1);
   EXPECT_EQ(line("p", "b"), 2);
-  EXPECT_EQ(line("p/b[0]"), 3);
-  EXPECT_EQ(line("p/b[0]", "y"), 4);
-  EXPECT_EQ(line("p/b[0]/y"), 4);
-  EXPECT_EQ(line("p/b[1]"), 5);
-  EXPECT_EQ(line("p/b[2]"), 3) << "the list, where there is no such item";
-  EXPECT_EQ(line("p/c/d"), 7);
-  EXPECT_EQ(line("p/c/e/f"), 7) << "as far as there is such a place";
-  EXPECT_EQ(line("q/c"), 0);
+  EXPECT_EQ(line("p: b[0]"), 3);
+  EXPECT_EQ(line("p: b[0]", "y"), 4);
+  EXPECT_EQ(line("p: b[0].y"), 4);
+  EXPECT_EQ(line("p: b[1]"), 5);
+  EXPECT_EQ(line("p: b[2]"), 3) << "the list, where there is no such item";
+  EXPECT_EQ(line("p: c.d"), 7);
+  EXPECT_EQ(line("p: c.e.f"), 7) << "as far as there is such a place";
+  EXPECT_EQ(line("q: c"), 0);
 }
 
 TEST(Yaml, WhatIsNoneIsToldWithItsLine) {
@@ -137,10 +138,11 @@ TEST(YamlPlan, ErrorsNameTheLineAndTheNearestKey) {
   const std::string unknown = message_of(plan, "    picture: p.exr", "    pictures: p.exr");
   EXPECT_THAT(unknown, HasSubstr("p.yaml:18: methods[0]"));
   EXPECT_THAT(unknown, HasSubstr("did you mean \"picture\"?"));
-  EXPECT_THAT(message_of(plan, "        run:", "        ran:"), HasSubstr("p.yaml:17: methods[0]/steps[1]"));
+  EXPECT_THAT(message_of(plan, "        run:", "        ran:"),
+              HasSubstr("p.yaml:16: methods[0].steps[1]: \"run\" is missing"));
   EXPECT_THAT(message_of(plan, "optional: true", "optional: maybe"),
-              HasSubstr("p.yaml:10: scenes[0]/optional"));
-  EXPECT_THAT(message_of(plan, "- bake", "- bak"), HasSubstr("p.yaml:15: methods[0]/steps[0]"));
+              HasSubstr("p.yaml:10: scenes[0].optional"));
+  EXPECT_THAT(message_of(plan, "- bake", "- bak"), HasSubstr("p.yaml:15: methods[0].steps[0]"));
   EXPECT_THAT(message_of(plan, "title: Degrees", "title: [Degrees"), HasSubstr("is not YAML"));
   EXPECT_THAT(message_of(plan, "  exposure", "  width"), HasSubstr("p.yaml:5: \"width\" stands twice"));
 }

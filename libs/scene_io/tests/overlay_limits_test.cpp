@@ -53,10 +53,9 @@ TEST(OverlayLimits, OfCameras) {
             "o: cameras[0].direction: gives no direction to look in");
   EXPECT_EQ(said_of(camera + R"("up": [0,0,0]}]})"), "o: cameras[0].up: must not be zero");
   EXPECT_EQ(said_of(camera + R"("node": "leg"}]})"), "o: cameras[0].node: the scene has no node \"leg\"");
-  EXPECT_EQ(
-      said_of(camera + R"("radius": 1}]})"),
-      "o: cameras[0]: unknown member \"radius\" (known are: name, position, look_at, direction, up, node, "
-      "yfov_degrees, xfov_degrees, aspect)");
+  EXPECT_EQ(said_of(camera + R"("radius": 1}]})"),
+            "o: cameras[0]: unknown member \"radius\" (known: name, position, look_at, direction, up, node, "
+            "yfov_degrees, xfov_degrees, aspect)");
 }
 
 TEST(OverlayLimits, OfLights) {

@@ -87,14 +87,15 @@ TEST(Overlay, AddsWhatItSays) {
 }
 
 TEST(Overlay, ErrorsNameThePlace) {
-  EXPECT_THAT(error_of(R"({"camera": []})"), HasSubstr("unknown member \"camera\" (known are: "));
+  EXPECT_THAT(error_of(R"({"camera": []})"),
+              HasSubstr("unknown member \"camera\" (did you mean \"cameras\"?)"));
   EXPECT_THAT(error_of(R"({"cameras": [{"xfov_degrees": 90}]})"),
               HasSubstr("cameras[0]: \"xfov_degrees\" needs"));
   EXPECT_THAT(error_of(R"({"lights": [{"type": "laser"}]})"), HasSubstr("lights[0].type: must be one of"));
   EXPECT_THAT(error_of(R"({"lights": [{"type": "spot"}]})"), HasSubstr("needs \"direction\""));
   EXPECT_THAT(error_of(R"({"lights": [{"type": "sphere"}]})"), HasSubstr("\"radius\" is missing"));
   EXPECT_THAT(error_of(R"({"sphls": [{"position": [0, 0]}]})"),
-              HasSubstr("sphls[0].position: must have 3 numbers"));
+              HasSubstr("sphls[0].position: must have 3 elements, not 2"));
   EXPECT_THAT(error_of(R"({"sphls": [{"position": [0,0,0], "node": "leg"}]})"), HasSubstr("no node \"leg\""));
   EXPECT_THAT(error_of(R"({"sphls": [{"position": [0,0,0], "radius": 0}]})"), HasSubstr("greater than 0"));
   EXPECT_THAT(error_of(R"({"materials": [{"name": "gold"}]})"), HasSubstr("it has: clay"));

@@ -120,6 +120,7 @@ class Value {
   /// Adds the members of another object, or replaces those of the same name.
   void update(const Value& object);
 
+  /// Numbers are equal as numbers, 1 and 1.0 too; objects if their members are, in the same order.
   bool operator==(const Value&) const;
 
  private:
