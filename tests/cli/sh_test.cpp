@@ -243,8 +243,8 @@ TEST_F(ShTool, FilesThatAreNoCoefficientsAreToldWhy) {
   EXPECT_THAT(problem(R"({"degree": 0, "coefficients": [[1, 2, 1e39]]})"),
               HasSubstr("coefficients[0] does not fit a finite"));
   EXPECT_EQ(problem(R"({"degree": 0, "coefficients": [[1, 2, 3]], "deep": [[[[[[1]]]]]]})"), "no error");
+  EXPECT_THAT(problem(R"({"degree": 0, "coefficients": [[1, 2, 3]], "deep": [[[[[[[[[1]]]]]]]]]})"),
               HasSubstr("nested deeper than 8 levels"));
-              HasSubstr("is no JSON object"));
               const std::string light = R"({"degree": 0, "coefficients": [[1, 2, 3]]})";
               EXPECT_EQ(problem(light + std::string((16u << 20) - light.size(), ' ')), "no error");
               EXPECT_NE(problem(light + std::string((16u << 20) - light.size() + 1, ' ')), "no error");
