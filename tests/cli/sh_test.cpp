@@ -245,9 +245,9 @@ TEST_F(ShTool, FilesThatAreNoCoefficientsAreToldWhy) {
   EXPECT_EQ(problem(R"({"degree": 0, "coefficients": [[1, 2, 3]], "deep": [[[[[[1]]]]]]})"), "no error");
   EXPECT_THAT(problem(R"({"degree": 0, "coefficients": [[1, 2, 3]], "deep": [[[[[[[[[1]]]]]]]]]})"),
               HasSubstr("nested deeper than 8 levels"));
-              const std::string light = R"({"degree": 0, "coefficients": [[1, 2, 3]]})";
-              EXPECT_EQ(problem(light + std::string((16u << 20) - light.size(), ' ')), "no error");
-              EXPECT_NE(problem(light + std::string((16u << 20) - light.size() + 1, ' ')), "no error");
+  const std::string light = R"({"degree": 0, "coefficients": [[1, 2, 3]]})";
+  EXPECT_EQ(problem(light + std::string((16u << 20) - light.size(), ' ')), "no error");
+  EXPECT_NE(problem(light + std::string((16u << 20) - light.size() + 1, ' ')), "no error");
 }
 
 TEST_F(ShTool, CubemapConvertRearrangesAndResamples) {
