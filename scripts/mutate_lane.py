@@ -15,7 +15,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORK = ROOT / "build/mutate"
 # Beside test_MODULE: what needs more of the house than the module to be tested.
-OWN_TESTS = {"gi": ["test_gi", "test_render"], "realtime": ["test_realtime", "test_pictures"], "ssphh": ["test_cli"], "viewer": ["test_viewer"]}
+OWN_TESTS = {"gi": ["test_gi", "test_render"], "realtime": ["test_realtime", "test_pictures"], "ssphh": ["test_cli"], "viewer": ["test_viewer", "test_view"]}
 OTHER_TESTS = r"^(MdpProbe|example\.)"  # of ctest, beside the GoogleTest programs
 SLOW = 0.3  # seconds: tests above come after all others
 running = set()  # process groups
@@ -207,7 +207,7 @@ def own_tests(module):
 
 
 def own_targets(module):
-    return own_tests(module) + (["ssphh"] if module == "ssphh" else [])
+    return own_tests(module) + (["ssphh"] if module in ("ssphh", "viewer") else [])
 
 
 def judge(lane, suite, module, name, text, mutation, memory, own_only):
