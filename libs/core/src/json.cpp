@@ -17,12 +17,12 @@ class Builder {
  public:
   Builder(const std::string& where, const Limits& limits) : where_(where), limits_(limits) {}
 
-  bool null() { return add({}); }
-  bool boolean(bool value) { return add(value); }
-  bool number_integer(std::int64_t value) { return add(value); }
-  bool number_unsigned(std::uint64_t value) { return add(value); }
-  bool number_float(double value, const std::string&) { return add(value); }
-  bool string(std::string& text) { return add(std::move(text)); }
+  bool null() { return add_plain({}); }
+  bool boolean(bool value) { return add_plain(value); }
+  bool number_integer(std::int64_t value) { return add_plain(value); }
+  bool number_unsigned(std::uint64_t value) { return add_plain(value); }
+  bool number_float(double value, const std::string&) { return add_plain(value); }
+  bool string(std::string& text) { return add_plain(std::move(text)); }
   bool binary(std::vector<std::uint8_t>&) { return false; }
   bool start_object(std::size_t) { return begin(Value::object()); }
   bool start_array(std::size_t) { return begin(Value::array()); }
@@ -45,6 +45,13 @@ class Builder {
   Value result;
 
  private:
+  // Two bytes of text, "0,", are a value of forty.
+  bool add_plain(Value value) {
+    if (++plain_ > 8 * limits_.containers)
+      throw Error(where_, fmt::format("the JSON has more than {} values", 8 * limits_.containers));
+    return add(std::move(value));
+  }
+
   bool add(Value value) {
     if (open_.empty()) {
       result = std::move(value);
@@ -91,7 +98,7 @@ class Builder {
 
   const std::string& where_;
   const Limits& limits_;
-  std::size_t containers_ = 0;
+  std::size_t containers_ = 0, plain_ = 0;
   std::vector<Value> open_;         ///< containers that have begun
   std::vector<std::string> names_;  ///< of the member that each of them reads
 };

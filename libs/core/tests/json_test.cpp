@@ -106,6 +106,8 @@ TEST(Json, LimitsAreKept) {
   EXPECT_EQ(said("[10]", {.bytes = 3}), "f: the JSON is too large: 4 bytes, the limit is 3");
   EXPECT_EQ(said("[[],{}]", {.containers = 3}), "no error");
   EXPECT_EQ(said("[[],{},[]]", {.containers = 3}), "f: the JSON has more than 3 arrays and objects");
+  EXPECT_EQ(said("[1,2,3,4,null,true,\"7\",8.5]", {.containers = 1}), "no error");
+  EXPECT_EQ(said("[1,2,3,4,5,6,7,8,9]", {.containers = 1}), "f: the JSON has more than 8 values");
   EXPECT_EQ(said("[[1]]", {.depth = 1}), "f: the JSON is nested deeper than 1 levels");
   EXPECT_FALSE(try_parse("[10]", {.bytes = 3}));
   EXPECT_EQ(try_parse("[10]")->size(), 1u);

@@ -136,7 +136,7 @@ class Value {
 struct Limits {
   std::size_t bytes = std::size_t{256} << 20;
   int depth = 128;                                ///< of arrays and objects within each other
-  std::size_t containers = std::size_t{1} << 22;  ///< arrays and objects
+  std::size_t containers = std::size_t{1} << 22;  ///< arrays and objects; other values: eight times as many
 };
 
 /// Throws Error, with `where` in its place, for what is no JSON or beyond the limits. Of members of one name
