@@ -1,12 +1,18 @@
+#include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include <ssphh/core/log.h>
 #include <ssphh/core/parallel.h>
 
-#include "command.h"
-#include "stderr_progress.h"
+#include "commands/command.h"
+#include "results/stderr_progress.h"
 
 namespace ssphh::app {
 namespace {
@@ -29,24 +35,26 @@ int fail(const Context& context, const std::string& message) {
 
 int run(int argc, char** argv) {
   Context context;
-  CLI::App app{"ssphh: global illumination from hierarchies of spherical-harmonics light probes"};
-  app.set_version_flag("--version", std::string("ssphh ") + SSPHH_VERSION);
-  app.require_subcommand(1);
+  const CommandLine line("ssphh: global illumination from hierarchies of spherical-harmonics light probes");
+  const Command app = line.root();
+  line.version(std::string("ssphh ") + SSPHH_VERSION);
+  app.needs_command();
   app.footer(
       "SCENE is a file (.glb .gltf .obj) or builtin:NAME (see `ssphh scene list`).\n"
       "Exit codes: 0 success, 1 failure (bad input, cancelled), 2 wrong usage.");
 
   add_commands(app, context);
 
-  const auto called = [&](const CLI::App* command) { return command->check_name(argv[1]); };
-  if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(called).empty()) {
-    log(LogLevel::error, fmt::format("no command '{}'; see ssphh --help", argv[1]));
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && !words[0].starts_with('-') && std::ranges::count(app.commands(), words[0]) == 0) {
+    log(LogLevel::error, fmt::format("no command '{}'; see ssphh --help", words[0]));
     return usage;
   }
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? success : usage;
+    line.parse(words);
+  } catch (const ParsingEnded& ended) {
+    std::fputs(ended.text.c_str(), ended.wrong_usage ? stderr : stdout);
+    return ended.wrong_usage ? usage : success;
   }
 
   StderrProgress progress(progress_style(context.progress));

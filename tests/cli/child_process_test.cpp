@@ -1,6 +1,6 @@
 // Programs that the tool runs: what they print goes where it should, how they end is told.
 
-#include "child_process.h"
+#include "commands/child_process.h"
 
 #include <cstdlib>
 #include <fstream>

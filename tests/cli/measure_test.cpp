@@ -20,7 +20,7 @@
 #include <ssphh/trace/transport_scene.h>
 
 #include "here.h"
-#include "probe_options.h"
+#include "options/probe_options.h"
 #include "temp_dir.h"
 
 namespace ssphh {

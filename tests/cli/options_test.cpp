@@ -5,11 +5,12 @@
 #include <map>
 #include <set>
 
+#include <CLI/CLI.hpp>
 #include <gmock/gmock.h>
 
 #include <ssphh/core/file.h>
 
-#include "command.h"
+#include "commands/command.h"
 #include "places.h"
 
 namespace ssphh::app {
@@ -77,10 +78,10 @@ class Listing {
 
 std::string all_options() {
   Context context;
-  CLI::App app{"ssphh"};
-  add_commands(app, context);
+  const CommandLine line("ssphh");
+  add_commands(line.root(), context);
   Listing listing;
-  listing.add(app, "");
+  listing.add(line.root().implementation(), "");
   return listing.text();
 }
 

@@ -12,8 +12,9 @@
 #include <ssphh/sh/reconstruct.h>
 #include <ssphh/sh/window.h>
 
+#include "error_message.h"
 #include "here.h"
-#include "probe_sheet.h"
+#include "results/probe_sheet.h"
 #include "temp_dir.h"
 
 namespace ssphh {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "stderr_progress.h"
+#include "results/stderr_progress.h"
 
 namespace ssphh::app {
 namespace {

@@ -1,6 +1,6 @@
 // What `--animate` and `--event` say: which values a frame has.
 
-#include "relight_animation.h"
+#include "commands/relight_animation.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // What `ssphh relight` says of its frames: medians, rays, frames that took too long, the curve of its errors.
 
-#include "relight_report.h"
+#include "results/relight_report.h"
 
 #include <cmath>
 #include <limits>

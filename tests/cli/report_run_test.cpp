@@ -1,6 +1,6 @@
 // How `ssphh report` runs the command lines of a plan, with a script in place of the tool.
 
-#include "report_run.h"
+#include "commands/report_run.h"
 
 #include <fstream>
 

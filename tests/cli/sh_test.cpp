@@ -17,8 +17,9 @@
 #include <ssphh/sh/rotate.h>
 #include <ssphh/sh/window.h>
 
+#include "commands/sh_file.h"
+#include "error_message.h"
 #include "here.h"
-#include "sh_file.h"
 #include "temp_dir.h"
 
 namespace ssphh {

@@ -1,0 +1,65 @@
+#pragma once
+/// How a command of the tool is made: one file <name>.cpp per command, one line in add_commands().
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include <ssphh/core/control.h>
+#include <ssphh/core/json.h>
+
+#include "options/command_line.h"
+
+namespace ssphh::app {
+
+/// What every command shares.
+struct Context {
+  bool json = false;
+  std::uint64_t seed = 0;
+  int threads = 0;
+  std::string progress = "auto";
+  Control control;            ///< progress on stderr, cancelled by Ctrl-C
+  std::function<void()> run;  ///< set by the chosen command while options are parsed
+  int exit_code = 0;          ///< of a command that gave a result and still has to report a failure
+
+  /// The command's result: with --json the object alone on stdout, else `text`.
+  void result(const json::Value& object, const std::string& text) const;
+};
+
+/// A leaf command with the common options (--json, --seed, --threads, --progress). `action` runs after
+/// parsing; it throws Error for bad input.
+Command add_command(Command parent, Context& context, const std::string& name, const std::string& description,
+                    std::function<void()> action);
+
+/// A command that only groups subcommands ("sh project", "probe info").
+Command add_group(Command parent, const std::string& name, const std::string& description);
+
+/// All of them.
+void add_commands(Command app, Context& context);
+
+void add_respond_command(Command app, Context& context);
+void add_scene_commands(Command app, Context& context);
+void add_render_command(Command app, Context& context);
+void add_bake_command(Command app, Context& context);
+void add_place_command(Command app, Context& context);
+void add_hier_command(Command app, Context& context);
+void add_probe_commands(Command app, Context& context);
+void add_probe_lint_command(Command group, Context& context);
+void add_sh_commands(Command app, Context& context);
+void add_cubemap_commands(Command app, Context& context);
+void add_broker_command(Command app, Context& context);
+void add_compare_command(Command app, Context& context);
+void add_export_command(Command app, Context& context);
+void add_truth_command(Command app, Context& context);
+void add_report_command(Command app, Context& context);
+void add_leak_command(Command app, Context& context);
+void add_measure_command(Command app, Context& context);
+void add_methods_command(Command app, Context& context);
+void add_relight_command(Command app, Context& context);
+void add_bench_frame_command(Command app, Context& context);
+void add_turntable_command(Command app, Context& context);
+void add_view_command(Command app, Context& context);
+void add_worker_command(Command app, Context& context);
+void add_farm_commands(Command app, Context& context);
+
+}  // namespace ssphh::app

@@ -1,0 +1,233 @@
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/file.h>
+#include <ssphh/image/io.h>
+#include <ssphh/metrics/compare.h>
+#include <ssphh/metrics/flip.h>
+#include <ssphh/metrics/heat_map.h>
+#include <ssphh/metrics/mask.h>
+#include <ssphh/metrics/perceptual.h>
+
+#include "commands/command.h"
+
+namespace ssphh::app {
+namespace {
+
+using image::Image;
+struct CompareOptions {
+  std::string reference, test, output, mask, map = "absolute";
+  int block = 16;
+  float scale = 0, exposure = 0;
+  double pixels_per_degree = metrics::FlipParams{}.pixels_per_degree;
+  bool allow_nonfinite = false;
+};
+
+struct Errors {
+  metrics::ImageError linear;
+  metrics::BlockError blocks;
+  metrics::DisplayError display;
+  metrics::FlipError flip;
+  bool hdr = false;  // which FLIP
+};
+
+Image read_exposed(const std::string& path, float exposure) {
+  Image image = image::read_image(path);
+  const float factor = std::exp2(exposure);
+  if (factor != 1) {
+    for (float& x : image.pixels) x *= factor;
+  }
+  return image;
+}
+
+bool is_display_file(const std::string& path) {
+  const image::FileFormat format = image::format_of_extension(path);
+  return format == image::FileFormat::png || format == image::FileFormat::jpeg;
+}
+
+Errors measure(const CompareOptions& options, const Image& reference, const Image& test) {
+  Errors e;
+  e.linear = metrics::compare(reference, test);
+  e.blocks =
+      metrics::block_error(metrics::pixelated_error_map(reference, test, options.block), options.block);
+  e.display = metrics::display_error(reference, test);
+  e.hdr = !is_display_file(options.reference) || !is_display_file(options.test);
+  const metrics::FlipParams flip{options.pixels_per_degree};
+  e.flip = e.hdr ? metrics::hdr_flip(reference, test, flip) : metrics::flip(reference, test, flip);
+  return e;
+}
+
+Image error_map(const CompareOptions& options, const Image& reference, const Image& test,
+                const Errors& errors) {
+  if (options.map == "flip") return errors.flip.map;
+  if (options.map == "signed") return metrics::signed_error_map(reference, test);
+  if (options.map == "relmse") return metrics::relative_squared_error_map(reference, test);
+  if (options.map == "pixelated") return metrics::pixelated_error_map(reference, test, options.block);
+  return metrics::absolute_error_map(reference, test);
+}
+
+// Writes the map and returns the error that has the ramp's last colour; 0 when the numbers themselves are
+// written.
+float write_map(const CompareOptions& options, const Image& reference, const Image& test,
+                const Errors& errors) {
+  const image::FileFormat format = image::format_of_extension(options.output);
+  Image map = error_map(options, reference, test, errors);
+  if (format == image::FileFormat::exr) {
+    image::write_image(options.output, map);
+    return 0;
+  }
+  const float automatic = options.map == "flip" ? 1 : metrics::automatic_scale(map);
+  const float scale = options.scale > 0 ? options.scale : automatic;
+  if (options.map == "pixelated") {
+    map = metrics::enlarge_blocks(map, options.block, reference.width, reference.height);
+  }
+  const auto ramp = options.map == "signed" ? metrics::ColorRamp::diverging : metrics::ColorRamp::inferno;
+  write_file(options.output, image::encode_png(metrics::heat_map(map, ramp, scale)));
+  return scale;
+}
+
+// JSON knows no infinity: null says that the images are equal.
+json::Value finite_or_null(double x) {
+  return std::isfinite(x) ? json::Value(x) : json::Value(nullptr);
+}
+
+json::Value to_json(const Errors& errors) {
+  const metrics::ImageError& e = errors.linear;
+  const metrics::BlockError& blocks = errors.blocks;
+  json::Value flip = {{"mean", errors.flip.mean}, {"kind", errors.hdr ? "hdr" : "ldr"}};
+  if (errors.hdr) {
+    flip["exposures"] = {{"first", errors.flip.first_exposure},
+                         {"last", errors.flip.last_exposure},
+                         {"count", errors.flip.exposures}};
+  }
+  return {{"width", e.width},
+          {"height", e.height},
+          {"mae", e.mae},
+          {"rmse", e.rmse},
+          {"mse", e.mse},
+          {"relmse", e.relmse},
+          {"mape", e.mape},
+          {"smape", e.smape},
+          {"mean_ratio", e.mean_ratio},
+          {"bias", e.bias},
+          {"sum", e.sum},
+          {"max", e.max},
+          {"psnr", finite_or_null(errors.display.psnr)},
+          {"ssim", errors.display.ssim},
+          {"flip", flip},
+          {"pixels", e.pixels},
+          {"nonfinite_pixels", e.nonfinite_pixels},
+          {"blocks",
+           {{"size", blocks.block},
+            {"columns", blocks.columns},
+            {"rows", blocks.rows},
+            {"mean", blocks.mean},
+            {"max", blocks.max},
+            {"max_block", {blocks.max_column, blocks.max_row}}}}};
+}
+
+std::string to_text(const Errors& errors) {
+  const metrics::ImageError& e = errors.linear;
+  const metrics::BlockError& blocks = errors.blocks;
+  const std::string flip =
+      errors.hdr ? fmt::format("largest of {} exposures from {:.2f} to {:.2f} EV", errors.flip.exposures,
+                               errors.flip.first_exposure, errors.flip.last_exposure)
+                 : "as displayed";
+  return fmt::format(
+      "size       {} x {}\n"
+      "MAE        {:.6g}   (sum {:.6g}, max {:.6g}, bias {:+.6g})\n"
+      "RMSE       {:.6g}   (MSE {:.6g})\n"
+      "relMSE     {:.6g}\n"
+      "MAPE       {:.6g}\n"
+      "SMAPE      {:.6g}\n"
+      "mean ratio {:.6g} {:.6g} {:.6g}\n"
+      "FLIP       {:.6g}   ({})\n"
+      "SSIM       {:.6g}\n"
+      "PSNR       {:.6g} dB\n"
+      "blocks     {} x {} of {} pixels: mean sum {:.6g}, max {:.6g} in block {}, {}",
+      e.width, e.height, e.mae, e.sum, e.max, e.bias, e.rmse, e.mse, e.relmse, e.mape, e.smape,
+      e.mean_ratio[0], e.mean_ratio[1], e.mean_ratio[2], errors.flip.mean, flip, errors.display.ssim,
+      errors.display.psnr, blocks.columns, blocks.rows, blocks.block, blocks.mean, blocks.max,
+      blocks.max_column, blocks.max_row);
+}
+
+void compare(Context& context, const CompareOptions& options) {
+  if (!options.output.empty()) {
+    const image::FileFormat format = image::format_of_extension(options.output);
+    if (format != image::FileFormat::png && format != image::FileFormat::exr) {
+      throw Error(options.output, "an error map is written as .png (colours) or .exr (numbers)");
+    }
+  }
+  Image reference = read_exposed(options.reference, options.exposure);
+  const Image test = read_exposed(options.test, options.exposure);
+  if (reference.width != test.width || reference.height != test.height) {
+    throw Error(options.test, fmt::format("is {} x {} pixels, but {} is {} x {}", test.width, test.height,
+                                          options.reference, reference.width, reference.height));
+  }
+  std::uint64_t outside = 0;
+  if (!options.mask.empty()) {
+    const Image mask = image::read_image(options.mask);
+    outside = metrics::pixels_outside(mask, reference.width, reference.height);
+    reference = metrics::masked(reference, mask);
+  }
+  Errors errors = measure(options, reference, test);
+  errors.linear.nonfinite_pixels -= outside;
+  json::Value object = to_json(errors);
+  std::string text = to_text(errors);
+  if (!options.output.empty()) {
+    const float scale = write_map(options, reference, test, errors);
+    object["map"] = {{"output", options.output}, {"kind", options.map}, {"scale", scale}};
+    text += fmt::format("\nmap        {} ({}", options.output, options.map);
+    text += scale > 0 ? fmt::format(", last colour at {:.6g})", scale) : ")";
+  }
+  if (errors.linear.nonfinite_pixels > 0) {
+    text += fmt::format("\n{} pixels are infinite or NaN and were left out", errors.linear.nonfinite_pixels);
+    if (!options.allow_nonfinite) {
+      text += " (--allow-nonfinite accepts them)";
+      context.exit_code = 1;
+    }
+  }
+  context.result(object, text);
+}
+
+}  // namespace
+
+void add_compare_command(Command app, Context& context) {
+  auto options = std::make_shared<CompareOptions>();
+  Command command = add_command(app, context, "compare", "Measure the error of an image against a reference",
+                                [&context, options] { compare(context, *options); });
+  command.option("REF", options->reference, "Reference image: .exr .hdr .png .jpg").required();
+  command.option("TEST", options->test, "Image of the same size").required();
+  command.option("--mask", options->mask,
+                 "Picture of any size that is white where to measure; everything else is left out");
+  command.option("--block", options->block, "Side of the blocks of the pixelated map, in pixels")
+      .range(1, 65536);
+  command.option("-o,--output", options->output, "Error map to write: .png (colours) or .exr (numbers)");
+  command
+      .option("--map", options->map,
+              "Which map: absolute |d|, signed d, pixelated (sum of |d| in each block), relmse, flip")
+      .one_of({"absolute", "signed", "pixelated", "relmse", "flip"});
+  command
+      .option("--scale", options->scale,
+              "Error shown in the last colour of a .png map; 0: the 99th percentile, for flip 1")
+      .non_negative();
+  command.option("--exposure", options->exposure, "Multiply both images by 2^EV first").range(-60.0, 60.0);
+  command.option("--ppd", options->pixels_per_degree, "Pixels in one degree of the viewer's sight, for FLIP")
+      .range(1.0, 500.0);
+  command.flag("--allow-nonfinite", options->allow_nonfinite,
+               "Do not fail when pixels are infinite or NaN (they are left out and counted)");
+  command.footer(
+      "d = TEST - REF in scene-linear RGB: PNG and JPEG are decoded from sRGB first; alpha is not compared.\n"
+      "MAE mean |d|, MSE mean d^2, relMSE mean d^2/(REF^2 + 0.01), MAPE mean |d|/(|REF| + 0.01), SMAPE mean "
+      "|d|/(|REF| + |TEST| + 0.01),\n"
+      "as fractions, all over pixels and channels; mean ratio: mean TEST / mean REF per channel; bias: mean "
+      "d. Block sums add the\n"
+      "channels. FLIP: of two PNG or JPEG files as displayed, else HDR-FLIP over the exposures of REF. SSIM "
+      "(of "
+      "luma) and PSNR:\n"
+      "sRGB-encoded and clipped to [0, 1] after --exposure; JSON says null for the PSNR of equal images.");
+}
+
+}  // namespace ssphh::app

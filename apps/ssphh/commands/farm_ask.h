@@ -1,0 +1,26 @@
+#pragma once
+/// Questions to a broker's management services (mmi.*, docs/protocol.md).
+
+#include <string>
+
+#include <ssphh/core/json.h>
+#include <ssphh/majordomo/client.h>
+
+#include "commands/command.h"
+#include "options/command_line.h"
+#include "options/farm_options.h"
+
+namespace ssphh::app {
+
+majordomo::Client connect(const BrokerChoice& choice);
+
+/// The second frame of the answer. Throws Error when the code is not 200 (`not_found` is what 404 means) or
+/// none comes within five seconds.
+std::string ask(majordomo::Client& client, const std::string& service, const std::string& body,
+                const Control& control, const std::string& not_found = "the broker does not know it");
+json::Value ask_json(majordomo::Client& client, const std::string& service, const Control& control);
+
+/// `ssphh farm parked`, `release` and `drop`.
+void add_farm_parked_commands(Command group, Context& context);
+
+}  // namespace ssphh::app

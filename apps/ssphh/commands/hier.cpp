@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/log.h>
+#include <ssphh/gi/hier.h>
+
+#include "commands/command.h"
+#include "options/probe_options.h"
+
+namespace ssphh::app {
+namespace {
+
+struct HierOptions {
+  std::string input, output, op = "coefficient";
+  gi::HierParams params;
+  std::vector<std::string> scales;
+};
+
+/// "GROUP=R,G,B" or "GROUP=X"; the last '=' separates, so that names may hold some.
+void apply_scale(gi::ProbeSet& set, const std::string& text) {
+  const std::size_t equals = text.rfind('=');
+  const auto fail = [&]() -> Error {
+    return {"--scale " + text, "must be GROUP=R,G,B or GROUP=X", "e.g. --scale lamp=0.5"};
+  };
+  if (equals == std::string::npos) throw fail();
+  vec3 scale(0);
+  const std::string numbers = text.substr(equals + 1);
+  const char* at = numbers.c_str();
+  for (int c = 0; c < 3; ++c) {
+    char* end = nullptr;
+    scale[c] = std::strtof(at, &end);
+    if (end == at) throw fail();
+    if (c == 0 && *end == '\0') {
+      scale = vec3(scale.x);
+      at = end;
+      break;
+    }
+    if (c < 2 && *end != ',') throw fail();
+    at = c < 2 ? end + 1 : end;
+  }
+  if (*at != '\0') throw fail();
+  gi::relight(set, text.substr(0, equals), scale);
+}
+
+std::string light_of(const gi::GeneratorInfo& g) {
+  return g.op == gi::LightOperator::path ? fmt::format("GEN {}", gi::to_string(g.gen))
+                                         : fmt::format("light by {}", gi::to_string(g.op));
+}
+
+void hier(Context& context, HierOptions& options) {
+  gi::ProbeSet set = gi::read_probe_file(options.input);
+  for (const std::string& scale : options.scales) apply_scale(set, scale);
+  options.params.op = *gi::parse_hier_operator(options.op);
+  if (gi::edge_count(set) == 0 && set.probes.size() > 1) {
+    log_warning("{} has no edges between its probes, so HIER adds nothing; bake with --viz links or path",
+                options.input);
+  }
+
+  // Once to take the memory, then timed as a frame would do it: the median of some.
+  const std::size_t edges = gi::hier(set, options.params);
+  std::vector<double> times;
+  for (int run = 0; run < 7; ++run) {
+    const auto start = std::chrono::steady_clock::now();
+    gi::hier(set, options.params);
+    times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  std::nth_element(times.begin(), times.begin() + 3, times.end());
+  gi::write_probe_file(set, options.output);
+
+  const std::optional<gi::Contraction> contraction = gi::hier_contraction(set, options.params);
+  const std::string shrinks =
+      contraction
+          ? fmt::format("; another application would change light by up to {:.3g}", contraction->upper)
+          : "";
+  context.result(
+      {{"output", options.output},
+       {"seconds", times[3]},
+       {"edges", edges},
+       {"operator", options.op},
+       {"neighbors", options.params.neighbors},
+       {"threshold", options.params.threshold},
+       {"probes", set.probes.size()},
+       {"contraction", contraction ? json::Value(contraction->upper) : json::Value()},
+       {"gen", gi::to_string(set.generator.gen)},
+       {"light", gi::to_string(set.generator.op)},
+       {"viz", gi::to_string(set.generator.viz)}},
+      fmt::format("{}: {} edges between {} probes, operator {}, {}: {:.1f} us{}", options.output, edges,
+                  set.probes.size(), options.op, light_of(set.generator), 1e6 * times[3], shrinks));
+}
+
+}  // namespace
+
+void add_hier_command(Command app, Context& context) {
+  auto options = std::make_shared<HierOptions>();
+  Command command = add_command(app, context, "hier", "Add each probe's neighbours to its light (HIER)",
+                                [&context, options] { hier(context, *options); });
+  add_probe_file(command, "FILE", options->input, "Probe file of `ssphh bake`").required();
+  add_probe_file(command, "-o,--output", options->output, "Probe file to write: .sphl or .sphl.json")
+      .required();
+  command
+      .option("--operator", options->op,
+              "What H (x) S means: coefficient (the paper's, coefficient by coefficient), mean (H times "
+              "the mean of "
+              "S), matrix (exact for SPHLs that are lights; bake with --viz-transfer)")
+      .one_of({"coefficient", "mean", "matrix"});
+  command
+      .option("--neighbors", options->params.neighbors,
+              "At most so many neighbours per probe, strongest P first; -1: all")
+      .range(-1, 65536);
+  command.option("--threshold", options->params.threshold, "Only neighbours with P above this, 0..1")
+      .range(0.0, 1.0);
+  command
+      .option("--scale", options->scales,
+              "Switch, dim or recolour a light group first: GROUP=R,G,B or GROUP=X, relative to the "
+              "bake; repeatable")
+      .repeatable();
+  command.footer(
+      "Probes of GEN full or of operator surfel or bounce hold the neighbours' light already, so HIER counts "
+      "it\n"
+      "twice: bake with --gen local to see what the hierarchy alone transports. The time is the median of "
+      "seven runs.");
+}
+
+}  // namespace ssphh::app

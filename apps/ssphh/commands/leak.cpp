@@ -1,0 +1,137 @@
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/log.h>
+#include <ssphh/gi/lookup.h>
+#include <ssphh/gi/surface_points.h>
+#include <ssphh/image/io.h>
+#include <ssphh/trace/path_tracer.h>
+#include <ssphh/trace/transport_scene.h>
+
+#include "commands/command.h"
+#include "options/probe_options.h"
+#include "options/scene_options.h"
+#include "results/leak_map.h"
+
+namespace ssphh::app {
+namespace {
+
+struct LeakOptions {
+  SceneOptions scene;
+  std::string probes, output, camera, weights, light = "sum";
+  std::optional<float> time;  ///< seconds; none: that of the probe file
+  bool force = false;
+  int points = 2048, width = 320, height = 180, map_spp = 64;
+  gi::LeakParams params;
+};
+
+void leak(Context& context, LeakOptions& o) {
+  if (!o.output.empty()) {
+    const image::FileFormat format = image::format_of_extension(o.output);
+    if (format != image::FileFormat::png && format != image::FileFormat::exr)
+      throw Error(o.output, "a leak map is written as .png (colours) or .exr (numbers)");
+  }
+  const gi::ProbeSet set = gi::read_probe_file(o.probes);
+  const scene::Scene scene = load_scene(o.scene);
+  const float time = o.time.value_or(set.generator.time);
+  if (time != set.generator.time) {
+    log_warning("{}: was baked at {} s, not at {} s: what moved since counts as leaking", o.probes,
+                set.generator.time, time);
+  }
+  scene::CameraPose camera;
+  if (!o.output.empty()) camera = scene::camera_pose(scene, o.camera, time);
+
+  const trace::PathTracer tracer(scene, time);
+  require_same_scene(o.probes, set, scene, tracer.light_groups(), {}, o.force);
+  const trace::TransportScene surfaces(scene);
+  gi::LookupParams lookup_params;
+  if (o.light == "self") lookup_params.layer = gi::ProbeLayer::self;
+  lookup_params.weights = weight_params(o.probes, set, o.weights);
+  const gi::IrradianceLookup lookup(set, tracer, lookup_params);
+
+  o.params.path.seed = context.seed;
+  const std::vector<scene::SurfacePoint> points = gi::reachable_points(
+      surfaces, viewpoints(scene, {&set, 1}, time), time, {o.points, context.seed}, context.control);
+  const gi::LeakReport report = gi::measure_leak(tracer, lookup, points, o.params, context.control);
+  if (!(report.mean_truth > 0))
+    log_warning("{}: path tracing finds no indirect light at all", o.scene.source);
+
+  json::Value object = {{"leak_ratio", report.ratio},
+                        {"points", points.size()},
+                        {"dark_points", report.dark},
+                        {"dark_share", o.params.dark_share},
+                        {"truth_noise", report.truth_noise},
+                        {"truth_spp", o.params.path.spp},
+                        {"mean_truth", report.mean_truth},
+                        {"mean_looked_up", report.mean_looked_up},
+                        {"weights", gi::to_string(lookup_params.weights.chosen(set.fitted.has_value()))},
+                        {"time", time}};
+  std::string text = fmt::format(
+      "leaked      {:.4g} % of the looked-up light stands on dark points\n"
+      "dark        {} of {} points: path traced indirect irradiance under {:g} of the mean, at {:g} sigma\n"
+      "mean        {:.5g} W/m2 looked up, {:.5g} path traced (noise of a point {:.2g} %)",
+      100 * report.ratio, report.dark, points.size(), o.params.dark_share, o.params.sigmas,
+      report.mean_looked_up, report.mean_truth, 100 * report.truth_noise);
+  if (!o.output.empty()) {
+    gi::LeakParams params = o.params;
+    params.path.spp = o.map_spp;
+    params.mean = static_cast<float>(report.mean_truth > 0 ? report.mean_truth : 1);
+    const LeakMap map =
+        leak_map(surfaces, time, camera, o.width, o.height, tracer, lookup, params, context.control);
+    const float scale = write_leak_map(o.output, map);
+    object["map"] = {{"output", o.output}, {"dark_pixels", map.dark}, {"scale", scale}};
+    text += fmt::format("\nmap         {}, {} dark pixels", o.output, map.dark);
+    if (scale > 0) text += fmt::format(", last colour at {:.3g} of the mean", scale);
+  }
+  context.result(object, text);
+}
+
+}  // namespace
+
+void add_leak_command(Command app, Context& context) {
+  auto options = std::make_shared<LeakOptions>();
+  LeakOptions& o = *options;
+  Command command = add_command(app, context, "leak", "Measure the light that probes put where there is none",
+                                [&context, options] { leak(context, *options); });
+  add_scene_options(command, o.scene, false);
+  command.option("--time", o.time, "Pose the scene's animations at this time [s]")
+      .shown_default("that of the probe file")
+      .group("Scene");
+  add_probe_file(command, "--probes", o.probes, "Probe file").required();
+  command.option("--points", o.points, "Surface points to measure at").range(1, 1 << 24);
+  add_weights_option(command, o.weights);
+  add_force_option(command, o.force);
+  command
+      .option("--light", o.light, "sum: own and neighbours' light where HIER was run; self: own light only")
+      .one_of({"sum", "self"});
+
+  const std::string truth = "Truth";
+  command.option("--truth-spp", o.params.path.spp, "Paths per point").range(2, 1 << 22).group(truth);
+  command.option("--max-depth", o.params.path.max_depth, "Scattering events of a path")
+      .range(2, 1000)
+      .group(truth);
+  command
+      .option("--dark", o.params.dark_share,
+              "A point is dark below this share of the mean indirect irradiance")
+      .range(1e-12f, 0.5f)
+      .group(truth);
+
+  const std::string map = "Map";
+  command
+      .option("-o,--output", o.output,
+              "Picture of the dark places that probes light: .png (colours over the grey scene) or .exr "
+              "(shares of the mean irradiance)")
+      .group(map);
+  command.option("--camera", o.camera, "Camera by name; default: the scene's first").group(map);
+  command.option("--width", o.width, "Pixels").range(1, 16384).group(map);
+  command.option("--height", o.height, "Pixels").range(1, 16384).group(map);
+  command.option("--map-spp", o.map_spp, "Paths per pixel").range(2, 1 << 22).group(map);
+  command.footer(
+      "Points are uniform by area over what cameras and probes can reach. Leaked: the sum of looked-up "
+      "indirect\n"
+      "irradiance at points that are dark by path tracing, over the sum at all points.");
+}
+
+}  // namespace ssphh::app

@@ -1,0 +1,41 @@
+#pragma once
+/// Methods of gi::method_table() made for a scene in this process, with what they took.
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <ssphh/gi/methods/table.h>
+#include <ssphh/trace/transport_scene.h>
+
+#include "commands/command.h"
+
+namespace ssphh::app {
+
+class LiveMethod {
+ public:
+  /// Bakes. `settings` as "name=value". Keeps a reference to the scene.
+  LiveMethod(const std::string& name, const std::vector<std::string>& settings, const scene::Scene& scene,
+             const Control& control);
+
+  /// One frame; its time is added to json().
+  void update(const gi::FrameState& state, const Control& control);
+
+  gi::Method& method() { return *method_; }
+  const gi::Method& method() const { return *method_; }
+  const trace::TransportScene& source() const { return source_; }
+  double bake_seconds() const { return bake_seconds_; }
+  double update_seconds() const { return update_seconds_; }
+
+  /// bake_seconds, update_seconds (of the last update), lookup_bytes, update_bytes and the method's numbers.
+  json::Value json() const;
+  std::string text() const;
+
+ private:
+  trace::TransportScene source_;
+  std::unique_ptr<gi::Method> method_;
+  double bake_seconds_ = 0, update_seconds_ = 0;
+};
+
+}  // namespace ssphh::app

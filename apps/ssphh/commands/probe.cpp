@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include <ssphh/sh/irradiance.h>
+#include <ssphh/sh/window.h>
+
+#include "commands/command.h"
+#include "options/probe_options.h"
+#include "results/probe_sheet.h"
+
+namespace ssphh::app {
+namespace {
+
+json::Value rgb(const vec3& v) {
+  return {v.x, v.y, v.z};
+}
+std::string rgb_text(const vec3& v) {
+  return fmt::format("{:9.4g} {:9.4g} {:9.4g}", v.x, v.y, v.z);
+}
+
+/// Lowest E(n) of any channel over all normals.
+float lowest_irradiance(const sh::RadianceSh& light) {
+  const vec3 lowest = sh::minimum(sh::irradiance_from_radiance(light));
+  return std::min({lowest.x, lowest.y, lowest.z});
+}
+
+json::Value generator_json(const gi::GeneratorInfo& g) {
+  return {{"operator", gi::to_string(g.op)},
+          {"viz", gi::to_string(g.viz)},
+          {"gen", gi::to_string(g.gen)},
+          {"max_depth", g.max_depth},
+          {"passes", g.passes},
+          {"spp", g.spp},
+          {"face_size", g.face_size},
+          {"seed", g.seed},
+          {"directions", g.directions},
+          {"surfel_size", g.surfel_size},
+          {"link_rays", g.link_rays},
+          {"scene", g.scene},
+          {"scene_hash", g.scene_hash.hex()},
+          {"time", g.time}};
+}
+
+json::Value probe_json(const gi::ProbeSet& set, std::size_t i) {
+  const gi::Probe& probe = set.probes[i];
+  json::Value groups = json::Value::array(), edges = json::Value::array();
+  for (const gi::GroupLight& group : probe.groups) {
+    groups.push_back(
+        {{"emitted", rgb(sh::mean(group.emitted))}, {"reflected", rgb(sh::mean(group.reflected))}});
+  }
+  for (const gi::Edge& edge : probe.edges) {
+    edges.push_back(
+        {{"from", edge.from}, {"transfer", edge.transfer}, {"matrix", !edge.matrix.values.empty()}});
+  }
+  json::Value object = {{"name", probe.name},
+                        {"position", rgb(probe.position)},
+                        {"radius", probe.radius},
+                        {"mean", rgb(sh::mean(probe.self))},
+                        {"reflected_mean", rgb(sh::mean(probe.reflected))},
+                        {"min_irradiance", lowest_irradiance(probe.self)},
+                        {"groups", groups},
+                        {"edges", edges}};
+  if (set.hierarchy) object["neighbor_mean"] = rgb(sh::mean(set.hierarchy->neighbor[i]));
+  return object;
+}
+
+std::string probe_text(const gi::ProbeSet& set, std::size_t i) {
+  const gi::Probe& probe = set.probes[i];
+  std::string text =
+      fmt::format("\n{:3}  {}  at ({:.4g}, {:.4g}, {:.4g}) m, radius {:.3g} m\n", i, probe.name,
+                  probe.position.x, probe.position.y, probe.position.z, probe.radius);
+  text += fmt::format("     self       {}   lowest irradiance {:.4g}\n", rgb_text(sh::mean(probe.self)),
+                      lowest_irradiance(probe.self));
+  for (std::size_t g = 0; g < probe.groups.size(); ++g) {
+    const gi::GroupLight& group = probe.groups[g];
+    text += fmt::format("     reflected  {}   {}\n", rgb_text(sh::mean(group.reflected)),
+                        set.light_groups[g].name);
+    if (!group.emitted.empty()) {
+      text += fmt::format("     emitted    {}   {}\n", rgb_text(sh::mean(group.emitted)),
+                          set.light_groups[g].name);
+    }
+  }
+  if (set.hierarchy)
+    text += fmt::format("     neighbours {}\n", rgb_text(sh::mean(set.hierarchy->neighbor[i])));
+  text += "     P";
+  for (const gi::Edge& edge : probe.edges) text += fmt::format("  {}: {:.4g}", edge.from, edge.transfer);
+  return text + (probe.edges.empty() ? "  no edges" : "");
+}
+
+void info(Context& context, const std::string& path) {
+  const gi::ProbeSet set = gi::read_probe_file(path);
+  const gi::GeneratorInfo& g = set.generator;
+  json::Value groups = json::Value::array(), probes = json::Value::array();
+  std::string text =
+      fmt::format("{}: {} probes of degree {}, {} edges\nscene {} at {} s; light by {}, edges by {}\n", path,
+                  set.probes.size(), set.degree, gi::edge_count(set), g.scene, g.time, gi::to_string(g.op),
+                  gi::to_string(g.viz));
+  if (g.op == gi::LightOperator::path || g.viz == gi::VizMethod::path) {
+    text += fmt::format("paths: GEN {}, depth {}, {} x {} samples, {}x{}x6 texels, seed {}\n",
+                        gi::to_string(g.gen), g.max_depth, g.passes, g.spp, g.face_size, g.face_size, g.seed);
+  }
+  if (g.directions > 0) {
+    text += fmt::format("transport: {} directions a probe, surfels of {:.3g} m, {} link rays\n", g.directions,
+                        g.surfel_size, g.link_rays);
+  }
+  if (set.fitted) text += fmt::format("weights fitted at {} surface points\n", set.fitted->points.size());
+  for (const gi::LightGroup& group : set.light_groups) {
+    groups.push_back({{"name", group.name}, {"scale", rgb(group.scale)}});
+    text += fmt::format("light group {}, scale {:g} {:g} {:g}\n", group.name, group.scale.x, group.scale.y,
+                        group.scale.z);
+  }
+  json::Value object = {{"file", path},
+                        {"degree", set.degree},
+                        {"generator", generator_json(g)},
+                        {"light_groups", groups},
+                        {"edges", gi::edge_count(set)},
+                        {"fitted", set.fitted ? set.fitted->points.size() : 0}};
+  if (set.hierarchy) {
+    const gi::Hierarchy& h = *set.hierarchy;
+    object["hierarchy"] = {
+        {"operator", gi::to_string(h.op)}, {"neighbors", h.neighbors}, {"threshold", h.threshold}};
+    text += fmt::format("HIER {}, neighbors {}, threshold {:g}\n", gi::to_string(h.op),
+                        h.neighbors < 0 ? "all" : std::to_string(h.neighbors), h.threshold);
+  }
+  text += "mean radiance R, G, B [W/sr/m2] over all directions:";
+  for (std::size_t i = 0; i < set.probes.size(); ++i) {
+    probes.push_back(probe_json(set, i));
+    text += probe_text(set, i);
+  }
+  object["probes"] = probes;
+  context.result(object, text);
+}
+
+struct PreviewOptions {
+  std::string input, output;
+  int width = 256;
+  float exposure = 0;
+};
+
+void preview(Context& context, const PreviewOptions& options) {
+  const gi::ProbeSet set = gi::read_probe_file(options.input);
+  const ProbeSheet sheet = probe_sheet(set, options.width, options.exposure);
+  image::write_image(options.output, sheet.image);
+  std::string text =
+      fmt::format("{}: {} x {} pixels, one row per probe, columns from the left:", options.output,
+                  sheet.image.width, sheet.image.height);
+  json::Value columns = json::Value::array(), rows = json::Value::array();
+  for (const ProbeSheet::Column& column : sheet.columns) {
+    columns.push_back({{"layer", column.name}, {"exposure", column.exposure}});
+    text += fmt::format(" {} (exposure {:+.2f} EV)", column.name, column.exposure);
+  }
+  for (const gi::Probe& probe : set.probes) rows.push_back(probe.name);
+  if (!set.hierarchy) text += "\nrun `ssphh hier` on the file for the neighbours' part and the sum";
+  context.result({{"output", options.output},
+                  {"width", sheet.image.width},
+                  {"height", sheet.image.height},
+                  {"columns", columns},
+                  {"rows", rows}},
+                 text);
+}
+
+struct ConvertOptions {
+  std::string input, output;
+};
+
+void convert(Context& context, const ConvertOptions& options) {
+  const gi::ProbeSet set = gi::read_probe_file(options.input);
+  gi::write_probe_file(set, options.output);
+  const auto bytes = std::filesystem::file_size(options.output);
+  context.result({{"output", options.output}, {"probes", set.probes.size()}, {"bytes", bytes}},
+                 fmt::format("{}: {} probes, {} bytes", options.output, set.probes.size(), bytes));
+}
+
+}  // namespace
+
+void add_probe_commands(Command app, Context& context) {
+  Command group = add_group(app, "probe", "Look at probe files, check and convert them");
+
+  auto input = std::make_shared<std::string>();
+  Command info_command = add_command(group, context, "info", "List probes, light groups and the hierarchy",
+                                     [&context, input] { info(context, *input); });
+  add_probe_file(info_command, "FILE", *input, "Probe file").required();
+
+  auto look = std::make_shared<PreviewOptions>();
+  Command preview_command = add_command(group, context, "preview",
+                                        "Draw what each probe sees: itself, its neighbours' part, the sum",
+                                        [&context, look] { preview(context, *look); });
+  add_probe_file(preview_command, "FILE", look->input, "Probe file").required();
+  preview_command.option("-o,--output", look->output, "Picture to write: .png .jpg .exr .hdr").required();
+  preview_command.option("--width", look->width, "Pixels of one equirectangular picture, twice its height")
+      .range(8, 2048);
+  preview_command.option("--exposure", look->exposure, "EV added to the automatic exposure")
+      .range(-60.0, 60.0);
+  preview_command.footer(
+      "One row per probe in the file's order. Columns: self, neighbour, sum (self and sum share an "
+      "exposure). Each picture\n"
+      "is equirectangular: +y on top, +x in the middle. Negative lobes are black.");
+
+  auto files = std::make_shared<ConvertOptions>();
+  Command convert_command =
+      add_command(group, context, "convert", "Convert between .sphl (binary) and .sphl.json",
+                  [&context, files] { convert(context, *files); });
+  add_probe_file(convert_command, "FILE", files->input, "Probe file to read").required();
+  add_probe_file(convert_command, "-o,--output", files->output, "Probe file to write").required();
+  add_probe_lint_command(group, context);
+}
+
+}  // namespace ssphh::app

@@ -1,0 +1,226 @@
+#include "commands/relight_animation.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace ssphh::app {
+namespace {
+
+const struct {
+  const char* name;
+  TrackProperty property;
+} properties[] = {{"position", TrackProperty::position},
+                  {"direction", TrackProperty::direction},
+                  {"intensity", TrackProperty::intensity},
+                  {"color", TrackProperty::color},
+                  {"scale", TrackProperty::scale}};
+
+bool is_vector(TrackProperty property) {
+  return property == TrackProperty::position || property == TrackProperty::direction ||
+         property == TrackProperty::color;
+}
+
+std::vector<std::string_view> split(std::string_view text, char by) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t end = text.find(by);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+vec3 read_key(const std::string& where, std::string_view text, TrackProperty property) {
+  const std::vector<std::string_view> parts = split(text, ',');
+  const bool vector = is_vector(property);
+  const bool count_fits = vector
+                              ? parts.size() == 3
+                              : parts.size() == 1 || (property == TrackProperty::scale && parts.size() == 3);
+  vec3 key(0);
+  bool numbers = count_fits;
+  for (std::size_t i = 0; i < 3 && numbers; ++i) {
+    const std::string_view part = parts[std::min(i, parts.size() - 1)];
+    float value = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    numbers = error == std::errc() && end == part.data() + part.size() && std::isfinite(value);
+    key[static_cast<int>(i)] = value;
+  }
+  if (!numbers) {
+    throw Error(where, fmt::format("\"{}\" is not {}", text, vector ? "three numbers x,y,z" : "a number"),
+                "keys are parted by ':', as in lamp.position=0,2,0:1,2,0 or lamp.intensity=0:4");
+  }
+  const bool signed_value = property == TrackProperty::time || property == TrackProperty::turn ||
+                            property == TrackProperty::position || property == TrackProperty::direction;
+  if (!signed_value && glm::any(glm::lessThan(key, vec3(0)))) throw Error(where, "light cannot be negative");
+  if (property == TrackProperty::direction && !(glm::length(key) > 0))
+    throw Error(where, "a direction of length 0 is none");
+  return key;
+}
+
+int find_light(const std::string& where, const std::string& name, const scene::TransportSource& source) {
+  const std::vector<std::string>& names = source.light_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw Error(
+        where, fmt::format("there is no light \"{}\"", name),
+        names.empty() ? "the scene has no lights" : fmt::format("its lights: {}", fmt::join(names, ", ")));
+  }
+  if (std::count(names.begin(), names.end(), name) > 1) {
+    throw Error(where, fmt::format("several lights are named \"{}\"", name),
+                "give them names of their own, or scale their group");
+  }
+  return static_cast<int>(found - names.begin());
+}
+
+int find_group(const std::string& where, const std::string& name, const scene::TransportSource& source) {
+  const std::vector<std::string>& names = source.light_groups();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw Error(
+        where, fmt::format("there is no light group \"{}\"", name),
+        names.empty() ? "the scene has no light" : fmt::format("its groups: {}", fmt::join(names, ", ")));
+  }
+  return static_cast<int>(found - names.begin());
+}
+
+Track read_track(const std::string& spec, const scene::TransportSource& source, const scene::Scene& scene) {
+  const std::string where = fmt::format("--animate \"{}\"", spec);
+  const std::size_t equals = spec.rfind('=');
+  if (equals == std::string::npos) throw Error(where, "has no '='", "write time=0:1 or lamp.intensity=0:4");
+  const std::string what = spec.substr(0, equals);
+  Track track;
+  if (what == "environment.rotation") {
+    if (source.environment_group() < 0) throw Error(where, "the scene has no environment");
+    track.property = TrackProperty::turn;
+  } else if (what != "time") {
+    const std::size_t dot = what.rfind('.');
+    const std::string property = dot == std::string::npos ? "" : what.substr(dot + 1);
+    const auto* known = std::find_if(std::begin(properties), std::end(properties),
+                                     [&](const auto& p) { return property == p.name; });
+    if (known == std::end(properties)) {
+      throw Error(where, fmt::format("\"{}\" cannot be animated", what),
+                  "time, environment.rotation, LIGHT.position, LIGHT.direction, LIGHT.intensity, LIGHT.color "
+                  "or GROUP.scale");
+    }
+    track.property = known->property;
+    const std::string name = what.substr(0, dot);
+    if (track.property == TrackProperty::scale) {
+      track.target = find_group(where, name, source);
+    } else {
+      track.target = find_light(where, name, source);
+      const scene::LightType type = scene.lights[static_cast<std::size_t>(track.target)].type;
+      if (track.property == TrackProperty::position && type == scene::LightType::directional)
+        throw Error(where, "a directional light has no position", "animate its direction");
+      if (track.property == TrackProperty::direction &&
+          (type == scene::LightType::point || type == scene::LightType::sphere))
+        throw Error(where, "it shines into all directions alike", "animate its position");
+    }
+  }
+  for (const std::string_view key : split(std::string_view(spec).substr(equals + 1), ':'))
+    track.keys.push_back(read_key(where, key, track.property));
+  if (track.property == TrackProperty::turn)
+    for (vec3& key : track.keys) key = glm::radians(key);
+  return track;
+}
+
+/// Turned such that −z goes along `direction`; the place stays.
+mat4 turned(const mat4& world, const vec3& direction) {
+  const Frame frame = Frame::around(-glm::normalize(direction));
+  return {vec4(frame.x, 0), vec4(frame.y, 0), vec4(frame.z, 0), world[3]};
+}
+
+}  // namespace
+
+const char* const animation_help =
+    "What moves, as NAME=KEY[:KEY ...]; the keys are spread evenly over the frames. time (the scene's "
+    "animations [s]), environment.rotation (degrees), LIGHT.position, LIGHT.direction, LIGHT.color (x,y,z), "
+    "LIGHT.intensity, GROUP.scale (number or r,g,b). May be repeated. Default: time=0:END if the scene has "
+    "animations";
+
+vec3 Track::at(float u) const {
+  const float place = u * static_cast<float>(keys.size() - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(place), keys.size() - 1);
+  const std::size_t next = std::min(i + 1, keys.size() - 1);
+  return glm::mix(keys[i], keys[next], place - static_cast<float>(i));
+}
+
+RelightAnimation::RelightAnimation(const scene::TransportSource& source, const scene::Scene& scene,
+                                   float time, const std::vector<std::string>& specs)
+    : source_(source), time_(time) {
+  std::set<std::pair<TrackProperty, int>> seen;
+  for (const std::string& spec : specs) {
+    tracks_.push_back(read_track(spec, source, scene));
+    if (!seen.insert({tracks_.back().property, tracks_.back().target}).second)
+      throw Error(fmt::format("--animate \"{}\"", spec), "is animated twice",
+                  "give more keys instead: 0:1:0");
+  }
+  if (specs.empty() && source.duration() > 0)
+    tracks_.push_back({TrackProperty::time, -1, {vec3(0), vec3(source.duration())}});
+  if (tracks_.empty()) {
+    throw Error("--animate", "nothing moves: the scene has no animations of its own",
+                source.light_names().empty() ? "and no lights"
+                                             : fmt::format("animate a light, as in \"{}.intensity=0:4\"",
+                                                           source.light_names().front()));
+  }
+}
+
+bool RelightAnimation::moves_time() const {
+  return std::any_of(tracks_.begin(), tracks_.end(),
+                     [](const Track& track) { return track.property == TrackProperty::time; });
+}
+
+gi::FrameState RelightAnimation::frame(float u) const {
+  float time = time_;
+  for (const Track& track : tracks_) {
+    if (track.property == TrackProperty::time) time = track.at(u).x;
+  }
+  gi::FrameState state = gi::frame_at(source_, time);
+  for (const Track& track : tracks_) {
+    const vec3 value = track.at(u);
+    const auto target = static_cast<std::size_t>(std::max(track.target, 0));
+    switch (track.property) {
+      case TrackProperty::time:
+        break;
+      case TrackProperty::position:
+        state.lights[target].world[3] = vec4(value, 1);
+        break;
+      case TrackProperty::direction:
+        state.lights[target].world = turned(state.lights[target].world, value);
+        break;
+      case TrackProperty::intensity:
+        state.lights[target].intensity = value.x;
+        break;
+      case TrackProperty::color:
+        state.lights[target].color = value;
+        break;
+      case TrackProperty::scale:
+        state.group_scales[target] = value;
+        break;
+      case TrackProperty::turn:
+        state.environment_rotation = value.x;
+        break;
+    }
+  }
+  return state;
+}
+
+void RelightAnimation::apply(const gi::FrameState& state, gi::RelightSession& session) const {
+  session.set_time(state.time);
+  session.set_environment_rotation(state.environment_rotation);
+  for (const Track& track : tracks_) {
+    if (track.property == TrackProperty::time || track.property == TrackProperty::turn) continue;
+    const auto target = static_cast<std::size_t>(track.target);
+    if (track.property == TrackProperty::scale) {
+      session.set_group_scale(track.target, state.group_scales[target]);
+    } else {
+      session.set_light(track.target, state.lights[target]);
+    }
+  }
+}
+
+}  // namespace ssphh::app

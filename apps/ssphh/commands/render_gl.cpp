@@ -1,0 +1,120 @@
+#include "commands/render_gl.h"
+
+#include <chrono>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/log.h>
+#include <ssphh/image/io.h>
+#include <ssphh/realtime/renderer.h>
+
+#include "commands/live_method.h"
+#include "options/gl_options.h"
+
+namespace ssphh::app {
+namespace {
+
+/// Whether the real-time renderer draws the method's light; method direct has none.
+bool gl_method(const std::string& name) {
+  return name == "ssphh" || name == "direct" || gi::find_method(name).has_light_data;
+}
+
+void refuse_with_gl(const RenderOptions& o) {
+  const auto refuse = [](const std::string& option, const std::string& problem) {
+    throw Error(option, problem + " is not for --backend gl", "leave it out, or take --backend cpu");
+  };
+  if (o.method == "path") refuse("--method", "path tracing");
+  if (!gl_method(o.method))
+    throw Error("--method " + o.method, "has no OpenGL version",
+                "take --backend cpu, or one of ssphh, vct, vpl, direct");
+  if (o.projection != "camera") refuse("--projection", "a picture of the whole sphere");
+  if (o.resume) refuse("--resume", "resuming");
+  if (o.farm.any()) refuse("--broker or --local", "a farm");
+  if (!o.probes.empty() && o.method != "ssphh")
+    throw Error("--probes", fmt::format("is of method ssphh, not of {}", o.method));
+  if (!o.parameters.empty() && o.method == "ssphh") refuse("--param", "making probes for one picture");
+  if (o.method == "ssphh" && o.probes.empty() && o.max_depth >= 2)
+    throw Error(
+        "--probes", "method ssphh needs a probe file",
+        fmt::format("make one with `ssphh bake {} -o probes.sphl`, or take --max-depth 1", o.scene.source));
+  for (const std::string& aov : o.aovs) {
+    if (aov == "depth" || aov == "groups") refuse("--aov", aov);
+  }
+}
+
+}  // namespace
+
+void render_gl(const RenderOptions& o, const Context& context) {
+  refuse_with_gl(o);
+  const scene::Scene scene = load_scene(o.scene);
+  const auto start = std::chrono::steady_clock::now();
+  std::optional<LiveMethod> live;
+  if (o.method != "ssphh") {
+    live.emplace(o.method, o.parameters, scene, context.control);
+    live->update(gi::frame_at(live->source(), o.scene.time), context.control);
+    log_info("{}: {}", o.method, live->text());
+  }
+  gl::Context gl = gl::Context::headless();
+  realtime::Renderer renderer(gl, scene, {}, o.scene.time);
+  const GlLookup lookup{o.max_depth >= 2 ? o.probes : "", o.lookup, o.weights, o.light, o.force};
+  set_probes(renderer, lookup, scene, o.scene.time);
+  if (live && gi::find_method(o.method).has_light_data && o.max_depth >= 2)
+    renderer.set_method_light(live->method().light_data());
+  int side = 1;
+  while (side < 4 && side * side < o.spp * o.passes) ++side;
+  realtime::FrameSettings settings = still_settings(lookup, side);
+  settings.indirect_scale = o.indirect_scale;
+  settings.ambient_occlusion = o.occlusion > 0;
+  if (o.occlusion > 0) settings.occlusion_radius = o.occlusion;
+  const scene::CameraPose camera = scene::camera_pose(scene, o.camera, o.scene.time);
+  const auto draw = [&](realtime::View view) {
+    settings.view = view;
+    renderer.draw(camera, settings, {.width = o.width, .height = o.height});
+    return renderer.read_back();
+  };
+  const image::Image picture = draw(realtime::View::lit);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  write_picture(o.output, picture, o);
+  if (!o.png.empty()) write_display(o.png, picture, o);
+  const std::filesystem::path output = o.output;
+  for (const std::string& aov : o.aovs) {
+    using realtime::View;
+    const View view = aov == "direct"     ? View::direct
+                      : aov == "indirect" ? View::indirect
+                      : aov == "albedo"   ? View::albedo
+                                          : View::normal;
+    image::Image image = draw(view);
+    // The view shows 0.5 + 0.5 n, and black where nothing stands.
+    if (view == View::normal) {
+      for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+          const vec3 n = image.rgb(x, y);
+          if (n != vec3(0)) image.set_rgb(x, y, 2.0f * n - 1.0f);
+        }
+      }
+    }
+    image::write_image((output.parent_path() / output.stem()).string() + "." + aov + ".exr", image);
+  }
+  const auto mean = mean_radiance(picture);
+  json::Value object = {{"output", o.output},
+                        {"method", o.method},
+                        {"backend", "gl"},
+                        {"renderer", gl.info().renderer},
+                        {"width", picture.width},
+                        {"height", picture.height},
+                        {"samples", side * side},
+                        {"seconds", seconds},
+                        {"mean", mean}};
+  std::string text = fmt::format(
+      "{}: {}×{}, {} samples per pixel in {:.2f} s on {}, mean radiance {:.4g} {:.4g} {:.4g}", o.output,
+      picture.width, picture.height, side * side, seconds, gl.info().renderer, mean[0], mean[1], mean[2]);
+  if (live) object.update(live->json());
+  for (const auto& [name, value] : renderer.method_numbers()) {
+    object[name] = value;
+    text += fmt::format(", {} {:.6g}", name, value);
+  }
+  context.result(object, text);
+}
+
+}  // namespace ssphh::app

@@ -1,0 +1,96 @@
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <ssphh/image/io.h>
+#include <ssphh/image/tonemap.h>
+#include <ssphh/realtime/renderer.h>
+#include <ssphh/scene/query.h>
+#include <ssphh/scene/sun_sky.h>
+
+#include "commands/command.h"
+#include "options/gl_options.h"
+#include "options/probe_options.h"
+#include "options/scene_options.h"
+
+namespace ssphh::app {
+namespace {
+
+struct TurntableOptions {
+  SceneOptions scene;
+  GlLookup lookup;
+  std::string directory;
+  int width = 640, height = 640, frames = 24, samples = 2;
+  float elevation = 20, yfov = 40, exposure = 0;
+};
+
+/// Looks at the middle of the box from a distance at which the ball around it fits.
+scene::CameraPose orbit(const scene::Bounds& box, const TurntableOptions& o, float turn) {
+  scene::CameraPose pose;
+  pose.camera.yfov = glm::radians(o.yfov);
+  const float half = std::tan(0.5f * pose.camera.yfov);
+  const float aspect = static_cast<float>(o.width) / static_cast<float>(o.height);
+  const float narrow = std::atan(half * glm::min(aspect, 1.0f));
+  const float distance = 1.05f * glm::max(box.radius(), 1e-3f) / std::sin(narrow);
+  const float up = glm::radians(o.elevation);
+  const vec3 away(std::cos(up) * std::sin(turn), std::sin(up), std::cos(up) * std::cos(turn));
+  pose.world = glm::translate(mat4(1), box.center() + distance * away) *
+               mat4(glm::mat3_cast(glm::quatLookAt(-away, vec3(0, 1, 0))));
+  return pose;
+}
+
+void turntable(const TurntableOptions& o, const Context& context) {
+  scene::Scene scene = load_scene(o.scene);
+  const bool dark = scene::light_groups(scene).empty();
+  if (dark) scene::add_sun_sky(scene);
+  std::error_code problem;
+  std::filesystem::create_directories(o.directory, problem);
+  if (!std::filesystem::is_directory(o.directory))
+    throw Error(o.directory, "cannot be made a directory", problem.message());
+  gl::Context gl = gl::Context::headless();
+  realtime::Renderer renderer(gl, scene, {}, o.scene.time);
+  set_probes(renderer, o.lookup, scene, o.scene.time);
+  const scene::Bounds box = scene::world_bounds(scene, scene::world_matrices(scene, o.scene.time));
+  const realtime::FrameSettings settings = still_settings(o.lookup, o.samples);
+  ProgressStage stage(context.control, "turntable", static_cast<std::uint64_t>(o.frames), "frames");
+  for (int i = 0; i < o.frames; ++i) {
+    context.control.check();
+    const float turn = 2 * pi * static_cast<float>(i) / static_cast<float>(o.frames);
+    renderer.draw(orbit(box, o, turn), settings, {.width = o.width, .height = o.height});
+    const std::filesystem::path file = std::filesystem::path(o.directory) / fmt::format("{:04}.png", i);
+    image::write_image(file, image::tone_map(renderer.read_back(), {.exposure = o.exposure}));
+    stage.advance(1);
+  }
+  context.result({{"output", o.directory},
+                  {"frames", o.frames},
+                  {"width", o.width},
+                  {"height", o.height},
+                  {"renderer", gl.info().renderer},
+                  {"sun_and_sky_added", dark}},
+                 fmt::format("{}: {} frames of {}×{}{} on {}", o.directory, o.frames, o.width, o.height,
+                             dark ? ", lit by sun and sky" : "", gl.info().renderer));
+}
+
+}  // namespace
+
+void add_turntable_command(Command app, Context& context) {
+  auto options = std::make_shared<TurntableOptions>();
+  TurntableOptions& o = *options;
+  Command command =
+      add_command(app, context, "turntable", "Pictures of a model from all around, drawn with OpenGL",
+                  [options, &context] { turntable(*options, context); });
+  add_scene_options(command, o.scene, true, "MODEL");
+  command.option("-o,--output", o.directory, "Directory for 0000.png, 0001.png, …").required();
+  command.option("--frames", o.frames, "Pictures of one turn").range(1, 100000);
+  command.option("--width", o.width, "Pixels").range(1, 16384);
+  command.option("--height", o.height, "Pixels").range(1, 16384);
+  command.option("--elevation", o.elevation, "Degrees of the camera above the middle").range(-89.0f, 89.0f);
+  command.option("--samples", o.samples, "Samples per pixel along each side").range(1, 4);
+  command.option("--exposure", o.exposure, "Stops");
+  command.option("--probes", o.lookup.probes, "Probe file; without one: direct light alone");
+  add_force_option(command, o.lookup.force);
+}
+
+}  // namespace ssphh::app

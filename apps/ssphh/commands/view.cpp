@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "commands/command.h"
+#include "model/settings.h"
+#include "options/scene_options.h"
+#include "viewer.h"
+
+namespace ssphh::app {
+namespace {
+
+struct ViewOptions {
+  SceneOptions scene;
+  viewer::ViewerOptions viewer;
+  std::vector<std::string> values;  ///< of viewer::setting_names(), empty ones were not given
+  std::string size = "1440x810";
+  bool no_panels = false;
+};
+
+void parse_size(const std::string& text, int& width, int& height) {
+  char end = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width < 64 || height < 64 ||
+      width > 16384 || height > 16384)
+    throw Error("--size", fmt::format("\"{}\" is no size", text), "WIDTHxHEIGHT, 64 to 16384 pixels each");
+}
+
+void view(Context& context, ViewOptions& o) {
+  viewer::ViewerOptions& v = o.viewer;
+  v.source = o.scene.source;
+  v.time = o.scene.time;
+  v.panels = !o.no_panels;
+  parse_size(o.size, v.width, v.height);
+  v.load = [&o](const std::string& source) {
+    SceneOptions scene = o.scene;
+    // The overlay was named for the first scene; one that is dropped later has its own.
+    if (source != o.scene.source) scene.overlay.clear();
+    scene.source = source;
+    return load_scene(scene);
+  };
+  for (std::size_t i = 0; i < o.values.size(); ++i) {
+    if (!o.values[i].empty()) v.settings.emplace_back(viewer::setting_names()[i].name, o.values[i]);
+  }
+  const viewer::ViewerReport r = viewer::run_viewer(v, context.control);
+  std::string text =
+      fmt::format("{} frames on {}, {} probes; a drawn frame took {:.1f} ms (median), {:.1f} ms (p99)",
+                  r.frames, r.renderer, r.probes, r.median_ms, r.p99_ms);
+  for (const std::string& file : r.written) text += "\nwrote " + file;
+  context.result({{"frames", r.frames},
+                  {"renderer", r.renderer},
+                  {"probes", r.probes},
+                  {"median_ms", r.median_ms},
+                  {"p99_ms", r.p99_ms},
+                  {"written", r.written}},
+                 text);
+}
+
+void add_setting_options(Command command, ViewOptions& o) {
+  o.values.resize(viewer::setting_names().size());
+  for (std::size_t i = 0; i < o.values.size(); ++i) {
+    const viewer::SettingName& setting = viewer::setting_names()[i];
+    Option option = command.option("--" + setting.name, o.values[i], setting.help)
+                        .group(setting.group)
+                        .shown_default(setting.get(viewer::Settings{}));
+    option.check(
+        [&setting](const std::string& text) -> std::string {
+          try {
+            viewer::Settings ignored;
+            setting.set(ignored, text);
+            return {};
+          } catch (const Error& e) {
+            return e.what();
+          }
+        },
+        "");
+    option.kind(setting.choices.empty() ? "NUMBER" : fmt::format("{{{}}}", fmt::join(setting.choices, ",")));
+  }
+}
+
+}  // namespace
+
+void add_view_command(Command app, Context& context) {
+  auto options = std::make_shared<ViewOptions>();
+  ViewOptions& o = *options;
+  Command command = add_command(app, context, "view", "Look at a scene lit by probes, in a window",
+                                [&context, options] { view(context, *options); });
+  add_scene_options(command, o.scene);
+  command["SCENE"].required(false);
+  command.option("--camera", o.viewer.camera, "Camera by name; default: the scene's first");
+  command.option("--size", o.size, "Of the window, WIDTHxHEIGHT");
+  command.flag("--no-panels", o.no_panels, "The picture alone (Tab brings the panels)");
+
+  const std::string probes = "Probes";
+  command
+      .option("--probes", o.viewer.probes,
+              "A probe file, shown as it was baked; scene: the scene's SPHLs, kept lit while lamps and "
+              "doors move; auto, auto:METRES: find places first; off. Default: scene, if it has SPHLs")
+      .group(probes);
+  command.flag("--live", o.viewer.live, "Light the probes of a file anew and keep them lit").group(probes);
+  command.flag("--force", o.viewer.force, "Take a probe file of another scene, with a warning").group(probes);
+  add_setting_options(command, o);
+
+  const std::string output = "Without hands";
+  command.option("--path", o.viewer.path, "Camera path (schemas/camera-path.schema.json): the bookmarks")
+      .group(output);
+  command.option("--export", o.viewer.export_dir, "Draw the path as DIR/frame-0000.png and so on, and end")
+      .group(output);
+  command.option("--fps", o.viewer.fps, "Of the exported frames").range(0.001, 10000.0).group(output);
+  command
+      .option("--screenshot", o.viewer.screenshot,
+              "Write the window (or with --no-panels the picture) to this PNG once all is lit, and end")
+      .group(output);
+  command.option("--script", o.viewer.script, "Do what this file says (docs/viewer.md)").group(output);
+  command.option("--stats", o.viewer.stats, "Write the frames' times at the end: .json, or .csv")
+      .group(output);
+  command.option("--frames", o.viewer.frames, "End after so many frames; 0: when the window is closed")
+      .range(0, 1 << 30)
+      .group(output);
+  command.footer(
+      "F1 in the window lists mouse and keys. Needs a display with OpenGL 4.5: a software renderer will do.");
+}
+
+}  // namespace ssphh::app

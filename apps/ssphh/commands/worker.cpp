@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <ssphh/core/log.h>
+#include <ssphh/core/parallel.h>
+#include <ssphh/farm/engine.h>
+#include <ssphh/farm/worker_pool.h>
+
+#include "commands/command.h"
+#include "options/farm_options.h"
+
+namespace ssphh::app {
+namespace {
+
+/// For schedulers: this worker would fail again in the same way.
+constexpr int never_retry = 42;
+
+struct WorkerCommand {
+  BrokerChoice broker;
+  farm::WorkerPoolOptions pool;
+  std::string cache;
+  std::uint64_t cache_mb = 20480;
+};
+
+void work(Context& context, WorkerCommand& command) {
+  try {
+    farm::WorkerPoolOptions options = command.pool;
+    options.broker = broker_address(command.broker);
+    options.cache =
+        command.cache.empty() ? farm::default_cache_dir("scenes") : std::filesystem::path(command.cache);
+    options.cache_bytes = command.cache_mb << 20;
+    // Every slot's thread works itself; the others are shared.
+    set_thread_count(std::max(1, thread_count() - options.slots + 1));
+    log_info("worker-ready broker={} service={} slots={} cache={}", options.broker.endpoint,
+             farm::job_service(), options.slots, options.cache.string());
+    const farm::WorkerPoolReport report = farm::run_workers(options, context.control);
+    context.result(
+        {{"jobs", report.jobs}, {"busy_seconds", report.busy_seconds}, {"seconds", report.seconds}},
+        fmt::format("{} jobs, busy {:.1f} s of {:.1f} s", report.jobs, report.busy_seconds, report.seconds));
+  } catch (const Error& e) {
+    log(LogLevel::error, e.what());
+    if (context.json) context.result({{"error", e.what()}}, "");
+    context.exit_code = never_retry;
+  }
+}
+
+}  // namespace
+
+void add_worker_command(Command app, Context& context) {
+  auto options = std::make_shared<WorkerCommand>();
+  Command command = add_command(app, context, "worker", "Do jobs of a farm: GEN, VIZ and tiles of pictures",
+                                [&context, options] { work(context, *options); });
+  const std::string group = "Worker";
+  add_broker_options(command, options->broker, "worker", group).required();
+  command.option("--slots", options->pool.slots, "Jobs at a time; they share the scene and --threads")
+      .range(1, 1024)
+      .group(group);
+  command.option("--name", options->pool.name, "In logs and `farm status`; default: HOST:PID").group(group);
+  command
+      .option("--cache", options->cache,
+              "Folder of scenes, shared by workers of one machine; default: " +
+                  farm::default_cache_dir("scenes").string())
+      .group(group);
+  command.option("--cache-size", options->cache_mb, "Of --cache, MB").range(1, 1 << 30).group(group);
+  command
+      .option("--idle-exit", options->pool.idle_exit, "Leave after so many seconds without a job; 0: never")
+      .non_negative()
+      .group(group);
+  command.footer(
+      "SIGTERM or Ctrl-C: finishes the jobs in hand, answers them and leaves with 0; a second one ends it at "
+      "once.\nExit code 42: the same command would fail again (options, keys, cache). docs/farm.md");
+}
+
+}  // namespace ssphh::app

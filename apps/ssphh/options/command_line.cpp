@@ -1,0 +1,200 @@
+#include "options/command_line.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+
+namespace ssphh::app {
+namespace {
+
+template <class T>
+constexpr bool has_default = true;
+template <class T>
+constexpr bool has_default<std::optional<T>> = false;
+template <class T>
+constexpr bool has_default<std::vector<T>> = false;
+
+void forget_default_outside(CLI::Option& option, double least, double most) {
+  const std::string text = option.get_default_str();
+  if (text.empty()) return;
+  const double value = std::strtod(text.c_str(), nullptr);
+  if (value < least || value > most) option.default_str("");
+}
+
+}  // namespace
+
+Option Option::group(const std::string& heading) const {
+  option_->group(heading);
+  return *this;
+}
+
+Option Option::required(bool needed) const {
+  option_->required(needed);
+  return *this;
+}
+
+Option Option::range(int least, int most) const {
+  option_->check(CLI::Range(least, most));
+  forget_default_outside(*option_, least, most);
+  return *this;
+}
+
+Option Option::range(double least, double most) const {
+  option_->check(CLI::Range(least, most));
+  forget_default_outside(*option_, least, most);
+  return *this;
+}
+
+Option Option::positive() const {
+  option_->check(CLI::PositiveNumber);
+  forget_default_outside(*option_, std::numeric_limits<double>::min(), std::numeric_limits<double>::max());
+  return *this;
+}
+
+Option Option::non_negative() const {
+  option_->check(CLI::NonNegativeNumber);
+  return *this;
+}
+
+Option Option::existing_file() const {
+  option_->check(CLI::ExistingFile);
+  return *this;
+}
+
+Option Option::one_of(const std::vector<std::string>& names) const {
+  option_->check(CLI::IsMember(names));
+  return *this;
+}
+
+Option Option::check(std::function<std::string(const std::string&)> problem, const std::string& kind) const {
+  option_->check(
+      CLI::Validator([problem = std::move(problem)](std::string& text) { return problem(text); }, kind));
+  return *this;
+}
+
+Option Option::kind(const std::string& name) const {
+  option_->type_name(name);
+  return *this;
+}
+
+Option Option::shown_default(const std::string& text) const {
+  option_->default_str(text);
+  return *this;
+}
+
+Option Option::excludes(const Option& other) const {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+Option Option::needs(const Option& other) const {
+  option_->needs(other.option_);
+  return *this;
+}
+
+Option Option::values(int count) const {
+  option_->expected(count);
+  return *this;
+}
+
+Option Option::repeatable() const {
+  option_->allow_extra_args(false);
+  return *this;
+}
+
+Option Option::separated_by(char sign) const {
+  option_->delimiter(sign);
+  return *this;
+}
+
+bool Option::given() const {
+  return option_->count() > 0;
+}
+
+std::string Option::name() const {
+  return option_->get_name();
+}
+
+template <class T>
+Option Command::option(const std::string& names, T& target, const std::string& help) const {
+  CLI::Option* option = app_->add_option(names, target, help);
+  if constexpr (has_default<T>) option->capture_default_str();
+  return Option(option);
+}
+
+template Option Command::option(const std::string&, std::string&, const std::string&) const;
+template Option Command::option(const std::string&, std::filesystem::path&, const std::string&) const;
+template Option Command::option(const std::string&, int&, const std::string&) const;
+template Option Command::option(const std::string&, float&, const std::string&) const;
+template Option Command::option(const std::string&, double&, const std::string&) const;
+template Option Command::option(const std::string&, std::uint64_t&, const std::string&) const;
+template Option Command::option(const std::string&, std::optional<std::string>&, const std::string&) const;
+template Option Command::option(const std::string&, std::optional<int>&, const std::string&) const;
+template Option Command::option(const std::string&, std::optional<float>&, const std::string&) const;
+template Option Command::option(const std::string&, std::optional<double>&, const std::string&) const;
+template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&) const;
+template Option Command::option(const std::string&, std::vector<int>&, const std::string&) const;
+template Option Command::option(const std::string&, std::vector<float>&, const std::string&) const;
+template Option Command::option(const std::string&, std::vector<double>&, const std::string&) const;
+template Option Command::option(const std::string&, std::vector<std::size_t>&, const std::string&) const;
+
+Option Command::flag(const std::string& names, bool& target, const std::string& help) const {
+  return Option(app_->add_flag(names, target, help));
+}
+
+Option Command::operator[](const std::string& name) const {
+  return Option(app_->get_option(name));
+}
+
+Command Command::command(const std::string& name, const std::string& description) const {
+  return Command(app_->add_subcommand(name, description));
+}
+
+void Command::needs_command() const {
+  app_->require_subcommand(1);
+}
+
+std::vector<std::string> Command::commands() const {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app_->get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+void Command::footer(const std::string& text) const {
+  app_->footer(text);
+}
+
+void Command::when_chosen(std::function<void()> action) const {
+  app_->callback(std::move(action));
+}
+
+CommandLine::CommandLine(const std::string& description) : app_(std::make_unique<CLI::App>(description)) {}
+
+CommandLine::~CommandLine() = default;
+
+Command CommandLine::root() const {
+  return Command(app_.get());
+}
+
+void CommandLine::version(const std::string& text) const {
+  app_->set_version_flag("--version", text);
+}
+
+void CommandLine::parse(std::vector<std::string> words) const {
+  std::ranges::reverse(words);  // as CLI11 wants a vector
+  try {
+    app_->parse(words);
+  } catch (const CLI::ParseError& e) {
+    std::ostringstream out, err;
+    const bool wrong = app_->exit(e, out, err) != 0;
+    throw ParsingEnded(e.what(), wrong, wrong ? err.str() : out.str());
+  }
+}
+
+}  // namespace ssphh::app

@@ -1,0 +1,104 @@
+#pragma once
+/// What a command line may say: commands, their options, and the help that tells of them. CLI11 stands behind
+/// it, in command_line.cpp alone: its templates take seconds of every file that sees them.
+
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace ssphh::app {
+
+/// An option, a flag or a positional argument of a Command, and valid as long as its CommandLine. Every
+/// function returns the option, to be told more.
+class Option {
+ public:
+  explicit Option(CLI::Option* option) : option_(option) {}
+
+  /// The heading of --help under which it stands.
+  Option group(const std::string& heading) const;
+  Option required(bool needed = true) const;
+  /// Refuses values outside [least, most]. A default outside stands for "not given" and is not shown.
+  Option range(int least, int most) const;
+  Option range(double least, double most) const;
+  Option positive() const;  ///< as range(); 0 stands for "not given"
+  Option non_negative() const;
+  Option existing_file() const;
+  /// Refuses what is none of these.
+  Option one_of(const std::vector<std::string>& names) const;
+  /// Refuses what `problem` has something to say of; `kind` is what --help calls the values. May be empty.
+  Option check(std::function<std::string(const std::string&)> problem, const std::string& kind) const;
+  Option kind(const std::string& name) const;  ///< what --help calls the values, in place of TEXT or INT
+  Option shown_default(const std::string& text) const;
+  Option excludes(const Option& other) const;
+  Option needs(const Option& other) const;
+  Option values(int count) const;        ///< takes so many values at once
+  Option repeatable() const;             ///< may be given again, with one value each time
+  Option separated_by(char sign) const;  ///< many values in one word
+
+  bool given() const;  ///< once the line is parsed
+  std::string name() const;
+
+ private:
+  CLI::Option* option_;
+};
+
+/// A command or a group of commands, valid as long as its CommandLine.
+class Command {
+ public:
+  explicit Command(CLI::App* app) : app_(app) {}
+
+  /// `names` as "-o,--output", or "FILE" for a positional argument. The value that `target` has is the
+  /// default and is shown. T is std::string, a path, int, std::uint64_t, float, double, or a std::optional or
+  /// a vector of one.
+  template <class T>
+  Option option(const std::string& names, T& target, const std::string& help) const;
+  /// `names` as "--resume,!--no-resume": the second sets the target to false.
+  Option flag(const std::string& names, bool& target, const std::string& help) const;
+  /// The option of that name; there must be one.
+  Option operator[](const std::string& name) const;
+
+  Command command(const std::string& name, const std::string& description) const;
+  std::vector<std::string> commands() const;  ///< their names
+  void needs_command() const;                 ///< makes it a group: one of its commands must follow
+
+  void footer(const std::string& text) const;
+  void when_chosen(std::function<void()> action) const;  ///< called while the line is parsed
+
+  CLI::App& implementation() const { return *app_; }
+
+ private:
+  CLI::App* app_;
+};
+
+/// Thrown where a line names no command that could run: wrong usage, or help or the version was asked for.
+struct ParsingEnded : std::runtime_error {
+  ParsingEnded(const std::string& what, bool wrong, std::string all)
+      : std::runtime_error(what), wrong_usage(wrong), text(std::move(all)) {}
+
+  bool wrong_usage;
+  std::string text;  ///< for stderr when usage was wrong, else for stdout
+};
+
+class CommandLine {
+ public:
+  explicit CommandLine(const std::string& description);
+  ~CommandLine();
+
+  Command root() const;
+  void version(const std::string& text) const;  ///< adds --version
+
+  /// `words`: what follows the program's name. Sets the options' targets. Throws ParsingEnded.
+  void parse(std::vector<std::string> words) const;
+
+ private:
+  std::unique_ptr<CLI::App> app_;
+};
+
+}  // namespace ssphh::app

@@ -1,0 +1,78 @@
+#include "options/farm_options.h"
+
+#include <fmt/format.h>
+
+#include <ssphh/majordomo/security.h>
+
+namespace ssphh::app {
+
+Option add_broker_options(Command command, BrokerChoice& choice, const std::string& key,
+                          const std::string& group) {
+  choice.key = key;
+  Option broker = command.option("--broker", choice.endpoint, "The farm's broker, e.g. tcp://127.0.0.1:5555")
+                      .group(group);
+  command
+      .option("--keys", choice.keys,
+              "Folder with broker.pub and NAME.key (`ssphh farm keygen`); wanted beyond loopback and ipc")
+      .group(group);
+  command.option("--key", choice.key, "Name of the own key in --keys").group(group);
+  return broker;
+}
+
+farm::BrokerAddress broker_address(const BrokerChoice& choice) {
+  farm::BrokerAddress address{choice.endpoint, std::nullopt};
+  if (!choice.keys.empty()) address.security = majordomo::read_peer_security(choice.keys, choice.key);
+  majordomo::require_keys(address.endpoint, address.security.has_value(), "--keys");
+  return address;
+}
+
+void add_farm_options(Command command, FarmChoice& choice) {
+  const std::string group = "Farm: the same file, bit by bit, made by many machines";
+  Option broker = add_broker_options(command, choice.broker, "client", group);
+  command
+      .option("--local", choice.local, "Start a broker and so many workers on this machine for this command")
+      .range(1, 1024)
+      .excludes(broker)
+      .group(group);
+  command
+      .option("--cache", choice.cache,
+              "Folder of finished results, which need not be computed again; none: keep none; default: " +
+                  farm::default_cache_dir("results").string())
+      .group(group);
+  command.option("--cache-size", choice.cache_mb, "Of --cache, MB").range(1, 1 << 30).group(group);
+}
+
+FarmSession::FarmSession(const FarmChoice& choice) {
+  if (choice.local > 0) {
+    farm::LocalFarmOptions local;
+    local.tool = "/proc/self/exe";
+    local.workers = choice.local;
+    local.cache = farm::default_cache_dir("scenes");
+    local_ = std::make_unique<farm::LocalFarm>(local);
+    options_.broker = local_->address();
+  } else {
+    options_.broker = broker_address(choice.broker);
+  }
+  if (choice.cache == "none") return;
+  results_ = std::make_unique<farm::DiskCache>(
+      choice.cache.empty() ? farm::default_cache_dir("results") : std::filesystem::path(choice.cache),
+      choice.cache_mb << 20);
+  options_.results = results_.get();
+}
+
+json::Value farm_json(const farm::FarmReport& report) {
+  return {{"jobs", report.jobs},       {"retries", report.retries},
+          {"units", report.units},     {"cached", report.cached},
+          {"workers", report.workers}, {"compute_seconds", report.compute_seconds},
+          {"seconds", report.seconds}};
+}
+
+std::string farm_text(const farm::FarmReport& report) {
+  std::string text = fmt::format("farm: {} jobs, {} workers, {:.2f} s of computing in {:.2f} s", report.jobs,
+                                 report.workers, report.compute_seconds, report.seconds);
+  if (report.cached > 0) text += fmt::format("; {} of {} results were known", report.cached, report.units);
+  if (report.retries > 0) text += fmt::format("; {} retries", report.retries);
+  return text;
+}
+
+}  // namespace ssphh::app

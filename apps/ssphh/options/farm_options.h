@@ -1,0 +1,51 @@
+#pragma once
+/// The options of every command that may have its work done by a farm.
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <ssphh/core/json.h>
+#include <ssphh/farm/dispatch.h>
+#include <ssphh/farm/local_farm.h>
+
+#include "options/command_line.h"
+
+namespace ssphh::app {
+
+/// Where a broker is and the keys to speak to it.
+struct BrokerChoice {
+  std::string endpoint, keys, key;
+};
+/// --broker, --keys and --key; `key` is the default name of one's own key.
+Option add_broker_options(Command command, BrokerChoice& choice, const std::string& key,
+                          const std::string& group);
+farm::BrokerAddress broker_address(const BrokerChoice& choice);
+
+struct FarmChoice {
+  BrokerChoice broker;
+  int local = 0;
+  std::string cache;  ///< of results; "none": none
+  std::uint64_t cache_mb = 4096;
+
+  bool any() const { return local > 0 || !broker.endpoint.empty(); }
+};
+void add_farm_options(Command command, FarmChoice& choice);
+
+/// A farm to work with, for as long as it lives.
+class FarmSession {
+ public:
+  /// Starts the local farm if one was asked for.
+  explicit FarmSession(const FarmChoice& choice);
+  const farm::FarmOptions& options() const { return options_; }
+
+ private:
+  std::unique_ptr<farm::LocalFarm> local_;
+  std::unique_ptr<farm::DiskCache> results_;
+  farm::FarmOptions options_;
+};
+
+json::Value farm_json(const farm::FarmReport& report);
+std::string farm_text(const farm::FarmReport& report);
+
+}  // namespace ssphh::app

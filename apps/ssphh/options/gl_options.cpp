@@ -1,0 +1,36 @@
+#include "options/gl_options.h"
+
+#include <ssphh/gi/probe_file.h>
+#include <ssphh/scene/query.h>
+#include <ssphh/trace/path_tracer.h>
+
+#include "options/probe_options.h"
+
+namespace ssphh::app {
+
+void set_probes(realtime::Renderer& renderer, const GlLookup& options, const scene::Scene& scene,
+                float time) {
+  if (options.probes.empty()) return;
+  const gi::ProbeSet set = gi::read_probe_file(options.probes);
+  require_same_scene(options.probes, set, scene, scene::light_groups(scene), time, options.force);
+  gi::LookupParams params;
+  params.weights = weight_params(options.probes, set, options.weights);
+  if (options.light == "self") params.layer = gi::ProbeLayer::self;
+  renderer.set_probes(set, params);
+  if (options.lookup != "irradiance" ||
+      params.weights.chosen(set.fitted.has_value()) != gi::WeightMethod::fitted)
+    return;
+  const trace::PathTracer tracer(scene, time);
+  renderer.set_fitted(realtime::prepare_fitted(
+      scene, time, *set.fitted, [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); }));
+}
+
+realtime::FrameSettings still_settings(const GlLookup& options, int samples) {
+  realtime::FrameSettings settings;
+  settings.lookup = options.lookup == "light" ? gi::LookupMethod::light : gi::LookupMethod::irradiance;
+  settings.weights = gi::parse_weight_method(options.weights).value_or(gi::WeightMethod::fitted);
+  settings.supersample = samples;
+  return settings;
+}
+
+}  // namespace ssphh::app

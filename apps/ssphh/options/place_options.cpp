@@ -1,0 +1,139 @@
+#include "options/place_options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/log.h>
+#include <ssphh/trace/transport_scene.h>
+
+namespace ssphh::app {
+namespace {
+
+template <class T>
+bool read_number(std::string_view text, T& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+/// Sets spacing or count. Returns what is wrong with the text; empty: nothing.
+std::string parse(const std::string& text, gi::PlaceParams& params) {
+  constexpr std::string_view prefix = "auto:";
+  if (text == "scene" || text == "auto") return {};
+  if (text.starts_with(prefix)) {
+    const std::string_view metres = std::string_view(text).substr(prefix.size());
+    if (read_number(metres, params.spacing) && std::isfinite(params.spacing) && params.spacing > 0) return {};
+    return fmt::format("\"{}\" is no spacing: give metres over 0, as in auto:0.7", metres);
+  }
+  if (read_number(text, params.count) && params.count > 0) return {};
+  return fmt::format("\"{}\" is none of: scene, auto, auto:METRES, a number of probes over 0", text);
+}
+
+std::size_t count_of(const gi::Placement& placement, gi::PlaceKind kind) {
+  return static_cast<std::size_t>(std::count_if(placement.probes.begin(), placement.probes.end(),
+                                                [&](const auto& probe) { return probe.kind == kind; }));
+}
+
+}  // namespace
+
+bool is_probe_file(const PlaceOptions& options) {
+  return options.probes.ends_with(".sphl") || options.probes.ends_with(".sphl.json");
+}
+
+void add_place_options(Command command, PlaceOptions& options, bool files) {
+  const std::string group = "Placement";
+  command
+      .option("--probes", options.probes,
+              std::string(files ? "A probe file, for its places; or " : "") +
+                  "scene: the scene's SPHLs; auto: find places, some 100 to 200; auto:METRES: with this "
+                  "spacing; N: the N most spread ones. SPHLs of the scene are kept. Default: scene if it "
+                  "has SPHLs, else auto")
+      .check(
+          [files](const std::string& text) -> std::string {
+            if (files && is_probe_file({.probes = text})) return {};
+            gi::PlaceParams ignored;
+            return parse(text, ignored);
+          },
+          files ? "FILE|scene|auto|auto:METRES|N" : "scene|auto|auto:METRES|N")
+      .group(group);
+  command.option("--clearance", options.clearance, "Least distance of a placed probe from surfaces [m]")
+      .positive()
+      .group(group);
+  command.option("--refine", options.levels, "Times that the spacing may be halved near surfaces, 0..3")
+      .range(0, 3)
+      .group(group);
+  command.option("--max-probes", options.max_probes, "Most probes that may be placed")
+      .range(1, 65536)
+      .group(group);
+}
+
+std::optional<PlaceResult> place_for(const scene::Scene& scene, float time, const PlaceOptions& options,
+                                     const std::string& fallback, const Control& control) {
+  gi::PlaceParams params = gi::place_params(scene, time);
+  std::string probes = options.probes.empty() ? fallback : options.probes;
+  if (probes.empty()) {
+    probes = params.manual.empty() ? "auto" : "scene";
+    if (params.manual.empty()) log_info("the scene has no SPHLs, so --probes auto finds places");
+  }
+  if (probes == "scene") return std::nullopt;
+  parse(probes, params);
+  params.clearance = options.clearance;
+  params.levels = options.levels;
+  params.max_probes = options.max_probes;
+
+  const auto start = std::chrono::steady_clock::now();
+  const trace::TransportScene source(scene);
+  PlaceResult result;
+  result.placement = gi::place_probes(source, params, control);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  for (const std::string& warning : result.placement.warnings) log_warning("{}", warning);
+  return result;
+}
+
+json::Value place_json(const PlaceResult& result) {
+  const gi::Placement& p = result.placement;
+  const gi::PlaceCounts& c = p.counts;
+  const auto moving =
+      std::count_if(p.edges.begin(), p.edges.end(), [](const auto& edge) { return edge.moving; });
+  return {{"probes", p.probes.size()},
+          {"manual", count_of(p, gi::PlaceKind::manual)},
+          {"refined", count_of(p, gi::PlaceKind::refined)},
+          {"passages", count_of(p, gi::PlaceKind::passage)},
+          {"spacing", p.spacing},
+          {"clearance", p.clearance},
+          {"origin", {p.origin.x, p.origin.y, p.origin.z}},
+          {"candidates", c.candidates},
+          {"removed",
+           {{"total", c.removed()},
+            {"inside", c.inside},
+            {"too_close", c.too_close},
+            {"open_air", c.open_air},
+            {"redundant", c.redundant},
+            {"swept", c.swept},
+            {"unreachable", c.unreachable},
+            {"surplus", c.surplus}}},
+          {"relocated", c.relocated},
+          {"edges", p.edges.size()},
+          {"edges_behind_moving_parts", moving},
+          {"warnings", p.warnings},
+          {"seconds", result.seconds}};
+}
+
+std::string place_text(const PlaceResult& result) {
+  const gi::Placement& p = result.placement;
+  const gi::PlaceCounts& c = p.counts;
+  return fmt::format(
+      "placed {} probes in {:.2f} s, {:.3g} m apart: {} manual, {} near surfaces, {} in passages; {} edges\n"
+      "of {} places {} were removed: {} inside bodies, {} too close to a surface, {} in open air, {} beside "
+      "others, {} in a moving part's way, {} out of sight of cameras, lamps and SPHLs, {} more than asked "
+      "for; {} moved",
+      p.probes.size(), result.seconds, p.spacing, count_of(p, gi::PlaceKind::manual),
+      count_of(p, gi::PlaceKind::refined), count_of(p, gi::PlaceKind::passage), p.edges.size(), c.candidates,
+      c.removed(), c.inside, c.too_close, c.open_air, c.redundant, c.swept, c.unreachable, c.surplus,
+      c.relocated);
+}
+
+}  // namespace ssphh::app

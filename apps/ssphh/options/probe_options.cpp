@@ -1,0 +1,110 @@
+#include "options/probe_options.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <ssphh/core/log.h>
+#include <ssphh/gi/place.h>
+#include <ssphh/scene/query.h>
+
+namespace ssphh::app {
+namespace {
+
+std::string names_text(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 6;
+  const std::size_t shown = std::min(names.size(), most);
+  const std::string list =
+      fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
+  return fmt::format("{} ({}{})", names.size(), list, shown < names.size() ? ", ..." : "");
+}
+
+std::string probe_file_problem(const std::string& name) {
+  try {
+    gi::probe_file_format(name);
+    return {};
+  } catch (const Error& e) {
+    return e.what();
+  }
+}
+
+}  // namespace
+
+Option add_probe_file(const Command& command, const std::string& names, std::string& file,
+                      const std::string& help) {
+  return command.option(names, file, help).check(probe_file_problem, ".sphl|.sphl.json");
+}
+
+Option add_probe_files(const Command& command, const std::string& names, std::vector<std::string>& files,
+                       const std::string& help) {
+  return command.option(names, files, help).check(probe_file_problem, ".sphl|.sphl.json");
+}
+
+Option add_force_option(Command command, bool& force) {
+  return command.flag("--force", force,
+                      "Go on with a warning where the probes were baked in another scene or pose");
+}
+
+std::string scene_difference(const gi::ProbeSet& set, const scene::Scene& scene,
+                             const std::vector<std::string>& light_groups, std::optional<float> time) {
+  const gi::GeneratorInfo& g = set.generator;
+  std::string text;
+  const auto say = [&](const std::string& difference) { text += (text.empty() ? "" : "; ") + difference; };
+  const Hash128 now = scene::light_hash(scene);
+  if (g.scene_hash != now) {
+    if (g.scene != scene.name) say(fmt::format("scene \"{}\", now \"{}\"", g.scene, scene.name));
+    say(fmt::format("geometry, materials or lights (hash {:.8}, now {:.8})", g.scene_hash.hex(), now.hex()));
+    std::vector<std::string> baked;
+    for (const gi::LightGroup& group : set.light_groups) baked.push_back(group.name);
+    if (baked != light_groups)
+      say(fmt::format("light groups: {}, now {}", names_text(baked), names_text(light_groups)));
+  }
+  if (time && *time != g.time && scene::animation_duration(scene) > 0)
+    say(fmt::format("time {:g} s, now {:g} s", g.time, *time));
+  return text;
+}
+
+void require_same_scene(const std::string& file, const gi::ProbeSet& set, const scene::Scene& scene,
+                        const std::vector<std::string>& light_groups, std::optional<float> time, bool force) {
+  const std::string difference = scene_difference(set, scene, light_groups, time);
+  if (difference.empty()) return;
+  const std::string problem = "was baked in another scene or pose: " + difference;
+  if (!force) throw Error(file, problem, "bake it anew, give the options of its bake, or go on with --force");
+  log_warning("{}: {}", file, problem);
+}
+
+std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const gi::ProbeSet> sets, float time) {
+  std::vector<vec3> places;
+  const std::vector<mat4> world = scene::world_matrices(scene, time);
+  for (const scene::Camera& camera : scene.cameras)
+    places.emplace_back(world[static_cast<std::size_t>(camera.node)][3]);
+  for (const gi::ProbeSet& set : sets) {
+    for (const gi::Probe& probe : set.probes) places.push_back(probe.position);
+  }
+  if (sets.empty()) {
+    const gi::PlaceParams own = gi::place_params(scene, time);
+    places.insert(places.end(), own.interest.begin(), own.interest.end());
+    for (const scene::SphlPlace& place : own.manual) places.push_back(place.position);
+  }
+  return places;
+}
+
+Option add_weights_option(Command command, std::string& weights) {
+  return command
+      .option(
+          "--weights", weights,
+          "How --lookup irradiance blends SPHLs: fitted (to transport, for a file of `bake --fit`: the "
+          "default there, with mls for what moves), mls (moving least squares; else the default), trilinear "
+          "(probes on a grid), distance (nearest visible ones)")
+      .one_of({"distance", "trilinear", "mls", "fitted"});
+}
+
+gi::WeightParams weight_params(const std::string& file, const gi::ProbeSet& set, const std::string& weights) {
+  const gi::WeightParams params = gi::weights_named(weights);
+  if (params.method == gi::WeightMethod::fitted && !set.fitted)
+    throw Error(file, "has no fitted weights", "bake it with --fit, or choose other --weights");
+  return params;
+}
+
+}  // namespace ssphh::app

@@ -1,0 +1,45 @@
+#pragma once
+/// Options that the commands around probe files share.
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <ssphh/gi/lookup.h>
+#include <ssphh/gi/probe_file.h>
+#include <ssphh/scene/scene.h>
+
+#include "options/command_line.h"
+
+namespace ssphh::app {
+
+/// Options whose values must be named as a probe file is: anything else is wrong usage, before any work.
+Option add_probe_file(const Command& command, const std::string& names, std::string& file,
+                      const std::string& help);
+Option add_probe_files(const Command& command, const std::string& names, std::vector<std::string>& files,
+                       const std::string& help);
+
+Option add_force_option(Command command, bool& force);
+
+/// What tells the scene from the one in which the set was baked: name, content, light groups, and where
+/// something moves the time, if one is given. Empty: nothing.
+std::string scene_difference(const gi::ProbeSet& set, const scene::Scene& scene,
+                             const std::vector<std::string>& light_groups, std::optional<float> time);
+
+/// Throws an Error that names the differences; a warning with `force`.
+void require_same_scene(const std::string& file, const gi::ProbeSet& set, const scene::Scene& scene,
+                        const std::vector<std::string>& light_groups, std::optional<float> time, bool force);
+
+/// Places of the cameras and probes (without any: also of lamps and SPHLs): what they can reach is what
+/// counts.
+std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const gi::ProbeSet> sets, float time);
+
+/// --weights of the lookup `irradiance`; empty: the library chooses.
+Option add_weights_option(Command command, std::string& weights);
+
+/// The named weights. Throws Error for `fitted` with a set that has none.
+gi::WeightParams weight_params(const std::string& file, const gi::ProbeSet& set, const std::string& weights);
+
+}  // namespace ssphh::app

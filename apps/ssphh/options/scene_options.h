@@ -1,0 +1,31 @@
+#pragma once
+/// The options of every command that reads a scene.
+
+#include <string>
+
+#include <ssphh/scene/scene.h>
+
+#include "options/command_line.h"
+
+namespace ssphh::app {
+
+struct SceneOptions {
+  std::string source;  ///< file or builtin:NAME
+  std::string overlay, environment;
+  float environment_intensity = 1;
+  float environment_rotation = 0;  ///< degrees
+  bool lambert = false;
+  bool sun_sky = false;
+  float sun_elevation = 45, sun_azimuth = 120;  ///< degrees; azimuth 0: −z, 90: +x
+  float turbidity = 3;
+  float time = 0;  ///< seconds
+};
+
+/// Adds the positional SCENE (or the option that `source` names) and --overlay, --lambert, --environment,
+/// --sun-sky and so on; --time where a pose matters.
+void add_scene_options(Command command, SceneOptions& options, bool posed = true,
+                       const std::string& source = "SCENE");
+
+scene::Scene load_scene(const SceneOptions& options);
+
+}  // namespace ssphh::app

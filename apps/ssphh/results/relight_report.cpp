@@ -1,0 +1,215 @@
+#include "results/relight_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/file.h>
+
+namespace ssphh::app {
+namespace {
+
+using Value = std::function<double(const gi::RelightReport&)>;
+
+const struct {
+  const char* name;
+  double (*ms)(const gi::RelightReport&);
+} stages[] = {{"pose", [](const gi::RelightReport& r) { return r.pose_ms; }},
+              {"direct", [](const gi::RelightReport& r) { return r.direct_ms; }},
+              {"solve", [](const gi::RelightReport& r) { return r.solve_ms; }},
+              {"project", [](const gi::RelightReport& r) { return r.project_ms; }}};
+
+/// Of all frames but the first, which lights everything; of that one if there is no other.
+std::vector<double> sorted(const RelightRun& run, const Value& value) {
+  std::vector<double> values;
+  for (std::size_t i = run.updates.size() > 1 ? 1 : 0; i < run.updates.size(); ++i)
+    values.push_back(value(run.updates[i]));
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+/// Nearest rank; 0 without values.
+double percentile(const std::vector<double>& values, double share) {
+  if (values.empty()) return 0;
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+  return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
+}
+
+double mean(const RelightRun& run, const Value& value) {
+  const std::vector<double> values = sorted(run, value);
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return values.empty() ? 0 : sum / static_cast<double>(values.size());
+}
+
+double total(const gi::RelightReport& r) {
+  return r.total_ms();
+}
+double pose_rays(const gi::RelightReport& r) {
+  return static_cast<double>(r.pose_rays);
+}
+double direct_rays(const gi::RelightReport& r) {
+  return static_cast<double>(r.direct_rays);
+}
+
+std::size_t over_budget(const RelightRun& run) {
+  const std::vector<double> times = sorted(run, total);
+  return static_cast<std::size_t>(
+      std::count_if(times.begin(), times.end(), [&](double ms) { return ms > 1000 / run.fps; }));
+}
+
+json::Value number(double value) {
+  return std::isfinite(value) ? json::Value(value) : json::Value(nullptr);
+}
+
+}  // namespace
+
+json::Value relight_json(const RelightRun& run) {
+  json::Value stage_times = json::Value::object();
+  for (const auto& stage : stages) {
+    const std::vector<double> times = sorted(run, stage.ms);
+    stage_times[stage.name] = {{"median_ms", percentile(times, 0.5)}, {"p99_ms", percentile(times, 0.99)}};
+  }
+  stage_times["pose"]["rays"] = mean(run, pose_rays);
+  stage_times["direct"]["rays"] = mean(run, direct_rays);
+  stage_times["solve"]["iterations"] =
+      mean(run, [](const gi::RelightReport& r) { return static_cast<double>(r.solve.iterations); });
+
+  json::Value errors = json::Value::array();
+  for (const FrameError& e : run.errors) {
+    errors.push_back({{"frame", e.frame},
+                      {"seconds", e.frame / run.fps},
+                      {"ratio", number(e.error.ratio)},
+                      {"mean_relative", e.error.mean_relative},
+                      {"median_relative", e.error.median_relative},
+                      {"p95_relative", e.error.p95_relative},
+                      {"noise", e.error.noise},
+                      {"relmse", e.error.relmse},
+                      {"mean_truth", e.error.mean_truth},
+                      {"points", e.error.points}});
+  }
+  json::Value frame_ms = json::Value::array();
+  for (const gi::RelightReport& r : run.updates) frame_ms.push_back(r.total_ms());
+  const std::vector<double> times = sorted(run, total);
+  const auto unconverged = std::count_if(run.updates.begin(), run.updates.end(),
+                                         [](const gi::RelightReport& r) { return !r.solve.converged; });
+  return {{"frames", run.updates.size()},
+          {"frames_asked", run.frames_asked},
+          {"cancelled", run.cancelled},
+          {"fps", run.fps},
+          {"build_ms", run.build_ms},
+          {"first_ms", run.updates.empty() ? 0 : run.updates.front().total_ms()},
+          {"median_ms", percentile(times, 0.5)},
+          {"p99_ms", percentile(times, 0.99)},
+          {"over_budget", over_budget(run)},
+          {"unconverged", unconverged},
+          {"stages", std::move(stage_times)},
+          {"rays_per_frame", mean(run, pose_rays) + mean(run, direct_rays)},
+          {"frame_ms", std::move(frame_ms)},
+          {"error", std::move(errors)}};
+}
+
+std::string relight_text(const RelightRun& run) {
+  std::string text = fmt::format("network built in {:.0f} ms, first frame {:.1f} ms\n", run.build_ms,
+                                 run.updates.empty() ? 0 : run.updates.front().total_ms());
+  text += fmt::format("{:<10}{:>12}{:>12}{:>14}", "stage", "median ms", "p99 ms", "rays a frame");
+  for (const auto& stage : stages) {
+    const std::vector<double> times = sorted(run, stage.ms);
+    const std::string name = stage.name;
+    const double rays = name == "pose" ? mean(run, pose_rays) : name == "direct" ? mean(run, direct_rays) : 0;
+    text += fmt::format("\n{:<10}{:>12.2f}{:>12.2f}", name, percentile(times, 0.5), percentile(times, 0.99));
+    if (rays > 0) text += fmt::format("{:>14.0f}", rays);
+  }
+  const std::vector<double> times = sorted(run, total);
+  text += fmt::format("\n{:<10}{:>12.2f}{:>12.2f}{:>14.0f}", "frame", percentile(times, 0.5),
+                      percentile(times, 0.99), mean(run, pose_rays) + mean(run, direct_rays));
+  text += fmt::format("\n{} of {} frames took longer than 1/{:g} s", over_budget(run), times.size(), run.fps);
+  if (!run.errors.empty()) {
+    text += fmt::format("\n\n{:>5}{:>9}{:>9}{:>11}{:>9}{:>9}{:>9}{:>10}", "frame", "seconds", "ratio",
+                        "mean rel.", "median", "95 %", "noise", "relMSE");
+    for (const FrameError& e : run.errors) {
+      text += fmt::format("\n{:>5}{:>9.2f}{:>9.3f}{:>11.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>10.4f}", e.frame,
+                          e.frame / run.fps, e.error.ratio, e.error.mean_relative, e.error.median_relative,
+                          e.error.p95_relative, e.error.noise, e.error.relmse);
+    }
+  }
+  if (run.cancelled) {
+    text += fmt::format("\ncancelled: {} of {} frames and {} errors were done", run.updates.size(),
+                        run.frames_asked, run.errors.size());
+  }
+  return text;
+}
+
+namespace {
+
+struct Curve {
+  const char* name;
+  const char* color;
+  double (*value)(const gi::LookupError&);
+};
+
+/// A panel of a plot: axes, curves and their names.
+std::string panel(const RelightRun& run, double top, double low, double high,
+                  const std::vector<Curve>& curves) {
+  constexpr double left = 60, width = 620, height = 150;
+  const double first = run.errors.front().frame / run.fps, last = run.errors.back().frame / run.fps;
+  const auto x = [&](double seconds) {
+    return left + width * (seconds - first) / std::max(last - first, 1e-9);
+  };
+  const auto y = [&](double value) {
+    return top + height * (1 - std::clamp((value - low) / (high - low), 0.0, 1.0));
+  };
+  std::string svg;
+  for (int i = 0; i <= 4; ++i) {
+    const double value = low + (high - low) * i / 4;
+    svg += fmt::format(
+        "<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' stroke='#ddd'/>"
+        "<text x='{:.1f}' y='{:.1f}' text-anchor='end'>{:.3g}</text>\n",
+        left, y(value), left + width, y(value), left - 6, y(value) + 4, value);
+    const double seconds = first + (last - first) * i / 4;
+    svg += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:.3g} s</text>\n", x(seconds),
+                       top + height + 16, seconds);
+  }
+  double name_x = left;
+  for (const Curve& curve : curves) {
+    std::string points, dots;
+    for (const FrameError& e : run.errors) {
+      const double value = curve.value(e.error);
+      if (!std::isfinite(value)) continue;
+      points += fmt::format("{:.1f},{:.1f} ", x(e.frame / run.fps), y(value));
+      dots += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='2' fill='{}'/>", x(e.frame / run.fps), y(value),
+                          curve.color);
+    }
+    svg += fmt::format("<polyline points='{}' fill='none' stroke='{}'/>{}\n", points, curve.color, dots);
+    svg += fmt::format("<text x='{:.1f}' y='{:.1f}' fill='{}'>{}</text>\n", name_x, top - 8, curve.color,
+                       curve.name);
+    name_x += 220;
+  }
+  return svg;
+}
+
+}  // namespace
+
+void write_error_curve(const std::filesystem::path& path, const RelightRun& run) {
+  const std::vector<Curve> ratios = {
+      {"mean looked up / path traced", "#1b6ca8", [](const gi::LookupError& e) { return e.ratio; }}};
+  const std::vector<Curve> errors = {
+      {"mean relative error", "#b03a2e", [](const gi::LookupError& e) { return e.mean_relative; }},
+      {"of which the truth's noise", "#999999", [](const gi::LookupError& e) { return e.noise; }},
+      {"root of relMSE", "#7d3c98",
+       [](const gi::LookupError& e) { return std::sqrt(std::max(e.relmse, 0.0)); }}};
+  double off = 0.05, most = 0.05;
+  for (const FrameError& e : run.errors) {
+    if (std::isfinite(e.error.ratio)) off = std::max(off, std::abs(e.error.ratio - 1));
+    for (const Curve& curve : errors) most = std::max(most, curve.value(e.error));
+  }
+  write_file(path,
+             "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 720 440' font-family='sans-serif' "
+             "font-size='12'>\n<rect width='720' height='440' fill='white'/>\n" +
+                 panel(run, 40, 1 - 1.1 * off, 1 + 1.1 * off, ratios) +
+                 panel(run, 250, 0, 1.1 * most, errors) + "</svg>\n");
+}
+
+}  // namespace ssphh::app
