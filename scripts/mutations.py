@@ -110,7 +110,7 @@ def _dropped_statements(code):
 
 
 def _arguments(code):
-    """The arguments' (begin, end) of every call and braced list with at least two."""
+    """Of every call and braced list with at least two arguments the text before it and the arguments' (begin, end)."""
     opening = {")": "(", "}": "{", "]": "["}
     stack = []
     for at, c in enumerate(code):
@@ -126,15 +126,19 @@ def _arguments(code):
                 called = re.search(r"[\w>\]]$" if bracket == "(" else r"[\w>,=({]\s*$", before)
                 if called and not re.search(r"\b(?:if|for|while|switch) $|\benum [^;]*$", before):
                     ends = [cut - 1 for cut in cuts[1:]] + [at]
-                    yield list(zip(cuts, ends))
+                    yield before, list(zip(cuts, ends))
         elif c == "," and stack:
             stack[-1][2].append(at + 1)
         elif c == ";" and stack and stack[-1][0] == "{":
             stack[-1][2][:] = [at + 1]
 
 
+# In whatever order their two arguments stand, they give the same bits.
+_symmetric = re.compile(r"\b(?:dot|distance|min|max)$")
+
+
 def _argument_faults(code, text):
-    for arguments in _arguments(code):
+    for before, arguments in _arguments(code):
         spans = []
         for begin, end in arguments:
             raw = code[begin:end]
@@ -147,7 +151,7 @@ def _argument_faults(code, text):
         lines = "\n" * code.count("\n", spans[-2][1], last[1])
         yield Mutation("dropped argument", spans[-2][1], last[1], lines)
         for (b0, e0), (b1, e1) in zip(spans, spans[1:]):
-            if text[b0:e0] != text[b1:e1]:
+            if text[b0:e0] != text[b1:e1] and not _symmetric.search(before):
                 yield Mutation("swapped arguments", b0, e1, text[b1:e1] + text[e0:b1] + text[b0:e0])
 
 

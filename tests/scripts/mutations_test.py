@@ -54,6 +54,11 @@ class Mutations(unittest.TestCase):
                               [("p, t", "t, p"), ("count(p, t), 0.25f", "0.25f, count(p, t)"), ("p.x, t", "t, p.x")])
         self.assertCountEqual([before for before, _ in changes("dropped argument")], [", t", ", 0.25f", ", t"])
 
+    def test_arguments_whose_order_is_all_the_same_are_not_swapped(self):
+        text = "float f() {\n  return glm::dot(a, b) * std::min(c, d) + pow(e, f);\n}\n"
+        swapped = mutations.candidates(text)["swapped arguments"]
+        self.assertEqual([text[m.begin:m.end] for m in swapped], ["e, f"])
+
     def test_bounds_indices_and_small_numbers_are_off_by_one(self):
         self.assertCountEqual(changes("off by one"), [("n", "n - 1"), ("n", "n + 1"), ("i", "i + 1"), ("0", "1")])
 
