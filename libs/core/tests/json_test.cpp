@@ -44,6 +44,7 @@ TEST(Json, BracesBuildObjectsOfPairsAndArraysOfAllElse) {
 TEST(Json, ValuesAreReadAsTheKindThatTheyAre) {
   const Value value = parse(R"({"a":[1,-2,0.5],"t":"x","b":false,"n":null})", "f");
   EXPECT_EQ(value["a"].size(), 3u);
+  for (const char* scalar : {"t", "b", "n"}) EXPECT_EQ(value[scalar].size(), 0u) << scalar;
   EXPECT_EQ(value["a"][0].integer(), 1);
   EXPECT_EQ(value["a"][1].integer(), -2);
   EXPECT_EQ(value["a"][2].integer(), std::nullopt);

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <limits>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <ssphh/core/file.h>
@@ -282,6 +283,10 @@ TEST(ProbeFile, ASetThatBreaksTheRulesIsNotWritten) {
   expect_rejected("/probes/0/edges/0/matrix",
                   [](ProbeSet& s) { s.probes[0].edges[0].matrix.values.pop_back(); });
   expect_rejected("/hierarchy", [](ProbeSet& s) { s.hierarchy->neighbor.pop_back(); });
+  for (const std::size_t i : {0, 2}) {
+    expect_rejected(fmt::format("/probes/{}/neighbor", i).c_str(),
+                    [&](ProbeSet& s) { s.hierarchy->neighbor[i][0].y = nan; });
+  }
   expect_rejected("/light_groups/1/name", [](ProbeSet& s) { s.light_groups[1].name.resize(2000, 'x'); });
   expect_rejected("/generator/directions", [](ProbeSet& s) { s.generator.directions = -1; });
   expect_rejected("/generator/surfel_size", [&](ProbeSet& s) { s.generator.surfel_size = nan; });

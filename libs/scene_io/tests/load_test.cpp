@@ -62,6 +62,7 @@ TEST_F(Loading, WarnsOfScenesThatAreLargeOrFarAway) {
   EXPECT_EQ(warnings_of(triangle(1, 142)), Lines{": lies 143 m from the origin and is 1.41 m across, which "
                                                  "costs precision; move it with \"origin\" in an "
                                                  "overlay"});
+  EXPECT_EQ(warnings_of(triangle(0.001f, 0.2f)).size(), 1u) << "as of any size";
 }
 
 TEST_F(Loading, TellsFormatsByContentThenByName) {
