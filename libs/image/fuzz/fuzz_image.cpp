@@ -1,10 +1,10 @@
 // Every decoder on arbitrary bytes: an image, or an Error that names the file.
 #include <cstring>
 
+#include <boost/crc.hpp>
+
 #include <ssphh/core/log.h>
 #include <ssphh/image/io.h>
-
-#include "../src/codec.h"
 
 namespace {
 
@@ -17,7 +17,9 @@ void repair_png(std::vector<std::byte>& data) {
   for (std::size_t at = 8; at + 12 <= data.size();) {
     const std::size_t length = u8(at) << 24 | u8(at + 1) << 16 | u8(at + 2) << 8 | u8(at + 3);
     if (length > data.size() - at - 12) return;
-    const std::uint32_t crc = png_crc(std::span(data).subspan(at + 4, length + 4));
+    boost::crc_32_type sum;
+    sum.process_bytes(data.data() + at + 4, length + 4);
+    const std::uint32_t crc = sum.checksum();
     for (std::size_t i = 0; i < 4; ++i)
       data[at + 8 + length + i] = static_cast<std::byte>(crc >> (24 - 8 * i) & 255);
     at += length + 12;

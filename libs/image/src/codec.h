@@ -26,19 +26,12 @@ void check_size(const Source& source, std::int64_t width, std::int64_t height);
 Image decode_exr(const Source& source);
 Image decode_hdr(const Source& source);
 
-/// PNG and JPEG through stb.
-Image decode_stb(const Source& source, FileFormat format);
-Rgba8 decode_stb_rgba8(const Source& source, FileFormat format);
+/// Through libspng, every checksum held.
+Image decode_png(const Source& source);
+Rgba8 decode_png_rgba8(const Source& source);
 
-/// Throws Error when a PNG's chunks do not fit the file, a critical chunk's checksum is wrong, or its
-/// compressed data cannot hold the announced image.
-void check_png(const Source& source);
-
-/// CRC-32 as PNG uses it, of the bytes of a chunk's type and data.
-std::uint32_t png_crc(std::span<const std::byte> data);
-
-/// Throws Error when a JPEG's segments do not fit the file, its end is missing or a Huffman table is too
-/// long.
-void check_jpeg(const Source& source);
+/// Through libjpeg-turbo, to which a damaged file is none.
+Image decode_jpeg(const Source& source);
+Rgba8 decode_jpeg_rgba8(const Source& source);
 
 }  // namespace ssphh::image

@@ -79,7 +79,8 @@ Image decode_image(std::span<const std::byte> data, const std::string& name, con
   const FileFormat format = require_format(source);
   Image image = format == FileFormat::exr   ? decode_exr(source)
                 : format == FileFormat::hdr ? decode_hdr(source)
-                                            : decode_stb(source, format);
+                : format == FileFormat::png ? decode_png(source)
+                                            : decode_jpeg(source);
   if (const std::size_t count = count_nonfinite_pixels(image)) {
     log_warning("{}: {} of {} pixels are infinite or NaN", name, count,
                 image.pixels.size() / static_cast<std::size_t>(image.channels));
@@ -96,7 +97,7 @@ Rgba8 decode_rgba8(std::span<const std::byte> data, const std::string& name, con
   const FileFormat format = require_format(source);
   if (format != FileFormat::png && format != FileFormat::jpeg)
     source.fail("is not an 8-bit image", "use PNG or JPEG");
-  return decode_stb_rgba8(source, format);
+  return format == FileFormat::png ? decode_png_rgba8(source) : decode_jpeg_rgba8(source);
 }
 
 void write_image(const std::filesystem::path& path, const Image& image) {

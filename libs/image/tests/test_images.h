@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ssphh/core/error.h>
@@ -19,6 +20,13 @@ inline Image noise_image(int width, int height, int channels, float scale, std::
   for (float& x : image.pixels) x = scale * (1 - random.uniform());
   return image;
 }
+
+/// Type and data.
+using PngChunk = std::pair<std::string, std::vector<std::uint8_t>>;
+
+/// One row of samples, as the file holds them, as a PNG file with `chunks` before its picture.
+std::vector<std::byte> png_row(int width, int depth, int color_type, const std::vector<std::uint8_t>& samples,
+                               const std::vector<PngChunk>& chunks = {});
 
 /// One row of 16-bit grey as a PNG file.
 std::vector<std::byte> png_16bit_grey(const std::vector<std::uint16_t>& row);
