@@ -63,7 +63,7 @@ void resolve(BakeOptions& o, std::size_t probes) {
   if (!path && o.gen != "full")
     throw Error("--gen " + o.gen, "is of --operator path; the light of surfels has every bounce");
   params.keep_light = !path;
-  if (!path) o.transport.op = *gi::parse_light_operator(o.op);
+  if (!path) o.transport.op = *parse_enum<gi::LightOperator>(o.op);
   params.viz = o.viz == "path";
   params.viz_params.neighbors = o.neighbors.value_or(-1);
   params.viz_params.threshold = o.threshold;
@@ -176,7 +176,7 @@ void bake(Context& context, BakeOptions& options) {
   std::optional<FarmSession> session;  // first: its processes start while this one reads the scene
   if (options.farm.any()) session.emplace(options.farm);
   const scene::Scene scene = load_scene(options.scene);
-  options.params.gen = *gi::parse_gen_mode(options.gen);
+  options.params.gen = *parse_enum<gi::GenMode>(options.gen);
   options.params.path.seed = context.seed;
   const std::optional<PlaceResult> place =
       place_for(scene, options.scene.time, options.place, "", context.control);

@@ -16,7 +16,8 @@ struct ConvertOptions {
 };
 
 void convert(const Context& context, const ConvertOptions& options) {
-  const image::Layout from = image::layout_from_name(options.from), to = image::layout_from_name(options.to);
+  const image::Layout from = enum_named<image::Layout>("layout", options.from),
+                      to = enum_named<image::Layout>("layout", options.to);
   image::format_of_extension(options.output);  // before the work
   const image::Image input = image::read_image(options.input);
   try {
@@ -41,8 +42,7 @@ void add_cubemap_commands(CLI::App& app, Context& context) {
   auto options = std::make_shared<ConvertOptions>();
   CLI::App* command = add_command(*group, context, "convert", "Convert between layouts of the sphere",
                                   [&context, options] { convert(context, *options); });
-  std::vector<std::string> names;
-  for (const std::string_view name : image::layout_names()) names.emplace_back(name);
+  const std::vector<std::string> names = names_of<image::Layout>();
   command
       ->add_option("IN", options->input,
                    "Image: .exr .hdr .png .jpg (8-bit and 16-bit are decoded from sRGB)")

@@ -47,14 +47,14 @@ void apply_scale(gi::ProbeSet& set, const std::string& text) {
 }
 
 std::string light_of(const gi::GeneratorInfo& g) {
-  return g.op == gi::LightOperator::path ? fmt::format("GEN {}", gi::to_string(g.gen))
-                                         : fmt::format("light by {}", gi::to_string(g.op));
+  return g.op == gi::LightOperator::path ? fmt::format("GEN {}", name_of(g.gen))
+                                         : fmt::format("light by {}", name_of(g.op));
 }
 
 void hier(Context& context, HierOptions& options) {
   gi::ProbeSet set = gi::read_probe_file(options.input);
   for (const std::string& scale : options.scales) apply_scale(set, scale);
-  options.params.op = *gi::parse_hier_operator(options.op);
+  options.params.op = *parse_enum<gi::HierOperator>(options.op);
   if (gi::edge_count(set) == 0 && set.probes.size() > 1) {
     log_warning("{} has no edges between its probes, so HIER adds nothing; bake with --viz links or path",
                 options.input);
@@ -85,9 +85,9 @@ void hier(Context& context, HierOptions& options) {
        {"threshold", options.params.threshold},
        {"probes", set.probes.size()},
        {"contraction", contraction ? json::Value(contraction->upper) : json::Value()},
-       {"gen", gi::to_string(set.generator.gen)},
-       {"light", gi::to_string(set.generator.op)},
-       {"viz", gi::to_string(set.generator.viz)}},
+       {"gen", name_of(set.generator.gen)},
+       {"light", name_of(set.generator.op)},
+       {"viz", name_of(set.generator.viz)}},
       fmt::format("{}: {} edges between {} probes, operator {}, {}: {:.1f} us{}", options.output, edges,
                   set.probes.size(), options.op, light_of(set.generator), 1e6 * times[3], shrinks));
 }

@@ -65,7 +65,7 @@ void leak(Context& context, LeakOptions& o) {
                         {"truth_spp", o.params.path.spp},
                         {"mean_truth", report.mean_truth},
                         {"mean_looked_up", report.mean_looked_up},
-                        {"weights", gi::to_string(lookup_params.weights.chosen(set.fitted.has_value()))},
+                        {"weights", name_of(lookup_params.weights.chosen(set.fitted.has_value()))},
                         {"time", time}};
   std::string text = fmt::format(
       "leaked      {:.4g} % of the looked-up light stands on dark points\n"

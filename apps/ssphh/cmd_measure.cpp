@@ -64,7 +64,7 @@ std::vector<Candidate> probe_candidates(const MeasureOptions& o, const std::vect
     for (const std::string& name : weights) {
       gi::LookupParams params;
       params.weights = weight_params(o.probes[i], sets[i], name);
-      const std::string used = gi::to_string(params.weights.chosen(sets[i].fitted.has_value()));
+      const std::string used(name_of(params.weights.chosen(sets[i].fitted.has_value())));
       candidates.push_back({o.probes[i],
                             used,
                             std::make_shared<gi::IrradianceLookup>(sets[i], tracer, params),

@@ -143,7 +143,7 @@ class Relighting {
                            kept_.size(), "frames");
     const Control quiet{nullptr, context_.control.cancel};
     gi::LookupParams params;
-    params.weights.method = gi::parse_weight_method(o_.weights);
+    params.weights.method = parse_enum<gi::WeightMethod>(o_.weights);
     std::optional<gi::FittedPoints> fitted;
     if (params.weights.method == gi::WeightMethod::fitted) fitted = fit(session, quiet);
     for (const KeptFrame& kept : kept_) {
@@ -232,7 +232,7 @@ class Relighting {
 };
 
 void relight(Context& context, RelightOptions& options) {
-  options.params.op = *gi::parse_light_operator(options.method);
+  options.params.op = *parse_enum<gi::LightOperator>(options.method);
   if (options.params.op == gi::LightOperator::bounce && options.params.poses != 0)
     throw Error("--poses", "is of --operator surfel");
   if (!options.output.empty()) {

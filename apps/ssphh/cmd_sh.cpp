@@ -100,7 +100,7 @@ void add_project(CLI::App& group, Context& context) {
   auto o = std::make_shared<Options>();
   CLI::App* command =
       add_command(group, context, "project", "Coefficients of the radiance in an image", [&context, o] {
-        const image::Layout layout = image::layout_from_name(o->layout);
+        const image::Layout layout = enum_named<image::Layout>("layout", o->layout);
         const image::Image picture = image::read_image(o->image);
         for (const float value : picture.pixels) {
           if (!std::isfinite(value)) throw Error(o->image, "has pixels that are NaN or infinite");
@@ -155,7 +155,7 @@ void add_reconstruct(CLI::App& group, Context& context) {
   auto o = std::make_shared<Options>();
   CLI::App* command =
       add_command(group, context, "reconstruct", "The radiance (or irradiance) as an image", [&context, o] {
-        const image::Layout layout = image::layout_from_name(o->layout);
+        const image::Layout layout = enum_named<image::Layout>("layout", o->layout);
         image::format_of_extension(o->output);
         const sh::RadianceSh radiance = read_radiance_sh(o->file);
         const sh::IrradianceSh irradiance = sh::irradiance_from_radiance(radiance);
@@ -233,7 +233,7 @@ void add_rotate(CLI::App& group, Context& context) {
 }
 
 sh::Convention convention_option(const char* option, const std::string& name) {
-  const auto convention = sh::find_convention(name);
+  const auto convention = parse_enum<sh::Convention>(name);
   if (!convention) {
     throw Error(option, fmt::format("no convention is called \"{}\"", name),
                 "ssphh, d3dx (unreal), unity, three (godot), filament, filament-mirrored");
@@ -257,10 +257,10 @@ void add_convert(CLI::App& group, Context& context) {
                     const int degree = std::min(radiance.degree(), sh::convention_max_degree(to));
                     if (degree < radiance.degree()) {
                       log_warning("{}: bands {}..{} are dropped, {} holds degree {}", o->file, degree + 1,
-                                  radiance.degree(), sh::convention_name(to), degree);
+                                  radiance.degree(), name_of(to), degree);
                     }
                     json::Value object = sh_to_json(stored, degree);
-                    object["convention"] = std::string(sh::convention_name(to));
+                    object["convention"] = std::string(name_of(to));
                     o->output.give(context, object);
                   });
   command->add_option("file", o->file, file_help)->required();

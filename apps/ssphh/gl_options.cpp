@@ -28,7 +28,7 @@ void set_probes(realtime::Renderer& renderer, const GlLookup& options, const sce
 realtime::FrameSettings still_settings(const GlLookup& options, int samples) {
   realtime::FrameSettings settings;
   settings.lookup = options.lookup == "light" ? gi::LookupMethod::light : gi::LookupMethod::irradiance;
-  settings.weights = gi::parse_weight_method(options.weights).value_or(gi::WeightMethod::fitted);
+  settings.weights = parse_enum<gi::WeightMethod>(options.weights).value_or(gi::WeightMethod::fitted);
   settings.supersample = samples;
   return settings;
 }

@@ -84,6 +84,12 @@ const std::vector<std::string>& layer_names() {
   return names;
 }
 
+JobKind kind_of(const Job& job) {
+  const auto* probes = std::get_if<ProbeJob>(&job);
+  if (!probes) return JobKind::ref;
+  return probes->stage == gi::BakeStage::gen ? JobKind::gen : JobKind::viz;
+}
+
 void validate(const Job& job) {
   std::visit([](const auto& j) { check(j); }, job);
 }

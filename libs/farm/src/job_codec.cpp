@@ -5,8 +5,6 @@
 namespace ssphh::farm {
 namespace {
 
-constexpr const char* projection_names[] = {"pinhole", "orthographic", "equirect", "cube_strip"};
-
 // --- scene and paths
 
 json::Value put(const SceneRef& scene) {
@@ -175,7 +173,7 @@ json::Value put(const TileJob& job, MessageWriter& out) {
                             {"orthographic", camera.orthographic},
                             {"yfov", exact(camera.yfov)},
                             {"yheight", exact(camera.yheight)}}},
-                          {"projection", projection_names[static_cast<int>(p.projection)]},
+                          {"projection", name_of(p.projection)},
                           {"path", put(p.path)},
                           {"layers", job.layers},
                           {"tiles", tiles}};
@@ -201,11 +199,7 @@ TileJob get_tile_job(const Field& f) {
   p.camera.camera.orthographic = camera["orthographic"].boolean();
   p.camera.camera.yfov = camera["yfov"].number();
   p.camera.camera.yheight = camera["yheight"].number();
-  const std::string projection = f["projection"].text();
-  int choice = 0;
-  while (choice < 4 && projection != projection_names[choice]) ++choice;
-  if (choice == 4) f["projection"].fail("must be pinhole, orthographic, equirect or cube_strip");
-  p.projection = static_cast<trace::Projection>(choice);
+  p.projection = f["projection"].named<trace::Projection>();
   p.path = get_path(f["path"]);
   const Field layers = f["layers"];
   for (std::size_t i = 0, n = layers.size(0, layer_names().size()); i < n; ++i)
@@ -275,10 +269,8 @@ TileResult get_tile_result(const Field& f) {
 
 // --- both
 
-std::string kind_of(const Job& job) {
-  if (const auto* probes = std::get_if<ProbeJob>(&job))
-    return probes->stage == gi::BakeStage::gen ? "gen" : "viz";
-  return "ref";
+gi::BakeStage stage_of(JobKind kind) {
+  return kind == JobKind::gen ? gi::BakeStage::gen : gi::BakeStage::viz;
 }
 
 void check_head(const Field& root, const char* format) {
@@ -294,7 +286,7 @@ void check_head(const Field& root, const char* format) {
 std::string encode_job(const Job& job, ContentType type) {
   validate(job);
   MessageWriter out(type);
-  json::Value document = {{"format", "ssphh-job"}, {"version", job_version}, {"kind", kind_of(job)}};
+  json::Value document = {{"format", "ssphh-job"}, {"version", job_version}, {"kind", name_of(kind_of(job))}};
   document.update(std::visit([&](const auto& j) { return put(j, out); }, job));
   return out.finish(document);
 }
@@ -303,14 +295,12 @@ Job decode_job(std::string_view body) {
   const Message message = parse_message(body, "job");
   const Field root = message.root();
   check_head(root, "ssphh-job");
-  const std::string kind = root["kind"].text();
+  const auto kind = root["kind"].named<JobKind>();
   Job job;
-  if (kind == "gen" || kind == "viz") {
-    job = get_probe_job(root, kind == "gen" ? gi::BakeStage::gen : gi::BakeStage::viz);
-  } else if (kind == "ref") {
+  if (kind == JobKind::ref) {
     job = get_tile_job(root);
   } else {
-    root["kind"].fail("must be gen, viz or ref");
+    job = get_probe_job(root, stage_of(kind));
   }
   validate(job);
   return job;
@@ -320,12 +310,12 @@ std::string encode_result(const JobResult& result, ContentType type) {
   MessageWriter out(type);
   json::Value document = {{"format", "ssphh-result"}, {"version", job_version}};
   if (const auto* probes = std::get_if<ProbeJobResult>(&result.data)) {
-    document["kind"] = probes->stage == gi::BakeStage::gen ? "gen" : "viz";
+    document["kind"] = name_of(probes->stage);
     document["degree"] = probes->degree;
     json::Value& list = document["probes"] = json::Value::array();
     for (const gi::ProbeStageResult& probe : probes->probes) list.push_back(put(probe, out));
   } else {
-    document["kind"] = "ref";
+    document["kind"] = name_of(JobKind::ref);
     json::Value& list = document["tiles"] = json::Value::array();
     for (const TileResult& tile : std::get<TileJobResult>(result.data).tiles) list.push_back(put(tile, out));
   }
@@ -339,21 +329,19 @@ JobResult decode_result(std::string_view body) {
   const Field root = message.root();
   check_head(root, "ssphh-result");
   JobResult result;
-  const std::string kind = root["kind"].text();
-  if (kind == "ref") {
+  const auto kind = root["kind"].named<JobKind>();
+  if (kind == JobKind::ref) {
     auto& tiles = result.data.emplace<TileJobResult>().tiles;
     const Field list = root["tiles"];
     for (std::size_t i = 0, n = list.size(0, job_limits::units); i < n; ++i)
       tiles.push_back(get_tile_result(list[i]));
-  } else if (kind == "gen" || kind == "viz") {
+  } else {
     auto& probes = result.data.emplace<ProbeJobResult>();
-    probes.stage = kind == "gen" ? gi::BakeStage::gen : gi::BakeStage::viz;
+    probes.stage = stage_of(kind);
     probes.degree = static_cast<int>(root["degree"].integer(0, sh::max_degree));
     const Field list = root["probes"];
     for (std::size_t i = 0, n = list.size(0, job_limits::units); i < n; ++i)
       probes.probes.push_back(get_probe(list[i], probes.stage, probes.degree));
-  } else {
-    root["kind"].fail("must be gen, viz or ref");
   }
   const Field stats = root["stats"];
   result.stats = {stats["seconds"].precise_number(),

@@ -25,13 +25,6 @@ int integer(const Cursor& at, int least, int most) {
   return static_cast<int>(at.integer(least, most));
 }
 
-template <class Enum>
-Enum choice(const Cursor& at, std::optional<Enum> (*parse)(const std::string&)) {
-  const std::optional<Enum> value = parse(at.text(limits::text));
-  if (!value) at.fail("is not a known value");
-  return *value;
-}
-
 vec3 vector3(const Cursor& at, double least, double most) {
   at.size(3, 3);
   return {at[0].number(least, most), at[1].number(least, most), at[2].number(least, most)};
@@ -58,9 +51,9 @@ GeneratorInfo read_generator(const Cursor& at) {
   at.members({"operator", "viz", "gen", "max_depth", "passes", "spp", "face_size", "seed", "directions",
               "surfel_size", "link_rays", "scene", "scene_hash", "time"});
   GeneratorInfo g;
-  g.op = choice(at["operator"], parse_light_operator);
-  g.viz = choice(at["viz"], parse_viz_method);
-  g.gen = choice(at["gen"], parse_gen_mode);
+  g.op = at["operator"].named<LightOperator>();
+  g.viz = at["viz"].named<VizMethod>();
+  g.gen = at["gen"].named<GenMode>();
   g.max_depth = integer(at["max_depth"], 0, limits::depth);
   g.passes = integer(at["passes"], 1, limits::samples);
   g.spp = integer(at["spp"], 1, limits::samples);
@@ -154,7 +147,7 @@ ProbeSet read_set(const Cursor& root) {
   if (root.has("hierarchy")) {
     const Cursor at = root["hierarchy"].members({"operator", "neighbors", "threshold"});
     Hierarchy& h = set.hierarchy.emplace();
-    h.op = choice(at["operator"], parse_hier_operator);
+    h.op = at["operator"].named<HierOperator>();
     h.neighbors = integer(at["neighbors"], -1, static_cast<int>(limits::probes));
     h.threshold = at["threshold"].number(0, 1);
   }

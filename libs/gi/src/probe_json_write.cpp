@@ -21,8 +21,7 @@ class Writer {
     put("\"generator\":{{\"operator\":\"{}\",\"viz\":\"{}\",\"gen\":\"{}\",\"max_depth\":{},\"passes\":{},"
         "\"spp\":{},"
         "\"face_size\":{},\"seed\":\"{:x}\",\n",
-        to_string(g.op), to_string(g.viz), to_string(g.gen), g.max_depth, g.passes, g.spp, g.face_size,
-        g.seed);
+        name_of(g.op), name_of(g.viz), name_of(g.gen), g.max_depth, g.passes, g.spp, g.face_size, g.seed);
     put("\"directions\":{},\"surfel_size\":{},\"link_rays\":{},\n", g.directions, exact(g.surfel_size),
         g.link_rays);
     put("\"scene\":{},\"scene_hash\":\"{}\",\"time\":{}}},\n", quoted(g.scene), g.scene_hash.hex(),
@@ -37,7 +36,7 @@ class Writer {
     put("]");
     if (set_.hierarchy) {
       const Hierarchy& h = *set_.hierarchy;
-      put(",\n\"hierarchy\":{{\"operator\":\"{}\",\"neighbors\":{},\"threshold\":{}}}", to_string(h.op),
+      put(",\n\"hierarchy\":{{\"operator\":\"{}\",\"neighbors\":{},\"threshold\":{}}}", name_of(h.op),
           h.neighbors, exact(h.threshold));
     }
     if (set_.fitted) fitted(*set_.fitted);

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include <ssphh/core/enum_names.h>
 #include <ssphh/gi/bake.h>
 #include <ssphh/trace/render_state.h>
 
@@ -64,6 +65,13 @@ struct TileJob {
 const std::vector<std::string>& layer_names();
 
 using Job = std::variant<ProbeJob, TileJob>;
+
+enum class JobKind { gen, viz, ref };
+constexpr auto enum_table(JobKind) {
+  using enum JobKind;
+  return std::to_array<EnumName<JobKind>>({{gen, "gen"}, {viz, "viz"}, {ref, "ref"}});
+}
+JobKind kind_of(const Job& job);
 
 struct ProbeJobResult {
   gi::BakeStage stage = gi::BakeStage::gen;
