@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <ssphh/gi/probe_codec.h>
+
 #include "message.h"
 
 namespace ssphh::farm {
@@ -82,46 +84,30 @@ ProbeJob get_probe_job(const Field& f, gi::BakeStage stage) {
   return job;
 }
 
+/// The alphabet of messages for probe_codec.h: members of an object, floats where the message has them.
+struct MessageParts {
+  json::Value& object;
+  MessageWriter& out;
+
+  void index(const char* name, int value) { object[name] = value; }
+  void share(const char* name, float value) { object[name] = exact(value); }
+  void vectors(const char* name, std::span<const vec3> values, gi::Missing missing) {
+    if (!values.empty() || missing != gi::Missing::absent) object[name] = out.vectors(values);
+  }
+};
+using FieldParts = gi::JsonParts<Field>;
+
 json::Value put(const gi::ProbeStageResult& result, MessageWriter& out) {
   json::Value probe = {{"probe", result.done.probe}, {"seconds", result.seconds}, {"rays", result.rays}};
-  if (result.done.stage == gi::BakeStage::gen) {
-    json::Value& groups = probe["groups"] = json::Value::array();
-    for (const gi::GroupLight& light : result.groups) {
-      groups.push_back({{"emitted", out.vectors(light.emitted.values)},
-                        {"reflected", out.vectors(light.reflected.values)}});
-    }
-    return probe;
-  }
-  json::Value& edges = probe["edges"] = json::Value::array();
-  for (const gi::Edge& edge : result.edges) {
-    json::Value e = {
-        {"from", edge.from}, {"transfer", exact(edge.transfer)}, {"h", out.vectors(edge.h.values)}};
-    if (!edge.matrix.values.empty()) e["matrix"] = out.vectors(edge.matrix.values);
-    edges.push_back(std::move(e));
-  }
+  const bool gen = result.done.stage == gi::BakeStage::gen;
+  json::Value& list = probe[gen ? "groups" : "edges"] = json::Value::array();
+  const auto next = [&] {
+    list.push_back(json::Value::object());
+    return MessageParts{list[list.size() - 1], out};
+  };
+  for (const gi::GroupLight& light : result.groups) gi::write_light(next(), light);
+  for (const gi::Edge& edge : result.edges) gi::write_edge(next(), edge);
   return probe;
-}
-
-sh::RadianceSh get_sh(const Field& f, int degree, bool may_be_empty) {
-  if (may_be_empty && f.float_count() == 0) return {};
-  sh::RadianceSh function(degree);
-  f.vectors(function.values);
-  return function;
-}
-
-gi::Edge get_edge(const Field& f, int degree) {
-  gi::Edge edge;
-  edge.from = static_cast<int>(f["from"].integer(0, job_limits::places - 1));
-  edge.transfer = f["transfer"].number();
-  if (!(edge.transfer >= 0 && edge.transfer <= 1)) f["transfer"].fail("must lie in 0..1");
-  edge.h = get_sh(f["h"], degree, false);
-  if (const auto matrix = f.find("matrix")) {
-    const auto k = static_cast<std::size_t>(sh::coefficient_count(degree));
-    if (matrix->float_count() != 3 * k * k) matrix->fail("has a wrong count");
-    edge.matrix = sh::TransferMatrix(degree, degree);
-    matrix->vectors(edge.matrix.values);
-  }
-  return edge;
 }
 
 gi::ProbeStageResult get_probe(const Field& f, gi::BakeStage stage, int degree) {
@@ -129,22 +115,13 @@ gi::ProbeStageResult get_probe(const Field& f, gi::BakeStage stage, int degree) 
   result.done = {stage, static_cast<std::uint32_t>(f["probe"].integer(0, job_limits::places - 1))};
   result.seconds = f["seconds"].precise_number();
   result.rays = static_cast<std::uint64_t>(f["rays"].integer(0, INT64_MAX));
-  if (stage == gi::BakeStage::gen) {
-    const Field groups = f["groups"];
-    const std::size_t count = groups.size(0, 256);
-    for (std::size_t g = 0; g < count; ++g) {
-      const Field light = groups[g];
-      result.groups.push_back(
-          {get_sh(light["emitted"], degree, true), get_sh(light["reflected"], degree, false)});
-    }
+  if (stage == gi::BakeStage::viz) {
+    result.edges = gi::read_edges(FieldParts(f["edges"]), degree, result.done.probe, job_limits::places);
     return result;
   }
-  const Field edges = f["edges"];
-  const std::size_t count = edges.size(0, job_limits::places);
-  for (std::size_t e = 0; e < count; ++e) {
-    result.edges.push_back(get_edge(edges[e], degree));
-    if (e > 0 && result.edges[e].from <= result.edges[e - 1].from) edges.fail("must ascend by \"from\"");
-  }
+  const Field groups = f["groups"];
+  for (std::size_t g = 0, count = groups.size(0, 256); g < count; ++g)
+    result.groups.push_back(gi::read_light(FieldParts(groups[g]), degree));
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <ssphh/farm/job_codec.h>
 
+#include "error_message.h"
 #include "job_fields.h"
 
 namespace ssphh::farm {
@@ -87,6 +88,31 @@ image::Image some_image(const trace::Tile& tile, int channels, float first) {
   image::Image image(tile.width, tile.height, channels);
   for (float& value : image.pixels) value = first *= 1.01f;
   return image;
+}
+
+// What probe files refuse is refused here as well: the codec is the same (gi/probe_codec.h).
+TEST(JobCodec, EdgesOfAResultAreThoseOfAProbeSet) {
+  const auto read = [](const std::string& edges) {
+    return ssphh::test::message_of([&] {
+      decode_result(R"({"format":"ssphh-result","version":1,"kind":"viz","degree":0,"probes":[)"
+                    R"({"probe":5,"seconds":1,"rays":2,"edges":[)" +
+                    edges + R"(]}],"stats":{"seconds":1,"rays":3,"worker":"w"}})");
+    });
+  };
+  const auto edge = [](int from, const std::string& more) {
+    return R"({"from":)" + std::to_string(from) + "," + more + "}";
+  };
+  const std::string sound = R"("transfer":0.5,"h":[1,2,3])", at = "result: probes[0].edges";
+  EXPECT_EQ(read(edge(2, sound) + "," + edge(8, sound + R"(,"matrix":[1,2,3])")), "no error");
+  for (const int second : {1, 2, 5})
+    EXPECT_EQ(read(edge(2, sound) + "," + edge(second, sound)),
+              at + "[1].from: must be another probe's index, in ascending order");
+  EXPECT_NE(read(edge(65536, sound)), "no error");
+  EXPECT_EQ(read(edge(2, R"("transfer":0.5,"h":[1,2])")), at + "[0].h: must be 3 numbers, not 2");
+  EXPECT_EQ(read(edge(2, R"("transfer":0.5,"h":[])")), at + "[0].h: must be 3 numbers, not 0");
+  EXPECT_EQ(read(edge(2, sound + R"(,"matrix":[])")), at + "[0].matrix: must be 3 numbers, not 0");
+  EXPECT_NE(read(edge(2, R"("transfer":1.5,"h":[1,2,3])")), "no error");
+  EXPECT_NE(read(edge(2, sound + R"(,"weight":1)")), "no error") << "of a later version";
 }
 
 TEST(JobCodec, EveryFieldOfATileResultTravels) {
