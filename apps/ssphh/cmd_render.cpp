@@ -120,19 +120,17 @@ gi::ProbeSet read_probes(const RenderOptions& o, const trace::PathTracer& tracer
   return probes;
 }
 
+gi::LookupSpec lookup_spec(const RenderOptions& o) {
+  return {enum_named<gi::LookupMethod>("--lookup", o.lookup), parse_enum<gi::WeightMethod>(o.weights),
+          enum_named<gi::ProbeLayer>("--light", o.light)};
+}
+
 void render_with_probes(const trace::PathTracer& tracer, const scene::Scene& scene, const RenderOptions& o,
                         const trace::RenderParams& params, trace::RenderState& state,
                         const Control& control) {
   const gi::ProbeSet probes = read_probes(o, tracer, scene);
-  gi::LookupParams lookup;
-  if (o.light == "self") lookup.layer = gi::ProbeLayer::self;
-  std::unique_ptr<scene::IndirectLight> indirect;
-  if (o.lookup == "light") {
-    indirect = std::make_unique<gi::LightLookup>(probes, tracer, lookup);
-  } else {
-    lookup.weights = weight_params(o.probes, probes, o.weights);
-    indirect = std::make_unique<gi::IrradianceLookup>(probes, tracer, lookup);
-  }
+  weight_params(o.probes, probes, o.weights);  // which complains of weights that the file does not have
+  const auto indirect = gi::make_lookup(lookup_spec(o), probes, tracer);
   tracer.render_with(*indirect, params, state, control);
 }
 
@@ -193,7 +191,7 @@ trace::RenderState render_on_farm(const FarmSession& session, const trace::PathT
   std::optional<farm::RenderProbes> probes;
   if (o.method == "ssphh") {
     set = read_probes(o, tracer, scene);
-    probes = farm::RenderProbes{&*set, o.lookup, o.weights, o.light};
+    probes = farm::RenderProbes{&*set, lookup_spec(o)};
   }
   return farm::render(session.options(), scene, o.scene.time, params, probes, wanted_layers(o), report,
                       control);

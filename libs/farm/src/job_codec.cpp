@@ -158,11 +158,19 @@ json::Value put(const TileJob& job, MessageWriter& out) {
     const ProbeLighting& l = *job.lighting;
     document["lighting"] = {{"probes", l.probes.hex()},
                             {"bytes", l.bytes},
-                            {"lookup", l.lookup},
-                            {"weights", l.weights},
-                            {"layer", l.layer}};
+                            {"lookup", name_of(l.lookup.method)},
+                            {"weights", l.lookup.weights ? name_of(*l.lookup.weights) : ""},
+                            {"layer", name_of(l.lookup.layer)}};
   }
   return document;
+}
+
+gi::LookupSpec get_lookup(const Field& f) {
+  gi::LookupSpec lookup;
+  lookup.method = f["lookup"].named<gi::LookupMethod>();
+  if (!f["weights"].text().empty()) lookup.weights = f["weights"].named<gi::WeightMethod>();
+  lookup.layer = f["layer"].named<gi::ProbeLayer>();
+  return lookup;
 }
 
 TileJob get_tile_job(const Field& f) {
@@ -188,7 +196,7 @@ TileJob get_tile_job(const Field& f) {
   if (const auto l = f.find("lighting")) {
     job.lighting = {(*l)["probes"].hash(),
                     static_cast<std::uint64_t>((*l)["bytes"].integer(1, std::int64_t{1} << 40)),
-                    (*l)["lookup"].text(32), (*l)["weights"].text(32), (*l)["layer"].text(32)};
+                    get_lookup(*l)};
   }
   return job;
 }

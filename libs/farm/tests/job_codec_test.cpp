@@ -51,6 +51,37 @@ TEST(JobCodec, EveryFieldOfATileJobTravels) {
   expect_to_travel(job);
 }
 
+// The words of a job are those of the tables; any others are refused when it is read.
+TEST(JobCodec, WordsOfATileJobAreTheTables) {
+  TileJob job = test::some_tile_job();
+  job.lighting->lookup = {};
+  const std::string text = encode_job(job, ContentType::json);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, text.npos) << from;
+    return std::string(text).replace(at, from.size(), to);
+  };
+  const auto lookup = [](const std::string& body) {
+    return std::get<TileJob>(decode_job(body)).lighting->lookup;
+  };
+  EXPECT_EQ(lookup(text), gi::LookupSpec());
+  EXPECT_EQ(lookup(with(R"("weights":"")", R"("weights":"trilinear")")).weights, gi::WeightMethod::trilinear);
+  EXPECT_EQ(lookup(with(R"("lookup":"irradiance")", R"("lookup":"light")")).method, gi::LookupMethod::light);
+  EXPECT_EQ(lookup(with(R"("layer":"sum")", R"("layer":"self")")).layer, gi::ProbeLayer::self);
+  const auto problem = [&](const std::string& from, const std::string& to) {
+    return ssphh::test::message_of([&] { decode_job(with(from, to)); });
+  };
+  EXPECT_EQ(problem(R"("lookup":"irradiance")", R"("lookup":"")"),
+            "job: lighting.lookup: \"\" is none of: light, irradiance");
+  EXPECT_EQ(problem(R"("weights":"")", R"("weights":"idw")"),
+            "job: lighting.weights: \"idw\" is none of: distance, trilinear, mls, fitted");
+  EXPECT_EQ(problem(R"("layer":"sum")", R"("layer":"all")"),
+            "job: lighting.layer: \"all\" is none of: self, neighbor, sum");
+  EXPECT_EQ(problem(R"("projection":"cube_strip")", R"("projection":"cube")"),
+            "job: projection: \"cube\" is none of: pinhole, orthographic, equirect, cube_strip");
+  EXPECT_EQ(problem(R"("kind":"ref")", R"("kind":"tile")"), "job: kind: \"tile\" is none of: gen, viz, ref");
+}
+
 /// Coefficients that are all different.
 sh::RadianceSh some_function(int degree, float first) {
   sh::RadianceSh function(degree);

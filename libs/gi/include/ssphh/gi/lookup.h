@@ -83,6 +83,22 @@ constexpr auto enum_table(LookupMethod) {
   return std::to_array<EnumName<LookupMethod>>({{light, "light"}, {irradiance, "irradiance"}});
 }
 
+/// A lookup as people choose it, for any set: what a render, a job or a picture of the viewer asks for.
+struct LookupSpec {
+  LookupMethod method = LookupMethod::irradiance;
+  std::optional<WeightMethod> weights = {};  ///< of `irradiance`; none: as WeightParams::method
+  ProbeLayer layer = ProbeLayer::sum;  ///< of a set that has a hierarchy; of others the probes' own light
+
+  friend bool operator==(const LookupSpec&, const LookupSpec&) = default;
+};
+
+/// What the choice means for `set`.
+LookupParams lookup_params(const LookupSpec& spec, const ProbeSet& set);
+
+/// Throws Error as the lookup's constructor does.
+std::unique_ptr<scene::IndirectLight> make_lookup(const LookupSpec& spec, const ProbeSet& set,
+                                                  const scene::RadianceSource& source);
+
 std::unique_ptr<scene::IndirectLight> make_lookup(LookupMethod method, const ProbeSet& set,
                                                   const scene::RadianceSource& source,
                                                   const LookupParams& params = {});
