@@ -57,7 +57,7 @@ void hier(benchmark::State& state) {
     benchmark::DoNotOptimize(set.hierarchy->sum.data());
   }
   state.counters["edges"] = static_cast<double>(edges);
-  state.SetLabel(gi::to_string(params.op));
+  state.SetLabel(std::string(name_of(params.op)));
 }
 BENCHMARK(hier)
     ->ArgNames({"probes", "degree", "neighbors", "operator"})
@@ -89,7 +89,7 @@ void lookup(benchmark::State& state) {
                                             : light->irradiance(points[i]));
   }
   state.SetItemsProcessed(state.iterations());
-  state.SetLabel(method == gi::LookupMethod::light ? "light" : "irradiance");
+  state.SetLabel(std::string(name_of(method)));
 }
 BENCHMARK(lookup)
     ->ArgNames({"probes", "method", "glossy"})

@@ -65,7 +65,7 @@ void next_comparison(App& app) {
          : show == Show::wipe   ? Show::truth
          : show == Show::truth  ? Show::pixelated
                                 : Show::realtime;
-  app.say(fmt::format("shown: {}", to_string(show)));
+  app.say(fmt::format("shown: {}", name_of(show)));
 }
 
 void handle_control_keys(App& app) {
@@ -98,7 +98,7 @@ void handle_keys(App& app) {
   for (int i = 0; i < 8; ++i) {
     if (pressed(GLFW_KEY_1 + i)) {
       s.debug = static_cast<DebugView>(i);
-      app.say(fmt::format("picture: {}", i == 0 ? "all light" : to_string(s.debug)));
+      app.say(fmt::format("picture: {}", i == 0 ? "all light" : name_of(s.debug)));
     }
   }
   if (pressed(GLFW_KEY_LEFT_BRACKET)) s.exposure -= 0.5f, app.redraw();

@@ -104,8 +104,7 @@ bool ProbeLight::rebuild_hierarchy(const Settings& settings) {
 }
 
 gi::LookupParams ProbeLight::lookup_params(const Settings& settings) const {
-  gi::LookupParams params;
-  params.layer = set_->hierarchy ? settings.layer : gi::ProbeLayer::self;
+  gi::LookupParams params = gi::lookup_params({.layer = settings.layer}, *set_);
   params.irradiance_degree = settings.degree;
   return params;
 }

@@ -184,7 +184,7 @@ TEST_F(ProbeTool, HierAddsTheNeighboursThatWereAskedFor) {
     EXPECT_EQ(hier["edges"], edges);
     EXPECT_EQ(hier["neighbors"], params.neighbors);
     EXPECT_FLOAT_EQ(hier["threshold"].get<float>(), params.threshold);
-    EXPECT_EQ(hier["operator"], gi::to_string(params.op));
+    EXPECT_EQ(hier["operator"], name_of(params.op));
     EXPECT_EQ(hier["probes"], 3);
     EXPECT_EQ(hier["gen"], "local");
     EXPECT_EQ(hier["light"], "path");

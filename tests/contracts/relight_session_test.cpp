@@ -259,7 +259,7 @@ TEST_P(FailingUpdate, LeavesTheFirstOneToTheNext) {
 
 INSTANTIATE_TEST_SUITE_P(Of, FailingUpdate,
                          testing::Values(gi::LightOperator::surfel, gi::LightOperator::bounce),
-                         [](const auto& op) { return gi::to_string(op.param); });
+                         [](const auto& op) { return std::string(name_of(op.param)); });
 
 }  // namespace
 }  // namespace ssphh::test

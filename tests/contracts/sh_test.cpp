@@ -223,7 +223,7 @@ std::vector<Contract> of_integrals() {
               {"2"}),
       refuses("FromConvention", "OfNumbersThatAreNone",
               [] { sh::from_convention(std::vector<vec3>(4, vec3(nan)), sh::Convention::d3dx); }, {"finite"}),
-      gives("FindConvention", "OfAnUnknownName", [] { EXPECT_FALSE(sh::find_convention("povray")); }),
+      gives("ParseEnum", "OfAnUnknownConvention", [] { EXPECT_FALSE(parse_enum<sh::Convention>("povray")); }),
   };
 }
 

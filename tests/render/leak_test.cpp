@@ -69,9 +69,9 @@ TEST_F(TwoRooms, NothingLeaksThroughAShutDoor) {
         gi::measure_leak(tracer, gi::IrradianceLookup(set, tracer, lookup), points(0), params);
     // Half of the surface belongs to room B, whose every point is dark: within five standard deviations.
     EXPECT_NEAR(static_cast<double>(report.dark), 200, 5 * 10);
-    EXPECT_LE(report.ratio, 1e-5) << gi::to_string(method);
+    EXPECT_LE(report.ratio, 1e-5) << name_of(method);
     // `distance` is 5 to 6 % too bright here; 200 points of 64 paths leave 1 % of noise.
-    EXPECT_NEAR(report.mean_looked_up / report.mean_truth, 1, 0.1) << gi::to_string(method);
+    EXPECT_NEAR(report.mean_looked_up / report.mean_truth, 1, 0.1) << name_of(method);
   }
 }
 

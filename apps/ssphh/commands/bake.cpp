@@ -29,7 +29,9 @@ struct BakeOptions {
   SceneOptions scene;
   PlaceOptions place;
   FarmChoice farm;
-  std::string output, op = "path", gen = "full", viz;
+  std::string output;
+  gi::LightOperator op = gi::LightOperator::path;
+  std::string viz;  ///< path, links or off; empty: by the number of probes
   int degree = 9;
   gi::BakeParams params;
   gi::TransportBakeParams transport;
@@ -46,7 +48,7 @@ void refuse(const std::vector<std::string>& given, const char* needs) {
 
 /// Decides on VIZ and refuses options that would have no effect.
 void resolve(BakeOptions& o, std::size_t probes) {
-  const bool path = o.op == "path", transfer = o.params.viz_params.matrix;
+  const bool path = o.op == gi::LightOperator::path, transfer = o.params.viz_params.matrix;
   gi::BakeParams& params = o.params;
   if (o.viz.empty()) {
     o.viz = transfer || (path && probes <= most_probes_for_paths) ? "path"
@@ -58,10 +60,11 @@ void resolve(BakeOptions& o, std::size_t probes) {
   }
   if (transfer && o.viz != "path")
     throw Error("--viz-transfer", "needs VIZ by path tracing", "use --viz path");
-  if (!path && o.gen != "full")
-    throw Error("--gen " + o.gen, "is of --operator path; the light of surfels has every bounce");
+  if (!path && params.gen != gi::GenMode::full)
+    throw Error(fmt::format("--gen {}", name_of(params.gen)),
+                "is of --operator path; the light of surfels has every bounce");
   params.keep_light = !path;
-  if (!path) o.transport.op = *gi::parse_light_operator(o.op);
+  if (!path) o.transport.op = o.op;
   params.viz = o.viz == "path";
   params.viz_params.neighbors = o.neighbors.value_or(-1);
   params.viz_params.threshold = o.threshold;
@@ -73,7 +76,8 @@ void resolve(BakeOptions& o, std::size_t probes) {
     refuse(o.of_transport, "is of transport: use --operator surfel, bounce, --viz links or --fit");
   if (o.viz == "off") refuse(o.of_viz, "is of VIZ: use --viz links or path");
   if (o.farm.any() && !path && !params.viz)
-    throw Error("--operator " + o.op, "is done here, in seconds; a farm does GEN and VIZ by path tracing",
+    throw Error(fmt::format("--operator {}", name_of(o.op)),
+                "is done here, in seconds; a farm does GEN and VIZ by path tracing",
                 "leave out --broker and --local");
 }
 
@@ -87,7 +91,7 @@ struct BakeResult {
 BakeResult run(const BakeOptions& o, const scene::Scene& scene, gi::ProbeSet set,
                const std::filesystem::path& checkpoint, const FarmSession* session, const Control& control) {
   BakeResult result{std::move(set), {}, {}, {}};
-  const bool path = o.op == "path";
+  const bool path = o.op == gi::LightOperator::path;
   if (!path || o.transport.fit || o.transport.viz) {
     const trace::TransportScene source(scene);
     if (path) {
@@ -119,7 +123,7 @@ std::string result_text(const BakeOptions& o, const BakeResult& r) {
   if (t.surfels > 0) {
     text +=
         fmt::format("\n{} surfels of {:.3g} m, {} links", t.surfels, r.set.generator.surfel_size, t.links);
-    if (o.op != "path") {
+    if (o.op != gi::LightOperator::path) {
       text += fmt::format("; {} iterations, a bounce keeps at most {:.3g} of the light; {:.2f} s",
                           t.iterations, t.contraction, t.seconds);
     }
@@ -127,14 +131,14 @@ std::string result_text(const BakeOptions& o, const BakeResult& r) {
   if (r.set.fitted)
     text +=
         fmt::format("\nweights fitted at {} points in {:.2f} s", r.set.fitted->points.size(), t.fit_seconds);
-  if (o.op == "path") text += fmt::format("\nGEN {:.2f} s", r.paths.gen_seconds);
+  if (o.op == gi::LightOperator::path) text += fmt::format("\nGEN {:.2f} s", r.paths.gen_seconds);
   if (o.viz != "off")
     text += fmt::format("\nVIZ from {} {:.2f} s", o.viz == "path" ? "paths" : "links", viz_seconds(r));
   text += fmt::format("\n{} rays", r.paths.rays + t.rays);
   if (r.farm) text += "\n" + farm_text(*r.farm);
   if (r.paths.resumed > 0) {
     text += fmt::format("\n{} of {} steps were taken from the checkpoint", r.paths.resumed,
-                        r.set.probes.size() * (std::size_t{o.op == "path"} + o.params.viz));
+                        r.set.probes.size() * (std::size_t{o.op == gi::LightOperator::path} + o.params.viz));
   }
   return text;
 }
@@ -143,18 +147,18 @@ std::string result_text(const BakeOptions& o, const BakeResult& r) {
 json::Value result_json(const BakeOptions& o, const BakeResult& r) {
   const gi::TransportBakeReport& t = r.transport;
   const auto if_any = [](bool any, const auto& value) { return any ? json::Value(value) : json::Value(); };
-  const bool solved = o.op != "path", network = t.surfels > 0;
+  const bool solved = o.op != gi::LightOperator::path, network = t.surfels > 0;
   std::vector<std::string> warnings = t.warnings;
   for (const std::string& warning : r.paths.warnings) {
     if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
   }
   return {{"output", o.output},
-          {"operator", o.op},
+          {"operator", name_of(o.op)},
           {"probes", r.set.probes.size()},
           {"degree", r.set.degree},
           {"light_groups", r.set.light_groups.size()},
           {"edges", gi::edge_count(r.set)},
-          {"gen", o.gen},
+          {"gen", name_of(o.params.gen)},
           {"gen_seconds", r.paths.gen_seconds},
           {"viz_seconds", viz_seconds(r)},
           {"transport_seconds", if_any(solved, t.seconds)},
@@ -174,7 +178,6 @@ void bake(Context& context, BakeOptions& options) {
   std::optional<FarmSession> session;  // first: its processes start while this one reads the scene
   if (options.farm.any()) session.emplace(options.farm);
   const scene::Scene scene = load_scene(options.scene);
-  options.params.gen = *gi::parse_gen_mode(options.gen);
   options.params.path.seed = context.seed;
   const std::optional<PlaceResult> place =
       place_for(scene, options.scene.time, options.place, "", context.control);
@@ -222,9 +225,8 @@ void add_path_options(Command command, BakeOptions& options, BakeUses& uses) {
   paths(command.option("--passes", params.path.passes, "Passes of --spp samples each").range(1, 1 << 24));
   paths(command.option("--spp", params.path.spp, "Samples per texel and pass").range(1, 1 << 24));
   command
-      .option("--gen", options.gen,
+      .choice("--gen", options.params.gen,
               "full: all bounces; local: direct light only (--max-depth 1), for HIER to add the rest")
-      .one_of({"full", "local"})
       .group(group);
   command
       .flag("--resume,!--no-resume", options.resume,
@@ -301,12 +303,10 @@ void add_bake_command(Command app, Context& context) {
       .required();
   command.option("--degree", options->degree, "Highest spherical harmonics band, 0..10")
       .range(0, sh::max_degree);
-  command
-      .option("--operator", options->op,
-              "What finds the probes' light: path (GEN: path tracing, up to --max-depth bounces), surfel "
-              "(transport between patches of surface: every bounce, no noise, seconds; surfaces reflect "
-              "diffusely), bounce (the same with the probes as the only unknowns)")
-      .one_of({"path", "surfel", "bounce"});
+  command.choice("--operator", options->op,
+                 "What finds the probes' light: path (GEN: path tracing, up to --max-depth bounces), surfel "
+                 "(transport between patches of surface: every bounce, no noise, seconds; surfaces reflect "
+                 "diffusely), bounce (the same with the probes as the only unknowns)");
   add_path_options(command, *options, *uses);
   add_viz_options(command, *options, *uses);
   add_transport_options(command, *options, *uses);

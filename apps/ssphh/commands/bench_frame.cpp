@@ -190,9 +190,8 @@ void add_bench_frame_command(Command app, Context& context) {
   command.option("--method", o.method, "What lights the scene: probes, or another method, made first")
       .one_of(methods);
   add_method_parameters(command, o.parameters);
-  command.option("--lookup", o.lookup.lookup, "irradiance, or light as the paper")
-      .one_of({"light", "irradiance"});
-  add_weights_option(command, o.lookup.weights);
+  add_lookup_option(command, o.lookup.spec.method);
+  add_weights_option(command, o.lookup.spec.weights);
   add_force_option(command, o.lookup.force);
   command.option("--frames", o.frames, "Frames to time").range(1, 10000000);
   command.option("--warm-up", o.warm_up, "Frames before them: shaders are compiled, shadow maps drawn")

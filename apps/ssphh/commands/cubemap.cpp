@@ -11,27 +11,29 @@ namespace ssphh::app {
 namespace {
 
 struct ConvertOptions {
-  std::string input, output, from, to;
+  std::string input, output;
+  image::Layout from = image::Layout::equirect, to = image::Layout::equirect;
   int size = 0;
 };
 
 void convert(const Context& context, const ConvertOptions& options) {
-  const image::Layout from = image::layout_from_name(options.from), to = image::layout_from_name(options.to);
   image::format_of_extension(options.output);  // before the work
   const image::Image input = image::read_image(options.input);
   try {
-    image::layout_size(input, from);
+    image::layout_size(input, options.from);
   } catch (const Error& e) {
     throw Error(options.input, e.problem(), e.hint());
   }
-  const image::Image output = image::convert_layout(input, from, to, options.size, context.control);
+  const image::Image output =
+      image::convert_layout(input, options.from, options.to, options.size, context.control);
   image::write_image(options.output, output);
-  context.result({{"output", options.output},
-                  {"from", options.from},
-                  {"to", options.to},
-                  {"width", output.width},
-                  {"height", output.height}},
-                 fmt::format("{}: {} x {}, {}", options.output, output.width, output.height, options.to));
+  context.result(
+      {{"output", options.output},
+       {"from", name_of(options.from)},
+       {"to", name_of(options.to)},
+       {"width", output.width},
+       {"height", output.height}},
+      fmt::format("{}: {} x {}, {}", options.output, output.width, output.height, name_of(options.to)));
 }
 
 }  // namespace
@@ -41,14 +43,12 @@ void add_cubemap_commands(Command app, Context& context) {
   auto options = std::make_shared<ConvertOptions>();
   Command command = add_command(group, context, "convert", "Convert between layouts of the sphere",
                                 [&context, options] { convert(context, *options); });
-  std::vector<std::string> names;
-  for (const std::string_view name : image::layout_names()) names.emplace_back(name);
   command.option("IN", options->input, "Image: .exr .hdr .png .jpg (8-bit and 16-bit are decoded from sRGB)")
       .required();
   command.option("-o,--output", options->output, "Image to write, by extension: .exr .hdr .png .jpg")
       .required();
-  command.option("--from", options->from, "Layout of IN").required().one_of(names);
-  command.option("--to", options->to, "Layout of the output").required().one_of(names);
+  command.choice("--from", options->from, "Layout of IN").required();
+  command.choice("--to", options->to, "Layout of the output").required();
   command
       .option("--size", options->size,
               "Pixels: side of a face (strips, crosses), height (equirect), diameter (angular); "

@@ -15,7 +15,7 @@ namespace ssphh::app {
 namespace {
 
 struct HierOptions {
-  std::string input, output, op = "coefficient";
+  std::string input, output;
   gi::HierParams params;
   std::vector<std::string> scales;
 };
@@ -47,14 +47,13 @@ void apply_scale(gi::ProbeSet& set, const std::string& text) {
 }
 
 std::string light_of(const gi::GeneratorInfo& g) {
-  return g.op == gi::LightOperator::path ? fmt::format("GEN {}", gi::to_string(g.gen))
-                                         : fmt::format("light by {}", gi::to_string(g.op));
+  return g.op == gi::LightOperator::path ? fmt::format("GEN {}", name_of(g.gen))
+                                         : fmt::format("light by {}", name_of(g.op));
 }
 
 void hier(Context& context, HierOptions& options) {
   gi::ProbeSet set = gi::read_probe_file(options.input);
   for (const std::string& scale : options.scales) apply_scale(set, scale);
-  options.params.op = *gi::parse_hier_operator(options.op);
   if (gi::edge_count(set) == 0 && set.probes.size() > 1) {
     log_warning("{} has no edges between its probes, so HIER adds nothing; bake with --viz links or path",
                 options.input);
@@ -76,20 +75,20 @@ void hier(Context& context, HierOptions& options) {
       contraction
           ? fmt::format("; another application would change light by up to {:.3g}", contraction->upper)
           : "";
-  context.result(
-      {{"output", options.output},
-       {"seconds", times[3]},
-       {"edges", edges},
-       {"operator", options.op},
-       {"neighbors", options.params.neighbors},
-       {"threshold", options.params.threshold},
-       {"probes", set.probes.size()},
-       {"contraction", contraction ? json::Value(contraction->upper) : json::Value()},
-       {"gen", gi::to_string(set.generator.gen)},
-       {"light", gi::to_string(set.generator.op)},
-       {"viz", gi::to_string(set.generator.viz)}},
-      fmt::format("{}: {} edges between {} probes, operator {}, {}: {:.1f} us{}", options.output, edges,
-                  set.probes.size(), options.op, light_of(set.generator), 1e6 * times[3], shrinks));
+  context.result({{"output", options.output},
+                  {"seconds", times[3]},
+                  {"edges", edges},
+                  {"operator", name_of(options.params.op)},
+                  {"neighbors", options.params.neighbors},
+                  {"threshold", options.params.threshold},
+                  {"probes", set.probes.size()},
+                  {"contraction", contraction ? json::Value(contraction->upper) : json::Value()},
+                  {"gen", name_of(set.generator.gen)},
+                  {"light", name_of(set.generator.op)},
+                  {"viz", name_of(set.generator.viz)}},
+                 fmt::format("{}: {} edges between {} probes, operator {}, {}: {:.1f} us{}", options.output,
+                             edges, set.probes.size(), name_of(options.params.op), light_of(set.generator),
+                             1e6 * times[3], shrinks));
 }
 
 }  // namespace
@@ -101,12 +100,10 @@ void add_hier_command(Command app, Context& context) {
   add_probe_file(command, "FILE", options->input, "Probe file of `ssphh bake`").required();
   add_probe_file(command, "-o,--output", options->output, "Probe file to write: .sphl or .sphl.json")
       .required();
-  command
-      .option("--operator", options->op,
-              "What H (x) S means: coefficient (the paper's, coefficient by coefficient), mean (H times "
-              "the mean of "
-              "S), matrix (exact for SPHLs that are lights; bake with --viz-transfer)")
-      .one_of({"coefficient", "mean", "matrix"});
+  command.choice("--operator", options->params.op,
+                 "What H (x) S means: coefficient (the paper's, coefficient by coefficient), mean (H times "
+                 "the mean of "
+                 "S), matrix (exact for SPHLs that are lights; bake with --viz-transfer)");
   command
       .option("--neighbors", options->params.neighbors,
               "At most so many neighbours per probe, strongest P first; -1: all")

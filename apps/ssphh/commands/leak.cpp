@@ -20,7 +20,8 @@ namespace {
 
 struct LeakOptions {
   SceneOptions scene;
-  std::string probes, output, camera, weights, light = "sum";
+  std::string probes, output, camera;
+  gi::LookupSpec lookup;
   std::optional<float> time;  ///< seconds; none: that of the probe file
   bool force = false;
   int points = 2048, width = 320, height = 180, map_spp = 64;
@@ -46,10 +47,8 @@ void leak(Context& context, LeakOptions& o) {
   const trace::PathTracer tracer(scene, time);
   require_same_scene(o.probes, set, scene, tracer.light_groups(), {}, o.force);
   const trace::TransportScene surfaces(scene);
-  gi::LookupParams lookup_params;
-  if (o.light == "self") lookup_params.layer = gi::ProbeLayer::self;
-  lookup_params.weights = weight_params(o.probes, set, o.weights);
-  const gi::IrradianceLookup lookup(set, tracer, lookup_params);
+  const gi::LookupParams params_of_lookup = lookup_params(o.probes, set, o.lookup);
+  const gi::IrradianceLookup lookup(set, tracer, params_of_lookup);
 
   o.params.path.seed = context.seed;
   const std::vector<scene::SurfacePoint> points = gi::reachable_points(
@@ -66,7 +65,7 @@ void leak(Context& context, LeakOptions& o) {
                         {"truth_spp", o.params.path.spp},
                         {"mean_truth", report.mean_truth},
                         {"mean_looked_up", report.mean_looked_up},
-                        {"weights", gi::to_string(lookup_params.weights.chosen(set.fitted.has_value()))},
+                        {"weights", name_of(params_of_lookup.weights.chosen(set.fitted.has_value()))},
                         {"time", time}};
   std::string text = fmt::format(
       "leaked      {:.4g} % of the looked-up light stands on dark points\n"
@@ -101,11 +100,9 @@ void add_leak_command(Command app, Context& context) {
       .group("Scene");
   add_probe_file(command, "--probes", o.probes, "Probe file").required();
   command.option("--points", o.points, "Surface points to measure at").range(1, 1 << 24);
-  add_weights_option(command, o.weights);
+  add_weights_option(command, o.lookup.weights);
   add_force_option(command, o.force);
-  command
-      .option("--light", o.light, "sum: own and neighbours' light where HIER was run; self: own light only")
-      .one_of({"sum", "self"});
+  add_layer_option(command, o.lookup.layer);
 
   const std::string truth = "Truth";
   command.option("--truth-spp", o.params.path.spp, "Paths per point").range(2, 1 << 22).group(truth);

@@ -57,14 +57,14 @@ struct Candidate {
 
 std::vector<Candidate> probe_candidates(const MeasureOptions& o, const std::vector<gi::ProbeSet>& sets,
                                         const trace::PathTracer& tracer) {
-  std::vector<std::string> weights = o.weights;
+  std::vector<std::optional<gi::WeightMethod>> weights;
+  for (const std::string& name : o.weights) weights.push_back(parse_enum<gi::WeightMethod>(name));
   if (weights.empty()) weights.emplace_back();
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    for (const std::string& name : weights) {
-      gi::LookupParams params;
-      params.weights = weight_params(o.probes[i], sets[i], name);
-      const std::string used = gi::to_string(params.weights.chosen(sets[i].fitted.has_value()));
+    for (const std::optional<gi::WeightMethod>& method : weights) {
+      const gi::LookupParams params = lookup_params(o.probes[i], sets[i], {.weights = method});
+      const std::string used(name_of(params.weights.chosen(sets[i].fitted.has_value())));
       candidates.push_back({o.probes[i],
                             used,
                             std::make_shared<gi::IrradianceLookup>(sets[i], tracer, params),
@@ -212,7 +212,7 @@ void add_measure_command(Command app, Context& context) {
               "How probes are blended, one or several: distance, trilinear, mls, fitted; by default what "
               "`render` would take")
       .separated_by(',')
-      .one_of({"distance", "trilinear", "mls", "fitted"});
+      .one_of(names_of<gi::WeightMethod>());
   command.option("--points", o.points, "Points to compare at, uniform by area over what can be reached")
       .range(1, 1 << 24);
   command

@@ -27,9 +27,9 @@ float lowest_irradiance(const sh::RadianceSh& light) {
 }
 
 json::Value generator_json(const gi::GeneratorInfo& g) {
-  return {{"operator", gi::to_string(g.op)},
-          {"viz", gi::to_string(g.viz)},
-          {"gen", gi::to_string(g.gen)},
+  return {{"operator", name_of(g.op)},
+          {"viz", name_of(g.viz)},
+          {"gen", name_of(g.gen)},
           {"max_depth", g.max_depth},
           {"passes", g.passes},
           {"spp", g.spp},
@@ -93,13 +93,12 @@ void info(Context& context, const std::string& path) {
   const gi::ProbeSet set = gi::read_probe_file(path);
   const gi::GeneratorInfo& g = set.generator;
   json::Value groups = json::Value::array(), probes = json::Value::array();
-  std::string text =
-      fmt::format("{}: {} probes of degree {}, {} edges\nscene {} at {} s; light by {}, edges by {}\n", path,
-                  set.probes.size(), set.degree, gi::edge_count(set), g.scene, g.time, gi::to_string(g.op),
-                  gi::to_string(g.viz));
+  std::string text = fmt::format(
+      "{}: {} probes of degree {}, {} edges\nscene {} at {} s; light by {}, edges by {}\n", path,
+      set.probes.size(), set.degree, gi::edge_count(set), g.scene, g.time, name_of(g.op), name_of(g.viz));
   if (g.op == gi::LightOperator::path || g.viz == gi::VizMethod::path) {
-    text += fmt::format("paths: GEN {}, depth {}, {} x {} samples, {}x{}x6 texels, seed {}\n",
-                        gi::to_string(g.gen), g.max_depth, g.passes, g.spp, g.face_size, g.face_size, g.seed);
+    text += fmt::format("paths: GEN {}, depth {}, {} x {} samples, {}x{}x6 texels, seed {}\n", name_of(g.gen),
+                        g.max_depth, g.passes, g.spp, g.face_size, g.face_size, g.seed);
   }
   if (g.directions > 0) {
     text += fmt::format("transport: {} directions a probe, surfels of {:.3g} m, {} link rays\n", g.directions,
@@ -120,8 +119,8 @@ void info(Context& context, const std::string& path) {
   if (set.hierarchy) {
     const gi::Hierarchy& h = *set.hierarchy;
     object["hierarchy"] = {
-        {"operator", gi::to_string(h.op)}, {"neighbors", h.neighbors}, {"threshold", h.threshold}};
-    text += fmt::format("HIER {}, neighbors {}, threshold {:g}\n", gi::to_string(h.op),
+        {"operator", name_of(h.op)}, {"neighbors", h.neighbors}, {"threshold", h.threshold}};
+    text += fmt::format("HIER {}, neighbors {}, threshold {:g}\n", name_of(h.op),
                         h.neighbors < 0 ? "all" : std::to_string(h.neighbors), h.threshold);
   }
   text += "mean radiance R, G, B [W/sr/m2] over all directions:";

@@ -35,13 +35,13 @@ void lint(Context& context, LintOptions& options) {
     const std::string name =
         problem.probe < 0 ? "" : set.probes[static_cast<std::size_t>(problem.probe)].name;
     const vec3& p = problem.position;
-    json::Value entry = {{"kind", gi::to_string(problem.kind)},
+    json::Value entry = {{"kind", name_of(problem.kind)},
                          {"probe", nullptr},
                          {"position", {p.x, p.y, p.z}},
                          {"message", problem.message}};
     if (problem.probe >= 0) entry["probe"] = name;
     list.push_back(std::move(entry));
-    text += fmt::format("{}: {}at ({:.6g}, {:.6g}, {:.6g}) m: {}\n", gi::to_string(problem.kind),
+    text += fmt::format("{}: {}at ({:.6g}, {:.6g}, {:.6g}) m: {}\n", name_of(problem.kind),
                         problem.probe < 0 ? "" : fmt::format("probe \"{}\" ", name), p.x, p.y, p.z,
                         problem.message);
   }

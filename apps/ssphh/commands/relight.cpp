@@ -30,7 +30,8 @@ struct RelightOptions {
   SceneOptions scene;
   PlaceOptions place;
   std::vector<std::string> animate;
-  std::string output, save, camera, method = "surfel", weights = "mls", format = "png";
+  std::string output, save, camera, format = "png";
+  gi::WeightMethod weights = gi::WeightMethod::mls;
   int frames = 60, truth = 0, pictures = 1, points = 256, truth_spp = 1024, max_depth = 25, fit_frames = 3;
   int width = 640, height = 360, spp = 8;
   float exposure = 0;
@@ -143,7 +144,7 @@ class Relighting {
                            kept_.size(), "frames");
     const Control quiet{nullptr, context_.control.cancel};
     gi::LookupParams params;
-    params.weights.method = gi::parse_weight_method(o_.weights);
+    params.weights.method = o_.weights;
     std::optional<gi::FittedPoints> fitted;
     if (params.weights.method == gi::WeightMethod::fitted) fitted = fit(session, quiet);
     for (const KeptFrame& kept : kept_) {
@@ -208,8 +209,8 @@ class Relighting {
 
   void report(const gi::RelightSession& session) const {
     json::Value object = relight_json(run_);
-    object["operator"] = o_.method;
-    object["weights"] = o_.weights;
+    object["operator"] = name_of(o_.params.op);
+    object["weights"] = name_of(o_.weights);
     object["probes"] = session.places().size();
     object["surfels"] = session.network().surfel_count();
     object["surfel_size"] = session.network().params().surfel_size;
@@ -232,7 +233,6 @@ class Relighting {
 };
 
 void relight(Context& context, RelightOptions& options) {
-  options.params.op = *gi::parse_light_operator(options.method);
   if (options.params.op == gi::LightOperator::bounce && options.params.poses != 0)
     throw Error("--poses", "is of --operator surfel");
   if (!options.output.empty()) {
@@ -247,10 +247,10 @@ void relight(Context& context, RelightOptions& options) {
 void add_transport_options(Command command, RelightOptions& o) {
   const std::string group = "Transport";
   command
-      .option("--operator", o.method,
+      .choice("--operator", o.params.op,
               "surfel: light goes from surface patch to patch until it settles; bounce: from probe to "
-              "probe, each surface looking up the probes around it")
-      .one_of({"surfel", "bounce"})
+              "probe, each surface looking up the probes around it",
+              {"surfel", "bounce"})
       .group(group);
   command.option("--degree", o.params.degree, "Highest band of the probes' functions")
       .range(0, sh::max_degree)
@@ -285,10 +285,9 @@ void add_truth_options(Command command, RelightOptions& o) {
   command.option("--truth-spp", o.truth_spp, "Paths per point").range(2, 1 << 22).group(group);
   command.option("--max-depth", o.max_depth, "Scattering events of a path").range(2, 1000).group(group);
   command
-      .option("--weights", o.weights,
+      .choice("--weights", o.weights,
               "How probes are blended: distance, trilinear, mls; fitted to the light transport, once for "
               "the run, at --fit-frames of its frames")
-      .one_of({"distance", "trilinear", "mls", "fitted"})
       .group(group);
   command
       .option("--fit-frames", o.fit_frames,

@@ -125,15 +125,8 @@ void render_with_probes(const trace::PathTracer& tracer, const scene::Scene& sce
                         const trace::RenderParams& params, trace::RenderState& state,
                         const Control& control) {
   const gi::ProbeSet probes = read_probes(o, tracer, scene);
-  gi::LookupParams lookup;
-  if (o.light == "self") lookup.layer = gi::ProbeLayer::self;
-  std::unique_ptr<scene::IndirectLight> indirect;
-  if (o.lookup == "light") {
-    indirect = std::make_unique<gi::LightLookup>(probes, tracer, lookup);
-  } else {
-    lookup.weights = weight_params(o.probes, probes, o.weights);
-    indirect = std::make_unique<gi::IrradianceLookup>(probes, tracer, lookup);
-  }
+  const auto indirect =
+      gi::make_lookup(o.lookup.method, probes, tracer, lookup_params(o.probes, probes, o.lookup));
   tracer.render_with(*indirect, params, state, control);
 }
 
@@ -143,7 +136,10 @@ Hash128 content_hash(const RenderOptions& o, const scene::Scene& scene) {
   Hasher hasher;
   hasher.value(hash.high).value(hash.low).text(o.method);
   for (const std::string& parameter : o.parameters) hasher.text(parameter);
-  if (!o.probes.empty()) hasher.bytes(read_file(o.probes)).text(o.lookup).text(o.weights).text(o.light);
+  if (!o.probes.empty()) {
+    hasher.bytes(read_file(o.probes)).text(name_of(o.lookup.method)).text(name_of(o.lookup.layer));
+    hasher.text(o.lookup.weights ? name_of(*o.lookup.weights) : "");
+  }
   return hasher.finish();
 }
 
@@ -194,7 +190,7 @@ trace::RenderState render_on_farm(const FarmSession& session, const trace::PathT
   std::optional<farm::RenderProbes> probes;
   if (o.method == "ssphh") {
     set = read_probes(o, tracer, scene);
-    probes = farm::RenderProbes{&*set, o.lookup, o.weights, o.light};
+    probes = farm::RenderProbes{&*set, o.lookup};
   }
   return farm::render(session.options(), scene, o.scene.time, params, probes, wanted_layers(o), report,
                       control);
@@ -212,7 +208,7 @@ void render(const RenderOptions& o, const Context& context) {
                 "repeat the command without it");
   std::optional<FarmSession> session;  // first: its processes start while this one reads the scene
   if (o.farm.any()) session.emplace(o.farm);
-  if (!o.weights.empty() && o.lookup == "light")
+  if (o.lookup.weights && o.lookup.method == gi::LookupMethod::light)
     throw Error("--weights", "blends probes, but --lookup light takes one alone", "leave out one of them");
   const scene::Scene scene = load_scene(o.scene);
   trace::RenderParams params = render_params(o, context, scene);
@@ -313,11 +309,7 @@ void add_render_command(Command app, Context& context) {
       .option("--probes", o.probes,
               "Probe file (.sphl or .sphl.json); none: probes are placed and lit for this picture")
       .group(probes);
-  command
-      .option("--lookup", o.lookup,
-              "irradiance: blend of visible SPHLs; light: nearest visible SPHL, as the paper")
-      .one_of({"light", "irradiance"})
-      .group(probes);
+  add_lookup_option(command, o.lookup.method).group(probes);
   command
       .option("--backend", o.backend,
               "cpu: traced, any number of samples; gl: a frame of the real-time renderer (methods ssphh, "
@@ -335,11 +327,8 @@ void add_render_command(Command app, Context& context) {
               "that shows no difference (docs/methods/realtime.md)")
       .range(1, 8)
       .group(probes);
-  add_weights_option(command, o.weights).group(probes);
-  command
-      .option("--light", o.light, "sum: own and neighbours' light where HIER was run; self: own light only")
-      .one_of({"sum", "self"})
-      .group(probes);
+  add_weights_option(command, o.lookup.weights).group(probes);
+  add_layer_option(command, o.lookup.layer).group(probes);
 
   add_force_option(command, o.force).group(probes);
 
@@ -351,7 +340,7 @@ void add_render_command(Command app, Context& context) {
       .one_of(aov_names)
       .group(output);
   command.option("--exposure", o.exposure, "Exposure of tone-mapped output in stops").group(output);
-  command.option("--tonemap", o.tonemap, "clip at white, or filmic").one_of({"clip", "filmic"}).group(output);
+  command.choice("--tonemap", o.tonemap, "clip at white, or filmic").group(output);
 }
 
 }  // namespace ssphh::app

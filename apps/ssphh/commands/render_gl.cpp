@@ -57,7 +57,7 @@ void render_gl(const RenderOptions& o, const Context& context) {
   }
   gl::Context gl = gl::Context::headless();
   realtime::Renderer renderer(gl, scene, {}, o.scene.time);
-  const GlLookup lookup{o.max_depth >= 2 ? o.probes : "", o.lookup, o.weights, o.light, o.force};
+  const GlLookup lookup{o.max_depth >= 2 ? o.probes : "", o.lookup, o.force};
   set_probes(renderer, lookup, scene, o.scene.time);
   if (live && gi::find_method(o.method).has_light_data && o.max_depth >= 2)
     renderer.set_method_light(live->method().light_data());

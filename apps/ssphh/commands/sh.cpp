@@ -56,7 +56,6 @@ struct Output {
 };
 
 constexpr const char* file_help = "JSON object as `ssphh sh project` prints it; - reads stdin";
-constexpr const char* layout_help = "equirect, strip-h, strip-v, cross-h, cross-v or angular";
 
 Option direction_option(Command command, const std::string& name, std::vector<double>& value,
                         const std::string& help) {
@@ -91,19 +90,19 @@ void add_eval(Command group, Context& context) {
 
 void add_project(Command group, Context& context) {
   struct Options {
-    std::string image, layout;
+    std::string image;
+    image::Layout layout = image::Layout::equirect;
     int degree = 9;
     Output output;
   };
   auto o = std::make_shared<Options>();
   Command command =
       add_command(group, context, "project", "Coefficients of the radiance in an image", [&context, o] {
-        const image::Layout layout = image::layout_from_name(o->layout);
         const image::Image picture = image::read_image(o->image);
         for (const float value : picture.pixels) {
           if (!std::isfinite(value)) throw Error(o->image, "has pixels that are NaN or infinite");
         }
-        const image::CubeMap cube = image::to_cube(picture, layout, 0, context.control);
+        const image::CubeMap cube = image::to_cube(picture, o->layout, 0, context.control);
         // Grey images become RGB.
         sh::CubeFaces faces;
         std::array<image::Image, 6> colour;
@@ -120,7 +119,7 @@ void add_project(Command group, Context& context) {
         o->output.give(context, sh::project_cube(o->degree, cube.size, faces, channels));
       });
   command.option("image", o->image, "EXR, HDR, PNG or JPEG of the whole sphere").required();
-  command.option("--layout", o->layout, layout_help).required();
+  command.choice("--layout", o->layout, "How it lays the sphere out").required();
   command.option("--degree", o->degree, "Highest band l, 0..10").range(0, sh::max_degree);
   o->output.option(command);
 }
@@ -144,20 +143,20 @@ void add_irradiance(Command group, Context& context) {
 
 void add_reconstruct(Command group, Context& context) {
   struct Options {
-    std::string file, output, layout = "equirect";
+    std::string file, output;
+    image::Layout layout = image::Layout::equirect;
     int size = 256;
     bool irradiance = false;
   };
   auto o = std::make_shared<Options>();
   Command command =
       add_command(group, context, "reconstruct", "The radiance (or irradiance) as an image", [&context, o] {
-        const image::Layout layout = image::layout_from_name(o->layout);
         image::format_of_extension(o->output);
         const sh::RadianceSh radiance = read_radiance_sh(o->file);
         const sh::IrradianceSh irradiance = sh::irradiance_from_radiance(radiance);
 
         // Evaluate at the texels of a cube of like resolution, then lay it out.
-        const int face = image::is_cube_layout(layout) ? o->size : std::max(1, o->size / 2);
+        const int face = image::is_cube_layout(o->layout) ? o->size : std::max(1, o->size / 2);
         image::CubeMap cube(face);
         parallel_for(
             static_cast<std::size_t>(6 * face), 8,
@@ -172,14 +171,14 @@ void add_reconstruct(Command group, Context& context) {
               }
             },
             context.control);
-        const image::Image picture = image::from_cube(cube, layout, o->size, context.control);
+        const image::Image picture = image::from_cube(cube, o->layout, o->size, context.control);
         image::write_image(o->output, picture);
         context.result({{"output", o->output}, {"width", picture.width}, {"height", picture.height}},
                        fmt::format("{}: {} × {}", o->output, picture.width, picture.height));
       });
   command.option("file", o->file, file_help).required();
   command.option("-o,--output", o->output, ".exr, .hdr, .png or .jpg (EXR keeps negative values)").required();
-  command.option("--layout", o->layout, layout_help);
+  command.choice("--layout", o->layout, "How it lays the sphere out");
   command.option("--size", o->size, "Height [pixels] of a face, or of the whole equirect or angular image")
       .range(1, 8192);
   command.flag("--irradiance", o->irradiance, "Show irradiance E(n) instead of radiance");
@@ -227,7 +226,7 @@ void add_rotate(Command group, Context& context) {
 }
 
 sh::Convention convention_option(const char* option, const std::string& name) {
-  const auto convention = sh::find_convention(name);
+  const auto convention = parse_enum<sh::Convention>(name);
   if (!convention) {
     throw Error(option, fmt::format("no convention is called \"{}\"", name),
                 "ssphh, d3dx (unreal), unity, three (godot), filament, filament-mirrored");
@@ -251,10 +250,10 @@ void add_convert(Command group, Context& context) {
                     const int degree = std::min(radiance.degree(), sh::convention_max_degree(to));
                     if (degree < radiance.degree()) {
                       log_warning("{}: bands {}..{} are dropped, {} holds degree {}", o->file, degree + 1,
-                                  radiance.degree(), sh::convention_name(to), degree);
+                                  radiance.degree(), name_of(to), degree);
                     }
                     json::Value object = sh_to_json(stored, degree);
-                    object["convention"] = std::string(sh::convention_name(to));
+                    object["convention"] = std::string(name_of(to));
                     o->output.give(context, object);
                   });
   command.option("file", o->file, file_help).required();
@@ -270,7 +269,8 @@ void add_convert(Command group, Context& context) {
 
 void add_window(Command group, Context& context) {
   struct Options {
-    std::string file, goal = "irradiance";
+    std::string file;
+    sh::NonNegative goal = sh::NonNegative::irradiance;
     bool automatic = false;
     std::optional<double> lanczos, hanning;
     Output output;
@@ -288,10 +288,9 @@ void add_window(Command group, Context& context) {
     } else if (o->hanning) {
       scales = sh::hanning_window(checked("--hanning", *o->hanning));
     } else if (o->automatic) {
-      const auto goal = o->goal == "radiance" ? sh::NonNegative::radiance : sh::NonNegative::irradiance;
-      const sh::AutoWindow window = sh::choose_window(radiance, goal);
+      const sh::AutoWindow window = sh::choose_window(radiance, o->goal);
       if (!window.reached)
-        log_warning("{}: the mean is negative; no window can make {} positive", o->file, o->goal);
+        log_warning("{}: the mean is negative; no window can make {} positive", o->file, name_of(o->goal));
       scales = sh::lanczos_window(window.width);
     } else {
       throw Error("sh window", "no window chosen", "use --auto, --lanczos W or --hanning W");
@@ -305,8 +304,7 @@ void add_window(Command group, Context& context) {
   Option hanning = command.option("--hanning", o->hanning, "Hanning window of this width [bands]");
   automatic.excludes(lanczos).excludes(hanning);
   lanczos.excludes(hanning);
-  command.option("--goal", o->goal, "What --auto keeps from being negative: irradiance or radiance")
-      .one_of({"irradiance", "radiance"});
+  command.choice("--goal", o->goal, "What --auto keeps from being negative: irradiance or radiance");
   o->output.option(command);
 }
 

@@ -67,7 +67,7 @@ std::vector<vec3> read_sh_values(const std::string& path, sh::Convention convent
   if (!rows || !rows->is_array()) throw Error(where, "has no array \"coefficients\"", hint);
   // Mixing conventions up is a factor of π or a sign that nobody sees.
   const json::Value* named = document.find("convention");
-  const std::string expected_name(sh::convention_name(convention));
+  const std::string expected_name(name_of(convention));
   if (named && *named != json::Value(expected_name)) {
     throw Error(where, fmt::format("is in convention {}, not \"{}\"", json::print(*named), expected_name),
                 "`ssphh sh convert --from CONVENTION --to ssphh` brings it back");

@@ -144,6 +144,13 @@ template Option Command::option(const std::string&, std::vector<float>&, const s
 template Option Command::option(const std::string&, std::vector<double>&, const std::string&) const;
 template Option Command::option(const std::string&, std::vector<std::size_t>&, const std::string&) const;
 
+Option Command::choice(const std::string& names, const std::vector<std::string>& among,
+                       const std::string& shown, const std::string& help,
+                       std::function<void(const std::string&)> choose) const {
+  CLI::Option* option = app_->add_option_function<std::string>(names, choose, help);
+  return Option(option->check(CLI::IsMember(among))->default_str(shown));
+}
+
 Option Command::flag(const std::string& names, bool& target, const std::string& help) const {
   return Option(app_->add_flag(names, target, help));
 }

@@ -4,9 +4,12 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include <ssphh/core/enum_names.h>
 
 namespace CLI {
 class App;
@@ -59,6 +62,19 @@ class Command {
   /// a vector of one.
   template <class T>
   Option option(const std::string& names, T& target, const std::string& help) const;
+  /// One of an enum's values, by the names of its table; `among`: only these.
+  template <class E>
+  Option choice(const std::string& names, E& target, const std::string& help,
+                const std::vector<std::string>& among = names_of<E>()) const {
+    return choice(names, among, std::string(name_of(target)), help,
+                  [&target](const std::string& name) { target = *parse_enum<E>(name); });
+  }
+  template <class E>
+  Option choice(const std::string& names, std::optional<E>& target, const std::string& help,
+                const std::vector<std::string>& among = names_of<E>()) const {
+    return choice(names, among, "", help,
+                  [&target](const std::string& name) { target = *parse_enum<E>(name); });
+  }
   /// `names` as "--resume,!--no-resume": the second sets the target to false.
   Option flag(const std::string& names, bool& target, const std::string& help) const;
   /// The option of that name; there must be one.
@@ -74,6 +90,9 @@ class Command {
   CLI::App& implementation() const { return *app_; }
 
  private:
+  Option choice(const std::string& names, const std::vector<std::string>& among, const std::string& shown,
+                const std::string& help, std::function<void(const std::string&)> choose) const;
+
   CLI::App* app_;
 };
 

@@ -13,11 +13,9 @@ void set_probes(realtime::Renderer& renderer, const GlLookup& options, const sce
   if (options.probes.empty()) return;
   const gi::ProbeSet set = gi::read_probe_file(options.probes);
   require_same_scene(options.probes, set, scene, scene::light_groups(scene), time, options.force);
-  gi::LookupParams params;
-  params.weights = weight_params(options.probes, set, options.weights);
-  if (options.light == "self") params.layer = gi::ProbeLayer::self;
+  const gi::LookupParams params = lookup_params(options.probes, set, options.spec);
   renderer.set_probes(set, params);
-  if (options.lookup != "irradiance" ||
+  if (options.spec.method != gi::LookupMethod::irradiance ||
       params.weights.chosen(set.fitted.has_value()) != gi::WeightMethod::fitted)
     return;
   const trace::PathTracer tracer(scene, time);
@@ -27,8 +25,8 @@ void set_probes(realtime::Renderer& renderer, const GlLookup& options, const sce
 
 realtime::FrameSettings still_settings(const GlLookup& options, int samples) {
   realtime::FrameSettings settings;
-  settings.lookup = options.lookup == "light" ? gi::LookupMethod::light : gi::LookupMethod::irradiance;
-  settings.weights = gi::parse_weight_method(options.weights).value_or(gi::WeightMethod::fitted);
+  settings.lookup = options.spec.method;
+  settings.weights = options.spec.weights.value_or(gi::WeightMethod::fitted);
   settings.supersample = samples;
   return settings;
 }

@@ -13,7 +13,7 @@ namespace ssphh::app {
 /// How surfaces look SPHLs up, as the options of `render` name it.
 struct GlLookup {
   std::string probes;  ///< file; empty: direct light alone
-  std::string lookup = "irradiance", weights, light = "sum";
+  gi::LookupSpec spec;
   bool force = false;
 };
 

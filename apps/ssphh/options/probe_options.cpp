@@ -90,21 +90,29 @@ std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const gi::Prob
   return places;
 }
 
-Option add_weights_option(Command command, std::string& weights) {
-  return command
-      .option(
-          "--weights", weights,
-          "How --lookup irradiance blends SPHLs: fitted (to transport, for a file of `bake --fit`: the "
-          "default there, with mls for what moves), mls (moving least squares; else the default), trilinear "
-          "(probes on a grid), distance (nearest visible ones)")
-      .one_of({"distance", "trilinear", "mls", "fitted"});
+Option add_lookup_option(Command command, gi::LookupMethod& method) {
+  return command.choice("--lookup", method,
+                        "irradiance: blend of visible SPHLs; light: nearest visible SPHL, as the paper");
 }
 
-gi::WeightParams weight_params(const std::string& file, const gi::ProbeSet& set, const std::string& weights) {
-  const gi::WeightParams params = gi::weights_named(weights);
-  if (params.method == gi::WeightMethod::fitted && !set.fitted)
+Option add_weights_option(Command command, std::optional<gi::WeightMethod>& weights) {
+  return command.choice(
+      "--weights", weights,
+      "How --lookup irradiance blends SPHLs: fitted (to transport, for a file of `bake --fit`: the "
+      "default there, with mls for what moves), mls (moving least squares; else the default), trilinear "
+      "(probes on a grid), distance (nearest visible ones)");
+}
+
+Option add_layer_option(Command command, gi::ProbeLayer& layer) {
+  return command.choice("--light", layer,
+                        "sum: own and neighbours' light where HIER was run; self: own light only",
+                        {"sum", "self"});
+}
+
+gi::LookupParams lookup_params(const std::string& file, const gi::ProbeSet& set, const gi::LookupSpec& spec) {
+  if (spec.weights == gi::WeightMethod::fitted && !set.fitted)
     throw Error(file, "has no fitted weights", "bake it with --fit, or choose other --weights");
-  return params;
+  return gi::lookup_params(spec, set);
 }
 
 }  // namespace ssphh::app

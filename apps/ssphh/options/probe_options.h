@@ -36,10 +36,12 @@ void require_same_scene(const std::string& file, const gi::ProbeSet& set, const 
 /// counts.
 std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const gi::ProbeSet> sets, float time);
 
-/// --weights of the lookup `irradiance`; empty: the library chooses.
-Option add_weights_option(Command command, std::string& weights);
+/// --lookup, --weights of the lookup `irradiance` (none: the library chooses) and --light.
+Option add_lookup_option(Command command, gi::LookupMethod& method);
+Option add_weights_option(Command command, std::optional<gi::WeightMethod>& weights);
+Option add_layer_option(Command command, gi::ProbeLayer& layer);
 
-/// The named weights. Throws Error for `fitted` with a set that has none.
-gi::WeightParams weight_params(const std::string& file, const gi::ProbeSet& set, const std::string& weights);
+/// What the choice means for the set in `file`. Throws Error for `fitted` with a set that has none.
+gi::LookupParams lookup_params(const std::string& file, const gi::ProbeSet& set, const gi::LookupSpec& spec);
 
 }  // namespace ssphh::app

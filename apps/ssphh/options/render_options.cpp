@@ -14,8 +14,7 @@ bool is_display_format(const std::filesystem::path& path) {
 }  // namespace
 
 void write_display(const std::filesystem::path& path, const image::Image& linear, const RenderOptions& o) {
-  const auto curve = o.tonemap == "filmic" ? image::ToneCurve::filmic : image::ToneCurve::clip;
-  image::write_image(path, image::tone_map(linear, {.exposure = o.exposure, .curve = curve}));
+  image::write_image(path, image::tone_map(linear, {.exposure = o.exposure, .curve = o.tonemap}));
 }
 
 void write_picture(const std::filesystem::path& path, const image::Image& linear, const RenderOptions& o) {

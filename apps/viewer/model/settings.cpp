@@ -12,65 +12,20 @@
 namespace ssphh::viewer {
 namespace {
 
-template <class T>
-struct Choice {
-  const char* name;
-  T value;
-};
-
-constexpr Choice<Show> shows[] = {{"realtime", Show::realtime}, {"truth", Show::truth},
-                                  {"wipe", Show::wipe},         {"absolute", Show::absolute},
-                                  {"signed", Show::signed_},    {"pixelated", Show::pixelated}};
-constexpr Choice<DebugView> debug_views[] = {{"none", DebugView::none},         {"direct", DebugView::direct},
-                                             {"indirect", DebugView::indirect}, {"albedo", DebugView::albedo},
-                                             {"normal", DebugView::normal},     {"shadow", DebugView::shadow},
-                                             {"sphl", DebugView::sphl},         {"leak", DebugView::leak}};
-constexpr Choice<Ball> balls[] = {{"radiance", Ball::radiance},
-                                  {"irradiance", Ball::irradiance},
-                                  {"self", Ball::self},
-                                  {"neighbor", Ball::neighbor},
-                                  {"sum", Ball::sum}};
-constexpr Choice<image::ToneCurve> curves[] = {{"clip", image::ToneCurve::clip},
-                                               {"filmic", image::ToneCurve::filmic}};
-constexpr Choice<gi::LookupMethod> lookups[] = {{"irradiance", gi::LookupMethod::irradiance},
-                                                {"light", gi::LookupMethod::light}};
-constexpr Choice<gi::WeightMethod> weights[] = {{"fitted", gi::WeightMethod::fitted},
-                                                {"mls", gi::WeightMethod::mls},
-                                                {"trilinear", gi::WeightMethod::trilinear},
-                                                {"distance", gi::WeightMethod::distance}};
-constexpr Choice<gi::ProbeLayer> layers[] = {
-    {"sum", gi::ProbeLayer::sum}, {"self", gi::ProbeLayer::self}, {"neighbor", gi::ProbeLayer::neighbor}};
-constexpr Choice<gi::HierOperator> operators[] = {{"coefficient", gi::HierOperator::coefficient},
-                                                  {"mean", gi::HierOperator::mean},
-                                                  {"matrix", gi::HierOperator::matrix}};
-constexpr Choice<bool> switches[] = {{"off", false}, {"on", true}};
-
-template <class T, std::size_t N>
-const char* name_of(const Choice<T> (&choices)[N], T value) {
-  for (const Choice<T>& choice : choices) {
-    if (choice.value == value) return choice.name;
-  }
-  return "?";
-}
-
 /// `member` gives a reference into Settings.
-template <class T, std::size_t N, class Member>
-SettingName choice(const char* name, const char* group, const char* help, const Choice<T> (&choices)[N],
-                   Member member) {
-  SettingName setting{name, group, help, {}, {}, {}};
-  for (const Choice<T>& c : choices) setting.choices.emplace_back(c.name);
-  setting.set = [&choices, member, name, names = setting.choices](Settings& s, const std::string& text) {
-    for (const Choice<T>& c : choices) {
-      if (text == c.name) {
-        member(s) = c.value;
-        return;
-      }
-    }
-    throw Error(name, fmt::format("\"{}\" is none of: {}", text, fmt::join(names, ", ")));
+template <class Member>
+using Of = std::decay_t<std::invoke_result_t<Member, Settings&>>;
+
+template <class Member>
+SettingName choice(const char* name, const char* group, const char* help, Member member) {
+  using E = Of<Member>;
+  SettingName setting{name, group, help, names_of<E>(), {}, {}};
+  setting.set = [member, name](Settings& s, const std::string& text) {
+    member(s) = enum_named<E>(name, text);
   };
-  setting.get = [&choices, member](const Settings& s) {
+  setting.get = [member](const Settings& s) {
     Settings copy = s;
-    return std::string(name_of(choices, member(copy)));
+    return std::string(name_of(member(copy)));
   };
   return setting;
 }
@@ -81,8 +36,7 @@ SettingName word(const char* name, const char* group, const char* help, std::vec
                  Member member) {
   SettingName setting{name, group, help, std::move(words), {}, {}};
   setting.set = [member, name, words = setting.choices](Settings& s, const std::string& text) {
-    if (std::ranges::find(words, text) == words.end())
-      throw Error(name, fmt::format("\"{}\" is none of: {}", text, fmt::join(words, ", ")));
+    if (std::ranges::find(words, text) == words.end()) throw Error(name, none_of(text, words));
     member(s) = text;
   };
   setting.get = [member](const Settings& s) {
@@ -100,7 +54,16 @@ std::vector<std::string> truth_names() {
 
 template <class Member>
 SettingName toggle(const char* name, const char* group, const char* help, Member member) {
-  return choice(name, group, help, switches, member);
+  SettingName setting{name, group, help, {"off", "on"}, {}, {}};
+  setting.set = [member, name, words = setting.choices](Settings& s, const std::string& text) {
+    if (text != "off" && text != "on") throw Error(name, none_of(text, words));
+    member(s) = text == "on";
+  };
+  setting.get = [member](const Settings& s) {
+    Settings copy = s;
+    return std::string(member(copy) ? "on" : "off");
+  };
+  return setting;
 }
 
 template <class Member>
@@ -112,7 +75,7 @@ SettingName number(const char* name, const char* group, const char* help, float 
     if (!(value >= low && value <= high))
       throw Error(name, fmt::format("{} is not within {:g} to {:g}", text, low, high));
     auto& target = member(s);
-    using T = std::decay_t<decltype(target)>;
+    using T = Of<Member>;
     if (std::is_integral_v<T> && value != std::round(value))
       throw Error(name, fmt::format("{} is not a whole number", text));
     target = static_cast<T>(value);
@@ -129,12 +92,12 @@ SettingName number(const char* name, const char* group, const char* help, float 
 const std::vector<SettingName>& setting_names() {
   static const std::vector<SettingName> names = {
       number("exposure", "Picture", "Stops", -20, 20, [](Settings& s) -> float& { return s.exposure; }),
-      choice("tonemap", "Picture", "Curve: clip at white, or filmic", curves,
+      choice("tonemap", "Picture", "Curve: clip at white, or filmic",
              [](Settings& s) -> image::ToneCurve& { return s.curve; }),
       choice("debug", "Picture",
              "What the real-time picture holds: none (all), direct or indirect light only, albedo, normal, "
              "shadow, sphl (which one lights a place), leak (looked-up light that no path brings)",
-             debug_views, [](Settings& s) -> DebugView& { return s.debug; }),
+             [](Settings& s) -> DebugView& { return s.debug; }),
       number("scale", "Picture", "Pixels drawn per pixel of the window, along each axis", 0.1f, 2,
              [](Settings& s) -> float& { return s.scale; }),
       number("indirect-scale", "Picture",
@@ -146,7 +109,7 @@ const std::vector<SettingName>& setting_names() {
           "show", "Ground truth",
           "realtime; truth (path traced); wipe (one beside the other); their difference: absolute, signed, "
           "pixelated (summed in blocks)",
-          shows, [](Settings& s) -> Show& { return s.show; }),
+          [](Settings& s) -> Show& { return s.show; }),
       number("wipe", "Ground truth", "Place of the wipe's line, 0 left, 1 right", 0, 1,
              [](Settings& s) -> float& { return s.wipe; }),
       number("block", "Ground truth", "Pixels along a block of the pixelated difference", 1, 1024,
@@ -160,20 +123,20 @@ const std::vector<SettingName>& setting_names() {
       number("truth-spp", "Ground truth", "Samples per pixel, one a pass", 1, 1000000,
              [](Settings& s) -> int& { return s.truth_passes; }),
       choice("lookup", "Probes",
-             "irradiance: blend of visible SPHLs; light: nearest visible SPHL, as the paper", lookups,
+             "irradiance: blend of visible SPHLs; light: nearest visible SPHL, as the paper",
              [](Settings& s) -> gi::LookupMethod& { return s.lookup; }),
       choice("weights", "Probes",
              "How the lookup irradiance blends probes: fitted where a file has such weights, else as mls, "
              "which fits; distance "
              "averages",
-             weights, [](Settings& s) -> gi::WeightMethod& { return s.weights; }),
-      choice("layer", "Probes", "Light of the probes that surfaces get: sum, self or neighbor", layers,
+             [](Settings& s) -> gi::WeightMethod& { return s.weights; }),
+      choice("layer", "Probes", "Light of the probes that surfaces get: sum, self or neighbor",
              [](Settings& s) -> gi::ProbeLayer& { return s.layer; }),
       number("degree", "Probes", "Bands that the lookup keeps", 0, 10,
              [](Settings& s) -> int& { return s.degree; }),
       toggle("hier", "Probes", "Add the neighbours' light over the edges that the set has",
              [](Settings& s) -> bool& { return s.hier; }),
-      choice("operator", "Probes", "What HIER multiplies with", operators,
+      choice("operator", "Probes", "What HIER multiplies with",
              [](Settings& s) -> gi::HierOperator& { return s.hier_params.op; }),
       number("neighbors", "Probes", "At most so many neighbours a probe; -1: all", -1, 65536,
              [](Settings& s) -> int& { return s.hier_params.neighbors; }),
@@ -181,7 +144,7 @@ const std::vector<SettingName>& setting_names() {
              [](Settings& s) -> float& { return s.hier_params.threshold; }),
       toggle("balls", "Probes on the screen", "A ball where each probe stands",
              [](Settings& s) -> bool& { return s.balls; }),
-      choice("ball", "Probes on the screen", "What colours the balls", balls,
+      choice("ball", "Probes on the screen", "What colours the balls",
              [](Settings& s) -> Ball& { return s.ball; }),
       number("ball-size", "Probes on the screen", "Radius of the balls [m]; 0: by the probes' distance", 0,
              1000, [](Settings& s) -> float& { return s.ball_size; }),
@@ -215,16 +178,6 @@ float parse_number(const std::string& where, const std::string& text) {
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
     throw Error(where, fmt::format("\"{}\" is not a number", text));
   return value;
-}
-
-const char* to_string(Show show) {
-  return name_of(shows, show);
-}
-const char* to_string(DebugView view) {
-  return name_of(debug_views, view);
-}
-const char* to_string(Ball ball) {
-  return name_of(balls, ball);
 }
 
 }  // namespace ssphh::viewer

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <ssphh/core/enum_names.h>
 #include <ssphh/gi/hier.h>
 #include <ssphh/gi/lookup.h>
 #include <ssphh/image/tonemap.h>
@@ -21,9 +22,29 @@ enum class Show {
   signed_,   ///< real-time − truth
   pixelated  ///< Σ|real-time − truth| over blocks, as the paper's figures
 };
+constexpr auto enum_table(Show) {
+  using enum Show;
+  return std::to_array<EnumName<Show>>({{realtime, "realtime"},
+                                        {truth, "truth"},
+                                        {wipe, "wipe"},
+                                        {absolute, "absolute"},
+                                        {signed_, "signed"},
+                                        {pixelated, "pixelated"}});
+}
 
 /// What the real-time picture holds.
 enum class DebugView { none, direct, indirect, albedo, normal, shadow, sphl, leak };
+constexpr auto enum_table(DebugView) {
+  using enum DebugView;
+  return std::to_array<EnumName<DebugView>>({{none, "none"},
+                                             {direct, "direct"},
+                                             {indirect, "indirect"},
+                                             {albedo, "albedo"},
+                                             {normal, "normal"},
+                                             {shadow, "shadow"},
+                                             {sphl, "sphl"},
+                                             {leak, "leak"}});
+}
 
 /// What colours a probe's ball.
 enum class Ball {
@@ -33,6 +54,14 @@ enum class Ball {
   neighbor,    ///< of the light that HIER adds
   sum
 };
+constexpr auto enum_table(Ball) {
+  using enum Ball;
+  return std::to_array<EnumName<Ball>>({{radiance, "radiance"},
+                                        {irradiance, "irradiance"},
+                                        {self, "self"},
+                                        {neighbor, "neighbor"},
+                                        {sum, "sum"}});
+}
 
 struct Settings {
   // Picture
@@ -86,9 +115,5 @@ void set_setting(Settings& settings, const std::string& name, const std::string&
 
 /// Parses a finite number; throws Error(where, …).
 float parse_number(const std::string& where, const std::string& text);
-
-const char* to_string(Show show);
-const char* to_string(DebugView view);
-const char* to_string(Ball ball);
 
 }  // namespace ssphh::viewer

@@ -53,7 +53,7 @@ TEST(Balls, ShowTheValueOfTheFunctionAtEachVertex) {
   const auto expect = [&](Ball ball, const auto& value) {
     shader.shade(set, 0, ball, out);
     for (std::size_t v = 0; v < out.size(); ++v)
-      EXPECT_LT(glm::distance(out[v], value(shader.mesh().vertices[v])), 1e-5f) << to_string(ball);
+      EXPECT_LT(glm::distance(out[v], value(shader.mesh().vertices[v])), 1e-5f) << name_of(ball);
   };
   const sh::RadianceSh self = set.probes[0].self;
   expect(Ball::radiance, [&](const vec3& n) { return sh::eval(self, n); });

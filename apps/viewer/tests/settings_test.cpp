@@ -135,16 +135,16 @@ TEST(Settings, GoWhereTheirNameSays) {
 }
 
 TEST(Settings, ChoicesAreCalledWhatTheyAre) {
-  EXPECT_STREQ(to_string(Show::pixelated), "pixelated");
-  EXPECT_STREQ(to_string(Show::wipe), "wipe");
-  EXPECT_STREQ(to_string(DebugView::sphl), "sphl");
-  EXPECT_STREQ(to_string(DebugView::albedo), "albedo");
-  EXPECT_STREQ(to_string(Ball::irradiance), "irradiance");
-  EXPECT_STREQ(to_string(Ball::sum), "sum");
+  EXPECT_EQ(name_of(Show::pixelated), "pixelated");
+  EXPECT_EQ(name_of(Show::wipe), "wipe");
+  EXPECT_EQ(name_of(DebugView::sphl), "sphl");
+  EXPECT_EQ(name_of(DebugView::albedo), "albedo");
+  EXPECT_EQ(name_of(Ball::irradiance), "irradiance");
+  EXPECT_EQ(name_of(Ball::sum), "sum");
   Settings s;
   for (const char* name : {"absolute", "truth", "wipe"}) {
     set_setting(s, "show", name);
-    EXPECT_STREQ(to_string(s.show), name);
+    EXPECT_EQ(name_of(s.show), name);
   }
   EXPECT_THAT(message([&] { set_setting(s, "against", "paht"); }), HasSubstr("\"paht\" is none of: path, "));
   EXPECT_THAT(message([&] { set_setting(s, "wipe", "0.5 "); }), HasSubstr("\"0.5 \" is not a number"));

@@ -25,18 +25,8 @@ State& state() {
   return instance;
 }
 
-const char* prefix(LogLevel level) {
-  switch (level) {
-    case LogLevel::debug:
-      return "debug: ";
-    case LogLevel::info:
-      return "";
-    case LogLevel::warning:
-      return "warning: ";
-    case LogLevel::error:
-      return "error: ";
-  }
-  return "";
+std::string line(LogLevel level, const std::string& message) {
+  return level == LogLevel::info ? message : fmt::format("{}: {}", name_of(level), message);
 }
 
 }  // namespace
@@ -58,7 +48,7 @@ void log(LogLevel level, const std::string& message) {
   if (state().sink) {
     state().sink(level, message);
   } else {
-    state().fallback.info("{}{}", prefix(level), message);
+    state().fallback.info("{}", line(level, message));
   }
 }
 

@@ -95,7 +95,7 @@ class Dispatcher {
     if (event.outcome != majordomo::Outcome::ok) {
       throw Error(
           "the farm",
-          fmt::format("a job of {} units ended as \"{}\": {}", job.units.size(), to_string(event.outcome),
+          fmt::format("a job of {} units ended as \"{}\": {}", job.units.size(), name_of(event.outcome),
                       event.reason),
           event.outcome == majordomo::Outcome::parked ? "the broker keeps it: see `ssphh farm parked`" : "");
     }

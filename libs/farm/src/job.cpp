@@ -71,9 +71,7 @@ void check(const TileJob& job) {
   require(!job.layers.empty(), "layers", "there are none");
   require((job.layers.back() == "groups") == p.per_group, "layers", "groups go with per_group");
   if (!job.lighting) return;
-  const ProbeLighting& l = *job.lighting;
-  require(l.lookup == "irradiance" || l.lookup == "light", "lighting/lookup", "must be irradiance or light");
-  require(l.layer == "sum" || l.layer == "self", "lighting/layer", "must be sum or self");
+  require(job.lighting->lookup.layer != gi::ProbeLayer::neighbor, "lighting/layer", "must be sum or self");
 }
 
 }  // namespace
@@ -82,6 +80,12 @@ const std::vector<std::string>& layer_names() {
   static const std::vector<std::string> names = {"color",  "direct", "indirect", "albedo",
                                                  "normal", "depth",  "coverage", "groups"};
   return names;
+}
+
+JobKind kind_of(const Job& job) {
+  const auto* probes = std::get_if<ProbeJob>(&job);
+  if (!probes) return JobKind::ref;
+  return probes->stage == gi::BakeStage::gen ? JobKind::gen : JobKind::viz;
 }
 
 void validate(const Job& job) {

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
+#include <ssphh/gi/probe_codec.h>
+
 #include "message.h"
 
 namespace ssphh::farm {
 namespace {
-
-constexpr const char* projection_names[] = {"pinhole", "orthographic", "equirect", "cube_strip"};
 
 // --- scene and paths
 
@@ -84,46 +84,30 @@ ProbeJob get_probe_job(const Field& f, gi::BakeStage stage) {
   return job;
 }
 
+/// The alphabet of messages for probe_codec.h: members of an object, floats where the message has them.
+struct MessageParts {
+  json::Value& object;
+  MessageWriter& out;
+
+  void index(const char* name, int value) { object[name] = value; }
+  void share(const char* name, float value) { object[name] = exact(value); }
+  void vectors(const char* name, std::span<const vec3> values, gi::Missing missing) {
+    if (!values.empty() || missing != gi::Missing::absent) object[name] = out.vectors(values);
+  }
+};
+using FieldParts = gi::JsonParts<Field>;
+
 json::Value put(const gi::ProbeStageResult& result, MessageWriter& out) {
   json::Value probe = {{"probe", result.done.probe}, {"seconds", result.seconds}, {"rays", result.rays}};
-  if (result.done.stage == gi::BakeStage::gen) {
-    json::Value& groups = probe["groups"] = json::Value::array();
-    for (const gi::GroupLight& light : result.groups) {
-      groups.push_back({{"emitted", out.vectors(light.emitted.values)},
-                        {"reflected", out.vectors(light.reflected.values)}});
-    }
-    return probe;
-  }
-  json::Value& edges = probe["edges"] = json::Value::array();
-  for (const gi::Edge& edge : result.edges) {
-    json::Value e = {
-        {"from", edge.from}, {"transfer", exact(edge.transfer)}, {"h", out.vectors(edge.h.values)}};
-    if (!edge.matrix.values.empty()) e["matrix"] = out.vectors(edge.matrix.values);
-    edges.push_back(std::move(e));
-  }
+  const bool gen = result.done.stage == gi::BakeStage::gen;
+  json::Value& list = probe[gen ? "groups" : "edges"] = json::Value::array();
+  const auto next = [&] {
+    list.push_back(json::Value::object());
+    return MessageParts{list[list.size() - 1], out};
+  };
+  for (const gi::GroupLight& light : result.groups) gi::write_light(next(), light);
+  for (const gi::Edge& edge : result.edges) gi::write_edge(next(), edge);
   return probe;
-}
-
-sh::RadianceSh get_sh(const Field& f, int degree, bool may_be_empty) {
-  if (may_be_empty && f.float_count() == 0) return {};
-  sh::RadianceSh function(degree);
-  f.vectors(function.values);
-  return function;
-}
-
-gi::Edge get_edge(const Field& f, int degree) {
-  gi::Edge edge;
-  edge.from = static_cast<int>(f["from"].integer(0, job_limits::places - 1));
-  edge.transfer = f["transfer"].number();
-  if (!(edge.transfer >= 0 && edge.transfer <= 1)) f["transfer"].fail("must lie in 0..1");
-  edge.h = get_sh(f["h"], degree, false);
-  if (const auto matrix = f.find("matrix")) {
-    const auto k = static_cast<std::size_t>(sh::coefficient_count(degree));
-    if (matrix->float_count() != 3 * k * k) matrix->fail("has a wrong count");
-    edge.matrix = sh::TransferMatrix(degree, degree);
-    matrix->vectors(edge.matrix.values);
-  }
-  return edge;
 }
 
 gi::ProbeStageResult get_probe(const Field& f, gi::BakeStage stage, int degree) {
@@ -131,22 +115,13 @@ gi::ProbeStageResult get_probe(const Field& f, gi::BakeStage stage, int degree) 
   result.done = {stage, static_cast<std::uint32_t>(f["probe"].integer(0, job_limits::places - 1))};
   result.seconds = f["seconds"].precise_number();
   result.rays = static_cast<std::uint64_t>(f["rays"].integer(0, INT64_MAX));
-  if (stage == gi::BakeStage::gen) {
-    const Field groups = f["groups"];
-    const std::size_t count = groups.size(0, 256);
-    for (std::size_t g = 0; g < count; ++g) {
-      const Field light = groups[g];
-      result.groups.push_back(
-          {get_sh(light["emitted"], degree, true), get_sh(light["reflected"], degree, false)});
-    }
+  if (stage == gi::BakeStage::viz) {
+    result.edges = gi::read_edges(FieldParts(f["edges"]), degree, result.done.probe, job_limits::places);
     return result;
   }
-  const Field edges = f["edges"];
-  const std::size_t count = edges.size(0, job_limits::places);
-  for (std::size_t e = 0; e < count; ++e) {
-    result.edges.push_back(get_edge(edges[e], degree));
-    if (e > 0 && result.edges[e].from <= result.edges[e - 1].from) edges.fail("must ascend by \"from\"");
-  }
+  const Field groups = f["groups"];
+  for (std::size_t g = 0, count = groups.size(0, 256); g < count; ++g)
+    result.groups.push_back(gi::read_light(FieldParts(groups[g]), degree));
   return result;
 }
 
@@ -175,7 +150,7 @@ json::Value put(const TileJob& job, MessageWriter& out) {
                             {"orthographic", camera.orthographic},
                             {"yfov", exact(camera.yfov)},
                             {"yheight", exact(camera.yheight)}}},
-                          {"projection", projection_names[static_cast<int>(p.projection)]},
+                          {"projection", name_of(p.projection)},
                           {"path", put(p.path)},
                           {"layers", job.layers},
                           {"tiles", tiles}};
@@ -183,11 +158,19 @@ json::Value put(const TileJob& job, MessageWriter& out) {
     const ProbeLighting& l = *job.lighting;
     document["lighting"] = {{"probes", l.probes.hex()},
                             {"bytes", l.bytes},
-                            {"lookup", l.lookup},
-                            {"weights", l.weights},
-                            {"layer", l.layer}};
+                            {"lookup", name_of(l.lookup.method)},
+                            {"weights", l.lookup.weights ? name_of(*l.lookup.weights) : ""},
+                            {"layer", name_of(l.lookup.layer)}};
   }
   return document;
+}
+
+gi::LookupSpec get_lookup(const Field& f) {
+  gi::LookupSpec lookup;
+  lookup.method = f["lookup"].named<gi::LookupMethod>();
+  if (!f["weights"].text().empty()) lookup.weights = f["weights"].named<gi::WeightMethod>();
+  lookup.layer = f["layer"].named<gi::ProbeLayer>();
+  return lookup;
 }
 
 TileJob get_tile_job(const Field& f) {
@@ -201,11 +184,7 @@ TileJob get_tile_job(const Field& f) {
   p.camera.camera.orthographic = camera["orthographic"].boolean();
   p.camera.camera.yfov = camera["yfov"].number();
   p.camera.camera.yheight = camera["yheight"].number();
-  const std::string projection = f["projection"].text();
-  int choice = 0;
-  while (choice < 4 && projection != projection_names[choice]) ++choice;
-  if (choice == 4) f["projection"].fail("must be pinhole, orthographic, equirect or cube_strip");
-  p.projection = static_cast<trace::Projection>(choice);
+  p.projection = f["projection"].named<trace::Projection>();
   p.path = get_path(f["path"]);
   const Field layers = f["layers"];
   for (std::size_t i = 0, n = layers.size(0, layer_names().size()); i < n; ++i)
@@ -217,7 +196,7 @@ TileJob get_tile_job(const Field& f) {
   if (const auto l = f.find("lighting")) {
     job.lighting = {(*l)["probes"].hash(),
                     static_cast<std::uint64_t>((*l)["bytes"].integer(1, std::int64_t{1} << 40)),
-                    (*l)["lookup"].text(32), (*l)["weights"].text(32), (*l)["layer"].text(32)};
+                    get_lookup(*l)};
   }
   return job;
 }
@@ -275,10 +254,8 @@ TileResult get_tile_result(const Field& f) {
 
 // --- both
 
-std::string kind_of(const Job& job) {
-  if (const auto* probes = std::get_if<ProbeJob>(&job))
-    return probes->stage == gi::BakeStage::gen ? "gen" : "viz";
-  return "ref";
+gi::BakeStage stage_of(JobKind kind) {
+  return kind == JobKind::gen ? gi::BakeStage::gen : gi::BakeStage::viz;
 }
 
 void check_head(const Field& root, const char* format) {
@@ -294,7 +271,7 @@ void check_head(const Field& root, const char* format) {
 std::string encode_job(const Job& job, ContentType type) {
   validate(job);
   MessageWriter out(type);
-  json::Value document = {{"format", "ssphh-job"}, {"version", job_version}, {"kind", kind_of(job)}};
+  json::Value document = {{"format", "ssphh-job"}, {"version", job_version}, {"kind", name_of(kind_of(job))}};
   document.update(std::visit([&](const auto& j) { return put(j, out); }, job));
   return out.finish(document);
 }
@@ -303,14 +280,12 @@ Job decode_job(std::string_view body) {
   const Message message = parse_message(body, "job");
   const Field root = message.root();
   check_head(root, "ssphh-job");
-  const std::string kind = root["kind"].text();
+  const auto kind = root["kind"].named<JobKind>();
   Job job;
-  if (kind == "gen" || kind == "viz") {
-    job = get_probe_job(root, kind == "gen" ? gi::BakeStage::gen : gi::BakeStage::viz);
-  } else if (kind == "ref") {
+  if (kind == JobKind::ref) {
     job = get_tile_job(root);
   } else {
-    root["kind"].fail("must be gen, viz or ref");
+    job = get_probe_job(root, stage_of(kind));
   }
   validate(job);
   return job;
@@ -320,12 +295,12 @@ std::string encode_result(const JobResult& result, ContentType type) {
   MessageWriter out(type);
   json::Value document = {{"format", "ssphh-result"}, {"version", job_version}};
   if (const auto* probes = std::get_if<ProbeJobResult>(&result.data)) {
-    document["kind"] = probes->stage == gi::BakeStage::gen ? "gen" : "viz";
+    document["kind"] = name_of(probes->stage);
     document["degree"] = probes->degree;
     json::Value& list = document["probes"] = json::Value::array();
     for (const gi::ProbeStageResult& probe : probes->probes) list.push_back(put(probe, out));
   } else {
-    document["kind"] = "ref";
+    document["kind"] = name_of(JobKind::ref);
     json::Value& list = document["tiles"] = json::Value::array();
     for (const TileResult& tile : std::get<TileJobResult>(result.data).tiles) list.push_back(put(tile, out));
   }
@@ -339,21 +314,19 @@ JobResult decode_result(std::string_view body) {
   const Field root = message.root();
   check_head(root, "ssphh-result");
   JobResult result;
-  const std::string kind = root["kind"].text();
-  if (kind == "ref") {
+  const auto kind = root["kind"].named<JobKind>();
+  if (kind == JobKind::ref) {
     auto& tiles = result.data.emplace<TileJobResult>().tiles;
     const Field list = root["tiles"];
     for (std::size_t i = 0, n = list.size(0, job_limits::units); i < n; ++i)
       tiles.push_back(get_tile_result(list[i]));
-  } else if (kind == "gen" || kind == "viz") {
+  } else {
     auto& probes = result.data.emplace<ProbeJobResult>();
-    probes.stage = kind == "gen" ? gi::BakeStage::gen : gi::BakeStage::viz;
+    probes.stage = stage_of(kind);
     probes.degree = static_cast<int>(root["degree"].integer(0, sh::max_degree));
     const Field list = root["probes"];
     for (std::size_t i = 0, n = list.size(0, job_limits::units); i < n; ++i)
       probes.probes.push_back(get_probe(list[i], probes.stage, probes.degree));
-  } else {
-    root["kind"].fail("must be gen, viz or ref");
   }
   const Field stats = root["stats"];
   result.stats = {stats["seconds"].precise_number(),

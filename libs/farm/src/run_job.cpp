@@ -40,11 +40,7 @@ ProbeJobResult run(const ProbeJob& job, const PreparedScene& scene, const Contro
 std::unique_ptr<scene::IndirectLight> lookup_of(const ProbeLighting& lighting,
                                                 std::span<const std::byte> file, const PreparedScene& scene) {
   const gi::ProbeSet set = gi::probes_from_binary(file, "probes of the job");
-  gi::LookupParams params;
-  if (lighting.layer == "self") params.layer = gi::ProbeLayer::self;
-  if (lighting.lookup == "light") return std::make_unique<gi::LightLookup>(set, *scene.tracer, params);
-  params.weights = gi::weights_named(lighting.weights);
-  return std::make_unique<gi::IrradianceLookup>(set, *scene.tracer, params);
+  return gi::make_lookup(lighting.lookup, set, *scene.tracer);
 }
 
 void keep_layers(trace::RenderState& state, const std::vector<std::string>& layers) {

@@ -30,7 +30,7 @@ ProbeJob job_of_set(const gi::ProbeSet& set, const gi::VizParams& viz_params, Ba
 }
 
 ProbeLighting lighting_of(const RenderProbes& probes, const Blob& file) {
-  return {file.hash, file.bytes.size(), probes.lookup, probes.weights, probes.layer};
+  return {file.hash, file.bytes.size(), probes.lookup};
 }
 
 Hash128 unit_key(const ProbeJob& all, std::uint32_t probe) {
@@ -57,7 +57,8 @@ Hash128 unit_key(const TileJob& job, const trace::Tile& tile) {
   for (const std::string& layer : job.layers) h.text(layer);
   if (job.lighting) {
     const ProbeLighting& l = *job.lighting;
-    h.value(l.probes.high).value(l.probes.low).text(l.lookup).text(l.weights).text(l.layer);
+    h.value(l.probes.high).value(l.probes.low).text(name_of(l.lookup.method));
+    h.text(l.lookup.weights ? name_of(*l.lookup.weights) : "").text(name_of(l.lookup.layer));
   }
   return h.finish();
 }

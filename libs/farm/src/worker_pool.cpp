@@ -31,11 +31,6 @@ std::size_t unit_count(const Job& job) {
   return probes ? probes->probes.size() : std::get<TileJob>(job).tiles.size();
 }
 
-const char* kind_name(const Job& job) {
-  const auto* probes = std::get_if<ProbeJob>(&job);
-  return !probes ? "ref" : probes->stage == gi::BakeStage::gen ? "gen" : "viz";
-}
-
 class Pool {
  public:
   explicit Pool(const WorkerPoolOptions& options)
@@ -108,7 +103,7 @@ class Pool {
           run_job(job, scenes_, fetch_from_broker(options_.broker, request.cancel), request.control());
       result.stats.worker = slot.name;
       log_info("job={} attempt={} slot={} kind={} units={} seconds={:.3f} rays={}", request.number,
-               request.attempt, slot.name, kind_name(job), unit_count(job), result.stats.seconds,
+               request.attempt, slot.name, name_of(kind_of(job)), unit_count(job), result.stats.seconds,
                result.stats.rays);
       return {encode_result(result, content_type(body))};
     } catch (const Cancelled&) {

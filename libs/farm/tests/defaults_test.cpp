@@ -30,14 +30,10 @@ TEST(FarmDefaults, OfJobs) {
   EXPECT_EQ(job.face_size, 64);
   const ProbeLighting lighting;
   EXPECT_EQ(lighting.bytes, 0u);
-  EXPECT_EQ(lighting.lookup, "irradiance");
-  EXPECT_EQ(lighting.weights, "");
-  EXPECT_EQ(lighting.layer, "sum");
+  EXPECT_EQ(lighting.lookup, gi::LookupSpec());
   const RenderProbes probes;
   EXPECT_EQ(probes.set, nullptr);
-  EXPECT_EQ(probes.lookup, "irradiance");
-  EXPECT_EQ(probes.weights, "");
-  EXPECT_EQ(probes.layer, "sum");
+  EXPECT_EQ(probes.lookup, gi::LookupSpec());
   const ProbeJobResult result;
   EXPECT_EQ(result.stage, gi::BakeStage::gen);
   EXPECT_EQ(result.degree, 9);

@@ -4,6 +4,7 @@
 
 #include <ssphh/farm/job_codec.h>
 
+#include "error_message.h"
 #include "job_fields.h"
 
 namespace ssphh::farm {
@@ -50,6 +51,37 @@ TEST(JobCodec, EveryFieldOfATileJobTravels) {
   expect_to_travel(job);
 }
 
+// The words of a job are those of the tables; any others are refused when it is read.
+TEST(JobCodec, WordsOfATileJobAreTheTables) {
+  TileJob job = test::some_tile_job();
+  job.lighting->lookup = {};
+  const std::string text = encode_job(job, ContentType::json);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, text.npos) << from;
+    return std::string(text).replace(at, from.size(), to);
+  };
+  const auto lookup = [](const std::string& body) {
+    return std::get<TileJob>(decode_job(body)).lighting->lookup;
+  };
+  EXPECT_EQ(lookup(text), gi::LookupSpec());
+  EXPECT_EQ(lookup(with(R"("weights":"")", R"("weights":"trilinear")")).weights, gi::WeightMethod::trilinear);
+  EXPECT_EQ(lookup(with(R"("lookup":"irradiance")", R"("lookup":"light")")).method, gi::LookupMethod::light);
+  EXPECT_EQ(lookup(with(R"("layer":"sum")", R"("layer":"self")")).layer, gi::ProbeLayer::self);
+  const auto problem = [&](const std::string& from, const std::string& to) {
+    return ssphh::test::message_of([&] { decode_job(with(from, to)); });
+  };
+  EXPECT_EQ(problem(R"("lookup":"irradiance")", R"("lookup":"")"),
+            "job: lighting.lookup: \"\" is none of: light, irradiance");
+  EXPECT_EQ(problem(R"("weights":"")", R"("weights":"idw")"),
+            "job: lighting.weights: \"idw\" is none of: distance, trilinear, mls, fitted");
+  EXPECT_EQ(problem(R"("layer":"sum")", R"("layer":"all")"),
+            "job: lighting.layer: \"all\" is none of: self, neighbor, sum");
+  EXPECT_EQ(problem(R"("projection":"cube_strip")", R"("projection":"cube")"),
+            "job: projection: \"cube\" is none of: pinhole, orthographic, equirect, cube_strip");
+  EXPECT_EQ(problem(R"("kind":"ref")", R"("kind":"tile")"), "job: kind: \"tile\" is none of: gen, viz, ref");
+}
+
 /// Coefficients that are all different.
 sh::RadianceSh some_function(int degree, float first) {
   sh::RadianceSh function(degree);
@@ -87,6 +119,31 @@ image::Image some_image(const trace::Tile& tile, int channels, float first) {
   image::Image image(tile.width, tile.height, channels);
   for (float& value : image.pixels) value = first *= 1.01f;
   return image;
+}
+
+// What probe files refuse is refused here as well: the codec is the same (gi/probe_codec.h).
+TEST(JobCodec, EdgesOfAResultAreThoseOfAProbeSet) {
+  const auto read = [](const std::string& edges) {
+    return ssphh::test::message_of([&] {
+      decode_result(R"({"format":"ssphh-result","version":1,"kind":"viz","degree":0,"probes":[)"
+                    R"({"probe":5,"seconds":1,"rays":2,"edges":[)" +
+                    edges + R"(]}],"stats":{"seconds":1,"rays":3,"worker":"w"}})");
+    });
+  };
+  const auto edge = [](int from, const std::string& more) {
+    return R"({"from":)" + std::to_string(from) + "," + more + "}";
+  };
+  const std::string sound = R"("transfer":0.5,"h":[1,2,3])", at = "result: probes[0].edges";
+  EXPECT_EQ(read(edge(2, sound) + "," + edge(8, sound + R"(,"matrix":[1,2,3])")), "no error");
+  for (const int second : {1, 2, 5})
+    EXPECT_EQ(read(edge(2, sound) + "," + edge(second, sound)),
+              at + "[1].from: must be another probe's index, in ascending order");
+  EXPECT_NE(read(edge(65536, sound)), "no error");
+  EXPECT_EQ(read(edge(2, R"("transfer":0.5,"h":[1,2])")), at + "[0].h: must be 3 numbers, not 2");
+  EXPECT_EQ(read(edge(2, R"("transfer":0.5,"h":[])")), at + "[0].h: must be 3 numbers, not 0");
+  EXPECT_EQ(read(edge(2, sound + R"(,"matrix":[])")), at + "[0].matrix: must be 3 numbers, not 0");
+  EXPECT_NE(read(edge(2, R"("transfer":1.5,"h":[1,2,3])")), "no error");
+  EXPECT_NE(read(edge(2, sound + R"(,"weight":1)")), "no error") << "of a later version";
 }
 
 TEST(JobCodec, EveryFieldOfATileResultTravels) {

@@ -24,10 +24,13 @@ void fields(auto& visit, farm::ProbeJob& j) {
   visit("scene", scene), visit("stage", stage), visit("degree", degree), visit("face_size", face_size);
   visit("path", path), visit("viz_params", viz_params), visit("probes", probes), visit("places", places);
 }
+void fields(auto& visit, gi::LookupSpec& l) {
+  auto& [method, weights, layer] = l;
+  visit("method", method), visit("weights", weights), visit("layer", layer);
+}
 void fields(auto& visit, farm::ProbeLighting& l) {
-  auto& [probes, bytes, lookup, weights, layer] = l;
-  visit("probes", probes), visit("bytes", bytes), visit("lookup", lookup), visit("weights", weights);
-  visit("layer", layer);
+  auto& [probes, bytes, lookup] = l;
+  visit("probes", probes), visit("bytes", bytes), visit("lookup", lookup);
 }
 void fields(auto& visit, farm::TileJob& j) {
   auto& [scene, params, tiles, layers, lighting] = j;
@@ -87,7 +90,9 @@ inline TileJob some_tile_job() {
   job.params.per_group = true;
   job.tiles = {{1, 2, 3, 4}, {32, 8, 31, 30}};
   job.layers = {"direct", "normal", "groups"};
-  job.lighting = {{0x2468ace013579bdf, 0x0f1e2d3c4b5a6978}, 12345, "light", "idw", "self"};
+  job.lighting = {{0x2468ace013579bdf, 0x0f1e2d3c4b5a6978},
+                  12345,
+                  {gi::LookupMethod::light, gi::WeightMethod::mls, gi::ProbeLayer::self}};
   return job;
 }
 

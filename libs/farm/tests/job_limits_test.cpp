@@ -97,20 +97,21 @@ TEST(JobLimits, OfTileJobs) {
     j.params.width = width, j.params.height = height;
     j.tiles = {tile};
   };
-  expect_allowed<TileJob>(job, {{"picture",
-                                 [&](auto& j) {
-                                   picture(j, 65536, 65536, {65535, 65535, 1, 1});
-                                 }},
-                                {"tile",
-                                 [&](auto& j) {
-                                   picture(j, 2000, 2000, {976, 976, 1024, 1024});
-                                 }},
-                                {"tiles",
-                                 [](auto& j) {
-                                   j.tiles.assign(4096, {0, 0, 32, 32});
-                                 }},
-                                {"sum", [](auto& j) { j.lighting->layer = "sum"; }},
-                                {"irradiance", [](auto& j) { j.lighting->lookup = "irradiance"; }}});
+  expect_allowed<TileJob>(
+      job, {{"picture",
+             [&](auto& j) {
+               picture(j, 65536, 65536, {65535, 65535, 1, 1});
+             }},
+            {"tile",
+             [&](auto& j) {
+               picture(j, 2000, 2000, {976, 976, 1024, 1024});
+             }},
+            {"tiles",
+             [](auto& j) {
+               j.tiles.assign(4096, {0, 0, 32, 32});
+             }},
+            {"sum", [](auto& j) { j.lighting->lookup.layer = gi::ProbeLayer::sum; }},
+            {"irradiance", [](auto& j) { j.lighting->lookup.method = gi::LookupMethod::irradiance; }}});
   expect_refused<TileJob>(
       job, {{"time", [](auto& j) { j.scene.time = not_a_number; }},
             {"width",
@@ -150,8 +151,7 @@ TEST(JobLimits, OfTileJobs) {
             {"doubled layer", [](auto& j) { j.layers[1] = j.layers[0]; }},
             {"groups without per_group", [](auto& j) { j.params.per_group = false; }},
             {"per_group without groups", [](auto& j) { j.layers.pop_back(); }},
-            {"lookup", [](auto& j) { j.lighting->lookup = ""; }},
-            {"layer", [](auto& j) { j.lighting->layer = "neighbor"; }}});
+            {"layer", [](auto& j) { j.lighting->lookup.layer = gi::ProbeLayer::neighbor; }}});
 }
 
 // 2^40 paths, 2^32 samples of a pixel, 2^22 pixels.

@@ -106,19 +106,17 @@ TEST(Job, TilesLitByProbesGiveTheBitsOfALocalRender) {
   blob.hash = content_hash(blob.bytes);
   packed.more.push_back(blob);
   TileJob job = test::tile_job(packed);
-  for (const char* lookup : {"irradiance", "light"}) {
-    job.lighting = {blob.hash, blob.bytes.size(), lookup, "", "self"};
+  for (const gi::LookupMethod lookup : {gi::LookupMethod::irradiance, gi::LookupMethod::light}) {
+    job.lighting = {blob.hash, blob.bytes.size(), {lookup, {}, gi::ProbeLayer::self}};
     const auto got = std::get<TileJobResult>(far_away(packed, job, ContentType::binary).data);
     gi::LookupParams params;
     params.layer = gi::ProbeLayer::self;
-    const auto light = gi::make_lookup(
-        std::string(lookup) == "light" ? gi::LookupMethod::light : gi::LookupMethod::irradiance, set, tracer,
-        params);
+    const auto light = gi::make_lookup(lookup, set, tracer, params);
     trace::RenderParams render = job.params;
     render.tile = job.tiles[0];
     trace::RenderState want;
     tracer.render_with(*light, render, want);
-    EXPECT_EQ(got.tiles[0].state.color.pixels, want.color.pixels) << lookup;
+    EXPECT_EQ(got.tiles[0].state.color.pixels, want.color.pixels) << name_of(lookup);
   }
 }
 

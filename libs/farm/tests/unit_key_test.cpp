@@ -95,9 +95,9 @@ TEST(UnitKey, AJobHoldsWhatTheSetsGeneratorSays) {
 TEST(UnitKey, LightingHoldsWhatARenderSaysOfItsProbes) {
   const Blob file{{0x2468ace013579bdf, 0x0f1e2d3c4b5a6978}, std::vector<std::byte>(77)};
   RenderProbes asked;
-  auto& [set, lookup, weights, layer] = asked;
-  set = nullptr, lookup = "light", weights = "idw", layer = "self";
-  expect_same_fields(lighting_of(asked, file), ProbeLighting{file.hash, 77, "light", "idw", "self"});
+  auto& [set, lookup] = asked;
+  set = nullptr, lookup = {gi::LookupMethod::light, gi::WeightMethod::mls, gi::ProbeLayer::self};
+  expect_same_fields(lighting_of(asked, file), ProbeLighting{file.hash, 77, lookup});
 }
 
 }  // namespace

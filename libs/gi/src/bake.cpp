@@ -9,9 +9,9 @@
 #include <ssphh/gi/gen.h>
 #include <ssphh/gi/probe_file.h>
 
+#include "byte_parts.h"
 #include "checkpoint.h"
 #include "part_progress.h"
-#include "probe_bytes.h"
 
 namespace ssphh::gi {
 namespace {
@@ -56,7 +56,7 @@ ProbeStageResult decode(const CheckpointRecord& record, const ProbeSet& set) {
   if (record.stage == BakeStage::gen) {
     result.groups = read_groups(in, set.degree, set.light_groups.size());
   } else {
-    result.edges = read_edges(in, set.degree, record.probe, set.probes.size());
+    result.edges = read_edges(ByteReaderParts(in), set.degree, record.probe, set.probes.size());
   }
   in.expect_end();
   return result;

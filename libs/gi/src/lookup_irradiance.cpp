@@ -48,6 +48,18 @@ vec3 IrradianceLookup::glossy(const scene::SurfacePoint& at, const vec3& r, floa
   return data_->blend(at, [&](int probe) { return data_->table.radiance(probe, basis.data()); });
 }
 
+LookupParams lookup_params(const LookupSpec& spec, const ProbeSet& set) {
+  LookupParams params;
+  params.layer = set.hierarchy ? spec.layer : ProbeLayer::self;
+  params.weights.method = spec.weights;
+  return params;
+}
+
+std::unique_ptr<scene::IndirectLight> make_lookup(const LookupSpec& spec, const ProbeSet& set,
+                                                  const scene::RadianceSource& source) {
+  return make_lookup(spec.method, set, source, lookup_params(spec, set));
+}
+
 std::unique_ptr<scene::IndirectLight> make_lookup(LookupMethod method, const ProbeSet& set,
                                                   const scene::RadianceSource& source,
                                                   const LookupParams& params) {

@@ -145,33 +145,9 @@ bool has_spacing(std::span<const vec3> positions, const WeightParams& params) {
 
 }  // namespace
 
-const char* to_string(WeightMethod method) {
-  switch (method) {
-    case WeightMethod::distance:
-      return "distance";
-    case WeightMethod::trilinear:
-      return "trilinear";
-    case WeightMethod::mls:
-      return "mls";
-    case WeightMethod::fitted:
-      return "fitted";
-  }
-  return "";
-}
-
-std::optional<WeightMethod> parse_weight_method(const std::string& name) {
-  for (const WeightMethod method :
-       {WeightMethod::distance, WeightMethod::trilinear, WeightMethod::mls, WeightMethod::fitted}) {
-    if (name == to_string(method)) return method;
-  }
-  return std::nullopt;
-}
-
 WeightParams weights_named(const std::string& name) {
   WeightParams params;
-  params.method = parse_weight_method(name);
-  if (!name.empty() && !params.method)
-    throw Error("weights " + name, "is none of distance, trilinear, mls, fitted");
+  if (!name.empty()) params.method = enum_named<WeightMethod>("weights", name);
   return params;
 }
 

@@ -6,7 +6,7 @@
 #include <ssphh/core/hash.h>
 #include <ssphh/gi/probe_file.h>
 
-#include "probe_bytes.h"
+#include "byte_parts.h"
 #include "probe_finish.h"
 #include "probe_limits.h"
 
@@ -55,10 +55,43 @@ GeneratorInfo read_generator(ByteReader& in) {
   return g;
 }
 
+void write_fitted(ByteWriter& out, const FittedPoints& fitted) {
+  out.value(static_cast<std::uint32_t>(fitted.points.size()));
+  for (std::size_t i = 0; i < fitted.points.size(); ++i) {
+    out.vector3(fitted.points[i].position);
+    out.vector3(fitted.points[i].normal);
+    out.value(static_cast<std::uint8_t>(fitted.weights[i].count));
+    for (const ProbeWeight& entry : fitted.weights[i].used()) {
+      out.value(static_cast<std::uint32_t>(entry.probe));
+      out.value(entry.weight);
+    }
+  }
+}
+
+FittedPoints read_fitted(ByteReader& in, std::size_t probe_count) {
+  const std::size_t count = in.count("fitted point count", limits::fitted_points, 2 * sizeof(vec3) + 1);
+  FittedPoints fitted;
+  fitted.points.resize(count);
+  fitted.weights.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    fitted.points[i].position = in.vector3("fitted point");
+    fitted.points[i].normal = in.vector3("fitted normal");
+    PointWeights& weights = fitted.weights[i];
+    weights.count = in.value_in<std::uint8_t>("fitted weight count", 0, max_weights);
+    for (int k = 0; k < weights.count; ++k) {
+      const auto probe = in.value<std::uint32_t>("fitted probe");
+      if (probe >= probe_count) in.fail("fitted probe", "must be a probe's index");
+      weights.entries[static_cast<std::size_t>(k)] = {
+          static_cast<int>(probe), in.value_in<float>("fitted weight", 0, limits::fitted_weight)};
+    }
+  }
+  return fitted;
+}
+
 ProbeSet read_payload(ByteReader& in) {
   ProbeSet set;
   set.degree = read_int(in, "degree", 0, sh::max_degree);
-  const auto sh_bytes = static_cast<std::size_t>(sh::coefficient_count(set.degree)) * sizeof(vec3);
+  const auto coefficients = static_cast<std::size_t>(sh::coefficient_count(set.degree));
   set.generator = read_generator(in);
   set.light_groups.resize(
       in.count("light group count", limits::light_groups, sizeof(std::uint32_t) + sizeof(vec3)));
@@ -66,7 +99,8 @@ ProbeSet read_payload(ByteReader& in) {
     group.name = in.text("light group name", limits::text);
     group.scale = in.vector3("light group scale");
   }
-  const std::size_t bytes_each = set.light_groups.size() * (sh_bytes + 2) + sizeof(vec3) + 3 * sizeof(float);
+  const std::size_t bytes_each =
+      set.light_groups.size() * (coefficients * sizeof(vec3) + 2) + sizeof(vec3) + 3 * sizeof(float);
   const std::size_t probe_count = in.count("probe count", limits::probes, bytes_each);
   set.probes.resize(probe_count);
   for (std::size_t i = 0; i < probe_count; ++i) {
@@ -75,16 +109,16 @@ ProbeSet read_payload(ByteReader& in) {
     probe.position = in.vector3("position");
     probe.radius = in.value<float>("radius");
     probe.groups = read_groups(in, set.degree, set.light_groups.size());
-    probe.edges = read_edges(in, set.degree, i, probe_count);
+    probe.edges = read_edges(ByteReaderParts(in), set.degree, i, probe_count);
   }
   if (in.value_in<std::uint8_t>("hierarchy flag", 0, 1)) {
     Hierarchy& hierarchy = set.hierarchy.emplace();
     hierarchy.op = static_cast<HierOperator>(in.value_in<std::uint8_t>("operator", 0, 2));
     hierarchy.neighbors = in.value_in<std::int32_t>("neighbors", -1, static_cast<int>(limits::probes));
     hierarchy.threshold = in.value_in<float>("threshold", 0.0f, 1.0f);
-    for (std::size_t i = 0; i < probe_count; ++i) {
-      hierarchy.neighbor.push_back(read_sh(in, "neighbour part", set.degree, false));
-    }
+    hierarchy.neighbor.resize(probe_count);
+    for (sh::RadianceSh& neighbor : hierarchy.neighbor)
+      neighbor.values = ByteReaderParts(in).vectors("neighbour part", coefficients, Missing::never);
   }
   if (in.value_in<std::uint8_t>("fitted flag", 0, 1)) set.fitted = read_fitted(in, probe_count);
   in.expect_end();
@@ -120,7 +154,8 @@ std::vector<std::byte> probes_to_binary(const ProbeSet& set) {
     payload.value(static_cast<std::uint8_t>(set.hierarchy->op));
     payload.value(static_cast<std::int32_t>(set.hierarchy->neighbors));
     payload.value(set.hierarchy->threshold);
-    for (const sh::RadianceSh& neighbor : set.hierarchy->neighbor) write_sh(payload, neighbor);
+    for (const sh::RadianceSh& neighbor : set.hierarchy->neighbor)
+      ByteWriterParts(payload).vectors("neighbour part", neighbor.values, Missing::never);
   }
   payload.value(static_cast<std::uint8_t>(set.fitted.has_value()));
   if (set.fitted) write_fitted(payload, *set.fitted);

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <ssphh/core/json_cursor.h>
+#include <ssphh/gi/probe_codec.h>
 #include <ssphh/gi/probe_file.h>
 
 #include "probe_finish.h"
@@ -25,42 +25,37 @@ int integer(const Cursor& at, int least, int most) {
   return static_cast<int>(at.integer(least, most));
 }
 
-template <class Enum>
-Enum choice(const Cursor& at, std::optional<Enum> (*parse)(const std::string&)) {
-  const std::optional<Enum> value = parse(at.text(limits::text));
-  if (!value) at.fail("is not a known value");
-  return *value;
-}
-
 vec3 vector3(const Cursor& at, double least, double most) {
   at.size(3, 3);
   return {at[0].number(least, most), at[1].number(least, most), at[2].number(least, most)};
 }
 
-std::vector<vec3> rgb_values(const Cursor& at, std::size_t count) {
-  std::vector<vec3> values(count);
-  const std::span<float> numbers(count > 0 ? &values[0].x : nullptr, 3 * count);
-  at.numbers(numbers);
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (!(std::abs(numbers[i]) <= limits::coefficient))
-      at[i].fail(fmt::format("must be a number of magnitude at most {:g}", limits::coefficient));
-  }
-  return values;
-}
+/// A place in a probe file, whose functions have numbers within limits.
+class FilePlace : public Cursor {
+ public:
+  FilePlace(const Cursor& at) : Cursor(at) {}
+  FilePlace operator[](const char* name) const { return Cursor::operator[](name); }
+  FilePlace operator[](std::size_t i) const { return Cursor::operator[](i); }
 
-sh::RadianceSh function(const Cursor& at, int degree) {
-  sh::RadianceSh f;
-  f.values = rgb_values(at, static_cast<std::size_t>(sh::coefficient_count(degree)));
-  return f;
-}
+  std::size_t float_count() const { return size(); }
+  void vectors(std::span<vec3> out) const {
+    const std::span<float> values(out.empty() ? nullptr : &out[0].x, 3 * out.size());
+    numbers(values);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!(std::abs(values[i]) <= limits::coefficient))
+        (*this)[i].fail(fmt::format("must be a number of magnitude at most {:g}", limits::coefficient));
+    }
+  }
+};
+using FileParts = JsonParts<FilePlace>;
 
 GeneratorInfo read_generator(const Cursor& at) {
   at.members({"operator", "viz", "gen", "max_depth", "passes", "spp", "face_size", "seed", "directions",
               "surfel_size", "link_rays", "scene", "scene_hash", "time"});
   GeneratorInfo g;
-  g.op = choice(at["operator"], parse_light_operator);
-  g.viz = choice(at["viz"], parse_viz_method);
-  g.gen = choice(at["gen"], parse_gen_mode);
+  g.op = at["operator"].named<LightOperator>();
+  g.viz = at["viz"].named<VizMethod>();
+  g.gen = at["gen"].named<GenMode>();
   g.max_depth = integer(at["max_depth"], 0, limits::depth);
   g.passes = integer(at["passes"], 1, limits::samples);
   g.spp = integer(at["spp"], 1, limits::samples);
@@ -75,21 +70,8 @@ GeneratorInfo read_generator(const Cursor& at) {
   return g;
 }
 
-Edge read_edge(const Cursor& at, int degree, std::size_t probe_count) {
-  at.members({"from", "transfer", "h"}, {"matrix"});
-  Edge edge;
-  edge.from = integer(at["from"], 0, static_cast<int>(probe_count) - 1);
-  edge.transfer = at["transfer"].number(0, 1);
-  edge.h = function(at["h"], degree);
-  if (at.has("matrix")) {
-    const auto k = static_cast<std::size_t>(sh::coefficient_count(degree));
-    edge.matrix.arriving_degree = edge.matrix.emitted_degree = degree;
-    edge.matrix.values = rgb_values(at["matrix"], k * k);
-  }
-  return edge;
-}
-
-Probe read_probe(const Cursor& at, const ProbeSet& set, std::size_t probe_count, bool with_hierarchy) {
+Probe read_probe(const Cursor& at, const ProbeSet& set, std::size_t index, std::size_t probe_count,
+                 bool with_hierarchy) {
   if (with_hierarchy) {
     at.members({"name", "position", "radius", "groups", "edges", "neighbor"});
   } else {
@@ -101,17 +83,9 @@ Probe read_probe(const Cursor& at, const ProbeSet& set, std::size_t probe_count,
   probe.radius = at["radius"].number(limits::smallest_radius, limits::coordinate);
   const Cursor groups = at["groups"];
   groups.size(set.light_groups.size(), set.light_groups.size());
-  for (std::size_t g = 0; g < set.light_groups.size(); ++g) {
-    const Cursor group = groups[g].members({"emitted", "reflected"});
-    GroupLight& light = probe.groups.emplace_back();
-    if (!(group["emitted"].is_array() && group["emitted"].size() == 0))
-      light.emitted = function(group["emitted"], set.degree);
-    light.reflected = function(group["reflected"], set.degree);
-  }
-  const Cursor edges = at["edges"];
-  const std::size_t edge_count = edges.size(0, probe_count - 1);
-  for (std::size_t e = 0; e < edge_count; ++e)
-    probe.edges.push_back(read_edge(edges[e], set.degree, probe_count));
+  for (std::size_t g = 0; g < set.light_groups.size(); ++g)
+    probe.groups.push_back(read_light(FileParts(groups[g]), set.degree));
+  probe.edges = read_edges(FileParts(at["edges"]), set.degree, index, probe_count);
   return probe;
 }
 
@@ -154,15 +128,18 @@ ProbeSet read_set(const Cursor& root) {
   if (root.has("hierarchy")) {
     const Cursor at = root["hierarchy"].members({"operator", "neighbors", "threshold"});
     Hierarchy& h = set.hierarchy.emplace();
-    h.op = choice(at["operator"], parse_hier_operator);
+    h.op = at["operator"].named<HierOperator>();
     h.neighbors = integer(at["neighbors"], -1, static_cast<int>(limits::probes));
     h.threshold = at["threshold"].number(0, 1);
   }
   const Cursor probes = root["probes"];
   const std::size_t probe_count = probes.size(0, limits::probes);
+  const auto coefficients = static_cast<std::size_t>(sh::coefficient_count(set.degree));
   for (std::size_t i = 0; i < probe_count; ++i) {
-    set.probes.push_back(read_probe(probes[i], set, probe_count, set.hierarchy.has_value()));
-    if (set.hierarchy) set.hierarchy->neighbor.push_back(function(probes[i]["neighbor"], set.degree));
+    set.probes.push_back(read_probe(probes[i], set, i, probe_count, set.hierarchy.has_value()));
+    if (!set.hierarchy) continue;
+    set.hierarchy->neighbor.emplace_back().values =
+        FileParts(probes[i]).vectors("neighbor", coefficients, Missing::never);
   }
   if (root.has("fitted")) set.fitted = read_fitted(root["fitted"], probe_count);
   return set;

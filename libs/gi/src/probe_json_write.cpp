@@ -1,9 +1,11 @@
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <ssphh/core/json.h>
+#include <ssphh/gi/probe_codec.h>
 #include <ssphh/gi/probe_file.h>
 
 #include "json_number.h"
@@ -21,8 +23,7 @@ class Writer {
     put("\"generator\":{{\"operator\":\"{}\",\"viz\":\"{}\",\"gen\":\"{}\",\"max_depth\":{},\"passes\":{},"
         "\"spp\":{},"
         "\"face_size\":{},\"seed\":\"{:x}\",\n",
-        to_string(g.op), to_string(g.viz), to_string(g.gen), g.max_depth, g.passes, g.spp, g.face_size,
-        g.seed);
+        name_of(g.op), name_of(g.viz), name_of(g.gen), g.max_depth, g.passes, g.spp, g.face_size, g.seed);
     put("\"directions\":{},\"surfel_size\":{},\"link_rays\":{},\n", g.directions, exact(g.surfel_size),
         g.link_rays);
     put("\"scene\":{},\"scene_hash\":\"{}\",\"time\":{}}},\n", quoted(g.scene), g.scene_hash.hex(),
@@ -37,7 +38,7 @@ class Writer {
     put("]");
     if (set_.hierarchy) {
       const Hierarchy& h = *set_.hierarchy;
-      put(",\n\"hierarchy\":{{\"operator\":\"{}\",\"neighbors\":{},\"threshold\":{}}}", to_string(h.op),
+      put(",\n\"hierarchy\":{{\"operator\":\"{}\",\"neighbors\":{},\"threshold\":{}}}", name_of(h.op),
           h.neighbors, exact(h.threshold));
     }
     if (set_.fitted) fitted(*set_.fitted);
@@ -68,6 +69,23 @@ class Writer {
     out_ += ']';
   }
 
+  /// The alphabet of this text for probe_codec.h: members between braces, functions on lines of their own.
+  struct Parts {
+    Writer& writer;
+    bool first = true;
+
+    void index(const char* name, int value) { begin(name), writer.put("{}", value); }
+    void share(const char* name, float value) { begin(name), append_five_digits(writer.out_, value); }
+    void vectors(const char* name, std::span<const vec3> values, Missing missing) {
+      if (values.empty() && missing == Missing::absent) return;
+      begin(name, "\n"), writer.numbers(values);
+    }
+    void begin(const char* name, const char* line = "") {
+      if (!std::exchange(first, false)) writer.put(",{}", line);
+      writer.put("\"{}\":", name);
+    }
+  };
+
   void fitted(const FittedPoints& f) {
     put(",\n\"fitted\":[");
     for (std::size_t i = 0; i < f.points.size(); ++i) {
@@ -90,23 +108,14 @@ class Writer {
     put("{}\n{{\"name\":{},\"position\":{},\"radius\":{},\n\"groups\":[", comma(i), quoted(p.name),
         exact(p.position), exact(p.radius));
     for (std::size_t g = 0; g < p.groups.size(); ++g) {
-      put("{}\n{{\"emitted\":", comma(g));
-      numbers(p.groups[g].emitted.values);
-      put(",\n\"reflected\":");
-      numbers(p.groups[g].reflected.values);
+      put("{}\n{{", comma(g));
+      write_light(Parts{*this}, p.groups[g]);
       put("}}");
     }
     put("],\n\"edges\":[");
     for (std::size_t e = 0; e < p.edges.size(); ++e) {
-      const Edge& edge = p.edges[e];
-      put("{}\n{{\"from\":{},\"transfer\":", comma(e), edge.from);
-      append_five_digits(out_, edge.transfer);
-      put(",\"h\":");
-      numbers(edge.h.values);
-      if (!edge.matrix.values.empty()) {
-        put(",\n\"matrix\":");
-        numbers(edge.matrix.values);
-      }
+      put("{}\n{{", comma(e));
+      write_edge(Parts{*this}, p.edges[e]);
       put("}}");
     }
     put("]");

@@ -1,6 +1,3 @@
-#include <array>
-#include <string_view>
-
 #include <fmt/format.h>
 
 #include <ssphh/gi/probe_set.h>
@@ -9,18 +6,6 @@
 
 namespace ssphh::gi {
 namespace {
-
-constexpr std::array<const char*, 3> light_operator_names = {"path", "surfel", "bounce"};
-constexpr std::array<const char*, 3> viz_method_names = {"none", "path", "links"};
-constexpr std::array<const char*, 2> gen_mode_names = {"full", "local"};
-constexpr std::array<const char*, 3> operator_names = {"coefficient", "mean", "matrix"};
-
-template <class Enum, std::size_t N>
-std::optional<Enum> parse(const std::array<const char*, N>& names, std::string_view name) {
-  for (std::size_t i = 0; i < N; ++i)
-    if (name == names[i]) return static_cast<Enum>(i);
-  return std::nullopt;
-}
 
 void add_scaled(sh::RadianceSh& sum, const sh::RadianceSh& term, const vec3& scale) {
   for (std::size_t k = 0; k < term.values.size(); ++k) sum.values[k] += scale * term.values[k];
@@ -82,31 +67,6 @@ std::size_t edge_count(const ProbeSet& set) {
   std::size_t count = 0;
   for (const Probe& probe : set.probes) count += probe.edges.size();
   return count;
-}
-
-const char* to_string(LightOperator op) {
-  return light_operator_names[static_cast<std::size_t>(op)];
-}
-const char* to_string(VizMethod method) {
-  return viz_method_names[static_cast<std::size_t>(method)];
-}
-const char* to_string(GenMode mode) {
-  return gen_mode_names[static_cast<std::size_t>(mode)];
-}
-const char* to_string(HierOperator op) {
-  return operator_names[static_cast<std::size_t>(op)];
-}
-std::optional<LightOperator> parse_light_operator(const std::string& name) {
-  return parse<LightOperator>(light_operator_names, name);
-}
-std::optional<VizMethod> parse_viz_method(const std::string& name) {
-  return parse<VizMethod>(viz_method_names, name);
-}
-std::optional<GenMode> parse_gen_mode(const std::string& name) {
-  return parse<GenMode>(gen_mode_names, name);
-}
-std::optional<HierOperator> parse_hier_operator(const std::string& name) {
-  return parse<HierOperator>(operator_names, name);
 }
 
 }  // namespace ssphh::gi

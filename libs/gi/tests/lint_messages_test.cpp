@@ -48,14 +48,14 @@ ProbeSet lit_at(const std::vector<vec3>& positions) {
 
 std::vector<std::string> messages(const std::vector<LintProblem>& problems) {
   std::vector<std::string> said;
-  for (const LintProblem& p : problems) said.push_back(std::string(to_string(p.kind)) + ": " + p.message);
+  for (const LintProblem& p : problems) said.push_back(std::string(name_of(p.kind)) + ": " + p.message);
   return said;
 }
 
 TEST(LintMessages, KindsHaveTheNamesThatReportsUse) {
   const std::vector<std::string> names{"not-finite", "inside",   "too-close", "swept",      "unlit",
                                        "unlit-room", "isolated", "negative",  "unseen-room"};
-  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(to_string(static_cast<ProbeProblem>(i)), names[i]);
+  for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(name_of(static_cast<ProbeProblem>(i)), names[i]);
 }
 
 TEST(LintMessages, DistancesAreThoseMeasuredAndAskedFor) {

@@ -58,7 +58,7 @@ class Lint : public testing::Test {
     ASSERT_EQ(problems.size(), 1u) << (problems.empty()
                                            ? ""
                                            : problems[0].message + "\n" + problems.back().message);
-    EXPECT_STREQ(gi::to_string(problems[0].kind), gi::to_string(kind));
+    EXPECT_EQ(name_of(problems[0].kind), name_of(kind));
     EXPECT_EQ(problems[0].probe, probe);
     EXPECT_FALSE(problems[0].message.empty());
   }
@@ -167,7 +167,7 @@ TEST_F(Lint, IsolatedProbe) {
 
 TEST_F(Lint, EveryKindHasAName) {
   for (int i = 0; i <= static_cast<int>(ProbeProblem::unseen_room); ++i) {
-    EXPECT_GT(std::string(gi::to_string(static_cast<ProbeProblem>(i))).size(), 3u);
+    EXPECT_GT(name_of(static_cast<ProbeProblem>(i)).size(), 3u);
   }
 }
 

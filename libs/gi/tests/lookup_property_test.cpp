@@ -68,7 +68,7 @@ testing::AssertionResult same_in_every_way(const Room& a, const Room& b, double 
     const vec3 x = a.look_up(way.lookup, way.weights), y = b.look_up(way.lookup, way.weights);
     if (const auto close = at_most(apart(x, y), tolerance); !close)
       return testing::AssertionFailure()
-             << close.message() << " by " << (way.weights ? to_string(*way.weights) : "light") << ": "
+             << close.message() << " by " << (way.weights ? name_of(*way.weights) : "light") << ": "
              << ssphh::test::describe(x) << ", not " << ssphh::test::describe(y);
   }
   return testing::AssertionSuccess();
@@ -138,7 +138,7 @@ TEST(LookupProperty, LightTimesKIsIrradianceTimesKWindowedOrNot) {
                       if (brighter.look_up(way.lookup, way.weights, dering > 0) !=
                           k * room.look_up(way.lookup, way.weights, dering > 0))
                         return testing::AssertionFailure()
-                               << (way.weights ? to_string(*way.weights) : "light") << " is not linear";
+                               << (way.weights ? name_of(*way.weights) : "light") << " is not linear";
                     }
                     return testing::AssertionSuccess();
                   }));

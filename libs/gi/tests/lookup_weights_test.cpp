@@ -175,16 +175,16 @@ TEST(LookupWeights, AConstantStaysConstantAndNothingIsNaN) {
         for (const vec3& x : places) {
           seen = false;
           const ProbeWeights at = lookup->at({x, sample_uniform_sphere(random.uniform2())});
-          ASSERT_GT(at.count, 0) << to_string(method);
+          ASSERT_GT(at.count, 0) << name_of(method);
           double sum = 0;
           for (const auto& [probe, w] : by_probe(at)) {
-            ASSERT_TRUE(std::isfinite(w)) << to_string(method);
+            ASSERT_TRUE(std::isfinite(w)) << name_of(method);
             EXPECT_TRUE(w >= 0 || method == WeightMethod::mls);
             sum += w;
           }
           EXPECT_LE(sum, 1 + 1e-5);
           if (!seen) continue;  // less hidden ones behind the surface
-          EXPECT_NEAR(sum, 1, 1e-5) << to_string(method) << " with " << positions.size() << " probes";
+          EXPECT_NEAR(sum, 1, 1e-5) << name_of(method) << " with " << positions.size() << " probes";
         }
       }
     }
@@ -202,7 +202,7 @@ TEST(LookupWeights, HiddenProbesGetNoWeight) {
       const vec3 x = 2.4f * random.uniform3();
       // Up as the normal: sight starts at the same x.
       for (const auto& [probe, w] : by_probe(lookup->at({x, up})))
-        EXPECT_EQ(positions[static_cast<std::size_t>(probe)].x < 1, x.x < 1) << to_string(method);
+        EXPECT_EQ(positions[static_cast<std::size_t>(probe)].x < 1, x.x < 1) << name_of(method);
     }
   }
 }

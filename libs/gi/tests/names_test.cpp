@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <ssphh/gi/lookup_weights.h>
+#include <ssphh/gi/bake.h>
+#include <ssphh/gi/lookup.h>
 #include <ssphh/gi/probe_set.h>
 
 #include "error_message.h"
@@ -11,22 +12,24 @@
 namespace ssphh::gi {
 namespace {
 
-template <class Enum, class Parse>
-void expect_names(const std::vector<std::string>& names, const Parse& parse) {
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    EXPECT_EQ(to_string(static_cast<Enum>(i)), names[i]);
-    EXPECT_EQ(parse(names[i]), static_cast<Enum>(i)) << names[i];
-  }
+template <class E>
+void expect_names(const std::vector<std::string>& names) {
+  EXPECT_EQ(names_of<E>(), names);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    EXPECT_EQ(parse_enum<E>(names[i]), static_cast<E>(i)) << names[i];
   for (const char* other : {"", "none of these", "Path", "surfels"})
-    EXPECT_EQ(parse(other), std::nullopt) << other;
+    EXPECT_EQ(parse_enum<E>(other), std::nullopt) << other;
 }
 
 TEST(Names, OfOperatorsAndMethodsAreThoseOfFiles) {
-  expect_names<LightOperator>({"path", "surfel", "bounce"}, parse_light_operator);
-  expect_names<VizMethod>({"none", "path", "links"}, parse_viz_method);
-  expect_names<GenMode>({"full", "local"}, parse_gen_mode);
-  expect_names<HierOperator>({"coefficient", "mean", "matrix"}, parse_hier_operator);
-  expect_names<WeightMethod>({"distance", "trilinear", "mls", "fitted"}, parse_weight_method);
+  expect_names<LightOperator>({"path", "surfel", "bounce"});
+  expect_names<VizMethod>({"none", "path", "links"});
+  expect_names<GenMode>({"full", "local"});
+  expect_names<HierOperator>({"coefficient", "mean", "matrix"});
+  expect_names<WeightMethod>({"distance", "trilinear", "mls", "fitted"});
+  expect_names<LookupMethod>({"light", "irradiance"});
+  expect_names<ProbeLayer>({"self", "neighbor", "sum"});
+  expect_names<BakeStage>({"gen", "viz"});
 }
 
 TEST(Names, OfWeightsChooseTheMethodAndNothingElse) {

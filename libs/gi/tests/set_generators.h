@@ -11,7 +11,7 @@
 namespace ssphh::gi {
 
 inline std::string describe(const HierParams& p) {
-  return std::string(to_string(p.op)) + ", N' " + std::to_string(p.neighbors) + ", P > " +
+  return std::string(name_of(p.op)) + ", N' " + std::to_string(p.neighbors) + ", P > " +
          test::describe(p.threshold);
 }
 

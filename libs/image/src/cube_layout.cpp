@@ -2,7 +2,6 @@
 #include <array>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <ssphh/image/cube_layout.h>
 #include <ssphh/image/sphere_map.h>
@@ -11,9 +10,6 @@
 
 namespace ssphh::image {
 namespace {
-
-constexpr std::array<std::string_view, 6> names{"equirect", "strip-h", "strip-v",
-                                                "cross-h",  "cross-v", "angular"};
 
 struct Cell {
   int column, row;
@@ -142,23 +138,6 @@ int size_for_face(Layout layout, int face) {
 
 }  // namespace
 
-std::span<const std::string_view> layout_names() {
-  return names;
-}
-
-std::string_view layout_name(Layout layout) {
-  return names[static_cast<std::size_t>(layout)];
-}
-
-Layout layout_from_name(std::string_view name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    throw Error("layout", fmt::format("unknown layout '{}'", name),
-                fmt::format("one of {}", fmt::join(names, ", ")));
-  }
-  return static_cast<Layout>(found - names.begin());
-}
-
 bool is_cube_layout(Layout layout) {
   return layout != Layout::equirect && layout != Layout::angular;
 }
@@ -173,7 +152,7 @@ int layout_size(const Image& image, Layout layout) {
   if (image.empty() || size * rows != image.height || size * columns != image.width) {
     throw Error("layout",
                 fmt::format("an image of {} x {} pixels cannot be of layout {}", image.width, image.height,
-                            layout_name(layout)),
+                            name_of(layout)),
                 fmt::format("its shape is {} : {}", columns, rows));
   }
   return size;

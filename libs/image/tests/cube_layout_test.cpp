@@ -70,8 +70,9 @@ CubeMap smooth_cube(int size) {
 }
 
 TEST(CubeLayout, NamesAndShapesAreRecognised) {
-  for (const Layout layout : all_layouts) EXPECT_EQ(layout_from_name(layout_name(layout)), layout);
-  EXPECT_THAT(ssphh::test::message_of([] { layout_from_name("cross"); }), testing::HasSubstr("cross-h"));
+  for (const Layout layout : all_layouts) EXPECT_EQ(parse_enum<Layout>(name_of(layout)), layout);
+  EXPECT_THAT(ssphh::test::message_of([] { enum_named<Layout>("layout", "cross"); }),
+              testing::HasSubstr("cross-h"));
   EXPECT_EQ(layout_size(Image(24, 4), Layout::strip_h), 4);
   EXPECT_EQ(layout_size(Image(4, 24), Layout::strip_v), 4);
   EXPECT_EQ(layout_size(Image(16, 12), Layout::cross_h), 4);
@@ -149,7 +150,7 @@ TEST(CubeLayout, EveryWayKeepsASmoothField) {
       }
       // Bilinear interpolation and averaging err by curvature × texel²: |f''| ≤ e, texels of 1/16, up to
       // three steps; a wrong orientation errs by more than 1.
-      EXPECT_LT(worst, 0.02f) << layout_name(from) << " to " << layout_name(to);
+      EXPECT_LT(worst, 0.02f) << name_of(from) << " to " << name_of(to);
     }
   }
 }
@@ -169,9 +170,9 @@ TEST(CubeLayout, AConstantStaysConstant) {
           worst = std::max(worst, value != 0 ? std::abs(value - 0.7f) : 0.0f);
         }
       }
-      EXPECT_LT(worst, 1e-5f) << layout_name(layout);  // float sums of up to 40² samples
+      EXPECT_LT(worst, 1e-5f) << name_of(layout);  // float sums of up to 40² samples
       // All but the empty half of a cross and what lies outside the disc (1 − π/4).
-      EXPECT_GE(2 * lit, image.width * image.height) << layout_name(layout);
+      EXPECT_GE(2 * lit, image.width * image.height) << name_of(layout);
     }
   }
 }
@@ -185,7 +186,7 @@ TEST(CubeLayout, NoLightIsLostOrGained) {
   for (const Layout to : all_layouts) {
     for (const int size : {0, 8, 96}) {
       const dvec3 got = energy(convert_layout(strip, Layout::strip_h, to, size), to);
-      EXPECT_LT(glm::length(got - expected), 2e-4 * glm::length(expected)) << layout_name(to) << " " << size;
+      EXPECT_LT(glm::length(got - expected), 2e-4 * glm::length(expected)) << name_of(to) << " " << size;
     }
   }
 }
@@ -200,7 +201,7 @@ TEST(CubeLayout, ASunOfOnePixelKeepsItsEnergy) {
       for (const int size : {16, 32, 100}) {
         const double got = energy(convert_layout(sky, Layout::equirect, to, size), to).x;
         // The quadrature of one tent with 9 samples per pixel, at any phase: up to 2 % seen.
-        EXPECT_NEAR(got / expected, 1, 0.03) << layout_name(to) << " " << size << " at " << x << ", " << y;
+        EXPECT_NEAR(got / expected, 1, 0.03) << name_of(to) << " " << size << " at " << x << ", " << y;
       }
     }
   }

@@ -129,8 +129,8 @@ TEST(ImageMessages, OfCubes) {
 }
 
 TEST(ImageMessages, OfLayouts) {
-  EXPECT_EQ(message_of([] { layout_from_name("sphere"); }),
-            "layout: unknown layout 'sphere' (one of equirect, strip-h, strip-v, cross-h, cross-v, angular)");
+  EXPECT_EQ(message_of([] { enum_named<Layout>("layout", "sphere"); }),
+            "layout: \"sphere\" is none of: equirect, strip-h, strip-v, cross-h, cross-v, angular");
   const auto size = [](Layout layout) { return message_of([&] { layout_size(Image(5, 3), layout); }); };
   EXPECT_EQ(size(Layout::equirect),
             "layout: an image of 5 x 3 pixels cannot be of layout equirect (its shape is 2 : 1)");

@@ -194,7 +194,7 @@ Frames Client::call(const std::string& service, Frames body, const RequestOption
                    std::make_move_iterator(event->body.end()));
       if (!event->final) continue;
       if (event->outcome == Outcome::ok) return whole;
-      throw Error(service, std::string(to_string(event->outcome)) + ": " + event->reason,
+      throw Error(service, std::string(name_of(event->outcome)) + ": " + event->reason,
                   "the broker's log and `mmi.parked` tell more");
     }
   }

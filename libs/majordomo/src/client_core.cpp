@@ -11,11 +11,6 @@ constexpr Millis grace = 1000;  // beyond the deadline, for the broker's own wor
 
 }  // namespace
 
-const char* to_string(Outcome outcome) {
-  constexpr const char* names[] = {"ok", "failed", "parked", "cancelled", "expired", "refused", "no answer"};
-  return names[static_cast<std::size_t>(outcome)];
-}
-
 RequestId ClientCore::submit(Millis now, const std::string& service, Frames&& body,
                              const RequestOptions& options) {
   const RequestId id = options.id ? *options.id : new_id_();

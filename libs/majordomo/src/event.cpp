@@ -1,23 +1,8 @@
-
 #include <ssphh/core/json.h>
 #include <ssphh/majordomo/event.h>
 
 namespace ssphh::majordomo {
 namespace {
-
-const char* level_name(LogLevel level) {
-  switch (level) {
-    case LogLevel::debug:
-      return "debug";
-    case LogLevel::info:
-      return "info";
-    case LogLevel::warning:
-      return "warning";
-    case LogLevel::error:
-      return "error";
-  }
-  return "error";
-}
 
 // What a peer sent may be anything; ensure_ascii and `replace` make any bytes one harmless line.
 std::string quoted(const std::string& text) {
@@ -44,7 +29,7 @@ std::string BrokerEvent::text() const {
 }
 
 std::string BrokerEvent::json() const {
-  json::Value object = {{"event", name}, {"level", level_name(level)}};
+  json::Value object = {{"event", name}, {"level", name_of(level)}};
   for (const auto& [key, value] : fields) object[key] = value;
   return json::print(object, -1, json::Letters::ascii);
 }

@@ -201,7 +201,7 @@ TEST(Outcomes, HaveTheirNumbersAndNames) {
                          Outcome::expired, Outcome::refused, Outcome::no_answer};
   for (std::size_t i = 0; i < 7; ++i) {
     EXPECT_EQ(static_cast<std::size_t>(all[i]), i);
-    EXPECT_STREQ(to_string(all[i]), names[i]);
+    EXPECT_EQ(name_of(all[i]), names[i]);
   }
 }
 

@@ -29,7 +29,7 @@ class Edge : public testing::Test {
     h->send(client, submit("gen", {.ids = {id}, .persistent = persistent}, std::string(bytes, 'x')));
     for (const Envelope& news : h->envelopes(client)) {
       if (news.kind == EnvelopeKind::busy) return "busy: " + news.reason;
-      if (news.kind == EnvelopeKind::final) return std::string(to_string(news.outcome)) + ": " + news.reason;
+      if (news.kind == EnvelopeKind::final) return std::string(name_of(news.outcome)) + ": " + news.reason;
     }
     return "";
   }

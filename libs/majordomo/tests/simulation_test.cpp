@@ -175,7 +175,7 @@ class World {
       clients_[i].core.tick(now_ + clients_[i].skew);
       for (const ToBroker& message : clients_[i].core.take()) fly(0, name, message.head, message.body);
       while (const auto event = clients_[i].core.next_event()) {
-        std::string text = event->outcome == Outcome::ok ? "" : to_string(event->outcome);
+        std::string text = event->outcome == Outcome::ok ? "" : std::string(name_of(event->outcome));
         for (const Frame& frame : event->body) text += frame;
         clients_[i].answers[event->id.hex()].push_back(text);
       }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "gltf_names.h"
 #include "gltf_parts.h"
 #include "printable.h"
 
@@ -13,12 +14,8 @@ using scene::AnimationPath;
 using scene::Interpolation;
 
 Interpolation import_interpolation(const json::Cursor& sampler) {
-  const std::string name = sampler.text_or("interpolation", "LINEAR");
-  if (name == "LINEAR") return Interpolation::linear;
-  if (name == "STEP") return Interpolation::step;
-  if (name == "CUBICSPLINE") return Interpolation::cubic_spline;
-  sampler["interpolation"].fail(
-      fmt::format("\"{}\" is none of LINEAR, STEP, CUBICSPLINE", printable(name, 40)));
+  const auto mode = sampler.find("interpolation");
+  return mode ? read_word(gltf_interpolations, *mode) : Interpolation::linear;
 }
 
 void import_keys(GltfDocument& document, const json::Cursor& sampler, AnimationChannel& out) {
@@ -56,12 +53,8 @@ std::optional<AnimationChannel> import_channel(GltfImport& import, const json::C
   const std::string& path = target["path"].text();
   const auto file_node = document.reference(target, "node", "nodes");
   AnimationChannel out;
-  if (path == "translation") {
-    out.path = AnimationPath::translation;
-  } else if (path == "rotation") {
-    out.path = AnimationPath::rotation;
-  } else if (path == "scale") {
-    out.path = AnimationPath::scale;
+  if (const auto known = value_in(gltf_animation_paths, path)) {
+    out.path = *known;
   } else {
     document.ignored.add(fmt::format("animation of {}", printable(path, 40)));
     return std::nullopt;

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "gltf_export_parts.h"
+#include "gltf_names.h"
 
 namespace ssphh::scene_io {
 
 using scene::AnimationChannel;
 using scene::AnimationPath;
-using scene::Interpolation;
 using scene::LightType;
 
 json::Value export_camera(const scene::Camera& camera) {
@@ -92,16 +92,15 @@ void export_animations(GltfExport& out) {
     json::Value animation, samplers = json::Value::array(), channels = json::Value::array();
     if (!a.name.empty()) animation["name"] = a.name;
     for (const AnimationChannel& c : a.channels) {
-      static constexpr const char* modes[] = {"STEP", "LINEAR", "CUBICSPLINE"};
-      static constexpr const char* paths[] = {"translation", "rotation", "scale"};
       const int components = c.path == AnimationPath::rotation ? 4 : 3;
       std::vector<float> values;
       for (const vec4& v : c.values) values.insert(values.end(), &v.x, &v.x + components);
       const int input = add_float_accessor(out, c.times, 1, true, 0);
       const int output = add_float_accessor(out, values, components, false, 0);
-      const char* mode = modes[static_cast<int>(c.interpolation)];
-      const int sampler = push(samplers, {{"input", input}, {"interpolation", mode}, {"output", output}});
-      json::Value target = {{"node", c.node}, {"path", paths[static_cast<int>(c.path)]}};
+      const int sampler = push(samplers, {{"input", input},
+                                          {"interpolation", name_in(gltf_interpolations, c.interpolation)},
+                                          {"output", output}});
+      json::Value target = {{"node", c.node}, {"path", name_in(gltf_animation_paths, c.path)}};
       channels.push_back({{"sampler", sampler}, {"target", std::move(target)}});
     }
     animation["samplers"] = std::move(samplers);

@@ -3,6 +3,7 @@
 #include <ssphh/image/io.h>
 
 #include "gltf_export_parts.h"
+#include "gltf_names.h"
 
 namespace ssphh::scene_io {
 namespace {
@@ -99,12 +100,8 @@ json::Value export_material(GltfExport& out, const Material& m) {
   set_unless_null(material, "normalTexture", std::move(normal));
   set_unless_null(material, "emissiveTexture", export_use(out, m.emission_texture));
   export_emission(out, m, material);
-  if (m.alpha_mode == AlphaMode::mask) {
-    material["alphaMode"] = "MASK";
-    material["alphaCutoff"] = number(m.alpha_cutoff);
-  } else if (m.alpha_mode == AlphaMode::blend) {
-    material["alphaMode"] = "BLEND";
-  }
+  if (m.alpha_mode != AlphaMode::opaque) material["alphaMode"] = name_in(gltf_alpha_modes, m.alpha_mode);
+  if (m.alpha_mode == AlphaMode::mask) material["alphaCutoff"] = number(m.alpha_cutoff);
   if (m.double_sided) material["doubleSided"] = true;
 
   if (m.specular != 1) {

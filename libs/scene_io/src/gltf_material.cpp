@@ -5,14 +5,13 @@
 #include <ssphh/core/log.h>
 #include <ssphh/image/io.h>
 
+#include "gltf_names.h"
 #include "gltf_parts.h"
-#include "printable.h"
 #include "uri.h"
 
 namespace ssphh::scene_io {
 namespace {
 
-using scene::AlphaMode;
 using scene::Material;
 using scene::TextureUse;
 using scene::Wrap;
@@ -137,15 +136,7 @@ Material import_material(GltfImport& import, const json::Cursor& material) {
     (*occlusion)["index"].index(import.document.count("textures"), "textures");
     import.document.ignored.add("occlusion texture");  // light transport makes its own occlusion
   }
-  const std::string alpha_mode = material.text_or("alphaMode", "OPAQUE");
-  if (alpha_mode == "MASK") {
-    out.alpha_mode = AlphaMode::mask;
-  } else if (alpha_mode == "BLEND") {
-    out.alpha_mode = AlphaMode::blend;
-  } else if (alpha_mode != "OPAQUE") {
-    material["alphaMode"].fail(
-        fmt::format("\"{}\" is none of OPAQUE, MASK, BLEND", printable(alpha_mode, 40)));
-  }
+  if (const auto mode = material.find("alphaMode")) out.alpha_mode = read_word(gltf_alpha_modes, *mode);
   out.alpha_cutoff = material.number_or("alphaCutoff", 0.5f);
   out.double_sided = material.boolean_or("doubleSided", false);
   import_extensions(import, material, out);

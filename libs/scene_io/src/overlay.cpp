@@ -90,11 +90,7 @@ void add_light(Scene& scene, const json::Cursor& entry, std::size_t number) {
   scene::Light light;
   light.name = entry.text_or("name", fmt::format("light {}", number));
   light.group = entry.text_or("light_group");
-  const json::Cursor type = entry["type"];
-  constexpr std::array names = {"point", "spot", "directional", "sphere"};  // in the order of LightType
-  const auto found = std::find(names.begin(), names.end(), type.text());
-  if (found == names.end()) type.fail(fmt::format("must be one of {}", fmt::join(names, ", ")));
-  light.type = static_cast<scene::LightType>(found - names.begin());
+  light.type = entry["type"].named<scene::LightType>();
   if (const auto color = entry.find("color")) light.color = color->vector3();
   if (const auto intensity = entry.find("intensity")) light.intensity = intensity->number(0, HUGE_VALF);
   if (const auto range = entry.find("range")) light.range = positive(*range);
@@ -105,7 +101,7 @@ void add_light(Scene& scene, const json::Cursor& entry, std::size_t number) {
   if (light.inner_cone > light.outer_cone) entry.fail("the inner cone is wider than the outer one");
   const bool directed = light.type == scene::LightType::spot || light.type == scene::LightType::directional;
   if (directed && !entry.find("look_at") && !entry.find("direction")) {
-    entry.fail(fmt::format("a {} light needs \"direction\" or \"look_at\"", *found));
+    entry.fail(fmt::format("a {} light needs \"direction\" or \"look_at\"", name_of(light.type)));
   }
   light.node = add_node(scene, entry, light.name);
   scene.lights.push_back(std::move(light));

@@ -10,24 +10,6 @@
 namespace ssphh::sh {
 namespace {
 
-struct NamedConvention {
-  std::string_view name;
-  Convention convention;
-};
-
-// The first name of each convention is the one it is called by.
-constexpr NamedConvention names[] = {
-    {"ssphh", Convention::ssphh},
-    {"d3dx", Convention::d3dx},
-    {"unreal", Convention::d3dx},
-    {"unity", Convention::unity},
-    {"three", Convention::three},
-    {"three.js", Convention::three},
-    {"godot", Convention::three},
-    {"filament", Convention::filament},
-    {"filament-mirrored", Convention::filament_mirrored},
-};
-
 // N_k of Y_k = N_k · {1, y, z, x, xy, yz, 3z²−1, xz, x²−y²}.
 double polynomial_constant(int k) {
   const double root_pi = std::sqrt(pi_d);
@@ -42,16 +24,6 @@ bool odd_in_x(int k) {
 }
 
 }  // namespace
-
-std::string_view convention_name(Convention convention) {
-  return std::ranges::find(names, convention, &NamedConvention::convention)->name;
-}
-
-std::optional<Convention> find_convention(std::string_view name) {
-  const auto* found = std::ranges::find(names, name, &NamedConvention::name);
-  if (found == std::end(names)) return std::nullopt;
-  return found->convention;
-}
 
 int convention_max_degree(Convention convention) {
   return convention == Convention::ssphh || convention == Convention::d3dx ? max_degree : 2;

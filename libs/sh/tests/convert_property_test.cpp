@@ -11,7 +11,9 @@ using sh::Convention;
 using sh::RadianceSh;
 
 Generator<Convention> conventions() {
-  return one_of(std::vector<Convention>(std::begin(sh::all_conventions), std::end(sh::all_conventions)));
+  std::vector<Convention> all;
+  for (const std::string& name : names_of<Convention>()) all.push_back(*parse_enum<Convention>(name));
+  return one_of(all);
 }
 
 TEST(ConvertProperty, EveryDegreeComesBackUpToTheLastThatIsStored) {

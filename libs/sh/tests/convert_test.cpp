@@ -119,11 +119,11 @@ TEST(Convert, FilamentReadsOurIrradianceOverPi) {
 }
 
 TEST(Convert, BackAndForthGivesTheSameRadiance) {
-  for (const Convention convention : all_conventions) {
+  for (const auto& [convention, name] : enum_names<Convention>) {
     const RadianceSh probe = test::random_sh(convention_max_degree(convention), 3);
     const RadianceSh back = from_convention(to_convention(probe, convention), convention);
     // Two roundings.
-    EXPECT_LT(largest_difference(back, probe), 3e-7f) << convention_name(convention);
+    EXPECT_LT(largest_difference(back, probe), 3e-7f) << name_of(convention);
   }
 }
 
@@ -165,13 +165,13 @@ TEST(Convert, RefusesOddCountsAndBadNumbers) {
 }
 
 TEST(Convert, NamesFindTheirConvention) {
-  for (const Convention convention : all_conventions) {
-    EXPECT_EQ(find_convention(convention_name(convention)), convention);
+  for (const auto& [convention, name] : enum_names<Convention>) {
+    EXPECT_EQ(parse_enum<Convention>(name), convention);
   }
-  EXPECT_EQ(find_convention("unreal"), Convention::d3dx);
-  EXPECT_EQ(find_convention("godot"), Convention::three);
-  EXPECT_EQ(find_convention("three.js"), Convention::three);
-  EXPECT_EQ(find_convention("blender"), std::nullopt);
+  EXPECT_EQ(parse_enum<Convention>("unreal"), Convention::d3dx);
+  EXPECT_EQ(parse_enum<Convention>("godot"), Convention::three);
+  EXPECT_EQ(parse_enum<Convention>("three.js"), Convention::three);
+  EXPECT_EQ(parse_enum<Convention>("blender"), std::nullopt);
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -8,9 +7,6 @@
 
 namespace ssphh::gi {
 namespace {
-
-constexpr std::array<const char*, 9> names = {"not-finite", "inside",   "too-close", "swept",      "unlit",
-                                              "unlit-room", "isolated", "negative",  "unseen-room"};
 
 /// Median distance of a probe to its nearest neighbour; infinite for one probe.
 float median_distance(const ProbeSet& set) {
@@ -44,10 +40,6 @@ SiteRules rules_for(const ProbeSet& set, const scene::TransportSource& source, c
 }
 
 }  // namespace
-
-const char* to_string(ProbeProblem problem) {
-  return names[static_cast<std::size_t>(problem)];
-}
 
 std::vector<LintProblem> lint_probes(const ProbeSet& set, const scene::TransportSource& source,
                                      const LintParams& params, const Control& control) {

@@ -26,7 +26,7 @@ double read(const std::string& where, const MethodParameter& parameter, const st
   if (!parameter.choices.empty()) {
     const auto found = std::ranges::find(parameter.choices, text);
     if (found != parameter.choices.end()) return static_cast<double>(found - parameter.choices.begin());
-    throw Error(where, fmt::format("\"{}\" is none of {}", text, fmt::join(parameter.choices, ", ")));
+    throw Error(where, none_of(text, parameter.choices));
   }
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -79,7 +79,7 @@ void BrokerCore::Impl::finish(QueuedJob& job, Outcome outcome, const std::string
   const LogLevel level = outcome == Outcome::ok ? LogLevel::debug : LogLevel::warning;
   if (wants(level))
     event(level, "job-finished", Field("job", std::to_string(job.number)),
-          Field("service", job.service->name), Field("outcome", to_string(outcome)),
+          Field("service", job.service->name), Field("outcome", std::string(name_of(outcome))),
           Field("attempts", std::to_string(attempts)), Field("ms", std::to_string(now - job.submitted)),
           Field("reason", reason));
   const std::vector<RequestId> ids = std::move(job.requests);

@@ -52,10 +52,6 @@ json::Value mesh_json(const FlatMesh& flat, std::vector<std::byte>& binary) {
   return json;
 }
 
-const char* wrap_name(scene::Wrap wrap) {
-  return wrap == scene::Wrap::repeat ? "repeat" : wrap == scene::Wrap::mirror ? "mirror" : "clamp";
-}
-
 json::Value texture_json(const scene::TextureUse& use) {
   if (use.texture < 0) return nullptr;
   return {{"texture", use.texture},
@@ -63,7 +59,7 @@ json::Value texture_json(const scene::TextureUse& use) {
           {"offset", {use.offset.x, use.offset.y}},
           {"scale", {use.scale.x, use.scale.y}},
           {"rotation", use.rotation},
-          {"wrap", {wrap_name(use.wrap_u), wrap_name(use.wrap_v)}},
+          {"wrap", {name_of(use.wrap_u), name_of(use.wrap_v)}},
           {"nearest", use.nearest}};
 }
 
@@ -79,9 +75,7 @@ json::Value material_json(const scene::Material& m) {
           {"emission", array(m.emission)},
           {"unlit", m.unlit},
           {"double_sided", m.double_sided},
-          {"alpha_mode", m.alpha_mode == scene::AlphaMode::opaque ? "opaque"
-                         : m.alpha_mode == scene::AlphaMode::mask ? "mask"
-                                                                  : "blend"},
+          {"alpha_mode", name_of(m.alpha_mode)},
           {"alpha_cutoff", m.alpha_cutoff},
           {"normal_scale", m.normal_scale},
           {"base_color_texture", texture_json(m.base_color_texture)},
@@ -109,9 +103,8 @@ void note_material(const scene::Material& m, Differences& differences) {
 
 json::Value light_json(const FlatLight& flat) {
   const scene::Light& l = *flat.light;
-  static constexpr const char* types[] = {"point", "spot", "directional", "sphere"};
   return {{"name", l.name},
-          {"type", types[static_cast<int>(l.type)]},
+          {"type", name_of(l.type)},
           {"position", array(flat.position)},
           {"direction", array(flat.direction)},
           {"world", array(flat.world)},

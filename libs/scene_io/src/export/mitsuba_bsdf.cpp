@@ -5,17 +5,13 @@
 namespace ssphh::scene_io::mitsuba {
 namespace {
 
-const char* wrap_name(scene::Wrap wrap) {
-  return wrap == scene::Wrap::repeat ? "repeat" : wrap == scene::Wrap::mirror ? "mirror" : "clamp";
-}
-
 // Texture coordinates of the file have v down the image, as Mitsuba's bitmaps.
 void bitmap(XmlWriter& xml, std::string_view name, const std::string& file, const scene::TextureUse& use,
             bool raw) {
   xml.open("texture", {{"type", "bitmap"}, {"name", name}});
   string(xml, "filename", file);
   if (raw) boolean(xml, "raw", true);
-  string(xml, "wrap_mode", wrap_name(use.wrap_u));
+  string(xml, "wrap_mode", name_of(use.wrap_u));
   string(xml, "filter_type", use.nearest ? "nearest" : "bilinear");
   const mat3 uv = uv_matrix(use);
   if (uv != mat3(1)) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include <ssphh/core/enum_names.h>
 #include <ssphh/core/hash.h>
 #include <ssphh/core/json.h>
 #include <ssphh/core/math.h>
@@ -68,6 +69,13 @@ class Cursor {
   bool boolean() const;
   /// Text of at most `most` bytes.
   const std::string& text(std::size_t most = std::numeric_limits<std::size_t>::max()) const;
+  /// The value of an enum (enum_names.h) that a text names; fails with the names there are.
+  template <class E>
+  E named() const {
+    const std::optional<E> value = parse_enum<E>(text());
+    if (!value) fail(none_of(text(), names_of<E>()));
+    return *value;
+  }
   /// The number that a text of 1 to 16 lower-case hexadecimal digits tells.
   std::uint64_t hexadecimal() const;
   /// Text of 32 such digits.

@@ -6,9 +6,16 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/enum_names.h>
+
 namespace ssphh {
 
 enum class LogLevel { debug, info, warning, error };
+constexpr auto enum_table(LogLevel) {
+  using enum LogLevel;
+  return std::to_array<EnumName<LogLevel>>(
+      {{debug, "debug"}, {info, "info"}, {warning, "warning"}, {error, "error"}});
+}
 
 /// Receives every message at or above the threshold; called under a lock.
 using LogSink = std::function<void(LogLevel, const std::string&)>;

@@ -2,7 +2,7 @@
 /// Pictures rendered in tiles by a farm.
 
 #include <ssphh/farm/dispatch.h>
-#include <ssphh/gi/probe_set.h>
+#include <ssphh/gi/lookup.h>
 #include <ssphh/scene/scene.h>
 
 namespace ssphh::farm {
@@ -10,9 +10,7 @@ namespace ssphh::farm {
 /// The probes and the lookup of a render that is lit by them.
 struct RenderProbes {
   const gi::ProbeSet* set = nullptr;
-  std::string lookup = "irradiance";  ///< as ProbeLighting
-  std::string weights;
-  std::string layer = "sum";
+  gi::LookupSpec lookup;  ///< as ProbeLighting's
 };
 
 /// All of `params.path.passes` passes of the whole picture, bit for bit as PathTracer::render or, with

@@ -6,7 +6,9 @@
 #include <variant>
 #include <vector>
 
+#include <ssphh/core/enum_names.h>
 #include <ssphh/gi/bake.h>
+#include <ssphh/gi/lookup.h>
 #include <ssphh/trace/render_state.h>
 
 namespace ssphh::farm {
@@ -45,9 +47,7 @@ struct ProbeJob {
 struct ProbeLighting {
   Hash128 probes;  ///< blob: a binary probe file, served beside the scene
   std::uint64_t bytes = 0;
-  std::string lookup = "irradiance";  ///< or light
-  std::string weights;                ///< as `ssphh render --weights`; empty: the default
-  std::string layer = "sum";          ///< or self
+  gi::LookupSpec lookup;  ///< its layer is `sum` or `self`
 };
 
 /// Tiles of a picture: REF, and G-buffers where `layers` ask for what is seen instead of its light.
@@ -64,6 +64,14 @@ struct TileJob {
 const std::vector<std::string>& layer_names();
 
 using Job = std::variant<ProbeJob, TileJob>;
+
+enum class JobKind { gen, viz, ref };
+constexpr auto enum_table(JobKind) {
+  using enum JobKind;
+  return std::to_array<EnumName<JobKind>>({{gen, "gen"}, {viz, "viz"}, {ref, "ref"}});
+}
+
+JobKind kind_of(const Job& job);
 
 struct ProbeJobResult {
   gi::BakeStage stage = gi::BakeStage::gen;

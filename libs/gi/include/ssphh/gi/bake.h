@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 
+#include <ssphh/core/enum_names.h>
 #include <ssphh/gi/probe_set.h>
 #include <ssphh/gi/viz.h>
 #include <ssphh/scene/radiance_source.h>
@@ -33,6 +34,11 @@ struct BakeReport {
 
 /// GEN or VIZ of one probe: the unit of a bake.
 enum class BakeStage : std::uint8_t { gen, viz };
+constexpr auto enum_table(BakeStage) {
+  using enum BakeStage;
+  return std::to_array<EnumName<BakeStage>>({{gen, "gen"}, {viz, "viz"}});
+}
+
 struct ProbeStage {
   BakeStage stage = BakeStage::gen;
   std::uint32_t probe = 0;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <ssphh/core/control.h>
+#include <ssphh/core/enum_names.h>
 #include <ssphh/gi/probe_set.h>
 #include <ssphh/scene/transport_source.h>
 
@@ -23,9 +24,18 @@ enum class ProbeProblem {
   unseen_room,  ///< places where somebody may be, and no probe is to be seen from there
 };
 
-/// "not-finite", "inside", "too-close", "swept", "unlit", "unlit-room", "isolated", "negative",
-/// "unseen-room".
-const char* to_string(ProbeProblem problem);
+constexpr auto enum_table(ProbeProblem) {
+  using enum ProbeProblem;
+  return std::to_array<EnumName<ProbeProblem>>({{not_finite, "not-finite"},
+                                                {inside, "inside"},
+                                                {too_close, "too-close"},
+                                                {swept, "swept"},
+                                                {unlit, "unlit"},
+                                                {unlit_room, "unlit-room"},
+                                                {isolated, "isolated"},
+                                                {negative, "negative"},
+                                                {unseen_room, "unseen-room"}});
+}
 
 struct LintProblem {
   ProbeProblem kind = ProbeProblem::inside;

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include <ssphh/core/enum_names.h>
 #include <ssphh/gi/lookup_weights.h>
 #include <ssphh/gi/probe_set.h>
 #include <ssphh/scene/radiance_source.h>
@@ -13,6 +14,10 @@ namespace ssphh::gi {
 
 /// Which part of S'_i lights the surface.
 enum class ProbeLayer { self, neighbor, sum };
+constexpr auto enum_table(ProbeLayer) {
+  using enum ProbeLayer;
+  return std::to_array<EnumName<ProbeLayer>>({{self, "self"}, {neighbor, "neighbor"}, {sum, "sum"}});
+}
 
 /// Which light of the probes' own part counts: only what surfaces reflected, for a surface that gets direct
 /// light from elsewhere; or emitters seen directly as well.
@@ -73,6 +78,26 @@ class IrradianceLookup final : public scene::IndirectLight {
 };
 
 enum class LookupMethod { light, irradiance };
+constexpr auto enum_table(LookupMethod) {
+  using enum LookupMethod;
+  return std::to_array<EnumName<LookupMethod>>({{light, "light"}, {irradiance, "irradiance"}});
+}
+
+/// A lookup as people choose it, for any set: what a render, a job or a picture of the viewer asks for.
+struct LookupSpec {
+  LookupMethod method = LookupMethod::irradiance;
+  std::optional<WeightMethod> weights = {};  ///< of `irradiance`; none: as WeightParams::method
+  ProbeLayer layer = ProbeLayer::sum;  ///< of a set that has a hierarchy; of others the probes' own light
+
+  friend bool operator==(const LookupSpec&, const LookupSpec&) = default;
+};
+
+/// What the choice means for `set`.
+LookupParams lookup_params(const LookupSpec& spec, const ProbeSet& set);
+
+/// Throws Error as the lookup's constructor does.
+std::unique_ptr<scene::IndirectLight> make_lookup(const LookupSpec& spec, const ProbeSet& set,
+                                                  const scene::RadianceSource& source);
 
 std::unique_ptr<scene::IndirectLight> make_lookup(LookupMethod method, const ProbeSet& set,
                                                   const scene::RadianceSource& source,

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <ssphh/core/enum_names.h>
 #include <ssphh/core/require.h>
 #include <ssphh/scene/transport_source.h>
 
@@ -25,8 +26,11 @@ enum class WeightMethod {
   fitted      ///< fitted to light transport beforehand, at points of surfaces that stand still
 };
 
-const char* to_string(WeightMethod method);
-std::optional<WeightMethod> parse_weight_method(const std::string& name);
+constexpr auto enum_table(WeightMethod) {
+  using enum WeightMethod;
+  return std::to_array<EnumName<WeightMethod>>(
+      {{distance, "distance"}, {trilinear, "trilinear"}, {mls, "mls"}, {fitted, "fitted"}});
+}
 
 struct ProbeWeight {
   int probe;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <ssphh/core/enum_names.h>
 #include <ssphh/core/hash.h>
 #include <ssphh/core/math.h>
 #include <ssphh/gi/fitted_points.h>
@@ -17,17 +18,34 @@ namespace ssphh::gi {
 /// What found the light of a set: `path`: GEN, path tracing at each probe; `surfel`: light transport between
 /// surfels; `bounce`: the same with the probes as the only unknowns.
 enum class LightOperator { path, surfel, bounce };
+constexpr auto enum_table(LightOperator) {
+  using enum LightOperator;
+  return std::to_array<EnumName<LightOperator>>({{path, "path"}, {surfel, "surfel"}, {bounce, "bounce"}});
+}
 
 /// What found the edges between the probes: nothing did; `path`: VIZ, path tracing at each probe; `links`:
 /// the links between surfels of a transport network.
 enum class VizMethod { none, path, links };
+constexpr auto enum_table(VizMethod) {
+  using enum VizMethod;
+  return std::to_array<EnumName<VizMethod>>({{none, "none"}, {path, "path"}, {links, "links"}});
+}
 
 /// What the GEN cube maps hold: every bounce up to max_depth, or direct light only (max_depth 1), so that
 /// HIER does not count the neighbours' light a second time.
 enum class GenMode { full, local };
+constexpr auto enum_table(GenMode) {
+  using enum GenMode;
+  return std::to_array<EnumName<GenMode>>({{full, "full"}, {local, "local"}});
+}
 
 /// What ⊗ means in S'_i = S_i ⊕ Σ_j H_{j→i} ⊗ S_j (see hier.h).
 enum class HierOperator { coefficient, mean, matrix };
+constexpr auto enum_table(HierOperator) {
+  using enum HierOperator;
+  return std::to_array<EnumName<HierOperator>>(
+      {{coefficient, "coefficient"}, {mean, "mean"}, {matrix, "matrix"}});
+}
 
 /// How a set was made. `gen` to `seed` tell of the paths of GEN and VIZ, as far as `op` and `viz` say that
 /// there were any; light and edges of other operators have every bounce.
@@ -124,14 +142,5 @@ void relight(ProbeSet& set, const std::string& group, const vec3& scale);
 
 /// Number of edges stored in the set.
 std::size_t edge_count(const ProbeSet& set);
-
-const char* to_string(LightOperator op);
-const char* to_string(VizMethod method);
-const char* to_string(GenMode mode);
-const char* to_string(HierOperator op);
-std::optional<LightOperator> parse_light_operator(const std::string& name);
-std::optional<VizMethod> parse_viz_method(const std::string& name);
-std::optional<GenMode> parse_gen_mode(const std::string& name);
-std::optional<HierOperator> parse_hier_operator(const std::string& name);
 
 }  // namespace ssphh::gi

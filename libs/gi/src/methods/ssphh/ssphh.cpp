@@ -48,7 +48,8 @@ class Ssphh final : public Method {
       : source_(scene.source),
         session_(scene.source, find_places(scene, p, control), relight_params(p), 0, control),
         surfaces_(std::in_place, scene.source, 0.0f) {
-    WeightParams weights = weights_named(p.choice("weights"));
+    WeightParams weights;
+    weights.method = p.choice<WeightMethod>("weights");
     std::optional<FittedPoints> fitted;
     if (weights.method == WeightMethod::fitted)
       fitted = fit(p.integer("fit_poses"), p.integer("fit_points"), control);
@@ -129,7 +130,7 @@ MethodEntry ssphh_entry() {
            {"spacing", 0, 0, 1e4, "between probes that are placed [m]; 0: some 100 to 200 probes"},
            {"probes", 0, 0, 4096, "so many are placed; 0: as the spacing gives", true},
            {"degree", 4, 0, 10, "highest band kept of a probe's light", true},
-           {"weights", 3, 0, 3, "of the probes at a point", true, {"distance", "trilinear", "mls", "fitted"}},
+           choice_parameter("weights", WeightMethod::fitted, "of the probes at a point"),
            {"fit_poses", 3, 1, 64, "of the doors, to which weights are fitted", true},
            {"fit_points", 0, 0, 262144, "at most so many have weights; 0: one for each surfel", true},
            {"surfel_size", 0, 0, 1e3, "edge of a surfel [m]; 0: a twentieth of the scene's radius"},

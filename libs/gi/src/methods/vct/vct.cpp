@@ -212,7 +212,7 @@ class Vct final : public Method {
 VctParams vct_params(const MethodParameters& p) {
   VctParams params;
   params.resolution = std::stoi(p.choice("resolution"));
-  params.storage = p.choice("storage") == "sparse" ? Storage::sparse : Storage::dense;
+  params.storage = p.choice<Storage>("storage");
   params.bounces = p.integer("bounces");
   params.samples = p.integer("samples");
   params.cones.opacity = static_cast<float>(p.number("opacity"));
@@ -226,27 +226,26 @@ VctParams vct_params(const MethodParameters& p) {
 }  // namespace
 
 MethodEntry vct_entry() {
-  return {
-      "vct",
-      "voxel cone tracing: direct light on voxels, gathered by cones",
-      {{"resolution",
-        4,
-        0,
-        6,
-        "voxels along the scene's longest edge",
-        true,
-        {"8", "16", "32", "64", "128", "256", "512"}},
-       {"storage", 0, 0, 1, "of the voxels: octree of bricks, or whole arrays", true, {"sparse", "dense"}},
-       {"bounces", 6, 1, 32, "of indirect light; 1: what directly lit surfaces scatter", true},
-       {"cones", 16, 3, 4096, "over the hemisphere of a point that is lit", true},
-       {"bounce_cones", 10, 3, 4096, "over the hemisphere of a voxel, from the second bounce on", true},
-       {"offset", 1, 0, 16, "of a cone's start from the surface, in voxels"},
-       {"step", 0.5, 0.05, 1, "of a cone, in voxels of the level that it reads"},
-       {"opacity", 1, 1, 8, "multiplies what voxels cover"},
-       {"samples", 4, 1, 16, "points of a voxel's side at which lamps are asked for", true}},
-      [](const MethodScene& scene, const MethodParameters& p, const Control& control)
-          -> std::unique_ptr<Method> { return std::make_unique<Vct>(scene, vct_params(p), control); },
-      true};
+  return {"vct",
+          "voxel cone tracing: direct light on voxels, gathered by cones",
+          {{"resolution",
+            4,
+            0,
+            6,
+            "voxels along the scene's longest edge",
+            true,
+            {"8", "16", "32", "64", "128", "256", "512"}},
+           choice_parameter("storage", Storage::sparse, "of the voxels: octree of bricks, or whole arrays"),
+           {"bounces", 6, 1, 32, "of indirect light; 1: what directly lit surfaces scatter", true},
+           {"cones", 16, 3, 4096, "over the hemisphere of a point that is lit", true},
+           {"bounce_cones", 10, 3, 4096, "over the hemisphere of a voxel, from the second bounce on", true},
+           {"offset", 1, 0, 16, "of a cone's start from the surface, in voxels"},
+           {"step", 0.5, 0.05, 1, "of a cone, in voxels of the level that it reads"},
+           {"opacity", 1, 1, 8, "multiplies what voxels cover"},
+           {"samples", 4, 1, 16, "points of a voxel's side at which lamps are asked for", true}},
+          [](const MethodScene& scene, const MethodParameters& p, const Control& control)
+              -> std::unique_ptr<Method> { return std::make_unique<Vct>(scene, vct_params(p), control); },
+          true};
 }
 
 }  // namespace ssphh::gi::methods

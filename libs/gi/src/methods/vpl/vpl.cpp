@@ -13,7 +13,7 @@ class Vpls final : public Method {
   Vpls(const MethodScene& scene, const MethodParameters& p)
       : scene_(scene),
         photons_{p.integer("photons"), p.integer("depth"), static_cast<std::uint64_t>(p.integer("seed"))},
-        kind_(p.choice("kind") == "sphere" ? VplKind::sphere : VplKind::point),
+        kind_(p.choice<VplKind>("kind")),
         clamp_(static_cast<float>(p.number("clamp"))),
         radius_(static_cast<float>(p.number("radius"))),
         cluster_error_(static_cast<float>(p.number("cluster_error"))),
@@ -75,7 +75,7 @@ MethodEntry vpl_entry() {
           "instant radiosity: photons leave virtual point lights, every lit point asks all of them",
           {{"photons", 512, 1, 1 << 20, "that leave the lights; most make more than one virtual light", true},
            {"depth", 25, 2, 1000, "scattering events of a path", true},
-           {"kind", 0, 0, 1, "of the virtual lights", true, {"point", "sphere"}},
+           choice_parameter("kind", VplKind::point, "of the virtual lights"),
            {"clamp", 0.05, 0, 10,
             "points count for no more than straight ahead at this share of the scene's radius; 0: unbounded"},
            {"radius", 1, 0.01, 100, "of spheres, in distances to the eighth neighbour"},

@@ -14,22 +14,22 @@
 /// angle (a grid of samples at least three times as fine as the old pixels), so that light is neither gained
 /// nor lost (a sun of one pixel: within 2 %). Resampled images have 3 channels.
 
-#include <span>
-#include <string_view>
-
 #include <ssphh/core/control.h>
+#include <ssphh/core/enum_names.h>
 #include <ssphh/image/cube_map.h>
 
 namespace ssphh::image {
 
 enum class Layout { equirect, strip_h, strip_v, cross_h, cross_v, angular };
-
-/// All names, in the order of Layout.
-std::span<const std::string_view> layout_names();
-std::string_view layout_name(Layout layout);
-
-/// Throws Error for an unknown name.
-Layout layout_from_name(std::string_view name);
+constexpr auto enum_table(Layout) {
+  using enum Layout;
+  return std::to_array<EnumName<Layout>>({{equirect, "equirect"},
+                                          {strip_h, "strip-h"},
+                                          {strip_v, "strip-v"},
+                                          {cross_h, "cross-h"},
+                                          {cross_v, "cross-v"},
+                                          {angular, "angular"}});
+}
 
 /// Whether the layout is a rearrangement of cube faces.
 bool is_cube_layout(Layout layout);

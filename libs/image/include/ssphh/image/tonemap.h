@@ -1,6 +1,7 @@
 #pragma once
 /// From scene-linear light to a picture.
 
+#include <ssphh/core/enum_names.h>
 #include <ssphh/image/io.h>
 
 namespace ssphh::image {
@@ -12,6 +13,10 @@ enum class ToneCurve {
            ///< ACES curve: x(2.51x + 0.03)/(x(2.43x + 0.59) + 0.14); per channel, so bright colours
            ///< desaturate
 };
+constexpr auto enum_table(ToneCurve) {
+  using enum ToneCurve;
+  return std::to_array<EnumName<ToneCurve>>({{clip, "clip"}, {filmic, "filmic"}});
+}
 
 struct ToneMap {
   float exposure = 0;  ///< EV: light is multiplied by 2^exposure first

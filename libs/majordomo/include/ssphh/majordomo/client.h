@@ -12,6 +12,7 @@
 #include <string>
 
 #include <ssphh/core/control.h>
+#include <ssphh/core/enum_names.h>
 #include <ssphh/majordomo/frames.h>
 #include <ssphh/majordomo/security.h>
 
@@ -52,7 +53,16 @@ enum class Outcome : std::uint8_t {
   refused = 5,    ///< not allowed, malformed or beyond a limit that waiting does not help
   no_answer = 6,  ///< foreign broker did not answer
 };
-const char* to_string(Outcome outcome);
+constexpr auto enum_table(Outcome) {
+  using enum Outcome;
+  return std::to_array<EnumName<Outcome>>({{ok, "ok"},
+                                           {failed, "failed"},
+                                           {parked, "parked"},
+                                           {cancelled, "cancelled"},
+                                           {expired, "expired"},
+                                           {refused, "refused"},
+                                           {no_answer, "no answer"}});
+}
 
 /// One piece of news about one request: any number of PARTIALs in order, then one FINAL.
 struct ClientEvent {

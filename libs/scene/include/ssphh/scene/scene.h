@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <ssphh/core/enum_names.h>
 #include <ssphh/core/math.h>
 #include <ssphh/image/image.h>
 
@@ -23,6 +24,10 @@ struct Texture {
 };
 
 enum class Wrap { repeat, mirror, clamp };
+constexpr auto enum_table(Wrap) {
+  using enum Wrap;
+  return std::to_array<EnumName<Wrap>>({{repeat, "repeat"}, {mirror, "mirror"}, {clamp, "clamp"}});
+}
 
 /// A texture as a material uses it: uv' = translate(offset) · rotate(rotation) · scale(scale) · uv, as
 /// KHR_texture_transform; v points down the image.
@@ -36,6 +41,10 @@ struct TextureUse {
 };
 
 enum class AlphaMode { opaque, mask, blend };
+constexpr auto enum_table(AlphaMode) {
+  using enum AlphaMode;
+  return std::to_array<EnumName<AlphaMode>>({{opaque, "opaque"}, {mask, "mask"}, {blend, "blend"}});
+}
 
 /// Surface. Diffuse and specular roughness are *bipolar* as in the paper (§5): the sign chooses the model,
 /// the magnitude is the roughness.
@@ -106,6 +115,11 @@ struct Camera {
 };
 
 enum class LightType { point, spot, directional, sphere };
+constexpr auto enum_table(LightType) {
+  using enum LightType;
+  return std::to_array<EnumName<LightType>>(
+      {{point, "point"}, {spot, "spot"}, {directional, "directional"}, {sphere, "sphere"}});
+}
 
 /// A light that is not a mesh. Position and direction (−z) are its node's.
 struct Light {

@@ -6,11 +6,10 @@
 ///   way Unreal                      left-handed, z up, cm
 /// which sh::Rotation does (mirrorings included): rotate, then convert; coming back, convert, then rotate.
 
-#include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
+#include <ssphh/core/enum_names.h>
 #include <ssphh/sh/coefficients.h>
 
 namespace ssphh::sh {
@@ -23,15 +22,18 @@ enum class Convention {
   filament,  ///< E/π with the basis constants multiplied in, as Filament's shaders evaluate it
   filament_mirrored  ///< the same of the mirror image x ↦ −x: files written by cmgen without --no-mirror
 };
-
-inline constexpr Convention all_conventions[] = {Convention::ssphh,    Convention::d3dx,
-                                                 Convention::unity,    Convention::three,
-                                                 Convention::filament, Convention::filament_mirrored};
-
-/// "ssphh", "d3dx", "unity", "three", "filament", "filament-mirrored".
-std::string_view convention_name(Convention convention);
-/// Also knows the aliases "unreal", "godot" and "three.js"; empty for an unknown name.
-std::optional<Convention> find_convention(std::string_view name);
+constexpr auto enum_table(Convention) {
+  using enum Convention;
+  return std::to_array<EnumName<Convention>>({{ssphh, "ssphh"},
+                                              {d3dx, "d3dx"},
+                                              {d3dx, "unreal"},
+                                              {unity, "unity"},
+                                              {three, "three"},
+                                              {three, "three.js"},
+                                              {three, "godot"},
+                                              {filament, "filament"},
+                                              {filament_mirrored, "filament-mirrored"}});
+}
 
 /// Highest degree that the convention stores.
 int convention_max_degree(Convention convention);

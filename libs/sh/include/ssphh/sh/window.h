@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 
+#include <ssphh/core/enum_names.h>
 #include <ssphh/sh/coefficients.h>
 
 namespace ssphh::sh {
@@ -29,6 +30,10 @@ vec3 minimum(const IrradianceSh& irradiance);
 
 /// What must not be negative.
 enum class NonNegative { irradiance, radiance };
+constexpr auto enum_table(NonNegative) {
+  using enum NonNegative;
+  return std::to_array<EnumName<NonNegative>>({{irradiance, "irradiance"}, {radiance, "radiance"}});
+}
 
 struct AutoWindow {
   /// Width of the mildest Lanczos window that reaches the goal; infinity when none is needed.

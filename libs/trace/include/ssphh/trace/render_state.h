@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include <ssphh/core/enum_names.h>
 #include <ssphh/core/hash.h>
 #include <ssphh/image/image.h>
 #include <ssphh/scene/radiance_source.h>
@@ -11,6 +12,13 @@
 namespace ssphh::trace {
 
 enum class Projection { pinhole, orthographic, equirect, cube_strip };
+constexpr auto enum_table(Projection) {
+  using enum Projection;
+  return std::to_array<EnumName<Projection>>({{pinhole, "pinhole"},
+                                              {orthographic, "orthographic"},
+                                              {equirect, "equirect"},
+                                              {cube_strip, "cube_strip"}});
+}
 
 /// A rectangle of a picture's pixels; width 0: the whole picture.
 struct Tile {

@@ -1,10 +1,13 @@
 #pragma once
 /// Parameters of a method by name, checked against what the method declares.
 
+#include <algorithm>
 #include <map>
 #include <span>
 #include <string>
 #include <vector>
+
+#include <ssphh/core/enum_names.h>
 
 namespace ssphh::gi {
 
@@ -18,6 +21,16 @@ struct MethodParameter {
   std::vector<std::string> choices = {};  ///< the words, in place of numbers
 };
 
+/// The choice of an enum's value by its name.
+template <class E>
+MethodParameter choice_parameter(const char* name, E value, const char* about) {
+  MethodParameter parameter{name, 0, 0, 0, about, true, names_of<E>()};
+  const auto index = std::ranges::find(parameter.choices, name_of(value)) - parameter.choices.begin();
+  parameter.value = static_cast<double>(index);
+  parameter.most = static_cast<double>(parameter.choices.size() - 1);
+  return parameter;
+}
+
 class MethodParameters {
  public:
   /// The defaults, changed by `settings` of the form "name=value". Throws Error for a name that is not
@@ -30,6 +43,11 @@ class MethodParameters {
   int integer(const std::string& name) const;
   bool flag(const std::string& name) const { return integer(name) != 0; }
   const std::string& choice(const std::string& name) const;
+  /// Of a choice_parameter.
+  template <class E>
+  E choice(const std::string& name) const {
+    return *parse_enum<E>(choice(name));
+  }
 
  private:
   struct Value {

@@ -5,11 +5,16 @@
 #include <span>
 #include <vector>
 
+#include <ssphh/core/enum_names.h>
 #include <ssphh/gi/vct/voxel_grid.h>
 
 namespace ssphh::gi::vct {
 
 enum class Storage { sparse, dense };
+constexpr auto enum_table(Storage) {
+  using enum Storage;
+  return std::to_array<EnumName<Storage>>({{sparse, "sparse"}, {dense, "dense"}});
+}
 
 /// Where the 4³ voxels of a brick lie: `first` and from there on `row` voxels further per y, `layer` per z.
 struct BrickView {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <ssphh/core/enum_names.h>
 #include <ssphh/core/math.h>
 
 namespace ssphh::gi::vpl {
@@ -18,6 +19,10 @@ struct Vpl {
 };
 
 enum class VplKind { point, sphere };
+constexpr auto enum_table(VplKind) {
+  using enum VplKind;
+  return std::to_array<EnumName<VplKind>>({{point, "point"}, {sphere, "sphere"}});
+}
 
 struct VplParams {
   VplKind kind = VplKind::point;
