@@ -1,7 +1,7 @@
 #pragma once
-/// What a lookup may be where maps of probes' sight have texels: one texel tells whether a probe is seen, by a
-/// ray half a texel aside at most. And OpenGL asks no probe that stands lower than a quarter of its distance
-/// below the surface, where sight begins 1 % of it above.
+/// What a lookup may be where maps of probes' sight have texels: one texel tells whether a probe is seen, by
+/// a ray half a texel aside at most. And OpenGL asks no probe that stands lower than a quarter of its
+/// distance below the surface, where sight begins 1 % of it above.
 
 #include <array>
 #include <cmath>
@@ -25,8 +25,8 @@ class DoubtfulSight {
 
   static constexpr int most = 6;
 
-  /// Calls `look_up`, which asks sees() at that point alone, for every choice of what is in doubt, at first as
-  /// the source sees it; of more than `most` doubts, the others stay so. Returns how many there are.
+  /// Calls `look_up`, which asks sees() at that point alone, for every choice of what is in doubt, at first
+  /// as the source sees it; of more than `most` doubts, the others stay so. Returns how many there are.
   template <class LookUp>
   int for_each_choice(const scene::SurfacePoint& at, const LookUp& look_up) {
     at_ = at, asked_.clear(), doubts_ = 0;
