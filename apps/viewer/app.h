@@ -13,6 +13,7 @@
 #include "model/camera_path.h"
 #include "model/document.h"
 #include "model/frame_times.h"
+#include "model/gestures.h"
 #include "model/reference.h"
 #include "picture.h"
 #include "probe_light.h"
@@ -41,9 +42,7 @@ struct Rect2 {
 /// What the mouse drags.
 struct Drag {
   enum class What { none, view, look, pan, object, axis, wipe } what = What::none;
-  int axis = 0;     ///< 0..2: world x, y, z
-  vec3 start{0};    ///< of the object when the drag began
-  vec3 grabbed{0};  ///< point of the drag's plane, or in x the place along its axis, under the mouse then
+  Grip grip;  ///< of objects
 };
 
 class App {

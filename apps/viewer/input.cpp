@@ -9,6 +9,7 @@
 #include <imgui.h>
 
 #include "app.h"
+#include "model/gestures.h"
 #include "model/pick.h"
 #include "overlay.h"
 
@@ -41,6 +42,10 @@ constexpr Shortcut all_shortcuts[] = {
     {"Escape", "leave a mode; no selection"},
 };
 
+/// GLFW names letters, digits and signs by their ASCII capitals.
+static_assert(GLFW_KEY_W == 'W' && GLFW_KEY_1 == '1' && GLFW_KEY_SPACE == ' ' &&
+              GLFW_KEY_LEFT_BRACKET == '[');
+
 bool pressed(int key) {
   return ImGui::IsKeyPressed(key, false);
 }
@@ -59,13 +64,13 @@ std::string numbered_file(const App& app, const std::string& ending) {
   }
 }
 
-void next_comparison(App& app) {
-  Show& show = app.settings.show;
-  show = show == Show::realtime ? Show::wipe
-         : show == Show::wipe   ? Show::truth
-         : show == Show::truth  ? Show::pixelated
-                                : Show::realtime;
-  app.say(fmt::format("shown: {}", name_of(show)));
+void press_setting_key(App& app, char key) {
+  const Show shown = app.settings.show;
+  app.settings = after_key(app.settings, key, app.document.duration > 0);
+  if (app.settings.show != shown) app.say(fmt::format("shown: {}", name_of(app.settings.show)));
+  if (key >= '1' && key <= '8')
+    app.say(fmt::format("picture: {}", key == '1' ? "all light" : name_of(app.settings.debug)));
+  app.redraw();
 }
 
 void handle_control_keys(App& app) {
@@ -75,7 +80,6 @@ void handle_control_keys(App& app) {
 }
 
 void handle_keys(App& app) {
-  Settings& s = app.settings;
   if (pressed(GLFW_KEY_F1) || pressed(GLFW_KEY_H)) toggle(app, app.help);
   if (pressed(GLFW_KEY_TAB)) toggle(app, app.panels);
   if (pressed(GLFW_KEY_ESCAPE)) app.help = app.place_mode = false, app.selection = {};
@@ -88,31 +92,18 @@ void handle_keys(App& app) {
            {fmt::format("view {}", app.bookmarks.keys.size() + 1), 0, app.document.time, app.view});
     app.say("bookmark added");
   }
-  if (pressed(GLFW_KEY_SPACE) && app.document.duration > 0) toggle(app, s.play);
-  if (pressed(GLFW_KEY_P)) toggle(app, s.balls);
-  if (pressed(GLFW_KEY_L)) toggle(app, s.lobes), s.balls |= s.lobes;
-  if (pressed(GLFW_KEY_G)) toggle(app, s.graph);
   if (pressed(GLFW_KEY_N)) toggle(app, app.place_mode);
   if (pressed(GLFW_KEY_DELETE)) app.delete_selection();
-  if (pressed(GLFW_KEY_T)) next_comparison(app);
-  for (int i = 0; i < 8; ++i) {
-    if (pressed(GLFW_KEY_1 + i)) {
-      s.debug = static_cast<DebugView>(i);
-      app.say(fmt::format("picture: {}", i == 0 ? "all light" : name_of(s.debug)));
-    }
+  for (const char key : setting_keys) {
+    if (pressed(key)) press_setting_key(app, key);
   }
-  if (pressed(GLFW_KEY_LEFT_BRACKET)) s.exposure -= 0.5f, app.redraw();
-  if (pressed(GLFW_KEY_RIGHT_BRACKET)) s.exposure += 0.5f, app.redraw();
   if (pressed(GLFW_KEY_F12)) app.screenshot(numbered_file(app, ".png"), false);
 }
 
 void fly(App& app, float seconds) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.KeyCtrl) return;
-  const auto axis = [](int plus, int minus) {
-    return static_cast<float>(ImGui::IsKeyDown(plus)) - static_cast<float>(ImGui::IsKeyDown(minus));
-  };
-  const vec3 way(axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q), axis(GLFW_KEY_W, GLFW_KEY_S));
+  const vec3 way = fly_direction([](char key) { return ImGui::IsKeyDown(key); });
   if (way == vec3(0)) return;
   app.view = moved(app.view, way * (app.fly_speed * seconds * (io.KeyShift ? 4.0f : 1.0f)));
   app.path_plays = false;
@@ -128,29 +119,10 @@ scene::RayQuery mouse_ray(const App& app) {
   return pixel_ray(app.view, picture_point(app, ImGui::GetIO().MousePos), app.viewport.aspect());
 }
 
-const vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-
+/// `axis` −1: in the plane that faces the view.
 void grab(App& app, Drag::What what, int axis) {
   app.document.history.seal();
-  Drag& drag = app.drag;
-  drag = {what, axis, *app.selected_position(), vec3(0)};
-  const scene::RayQuery ray = mouse_ray(app);
-  if (what == Drag::What::axis) {
-    drag.grabbed.x = along_axis(ray, drag.start, axes[axis]).value_or(0);
-  } else {
-    drag.grabbed = on_plane(ray, drag.start, app.view.forward()).value_or(drag.start);
-  }
-}
-
-void drag_object(App& app) {
-  const Drag& drag = app.drag;
-  const scene::RayQuery ray = mouse_ray(app);
-  if (drag.what == Drag::What::axis) {
-    if (const auto along = along_axis(ray, drag.start, axes[drag.axis]))
-      app.move_selected(drag.start + (*along - drag.grabbed.x) * axes[drag.axis]);
-  } else if (const auto point = on_plane(ray, drag.start, app.view.forward())) {
-    app.move_selected(drag.start + *point - drag.grabbed);
-  }
+  app.drag = {what, taken(mouse_ray(app), *app.selected_position(), axis, app.view.forward())};
 }
 
 /// The SPHL whose ball is under the mouse; −1: none.
@@ -206,29 +178,31 @@ void begin_left(App& app) {
     return;
   }
   app.selection = hit;
-  if (app.selected_position()) grab(app, Drag::What::object, 0);
+  if (app.selected_position()) grab(app, Drag::What::object, -1);
 }
 
 void continue_drag(App& app) {
   const ImVec2 delta = ImGui::GetIO().MouseDelta;
-  const float turn = 0.005f;
+  const auto drag_view = [&](ViewDrag drag) {
+    app.view = dragged(app.view, drag, {delta.x, delta.y}, app.viewport.height);
+  };
   switch (app.drag.what) {
     case Drag::What::none:
       return;
     case Drag::What::view:
-      app.view = orbited(app.view, -turn * delta.x, -turn * delta.y);
+      drag_view(ViewDrag::orbit);
       break;
     case Drag::What::look:
-      app.view = turned(app.view, -turn * delta.x, -turn * delta.y);
+      drag_view(ViewDrag::look);
       break;
-    case Drag::What::pan: {
-      const float metres = 2 * app.view.focus * std::tan(0.5f * app.view.yfov) / app.viewport.height;
-      app.view = moved(app.view, {-delta.x * metres, delta.y * metres, 0});
+    case Drag::What::pan:
+      drag_view(ViewDrag::pan);
       break;
-    }
     case Drag::What::object:
     case Drag::What::axis:
-      if (delta.x != 0 || delta.y != 0) drag_object(app);
+      if (delta.x == 0 && delta.y == 0) break;
+      if (const auto place = pulled(app.drag.grip, mouse_ray(app), app.view.forward()))
+        app.move_selected(*place);
       break;
     case Drag::What::wipe:
       app.settings.wipe = std::clamp(picture_point(app, ImGui::GetIO().MousePos).x, 0.0f, 1.0f);
@@ -253,7 +227,7 @@ void handle_mouse(App& app) {
   }
   if (app.drag.what != Drag::What::none) continue_drag(app);
   if (inside && io.MouseWheel != 0) {
-    app.view = dollied(app.view, std::pow(0.9f, io.MouseWheel));
+    app.view = wheeled(app.view, io.MouseWheel);
     app.redraw();
   }
 }

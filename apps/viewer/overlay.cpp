@@ -118,7 +118,7 @@ void draw_handles(const App& app, ImDrawList& list) {
   for (int i = 0; i < 3; ++i) {
     const auto end = on_screen(app, *position + length * axes[i]);
     if (!end) continue;
-    const bool active = app.drag.what == Drag::What::axis && app.drag.axis == i;
+    const bool active = app.drag.what == Drag::What::axis && app.drag.grip.axis == i;
     list.AddLine(*center, *end, axis_colors[i], active ? 4.0f : 2.5f);
     list.AddCircleFilled(*end, active ? handle_radius + 1 : handle_radius - 1, axis_colors[i]);
   }

@@ -48,7 +48,23 @@ TEST_F(GlTool, BenchFrameTellsTimesOfPasses) {
   for (const char* pass : {"geometry", "direct", "shadows"})
     EXPECT_TRUE(bench["passes"].contains(pass)) << pass;
   EXPECT_FALSE(bench["passes"].contains("indirect"));
-  EXPECT_GT(bench["overdraw"], 0.1);
+}
+
+TEST_F(GlTool, BenchFrameTellsHowOftenASampleIsShaded) {
+  const auto overdraw = [](const std::vector<std::string>& arguments) -> double {
+    return run_json(with(arguments, tiny))["overdraw"];
+  };
+  // Within a closed convex room each sample is shaded once, however many a pixel has
+  const std::vector<std::string> inside = {"bench-frame", "builtin:box", "--frames", "2"};
+  EXPECT_EQ(overdraw(inside), 1);
+  EXPECT_EQ(overdraw(with(inside, {"--samples", "3"})), 1);
+  // A room seen from before its open side; once the camera has turned away, nothing is. Counts come late: the
+  // last of four frames tells of one a quarter or half a turn on
+  const std::vector<std::string> outside = {"bench-frame", "builtin:cornell", "--frames", "4"};
+  const double seen = overdraw(outside);
+  EXPECT_GT(seen, 0.1);
+  EXPECT_LT(seen, 1);
+  EXPECT_EQ(overdraw(with(outside, {"--turn"})), 0);
 }
 
 TEST_F(GlTool, BenchFrameComparesWithDirectLightAlone) {

@@ -93,21 +93,6 @@ gi::ProbeSet coloured(gi::ProbeSet set) {
   return set;
 }
 
-/// Smooth enough that it is nowhere dark, where tiles interpolate between what is cut off at 0.
-gi::ProbeSet smooth_probes(const std::vector<vec3>& places) {
-  gi::ProbeSet set = made_up_probes(places);
-  for (gi::Probe& probe : set.probes) {
-    for (gi::GroupLight& light : probe.groups) {
-      for (int k = 0; k < 25; ++k) {
-        const float band = std::floor(std::sqrt(static_cast<float>(k)));
-        light.reflected[k] *= k == 0 ? 2 : 1 / (band * band);
-      }
-    }
-  }
-  gi::merge_groups(set);
-  return set;
-}
-
 class LookupPixels : public WithGl {
  protected:
   /// Bounds of `truth`; places where it `differs` may lie a pixel aside.

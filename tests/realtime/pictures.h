@@ -34,10 +34,29 @@ inline gi::ProbeSet made_up_probes(const std::vector<vec3>& places, unsigned see
   return set;
 }
 
-inline gi::ProbeSet made_up_probes(const scene::Scene& scene) {
+inline std::vector<vec3> probe_places(const scene::Scene& scene) {
   std::vector<vec3> places;
   for (const scene::SphlPlace& p : scene::sphl_places(scene)) places.push_back(p.position);
-  return made_up_probes(places);
+  return places;
+}
+
+inline gi::ProbeSet made_up_probes(const scene::Scene& scene) {
+  return made_up_probes(probe_places(scene));
+}
+
+/// Smooth enough that it is nowhere dark, where tiles interpolate between what is cut off at 0.
+inline gi::ProbeSet smooth_probes(const std::vector<vec3>& places) {
+  gi::ProbeSet set = made_up_probes(places);
+  for (gi::Probe& probe : set.probes) {
+    for (gi::GroupLight& light : probe.groups) {
+      for (int k = 0; k < 25; ++k) {
+        const float band = std::floor(std::sqrt(static_cast<float>(k)));
+        light.reflected[k] *= k == 0 ? 2 : 1 / (band * band);
+      }
+    }
+  }
+  gi::merge_groups(set);
+  return set;
 }
 
 /// Points all over the still surfaces with smooth weights of the nearest visible probes.

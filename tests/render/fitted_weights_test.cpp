@@ -104,6 +104,56 @@ TEST(FittedWeights, MeetTheSumOfTheirEquations) {
   EXPECT_GT(squares, 0.02) << "or there is nothing to be too dark by";
 }
 
+TEST(FittedWeights, ErrInLightThatIsATenthOfTheProbesAsIfItWereATenth) {
+  // A corridor with a lamp at either end, and the only probe at one of them. Each lamp asks for its own
+  // weight t / e, the more the smaller max(t, e / 10): where the near lamp is next to nothing the far one has
+  // its say
+  scene::Scene scene;
+  add_body(scene, "corridor", scene::flipped(scene::make_box(vec3(0), {9, 2, 2})), vec3(0.5f));
+  for (const float x : {0.7f, 8.3f}) {
+    scene.nodes.emplace_back().local.translation = {x, 1.1f, 0.9f};
+    scene::Light& lamp = scene.lights.emplace_back();
+    lamp.name = x < 1 ? "near" : "far";
+    lamp.node = static_cast<int>(scene.nodes.size()) - 1;
+  }
+  add_sphl(scene, "only", {1, 1, 1});
+  scene::validate(scene);
+  const trace::TransportScene source(scene);
+  gi::RelightParams session_params;
+  session_params.transport = small_network();
+  session_params.degree = 2;
+  gi::RelightSession session(source, places_of(scene), session_params);
+  session.update();
+  gi::FitParams params;
+  params.probes = params.training_lights = 1;
+  params.own_weight = 1000;
+  const gi::FittedPoints fitted = gi::fit_weights(
+      session.network(), source, gi::surfel_points(session.network()), params, session.direct_by_group());
+  std::vector<Compared> lit;
+  for (const int group : {0, 1}) {
+    session.set_group_scale(group, vec3(1));
+    session.set_group_scale(1 - group, vec3(0));
+    session.update();
+    lit.emplace_back(fitted, session, params.gather_rays);
+  }
+  int dark = 0, middling = 0;
+  for (std::size_t p = 0; p < fitted.points.size(); ++p) {
+    ASSERT_EQ(fitted.weights[p].count, 1);
+    const double weight = double(fitted.weights[p].used()[0].weight);
+    double wanted = 0, got = 0;
+    for (const Compared& by : lit) {
+      const double t = double(by.truth[p].y), e = double(by.looked_up[p].y) / weight;
+      const double scale = 1 / std::max(t, 0.1 * e);
+      dark += t<0.1 * e, middling += t> 0.1 * e && t < 0.3 * e;
+      wanted += t * scale, got += e * scale;
+    }
+    // The training light has a thousandth of a say; solving stops at 1e-4 or 1e-3
+    EXPECT_NEAR(weight / (wanted / got), 1, 0.01) << fitted.points[p].position.x;
+  }
+  EXPECT_GT(dark, 20);
+  EXPECT_GT(middling, 20);
+}
+
 /// Mean over the points with x > min_x of the relative error, green.
 double error_of(const gi::FittedPoints& fitted, const gi::RelightSession& session, float min_x) {
   const Compared compared(fitted, session, 1024);

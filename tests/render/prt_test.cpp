@@ -1,3 +1,6 @@
+#include <cmath>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <ssphh/core/error.h>
@@ -44,6 +47,22 @@ TEST(Prt, EnvironmentInTheProbesFollowsRotationToo) {
   const std::vector<vec3> expected = loaded.irradiance(state, points);
   for (std::size_t i = 0; i < points.size(); ++i)
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(now[i][c], expected[i][c], 2e-3f * expected[i][c]);
+}
+
+TEST(Prt, EdgesAreAFourteenthOfTheScenesRadiusUnlessTold) {
+  const scene::Scene scene = scene::make_builtin("box");
+  const auto triangles = [&](double edge) {
+    const test::MadeMethod made("prt",
+                                {"places=scene", "degree=0", "rays=16", "interreflect=0", "directions=16",
+                                 "surfel_size=0.5", fmt::format("edge={}", edge)},
+                                scene);
+    for (const auto& [name, value] : made.method->numbers())
+      if (name == "triangles") return value;
+    return 0.0;
+  };
+  const double radius = std::sqrt(3.0), usual = triangles(0);
+  EXPECT_EQ(usual, triangles(radius / 14));
+  EXPECT_GT(usual, triangles(radius / 13)) << "edges are halved: between these two lies a step";
 }
 
 TEST(Prt, MovingThingsAreLitFromTheProbes) {

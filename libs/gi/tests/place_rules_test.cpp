@@ -173,6 +173,21 @@ TEST(PlaceRules, MoreThanTheLimitIsRefusedAndAsManyAreNot) {
   EXPECT_EQ(place_probes(source, params).counts.surplus, 1u) << "fewer were asked for";
 }
 
+TEST(PlaceRules, OfEightTimesTheLimitTheUnreachableAreStillLeftOut) {
+  // A small room, in which somebody is, beside a large one where nobody is
+  const TriangleSource source(scene_of({scene::flipped(scene::make_box(vec3(0), vec3(1.2f))),
+                                        scene::flipped(scene::make_box(vec3(2, 0, 0), vec3(5, 3, 3)))}));
+  PlaceParams params = params_at(0.8f, {vec3(0.6f)});
+  const Placement all = place_probes(source, params);
+  const std::size_t drafts = all.probes.size() + all.counts.unreachable;
+  ASSERT_GT(drafts, 8 * all.probes.size() + 8);
+  params.max_probes = static_cast<int>((drafts + 7) / 8);
+  EXPECT_EQ(place_probes(source, params).probes.size(), all.probes.size());
+  params.max_probes = static_cast<int>((drafts - 1) / 8);
+  ASSERT_GE(params.max_probes, static_cast<int>(all.probes.size()));
+  EXPECT_THROW(place_probes(source, params), Error);
+}
+
 TEST(NearGrid, FindsAllNearerThanTheRadiusInTheirOrder) {
   Pcg32 random(4);
   NearGrid grid(1.5f);

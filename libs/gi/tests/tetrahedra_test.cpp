@@ -121,6 +121,36 @@ TEST(Tetrahedra, TiltedGridInterpolatesBetweenNeighbours) {
   }
 }
 
+/// Over a kite whose long diagonal AC stands `height` higher than the short one BD, Delaunay's cells below
+/// end at BD, and a flat cell ABCD fills the rest: what stands above is nearest to the middle of AC while it
+/// is kept.
+struct Kite {
+  float length, before, behind;  ///< of AC; of B and D from it
+  /// Height below which six volumes are a thousandth of the longest edge times the largest face's double
+  /// area.
+  float flat() const {
+    const float width = before + behind, longest = std::max(length, width);
+    const float area2 = length * std::max({before, behind, 0.5f * width});
+    return 1e-3f * longest * area2 / (length * width);
+  }
+  bool kept(float height) const {
+    const float half = 0.5f * length;
+    const std::vector<vec3> points = {
+        {half, 0, height}, {0, before, 0}, {-half, 0, height}, {0, -behind, 0}, {0, 0, -5}};
+    const CornerWeights weights = Tetrahedra(points).at({0, 0, 3});
+    bool on_ac = true;
+    for (const ProbeWeight& w : weights.used()) on_ac &= w.weight < 1e-3f || w.probe == 0 || w.probe == 2;
+    return on_ac;
+  }
+};
+
+TEST(Tetrahedra, CellsOnTheHullFlatterThanAThousandthArePeeledOff) {
+  for (const Kite& kite : {Kite{2, 0.9f, 0.9f}, {8, 1, 1}, {8, 0.4f, 2.2f}, {6, 2.5f, 0.3f}}) {
+    EXPECT_TRUE(kite.kept(1.07f * kite.flat())) << kite.length << " " << kite.before;
+    EXPECT_FALSE(kite.kept(0.93f * kite.flat())) << kite.length << " " << kite.before;
+  }
+}
+
 TEST(Tetrahedra, FewPoints) {
   const std::vector<vec3> all = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
   EXPECT_THROW(Tetrahedra(std::span<const vec3>()), Error);

@@ -57,10 +57,12 @@ float cube_visibility(sampler2DArray maps, int size, int columns_log2, float nea
   return compare_tile(maps, size, columns_log2, slot * 6 + face, texel, here, slope, here * 1.5 / inner);
 }
 
-// The same for one texel alone: whether x sees the light. Without branches, of which software renderers run both
-// sides.
-bool cube_sight(sampler2DArray maps, int size, int columns_log2, float near, int slot, vec3 light, vec3 x, vec3 n) {
-  vec3 d = x - light, a = abs(d);
+// The same for one texel alone: whether the light is seen from `lift` above x. In the texel's middle only x's own surface
+// may stand nearer than what is asked about; a plane through the lifted place would come as near as one likes to a light
+// at its height, and let that through walls. Without branches, of which software renderers run both sides.
+bool cube_sight(sampler2DArray maps, int size, int columns_log2, float near, int slot, vec3 light, vec3 x, vec3 lift,
+                vec3 n) {
+  vec3 d = x + lift - light, a = abs(d);
   bool along_x = a.x >= a.y && a.x >= a.z, along_y = !along_x && a.y >= a.z;
   float major = along_x ? d.x : along_y ? d.y : d.z, turn = major < 0 ? -1 : 1;
   float inverse_z = 1 / abs(major);
@@ -70,9 +72,9 @@ bool cube_sight(sampler2DArray maps, int size, int columns_log2, float near, int
   int face = (along_x ? 0 : along_y ? 2 : 4) + (major < 0 ? 1 : 0);
   float inner = float(size - 2), here = near * inverse_z;
   vec2 texel = 0.5 * place * inner + 0.5 * float(size);
-  float across = dot(n, d), least = 1e-3 * abs(major);
-  across = across < 0 ? min(across, -least) : max(across, least);
-  float plane = here + dot(local, floor(texel) + 0.5 - texel) * (near * 2 / inner) / across;
+  // A light below the surface has it in the way, if it reaches so far
+  float height = dot(n, light - x), aside = dot(local, floor(texel) + 0.5 - texel) * (near * 2 / inner);
+  float plane = height > 0 ? -(here * dot(n, d) + aside) / max(height, 1e-3 * abs(major)) : here;
   ivec3 tile = tile_place(slot * 6 + face, columns_log2);
   float stored = texelFetch(maps, ivec3(tile.xy * size + ivec2(texel), tile.z), 0).x;
   return stored <= max(plane, here) * (1 + 1.5 / inner);
