@@ -11,6 +11,7 @@
 #include <ssphh/trace/transport_scene.h>
 
 #include "command.h"
+#include "geometry_builds.h"
 #include "leak_map.h"
 #include "probe_options.h"
 #include "scene_options.h"
@@ -27,6 +28,7 @@ struct LeakOptions {
 };
 
 void leak(Context& context, LeakOptions& o) {
+  const GeometryBuilds builds;
   if (!o.output.empty()) {
     const image::FileFormat format = image::format_of_extension(o.output);
     if (format != image::FileFormat::png && format != image::FileFormat::exr)
@@ -42,9 +44,10 @@ void leak(Context& context, LeakOptions& o) {
   scene::CameraPose camera;
   if (!o.output.empty()) camera = scene::camera_pose(scene, o.camera, time);
 
-  const trace::PathTracer tracer(scene, time);
+  const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
+  const trace::PathTracer tracer(geometry, scene, time);
   require_same_scene(o.probes, set, scene, tracer.light_groups(), {}, o.force);
-  const trace::TransportScene surfaces(scene);
+  const trace::TransportScene surfaces(geometry, scene);
   gi::LookupParams lookup_params;
   if (o.light == "self") lookup_params.layer = gi::ProbeLayer::self;
   lookup_params.weights = weight_params(o.probes, set, o.weights);
@@ -66,7 +69,8 @@ void leak(Context& context, LeakOptions& o) {
                         {"mean_truth", report.mean_truth},
                         {"mean_looked_up", report.mean_looked_up},
                         {"weights", gi::to_string(lookup_params.weights.chosen(set.fitted.has_value()))},
-                        {"time", time}};
+                        {"time", time},
+                        {"geometry_builds", builds.count()}};
   std::string text = fmt::format(
       "leaked      {:.4g} % of the looked-up light stands on dark points\n"
       "dark        {} of {} points: path traced indirect irradiance under {:g} of the mean, at {:g} sigma\n"
