@@ -10,6 +10,7 @@
 #include <ssphh/gl/framebuffer.h>
 #include <ssphh/gl/read_pixels.h>
 #include <ssphh/image/io.h>
+#include <ssphh/scene/posed_world.h>
 
 #include "input.h"
 #include "overlay.h"
@@ -233,20 +234,12 @@ void App::update_visible() {
   if (!wanted || !picking_) return visible_.assign(probes.size(), 1);
   if (visible_view_ && *visible_view_ == view && visible_.size() == probes.size() && !settings.play) return;
   visible_view_ = view;
-  visible_.assign(probes.size(), 1);
-  std::vector<scene::RayQuery> rays(probes.size());
+  std::vector<scene::RayQuery> to_eye;
+  for (const gi::Probe& probe : probes) to_eye.push_back({probe.position, view.eye - probe.position, 1});
   std::vector<std::uint8_t> blocked(probes.size());
-  for (int part = 0; part < picking_->part_count(); ++part) {
-    const mat4 inverse = glm::inverse(picking_->part_pose(part, document.time));
-    for (std::size_t i = 0; i < probes.size(); ++i) {
-      const vec3 a(inverse * vec4(view.eye, 1)), b(inverse * vec4(probes[i].position, 1));
-      rays[i] = {b, a - b, 1};
-    }
-    picking_->occluded(part, rays, blocked);
-    for (std::size_t i = 0; i < probes.size(); ++i) {
-      if (blocked[i]) visible_[i] = 0;
-    }
-  }
+  scene::PosedWorld(*picking_, document.time).occluded(to_eye, blocked);
+  visible_.clear();
+  for (const std::uint8_t b : blocked) visible_.push_back(b ? 0 : 1);
 }
 
 /// Ground truth starts once the picture has been still for a moment, and follows every change.
@@ -268,6 +261,7 @@ void App::update_truth() {
     ReferenceParams params;
     params.scene =
         std::make_shared<const scene::Scene>(edited_scene(*document.scene, document.edits(), document.time));
+    params.geometry = geometry_;
     params.time = document.time;
     params.camera = pose_of(view);
     params.width = picture.width(), params.height = picture.height();

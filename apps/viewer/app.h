@@ -134,7 +134,7 @@ class App {
   gl::Context gl_;
   std::unique_ptr<realtime::Renderer> renderer_;
   std::unique_ptr<BallsGl> balls_;
-  std::shared_ptr<const scene::Scene> picking_scene_;
+  trace::SharedGeometry geometry_;  ///< of document.scene
   std::unique_ptr<trace::TransportScene> picking_;
   std::vector<unsigned char> visible_;  ///< per probe, from the eye
 

@@ -62,10 +62,11 @@ void App::take_scene(std::string source, scene::Scene scene) {
   next.time = std::clamp(document.source.empty() ? options.time : 0, 0.0f, next.duration);
   auto renderer =
       std::make_unique<realtime::Renderer>(gl_, *next.scene, realtime::RendererParams{}, next.time);
-  auto picking = std::make_unique<trace::TransportScene>(*next.scene);
+  trace::SharedGeometry geometry = trace::geometry_of(next.scene);
+  auto picking = std::make_unique<trace::TransportScene>(geometry, *next.scene);
   // Nothing is thrown from here on: a file that is refused leaves the open one alone.
   picking_ = std::move(picking);
-  picking_scene_ = next.scene;
+  geometry_ = std::move(geometry);
   renderer_ = std::move(renderer);
   document = std::move(next);
   light.clear();
@@ -270,6 +271,7 @@ void App::use_probes(const std::string& what) {
 
 void App::rebuild_light() {
   LiveLightParams params;
+  params.geometry = geometry_;
   params.places = places_of(document);
   if (params.places.empty()) {
     light.clear();
@@ -286,6 +288,7 @@ void App::rebuild_light() {
 void App::place_probes(float spacing) {
   auto scene = std::make_shared<const scene::Scene>(with_materials(*document.scene, document.edits()));
   LiveLightParams params;
+  params.geometry = geometry_;
   params.spacing = spacing;
   job.start("placing probes", [this, scene, params, time = document.time](const Control& control) {
     auto live = std::make_shared<LiveLight>(scene, params, time, control);
@@ -333,8 +336,9 @@ void App::start_gen(bool viz_only) {
       probe.groups.assign(dark.light_groups.size(), {{}, sh::RadianceSh(degree)});
     light.take(std::move(dark), "GEN");
   }
-  job.start(viz_only ? "VIZ" : "GEN", [this, scene, set, params, time](const Control& control) mutable {
-    const trace::PathTracer tracer(*scene, time);
+  job.start(viz_only ? "VIZ" : "GEN", [this, geometry = geometry_, scene, set, params,
+                                       time](const Control& control) mutable {
+    const trace::PathTracer tracer(geometry, *scene, time);
     if (params.keep_light) {
       for (const std::string& group : tracer.light_groups()) set.light_groups.push_back({group, vec3(1)});
       for (gi::Probe& probe : set.probes)
@@ -379,12 +383,13 @@ void App::take_probe_file(const std::string& file) {
 }
 
 void App::prepare_fitted(const gi::FittedPoints& fitted) {
-  job.start("fitted weights", [this, fitted, scene = document.scene,
+  job.start("fitted weights", [this, fitted, geometry = geometry_, scene = document.scene,
                                time = document.time](const Control& control) {
     // What a door hides at any of these times lights nothing behind it at any other
     std::vector<std::unique_ptr<trace::PathTracer>> poses;
     for (const float t : {time, 0.0f, scene::animation_duration(*scene)}) {
-      if (poses.empty() || t != time) poses.push_back(std::make_unique<trace::PathTracer>(*scene, t));
+      if (poses.empty() || t != time)
+        poses.push_back(std::make_unique<trace::PathTracer>(geometry, *scene, t));
     }
     const gi::SeesProbe sees = [&](const vec3& a, const vec3& b) {
       return std::all_of(poses.begin(), poses.end(), [&](const auto& pose) { return pose->visible(a, b); });

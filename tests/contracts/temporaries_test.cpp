@@ -7,7 +7,7 @@
 #include <ssphh/farm/farm_bake.h>
 #include <ssphh/gi/lookup.h>
 #include <ssphh/gi/relight_session.h>
-#include <ssphh/gi/surface_points.h>
+#include <ssphh/scene/posed_world.h>
 #include <ssphh/shading/lights.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
@@ -34,6 +34,11 @@ TEST(Temporaries, OfScenesAreRefusedByWhatReadsThemLater) {
   EXPECT_TRUE((only_of_what_stays<PathTracer, Scene, float>));
   EXPECT_TRUE((only_of_what_stays<TransportScene, Scene>));
   EXPECT_TRUE((only_of_what_stays<TransportScene, Scene, trace::TransportOptions>));
+  EXPECT_TRUE((only_of_what_stays<trace::SceneGeometry, Scene>));
+  EXPECT_TRUE((std::is_constructible_v<PathTracer, trace::SharedGeometry, Scene&>));
+  EXPECT_FALSE((std::is_constructible_v<PathTracer, trace::SharedGeometry, Scene>));
+  EXPECT_TRUE((std::is_constructible_v<TransportScene, trace::SharedGeometry, Scene&>));
+  EXPECT_FALSE((std::is_constructible_v<TransportScene, trace::SharedGeometry, Scene>));
   EXPECT_TRUE((only_of_what_stays<shading::LightSet, Scene, Matrices>));
 }
 
@@ -42,7 +47,8 @@ TEST(Temporaries, OfSourcesAreRefusedByWhatAsksThemLater) {
   EXPECT_TRUE((only_of_what_stays<gi::RelightSession, TransportScene, Places, gi::RelightParams, float>));
   EXPECT_TRUE(
       (only_of_what_stays<gi::TransportNetwork, TransportScene, std::span<const vec3>, gi::TransportParams>));
-  EXPECT_TRUE((only_of_what_stays<gi::PosedSurfaces, TransportScene, float>));
+  EXPECT_TRUE((only_of_what_stays<scene::PosedWorld, TransportScene, float>));
+  EXPECT_TRUE((only_of_what_stays<scene::PosedWorld, TransportScene, Matrices&>));
   EXPECT_TRUE((only_of_what_stays<gi::SurfelSet, TransportScene, float>));
 }
 

@@ -1,6 +1,7 @@
 /// Contracts of libs/shading and libs/trace.
 
 #include <ssphh/scene/builtin.h>
+#include <ssphh/scene/posed_world.h>
 #include <ssphh/shading/lights.h>
 #include <ssphh/shading/mesh_view.h>
 #include <ssphh/trace/path_tracer.h>
@@ -174,6 +175,21 @@ std::vector<Contract> of_tracers() {
                         t.light()->may_shadow(9, {}, {vec3(-1), vec3(1)});
                       },
                       {"light group"}),
+      refuses("PathTracer", "OfNoGeometry", [] { trace::PathTracer(nullptr, the_scene()); },
+              {"scene geometry", "none"}),
+      refuses("PathTracer", "OfAnotherScenesGeometry",
+              [] { trace::PathTracer(trace::geometry_of(std::make_shared<scene::Scene>()), the_scene()); },
+              {"scene geometry", "other surfaces"}),
+      refuses("TransportScene", "OfNoGeometry", [] { trace::TransportScene(nullptr, the_scene()); },
+              {"scene geometry", "none"}),
+      refuses(
+          "TransportScene", "OfAnotherScenesGeometry",
+          [] { trace::TransportScene(trace::geometry_of(std::make_shared<scene::Scene>()), the_scene()); },
+          {"scene geometry", "other surfaces"}),
+      refuses("GeometryOf", "NoScene", [] { trace::geometry_of(nullptr); }, {"scene geometry", "no scene"}),
+      refuses_tracing("PosedWorld", "OfTooFewPoses",
+                      [](Traced& t) { scene::PosedWorld(t.transport, std::vector<mat4>{}); },
+                      {"posed world", "each part"}),
       refuses("PathTracer", "AtNoTime", [] { trace::PathTracer(the_scene(), nan); }, {"time"}),
       refuses("TransportScene", "OfOptionsThatAreNone",
               [] { trace::TransportScene(the_scene(), {.light_samples = 0}); }, {"light"}),
@@ -215,6 +231,7 @@ std::vector<Contract> of_tracers() {
                         expect_refusal([&] { make(scene); }, s.words);
                       }});
     };
+    refuses_scene("SceneGeometry", [](const scene::Scene& scene) { trace::SceneGeometry geometry(scene); });
     refuses_scene("PathTracer", [](const scene::Scene& scene) { trace::PathTracer tracer(scene); });
     refuses_scene("TransportScene", [](const scene::Scene& scene) { trace::TransportScene source(scene); });
   }

@@ -7,8 +7,8 @@
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/gi/methods/table.h>
-#include <ssphh/gi/surface_points.h>
 #include <ssphh/scene/builtin.h>
+#include <ssphh/scene/posed_world.h>
 #include <ssphh/shading/bsdf.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -61,7 +61,7 @@ Picture looked_up(const Subject& subject, const std::string& camera,
                   const shading::BsdfParams* glossy = nullptr) {
   const std::vector<scene::RayQuery> rays = test::pixel_rays(subject.camera(camera), size);
   std::vector<scene::RayHit> hits(rays.size());
-  gi::PosedSurfaces(subject.source, subject.time).intersect(rays, hits);
+  scene::PosedWorld(subject.source, subject.time).intersect(rays, hits);
   Picture picture{{size.width, size.height, 3}, {size.width, size.height, 3}};
   parallel_for(rays.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

@@ -159,7 +159,7 @@ TEST(TracedPixels, ProbesSeeEveryTexelOfTheirSixFacesInItsPlace) {
     for (std::size_t f = 0; f < 6; ++f) emitted[f].add(groups.back().emitted.faces[f]);
   }
   const trace::TransportScene source(scene);
-  const gi::PosedSurfaces surfaces(source, 0);
+  const scene::PosedWorld surfaces(source, 0);
   for (std::size_t f = 0; f < 6; ++f) {
     const auto& [right, down, forward] = faces[f];
     image::Image truth(n * fine, n * fine, 3);

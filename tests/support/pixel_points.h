@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <ssphh/core/parallel.h>
-#include <ssphh/gi/surface_points.h>
+#include <ssphh/scene/posed_world.h>
 #include <ssphh/scene/query.h>
 
 namespace ssphh::test {
@@ -48,7 +48,7 @@ struct PixelPoints {
     const std::vector<scene::RayQuery> rays = pixel_rays(pose, size);
     std::vector<scene::RayHit> hits(rays.size());
     std::vector<std::uint8_t> moves(rays.size());
-    gi::PosedSurfaces(source, time).intersect(rays, hits, moves);
+    scene::PosedWorld(source, time).intersect(rays, hits, moves);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       pixels.push_back({hits[i], {}, -rays[i].direction});
       if (!hits[i].escaped())

@@ -16,6 +16,7 @@
 #include "options/place_options.h"
 #include "options/probe_options.h"
 #include "options/scene_options.h"
+#include "results/geometry_builds.h"
 
 namespace ssphh::app {
 namespace {
@@ -88,12 +89,13 @@ struct BakeResult {
   std::optional<farm::FarmReport> farm;
 };
 
-BakeResult run(const BakeOptions& o, const scene::Scene& scene, gi::ProbeSet set,
-               const std::filesystem::path& checkpoint, const FarmSession* session, const Control& control) {
+BakeResult run(const BakeOptions& o, const trace::SharedGeometry& geometry, const scene::Scene& scene,
+               gi::ProbeSet set, const std::filesystem::path& checkpoint, const FarmSession* session,
+               const Control& control) {
   BakeResult result{std::move(set), {}, {}, {}};
   const bool path = o.op == gi::LightOperator::path;
   if (!path || o.transport.fit || o.transport.viz) {
-    const trace::TransportScene source(scene);
+    const trace::TransportScene source(geometry, scene);
     if (path) {
       gi::add_transport(source, result.set, o.transport, result.transport, control);
     } else {
@@ -101,7 +103,7 @@ BakeResult run(const BakeOptions& o, const scene::Scene& scene, gi::ProbeSet set
     }
   }
   if (path || o.params.viz) {
-    const trace::PathTracer tracer(scene, o.scene.time);
+    const trace::PathTracer tracer(geometry, scene, o.scene.time);
     std::optional<farm::FarmCrew> crew;
     if (session) crew.emplace(session->options(), scene, o.scene.time);
     result.set = gi::bake(tracer, std::move(result.set), o.params, checkpoint, result.paths, control,
@@ -175,12 +177,14 @@ json::Value result_json(const BakeOptions& o, const BakeResult& r) {
 }
 
 void bake(Context& context, BakeOptions& options) {
+  const GeometryBuilds builds;
   std::optional<FarmSession> session;  // first: its processes start while this one reads the scene
   if (options.farm.any()) session.emplace(options.farm);
   const scene::Scene scene = load_scene(options.scene);
   options.params.path.seed = context.seed;
+  const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   const std::optional<PlaceResult> place =
-      place_for(scene, options.scene.time, options.place, "", context.control);
+      place_for(geometry, scene, options.scene.time, options.place, "", context.control);
   gi::ProbeSet set =
       place ? gi::init_from_placement(scene, place->placement, options.degree, options.scene.time)
             : gi::init_from_scene(scene, options.degree, options.scene.time);
@@ -188,12 +192,13 @@ void bake(Context& context, BakeOptions& options) {
 
   const std::filesystem::path checkpoint = options.output + ".checkpoint";
   if (!options.resume) std::filesystem::remove(checkpoint);
-  const BakeResult result =
-      run(options, scene, std::move(set), checkpoint, session ? &*session : nullptr, context.control);
+  const BakeResult result = run(options, geometry, scene, std::move(set), checkpoint,
+                                session ? &*session : nullptr, context.control);
   gi::write_probe_file(result.set, options.output);
   std::filesystem::remove(checkpoint);
 
   json::Value object = result_json(options, result);
+  object["geometry_builds"] = builds.count();
   if (result.farm) object["farm"] = farm_json(*result.farm);
   if (place) object["placement"] = place_json(*place);
   context.result(object, result_text(options, result) + (place ? "\n" + place_text(*place) : ""));

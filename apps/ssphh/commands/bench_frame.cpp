@@ -71,7 +71,8 @@ void move_scene(realtime::Renderer& renderer, const scene::Scene& scene, const s
 /// Lights the scene by the method: from here on nothing of it is asked for.
 void set_method(realtime::Renderer& renderer, const BenchOptions& o, const scene::Scene& scene,
                 const Context& context) {
-  LiveMethod live(o.method, o.parameters, scene, context.control);
+  LiveMethod live(o.method, o.parameters, std::make_shared<const trace::SceneGeometry>(scene), scene,
+                  context.control);
   live.update(gi::frame_at(live.source(), o.scene.time), context.control);
   renderer.set_method_light(live.method().light_data());
 }

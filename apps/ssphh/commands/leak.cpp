@@ -13,6 +13,7 @@
 #include "commands/command.h"
 #include "options/probe_options.h"
 #include "options/scene_options.h"
+#include "results/geometry_builds.h"
 #include "results/leak_map.h"
 
 namespace ssphh::app {
@@ -29,6 +30,7 @@ struct LeakOptions {
 };
 
 void leak(Context& context, LeakOptions& o) {
+  const GeometryBuilds builds;
   if (!o.output.empty()) {
     const image::FileFormat format = image::format_of_extension(o.output);
     if (format != image::FileFormat::png && format != image::FileFormat::exr)
@@ -44,9 +46,10 @@ void leak(Context& context, LeakOptions& o) {
   scene::CameraPose camera;
   if (!o.output.empty()) camera = scene::camera_pose(scene, o.camera, time);
 
-  const trace::PathTracer tracer(scene, time);
+  const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
+  const trace::PathTracer tracer(geometry, scene, time);
   require_same_scene(o.probes, set, scene, tracer.light_groups(), {}, o.force);
-  const trace::TransportScene surfaces(scene);
+  const trace::TransportScene surfaces(geometry, scene);
   const gi::LookupParams params_of_lookup = lookup_params(o.probes, set, o.lookup);
   const gi::IrradianceLookup lookup(set, tracer, params_of_lookup);
 
@@ -66,7 +69,8 @@ void leak(Context& context, LeakOptions& o) {
                         {"mean_truth", report.mean_truth},
                         {"mean_looked_up", report.mean_looked_up},
                         {"weights", name_of(params_of_lookup.weights.chosen(set.fitted.has_value()))},
-                        {"time", time}};
+                        {"time", time},
+                        {"geometry_builds", builds.count()}};
   std::string text = fmt::format(
       "leaked      {:.4g} % of the looked-up light stands on dark points\n"
       "dark        {} of {} points: path traced indirect irradiance under {:g} of the mean, at {:g} sigma\n"

@@ -19,8 +19,8 @@ std::string bytes_text(std::size_t bytes) {
 }  // namespace
 
 LiveMethod::LiveMethod(const std::string& name, const std::vector<std::string>& settings,
-                       const scene::Scene& scene, const Control& control)
-    : source_(scene) {
+                       trace::SharedGeometry geometry, const scene::Scene& scene, const Control& control)
+    : source_(std::move(geometry), scene) {
   const gi::MethodEntry& entry = gi::find_method(name);
   const gi::MethodParameters parameters(name, entry.parameters, settings);
   const Clock::time_point start = Clock::now();

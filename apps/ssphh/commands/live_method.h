@@ -16,8 +16,8 @@ namespace ssphh::app {
 class LiveMethod {
  public:
   /// Bakes. `settings` as "name=value". Keeps a reference to the scene.
-  LiveMethod(const std::string& name, const std::vector<std::string>& settings, const scene::Scene& scene,
-             const Control& control);
+  LiveMethod(const std::string& name, const std::vector<std::string>& settings,
+             trace::SharedGeometry geometry, const scene::Scene& scene, const Control& control);
 
   /// One frame; its time is added to json().
   void update(const gi::FrameState& state, const Control& control);

@@ -16,6 +16,7 @@
 #include "commands/live_method.h"
 #include "options/probe_options.h"
 #include "options/scene_options.h"
+#include "results/geometry_builds.h"
 
 namespace ssphh::app {
 namespace {
@@ -75,8 +76,8 @@ std::vector<Candidate> probe_candidates(const MeasureOptions& o, const std::vect
 }
 
 /// "NAME,PARAMETER=VALUE,...": the method stays alive as long as its light.
-Candidate method_candidate(const std::string& spec, const scene::Scene& scene, float time,
-                           const Control& control) {
+Candidate method_candidate(const std::string& spec, const trace::SharedGeometry& geometry,
+                           const scene::Scene& scene, float time, const Control& control) {
   std::vector<std::string> words;
   for (std::size_t at = 0; at <= spec.size();) {
     const std::size_t comma = std::min(spec.find(',', at), spec.size());
@@ -85,7 +86,7 @@ Candidate method_candidate(const std::string& spec, const scene::Scene& scene, f
   }
   const std::string name = words.front();
   words.erase(words.begin());
-  auto live = std::make_shared<LiveMethod>(name, words, scene, control);
+  auto live = std::make_shared<LiveMethod>(name, words, geometry, scene, control);
   live->update(gi::frame_at(live->source(), time), control);
   json::Value json = {{"method", spec}};
   json.update(live->json());
@@ -131,16 +132,18 @@ double frame_milliseconds(LiveMethod& live, float time, const Control& control) 
 }
 
 void measure(Context& context, MeasureOptions& o) {
+  const GeometryBuilds builds;
   if (o.probes.empty() && o.methods.empty())
     throw Error("measure", "there is nothing to compare", "give --probes FILE or --method NAME");
   const scene::Scene scene = load_scene(o.scene);
-  const trace::PathTracer tracer(scene, o.scene.time);
+  const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
+  const trace::PathTracer tracer(geometry, scene, o.scene.time);
   std::vector<gi::ProbeSet> sets;
   for (const std::string& file : o.probes) {
     sets.push_back(gi::read_probe_file(file));
     require_same_scene(file, sets.back(), scene, tracer.light_groups(), o.scene.time, o.force);
   }
-  const trace::TransportScene surfaces(scene);
+  const trace::TransportScene surfaces(geometry, scene);
   const std::vector<scene::SurfacePoint> points =
       find_points(o, surfaces, viewpoints(scene, sets, o.scene.time), context);
   o.params.path.seed = context.seed;
@@ -179,12 +182,13 @@ void measure(Context& context, MeasureOptions& o) {
   };
   for (Candidate& candidate : probe_candidates(o, sets, tracer)) compare(std::move(candidate));
   for (const std::string& spec : o.methods)
-    compare(method_candidate(spec, scene, o.scene.time, context.control));
+    compare(method_candidate(spec, geometry, scene, o.scene.time, context.control));
   context.result({{"points", points.size()},
                   {"dark_points", truth.dark},
                   {"mean_truth", truth.mean},
                   {"truth_spp", o.params.path.spp},
                   {"noise", noise},
+                  {"geometry_builds", builds.count()},
                   {"results", std::move(results)}},
                  text + fmt::format("\nnoise of the truth: {:.2g} % of a point, taken off the mean error and "
                                     "relMSE",

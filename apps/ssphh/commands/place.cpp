@@ -65,7 +65,8 @@ void place(Context& context, const PlaceCommand& options) {
   }
   const scene::Scene scene = load_scene(options.scene);
   const std::optional<PlaceResult> result =
-      place_for(scene, options.scene.time, options.place, "auto", context.control);
+      place_for(std::make_shared<const trace::SceneGeometry>(scene), scene, options.scene.time, options.place,
+                "auto", context.control);
   if (!result)
     throw Error("--probes scene", "there is nothing to place", "use auto, auto:METRES or a number");
 

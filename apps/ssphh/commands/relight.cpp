@@ -19,6 +19,7 @@
 #include "options/place_options.h"
 #include "options/probe_options.h"
 #include "options/scene_options.h"
+#include "results/geometry_builds.h"
 #include "results/relight_report.h"
 
 namespace ssphh::app {
@@ -53,7 +54,8 @@ class Relighting {
       : context_(context),
         o_(options),
         scene_(load_scene(options.scene)),
-        source_(scene_),
+        geometry_(std::make_shared<const trace::SceneGeometry>(scene_)),
+        source_(geometry_, scene_),
         animation_(source_, scene_, options.scene.time, options.animate) {}
 
   void run() {
@@ -92,7 +94,8 @@ class Relighting {
       const gi::ProbeSet set = gi::read_probe_file(o_.place.probes);
       require_same_scene(o_.place.probes, set, scene_, source_.light_groups(), {}, o_.force);
       for (const gi::Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
-    } else if (const auto placed = place_for(scene_, o_.scene.time, o_.place, "", context_.control)) {
+    } else if (const auto placed =
+                   place_for(geometry_, scene_, o_.scene.time, o_.place, "", context_.control)) {
       for (const gi::PlacedProbe& probe : placed->placement.probes)
         places.push_back({probe.name, probe.position, probe.radius});
     } else {
@@ -150,7 +153,7 @@ class Relighting {
     for (const KeptFrame& kept : kept_) {
       const scene::Scene lit = scene::with_lights(scene_, kept.state.time, kept.state.lights,
                                                   kept.state.group_scales, kept.state.environment_rotation);
-      const trace::PathTracer tracer(lit, kept.state.time);
+      const trace::PathTracer tracer(geometry_, lit, kept.state.time);
       gi::ProbeSet set = gi::lookup_set(session.places(), kept.reflected);
       set.fitted = fitted;
       const gi::IrradianceLookup lookup(set, tracer, params);
@@ -215,6 +218,7 @@ class Relighting {
     object["surfels"] = session.network().surfel_count();
     object["surfel_size"] = session.network().params().surfel_size;
     object["links"] = session.network().links().link_count();
+    object["geometry_builds"] = builds_.count();
     if (saved_) object["saved"] = o_.save;
     context_.result(object,
                     fmt::format("{} probes, {} surfels of {:.3g} m, {} links\n{}", session.places().size(),
@@ -224,7 +228,9 @@ class Relighting {
 
   Context& context_;
   const RelightOptions& o_;
+  GeometryBuilds builds_;
   scene::Scene scene_;
+  trace::SharedGeometry geometry_;
   trace::TransportScene source_;
   RelightAnimation animation_;
   RelightRun run_;
@@ -333,9 +339,7 @@ void add_relight_command(Command app, Context& context) {
   add_transport_options(command, o);
   add_truth_options(command, o);
   add_output_options(command, o);
-  command.footer(
-      "Frames are timed first, one after the other; truth, pictures and --save come after. Both need an\n"
-      "acceleration structure of the posed scene for each frame: seconds for large scenes.");
+  command.footer("Frames are timed first, one after the other; truth, pictures and --save come after.");
 }
 
 }  // namespace ssphh::app

@@ -20,6 +20,7 @@
 #include "options/method_options.h"
 #include "options/probe_options.h"
 #include "options/render_options.h"
+#include "results/geometry_builds.h"
 
 namespace ssphh::app {
 namespace {
@@ -111,20 +112,20 @@ void run_passes(const RenderOptions& o, trace::RenderState& state, const Render&
   std::filesystem::remove(checkpoint_path(o), ignored);
 }
 
-gi::ProbeSet read_probes(const RenderOptions& o, const trace::PathTracer& tracer, const scene::Scene& scene) {
+gi::ProbeSet read_probes(const RenderOptions& o, const scene::Scene& scene) {
   if (o.probes.empty()) {
     throw Error("--probes", "a farm needs a probe file for the method ssphh",
                 fmt::format("make one with `ssphh bake {} -o probes.sphl`", o.scene.source));
   }
   gi::ProbeSet probes = gi::read_probe_file(o.probes);
-  require_same_scene(o.probes, probes, scene, tracer.light_groups(), o.scene.time, o.force);
+  require_same_scene(o.probes, probes, scene, scene::light_groups(scene), o.scene.time, o.force);
   return probes;
 }
 
 void render_with_probes(const trace::PathTracer& tracer, const scene::Scene& scene, const RenderOptions& o,
                         const trace::RenderParams& params, trace::RenderState& state,
                         const Control& control) {
-  const gi::ProbeSet probes = read_probes(o, tracer, scene);
+  const gi::ProbeSet probes = read_probes(o, scene);
   const auto indirect =
       gi::make_lookup(o.lookup.method, probes, tracer, lookup_params(o.probes, probes, o.lookup));
   tracer.render_with(*indirect, params, state, control);
@@ -144,9 +145,10 @@ Hash128 content_hash(const RenderOptions& o, const scene::Scene& scene) {
 }
 
 // The method's extra numbers; null for those that have none.
-json::Value render_here(const trace::PathTracer& tracer, const scene::Scene& scene, const RenderOptions& o,
-                        const trace::RenderParams& params, trace::RenderState& state,
+json::Value render_here(const trace::SharedGeometry& geometry, const scene::Scene& scene,
+                        const RenderOptions& o, const trace::RenderParams& params, trace::RenderState& state,
                         const Control& control) {
+  const trace::PathTracer tracer(geometry, scene, o.scene.time);
   if (o.method == "path") {
     tracer.render(params, state, control);
     return nullptr;
@@ -155,7 +157,7 @@ json::Value render_here(const trace::PathTracer& tracer, const scene::Scene& sce
     render_with_probes(tracer, scene, o, params, state, control);
     return nullptr;
   }
-  LiveMethod live(o.method, o.parameters, scene, control);
+  LiveMethod live(o.method, o.parameters, geometry, scene, control);
   live.update(gi::frame_at(live.source(), o.scene.time), control);
   log_info("{}: {}", o.method, live.text());
   tracer.render_with(live.method().light(), params, state, control);
@@ -182,14 +184,13 @@ std::vector<std::string> wanted_layers(const RenderOptions& o) {
   return layers;
 }
 
-trace::RenderState render_on_farm(const FarmSession& session, const trace::PathTracer& tracer,
-                                  const scene::Scene& scene, const RenderOptions& o,
-                                  const trace::RenderParams& params, farm::FarmReport& report,
-                                  const Control& control) {
+trace::RenderState render_on_farm(const FarmSession& session, const scene::Scene& scene,
+                                  const RenderOptions& o, const trace::RenderParams& params,
+                                  farm::FarmReport& report, const Control& control) {
   std::optional<gi::ProbeSet> set;
   std::optional<farm::RenderProbes> probes;
   if (o.method == "ssphh") {
-    set = read_probes(o, tracer, scene);
+    set = read_probes(o, scene);
     probes = farm::RenderProbes{&*set, o.lookup};
   }
   return farm::render(session.options(), scene, o.scene.time, params, probes, wanted_layers(o), report,
@@ -198,6 +199,7 @@ trace::RenderState render_on_farm(const FarmSession& session, const trace::PathT
 
 void render(const RenderOptions& o, const Context& context) {
   if (o.backend == "gl") return render_gl(o, context);
+  const GeometryBuilds builds;
   check_method(o);
   if (o.occlusion > 0)
     throw Error("--occlusion", "is an approximation of the real-time renderer", "add --backend gl");
@@ -212,8 +214,8 @@ void render(const RenderOptions& o, const Context& context) {
     throw Error("--weights", "blends probes, but --lookup light takes one alone", "leave out one of them");
   const scene::Scene scene = load_scene(o.scene);
   trace::RenderParams params = render_params(o, context, scene);
-  const trace::PathTracer tracer(scene, o.scene.time);
-  if (tracer.light_groups().empty()) {
+  const std::vector<std::string> groups = scene::light_groups(scene);
+  if (groups.empty()) {
     log_warning(
         "{}: no lights: the picture will be black (add lights to the file, --overlay, --environment or "
         "--sun-sky)",
@@ -226,25 +228,34 @@ void render(const RenderOptions& o, const Context& context) {
     state = trace::load_state(checkpoint_path(o), key);
     log_info("resuming after {} passes", state.passes_done);
   }
+  trace::SharedGeometry geometry;  // on a farm, the workers build theirs
+  if (!session) geometry = std::make_shared<const trace::SceneGeometry>(scene);
   const auto start = std::chrono::steady_clock::now();
   farm::FarmReport farm_report;
   json::Value numbers;
   if (session) {
-    state = render_on_farm(*session, tracer, scene, o, params, farm_report, context.control);
+    state = render_on_farm(*session, scene, o, params, farm_report, context.control);
   } else {
-    run_passes(o, state, [&] { numbers = render_here(tracer, scene, o, params, state, context.control); });
+    run_passes(o, state, [&] { numbers = render_here(geometry, scene, o, params, state, context.control); });
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
   const image::Image picture = trace::resolve(state.color, state.passes_done);
   write_picture(o.output, picture, o);
   if (!o.png.empty()) write_display(o.png, picture, o);
-  write_aovs(o, state, tracer.light_groups());
+  write_aovs(o, state, groups);
 
   const auto mean = mean_radiance(picture);
-  json::Value object = {{"output", o.output},       {"method", o.method},          {"width", picture.width},
-                        {"height", picture.height}, {"passes", state.passes_done}, {"seconds", seconds},
-                        {"rays", state.rays},       {"paths", state.paths},        {"mean", mean}};
+  json::Value object = {{"output", o.output},
+                        {"method", o.method},
+                        {"width", picture.width},
+                        {"height", picture.height},
+                        {"passes", state.passes_done},
+                        {"seconds", seconds},
+                        {"rays", state.rays},
+                        {"paths", state.paths},
+                        {"mean", mean},
+                        {"geometry_builds", builds.count()}};
   std::string text =
       fmt::format("{}: {}×{}, {} paths, {} rays in {:.2f} s, mean radiance {:.4g} {:.4g} {:.4g}", o.output,
                   picture.width, picture.height, state.paths, state.rays, seconds, mean[0], mean[1], mean[2]);

@@ -11,6 +11,7 @@
 
 #include "commands/live_method.h"
 #include "options/gl_options.h"
+#include "results/geometry_builds.h"
 
 namespace ssphh::app {
 namespace {
@@ -47,11 +48,13 @@ void refuse_with_gl(const RenderOptions& o) {
 
 void render_gl(const RenderOptions& o, const Context& context) {
   refuse_with_gl(o);
+  const GeometryBuilds builds;
   const scene::Scene scene = load_scene(o.scene);
   const auto start = std::chrono::steady_clock::now();
   std::optional<LiveMethod> live;
   if (o.method != "ssphh") {
-    live.emplace(o.method, o.parameters, scene, context.control);
+    live.emplace(o.method, o.parameters, std::make_shared<const trace::SceneGeometry>(scene), scene,
+                 context.control);
     live->update(gi::frame_at(live->source(), o.scene.time), context.control);
     log_info("{}: {}", o.method, live->text());
   }
@@ -97,15 +100,11 @@ void render_gl(const RenderOptions& o, const Context& context) {
     image::write_image((output.parent_path() / output.stem()).string() + "." + aov + ".exr", image);
   }
   const auto mean = mean_radiance(picture);
-  json::Value object = {{"output", o.output},
-                        {"method", o.method},
-                        {"backend", "gl"},
-                        {"renderer", gl.info().renderer},
-                        {"width", picture.width},
-                        {"height", picture.height},
-                        {"samples", side * side},
-                        {"seconds", seconds},
-                        {"mean", mean}};
+  json::Value object = {{"output", o.output},     {"method", o.method},
+                        {"backend", "gl"},        {"renderer", gl.info().renderer},
+                        {"width", picture.width}, {"height", picture.height},
+                        {"samples", side * side}, {"seconds", seconds},
+                        {"mean", mean},           {"geometry_builds", builds.count()}};
   std::string text = fmt::format(
       "{}: {}×{}, {} samples per pixel in {:.2f} s on {}, mean radiance {:.4g} {:.4g} {:.4g}", o.output,
       picture.width, picture.height, side * side, seconds, gl.info().renderer, mean[0], mean[1], mean[2]);

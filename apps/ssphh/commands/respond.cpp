@@ -57,14 +57,15 @@ std::string csv_text(const std::vector<Frame>& frames) {
 
 void respond(Context& context, RespondOptions& o) {
   const scene::Scene scene = load_scene(o.scene);
-  LiveMethod live(o.method, o.parameters, scene, context.control);
+  const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
+  LiveMethod live(o.method, o.parameters, geometry, scene, context.control);
   const RelightAnimation event(live.source(), scene, o.scene.time, o.events);
   const gi::FrameState before = event.frame(0), after = event.frame(1);
   if (before == after) throw Error("--event", "nothing changes", "give two different keys, as in time=0:1");
 
   const scene::Scene lit =
       scene::with_lights(scene, after.time, after.lights, after.group_scales, after.environment_rotation);
-  const trace::PathTracer tracer(lit, after.time);
+  const trace::PathTracer tracer(geometry, lit, after.time);
   o.truth.path.seed = context.seed;
   const std::vector<scene::SurfacePoint> points =
       gi::reachable_points(live.source(), viewpoints(scene, {}, after.time), after.time,

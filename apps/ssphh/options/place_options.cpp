@@ -70,8 +70,9 @@ void add_place_options(Command command, PlaceOptions& options, bool files) {
       .group(group);
 }
 
-std::optional<PlaceResult> place_for(const scene::Scene& scene, float time, const PlaceOptions& options,
-                                     const std::string& fallback, const Control& control) {
+std::optional<PlaceResult> place_for(const trace::SharedGeometry& geometry, const scene::Scene& scene,
+                                     float time, const PlaceOptions& options, const std::string& fallback,
+                                     const Control& control) {
   gi::PlaceParams params = gi::place_params(scene, time);
   std::string probes = options.probes.empty() ? fallback : options.probes;
   if (probes.empty()) {
@@ -85,7 +86,7 @@ std::optional<PlaceResult> place_for(const scene::Scene& scene, float time, cons
   params.max_probes = options.max_probes;
 
   const auto start = std::chrono::steady_clock::now();
-  const trace::TransportScene source(scene);
+  const trace::TransportScene source(geometry, scene);
   PlaceResult result;
   result.placement = gi::place_probes(source, params, control);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

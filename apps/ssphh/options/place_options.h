@@ -6,6 +6,7 @@
 
 #include <ssphh/core/json.h>
 #include <ssphh/gi/place.h>
+#include <ssphh/trace/scene_geometry.h>
 
 #include "options/command_line.h"
 
@@ -30,8 +31,9 @@ struct PlaceResult {
 
 /// Places probes as the options say; none for `scene`. Empty options stand for `fallback`; where that is
 /// empty too, for `scene` if the scene has SPHLs, else for `auto` with a note on stderr.
-std::optional<PlaceResult> place_for(const scene::Scene& scene, float time, const PlaceOptions& options,
-                                     const std::string& fallback, const Control& control);
+std::optional<PlaceResult> place_for(const trace::SharedGeometry& geometry, const scene::Scene& scene,
+                                     float time, const PlaceOptions& options, const std::string& fallback,
+                                     const Control& control);
 
 json::Value place_json(const PlaceResult& result);
 std::string place_text(const PlaceResult& result);

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include <ssphh/core/file.h>
-#include <ssphh/gi/surface_points.h>
 #include <ssphh/image/io.h>
 #include <ssphh/metrics/heat_map.h>
+#include <ssphh/scene/posed_world.h>
 
 namespace ssphh::app {
 namespace {
@@ -40,7 +40,7 @@ LeakMap leak_map(const scene::TransportSource& surfaces, float time, const scene
   const std::vector<scene::RayQuery> rays = camera_rays(camera, width, height);
   std::vector<scene::RayHit> hits(rays.size());
   std::vector<std::uint8_t> moves(rays.size());
-  gi::PosedSurfaces(surfaces, time).intersect(rays, hits, moves);
+  scene::PosedWorld(surfaces, time).intersect(rays, hits, moves);
 
   LeakMap map{image::Image(width, height, 1), image::Image(width, height, 1)};
   std::vector<scene::SurfacePoint> points;

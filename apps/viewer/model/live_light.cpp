@@ -28,7 +28,8 @@ gi::Probe dark_probe(const gi::ProbePlace& place) {
 
 LiveLight::LiveLight(std::shared_ptr<const scene::Scene> scene, const LiveLightParams& params, float time,
                      const Control& control)
-    : scene_(std::move(scene)), source_(*scene_) {
+    : scene_(std::move(scene)),
+      source_(params.geometry ? params.geometry : trace::geometry_of(scene_), *scene_) {
   std::vector<gi::ProbePlace> places = find_places(*scene_, source_, params, time, control);
   session_ = std::make_unique<gi::RelightSession>(source_, std::move(places), params.relight, time, control);
   session_->update();  // The first one lights everything; the window should not wait for it.

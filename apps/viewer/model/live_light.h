@@ -10,6 +10,7 @@
 namespace ssphh::viewer {
 
 struct LiveLightParams {
+  trace::SharedGeometry geometry;      ///< of the scene's surfaces; null: it is built
   std::vector<gi::ProbePlace> places;  ///< empty: place_probes() finds them
   float spacing = 0;                   ///< of the places to be found [m]; 0: some 100 to 200 probes
   gi::RelightParams relight;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <ssphh/scene/posed_world.h>
+
 namespace ssphh::viewer {
 
 int pick_sphere(const scene::RayQuery& ray, std::span<const vec3> centers, float radius, float limit) {
@@ -21,22 +23,10 @@ int pick_sphere(const scene::RayQuery& ray, std::span<const vec3> centers, float
 
 std::optional<scene::SurfacePoint> pick_surface(const scene::TransportSource& source, float time,
                                                 const scene::RayQuery& ray) {
-  std::optional<scene::SurfacePoint> nearest;
-  float limit = ray.t_max;
-  for (int part = 0; part < source.part_count(); ++part) {
-    const mat4 pose = source.part_pose(part, time);
-    const mat4 inverse = glm::inverse(pose);
-    // Distances count in units of the direction, so they are the same in every frame.
-    const scene::RayQuery local{vec3(inverse * vec4(ray.origin, 1)), vec3(inverse * vec4(ray.direction, 0)),
-                                limit};
-    scene::RayHit hit;
-    source.intersect(part, {&local, 1}, {&hit, 1});
-    if (hit.escaped() || hit.distance >= limit) continue;
-    limit = hit.distance;
-    nearest = scene::SurfacePoint{ray.origin + limit * ray.direction,
-                                  glm::normalize(glm::transpose(mat3(inverse)) * hit.normal)};
-  }
-  return nearest;
+  scene::RayHit hit;
+  scene::PosedWorld(source, time).intersect({&ray, 1}, {&hit, 1});
+  if (hit.escaped()) return {};
+  return scene::SurfacePoint{ray.origin + hit.distance * ray.direction, hit.normal};
 }
 
 std::optional<float> along_axis(const scene::RayQuery& ray, const vec3& origin, const vec3& axis) {

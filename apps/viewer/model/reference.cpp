@@ -12,7 +12,9 @@ void Reference::start(const ReferenceParams& params) {
   image_ = {};
   job_.start(params.method == "path" ? "path tracing" : params.method,
              [this, params](const Control& control) -> BackgroundJob::Finish {
-               const trace::PathTracer tracer(*params.scene, params.time);
+               const trace::SharedGeometry geometry =
+                   params.geometry ? params.geometry : trace::geometry_of(params.scene);
+               const trace::PathTracer tracer(geometry, *params.scene, params.time);
                trace::RenderParams render;
                render.width = params.width;
                render.height = params.height;
@@ -23,7 +25,7 @@ void Reference::start(const ReferenceParams& params) {
                std::unique_ptr<gi::Method> method;
                if (params.method != "path") {
                  const gi::MethodEntry& entry = gi::find_method(params.method);
-                 source.emplace(*params.scene);
+                 source.emplace(geometry, *params.scene);
                  method = entry.make({*params.scene, *source}, {entry.name, entry.parameters}, control);
                  method->update(gi::frame_at(*source, params.time), control);
                }

@@ -6,6 +6,7 @@
 
 #include <ssphh/image/image.h>
 #include <ssphh/trace/render_state.h>
+#include <ssphh/trace/scene_geometry.h>
 
 #include "background_job.h"
 
@@ -13,6 +14,7 @@ namespace ssphh::viewer {
 
 struct ReferenceParams {
   std::shared_ptr<const scene::Scene> scene;  ///< with its edits
+  trace::SharedGeometry geometry;             ///< of its surfaces; null: it is built
   float time = 0;
   scene::CameraPose camera;
   int width = 0, height = 0;

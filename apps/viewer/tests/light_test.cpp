@@ -89,6 +89,19 @@ TEST(LiveLight, FindsPlacesWhereNoneAreGiven) {
   }
 }
 
+TEST(LiveLight, StandsOnTheGeometryItIsGiven) {
+  const auto scene = std::make_shared<const scene::Scene>(scene::make_builtin("two-rooms"));
+  LiveLightParams params = few_directions();
+  params.places = {{"a", vec3(-2, 1, 0.5f), 0.1f}};
+  const std::uint64_t before = trace::SceneGeometry::builds();
+  const LiveLight alone(scene, params, 0);
+  EXPECT_EQ(trace::SceneGeometry::builds(), before + 1);
+  params.geometry = trace::geometry_of(scene);
+  const LiveLight shared(scene, params, 0);
+  EXPECT_EQ(trace::SceneGeometry::builds(), before + 2);
+  EXPECT_EQ(shared.session().reflected()[0].values, alone.session().reflected()[0].values);
+}
+
 TEST(LiveLight, ABakeHasGroupsApartAndTellsHowItWasMade) {
   const Document document = make_document("gallery", scene::make_builtin("gallery1"), 0);
   LiveLightParams params = few_directions();

@@ -218,6 +218,20 @@ TEST(Reference, OfAMethodIsThePictureWithItsLight) {
   EXPECT_EQ(reference_image(params).color->pixels, trace::resolve(state.color, 3).pixels);
 }
 
+TEST(Reference, BuildsNothingWhereItIsGivenAGeometry) {
+  const Document document = make_document("rooms", scene::make_builtin("two-rooms"), 0.75f);
+  for (const char* method : {"path", "ambient"}) {
+    ReferenceParams params = small_reference(document);
+    params.method = method;
+    const std::uint64_t before = trace::SceneGeometry::builds();
+    const ReferenceImage alone = reference_image(params);
+    EXPECT_EQ(trace::SceneGeometry::builds(), before + 1);
+    params.geometry = trace::geometry_of(document.scene);
+    EXPECT_EQ(reference_image(params).color->pixels, alone.color->pixels);
+    EXPECT_EQ(trace::SceneGeometry::builds(), before + 2);
+  }
+}
+
 TEST(Reference, StartsWithTheseValues) {
   const ReferenceParams params = {};
   EXPECT_EQ(params.method, "path");

@@ -6,6 +6,7 @@
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
 #include <ssphh/gi/surface_points.h>
+#include <ssphh/scene/posed_world.h>
 
 namespace ssphh::gi {
 namespace {
@@ -20,7 +21,7 @@ constexpr std::size_t most_lines = 2000;
 /// Whether places see an origin.
 class Reach {
  public:
-  Reach(const PosedSurfaces& surfaces, std::span<const vec3> origins)
+  Reach(const scene::PosedWorld& surfaces, std::span<const vec3> origins)
       : surfaces_(surfaces), origins_(origins), lift_(1e-4f * surfaces.bounds().radius()) {}
 
   /// reached[i] = 1 where point i sees one of the origins nearest to it.
@@ -94,13 +95,13 @@ class Reach {
  private:
   vec3 lifted(const scene::SurfacePoint& point) const { return point.position + lift_ * point.normal; }
 
-  const PosedSurfaces& surfaces_;
+  const scene::PosedWorld& surfaces_;
   std::span<const vec3> origins_;
   float lift_;
 };
 
 /// All that a batch of isotropic random lines through the bounding sphere meets, line after line.
-std::vector<scene::SurfacePoint> cross(const PosedSurfaces& surfaces, std::uint64_t seed,
+std::vector<scene::SurfacePoint> cross(const scene::PosedWorld& surfaces, std::uint64_t seed,
                                        std::size_t first_line) {
   const vec3 center = surfaces.bounds().center();
   const float radius = 1.001f * surfaces.bounds().radius();
@@ -150,73 +151,12 @@ std::vector<scene::SurfacePoint> cross(const PosedSurfaces& surfaces, std::uint6
 
 }  // namespace
 
-PosedSurfaces::PosedSurfaces(const scene::TransportSource& source, float time) : source_(source) {
-  for (int p = 0; p < source.part_count(); ++p) {
-    const scene::Bounds local = source.part_bounds(p);
-    if (local.empty()) continue;
-    const mat4 pose = source.part_pose(p, time);
-    parts_.push_back({p, pose, glm::inverse(pose)});
-    for (int corner = 0; corner < 8; ++corner) {
-      const vec3 at((corner & 1) != 0 ? local.max.x : local.min.x,
-                    (corner & 2) != 0 ? local.max.y : local.min.y,
-                    (corner & 4) != 0 ? local.max.z : local.min.z);
-      bounds_.add(vec3(pose * vec4(at, 1)));
-    }
-  }
-}
-
-void PosedSurfaces::intersect(std::span<const scene::RayQuery> rays, std::span<scene::RayHit> hits,
-                              std::span<std::uint8_t> moves) const {
-  std::fill(hits.begin(), hits.end(), scene::RayHit{});
-  std::fill(moves.begin(), moves.end(), std::uint8_t{0});
-  std::vector<scene::RayQuery> local(rays.size());
-  std::vector<scene::RayHit> found(rays.size());
-  for (const Part& part : parts_) {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      local[i] = {vec3(part.to_part * vec4(rays[i].origin, 1)), mat3(part.to_part) * rays[i].direction,
-                  rays[i].t_max};
-    }
-    source_.intersect(part.index, local, found);
-    const mat3 normals = glm::transpose(mat3(part.to_part));
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      if (!(found[i].distance < hits[i].distance)) continue;
-      hits[i] = found[i];
-      hits[i].normal = glm::normalize(normals * found[i].normal);
-      if (!moves.empty()) moves[i] = part.index > 0 ? 1 : 0;
-    }
-  }
-}
-
-void PosedSurfaces::occluded(std::span<const scene::RayQuery> rays, std::span<std::uint8_t> blocked) const {
-  std::fill(blocked.begin(), blocked.end(), std::uint8_t{0});
-  std::vector<scene::RayQuery> local(rays.size());
-  std::vector<std::uint8_t> met(rays.size());
-  for (const Part& part : parts_) {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      local[i] = {vec3(part.to_part * vec4(rays[i].origin, 1)), mat3(part.to_part) * rays[i].direction,
-                  rays[i].t_max};
-    }
-    source_.occluded(part.index, local, met);
-    for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = blocked[i] | met[i];
-  }
-}
-
-bool PosedSurfaces::visible(const vec3& a, const vec3& b) const {
-  for (const Part& part : parts_) {
-    const scene::RayQuery segment{vec3(part.to_part * vec4(a, 1)), mat3(part.to_part) * (b - a), 1};
-    std::uint8_t blocked = 0;
-    source_.occluded(part.index, {&segment, 1}, {&blocked, 1});
-    if (blocked) return false;
-  }
-  return true;
-}
-
 std::vector<scene::SurfacePoint> reachable_points(const scene::TransportSource& source,
                                                   std::span<const vec3> origins, float time,
                                                   const SurfacePointParams& params, const Control& control) {
   if (params.count <= 0) throw Error("surface points", fmt::format("{} points are none", params.count));
   if (origins.empty()) throw Error("surface points", "there is neither camera nor probe to see them from");
-  const PosedSurfaces surfaces(source, time);
+  const scene::PosedWorld surfaces(source, time);
   if (surfaces.bounds().empty()) throw Error("surface points", "the scene has no surfaces");
 
   const Reach reach(surfaces, origins);
@@ -248,7 +188,7 @@ std::vector<scene::SurfacePoint> reachable_points(const scene::TransportSource& 
 std::vector<scene::SurfacePoint> points_in_the_open(const scene::TransportSource& source,
                                                     std::span<const scene::SurfacePoint> surfaces, float time,
                                                     std::uint64_t seed) {
-  const PosedSurfaces posed(source, time);
+  const scene::PosedWorld posed(source, time);
   const float lift = 1e-4f * posed.bounds().radius();
   std::vector<scene::RayQuery> rays;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {

@@ -112,7 +112,7 @@ struct Traced {
     };
   }
   std::vector<ProbeRay> trace() {
-    return trace_probes(field, PosedSurfaces(source, 0), light, std::vector<vec3>{vec3(1), vec3(2, 0, 0)},
+    return trace_probes(field, scene::PosedWorld(source, 0), light, std::vector<vec3>{vec3(1), vec3(2, 0, 0)},
                         directions, {});
   }
 };

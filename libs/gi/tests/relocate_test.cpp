@@ -107,7 +107,7 @@ struct Cell {
   }
   std::size_t relocate(int steps, bool move = true) {
     const TriangleSource source(scene);
-    return methods::relocate(field, PosedSurfaces(source, 0), steps, move, fresh);
+    return methods::relocate(field, scene::PosedWorld(source, 0), steps, move, fresh);
   }
   float x() const { return field.position[0].x; }
 };
@@ -169,7 +169,7 @@ TEST(DdgiRelocate, AQuarterOfBacksIsNotInside) {
     const RaySource source([&](const vec3&, const vec3& d) { return surface_at(1, d, d.z > 1 - 2 * share); });
     DdgiField field{ProbeGrid{}};
     std::vector<std::uint8_t> fresh{0};
-    relocate(field, PosedSurfaces(source, 0), 1, false, fresh);
+    relocate(field, scene::PosedWorld(source, 0), 1, false, fresh);
     EXPECT_EQ(field.active[0], share < 0.25f ? 1 : 0);
   }
 }

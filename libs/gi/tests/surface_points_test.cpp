@@ -2,6 +2,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/gi/surface_points.h>
+#include <ssphh/scene/posed_world.h>
 #include <ssphh/scene/primitives.h>
 
 #include "ray_source.h"
@@ -115,7 +116,7 @@ TEST(SurfacePoints, KeepTheirDistanceFromWhatStandsBeforeThem) {
   int near = 0;
   for (const auto& p : reachable_points(source, eyes, 0, {500, 3})) near += std::abs(p.normal.z) > 0.9f;
   EXPECT_GT(near, 20);
-  const PosedSurfaces surfaces(source, 0);
+  const scene::PosedWorld surfaces(source, 0);
   for (const auto& p : reachable_points(source, eyes, 0, {500, 3, 1.2f})) {
     const scene::RayQuery ahead{p.position + 1e-3f * p.normal, p.normal, 1.19f};
     std::uint8_t blocked = 0;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/gi/fitted_weights.h>
+#include <ssphh/scene/posed_world.h>
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/sh/reconstruct.h>
 
@@ -45,7 +46,7 @@ TEST(TransportBoxes, WithoutThicknessAreMetAsWell) {
 
 TEST(TransportBoxes, TurnWithTheirCorners) {
   const mat4 turn = glm::translate(mat4(1), vec3(10, 0, 0)) * glm::rotate(mat4(1), pi / 2, vec3(0, 0, 1));
-  const scene::Bounds box = transformed({vec3(1, 2, 3), vec3(2, 4, 6)}, turn);
+  const scene::Bounds box = scene::transformed({vec3(1, 2, 3), vec3(2, 4, 6)}, turn);
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(box.min[c], vec3(6, 1, 3)[c], 1e-5f);
     EXPECT_NEAR(box.max[c], vec3(8, 2, 6)[c], 1e-5f);

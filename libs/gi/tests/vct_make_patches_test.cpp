@@ -37,7 +37,7 @@ const RaySource one_plane([](const vec3& p, const vec3& d) { return plane(p, d);
 
 PatchSet patches_of(const std::vector<Fragment>& fragments, const RaySource& source,
                     const PatchParams& params = {}) {
-  return make_patches(fragments, PosedSurfaces(source, 0), two_metres, params, {});
+  return make_patches(fragments, scene::PosedWorld(source, 0), two_metres, params, {});
 }
 
 TEST(VctMakePatches, AskRaysForAlbedoAndTakeTheirHitsAsSamples) {

@@ -26,7 +26,7 @@ void expect_near(const vec3& actual, const vec3& expected, float relative = 1e-4
 
 TEST(VplField, SumsAllLightsHoweverManyRaysTheyTake) {
   // Heights 1, 2, 4 m in turn: power / π · 1 / h². More than one batch of 512 rays.
-  const PosedSurfaces surfaces(empty_space, 0);
+  const scene::PosedWorld surfaces(empty_space, 0);
   for (const int count : {1, 511, 512, 513, 1100}) {
     std::vector<Vpl> lights;
     vec3 expected(0);
@@ -49,7 +49,7 @@ TEST(VplField, LeavesOutWhatIsHiddenByRaysThatStartATenThousandthOfTheRadiusAbov
     least_start = std::min(least_start, p.y);
     return d.x > 0.5f ? surface_at(0.9f, d) : scene::RayHit{};
   });
-  const PosedSurfaces surfaces(half, 0);
+  const scene::PosedWorld surfaces(half, 0);
   const std::vector<Vpl> lights{above(2, vec3(1, 2, 3)), above(2, vec3(7), 1), above(2, vec3(1, 0, 0), -1)};
   // From (∓1, 2) to the origin both cosines are 2 / √5, and 1 / r² is 1 / 5.
   const vec3 expected = (vec3(1, 2, 3) / 4.0f + vec3(4.0f / 25, 0, 0)) / pi;
@@ -59,7 +59,7 @@ TEST(VplField, LeavesOutWhatIsHiddenByRaysThatStartATenThousandthOfTheRadiusAbov
 }
 
 TEST(VplField, LosesWhatTheBoundTakesOfTheWholeLight) {
-  const PosedSurfaces surfaces(empty_space, 0);
+  const scene::PosedWorld surfaces(empty_space, 0);
   const std::vector<Vpl> lights{above(0.5f, vec3(1, 0, 0)), above(2, vec3(0, 1, 0))};
   // Straight ahead at 1 m is 1: of 4 and ¼ there stay 1 and ¼, weighed as luminance.
   const VplField field(lights, surfaces, {VplKind::point, 1}, 0);
@@ -74,7 +74,7 @@ TEST(VplField, LosesWhatTheBoundTakesOfTheWholeLight) {
 }
 
 TEST(VplField, CutsCountWhatTheySplit) {
-  const PosedSurfaces surfaces(empty_space, 0);
+  const scene::PosedWorld surfaces(empty_space, 0);
   std::vector<Vpl> lights;
   for (int i = 0; i < 64; ++i) lights.push_back(above(100, vec3(1), 0.001f * static_cast<float>(i)));
   const VplField far(lights, surfaces, {}, 0.04f), exact(lights, surfaces, {}, 1e-9f);
@@ -89,7 +89,7 @@ TEST(VplField, CutsCountWhatTheySplit) {
 }
 
 TEST(VplField, GlossyLobesNarrowWithRoughnessUpToTheSharpest) {
-  const PosedSurfaces surfaces(empty_space, 0);
+  const scene::PosedWorld surfaces(empty_space, 0);
   const vec3 r = glm::normalize(vec3(1, 3, 0));
   const auto reflected = [&](float roughness, const VplParams& params = {}) {
     return VplField({{{0, 2, 0}, {0, -1, 0}, vec3(1, 2, 3), 0}}, surfaces, params, 0)
@@ -108,7 +108,7 @@ TEST(VplField, GlossyLobesNarrowWithRoughnessUpToTheSharpest) {
 }
 
 TEST(VplField, WhatALobeLeavesLessThanAThousandthOfDoesNotCount) {
-  const PosedSurfaces surfaces(empty_space, 0);
+  const scene::PosedWorld surfaces(empty_space, 0);
   for (const float share : {2e-3f, 5e-4f}) {
     // cos³⁰ = share
     const float cosine = std::pow(share, 1 / 30.0f), sine = std::sqrt(1 - cosine * cosine);

@@ -49,7 +49,7 @@ GivenLight downward(const std::vector<float>& fluxes) {
 
 std::vector<Vpl> trace(const GivenLight& light, const scene::TransportSource& source,
                        const PhotonParams& params, const std::vector<vec3>& scales) {
-  return trace_photons(light, scales, PosedSurfaces(source, 0), params, {});
+  return trace_photons(light, scales, scene::PosedWorld(source, 0), params, {});
 }
 
 vec3 power_of(const std::vector<Vpl>& lights) {

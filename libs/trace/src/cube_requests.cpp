@@ -74,7 +74,7 @@ void trace_texel_rows(const TracerData& data, const Emitters& emitters, const sc
         for (int s = 0; s < path.spp; ++s) {
           const Ray ray{request.position, texel.direction(sampler.camera().next2())};
           sums.direction = ray.direction;
-          trace_path(data.embree, emitters, ray, sampler, options, task, sums);
+          trace_path(data.geometry, emitters, ray, sampler, options, task, sums);
           ++sampler.index;
         }
         for (std::size_t g = 0; g < maps.size(); ++g) {
@@ -128,7 +128,7 @@ void splat_ball(const TracerData& data, const GhostEmitters::Ball& ball, int ind
     float distance;
     const vec3 direction =
         GhostEmitters::sample_cone(ball, request.position, sampler.camera().next2(), distance);
-    if (data.embree.occluded({request.position, direction, distance}, sampler.alpha_seed(0, true), task))
+    if (data.geometry.occluded({request.position, direction, distance}, sampler.alpha_seed(0, true), task))
       continue;
     const CubePoint point = cube_point(direction);
     const auto texel = [&](float c) {

@@ -8,7 +8,7 @@
 #include <ssphh/core/random.h>
 #include <ssphh/shading/lights.h>
 
-#include "embree_scene.h"
+#include "posed_geometry.h"
 
 namespace ssphh::trace {
 
@@ -68,7 +68,7 @@ struct PathVertex {
 /// `emission` being the direction in which the light left its emitter. With `scattered_at` the ray is no
 /// camera's but leaves that vertex: its path begins at depth 1.
 template <class Emitters, class Visitor>
-void trace_path(const EmbreeScene& scene, const Emitters& emitters, Ray ray, const PathSampler& sampler,
+void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, const PathSampler& sampler,
                 const PathOptions& options, RayTask& task, Visitor& visitor,
                 const PathVertex* scattered_at = nullptr) {
   vec3 throughput(1);

@@ -31,12 +31,13 @@ void set_ray_recording(RayRecording* recording) {
   ray_recording = recording;
 }
 
-TracerData::TracerData(const scene::Scene& scene_in, float time_in)
+TracerData::TracerData(SharedGeometry geometry_in, const scene::Scene& scene_in, float time_in)
     : scene(scene_in),
       time(time_in),
       world(scene::world_matrices(scene_in, time_in)),
       lights(scene_in, world),
-      embree(scene_in, world),
+      shaded(std::move(geometry_in), scene_in),
+      geometry(shaded, shaded.layout().poses(scene_in, time_in)),
       found_by_rays(has_found_by_rays(scene_in)) {}
 
 const Hash128& TracerData::scene_hash() const {
@@ -77,11 +78,14 @@ void check_image_memory(const std::string& where, std::uint64_t pixels, std::uin
   }
 }
 
-PathTracer::PathTracer(const scene::Scene& scene, float time) {
+PathTracer::PathTracer(SharedGeometry geometry, const scene::Scene& scene, float time) {
   if (!std::isfinite(time)) throw Error("time", "it must be a finite number of seconds");
   scene::check_indices(scene);
-  data_ = std::make_unique<Data>(scene, time);
+  data_ = std::make_unique<Data>(std::move(geometry), scene, time);
 }
+
+PathTracer::PathTracer(const scene::Scene& scene, float time)
+    : PathTracer(std::make_shared<const SceneGeometry>(scene), scene, time) {}
 
 PathTracer::~PathTracer() = default;
 
@@ -102,7 +106,7 @@ bool PathTracer::visible(const vec3& a, const vec3& b) const {
   if (!(length > 2 * gap)) return true;
   const vec3 direction = d / length;
   RayTask task;
-  const bool blocked = data_->embree.occluded({a + gap * direction, direction, length - 2 * gap}, 0, task);
+  const bool blocked = data_->geometry.occluded({a + gap * direction, direction, length - 2 * gap}, 0, task);
   data_->rays.add(task.rays);
   return !blocked;
 }
@@ -114,7 +118,7 @@ float PathTracer::backface_fraction(const vec3& position) const {
   for (int i = 0; i < count; ++i) {
     const Ray ray{position, spherical_fibonacci(i, count)};
     Hit hit;
-    if (data_->embree.intersect(ray, 0, task, hit) && data_->embree.is_back(hit, ray.direction)) ++backs;
+    if (data_->geometry.intersect(ray, 0, task, hit) && data_->geometry.is_back(hit, ray.direction)) ++backs;
   }
   data_->rays.add(task.rays);
   return static_cast<float>(backs) / count;

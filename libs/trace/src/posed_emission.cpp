@@ -7,7 +7,8 @@ namespace ssphh::trace {
 
 float PosedLight::flux(int group) const {
   float sum = 0;
-  for (const GroupEmitter& light : emitters_of(group)) sum += lights_.flux(light.index, bounds_.radius());
+  for (const GroupEmitter& light : emitters_of(group))
+    sum += lights_.flux(light.index, geometry_.bounds().radius());
   return sum;
 }
 
@@ -18,14 +19,14 @@ std::optional<scene::Photon> PosedLight::emit(int group, const scene::PhotonNumb
   const GroupEmitter* chosen = nullptr;
   float below = 0, probability = 0;
   for (const GroupEmitter& light : emitters_of(group)) {
-    const float share = lights_.flux(light.index, bounds_.radius()) / all;
+    const float share = lights_.flux(light.index, geometry_.bounds().radius()) / all;
     if (!(share > 0)) continue;
     chosen = &light, probability = share;
     below += share;
     if (numbers.emitter < below) break;
   }
-  auto emitted = lights_.emit(chosen->index, numbers.place, numbers.direction, bounds_.center(),
-                              1.001f * bounds_.radius());
+  auto emitted = lights_.emit(chosen->index, numbers.place, numbers.direction, geometry_.bounds().center(),
+                              1.001f * geometry_.bounds().radius());
   if (!emitted) return std::nullopt;
   scene::Photon& photon = emitted->photon;
   photon.power /= probability;

@@ -9,6 +9,7 @@
 #include <ssphh/core/sphere.h>
 
 #include "surface_gap.h"
+#include "sweep.h"
 
 namespace ssphh::trace {
 namespace {
@@ -31,28 +32,12 @@ vec3 farthest(const scene::Bounds& box, const vec3& direction) {
 PosedLight::PosedLight(std::shared_ptr<const TransportData> data, std::span<const scene::LightState> lights,
                        std::span<const mat4> poses, float environment_rotation)
     : data_(std::move(data)),
-      lights_(data_->lights, data_->node_matrices(poses), lights, environment_rotation) {
+      lights_(data_->lights, data_->layout().node_matrices(poses), lights, environment_rotation),
+      geometry_(data_->geometry, poses) {
   groups_.resize(lights_.groups().size());
   for (int i = 0; i < lights_.emitter_count(); ++i) {
     const shading::Emitter emitter = lights_.emitter(i);
     groups_[static_cast<std::size_t>(emitter.group)].push_back({i, emitter});
-  }
-  bounds_ = data_->parts[0].bounds;
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    const TransportPart& part = data_->parts[i];
-    for (int corner = 0; corner < 8 && !part.bounds.empty(); ++corner) {
-      const vec3 at((corner & 1) != 0 ? part.bounds.max.x : part.bounds.min.x,
-                    (corner & 2) != 0 ? part.bounds.max.y : part.bounds.min.y,
-                    (corner & 4) != 0 ? part.bounds.max.z : part.bounds.min.z);
-      bounds_.add(vec3(poses[i] * vec4(at, 1)));
-    }
-    // What is scaled to nothing shadows nothing.
-    const float det = glm::determinant(mat3(poses[i]));
-    if (part.bounds.empty() || !(std::abs(det) > 0) || !std::isfinite(1 / det)) continue;
-    const mat4 from_world = glm::inverse(poses[i]);
-    const float rounding =
-        4 * position_error(scene_size(part.bounds) + max_abs_component(vec3(from_world[3])));
-    moving_.push_back({part.embree.get(), from_world, grown(part.bounds, rounding)});
   }
 }
 
@@ -65,17 +50,6 @@ const std::vector<PosedLight::GroupEmitter>& PosedLight::emitters_of(int group) 
 PosedLight::Receiver PosedLight::receiver(const scene::SurfacePoint& point) const {
   return {point.position, point.normal, above_surface(point.position, point.normal, data_->gap),
           position_seed(point.position)};
-}
-
-bool PosedLight::blocked(const Ray& ray, RayTask& task) const {
-  if (!(ray.t_max > 0)) return false;
-  if (data_->parts[0].embree->occluded(ray, 0, task)) return true;
-  for (const MovingPart& part : moving_) {
-    const vec3 o(part.from_world * vec4(ray.origin, 1)), d = mat3(part.from_world) * ray.direction;
-    if (sweep_meets(o, {d, d}, ray.t_max, part.bounds) && part.embree->occluded({o, d, ray.t_max}, 0, task))
-      return true;
-  }
-  return false;
 }
 
 template <class Draw>
@@ -95,7 +69,8 @@ float PosedLight::visible_share(const Receiver& at, std::uint64_t seed, float si
     if (!sample || !(sample->pdf > 0)) continue;
     const float weight = std::max(glm::dot(sample->wi, at.normal), 0.0f) / sample->pdf;
     all += weight;
-    if (weight > 0 && !blocked(shadow_ray(at.start, at.position, *sample), task)) seen += weight;
+    if (weight > 0 && !geometry_.occluded(shadow_ray(at.start, at.position, *sample), 0, task))
+      seen += weight;
   }
   return all > 0 ? seen / all : 0;
 }
@@ -153,7 +128,7 @@ vec3 PosedLight::irradiance_of(const GroupEmitter& light, const Receiver& at, st
     brightest = glm::max(brightest, sample->radiance);
     const float cosine = glm::dot(sample->wi, at.normal);
     if (cosine > 0 && max_component(sample->radiance) > 0 &&
-        !blocked(shadow_ray(at.start, at.position, *sample), task))
+        !geometry_.occluded(shadow_ray(at.start, at.position, *sample), 0, task))
       sum += sample->radiance * (cosine / sample->pdf);
   }
   sum /= static_cast<float>(count);
@@ -182,7 +157,7 @@ vec3 PosedLight::sky_irradiance(const GroupEmitter& light, const Receiver& at, s
     }
     const vec3 wi = sample ? sample->wi : frame.to_world(sample_cosine_hemisphere(u));
     const float cosine = glm::dot(wi, at.normal);
-    if (!(cosine > 0) || blocked({at.start, wi}, task)) continue;
+    if (!(cosine > 0) || geometry_.occluded({at.start, wi}, 0, task)) continue;
     // Looking up the image costs more than the ray.
     vec3 radiance;
     float sky_pdf;

@@ -3,7 +3,6 @@
 
 #include <ssphh/shading/mesh_view.h>
 
-#include "sweep.h"
 #include "transport_data.h"
 
 namespace ssphh::trace {
@@ -20,11 +19,6 @@ class PosedLight final : public scene::DirectLight {
   std::optional<scene::Photon> emit(int group, const scene::PhotonNumbers& numbers) const override;
 
  private:
-  struct MovingPart {
-    const EmbreeScene* embree;
-    mat4 from_world;
-    scene::Bounds bounds;  ///< in the part's frame, grown by rounding errors
-  };
   struct GroupEmitter {
     int index;  ///< in lights_
     shading::Emitter emitter;
@@ -36,7 +30,6 @@ class PosedLight final : public scene::DirectLight {
   };
 
   Receiver receiver(const scene::SurfacePoint& point) const;
-  bool blocked(const Ray& ray, RayTask& task) const;
   /// Share of a light's irradiance that nothing holds back. `draw(u)` gives a LightSample toward it, or none;
   /// `sine2` is the squared sine of the angle from its centre to its edge, 1 if that is not known.
   template <class Draw>
@@ -51,9 +44,8 @@ class PosedLight final : public scene::DirectLight {
 
   std::shared_ptr<const TransportData> data_;
   shading::LightSet lights_;
+  PosedGeometry geometry_;
   std::vector<std::vector<GroupEmitter>> groups_;
-  std::vector<MovingPart> moving_;
-  scene::Bounds bounds_;  ///< of all parts, in the world
 };
 
 }  // namespace ssphh::trace

@@ -191,7 +191,7 @@ void run_passes(const TracerData& data, const scene::IndirectLight* indirect, co
           sampler.index = first_sample + static_cast<std::uint32_t>(s);
           const vec2 jitter = sampler.camera().next2();
           const Ray ray = camera.ray(static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
-          trace_path(data.embree, emitters, ray, sampler, options, scope.task, sums);
+          trace_path(data.geometry, emitters, ray, sampler, options, scope.task, sums);
         }
         sums.store(pass, x - tile.x, row, params.path.spp);
       }

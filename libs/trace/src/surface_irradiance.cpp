@@ -49,8 +49,8 @@ void trace_from(const TracerData& data, const scene::SurfacePoint& point, float 
   const auto light = emitters.sample(vertex, u_light, u_point);
   if (light && light->pdf > 0) {
     const float cosine = glm::dot(light->wi, point.normal);
-    const std::uint64_t alpha_seed = data.embree.has_alpha() ? sampler.alpha_seed(0, true) : 0;
-    if (cosine > 0 && !data.embree.occluded(shadow_ray(start, point.position, *light), alpha_seed, task)) {
+    const std::uint64_t alpha_seed = data.geometry.has_alpha() ? sampler.alpha_seed(0, true) : 0;
+    if (cosine > 0 && !data.geometry.occluded(shadow_ray(start, point.position, *light), alpha_seed, task)) {
       const float weight = light->delta ? 1 : shading::power_heuristic(light->pdf, cosine / pi);
       sums.scale = 1;
       sums.add(1, light->group, light->radiance * (cosine * weight / light->pdf), -light->wi);
@@ -63,7 +63,7 @@ void trace_from(const TracerData& data, const scene::SurfacePoint& point, float 
   if (!(local.z > 0)) return;
   vertex.bsdf_pdf = local.z / pi;
   sums.scale = pi;
-  trace_path(data.embree, emitters, {start, Frame::around(point.normal).to_world(local)}, sampler, options,
+  trace_path(data.geometry, emitters, {start, Frame::around(point.normal).to_world(local)}, sampler, options,
              task, sums, &vertex);
 }
 

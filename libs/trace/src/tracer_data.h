@@ -6,19 +6,21 @@
 
 #include <ssphh/trace/path_tracer.h>
 
+#include "posed_geometry.h"
 #include "scene_emitters.h"
 #include "shared_count.h"
 
 namespace ssphh::trace {
 
 struct TracerData {
-  TracerData(const scene::Scene& scene_in, float time_in);
+  TracerData(SharedGeometry geometry, const scene::Scene& scene_in, float time_in);
 
   const scene::Scene& scene;
   float time;
   std::vector<mat4> world;
   shading::LightSet lights;
-  EmbreeScene embree;
+  ShadedGeometry shaded;
+  PosedGeometry geometry;
   bool found_by_rays;  ///< some light is no point
   mutable SharedCount rays;
   mutable std::once_flag hash_once;

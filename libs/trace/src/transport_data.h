@@ -4,31 +4,20 @@
 #include <ssphh/shading/lights.h>
 #include <ssphh/trace/transport_scene.h>
 
-#include "embree_scene.h"
+#include "posed_geometry.h"
 #include "shared_count.h"
 
 namespace ssphh::trace {
 
-struct TransportPart {
-  int node = -1;  ///< whose frame it is; −1: world
-  std::string name;
-  std::vector<int> instances;
-  scene::Bounds bounds;
-  std::unique_ptr<EmbreeScene> embree;
-};
-
 struct TransportData {
-  TransportData(const scene::Scene& scene, const TransportOptions& options);
+  TransportData(SharedGeometry geometry, const scene::Scene& scene, const TransportOptions& options);
 
-  /// World matrix of every node below which a part hangs or that never moves, parts posed by `poses`.
-  std::vector<mat4> node_matrices(std::span<const mat4> poses) const;
-  const TransportPart& part(int index) const;
+  const SceneParts& layout() const { return geometry.layout(); }
+  const ScenePart& part(int index) const { return layout().part(index); }
 
   const scene::Scene& scene;
   TransportOptions options;
-  std::vector<TransportPart> parts;  ///< the first never moves
-  std::vector<int> node_part;        ///< part whose frame holds the node
-  std::vector<mat4> node_frame;      ///< node to that frame
+  ShadedGeometry geometry;
   std::vector<std::string> light_names;
   std::vector<int> light_group;
   shading::LightSet lights;  ///< at time 0

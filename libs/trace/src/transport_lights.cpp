@@ -49,7 +49,8 @@ std::unique_ptr<scene::DirectLight> TransportScene::direct_light(std::span<const
                                                                  float environment_rotation) const {
   require(lights.size() == data_->scene.lights.size(), "direct light",
           "there is not one state for each light");
-  require(poses.size() == data_->parts.size(), "direct light", "there is not one pose for each part");
+  require(poses.size() == data_->layout().parts.size(), "direct light",
+          "there is not one pose for each part");
   return std::make_unique<PosedLight>(data_, lights, poses, environment_rotation);
 }
 

@@ -41,11 +41,12 @@ vec2 square_to_triangle(const vec2& u) {
 }
 
 /// Points on triangle `index` of an instance: area times density of them, at least one.
-void sample_triangle(const TransportData& data, const TransportPart& part, int instance_index,
-                     std::uint32_t index, double density, std::vector<scene::PartPoint>& points) {
+void sample_triangle(const TransportData& data, int instance_index, std::uint32_t index, double density,
+                     std::vector<scene::PartPoint>& points) {
   const scene::Instance& instance = data.scene.instances[static_cast<std::size_t>(instance_index)];
   const scene::Mesh& mesh = data.scene.meshes[static_cast<std::size_t>(instance.mesh)];
-  const mat4 m = instance.node < 0 ? mat4(1) : data.node_frame[static_cast<std::size_t>(instance.node)];
+  const mat4 m =
+      instance.node < 0 ? mat4(1) : data.layout().frames.to_frame[static_cast<std::size_t>(instance.node)];
   const uvec3& corners = mesh.triangles[index];
   const vec3 p0(m * vec4(mesh.positions[corners.x], 1));
   const vec3 e1 = vec3(m * vec4(mesh.positions[corners.y], 1)) - p0;
@@ -66,7 +67,7 @@ void sample_triangle(const TransportData& data, const TransportPart& part, int i
     const vec2 b = square_to_triangle(SampleSequence(seed, i).next2());
     const Hit hit{instance_index, index, b, 0};
     vec3 ray_origin;
-    const shading::Surface surface = part.embree->surface(hit, front, ray_origin);
+    const shading::Surface surface = data.geometry.surface(hit, front, ray_origin);
     if (surface.alpha < 0.5f) continue;
     points.push_back({{p0 + b.x * e1 + b.y * e2, front}, lambertian_albedo(surface, front), double_sided});
   }
@@ -77,23 +78,25 @@ void sample_triangle(const TransportData& data, const TransportPart& part, int i
 void TransportScene::intersect(int part, std::span<const scene::RayQuery> rays,
                                std::span<scene::RayHit> hits) const {
   require(rays.size() == hits.size(), "rays", "there is not one hit for each");
-  const EmbreeScene& embree = *data_->part(part).embree;
+  data_->part(part);  // throws where there is none
+  const ShadedGeometry& geometry = data_->geometry;
   const shading::LightSet& lights = data_->lights;
   for_rays(rays.size(), data_->rays, [&](std::size_t begin, std::size_t end, RayTask& task) {
     for (std::size_t i = begin; i < end; ++i) {
       scene::RayHit& out = hits[i] = {};
       const scene::RayQuery& ray = rays[i];
       Hit hit;
-      if (!embree.intersect({ray.origin, ray.direction, ray.t_max}, 0, task, hit)) continue;
+      ++task.rays;
+      if (!geometry.intersect(part, {ray.origin, ray.direction, ray.t_max}, 0, hit)) continue;
       const vec3 wo = -glm::normalize(ray.direction);
       vec3 ray_origin;
-      const shading::Surface surface = embree.surface(hit, wo, ray_origin);
+      const shading::Surface surface = geometry.surface(hit, wo, ray_origin);
       out.distance = hit.distance;
       out.normal = surface.geometric_normal;
       out.albedo = lambertian_albedo(surface, wo);
       out.emission = surface.emission;
       out.group = max_component(surface.emission) > 0 ? lights.instance_group(hit.instance) : -1;
-      out.back = embree.is_back(hit, ray.direction);
+      out.back = geometry.is_back(hit, ray.direction);
     }
   });
 }
@@ -101,11 +104,14 @@ void TransportScene::intersect(int part, std::span<const scene::RayQuery> rays,
 void TransportScene::occluded(int part, std::span<const scene::RayQuery> rays,
                               std::span<std::uint8_t> blocked) const {
   require(rays.size() == blocked.size(), "rays", "there is not one answer for each");
-  const EmbreeScene& embree = *data_->part(part).embree;
+  data_->part(part);  // throws where there is none
+  const ShadedGeometry& geometry = data_->geometry;
   for_rays(rays.size(), data_->rays, [&](std::size_t begin, std::size_t end, RayTask& task) {
     for (std::size_t i = begin; i < end; ++i) {
       const scene::RayQuery& ray = rays[i];
-      blocked[i] = embree.occluded({ray.origin, ray.direction, ray.t_max}, 0, task) ? 1 : 0;
+      const bool covers_any = ray.t_max > 0;
+      task.rays += covers_any;
+      blocked[i] = covers_any && geometry.occluded(part, {ray.origin, ray.direction, ray.t_max}, 0) ? 1 : 0;
     }
   });
 }
@@ -114,13 +120,13 @@ std::vector<scene::PartPoint> TransportScene::sample_part(int part_index,
                                                           double points_per_square_metre) const {
   if (!(points_per_square_metre >= 0)) throw Error("points per square metre", "they must not be negative");
   require(part_index > 0, "part", "part 0 cannot be sampled");
-  const TransportPart& part = data_->part(part_index);
+  const ScenePart& part = data_->part(part_index);
   std::vector<scene::PartPoint> points;
   for (const int i : part.instances) {
     const scene::Instance& instance = data_->scene.instances[static_cast<std::size_t>(i)];
     const auto triangles = data_->scene.meshes[static_cast<std::size_t>(instance.mesh)].triangles.size();
     for (std::uint32_t t = 0; t < triangles; ++t)
-      sample_triangle(*data_, part, i, t, points_per_square_metre, points);
+      sample_triangle(*data_, i, t, points_per_square_metre, points);
   }
   return points;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "hand_made.h"
+#include "posed_scene.h"
 #include "tracer_data.h"
 
 namespace ssphh::test {
@@ -40,7 +41,7 @@ class FarFloor {
   /// Rays straight down from 1 m above random points of the floor; `wide`: share of the floor's width around
   /// its centre.
   std::vector<Light> direct_light(float wide = 1) const {
-    const trace::TracerData data(scene, 0);
+    const trace::TracerData data(std::make_shared<const trace::SceneGeometry>(scene), scene, 0);
     const trace::PathOptions options{1, true, trace::Strategy::nee_only};
     trace::RayTask task;
     Pcg32 random(3);
@@ -48,8 +49,8 @@ class FarFloor {
     for (std::uint32_t batch = 0; batch < batches; ++batch) {
       for (std::uint32_t s = 0; s < paths; ++s) {
         const vec2 u = 4.0f + 8 * wide * (random.uniform2() - 0.5f);
-        trace_path(data.embree, data.emitters(), {at(u.x, 1, u.y), vec3(0, -1, 0)}, {batch, s}, options, task,
-                   lights[batch]);
+        trace_path(data.geometry, data.emitters(), {at(u.x, 1, u.y), vec3(0, -1, 0)}, {batch, s}, options,
+                   task, lights[batch]);
       }
     }
     return lights;
@@ -115,7 +116,7 @@ TEST(FarShadow, ABlockerJustAboveTheFloorIsMet) {
     far.add_bulb(8);
     far.add_quad_facing_up(1.5f * far.error(), lambertian(vec3(0)));
     // The camera's rays would see the blocker: they start below it.
-    const trace::EmbreeScene embree(far.scene, scene::world_matrices(far.scene));
+    const PosedScene embree(far.scene);
     trace::RayTask task;
     trace::Hit hit;
     ASSERT_TRUE(embree.intersect({far.at(4, -1, 4), vec3(0, 1, 0)}, 0, task, hit));

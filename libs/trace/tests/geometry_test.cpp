@@ -7,8 +7,8 @@
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
 
-#include "embree_scene.h"
 #include "hand_made.h"
+#include "posed_scene.h"
 
 namespace ssphh::test {
 namespace {
@@ -25,7 +25,7 @@ TEST(Geometry, NoSelfIntersectionAtAnyScaleAndPlace) {
                                     glm::mat4_cast(glm::normalize(quat(0.8f, 0.3f, 0.1f, 0.5f)))),
                  lambertian(vec3(1)));
       for (vec3& p : scene.meshes[0].positions) p = center + scale * p;
-      const trace::EmbreeScene embree(scene, {mat4(1)});
+      const PosedScene embree(scene);
       trace::RayTask task;
       Pcg32 random(static_cast<std::uint64_t>(away + scale * 7));
       for (int i = 0; i < 3000; ++i) {
@@ -56,7 +56,7 @@ TEST(Geometry, ClosedRoomDoesNotLeak) {
   scene::Scene scene;
   scene::Mesh room = scene::flipped(scene::make_sphere(1, 24, 12));
   add_object(scene, room, lambertian(vec3(0.5f)));
-  const trace::EmbreeScene embree(scene, {mat4(1)});
+  const PosedScene embree(scene);
   trace::RayTask task;
   Pcg32 random(5);
   trace::Ray ray{vec3(0.1f, 0.2f, 0), vec3(0, 1, 0)};
@@ -132,7 +132,7 @@ float world_distance(const scene::Scene& scene, const std::vector<mat4>& world, 
 TEST(Geometry, InstancedAndFlattenedScenesAreTheSame) {
   const scene::Scene scene = many_boxes();
   const std::vector<mat4> world = scene::world_matrices(scene);
-  const trace::EmbreeScene flat(scene, world), instanced(scene, world, 0);
+  const PosedScene flat(scene), instanced(scene, 0, 0);
   trace::RayTask task;
   Pcg32 random(5);
   int same = 0, hits_on_copies = 0;
@@ -199,7 +199,7 @@ TEST(Geometry, MaskIsAllOrNothing) {
 TEST(Geometry, WithoutChanceHalfAlphaBlocksAndLessDoesNot) {
   for (const float alpha : {0.3f, 0.4999f, 0.5f, 0.7f}) {
     const scene::Scene scene = card_scene(scene::AlphaMode::blend, alpha);
-    const trace::EmbreeScene embree(scene, scene::world_matrices(scene));
+    const PosedScene embree(scene);
     trace::RayTask task;
     EXPECT_EQ(embree.occluded({vec3(0, 0.5f, 0), vec3(0, 1, 0), 1}, 0, task), alpha >= 0.5f) << alpha;
   }
@@ -223,7 +223,7 @@ TEST(Geometry, AlphaOfInstancedMeshesIsTheInstances) {
   opaque.material = static_cast<int>(scene.materials.size()) - 1;
   opaque.node = add_node(scene, "opaque card", vec3(10, 0, 0));
   scene.instances.push_back(opaque);
-  const trace::EmbreeScene instanced(scene, scene::world_matrices(scene), 0);
+  const PosedScene instanced(scene, 0, 0);
   trace::RayTask task;
   EXPECT_FALSE(instanced.occluded({vec3(0, 0.5f, 0), vec3(0, 1, 0), 1}, 1, task));
   EXPECT_TRUE(instanced.occluded({vec3(10, 0.5f, 0), vec3(0, 1, 0), 1}, 1, task));

@@ -43,7 +43,7 @@ TEST(TraceDefaults, AreNamed) {
   EXPECT_EQ(path.max_depth, 3);
   EXPECT_TRUE(path.roulette);
   EXPECT_EQ(path.strategy, trace::Strategy::mis);
-  EXPECT_EQ(trace::EmbreeScene::default_flatten_limit, 4'000'000u);
+  EXPECT_EQ(trace::SceneGeometry::default_flatten_limit, 4'000'000u);
   const trace::RayTask task;
   EXPECT_EQ(task.rays + task.invalid, 0u);
   EXPECT_EQ(task.record, nullptr);

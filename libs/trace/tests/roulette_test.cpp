@@ -25,14 +25,14 @@ TEST(Roulette, DarkGlowingRoomGivesTheGeometricSeriesAtEveryDepth) {
   const vec3 albedo(0.15f, 0.1f, 0.06f), emission(1, 3, 7);
   scene::Scene scene;
   add_room(scene, lambertian(albedo, emission));
-  const trace::TracerData data(scene, 0);
+  const trace::TracerData data(std::make_shared<const trace::SceneGeometry>(scene), scene, 0);
   const trace::PathOptions options{1 << 20, true, trace::Strategy::bsdf_only};
   trace::RayTask task;
   std::array<std::array<Samples, 3>, 5> means;
   for (std::uint64_t batch = 0; batch < batches; ++batch) {
     ByDepth light;
     for (std::uint32_t s = 0; s < paths; ++s) {
-      trace_path(data.embree, data.emitters(), {vec3(0.1f, 0.2f, 0.3f), glm::normalize(vec3(1, 2, -3))},
+      trace_path(data.geometry, data.emitters(), {vec3(0.1f, 0.2f, 0.3f), glm::normalize(vec3(1, 2, -3))},
                  {hash_combine(11, batch), s}, options, task, light);
     }
     for (std::size_t depth = 0; depth < means.size(); ++depth) {
@@ -57,12 +57,12 @@ TEST(Roulette, BeginsAtDepthThreeAndNotBefore) {
   EXPECT_EQ(trace::roulette_depth, 3);
   scene::Scene scene;
   add_room(scene, lambertian(vec3(0.15f, 0.1f, 0.06f), vec3(1, 3, 7)));
-  const trace::TracerData data(scene, 0);
+  const trace::TracerData data(std::make_shared<const trace::SceneGeometry>(scene), scene, 0);
   const trace::PathOptions options{2, true, trace::Strategy::bsdf_only};
   trace::RayTask task;
   for (std::uint32_t s = 0; s < 1000; ++s) {
     ByDepth light;
-    trace_path(data.embree, data.emitters(), {vec3(0.1f, 0.2f, 0.3f), vec3(0, 0, 1)}, {7, s}, options, task,
+    trace_path(data.geometry, data.emitters(), {vec3(0.1f, 0.2f, 0.3f), vec3(0, 0, 1)}, {7, s}, options, task,
                light);
     ASSERT_FLOAT_EQ(light.sums[2].x, 0.15f * 0.15f) << "path " << s;
   }

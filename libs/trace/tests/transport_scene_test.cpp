@@ -6,11 +6,12 @@
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
 #include <ssphh/scene/builtin.h>
+#include <ssphh/scene/posed_world.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/trace/transport_scene.h>
 
-#include "embree_scene.h"
 #include "hand_made.h"
+#include "posed_scene.h"
 #include "robot.h"
 
 namespace ssphh::test {
@@ -84,12 +85,14 @@ TEST(TransportScene, NearestAnimatedAncestorOwnsAnInstance) {
 }
 
 /// Nearest hits and occlusion of all parts together are those of the posed scene traced whole.
-void parts_make_the_whole(const scene::Scene& scene) {
+void parts_make_the_whole(scene::Scene scene) {
+  scene::mark_movable(scene);
   const trace::TransportScene source(scene);
   for (const float time : {0.0f, 0.3f, 1.0f}) {
-    const std::vector<mat4> poses = poses_at(source, time), world = scene::world_matrices(scene, time);
-    const trace::EmbreeScene whole(scene, world);
-    const scene::Bounds bounds = scene::world_bounds(scene, world);
+    const std::vector<mat4> poses = poses_at(source, time);
+    const scene::Scene still = frozen(scene, time);
+    const PosedScene whole(still);
+    const scene::Bounds bounds = scene::world_bounds(scene, scene::world_matrices(scene, time));
     const std::vector<RayQuery> rays = random_rays(bounds, 10000, 7);
     std::vector<RayHit> nearest(rays.size()), hits(rays.size());
     std::vector<std::uint8_t> any(rays.size()), blocked(rays.size());
@@ -108,12 +111,20 @@ void parts_make_the_whole(const scene::Scene& scene) {
         EXPECT_NEAR(glm::length(hits[i].normal), 1, 1e-5);
       }
     }
+    const scene::PosedWorld world(source, time);
+    std::vector<RayHit> in_world(rays.size());
+    std::vector<std::uint8_t> moves(rays.size()), blocked_in_world(rays.size());
+    world.intersect(rays, in_world, moves);
+    world.occluded(rays, blocked_in_world);
+    EXPECT_EQ(blocked_in_world, any);
     int found = 0, differ = 0;
     trace::RayTask task;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       trace::Hit hit;
       const trace::Ray ray{rays[i].origin, rays[i].direction, rays[i].t_max};
       const bool is_hit = whole.intersect(ray, 0, task, hit);
+      EXPECT_EQ(in_world[i].distance, nearest[i].distance);
+      EXPECT_EQ(world.occluded(rays[i]), any[i] != 0);
       found += is_hit;
       // Rays that graze an edge, or meet two surfaces at one place, may go either way: rounding.
       if (is_hit != !nearest[i].escaped() || (any[i] != 0) != whole.occluded(ray, 0, task)) {
@@ -123,9 +134,12 @@ void parts_make_the_whole(const scene::Scene& scene) {
       } else if (is_hit) {
         vec3 origin;
         const shading::Surface surface = whole.surface(hit, -glm::normalize(ray.direction), origin);
+        EXPECT_NEAR(glm::distance(in_world[i].normal, surface.geometric_normal), 0, 1e-4f);
+        const int node = scene.instances[static_cast<std::size_t>(hit.instance)].node;
+        const bool is_movable = scene.nodes[static_cast<std::size_t>(node)].movable;
         differ += std::abs(luminance(surface.emission) - luminance(nearest[i].emission)) > 1e-6f ||
                   std::abs(luminance(surface.bsdf.diffuse) - luminance(nearest[i].albedo)) > 1e-5f ||
-                  whole.is_back(hit, ray.direction) != nearest[i].back;
+                  whole.is_back(hit, ray.direction) != nearest[i].back || (moves[i] != 0) != is_movable;
       }
     }
     EXPECT_GT(found, 3000);

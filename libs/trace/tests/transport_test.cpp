@@ -23,13 +23,13 @@ struct Total {
 /// Means over 16 samples of independent sequences, for one ray.
 Samples radiance_along(const scene::Scene& scene, const trace::Ray& ray, const PathOptions& options,
                        int count, std::uint64_t seed = 0) {
-  const trace::TracerData data(scene, 0);
+  const trace::TracerData data(std::make_shared<const trace::SceneGeometry>(scene), scene, 0);
   trace::RayTask task;
   Samples samples;
   for (int i = 0; i < count; ++i) {
     Total total;
     for (std::uint32_t s = 0; s < 16; ++s) {
-      trace_path(data.embree, data.emitters(), ray, {hash_combine(seed, static_cast<std::uint64_t>(i)), s},
+      trace_path(data.geometry, data.emitters(), ray, {hash_combine(seed, static_cast<std::uint64_t>(i)), s},
                  options, task, total);
     }
     samples.add(static_cast<double>(luminance(total.value)) / 16);

@@ -2,6 +2,7 @@
 
 #include <ssphh/gi/place.h>
 #include <ssphh/gi/surface_points.h>
+#include <ssphh/scene/posed_world.h>
 
 namespace ssphh::gi::methods {
 
@@ -10,7 +11,7 @@ std::vector<scene::SurfacePoint> points_in_reach(const MethodScene& scene, float
   const PlaceParams seen_from = place_params(scene.scene, time);
   std::vector<vec3> origins = seen_from.interest;
   for (const scene::SphlPlace& place : seen_from.manual) origins.push_back(place.position);
-  if (origins.empty()) origins.push_back(PosedSurfaces(scene.source, time).bounds().center());
+  if (origins.empty()) origins.push_back(scene::PosedWorld(scene.source, time).bounds().center());
   return reachable_points(scene.source, origins, time, {count, 0}, {nullptr, control.cancel});
 }
 

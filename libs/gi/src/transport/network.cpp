@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/require.h>
+#include <ssphh/scene/posed_world.h>
 
 #include "network_data.h"
 

@@ -125,7 +125,4 @@ bool meets(const scene::RayQuery& ray, const scene::Bounds& box);
 /// Sweeps the parts over the animation.
 std::vector<scene::Bounds> swept_bounds(const scene::TransportSource& source);
 
-/// Bounds of a transformed box.
-scene::Bounds transformed(const scene::Bounds& box, const mat4& matrix);
-
 }  // namespace ssphh::gi

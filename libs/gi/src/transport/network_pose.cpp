@@ -7,6 +7,7 @@
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
+#include <ssphh/scene/posed_world.h>
 
 #include "network_data.h"
 
@@ -48,17 +49,6 @@ bool meets(const scene::RayQuery& ray, const scene::Bounds& box) {
     far = std::min(far, std::fmax(a, b) * (1 + 1e-5f) + 1e-6f);
   }
   return near <= far;
-}
-
-scene::Bounds transformed(const scene::Bounds& box, const mat4& matrix) {
-  scene::Bounds out;
-  if (box.empty()) return out;
-  for (int corner = 0; corner < 8; ++corner) {
-    const vec3 p{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                 corner & 4 ? box.max.z : box.min.z};
-    out.add(vec3(matrix * vec4(p, 1)));
-  }
-  return out;
 }
 
 std::vector<scene::Bounds> swept_bounds(const scene::TransportSource& source) {

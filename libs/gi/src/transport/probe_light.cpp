@@ -4,6 +4,7 @@
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/sphere.h>
+#include <ssphh/scene/posed_world.h>
 
 namespace ssphh::gi {
 
@@ -93,17 +94,8 @@ std::vector<sh::RadianceSh> project_emitted(const TransportNetwork& network,
 
   std::vector<scene::RayQuery> rays;
   for (const std::size_t q : which) rays.push_back({position, directions[q]});
-  std::vector<scene::RayHit> nearest(rays.size()), hits(rays.size());
-  source.intersect(0, rays, nearest);
-  for (int part = 1; part < source.part_count(); ++part) {
-    const mat4 to_part = glm::inverse(network.poses()[static_cast<std::size_t>(part)]);
-    const vec3 origin(to_part * vec4(position, 1));
-    for (std::size_t k = 0; k < which.size(); ++k) rays[k] = {origin, mat3(to_part) * directions[which[k]]};
-    source.intersect(part, rays, hits);
-    for (std::size_t k = 0; k < which.size(); ++k) {
-      if (hits[k].distance < nearest[k].distance) nearest[k] = hits[k];
-    }
-  }
+  std::vector<scene::RayHit> nearest(rays.size());
+  scene::PosedWorld(source, network.poses()).intersect(rays, nearest);
 
   const std::size_t stride = projector.stride();
   std::vector<float> radiance(3 * stride, 0.0f);

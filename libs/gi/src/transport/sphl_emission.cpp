@@ -5,6 +5,7 @@
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/sphere.h>
+#include <ssphh/scene/posed_world.h>
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/sh/zonal.h>
 
@@ -26,39 +27,16 @@ scene::RayQuery to_sphere(const vec3& from, const SphlEmitter& emitter) {
   return {from, way, distance > emitter.radius ? 1 - emitter.radius / distance : 0};
 }
 
-/// Marks what any part blocks.
-void block(const TransportNetwork& network, const scene::TransportSource& source,
-           std::span<const scene::RayQuery> segments, std::vector<std::uint8_t>& blocked) {
-  blocked.assign(segments.size(), 0);
-  source.occluded(0, segments, blocked);
-  std::vector<scene::RayQuery> local(segments.size());
-  std::vector<std::uint8_t> by_part(segments.size());
-  for (int part = 1; part < source.part_count(); ++part) {
-    const mat4 to_part = glm::inverse(network.poses()[static_cast<std::size_t>(part)]);
-    for (std::size_t i = 0; i < segments.size(); ++i)
-      local[i] = {vec3(to_part * vec4(segments[i].origin, 1)), mat3(to_part) * segments[i].direction,
-                  segments[i].t_max};
-    source.occluded(part, local, by_part);
-    for (std::size_t i = 0; i < segments.size(); ++i) blocked[i] |= by_part[i];
-  }
-}
-
 }  // namespace
 
 bool sees(const TransportNetwork& network, const scene::TransportSource& source, const vec3& a,
           const vec3& b) {
-  const scene::RayQuery segment{a, b - a, 1};
-  std::vector<std::uint8_t> blocked;
-  block(network, source, {&segment, 1}, blocked);
-  return !blocked[0];
+  return scene::PosedWorld(source, network.poses()).visible(a, b);
 }
 
 bool sees(const TransportNetwork& network, const scene::TransportSource& source, const vec3& from,
           const SphlEmitter& emitter) {
-  const scene::RayQuery segment = to_sphere(from, emitter);
-  std::vector<std::uint8_t> blocked;
-  block(network, source, {&segment, 1}, blocked);
-  return !blocked[0];
+  return !scene::PosedWorld(source, network.poses()).occluded(to_sphere(from, emitter));
 }
 
 std::size_t add_emission(const TransportNetwork& network, const scene::TransportSource& source,
@@ -75,8 +53,8 @@ std::size_t add_emission(const TransportNetwork& network, const scene::Transport
     segments.push_back(to_sphere(origin, emitter));
     which.push_back(i);
   }
-  std::vector<std::uint8_t> blocked;
-  block(network, source, segments, blocked);
+  std::vector<std::uint8_t> blocked(segments.size());
+  scene::PosedWorld(source, network.poses()).occluded(segments, blocked);
   parallel_for(which.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       if (blocked[k]) continue;
@@ -121,8 +99,8 @@ std::vector<float> visible_shares(const TransportNetwork& network, const scene::
           {p, Frame::around(to_light / distance).to_world(local), distance * cosine - half_chord});
     }
   }
-  std::vector<std::uint8_t> blocked;
-  block(network, source, segments, blocked);
+  std::vector<std::uint8_t> blocked(segments.size());
+  scene::PosedWorld(source, network.poses()).occluded(segments, blocked);
   std::vector<float> shares;
   for (std::size_t i = 0; i < from.size(); ++i) {
     const auto first = blocked.begin() + static_cast<std::ptrdiff_t>(i * rays);

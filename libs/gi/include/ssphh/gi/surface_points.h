@@ -1,6 +1,6 @@
 #pragma once
-/// Surfaces of a posed scene, and points spread evenly over those that somebody can get to see: where lookups
-/// are compared with the truth.
+/// Points spread evenly over the surfaces of a posed scene that somebody can get to see: where lookups are
+/// compared with the truth.
 
 #include <cstdint>
 #include <span>
@@ -10,32 +10,6 @@
 #include <ssphh/scene/transport_source.h>
 
 namespace ssphh::gi {
-
-/// All parts of a source at one time, in world space. Keeps a reference to the source.
-class PosedSurfaces {
- public:
-  PosedSurfaces(const scene::TransportSource& source, float time);
-  PosedSurfaces(const scene::TransportSource&&, float) = delete;  // it would be gone
-
-  /// Nearest hit of each ray with any part; where asked for, moves[i] = 1 if that part moves, else 0.
-  void intersect(std::span<const scene::RayQuery> rays, std::span<scene::RayHit> hits,
-                 std::span<std::uint8_t> moves = {}) const;
-  /// blocked[i] = 1 where any part meets segment i, else 0.
-  void occluded(std::span<const scene::RayQuery> rays, std::span<std::uint8_t> blocked) const;
-  /// Whether nothing blocks the open segment between two points.
-  bool visible(const vec3& a, const vec3& b) const;
-  /// Of all parts; empty for a scene without triangles.
-  const scene::Bounds& bounds() const { return bounds_; }
-
- private:
-  struct Part {
-    int index;
-    mat4 to_world, to_part;
-  };
-  const scene::TransportSource& source_;
-  std::vector<Part> parts_;
-  scene::Bounds bounds_;
-};
 
 struct SurfacePointParams {
   int count = 1024;        ///< points wanted, over 0

@@ -3,7 +3,7 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
-#include <ssphh/gi/surface_points.h>
+#include <ssphh/scene/posed_world.h>
 
 #include "../entries.h"
 #include "../points.h"
@@ -42,7 +42,7 @@ class Ambient final : public Method {
     const std::vector<scene::SurfacePoint> points = points_in_reach(scene_, state.time, points_, control);
 
     // One cosine ray from each point: the radiosity of what it meets is the irradiance that it brings.
-    const PosedSurfaces surfaces(scene_.source, state.time);
+    const scene::PosedWorld surfaces(scene_.source, state.time);
     const float lift = 1e-4f * surfaces.bounds().radius();
     std::vector<scene::RayQuery> rays;
     for (std::size_t i = 0; i < points.size(); ++i) {

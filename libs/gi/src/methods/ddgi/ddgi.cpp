@@ -105,7 +105,7 @@ class Ddgi final : public Method {
   DdgiField field_;
   std::vector<std::uint8_t> fresh_;  ///< probes whose maps hold nothing of use
   DdgiLight light_{field_};
-  std::optional<PosedSurfaces> surfaces_;
+  std::optional<scene::PosedWorld> surfaces_;
   std::vector<mat4> poses_;
   std::uint64_t frames_ = 0;
   std::size_t relocation_rays_ = 0, rays_of_frame_ = 0;

@@ -31,7 +31,7 @@ std::vector<vec3> ray_directions(int count, std::uint64_t seed, std::uint64_t fr
   return directions;
 }
 
-std::vector<ProbeRay> trace_probes(const DdgiField& field, const PosedSurfaces& surfaces,
+std::vector<ProbeRay> trace_probes(const DdgiField& field, const scene::PosedWorld& surfaces,
                                    const scene::DirectLight& lights, std::span<const vec3> group_scales,
                                    std::span<const vec3> directions, const Control& control) {
   std::vector<vec3> origins;

@@ -2,7 +2,7 @@
 /// What the probes' rays bring in one frame.
 
 #include <ssphh/core/control.h>
-#include <ssphh/gi/surface_points.h>
+#include <ssphh/scene/posed_world.h>
 
 #include "field.h"
 
@@ -19,7 +19,7 @@ std::vector<vec3> ray_directions(int count, std::uint64_t seed, std::uint64_t fr
 
 /// One ray per active probe, in the order of the field, and direction. Surfaces are lit by `lights` and by
 /// the field as it stands, which adds one bounce a frame; what emitters send to a probe straight is left out.
-std::vector<ProbeRay> trace_probes(const DdgiField& field, const PosedSurfaces& surfaces,
+std::vector<ProbeRay> trace_probes(const DdgiField& field, const scene::PosedWorld& surfaces,
                                    const scene::DirectLight& lights, std::span<const vec3> group_scales,
                                    std::span<const vec3> directions, const Control& control);
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <ssphh/gi/surface_points.h>
+#include <ssphh/scene/posed_world.h>
 
 #include "../points.h"
 
@@ -17,7 +17,7 @@ struct OpenPoint {
 };
 
 std::vector<OpenPoint> points_at(const MethodScene& scene, float time, const Control& control) {
-  const PosedSurfaces surfaces(scene.source, time);
+  const scene::PosedWorld surfaces(scene.source, time);
   const float lift = 1e-4f * surfaces.bounds().radius();
   std::vector<OpenPoint> open;
   std::vector<scene::RayQuery> rays;

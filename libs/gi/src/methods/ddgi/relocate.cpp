@@ -49,7 +49,7 @@ vec3 better_offset(const vec3& offset, const Surroundings& seen, float clearance
   return home > 0 ? offset * std::max(1 - free / home, 0.0f) : offset;
 }
 
-std::vector<Surroundings> look_around(const std::vector<vec3>& positions, const PosedSurfaces& surfaces,
+std::vector<Surroundings> look_around(const std::vector<vec3>& positions, const scene::PosedWorld& surfaces,
                                       const std::vector<vec3>& directions) {
   std::vector<scene::RayQuery> rays;
   for (const vec3& position : positions) {
@@ -65,7 +65,7 @@ std::vector<Surroundings> look_around(const std::vector<vec3>& positions, const 
 
 }  // namespace
 
-std::size_t relocate(DdgiField& field, const PosedSurfaces& surfaces, int steps, bool move,
+std::size_t relocate(DdgiField& field, const scene::PosedWorld& surfaces, int steps, bool move,
                      std::span<std::uint8_t> fresh) {
   std::vector<vec3> directions;
   for (int i = 0; i < fixed_rays; ++i) directions.push_back(spherical_fibonacci(i, fixed_rays));

@@ -1,7 +1,7 @@
 #pragma once
 /// Probes moved out of walls, and those that cannot be put to sleep.
 
-#include <ssphh/gi/surface_points.h>
+#include <ssphh/scene/posed_world.h>
 
 #include "field.h"
 
@@ -12,7 +12,7 @@ namespace ssphh::gi::methods {
 /// than 45 % of the spacing from it. Then a quarter of backs among what its rays meet tells that a probe
 /// stands inside of a body: it is put to sleep. Marks in `fresh` the probes that wake up. Returns how many
 /// rays were traced.
-std::size_t relocate(DdgiField& field, const PosedSurfaces& surfaces, int steps, bool move,
+std::size_t relocate(DdgiField& field, const scene::PosedWorld& surfaces, int steps, bool move,
                      std::span<std::uint8_t> fresh);
 
 }  // namespace ssphh::gi::methods

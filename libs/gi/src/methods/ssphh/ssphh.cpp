@@ -5,7 +5,7 @@
 #include <ssphh/gi/lookup.h>
 #include <ssphh/gi/place.h>
 #include <ssphh/gi/relight_session.h>
-#include <ssphh/gi/surface_points.h>
+#include <ssphh/scene/posed_world.h>
 
 #include "../entries.h"
 #include "../kept_weights.h"
@@ -115,7 +115,7 @@ class Ssphh final : public Method {
 
   const scene::TransportSource& source_;
   RelightSession session_;
-  std::optional<PosedSurfaces> surfaces_;
+  std::optional<scene::PosedWorld> surfaces_;
   std::size_t fitted_points_ = 0;
   std::unique_ptr<LookupWeights> weights_;
   std::optional<IrradianceLookup> lookup_;

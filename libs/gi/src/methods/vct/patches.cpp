@@ -98,7 +98,7 @@ struct Sampled {
 };
 
 /// Samples of drafts [begin, end) by one batch of rays.
-std::vector<Sampled> sample(std::span<const Draft> drafts, const PosedSurfaces& surfaces, float voxel,
+std::vector<Sampled> sample(std::span<const Draft> drafts, const scene::PosedWorld& surfaces, float voxel,
                             const PatchParams& params) {
   const auto count = static_cast<std::size_t>(params.samples);
   std::vector<scene::RayQuery> rays;
@@ -126,7 +126,7 @@ std::vector<Sampled> sample(std::span<const Draft> drafts, const PosedSurfaces& 
 }
 
 /// seen[i] = 1 where rays from behind draft i meet fronts.
-std::vector<std::uint8_t> seen_from_behind(std::span<const Draft> drafts, const PosedSurfaces& surfaces,
+std::vector<std::uint8_t> seen_from_behind(std::span<const Draft> drafts, const scene::PosedWorld& surfaces,
                                            float voxel) {
   std::vector<scene::RayQuery> rays;
   for (const Draft& draft : drafts) {
@@ -169,7 +169,7 @@ Patch turned(Patch patch) {
 
 }  // namespace
 
-PatchSet make_patches(std::span<const Fragment> fragments, const PosedSurfaces& surfaces,
+PatchSet make_patches(std::span<const Fragment> fragments, const scene::PosedWorld& surfaces,
                       const VoxelGrid& grid, const PatchParams& params, const Control& control) {
   const std::vector<Draft> drafts = join(fragments, grid);
   PatchSet set;

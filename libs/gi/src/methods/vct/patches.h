@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include <ssphh/gi/surface_points.h>
+#include <ssphh/scene/posed_world.h>
 
 #include "voxelize.h"
 
@@ -37,7 +37,7 @@ struct PatchParams {
 /// back of a one-sided surface is one where it can be seen: where at least a quarter of 16 cosine-distributed
 /// rays from it meet fronts. The inside of bodies and the outside of rooms that are mere skins have none:
 /// cones that leave a surface pass its other side, which otherwise would darken it.
-PatchSet make_patches(std::span<const Fragment> fragments, const PosedSurfaces& surfaces,
+PatchSet make_patches(std::span<const Fragment> fragments, const scene::PosedWorld& surfaces,
                       const VoxelGrid& grid, const PatchParams& params, const Control& control);
 
 }  // namespace ssphh::gi::vct

@@ -5,8 +5,8 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
-#include <ssphh/gi/surface_points.h>
 #include <ssphh/gi/vct/cone_light.h>
+#include <ssphh/scene/posed_world.h>
 
 #include "../entries.h"
 #include "gather_points.h"
@@ -27,7 +27,7 @@ scene::Bounds bounds_of_all_poses(const scene::TransportSource& source) {
   const int count = duration > 0 ? looks : 1;
   for (int i = 0; i < count; ++i) {
     const float time = count > 1 ? duration * static_cast<float>(i) / static_cast<float>(count - 1) : 0;
-    const scene::Bounds bounds = PosedSurfaces(source, time).bounds();
+    const scene::Bounds bounds = scene::PosedWorld(source, time).bounds();
     if (!bounds.empty()) all.add(bounds.min), all.add(bounds.max);
   }
   return all;
@@ -50,7 +50,7 @@ class Vct final : public Method {
       : scene_(scene),
         params_(params),
         grid_(make_grid(bounds_of_all_poses(scene.source), params.resolution)) {
-    const PosedSurfaces surfaces(scene.source, 0);
+    const scene::PosedWorld surfaces(scene.source, 0);
     still_.set = make_patches(voxelize(scene.scene, 0, false, grid_, control), surfaces, grid_,
                               {params.samples, false}, control);
     still_.light.reset(still_.set.patches.size(), scene.source.light_groups().size());
@@ -122,7 +122,7 @@ class Vct final : public Method {
 
   /// Cuts what moves anew, and rebuilds the tree.
   void place(float time, const Control& control) {
-    const PosedSurfaces surfaces(scene_.source, time);
+    const scene::PosedWorld surfaces(scene_.source, time);
     moving_.set = make_patches(voxelize(scene_.scene, time, true, grid_, control), surfaces, grid_,
                                {params_.samples, true}, control);
     moving_.light.reset(moving_.set.patches.size(), scene_.source.light_groups().size());

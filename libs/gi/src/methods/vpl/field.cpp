@@ -13,7 +13,7 @@ constexpr std::size_t shadow_batch = 512;
 
 }  // namespace
 
-VplField::VplField(std::vector<Vpl> lights, const PosedSurfaces& surfaces, const VplParams& params,
+VplField::VplField(std::vector<Vpl> lights, const scene::PosedWorld& surfaces, const VplParams& params,
                    float cluster_error)
     : lights_(std::move(lights)),
       surfaces_(surfaces),

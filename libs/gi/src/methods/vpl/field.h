@@ -11,7 +11,7 @@ class VplField final : public scene::IndirectLight {
  public:
   /// `cluster_error`: of lightcuts, a share of the light; 0: every light counts. Keeps a reference to the
   /// surfaces.
-  VplField(std::vector<Vpl> lights, const PosedSurfaces& surfaces, const VplParams& params,
+  VplField(std::vector<Vpl> lights, const scene::PosedWorld& surfaces, const VplParams& params,
            float cluster_error);
 
   vec3 irradiance(const scene::SurfacePoint& at) const override;
@@ -33,7 +33,7 @@ class VplField final : public scene::IndirectLight {
   vec3 gather(const scene::SurfacePoint& at, const Transfer& of) const;
 
   std::vector<Vpl> lights_;
-  const PosedSurfaces& surfaces_;
+  const scene::PosedWorld& surfaces_;
   VplParams params_;
   float cluster_error_, lift_;
   std::vector<LightNode> tree_;

@@ -113,7 +113,8 @@ std::vector<LightNode> build_light_tree(std::span<const Vpl> lights) {
 }
 
 CutLight gather_cut(std::span<const LightNode> tree, std::span<const Vpl> lights, const Receiver& at,
-                    const vec3& start, const PosedSurfaces& surfaces, const VplParams& params, float error) {
+                    const vec3& start, const scene::PosedWorld& surfaces, const VplParams& params,
+                    float error) {
   CutLight result;
   if (tree.empty()) return result;
   const auto visible_transfer = [&](int light) {

@@ -25,6 +25,7 @@ struct CutLight {
 /// Irradiance by a cut through the tree: the cluster with the largest bound on its error is split until no
 /// bound exceeds `error` times the sum. Shadow rays begin at `start`.
 CutLight gather_cut(std::span<const LightNode> tree, std::span<const Vpl> lights, const Receiver& at,
-                    const vec3& start, const PosedSurfaces& surfaces, const VplParams& params, float error);
+                    const vec3& start, const scene::PosedWorld& surfaces, const VplParams& params,
+                    float error);
 
 }  // namespace ssphh::gi::methods

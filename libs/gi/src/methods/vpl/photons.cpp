@@ -51,7 +51,7 @@ std::vector<Flying> emit(const scene::DirectLight& lights, std::span<const vec3>
 }  // namespace
 
 std::vector<Vpl> trace_photons(const scene::DirectLight& lights, std::span<const vec3> group_scales,
-                               const PosedSurfaces& surfaces, const PhotonParams& params,
+                               const scene::PosedWorld& surfaces, const PhotonParams& params,
                                const Control& control) {
   const float lift = 1e-4f * surfaces.bounds().radius();
   std::vector<Vpl> vpls;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <ssphh/core/control.h>
-#include <ssphh/gi/surface_points.h>
 #include <ssphh/gi/vpl/virtual_lights.h>
+#include <ssphh/scene/posed_world.h>
 
 namespace ssphh::gi::methods {
 
@@ -23,7 +23,7 @@ struct PhotonParams {
 /// surface reflects (Russian roulette; Keller, Instant Radiosity, SIGGRAPH 1997). Each reflection leaves a
 /// light. By low-discrepancy points: the same at every call.
 std::vector<Vpl> trace_photons(const scene::DirectLight& lights, std::span<const vec3> group_scales,
-                               const PosedSurfaces& surfaces, const PhotonParams& params,
+                               const scene::PosedWorld& surfaces, const PhotonParams& params,
                                const Control& control);
 
 }  // namespace ssphh::gi::methods

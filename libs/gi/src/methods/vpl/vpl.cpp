@@ -63,7 +63,7 @@ class Vpls final : public Method {
   float clamp_, radius_, cluster_error_;
   int check_points_;
   FrameState state_;
-  std::optional<PosedSurfaces> surfaces_;
+  std::optional<scene::PosedWorld> surfaces_;
   std::optional<VplField> field_;
   double lost_energy_ = 0, mean_cut_ = 0;
 };

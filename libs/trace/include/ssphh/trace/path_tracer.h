@@ -7,13 +7,17 @@
 #include <ssphh/scene/radiance_source.h>
 #include <ssphh/scene/scene.h>
 #include <ssphh/trace/render_state.h>
+#include <ssphh/trace/scene_geometry.h>
 
 namespace ssphh::trace {
 
-/// Geometry and lights of a scene at one time, ready for rays. Keeps a reference to the scene.
+/// A scene at one time, ready for rays. Keeps a reference to the scene.
 class PathTracer final : public scene::RadianceSource {
  public:
-  /// Throws Error when the geometry does not fit into memory.
+  /// Throws Error where the geometry was built for a scene with other surfaces.
+  PathTracer(SharedGeometry geometry, const scene::Scene& scene, float time = 0);
+  PathTracer(SharedGeometry, const scene::Scene&&, float = 0) = delete;  // it would be gone
+  /// Builds the geometry as well.
   explicit PathTracer(const scene::Scene& scene, float time = 0);
   explicit PathTracer(const scene::Scene&&, float = 0) = delete;  // it would be gone
   ~PathTracer() override;

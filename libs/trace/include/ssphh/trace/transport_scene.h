@@ -1,11 +1,11 @@
 #pragma once
-/// Answers the questions of transport between probes with Embree: one acceleration structure for everything
-/// that never moves and one for each moving part.
+/// Answers the questions of transport between probes with Embree.
 
 #include <memory>
 
 #include <ssphh/scene/scene.h>
 #include <ssphh/scene/transport_source.h>
+#include <ssphh/trace/scene_geometry.h>
 
 namespace ssphh::trace {
 
@@ -27,8 +27,12 @@ struct TransportOptions {
 /// neighbours in a batch. Calls may come from several threads; large batches use all threads themselves.
 class TransportScene final : public scene::TransportSource {
  public:
-  /// Keeps a reference to the scene. Throws Error when the geometry does not fit into memory, or for options
-  /// out of range.
+  /// Keeps a reference to the scene. Throws Error where the geometry was built for a scene with other
+  /// surfaces, or for options out of range.
+  TransportScene(SharedGeometry geometry, const scene::Scene& scene, const TransportOptions& options = {});
+  TransportScene(SharedGeometry, const scene::Scene&&,
+                 const TransportOptions& = {}) = delete;  // it would be gone
+  /// Builds the geometry as well.
   explicit TransportScene(const scene::Scene& scene, const TransportOptions& options = {});
   explicit TransportScene(const scene::Scene&&, const TransportOptions& = {}) = delete;  // it would be gone
   ~TransportScene() override;

@@ -1,0 +1,46 @@
+#pragma once
+/// A scene whose parts have taken their places: rays in the world.
+
+#include "shaded_geometry.h"
+
+namespace ssphh::trace {
+
+/// Keeps a reference to the geometry. A part that its pose scales to nothing, also along one axis only, is
+/// not there.
+class PosedGeometry {
+ public:
+  /// `poses`: part to world, one per part; the first is the identity.
+  PosedGeometry(const ShadedGeometry& geometry, std::span<const mat4> poses);
+
+  /// As ShadedGeometry's, over all parts.
+  bool intersect(const Ray& ray, std::uint64_t alpha_seed, RayTask& task, Hit& hit) const;
+  bool occluded(const Ray& ray, std::uint64_t alpha_seed, RayTask& task) const;
+  shading::Surface surface(const Hit& hit, const vec3& wo, vec3& ray_origin) const;
+  bool is_back(const Hit& hit, const vec3& direction) const;
+
+  /// Around all that is there.
+  const scene::Bounds& bounds() const { return bounds_; }
+  bool emissive(int instance) const { return geometry_.emissive(instance); }
+  bool has_alpha() const { return geometry_.has_alpha(); }
+
+ private:
+  struct MovingPart {
+    int index;
+    mat4 pose, from_world;
+    mat3 normal_matrix;
+    scene::Bounds bounds;  ///< in its frame, grown by rounding errors
+
+    Ray in_frame(const Ray& ray) const {
+      return {vec3(from_world * vec4(ray.origin, 1)), mat3(from_world) * ray.direction, ray.t_max};
+    }
+    bool may_meet(const Ray& ray) const;
+  };
+  /// Null for what never moves.
+  const MovingPart* moving_part_of(const Hit& hit) const;
+
+  const ShadedGeometry& geometry_;
+  std::vector<MovingPart> moving_;
+  scene::Bounds bounds_;
+};
+
+}  // namespace ssphh::trace

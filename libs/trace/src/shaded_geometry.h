@@ -1,0 +1,58 @@
+#pragma once
+/// Rays against the parts of a scene, and what they hit.
+
+#include <ssphh/shading/surface.h>
+
+#include "geometry_data.h"
+#include "rays.h"
+
+namespace ssphh::trace {
+
+/// A shared geometry with the materials of a scene. Rays and answers are in the frame of one part.
+class ShadedGeometry {
+ public:
+  /// Keeps a reference to the scene. Throws Error where the geometry was built for one with other surfaces.
+  ShadedGeometry(SharedGeometry geometry, const scene::Scene& scene);
+
+  /// Nearest hit. Surfaces with alpha let a ray pass with probability 1 − alpha, decided by a hash of
+  /// `alpha_seed` and the triangle; with seed 0 those of alpha < ½ let every ray pass.
+  bool intersect(int part, const Ray& ray, std::uint64_t alpha_seed, Hit& hit) const;
+  bool occluded(int part, const Ray& ray, std::uint64_t alpha_seed) const;
+
+  /// Shading inputs. `ray_origin` is where new rays start: on the side of `wo`, above the surface by more
+  /// than the rounding error of `position`.
+  shading::Surface surface(const Hit& hit, const vec3& wo, vec3& ray_origin) const;
+  /// The same in the world for a part at `pose`, whose inverse transpose is `normal_matrix`.
+  shading::Surface posed_surface(const Hit& hit, const mat4& pose, const mat3& normal_matrix, const vec3& wo,
+                                 vec3& ray_origin) const;
+
+  /// Coverage at a hit, 0..1.
+  float alpha(const Hit& hit) const;
+  /// Whether a ray along `direction` hit the back of a one-sided surface.
+  bool is_back(const Hit& hit, const vec3& direction) const;
+
+  int part_of(int instance) const { return data_->layout.instance_part[static_cast<std::size_t>(instance)]; }
+  bool emissive(int instance) const { return shading_[static_cast<std::size_t>(instance)].emissive; }
+  bool has_alpha() const { return data_->has_alpha; }
+  const SceneParts& layout() const { return data_->layout; }
+  const scene::Scene& scene() const { return scene_; }
+
+ private:
+  struct InstanceShading {
+    int material = -1;
+    bool emissive = false, double_sided = false;
+  };
+  const InstanceGeometry& geometry_of(const Hit& hit) const {
+    return data_->instances[static_cast<std::size_t>(hit.instance)];
+  }
+  const InstanceShading& shading_of(const Hit& hit) const {
+    return shading_[static_cast<std::size_t>(hit.instance)];
+  }
+
+  SharedGeometry geometry_;
+  const SceneGeometry::Data* data_;
+  const scene::Scene& scene_;
+  std::vector<InstanceShading> shading_;
+};
+
+}  // namespace ssphh::trace
