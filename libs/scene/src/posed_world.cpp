@@ -38,7 +38,7 @@ void PosedWorld::place(int part, const mat4& pose) {
 
 template <class Visit>
 void PosedWorld::for_parts(std::span<const RayQuery> rays, const Visit& visit) const {
-  visit(Part{0, mat4(1)}, rays);
+  visit(Part{0, glm::inverse(mat4(1))}, rays);
   if (moving_.empty()) return;
   std::vector<RayQuery> local(rays.size());
   for (const Part& part : moving_) {
@@ -52,10 +52,17 @@ void PosedWorld::intersect(std::span<const RayQuery> rays, std::span<RayHit> hit
   std::ranges::fill(moves, std::uint8_t{0});
   std::vector<RayHit> found;
   for_parts(rays, [&](const Part& part, std::span<const RayQuery> local) {
-    if (part.index == 0) return source_.intersect(0, local, hits);
+    // All parts alike: a zero's sign decides the frame around a normal.
+    const mat3 normals = glm::transpose(mat3(part.to_part));
+    if (part.index == 0) {
+      source_.intersect(0, local, hits);
+      for (RayHit& hit : hits) {
+        if (!hit.escaped()) hit.normal = glm::normalize(normals * hit.normal);
+      }
+      return;
+    }
     found.resize(rays.size());
     source_.intersect(part.index, local, found);
-    const mat3 normals = glm::transpose(mat3(part.to_part));
     for (std::size_t i = 0; i < rays.size(); ++i) {
       if (!(found[i].distance < hits[i].distance)) continue;
       hits[i] = found[i];
