@@ -93,6 +93,11 @@ TEST(JsonCursor, MembersAreThoseThatAreKnown) {
             "f: v: unknown member \"radios\" (did you mean \"radius\"?)");
   EXPECT_EQ(said_of(R"({"position":1,"z":2})", known),
             "f: v: unknown member \"z\" (known: position, radius, name)");
+  const std::string long_name(64, 'z');
+  EXPECT_EQ(said_of("{\"position\":1,\"" + long_name + "\":2}", known),
+            "f: v: unknown member \"" + long_name + "\" (known: position, radius, name)");
+  EXPECT_EQ(said_of("{\"position\":1,\"" + long_name + "z\":2}", known),
+            "f: v: unknown member \"" + long_name + "…\" (known: position, radius, name)");
   const auto entries = [](const Cursor& v) { EXPECT_EQ(v.entries().at(1).first, "name"); };
   EXPECT_EQ(said_of(R"({"position":1,"name":2})", entries), "no error");
   EXPECT_EQ(said_of("1", entries), "f: v: must be an object, not number");

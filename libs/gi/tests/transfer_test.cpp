@@ -210,5 +210,30 @@ TEST(Transfer, EnvironmentsAreProjectedAsTheyShine) {
   EXPECT_NEAR(sh::irradiance(found, vec3(1, 0, 0)).x, pi, 2e-3f);
 }
 
+// Hits are uniform over triangles that are small beside the way to them: each corner weighs a third on
+// average, and some hit lies close to it.
+TEST(Transfer, HitsWeighTheCornersOfTheirTriangles) {
+  scene::Scene scene;
+  add(scene, scene::make_quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}));
+  add(scene, scene::make_quad({-1, 1, -1}, {2, 0, 0}, {0, 0, 2}));
+  const test::TriangleSource source(scene);
+  const TransferMesh mesh = make_transfer_mesh(scene, source, {.edge = 0.3f});
+  const VertexRays rays = find_vertex_rays(mesh, VertexRings(mesh), MeshIndex(mesh, 0.01f), source, 64);
+  vec3 sum(0), largest(0);
+  int count = 0;
+  for (const VertexHit& hit : rays.hits) {
+    if (hit.triangle < 0) continue;
+    const vec3 weights = hit.weights();
+    EXPECT_GE(glm::min(weights.x, glm::min(weights.y, weights.z)), 0);
+    sum += weights, largest = glm::max(largest, weights), ++count;
+  }
+  ASSERT_GT(count, 2000);
+  const float sigma = std::sqrt(1.0f / 18 / static_cast<float>(count));
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(sum[c] / static_cast<float>(count), 1.0f / 3, 5 * sigma) << "corner " << c;
+    EXPECT_GT(largest[c], 0.95f) << "corner " << c;
+  }
+}
+
 }  // namespace
 }  // namespace ssphh::gi

@@ -63,6 +63,26 @@ TEST_F(ClientTimes, AsksAfterTwoAndAHalfSecondsWithoutNews) {
   }
 }
 
+TEST_F(ClientTimes, AcknowledgesEachResultOnceWithin200MillisecondsOr256AtATime) {
+  for (int i = 0; i < 257; ++i) submit();
+  for (std::uint64_t i = 1; i <= 256; ++i) hear_final({i, 5});
+  const auto acks = [&] {
+    std::vector<std::size_t> counts;
+    for (const Envelope& envelope : sent()) {
+      if (envelope.kind == EnvelopeKind::ack) counts.push_back(envelope.ids.size());
+    }
+    return counts;
+  };
+  EXPECT_THAT(acks(), ElementsAre(256));
+  pass(200);
+  EXPECT_THAT(acks(), IsEmpty()) << "nothing is left to acknowledge";
+  hear_final({257, 5});
+  pass(199);
+  EXPECT_THAT(acks(), IsEmpty());
+  pass(1);
+  EXPECT_THAT(acks(), ElementsAre(1));
+}
+
 TEST_F(ClientTimes, AsksOnlyAboutThoseThatAreDue) {
   const RequestId first = submit();
   pass(1000);

@@ -17,6 +17,7 @@ TEST(Lambertian, KeepsColourCoverageAndEmissionAlone) {
   scene.meshes[0].material = 0;
 
   const Scene plain = lambertian(scene);
+  EXPECT_EQ(plain.meshes[0].material, 0);
   const Material& n = plain.materials[0];
   EXPECT_EQ(n.metallic, 0);
   EXPECT_EQ(n.specular, 0);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/core/file.h>
+#include <ssphh/core/log.h>
 #include <ssphh/image/io.h>
 #include <ssphh/scene_io/obj.h>
 
@@ -32,6 +33,26 @@ TEST(MtlValues, AnEmptyMaterialIsAMatteGrey) {
   EXPECT_EQ(m.alpha, 1);
   EXPECT_EQ(m.alpha_mode, scene::AlphaMode::opaque);
   EXPECT_EQ(m.emission, vec3(0));
+}
+
+TEST(MtlValues, TexturesAreRelativeFileNamesAsWindowsOrUnixWritesThem) {
+  std::vector<std::string> warnings;
+  const LogSink before = set_log_sink([&](LogLevel, const std::string& line) { warnings.push_back(line); });
+  const test::TempDir folder;
+  std::filesystem::create_directory(folder / "sub");
+  image::write_image(folder / "sub/a.png", image::Image(1, 1));
+  EXPECT_EQ(scene_with("map_Kd sub\\a.png\n", folder).materials.at(0).base_color_texture.texture, 0);
+  EXPECT_TRUE(warnings.empty());
+  for (const char* name : {"C:\\a.png", "d:a.png", "/a.png"}) {
+    warnings.clear();
+    EXPECT_EQ(
+        scene_with(std::string("map_Kd ") + name + "\n", folder).materials.at(0).base_color_texture.texture,
+        -1);
+    ASSERT_FALSE(warnings.empty()) << name;
+    EXPECT_NE(warnings[0].find("is not a relative file name; it is left out"), std::string::npos)
+        << warnings[0];
+  }
+  set_log_sink(before);
 }
 
 TEST(MtlValues, TransparencyIsWhatCoverageLeaves) {

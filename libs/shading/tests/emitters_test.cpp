@@ -182,5 +182,17 @@ TEST(Emitters, SendTheirPhotonsFromWhereTheyAre) {
   }
 }
 
+// A disc of parallel rays around the scene; light of under 1 W/m² is light, too.
+TEST(Emitters, DistantLampsSendPhotonsHoweverDimTheyAre) {
+  for (const float strength : {0.01f, 0.5f, 4.0f}) {
+    scene::Scene scene;
+    add_light(scene, scene::LightType::directional, {}).intensity = strength;
+    const LightSet lights = make_lights(scene);
+    const auto emitted = lights.emit(0, vec2(0.3f), vec2(0.6f), vec3(0), 2);
+    ASSERT_TRUE(emitted) << strength;
+    EXPECT_NEAR(luminance(emitted->photon.power) / lights.flux(0, 2), 1, 1e-5f);
+  }
+}
+
 }  // namespace
 }  // namespace ssphh::shading::test
