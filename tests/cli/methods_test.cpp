@@ -62,9 +62,16 @@ TEST(Methods, MeasureComparesThem) {
 TEST(Respond, TellsHowFastAMethodFollows) {
   const TempDir dir;
   const std::string csv = dir / "frames.csv";
-  const json run = run_json({"respond", "builtin:two-rooms", "--method", "ssphh", "--param", "places=scene",
-                             "--param", "weights=mls", "--frames", "3", "--points", "32", "--truth-spp", "64",
-                             "--event", "lamp.scale=0.1:1", "-o", csv});
+  const json run = run_json({"respond",     "builtin:two-rooms",
+                             "--method",    "ssphh",
+                             "--param",     "places=scene",
+                             "--param",     "weights=mls",
+                             "--param",     "surfel_size=0.4",
+                             "--frames",    "3",
+                             "--points",    "32",
+                             "--truth-spp", "64",
+                             "--event",     "lamp.scale=0.1:1",
+                             "-o",          csv});
   expect_keys(run, {"before_error", "first_error", "last_error", "frames_to_settle", "median_ms", "frames"});
   EXPECT_EQ(run["frames"].size(), 3u);
   EXPECT_EQ(run["frames_to_settle"], 1);

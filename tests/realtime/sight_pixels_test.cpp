@@ -73,7 +73,7 @@ struct Case {
   WeightMethod method;
 };
 void PrintTo(const Case& c, std::ostream* out) {
-  *out << c.scene << " " << c.camera << " " << gi::to_string(c.method);
+  *out << c.scene << " " << c.camera << " " << name_of(c.method);
 }
 
 class SightOfProbes : public SightPixels, public testing::WithParamInterface<Case> {};

@@ -103,6 +103,7 @@ TEST(GiTransportBake, FittedPointsAreThoseOfASessionOfTheSameParameters) {
   gi::TransportBakeParams params;
   params.fit = true;
   params.fit_params.probes = 3;
+  params.transport.surfel_size = 0.2f;
   const gi::ProbeSet set = bake(scene, 2, params).set;
   ASSERT_TRUE(set.fitted);
 

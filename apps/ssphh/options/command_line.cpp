@@ -36,6 +36,7 @@ Option Option::group(const std::string& heading) const {
 
 Option Option::required(bool needed) const {
   option_->required(needed);
+  if (needed) option_->default_str("");
   return *this;
 }
 

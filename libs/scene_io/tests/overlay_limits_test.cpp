@@ -82,7 +82,7 @@ TEST(OverlayLimits, OfLights) {
   EXPECT_EQ(said_of(R"({"lights": [{"type": "sphere", "radius": 0}]})"),
             "o: lights[0].radius: must be greater than 0");
   EXPECT_EQ(said_of(R"({"lights": [{"type": "laser"}]})"),
-            "o: lights[0].type: must be one of point, spot, directional, sphere");
+            "o: lights[0].type: \"laser\" is none of: point, spot, directional, sphere");
   EXPECT_EQ(said_of(R"({"lights": [{}]})"), "o: lights[0]: \"type\" is missing");
 }
 

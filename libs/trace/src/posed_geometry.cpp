@@ -12,6 +12,7 @@ namespace ssphh::trace {
 
 PosedGeometry::PosedGeometry(const ShadedGeometry& geometry, std::span<const mat4> poses)
     : geometry_(geometry), bounds_(geometry.layout().parts[0].bounds) {
+  std::vector<scene::Bounds> boxes;  // of moving_, in the world
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const scene::Bounds& bounds = geometry.layout().parts[i].bounds;
     const float det = glm::determinant(mat3(poses[i]));
@@ -22,7 +23,9 @@ PosedGeometry::PosedGeometry(const ShadedGeometry& geometry, std::span<const mat
                        grown(bounds, rounding)});
     const scene::Bounds box = scene::transformed(bounds, poses[i]);
     bounds_.add(box.min), bounds_.add(box.max);
+    boxes.push_back(grown(box, 4 * position_error(scene_size(box) + max_abs_component(vec3(poses[i][3])))));
   }
+  tree_ = BoxTree(boxes);
 }
 
 bool PosedGeometry::MovingPart::may_meet(const Ray& ray) const {
@@ -33,11 +36,17 @@ bool PosedGeometry::intersect(const Ray& ray, std::uint64_t alpha_seed, RayTask&
   ++task.rays;
   if (task.record) task.record->push_back({ray.origin, ray.t_max, ray.direction, false});
   bool found = geometry_.intersect(0, ray, alpha_seed, hit);
-  for (const MovingPart& part : moving_) {
+  float nearest = found ? hit.distance : ray.t_max;
+  tree_.any(ray, nearest, [&](std::uint32_t i) {
+    const MovingPart& part = moving_[i];
     Ray local = part.in_frame(ray);
-    if (found) local.t_max = hit.distance;
-    if (part.may_meet(local) && geometry_.intersect(part.index, local, alpha_seed, hit)) found = true;
-  }
+    local.t_max = nearest;
+    if (part.may_meet(local) && geometry_.intersect(part.index, local, alpha_seed, hit)) {
+      found = true;
+      nearest = hit.distance;
+    }
+    return false;
+  });
   return found;
 }
 
@@ -46,7 +55,8 @@ bool PosedGeometry::occluded(const Ray& ray, std::uint64_t alpha_seed, RayTask& 
   ++task.rays;
   if (task.record) task.record->push_back({ray.origin, ray.t_max, ray.direction, true});
   if (geometry_.occluded(0, ray, alpha_seed)) return true;
-  return std::ranges::any_of(moving_, [&](const MovingPart& part) {
+  return tree_.any(ray, ray.t_max, [&](std::uint32_t i) {
+    const MovingPart& part = moving_[i];
     const Ray local = part.in_frame(ray);
     return part.may_meet(local) && geometry_.occluded(part.index, local, alpha_seed);
   });

@@ -1,6 +1,7 @@
 #pragma once
 /// A scene whose parts have taken their places: rays in the world.
 
+#include "box_tree.h"
 #include "shaded_geometry.h"
 
 namespace ssphh::trace {
@@ -40,6 +41,7 @@ class PosedGeometry {
 
   const ShadedGeometry& geometry_;
   std::vector<MovingPart> moving_;
+  BoxTree tree_;  ///< over their boxes in the world
   scene::Bounds bounds_;
 };
 
