@@ -59,7 +59,7 @@ SceneParts::SceneParts(const scene::Scene& scene) : frames(node_frames(scene)) {
   std::vector<int> carriers = {-1};
   for (const scene::Instance& instance : scene.instances) carriers.push_back(carrier(instance));
   std::ranges::sort(carriers);
-  carriers.erase(std::ranges::unique(carriers).begin(), carriers.end());
+  carriers.erase(std::unique(carriers.begin(), carriers.end()), carriers.end());
   for (const int node : carriers) {
     ScenePart part;
     part.node = node;
