@@ -91,7 +91,8 @@ TEST(Overlay, ErrorsNameThePlace) {
               HasSubstr("unknown member \"camera\" (did you mean \"cameras\"?)"));
   EXPECT_THAT(error_of(R"({"cameras": [{"xfov_degrees": 90}]})"),
               HasSubstr("cameras[0]: \"xfov_degrees\" needs"));
-  EXPECT_THAT(error_of(R"({"lights": [{"type": "laser"}]})"), HasSubstr("lights[0].type: \"laser\" is none of: point"));
+  EXPECT_THAT(error_of(R"({"lights": [{"type": "laser"}]})"),
+              HasSubstr("lights[0].type: \"laser\" is none of: point"));
   EXPECT_THAT(error_of(R"({"lights": [{"type": "spot"}]})"), HasSubstr("needs \"direction\""));
   EXPECT_THAT(error_of(R"({"lights": [{"type": "sphere"}]})"), HasSubstr("\"radius\" is missing"));
   EXPECT_THAT(error_of(R"({"sphls": [{"position": [0, 0]}]})"),
