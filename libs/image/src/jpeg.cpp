@@ -48,6 +48,14 @@ void end_many_scans(j_common_ptr jpeg) {
   if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number > most) ERREXIT(jpeg, JERR_BAD_PROGRESSION);
 }
 
+/// Given back also where a constructor throws that has begun to read.
+struct Decompression : jpeg_decompress_struct {
+  Decompression() : jpeg_decompress_struct{} {}
+  ~Decompression() { jpeg_destroy_decompress(this); }
+  Decompression(const Decompression&) = delete;
+  Decompression& operator=(const Decompression&) = delete;
+};
+
 class Decoder {
  public:
   explicit Decoder(const Source& source) : source_(source) {
@@ -61,8 +69,6 @@ class Decoder {
     });
     check_size(source, jpeg_.image_width, jpeg_.image_height);
   }
-  ~Decoder() { jpeg_destroy_decompress(&jpeg_); }
-  Decoder(const Decoder&) = delete;
 
   int width() const { return static_cast<int>(jpeg_.image_width); }
   int height() const { return static_cast<int>(jpeg_.image_height); }
@@ -114,7 +120,7 @@ class Decoder {
   const Source& source_;
   Errors errors_;
   jpeg_progress_mgr progress_{};
-  jpeg_decompress_struct jpeg_{};
+  Decompression jpeg_;
 };
 
 }  // namespace
