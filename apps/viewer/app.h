@@ -44,6 +44,8 @@ struct Drag {
   enum class What { none, view, look, pan, object, axis, wipe } what = What::none;
   Grip grip;  ///< of objects
 };
+/// Whether the name ends as a probe file's does.
+bool is_probe_file(const std::string& name);
 
 class App {
  public:

@@ -4,9 +4,7 @@
 
 #include <ssphh/core/file.h>
 #include <ssphh/core/log.h>
-#include <ssphh/gi/init.h>
 #include <ssphh/image/io.h>
-#include <ssphh/trace/path_tracer.h>
 
 #include "app.h"
 
@@ -15,22 +13,12 @@ namespace {
 
 constexpr std::string_view probe_endings[] = {".sphl", ".sphl.json"};
 
+}  // namespace
+
 bool is_probe_file(const std::string& name) {
   return std::any_of(std::begin(probe_endings), std::end(probe_endings),
                      [&](std::string_view ending) { return name.ends_with(ending); });
 }
-
-std::vector<gi::ProbePlace> places_of(const Document& document) {
-  const scene::Scene& scene = *document.scene;
-  const std::vector<mat4> world = scene::world_matrices(scene, document.time);
-  std::vector<gi::ProbePlace> places;
-  for (const SphlEdit& sphl : document.edits().sphls) {
-    if (sphl.enabled) places.push_back({sphl.name, sphl_position(scene, world, sphl), sphl.radius});
-  }
-  return places;
-}
-
-}  // namespace
 
 void App::say(const std::string& text) {
   message = text;
@@ -239,165 +227,6 @@ void App::add_sphl(const vec3& position) {
   document.history.seal();
   selection = {Kind::sphl, static_cast<int>(document.edits().sphls.size()) - 1};
   redraw();
-}
-
-void App::light_scene_probes() {
-  if (places_of(document).empty())
-    throw Error("probes", "the scene has no SPHLs", "let them be placed: --probes auto, or the button");
-  rebuild_light();
-}
-
-void App::use_probes(const std::string& what) {
-  constexpr std::string_view automatic = "auto:";
-  if (what == "off") {
-    light.clear();
-  } else if (what == "scene") {
-    light_scene_probes();
-  } else if (what == "auto") {
-    place_probes(0);
-  } else if (what.starts_with(automatic)) {
-    const float spacing = parse_number("probes", what.substr(automatic.size()));
-    if (!(spacing > 0)) throw Error("probes", "a spacing must be over 0", "as in auto:0.7");
-    place_probes(spacing);
-  } else if (is_probe_file(what)) {
-    take_probe_file(what);
-    if (options.live) light_scene_probes();
-  } else {
-    throw Error(
-        "probes",
-        fmt::format("\"{}\" is none of: off, scene, auto, auto:METRES, a .sphl or .sphl.json file", what));
-  }
-}
-
-void App::rebuild_light() {
-  LiveLightParams params;
-  params.geometry = geometry_;
-  params.places = places_of(document);
-  if (params.places.empty()) {
-    light.clear();
-    say("there are no SPHLs left: direct light only");
-    return;
-  }
-  auto scene = std::make_shared<const scene::Scene>(with_materials(*document.scene, document.edits()));
-  job.start("lighting probes", [this, scene, params, time = document.time](const Control& control) {
-    auto live = std::make_shared<LiveLight>(scene, params, time, control);
-    return [this, live] { light.take(live); };
-  });
-}
-
-void App::place_probes(float spacing) {
-  auto scene = std::make_shared<const scene::Scene>(with_materials(*document.scene, document.edits()));
-  LiveLightParams params;
-  params.geometry = geometry_;
-  params.spacing = spacing;
-  job.start("placing probes", [this, scene, params, time = document.time](const Control& control) {
-    auto live = std::make_shared<LiveLight>(scene, params, time, control);
-    return [this, live] {
-      document.history.seal();
-      document.edit("place probes", [&](Edits& edits) {
-        edits.sphls.clear();
-        for (const gi::ProbePlace& place : live->session().places())
-          edits.sphls.push_back({-1, place.position, place.name, place.radius, true});
-      });
-      document.history.seal();
-      selection = {};
-      applied_sphls_ = document.edits().sphls;
-      light.take(live);
-      say(fmt::format("{} probes", live->session().places().size()));
-    };
-  });
-}
-
-void App::start_gen(bool viz_only) {
-  const std::vector<gi::ProbePlace> places = places_of(document);
-  if (places.empty()) throw Error("GEN", "there are no SPHLs", "place some first");
-  auto scene =
-      std::make_shared<const scene::Scene>(edited_scene(*document.scene, document.edits(), document.time));
-  gi::BakeParams params = bake_params;
-  // HIER multiplies edges with light band by band, so they must be of one degree.
-  const int degree = viz_only && !light.empty() ? light.set().degree : 9;
-  gi::ProbeSet set = gi::init_from_scene(*scene, degree, document.time);
-  const float time = document.time;
-  if (viz_only) {
-    // Edges beside whatever light there is: VIZ alone, in a set of its own.
-    params.keep_light = true;
-    params.viz = true;
-    params.on_probe = [this](std::size_t i, const gi::Probe& probe) {
-      job.hand_over([this, i, edges = probe.edges] { light.take_edges(i, edges); });
-    };
-  } else {
-    params.on_probe = [this](std::size_t i, const gi::Probe& probe) {
-      job.hand_over([this, i, probe] { light.take_probe(i, probe); });
-    };
-    gi::ProbeSet dark = set;
-    for (const std::string& group : scene::light_groups(*scene))
-      dark.light_groups.push_back({group, vec3(1)});
-    for (gi::Probe& probe : dark.probes)
-      probe.groups.assign(dark.light_groups.size(), {{}, sh::RadianceSh(degree)});
-    light.take(std::move(dark), "GEN");
-  }
-  job.start(viz_only ? "VIZ" : "GEN", [this, geometry = geometry_, scene, set, params,
-                                       time](const Control& control) mutable {
-    const trace::PathTracer tracer(geometry, *scene, time);
-    if (params.keep_light) {
-      for (const std::string& group : tracer.light_groups()) set.light_groups.push_back({group, vec3(1)});
-      for (gi::Probe& probe : set.probes)
-        probe.groups.assign(set.light_groups.size(), {{}, sh::RadianceSh(set.degree)});
-    }
-    gi::BakeReport bake_report;
-    auto baked =
-        std::make_shared<gi::ProbeSet>(gi::bake(tracer, std::move(set), params, {}, bake_report, control));
-    const bool keep = params.keep_light;
-    return [this, baked, keep] {
-      if (keep) {
-        say(fmt::format("VIZ: {} edges", gi::edge_count(*baked)));
-      } else {
-        light.take(std::move(*baked), "GEN");
-        say("GEN is done");
-      }
-    };
-  });
-}
-
-void App::take_probe_file(const std::string& file) {
-  if (!scene_open()) throw Error(file, "there is no scene for these probes", "open the scene first");
-  gi::ProbeSet set = gi::read_probe_file(file);
-  if (set.generator.scene_hash != scene::light_hash(*document.scene)) {
-    const std::string problem = fmt::format("was baked in another scene (\"{}\")", set.generator.scene);
-    if (!options.force) throw Error(file, problem, "open that scene, or go on with --force");
-    log_warning("{}: {}", file, problem);
-  }
-  document.history.seal();
-  document.edit("probes of a file", [&](Edits& edits) {
-    edits.sphls.clear();
-    for (const gi::Probe& probe : set.probes)
-      edits.sphls.push_back({-1, probe.position, probe.name, probe.radius, true});
-  });
-  document.history.seal();
-  applied_sphls_ = document.edits().sphls;
-  selection = {};
-  say(fmt::format("{}: {} probes", file, set.probes.size()));
-  const std::optional<gi::FittedPoints> fitted = set.fitted;
-  light.take(std::move(set), file);
-  if (fitted) prepare_fitted(*fitted);
-}
-
-void App::prepare_fitted(const gi::FittedPoints& fitted) {
-  job.start("fitted weights", [this, fitted, geometry = geometry_, scene = document.scene,
-                               time = document.time](const Control& control) {
-    // What a door hides at any of these times lights nothing behind it at any other
-    std::vector<std::unique_ptr<trace::PathTracer>> poses;
-    for (const float t : {time, 0.0f, scene::animation_duration(*scene)}) {
-      if (poses.empty() || t != time)
-        poses.push_back(std::make_unique<trace::PathTracer>(geometry, *scene, t));
-    }
-    const gi::SeesProbe sees = [&](const vec3& a, const vec3& b) {
-      return std::all_of(poses.begin(), poses.end(), [&](const auto& pose) { return pose->visible(a, b); });
-    };
-    auto prepared = std::make_shared<realtime::FittedSurfaces>(
-        realtime::prepare_fitted(*scene, time, fitted, sees, control));
-    return [this, prepared] { light.take_fitted(std::move(*prepared)); };
-  });
 }
 
 }  // namespace ssphh::viewer

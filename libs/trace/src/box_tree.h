@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -28,10 +27,8 @@ class BoxTree {
   template <class Visit>
   bool any(const Ray& ray, const float& t_max, const Visit& visit) const {
     if (nodes_.empty()) return false;
-    vec3 inverse;
-    for (int k = 0; k < 3; ++k)
-      inverse[k] = ray.direction[k] == 0 ? std::numeric_limits<float>::infinity() : 1 / ray.direction[k];
-    std::array<std::uint32_t, 32> stack;  // the tree is balanced: as deep as 2^32 boxes ask for
+    const vec3 inverse = 1.0f / ray.direction;  // infinite along an axis that it does not take
+    std::array<std::uint32_t, 32> stack;        // the tree is balanced: as deep as 2^32 boxes ask for
     std::size_t depth = 0;
     stack[depth++] = 0;
     while (depth > 0) {

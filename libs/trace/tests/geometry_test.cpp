@@ -26,26 +26,7 @@ TEST(Geometry, NoSelfIntersectionAtAnyScaleAndPlace) {
                  lambertian(vec3(1)));
       for (vec3& p : scene.meshes[0].positions) p = center + scale * p;
       const PosedScene embree(scene);
-      trace::RayTask task;
-      Pcg32 random(static_cast<std::uint64_t>(away + scale * 7));
-      for (int i = 0; i < 3000; ++i) {
-        const vec3 from = center + 3 * scale * sample_uniform_sphere(random.uniform2());
-        const vec3 target = center + 0.5f * scale * sample_uniform_sphere(random.uniform2());
-        trace::Hit hit;
-        const vec3 direction = glm::normalize(target - from);
-        ASSERT_TRUE(embree.intersect({from, direction}, 0, task, hit));
-        vec3 origin;
-        const shading::Surface surface = embree.surface(hit, -direction, origin);
-        vec3 out =
-            Frame::around(surface.geometric_normal).to_world(sample_cosine_hemisphere(random.uniform2()));
-        if (i % 2)
-          out = glm::normalize(
-              out + 30.0f * (out - glm::dot(out, surface.geometric_normal) * surface.geometric_normal));
-        if (!(glm::dot(out, surface.geometric_normal) > 0)) continue;
-        ++rays;
-        trace::Hit again;
-        shadowed += embree.intersect({origin, out}, 0, task, again);
-      }
+      count_shadowed(embree, center, scale, static_cast<std::uint64_t>(away + scale * 7), rays, shadowed);
     }
   }
   EXPECT_GT(rays, 20000);
