@@ -140,21 +140,9 @@ void App::resize_picture() {
 /// What the user changed since the last turn goes to the renderer; places and surfaces make the light stale.
 void App::apply_edits() {
   const Edits& edits = document.edits();
-  const std::vector<scene::LightState> lights = light_states(*document.scene, edits, document.time);
-  const std::vector<vec3> scales = group_scales(*document.scene, edits);
-  if (renderer_->time() != document.time) renderer_->set_time(document.time), scene_dirty_ = true;
-  if (lights != applied_lights_) {
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-      if (!(renderer_->light(static_cast<int>(i)) == lights[i]))
-        renderer_->set_light(static_cast<int>(i), lights[i]);
-    }
-    applied_lights_ = lights;
-    scene_dirty_ = true;
-  }
-  if (scales != applied_scales_) {
-    for (std::size_t g = 0; g < scales.size(); ++g)
-      renderer_->set_group_scale(static_cast<int>(g), scales[g]);
-    applied_scales_ = scales;
+  const scene::LightingState lighting = document.lighting();
+  if (renderer_->lighting() != lighting) {
+    renderer_->set(lighting);
     scene_dirty_ = true;
   }
   for (std::size_t i = 0; i < edits.materials.size(); ++i) {

@@ -150,8 +150,6 @@ class App {
   std::optional<Drawn> drawn_;
   std::optional<View> visible_view_;
   bool scene_dirty_ = true, balls_dirty_ = true, truth_dirty_ = true, light_stale_ = false;
-  std::vector<scene::LightState> applied_lights_;
-  std::vector<vec3> applied_scales_;
   std::vector<scene::Material> applied_materials_;
   std::vector<SphlEdit> applied_sphls_;
   int redraw_ = 3;

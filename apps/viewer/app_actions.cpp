@@ -60,8 +60,6 @@ void App::take_scene(std::string source, scene::Scene scene) {
   light.clear();
   selection = {};
   view = start_view(document, "");
-  applied_lights_.clear();
-  applied_scales_.clear();
   applied_materials_ = document.edits().materials;
   applied_sphls_ = document.edits().sphls;
   drawn_.reset();
@@ -83,8 +81,7 @@ void App::save_probes(const std::string& file) {
   if (light.empty()) throw Error(file, "there are no probes to save", "place some, or open a probe file");
   if (light.live()) {
     const scene::Scene scene = edited_scene(*document.scene, document.edits(), document.time);
-    gi::ProbeSet set =
-        light.live_light()->bake(scene, group_scales(*document.scene, document.edits()), document.time);
+    gi::ProbeSet set = light.live_light()->bake(scene);
     for (std::size_t i = 0; i < set.probes.size(); ++i) {
       // Edges are of another degree where VIZ ran with one of its own.
       const std::vector<gi::Edge>& edges = light.set().probes[i].edges;
@@ -167,7 +164,7 @@ std::optional<vec3> App::selected_position() const {
   const auto i = static_cast<std::size_t>(selection.index);
   if (selection.is(Kind::light)) {
     if (document.scene->lights[i].type == scene::LightType::directional) return {};
-    return light_position(light_states(*document.scene, document.edits(), document.time)[i].world);
+    return light_position(document.lighting().lights[i].world);
   }
   if (!selection.is(Kind::sphl)) return {};
   return sphl_position(*document.scene, scene::world_matrices(*document.scene, document.time),
@@ -177,7 +174,7 @@ std::optional<vec3> App::selected_position() const {
 void App::move_selected(const vec3& position) {
   const auto i = static_cast<std::size_t>(selection.index);
   if (selection.is(Kind::light)) {
-    const mat4 world = light_states(*document.scene, document.edits(), document.time)[i].world;
+    const mat4 world = document.lighting().lights[i].world;
     document.edit("move " + document.scene->lights[i].name,
                   [&](Edits& edits) { edits.lights[i].world = with_position(world, position); });
   } else if (selection.is(Kind::sphl)) {

@@ -41,8 +41,7 @@ ImU32 display_color(const vec3& linear, int alpha = 255) {
 }
 
 void draw_lamps(const App& app, ImDrawList& list) {
-  const std::vector<scene::LightState> lights =
-      light_states(*app.document.scene, app.document.edits(), app.document.time);
+  const std::vector<scene::LightState> lights = app.document.lighting().lights;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const scene::Light& light = app.document.scene->lights[i];
     if (light.type == scene::LightType::directional) continue;
@@ -148,8 +147,7 @@ void draw_wipe(const App& app, ImDrawList& list) {
 }  // namespace
 
 int lamp_under_mouse(const App& app, float x, float y) {
-  const std::vector<scene::LightState> lights =
-      light_states(*app.document.scene, app.document.edits(), app.document.time);
+  const std::vector<scene::LightState> lights = app.document.lighting().lights;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (app.document.scene->lights[i].type == scene::LightType::directional) continue;
     const auto at = on_screen(app, light_position(lights[i].world));

@@ -35,7 +35,7 @@ void ProbeLight::take(std::shared_ptr<LiveLight> live) {
   for (std::size_t i = 0; i < edges.size(); ++i) set_->probes[i].edges = std::move(edges[i]);
   origin_ = "live";
   fitted_ = {};
-  lights_.clear();
+  lighting_.reset();
   places_new_ = light_new_ = true;
 }
 
@@ -45,7 +45,7 @@ void ProbeLight::take(gi::ProbeSet set, const std::string& origin) {
   gi::merge_groups(*set_);
   origin_ = origin;
   fitted_ = {};
-  scales_.clear();
+  lighting_.reset();
   places_new_ = light_new_ = true;
 }
 
@@ -74,21 +74,19 @@ void ProbeLight::take_edges(std::size_t i, std::vector<gi::Edge> edges) {
 }
 
 bool ProbeLight::relight(const Document& document) {
-  const Edits& edits = document.edits();
-  const std::vector<vec3> scales = group_scales(*document.scene, edits);
+  scene::LightingState state = document.lighting();
+  if (lighting_ == state) return false;
   if (live_) {
-    const std::vector<scene::LightState> lights = light_states(*document.scene, edits, document.time);
-    if (lights == lights_ && scales == scales_ && document.time == time_) return false;
-    report_ = live_->update(lights, scales, document.time);
+    report_ = live_->update(state);
     live_->refresh(*set_);
-    lights_ = lights;
   } else {
-    if (scales == scales_ || scales.size() != set_->light_groups.size()) return false;
+    const std::vector<vec3>& scales = state.group_scales;
+    const bool dimmed = !lighting_ || lighting_->group_scales != scales;
+    if (!dimmed || scales.size() != set_->light_groups.size()) return false;
     for (std::size_t g = 0; g < scales.size(); ++g) set_->light_groups[g].scale = scales[g];
     gi::merge_groups(*set_);
   }
-  scales_ = scales;
-  time_ = document.time;
+  lighting_ = std::move(state);
   return true;
 }
 

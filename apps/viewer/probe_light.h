@@ -59,9 +59,7 @@ class ProbeLight {
 
   // What was last brought to the set and the renderer.
   bool places_new_ = false, light_new_ = false, fitted_new_ = false;
-  std::vector<scene::LightState> lights_;
-  std::vector<vec3> scales_;
-  float time_ = 0;
+  std::optional<scene::LightingState> lighting_;
   std::optional<Settings> settings_;
 };
 

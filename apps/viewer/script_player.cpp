@@ -10,7 +10,8 @@ namespace ssphh::viewer {
 const char* const script_help =
     "set NAME VALUE | time T | camera NAME | view X Y Z TO_X TO_Y TO_Z | tab NAME | "
     "light NAME on|off | light NAME intensity V | light NAME color R G B | light NAME position X Y Z | "
-    "group NAME FACTOR | material NAME R G B | select light|sphl|material NAME | sphl X Y Z | "
+    "group NAME FACTOR | environment DEGREES | material NAME R G B | select light|sphl|material NAME | sphl "
+    "X Y Z | "
     "probes auto|auto:M|scene|FILE | gen | viz | bookmark | undo | redo | key NAME | click X Y | "
     "drag X Y TO_X TO_Y [right] | wait FRAMES | settle | screenshot FILE [panels] | save FILE | quit";
 
@@ -43,7 +44,7 @@ void edit_light(App& app, const ScriptLine& line) {
   if (line.words.size() < 3) expect_words(line, 2, "light NAME on");
   const std::size_t i = find_named(line, app.document.scene->lights, line.words[1], by_name);
   const std::string& what = line.words[2];
-  const mat4 world = light_states(*app.document.scene, app.document.edits(), app.document.time)[i].world;
+  const mat4 world = app.document.lighting().lights[i].world;
   app.document.history.seal();
   const auto edit = [&](const auto& change) {
     app.document.edit(fmt::format("{} of {}", what, line.words[1]), [&](Edits& e) { change(e.lights[i]); });
@@ -156,6 +157,11 @@ void ScriptPlayer::run(App& app, const ScriptLine& line) {
     find_named(line, groups, words[1], [](const std::string& g) { return g; });
     app.document.edit("scale " + words[1],
                       [&](Edits& e) { e.groups[words[1]] = vec3(std::max(number(line, 2), 0.0f)); });
+  } else if (verb == "environment") {
+    expect(1, "environment DEGREES");
+    if (!app.document.scene->environment) throw Error(line.where, "the scene has no environment");
+    const float turn = glm::radians(number(line, 1));
+    app.document.edit("turn the environment", [&](Edits& e) { e.environment_rotation = turn; });
   } else if (verb == "material") {
     expect(4, "material NAME R G B");
     const std::size_t i = find_named(line, app.document.edits().materials, words[1], by_name);

@@ -43,14 +43,14 @@ class Animation : public testing::Test {
   RelightAnimation read(const std::vector<std::string>& specs, float time = 0) const {
     return {source_, scene_, time, specs};
   }
-  gi::FrameState frame(const std::string& spec, float u) const { return read({spec}).frame(u); }
+  scene::LightingState frame(const std::string& spec, float u) const { return read({spec}).frame(u); }
   std::string problem(const std::vector<std::string>& specs) const {
     return test::message_of([&] { read(specs); });
   }
 
   const scene::Scene scene_ = lit_stage();
   const trace::TransportScene source_{scene_};
-  const gi::FrameState still_ = gi::frame_at(source_, 0);
+  const scene::LightingState still_ = scene::lighting_at(source_, 0);
 };
 
 TEST(Track, KeysAreSpreadEvenlyAndMixedBetween) {
@@ -64,7 +64,7 @@ TEST(Track, KeysAreSpreadEvenlyAndMixedBetween) {
 }
 
 TEST_F(Animation, EachTrackSetsItsPropertyOfItsLightAlone) {
-  gi::FrameState wanted = still_;
+  scene::LightingState wanted = still_;
   wanted.lights[0].world[3] = vec4(1, -2, 3, 1);
   EXPECT_EQ(frame("bulb.position=0,0,0:2,-4,6", 0.5f), wanted);
   wanted = still_, wanted.lights[1].intensity = 3;
@@ -78,7 +78,7 @@ TEST_F(Animation, EachTrackSetsItsPropertyOfItsLightAlone) {
 TEST_F(Animation, AGroupTakesOneFactorOrOneForEachChannel) {
   const auto& groups = source_.light_groups();
   const auto warm = static_cast<std::size_t>(std::ranges::find(groups, "warm") - groups.begin());
-  gi::FrameState wanted = still_;
+  scene::LightingState wanted = still_;
   wanted.group_scales.at(warm) = vec3(2);
   EXPECT_EQ(frame("warm.scale=1:3", 0.5f), wanted);
   wanted.group_scales.at(warm) = {1, 2, 3};
@@ -88,7 +88,7 @@ TEST_F(Animation, AGroupTakesOneFactorOrOneForEachChannel) {
 TEST_F(Animation, ADirectionTurnsALampWhereItStands) {
   for (const char* lamp : {"spot", "sun"}) {
     const std::size_t i = lamp == std::string("spot") ? 1 : 2;
-    const gi::FrameState state = frame(std::string(lamp) + ".direction=0,-3,4", 0);
+    const scene::LightingState state = frame(std::string(lamp) + ".direction=0,-3,4", 0);
     const mat4& world = state.lights[i].world;
     EXPECT_LT(glm::distance(-vec3(world[2]), vec3(0, -0.6f, 0.8f)), 1e-6f) << lamp;
     EXPECT_EQ(world[3], still_.lights[i].world[3]) << lamp;
@@ -99,7 +99,7 @@ TEST_F(Animation, ADirectionTurnsALampWhereItStands) {
 
 TEST_F(Animation, SeveralTracksGoTogether) {
   const RelightAnimation both = read({"bulb.intensity=0:8", "bulb.color=1,0,0", "sun.intensity=1"});
-  const gi::FrameState state = both.frame(0.25f);
+  const scene::LightingState state = both.frame(0.25f);
   EXPECT_EQ(state.lights[0].intensity, 2);
   EXPECT_EQ(state.lights[0].color, vec3(1, 0, 0));
   EXPECT_EQ(state.lights[2].intensity, 1);
@@ -122,29 +122,16 @@ TEST_F(Animation, ASceneThatMovesDoesSoUnasked) {
   EXPECT_THAT(problem({}), AllOf(HasSubstr("nothing moves"), HasSubstr("\"bulb.intensity=0:4\"")));
 }
 
-TEST_F(Animation, ASessionGetsWhatMovesAndNothingElse) {
+TEST_F(Animation, ChangesWhatMovesAndNothingElse) {
   const RelightAnimation animation =
       read({"bulb.intensity=0:8", "cold.scale=0.5", "environment.rotation=90"});
-  gi::RelightParams params;
-  params.transport = {.directions = 16, .surfel_size = 1, .link_rays = 8};
-  params.degree = 1;
-  const auto lit = [&](const auto& set) {
-    gi::RelightSession session(source_, {{"p", {0, 1, 2}}}, params);
-    set(session);
-    session.update();
-    return session.reflected()[0].values;
-  };
-  const auto by_hand = lit([&](gi::RelightSession& session) {
-    scene::LightState bulb = still_.lights[0];
-    bulb.intensity = 4;
-    session.set_light(0, bulb);
-    const auto& groups = source_.light_groups();
-    session.set_group_scale(static_cast<int>(std::ranges::find(groups, "cold") - groups.begin()), vec3(0.5f));
-    session.set_environment_rotation(pi / 2);
-  });
-  EXPECT_EQ(lit([&](gi::RelightSession& session) { animation.apply(animation.frame(0.5f), session); }),
-            by_hand);
-  EXPECT_NE(lit([](gi::RelightSession&) {}), by_hand);
+  scene::LightingState by_hand = still_;
+  by_hand.lights[0].intensity = 4;
+  const auto& groups = source_.light_groups();
+  by_hand.group_scales[static_cast<std::size_t>(std::ranges::find(groups, "cold") - groups.begin())] =
+      vec3(0.5f);
+  by_hand.environment_rotation = pi / 2;
+  EXPECT_EQ(animation.frame(0.5f), by_hand);
 }
 
 TEST_F(Animation, MistakesAreToldWithWhatWouldBeRight) {

@@ -48,9 +48,21 @@ GlContract refuses_frame(std::string given, std::function<void(Renderer&)> call,
             renderer.set_probes(sound_set());
             expect_refusal([&] { call(renderer); }, words);
             EXPECT_EQ(renderer.probe_count(), 3);
-            EXPECT_EQ(renderer.time(), 0);
-            EXPECT_EQ(renderer.light(0).intensity, 1);
+            EXPECT_EQ(renderer.lighting(), scene::lighting_at(sound_scene()));
           }};
+}
+
+/// The same for a state of the light.
+GlContract refuses_state(std::string given, std::function<void(scene::LightingState&)> spoil,
+                         std::vector<std::string> words) {
+  return refuses_frame(
+      std::move(given),
+      [spoil](Renderer& renderer) {
+        scene::LightingState state = renderer.lighting();
+        spoil(state);
+        renderer.set(state);
+      },
+      std::move(words));
 }
 
 const std::array<std::byte, 64> bytes{};
@@ -134,22 +146,25 @@ std::vector<GlContract> of_renderer() {
                     {"probe 3"}),
       refuses_frame("UpdateWithoutLight", [](Renderer& r) { r.update_probes(std::vector<int>{0}, {}); },
                     {"probes", "function for each"}),
-      refuses_frame("EmissionOfNoProbe", [](Renderer& r) { r.set_emission(3, {}, 1); }, {"probe 3"}),
-      refuses_frame("EmissionThatIsNoNumber",
-                    [](Renderer& r) {
-                      sh::RadianceSh leaving(0);
-                      leaving[0] = vec3(nan);
-                      r.set_emission(0, leaving, 1);
+      refuses_state("EmissionOfNoProbe",
+                    [](auto& s) {
+                      s.emission = {{3, {}}};
+                    },
+                    {"probe 3"}),
+      refuses_state("EmissionThatIsNoNumber",
+                    [](auto& s) {
+                      s.emission = {{0, sh::RadianceSh(0)}};
+                      s.emission[0].leaving[0] = vec3(nan);
                     },
                     {"emission", "finite"}),
-      refuses_frame("LightThatIsNotThere", [](Renderer& r) { r.set_light(1, {}); }, {"light 1"}),
-      refuses_frame("LightThatIsNoNumber", [](Renderer& r) { r.set_light(0, {.color = vec3(nan)}); },
+      refuses_state("OneLightMore", [](auto& s) { s.lights.resize(2); }, {"2 lights"}),
+      refuses_state("LightThatIsNoNumber", [](auto& s) { s.lights[0].color = vec3(nan); },
                     {"light 0", "finite"}),
-      refuses_frame("GroupThatIsNotThere", [](Renderer& r) { r.set_group_scale(1, vec3(1)); }, {"group 1"}),
-      refuses_frame("GroupScaleThatIsNoNumber", [](Renderer& r) { r.set_group_scale(0, vec3(nan)); },
+      refuses_state("OneGroupMore", [](auto& s) { s.group_scales.resize(2); }, {"2 groups"}),
+      refuses_state("GroupScaleThatIsNoNumber", [](auto& s) { s.group_scales[0] = vec3(nan); },
                     {"group 0", "finite"}),
       refuses_frame("MaterialThatIsNotThere", [](Renderer& r) { r.set_material(1, {}); }, {"material 1"}),
-      refuses_frame("TimeThatIsNoNumber", [](Renderer& r) { r.set_time(nan); }, {"time"}),
+      refuses_state("TimeThatIsNoNumber", [](auto& s) { s.time = nan; }, {"time"}),
       refuses_frame("FrameOfNoSize", [](Renderer& r) { r.draw({}, {}, {.width = 0}); }, {"frame size"}),
       refuses_frame("ReadBackBeforeAFrame", [](Renderer& r) { r.read_back(); }, {"no frame"}),
       refuses_frame("FittedPointsOfNoProbe",
@@ -166,9 +181,9 @@ std::vector<GlContract> of_renderer() {
        [](gl::Context& context) {
          Renderer first(context, sound_scene());
          Renderer second = std::move(first);
-         expect_refusal([&] { first.time(); }, {"moved from"});
+         expect_refusal([&] { first.lighting(); }, {"moved from"});
          expect_refusal([&] { first.read_back(); }, {"moved from"});
-         EXPECT_EQ(second.time(), 0);
+         EXPECT_EQ(second.lighting().time, 0);
        }},
       {"Renderer", "AfterAnErrorOfTheHost",
        [](gl::Context& context) {

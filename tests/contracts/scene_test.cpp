@@ -4,7 +4,7 @@
 #include <ssphh/scene/primitives.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene/sun_sky.h>
-#include <ssphh/scene/with_lights.h>
+#include <ssphh/scene/with_lighting.h>
 #include <ssphh/scene_io/gltf.h>
 #include <ssphh/scene_io/gltf_export.h>
 #include <ssphh/scene_io/load.h>
@@ -107,7 +107,7 @@ std::vector<Contract> of_scenes() {
   rows.push_back(refuses("FindCamera", "OfNoName", [] { scene::find_camera(sound_scene(), "north"); },
                          {"north", "front"}));
   rows.push_back(refuses("MakeBuiltin", "OfNoName", [] { scene::make_builtin("moon"); }, {"moon", "box"}));
-  rows.push_back(refuses("WithLights", "OfAnotherNumber", [] { scene::with_lights(sound_scene(), 0, {}); },
+  rows.push_back(refuses("WithLighting", "OfAnotherNumber", [] { scene::with_lighting(sound_scene(), {}); },
                          {"0 lights"}));
   rows.push_back(
       gives("LightGroups", "OfAnEmptyScene", [] { EXPECT_TRUE(scene::light_groups({}).empty()); }));

@@ -21,8 +21,7 @@ class UnrulySource : public scene::TransportSource {
   int fails_after = -1;    ///< so many calls of direct_light, part_pose or occluded succeed; −1: all
   int strayed_group = -2;  ///< said to be every light's and the environment's; −2: the sound source's
   bool gives_direct_light = true;
-  bool forgets_lights = false;  ///< at other times than 0
-  bool dazzles = false;         ///< direct light is no number
+  bool dazzles = false;  ///< direct light is no number
 
   /// Of those calls, so far.
   int calls() const { return calls_; }
@@ -49,11 +48,7 @@ class UnrulySource : public scene::TransportSource {
     sound_.occluded(part, rays, blocked);
   }
   const std::vector<std::string>& light_groups() const override { return sound_.light_groups(); }
-  std::vector<scene::LightState> lights(float time) const override {
-    std::vector<scene::LightState> states = sound_.lights(time);
-    if (forgets_lights && time != 0) states.clear();
-    return states;
-  }
+  std::vector<scene::LightState> lights(float time) const override { return sound_.lights(time); }
   const std::vector<std::string>& light_names() const override { return sound_.light_names(); }
   int light_group_of(int light) const override {
     return strayed_group == -2 ? sound_.light_group_of(light) : strayed_group;

@@ -5,8 +5,10 @@
 #include <gmock/gmock.h>
 
 #include <ssphh/scene/primitives.h>
+#include <ssphh/scene/with_lighting.h>
 
 #include "gl_context.h"
+#include "picture_bounds.h"
 #include "pictures.h"
 
 namespace ssphh {
@@ -81,6 +83,30 @@ TEST_F(DirectLight, ABallMirrorsTheEnvironmentByItsRoughnessAsTraced) {
     const image::Image picture = test::drawn(renderer, s, size);
     EXPECT_LT(block_difference(truth, picture), c.most);
     EXPECT_NEAR(test::mean_luminance(picture) / test::mean_luminance(truth), 1, 0.03);
+  }
+}
+
+TEST_F(DirectLight, ATurnedSkyIsThatOfASceneWhoseSkyIsTurned) {
+  scene::Scene s = ball_under_sky();
+  const PictureSize size{64, 64};
+  for (const float metallic : {0.0f, 1.0f}) {
+    SCOPED_TRACE(testing::Message() << "metallic " << metallic);
+    s.materials[0].metallic = metallic;
+    s.materials[0].specular_roughness = 0.12f;
+    realtime::Renderer turned(gl(), s);
+    const image::Image before = test::drawn(turned, s, size);
+    scene::LightingState state = turned.lighting();
+    state.environment_rotation = 1.1f;
+    turned.set(state);
+    const image::Image after = test::drawn(turned, s, size);
+    realtime::Renderer fresh(gl(), scene::with_lighting(s, state));
+    // The same 32 directions and tiles; by turning they differ in their last bits
+    EXPECT_TRUE(
+        test::picture_is(after, test::PictureBounds::around(test::drawn(fresh, s, size), 0.002f, 1e-4f)));
+    EXPECT_FALSE(test::picture_is(after, test::PictureBounds::around(before, 0.1f, 0.02f))) << "it turned";
+    state.environment_rotation = 0;
+    turned.set(state);
+    EXPECT_EQ(test::drawn(turned, s, size).pixels, before.pixels) << "and back, to the bit";
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <ssphh/image/sphere_map.h>
 
+#include "change_lighting.h"
 #include "gl_context.h"
 #include "picture_bounds.h"
 #include "pictures.h"
@@ -87,7 +88,7 @@ class GroupPixels : public WithGl {
     EXPECT_LT(bounds.widen(at_edge), partly);
 
     realtime::Renderer renderer(gl(), scene);
-    for (std::size_t g = 0; g < scales.size(); ++g) renderer.set_group_scale(static_cast<int>(g), scales[g]);
+    change_lighting(renderer, [&](auto& state) { std::ranges::copy(scales, state.group_scales.begin()); });
     realtime::FrameSettings settings;
     settings.view = realtime::View::direct;
     renderer.draw(pose, settings, {.width = size.width, .height = size.height});

@@ -33,7 +33,7 @@ struct Subject {
       : scene(std::move(given)), source(scene), time(at) {
     const gi::MethodEntry& entry = gi::find_method(name);
     method = entry.make({scene, source}, gi::MethodParameters(name, entry.parameters, settings), {});
-    method->update(gi::frame_at(source, time), {});
+    method->update(scene::lighting_at(source, time), {});
   }
   Subject(const std::string& builtin, const std::string& name, const Settings& settings, float at = 0)
       : Subject(scene::make_builtin(builtin), name, settings, at) {}
@@ -284,7 +284,7 @@ TEST_F(MethodLight, FollowsLampsAndKeepsMapsThatHold) {
   realtime::Renderer renderer(gl(), lights.scene, quick);
   renderer.set_method_light(lights.method->light_data());
   const double once = test::mean_luminance(draw(renderer, lights, "room-a").radiance);
-  gi::FrameState state = gi::frame_at(lights.source, 0);
+  scene::LightingState state = scene::lighting_at(lights.source, 0);
   for (vec3& scale : state.group_scales) scale = vec3(2);
   lights.method->update(state, {});
   renderer.set_method_light(lights.method->light_data());

@@ -8,6 +8,7 @@
 #include <ssphh/core/log.h>
 #include <ssphh/sh/evaluate.h>
 
+#include "change_lighting.h"
 #include "error_message.h"
 #include "gl_context.h"
 #include "picture_bounds.h"
@@ -45,22 +46,26 @@ TEST_F(RendererInput, RefusalsNameTheObjectAndHowManyThereAre) {
   renderer.set_probes(made_up_probes({{0, 1, 1}, {1, 1, 1}}));
   for (const int index : {-1, 99}) {
     const std::string n = std::to_string(index);
-    EXPECT_EQ(message_of([&] { renderer.set_light(index, {}); }), "light " + n + ": the scene has 1");
-    EXPECT_EQ(message_of([&] { renderer.light(index); }), "light " + n + ": the scene has 1");
-    EXPECT_EQ(message_of([&] { renderer.set_group_scale(index, vec3(1)); }),
-              "light group " + n + ": the scene has 1");
     EXPECT_EQ(message_of([&] { renderer.set_material(index, {}); }), "material " + n + ": the scene has 4");
-    EXPECT_EQ(message_of([&] { renderer.set_emission(index, {}, 1); }), "probe " + n + ": there are 2");
+    EXPECT_EQ(message_of([&] { change_lighting(renderer, [&](auto& s) {
+                                 s.emission = {{index, {}}};
+                               }); }),
+              "emission of probe " + n + ": there are 2 probes");
     EXPECT_EQ(message_of([&] { renderer.update_probes(std::array{index}, std::vector{sh::RadianceSh(4)}); }),
               "probe " + n + ": there are 2");
   }
   EXPECT_EQ(message_of([&] { renderer.update_probes(std::array{0}, std::vector{sh::RadianceSh(3)}); }),
             "probe 0: has 16 RGB coefficients; the set's degree has 25");
-  EXPECT_THAT(message_of([&] { renderer.set_group_scale(0, {1, -0.1f, 1}); }), HasSubstr("not negative"));
-  EXPECT_EQ(message_of([&] { renderer.set_group_scale(0, vec3(0)); }), "no error");
-  scene::LightState state = renderer.light(0);
-  state.world[3].y = INFINITY;
-  EXPECT_EQ(message_of([&] { renderer.set_light(0, state); }), "light 0: its state is not finite");
+  const scene::LightingState sound = renderer.lighting();
+  EXPECT_THAT(message_of([&] { renderer.set({}); }), HasSubstr("0 lights and 0 groups"));
+  EXPECT_THAT(message_of([&] {
+                change_lighting(renderer, [](auto& s) { s.time = 1, s.group_scales[0].y = -0.1f; });
+              }),
+              HasSubstr("not negative"));
+  EXPECT_THAT(
+      message_of([&] { change_lighting(renderer, [](auto& s) { s.lights[0].world[3].y = INFINITY; }); }),
+      HasSubstr("light 0: its place"));
+  EXPECT_EQ(renderer.lighting(), sound) << "what is refused changes nothing";
   for (const PictureSize& size : {PictureSize{0, 4}, {4, 0}, {-1, 4}})
     EXPECT_EQ(message_of([&] { renderer.draw({}, {}, {.width = size.width, .height = size.height}); }),
               "frame size: width and height must be positive");
@@ -81,17 +86,8 @@ TEST_F(RendererInput, LightsThatNeedMoreMapsThanThereAreAreRefused) {
             "real-time renderer: the lights need 132 parallel shadow maps, 128 is the most");
 }
 
-TEST_F(RendererInput, LightThatIsSetStaysWhenTheTimeChanges) {
-  Renderer renderer(gl(), scene_);
-  scene::LightState state = renderer.light(0);
-  EXPECT_EQ(state.color, scene_.lights[0].color);
-  EXPECT_EQ(state.intensity, scene_.lights[0].intensity);
-  EXPECT_EQ(vec3(state.world[3]), stage_lamp_place);
-  state.world[3] = vec4(1, 2, 3, 1), state.intensity = 7;
-  renderer.set_light(0, state);
-  renderer.set_time(2);
-  EXPECT_EQ(renderer.time(), 2);
-  EXPECT_EQ(renderer.light(0), state);
+TEST_F(RendererInput, BeginsWithTheScenesOwnLighting) {
+  EXPECT_EQ(Renderer(gl(), scene_, {}, 2).lighting(), scene::lighting_at(scene_, 2));
 }
 
 TEST_F(RendererInput, ShadersOfADirectoryAreReloadedWhenTheyChangeAndKeptWhenTheyAreWrong) {
@@ -148,8 +144,10 @@ TEST_F(RendererInput, ProbeSendsOutWhatItsFunctionSaysInEveryDirection) {
                                  std::cos(5.0f * static_cast<float>(k)), 0.5f) /
                                 static_cast<float>(degree);
     Renderer renderer(gl(), s);
-    renderer.set_probes(made_up_probes({place, {-1, 0, 1}}));
-    renderer.set_emission(0, leaving, 0.2f);
+    gi::ProbeSet set = made_up_probes({place, {-1, 0, 1}});
+    set.probes[0].radius = 0.2f;
+    renderer.set_probes(set);
+    change_lighting(renderer, [&](auto& state) { state.emission = {{0, leaving}}; });
     FrameSettings settings;
     settings.view = View::direct;
     const PictureSize size{24, 24};
@@ -169,7 +167,7 @@ TEST_F(RendererInput, ProbeSendsOutWhatItsFunctionSaysInEveryDirection) {
     }
     // 10 bits of a colour's root, and a recurrence in single precision
     EXPECT_TRUE(picture_is(renderer.read_back(), PictureBounds::around(expected, 0.005f, 1e-5f))) << degree;
-    renderer.set_emission(0, leaving, 0);
+    change_lighting(renderer, [&](auto& state) { state.emission = {{0, {}}}; });
     renderer.draw(pose, settings, {.width = size.width, .height = size.height});
     EXPECT_THAT(renderer.read_back().pixels, testing::Each(0.0f));
   }
@@ -181,11 +179,11 @@ TEST_F(RendererInput, ProbesThatAreGoneSendOutNothing) {
   renderer.set_probes(made_up_probes({{0, 1, 1}, {1, 1, 1}}));
   sh::RadianceSh leaving(0);
   leaving[0] = vec3(100);
-  renderer.set_emission(1, leaving, 0.3f);
+  change_lighting(renderer, [&](auto& state) { state.emission = {{1, leaving}}; });
   EXPECT_NE(draw(renderer, View::direct).pixels, dark.pixels);
   renderer.set_probes(made_up_probes({{0, 1, 1}, {1, 1, 1}}));
   EXPECT_EQ(draw(renderer, View::direct).pixels, dark.pixels);
-  renderer.set_emission(1, leaving, 0.3f);
+  change_lighting(renderer, [&](auto& state) { state.emission = {{1, leaving}}; });
   renderer.clear_probes();
   EXPECT_EQ(draw(renderer, View::direct).pixels, dark.pixels);
 }

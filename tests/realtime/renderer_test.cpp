@@ -2,9 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include <ssphh/gi/session_sets.h>
 #include <ssphh/scene/builtin.h>
-#include <ssphh/scene/with_lights.h>
+#include <ssphh/scene/with_lighting.h>
+#include <ssphh/trace/transport_scene.h>
 
+#include "change_lighting.h"
 #include "count_allocations.h"
 #include "gl_context.h"
 #include "picture_bounds.h"
@@ -56,11 +59,11 @@ TEST_F(RendererTest, ShadersCompileWithoutWarnings) {
 TEST_F(RendererTest, AnOpenDoorLetsLightIntoRoomB) {
   Renderer renderer(gl(), scene_);
   const double shut = brightness(renderer, "room-b");
-  renderer.set_time(1);
+  test::change_lighting(renderer, [](auto& state) { state.time = 1; });
   const double open = brightness(renderer, "room-b");
   EXPECT_LT(shut, 1e-3);
   EXPECT_GT(open, 10 * shut + 1e-3);
-  renderer.set_time(0);
+  test::change_lighting(renderer, [](auto& state) { state.time = 0; });
   EXPECT_DOUBLE_EQ(brightness(renderer, "room-b"), shut);
 }
 
@@ -70,7 +73,7 @@ TEST_F(RendererTest, OnlyMapsThatSeeWhatMovedAreDrawnAnew) {
   const int all = frame(renderer).shadow_maps_drawn;
   EXPECT_EQ(all, 6 + 6 * 6) << "a lamp and six probes";
   EXPECT_EQ(frame(renderer).shadow_maps_drawn, 0);
-  renderer.set_time(0.5f);
+  test::change_lighting(renderer, [](auto& state) { state.time = 0.5f; });
   const int moved = frame(renderer).shadow_maps_drawn;
   EXPECT_GT(moved, 0);
   EXPECT_LT(moved, all / 2);
@@ -91,25 +94,24 @@ TEST_F(RendererTest, MapsBeyondTheFramesShareWait) {
 
 TEST_F(RendererTest, ALampThatIsSetLooksLikeASceneWithThatLamp) {
   Renderer renderer(gl(), scene_);
-  scene::LightState lamp = renderer.light(0);
-  lamp.world[3] = vec4(-1, 1.5f, -0.8f, 1);
-  lamp.color = {0.2f, 0.5f, 1};
-  renderer.set_light(0, lamp);
+  scene::LightingState state = renderer.lighting();
+  state.lights[0].world[3] = vec4(-1, 1.5f, -0.8f, 1);
+  state.lights[0].color = {0.2f, 0.5f, 1};
+  renderer.set(state);
   const image::Image moved = picture(renderer, "room-a");
-  Renderer other(gl(), scene::with_lights(scene_, 0, std::span(&lamp, 1)));
+  Renderer other(gl(), scene::with_lighting(scene_, state));
   EXPECT_EQ(moved.pixels, picture(other, "room-a").pixels);
-  EXPECT_THROW(renderer.set_light(1, lamp), Error);
-  lamp.intensity = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THROW(renderer.set_light(0, lamp), Error);
+  state.lights[0].intensity = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(renderer.set(state), Error);
 }
 
 TEST_F(RendererTest, GroupsScaleTheirLight) {
   Renderer renderer(gl(), scene_);
   const image::Image before = picture(renderer, "room-a");
   const vec3 scale(3, 0.7f, 1.9f);
-  renderer.set_group_scale(0, scale);
+  test::change_lighting(renderer, [&](auto& state) { state.group_scales[0] = scale; });
   EXPECT_TRUE(test::picture_is(picture(renderer, "room-a"), scaled(before, scale)));
-  renderer.set_group_scale(0, vec3(0));
+  test::change_lighting(renderer, [](auto& state) { state.group_scales[0] = vec3(0); });
   EXPECT_EQ(brightness(renderer, "room-a"), 0);
 }
 
@@ -225,22 +227,22 @@ TEST_F(RendererTest, AProbeThatEmitsLightsAsAPointLightOfItsIntensity) {
   // Radiance L from a sphere of radius r in every direction is the intensity L π r²
   scene::Scene dark = scene_;
   dark.lights.clear();
-  const gi::ProbeSet set = test::made_up_probes(scene_);
+  gi::ProbeSet set = test::made_up_probes(scene_);
+  set.probes[0].radius = 0.1f;
   Renderer probe(gl(), dark);
   probe.set_probes(set);
   sh::RadianceSh leaving(0);
   leaving[0] = vec3(50 / 0.28209479f);
-  probe.set_emission(0, leaving, 0.1f);
+  test::change_lighting(probe, [&](auto& state) { state.emission = {{0, leaving}}; });
   const double by_probe = brightness(probe, "room-a", View::direct);
 
   Renderer lamp(gl(), scene_);
-  scene::LightState state;
-  state.world[3] = vec4(set.probes[0].position, 1);
-  state.intensity = 50 * pi * 0.01f;
-  lamp.set_light(0, state);
+  test::change_lighting(lamp, [&](auto& state) {
+    state.lights[0] = {glm::translate(mat4(1), set.probes[0].position), vec3(1), 50 * pi * 0.01f};
+  });
   const double by_lamp = brightness(lamp, "room-a", View::direct);
   EXPECT_NEAR(by_probe / by_lamp, 1, 0.01);
-  probe.set_emission(0, {}, 0);
+  test::change_lighting(probe, [](auto& state) { state.emission.clear(); });
   EXPECT_EQ(brightness(probe, "room-a", View::direct), 0);
 }
 
@@ -259,6 +261,28 @@ TEST_F(RendererTest, FramesInSteadyStateAllocateNothing) {
     EXPECT_EQ(test::allocations() - before, 0) << scale;
     EXPECT_EQ(renderer.memory_bytes(), memory) << scale;
   }
+}
+
+TEST_F(RendererTest, AStateThatDidNotChangeAllocatesNothing) {
+  const trace::TransportScene source(scene_);
+  gi::RelightParams params;
+  params.transport = {.directions = 64, .surfel_size = 0.5f, .link_rays = 16};
+  params.degree = 2;
+  const gi::ProbeSet set = test::made_up_probes(scene_);
+  gi::RelightSession session(source, gi::places_of(set), params);
+  Renderer renderer(gl(), scene_);
+  renderer.set_probes(set);
+  scene::LightingState state = scene::lighting_at(source, 0.5f);
+  state.group_scales[0] = {1, 0.5f, 2};
+  state.emission = {{1, sh::RadianceSh(2)}, {3, sh::RadianceSh(2)}};
+  session.update(state);
+  renderer.set(state);
+  const long before = test::allocations();
+  for (int i = 0; i < 50; ++i) {
+    session.update(state);
+    renderer.set(state);
+  }
+  EXPECT_EQ(test::allocations() - before, 0);
 }
 
 TEST_F(RendererTest, ViewsShowWhatTheyName) {
@@ -307,9 +331,8 @@ TEST_F(RendererTest, BadInputIsAnError) {
   EXPECT_THROW(renderer.read_back(), Error);
   EXPECT_THROW(renderer.set_probes({}), Error);
   EXPECT_THROW(renderer.draw(scene::camera_pose(scene_, ""), {}, {.width = 0, .height = 4}), Error);
-  EXPECT_THROW(renderer.set_group_scale(99, vec3(1)), Error);
   EXPECT_THROW(renderer.set_material(99, {}), Error);
-  EXPECT_THROW(renderer.set_emission(0, {}, 1), Error);
+  EXPECT_THROW(renderer.set({}), Error);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <ssphh/shading/bsdf.h>
 
+#include "change_lighting.h"
 #include "gl_context.h"
 #include "picture_bounds.h"
 #include "pictures.h"
@@ -54,16 +55,22 @@ TEST_F(Uploads, AreThoseOfTheBlocksThatChange) {
   Renderer renderer(gl(), s, small);
   EXPECT_EQ(bytes_of(renderer, s, [] {}), 0u);
   EXPECT_EQ(bytes_of(renderer, s, [&] { renderer.set_material(1, s.materials[2]); }), material_block);
-  EXPECT_EQ(bytes_of(renderer, s, [&] { renderer.set_time(0.5f); }), instance_block);
-  EXPECT_EQ(bytes_of(renderer, s, [&] { renderer.set_time(0.5f); }), 0u);
-  scene::LightState lamp = renderer.light(0);
-  lamp.intensity = 3;
-  EXPECT_EQ(bytes_of(renderer, s, [&] { renderer.set_light(0, lamp); }), emitter_block);
-  EXPECT_EQ(bytes_of(renderer, s, [&] { renderer.set_light(0, lamp); }), 0u);
-  EXPECT_EQ(bytes_of(renderer, s, [&] { renderer.set_group_scale(0, vec3(2)); }), emitter_block)
+  EXPECT_EQ(bytes_of(renderer, s, [&] { change_lighting(renderer, [](auto& state) { state.time = 0.5f; }); }),
+            instance_block);
+  EXPECT_EQ(bytes_of(renderer, s, [&] { change_lighting(renderer, [](auto& state) { state.time = 0.5f; }); }),
+            0u);
+  const auto dim = [](auto& state) { state.lights[0].intensity = 3; };
+  EXPECT_EQ(bytes_of(renderer, s, [&] { change_lighting(renderer, dim); }), emitter_block);
+  EXPECT_EQ(bytes_of(renderer, s, [&] { change_lighting(renderer, dim); }), 0u);
+  EXPECT_EQ(
+      bytes_of(renderer, s,
+               [&] { change_lighting(renderer, [](auto& state) { state.group_scales[0] = vec3(2); }); }),
+      emitter_block)
       << "a lamp has no surface";
-  EXPECT_EQ(bytes_of(renderer, s, [&] { renderer.set_group_scale(1, vec3(2)); }),
-            emitter_block + instance_block);
+  EXPECT_EQ(
+      bytes_of(renderer, s,
+               [&] { change_lighting(renderer, [](auto& state) { state.group_scales[1] = vec3(2); }); }),
+      emitter_block + instance_block);
 }
 
 TEST_F(Uploads, MemoryIsThatOfTheSceneAndItsMaps) {

@@ -57,7 +57,7 @@ TEST(Ddgi, FurnaceHoldsEveryBounce) {
   for (const float albedo : {0.3f, 0.8f}) {
     const Furnace furnace(albedo);
     const auto ddgi = make("ddgi", furnace.scene, furnace.source, {"probes=8", "warmup=100"});
-    ddgi->update(gi::frame_at(furnace.source, 0), {});
+    ddgi->update(scene::lighting_at(furnace.source, 0), {});
     const float expected = pi * albedo / (1 - albedo);
     const vec3 e = ddgi->light().irradiance(furnace.point);
     // The bounces that hundred frames leave out, and the walls' direct irradiance by quadrature.
@@ -74,7 +74,7 @@ TEST(Ddgi, LightFadesAsHysteresisAndAlbedoSay) {
   Settings plain = settings;
   plain.emplace_back("change=0");
   const auto ddgi = make("ddgi", furnace.scene, furnace.source, plain);
-  gi::FrameState state = gi::frame_at(furnace.source, 0);
+  scene::LightingState state = scene::lighting_at(furnace.source, 0);
   ddgi->update(state, {});
   const float before = ddgi->light().irradiance(furnace.point).g;
   for (vec3& scale : state.group_scales) scale = vec3(0);
@@ -94,7 +94,7 @@ TEST(Ddgi, LightFadesAsHysteresisAndAlbedoSay) {
     Settings alert = settings;
     alert.emplace_back(change);
     const auto quick = make("ddgi", furnace.scene, furnace.source, alert);
-    quick->update(gi::frame_at(furnace.source, 0), {});
+    quick->update(scene::lighting_at(furnace.source, 0), {});
     const float start = quick->light().irradiance(furnace.point).g;
     quick->update(state, {});
     EXPECT_NEAR(quick->light().irradiance(furnace.point).g / start, stays + (1 - stays) * albedo, 0.01f)
@@ -110,7 +110,7 @@ TEST(Ddgi, TendsToPathTracingWithMoreProbes) {
   double last = 1;
   for (const char* probes : {"probes=1", "probes=27", "probes=343"}) {
     const auto ddgi = make("ddgi", scene, source, {probes, "rays=48", "warmup=32"});
-    ddgi->update(gi::frame_at(source, 0), {});
+    ddgi->update(scene::lighting_at(source, 0), {});
     const double error = error_of(*ddgi, points, truth);
     RecordProperty(probes, std::to_string(error));
     EXPECT_LT(error, last) << probes;
@@ -128,7 +128,7 @@ TEST(Ddgi, SameBitsForAnyNumberOfThreads) {
   for (const int threads : {1, 4}) {
     set_thread_count(threads);
     const auto ddgi = make("ddgi", scene, source, {"probes=60", "rays=32", "warmup=4"});
-    for (const float time : {0.0f, 0.5f}) ddgi->update(gi::frame_at(source, time), {});
+    for (const float time : {0.0f, 0.5f}) ddgi->update(scene::lighting_at(source, time), {});
     light.push_back(gi::look_up(ddgi->light(), points));
   }
   set_thread_count(before);
@@ -145,7 +145,7 @@ TEST(Ddgi, AShutDoorLeaksLittleAndLessThanWithoutVisibility) {
   for (int k = 0; k < 2; ++k) {
     const auto ddgi = make("ddgi", scene, source,
                            {k == 0 ? "visibility=0" : "visibility=1", "spacing=0.7", "rays=48", "warmup=16"});
-    ddgi->update(gi::frame_at(source, 0), {});
+    ddgi->update(scene::lighting_at(source, 0), {});
     const gi::LeakReport report = gi::measure_leak(tracer, ddgi->light(), points, params);
     EXPECT_GT(report.dark, 100u);
     leak[k] = report.ratio;
@@ -163,10 +163,10 @@ TEST(Ddgi, AnOpenedDoorTakesFrames) {
   const auto truth = trace::PathTracer(scene, open).surface_irradiance(points, {25, 1, 256, 3}, {});
   const auto ddgi =
       make("ddgi", scene, source, {"spacing=0.8", "rays=64", "warmup=32", "hysteresis=0.9", "change=0"});
-  ddgi->update(gi::frame_at(source, 0), {});
+  ddgi->update(scene::lighting_at(source, 0), {});
   std::vector<double> errors;
   for (int frame = 0; frame < 33; ++frame) {
-    ddgi->update(gi::frame_at(source, open), {});
+    ddgi->update(scene::lighting_at(source, open), {});
     if (frame % 8 == 0) errors.push_back(error_of(*ddgi, points, truth));
   }
   for (std::size_t i = 1; i < 4; ++i) EXPECT_LT(errors[i], errors[i - 1]) << i;
@@ -181,7 +181,7 @@ TEST(Ddgi, ARoofSeenFromOutsideStaysDark) {
   scene::validate(scene);
   const trace::TransportScene source(scene);
   const auto ddgi = make("ddgi", scene, source, {"spacing=0.4", "rays=64", "warmup=8"});
-  ddgi->update(gi::frame_at(source, 0), {});
+  ddgi->update(scene::lighting_at(source, 0), {});
   const float inside = ddgi->light().irradiance({{0, -0.99f, 0}, {0, 1, 0}}).g;
   EXPECT_GT(inside, 1);
   for (const vec2& at : {vec2(0), vec2(0.5f, 0.3f), vec2(-0.7f, 0.6f)})
@@ -197,13 +197,13 @@ TEST(Ddgi, ProbesLeaveWallsOrSleep) {
   scene::validate(scene);
   const trace::TransportScene source(scene);
   const auto ddgi = make("ddgi", scene, source, {"spacing=0.25", "rays=16", "warmup=1"});
-  ddgi->update(gi::frame_at(source, 0), {});
+  ddgi->update(scene::lighting_at(source, 0), {});
   EXPECT_EQ(number(*ddgi, "probes"), 512);
   // 4·6·4 stand in the block, the 2·6·2 in its middle too deep to get out.
   EXPECT_LE(number(*ddgi, "active"), 512 - 2 * 6 * 2);
   EXPECT_GT(number(*ddgi, "active"), 512 - 4 * 6 * 4);
   const auto still = make("ddgi", scene, source, {"spacing=0.25", "rays=16", "warmup=1", "relocate=0"});
-  still->update(gi::frame_at(source, 0), {});
+  still->update(scene::lighting_at(source, 0), {});
   EXPECT_EQ(number(*still, "active"), 512 - 4 * 6 * 4);
 }
 

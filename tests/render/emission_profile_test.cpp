@@ -8,6 +8,8 @@
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/trace/transport_scene.h>
 
+#include "lit_session.h"
+
 namespace ssphh {
 namespace {
 
@@ -36,7 +38,7 @@ scene::Scene glowing_square() {
 TEST(EmissionProfile, OfAGlowingSquareIsItsProjectedAreaTimesItsRadiance) {
   const scene::Scene scene = glowing_square();
   const trace::TransportScene source(scene);
-  gi::RelightSession session(source, {{"above", {0, 0.6f, 0}, 0.1f}});
+  test::LitSession session(source, {{"above", {0, 0.6f, 0}, 0.1f}});
   session.update();
   const float radius = 0.25f;
   const sh::RadianceSh profile = session.emission_profile({0, 0, 0}, radius, 4);
@@ -59,11 +61,11 @@ TEST(EmissionProfile, StandsInForTheObject) {
   gi::RelightParams params;
   params.degree = 2;
   const vec3 far_place{0, 3, 1};
-  gi::RelightSession session(source, {{"square", {0, 0, 0}, 0.25f}, {"far", far_place, 0.1f}}, params);
+  test::LitSession session(source, {{"square", {0, 0, 0}, 0.25f}, {"far", far_place, 0.1f}}, params);
   session.update();
   const sh::RadianceSh profile = session.emission_profile({0, 0, 0}, 0.25f, 8);
-  session.set_group_scale(0, vec3(0));  // the square itself goes dark
-  session.set_emission(0, profile);
+  session.state.group_scales[0] = vec3(0);  // the square itself goes dark
+  session.shine(0, profile);
   session.update();
   const sh::RadianceSh seen = session.emitted(1);
   // ∫ L dω = Le · area cosθ / d²; the square's own extent changes that by (size/d)² ~ 0.4 %.
@@ -77,7 +79,7 @@ TEST(EmissionProfile, StandsInForTheObject) {
 TEST(EmissionProfile, RefusesWhatMakesNoSense) {
   const scene::Scene scene = glowing_square();
   const trace::TransportScene source(scene);
-  gi::RelightSession session(source, {{"above", {0, 0.6f, 0}, 0.1f}});
+  test::LitSession session(source, {{"above", {0, 0.6f, 0}, 0.1f}});
   EXPECT_THROW(session.emission_profile({0, 0, 0}, 0, 4), Error);
   EXPECT_THROW(session.emission_profile({0, NAN, 0}, 1, 4), Error);
   EXPECT_THROW(session.emission_profile({0, 0, 0}, 1, 11), Error);

@@ -83,7 +83,7 @@ TEST(FittedWeights, MeetTheSumOfTheirEquations) {
   gi::RelightParams session_params;
   session_params.transport = small_network();
   session_params.degree = 2;
-  gi::RelightSession session(source, places_of(scene), session_params);
+  LitSession session(source, places_of(scene), session_params);
   session.update();
   gi::FitParams params;
   params.probes = 1;
@@ -122,7 +122,7 @@ TEST(FittedWeights, ErrInLightThatIsATenthOfTheProbesAsIfItWereATenth) {
   gi::RelightParams session_params;
   session_params.transport = small_network();
   session_params.degree = 2;
-  gi::RelightSession session(source, places_of(scene), session_params);
+  LitSession session(source, places_of(scene), session_params);
   session.update();
   gi::FitParams params;
   params.probes = params.training_lights = 1;
@@ -131,8 +131,8 @@ TEST(FittedWeights, ErrInLightThatIsATenthOfTheProbesAsIfItWereATenth) {
       session.network(), source, gi::surfel_points(session.network()), params, session.direct_by_group());
   std::vector<Compared> lit;
   for (const int group : {0, 1}) {
-    session.set_group_scale(group, vec3(1));
-    session.set_group_scale(1 - group, vec3(0));
+    session.state.group_scales[group] = vec3(1);
+    session.state.group_scales[1 - group] = vec3(0);
     session.update();
     lit.emplace_back(fitted, session, params.gather_rays);
   }
@@ -173,7 +173,7 @@ TEST(FittedWeights, OfBothPosesServeADoorThatMoves) {
   gi::RelightParams params;
   params.transport = small_network();
   params.degree = 2;
-  gi::RelightSession session(source, places_of(scene), params);
+  LitSession session(source, places_of(scene), params);
   session.update();
   const std::vector<scene::SurfacePoint> points = gi::surfel_points(session.network());
   gi::WeightFit both(points);
@@ -182,7 +182,7 @@ TEST(FittedWeights, OfBothPosesServeADoorThatMoves) {
       << "one pose is a fit of its own";
   const gi::FittedPoints shut = both.solve();
 
-  session.set_time(1);
+  session.state.time = 1;
   session.update();
   both.add_pose(session.network(), source, session.direct_by_group());
   const gi::FittedPoints open =

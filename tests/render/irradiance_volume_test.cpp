@@ -23,7 +23,8 @@ TEST(IrradianceVolume, ErrorsFallWithMoreProbes) {
         test::MadeMethod made(
             "irradiance-volume",
             {"places=grid", "probes=" + probes, "interpolation=" + interpolation, "directions=256"}, scene);
-        errors.push_back(test::absolute_error(made.irradiance(gi::frame_at(made.source, 0), points), truth));
+        errors.push_back(
+            test::absolute_error(made.irradiance(scene::lighting_at(made.source, 0), points), truth));
       }
       EXPECT_LT(errors[1], share * errors[0]) << name << " " << interpolation;
     }
@@ -38,7 +39,7 @@ TEST(IrradianceVolume, LeaksThroughAShutDoor) {
   const gi::TruthAtPoints truth = gi::trace_truth(tracer, points, params);
   ASSERT_GT(truth.dark, 100u);
   test::MadeMethod volume("irradiance-volume", {}, scene), ssphh("ssphh", {"weights=mls"}, scene);
-  const gi::FrameState state = gi::frame_at(volume.source, 0);
+  const scene::LightingState state = scene::lighting_at(volume.source, 0);
   // Its cells reach through the wall; lookups that ask for visibility do not leak at all.
   EXPECT_GT(gi::leak_ratio(volume.irradiance(state, points), truth), 0.005);
   EXPECT_LE(gi::leak_ratio(ssphh.irradiance(state, points), truth), 1e-5);
@@ -49,9 +50,9 @@ TEST(IrradianceVolume, ASecondUpdateIsThatOfAFreshOne) {
   const std::vector<scene::SurfacePoint> points = test::points_of(scene, 100);
   const std::vector<std::string> settings = {"probes=40"};
   test::MadeMethod kept("irradiance-volume", settings, scene), fresh("irradiance-volume", settings, scene);
-  gi::FrameState state = gi::frame_at(kept.source, 0);
+  scene::LightingState state = scene::lighting_at(kept.source, 0);
   kept.irradiance(state, points);
-  state = gi::frame_at(kept.source, 0.6f);
+  state = scene::lighting_at(kept.source, 0.6f);
   state.lights[0].world[3].x += 0.3f;
   state.group_scales[0] = {2, 1, 0.5f};
   const std::vector<vec3> now = kept.irradiance(state, points), expected = fresh.irradiance(state, points);

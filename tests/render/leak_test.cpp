@@ -10,6 +10,8 @@
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
+#include "lit_session.h"
+
 namespace ssphh {
 namespace {
 
@@ -33,7 +35,7 @@ class TwoRooms : public testing::Test {
   }
 
   gi::ProbeSet lit(float time) const {
-    gi::RelightSession session(source, places, {}, time);
+    test::LitSession session(source, places, {}, time);
     session.update();
     gi::ProbeSet set;
     set.degree = 4;

@@ -10,7 +10,7 @@
 #include <ssphh/gi/methods/table.h>
 #include <ssphh/gi/place.h>
 #include <ssphh/gi/surface_points.h>
-#include <ssphh/scene/with_lights.h>
+#include <ssphh/scene/with_lighting.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -23,7 +23,8 @@ struct MadeMethod {
     method = entry.make({scene, source}, gi::MethodParameters(name, entry.parameters, settings), {});
   }
 
-  std::vector<vec3> irradiance(const gi::FrameState& state, std::span<const scene::SurfacePoint> points) {
+  std::vector<vec3> irradiance(const scene::LightingState& state,
+                               std::span<const scene::SurfacePoint> points) {
     method->update(state, {});
     return gi::look_up(method->light(), points);
   }
@@ -60,8 +61,8 @@ inline double absolute_error(std::span<const vec3> found, std::span<const scene:
 }
 
 /// The scene as path tracing sees it in a state.
-inline scene::Scene scene_in(const scene::Scene& scene, const gi::FrameState& state) {
-  return scene::with_lights(scene, state.time, state.lights, state.group_scales, state.environment_rotation);
+inline scene::Scene scene_in(const scene::Scene& scene, const scene::LightingState& state) {
+  return scene::with_lighting(scene, state);
 }
 
 }  // namespace ssphh::test

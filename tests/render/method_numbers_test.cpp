@@ -28,7 +28,7 @@ struct Framed : MadeMethod {
     frame();
   }
   Framed(const std::string&, const std::vector<std::string>&, const scene::Scene&&) = delete;
-  void frame(float time = 0) { method->update(gi::frame_at(source, time), {}); }
+  void frame(float time = 0) { method->update(scene::lighting_at(source, time), {}); }
   Numbers numbers() const {
     const gi::MethodNumbers list = method->numbers();
     Numbers found(list.begin(), list.end());

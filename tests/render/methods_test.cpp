@@ -29,7 +29,7 @@ std::unique_ptr<gi::Method> make(const gi::MethodEntry& entry, const scene::Scen
   return entry.make({scene, source}, gi::MethodParameters(entry.name, entry.parameters, settings), {});
 }
 
-std::vector<vec3> after(gi::Method& method, const gi::FrameState& state,
+std::vector<vec3> after(gi::Method& method, const scene::LightingState& state,
                         std::span<const scene::SurfacePoint> points) {
   method.update(state, {});
   return gi::look_up(method.light(), points);
@@ -56,7 +56,7 @@ TEST_P(EveryMethod, GivesLightInProportionToTheLamps) {
   const trace::TransportScene source(scene);
   const std::vector<scene::SurfacePoint> points = points_of(source, 32);
   const auto method = make_small(*GetParam(), scene, source);
-  gi::FrameState state = gi::frame_at(source, 0);
+  scene::LightingState state = scene::lighting_at(source, 0);
   const std::vector<vec3> once = after(*method, state, points);
   const auto brighter = make_small(*GetParam(), scene, source);
   state.group_scales.assign(state.group_scales.size(), vec3(4));
@@ -78,7 +78,7 @@ TEST_P(EveryMethod, GivesTheSameBitsOnOneThread) {
   const scene::Scene scene = coloured_room(vec3(1));
   const trace::TransportScene source(scene);
   const std::vector<scene::SurfacePoint> points = points_of(source, 32);
-  const gi::FrameState state = gi::frame_at(source, 0);
+  const scene::LightingState state = scene::lighting_at(source, 0);
   const std::vector<vec3> many = after(*make_small(*GetParam(), scene, source), state, points);
   set_thread_count(1);
   const std::vector<vec3> one = after(*make_small(*GetParam(), scene, source), state, points);
@@ -112,7 +112,7 @@ TEST(Ambient, IsTheMeanOfAClosedRoom) {
   for (const vec3& e : direct) mean += e.g / static_cast<double>(points.size());
 
   const auto method = make(gi::find_method("ambient"), scene, source, {"points=16384"});
-  const vec3 found = after(*method, gi::frame_at(source, 0), {points.data(), 1})[0];
+  const vec3 found = after(*method, scene::lighting_at(source, 0), {points.data(), 1})[0];
   EXPECT_NEAR(found.g, mean * albedo / (1 - albedo), 0.04 * mean);
 }
 
@@ -125,7 +125,7 @@ TEST(SsphhMethod, ForgetsWhatWas) {
   const std::vector<std::string> settings = {"places=scene", "weights=mls", "warm_start=0"};
   const gi::MethodEntry& entry = gi::find_method("ssphh");
   const auto moved = make(entry, scene, source, settings), fresh = make(entry, scene, source, settings);
-  const gi::FrameState shut = gi::frame_at(source, 0), open = gi::frame_at(source, 1);
+  const scene::LightingState shut = scene::lighting_at(source, 0), open = scene::lighting_at(source, 1);
   const std::vector<vec3> before = after(*moved, shut, points);
   const std::vector<vec3> now = after(*moved, open, points);
   EXPECT_NE(before, now);

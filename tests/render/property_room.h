@@ -73,7 +73,7 @@ struct LitRoom {
   int group(const std::string& name) const { return scene::light_group_index(source.light_groups(), name); }
 
   trace::TransportScene source;
-  gi::RelightSession session;
+  LitSession session;
 };
 
 /// Largest difference, relative to the largest mean of the second.

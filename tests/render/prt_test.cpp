@@ -17,7 +17,7 @@ TEST(Prt, RotatingEnvironmentIsThatOfPathTracing) {
   const scene::Scene scene = scene::make_builtin("court");
   test::MadeMethod made("prt", {"places=scene", "interreflect=4", "degree=2", "edge=0.3", "rays=128"}, scene);
   const std::vector<scene::SurfacePoint> points = test::points_of(scene, 200);
-  gi::FrameState state = gi::frame_at(made.source, 0);
+  scene::LightingState state = scene::lighting_at(made.source, 0);
   for (const float turn : {0.0f, 1.8f}) {
     state.environment_rotation = turn;
     const std::vector<scene::IrradianceEstimate> truth =
@@ -39,7 +39,7 @@ TEST(Prt, EnvironmentInTheProbesFollowsRotationToo) {
   test::MadeMethod made("irradiance-volume", {"places=scene"}, scene);
   test::MadeMethod loaded("irradiance-volume", {"places=scene"}, other);
   const std::vector<scene::SurfacePoint> points = test::points_of(scene, 50);
-  gi::FrameState state = gi::frame_at(made.source, 0);
+  scene::LightingState state = scene::lighting_at(made.source, 0);
   made.irradiance(state, points);
   state.environment_rotation = 0.7f;
   const std::vector<vec3> now = made.irradiance(state, points);
@@ -72,7 +72,7 @@ TEST(Prt, MovingThingsAreLitFromTheProbes) {
   std::vector<scene::SurfacePoint> moving = still;
   for (scene::SurfacePoint& point : moving) point.moves = true;
   const std::vector<scene::IrradianceEstimate> truth = test::truth_at(scene, 0, still, 5, 128);
-  const gi::FrameState state = gi::frame_at(made.source, 0);
+  const scene::LightingState state = scene::lighting_at(made.source, 0);
   // Six probes for a court: coarse, but the energy is there.
   EXPECT_NEAR(gi::lookup_error(made.irradiance(state, moving), truth).ratio, 1, 0.35);
   EXPECT_LT(gi::lookup_error(made.irradiance(state, still), truth).mean_error,
@@ -87,7 +87,8 @@ TEST(Prt, LampsByProbesAndErrorsFallWithMoreOfThem) {
   for (const std::string probes : {"8", "512"}) {
     test::MadeMethod made("prt", {"places=grid", "probes=" + probes, "directions=256", "rays=64", "edge=0.2"},
                           scene);
-    errors.push_back(test::absolute_error(made.irradiance(gi::frame_at(made.source, 0), points), truth));
+    errors.push_back(
+        test::absolute_error(made.irradiance(scene::lighting_at(made.source, 0), points), truth));
   }
   // Measured: 0.147 and 0.120, of which 0.08 are the truth's own noise.
   EXPECT_LT(errors[1], 0.9 * errors[0]);

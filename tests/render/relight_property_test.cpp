@@ -16,45 +16,35 @@ constexpr int change_kinds = 6, group_count = 5;
 void change(LitRoom& room, int code) {
   const int kind = code % change_kinds;
   const auto amount = 0.25f * static_cast<float>(1 + code / change_kinds);
-  gi::RelightSession& session = room.session;
+  LitSession& session = room.session;
   switch (kind) {
     case 0:
-      session.set_time(std::fmod(amount, 2.0f));
+      session.state.time = std::fmod(amount, 2.0f);
       break;
     case 1: {
-      scene::LightState lamp = session.light(0);
+      scene::LightState lamp = session.state.lights[0];
       lamp.world[3] = vec4(0.7f - 0.5f * amount, 0.1f * amount, 0.5f, 1);
-      session.set_light(0, lamp);
+      session.state.lights[0] = lamp;
       break;
     }
     case 2: {
-      scene::LightState lamp = session.light(1);
+      scene::LightState lamp = session.state.lights[1];
       lamp.intensity = amount, lamp.color.y = 1 / amount;
-      session.set_light(1, lamp);
+      session.state.lights[1] = lamp;
       break;
     }
     case 3:
-      session.set_group_scale(code / change_kinds % group_count, vec3(amount, 1 / amount, 0.5f));
+      session.state.group_scales[code / change_kinds % group_count] = vec3(amount, 1 / amount, 0.5f);
       break;
     case 4:
-      session.set_environment_rotation(amount);
+      session.state.environment_rotation = amount;
       break;
     default: {
       sh::RadianceSh glow(1);
       glow[0] = vec3(amount, 1, 0.3f), glow[2] = vec3(0.1f);
-      session.set_emission(code / change_kinds % 2, code % 4 == 0 ? sh::RadianceSh() : glow);
+      session.shine(code / change_kinds % 2, code % 4 == 0 ? sh::RadianceSh() : glow);
     }
   }
-}
-
-/// State for state the one that a fresh session begins with.
-void change_back(LitRoom& room, const std::vector<scene::LightState>& lamps) {
-  gi::RelightSession& session = room.session;
-  session.set_time(0);
-  for (int i = 0; i < 2; ++i) session.set_light(i, lamps[static_cast<std::size_t>(i)]);
-  for (int g = 0; g < group_count; ++g) session.set_group_scale(g, vec3(1));
-  session.set_environment_rotation(0);
-  for (int i = 0; i < 2; ++i) session.set_emission(i, {});
 }
 
 std::vector<sh::RadianceSh> shown(LitRoom& room) {
@@ -78,17 +68,10 @@ TEST(RelightProperty, AfterAnyWalkAndBackTheBitsAreThoseOfAFreshSession) {
                     if (op == gi::LightOperator::bounce)
                       std::erase_if(walk, [](int code) { return code % change_kinds == 5; });
                     LitRoom room(scene, params);
-                    const std::vector<scene::LightState> lamps{room.session.light(0), room.session.light(1)};
+                    const scene::LightingState own = room.session.state;
                     const std::vector<sh::RadianceSh> before = shown(room);
                     for (const int code : walk) change(room, code), room.session.update();
-                    if (op == gi::LightOperator::surfel) {
-                      change_back(room, lamps);
-                    } else {
-                      room.session.set_time(0);
-                      for (int i = 0; i < 2; ++i) room.session.set_light(i, lamps[std::size_t(i)]);
-                      for (int g = 0; g < group_count; ++g) room.session.set_group_scale(g, vec3(1));
-                      room.session.set_environment_rotation(0);
-                    }
+                    room.session.state = own;
                     return shown(room) == before;
                   }));
 }
@@ -135,7 +118,7 @@ TEST(RelightProperty, GroupsAddUpWithAnyScales) {
                     scales[std::size_t(room.group("bulb"))] = bulb;
                     scales[std::size_t(room.group("panel"))] = panel;
                     for (std::size_t g = 0; g < scales.size(); ++g)
-                      room.session.set_group_scale(int(g), scales[g]);
+                      room.session.state.group_scales[g] = scales[g];
                     const std::vector<sh::RadianceSh> all = room.light();
                     const auto parts = room.session.reflected_by_group();
                     std::vector<sh::RadianceSh> sum(all.size(), sh::RadianceSh(params.degree));

@@ -53,7 +53,7 @@ gi::RelightParams bounce_session() {
 
 TEST(BounceSession, EqualsTheOperatorAndTheGeometricSeries) {
   GlowingBox box(0.5f);
-  gi::RelightSession session(box.source, places_of(box.scene), bounce_session());
+  LitSession session(box.source, places_of(box.scene), bounce_session());
   const gi::RelightReport report = session.update();
   EXPECT_TRUE(report.solve.converged);
   EXPECT_GT(report.solve.iterations, 2);
@@ -69,13 +69,13 @@ TEST(BounceSession, EqualsTheOperatorAndTheGeometricSeries) {
 TEST(BounceSession, ADoorThatMovedEqualsASessionBuiltThere) {
   const scene::Scene scene = scene::make_builtin("two-rooms");
   const trace::TransportScene source(scene);
-  gi::RelightSession moved(source, places_of(scene), bounce_session());
+  LitSession moved(source, places_of(scene), bounce_session());
   moved.update();
   const std::vector<sh::RadianceSh> shut = moved.reflected();
   for (const float time : {0.6f, 1.0f, 0.25f}) {
-    moved.set_time(time);
+    moved.state.time = time;
     moved.update();
-    gi::RelightSession built(source, places_of(scene), bounce_session(), time);
+    LitSession built(source, places_of(scene), bounce_session(), time);
     built.update();
     EXPECT_EQ(moved.reflected(), built.reflected()) << time;
     EXPECT_NE(moved.reflected(), shut) << time;
@@ -86,12 +86,12 @@ TEST(BounceSession, AWarmStartComesToTheSameLightSooner) {
   GlowingBox box(0.8f);
   gi::RelightParams params = bounce_session();
   params.bounce.tolerance = 1e-5f;
-  gi::RelightSession cold(box.source, places_of(box.scene), params);
+  LitSession cold(box.source, places_of(box.scene), params);
   params.warm_start = true;
-  gi::RelightSession warm(box.source, places_of(box.scene), params);
+  LitSession warm(box.source, places_of(box.scene), params);
   warm.update();
-  cold.set_group_scale(0, vec3(1.05f));
-  warm.set_group_scale(0, vec3(1.05f));
+  cold.state.group_scales[0] = vec3(1.05f);
+  warm.state.group_scales[0] = vec3(1.05f);
   const int from_darkness = cold.update().solve.iterations;
   EXPECT_LT(warm.update().solve.iterations, from_darkness);
   // Both stop when a bounce changes 1e-5; what is left is that over 1 - 0.8.
@@ -102,7 +102,7 @@ TEST(BounceSession, AWarmStartComesToTheSameLightSooner) {
 TEST(BounceSession, WhatItCannotDoIsRefused) {
   GlowingBox box(0.5f);
   gi::RelightParams params = bounce_session();
-  gi::RelightSession session(box.source, places_of(box.scene), params);
+  LitSession session(box.source, places_of(box.scene), params);
   EXPECT_THROW(session.emission_profile(vec3(0), 0.1f, 1), Error);
   params.poses = 4;
   EXPECT_THROW(gi::RelightSession(box.source, places_of(box.scene), params), Error);
@@ -130,23 +130,23 @@ TEST(BlendedPoses, EqualExactOnesAtThePreparedTimesAndComeCloserWithMore) {
   params.transport = small_network();
   params.degree = 1;
   params.warm_start = false;
-  gi::RelightSession exact(source, places_of(scene), params);
+  LitSession exact(source, places_of(scene), params);
   std::vector<double> errors;
   for (const int poses : {2, 5, 17}) {
     gi::RelightParams blended = params;
     blended.poses = poses;
-    gi::RelightSession session(source, places_of(scene), blended);
+    LitSession session(source, places_of(scene), blended);
     for (const float at_pose : {0.0f, 1.0f}) {
-      session.set_time(at_pose);
-      exact.set_time(at_pose);
+      session.state.time = at_pose;
+      exact.state.time = at_pose;
       session.update();
       exact.update();
       EXPECT_EQ(session.reflected(), exact.reflected()) << poses << " at " << at_pose;
     }
     double worst = 0;
     for (const float between : {0.33f, 0.52f, 0.71f, 0.9f}) {
-      session.set_time(between);
-      exact.set_time(between);
+      session.state.time = between;
+      exact.state.time = between;
       session.update();
       exact.update();
       worst = std::max(worst, difference_in_room_b(exact, session));

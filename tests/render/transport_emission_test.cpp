@@ -36,8 +36,8 @@ struct DarkRoom {
 TEST(RelightEmission, AnIsotropicSphlIsASphereLight) {
   const DarkRoom room;
   const vec3 radiance(5, 3, 2);
-  RelightSession session(room.source, places_of(room.scene), small_session());
-  session.set_emission(0, isotropic(radiance));
+  LitSession session(room.source, places_of(room.scene), small_session());
+  session.shine(0, isotropic(radiance));
   session.update();
 
   scene::Scene lit = room.scene;
@@ -50,7 +50,7 @@ TEST(RelightEmission, AnIsotropicSphlIsASphereLight) {
   lamp.node = lit.sphls[0].node;
   lit.lights.push_back(lamp);
   const trace::TransportScene lit_source(lit, {.light_samples = 256});
-  RelightSession reference(lit_source, places_of(lit), small_session());
+  LitSession reference(lit_source, places_of(lit), small_session());
   reference.update();
 
   ASSERT_EQ(session.surfel_direct().size(), reference.surfel_direct().size());
@@ -72,9 +72,9 @@ TEST(RelightEmission, AnIsotropicSphlIsASphereLight) {
 TEST(RelightEmission, OtherProbesSeeTheSphereAsADisc) {
   const DarkRoom room;
   const std::vector<gi::ProbePlace> places = places_of(room.scene);
-  RelightSession session(room.source, places, small_session());
+  LitSession session(room.source, places, small_session());
   const vec3 radiance(5, 3, 2);
-  session.set_emission(0, isotropic(radiance));
+  session.shine(0, isotropic(radiance));
   session.update();
   EXPECT_TRUE(session.emitted(0) == sh::RadianceSh(4)) << "no probe sees itself";
   for (std::size_t i = 1; i < places.size(); ++i) {
@@ -110,7 +110,7 @@ TEST(RelightEmission, SphereLightsAndSmallLampsAreSeenAtTheirTrueSize) {
   scene::validate(scene);
   const trace::TransportScene source(scene);
   const std::vector<gi::ProbePlace> places = places_of(scene);
-  RelightSession session(source, places, small_session());
+  LitSession session(source, places, small_session());
   session.update();
   const auto groups = session.emitted_by_group();
   ASSERT_EQ(groups.size(), 2u);
@@ -137,10 +137,10 @@ TEST(RelightEmission, SphereLightsAndSmallLampsAreSeenAtTheirTrueSize) {
 TEST(RelightEmission, ADirectedSphlLightsItsSideByItsOwnFunction) {
   // L(ω) = 2 ω·x, clamped at 0: E = π (r/d)² cosθ · 2 (d̂·x) on the right, nothing on the left.
   const DarkRoom room;
-  RelightSession session(room.source, places_of(room.scene), small_session());
+  LitSession session(room.source, places_of(room.scene), small_session());
   sh::RadianceSh leaving(1);
   leaving[3] = vec3(2 / std::sqrt(3 / (4 * pi)));
-  session.set_emission(0, leaving);
+  session.shine(0, leaving);
   session.update();
   const gi::TransportNetwork& network = session.network();
   const auto samples = static_cast<std::size_t>(network.params().samples);
@@ -170,36 +170,36 @@ TEST(RelightEmission, BouncesBetweenWallsAndIsStoppedByADoor) {
   const trace::TransportScene source(scene);
   RelightParams params = small_session();
   params.transport.surfel_size = 0.5f;
-  RelightSession session(source, places_of(scene), params, 0);
-  session.set_group_scale(0, vec3(0));
-  session.set_emission(0, isotropic(vec3(10)));
+  LitSession session(source, places_of(scene), params, 0);
+  session.state.group_scales[0] = vec3(0);
+  session.shine(0, isotropic(vec3(10)));
   session.update();
   EXPECT_GT(session.reflected()[1][0].y, 0) << "room A";
   for (const int b : {3, 4, 5}) {
     EXPECT_EQ(session.reflected()[static_cast<std::size_t>(b)][0], vec3(0)) << "room B, door shut";
     EXPECT_EQ(session.emitted(b)[0], vec3(0));
   }
-  session.set_time(1);
+  session.state.time = 1;
   session.update();
   for (const std::size_t b : {3u, 4u, 5u}) EXPECT_GT(session.reflected()[b][0].y, 0) << "door open";
 }
 
 TEST(RelightEmission, SetTwiceReplacesAndEmptyClears) {
   const DarkRoom room;
-  RelightSession session(room.source, places_of(room.scene), small_session());
+  LitSession session(room.source, places_of(room.scene), small_session());
   session.update();
   for (const sh::RadianceSh& dark : session.reflected()) EXPECT_TRUE(dark == sh::RadianceSh(4));
 
-  session.set_emission(1, isotropic(vec3(1)));
+  session.shine(1, isotropic(vec3(1)));
   session.update();
   const std::vector<sh::RadianceSh> once = session.reflected();
   EXPECT_GT(once[0][0].y, 0);
   const std::uint64_t rays = room.source.rays_traced();
-  session.set_emission(1, isotropic(vec3(1)));
+  session.shine(1, isotropic(vec3(1)));
   EXPECT_TRUE(session.update().changed_probes.empty()) << "the same again is no change";
   EXPECT_EQ(room.source.rays_traced(), rays);
 
-  session.set_emission(1, isotropic(vec3(4)));
+  session.shine(1, isotropic(vec3(4)));
   session.update();
   for (std::size_t i = 0; i < once.size(); ++i) {
     sh::RadianceSh four = once[i];
@@ -208,14 +208,14 @@ TEST(RelightEmission, SetTwiceReplacesAndEmptyClears) {
   }
 
   // Two emitters add up; clearing one leaves the other; clearing both leaves darkness.
-  session.set_emission(1, isotropic(vec3(1)));
-  session.set_emission(2, isotropic(vec3(1)));
+  session.shine(1, isotropic(vec3(1)));
+  session.shine(2, isotropic(vec3(1)));
   session.update();
   EXPECT_GT(session.reflected()[0][0].y, 1.1f * once[0][0].y);
-  session.set_emission(2, {});
+  session.shine(2, {});
   session.update();
   EXPECT_TRUE(session.reflected() == once);
-  session.set_emission(1, {});
+  session.shine(1, {});
   session.update();
   for (const sh::RadianceSh& dark : session.reflected()) EXPECT_TRUE(dark == sh::RadianceSh(4));
   EXPECT_TRUE(session.emitted(0) == sh::RadianceSh(4));

@@ -11,6 +11,8 @@
 #include <ssphh/scene/query.h>
 #include <ssphh/trace/transport_scene.h>
 
+#include "lit_session.h"
+
 namespace ssphh::test {
 
 /// The scene's own SPHLs.
@@ -104,7 +106,7 @@ struct GlowingBox {
 
   scene::Scene scene;
   trace::TransportScene source;
-  gi::RelightSession session;
+  LitSession session;
 };
 
 /// A box [low, high]³ seen from inside.

@@ -1,6 +1,7 @@
 /// RelightSession over Embree: closed boxes, what changes and what does not, shut doors, errors, threads.
 
 #include <algorithm>
+#include <atomic>
 
 #include <gtest/gtest.h>
 
@@ -38,7 +39,7 @@ TEST(RelightSession, AClosedBoxOfEqualWallsReachesTheGeometricSeries) {
     const trace::TransportScene source(scene);
     RelightParams params = small_session();
     params.solve.tolerance = 1e-4f;
-    RelightSession session(source, places_of(scene), params);
+    LitSession session(source, places_of(scene), params);
     EXPECT_TRUE(session.update().solve.converged);
     // What the solver leaves: its tolerance over one minus the contraction, which here is ρ.
     // Probes keep albedo in 10 bits: an error of 5e-4 changes ρ/(1 − ρ) by that over ρ(1 − ρ).
@@ -64,7 +65,7 @@ TEST(RelightSession, AClosedBoxOfEqualWallsReachesTheGeometricSeries) {
 struct RoomLight {
   double walls[2] = {}, probes[2] = {};
 
-  explicit RoomLight(const RelightSession& session) {
+  explicit RoomLight(const gi::RelightSession& session) {
     const gi::TransportNetwork& network = session.network();
     for (std::size_t s = 0; s < network.surfel_count(); ++s) {
       const scene::SurfacePoint& p =
@@ -89,12 +90,12 @@ TEST(RelightSession, NoLightPassesAShutDoor) {
   for (const float size : {0.25f, 0.5f}) {
     RelightParams params = small_session(false);
     params.transport.surfel_size = size;
-    RelightSession session(rooms.source, rooms.places, params, 1);
+    LitSession session(rooms.source, rooms.places, params, 1);
     session.update();
     const RoomLight open(session);
     EXPECT_GT(open.walls[1], 0.05 * open.walls[0] / 4) << "door open";
     EXPECT_GT(open.probes[1], 0.01 * open.probes[0]);
-    session.set_time(0);
+    session.state.time = 0;
     session.update();
     const RoomLight shut(session);
     EXPECT_GT(shut.walls[0], 0.5 * open.walls[0]);
@@ -106,9 +107,9 @@ TEST(RelightSession, NoLightPassesAShutDoor) {
 
 TEST(RelightSession, WhatAWarmStartLeavesBehindAShutDoorIsBelowItsTolerance) {
   const TwoRooms rooms;
-  RelightSession session(rooms.source, rooms.places, small_session(), 1);
+  LitSession session(rooms.source, rooms.places, small_session(), 1);
   session.update();
-  session.set_time(0);
+  session.state.time = 0;
   session.update();
   const RoomLight shut(session);
   EXPECT_LT(shut.walls[1], 1e-5 * shut.walls[0]);
@@ -119,16 +120,16 @@ TEST(RelightSession, AWarmStartEndsWhereAColdOneDoes) {
   const TwoRooms rooms;
   RelightParams warm = small_session(), cold = small_session(false);
   warm.solve.tolerance = cold.solve.tolerance = 1e-4f;
-  RelightSession a(rooms.source, rooms.places, warm, 0.4f), b(rooms.source, rooms.places, cold, 0.4f);
+  LitSession a(rooms.source, rooms.places, warm, 0.4f), b(rooms.source, rooms.places, cold, 0.4f);
   a.update();
   b.update();
-  scene::LightState lamp = a.light(0);
+  scene::LightState lamp = a.state.lights[0];
   int warm_iterations = 0, cold_iterations = 0;
   for (int frame = 0; frame < 5; ++frame) {
     lamp.world[3].x += 0.06f;
-    for (RelightSession* session : {&a, &b}) {
-      session->set_light(0, lamp);
-      session->set_time(0.4f + 0.03f * static_cast<float>(frame));
+    for (LitSession* session : {&a, &b}) {
+      session->state.lights[0] = lamp;
+      session->state.time = 0.4f + 0.03f * static_cast<float>(frame);
     }
     warm_iterations += a.update().solve.iterations;
     cold_iterations += b.update().solve.iterations;
@@ -151,32 +152,32 @@ TEST(RelightSession, ColdBitsTellNothingOfThePast) {
   const RelightParams params = small_session(false);
   sh::RadianceSh glow(1);
   glow[0] = vec3(3), glow[3] = vec3(1);
-  const auto set_up = [&](RelightSession& session) {
-    scene::LightState lamp = session.light(0);
+  const auto set_up = [&](LitSession& session) {
+    scene::LightState lamp = session.state.lights[0];
     lamp.world[3] = vec4(-1.5f, 2, -0.7f, 1);
     lamp.intensity = 5;
-    session.set_light(0, lamp);
-    session.set_group_scale(0, vec3(0.7f, 1, 1.2f));
-    session.set_emission(1, {});
-    session.set_emission(3, glow);
+    session.state.lights[0] = lamp;
+    session.state.group_scales[0] = vec3(0.7f, 1, 1.2f);
+    session.shine(1, {});
+    session.shine(3, glow);
   };
-  RelightSession walked(rooms.source, rooms.places, params, 1);
+  LitSession walked(rooms.source, rooms.places, params, 1);
   walked.update();
   for (const float time : {0.2f, 0.0f, 0.9f}) {
-    walked.set_time(time);
-    scene::LightState lamp = walked.light(0);
+    walked.state.time = time;
+    scene::LightState lamp = walked.state.lights[0];
     lamp.world[3].z -= 0.1f;
-    walked.set_light(0, lamp);
-    walked.set_emission(1, time > 0.5f ? glow : sh::RadianceSh());
+    walked.state.lights[0] = lamp;
+    walked.shine(1, time > 0.5f ? glow : sh::RadianceSh());
     walked.update();
   }
   set_up(walked);
   walked.update();
   // Last the door alone: light is found anew only where it may have changed.
-  walked.set_time(0.45f);
+  walked.state.time = 0.45f;
   walked.update();
 
-  RelightSession fresh(rooms.source, rooms.places, params, 0.45f);
+  LitSession fresh(rooms.source, rooms.places, params, 0.45f);
   set_up(fresh);
   fresh.update();
   EXPECT_TRUE(walked.surfel_direct() == fresh.surfel_direct());
@@ -187,12 +188,12 @@ TEST(RelightSession, ColdBitsTellNothingOfThePast) {
 
 TEST(RelightSession, NothingChangedCostsNothing) {
   const TwoRooms rooms;
-  RelightSession session(rooms.source, rooms.places, small_session(), 0.5f);
+  LitSession session(rooms.source, rooms.places, small_session(), 0.5f);
   EXPECT_EQ(session.update().changed_probes.size(), rooms.places.size()) << "the first update lights all";
-  session.set_light(0, session.light(0));
-  session.set_time(0.5f);
-  session.set_group_scale(0, vec3(1));
-  session.set_emission(2, {});
+  session.state.lights[0] = session.state.lights[0];
+  session.state.time = 0.5f;
+  session.state.group_scales[0] = vec3(1);
+  session.shine(2, {});
   const std::uint64_t before = rooms.source.rays_traced();
   const RelightReport still = session.update();
   EXPECT_EQ(rooms.source.rays_traced(), before);
@@ -207,7 +208,7 @@ TEST(RelightSession, DimmingScalesWithoutARay) {
   const trace::TransportScene source(scene);
   RelightParams params = small_session(false);
   params.transport.surfel_size = 0.7f;
-  RelightSession session(source, places_of(scene), params);
+  LitSession session(source, places_of(scene), params);
   session.update();
   const std::vector<sh::RadianceSh> full = session.reflected();
   const std::size_t groups = source.light_groups().size();
@@ -215,7 +216,7 @@ TEST(RelightSession, DimmingScalesWithoutARay) {
 
   // A quarter of everything: a power of two scales to the bit.
   const std::uint64_t before = source.rays_traced();
-  for (std::size_t g = 0; g < groups; ++g) session.set_group_scale(static_cast<int>(g), vec3(0.25f));
+  for (std::size_t g = 0; g < groups; ++g) session.state.group_scales[g] = vec3(0.25f);
   const RelightReport report = session.update();
   EXPECT_EQ(source.rays_traced(), before);
   EXPECT_EQ(report.changed_probes.size(), full.size());
@@ -229,7 +230,7 @@ TEST(RelightSession, DimmingScalesWithoutARay) {
   std::vector<vec3> scales;
   for (std::size_t g = 0; g < groups; ++g) {
     scales.push_back(vec3(0.3f + 0.5f * static_cast<float>(g), 1, 0.2f));
-    session.set_group_scale(static_cast<int>(g), scales[g]);
+    session.state.group_scales[g] = scales[g];
   }
   session.update();
   const auto by_group = session.reflected_by_group();
@@ -247,7 +248,7 @@ TEST(RelightSession, DimmingScalesWithoutARay) {
     }
   }
 
-  for (std::size_t g = 0; g < groups; ++g) session.set_group_scale(static_cast<int>(g), vec3(0));
+  for (std::size_t g = 0; g < groups; ++g) session.state.group_scales[g] = vec3(0);
   session.update();
   for (const sh::RadianceSh& dark : session.reflected()) EXPECT_TRUE(dark == sh::RadianceSh(2));
 }
@@ -257,12 +258,12 @@ TEST(RelightSession, SameBitsForAnyNumberOfThreads) {
   std::vector<std::vector<sh::RadianceSh>> results;
   for (const int threads : {1, 2}) {
     set_thread_count(threads);
-    RelightSession session(rooms.source, rooms.places, small_session(), 1);
+    LitSession session(rooms.source, rooms.places, small_session(), 1);
     session.update();
-    session.set_time(0.6f);
-    scene::LightState lamp = session.light(0);
+    session.state.time = 0.6f;
+    scene::LightState lamp = session.state.lights[0];
     lamp.world[3].x -= 0.3f;
-    session.set_light(0, lamp);
+    session.state.lights[0] = lamp;
     session.update();
     results.push_back(session.reflected());
     for (int i = 0; i < 6; ++i) results.back().push_back(session.emitted(i));
@@ -278,33 +279,61 @@ TEST(RelightSession, ErrorsSayWhatIsWrong) {
   few.transport.directions = 4;
   EXPECT_THROW(RelightSession(rooms.source, rooms.places, few), Error);
 
-  RelightSession session(rooms.source, rooms.places, small_session());
+  LitSession session(rooms.source, rooms.places, small_session());
   session.update();
   const std::vector<sh::RadianceSh> before = session.reflected();
-  const scene::LightState lamp = session.light(0);
-  for (const int index : {-1, 1, 99}) {
-    EXPECT_THROW(session.set_light(index, lamp), Error);
-    EXPECT_THROW(session.set_group_scale(index, vec3(1)), Error);
-    EXPECT_THROW(session.set_emission(index < 0 ? index : index + 5, sh::RadianceSh(0)), Error);
-  }
-  const auto changed = [&](auto change) {
-    scene::LightState state = lamp;
-    change(state);
-    return state;
+  const auto refuses = [&](const auto& spoil) {
+    scene::LightingState state = session.lighting();
+    spoil(state);
+    EXPECT_THROW(session.update(state), Error);
   };
-  EXPECT_THROW(session.set_light(0, changed([](auto& s) { s.world[3].y = NAN; })), Error);
-  EXPECT_THROW(session.set_light(0, changed([](auto& s) { s.color.x = INFINITY; })), Error);
-  EXPECT_THROW(session.set_light(0, changed([](auto& s) { s.intensity = NAN; })), Error);
-  EXPECT_THROW(session.set_light(0, changed([](auto& s) { s.intensity = -1; })), Error);
-  EXPECT_THROW(session.set_group_scale(0, vec3(1, -0.1f, 1)), Error);
-  EXPECT_THROW(session.set_group_scale(0, vec3(NAN)), Error);
-  EXPECT_THROW(session.set_time(NAN), Error);
+  refuses([](auto& s) { s.lights.clear(); });
+  refuses([](auto& s) { s.lights.resize(2); });
+  refuses([](auto& s) { s.group_scales.clear(); });
+  refuses([](auto& s) { s.lights[0].world[3].y = NAN; });
+  refuses([](auto& s) { s.lights[0].color.x = INFINITY; });
+  refuses([](auto& s) { s.lights[0].intensity = NAN; });
+  refuses([](auto& s) { s.lights[0].intensity = -1; });
+  refuses([](auto& s) { s.group_scales[0] = vec3(1, -0.1f, 1); });
+  refuses([](auto& s) { s.group_scales[0] = vec3(NAN); });
+  refuses([](auto& s) { s.time = NAN; });
+  for (const int probe : {-1, 6, 99}) refuses([&](auto& s) { s.emission = {{probe, sh::RadianceSh(0)}}; });
   sh::RadianceSh broken(1);
   broken[2] = vec3(0, INFINITY, 0);
-  EXPECT_THROW(session.set_emission(0, broken), Error);
+  refuses([&](auto& s) { s.emission = {{0, broken}}; });
   // What was refused leaves no trace.
   EXPECT_TRUE(session.update().changed_probes.empty());
   EXPECT_TRUE(session.reflected() == before);
+}
+
+TEST(RelightSession, WhatIsCancelledIsDoneByTheNextUpdate) {
+  const TwoRooms rooms;
+  LitSession session(rooms.source, rooms.places, small_session(false)),
+      other(rooms.source, rooms.places, small_session(false));
+  session.update();
+  const std::vector<sh::RadianceSh> before = session.reflected();
+  for (LitSession* s : {&session, &other}) s->state.time = 0.7f, s->state.lights[0].intensity *= 2;
+  std::atomic<bool> cancel{true};
+  EXPECT_THROW(session.update(session.state, {nullptr, &cancel}), Cancelled);
+  EXPECT_TRUE(session.reflected() == before);
+  session.update();
+  other.update();
+  EXPECT_TRUE(session.reflected() == other.reflected());
+}
+
+TEST(RelightSession, IsMovedWithItsLight) {
+  const TwoRooms rooms;
+  RelightSession first(rooms.source, rooms.places, small_session());
+  first.update(first.lighting());
+  const std::vector<sh::RadianceSh> light = first.reflected();
+  RelightSession second = std::move(first);
+  EXPECT_TRUE(second.reflected() == light);
+  EXPECT_TRUE(second.update(second.lighting()).changed_probes.empty());
+  EXPECT_THROW(first.reflected(), Error) << "it holds nothing any more";
+  first = std::move(second);
+  scene::LightingState open = first.lighting();
+  open.time = 1;
+  EXPECT_FALSE(first.update(open).changed_probes.empty());
 }
 
 TEST(RelightSession, AProbeThatSeesNothingIsDarkAmongOthersThatSee) {
@@ -313,7 +342,7 @@ TEST(RelightSession, AProbeThatSeesNothingIsDarkAmongOthersThatSee) {
   std::vector<gi::ProbePlace> places = places_of(scene);
   places.push_back({"lost", {0, 1000, 0}});
   EXPECT_THROW(RelightSession(source, {places.back()}), Error) << "alone it has nothing to show";
-  RelightSession session(source, places, small_session());
+  LitSession session(source, places, small_session());
   session.update();
   EXPECT_TRUE(session.reflected().back() == sh::RadianceSh(2));
   EXPECT_GT(session.reflected().front()[0].y, 0);

@@ -49,7 +49,7 @@ Functions in_session(const scene::Scene& scene, float surfel_size, int direction
   params.transport.surfel_size = surfel_size;
   params.transport.directions = directions;
   params.transport.link_rays = 64;
-  gi::RelightSession session(source, places_of(scene), params);
+  LitSession session(source, places_of(scene), params);
   return ask(session, source);
 }
 
@@ -60,7 +60,7 @@ void expect_to_turn_with_the_scene(const Ask& ask) {
   const scene::Scene scene = scene::make_builtin("cornell");
   const auto found = [&](const quat& turn, float size, int directions) {
     return in_session(turned(scene, turn), size, directions,
-                      [&](gi::RelightSession& session, const scene::TransportSource& source) {
+                      [&](LitSession& session, const scene::TransportSource& source) {
                         return ask(session, source, turn);
                       });
   };
@@ -80,7 +80,7 @@ void expect_to_turn_with_the_scene(const Ask& ask) {
 
 TEST(TransportRotation, SurfelProbesTurnWithTheSceneBeyondSamplingOnly) {
   expect_to_turn_with_the_scene(
-      [](gi::RelightSession& session, const scene::TransportSource&, const quat&) -> Functions {
+      [](LitSession& session, const scene::TransportSource&, const quat&) -> Functions {
         session.update();
         return session.reflected();
       });
@@ -89,7 +89,7 @@ TEST(TransportRotation, SurfelProbesTurnWithTheSceneBeyondSamplingOnly) {
 TEST(TransportRotation, BounceProbesTurnWithTheSceneBeyondSamplingOnly) {
   // With weights that know no axes: the tents of `trilinear` stand along them.
   expect_to_turn_with_the_scene(
-      [](gi::RelightSession& session, const scene::TransportSource& source, const quat&) -> Functions {
+      [](LitSession& session, const scene::TransportSource& source, const quat&) -> Functions {
         session.update();
         gi::BounceParams params;
         params.weights.method = gi::WeightMethod::mls;
@@ -105,10 +105,10 @@ TEST(TransportRotation, SphlsThatAreLightsTurnWithTheScene) {
   for (std::size_t k = 0; k < lobe.values.size(); ++k)
     lobe.values[k] = vec3(k == 0 ? 3.0f : 0.9f / static_cast<float>(k), 1.0f, 0.5f);
   expect_to_turn_with_the_scene(
-      [&](gi::RelightSession& session, const scene::TransportSource& source, const quat& turn) -> Functions {
+      [&](LitSession& session, const scene::TransportSource& source, const quat& turn) -> Functions {
         for (int g = 0; g < static_cast<int>(source.light_groups().size()); ++g)
-          session.set_group_scale(g, vec3(0));
-        session.set_emission(0, sh::rotate(lobe, turn));
+          session.state.group_scales[g] = vec3(0);
+        session.shine(0, sh::rotate(lobe, turn));
         session.update();
         return session.reflected();
       });

@@ -49,7 +49,7 @@ TEST_P(TransportTruth, MeanLightOfTheScenesOwnProbes) {
   params.transport.directions = 1536;
   params.transport.link_rays = 64;
   const std::vector<gi::ProbePlace> places = places_of(scene);
-  gi::RelightSession session(source, places, params, time);
+  LitSession session(source, places, params, time);
   session.update();
   const trace::PathTracer tracer(scene, time);
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -83,7 +83,7 @@ TEST(TransportTruthBands, ASurfaceThatGlowsIsCountedOnce) {
   params.transport.directions = 4096;
   params.transport.link_rays = 64;
   const std::vector<gi::ProbePlace> places = places_of(scene);
-  gi::RelightSession session(source, places, params);
+  LitSession session(source, places, params);
   session.update();
   const trace::PathTracer tracer(scene);
   for (std::size_t i = 0; i < places.size(); ++i) {

@@ -43,7 +43,7 @@ struct Subject {
   std::vector<vec3> lit(Settings settings, int bounces = 1) const {
     settings.push_back("bounces=" + std::to_string(bounces));
     const auto method = make_vct(scene, source, settings);
-    method->update(gi::frame_at(source, time), {});
+    method->update(scene::lighting_at(source, time), {});
     return irradiance_at(*method, points);
   }
 
@@ -123,7 +123,7 @@ TEST(Vct, GlossyLobesSeeWhatIsThere) {
   // Away from edges, where cones along a wall lose the part that the wall cuts off.
   const Subject box("box", 1, 1);
   const auto method = make_vct(box.scene, box.source, {"resolution=64", "bounces=1"});
-  method->update(gi::frame_at(box.source, 0), {});
+  method->update(scene::lighting_at(box.source, 0), {});
   for (int i = 0; i < 12; ++i) {
     Pcg32 random(1, static_cast<std::uint64_t>(i));
     const int axis = i % 3;
@@ -171,12 +171,12 @@ TEST(Vct, FramesAreAsIfMadeAnew) {
   const Subject rooms("two-rooms", 50, 1, 1);
   const Settings settings = {"resolution=32", "bounces=2", "bounce_cones=4"};
   const auto follows = make_vct(rooms.scene, rooms.source, settings);
-  const auto fresh = [&](const gi::FrameState& state) {
+  const auto fresh = [&](const scene::LightingState& state) {
     const auto method = make_vct(rooms.scene, rooms.source, settings);
     method->update(state, {});
     return irradiance_at(*method, rooms.points);
   };
-  gi::FrameState state = gi::frame_at(rooms.source, 0);
+  scene::LightingState state = scene::lighting_at(rooms.source, 0);
   follows->update(state, {});
   std::vector<std::vector<vec3>> frames{irradiance_at(*follows, rooms.points)};
   const auto step = [&](const char* what) {
@@ -191,7 +191,7 @@ TEST(Vct, FramesAreAsIfMadeAnew) {
   step("the lamp moves");
   state.group_scales[0] = vec3(0.5f, 1, 2);
   step("its group is recoloured");
-  state = gi::frame_at(rooms.source, 0);
+  state = scene::lighting_at(rooms.source, 0);
   step("all as before");
   EXPECT_EQ(frames.back(), frames.front());
 }
@@ -201,7 +201,7 @@ TEST(Vct, MemoryIsReported) {
   const auto bytes = [&](Settings settings) {
     settings.push_back("bounces=1");
     const auto method = make_vct(cornell.scene, cornell.source, settings);
-    method->update(gi::frame_at(cornell.source, 0), {});
+    method->update(scene::lighting_at(cornell.source, 0), {});
     return static_cast<double>(method->memory().lookup);
   };
   // 16 bytes for each of six sides; 64³ · 8/7 voxels.

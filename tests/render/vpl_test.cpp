@@ -23,7 +23,7 @@ struct Vpls {
     settings.emplace_back("check_points=" + std::to_string(check_points));
     const gi::MethodEntry& entry = gi::find_method("vpl");
     method = entry.make({scene, source}, {"vpl", entry.parameters, settings}, {});
-    method->update(gi::frame_at(source, 0), {});
+    method->update(scene::lighting_at(source, 0), {});
   }
   double number(const std::string& name) const {
     for (const auto& [n, value] : method->numbers()) {

@@ -58,14 +58,16 @@ std::int64_t resident_bytes() {
 }
 
 /// Animations forth and back, the first lamp up and down, once in 100 frames.
-void move_scene(realtime::Renderer& renderer, const scene::Scene& scene, const scene::LightState* lamp,
-                float start, int frame) {
+void move_scene(realtime::Renderer& renderer, const scene::Scene& scene, const scene::LightingState& start,
+                int frame) {
   const float wave = 0.5f - 0.5f * std::cos(2 * pi * static_cast<float>(frame % 100) / 100);
-  renderer.set_time(start + wave * scene::animation_duration(scene));
-  if (!lamp) return;
-  scene::LightState moved = *lamp;
-  moved.world[3].y += 0.25f * (wave - 0.5f);
-  renderer.set_light(0, moved);
+  scene::LightingState state =
+      scene::lighting_at(scene, start.time + wave * scene::animation_duration(scene));
+  if (!state.lights.empty()) {
+    state.lights[0] = start.lights[0];
+    state.lights[0].world[3].y += 0.25f * (wave - 0.5f);
+  }
+  renderer.set(state);
 }
 
 /// Lights the scene by the method: from here on nothing of it is asked for.
@@ -73,7 +75,7 @@ void set_method(realtime::Renderer& renderer, const BenchOptions& o, const scene
                 const Context& context) {
   LiveMethod live(o.method, o.parameters, std::make_shared<const trace::SceneGeometry>(scene), scene,
                   context.control);
-  live.update(gi::frame_at(live.source(), o.scene.time), context.control);
+  live.update(scene::lighting_at(live.source(), o.scene.time), context.control);
   renderer.set_method_light(live.method().light_data());
 }
 
@@ -101,8 +103,7 @@ void bench_frame(const BenchOptions& o, const Context& context) {
   direct_only.indirect = false;
   const realtime::Target target{.width = o.width, .height = o.height};
   const scene::CameraPose camera = scene::camera_pose(scene, o.camera, o.scene.time);
-  const std::optional<scene::LightState> lamp =
-      scene.lights.empty() ? std::nullopt : std::optional(renderer.light(0));
+  const scene::LightingState start = renderer.lighting();
 
   const auto count = static_cast<std::size_t>(o.frames);
   Times frames(count, 0), direct_frames(o.ratio ? count : 0, 0);
@@ -114,7 +115,7 @@ void bench_frame(const BenchOptions& o, const Context& context) {
     context.control.check();
     const float share = static_cast<float>(i) / static_cast<float>(o.frames);
     const scene::CameraPose pose = o.turn ? turned(camera, share) : camera;
-    if (o.move) move_scene(renderer, scene, lamp ? &*lamp : nullptr, o.scene.time, i + o.warm_up);
+    if (o.move) move_scene(renderer, scene, start, i + o.warm_up);
     if (i == 0) resident_before = resident_bytes();
     if (o.ratio) {
       const double ms = renderer.draw(pose, direct_only, target).cpu_ms;

@@ -28,7 +28,7 @@ LiveMethod::LiveMethod(const std::string& name, const std::vector<std::string>& 
   bake_seconds_ = seconds_since(start);
 }
 
-void LiveMethod::update(const gi::FrameState& state, const Control& control) {
+void LiveMethod::update(const scene::LightingState& state, const Control& control) {
   const Clock::time_point start = Clock::now();
   method_->update(state, control);
   update_seconds_ = seconds_since(start);

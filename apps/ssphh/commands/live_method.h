@@ -20,7 +20,7 @@ class LiveMethod {
              trace::SharedGeometry geometry, const scene::Scene& scene, const Control& control);
 
   /// One frame; its time is added to json().
-  void update(const gi::FrameState& state, const Control& control);
+  void update(const scene::LightingState& state, const Control& control);
 
   gi::Method& method() { return *method_; }
   const gi::Method& method() const { return *method_; }

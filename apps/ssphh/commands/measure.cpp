@@ -87,7 +87,7 @@ Candidate method_candidate(const std::string& spec, const trace::SharedGeometry&
   const std::string name = words.front();
   words.erase(words.begin());
   auto live = std::make_shared<LiveMethod>(name, words, geometry, scene, control);
-  live->update(gi::frame_at(live->source(), time), control);
+  live->update(scene::lighting_at(live->source(), time), control);
   json::Value json = {{"method", spec}};
   json.update(live->json());
   const scene::IndirectLight* light = &live->method().light();
@@ -117,7 +117,7 @@ double frame_milliseconds(LiveMethod& live, float time, const Control& control) 
   std::vector<double> ms;
   double total = 0;
   for (int f = 0; f < most_frames && total < most_ms; ++f) {
-    gi::FrameState state = gi::frame_at(live.source(), time);
+    scene::LightingState state = scene::lighting_at(live.source(), time);
     const float step = f % 2 == 0 ? 0.01f : 0;
     for (scene::LightState& light : state.lights) light.world[3].x += step;
     if (state.lights.empty()) {

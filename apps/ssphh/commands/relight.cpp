@@ -5,17 +5,21 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
+#include <ssphh/gi/fitted_weights.h>
+#include <ssphh/gi/lookup.h>
+#include <ssphh/gi/lookup_error.h>
 #include <ssphh/gi/probe_file.h>
+#include <ssphh/gi/session_sets.h>
 #include <ssphh/gi/surface_points.h>
 #include <ssphh/image/io.h>
 #include <ssphh/image/tonemap.h>
-#include <ssphh/scene/with_lights.h>
+#include <ssphh/scene/with_lighting.h>
+#include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
 #include "commands/command.h"
 #include "commands/relight_animation.h"
 #include "commands/relight_check.h"
-#include "commands/relight_truth.h"
 #include "options/place_options.h"
 #include "options/probe_options.h"
 #include "options/scene_options.h"
@@ -44,7 +48,7 @@ struct RelightOptions {
 /// A frame whose light is kept for what comes after the timed run.
 struct KeptFrame {
   int frame;
-  gi::FrameState state;
+  scene::LightingState state;
   std::vector<sh::RadianceSh> reflected;
 };
 
@@ -116,9 +120,8 @@ class Relighting {
     ProgressStage progress(context_.control, "relighting", static_cast<std::uint64_t>(o_.frames), "frames");
     for (int f = 0; f < o_.frames; ++f) {
       context_.control.check();
-      gi::FrameState state = animation_.frame(share(f));
-      animation_.apply(state, session);
-      run_.updates.push_back(session.update());
+      scene::LightingState state = animation_.frame(share(f));
+      run_.updates.push_back(session.update(state));
       if (is_due(f, o_.truth) || (!o_.output.empty() && is_due(f, o_.pictures)))
         kept_.push_back({f, std::move(state), session.reflected()});
       progress.advance(1);
@@ -126,17 +129,14 @@ class Relighting {
   }
 
   void save(const gi::RelightSession& session) {
-    const gi::FrameState state = animation_.frame(share(o_.frames - 1));
+    scene::LightingState unscaled = session.lighting();
+    unscaled.group_scales.assign(unscaled.group_scales.size(), vec3(1));
     gi::GeneratorInfo generator;
     generator.op = o_.params.op;
-    generator.directions = session.network().params().directions;
-    generator.surfel_size = session.network().params().surfel_size;
-    generator.link_rays = session.network().params().link_rays;
     generator.scene = scene_.name;
-    generator.scene_hash = scene::light_hash(
-        scene::with_lights(scene_, state.time, state.lights, {}, state.environment_rotation));
-    generator.time = state.time;
-    gi::write_probe_file(bake_of(session, source_, state.group_scales, generator, context_.control), o_.save);
+    generator.scene_hash = scene::light_hash(scene::with_lighting(scene_, unscaled));
+    gi::write_probe_file(gi::baked_set(session, source_.light_groups(), generator, context_.control),
+                         o_.save);
     saved_ = true;
   }
 
@@ -151,8 +151,7 @@ class Relighting {
     std::optional<gi::FittedPoints> fitted;
     if (params.weights.method == gi::WeightMethod::fitted) fitted = fit(session, quiet);
     for (const KeptFrame& kept : kept_) {
-      const scene::Scene lit = scene::with_lights(scene_, kept.state.time, kept.state.lights,
-                                                  kept.state.group_scales, kept.state.environment_rotation);
+      const scene::Scene lit = scene::with_lighting(scene_, kept.state);
       const trace::PathTracer tracer(geometry_, lit, kept.state.time);
       gi::ProbeSet set = gi::lookup_set(session.places(), kept.reflected);
       set.fitted = fitted;
@@ -168,9 +167,8 @@ class Relighting {
     gi::WeightFit fit(gi::surfel_points(session.network()));
     const int count = std::min(o_.fit_frames, o_.frames);
     for (int k = 0; k < count; ++k) {
-      animation_.apply(
-          animation_.frame(count > 1 ? static_cast<float>(k) / static_cast<float>(count - 1) : 0), session);
-      session.update();
+      session.update(animation_.frame(count > 1 ? static_cast<float>(k) / static_cast<float>(count - 1) : 0),
+                     control);
       fit.add_pose(session.network(), source_, session.direct_by_group(), control);
     }
     return fit.solve(control);

@@ -174,12 +174,12 @@ bool RelightAnimation::moves_time() const {
                      [](const Track& track) { return track.property == TrackProperty::time; });
 }
 
-gi::FrameState RelightAnimation::frame(float u) const {
+scene::LightingState RelightAnimation::frame(float u) const {
   float time = time_;
   for (const Track& track : tracks_) {
     if (track.property == TrackProperty::time) time = track.at(u).x;
   }
-  gi::FrameState state = gi::frame_at(source_, time);
+  scene::LightingState state = scene::lighting_at(source_, time);
   for (const Track& track : tracks_) {
     const vec3 value = track.at(u);
     const auto target = static_cast<std::size_t>(std::max(track.target, 0));
@@ -207,20 +207,6 @@ gi::FrameState RelightAnimation::frame(float u) const {
     }
   }
   return state;
-}
-
-void RelightAnimation::apply(const gi::FrameState& state, gi::RelightSession& session) const {
-  session.set_time(state.time);
-  session.set_environment_rotation(state.environment_rotation);
-  for (const Track& track : tracks_) {
-    if (track.property == TrackProperty::time || track.property == TrackProperty::turn) continue;
-    const auto target = static_cast<std::size_t>(track.target);
-    if (track.property == TrackProperty::scale) {
-      session.set_group_scale(track.target, state.group_scales[target]);
-    } else {
-      session.set_light(track.target, state.lights[target]);
-    }
-  }
 }
 
 }  // namespace ssphh::app

@@ -4,9 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <ssphh/gi/methods/method.h>
-#include <ssphh/gi/relight_session.h>
-#include <ssphh/scene/scene.h>
+#include <ssphh/scene/transport_source.h>
 
 namespace ssphh::app {
 
@@ -38,9 +36,8 @@ class RelightAnimation {
   RelightAnimation(const scene::TransportSource& source, const scene::Scene& scene, float time,
                    const std::vector<std::string>& specs);
 
-  gi::FrameState frame(float u) const;
-  /// Sets what moves; lights without a track are left to the scene's own animation.
-  void apply(const gi::FrameState& state, gi::RelightSession& session) const;
+  /// At u in 0..1 of the run; lights without a track stand where the scene's own animation puts them.
+  scene::LightingState frame(float u) const;
   bool moves_time() const;
 
  private:

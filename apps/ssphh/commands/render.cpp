@@ -158,7 +158,7 @@ json::Value render_here(const trace::SharedGeometry& geometry, const scene::Scen
     return nullptr;
   }
   LiveMethod live(o.method, o.parameters, geometry, scene, control);
-  live.update(gi::frame_at(live.source(), o.scene.time), control);
+  live.update(scene::lighting_at(live.source(), o.scene.time), control);
   log_info("{}: {}", o.method, live.text());
   tracer.render_with(live.method().light(), params, state, control);
   return live.json();

@@ -55,7 +55,7 @@ void render_gl(const RenderOptions& o, const Context& context) {
   if (o.method != "ssphh") {
     live.emplace(o.method, o.parameters, std::make_shared<const trace::SceneGeometry>(scene), scene,
                  context.control);
-    live->update(gi::frame_at(live->source(), o.scene.time), context.control);
+    live->update(scene::lighting_at(live->source(), o.scene.time), context.control);
     log_info("{}: {}", o.method, live->text());
   }
   gl::Context gl = gl::Context::headless();

@@ -7,7 +7,7 @@
 #include <ssphh/gi/leak.h>
 #include <ssphh/gi/lookup_error.h>
 #include <ssphh/gi/surface_points.h>
-#include <ssphh/scene/with_lights.h>
+#include <ssphh/scene/with_lighting.h>
 #include <ssphh/trace/path_tracer.h>
 
 #include "commands/command.h"
@@ -60,11 +60,10 @@ void respond(Context& context, RespondOptions& o) {
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   LiveMethod live(o.method, o.parameters, geometry, scene, context.control);
   const RelightAnimation event(live.source(), scene, o.scene.time, o.events);
-  const gi::FrameState before = event.frame(0), after = event.frame(1);
+  const scene::LightingState before = event.frame(0), after = event.frame(1);
   if (before == after) throw Error("--event", "nothing changes", "give two different keys, as in time=0:1");
 
-  const scene::Scene lit =
-      scene::with_lights(scene, after.time, after.lights, after.group_scales, after.environment_rotation);
+  const scene::Scene lit = scene::with_lighting(scene, after);
   const trace::PathTracer tracer(geometry, lit, after.time);
   o.truth.path.seed = context.seed;
   const std::vector<scene::SurfacePoint> points =

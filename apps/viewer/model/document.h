@@ -19,6 +19,8 @@ struct Document {
   scene::Bounds bounds;
 
   const Edits& edits() const { return history.now(); }
+  /// What lights the scene now, edits and time included.
+  scene::LightingState lighting() const { return edited_lighting(*scene, edits(), time); }
   /// One edit, by name for undo. See History::change for what counts as one step.
   template <class Change>
   void edit(const std::string& what, const Change& change) {

@@ -52,24 +52,21 @@ bool same_surface(const scene::Material& a, const scene::Material& b) {
          a.specular == b.specular && a.ior == b.ior && a.emission == b.emission;
 }
 
-std::vector<scene::LightState> light_states(const scene::Scene& scene, const Edits& edits, float time) {
-  const std::vector<mat4> world = scene::world_matrices(scene, time);
-  std::vector<scene::LightState> states;
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+scene::LightingState edited_lighting(const scene::Scene& scene, const Edits& edits, float time) {
+  scene::LightingState state = scene::lighting_at(scene, time);
+  for (std::size_t i = 0; i < state.lights.size(); ++i) {
     const LightEdit& edit = edits.lights[i];
-    states.push_back(
-        {edit.world.value_or(world[index(scene.lights[i].node)]), edit.color, edit.on ? edit.intensity : 0});
+    if (edit.world) state.lights[i].world = *edit.world;
+    state.lights[i].color = edit.color;
+    state.lights[i].intensity = edit.on ? edit.intensity : 0;
   }
-  return states;
-}
-
-std::vector<vec3> group_scales(const scene::Scene& scene, const Edits& edits) {
-  std::vector<vec3> scales;
-  for (const std::string& group : scene::light_groups(scene)) {
-    const auto found = edits.groups.find(group);
-    scales.push_back(found == edits.groups.end() ? vec3(1) : found->second);
+  const std::vector<std::string> groups = scene::light_groups(scene);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const auto found = edits.groups.find(groups[g]);
+    if (found != edits.groups.end()) state.group_scales[g] = found->second;
   }
-  return scales;
+  state.environment_rotation = edits.environment_rotation;
+  return state;
 }
 
 scene::Scene with_materials(scene::Scene scene, const Edits& edits) {
@@ -79,9 +76,8 @@ scene::Scene with_materials(scene::Scene scene, const Edits& edits) {
 
 scene::Scene edited_scene(scene::Scene scene, const Edits& edits, float time) {
   scene = with_materials(std::move(scene), edits);
-  const std::vector<scene::LightState> lights = light_states(scene, edits, time);
-  const std::vector<vec3> scales = group_scales(scene, edits);
-  scene = scene::with_lights(std::move(scene), time, lights, scales);
+  const scene::LightingState lighting = edited_lighting(scene, edits, time);
+  scene = scene::with_lighting(std::move(scene), lighting);
   scene.sphls = edited_sphls(scene, edits);
   return scene;
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <ssphh/scene/query.h>
-#include <ssphh/scene/with_lights.h>
+#include <ssphh/scene/with_lighting.h>
 
 namespace ssphh::viewer {
 
@@ -33,6 +33,7 @@ struct SphlEdit {
 struct Edits {
   std::vector<LightEdit> lights;           ///< one per light of the scene
   std::map<std::string, vec3> groups;      ///< factors on light groups; a group that is left out has 1
+  float environment_rotation = 0;          ///< about +y beyond the scene's own [rad]
   std::vector<scene::Material> materials;  ///< one per material of the scene
   std::vector<SphlEdit> sphls;
 };
@@ -44,11 +45,8 @@ Edits edits_of(const scene::Scene& scene);
 /// emission.
 bool same_surface(const scene::Material& a, const scene::Material& b);
 
-/// The scene's lights at `time` with their edits: what renderers and relighting take.
-std::vector<scene::LightState> light_states(const scene::Scene& scene, const Edits& edits, float time);
-
-/// Factors in the order of scene::light_groups().
-std::vector<vec3> group_scales(const scene::Scene& scene, const Edits& edits);
+/// What lights the scene at `time` with the edits: what renderers and relighting take.
+scene::LightingState edited_lighting(const scene::Scene& scene, const Edits& edits, float time);
 
 /// The scene with all edits done. A light that moved stands still at its place, on a node of its own, as does
 /// an SPHL; what was not edited stays as it is, to the bit.

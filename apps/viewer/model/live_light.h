@@ -2,9 +2,10 @@
 /// Probes of a scene that stay lit while lamps and doors move: a relight session with all that it stands on.
 
 #include <memory>
+#include <optional>
 
 #include <ssphh/gi/place.h>
-#include <ssphh/gi/relight_session.h>
+#include <ssphh/gi/session_sets.h>
 #include <ssphh/trace/transport_scene.h>
 
 namespace ssphh::viewer {
@@ -22,9 +23,7 @@ class LiveLight {
   LiveLight(std::shared_ptr<const scene::Scene> scene, const LiveLightParams& params, float time,
             const Control& control = {});
 
-  /// Brings the probes up to date. `lights` and `scales` as light_states() and group_scales().
-  gi::RelightReport update(const std::vector<scene::LightState>& lights, const std::vector<vec3>& scales,
-                           float time);
+  gi::RelightReport update(const scene::LightingState& state) { return session_->update(state); }
 
   const gi::RelightSession& session() const { return *session_; }
   const trace::TransportScene& source() const { return source_; }
@@ -34,13 +33,12 @@ class LiveLight {
   /// Only the coefficients of a set that probes() made. Does not allocate.
   void refresh(gi::ProbeSet& set) const;
   /// The set that a bake in this pose would give: light group by light group, with emitters.
-  gi::ProbeSet bake(const scene::Scene& scene, const std::vector<vec3>& scales, float time,
-                    const Control& control = {}) const;
+  gi::ProbeSet bake(const scene::Scene& scene, const Control& control = {}) const;
 
  private:
   std::shared_ptr<const scene::Scene> scene_;
   trace::TransportScene source_;
-  std::unique_ptr<gi::RelightSession> session_;
+  std::optional<gi::RelightSession> session_;
 };
 
 }  // namespace ssphh::viewer

@@ -27,7 +27,7 @@ void Reference::start(const ReferenceParams& params) {
                  const gi::MethodEntry& entry = gi::find_method(params.method);
                  source.emplace(geometry, *params.scene);
                  method = entry.make({*params.scene, *source}, {entry.name, entry.parameters}, control);
-                 method->update(gi::frame_at(*source, params.time), control);
+                 method->update(scene::lighting_at(*source, params.time), control);
                }
                trace::RenderState state;
                const ProgressStage stage(control, "samples per pixel",

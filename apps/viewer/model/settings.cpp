@@ -132,7 +132,7 @@ const std::vector<SettingName>& setting_names() {
              [](Settings& s) -> gi::WeightMethod& { return s.weights; }),
       choice("layer", "Probes", "Light of the probes that surfaces get: sum, self or neighbor",
              [](Settings& s) -> gi::ProbeLayer& { return s.layer; }),
-      number("degree", "Probes", "Bands that the lookup keeps", 0, 10,
+      number("degree", "Probes", "Bands that the lookup keeps", 0, gi::max_irradiance_degree,
              [](Settings& s) -> int& { return s.degree; }),
       toggle("hier", "Probes", "Add the neighbours' light over the edges that the set has",
              [](Settings& s) -> bool& { return s.hier; }),

@@ -58,7 +58,7 @@ void draw_lamp_list(App& app) {
 void draw_lamp(App& app, std::size_t i) {
   const scene::Light& light = app.document.scene->lights[i];
   const LightEdit& now = app.document.edits().lights[i];
-  const mat4 world = light_states(*app.document.scene, app.document.edits(), app.document.time)[i].world;
+  const mat4 world = app.document.lighting().lights[i].world;
   heading(light.name.c_str());
   note(type_name(light.type));
 
@@ -111,6 +111,14 @@ void draw_groups(App& app) {
       edit(app, "scale " + group, [&](Edits& e) { e.groups[group] = vec3(factor); });
     seal_after_edit(app);
     ImGui::PopID();
+  }
+  if (app.document.scene->environment) {
+    row("environment turned");
+    float turn = app.document.edits().environment_rotation;
+    if (ImGui::SliderAngle("##turn", &turn, -180, 180, "%.0f°"))
+      edit(app, "turn the environment", [&](Edits& e) { e.environment_rotation = turn; });
+    seal_after_edit(app);
+    tip("about the vertical, beyond the scene's own rotation");
   }
   note("Factors on lamps, emissive surfaces and the environment: probes of a bake follow them as well.");
 }

@@ -62,7 +62,7 @@ void draw_lookup(App& app) {
   heading("How surfaces take it");
   setting_widget(app, "lookup", "lookup");
   if (app.settings.lookup == gi::LookupMethod::irradiance) setting_widget(app, "weights", "weights");
-  setting_slider(app, "bands", "degree", 0, 10, "%.0f");
+  setting_slider(app, "bands", "degree", 0, gi::max_irradiance_degree, "%.0f");
   const std::size_t edges = app.light.empty() ? 0 : gi::edge_count(app.light.set());
   ImGui::BeginDisabled(edges == 0);
   setting_widget(app, "hierarchy", "hier");

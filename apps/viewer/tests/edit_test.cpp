@@ -64,7 +64,7 @@ TEST(Edits, NoneLeaveTheSceneAsItIs) {
   const Document document = two_rooms(0.5f);
   EXPECT_EQ(scene::scene_hash(edited_scene(*document.scene, document.edits(), document.time)),
             scene::scene_hash(*document.scene));
-  const auto states = light_states(*document.scene, document.edits(), 0);
+  const auto states = edited_lighting(*document.scene, document.edits(), 0).lights;
   ASSERT_EQ(states.size(), 1u);
   EXPECT_EQ(light_position(states[0].world), vec3(-2.4f, 2.5f, 0.5f));
   EXPECT_EQ(states[0].intensity, 4);
@@ -81,7 +81,7 @@ TEST(Edits, EveryKindChangesTheSceneAndIsTakenBack) {
     EXPECT_NE(hashes.back(), hashes[hashes.size() - 2]) << what;
   };
   edit("move lamp", [&](Edits& e) {
-    e.lights[0].world = with_position(light_states(*document.scene, e, 0)[0].world, {1, 2, 0.5f});
+    e.lights[0].world = with_position(edited_lighting(*document.scene, e, 0).lights[0].world, {1, 2, 0.5f});
   });
   edit("colour lamp", [](Edits& e) { e.lights[0].color = {1, 0, 0}; });
   edit("dim lamp", [](Edits& e) { e.lights[0].intensity = 1; });
@@ -134,13 +134,14 @@ TEST(Edits, LightsAreAsTheyWereSet) {
   const Document document = two_rooms();
   Edits edits = document.edits();
   edits.lights[0].color = {1, 0.5f, 0.25f}, edits.lights[0].intensity = 3;
-  const mat4 own = light_states(*document.scene, edits, 0)[0].world;
-  EXPECT_EQ(light_states(*document.scene, edits, 0)[0], (scene::LightState{own, {1, 0.5f, 0.25f}, 3}));
+  const mat4 own = edited_lighting(*document.scene, edits, 0).lights[0].world;
+  EXPECT_EQ(edited_lighting(*document.scene, edits, 0).lights[0],
+            (scene::LightState{own, {1, 0.5f, 0.25f}, 3}));
   edits.lights[0].on = false;
-  EXPECT_EQ(light_states(*document.scene, edits, 0)[0].intensity, 0);
+  EXPECT_EQ(edited_lighting(*document.scene, edits, 0).lights[0].intensity, 0);
   const mat4 there = with_position(own, {7, 8, 9});
   edits.lights[0].world = there;
-  EXPECT_EQ(light_states(*document.scene, edits, 0)[0].world, there);
+  EXPECT_EQ(edited_lighting(*document.scene, edits, 0).lights[0].world, there);
   EXPECT_EQ(there[0], own[0]);
   EXPECT_EQ(there[3], vec4(7, 8, 9, 1));
 }
@@ -153,7 +154,7 @@ TEST(Edits, GroupsWithoutAFactorHaveOne) {
   edits.groups[groups[1]] = {1, 2, 3};
   std::vector<vec3> wanted(groups.size(), vec3(1));
   wanted[1] = {1, 2, 3};
-  EXPECT_EQ(group_scales(scene, edits), wanted);
+  EXPECT_EQ(edited_lighting(scene, edits, 0).group_scales, wanted);
 }
 
 TEST(Edits, SurfacesAreTheSameIfEveryValueIs) {
@@ -258,7 +259,7 @@ TEST(Document, SavesASceneThatLoadsBackTheSame) {
   for (std::size_t i = 0; i < places.size(); ++i) EXPECT_EQ(places[i].position, edited[i].position);
   // And the session goes on from there as from the original.
   const Document again = make_document("again", back, 0.4f);
-  EXPECT_EQ(light_states(back, again.edits(), 0.4f)[0].intensity, 7);
+  EXPECT_EQ(edited_lighting(back, again.edits(), 0.4f).lights[0].intensity, 7);
   EXPECT_THROW(save_document(document, dir / "rooms.obj"), Error);
 }
 

@@ -20,8 +20,7 @@ TEST(LiveLight, AnOpenedDoorLightsRoomB) {
     params.places.push_back({place.name, place.position, place.radius});
   LiveLight light(document.scene, params, 0);
   const auto update = [&](float time) {
-    light.update(light_states(*document.scene, document.edits(), time),
-                 group_scales(*document.scene, document.edits()), time);
+    light.update(edited_lighting(*document.scene, document.edits(), time));
   };
   update(0);
   gi::ProbeSet set = light.probes();
@@ -51,16 +50,13 @@ TEST(LiveLight, FollowsLampsAndFactorsAsASessionDoes) {
   EXPECT_EQ(light.session().places().size(), 2u);
   EXPECT_FALSE(light.session().reflected().empty()) << "lit at once";
 
-  std::vector<scene::LightState> lights = light_states(*document.scene, document.edits(), 0);
-  lights[0].intensity = 7, lights[0].world[3].x += 0.5f;
-  const std::vector<vec3> scales = {{1, 0.5f, 2}};
-  light.update(lights, scales, 1);
+  scene::LightingState state = edited_lighting(*document.scene, document.edits(), 1);
+  state.lights[0].intensity = 7, state.lights[0].world[3].x += 0.5f;
+  state.group_scales[0] = {1, 0.5f, 2};
+  light.update(state);
   gi::RelightSession session(light.source(), params.places, params.relight, 0.5f);
-  session.update();
-  session.set_time(1);
-  session.set_light(0, lights[0]);
-  session.set_group_scale(0, scales[0]);
-  session.update();
+  session.update(session.lighting());
+  session.update(state);
   EXPECT_EQ(light.session().reflected(), session.reflected());
 
   const gi::ProbeSet set = light.probes();
@@ -108,10 +104,12 @@ TEST(LiveLight, ABakeHasGroupsApartAndTellsHowItWasMade) {
   params.places = {{"p", scene::sphl_places(*document.scene, 0)[0].position, 0.2f},
                    {"q", scene::sphl_places(*document.scene, 0)[1].position, 0.3f}};
   LiveLight light(document.scene, params, 0);
-  std::vector<vec3> scales = group_scales(*document.scene, document.edits());
+  scene::LightingState state = edited_lighting(*document.scene, document.edits(), 0.125f);
+  std::vector<vec3>& scales = state.group_scales;
   ASSERT_GE(scales.size(), 2u);
   scales[1] = {0.5f, 0.25f, 2};
-  const gi::ProbeSet set = light.bake(*document.scene, scales, 0.125f);
+  light.update(state);
+  const gi::ProbeSet set = light.bake(*document.scene);
   const gi::TransportParams& transport = light.session().network().params();
   gi::GeneratorInfo generator;
   generator.op = gi::LightOperator::surfel;
@@ -125,8 +123,7 @@ TEST(LiveLight, ABakeHasGroupsApartAndTellsHowItWasMade) {
   ASSERT_EQ(set.light_groups.size(), scales.size());
   for (std::size_t g = 0; g < scales.size(); ++g) {
     EXPECT_EQ(set.light_groups[g], (gi::LightGroup{light.source().light_groups()[g], scales[g]}));
-    for (std::size_t i = 0; i < 2; ++i)
-      EXPECT_EQ(set.probes[i].groups[g], (gi::GroupLight{emitted[g][i], reflected[g][i]}));
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(set.probes[i].groups[g].reflected, reflected[g][i]);
   }
   EXPECT_EQ(set.probes[1].radius, 0.3f);
   gi::ProbeSet merged = set;

@@ -209,7 +209,7 @@ TEST(Reference, OfAMethodIsThePictureWithItsLight) {
   const trace::TransportScene source(*document.scene);
   const gi::MethodEntry& entry = gi::find_method("ambient");
   const auto method = entry.make({*document.scene, source}, {entry.name, entry.parameters}, {});
-  method->update(gi::frame_at(source, 0), {});
+  method->update(scene::lighting_at(source, 0), {});
   trace::RenderParams render;
   render.width = 12, render.height = 8, render.camera = params.camera;
   render.path = {.max_depth = 3, .passes = 3, .spp = 1, .seed = 0};

@@ -36,9 +36,10 @@ sh::RadianceSh RelightSession::emission_profile(const vec3& center, float radius
     for (std::size_t r = q * static_cast<std::size_t>(rays); r < (q + 1) * static_cast<std::size_t>(rays);
          ++r) {
       const Sight& sight = sights[r];
-      require(sight.group < static_cast<int>(d.group_scale.size()), "transport source",
+      require(sight.group < static_cast<int>(d.state.group_scales.size()), "transport source",
               "a surface glows in a group that there is not");
-      if (sight.group >= 0) mean += d.group_scale[static_cast<std::size_t>(sight.group)] * sight.emission;
+      if (sight.group >= 0)
+        mean += d.state.group_scales[static_cast<std::size_t>(sight.group)] * sight.emission;
       if (sight.surfel == no_surfel || d.direct.empty()) continue;
       const auto s = static_cast<std::size_t>(sight.surfel);
       mean += sight.albedo * (1 / pi) * vec3(d.direct[s] + d.indirect[s]);

@@ -12,12 +12,16 @@
 
 namespace ssphh::gi {
 
+int irradiance_degree(const LookupParams& params, int set_degree) {
+  return std::clamp(params.irradiance_degree, 0, std::min(set_degree, max_irradiance_degree));
+}
+
 ProbeTable::ProbeTable(const ProbeSet& set, const LookupParams& params)
     : ProbeTable(set, surface_light(set, params), params) {}
 
 ProbeTable::ProbeTable(const ProbeSet& set, std::vector<sh::RadianceSh> lights, const LookupParams& params)
     : radiance_(set.probes.size(), set.degree),
-      irradiance_(set.probes.size(), std::clamp(params.irradiance_degree, 0, set.degree)) {
+      irradiance_(set.probes.size(), irradiance_degree(params, set.degree)) {
   const auto irradiance_count = static_cast<std::size_t>(sh::coefficient_count(irradiance_.degree));
   for (const Probe& probe : set.probes) positions_.push_back(probe.position);
   parallel_for(set.probes.size(), 4, [&](std::size_t begin, std::size_t end) {

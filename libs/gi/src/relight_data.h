@@ -82,13 +82,10 @@ struct RelightSession::Data {
         emitter_view(emitter_directions()),
         emitter_projector(params_in.degree, emitter_view),
         field(network, source_in.light_groups().size()),
-        lights(source_in.lights(time)),
-        light_set(lights.size(), false),
-        group_dirty(source_in.light_groups().size(), true),
-        group_scale(source_in.light_groups().size(), vec3(1)),
-        pending_time(time) {
+        state(scene::lighting_at(source_in, time)),
+        group_dirty(source_in.light_groups().size(), true) {
     check_places(places);
-    check_source(source, lights.size());
+    check_source(source, state.lights.size());
     if (params.op == LightOperator::path)
       throw Error("relighting", "path tracing is no transport between probes",
                   "use operator surfel or bounce");
@@ -114,16 +111,12 @@ struct RelightSession::Data {
   Solver solver;
   std::unique_ptr<BounceOperator> bounce;  ///< of that operator alone
 
-  std::vector<scene::LightState> lights;
-  std::vector<bool> light_set;  ///< by the user: stays when the time changes
+  scene::LightingState state;  ///< that the last update() was asked for
   std::vector<bool> group_dirty;
-  std::vector<vec3> group_scale;
   std::vector<SphlEmitter> emitters;
   std::vector<vec3> emission;  ///< at each sample, from the emitters; empty: none
   bool emission_dirty = false, scale_dirty = false;
   bool unfinished = false;  ///< an update() threw: nothing that it touched can be relied on
-  float pending_time;
-  float environment_rotation = 0;
 
   std::unique_ptr<scene::DirectLight> direct_light;
   std::vector<Irradiance4> direct, indirect;
@@ -133,13 +126,9 @@ struct RelightSession::Data {
     if (probe < 0 || static_cast<std::size_t>(probe) >= places.size())
       throw Error(fmt::format("probe {}", probe), fmt::format("there are {} probes", places.size()));
   }
-  void check_light(int light) const {
-    if (light < 0 || static_cast<std::size_t>(light) >= lights.size())
-      throw Error(fmt::format("light {}", light), fmt::format("the scene has {} lights", lights.size()));
-  }
 
   std::vector<sh::RadianceSh> emitted(std::size_t probe) const {
-    if (!direct_light) return {group_scale.size(), sh::RadianceSh(params.degree)};
+    if (!direct_light) return {state.group_scales.size(), sh::RadianceSh(params.degree)};
     return project_emitted(network, source, emitter_projector, emitter_view, places[probe].position,
                            *direct_light);
   }
@@ -148,14 +137,29 @@ struct RelightSession::Data {
     return std::find(group_dirty.begin(), group_dirty.end(), true) != group_dirty.end();
   }
 
-  /// Poses the parts and the lights on animated nodes; returns the world bounds that parts left or entered.
+  /// What must be found anew to come from the last state to the next one, all of it after an update() that
+  /// threw.
+  void note_changes(const scene::LightingState& next) {
+    if (unfinished) group_dirty.assign(group_dirty.size(), true);
+    for (std::size_t i = 0; i < next.lights.size(); ++i) {
+      if (next.lights[i] != state.lights[i])
+        group_dirty[static_cast<std::size_t>(source.light_group_of(static_cast<int>(i)))] = true;
+    }
+    const int environment = source.environment_group();
+    if (environment >= 0 && next.environment_rotation != state.environment_rotation)
+      group_dirty[static_cast<std::size_t>(environment)] = true;
+    scale_dirty = unfinished || next.group_scales != state.group_scales;
+    emission_dirty = unfinished || next.emission != state.emission;
+  }
+
+  /// Poses the parts; returns the world bounds that they left or entered.
   std::vector<scene::Bounds> move_parts(RelightReport& report) {
     std::vector<scene::Bounds> moved;
     const std::vector<mat4> old_poses = network.poses();
     std::vector<scene::Bounds> old_bounds;
     for (int p = 0; p < source.part_count(); ++p) old_bounds.push_back(network.part_world_bounds(p));
     const PoseReport pose =
-        params.poses == 0 ? network.set_time(pending_time) : network.set_time_between(pending_time);
+        params.poses == 0 ? network.set_time(state.time) : network.set_time_between(state.time);
     if (bounce) bounce->update_pose();
     report.hits_changed = pose.hits_changed;
     for (int p = 1; p < source.part_count(); ++p) {
@@ -167,24 +171,18 @@ struct RelightSession::Data {
         if (source.group_emits_from(static_cast<int>(g), p)) group_dirty[g] = true;
       }
     }
-    const std::vector<scene::LightState> posed = source.lights(pending_time);
-    require(posed.size() == lights.size(), "transport source", "it has another number of lights than before");
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-      if (light_set[i] || posed[i] == lights[i]) continue;
-      lights[i] = posed[i];
-      group_dirty[static_cast<std::size_t>(source.light_group_of(static_cast<int>(i)))] = true;
-    }
     return moved;
   }
 
-  void forget_everything() {
-    group_dirty.assign(group_dirty.size(), true);
-    emission_dirty = true;
+  void place_emission() {
+    for (SphlEmitter& emitter : emitters) emitter.leaving = {};
+    for (const scene::SphlEmission& given : state.emission)
+      emitters[static_cast<std::size_t>(given.probe)].leaving = given.leaving;
   }
 
   void update_direct(const std::vector<scene::Bounds>& moved) {
     if (any_group_dirty() || !moved.empty() || !direct_light) {
-      direct_light = source.direct_light(lights, network.poses(), environment_rotation);
+      direct_light = source.direct_light(state.lights, network.poses(), state.environment_rotation);
       require(direct_light != nullptr, "transport source", "it gives no direct light");
     }
     for (std::size_t g = 0; g < group_dirty.size(); ++g) {
@@ -195,6 +193,7 @@ struct RelightSession::Data {
       }
       group_dirty[g] = false;
     }
+    if (emission_dirty) place_emission();
     if (emission_dirty || (!moved.empty() && !emission.empty())) {
       emission.clear();
       for (const SphlEmitter& emitter : emitters) {
@@ -204,7 +203,7 @@ struct RelightSession::Data {
       }
       emission_dirty = false;
     }
-    field.sum(group_scale, emission, direct);
+    field.sum(state.group_scales, emission, direct);
     scale_dirty = false;
   }
 

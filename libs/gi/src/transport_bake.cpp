@@ -6,6 +6,7 @@
 #include <ssphh/core/log.h>
 #include <ssphh/core/require.h>
 #include <ssphh/gi/probe_file.h>
+#include <ssphh/gi/session_sets.h>
 #include <ssphh/gi/transport_bake.h>
 
 namespace ssphh::gi {
@@ -120,12 +121,6 @@ TransportParams bake_resolution(const scene::TransportSource& source, TransportP
   return params;
 }
 
-std::vector<ProbePlace> places_of(const ProbeSet& set) {
-  std::vector<ProbePlace> places;
-  for (const Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
-  return places;
-}
-
 void require_probes(const ProbeSet& set) {
   if (set.probes.empty())
     throw Error("bake", "there are no probes to bake", "run INIT on a scene with SPHLs");
@@ -145,7 +140,7 @@ ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, cons
   RelightParams relight_params{bake_resolution(source, params.transport), params.solve};
   relight_params.degree = set.degree;
   RelightSession session(source, places_of(set), relight_params, set.generator.time, control);
-  session.update();
+  session.update(session.lighting(), control);
   const TransportNetwork& network = session.network();
   describe_network(network, set, report);
   bool converged = true;
@@ -159,7 +154,6 @@ ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, cons
     report.iterations = slowest.iterations;
     converged = slowest.converged;
   }
-  std::vector<std::vector<sh::RadianceSh>> emitted = session.emitted_by_group();
 
   set.generator.op = params.op;
   set.generator.viz = VizMethod::none;
@@ -168,18 +162,8 @@ ProbeSet bake_transport(const scene::TransportSource& source, ProbeSet set, cons
   set.fitted.reset();
   set.light_groups.clear();
   for (const std::string& group : source.light_groups()) set.light_groups.push_back({group, vec3(1)});
-  for (std::size_t i = 0; i < set.probes.size(); ++i) {
-    Probe& probe = set.probes[i];
-    probe.edges.clear();
-    probe.groups.clear();
-    for (std::size_t g = 0; g < set.light_groups.size(); ++g) {
-      GroupLight& light = probe.groups.emplace_back();
-      light.reflected = std::move(reflected[g][i]);
-      const auto lit = [](const vec3& v) { return v != vec3(0); };
-      if (std::ranges::any_of(emitted[g][i].values, lit)) light.emitted = std::move(emitted[g][i]);
-    }
-  }
-  merge_groups(set);
+  for (Probe& probe : set.probes) probe.edges.clear();
+  store_groups(set, std::move(reflected), session.emitted_by_group());
 
   report.seconds = seconds_since(start);
   if (params.viz) find_edges(network, source, set, params.viz_params, report, control);
@@ -202,7 +186,7 @@ void add_transport(const scene::TransportSource& source, ProbeSet& set, const Tr
   describe_network(network, set, report);
   if (params.viz) find_edges(network, source, set, params.viz_params, report, control);
   if (params.fit) {
-    session.update();
+    session.update(session.lighting(), control);
     fit(session, source, set, params.fit_params, report, control);
   }
   report.rays = source.rays_traced() - rays_before;

@@ -198,6 +198,12 @@ TEST_F(Telling, PrometheusIsToldTheSame) {
   EXPECT_EQ(told, expected);
 }
 
+TEST_F(Telling, PrometheusReadsAnyNameOfAService) {
+  h.send("x", client02("a\"b\\c\nd", {""}));
+  EXPECT_THAT(h.core.metrics_text(),
+              testing::HasSubstr("ssphh_broker_service_queued{service=\"a\\\"b\\\\c\\nd\"} 1\n"));
+}
+
 TEST_F(Telling, WorkersInJsonAreTheirOwn) {
   const auto workers = ask("workers")["workers"];
   ASSERT_EQ(workers.size(), 10u);

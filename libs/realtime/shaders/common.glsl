@@ -26,6 +26,12 @@ ivec3 tile_place(int tile, int columns_log2) {
   return ivec3(tile & low, tile >> columns_log2 & low, tile >> 2 * columns_log2);
 }
 
+// A world direction as the environment's image has it: turned about +y, counter-clockwise seen from above.
+vec3 to_environment(vec3 d) {
+  float c = frame.environment.x, s = frame.environment.y;
+  return vec3(c * d.x - s * d.z, d.y, s * d.x + c * d.z);
+}
+
 float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 float max_component(vec3 v) { return max(v.x, max(v.y, v.z)); }
 

@@ -183,7 +183,7 @@ vec3 through_lobe(vec3 d, float roughness) {
   int level = 0;
   for (int i = 1; i + 1 < ENVIRONMENT_LEVELS; ++i) level = roughness >= environment_roughness[i] ? i : level;
   float low = environment_roughness[level], high = environment_roughness[level + 1];
-  vec2 texel = 1 + (0.5 + 0.5 * oct_encode(d)) * float(environment_layout.x);
+  vec2 texel = 1 + (0.5 + 0.5 * oct_encode(to_environment(d))) * float(environment_layout.x);
   return mix(environment_tile(level, texel), environment_tile(level + 1, texel),
              clamp((roughness - low) / (high - low), 0.0, 1.0));
 }

@@ -13,9 +13,7 @@ void main() {
   vec3 d = view_direction(pixel), o = view_origin(pixel);
   color = vec4(0);
 #if defined(ENVIRONMENT)
-  // The image is turned about +y by the rotation, counter-clockwise seen from above
-  float c = frame.environment.x, s = frame.environment.y;
-  vec3 e = vec3(c * d.x - s * d.z, d.y, s * d.x + c * d.z);
+  vec3 e = to_environment(d);
   vec2 uv = vec2(0.5 + atan(e.z, e.x) / (2 * PI), atan(length(e.xz), e.y) / PI);
   color.rgb = emitter.light.rgb * textureLod(environment_map, uv, 0).rgb;
 #elif defined(DISC)

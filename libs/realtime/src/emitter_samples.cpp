@@ -183,7 +183,7 @@ std::vector<EnvironmentSample> environment_directions(const scene::Environment& 
   return out;
 }
 
-std::array<vec4, 25> environment_irradiance(const scene::Environment& environment) {
+sh::IrradianceSh environment_irradiance(const scene::Environment& environment) {
   constexpr int degree = 4, steps = 64;
   std::array<float, 25> basis;
   sh::RadianceSh light(degree);
@@ -200,10 +200,7 @@ std::array<vec4, 25> environment_irradiance(const scene::Environment& environmen
       for (int k = 0; k < 25; ++k) light[k] += radiance * basis[static_cast<std::size_t>(k)];
     }
   }
-  const sh::IrradianceSh irradiance = sh::irradiance_from_radiance(light);
-  std::array<vec4, 25> out;
-  for (int k = 0; k < 25; ++k) out[static_cast<std::size_t>(k)] = vec4(irradiance[k], 0);
-  return out;
+  return sh::irradiance_from_radiance(light);
 }
 
 vec3 mean_emission(const scene::Scene& scene, const scene::Material& material) {

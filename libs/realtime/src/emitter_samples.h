@@ -1,10 +1,10 @@
 #pragma once
 /// Points that stand for lights with an extent, and directions that stand for an environment.
 
-#include <array>
 #include <vector>
 
 #include <ssphh/scene/scene.h>
+#include <ssphh/sh/coefficients.h>
 
 namespace ssphh::realtime {
 
@@ -38,8 +38,8 @@ struct EnvironmentSample {
 /// Directions by importance, `count` or fewer, environment.color included.
 std::vector<EnvironmentSample> environment_directions(const scene::Environment& environment, int count);
 
-/// Irradiance coefficients of degree 4, environment.color included.
-std::array<vec4, 25> environment_irradiance(const scene::Environment& environment);
+/// Irradiance of degree 4, environment.color included.
+sh::IrradianceSh environment_irradiance(const scene::Environment& environment);
 
 /// Mean of a material's emission over its texture, or the plain factor.
 vec3 mean_emission(const scene::Scene& scene, const scene::Material& material);

@@ -19,8 +19,7 @@ constexpr float largest_half = 65504;
 /// Sampling, EGSR 2008).
 class Pyramid {
  public:
-  explicit Pyramid(const scene::Environment& environment)
-      : cos_(std::cos(environment.rotation)), sin_(std::sin(environment.rotation)) {
+  explicit Pyramid(const scene::Environment& environment) {
     image::Image whole = environment.equirect.empty() ? image::Image(2, 1, 3) : environment.equirect;
     for (int y = 0; y < whole.height; ++y) {
       for (int x = 0; x < whole.width; ++x)
@@ -32,13 +31,12 @@ class Pyramid {
     texel_ = 4 * pi / static_cast<float>(first.width * first.height);
   }
 
-  /// Radiance from world direction `d`, averaged over about `solid_angle` [sr].
+  /// Radiance from direction `d`, averaged over about `solid_angle` [sr].
   vec3 radiance(const vec3& d, float solid_angle) const {
-    const vec3 e(cos_ * d.x - sin_ * d.z, d.y, sin_ * d.x + cos_ * d.z);
     const float level = std::clamp(0.5f * std::log2(std::max(solid_angle / texel_, 1.0f)), 0.0f,
                                    static_cast<float>(levels_.size() - 1));
     const auto low = static_cast<std::size_t>(level), high = std::min(low + 1, levels_.size() - 1);
-    return glm::mix(image::sample_equirect(levels_[low], e), image::sample_equirect(levels_[high], e),
+    return glm::mix(image::sample_equirect(levels_[low], d), image::sample_equirect(levels_[high], d),
                     level - static_cast<float>(low));
   }
 
@@ -63,7 +61,7 @@ class Pyramid {
   }
 
   std::vector<image::Image> levels_;
-  float cos_, sin_, texel_;
+  float texel_;
 };
 
 /// The lobe about `axis`, for a viewer along it: half vectors by their density.

@@ -39,9 +39,8 @@ FrameBlock frame_block(const scene::CameraPose& camera, const FrameSettings& set
   b.tone = vec4(std::exp2(settings.tone.exposure), settings.tone.curve == image::ToneCurve::filmic ? 1 : 0,
                 settings.tone.gamma > 0 ? 1 / settings.tone.gamma : 0,
                 std::isfinite(probes.spacing()) ? probes.spacing() : 1e30f);
-  const scene::Environment* environment = lights.environment();
-  const float turn = environment ? environment->rotation : 0;
-  b.environment = vec4(std::cos(turn), std::sin(turn), 0, environment ? 1 : 0);
+  const float turn = lights.environment_rotation();
+  b.environment = vec4(std::cos(turn), std::sin(turn), 0, 0);
   b.maps = ivec4(lights.lamp_maps().size(), lights.area_maps().size(), probes.maps().size(),
                  lights.parallel_maps().size());
   b.map_tiles = ivec4(lights.lamp_maps().layout().columns_log2, lights.area_maps().layout().columns_log2,

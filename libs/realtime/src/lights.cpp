@@ -35,11 +35,11 @@ const mat4& world_of(const std::vector<mat4>& world, int node) {
 
 Lights::Lights(const scene::Scene& scene, const std::vector<mat4>& world, const scene::Bounds& bounds,
                const RendererParams& params)
-    : world_(world), near_(std::max(5e-4f * bounds.radius(), 1e-6f)) {
+    : near_(std::max(5e-4f * bounds.radius(), 1e-6f)) {
   const std::vector<std::string> groups = scene::light_groups(scene);
   scales_.assign(groups.size(), vec3(1));
-  add_lights(scene, groups, most_sun_parts(scene, params));
-  add_meshes(scene, groups, std::clamp(params.area_samples, 1, max_area_samples));
+  add_lights(scene, world, groups, most_sun_parts(scene, params));
+  add_meshes(scene, world, groups, std::clamp(params.area_samples, 1, max_area_samples));
   add_environment(scene, groups, std::clamp(params.environment_samples, 1, max_area_samples));
   if (parallel_slots_ > max_parallel_maps)
     throw Error("real-time renderer", fmt::format("the lights need {} parallel shadow maps, {} is the most",
@@ -62,11 +62,11 @@ Lights::Lights(const scene::Scene& scene, const std::vector<mat4>& world, const 
   place_environment(bounds);
 }
 
-void Lights::add_lights(const scene::Scene& scene, const std::vector<std::string>& groups, int most_parts) {
+void Lights::add_lights(const scene::Scene& scene, const std::vector<mat4>& world,
+                        const std::vector<std::string>& groups, int most_parts) {
   for (const scene::Light& light : scene.lights) {
     lights_.push_back(light);
-    states_.push_back({world_of(world_, light.node), light.color, light.intensity});
-    fixed_.push_back(0);
+    states_.push_back({world_of(world, light.node), light.color, light.intensity});
     Source source;
     source.emitter = static_cast<int>(emitters_.size());
     source.group = scene::light_group_index(groups, scene::light_group(light));
@@ -95,16 +95,17 @@ void Lights::add_lights(const scene::Scene& scene, const std::vector<std::string
   }
 }
 
-void Lights::add_meshes(const scene::Scene& scene, const std::vector<std::string>& groups, int samples) {
+void Lights::add_meshes(const scene::Scene& scene, const std::vector<mat4>& world,
+                        const std::vector<std::string>& groups, int samples) {
   for (const scene::Instance& instance : scene.instances) {
     const int material = scene::instance_material(scene, instance);
     if (material < 0 || instance.mesh < 0) continue;
     const scene::Material& m = scene.materials[static_cast<std::size_t>(material)];
     if (m.unlit || !(max_component(m.emission) > black)) continue;
     const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-    const mat4& world = world_of(world_, instance.node);
+    const mat4& placed = world_of(world, instance.node);
     Source source;
-    source.points = spread_points(mesh, world, samples);
+    source.points = spread_points(mesh, placed, samples);
     if (source.points.empty()) continue;
     source.emitter = static_cast<int>(emitters_.size());
     source.group = scene::light_group_index(groups, scene::light_group(scene, instance));
@@ -114,7 +115,7 @@ void Lights::add_meshes(const scene::Scene& scene, const std::vector<std::string
     GpuEmitter e;
     e.items = ivec4(static_cast<int>(EmitterKind::mesh), 0, static_cast<int>(source.points.size()), 0);
     e.more.y = m.double_sided ? 1 : 0;
-    e.more.z = mesh_area(mesh, world);
+    e.more.z = mesh_area(mesh, placed);
     const bool even = m.emission_texture.texture < 0 && m.alpha_mode == scene::AlphaMode::opaque;
     if (even && mesh.triangles.size() <= shading::MeshView::max_triangles) {
       for (const uvec3& t : mesh.triangles) {
@@ -132,8 +133,7 @@ void Lights::add_environment(const scene::Scene& scene, const std::vector<std::s
   if (!scene.environment) return;
   environment_ = scene.environment;
   directions_ = environment_directions(*environment_, samples);
-  const auto sh = environment_irradiance(*environment_);
-  std::copy(sh.begin(), sh.end(), std::begin(distant_.environment_sh));
+  sky_irradiance_ = environment_irradiance(*environment_);
   Source source;
   source.emitter = static_cast<int>(emitters_.size());
   source.group = scene::light_group_index(groups, scene::light_group(*environment_));
@@ -143,20 +143,19 @@ void Lights::add_environment(const scene::Scene& scene, const std::vector<std::s
   e.items = ivec4(static_cast<int>(EmitterKind::environment), 0, static_cast<int>(directions_.size()), 0);
   for (std::size_t i = 0; i < directions_.size(); ++i) {
     GpuAreaSample& s = e.samples[i];
-    s.place = vec4(directions_[i].direction, 0);
     s.normal.w = static_cast<float>(parallel_slots_ + static_cast<int>(i));
     s.light = vec4(directions_[i].weight, 0);
   }
   parallel_slots_ += static_cast<int>(directions_.size());
   emitters_.push_back(e);
   sources_.push_back(std::move(source));
+  turn_environment();
 }
 
-void Lights::set_time(const std::vector<mat4>& world) {
-  world_ = world;
-  for (std::size_t i = 0; i < lights_.size(); ++i) {
-    if (!fixed_[i]) states_[i].world = world_of(world, lights_[i].node);
-  }
+void Lights::set(const scene::LightingState& state, const std::vector<mat4>& world) {
+  emitters_changed_ |= states_ != state.lights || scales_ != state.group_scales;
+  states_ = state.lights;
+  scales_ = state.group_scales;
   for (Source& source : sources_) {
     if (source.light >= 0) {
       place(source, states_[static_cast<std::size_t>(source.light)].world);
@@ -164,31 +163,15 @@ void Lights::set_time(const std::vector<mat4>& world) {
       place(source, world_of(world, source.node));
     }
   }
-}
-
-void Lights::set_light(int light, const scene::LightState& state) {
-  const auto i = static_cast<std::size_t>(light);
-  fixed_[i] = 1;
-  states_[i] = state;
-  emitters_changed_ = true;
-  for (Source& source : sources_) {
-    if (source.light == light) place(source, state.world);
+  if (environment_ && turn_ != state.environment_rotation) {
+    turn_ = state.environment_rotation;
+    turn_environment();
+    place_environment(environment_bounds_);
   }
 }
 
-void Lights::set_group_scale(int group, const vec3& scale) {
-  scales_[static_cast<std::size_t>(group)] = scale;
+void Lights::add_emission(int probe, const vec3& position, float radius, const sh::RadianceSh& leaving) {
   emitters_changed_ = true;
-}
-
-void Lights::set_emission(int probe, const vec3& position, float radius, const sh::RadianceSh& leaving) {
-  const auto is_probe = [&](const GpuEmitter& e) {
-    return e.items.x == static_cast<int>(EmitterKind::sphl) && e.items.w == probe;
-  };
-  emitters_.erase(std::remove_if(emitters_.begin() + scene_emitters_, emitters_.end(), is_probe),
-                  emitters_.end());
-  emitters_changed_ = true;
-  if (!(radius > 0)) return;
   GpuEmitter e;
   e.place = vec4(position, radius);
   e.light = vec4(1, 1, 1, 0);

@@ -20,14 +20,10 @@ class Lights {
   Lights(const scene::Scene& scene, const std::vector<mat4>& world, const scene::Bounds& bounds,
          const RendererParams& params);
 
-  void set_time(const std::vector<mat4>& world);
-  void set_light(int light, const scene::LightState& state);
-  scene::LightState light(int light) const { return states_[static_cast<std::size_t>(light)]; }
-  int light_count() const { return static_cast<int>(states_.size()); }
-  void set_group_scale(int group, const vec3& scale);
-  int group_count() const { return static_cast<int>(scales_.size()); }
-  /// A probe's own light; radius 0: none.
-  void set_emission(int probe, const vec3& position, float radius, const sh::RadianceSh& leaving);
+  /// Emission of SPHLs apart. `world`: of each node at the state's time.
+  void set(const scene::LightingState& state, const std::vector<mat4>& world);
+  /// A probe's own light.
+  void add_emission(int probe, const vec3& position, float radius, const sh::RadianceSh& leaving);
   void clear_emissions();
   void invalidate(const std::vector<scene::Bounds>& moved);
 
@@ -56,6 +52,8 @@ class Lights {
   const MapAtlas& parallel_maps() const { return parallel_; }
   float near_plane() const { return near_; }
   const scene::Environment* environment() const { return environment_ ? &*environment_ : nullptr; }
+  /// About +y, the scene's own rotation included [rad].
+  float environment_rotation() const { return environment_ ? environment_->rotation + turn_ : 0; }
   std::size_t bytes() const;
 
  private:
@@ -72,14 +70,17 @@ class Lights {
     int first_map = 0;
   };
   static int most_sun_parts(const scene::Scene& scene, const RendererParams& params);
-  void add_lights(const scene::Scene& scene, const std::vector<std::string>& groups, int most_parts);
-  void add_meshes(const scene::Scene& scene, const std::vector<std::string>& groups, int samples);
+  void add_lights(const scene::Scene& scene, const std::vector<mat4>& world,
+                  const std::vector<std::string>& groups, int most_parts);
+  void add_meshes(const scene::Scene& scene, const std::vector<mat4>& world,
+                  const std::vector<std::string>& groups, int samples);
   void add_environment(const scene::Scene& scene, const std::vector<std::string>& groups, int samples);
   void place(Source& source, const mat4& world);
   void place_samples(Source& source, const mat4& world);
   void point_sun(const Source& source, const vec3& axis, float radius);
   void place_sun(const Source& source, const scene::CameraPose& camera, float aspect,
                  const scene::Bounds& bounds);
+  void turn_environment();
   void place_environment(const scene::Bounds& bounds);
   void set_colors();
   void list_lit();
@@ -89,17 +90,17 @@ class Lights {
 
   std::vector<scene::Light> lights_;
   std::vector<scene::LightState> states_;
-  std::vector<std::uint8_t> fixed_;  ///< set_light was called
   std::vector<vec3> scales_;
   std::optional<scene::Environment> environment_;
-  std::vector<EnvironmentSample> directions_;
+  std::vector<EnvironmentSample> directions_;  ///< by the scene's own rotation
+  sh::IrradianceSh sky_irradiance_;            ///< likewise
+  float turn_ = 0;                             ///< of the environment beyond it [rad]
   std::vector<Source> sources_;
   std::vector<GpuEmitter> emitters_;  ///< of sources_, then of probes
   std::vector<GpuEmitter> uploaded_;  ///< as they stand in the buffer
   std::vector<Lit> lit_;
   DistantBlock distant_{};
   std::vector<vec3> parallel_key_;  ///< what each parallel map was last drawn for
-  std::vector<mat4> world_;
   int lamp_slots_ = 0, area_slots_ = 0, parallel_slots_ = 0, scene_emitters_ = 0;
   float near_;
   MapAtlas lamps_, areas_, parallel_;

@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <ssphh/sh/rotate.h>
+
 #include "lights.h"
 
 namespace ssphh::realtime {
@@ -98,14 +102,28 @@ void Lights::place_sun(const Source& source, const scene::CameraPose& camera, fl
   }
 }
 
+void Lights::turn_environment() {
+  const sh::IrradianceSh turned =
+      sh::Rotation::about_axis(sky_irradiance_.degree(), vec3(0, 1, 0), turn_).apply(sky_irradiance_);
+  for (int k = 0; k < static_cast<int>(std::size(distant_.environment_sh)); ++k)
+    distant_.environment_sh[k] = vec4(turned[k], 0);
+  const mat3 turn(glm::rotate(mat4(1), turn_, vec3(0, 1, 0)));
+  for (const Source& source : sources_) {
+    GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
+    if (e.items.x != static_cast<int>(EmitterKind::environment)) continue;
+    for (std::size_t i = 0; i < directions_.size(); ++i)
+      e.samples[i].place = vec4(turn * directions_[i].direction, 0);
+  }
+  emitters_changed_ = distant_changed_ = true;
+}
+
 void Lights::place_environment(const scene::Bounds& bounds) {
   environment_bounds_ = bounds;
   for (const Source& source : sources_) {
-    if (source.emitter >= scene_emitters_ || emitters_[static_cast<std::size_t>(source.emitter)].items.x !=
-                                                 static_cast<int>(EmitterKind::environment))
-      continue;
+    const GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
+    if (e.items.x != static_cast<int>(EmitterKind::environment)) continue;
     for (std::size_t i = 0; i < directions_.size(); ++i)
-      set_parallel(source.first_map + static_cast<int>(i), -directions_[i].direction, bounds.center(),
+      set_parallel(source.first_map + static_cast<int>(i), -vec3(e.samples[i].place), bounds.center(),
                    1.01f * bounds.radius(), bounds);
   }
 }

@@ -57,7 +57,7 @@ Probes::Probes() {
 
 Probes::Probes(const gi::ProbeSet& set, const gi::LookupParams& params, const RendererParams& renderer,
                const scene::Bounds& bounds, bool glossy, FrameCounters& counters)
-    : irradiance_degree_(std::clamp(params.irradiance_degree, 0, std::min(set.degree, 4))),
+    : irradiance_degree_(gi::irradiance_degree(params, set.degree)),
       radiance_degree_(set.degree),
       dering_(params.dering),
       near_(std::max(5e-4f * bounds.radius(), 1e-6f)),
@@ -65,6 +65,7 @@ Probes::Probes(const gi::ProbeSet& set, const gi::LookupParams& params, const Re
   scene::Bounds all = bounds;
   for (const gi::Probe& probe : set.probes) {
     places_.push_back(probe.position);
+    radii_.push_back(probe.radius);
     all.add(probe.position);
   }
   spacing_ = params.weights.spacing > 0 ? params.weights.spacing : gi::median_spacing(places_);

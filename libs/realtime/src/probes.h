@@ -26,6 +26,7 @@ class Probes {
 
   int count() const { return static_cast<int>(places_.size()); }
   const vec3& position(int probe) const { return places_[static_cast<std::size_t>(probe)]; }
+  float radius(int probe) const { return radii_[static_cast<std::size_t>(probe)]; }
   float spacing() const { return spacing_; }
   const ProbeGrid& grid() const { return grid_; }
   const MapAtlas& maps() const { return maps_; }
@@ -51,6 +52,7 @@ class Probes {
 
  private:
   std::vector<vec3> places_;
+  std::vector<float> radii_;
   int irradiance_degree_ = 0, radiance_degree_ = 0;
   bool dering_ = true;
   float spacing_ = 1, near_ = 1e-3f;

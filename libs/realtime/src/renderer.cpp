@@ -46,13 +46,13 @@ Renderer::Data::Data(gl::Context& context_in, const scene::Scene& scene_in, cons
     : context(context_in),
       params(params_in),
       posed(pose_only(scene_in)),
-      time(time_in),
+      lighting(scene::lighting_at(scene_in, time_in)),
+      world(scene::world_matrices(scene_in, time_in)),
       files(shader_table(), params_in.shader_directory),
       shaders(files),
       shaders_from(files.newest_change()),
-      scene(scene_in, scene::world_matrices(scene_in, time_in), context_in.info().software ? 1.0f : 8.0f,
-            counters),
-      lights(scene_in, scene::world_matrices(scene_in, time_in), scene.bounds(), params_in),
+      scene(scene_in, world, context_in.info().software ? 1.0f : 8.0f, counters),
+      lights(scene_in, world, scene.bounds(), params_in),
       albedo(make_albedo_table()),
       sky(environment_map(lights.environment())),
       frame_buffer(sizeof(FrameBlock)),
@@ -60,6 +60,25 @@ Renderer::Data::Data(gl::Context& context_in, const scene::Scene& scene_in, cons
   sky_sampler = gl::Sampler(gl::Address::repeat, gl::Address::clamp, false);
   for (int i = 0; i < pass_count; ++i) timers.emplace_back(context.info().software);
   stats.passes.reserve(pass_count);
+}
+
+void Renderer::Data::pose(float time) {
+  world = scene::world_matrices(posed, time);
+  moved.clear();
+  scene.pose(world, moved, counters);
+  lights.invalidate(moved);
+  probes.invalidate(moved);
+  if (method) method->invalidate(moved);
+}
+
+void Renderer::Data::emit(const std::vector<scene::SphlEmission>& emission) {
+  lights.clear_emissions();
+  for (const scene::SphlEmission& sphl : emission) {
+    const float radius = probes.radius(sphl.probe);
+    if (sphl.leaving.empty() || !(radius > 0)) continue;
+    probes.see_all(sphl.probe);
+    lights.add_emission(sphl.probe, probes.position(sphl.probe), radius, sphl.leaving);
+  }
 }
 
 Renderer::Renderer(gl::Context& context, const scene::Scene& scene, const RendererParams& params,
@@ -74,47 +93,23 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-void Renderer::set_time(float time) {
-  require(std::isfinite(time), "time", "it must be a finite number of seconds");
+void Renderer::set(const scene::LightingState& state) {
   Data& d = *data_;
-  if (time == d.time) return;
-  d.time = time;
-  const std::vector<mat4> world = scene::world_matrices(d.posed, time);
-  d.moved.clear();
-  d.scene.pose(world, d.moved, d.counters);
-  d.lights.invalidate(d.moved);
-  d.probes.invalidate(d.moved);
-  if (d.method) d.method->invalidate(d.moved);
-  d.lights.set_time(world);
+  scene::check_lighting(state, {d.lighting.lights.size(), d.lighting.group_scales.size(),
+                                static_cast<std::size_t>(d.probes.count())});
+  if (state == d.lighting) return;
+  if (state.time != d.lighting.time) d.pose(state.time);
+  for (std::size_t g = 0; g < state.group_scales.size(); ++g) {
+    if (state.group_scales[g] != d.lighting.group_scales[g])
+      d.scene.set_group_scale(static_cast<int>(g), state.group_scales[g], d.counters);
+  }
+  d.lights.set(state, d.world);
+  if (state.emission != d.lighting.emission) d.emit(state.emission);
+  d.lighting = state;
 }
 
-float Renderer::time() const {
-  return data_->time;
-}
-
-void Renderer::set_light(int light, const scene::LightState& state) {
-  if (light < 0 || light >= data_->lights.light_count())
-    throw Error(fmt::format("light {}", light), fmt::format("the scene has {}", data_->lights.light_count()));
-  bool finite = is_finite(state.color) && std::isfinite(state.intensity);
-  for (int c = 0; c < 4; ++c) finite = finite && is_finite(vec3(state.world[c]));
-  if (!finite) throw Error(fmt::format("light {}", light), "its state is not finite");
-  data_->lights.set_light(light, state);
-}
-
-scene::LightState Renderer::light(int light) const {
-  if (light < 0 || light >= data_->lights.light_count())
-    throw Error(fmt::format("light {}", light), fmt::format("the scene has {}", data_->lights.light_count()));
-  return data_->lights.light(light);
-}
-
-void Renderer::set_group_scale(int group, const vec3& scale) {
-  if (group < 0 || group >= data_->lights.group_count())
-    throw Error(fmt::format("light group {}", group),
-                fmt::format("the scene has {}", data_->lights.group_count()));
-  if (!is_finite(scale) || glm::any(glm::lessThan(scale, vec3(0))))
-    throw Error(fmt::format("light group {}", group), "its factor must be finite and not negative");
-  data_->lights.set_group_scale(group, scale);
-  data_->scene.set_group_scale(group, scale, data_->counters);
+const scene::LightingState& Renderer::lighting() const {
+  return data_->lighting;
 }
 
 void Renderer::set_material(int index, const scene::Material& material) {
@@ -126,7 +121,7 @@ void Renderer::set_material(int index, const scene::Material& material) {
 
 void Renderer::set_probes(const gi::ProbeSet& set, const gi::LookupParams& params) {
   Data& d = *data_;
-  d.lights.clear_emissions();
+  d.forget_emission();
   d.probes = Probes(set, params, d.params, d.scene.bounds(), d.scene.any_full(), d.counters);
   d.context.throw_on_error("uploading probes");
 }
@@ -143,23 +138,12 @@ void Renderer::update_probes(std::span<const int> probes, std::span<const sh::Ra
 }
 
 void Renderer::clear_probes() {
-  data_->lights.clear_emissions();
+  data_->forget_emission();
   data_->probes = Probes();
 }
 
 int Renderer::probe_count() const {
   return data_->probes.count();
-}
-
-void Renderer::set_emission(int probe, const sh::RadianceSh& leaving, float radius) {
-  if (probe < 0 || probe >= probe_count())
-    throw Error(fmt::format("probe {}", probe), fmt::format("there are {}", probe_count()));
-  sh::require_degree(std::max(leaving.degree(), 0), "emission");
-  require(std::ranges::all_of(leaving.values, is_finite) && std::isfinite(radius), "emission",
-          "it is not finite");
-  const bool none = leaving.empty() || !(radius > 0);
-  if (!none) data_->probes.see_all(probe);
-  data_->lights.set_emission(probe, data_->probes.position(probe), none ? 0 : radius, leaving);
 }
 
 void Renderer::set_method_light(const gi::LightData& light) {

@@ -26,6 +26,12 @@ inline constexpr const char* pass_names[pass_count] = {"shadows", "geometry", "d
 struct Renderer::Data {
   Data(gl::Context& context, const scene::Scene& scene, const RendererParams& params, float time);
 
+  void pose(float time);
+  void emit(const std::vector<scene::SphlEmission>& emission);
+  void forget_emission() {
+    lights.clear_emissions();
+    lighting.emission.clear();
+  }
   void reload_changed_shaders();
   template <class Draw>
   void run(Pass pass, const Draw& draw_pass) {
@@ -63,8 +69,9 @@ struct Renderer::Data {
 
   gl::Context& context;
   RendererParams params;
-  scene::Scene posed;  ///< nodes, animations and materials alone
-  float time;
+  scene::Scene posed;             ///< nodes, animations and materials alone
+  scene::LightingState lighting;  ///< as last set
+  std::vector<mat4> world;        ///< of each node at its time
   FrameCounters counters;
   gl::ShaderFiles files;
   Shaders shaders;

@@ -26,11 +26,11 @@ scene::Environment three_spots(float rotation) {
   return environment;
 }
 
-vec3 irradiance(const std::array<vec4, 25>& sh, const vec3& n) {
+vec3 irradiance(const sh::IrradianceSh& sh, const vec3& n) {
   std::array<float, 25> y;
   sh::eval_basis(4, n, y);
   vec3 sum(0);
-  for (std::size_t k = 0; k < 25; ++k) sum += y[k] * vec3(sh[k]);
+  for (std::size_t k = 0; k < 25; ++k) sum += y[k] * sh.values[k];
   return sum;
 }
 

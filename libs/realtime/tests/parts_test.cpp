@@ -328,7 +328,7 @@ TEST(EmitterSamples, ConstantEnvironmentGivesPiEverywhere) {
   scene::Environment environment;
   const auto sh = environment_irradiance(environment);
   EXPECT_NEAR(sh[0].x * 0.28209479f, pi, 1e-3f);
-  for (std::size_t k = 1; k < 25; ++k) EXPECT_NEAR(sh[k].x, 0, 2e-3f);
+  for (int k = 1; k < 25; ++k) EXPECT_NEAR(sh[k].x, 0, 2e-3f);
   vec3 sum(0);
   for (const EnvironmentSample& s : environment_directions(environment, 32)) sum += s.weight;
   EXPECT_NEAR(sum.x, 4 * pi, 1e-3f);

@@ -7,7 +7,7 @@
 #include <ssphh/core/sphere.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/scene/posed_world.h>
-#include <ssphh/scene/with_lights.h>
+#include <ssphh/scene/with_lighting.h>
 #include <ssphh/trace/transport_scene.h>
 
 #include "error_message.h"
@@ -203,10 +203,10 @@ TEST(SceneGeometry, KeepsASharedSceneAlive) {
 TEST(SceneGeometry, ServesTheSceneUnderOtherLights) {
   const scene::Scene scene = robot();
   const auto geometry = std::make_shared<const SceneGeometry>(scene);
-  std::vector<scene::LightState> lights = trace::TransportScene(geometry, scene).lights(0.2f);
-  lights[0].world[3].x += 0.1f, lights[0].intensity = 3;
-  const std::vector<vec3> scales(scene::light_groups(scene).size(), vec3(0.5f, 2, 1));
-  const scene::Scene lit = scene::with_lights(scene, 0.2f, lights, scales);
+  scene::LightingState state = scene::lighting_at(trace::TransportScene(geometry, scene), 0.2f);
+  state.lights[0].world[3].x += 0.1f, state.lights[0].intensity = 3;
+  state.group_scales.assign(state.group_scales.size(), vec3(0.5f, 2, 1));
+  const scene::Scene lit = scene::with_lighting(scene, state);
   trace::RenderParams params = view_down(vec3(0), 1.5f, 12);
   params.path = {4, 1, 4, 9};
   trace::RenderState shared, own;

@@ -26,10 +26,6 @@ const MethodEntry& find_method(const std::string& name) {
   throw Error("method " + name, "there is no such method", "choose one of " + names);
 }
 
-FrameState frame_at(const scene::TransportSource& source, float time) {
-  return {time, source.lights(time), std::vector<vec3>(source.light_groups().size(), vec3(1)), 0};
-}
-
 std::vector<mat4> part_poses(const scene::TransportSource& source, float time) {
   std::vector<mat4> poses;
   for (int part = 0; part < source.part_count(); ++part) poses.push_back(source.part_pose(part, time));

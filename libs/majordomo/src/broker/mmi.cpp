@@ -151,42 +151,4 @@ BrokerStats BrokerCore::Impl::stats() const {
   return s;
 }
 
-std::string BrokerCore::metrics_text() const {
-  const BrokerStats s = stats();
-  std::string out;
-  const auto line = [&](const char* type, const char* name, const char* help, auto value) {
-    out += fmt::format("# HELP ssphh_broker_{0} {1}\n# TYPE ssphh_broker_{0} {2}\nssphh_broker_{0} {3}\n",
-                       name, help, type, value);
-  };
-  line("counter", "messages_received_total", "Messages from peers.", s.received);
-  line("counter", "messages_sent_total", "Messages to peers.", s.sent);
-  line("counter", "messages_dropped_total", "Messages that broke a rule or a limit.", s.dropped);
-  line("counter", "requests_total", "Requests taken.", s.requests);
-  line("counter", "jobs_finished_total", "Jobs answered.", s.finished);
-  line("counter", "jobs_failed_total", "Jobs that ended without a result.", s.failed);
-  line("counter", "jobs_parked_total", "Jobs set aside after failing on several workers.", s.parked);
-  line("counter", "attempts_total", "Jobs given to a worker.", s.attempts);
-  line("counter", "retries_total", "Jobs that went back into the queue.", s.retries);
-  line("counter", "hedged_total", "Jobs run by a second worker at the same time.", s.hedged);
-  line("counter", "late_replies_total", "Replies that nobody waited for.", s.late_replies);
-  line("counter", "workers_lost_total", "Workers that died or fell silent.", s.workers_lost);
-  line("gauge", "workers", "Workers registered.", s.workers);
-  line("gauge", "workers_idle", "Workers without a job.", s.idle);
-  line("gauge", "jobs_queued", "Jobs that wait for a worker.", s.queued);
-  line("gauge", "jobs_running", "Jobs that a worker has.", s.running);
-  line("gauge", "requests_outstanding", "Requests without a reply.", s.outstanding);
-  line("gauge", "request_bytes", "Bytes of the bodies of all jobs.", s.bytes);
-  const auto label = [](const std::string& name) {
-    std::string safe;
-    for (const char c : name) safe += c == '"' || c == '\\' ? '_' : c;
-    return safe;
-  };
-  out +=
-      "# HELP ssphh_broker_service_queued Jobs of a service that wait for a worker.\n"
-      "# TYPE ssphh_broker_service_queued gauge\n";
-  for (const auto& [name, service] : impl_->services)
-    out += fmt::format("ssphh_broker_service_queued{{service=\"{}\"}} {}\n", label(name), service.queued);
-  return out;
-}
-
 }  // namespace ssphh::majordomo

@@ -23,14 +23,19 @@ constexpr auto enum_table(ProbeLayer) {
 /// light from elsewhere; or emitters seen directly as well.
 enum class ProbeLight { reflected, all };
 
+/// Bands over it change next to nothing of irradiance: lookups keep no more, on the CPU as on a GPU.
+inline constexpr int max_irradiance_degree = 4;
+
 struct LookupParams {
   std::optional<ProbeLayer> layer;  ///< none: sum when the set has a hierarchy, else self
   ProbeLight light = ProbeLight::reflected;
-  WeightParams weights;  ///< irradiance: how probes are blended
-  int irradiance_degree =
-      4;               ///< irradiance: bands kept; 2 is 1 % worse at worst, over 4 changes next to nothing
+  WeightParams weights;                           ///< irradiance: how probes are blended
+  int irradiance_degree = max_irradiance_degree;  ///< irradiance: bands kept; 2 is 1 % worse at worst
   bool dering = true;  ///< irradiance: windows a probe just enough that its E(n) is nowhere negative
 };
+
+/// Bands of irradiance that lookups keep of a set of this degree: 0 to max_irradiance_degree.
+int irradiance_degree(const LookupParams& params, int set_degree);
 
 /// What of each probe lights surfaces, as `params` choose. Throws Error for an empty set, for layer
 /// `neighbor` or `sum` without a hierarchy, for groups that were not merged, and for places and functions

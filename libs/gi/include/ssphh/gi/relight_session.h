@@ -4,17 +4,17 @@
 ///
 ///   const trace::TransportScene source(scene);
 ///   gi::RelightSession session(source, places);
-///   session.set_light(0, lamp);            // a scene::LightState
-///   session.set_time(0.4f);                // poses the doors
-///   const gi::RelightReport report = session.update();
-///   session.reflected(i);                  // what surfaces look up
+///   scene::LightingState state = scene::lighting_at(source, 0.4f);  // the doors' time
+///   state.lights[0].intensity = 20;
+///   const gi::RelightReport report = session.update(state);
+///   session.reflected()[i];  // what surfaces look up
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include <ssphh/core/control.h>
+#include <ssphh/core/held.h>
 #include <ssphh/gi/probe_set.h>
 #include <ssphh/gi/transport/bounce.h>
 #include <ssphh/gi/transport/network.h>
@@ -25,7 +25,7 @@ namespace ssphh::gi {
 struct ProbePlace {
   std::string name;
   vec3 position{0};
-  float radius = 0.1f;  ///< of the sphere that emits what set_emission gives
+  float radius = 0.1f;  ///< of the sphere that emits LightingState::emission
 };
 
 struct RelightParams {
@@ -50,10 +50,6 @@ struct RelightReport {
   double total_ms() const { return pose_ms + direct_ms + solve_ms + project_ms; }
 };
 
-/// The places with their reflected light as one group, as lookups want it. Throws Error when there is not one
-/// function of one degree for each place, as before a session's first update().
-ProbeSet lookup_set(const std::vector<ProbePlace>& places, const std::vector<sh::RadianceSh>& reflected);
-
 class RelightSession {
  public:
   /// Keeps a reference to `source`. Throws Error as TransportNetwork does, for an operator that is none of
@@ -63,27 +59,18 @@ class RelightSession {
   RelightSession(const scene::TransportSource&&, std::vector<ProbePlace>, const RelightParams& = {},
                  float = 0, const Control& = {}) = delete;  // it would be gone
   ~RelightSession();
+  RelightSession(RelightSession&&) noexcept;
+  RelightSession& operator=(RelightSession&&) noexcept;
 
-  /// A light of source.lights(); stays as given when the time changes. What is set throws Error for an index
-  /// out of range and for numbers that are not finite or negative where that has no meaning.
-  void set_light(int light, const scene::LightState& state);
-  /// Throws Error for an index out of range.
-  const scene::LightState& light(int light) const;
-  /// Factor on a whole group: dims lamps, emissive surfaces and the environment without a ray.
-  void set_group_scale(int group, const vec3& scale);
-  /// Turns the environment about +y beyond the scene's own rotation, counter-clockwise seen from above [rad].
-  void set_environment_rotation(float rotation);
-  /// Poses parts, and the lights that set_light left alone.
-  void set_time(float time);
-  /// Makes the probe a light of its own (`matrix` transport): radiance leaving a sphere of the place's radius
-  /// into each direction. Its light bounces like any other; the sphere neither blocks nor reflects. Empty:
-  /// none.
-  void set_emission(int probe, const sh::RadianceSh& leaving);
+  /// Brings the probes up to date with the state; does only what changed since the last call. Factors of
+  /// groups cost no ray; emission bounces like any other light (`matrix` transport). Throws Error for a state
+  /// that scene::check_lighting refuses, and Cancelled when asked to stop. When it throws, the probes stay as
+  /// they were, and the next call does all that this one should have done. Allocates nothing where nothing
+  /// changed.
+  RelightReport update(const scene::LightingState& state, const Control& control = {});
 
-  /// Brings the probes up to date with what was set since the last call; does only what changed. When the
-  /// source throws, the probes stay as they were, and the next call does all that this one should have done.
-  RelightReport update();
-
+  /// The state that the probes were last brought up to date with.
+  const scene::LightingState& lighting() const;
   const std::vector<ProbePlace>& places() const;
   /// S_loop: reflected light alone, for surfaces that get direct light from elsewhere. None before the first
   /// update(); all other light is dark then.
@@ -93,16 +80,16 @@ class RelightSession {
   sh::RadianceSh emitted(int probe) const;
   /// Direct irradiance at each surfel per group, unscaled.
   std::vector<std::vector<Irradiance4>> direct_by_group() const;
-  /// Per group, unscaled: a session's light as a bake stores it. Solves anew for each group; `slowest` tells
+  /// Per group, unscaled: the light as a bake stores it. Solves anew for each group; `slowest` tells
   /// of the one that took most iterations, converged if all did.
   std::vector<std::vector<sh::RadianceSh>> reflected_by_group(const Control& control = {},
                                                               SolveReport* slowest = nullptr) const;
   std::vector<std::vector<sh::RadianceSh>> emitted_by_group() const;
 
   /// Emission profile of whatever stands in a sphere, as lit after the last update(): the radiance that
-  /// leaves the sphere into each direction, averaged over its disc; empty space in it is dark. Given to
-  /// set_emission of a probe with this radius it stands in for the thing itself (paper §5, Figure 12: a fire,
-  /// a car with its lamps). `rays` per direction; 16 · (degree + 1)² directions. Throws Error
+  /// leaves the sphere into each direction, averaged over its disc; empty space in it is dark. As
+  /// LightingState::emission of a probe with this radius it stands in for the thing itself (paper §5, Figure
+  /// 12: a fire, a car with its lamps). `rays` per direction; 16 · (degree + 1)² directions. Throws Error
   /// with bounce, which does not light surfels.
   sh::RadianceSh emission_profile(const vec3& center, float radius, int degree, int rays = 256) const;
 
@@ -113,7 +100,7 @@ class RelightSession {
 
  private:
   struct Data;
-  std::unique_ptr<Data> data_;
+  Held<Data> data_;
 };
 
 }  // namespace ssphh::gi

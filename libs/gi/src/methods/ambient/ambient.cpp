@@ -21,7 +21,7 @@ class Constant final : public scene::IndirectLight {
 
 class Direct final : public Method {
  public:
-  void update(const FrameState&, const Control&) override {}
+  void update(const scene::LightingState&, const Control&) override {}
   const scene::IndirectLight& light() const override { return light_; }
   MethodMemory memory() const override { return {}; }
 
@@ -38,7 +38,7 @@ class Ambient final : public Method {
   Ambient(const MethodScene& scene, int points, float factor)
       : scene_(scene), points_(points), factor_(factor) {}
 
-  void update(const FrameState& state, const Control& control) override {
+  void update(const scene::LightingState& state, const Control& control) override {
     const std::vector<scene::SurfacePoint> points = points_in_reach(scene_, state.time, points_, control);
 
     // One cosine ray from each point: the radiosity of what it meets is the irradiance that it brings.

@@ -41,7 +41,7 @@ class Ddgi final : public Method {
     blend_.gamma = static_cast<float>(p.number("gamma"));
   }
 
-  void update(const FrameState& state, const Control& control) override {
+  void update(const scene::LightingState& state, const Control& control) override {
     const bool first = !surfaces_;
     const std::vector<mat4> poses = part_poses(source_, state.time);
     relocation_rays_ = 0;

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include <ssphh/gi/lookup.h>
+#include <ssphh/gi/session_sets.h>
 
 #include "methods/entries.h"
 #include "methods/kept_weights.h"
@@ -19,8 +20,8 @@ class IrradianceVolume final : public Method {
   IrradianceVolume(const MethodScene& scene, const MethodParameters& p, const Control& control)
       : volume_(scene, p, p.integer("degree"), control) {}
 
-  void update(const FrameState& state, const Control&) override {
-    volume_.update(state);
+  void update(const scene::LightingState& state, const Control& control) override {
+    volume_.update(state, -1, control);
     LookupParams params;
     params.irradiance_degree = irradiance_degree;
     lookup_.emplace(lookup_set(volume_.places(), volume_.radiance()),

@@ -98,18 +98,15 @@ ProbeVolume::ProbeVolume(const MethodScene& scene, const MethodParameters& p, in
   session_ = std::make_unique<RelightSession>(scene.source, std::move(places), params, 0.0f, control);
 }
 
-void ProbeVolume::update(const FrameState& state, int dark) {
-  session_->set_time(state.time);
-  // What does not light the probes need not be found anew for them.
-  if (dark < 0 || dark != environment_group_) session_->set_environment_rotation(state.environment_rotation);
-  for (std::size_t i = 0; i < state.lights.size(); ++i) {
-    const int light = static_cast<int>(i);
-    if (!(session_->light(light) == state.lights[i])) session_->set_light(light, state.lights[i]);
+void ProbeVolume::update(const scene::LightingState& state, int dark, const Control& control) {
+  state_ = state;
+  state_.emission.clear();
+  if (dark >= 0) {
+    state_.group_scales[static_cast<std::size_t>(dark)] = vec3(0);
+    // What does not light the probes need not be found anew for them
+    if (dark == environment_group_) state_.environment_rotation = session_->lighting().environment_rotation;
   }
-  for (std::size_t g = 0; g < state.group_scales.size(); ++g)
-    session_->set_group_scale(static_cast<int>(g),
-                              static_cast<int>(g) == dark ? vec3(0) : state.group_scales[g]);
-  session_->update();
+  session_->update(state_, control);
 }
 
 MethodMemory ProbeVolume::memory() const {

@@ -37,7 +37,7 @@ class ProbeVolume {
               const Control& control);
 
   /// `dark`: a light group that does not light the probes; −1: none.
-  void update(const FrameState& state, int dark = -1);
+  void update(const scene::LightingState& state, int dark, const Control& control);
 
   const std::vector<ProbePlace>& places() const { return session_->places(); }
   /// Reflected light, after any number of bounces, of each probe.
@@ -51,6 +51,7 @@ class ProbeVolume {
  private:
   std::unique_ptr<VolumeWeights> weights_;
   std::unique_ptr<RelightSession> session_;
+  scene::LightingState state_;  ///< what the session was given last
   float spacing_ = 0;
   int environment_group_ = -1;
 };

@@ -6,6 +6,7 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/gi/lookup.h>
+#include <ssphh/gi/session_sets.h>
 #include <ssphh/sh/rotate.h>
 
 #include "methods/entries.h"
@@ -94,9 +95,9 @@ class Prt final : public Method {
     from_sky_.direct = {};  // renderers find direct light themselves
   }
 
-  void update(const FrameState& state, const Control&) override {
+  void update(const scene::LightingState& state, const Control& control) override {
     const int group = sky_.empty() ? -1 : source_.environment_group();
-    volume_.update(state, group);
+    volume_.update(state, group, control);
     std::vector<sh::RadianceSh> around = volume_.radiance();
     sh::RadianceSh sky;
     if (!sky_.empty()) {

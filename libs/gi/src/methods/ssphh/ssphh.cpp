@@ -4,7 +4,7 @@
 #include <ssphh/gi/fitted_weights.h>
 #include <ssphh/gi/lookup.h>
 #include <ssphh/gi/place.h>
-#include <ssphh/gi/relight_session.h>
+#include <ssphh/gi/session_sets.h>
 #include <ssphh/scene/posed_world.h>
 
 #include "../entries.h"
@@ -61,16 +61,8 @@ class Ssphh final : public Method {
     fitted_points_ = fitted ? fitted->points.size() : 0;
   }
 
-  void update(const FrameState& state, const Control&) override {
-    session_.set_time(state.time);
-    session_.set_environment_rotation(state.environment_rotation);
-    for (std::size_t i = 0; i < state.lights.size(); ++i) {
-      const int light = static_cast<int>(i);
-      if (!(session_.light(light) == state.lights[i])) session_.set_light(light, state.lights[i]);
-    }
-    for (std::size_t g = 0; g < state.group_scales.size(); ++g)
-      session_.set_group_scale(static_cast<int>(g), state.group_scales[g]);
-    session_.update();
+  void update(const scene::LightingState& state, const Control& control) override {
+    session_.update(state, control);
     surfaces_.emplace(source_, state.time);
     lookup_.emplace(lookup_set(session_.places(), session_.reflected()),
                     std::make_unique<KeptWeights>(*weights_));
@@ -80,13 +72,11 @@ class Ssphh final : public Method {
 
   MethodMemory memory() const override {
     // Of each probe radiance for glossy lookups, and irradiance without negative values
-    const int irradiance_degree =
-        std::min(session_.reflected().front().degree(), LookupParams{}.irradiance_degree);
+    const int kept = irradiance_degree({}, session_.reflected().front().degree());
     MethodMemory bytes;
-    bytes.lookup =
-        weights_->bytes() + session_.places().size() * sizeof(vec3) *
-                                (session_.reflected().front().values.size() +
-                                 static_cast<std::size_t>(sh::coefficient_count(irradiance_degree)));
+    bytes.lookup = weights_->bytes() + session_.places().size() * sizeof(vec3) *
+                                           (session_.reflected().front().values.size() +
+                                            static_cast<std::size_t>(sh::coefficient_count(kept)));
     bytes.update = network_bytes(session_.network());
     return bytes;
   }
@@ -105,9 +95,8 @@ class Ssphh final : public Method {
     WeightFit fit(std::move(places));
     const int count = source_.duration() > 0 ? poses : 1;
     for (int k = 0; k < count; ++k) {
-      session_.set_time(count > 1 ? source_.duration() * static_cast<float>(k) / static_cast<float>(count - 1)
-                                  : 0);
-      session_.update();
+      const float share = count > 1 ? static_cast<float>(k) / static_cast<float>(count - 1) : 0;
+      session_.update(scene::lighting_at(source_, share * source_.duration()), control);
       fit.add_pose(session_.network(), source_, session_.direct_by_group(), control);
     }
     return fit.solve(control);

@@ -57,7 +57,7 @@ class Vct final : public Method {
     still_.irradiance.resize(still_.set.patches.size());
   }
 
-  void update(const FrameState& state, const Control& control) override {
+  void update(const scene::LightingState& state, const Control& control) override {
     const std::vector<mat4> poses = part_poses(scene_.source, state.time);
     const bool first = poses_.empty();
     const bool moved = first || poses != poses_;
@@ -138,7 +138,7 @@ class Vct final : public Method {
   }
 
   /// Asks for direct light where lamps or shadows changed; `boxes` null: everywhere.
-  void relight(const FrameState& state, const std::vector<mat4>& poses,
+  void relight(const scene::LightingState& state, const std::vector<mat4>& poses,
                const std::vector<scene::Bounds>* boxes, bool moved) {
     const auto direct = scene_.source.direct_light(state.lights, poses, state.environment_rotation);
     points_relit_ = 0;
@@ -154,7 +154,7 @@ class Vct final : public Method {
   }
 
   /// Whether emitters of the group changed or went elsewhere.
-  bool group_changed(int group, const FrameState& state, const std::vector<mat4>& poses) const {
+  bool group_changed(int group, const scene::LightingState& state, const std::vector<mat4>& poses) const {
     if (group == scene_.source.environment_group() && state.environment_rotation != environment_rotation_)
       return true;
     for (std::size_t i = 0; i < state.lights.size(); ++i) {

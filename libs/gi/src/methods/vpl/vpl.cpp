@@ -19,7 +19,7 @@ class Vpls final : public Method {
         cluster_error_(static_cast<float>(p.number("cluster_error"))),
         check_points_(p.integer("check_points")) {}
 
-  void update(const FrameState& state, const Control& control) override {
+  void update(const scene::LightingState& state, const Control& control) override {
     if (field_ && state == state_) return;
     state_ = state;
     field_.reset();
@@ -62,7 +62,7 @@ class Vpls final : public Method {
   VplKind kind_;
   float clamp_, radius_, cluster_error_;
   int check_points_;
-  FrameState state_;
+  scene::LightingState state_;
   std::optional<scene::PosedWorld> surfaces_;
   std::optional<VplField> field_;
   double lost_energy_ = 0, mean_cut_ = 0;

@@ -22,8 +22,8 @@
 #include <ssphh/realtime/fitted_surfaces.h>
 #include <ssphh/realtime/frame_stats.h>
 #include <ssphh/realtime/settings.h>
+#include <ssphh/scene/lighting_state.h>
 #include <ssphh/scene/query.h>
-#include <ssphh/scene/transport_source.h>
 
 namespace ssphh::realtime {
 
@@ -60,20 +60,18 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Poses what moves, and the lights that set_light left alone.
-  void set_time(float time);
-  float time() const;
-  /// Light of scene.lights, by index; stays as given when the time changes. Throws Error for an index out of
-  /// range or a state that is not finite.
-  void set_light(int light, const scene::LightState& state);
-  scene::LightState light(int light) const;
-  /// Factor on the light of a whole group (scene::light_groups): lamps, emissive surfaces, environment.
-  void set_group_scale(int group, const vec3& scale);
+  /// What lights the scene, and poses what moves: does only what changed since the last call. Emission is of
+  /// the probes that set_probes() gave, in which it stands in for what is within their radius. Throws Error
+  /// for a state that scene::check_lighting refuses; everything stays as it was then.
+  void set(const scene::LightingState& state);
+  /// What was last set; at first scene::lighting_at() of the scene, at the constructor's time.
+  const scene::LightingState& lighting() const;
   /// Numbers of a material; its textures stay those of the scene. Throws Error for an index out of range.
   void set_material(int index, const scene::Material& material);
 
-  /// Probes that light the scene: copies what it needs. `params.weights` and `params.irradiance_degree` limit
-  /// what FrameSettings may ask for. Throws Error as gi::IrradianceLookup does.
+  /// Probes that light the scene, none of which shines until set() says so: copies what it needs.
+  /// `params.weights` and `params.irradiance_degree` limit what FrameSettings may ask for. Throws Error as
+  /// gi::IrradianceLookup does.
   void set_probes(const gi::ProbeSet& set, const gi::LookupParams& params = {});
   /// Fitted weights of the last set_probes' probes, for FrameSettings::weights `fitted`; set_probes forgets
   /// them. Empty: none. Throws Error for points that name a probe which there is not.
@@ -84,9 +82,6 @@ class Renderer {
   void update_probes(std::span<const int> probes, std::span<const sh::RadianceSh> light);
   void clear_probes();
   int probe_count() const;
-  /// Makes a probe an anisotropic light: radiance leaving a sphere of `radius` around it into each direction,
-  /// as gi::RelightSession::set_emission takes it. Empty: none.
-  void set_emission(int probe, const sh::RadianceSh& leaving, float radius);
 
   /// Indirect light of another method, for one state of lamps and doors: takes the place of the probes' until
   /// cleared. Copies what it needs, and keeps of what was set before what still holds. Throws Error for data

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <ssphh/core/error.h>
+#include <ssphh/scene/lighting_state.h>
 #include <ssphh/scene/query.h>
 
 namespace ssphh::scene {
@@ -47,15 +48,6 @@ struct PartPoint {
   SurfacePoint point;  ///< in the part's frame, front side
   vec3 albedo{0};
   bool double_sided = false;
-};
-
-/// A light of the scene as it is now; its type, cone, radius, range and group are the scene's.
-struct LightState {
-  mat4 world{1};  ///< light to world: position, and direction −z
-  vec3 color{1};
-  float intensity = 1;  ///< units as scene::Light; 0: off
-
-  friend bool operator==(const LightState&, const LightState&) = default;
 };
 
 /// Light on its way from an emitter.

@@ -16,7 +16,7 @@ namespace ssphh::trace {
 ///   const trace::TransportScene source(geometry, scene);
 ///
 /// Both also take scenes whose lights, cameras and material values differ from those of the scene it was
-/// built for, as with_lights() makes them.
+/// built for, as with_lighting() makes them.
 class SceneGeometry {
  public:
   static constexpr std::uint64_t default_flatten_limit = 4'000'000;

@@ -21,21 +21,6 @@ struct MethodScene {
   const scene::TransportSource& source;
 };
 
-/// What lights the scene in one frame.
-struct FrameState {
-  float time = 0;                         ///< poses the moving parts [s]
-  std::vector<scene::LightState> lights;  ///< in the order of TransportSource::lights(time)
-  std::vector<vec3> group_scales;         ///< a factor per light group
-  /// The environment turned about +y beyond the scene's own rotation, counter-clockwise seen from above
-  /// [rad].
-  float environment_rotation = 0;
-
-  friend bool operator==(const FrameState&, const FrameState&) = default;
-};
-
-/// The scene's own lights at `time`, every group at its full strength.
-FrameState frame_at(const scene::TransportSource& source, float time);
-
 /// Part to world at the state's time, one per part.
 std::vector<mat4> part_poses(const scene::TransportSource& source, float time);
 
@@ -53,9 +38,9 @@ class Method {
   virtual ~Method() = default;
 
   /// One frame: brings the light up to date with the state, keeping whatever of the last frame still holds. A
-  /// pure function of the states given so far. Throws Cancelled when asked to stop; the method is then of no
-  /// more use.
-  virtual void update(const FrameState& state, const Control& control) = 0;
+  /// pure function of the states given so far. SPHLs that shine (LightingState::emission) are those of the
+  /// method itself: of `ssphh` alone. Throws Cancelled when asked to stop; the method is then of no more use.
+  virtual void update(const scene::LightingState& state, const Control& control) = 0;
 
   /// Indirect light after the last update(); valid until the next one. Emitters that a surface sees straight
   /// are not in it. Safe to call from several threads.

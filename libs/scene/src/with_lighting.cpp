@@ -1,8 +1,7 @@
-#include <fmt/format.h>
+#include <limits>
 
-#include <ssphh/core/error.h>
 #include <ssphh/scene/query.h>
-#include <ssphh/scene/with_lights.h>
+#include <ssphh/scene/with_lighting.h>
 
 namespace ssphh::scene {
 namespace {
@@ -19,29 +18,22 @@ void scale_emission(Scene& scene, Instance& instance, const vec3& factor) {
 
 }  // namespace
 
-Scene with_lights(Scene scene, float time, std::span<const LightState> lights,
-                  std::span<const vec3> group_scales, float environment_rotation) {
+Scene with_lighting(Scene scene, const LightingState& state) {
   const std::vector<std::string> groups = light_groups(scene);
-  if (lights.size() != scene.lights.size() ||
-      (!group_scales.empty() && group_scales.size() != groups.size())) {
-    throw Error("lights",
-                fmt::format("{} lights and {} groups were given, but the scene has {} and {}", lights.size(),
-                            group_scales.size(), scene.lights.size(), groups.size()));
-  }
+  check_lighting(state, {scene.lights.size(), groups.size(), std::numeric_limits<std::size_t>::max()});
   const auto scale_of = [&](const std::string& group) {
-    if (group_scales.empty()) return vec3(1);
-    return group_scales[static_cast<std::size_t>(light_group_index(groups, group))];
+    return state.group_scales[static_cast<std::size_t>(light_group_index(groups, group))];
   };
-  const std::vector<mat4> world = world_matrices(scene, time);
+  const std::vector<mat4> world = world_matrices(scene, state.time);
 
-  for (std::size_t i = 0; i < lights.size(); ++i) {
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     Light& light = scene.lights[i];
-    light.color = lights[i].color * scale_of(light_group(light));
-    light.intensity = lights[i].intensity;
-    if (lights[i].world == world[static_cast<std::size_t>(light.node)]) continue;
+    light.color = state.lights[i].color * scale_of(light_group(light));
+    light.intensity = state.lights[i].intensity;
+    if (state.lights[i].world == world[static_cast<std::size_t>(light.node)]) continue;
     Node node;
     node.name = light.name;
-    node.matrix = lights[i].world;
+    node.matrix = state.lights[i].world;
     light.node = static_cast<int>(scene.nodes.size());
     scene.nodes.push_back(node);
   }
@@ -53,7 +45,7 @@ Scene with_lights(Scene scene, float time, std::span<const LightState> lights,
   }
   if (scene.environment) {
     scene.environment->color *= scale_of(light_group(*scene.environment));
-    scene.environment->rotation += environment_rotation;
+    scene.environment->rotation += state.environment_rotation;
   }
   return scene;
 }

@@ -1,0 +1,58 @@
+#pragma once
+/// What lights a scene at one moment, as one value: methods, relight sessions, renderers and the viewer take
+/// it whole and find out by themselves what has changed.
+
+#include <cstddef>
+#include <vector>
+
+#include <ssphh/core/math.h>
+#include <ssphh/sh/coefficients.h>
+
+namespace ssphh::scene {
+
+struct Scene;
+class TransportSource;
+
+/// A light of the scene as it is now; its type, cone, radius, range and group are the scene's.
+struct LightState {
+  mat4 world{1};  ///< light to world: position, and direction −z
+  vec3 color{1};
+  float intensity = 1;  ///< units as scene::Light; 0: off
+
+  friend bool operator==(const LightState&, const LightState&) = default;
+};
+
+/// A probe that is a light of its own: a sphere of the probe's radius, which neither blocks nor reflects.
+struct SphlEmission {
+  int probe = 0;
+  sh::RadianceSh leaving;  ///< radiance that leaves the sphere into each direction
+
+  friend bool operator==(const SphlEmission&, const SphlEmission&) = default;
+};
+
+struct LightingState {
+  float time = 0;                  ///< poses the moving parts [s]
+  std::vector<LightState> lights;  ///< one for each light of the scene, in its order
+  std::vector<vec3> group_scales;  ///< a factor for each light group, in the order of light_groups()
+  /// The environment is turned about +y by so much beyond the scene's own rotation, counter-clockwise seen
+  /// from above [rad].
+  float environment_rotation = 0;
+  std::vector<SphlEmission> emission;  ///< of the probes that shine, each once; the others do not
+
+  friend bool operator==(const LightingState&, const LightingState&) = default;
+};
+
+/// The scene's own lights where its animations put them at `time`, every group at its full strength.
+LightingState lighting_at(const Scene& scene, float time = 0);
+LightingState lighting_at(const TransportSource& source, float time = 0);
+
+/// How many of each a state must speak of.
+struct LightingCounts {
+  std::size_t lights = 0, groups = 0, probes = 0;
+};
+
+/// Throws Error that names the light, group or probe for another number of lights or groups, for a probe that
+/// there is not or that shines twice, for what is not finite, and for a negative intensity or factor.
+void check_lighting(const LightingState& state, const LightingCounts& counts);
+
+}  // namespace ssphh::scene

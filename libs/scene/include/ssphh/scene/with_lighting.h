@@ -1,0 +1,15 @@
+#pragma once
+/// A scene with its lamps moved, dimmed or coloured, for renderers that know scenes only.
+
+#include <ssphh/scene/lighting_state.h>
+#include <ssphh/scene/scene.h>
+
+namespace ssphh::scene {
+
+/// The scene at state.time with the state's lights in place of its own and every emitter's radiance times the
+/// factor of its group. A light that moved stands on a node of its own, which no animation moves; what is as
+/// before stays as it is, to the bit. SPHLs that shine are no part of scenes: they are left out.
+/// Throws Error as check_lighting does.
+Scene with_lighting(Scene scene, const LightingState& state);
+
+}  // namespace ssphh::scene

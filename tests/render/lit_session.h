@@ -1,0 +1,27 @@
+#pragma once
+/// A relight session with the state of its next update, which tests change piece by piece.
+
+#include <utility>
+
+#include <ssphh/gi/relight_session.h>
+
+namespace ssphh::test {
+
+struct LitSession : gi::RelightSession {
+  template <class... Arguments>
+  explicit LitSession(const scene::TransportSource& source, Arguments&&... arguments)
+      : RelightSession(source, std::forward<Arguments>(arguments)...), state(lighting()) {}
+
+  using RelightSession::update;
+  gi::RelightReport update() { return update(state); }
+
+  /// One probe shines, or no more.
+  void shine(int probe, const sh::RadianceSh& leaving) {
+    std::erase_if(state.emission, [&](const auto& given) { return given.probe == probe; });
+    if (!leaving.empty()) state.emission.push_back({probe, leaving});
+  }
+
+  scene::LightingState state;
+};
+
+}  // namespace ssphh::test
