@@ -15,8 +15,15 @@
 
 namespace ssphh::test {
 
+/// A number in [0, 1) for each index, without any pattern.
+inline double weight(std::size_t i) {
+  auto h = static_cast<std::uint32_t>(i) * 2654435761u + 12345u;
+  for (const int shift : {16, 13, 16}) h = (h ^ (h >> shift)) * 2246822519u;
+  return static_cast<double>(h) / 4294967296.0;
+}
+
 /// The components of n elements: all of them while they are few, else their number and a mean in which each
-/// element has another weight, so that no two may be swapped.
+/// element has another weight, so that neither two of them may be swapped nor all be shifted.
 template <class T>
 std::string array_text(const T* values, std::size_t n, std::size_t components) {
   std::string text = n == 1 ? "" : fmt::format("{}: ", n);
@@ -28,8 +35,7 @@ std::string array_text(const T* values, std::size_t n, std::size_t components) {
   for (std::size_t c = 0; c < components; ++c) {
     double sum = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      const double step = 0.6180339887498949 * static_cast<double>(i);
-      sum += (0.5 + step - std::floor(step)) * static_cast<double>(values[i * components + c]);
+      sum += weight(i) * static_cast<double>(values[i * components + c]);
     }
     text += fmt::format("{}{:.6g}", c == 0 ? "" : " ", sum / static_cast<double>(n));
   }

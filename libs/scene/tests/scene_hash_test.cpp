@@ -162,7 +162,11 @@ TEST(SceneHash, InvisibleChangesKeepIt) {
       {"unused material", [](Scene& s) { s.materials.emplace_back(); }},
       {"unused mesh", [](Scene& s) { s.meshes.emplace_back(); }},
       {"copied mesh", [](Scene& s) { s.meshes.push_back(s.meshes[0]), s.instances[0].mesh = 1; }},
-      {"sign of a zero", [](Scene& s) { s.nodes[0].local.translation.x = -0.0f; }},
+      {"signs of zeros", [](Scene& s) { s.nodes[0].local.translation = -s.nodes[0].local.translation; }},
+      {"signs of zeros of an offset",
+       [](Scene& s) { s.materials[0].base_color_texture.offset = vec2(-0.0f, -0.0f); }},
+      {"signs of zeros of a rotation",
+       [](Scene& s) { s.nodes[0].local.rotation = quat(1, -0.0f, -0.0f, -0.0f); }},
       {"cone of a point light", [](Scene& s) { s.lights[0].outer_cone = 0.3f; }},
   };
   const Hash128 before = scene_hash(full_scene());
