@@ -177,6 +177,13 @@ TEST(SceneHash, InvisibleChangesKeepIt) {
   }
 }
 
+TEST(SceneHash, HalfATurnIsTheSameWhateverTheSignOfItsZeros) {
+  Scene plus = full_scene(), minus = full_scene();
+  plus.nodes[0].local.rotation = quat(0, 0, 1, 0),
+  minus.nodes[0].local.rotation = quat(-0.0f, -0.0f, 1, -0.0f);
+  EXPECT_EQ(scene_hash(plus), scene_hash(minus));
+}
+
 TEST(LightHash, ObserversKeepIt) {
   const std::vector<Change> changes = {
       {"no cameras", [](Scene& s) { s.cameras.clear(); }},
