@@ -107,6 +107,10 @@ TEST(PosedWorld, ABoxTurnsIntoTheBoxAroundIt) {
   expect_near(tilted.min, {-half_diagonal, 0, 0});
   expect_near(tilted.max, {half_diagonal, 2 * half_diagonal, 1});
   EXPECT_TRUE(transformed(Bounds{}, turn).empty());
+  // x + y − z, x − y + z and −x + y + z: each end is at another corner.
+  const mat4 skew(mat3(vec3(1, 1, -1), vec3(1, -1, 1), vec3(-1, 1, 1)));
+  expect_near(transformed(box, skew).min, {1 + 2 - 7, 1 - 4 + 3, -2 + 2 + 3});
+  expect_near(transformed(box, skew).max, {2 + 4 - 3, 2 - 2 + 7, -1 + 4 + 7});
 }
 
 TEST(PosedWorld, PartsStandWhereTheTimePutsThem) {
@@ -133,6 +137,11 @@ TEST(PosedWorld, PartsStandWhereTheTimePutsThem) {
   EXPECT_EQ(moves, (std::vector<std::uint8_t>{1, 0, 0, 1}));
   world.intersect(down, hits);
   EXPECT_EQ(hits[0].group, 2) << "nobody has to ask what moves";
+  // Fewer rays than there is room for: the rest is not touched.
+  hits.assign(4, {}), moves.assign(4, 9);
+  world.intersect(std::span(down).first(2), std::span(hits).first(2), std::span(moves).first(2));
+  EXPECT_EQ(hits[2].group, -1);
+  EXPECT_EQ(moves[2], 9);
 }
 
 /// A ball of half axes 2, 1 and ½, turned by a quarter about y so that the long one lies along z, at (3, 4,

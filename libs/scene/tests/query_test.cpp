@@ -99,7 +99,8 @@ TEST(Cameras, SceneWithoutAnyIsSeenWhole) {
   EXPECT_LT(glm::distance(glm::normalize(to_center), vec3(0, 0, -1)), 1e-6f);  // float rounding
   // As near as sees the sphere around the bounds, whose half diagonal is 3 √3, whole
   EXPECT_NEAR(std::sin(pose.camera.yfov / 2) * glm::length(to_center), 3 * std::sqrt(3.0f), 1e-5f);
-  EXPECT_NO_THROW(camera_pose(Scene{}, ""));
+  EXPECT_EQ(pose.camera.name, "default");
+  EXPECT_EQ(camera_pose(Scene{}, "").camera.name, "default");
   EXPECT_THROW(camera_pose(scene, "main"), Error);
 }
 

@@ -215,6 +215,15 @@ TEST_P(ExportText, NodesMaterialsAndACameraOfOtherKindsToo) {
                  export_text(GetParam(), second_scene(), settings));
 }
 
+TEST(ExportSettings, TheDefaultsAreAPictureAtTheBeginning) {
+  const scene_io::ExportSettings settings{};
+  EXPECT_EQ(settings.time, 0);
+  EXPECT_EQ(settings.width, 1280);
+  EXPECT_EQ(settings.height, 720);
+  EXPECT_EQ(settings.max_depth, 25);
+  EXPECT_EQ(settings.spp, 64);
+}
+
 TEST_P(ExportText, AnEmptySceneToo) {
   expect_text_of("libs/scene_io/tests/expected/" + name() + "-empty.txt",
                  export_text(GetParam(), scene::Scene{}, {}));

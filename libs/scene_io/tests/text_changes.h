@@ -47,7 +47,8 @@ inline std::vector<std::pair<std::string, std::string>> changes_of_lines(const s
     result.emplace_back(lines[i] + " | left out", with(i, ""));
     const std::size_t blank = lines[i].rfind(' ');
     if (blank == std::string::npos) continue;
-    for (const std::string word : {"", " -7", " 1e39", " x"})
+    for (const std::string& word :
+         {std::string(), std::string(" -7"), std::string(" 1e39"), " " + std::string(70, 'x')})
       result.emplace_back(lines[i] + " |" + word, with(i, lines[i].substr(0, blank) + word + "\n"));
   }
   return result;
@@ -58,7 +59,7 @@ inline std::vector<nlohmann::json> others(const nlohmann::json& value) {
   if (value.is_boolean()) return {!value.get<bool>(), 1};
   if (value.is_number_integer()) return {-1, value.get<int>() + 1, 1000000};
   if (value.is_number()) return {-1.5, 0, 0.25 * value.get<double>(), 2.5, 1e39};
-  if (value.is_string()) return {"A:%41", 7};
+  if (value.is_string()) return {"A:%41", std::string(70, 'm'), 7};
   if (!value.is_array() || value.empty()) return {3};
   nlohmann::json shorter = value, longer = value;
   shorter.erase(shorter.size() - 1), longer.push_back(value.back());
