@@ -27,6 +27,18 @@ TEST(Bounds, EncloseTransformedInstancesAndCountEachInstance) {
   EXPECT_EQ(Bounds{}.radius(), 0);
 }
 
+TEST(Bounds, WhatStandsAtNoNodeStandsAtTheOrigin) {
+  Scene scene;
+  scene.meshes.push_back(make_box({1, 2, 3}, {4, 5, 6}));
+  scene.instances = {{0, -1, -1, {}}};
+  scene.sphls = {{"s", -1, 0.1f, true}};
+  scene.cameras.resize(1);
+  EXPECT_EQ(world_bounds(scene, {}).min, vec3(1, 2, 3));
+  EXPECT_EQ(world_bounds(scene, {}).max, vec3(4, 5, 6));
+  EXPECT_EQ(sphl_places(scene).at(0).position, vec3(0));
+  EXPECT_EQ(camera_pose(scene, "").world, mat4(1));
+}
+
 TEST(LightGroups, FollowFirstUseAndDefaultToNames) {
   Scene scene;
   scene.materials.resize(2);

@@ -177,6 +177,17 @@ TEST(SceneHash, InvisibleChangesKeepIt) {
   }
 }
 
+TEST(SceneHash, TheGroupOfWhatDoesNotGlowIsNoDifference) {
+  Scene a = full_scene();
+  a.instances.push_back({0, 1, 1, "lit"});  // by a material that does not glow
+  a.instances.push_back({0, 1, -1, "lit"});
+  Scene b = a;
+  b.instances[1].light_group = "unlit";
+  EXPECT_EQ(scene_hash(a), scene_hash(b));
+  b.instances[2].light_group = "unlit";
+  EXPECT_NE(scene_hash(a), scene_hash(b)) << "its mesh's material glows";
+}
+
 TEST(SceneHash, HalfATurnIsTheSameWhateverTheSignOfItsZeros) {
   Scene plus = full_scene(), minus = full_scene();
   plus.nodes[0].local.rotation = quat(0, 0, 1, 0),
