@@ -195,6 +195,21 @@ TEST(SceneHash, HalfATurnIsTheSameWhateverTheSignOfItsZeros) {
   EXPECT_EQ(scene_hash(plus), scene_hash(minus));
 }
 
+TEST(LightHash, TheNumberOfAParentIsNoDifference) {
+  Scene a;
+  a.nodes.resize(2);
+  a.nodes[1].parent = 0;
+  a.nodes[0].local.translation = {1, 2, 3};
+  a.meshes.push_back(make_box(vec3(0), vec3(1)));
+  a.instances = {{0, 1, -1, {}}};
+  Scene b = a;
+  b.nodes.insert(b.nodes.begin(), Node{});
+  b.nodes[2].parent = 1, b.instances[0].node = 2;
+  EXPECT_EQ(light_hash(a), light_hash(b));
+  b.nodes[2].parent = 0;
+  EXPECT_NE(light_hash(a), light_hash(b)) << "it stands elsewhere";
+}
+
 TEST(LightHash, ObserversKeepIt) {
   const std::vector<Change> changes = {
       {"no cameras", [](Scene& s) { s.cameras.clear(); }},
