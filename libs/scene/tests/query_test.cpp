@@ -112,6 +112,8 @@ TEST(Cameras, SceneWithoutAnyIsSeenWhole) {
   // As near as sees the sphere around the bounds, whose half diagonal is 3 √3, whole
   EXPECT_NEAR(std::sin(pose.camera.yfov / 2) * glm::length(to_center), 3 * std::sqrt(3.0f), 1e-5f);
   EXPECT_EQ(pose.camera.name, "default");
+  EXPECT_EQ(mat3(pose.world), mat3(1));
+  EXPECT_EQ(pose.world[3].w, 1);
   EXPECT_EQ(camera_pose(Scene{}, "").camera.name, "default");
   EXPECT_THROW(camera_pose(scene, "main"), Error);
 }

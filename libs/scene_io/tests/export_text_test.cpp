@@ -9,6 +9,7 @@
 #include <ssphh/image/io.h>
 #include <ssphh/scene/primitives.h>
 
+#include "error_message.h"
 #include "expected_text.h"
 #include "export_fixture.h"
 #include "memory_dir.h"
@@ -222,6 +223,33 @@ TEST(ExportSettings, TheDefaultsAreAPictureAtTheBeginning) {
   EXPECT_EQ(settings.height, 720);
   EXPECT_EQ(settings.max_depth, 25);
   EXPECT_EQ(settings.spp, 64);
+}
+
+TEST_P(ExportText, SettingsMustMakeSenseAndTheFolderIsMade) {
+  const TempDir dir(memory_dir());
+  const auto said = [&](const std::filesystem::path& folder, const auto& change) {
+    scene_io::ExportSettings settings;
+    change(settings);
+    return message_of([&] { GetParam().write(scene::Scene{}, settings, folder); });
+  };
+  using Settings = scene_io::ExportSettings;
+  const std::filesystem::path folder = dir / "not/yet/there";
+  EXPECT_EQ(said(folder, [](Settings& s) { s.width = s.height = s.spp = 1, s.max_depth = 0; }), "no error");
+  EXPECT_FALSE(std::filesystem::is_empty(folder));
+  const std::string size = "export: width and height must be positive";
+  EXPECT_EQ(said(folder, [](Settings& s) { s.width = 0; }), size);
+  EXPECT_EQ(said(folder, [](Settings& s) { s.height = 0; }), size);
+  const std::string effort = "export: max depth must not be negative, and there must be a sample";
+  EXPECT_EQ(said(folder, [](Settings& s) { s.max_depth = -1; }), effort);
+  EXPECT_EQ(said(folder, [](Settings& s) { s.spp = 0; }), effort);
+  EXPECT_EQ(said(folder, [](Settings& s) { s.time = INFINITY; }),
+            "export: the time must be a finite number of seconds");
+  write_file(dir / "file", std::string());
+  EXPECT_EQ(said(dir / "file/below", [](Settings&) {}),
+            (dir / "file/below").string() + ": the folder cannot be made: Not a directory");
+  scene::Scene broken;
+  broken.instances.push_back({7, -1, -1, {}});
+  EXPECT_EQ(message_of([&] { GetParam().write(broken, {}, folder); }), "instance 0: refers to mesh 7 of 0");
 }
 
 TEST_P(ExportText, AnEmptySceneToo) {
