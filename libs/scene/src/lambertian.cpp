@@ -1,16 +1,18 @@
+#include <optional>
+
 #include <ssphh/scene/lambertian.h>
 
 namespace ssphh::scene {
 
 Scene lambertian(Scene scene) {
-  int plain = -1;
+  std::optional<int> plain;
   for (Mesh& mesh : scene.meshes) {
     if (mesh.material >= 0) continue;
-    if (plain < 0) {
+    if (!plain) {
       plain = static_cast<int>(scene.materials.size());
       scene.materials.emplace_back();
     }
-    mesh.material = plain;
+    mesh.material = *plain;
   }
   for (Material& material : scene.materials) {
     material.metallic = material.specular = material.diffuse_roughness = 0;

@@ -27,6 +27,18 @@ TEST(Bounds, EncloseTransformedInstancesAndCountEachInstance) {
   EXPECT_EQ(Bounds{}.radius(), 0);
 }
 
+TEST(Bounds, WhatStandsAtNoNodeStandsAtTheOrigin) {
+  Scene scene;
+  scene.meshes.push_back(make_box({1, 2, 3}, {4, 5, 6}));
+  scene.instances = {{0, -1, -1, {}}};
+  scene.sphls = {{"s", -1, 0.1f, true}};
+  scene.cameras.resize(1);
+  EXPECT_EQ(world_bounds(scene, {}).min, vec3(1, 2, 3));
+  EXPECT_EQ(world_bounds(scene, {}).max, vec3(4, 5, 6));
+  EXPECT_EQ(sphl_places(scene).at(0).position, vec3(0));
+  EXPECT_EQ(camera_pose(scene, "").world, mat4(1));
+}
+
 TEST(LightGroups, FollowFirstUseAndDefaultToNames) {
   Scene scene;
   scene.materials.resize(2);
@@ -99,7 +111,10 @@ TEST(Cameras, SceneWithoutAnyIsSeenWhole) {
   EXPECT_LT(glm::distance(glm::normalize(to_center), vec3(0, 0, -1)), 1e-6f);  // float rounding
   // As near as sees the sphere around the bounds, whose half diagonal is 3 √3, whole
   EXPECT_NEAR(std::sin(pose.camera.yfov / 2) * glm::length(to_center), 3 * std::sqrt(3.0f), 1e-5f);
-  EXPECT_NO_THROW(camera_pose(Scene{}, ""));
+  EXPECT_EQ(pose.camera.name, "default");
+  EXPECT_EQ(mat3(pose.world), mat3(1));
+  EXPECT_EQ(pose.world[3].w, 1);
+  EXPECT_EQ(camera_pose(Scene{}, "").camera.name, "default");
   EXPECT_THROW(camera_pose(scene, "main"), Error);
 }
 

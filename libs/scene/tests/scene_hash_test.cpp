@@ -162,7 +162,11 @@ TEST(SceneHash, InvisibleChangesKeepIt) {
       {"unused material", [](Scene& s) { s.materials.emplace_back(); }},
       {"unused mesh", [](Scene& s) { s.meshes.emplace_back(); }},
       {"copied mesh", [](Scene& s) { s.meshes.push_back(s.meshes[0]), s.instances[0].mesh = 1; }},
-      {"sign of a zero", [](Scene& s) { s.nodes[0].local.translation.x = -0.0f; }},
+      {"signs of zeros", [](Scene& s) { s.nodes[0].local.translation = -s.nodes[0].local.translation; }},
+      {"signs of zeros of an offset",
+       [](Scene& s) { s.materials[0].base_color_texture.offset = vec2(-0.0f, -0.0f); }},
+      {"signs of zeros of a rotation",
+       [](Scene& s) { s.nodes[0].local.rotation = quat(1, -0.0f, -0.0f, -0.0f); }},
       {"cone of a point light", [](Scene& s) { s.lights[0].outer_cone = 0.3f; }},
   };
   const Hash128 before = scene_hash(full_scene());
@@ -171,6 +175,39 @@ TEST(SceneHash, InvisibleChangesKeepIt) {
     change.apply(scene);
     EXPECT_EQ(scene_hash(scene), before) << change.what;
   }
+}
+
+TEST(SceneHash, TheGroupOfWhatDoesNotGlowIsNoDifference) {
+  Scene a = full_scene();
+  a.instances.push_back({0, 1, 1, "lit"});  // by a material that does not glow
+  a.instances.push_back({0, 1, -1, "lit"});
+  Scene b = a;
+  b.instances[1].light_group = "unlit";
+  EXPECT_EQ(scene_hash(a), scene_hash(b));
+  b.instances[2].light_group = "unlit";
+  EXPECT_NE(scene_hash(a), scene_hash(b)) << "its mesh's material glows";
+}
+
+TEST(SceneHash, HalfATurnIsTheSameWhateverTheSignOfItsZeros) {
+  Scene plus = full_scene(), minus = full_scene();
+  plus.nodes[0].local.rotation = quat(0, 0, 1, 0),
+  minus.nodes[0].local.rotation = quat(-0.0f, -0.0f, 1, -0.0f);
+  EXPECT_EQ(scene_hash(plus), scene_hash(minus));
+}
+
+TEST(LightHash, TheNumberOfAParentIsNoDifference) {
+  Scene a;
+  a.nodes.resize(2);
+  a.nodes[1].parent = 0;
+  a.nodes[0].local.translation = {1, 2, 3};
+  a.meshes.push_back(make_box(vec3(0), vec3(1)));
+  a.instances = {{0, 1, -1, {}}};
+  Scene b = a;
+  b.nodes.insert(b.nodes.begin(), Node{});
+  b.nodes[2].parent = 1, b.instances[0].node = 2;
+  EXPECT_EQ(light_hash(a), light_hash(b));
+  b.nodes[2].parent = 0;
+  EXPECT_NE(light_hash(a), light_hash(b)) << "it stands elsewhere";
 }
 
 TEST(LightHash, ObserversKeepIt) {

@@ -170,6 +170,15 @@ TEST_F(ExportCycles, MeshesAreThoseOfTheInstancesInWorldSpace) {
   }
 }
 
+TEST_F(ExportCycles, TextureFilesHaveNamesThatFileSystemsTake) {
+  scene_.textures[0].name = std::string(300, 'x');
+  scene_.textures[1].name = "../a b";
+  scene_io::export_cycles(scene_, settings_, dir_.path());
+  json_ = json::parse(read_text_file(dir_ / "scene.json"));
+  EXPECT_EQ(json_["textures"][0]["file"], "texture0" + std::string(52, 'x') + ".png");
+  EXPECT_EQ(json_["textures"][1]["file"], "texture1ab.png");
+}
+
 TEST_F(ExportCycles, TheEnvironmentKeepsColourRotationAndImage) {
   const json& written = json_["environment"];
   EXPECT_EQ(written["color"], numbers({1, 2, 0.5f}));

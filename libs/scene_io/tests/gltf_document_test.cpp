@@ -203,6 +203,10 @@ TEST(GltfMemory, IsChargedInAll) {
   EXPECT_EQ(charge(limit - 1), "no error");
   EXPECT_EQ(charge(1), "no error");
   EXPECT_EQ(charge(1), "f: the file asks for more than 64 MiB of decoded data, too much for its size");
+  // What is refused at once counts as all there is, and no more.
+  GltfDocument full(bytes_of(text), "f");
+  EXPECT_NE(message_of([&] { full.charge(limit + 1, full.root()); }), "no error");
+  EXPECT_NE(message_of([&] { full.charge(0, full.root()); }), "no error") << "it stays full";
   GltfDocument other(bytes_of(text), "f");
   EXPECT_NE(message_of([&] { other.charge(~std::uint64_t{0}, other.root()); }), "no error") << "no overflow";
 }

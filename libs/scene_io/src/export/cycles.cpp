@@ -126,7 +126,7 @@ json::Value camera_json(const scene::CameraPose& pose) {
 std::string texture_file(const scene::Texture& texture, std::size_t index) {
   std::string name = fmt::format("texture{}", index);
   for (const char c : texture.name) {
-    if (std::isalnum(static_cast<unsigned char>(c))) name += name.back() == '-' || name.size() < 60 ? c : '-';
+    if (std::isalnum(static_cast<unsigned char>(c)) && name.size() < 60) name += c;
   }
   return name + ".png";
 }

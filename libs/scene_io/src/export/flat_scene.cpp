@@ -21,11 +21,8 @@ void turn_to_front(scene::Mesh& mesh) {
 
 FlatMesh flat_mesh(const scene::Scene& scene, const scene::Instance& instance, const mat4& world) {
   const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-  FlatMesh flat;
-  flat.name = scene.nodes[static_cast<std::size_t>(instance.node)].name;
-  if (flat.name.empty()) flat.name = mesh.name;
-  flat.material = scene::instance_material(scene, instance);
-  flat.mesh = mesh;
+  const std::string& name = scene.nodes[static_cast<std::size_t>(instance.node)].name;
+  FlatMesh flat{name.empty() ? mesh.name : name, scene::instance_material(scene, instance), mesh};
   flat.mesh.tangents.clear();
   for (vec3& p : flat.mesh.positions) p = vec3(world * vec4(p, 1));
   const mat3 to_world = glm::transpose(glm::inverse(mat3(world)));

@@ -12,15 +12,15 @@ namespace ssphh::scene_io {
 /// mirrors. Normals that point to the back are turned around, as shading does.
 struct FlatMesh {
   std::string name;
-  int material = -1;  ///< −1: the default Material{}
-  scene::Mesh mesh;   ///< tangents are left out
+  int material;      ///< −1: the default Material{}
+  scene::Mesh mesh;  ///< tangents are left out
 };
 
 struct FlatLight {
-  const scene::Light* light = nullptr;
-  mat4 world{1};
-  vec3 position{0};
-  vec3 direction{0, 0, -1};  ///< the way the light goes, unit
+  const scene::Light* light;
+  mat4 world;
+  vec3 position;
+  vec3 direction;  ///< the way the light goes, unit
 };
 
 struct FlatScene {
