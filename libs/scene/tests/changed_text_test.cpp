@@ -7,7 +7,7 @@
 #include <ssphh/scene/primitives.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene/sun_sky.h>
-#include <ssphh/scene/with_lights.h>
+#include <ssphh/scene/with_lighting.h>
 
 #include "expected_text.h"
 #include "scene_text.h"
@@ -61,8 +61,9 @@ TEST(ChangedText, LightsAreMovedDimmedAndColouredByTheirGroups) {
   const std::vector<LightState> states = {
       {there, {1, 2, 3}, 4}, {elsewhere, {1, 1, 0.5f}, 5}, {there, {1, 1, 1}, 0}};
   const std::vector<vec3> scales = {vec3(2), {1, 0.5f, 0.25f}, vec3(3), vec3(1), {4, 5, 6}, {0.5f, 1, 2}};
-  expect_text("with-lights", with_lights(scene, 0.5f, states, scales, 0.25f));
-  expect_text("with-lights-unscaled", with_lights(scene, 0.25f, states));
+  expect_text("with-lighting", with_lighting(scene, {0.5f, states, scales, 0.25f, {}}));
+  expect_text("with-lighting-unscaled",
+              with_lighting(scene, {0.25f, states, std::vector<vec3>(scales.size(), vec3(1)), 0, {}}));
 }
 
 TEST(ChangedText, SurfacesBecomeLamberts) {
