@@ -168,7 +168,7 @@ TEST_F(Rooms, RespondTellsTheSameInItsListAndItsTable) {
   std::vector<double> ms;
   for (const json& frame : run["frames"]) ms.push_back(frame["ms"]);
   std::sort(ms.begin(), ms.end());
-  EXPECT_EQ(run["median_ms"], ms[2]);
+  EXPECT_EQ(run["median_ms"], ms[1]) << "half of the four are not above it";
   std::istringstream lines(read_text_file(csv));
   std::string line;
   std::getline(lines, line);

@@ -17,6 +17,7 @@
 #include "options/probe_options.h"
 #include "options/scene_options.h"
 #include "results/geometry_builds.h"
+#include "results/percentile.h"
 
 namespace ssphh::app {
 namespace {
@@ -127,8 +128,7 @@ double frame_milliseconds(LiveMethod& live, float time, const Control& control) 
     ms.push_back(1e3 * live.update_seconds());
     total += ms.back();
   }
-  std::ranges::sort(ms);
-  return ms[ms.size() / 2];
+  return percentile(std::move(ms), 0.5);
 }
 
 void measure(Context& context, MeasureOptions& o) {

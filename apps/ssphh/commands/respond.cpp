@@ -16,6 +16,7 @@
 #include "options/method_options.h"
 #include "options/probe_options.h"
 #include "options/scene_options.h"
+#include "results/percentile.h"
 
 namespace ssphh::app {
 namespace {
@@ -94,8 +95,7 @@ void respond(Context& context, RespondOptions& o) {
     ms.push_back(frame.ms);
     list.push_back({{"ms", frame.ms}, {"ratio", frame.error.ratio}, {"mean_error", frame.error.mean_error}});
   }
-  std::nth_element(ms.begin(), ms.begin() + static_cast<std::ptrdiff_t>(ms.size() / 2), ms.end());
-  const double median_ms = ms[ms.size() / 2];
+  const double median_ms = percentile(ms, 0.5);
   const int settled = frames_to_settle(frames);
   if (!o.output.empty()) write_file(o.output, csv_text(frames));
 
