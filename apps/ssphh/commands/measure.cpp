@@ -143,6 +143,7 @@ void measure(Context& context, MeasureOptions& o) {
     sets.push_back(gi::read_probe_file(file));
     require_same_scene(file, sets.back(), scene, tracer.light_groups(), o.scene.time, o.force);
   }
+  std::vector<Candidate> candidates = probe_candidates(o, sets, tracer);  // fails before the work
   const trace::TransportScene surfaces(geometry, scene);
   const std::vector<scene::SurfacePoint> points =
       find_points(o, surfaces, viewpoints(scene, sets, o.scene.time), context);
@@ -180,7 +181,7 @@ void measure(Context& context, MeasureOptions& o) {
                         e.relmse, 100 * leak, lookup_us);
     results.push_back(std::move(candidate.json));
   };
-  for (Candidate& candidate : probe_candidates(o, sets, tracer)) compare(std::move(candidate));
+  for (Candidate& candidate : candidates) compare(std::move(candidate));
   for (const std::string& spec : o.methods)
     compare(method_candidate(spec, geometry, scene, o.scene.time, context.control));
   context.result({{"points", points.size()},

@@ -9,6 +9,7 @@
 #include <ssphh/gi/surface_points.h>
 #include <ssphh/scene/with_lights.h>
 #include <ssphh/trace/path_tracer.h>
+#include <ssphh/trace/transport_scene.h>
 
 #include "commands/command.h"
 #include "commands/live_method.h"
@@ -59,17 +60,18 @@ std::string csv_text(const std::vector<Frame>& frames) {
 void respond(Context& context, RespondOptions& o) {
   const scene::Scene scene = load_scene(o.scene);
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
-  LiveMethod live(o.method, o.parameters, geometry, scene, context.control);
-  const RelightAnimation event(live.source(), scene, o.scene.time, o.events);
+  const trace::TransportScene surfaces(geometry, scene);
+  const RelightAnimation event(surfaces, scene, o.scene.time, o.events);
   const gi::FrameState before = event.frame(0), after = event.frame(1);
   if (before == after) throw Error("--event", "nothing changes", "give two different keys, as in time=0:1");
+  LiveMethod live(o.method, o.parameters, geometry, scene, context.control);
 
   const scene::Scene lit =
       scene::with_lights(scene, after.time, after.lights, after.group_scales, after.environment_rotation);
   const trace::PathTracer tracer(geometry, lit, after.time);
   o.truth.path.seed = context.seed;
   const std::vector<scene::SurfacePoint> points =
-      gi::reachable_points(live.source(), viewpoints(scene, {}, after.time), after.time,
+      gi::reachable_points(surfaces, viewpoints(scene, {}, after.time), after.time,
                            {o.points, context.seed, o.clearance}, context.control);
   const gi::TruthAtPoints truth = gi::trace_truth(tracer, points, o.truth, context.control);
 
