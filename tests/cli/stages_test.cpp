@@ -17,10 +17,6 @@ std::vector<std::string> stages(const std::vector<std::string>& arguments) {
   return progress.finished();
 }
 
-testing::Matcher<std::string> some(const std::string& before, const std::string& after) {
-  return testing::AllOf(testing::StartsWith(before + ": "), testing::EndsWith(" " + after));
-}
-
 TEST(Stages, OfBakesAndPictures) {
   const test::TempDir dir;
   const std::string file = dir / "a.sphl", out = dir / "a.exr";
@@ -32,35 +28,6 @@ TEST(Stages, OfBakesAndPictures) {
   EXPECT_THAT(stages(test::joined(test::joined({"render"}, render), {"--passes", "3"})),
               ElementsAre("render: 72 paths"));
   EXPECT_THAT(stages(test::joined({"truth"}, render)), ElementsAre("render: 12 paths", "render: 12 paths"));
-}
-
-TEST(Stages, OfTransport) {
-  const test::TempDir dir;
-  const std::string file = dir / "a.sphl";
-  const std::vector<std::string> done =
-      stages({"bake", "builtin:box", "-o", file, "--operator", "surfel", "--fit", "--directions", "64",
-              "--surfel-size", "0.5", "--link-rays", "8", "--degree", "1"});
-  EXPECT_THAT(done,
-              ElementsAre("probe G-buffers: 5 probes", some("finding surfels", "surfels"),
-                          some("finding surfels", "surfels"), some("linking surfels", "surfels"),
-                          "solving: 1 light groups", "VIZ from links: 5 probes", some("gathering", "points"),
-                          some("training", "lights"), some("fitting", "points")));
-}
-
-TEST(Stages, OfMethods) {
-  const auto of = [](const std::string& method) {
-    std::vector<std::string> done =
-        stages({"measure", "builtin:box", "--method", method, "--points", "9", "--truth-spp", "2"});
-    EXPECT_EQ(done[0], "surface points: 9 points");
-    EXPECT_EQ(done[1], "irradiance: 18 paths");
-    done.erase(done.begin(), done.begin() + 2);
-    return done;
-  };
-  EXPECT_THAT(of("ddgi,probes=8,rays=8,warmup=3"), ElementsAre("warm-up: 3 frames"));
-  EXPECT_THAT(of("vct,resolution=8,bounces=1"), testing::Each(some("voxels", "patches")));
-  EXPECT_THAT(of("prt,places=scene,directions=16,rays=16,edge=1,surfel_size=0.5,interreflect=2"),
-              testing::IsSupersetOf({some("rays of vertices", "vertices"),
-                                     testing::Matcher<std::string>("transfer vectors: 3 bounces")}));
 }
 
 TEST(Stages, OfWhatMoves) {
