@@ -87,7 +87,9 @@ TEST(Texts, OfScenes) {
 }
 
 TEST(Texts, OfMethods) {
-  for (const json& method : json_here({"methods"})["methods"]) {
+  const json methods = json_here({"methods"})["methods"];
+  ASSERT_GT(methods.size(), 5u);
+  for (const json& method : methods) {
     std::string text =
         fmt::format("{}\n    {}\n", method["name"].get<std::string>(), method["about"].get<std::string>());
     for (const json& p : method["parameters"]) {
