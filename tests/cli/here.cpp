@@ -5,8 +5,9 @@
 
 namespace ssphh::test {
 
-HereResult run_here(const std::vector<std::string>& arguments) {
+HereResult run_here(const std::vector<std::string>& arguments, const Control& control) {
   app::Context context;
+  context.control = control;
   const app::CommandLine line("ssphh");
   app::add_commands(line.root(), context);
   testing::internal::CaptureStdout();

@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <ssphh/core/control.h>
+
 namespace ssphh::test {
 
 struct HereResult {
@@ -15,7 +17,7 @@ struct HereResult {
 };
 
 /// Throws what the command does; for wrong usage that is an app::ParsingEnded.
-HereResult run_here(const std::vector<std::string>& arguments);
+HereResult run_here(const std::vector<std::string>& arguments, const Control& control = {});
 
 /// What it prints for people, without the newline at the end.
 std::string text_here(const std::vector<std::string>& arguments);

@@ -66,7 +66,7 @@ TEST(Respond, TellsHowFastAMethodFollows) {
                              "--method",    "ssphh",
                              "--param",     "places=scene",
                              "--param",     "weights=mls",
-                             "--param",     "surfel_size=0.4",
+                             "--param",     "surfel_size=0.8",
                              "--frames",    "3",
                              "--points",    "32",
                              "--truth-spp", "64",

@@ -49,7 +49,7 @@ TEST(PlaceTool, ANumberOfProbesKeepsTheScenesOwn) {
 TEST(PlaceTool, ManyProbesGetTheirEdgesFromLinks) {
   const TempDir dir;
   const json bake = run_json(with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", "auto:1",
-                                   "--directions", "64", "--link-rays", "16"},
+                                   "--directions", "64", "--link-rays", "16", "--surfel-size", "0.5"},
                                   quick));
   EXPECT_GT(bake["probes"], 64);
   EXPECT_EQ(bake["viz"], "links");

@@ -74,10 +74,11 @@ TEST(Relight, ReportsStagesRaysAndErrors) {
 TEST(Relight, TakesThePlacesOfAProbeFileAndSavesWhatLeakReads) {
   const TempDir dir;
   const std::string shut = dir / "shut.sphl", again = dir / "again.sphl", map = dir / "map.png";
-  run_json(relight({"--probes", "auto:1", "--animate", "lamp.scale=1", "--frames", "1", "--surfel-size",
-                    "0.3", "--save", shut}));
-  const ToolResult result = run_tool(relight({"--probes", shut, "--animate", "lamp.scale=1", "--frames", "1",
-                                              "--surfel-size", "0.3", "--save", again, "--json"}));
+  run_json(relight({"--probes", "auto:2", "--animate", "lamp.scale=1", "--frames", "1", "--surfel-size",
+                    "0.4", "--link-rays", "32", "--save", shut}));
+  const ToolResult result =
+      run_tool(relight({"--probes", shut, "--animate", "lamp.scale=1", "--frames", "1", "--surfel-size",
+                        "0.4", "--link-rays", "32", "--save", again, "--json"}));
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.err, Not(HasSubstr("warning")));
   EXPECT_EQ(run_json({"probe", "info", again})["probes"], run_json({"probe", "info", shut})["probes"]);

@@ -131,6 +131,7 @@ TEST(GiTransportBake, WeightsFitBesidePathTracedLight) {
   gi::TransportBakeReport report;
   gi::TransportBakeParams params;
   params.fit = true;
+  params.transport.surfel_size = 0.25f;
   gi::add_transport(source, set, params, report);
   ASSERT_TRUE(set.fitted);
   EXPECT_EQ(set.generator.op, gi::LightOperator::path);

@@ -169,11 +169,14 @@ TEST(LinkViz, AShutDoorLetsExactlyNothingThroughAnOpenOneAsMuchAsTracedPaths) {
 
 TEST(LinkViz, KeepsTheStrongestNeighboursOverTheThreshold) {
   const scene::Scene scene = scene::make_builtin("gallery1");
-  const gi::ProbeSet all = with_edges(scene, 1, {.neighbors = -1});
-  const gi::ProbeSet two = with_edges(scene, 1, {.neighbors = 2});
-  const gi::ProbeSet none = with_edges(scene, 1, {.neighbors = 0});
+  gi::TransportParams coarse = small_network();
+  coarse.surfel_size = 1;  // the edges are compared with each other alone
+  const auto edges = [&](const gi::LinkVizParams& viz) { return with_edges(scene, 1, viz, 0, coarse); };
+  const gi::ProbeSet all = edges({.neighbors = -1});
+  const gi::ProbeSet two = edges({.neighbors = 2});
+  const gi::ProbeSet none = edges({.neighbors = 0});
   const float threshold = all.probes[0].edges[0].transfer;
-  const gi::ProbeSet strong = with_edges(scene, 1, {.neighbors = -1, .threshold = threshold});
+  const gi::ProbeSet strong = edges({.neighbors = -1, .threshold = threshold});
   EXPECT_EQ(all.generator.viz, gi::VizMethod::links);
   EXPECT_EQ(gi::edge_count(none), 0u);
   for (std::size_t i = 0; i < all.probes.size(); ++i) {

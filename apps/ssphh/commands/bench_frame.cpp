@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -18,6 +17,8 @@
 #include "options/method_options.h"
 #include "options/probe_options.h"
 #include "options/scene_options.h"
+#include "results/moving_camera.h"
+#include "results/percentile.h"
 
 namespace ssphh::app {
 namespace {
@@ -32,23 +33,6 @@ struct BenchOptions {
   bool turn = false, ratio = false, move = false;
 };
 
-double rank(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  return values[static_cast<std::size_t>(share * last + 0.5)];
-}
-
-/// The camera turned about the vertical by a share of a full turn.
-scene::CameraPose turned(scene::CameraPose pose, float share) {
-  const mat4 turn(glm::mat3_cast(glm::angleAxis(2 * pi * share, vec3(0, 1, 0))));
-  const vec4 position = pose.world[3];
-  pose.world[3] = vec4(0, 0, 0, 1);
-  pose.world = turn * pose.world;
-  pose.world[3] = position;
-  return pose;
-}
-
 /// Bytes of this process that stand in memory.
 std::int64_t resident_bytes() {
   std::ifstream statm("/proc/self/statm");
@@ -60,7 +44,7 @@ std::int64_t resident_bytes() {
 /// Animations forth and back, the first lamp up and down, once in 100 frames.
 void move_scene(realtime::Renderer& renderer, const scene::Scene& scene, const scene::LightingState& start,
                 int frame) {
-  const float wave = 0.5f - 0.5f * std::cos(2 * pi * static_cast<float>(frame % 100) / 100);
+  const float wave = forth_and_back(frame);
   scene::LightingState state =
       scene::lighting_at(scene, start.time + wave * scene::animation_duration(scene));
   if (!state.lights.empty()) {
@@ -136,15 +120,16 @@ void bench_frame(const BenchOptions& o, const Context& context) {
   const std::int64_t resident_after = resident_bytes();
   const double samples = static_cast<double>(o.supersample) * o.supersample * o.width * o.height;
 
-  const double median = rank(frames, 0.5), p99 = rank(frames, 0.99);
+  const double median = percentile(frames, 0.5), p99 = percentile(frames, 0.99);
   json::Value medians;
   std::string text = fmt::format("{}: {} frames of {}×{} on {}\n", o.scene.source, o.frames, o.width,
                                  o.height, gl.info().renderer);
   text += fmt::format("{:<10} {:>10} {:>10}\n{:<10} {:>10.2f} {:>10.2f}", "", "median ms", "p99 ms", "frame",
                       median, p99);
   for (const auto& [name, times] : passes) {
-    medians[name] = rank(times, 0.5);
-    text += fmt::format("\n{:<10} {:>10.2f} {:>10.2f}", name, rank(times, 0.5), rank(times, 0.99));
+    medians[name] = percentile(times, 0.5);
+    text +=
+        fmt::format("\n{:<10} {:>10.2f} {:>10.2f}", name, percentile(times, 0.5), percentile(times, 0.99));
   }
   json::Value result{{"scene", o.scene.source},
                      {"renderer", gl.info().renderer},
@@ -167,7 +152,7 @@ void bench_frame(const BenchOptions& o, const Context& context) {
     text += fmt::format("\n{:<12} {:>15.6g}", name, value);
   }
   if (o.ratio) {
-    const double direct = rank(direct_frames, 0.5);
+    const double direct = percentile(direct_frames, 0.5);
     result["direct_only_median_ms"] = direct;
     result[probes ? "sphl_ratio" : "method_ratio"] = median / direct;
     text += fmt::format("\nwithout {0} {1:.2f} ms: {0} make a frame {2:.3f} times as long",

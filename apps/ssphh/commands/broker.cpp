@@ -3,20 +3,12 @@
 #include <memory>
 
 #include <ssphh/core/log.h>
-#include <ssphh/majordomo/broker.h>
 
 #include "commands/command.h"
+#include "options/broker_settings.h"
 
 namespace ssphh::app {
 namespace {
-
-struct BrokerCommand {
-  majordomo::BrokerOptions broker;
-  std::string keys;
-  double worker_expiry = 8, drain = 10, attempt_timeout = 3600;
-  std::uint64_t frame_mb = 64, client_mb = 2048;
-  bool verbose = false;
-};
 
 majordomo::Broker* running = nullptr;
 
@@ -28,32 +20,23 @@ extern "C" void reload_broker(int) {
   running->reload();
 }
 
-void serve(Context& context, BrokerCommand& options) {
-  majordomo::BrokerOptions broker_options = options.broker;
-  if (!options.keys.empty()) broker_options.security = majordomo::read_broker_security(options.keys);
-  broker_options.timers.worker_expiry = static_cast<majordomo::Millis>(options.worker_expiry * 1000);
-  broker_options.timers.attempt_timeout = static_cast<majordomo::Millis>(options.attempt_timeout * 1000);
-  broker_options.drain = static_cast<majordomo::Millis>(options.drain * 1000);
-  broker_options.limits.frame_bytes = options.frame_mb << 20;
-  broker_options.limits.client_bytes = options.client_mb << 20;
+void serve(const Context& context, const BrokerSettings& settings) {
+  majordomo::BrokerOptions options = broker_options(settings);
   const bool json = context.json;
-  const LogLevel least = options.verbose ? LogLevel::debug : LogLevel::info;
-  set_log_level(least);
-  broker_options.least_event = least;
-  broker_options.on_event = [json](const majordomo::BrokerEvent& event) {
+  set_log_level(options.least_event);
+  options.on_event = [json](const majordomo::BrokerEvent& event) {
     if (json) {
       std::cout << event.json() << std::endl;
     } else {
       log(event.level, event.text());
     }
   };
-  majordomo::Broker broker(std::move(broker_options));
+  majordomo::Broker broker(std::move(options));
   running = &broker;
   std::signal(SIGINT, stop_broker);
   std::signal(SIGTERM, stop_broker);
   std::signal(SIGHUP, reload_broker);
-  majordomo::BrokerEvent ready{LogLevel::info, "broker-ready", {{"endpoint", broker.endpoint()}}};
-  if (!broker.metrics_endpoint().empty()) ready.fields.emplace_back("metrics", broker.metrics_endpoint());
+  const majordomo::BrokerEvent ready = ready_event(broker.endpoint(), broker.metrics_endpoint());
   // The one line on stdout that scripts wait for.
   std::cout << (json ? ready.json() : broker.endpoint()) << std::endl;
   if (!json) log_info("{}", ready.text());
@@ -66,7 +49,7 @@ void serve(Context& context, BrokerCommand& options) {
 }  // namespace
 
 void add_broker_command(Command app, Context& context) {
-  auto options = std::make_shared<BrokerCommand>();
+  auto options = std::make_shared<BrokerSettings>();
   Command command =
       add_command(app, context, "broker", "Pass requests of clients to workers (Majordomo protocol)",
                   [&context, options] { serve(context, *options); });

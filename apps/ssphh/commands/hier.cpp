@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <memory>
@@ -10,6 +9,7 @@
 
 #include "commands/command.h"
 #include "options/probe_options.h"
+#include "results/percentile.h"
 
 namespace ssphh::app {
 namespace {
@@ -67,7 +67,7 @@ void hier(Context& context, HierOptions& options) {
     gi::hier(set, options.params);
     times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
-  std::nth_element(times.begin(), times.begin() + 3, times.end());
+  const double seconds = percentile(std::move(times), 0.5);
   gi::write_probe_file(set, options.output);
 
   const std::optional<gi::Contraction> contraction = gi::hier_contraction(set, options.params);
@@ -76,7 +76,7 @@ void hier(Context& context, HierOptions& options) {
           ? fmt::format("; another application would change light by up to {:.3g}", contraction->upper)
           : "";
   context.result({{"output", options.output},
-                  {"seconds", times[3]},
+                  {"seconds", seconds},
                   {"edges", edges},
                   {"operator", name_of(options.params.op)},
                   {"neighbors", options.params.neighbors},
@@ -88,7 +88,7 @@ void hier(Context& context, HierOptions& options) {
                   {"viz", name_of(set.generator.viz)}},
                  fmt::format("{}: {} edges between {} probes, operator {}, {}: {:.1f} us{}", options.output,
                              edges, set.probes.size(), name_of(options.params.op), light_of(set.generator),
-                             1e6 * times[3], shrinks));
+                             1e6 * seconds, shrinks));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "options/probe_options.h"
 #include "options/scene_options.h"
 #include "results/geometry_builds.h"
+#include "results/percentile.h"
 
 namespace ssphh::app {
 namespace {
@@ -127,8 +128,7 @@ double frame_milliseconds(LiveMethod& live, float time, const Control& control) 
     ms.push_back(1e3 * live.update_seconds());
     total += ms.back();
   }
-  std::ranges::sort(ms);
-  return ms[ms.size() / 2];
+  return percentile(std::move(ms), 0.5);
 }
 
 void measure(Context& context, MeasureOptions& o) {
@@ -143,6 +143,7 @@ void measure(Context& context, MeasureOptions& o) {
     sets.push_back(gi::read_probe_file(file));
     require_same_scene(file, sets.back(), scene, tracer.light_groups(), o.scene.time, o.force);
   }
+  std::vector<Candidate> candidates = probe_candidates(o, sets, tracer);  // fails before the work
   const trace::TransportScene surfaces(geometry, scene);
   const std::vector<scene::SurfacePoint> points =
       find_points(o, surfaces, viewpoints(scene, sets, o.scene.time), context);
@@ -180,7 +181,7 @@ void measure(Context& context, MeasureOptions& o) {
                         e.relmse, 100 * leak, lookup_us);
     results.push_back(std::move(candidate.json));
   };
-  for (Candidate& candidate : probe_candidates(o, sets, tracer)) compare(std::move(candidate));
+  for (Candidate& candidate : candidates) compare(std::move(candidate));
   for (const std::string& spec : o.methods)
     compare(method_candidate(spec, geometry, scene, o.scene.time, context.control));
   context.result({{"points", points.size()},

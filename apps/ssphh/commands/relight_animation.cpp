@@ -144,7 +144,7 @@ const char* const animation_help =
 
 vec3 Track::at(float u) const {
   const float place = u * static_cast<float>(keys.size() - 1);
-  const std::size_t i = std::min(static_cast<std::size_t>(place), keys.size() - 1);
+  const auto i = static_cast<std::size_t>(place);
   const std::size_t next = std::min(i + 1, keys.size() - 1);
   return glm::mix(keys[i], keys[next], place - static_cast<float>(i));
 }

@@ -9,6 +9,7 @@
 #include <ssphh/gi/surface_points.h>
 #include <ssphh/scene/with_lighting.h>
 #include <ssphh/trace/path_tracer.h>
+#include <ssphh/trace/transport_scene.h>
 
 #include "commands/command.h"
 #include "commands/live_method.h"
@@ -16,6 +17,7 @@
 #include "options/method_options.h"
 #include "options/probe_options.h"
 #include "options/scene_options.h"
+#include "results/percentile.h"
 
 namespace ssphh::app {
 namespace {
@@ -58,16 +60,17 @@ std::string csv_text(const std::vector<Frame>& frames) {
 void respond(Context& context, RespondOptions& o) {
   const scene::Scene scene = load_scene(o.scene);
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
-  LiveMethod live(o.method, o.parameters, geometry, scene, context.control);
-  const RelightAnimation event(live.source(), scene, o.scene.time, o.events);
+  const trace::TransportScene surfaces(geometry, scene);
+  const RelightAnimation event(surfaces, scene, o.scene.time, o.events);
   const scene::LightingState before = event.frame(0), after = event.frame(1);
   if (before == after) throw Error("--event", "nothing changes", "give two different keys, as in time=0:1");
+  LiveMethod live(o.method, o.parameters, geometry, scene, context.control);
 
   const scene::Scene lit = scene::with_lighting(scene, after);
   const trace::PathTracer tracer(geometry, lit, after.time);
   o.truth.path.seed = context.seed;
   const std::vector<scene::SurfacePoint> points =
-      gi::reachable_points(live.source(), viewpoints(scene, {}, after.time), after.time,
+      gi::reachable_points(surfaces, viewpoints(scene, {}, after.time), after.time,
                            {o.points, context.seed, o.clearance}, context.control);
   const gi::TruthAtPoints truth = gi::trace_truth(tracer, points, o.truth, context.control);
 
@@ -93,8 +96,7 @@ void respond(Context& context, RespondOptions& o) {
     ms.push_back(frame.ms);
     list.push_back({{"ms", frame.ms}, {"ratio", frame.error.ratio}, {"mean_error", frame.error.mean_error}});
   }
-  std::nth_element(ms.begin(), ms.begin() + static_cast<std::ptrdiff_t>(ms.size() / 2), ms.end());
-  const double median_ms = ms[ms.size() / 2];
+  const double median_ms = percentile(ms, 0.5);
   const int settled = frames_to_settle(frames);
   if (!o.output.empty()) write_file(o.output, csv_text(frames));
 

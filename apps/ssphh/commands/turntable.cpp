@@ -2,7 +2,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include <ssphh/image/io.h>
 #include <ssphh/image/tonemap.h>
@@ -14,6 +13,7 @@
 #include "options/gl_options.h"
 #include "options/probe_options.h"
 #include "options/scene_options.h"
+#include "results/moving_camera.h"
 
 namespace ssphh::app {
 namespace {
@@ -25,21 +25,6 @@ struct TurntableOptions {
   int width = 640, height = 640, frames = 24, samples = 2;
   float elevation = 20, yfov = 40, exposure = 0;
 };
-
-/// Looks at the middle of the box from a distance at which the ball around it fits.
-scene::CameraPose orbit(const scene::Bounds& box, const TurntableOptions& o, float turn) {
-  scene::CameraPose pose;
-  pose.camera.yfov = glm::radians(o.yfov);
-  const float half = std::tan(0.5f * pose.camera.yfov);
-  const float aspect = static_cast<float>(o.width) / static_cast<float>(o.height);
-  const float narrow = std::atan(half * glm::min(aspect, 1.0f));
-  const float distance = 1.05f * glm::max(box.radius(), 1e-3f) / std::sin(narrow);
-  const float up = glm::radians(o.elevation);
-  const vec3 away(std::cos(up) * std::sin(turn), std::sin(up), std::cos(up) * std::cos(turn));
-  pose.world = glm::translate(mat4(1), box.center() + distance * away) *
-               mat4(glm::mat3_cast(glm::quatLookAt(-away, vec3(0, 1, 0))));
-  return pose;
-}
 
 void turntable(const TurntableOptions& o, const Context& context) {
   scene::Scene scene = load_scene(o.scene);
@@ -53,12 +38,15 @@ void turntable(const TurntableOptions& o, const Context& context) {
   realtime::Renderer renderer(gl, scene, {}, o.scene.time);
   set_probes(renderer, o.lookup, scene, o.scene.time);
   const scene::Bounds box = scene::world_bounds(scene, scene::world_matrices(scene, o.scene.time));
+  const float aspect = static_cast<float>(o.width) / static_cast<float>(o.height);
   const realtime::FrameSettings settings = still_settings(o.lookup, o.samples);
   ProgressStage stage(context.control, "turntable", static_cast<std::uint64_t>(o.frames), "frames");
   for (int i = 0; i < o.frames; ++i) {
     context.control.check();
     const float turn = 2 * pi * static_cast<float>(i) / static_cast<float>(o.frames);
-    renderer.draw(orbit(box, o, turn), settings, {.width = o.width, .height = o.height});
+    const scene::CameraPose camera =
+        orbit(box, glm::radians(o.yfov), aspect, glm::radians(o.elevation), turn);
+    renderer.draw(camera, settings, {.width = o.width, .height = o.height});
     const std::filesystem::path file = std::filesystem::path(o.directory) / fmt::format("{:04}.png", i);
     image::write_image(file, image::tone_map(renderer.read_back(), {.exposure = o.exposure}));
     stage.advance(1);

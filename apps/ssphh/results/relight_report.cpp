@@ -8,6 +8,8 @@
 
 #include <ssphh/core/file.h>
 
+#include "results/percentile.h"
+
 namespace ssphh::app {
 namespace {
 
@@ -22,23 +24,15 @@ const struct {
               {"project", [](const gi::RelightReport& r) { return r.project_ms; }}};
 
 /// Of all frames but the first, which lights everything; of that one if there is no other.
-std::vector<double> sorted(const RelightRun& run, const Value& value) {
+std::vector<double> of_frames(const RelightRun& run, const Value& value) {
   std::vector<double> values;
   for (std::size_t i = run.updates.size() > 1 ? 1 : 0; i < run.updates.size(); ++i)
     values.push_back(value(run.updates[i]));
-  std::sort(values.begin(), values.end());
   return values;
 }
 
-/// Nearest rank; 0 without values.
-double percentile(const std::vector<double>& values, double share) {
-  if (values.empty()) return 0;
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
-  return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
-}
-
 double mean(const RelightRun& run, const Value& value) {
-  const std::vector<double> values = sorted(run, value);
+  const std::vector<double> values = of_frames(run, value);
   double sum = 0;
   for (const double v : values) sum += v;
   return values.empty() ? 0 : sum / static_cast<double>(values.size());
@@ -55,7 +49,7 @@ double direct_rays(const gi::RelightReport& r) {
 }
 
 std::size_t over_budget(const RelightRun& run) {
-  const std::vector<double> times = sorted(run, total);
+  const std::vector<double> times = of_frames(run, total);
   return static_cast<std::size_t>(
       std::count_if(times.begin(), times.end(), [&](double ms) { return ms > 1000 / run.fps; }));
 }
@@ -69,7 +63,7 @@ json::Value number(double value) {
 json::Value relight_json(const RelightRun& run) {
   json::Value stage_times = json::Value::object();
   for (const auto& stage : stages) {
-    const std::vector<double> times = sorted(run, stage.ms);
+    const std::vector<double> times = of_frames(run, stage.ms);
     stage_times[stage.name] = {{"median_ms", percentile(times, 0.5)}, {"p99_ms", percentile(times, 0.99)}};
   }
   stage_times["pose"]["rays"] = mean(run, pose_rays);
@@ -92,7 +86,7 @@ json::Value relight_json(const RelightRun& run) {
   }
   json::Value frame_ms = json::Value::array();
   for (const gi::RelightReport& r : run.updates) frame_ms.push_back(r.total_ms());
-  const std::vector<double> times = sorted(run, total);
+  const std::vector<double> times = of_frames(run, total);
   const auto unconverged = std::count_if(run.updates.begin(), run.updates.end(),
                                          [](const gi::RelightReport& r) { return !r.solve.converged; });
   return {{"frames", run.updates.size()},
@@ -116,13 +110,13 @@ std::string relight_text(const RelightRun& run) {
                                  run.updates.empty() ? 0 : run.updates.front().total_ms());
   text += fmt::format("{:<10}{:>12}{:>12}{:>14}", "stage", "median ms", "p99 ms", "rays a frame");
   for (const auto& stage : stages) {
-    const std::vector<double> times = sorted(run, stage.ms);
+    const std::vector<double> times = of_frames(run, stage.ms);
     const std::string name = stage.name;
     const double rays = name == "pose" ? mean(run, pose_rays) : name == "direct" ? mean(run, direct_rays) : 0;
     text += fmt::format("\n{:<10}{:>12.2f}{:>12.2f}", name, percentile(times, 0.5), percentile(times, 0.99));
     if (rays > 0) text += fmt::format("{:>14.0f}", rays);
   }
-  const std::vector<double> times = sorted(run, total);
+  const std::vector<double> times = of_frames(run, total);
   text += fmt::format("\n{:<10}{:>12.2f}{:>12.2f}{:>14.0f}", "frame", percentile(times, 0.5),
                       percentile(times, 0.99), mean(run, pose_rays) + mean(run, direct_rays));
   text += fmt::format("\n{} of {} frames took longer than 1/{:g} s", over_budget(run), times.size(), run.fps);

@@ -12,6 +12,7 @@
 #include <ssphh/sh/reconstruct.h>
 
 #include "bake_helpers.h"
+#include "progress_recorder.h"
 
 namespace ssphh::gi {
 namespace {
@@ -181,24 +182,14 @@ TEST(Bake, TheNumberOfThreadsChangesNoBit) {
 }
 
 TEST(Bake, ProgressReachesTheTotalAndACancelStops) {
-  struct Recorder final : Progress {
-    std::vector<std::string> stages;
-    std::uint64_t total = 0, done = 0;
-    void begin(const std::string& stage, std::uint64_t t, const std::string& unit) override {
-      stages.push_back(stage + " " + unit);
-      total = t, done = 0;
-    }
-    void advance(std::uint64_t n) override { done += n; }
-    void end() override {}
-  } progress;
+  test::ProgressRecorder progress;
   FakeSource source;
   source.reflected = {constant(vec3(1))};
   CancelToken cancel;
   BakeReport report;
   bake(source, places(four_places, 0.2f, 1), small(), {}, report, {&progress, &cancel});
-  EXPECT_THAT(progress.stages, testing::ElementsAre("GEN texels", "VIZ texels"));
-  EXPECT_EQ(progress.total, 4u * 6 * 16 * 16);
-  EXPECT_EQ(progress.done, progress.total);
+  const std::string texels = std::to_string(4 * 6 * 16 * 16) + " texels";
+  EXPECT_THAT(progress.finished(), testing::ElementsAre("GEN: " + texels, "VIZ: " + texels));
   cancel.request();
   EXPECT_THROW(bake(source, places(four_places, 0.2f, 1), small(), {}, report, {&progress, &cancel}),
                Cancelled);

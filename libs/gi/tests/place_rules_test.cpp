@@ -173,6 +173,35 @@ TEST(PlaceRules, MoreThanTheLimitIsRefusedAndAsManyAreNot) {
   EXPECT_EQ(place_probes(source, params).counts.surplus, 1u) << "fewer were asked for";
 }
 
+TEST(PlaceRules, SixtyFourPlacesForEachProbeAllowedAreLookedAt) {
+  // Two closets far apart: of 21 · 2.4 · 2.4 = 121 places most are within no room.
+  const TriangleSource source(
+      scene_of({scene::flipped(scene::make_box(vec3(0), vec3(1.4f))),
+                scene::flipped(scene::make_box(vec3(18.6f, 0, 0), vec3(20, 1.4f, 1.4f)))}));
+  PlaceParams params = params_at(1, {vec3(0.7f), vec3(19.3f, 0.7f, 0.7f)});
+  params.levels = 0;
+  params.max_probes = params.count = 2;  // 128 places
+  EXPECT_EQ(place_probes(source, params).probes.size(), 2u);
+  params.max_probes = params.count = 1;  // 64 places
+  EXPECT_THAT(message_of([&] { place_probes(source, params); }), HasSubstr("gives more than 1 probes"));
+}
+
+TEST(PlaceRules, OfAGridThatGivesMoreTheMostSpreadAreKeptAndTheOthersCounted) {
+  const TriangleSource source(room(vec3(4)));
+  PlaceParams params = params_at(1, {vec3(2)});
+  params.levels = 0;
+  const Placement all = place_probes(source, params);
+  params.count = 3;
+  const Placement three = place_probes(source, params);
+  EXPECT_EQ(three.probes.size(), 3u);
+  EXPECT_EQ(three.counts.surplus, all.probes.size() - 3);
+  EXPECT_EQ(three.counts.removed(), all.counts.removed() + three.counts.surplus);
+  // Far corners of the grid, not neighbours.
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GT(glm::distance(three.probes[i].position, three.probes[j].position), 2);
+}
+
 TEST(PlaceRules, OfEightTimesTheLimitTheUnreachableAreStillLeftOut) {
   // A small room, in which somebody is, beside a large one where nobody is
   const TriangleSource source(scene_of({scene::flipped(scene::make_box(vec3(0), vec3(1.2f))),

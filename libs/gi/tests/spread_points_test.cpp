@@ -56,5 +56,30 @@ TEST(SpreadPoints, LeaveNoPlaceFarFromOneThatFacesTheSameWay) {
   }
 }
 
+TEST(SpreadPoints, KeepOneForEachOfSixSides) {
+  // Two points of each side in the same place, the normals a little aslant.
+  std::vector<scene::SurfacePoint> points;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float sign : {1.0f, -1.0f}) {
+      vec3 normal(0.3f, -0.2f, 0.1f);
+      normal[axis] = sign;
+      for (int k = 0; k < 2; ++k) points.push_back({vec3(1), glm::normalize(normal)});
+    }
+  }
+  const std::vector<scene::SurfacePoint> spread = spread_points(points, 6);
+  ASSERT_EQ(spread.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(spread[i].normal, points[2 * i].normal);
+}
+
+TEST(SpreadPoints, StandForTheMiddleOfTheirCell) {
+  const vec3 up(0, 1, 0);
+  std::vector<scene::SurfacePoint> points;
+  for (const float x : {0.0f, 5.0f, 1.5f, 0.5f}) points.push_back({{x, 0, 0}, up});
+  // Their mean is at 1.75.
+  const std::vector<scene::SurfacePoint> one = spread_points(points, 1);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].position.x, 1.5f);
+}
+
 }  // namespace
 }  // namespace ssphh::gi

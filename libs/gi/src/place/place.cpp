@@ -8,6 +8,7 @@
 
 #include "../probe_limits.h"
 #include "draft.h"
+#include "spacing_search.h"
 #include "sweep.h"
 
 namespace ssphh::gi {
@@ -91,39 +92,16 @@ Attempt search(const scene::TransportSource& source, const PlaceParams& params, 
                std::size_t high, float back_limit, const Control& control) {
   const scene::Bounds box = source.part_bounds(0);
   const vec3 extent = box.empty() ? vec3(1) : box.max - box.min;
-  const float size = max_component(extent);
-  if (!box.empty() && !(size > 0)) fail("the scene's surfaces are a single point");
-  const vec3 thick = glm::max(extent, vec3(0.01f * size));
-  auto spacing = static_cast<float>(
-      std::cbrt(double{thick.x} * double{thick.y} * double{thick.z} / static_cast<double>(low)));
-  // Where hardly any place is valid (around a body that fills its bounds), a finer grid soon costs too much.
+  if (!(max_component(extent) > 0)) fail("the scene's surfaces are a single point");
   const double most_places =
       places_per_probe * std::min(static_cast<double>(high), static_cast<double>(params.max_probes));
-  const auto finest =
-      static_cast<float>(std::cbrt(double{thick.x} * double{thick.y} * double{thick.z} / most_places) * 1.1);
-  float coarse = 0, fine = 0;  // spacings known to give too few, and enough
+  SpacingSearch spacings(extent, low, high, most_places);
   std::optional<Attempt> best;
   for (int step = 0; step < search_steps; ++step) {
-    control.check();
-    std::optional<Attempt> now = attempt(source, params, spacing, back_limit, control);
+    std::optional<Attempt> now = attempt(source, params, spacings.spacing(), back_limit, control);
     const std::size_t count = now ? now->drafts.size() : high + 1;
-    const bool enough = count >= low;
-    if (now) {
-      const std::size_t so_far = best ? best->drafts.size() : 0;
-      const bool better = !best || (enough ? so_far < low || count < so_far : so_far < low && count > so_far);
-      if (better) best = std::move(now);
-    }
-    if (enough && count <= high) break;
-    (enough ? fine : coarse) = spacing;
-    if (!enough && spacing <= finest) break;
-    if (fine > 0 && coarse > 0) {
-      spacing = std::sqrt(fine * coarse);
-    } else {
-      const double ratio =
-          std::cbrt(static_cast<double>(std::max<std::size_t>(count, 1)) / static_cast<double>(low));
-      spacing *= static_cast<float>(enough ? std::clamp(ratio, 1.1, 2.0) : std::clamp(ratio, 0.5, 0.9));
-      spacing = std::max(spacing, finest);
-    }
+    if (now && (!best || spacings.prefers(count, best->drafts.size()))) best = std::move(now);
+    if (!spacings.go_on(count)) break;
   }
   if (!best)
     fail("the scene has too many places for probes to choose from", "give a spacing, --probes auto:METRES");

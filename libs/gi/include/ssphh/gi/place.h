@@ -17,10 +17,12 @@ struct PlaceParams {
   /// Distance of neighbours in the coarse grid [m]; 0: as `count` asks, or such that some 100 to 200 probes
   /// result.
   float spacing = 0;
-  int count = 0;            ///< so many probes, `manual` ones included; 0: as many as the spacing gives
-  float clearance = 0.04f;  ///< from a surface [m]; at most a tenth of the spacing is asked for
-  int levels = 1;           ///< times that the grid may be halved near surfaces, 0..3
-  int max_probes = 4096;    ///< more are an Error, not a long wait
+  /// So many probes, `manual` ones included: the most spread ones of a grid that gives at least as many (the
+  /// others are counted as `surplus`). 0: as many as the spacing gives.
+  int count = 0;
+  float clearance = 0.04f;               ///< from a surface [m]; at most a tenth of the spacing is asked for
+  int levels = 1;                        ///< times that the grid may be halved near surfaces, 0..3
+  int max_probes = 4096;                 ///< more are an Error, not a long wait
   std::vector<scene::SphlPlace> manual;  ///< kept as they are, first in the placement
   std::vector<vec3> interest;            ///< places that somebody is or light comes from: cameras, lamps
 };
