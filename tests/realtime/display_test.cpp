@@ -7,6 +7,7 @@
 #include <ssphh/gl/framebuffer.h>
 #include <ssphh/gl/read_pixels.h>
 
+#include "change_lighting.h"
 #include "gl_context.h"
 #include "pictures.h"
 #include "stage_lamps.h"
@@ -89,9 +90,7 @@ TEST_F(Display, ShowsLightAsTheCpusToneMapEncodesIt) {
 }
 
 TEST_F(Display, ShowsLightThatIsBeyondAnyFloat) {
-  scene::LightState lamp = renderer_->light(0);
-  lamp.intensity = 1e7f;
-  renderer_->set_light(0, lamp);
+  change_lighting(*renderer_, [](auto& state) { state.lights[0].intensity = 1e7f; });
   FrameSettings settings;
   settings.tone.curve = image::ToneCurve::filmic, settings.tone.exposure = 20;
   const std::vector<std::uint8_t> picture = shown(settings);

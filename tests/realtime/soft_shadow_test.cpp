@@ -222,7 +222,7 @@ TEST_F(SoftShadow, ADoorThatMovesCostsTheMapsThatSeeIt) {
       return renderer.draw(scene::camera_pose(s, ""), {}, {.width = 64, .height = 36}).shadow_maps_drawn;
     };
     std::vector<int> counts{drawn(), drawn()};
-    change_lighting(renderer, [](auto& state) { state.time = 0.5f; });
+    test::change_lighting(renderer, [](auto& state) { state.time = 0.5f; });
     counts.push_back(drawn());
     counts.push_back(drawn());
     return counts;

@@ -83,7 +83,7 @@ TEST(GiTransportBake, GroupsAddUpToTheLightOfAll) {
   gi::RelightParams relight{params.transport, params.solve};
   relight.degree = 2;
   relight.transport.surfel_size = set.generator.surfel_size;
-  LitSession session(source, places, relight);
+  test::LitSession session(source, places, relight);
   session.update();
   for (std::size_t i = 0; i < set.probes.size(); ++i) {
     const sh::RadianceSh emitted = session.emitted(static_cast<int>(i));
@@ -114,7 +114,7 @@ TEST(GiTransportBake, FittedPointsAreThoseOfASessionOfTheSameParameters) {
   same.transport.directions = set.generator.directions;
   same.transport.surfel_size = set.generator.surfel_size;
   same.transport.link_rays = set.generator.link_rays;
-  LitSession session(source, places, same);
+  test::LitSession session(source, places, same);
   session.update();
   const gi::TransportNetwork& network = session.network();
   EXPECT_EQ(*set.fitted, gi::fit_weights(network, source, gi::surfel_points(network), params.fit_params,

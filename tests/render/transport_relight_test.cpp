@@ -1,7 +1,6 @@
 /// RelightSession over Embree: closed boxes, what changes and what does not, shut doors, errors, threads.
 
 #include <algorithm>
-#include <atomic>
 
 #include <gtest/gtest.h>
 
@@ -313,7 +312,8 @@ TEST(RelightSession, WhatIsCancelledIsDoneByTheNextUpdate) {
   session.update();
   const std::vector<sh::RadianceSh> before = session.reflected();
   for (LitSession* s : {&session, &other}) s->state.time = 0.7f, s->state.lights[0].intensity *= 2;
-  std::atomic<bool> cancel{true};
+  CancelToken cancel;
+  cancel.request();
   EXPECT_THROW(session.update(session.state, {nullptr, &cancel}), Cancelled);
   EXPECT_TRUE(session.reflected() == before);
   session.update();
