@@ -1,11 +1,12 @@
 #pragma once
-/// The viewer's App in a window that nobody sees: ImGui without a display, OpenGL without a window, a clock that
-/// stands still until a test moves it.
+/// The viewer's App in a window that nobody sees: ImGui without a display, OpenGL without a window, a clock
+/// that stands still until a test moves it.
 
 #include <cmath>
 #include <filesystem>
 #include <optional>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
 
@@ -45,7 +46,7 @@ class StillWindow : public Window {
   void begin_frame(const InjectedInput& input) override {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(width_), static_cast<float>(height_)};
-    io.DeltaTime = 1 / 60.0f;
+    io.DeltaTime = 0.2f;  // No click follows another so soon that both are a double one.
     injection_.apply(input);
     if (wheel != 0) io.MouseWheel = std::exchange(wheel, 0.0f);
     for (const char c : typed) io.AddInputCharacter(static_cast<unsigned char>(c));
@@ -105,6 +106,11 @@ class AppStage : public testing::Test {
     draw_panels(*app_);
     if (app_->scene_open()) draw_overlay(*app_, visible_);
     window_->end_frame();
+  }
+  /// A whole turn of App, which has no scene open or OpenGL to draw it.
+  double turn(const InjectedInput& input = {}) {
+    app_->redraw();
+    return app_->turn(input);
   }
   void frames(int count) {
     for (int i = 0; i < count; ++i) frame();

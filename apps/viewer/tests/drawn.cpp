@@ -14,23 +14,6 @@
 namespace ssphh::viewer {
 namespace {
 
-/// The sign whose picture in the font's texture begins at these coordinates; none: it is a shape.
-const ImFontGlyph* glyph_at(const ImVec2& uv) {
-  static const std::map<std::pair<float, float>, const ImFontGlyph*>* known = nullptr;
-  static const ImFont* font = nullptr;
-  if (font != ImGui::GetFont()) {
-    font = ImGui::GetFont();
-    delete known;
-    auto* glyphs = new std::map<std::pair<float, float>, const ImFontGlyph*>;
-    for (const ImFontGlyph& glyph : font->Glyphs) {
-      if (glyph.Visible) (*glyphs)[{glyph.U0, glyph.V0}] = &glyph;
-    }
-    known = glyphs;
-  }
-  const auto found = known->find({uv.x, uv.y});
-  return found == known->end() ? nullptr : found->second;
-}
-
 unsigned in_order(ImU32 c) {
   return (c & 255) << 24 | (c >> 8 & 255) << 16 | (c >> 16 & 255) << 8 | c >> 24;
 }
@@ -38,6 +21,11 @@ unsigned in_order(ImU32 c) {
 /// Reads the triangles of one command; a thing ends where corners follow that it has not touched.
 class Reader {
  public:
+  Reader() {
+    for (const ImFontGlyph& glyph : ImGui::GetFont()->Glyphs) {
+      if (glyph.Visible) glyphs_[{glyph.U0, glyph.V0}] = &glyph;
+    }
+  }
   std::vector<DrawnThing> things;
 
   void read(const ImDrawList& list, const ImDrawCmd& command) {
@@ -58,8 +46,8 @@ class Reader {
  private:
   void add(const ImDrawVert* corners, int first, int last) {
     if (last - first == 3) {
-      if (const ImFontGlyph* glyph = glyph_at(corners[first].uv))
-        return add_letter(*glyph, corners[first]);
+      const auto glyph = glyphs_.find({corners[first].uv.x, corners[first].uv.y});
+      if (glyph != glyphs_.end()) return add_letter(*glyph->second, corners[first]);
     }
     text_ = false;
     DrawnThing thing{"", corners[first].pos, corners[first].pos, corners[first].col, last - first + 1};
@@ -76,7 +64,7 @@ class Reader {
   void add_letter(const ImFontGlyph& glyph, const ImDrawVert& corner) {
     const ImVec2 pen{corner.pos.x - glyph.X0, corner.pos.y - glyph.Y0};
     const float gap = pen.x - next_.x;
-    const bool goes_on = text_ && next_.y == pen.y && gap > -0.5f && gap < 3.5f * glyph.AdvanceX &&
+    const bool goes_on = text_ && next_.y == pen.y && gap > -0.5f && gap < 1.5f * glyph.AdvanceX &&
                          things.back().color == in_order(corner.col);
     if (!goes_on) things.push_back({"", pen, pen, in_order(corner.col), 0});
     if (goes_on) things.back().text.append(static_cast<std::size_t>(gap / glyph.AdvanceX + 0.5f), ' ');
@@ -89,14 +77,17 @@ class Reader {
     text_ = true;
   }
 
+  /// By where in the font's texture their pictures begin: other corners are those of shapes.
+  std::map<std::pair<float, float>, const ImFontGlyph*> glyphs_;
   bool text_ = false;
   ImVec2 next_;
 };
 
 std::string line_of(const DrawnThing& t) {
-  if (!t.text.empty()) return fmt::format("text {:.1f},{:.1f} #{:08x} {}", t.from.x, t.from.y, t.color, t.text);
-  return fmt::format("shape {:.1f},{:.1f} to {:.1f},{:.1f} #{:08x} {}", t.from.x, t.from.y, t.to.x, t.to.y, t.color,
-                     t.corners);
+  if (!t.text.empty())
+    return fmt::format("text {:.1f},{:.1f} #{:08x} {}", t.from.x, t.from.y, t.color, t.text);
+  return fmt::format("shape {:.1f},{:.1f} to {:.1f},{:.1f} #{:08x} {}", t.from.x, t.from.y, t.to.x, t.to.y,
+                     t.color, t.corners);
 }
 
 }  // namespace
@@ -114,8 +105,8 @@ std::string drawn_listing() {
     const ImDrawList& list = *data.CmdLists[i];
     for (const ImDrawCmd& command : list.CmdBuffer) {
       const ImVec4 r = command.ClipRect;
-      out += fmt::format("{} within {:.1f},{:.1f} to {:.1f},{:.1f}\n", list._OwnerName ? list._OwnerName : "?", r.x, r.y,
-                         r.z, r.w);
+      out += fmt::format("{} within {:.1f},{:.1f} to {:.1f},{:.1f}\n",
+                         list._OwnerName ? list._OwnerName : "?", r.x, r.y, r.z, r.w);
       Reader reader;
       reader.read(list, command);
       for (const DrawnThing& thing : reader.things) out += "  " + line_of(thing) + "\n";
