@@ -64,6 +64,7 @@ double App::turn(const InjectedInput& input) {
     apply_edits();
     update_light();
     draw_scene();
+    update_visible();
     update_truth();
     draw_picture(*this);
     draw_overlay(*this, visible_);
@@ -164,7 +165,7 @@ void App::update_light() {
   const ProbeLight::Update update = light.update(document, settings, *renderer_);
   if (!update.relit && !update.replaced) return;
   scene_dirty_ = balls_dirty_ = true;
-  if (update.replaced) visible_view_.reset();
+  if (update.replaced) visible_seen_.reset();
   times.add("relight", update.relight_ms);
   if (update.hier_ms > 0.01) times.add("hier", update.hier_ms);
   times.add("probe upload", update.upload_ms);
@@ -190,7 +191,6 @@ void App::draw_scene() {
   for (const realtime::PassTime& pass : last_stats.passes)
     times.add(pass.name, std::max(pass.cpu_ms, pass.gpu_ms));
 
-  update_visible();
   if (settings.balls && !light.empty()) {
     if (balls_dirty_ || !drawn_ || drawn_->settings.ball != settings.ball)
       balls_->update(light.set(), settings.ball);
@@ -215,9 +215,12 @@ void App::update_visible() {
   if (light.empty()) return visible_.clear();
   const std::vector<gi::Probe>& probes = light.set().probes;
   const bool wanted = settings.names || settings.graph || place_mode;
-  if (!wanted || !picking_) return visible_.assign(probes.size(), 1);
-  if (visible_view_ && *visible_view_ == view && visible_.size() == probes.size() && !settings.play) return;
-  visible_view_ = view;
+  if (!wanted) {
+    visible_seen_.reset();
+    return visible_.assign(probes.size(), 1);
+  }
+  if (visible_seen_ == std::pair(view, document.time)) return;
+  visible_seen_ = {view, document.time};
   std::vector<scene::RayQuery> to_eye;
   for (const gi::Probe& probe : probes) to_eye.push_back({probe.position, view.eye - probe.position, 1});
   std::vector<std::uint8_t> blocked(probes.size());

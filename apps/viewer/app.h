@@ -149,7 +149,7 @@ class App {
     int width = 0, height = 0;
   };
   std::optional<Drawn> drawn_;
-  std::optional<View> visible_view_;
+  std::optional<std::pair<View, float>> visible_seen_;  ///< from where and when `visible_` holds
   bool scene_dirty_ = true, balls_dirty_ = true, truth_dirty_ = true, light_stale_ = false;
   std::vector<scene::LightState> applied_lights_;
   std::vector<vec3> applied_scales_;

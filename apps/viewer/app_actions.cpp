@@ -71,7 +71,7 @@ void App::take_document(Document next) {
   applied_materials_ = document.edits().materials;
   applied_sphls_ = document.edits().sphls;
   drawn_.reset();
-  visible_view_.reset();
+  visible_seen_.reset();
   scene_dirty_ = true;
   light_stale_ = false;
   fly_speed = document.bounds.empty() ? 2 : std::max(0.2f, 0.25f * document.bounds.radius());
