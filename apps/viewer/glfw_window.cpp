@@ -37,7 +37,9 @@ void on_error(int, const char* message) {
 
 /// What GLFW calls; it finds the window by its user pointer.
 struct GlfwWindow::Callbacks {
-  static GlfwWindow& of(GLFWwindow* window) { return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window)); }
+  static GlfwWindow& of(GLFWwindow* window) {
+    return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window));
+  }
 
   static void install(GLFWwindow* window) {
     glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {

@@ -1,6 +1,6 @@
 #pragma once
-/// What ImGui drew, read back from its triangles: each text with its place and colour, each other shape with its
-/// box, colour and number of corners.
+/// What ImGui drew, read back from its triangles: each text with its place and colour, each other shape with
+/// its box, colour and number of corners.
 
 #include <string>
 #include <vector>
@@ -22,8 +22,8 @@ std::vector<DrawnThing> drawn_things(const ImDrawList& list);
 /// Of the whole frame after ImGui::Render(), a line each.
 std::string drawn_listing();
 
-/// The listing is that of the file apps/viewer/tests/drawn/NAME.txt. With $SSPHH_WRITE_DRAWN the file is written:
-/// a change there is a change of what users see.
+/// The listing is that of the file apps/viewer/tests/drawn/NAME.txt. With $SSPHH_WRITE_DRAWN the file is
+/// written: a change there is a change of what users see.
 void expect_drawn(const std::string& name, const std::string& listing);
 
 }  // namespace ssphh::viewer

@@ -285,7 +285,8 @@ class PictureTest : public AppStage {
   void waits_for_the_user() {
     window_->tick = 0;
     turn();
-    app().undo();
+    const std::vector<SphlEdit> sphls = edits_of(*app().document.scene).sphls;
+    app().document.edit("back, in the dark", [&](Edits& e) { e.sphls = sphls, e.lights[0].on = false; });
     turn();
     EXPECT_FALSE(app().settled());
     window_->clock += 0.29;
@@ -299,6 +300,8 @@ class PictureTest : public AppStage {
     EXPECT_TRUE(app().job.running() || !app().light.empty());
     settle();
     EXPECT_EQ(app().light.set().probes.size(), 6u);
+    EXPECT_EQ(app().light.set().probes[0].self[0], vec3(0))
+        << "new light is that of the lamps as they are now";
     // Truth starts a quarter of a second after the last change.
     app().settings.show = Show::truth;
     app().settings.truth_passes = 1;
