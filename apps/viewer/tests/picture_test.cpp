@@ -199,7 +199,8 @@ class PictureTest : public AppStage {
     EXPECT_EQ(gi::read_probe_file("again.sphl"), gi::read_probe_file("live.sphl"));
     EXPECT_LT(mean(shot("probes off")), 0.5) << "no indirect light without probes";
     EXPECT_TRUE(app().light.empty());
-    EXPECT_NEAR(mean(shot("probes scene")), full, 1) << "of lamps as they are now, not as they are in the scene";
+    EXPECT_NEAR(mean(shot("probes scene")), full, 1)
+        << "of lamps as they are now, not as they are in the scene";
     play("set debug none");
   }
 
