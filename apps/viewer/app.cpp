@@ -7,8 +7,6 @@
 #include <imgui.h>
 
 #include <ssphh/core/file.h>
-#include <ssphh/gl/framebuffer.h>
-#include <ssphh/gl/read_pixels.h>
 #include <ssphh/image/io.h>
 #include <ssphh/scene/posed_world.h>
 
@@ -17,32 +15,21 @@
 #include "panels/panels.h"
 
 namespace ssphh::viewer {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-}  // namespace
-
 App::App(Window& window_, const ViewerOptions& options_, const Control&)
-    : window(window_), options(options_), gl_(gl::Context::adopt_current()) {
-  balls_ = std::make_unique<BallsGl>();
+    : window(window_), options(options_) {
   view = look_at({4, 3, 6}, {0, 1, 0}, 0.9f);
   panels = options.panels;
-  report.renderer = gl_.info().renderer;
+  report.renderer = window.renderer();
   for (const auto& [name, value] : options.settings) set_setting(settings, name, value);
   // For looking at: a twentieth of the work of `ssphh bake`.
   bake_params.path.spp = 8;
   bake_params.face_size = 20;
-  last_turn_ = last_change_ = Clock::now();
+  last_turn_ = last_change_ = window.seconds();
 }
 
 double App::turn(const InjectedInput& input) {
-  const auto now = Clock::now();
-  const double elapsed = std::chrono::duration<double>(now - last_turn_).count();
+  const auto now = window.seconds();
+  const double elapsed = now - last_turn_;
   last_turn_ = now;
 
   // Take over what others did.
@@ -65,11 +52,11 @@ double App::turn(const InjectedInput& input) {
   redraw_ = std::max(redraw_ - 1, 0);
 
   // The user's turn: panels and mouse change the state.
-  const auto start = Clock::now();
+  const auto start = window.seconds();
   window.begin_frame(input);
   handle_input(*this, static_cast<float>(std::min(elapsed, 0.1)));
   draw_panels(*this);
-  const double panel_ms = 1e3 * seconds_since(start);
+  const double panel_ms = 1e3 * (window.seconds() - start);
 
   // Bring everything up to date with it.
   if (scene_open()) {
@@ -77,25 +64,23 @@ double App::turn(const InjectedInput& input) {
     apply_edits();
     update_light();
     draw_scene();
+    update_visible();
     update_truth();
     draw_picture(*this);
     draw_overlay(*this, visible_);
   }
-  const auto ui = Clock::now();
+  const auto ui = window.seconds();
   finish_frame();
-  times.add("panels", panel_ms + 1e3 * seconds_since(ui));
+  times.add("panels", panel_ms + 1e3 * (window.seconds() - ui));
   return redraw_ > 0 || moving ? 0 : busy ? 0.05 : 0.5;
 }
 
 void App::finish_frame() {
-  const gl::Rect whole{0, 0, window.width(), window.height()};
-  gl::bind_framebuffer(0, whole);
-  gl::clear_color(0, 0.07f, 0.07f, 0.075f, 1);
   window.end_frame();
   if (!window_shot_.empty()) {
     const std::string file = std::exchange(window_shot_, {});
     try {
-      write_file(file, image::encode_png(image::Rgba8{whole.width, whole.height, gl::read_pixels(0, whole)}));
+      write_file(file, image::encode_png(window.read_frame()));
       report.written.push_back(file);
       say("wrote " + file);
     } catch (const std::exception& e) {
@@ -150,15 +135,15 @@ void App::apply_edits() {
     renderer_->set_material(static_cast<int>(i), edits.materials[i]);
     applied_materials_[i] = edits.materials[i];
     scene_dirty_ = true;
-    if (light.live()) light_stale_ = true, stale_since_ = Clock::now();
+    if (light.live()) light_stale_ = true, stale_since_ = window.seconds();
   }
   if (!same_places(edits.sphls, applied_sphls_)) {
     applied_sphls_ = edits.sphls;
     light_stale_ = true;
-    stale_since_ = Clock::now();
+    stale_since_ = window.seconds();
   }
   // Not while somebody drags: once things have been still for a moment.
-  if (light_stale_ && seconds_since(stale_since_) > 0.3 && !ImGui::IsAnyMouseDown()) {
+  if (light_stale_ && window.seconds() - stale_since_ > 0.3 && !ImGui::IsAnyMouseDown()) {
     light_stale_ = false;
     rebuild_light();
   }
@@ -168,7 +153,7 @@ void App::update_light() {
   const ProbeLight::Update update = light.update(document, settings, *renderer_);
   if (!update.relit && !update.replaced) return;
   scene_dirty_ = balls_dirty_ = true;
-  if (update.replaced) visible_view_.reset();
+  if (update.replaced) visible_seen_.reset();
   times.add("relight", update.relight_ms);
   if (update.hier_ms > 0.01) times.add("hier", update.hier_ms);
   times.add("probe upload", update.upload_ms);
@@ -185,16 +170,15 @@ void App::draw_scene() {
   if (light_path_changed) {
     picture.forget_truth();
     reference.clear();
-    last_change_ = Clock::now();
+    last_change_ = window.seconds();
   }
-  const auto start = Clock::now();
+  const auto start = window.seconds();
   last_stats = picture.draw(*renderer_, pose_of(view), frame_settings(settings), needs_truth(settings));
   waiting_maps_ = last_stats.shadow_maps_waiting;
-  times.add("frame", 1e3 * seconds_since(start));
+  times.add("frame", 1e3 * (window.seconds() - start));
   for (const realtime::PassTime& pass : last_stats.passes)
     times.add(pass.name, std::max(pass.cpu_ms, pass.gpu_ms));
 
-  update_visible();
   if (settings.balls && !light.empty()) {
     if (balls_dirty_ || !drawn_ || drawn_->settings.ball != settings.ball)
       balls_->update(light.set(), settings.ball);
@@ -219,9 +203,12 @@ void App::update_visible() {
   if (light.empty()) return visible_.clear();
   const std::vector<gi::Probe>& probes = light.set().probes;
   const bool wanted = settings.names || settings.graph || place_mode;
-  if (!wanted || !picking_) return visible_.assign(probes.size(), 1);
-  if (visible_view_ && *visible_view_ == view && visible_.size() == probes.size() && !settings.play) return;
-  visible_view_ = view;
+  if (!wanted) {
+    visible_seen_.reset();
+    return visible_.assign(probes.size(), 1);
+  }
+  if (visible_seen_ == std::pair(view, document.time)) return;
+  visible_seen_ = {view, document.time};
   std::vector<scene::RayQuery> to_eye;
   for (const gi::Probe& probe : probes) to_eye.push_back({probe.position, view.eye - probe.position, 1});
   std::vector<std::uint8_t> blocked(probes.size());
@@ -245,7 +232,7 @@ void App::update_truth() {
   const bool started = reference.status().running || reference.image().passes > 0;
   if (!started) {
     redraw();
-    if (seconds_since(last_change_) < 0.25 || light_stale_) return;
+    if (window.seconds() - last_change_ < 0.25 || light_stale_) return;
     ReferenceParams params;
     params.scene =
         std::make_shared<const scene::Scene>(edited_scene(*document.scene, document.edits(), document.time));

@@ -2,7 +2,6 @@
 /// The viewer's state, and what can be done with it. Panels, keys, scripts and the command line all call the
 /// same functions.
 
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -57,6 +56,8 @@ class App {
 
   // What can be done
   void open(const std::string& source);
+  /// Puts a document in the place of what is open; its renderer is the caller's business.
+  void take_document(Document next);
   void save_scene(const std::string& file);
   void save_probes(const std::string& file);
   void save_path(const std::string& file);
@@ -118,7 +119,7 @@ class App {
   Drag drag;
   std::string message;
   bool message_is_error = false;
-  std::chrono::steady_clock::time_point message_since;
+  double message_since = 0;  ///< of Window::seconds(), as the members below
   gi::BakeParams bake_params;
   ViewerReport report;
   float fly_speed = 2;  ///< m/s
@@ -133,7 +134,7 @@ class App {
   void update_visible();
   void finish_frame();
   void resize_picture();
-  gl::Context gl_;
+  std::optional<gl::Context> gl_;  ///< adopted with the first scene
   std::unique_ptr<realtime::Renderer> renderer_;
   std::unique_ptr<BallsGl> balls_;
   trace::SharedGeometry geometry_;  ///< of document.scene
@@ -148,12 +149,12 @@ class App {
     int width = 0, height = 0;
   };
   std::optional<Drawn> drawn_;
-  std::optional<View> visible_view_;
+  std::optional<std::pair<View, float>> visible_seen_;  ///< from where and when `visible_` holds
   bool scene_dirty_ = true, balls_dirty_ = true, truth_dirty_ = true, light_stale_ = false;
   std::vector<scene::Material> applied_materials_;
   std::vector<SphlEdit> applied_sphls_;
   int redraw_ = 3;
-  std::chrono::steady_clock::time_point last_turn_, last_change_, stale_since_;
+  double last_turn_ = 0, last_change_ = 0, stale_since_ = 0;
   int waiting_maps_ = 0;
   bool coarse_ = false;                      ///< something moves and frames are slow: fewer pixels meanwhile
   std::optional<Settings> truth_settings_;   ///< that the truth on the screen was made for

@@ -23,7 +23,7 @@ bool is_probe_file(const std::string& name) {
 void App::say(const std::string& text) {
   message = text;
   message_is_error = false;
-  message_since = std::chrono::steady_clock::now();
+  message_since = window.seconds();
   redraw();
 }
 
@@ -48,14 +48,20 @@ void App::take_scene(std::string source, scene::Scene scene) {
   reference.clear();
   Document next = make_document(std::move(source), std::move(scene), 0);
   next.time = std::clamp(document.source.empty() ? options.time : 0, 0.0f, next.duration);
+  if (!gl_) gl_.emplace(gl::Context::adopt_current());
+  if (!balls_) balls_ = std::make_unique<BallsGl>();
   auto renderer =
-      std::make_unique<realtime::Renderer>(gl_, *next.scene, realtime::RendererParams{}, next.time);
+      std::make_unique<realtime::Renderer>(*gl_, *next.scene, realtime::RendererParams{}, next.time);
+  take_document(std::move(next));
+  renderer_ = std::move(renderer);
+}
+
+void App::take_document(Document next) {
   trace::SharedGeometry geometry = trace::geometry_of(next.scene);
   auto picking = std::make_unique<trace::TransportScene>(geometry, *next.scene);
   // Nothing is thrown from here on: a file that is refused leaves the open one alone.
   picking_ = std::move(picking);
   geometry_ = std::move(geometry);
-  renderer_ = std::move(renderer);
   document = std::move(next);
   light.clear();
   selection = {};
@@ -63,7 +69,7 @@ void App::take_scene(std::string source, scene::Scene scene) {
   applied_materials_ = document.edits().materials;
   applied_sphls_ = document.edits().sphls;
   drawn_.reset();
-  visible_view_.reset();
+  visible_seen_.reset();
   scene_dirty_ = true;
   light_stale_ = false;
   fly_speed = document.bounds.empty() ? 2 : std::max(0.2f, 0.25f * document.bounds.radius());

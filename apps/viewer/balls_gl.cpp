@@ -105,7 +105,7 @@ BallsGl::~BallsGl() = default;
 void BallsGl::update(const gi::ProbeSet& set, Ball ball) {
   Data& d = *data_;
   const std::size_t probes = set.probes.size();
-  d.set_levels(probes <= 64 ? 4 : probes <= 512 ? 3 : 2);
+  d.set_levels(ball_levels(probes));
   const std::size_t vertices = d.shader->mesh().vertices.size();
   d.radiance.resize(vertices);
   d.values.resize(probes * vertices);

@@ -23,7 +23,7 @@ class BallsGl {
 
   struct Look {
     View view;
-    float radius = 0.1f;
+    float radius = 0;
     bool lobes = false;
     image::ToneMap tone;
     int selected = -1;

@@ -183,6 +183,7 @@ void begin_left(App& app) {
 
 void continue_drag(App& app) {
   const ImVec2 delta = ImGui::GetIO().MouseDelta;
+  if (delta.x == 0 && delta.y == 0) return;
   const auto drag_view = [&](ViewDrag drag) {
     app.view = dragged(app.view, drag, {delta.x, delta.y}, app.viewport.height);
   };
@@ -200,7 +201,6 @@ void continue_drag(App& app) {
       break;
     case Drag::What::object:
     case Drag::What::axis:
-      if (delta.x == 0 && delta.y == 0) break;
       if (const auto place = pulled(app.drag.grip, mouse_ray(app), app.view.forward()))
         app.move_selected(*place);
       break;
@@ -208,7 +208,7 @@ void continue_drag(App& app) {
       app.settings.wipe = std::clamp(picture_point(app, ImGui::GetIO().MousePos).x, 0.0f, 1.0f);
       break;
   }
-  if (delta.x != 0 || delta.y != 0) app.path_plays = false;
+  app.path_plays = false;
   app.redraw();
 }
 

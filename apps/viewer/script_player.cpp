@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "injection.h"
+
 namespace ssphh::viewer {
 
 const char* const script_help =

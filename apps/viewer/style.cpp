@@ -16,7 +16,7 @@ ImVec4 grey(float v, float alpha = 1) {
 
 }  // namespace
 
-void apply_style(float scale) {
+void load_font(float scale) {
   ImGuiIO& io = ImGui::GetIO();
   // Latin, Greek and the signs that the panels use.
   static const ImWchar ranges[] = {0x20,   0xff,   0x370,  0x3ff,  0x2013, 0x2044, 0x2080, 0x208e,
@@ -24,7 +24,9 @@ void apply_style(float scale) {
   std::error_code ignored;
   if (std::filesystem::exists(font_file, ignored))
     io.Fonts->AddFontFromFileTTF(font_file, 14 * scale, nullptr, ranges);
+}
 
+void apply_look(float scale) {
   ImGui::StyleColorsDark();
   ImGuiStyle& style = ImGui::GetStyle();
   style.WindowRounding = 0;

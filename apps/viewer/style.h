@@ -3,8 +3,9 @@
 
 namespace ssphh::viewer {
 
-/// Font, colours and spacing of the current ImGui context. `scale`: pixels of the display per point of an
-/// ordinary one.
-void apply_style(float scale);
+/// Of the current ImGui context. `scale`: pixels of the display per point of an ordinary one.
+void load_font(float scale);
+/// Colours and spacing.
+void apply_look(float scale);
 
 }  // namespace ssphh::viewer

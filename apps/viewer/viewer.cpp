@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "app.h"
+#include "glfw_window.h"
 #include "script_player.h"
 
 namespace ssphh::viewer {
@@ -81,7 +82,11 @@ void play(App& app, Session& session, const ViewerOptions& options) {
 ViewerReport run_viewer(const ViewerOptions& options, const Control& control) {
   if (!options.export_dir.empty() && options.path.empty())
     throw Error("--export", "needs the path that is to be drawn", "give a camera path file with --path");
-  Window window("ssphh", options.width, options.height);
+  GlfwWindow window("ssphh", options.width, options.height);
+  return run_session(window, options, control);
+}
+
+ViewerReport run_session(Window& window, const ViewerOptions& options, const Control& control) {
   App app(window, options, control);
   Session session(app, control);
   begin(app, options);

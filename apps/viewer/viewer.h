@@ -46,4 +46,8 @@ struct ViewerReport {
 /// there is no display or no OpenGL 4.5, and for anything in the options that cannot be done.
 ViewerReport run_viewer(const ViewerOptions& options, const Control& control);
 
+class Window;
+/// The same in a window that is there.
+ViewerReport run_session(Window& window, const ViewerOptions& options, const Control& control);
+
 }  // namespace ssphh::viewer

@@ -1,12 +1,12 @@
 #pragma once
-/// A GLFW window with OpenGL 4.5 core and Dear ImGui; nothing of this project's scenes or light.
+/// A window with Dear ImGui in it, and input that a script gives in place of the user's.
 
 #include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
-struct GLFWwindow;
+#include <ssphh/image/io.h>
 
 namespace ssphh::viewer {
 
@@ -18,46 +18,40 @@ struct InjectedInput {
   bool ctrl = false, shift = false;
 };
 
+/// What the viewer asks of a window: a test stands in for one without a display.
 class Window {
  public:
-  /// Throws Error when there is no display or no OpenGL 4.5. The context is current afterwards.
-  Window(const std::string& title, int width, int height);
-  ~Window();
+  Window() = default;
+  virtual ~Window() = default;
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  bool should_close() const;
-  void close();
-  void set_title(const std::string& title);
+  virtual bool should_close() const = 0;
+  virtual void close() = 0;
+  virtual void set_title(const std::string& title) = 0;
 
   /// Handles what the user did. Waits up to `timeout` seconds for that; 0: not at all.
-  void events(double timeout);
+  virtual void events(double timeout) = 0;
   /// Since the last call: whether anything happened that may change what is shown.
-  bool take_input();
+  virtual bool take_input() = 0;
   /// Files dropped on the window since the last call.
-  std::vector<std::string> take_dropped();
+  virtual std::vector<std::string> take_dropped() = 0;
 
   /// Pixels of the frame buffer.
-  int width() const { return width_; }
-  int height() const { return height_; }
+  virtual int width() const = 0;
+  virtual int height() const = 0;
+  /// OpenGL's name of what draws.
+  virtual std::string renderer() const = 0;
+  /// Since some moment that stays the same.
+  virtual double seconds() const = 0;
 
   /// From here to end_frame() ImGui's functions may be called.
-  void begin_frame(const InjectedInput& injected);
-  /// Draws the user interface over what is in the frame buffer.
-  void end_frame();
-  void show_frame();
-
- private:
-  struct Callbacks;
-
-  GLFWwindow* window_ = nullptr;
-  int width_ = 0, height_ = 0;
-  bool input_ = true;
-  std::vector<std::string> dropped_;
-  std::vector<int> held_keys_;  ///< injected into the last frame
+  virtual void begin_frame(const InjectedInput& injected) = 0;
+  /// Draws the user interface into the frame buffer.
+  virtual void end_frame() = 0;
+  /// What end_frame() has drawn, row 0 on top.
+  virtual image::Rgba8 read_frame() const = 0;
+  virtual void show_frame() = 0;
 };
-
-/// GLFW's number of a key by its name: "f1", "h", "escape", "space", "left"; none for an unknown one.
-std::optional<int> key_by_name(const std::string& name);
 
 }  // namespace ssphh::viewer

@@ -127,13 +127,6 @@ TEST_F(View, SavesWhatWasEdited) {
   EXPECT_TRUE(exists("frames/frame-0002.png"));
 }
 
-TEST_F(View, ShowsGroundTruthAndItsDifference) {
-  run_json(with(two_rooms, {"--show", "truth", "--truth-spp", "4", "--screenshot", path("truth.png")}));
-  run_json(with(two_rooms, {"--show", "pixelated", "--truth-spp", "4", "--screenshot", path("blocks.png")}));
-  EXPECT_GT(brightness("truth.png"), 0.01);
-  EXPECT_GT(brightness("blocks.png"), 0);
-}
-
 /// Runs an xdotool command until `file` exists: the window may not be ready for input at once.
 bool repeat_until(const std::string& command, const std::string& file) {
   for (int i = 0; i < 20 && !std::filesystem::exists(file); ++i) {

@@ -87,6 +87,10 @@ void BallShader::shade(const gi::ProbeSet& set, std::size_t i, Ball ball, std::s
   }
 }
 
+int ball_levels(std::size_t balls) {
+  return balls <= 64 ? 4 : balls <= 512 ? 3 : 2;
+}
+
 float default_ball_size(const gi::ProbeSet& set) {
   std::vector<vec3> positions;
   for (const gi::Probe& probe : set.probes) positions.push_back(probe.position);

@@ -33,6 +33,9 @@ class BallShader {
   std::vector<float> basis_;  ///< [vertex][k]
 };
 
+/// How often balls are halved of which so many are drawn: many small ones need fewer triangles each.
+int ball_levels(std::size_t balls);
+
 /// Radius of balls that do not hide each other [m], for Settings::ball_size 0.
 float default_ball_size(const gi::ProbeSet& set);
 

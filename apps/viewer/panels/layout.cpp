@@ -52,8 +52,7 @@ void draw_offer(App& app) {
 }
 
 void draw_message(App& app) {
-  const double age =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - app.message_since).count();
+  const double age = app.window.seconds() - app.message_since;
   const double stays = app.message_is_error ? 15 : 4;
   if (app.message.empty() || age > stays) return;
   const Rect2& r = app.viewport;

@@ -98,5 +98,13 @@ TEST(Balls, HaveASixthOfTheProbesDistanceAtMostTwelveCentimetres) {
   EXPECT_FLOAT_EQ(size(0.3f, 1), 0.12f);
 }
 
+TEST(Balls, AreCoarserTheMoreThereAre) {
+  EXPECT_EQ(ball_levels(1), 4);
+  EXPECT_EQ(ball_levels(64), 4);
+  EXPECT_EQ(ball_levels(65), 3);
+  EXPECT_EQ(ball_levels(512), 3);
+  EXPECT_EQ(ball_levels(513), 2);
+}
+
 }  // namespace
 }  // namespace ssphh::viewer

@@ -1,8 +1,6 @@
-#include "window.h"
+#include "glfw_window.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cstdlib>
 #include <utility>
 
 // Includes OpenGL's headers otherwise, which belong to the module gl.
@@ -13,6 +11,9 @@
 #include <imgui.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/gl/context.h>
+#include <ssphh/gl/framebuffer.h>
+#include <ssphh/gl/read_pixels.h>
 
 #include "style.h"
 
@@ -35,8 +36,10 @@ void on_error(int, const char* message) {
 }  // namespace
 
 /// What GLFW calls; it finds the window by its user pointer.
-struct Window::Callbacks {
-  static Window& of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
+struct GlfwWindow::Callbacks {
+  static GlfwWindow& of(GLFWwindow* window) {
+    return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window));
+  }
 
   static void install(GLFWwindow* window) {
     glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
@@ -54,7 +57,7 @@ struct Window::Callbacks {
   }
 };
 
-Window::Window(const std::string& title, int width, int height) {
+GlfwWindow::GlfwWindow(const std::string& title, int width, int height) {
   glfwSetErrorCallback(on_error);
   if (!glfwInit()) no_window("there is no display");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
@@ -76,13 +79,15 @@ Window::Window(const std::string& title, int width, int height) {
   ImGui::GetIO().IniFilename = nullptr;  // No file is left behind in the user's folder.
   float x_scale = 1, y_scale = 1;
   glfwGetWindowContentScale(window_, &x_scale, &y_scale);
-  apply_style(std::max(x_scale, 1.0f));
+  const float scale = std::max(x_scale, 1.0f);
+  load_font(scale);
+  apply_look(scale);
   ImGui_ImplGlfw_InitForOpenGL(window_, true);  // Keeps our callbacks and calls them.
   ImGui_ImplOpenGL3_Init("#version 450");
   glfwGetFramebufferSize(window_, &width_, &height_);
 }
 
-Window::~Window() {
+GlfwWindow::~GlfwWindow() {
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
@@ -90,19 +95,19 @@ Window::~Window() {
   glfwTerminate();
 }
 
-bool Window::should_close() const {
+bool GlfwWindow::should_close() const {
   return glfwWindowShouldClose(window_);
 }
 
-void Window::close() {
+void GlfwWindow::close() {
   glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }
 
-void Window::set_title(const std::string& title) {
+void GlfwWindow::set_title(const std::string& title) {
   glfwSetWindowTitle(window_, title.c_str());
 }
 
-void Window::events(double timeout) {
+void GlfwWindow::events(double timeout) {
   if (timeout > 0) {
     glfwWaitEventsTimeout(timeout);
   } else {
@@ -111,57 +116,43 @@ void Window::events(double timeout) {
   glfwGetFramebufferSize(window_, &width_, &height_);
 }
 
-bool Window::take_input() {
+std::string GlfwWindow::renderer() const {
+  return gl::Context::adopt_current().info().renderer;
+}
+
+double GlfwWindow::seconds() const {
+  return glfwGetTime();
+}
+
+bool GlfwWindow::take_input() {
   return std::exchange(input_, false);
 }
 
-std::vector<std::string> Window::take_dropped() {
+std::vector<std::string> GlfwWindow::take_dropped() {
   return std::exchange(dropped_, {});
 }
 
-void Window::begin_frame(const InjectedInput& injected) {
+void GlfwWindow::begin_frame(const InjectedInput& injected) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
-  ImGuiIO& io = ImGui::GetIO();
-  for (const int key : held_keys_) io.KeysDown[key] = false;
-  held_keys_ = injected.keys;
-  for (const int key : held_keys_) io.KeysDown[key] = true;
-  if (injected.mouse) {
-    io.MousePos = {(*injected.mouse)[0], (*injected.mouse)[1]};
-    for (std::size_t b = 0; b < injected.buttons.size(); ++b) io.MouseDown[b] = injected.buttons[b];
-  }
-  if (!injected.keys.empty()) io.KeyCtrl = injected.ctrl, io.KeyShift = injected.shift;
+  injection_.apply(injected);
   ImGui::NewFrame();
 }
 
-void Window::end_frame() {
+void GlfwWindow::end_frame() {
+  const gl::Rect whole{0, 0, width_, height_};
+  gl::bind_framebuffer(0, whole);
+  gl::clear_color(0, 0.07f, 0.07f, 0.075f, 1);
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-void Window::show_frame() {
-  glfwSwapBuffers(window_);
+image::Rgba8 GlfwWindow::read_frame() const {
+  return {width_, height_, gl::read_pixels(0, {0, 0, width_, height_})};
 }
 
-std::optional<int> key_by_name(const std::string& name) {
-  std::string lower = name;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  static const std::pair<const char*, int> named[] = {{"escape", GLFW_KEY_ESCAPE}, {"space", GLFW_KEY_SPACE},
-                                                      {"tab", GLFW_KEY_TAB},       {"enter", GLFW_KEY_ENTER},
-                                                      {"delete", GLFW_KEY_DELETE}, {"left", GLFW_KEY_LEFT},
-                                                      {"right", GLFW_KEY_RIGHT},   {"up", GLFW_KEY_UP},
-                                                      {"down", GLFW_KEY_DOWN},     {"home", GLFW_KEY_HOME}};
-  for (const auto& [text, key] : named) {
-    if (lower == text) return key;
-  }
-  if (lower.size() == 1 && std::isalnum(static_cast<unsigned char>(lower[0])))
-    return std::toupper(static_cast<unsigned char>(lower[0]));  // GLFW's letters and digits are ASCII.
-  if (lower.size() >= 2 && lower.size() <= 3 && lower[0] == 'f') {
-    const int number = std::atoi(lower.c_str() + 1);
-    if (number >= 1 && number <= 12) return GLFW_KEY_F1 + number - 1;
-  }
-  return {};
+void GlfwWindow::show_frame() {
+  glfwSwapBuffers(window_);
 }
 
 }  // namespace ssphh::viewer

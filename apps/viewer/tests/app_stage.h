@@ -1,0 +1,144 @@
+#pragma once
+/// The viewer's App in a window that nobody sees: ImGui without a display, OpenGL without a window, a clock
+/// that stands still until a test moves it.
+
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+#include <ssphh/scene/builtin.h>
+
+#include "app.h"
+#include "injection.h"
+#include "input.h"
+#include "overlay.h"
+#include "panels/panels.h"
+#include "style.h"
+#include "temp_dir.h"
+
+namespace ssphh::viewer {
+
+/// ImGui's own font, so that what is drawn does not depend on the fonts of a machine.
+class StillWindow : public Window {
+ public:
+  StillWindow(int width, int height) : width_(width), height_(height) {
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui::GetIO().Fonts->Build();
+    apply_look(1);
+  }
+  ~StillWindow() override { ImGui::DestroyContext(); }
+
+  bool should_close() const override { return closed; }
+  void close() override { closed = true; }
+  void set_title(const std::string& text) override { title = text; }
+  void events(double timeout) override { waits.push_back(timeout), clock += timeout; }
+  bool take_input() override { return std::exchange(touched, false); }
+  std::vector<std::string> take_dropped() override { return std::exchange(dropped, {}); }
+  int width() const override { return width_; }
+  int height() const override { return height_; }
+  std::string renderer() const override { return "nothing"; }
+  double seconds() const override { return clock += tick; }
+  void begin_frame(const InjectedInput& input) override {
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {static_cast<float>(width_), static_cast<float>(height_)};
+    io.DeltaTime = 0.2f;  // No click follows another so soon that both are a double one.
+    injection_.apply(input);
+    if (wheel != 0) io.MouseWheel = std::exchange(wheel, 0.0f);
+    for (const char c : typed) io.AddInputCharacter(static_cast<unsigned char>(c));
+    typed.clear();
+    ImGui::NewFrame();
+  }
+  void end_frame() override { ImGui::Render(); }
+  image::Rgba8 read_frame() const override { return {2, 1, {1, 2, 3, 255, 4, 5, 6, 255}}; }
+  void show_frame() override { ++frames; }
+
+  bool closed = false, touched = false;
+  std::string title, typed;
+  float wheel = 0;
+  int frames = 0;
+  std::vector<std::string> dropped;
+  std::vector<double> waits;
+  mutable double clock = 100;
+  double tick = 0;  ///< seconds from one look at the clock to the next
+
+ private:
+  int width_, height_;
+  Injection injection_;
+};
+
+/// Scenes and panels without OpenGL: what the real-time picture would show is left out.
+class AppStage : public testing::Test {
+ protected:
+  AppStage() {
+    std::filesystem::current_path(dir_.path());
+    options_.load = [](const std::string& source) {
+      return scene::make_builtin(source.substr(source.find(':') + 1));
+    };
+  }
+  ~AppStage() override {
+    app_.reset();
+    window_.reset();
+    std::filesystem::current_path(before_);
+  }
+
+  /// An App without a scene.
+  App& start(int width, int height) {
+    app_.reset();
+    window_.reset();
+    window_.emplace(width, height);
+    app_.emplace(*window_, options_, Control{});
+    return *app_;
+  }
+  App& app() { return *app_; }
+  Document document(const std::string& name) {
+    return make_document("builtin:" + name, scene::make_builtin(name), 0);
+  }
+
+  /// A frame as App::turn() has it, without the picture of the scene.
+  void frame(const InjectedInput& input = {}, float seconds = 0) {
+    window_->begin_frame(input);
+    handle_input(*app_, seconds);
+    draw_panels(*app_);
+    if (app_->scene_open()) draw_overlay(*app_, visible_);
+    window_->end_frame();
+  }
+  /// A whole turn of App, which has no scene open or OpenGL to draw it.
+  double turn(const InjectedInput& input = {}) {
+    app_->redraw();
+    return app_->turn(input);
+  }
+  void frames(int count) {
+    for (int i = 0; i < count; ++i) frame();
+  }
+  void press(std::vector<int> keys, bool ctrl = false, bool shift = false) {
+    InjectedInput input;
+    input.keys = std::move(keys), input.ctrl = ctrl, input.shift = shift;
+    frame(input), frame();
+  }
+  /// The mouse at a point with these buttons held.
+  void mouse(float x, float y, std::array<bool, 3> buttons = {}) {
+    InjectedInput input;
+    input.mouse = {x, y}, input.buttons = buttons;
+    frame(input);
+  }
+  void click(float x, float y, int button = 0) { drag(x, y, x, y, button); }
+  void drag(float x, float y, float to_x, float to_y, int button = 0) {
+    std::array<bool, 3> down{};
+    down[static_cast<std::size_t>(button)] = true;
+    mouse(x, y), mouse(x, y), mouse(x, y, down), mouse(to_x, to_y, down), mouse(to_x, to_y), frame();
+  }
+
+  test::TempDir dir_;
+  std::filesystem::path before_ = std::filesystem::current_path();
+  ViewerOptions options_;
+  std::optional<StillWindow> window_;
+  std::optional<App> app_;
+  std::vector<unsigned char> visible_;
+};
+
+}  // namespace ssphh::viewer

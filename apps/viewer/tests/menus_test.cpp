@@ -1,0 +1,125 @@
+// What files, the bar of time and the menus do.
+
+#include <gmock/gmock.h>
+
+#include <ssphh/gi/probe_file.h>
+
+#include "panel_stage.h"
+
+namespace ssphh::viewer {
+namespace {
+
+using Menus = PanelStage;
+using testing::ElementsAre;
+
+TEST_F(Menus, FilesAreWrittenAndRead) {
+  open("Picture");
+  click_text("Save scene");
+  EXPECT_TRUE(std::filesystem::exists("scene.glb"));
+  take_probes();
+  open("Probes");
+  click_text("Save");
+  EXPECT_EQ(gi::read_probe_file("probes.sphl").probes.size(), 6u);
+  click_text("Open");
+  EXPECT_TRUE(app().message_is_error) << "baked in no scene";
+  app().times.add("frame", 3);
+  open("Times");
+  click_text("Save .csv or .json");
+  EXPECT_TRUE(std::filesystem::exists("times.csv"));
+  click_text("Begin anew");
+  EXPECT_TRUE(app().times.stages().empty());
+  EXPECT_THAT(app().report.written, ElementsAre("scene.glb", "probes.sphl", "times.csv"));
+}
+
+TEST_F(Menus, TheBarOfTimePlaysAndShowsWork) {
+  rest();
+  click_text("Play");
+  EXPECT_TRUE(app().settings.play);
+  click_text("Stop");
+  EXPECT_FALSE(app().settings.play);
+  std::atomic<bool> end = false;
+  app().job.start("work", [&](const Control& control) -> BackgroundJob::Finish {
+    ProgressStage stage(control, "stones", 4, "stones");
+    stage.advance(1);
+    while (!end && !control.cancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return {};
+  });
+  while (app().job.status().stage != "stones" || app().job.status().fraction != 0.25)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  app().selection = {};
+  open("Probes");
+  expect_drawn("work", drawn_listing());
+  const DrawnThing gen = text("GEN, VIZ");
+  click(gen.from.x + 3, gen.from.y + 6);
+  EXPECT_EQ(app().job.status().name, "work") << "one thing at a time";
+  rest();
+  click_text("Cancel");
+  while (app().job.running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  rest();
+  EXPECT_TRUE(shows("0 probes"));
+  end = true;
+}
+
+TEST_F(Menus, MenusDoWhatTheySay) {
+  const auto choose = [&](const char* menu, const std::string& item) {
+    rest();
+    const DrawnThing at = text(menu);
+    click(at.from.x + 3, at.from.y + 5);
+    frames(3);
+    const DrawnThing entry = text(item);
+    click(entry.from.x + 3, entry.from.y + 5);
+    rest();
+  };
+  const std::pair<const char*, DebugView> views[] = {{"Direct light only", DebugView::direct},
+                                                     {"Indirect light only", DebugView::indirect},
+                                                     {"Albedo", DebugView::albedo},
+                                                     {"Normals", DebugView::normal},
+                                                     {"Shadows", DebugView::shadow},
+                                                     {"Chosen SPHL", DebugView::sphl},
+                                                     {"Leaked light", DebugView::leak},
+                                                     {"All light", DebugView::none}};
+  for (const auto& [name, view] : views) {
+    choose("View", name);
+    EXPECT_EQ(app().settings.debug, view) << name;
+  }
+  const std::pair<const char*, Show> shows_[] = {
+      {"Ground truth only", Show::truth},        {"Wipe between both", Show::wipe},
+      {"Absolute difference", Show::absolute},   {"Signed difference", Show::signed_},
+      {"Difference in blocks", Show::pixelated}, {"Real time only", Show::realtime}};
+  for (const auto& [name, show] : shows_) {
+    choose("View", name);
+    EXPECT_EQ(app().settings.show, show) << name;
+  }
+  choose("View", "Probes as balls");
+  EXPECT_TRUE(app().settings.balls);
+  choose("View", "Lobes");
+  EXPECT_TRUE(app().settings.lobes);
+  choose("View", "Graph of the hierarchy");
+  EXPECT_TRUE(app().settings.graph);
+  choose("Help", "Mouse and keys");
+  EXPECT_TRUE(app().help);
+  app().help = false;
+  choose("Edit", "Place an SPHL");
+  EXPECT_TRUE(app().place_mode);
+  app().selection = {Kind::sphl, 0};
+  choose("Edit", "Delete the SPHL");
+  EXPECT_EQ(app().document.edits().sphls.size(), 5u);
+  choose("Edit", "Undo delete SPHL");
+  EXPECT_EQ(app().document.edits().sphls.size(), 6u);
+  choose("Edit", "Redo delete SPHL");
+  EXPECT_EQ(app().document.edits().sphls.size(), 5u);
+  choose("File", "Save scene as scene.glb");
+  choose("File", "Save times as times.csv");
+  EXPECT_FALSE(shows("Save probes as"));
+  take_probes();
+  choose("File", "Save probes as probes.sphl");
+  EXPECT_THAT(app().report.written, ElementsAre("scene.glb", "times.csv", "probes.sphl"));
+  choose("View", "Panels");
+  EXPECT_FALSE(app().panels);
+  app().panels = true;
+  choose("File", "Quit");
+  EXPECT_TRUE(window_->closed);
+}
+
+}  // namespace
+}  // namespace ssphh::viewer
