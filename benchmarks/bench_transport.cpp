@@ -193,7 +193,7 @@ struct Relit {
     const auto start = Clock::now();
     session = std::make_unique<gi::RelightSession>(source, std::move(places), gi::RelightParams{}, 1.0f);
     build_seconds = seconds_since(start);
-    session->update();
+    session->update(session->lighting());
   }
 };
 
@@ -289,15 +289,15 @@ double bare_shadow_rate(const Relit& scene, const vec3& lamp) {
 
 void moving_lamp(benchmark::State& state, const std::string& name, float spacing, int light) {
   Relit& scene = relit(name, spacing);
-  scene::LightState lamp = scene.session->light(light);
-  const vec4 home = lamp.world[3];
+  scene::LightingState lit = scene.session->lighting();
+  vec4& place = lit.lights[static_cast<std::size_t>(light)].world[3];
+  const vec4 home = place;
   std::vector<gi::RelightReport> frames;
   int frame = 0;
   for (auto _ : state) {
     const float phase = 0.1f * static_cast<float>(frame++);
-    lamp.world[3] = home + 0.4f * vec4(std::sin(phase), 0, std::cos(phase), 0);
-    scene.session->set_light(light, lamp);
-    frames.push_back(scene.session->update());
+    place = home + 0.4f * vec4(std::sin(phase), 0, std::cos(phase), 0);
+    frames.push_back(scene.session->update(lit));
   }
   report_frames(state, scene, frames);
   double rays = 0, ms = 0;
@@ -317,21 +317,21 @@ void moving_door(benchmark::State& state) {
   gi::RelightParams params;
   params.poses = static_cast<int>(state.range(0));
   gi::RelightSession session(scene.source, scene.session->places(), params, 0);
-  session.update();
+  session.update(session.lighting());
   // The exact answer, for the error of blending.
   gi::RelightSession exact(scene.source, scene.session->places(), {}, 0);
-  exact.update();
+  exact.update(exact.lighting());
+  scene::LightingState lit = session.lighting();
   std::vector<gi::RelightReport> frames;
   double error2[2] = {}, truth2[2] = {};
   int frame = 0;
   for (auto _ : state) {
     // Times that no number of poses meets often.
     const float time = 0.5f - 0.5f * std::cos(0.0317f * static_cast<float>(++frame));
-    session.set_time(time);
-    frames.push_back(session.update());
+    lit.time = time;
+    frames.push_back(session.update(lit));
     state.PauseTiming();
-    exact.set_time(time);
-    exact.update();
+    exact.update(lit);
     for (std::size_t i = 0; i < session.places().size(); ++i) {
       const int room = session.places()[i].position.x > 0;
       const double truth = double(exact.reflected()[i][0].y), value = double(session.reflected()[i][0].y);
@@ -359,7 +359,7 @@ BENCHMARK(moving_door)
 
 void nothing_moves(benchmark::State& state) {
   Relit& scene = relit("two-rooms", 0.7f);
-  for (auto _ : state) benchmark::DoNotOptimize(scene.session->update());
+  for (auto _ : state) benchmark::DoNotOptimize(scene.session->update(scene.session->lighting()));
 }
 BENCHMARK(nothing_moves)->Unit(benchmark::kMicrosecond);
 

@@ -8,9 +8,9 @@
 namespace ssphh::test {
 
 struct LitSession : gi::RelightSession {
-  template <class... Arguments>
-  explicit LitSession(const scene::TransportSource& source, Arguments&&... arguments)
-      : RelightSession(source, std::forward<Arguments>(arguments)...), state(lighting()) {}
+  LitSession(const scene::TransportSource& source, std::vector<gi::ProbePlace> places,
+             const gi::RelightParams& params = {}, float time = 0)
+      : RelightSession(source, std::move(places), params, time), state(lighting()) {}
 
   using RelightSession::update;
   gi::RelightReport update() { return update(state); }

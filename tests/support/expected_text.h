@@ -23,7 +23,7 @@ namespace ssphh::test {
 /// What a number of another compiler or machine may differ by: a few roundings of sums and of sines in float,
 /// and less than the smallest change that anybody would make on purpose.
 inline bool same_number(double a, double b) {
-  return std::abs(a - b) <= 1e-6 + 1e-5 * std::max(std::abs(a), std::abs(b));
+  return a == b || std::abs(a - b) <= 1e-6 + 1e-5 * std::max(std::abs(a), std::abs(b));
 }
 
 /// Whether two lines agree in their text exactly and in their numbers within rounding.

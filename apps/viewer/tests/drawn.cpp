@@ -1,15 +1,12 @@
 #include "drawn.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <ssphh/core/file.h>
-
-#include "places.h"
+#include "expected_text.h"
 
 namespace ssphh::viewer {
 namespace {
@@ -116,9 +113,7 @@ std::string drawn_listing() {
 }
 
 void expect_drawn(const std::string& name, const std::string& listing) {
-  const std::filesystem::path file = test::source_dir() / "apps/viewer/tests/drawn" / (name + ".txt");
-  if (std::getenv("SSPHH_WRITE_DRAWN")) write_file(file, std::string_view(listing));
-  EXPECT_EQ(read_text_file(file), listing) << "of " << file;
+  test::expect_text_of("apps/viewer/tests/drawn/" + name + ".txt", listing);
 }
 
 }  // namespace ssphh::viewer

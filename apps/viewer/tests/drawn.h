@@ -22,8 +22,8 @@ std::vector<DrawnThing> drawn_things(const ImDrawList& list);
 /// Of the whole frame after ImGui::Render(), a line each.
 std::string drawn_listing();
 
-/// The listing is that of the file apps/viewer/tests/drawn/NAME.txt. With $SSPHH_WRITE_DRAWN the file is
-/// written: a change there is a change of what users see.
+/// The listing is that of the file apps/viewer/tests/drawn/NAME.txt. A change there is
+/// a change of what users see (tests/support/expected_text.h says how the file is written anew).
 void expect_drawn(const std::string& name, const std::string& listing);
 
 }  // namespace ssphh::viewer

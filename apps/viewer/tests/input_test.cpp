@@ -36,7 +36,7 @@ class Input : public AppStage {
     app().light.take(std::move(set), "x");
   }
   vec3 lamp() {
-    return light_position(light_states(*app().document.scene, app().document.edits(), 0)[0].world);
+    return light_position(edited_lighting(*app().document.scene, app().document.edits(), 0).lights[0].world);
   }
 };
 

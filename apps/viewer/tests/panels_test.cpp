@@ -31,7 +31,7 @@ TEST_F(Panels, SlidersReachFromEndToEndOfTheirRange) {
       "block [pixels]", [&] { return s.block; }, 1, 64);
   open("Probes");
   expect_ends(
-      "bands", [&] { return s.degree; }, 0, 10);
+      "bands", [&] { return s.degree; }, 0, 4);
   expect_ends(
       "threshold P", [&] { return s.hier_params.threshold; }, 0, 0.1f);
   expect_ends(
@@ -92,7 +92,7 @@ TEST_F(Panels, FieldsFollowTheMouseAtTheirSpeed) {
       "position",
       [&] {
         return light_position(
-                   edits().lights[0].world.value_or(light_states(*app().document.scene, edits(), 0)[0].world))
+                   edits().lights[0].world.value_or(edited_lighting(*app().document.scene, edits(), 0).lights[0].world))
             .x;
       },
       0.01f, 0, 0);

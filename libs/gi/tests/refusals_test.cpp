@@ -10,7 +10,7 @@
 #include <ssphh/gi/lookup_error.h>
 #include <ssphh/gi/lookup_weights.h>
 #include <ssphh/gi/nearest.h>
-#include <ssphh/gi/relight_session.h>
+#include <ssphh/gi/session_sets.h>
 #include <ssphh/gi/transport/projection.h>
 #include <ssphh/gi/transport/solve.h>
 #include <ssphh/gi/vct/voxel_grid.h>
