@@ -91,8 +91,8 @@ TEST_F(Panels, FieldsFollowTheMouseAtTheirSpeed) {
   expect_pulled(
       "position",
       [&] {
-        return light_position(
-                   edits().lights[0].world.value_or(edited_lighting(*app().document.scene, edits(), 0).lights[0].world))
+        return light_position(edits().lights[0].world.value_or(
+                                  edited_lighting(*app().document.scene, edits(), 0).lights[0].world))
             .x;
       },
       0.01f, 0, 0);

@@ -24,17 +24,19 @@ struct IrradianceLookup::Data {
 
 IrradianceLookup::IrradianceLookup(const ProbeSet& set, const scene::RadianceSource& source,
                                    const LookupParams& params)
-    : data_(new Data{ProbeTable(set, params), nullptr}) {
+    : data_(std::unique_ptr<Data>(new Data{ProbeTable(set, params), nullptr})) {
   data_->weights = make_weights(
       data_->table.positions(), [&source](const vec3& a, const vec3& b) { return source.visible(a, b); },
       params.weights, set.fitted ? &*set.fitted : nullptr);
 }
 IrradianceLookup::IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWeights> weights,
                                    const LookupParams& params)
-    : data_(new Data{ProbeTable(set, params), std::move(weights)}) {
+    : data_(std::unique_ptr<Data>(new Data{ProbeTable(set, params), std::move(weights)})) {
   require(data_->weights != nullptr, "probe lookup", "there are no weights");
 }
 IrradianceLookup::~IrradianceLookup() = default;
+IrradianceLookup::IrradianceLookup(IrradianceLookup&&) noexcept = default;
+IrradianceLookup& IrradianceLookup::operator=(IrradianceLookup&&) noexcept = default;
 
 vec3 IrradianceLookup::irradiance(const scene::SurfacePoint& at) const {
   ProbeTable::Basis basis;

@@ -29,15 +29,17 @@ struct LightLookup::Data {
   }
 };
 
-LightLookup::LightLookup(const ProbeSet& set, const scene::RadianceSource& source, const LookupParams& params)
-    : data_(nullptr) {
+LightLookup::LightLookup(const ProbeSet& set, const scene::RadianceSource& source,
+                         const LookupParams& params) {
   ProbeTable table(set, params);
   ProbeSight sight(
       table.positions(), [&source](const vec3& a, const vec3& b) { return source.visible(a, b); },
       params.weights);
-  data_.reset(new Data{std::move(table), std::move(sight)});
+  data_ = std::unique_ptr<Data>(new Data{std::move(table), std::move(sight)});
 }
 LightLookup::~LightLookup() = default;
+LightLookup::LightLookup(LightLookup&&) noexcept = default;
+LightLookup& LightLookup::operator=(LightLookup&&) noexcept = default;
 
 vec3 LightLookup::irradiance(const scene::SurfacePoint& at) const {
   const vec3 &x = at.position, &n = at.normal;

@@ -88,6 +88,8 @@ PathTracer::PathTracer(const scene::Scene& scene, float time)
     : PathTracer(std::make_shared<const SceneGeometry>(scene), scene, time) {}
 
 PathTracer::~PathTracer() = default;
+PathTracer::PathTracer(PathTracer&&) noexcept = default;
+PathTracer& PathTracer::operator=(PathTracer&&) noexcept = default;
 
 const std::vector<std::string>& PathTracer::light_groups() const {
   return data_->lights.groups();

@@ -41,6 +41,8 @@ TransportNetwork::TransportNetwork(const scene::TransportSource& source, std::sp
 }
 
 TransportNetwork::~TransportNetwork() = default;
+TransportNetwork::TransportNetwork(TransportNetwork&&) noexcept = default;
+TransportNetwork& TransportNetwork::operator=(TransportNetwork&&) noexcept = default;
 
 PoseReport TransportNetwork::set_time(float time) {
   require(std::isfinite(time), "time", "it must be a finite number of seconds");

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include <ssphh/core/enum_names.h>
+#include <ssphh/core/held.h>
 #include <ssphh/gi/lookup_weights.h>
 #include <ssphh/gi/probe_set.h>
 #include <ssphh/scene/radiance_source.h>
@@ -54,6 +55,8 @@ class LightLookup final : public scene::IndirectLight {
   LightLookup(const ProbeSet& set, const scene::RadianceSource& source, const LookupParams& params = {});
   LightLookup(const ProbeSet&, const scene::RadianceSource&&, const LookupParams& = {}) = delete;
   ~LightLookup() override;
+  LightLookup(LightLookup&&) noexcept;
+  LightLookup& operator=(LightLookup&&) noexcept;
   vec3 irradiance(const scene::SurfacePoint& at) const override;
   vec3 glossy(const scene::SurfacePoint& at, const vec3& r, float roughness) const override;
 
@@ -62,7 +65,7 @@ class LightLookup final : public scene::IndirectLight {
 
  private:
   struct Data;
-  std::unique_ptr<Data> data_;
+  Held<Data> data_;
 };
 
 /// Irradiance volume: Σ_j v_j E_j(n), the weights by params.weights (and the set's fitted points) or as
@@ -74,12 +77,14 @@ class IrradianceLookup final : public scene::IndirectLight {
   IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWeights> weights,
                    const LookupParams& params = {});
   ~IrradianceLookup() override;
+  IrradianceLookup(IrradianceLookup&&) noexcept;
+  IrradianceLookup& operator=(IrradianceLookup&&) noexcept;
   vec3 irradiance(const scene::SurfacePoint& at) const override;
   vec3 glossy(const scene::SurfacePoint& at, const vec3& r, float roughness) const override;
 
  private:
   struct Data;
-  std::unique_ptr<Data> data_;
+  Held<Data> data_;
 };
 
 enum class LookupMethod { light, irradiance };

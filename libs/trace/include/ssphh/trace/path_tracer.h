@@ -2,8 +2,7 @@
 /// Unidirectional path tracer over Embree: next-event estimation with MIS, light groups, progressive passes.
 /// The same bits for any number of threads.
 
-#include <memory>
-
+#include <ssphh/core/held.h>
 #include <ssphh/scene/radiance_source.h>
 #include <ssphh/scene/scene.h>
 #include <ssphh/trace/render_state.h>
@@ -21,6 +20,8 @@ class PathTracer final : public scene::RadianceSource {
   explicit PathTracer(const scene::Scene& scene, float time = 0);
   explicit PathTracer(const scene::Scene&&, float = 0) = delete;  // it would be gone
   ~PathTracer() override;
+  PathTracer(PathTracer&&) noexcept;
+  PathTracer& operator=(PathTracer&&) noexcept;
 
   const std::vector<std::string>& light_groups() const override;
   std::vector<scene::GroupRadiance> incident_radiance(const scene::CubeRequest& request,
@@ -51,7 +52,7 @@ class PathTracer final : public scene::RadianceSource {
 
  private:
   struct Data;
-  std::unique_ptr<Data> data_;
+  Held<Data> data_;
 };
 
 }  // namespace ssphh::trace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <ssphh/core/control.h>
+#include <ssphh/core/held.h>
 #include <ssphh/gi/transport/gbuffer.h>
 #include <ssphh/gi/transport/solve.h>
 #include <ssphh/gi/transport/surfels.h>
@@ -60,6 +61,8 @@ class TransportNetwork {
   TransportNetwork(const scene::TransportSource&&, std::span<const vec3>, const TransportParams&, float = 0,
                    const Control& = {}) = delete;  // it would be gone
   ~TransportNetwork();
+  TransportNetwork(TransportNetwork&&) noexcept;
+  TransportNetwork& operator=(TransportNetwork&&) noexcept;
 
   /// Moves the parts. The result equals a network built at this time, to the bit.
   PoseReport set_time(float time);
@@ -127,7 +130,7 @@ class TransportNetwork {
   struct Data;
 
  private:
-  std::unique_ptr<Data> data_;
+  Held<Data> data_;
 };
 
 }  // namespace ssphh::gi
