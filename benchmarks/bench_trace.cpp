@@ -13,7 +13,8 @@
 #include <ssphh/scene/builtin.h>
 #include <ssphh/scene_io/load.h>
 #include <ssphh/trace/path_tracer.h>
-#include <ssphh/trace/ray_recording.h>
+
+#include "ray_recording.h"
 
 namespace ssphh {
 namespace {

@@ -15,13 +15,13 @@
 #include <ssphh/core/sphere.h>
 #include <ssphh/gi/place.h>
 #include <ssphh/gi/relight_session.h>
-#include <ssphh/gi/transport/link_file.h>
 #include <ssphh/gi/transport/projection.h>
 #include <ssphh/gi/transport/solve.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/trace/transport_scene.h>
 
 #include "peak_fma.h"
+#include "transport/link_file.h"
 
 namespace ssphh {
 namespace {

@@ -96,6 +96,7 @@ void App::start_gen(bool viz_only) {
   auto scene =
       std::make_shared<const scene::Scene>(edited_scene(*document.scene, document.edits(), document.time));
   gi::BakeParams params = bake_params;
+  gi::ProbeDone on_probe;
   // HIER multiplies edges with light band by band, so they must be of one degree.
   const int degree = viz_only && !light.empty() ? light.set().degree : 9;
   gi::ProbeSet set = gi::init_from_scene(*scene, degree, document.time);
@@ -104,11 +105,11 @@ void App::start_gen(bool viz_only) {
     // Edges beside whatever light there is: VIZ alone, in a set of its own.
     params.keep_light = true;
     params.viz = true;
-    params.on_probe = [this](std::size_t i, const gi::Probe& probe) {
+    on_probe = [this](std::size_t i, const gi::Probe& probe) {
       job.hand_over([this, i, edges = probe.edges] { light.take_edges(i, edges); });
     };
   } else {
-    params.on_probe = [this](std::size_t i, const gi::Probe& probe) {
+    on_probe = [this](std::size_t i, const gi::Probe& probe) {
       job.hand_over([this, i, probe] { light.take_probe(i, probe); });
     };
     gi::ProbeSet dark = set;
@@ -118,27 +119,28 @@ void App::start_gen(bool viz_only) {
       probe.groups.assign(dark.light_groups.size(), {{}, sh::RadianceSh(degree)});
     light.take(std::move(dark), "GEN");
   }
-  job.start(viz_only ? "VIZ" : "GEN", [this, geometry = geometry_, scene, set, params,
-                                       time](const Control& control) mutable {
-    const trace::PathTracer tracer(geometry, *scene, time);
-    if (params.keep_light) {
-      for (const std::string& group : tracer.light_groups()) set.light_groups.push_back({group, vec3(1)});
-      for (gi::Probe& probe : set.probes)
-        probe.groups.assign(set.light_groups.size(), {{}, sh::RadianceSh(set.degree)});
-    }
-    gi::BakeReport bake_report;
-    auto baked =
-        std::make_shared<gi::ProbeSet>(gi::bake(tracer, std::move(set), params, {}, bake_report, control));
-    const bool keep = params.keep_light;
-    return [this, baked, keep] {
-      if (keep) {
-        say(fmt::format("VIZ: {} edges", gi::edge_count(*baked)));
-      } else {
-        light.take(std::move(*baked), "GEN");
-        say("GEN is done");
-      }
-    };
-  });
+  job.start(viz_only ? "VIZ" : "GEN",
+            [this, geometry = geometry_, scene, set, params, on_probe, time](const Control& control) mutable {
+              const trace::PathTracer tracer(geometry, *scene, time);
+              if (params.keep_light) {
+                for (const std::string& group : tracer.light_groups())
+                  set.light_groups.push_back({group, vec3(1)});
+                for (gi::Probe& probe : set.probes)
+                  probe.groups.assign(set.light_groups.size(), {{}, sh::RadianceSh(set.degree)});
+              }
+              gi::BakeReport bake_report;
+              auto baked = std::make_shared<gi::ProbeSet>(
+                  gi::bake(tracer, std::move(set), params, {}, bake_report, control, nullptr, on_probe));
+              const bool keep = params.keep_light;
+              return [this, baked, keep] {
+                if (keep) {
+                  say(fmt::format("VIZ: {} edges", gi::edge_count(*baked)));
+                } else {
+                  light.take(std::move(*baked), "GEN");
+                  say("GEN is done");
+                }
+              };
+            });
 }
 
 void App::take_probe_file(const std::string& file) {

@@ -78,7 +78,8 @@ TEST(Respond, TellsHowFastAMethodFollows) {
   EXPECT_LT(run["first_error"], run["before_error"]);
   const std::string text = read_text_file(csv);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);
-  expect_failure({"respond", "builtin:two-rooms", "--event", "time=1:1"}, {"nothing changes"});
+  expect_failure({"respond", "builtin:two-rooms", "--event", "time=1:1"},
+                 {"--event: nothing changes (give two different keys, as in time=0:1)"});
   expect_failure({"respond", "builtin:two-rooms", "--event", "lamp.pos=1:2"}, {"lamp"});
 }
 

@@ -62,8 +62,9 @@ class TexturedPixels : public WithGl {
   /// Pictures whose lamp gives radiances up to about 1, and whose probes, if any, about 0.3. Where the traced
   /// picture changes by more than `edge` from pixel to pixel, its samples and the drawn ones may mix
   /// otherwise: anything between a pixel and those around it will do. At most `edges` of the picture are
-  /// such.
-  void expect_traced(scene::Scene scene, const gi::ProbeSet* probes, float edge, double edges) {
+  /// such. `filtered`: what 8 bits of a filter's weight may change a radiance by.
+  void expect_traced(scene::Scene scene, const gi::ProbeSet* probes, float edge, double edges,
+                     float filtered = 0.011f) {
     scene::validate(scene);
     const trace::PathTracer tracer(scene);
     gi::LookupParams params;
@@ -77,7 +78,7 @@ class TexturedPixels : public WithGl {
     // Weights of filters have 8 bits along each axis: 2 / 256 of the texels' differences, of colours up to 1,
     // of normals up to 0.4, which a cosine may have in full: 0.011 of a radiance of 1. Tiles of probes, and
     // colours of 10 bits: 1 % (lookup_pixels_test.cpp)
-    PictureBounds bounds = PictureBounds::around(truth, 0.01f, 0.011f);
+    PictureBounds bounds = PictureBounds::around(truth, 0.01f, filtered);
     bounds.variance = samples.variance(), bounds.degrees = samples.degrees();
     const auto jumps = [&](int x, int y) {
       vec3 low(INFINITY), high(0);
@@ -109,6 +110,22 @@ TEST_F(TexturedPixels, OfColoursAndNormalsTurnedAndUnevenlyScaledAreTheTracers) 
   s.materials[0].normal_scale = 0.8f;
   const gi::ProbeSet probes = smooth_probes({{-1.5f, 0.5f, 2}, {1.5f, -0.5f, 2.5f}, {0.2f, 1.5f, 1.8f}});
   expect_traced(std::move(s), &probes, INFINITY, 0);
+}
+
+// Texels that are all alike leave filters nothing to round: what the map's strength and the turn of its
+// coordinates do is seen to 1 %. A tenth of the strength is up to 5 % of the light here.
+TEST_F(TexturedPixels, OfAnEvenNormalMapAreTheTracersToAPercent) {
+  scene::Scene s = sheet();
+  scene::Texture& lean = s.textures.emplace_back();
+  lean.name = "lean", lean.width = lean.height = 2;
+  for (int i = 0; i < 4; ++i) lean.rgba.insert(lean.rgba.end(), {210, 60, 200, 255});
+  s.materials[0].base_color = {0.8f, 0.6f, 0.4f};
+  for (const float scale : {0.8f, 0.3f, -0.5f}) {
+    SCOPED_TRACE(testing::Message() << "scale " << scale);
+    s.materials[0].normal_texture = {.texture = 0, .scale = {0.4f, 0.7f}, .rotation = -0.9f};
+    s.materials[0].normal_scale = scale;
+    expect_traced(s, nullptr, INFINITY, 0, 0.001f);
+  }
 }
 
 TEST_F(TexturedPixels, OfAMaskAndOfWhatIsLitThroughItsHolesAreTheTracers) {

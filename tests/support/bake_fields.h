@@ -12,10 +12,9 @@ void fields(auto& visit, gi::VizParams& p) {
   visit("matrix", matrix), visit("neighbors", neighbors), visit("threshold", threshold);
 }
 void fields(auto& visit, gi::BakeParams& p) {
-  auto& [gen, path, face_size, keep_light, viz, viz_params, on_probe] = p;
+  auto& [gen, path, face_size, keep_light, viz, viz_params] = p;
   visit("gen", gen), visit("path", path), visit("face_size", face_size), visit("keep_light", keep_light);
   visit("viz", viz), visit("viz_params", viz_params);
-  static_cast<void>(on_probe);  // is told of results and changes none
 }
 void fields(auto& visit, gi::GeneratorInfo& g) {
   auto& [op, viz, gen, max_depth, passes, spp, face_size, seed, directions, surfel_size, link_rays, scene,

@@ -3,10 +3,9 @@
 #include <ssphh/core/log.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/farm/engine.h>
-#include <ssphh/farm/worker_pool.h>
 
 #include "commands/command.h"
-#include "options/farm_options.h"
+#include "options/worker_settings.h"
 
 namespace ssphh::app {
 namespace {
@@ -14,22 +13,10 @@ namespace {
 /// For schedulers: this worker would fail again in the same way.
 constexpr int never_retry = 42;
 
-struct WorkerCommand {
-  BrokerChoice broker;
-  farm::WorkerPoolOptions pool;
-  std::string cache;
-  std::uint64_t cache_mb = 20480;
-};
-
-void work(Context& context, WorkerCommand& command) {
+void work(Context& context, const WorkerSettings& settings) {
   try {
-    farm::WorkerPoolOptions options = command.pool;
-    options.broker = broker_address(command.broker);
-    options.cache =
-        command.cache.empty() ? farm::default_cache_dir("scenes") : std::filesystem::path(command.cache);
-    options.cache_bytes = command.cache_mb << 20;
-    // Every slot's thread works itself; the others are shared.
-    set_thread_count(std::max(1, thread_count() - options.slots + 1));
+    const farm::WorkerPoolOptions options = pool_options(settings);
+    set_thread_count(shared_threads(thread_count(), options.slots));
     log_info("worker-ready broker={} service={} slots={} cache={}", options.broker.endpoint,
              farm::job_service(), options.slots, options.cache.string());
     const farm::WorkerPoolReport report = farm::run_workers(options, context.control);
@@ -46,7 +33,7 @@ void work(Context& context, WorkerCommand& command) {
 }  // namespace
 
 void add_worker_command(Command app, Context& context) {
-  auto options = std::make_shared<WorkerCommand>();
+  auto options = std::make_shared<WorkerSettings>();
   Command command = add_command(app, context, "worker", "Do jobs of a farm: GEN, VIZ and tiles of pictures",
                                 [&context, options] { work(context, *options); });
   const std::string group = "Worker";

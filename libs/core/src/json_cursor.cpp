@@ -154,6 +154,17 @@ const std::string& Cursor::text(std::size_t most) const {
   return text;
 }
 
+void Cursor::expect_version(int version) const {
+  if (is_number() && value_->number() == version) return;
+  fail(fmt::format("the version is {:.32}; this program reads version {}", print(*value_), version));
+}
+
+void Cursor::expect_format(const char* format, int version) const {
+  const Cursor name = (*this)["format"];
+  if (name.text() != format) name.fail(fmt::format("must be \"{}\"", format));
+  (*this)["version"].expect_version(version);
+}
+
 std::uint64_t Cursor::hexadecimal() const {
   const auto value = from_hexadecimal(text());
   if (!value) fail("must be 1 to 16 lower-case hexadecimal digits");

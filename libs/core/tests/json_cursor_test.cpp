@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <ssphh/core/json_cursor.h>
@@ -15,6 +16,17 @@ std::string said_of(const std::string& value, const Read& read) {
   const std::string file = "f";
   const Value document = parse(R"({"v":)" + value + "}", file);
   return message_of([&] { read(Cursor(document, file)["v"]); });
+}
+
+TEST(JsonCursor, AFormatAndItsVersionAreThoseThatAreRead) {
+  const auto format = [](const Cursor& v) { v.expect_format("a-thing", 3); };
+  EXPECT_EQ(said_of(R"({"format":"a-thing","version":3})", format), "no error");
+  EXPECT_EQ(said_of(R"({"format":"a-thin","version":3})", format), "f: v.format: must be \"a-thing\"");
+  EXPECT_EQ(said_of(R"({"format":"a-thing"})", format), "f: v: \"version\" is missing");
+  for (const char* other : {"2", "4", "3.5", "\"3\"", "[3]"}) {
+    EXPECT_EQ(said_of(fmt::format(R"({{"format":"a-thing","version":{}}})", other), format),
+              fmt::format("f: v.version: the version is {}; this program reads version 3", other));
+  }
 }
 
 TEST(JsonCursor, WholeNumbersLieBetweenTheirLimits) {

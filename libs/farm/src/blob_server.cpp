@@ -38,8 +38,7 @@ struct BlobServer::Impl {
   majordomo::Frames serve(const majordomo::Job& job) {
     const Message message = parse_message(job.body.at(0), "blob request");
     const Field root = message.root();
-    if (root["format"].text() != "ssphh-blob-request" || root["version"].integer(0, 1000) != 1)
-      root.fail("is of another format or version");
+    root.expect_format("ssphh-blob-request", 1);
     const auto found = blobs.find(root["blob"].hash().hex());
     if (found == blobs.end()) throw Error("blob " + root["blob"].text(), "is not of this package");
     const auto size = static_cast<std::int64_t>(found->second.size());

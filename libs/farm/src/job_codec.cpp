@@ -258,14 +258,6 @@ gi::BakeStage stage_of(JobKind kind) {
   return kind == JobKind::gen ? gi::BakeStage::gen : gi::BakeStage::viz;
 }
 
-void check_head(const Field& root, const char* format) {
-  if (root["format"].text() != format) root["format"].fail(fmt::format("must be \"{}\"", format));
-  const std::int64_t version = root["version"].integer(0, INT32_MAX);
-  if (version != job_version) {
-    root["version"].fail(fmt::format("is {}; this program reads version {}", version, job_version));
-  }
-}
-
 }  // namespace
 
 std::string encode_job(const Job& job, ContentType type) {
@@ -279,7 +271,7 @@ std::string encode_job(const Job& job, ContentType type) {
 Job decode_job(std::string_view body) {
   const Message message = parse_message(body, "job");
   const Field root = message.root();
-  check_head(root, "ssphh-job");
+  root.expect_format("ssphh-job", job_version);
   const auto kind = root["kind"].named<JobKind>();
   Job job;
   if (kind == JobKind::ref) {
@@ -312,7 +304,7 @@ std::string encode_result(const JobResult& result, ContentType type) {
 JobResult decode_result(std::string_view body) {
   const Message message = parse_message(body, "result");
   const Field root = message.root();
-  check_head(root, "ssphh-result");
+  root.expect_format("ssphh-result", job_version);
   JobResult result;
   const auto kind = root["kind"].named<JobKind>();
   if (kind == JobKind::ref) {

@@ -93,9 +93,9 @@ TEST_F(BlobServing, SaysWhatItDoesNotHaveOrUnderstand) {
   expect_failure(said_to(request("ssphh-blob-request", 1, unknown)),
                  "blob " + unknown + ": is not of this package");
   expect_failure(said_to(request("ssphh-blob", 1, package.id.hex())),
-                 "blob request: is of another format or version");
+                 "blob request: format: must be \"ssphh-blob-request\"");
   expect_failure(said_to(request("ssphh-blob-request", 2, package.id.hex())),
-                 "blob request: is of another format or version");
+                 "blob request: version: the version is 2; this program reads version 1");
   expect_failure(said_to("what?"), "blob request: is not valid JSON");
   EXPECT_EQ(server.bytes_sent(), 9u);
 }

@@ -90,6 +90,7 @@ struct Work {
   Checkpoint& checkpoint;
   ProbeSet& set;
   BakeReport& report;
+  const ProbeDone& on_probe;
 
   /// What an earlier run finished goes into the set; returns, stage by stage, what is left to do.
   std::vector<ProbeStage> resume(const std::vector<BakeStage>& stages) const {
@@ -116,7 +117,7 @@ struct Work {
   void keep(ProbeStageResult result) const {
     const std::size_t i = result.done.probe;
     store(std::move(result), set, report);
-    if (params.on_probe) params.on_probe(i, set.probes[i]);
+    if (on_probe) on_probe(i, set.probes[i]);
   }
 
   /// Probe by probe; each is on all threads.
@@ -208,7 +209,7 @@ ProbeStageResult bake_stage(const scene::RadianceSource& source, const ProbeSet&
 
 ProbeSet bake(const scene::RadianceSource& source, ProbeSet set, const BakeParams& params,
               const std::filesystem::path& checkpoint_path, BakeReport& report, const Control& control,
-              BakeCrew* crew) {
+              BakeCrew* crew, const ProbeDone& on_probe) {
   if (set.probes.empty())
     throw Error("bake", "there are no probes to bake", "run INIT on a scene with SPHLs");
   report = {};
@@ -239,7 +240,7 @@ ProbeSet bake(const scene::RadianceSource& source, ProbeSet set, const BakeParam
   std::vector<BakeStage> stages;
   if (!params.keep_light) stages.push_back(BakeStage::gen);
   if (params.viz) stages.push_back(BakeStage::viz);
-  const Work work{source, params, checkpoint, set, report};
+  const Work work{source, params, checkpoint, set, report, on_probe};
   const std::vector<ProbeStage> left = work.resume(stages);
   if (crew) {
     CrewCheck check(set, left);

@@ -15,12 +15,6 @@ namespace {
 
 using json::Cursor;
 
-void require_version(const Cursor& at, int version) {
-  if (at.is_number() && at.value().number() == version) return;
-  at.fail(
-      fmt::format("the version is {:.32}; this program reads version {}", json::print(at.value()), version));
-}
-
 int integer(const Cursor& at, int least, int most) {
   return static_cast<int>(at.integer(least, most));
 }
@@ -112,7 +106,7 @@ FittedPoints read_fitted(const Cursor& at, std::size_t probe_count) {
 }
 
 ProbeSet read_set(const Cursor& root) {
-  if (root.has("version")) require_version(root["version"], probe_file_version);
+  if (root.has("version")) root["version"].expect_version(probe_file_version);
   root.members({"format", "version", "degree", "generator", "light_groups", "probes"},
                {"hierarchy", "fitted"});
   if (root["format"].text(limits::text) != "ssphh-probes") root["format"].fail("must be \"ssphh-probes\"");

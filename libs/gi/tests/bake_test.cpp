@@ -110,14 +110,15 @@ TEST(Gen, LocalMeansDepthOne) {
 TEST(Bake, TellsOfEveryProbeWhenItsStageIsDone) {
   const FakeSource source;
   const ProbeSet start = places({{0, 0, 0}, {1, 0, 0}}, 0.2f, 2);
-  BakeParams params = small();
+  const BakeParams params = small();
   std::vector<std::pair<std::size_t, bool>> told;
-  params.on_probe = [&](std::size_t i, const Probe& probe) { told.emplace_back(i, probe.edges.empty()); };
-  const ProbeSet set = bake_now(source, start, params);
+  BakeReport report;
+  const ProbeSet set =
+      bake(source, start, params, {}, report, {}, nullptr,
+           [&](std::size_t i, const Probe& probe) { told.emplace_back(i, probe.edges.empty()); });
   using testing::Pair;
   EXPECT_THAT(told, testing::ElementsAre(Pair(0, true), Pair(1, true), Pair(0, false), Pair(1, false)))
       << "GEN of all, then VIZ";
-  params.on_probe = nullptr;
   EXPECT_EQ(bake_now(source, start, params), set);
 }
 

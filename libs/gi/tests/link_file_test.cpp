@@ -1,3 +1,5 @@
+#include "transport/link_file.h"
+
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -7,7 +9,6 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
 #include <ssphh/core/random.h>
-#include <ssphh/gi/transport/link_file.h>
 
 #include "temp_dir.h"
 

@@ -21,6 +21,24 @@ TEST(Foreign, Mdp01PeersInRawFrames) {
   EXPECT_THAT(client.receive(), ElementsAre("MDPC01", "echo", "world"));
 }
 
+// Silence is allowed to last for minutes here: only the connection's end tells.
+TEST(Foreign, AWorkerWhoseConnectionEndsGivesUpItsJobAtOnce) {
+  BrokerOptions options;
+  options.timers.worker_expiry = 600'000;
+  RunningBroker broker(options);
+  auto first = std::make_unique<RawPeer>(zmq::socket_type::dealer, broker.endpoint());
+  first->send({"", "MDPW01", "\x01", "echo"});
+  RawPeer client(zmq::socket_type::req, broker.endpoint());
+  client.send({"MDPC01", "echo", "hello"});
+  ASSERT_EQ(first->receive().size(), 6u);
+  first.reset();
+  RawPeer second(zmq::socket_type::dealer, broker.endpoint());
+  second.send({"", "MDPW01", "\x01", "echo"});
+  const Frames job = second.receive();
+  ASSERT_EQ(job.size(), 6u);
+  EXPECT_EQ(job[5], "hello");
+}
+
 TEST(Foreign, OurWorkerServesAForeignBrokerExactlyByTheRfc) {
   for (const Dialect dialect : {Dialect::mdp01, Dialect::mdp02, Dialect::own}) {
     const bool old = dialect == Dialect::mdp01;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "broker_harness.h"
+#include "expected_text.h"
 
 namespace ssphh::majordomo::test {
 namespace {
@@ -202,6 +203,16 @@ TEST_F(Telling, PrometheusReadsAnyNameOfAService) {
   h.send("x", client02("a\"b\\c", {""}));
   EXPECT_THAT(h.core.metrics_text(),
               testing::HasSubstr("ssphh_broker_service_queued{service=\"a\\\"b\\\\c\"} 1\n"));
+}
+
+/// The first three of each kind, with all they say.
+TEST_F(Telling, WhatHappenedInWords) {
+  std::map<std::string, int> told;
+  std::string text;
+  for (const BrokerEvent& event : h.events) {
+    if (++told[event.name] <= 3) text += fmt::format("{} {}\n", name_of(event.level), event.text());
+  }
+  ssphh::test::expect_text_of("libs/majordomo/tests/expected/events.txt", text);
 }
 
 TEST_F(Telling, WorkersInJsonAreTheirOwn) {

@@ -145,6 +145,10 @@ TEST(YamlPlan, ErrorsNameTheLineAndTheNearestKey) {
   EXPECT_THAT(message_of(plan, "- bake", "- bak"), HasSubstr("p.yaml:15: methods[0].steps[0]"));
   EXPECT_THAT(message_of(plan, "title: Degrees", "title: [Degrees"), HasSubstr("is not YAML"));
   EXPECT_THAT(message_of(plan, "  exposure", "  width"), HasSubstr("p.yaml:5: \"width\" stands twice"));
+  EXPECT_THAT(message_of(plan, "# Degrees", "colour: red"), testing::StartsWith("p.yaml:1: unknown member"));
+  EXPECT_THAT(message_of(plan, "    steps:", "    scenes: [roms]\n    steps:"),
+              testing::StartsWith("p.yaml: methods/ssphh: unknown scene \"roms\""))
+      << "what is no place in the file has no line";
 }
 
 TEST(YamlPlan, AliasesThatMultiplyAreRefused) {

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include <ssphh/core/math.h>
-#include <ssphh/trace/ray_recording.h>
+
+#include "ray_recording.h"
 
 namespace ssphh::trace {
 

@@ -1,3 +1,5 @@
+#include "link_file.h"
+
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -10,7 +12,6 @@
 #include <unistd.h>
 
 #include <ssphh/core/error.h>
-#include <ssphh/gi/transport/link_file.h>
 
 namespace ssphh::gi {
 namespace {

@@ -76,6 +76,10 @@ class Cursor {
     if (!value) fail(none_of(text(), names_of<E>()));
     return *value;
   }
+  /// Fails unless this is the number of the version that is read.
+  void expect_version(int version) const;
+  /// Fails unless the member `format` is this text and `version` that number.
+  void expect_format(const char* format, int version) const;
   /// The number that a text of 1 to 16 lower-case hexadecimal digits tells.
   std::uint64_t hexadecimal() const;
   /// Text of 32 such digits.

@@ -19,10 +19,11 @@ struct BakeParams {
   bool keep_light = false;      ///< no GEN: VIZ alone, beside the light that the set holds
   bool viz = true;              ///< false: the set's edges stay as they are
   VizParams viz_params;
-  /// Told of each probe when its GEN or VIZ is done, from one thread at a time: `groups` or `edges` are new,
-  /// what merge_groups derives is not. Empty: nobody is. Changes no result.
-  std::function<void(std::size_t, const Probe&)> on_probe;
 };
+
+/// Told of each probe when its GEN or VIZ is done, from one thread at a time: `groups` or `edges` are new,
+/// what merge_groups derives is not. Changes no result.
+using ProbeDone = std::function<void(std::size_t, const Probe&)>;
 
 /// What a bake took: not part of the set, which must not depend on timing.
 struct BakeReport {
@@ -79,6 +80,6 @@ class BakeCrew {
 /// With a `crew` it traces; the result is the same, bit by bit.
 ProbeSet bake(const scene::RadianceSource& source, ProbeSet set, const BakeParams& params,
               const std::filesystem::path& checkpoint, BakeReport& report, const Control& control = {},
-              BakeCrew* crew = nullptr);
+              BakeCrew* crew = nullptr, const ProbeDone& on_probe = {});
 
 }  // namespace ssphh::gi
