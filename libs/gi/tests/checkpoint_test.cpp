@@ -82,6 +82,10 @@ class CheckpointFile : public testing::Test {
   std::vector<std::byte> whole;
 };
 
+TEST_F(CheckpointFile, BeginsWithItsFormatsName) {
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(whole.data()), 8), "SPHLCKP1");
+}
+
 TEST_F(CheckpointFile, GivesBackWhatWasAppended) {
   expect_good(whole, 3, "whole");
 }

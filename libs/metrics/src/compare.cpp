@@ -136,9 +136,8 @@ Image pixelated_error_map(const Image& reference, const Image& test, int block) 
   Image map(columns, rows, absolute.channels);
   parallel_for(static_cast<std::size_t>(rows), 1, [&](std::size_t begin, std::size_t end) {
     const auto channels = static_cast<std::size_t>(absolute.channels);
-    std::vector<double> sums(static_cast<std::size_t>(columns) * channels);
     for (auto row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {
-      std::fill(sums.begin(), sums.end(), 0.0);
+      std::vector<double> sums(static_cast<std::size_t>(columns) * channels, 0.0);
       const int first = row * block, last = first + std::min(block, absolute.height - first);
       for (int y = first; y < last; ++y) {
         for (int x = 0; x < absolute.width; ++x) {
