@@ -5,7 +5,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "temp_dir.h"
 #include "tool_checks.h"
@@ -56,7 +55,7 @@ TEST(BadInput, UnknownNamesListTheKnownOnes) {
 TEST(BadInput, ErrorsAreJsonWhenAskedFor) {
   const ToolResult result = run_tool({"scene", "info", "builtin:nowhere", "--json"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_TRUE(nlohmann::json::parse(result.out).contains("error"));
+  EXPECT_TRUE(test::parse_json(result.out).contains("error"));
 }
 
 TEST(BadInput, BrokenScenesNameFileAndPlace) {

@@ -5,8 +5,8 @@
 #include <csignal>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
+#include "json_text.h"
 #include "tool.h"
 
 namespace ssphh::app {
@@ -33,12 +33,11 @@ TEST(BrokerSettings, AreConverted) {
 }
 
 TEST(BrokerSettings, TheReadyEventNamesItsEndpoints) {
-  using nlohmann::json;
-  json ready = json::parse(ready_event("tcp://a:1", "tcp://b:2").json());
+  const json::Value ready = test::parse_json(ready_event("tcp://a:1", "tcp://b:2").json());
   EXPECT_EQ(ready["event"], "broker-ready");
   EXPECT_EQ(ready["endpoint"], "tcp://a:1");
   EXPECT_EQ(ready["metrics"], "tcp://b:2");
-  EXPECT_FALSE(json::parse(ready_event("tcp://a:1", "").json()).contains("metrics"));
+  EXPECT_FALSE(test::parse_json(ready_event("tcp://a:1", "").json()).contains("metrics"));
 }
 
 TEST(BrokerSettings, TheToolPrintsItsEndpointAndEndsWhenAsked) {

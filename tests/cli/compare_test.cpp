@@ -15,7 +15,6 @@ namespace ssphh {
 namespace {
 
 using image::Image;
-using nlohmann::json;
 using test::run_json;
 using test::run_tool;
 using test::TempDir;
@@ -45,14 +44,14 @@ class Compare : public testing::Test {
     return arguments;
   }
   /// The errors of `pixels` good pixels, which are all equal.
-  static void expect_errors(const json& errors, int pixels, int nonfinite) {
+  static void expect_errors(const json::Value& errors, int pixels, int nonfinite) {
     EXPECT_EQ(errors["pixels"], pixels);
     EXPECT_EQ(errors["nonfinite_pixels"], nonfinite);
-    EXPECT_NEAR(errors["mae"].get<double>(), 1.75 / 3, 1e-12);
-    EXPECT_NEAR(errors["bias"].get<double>(), -0.25 / 3, 1e-12);
-    EXPECT_NEAR(errors["sum"].get<double>(), 1.75 * pixels, 1e-12);
+    EXPECT_NEAR(errors["mae"].number(), 1.75 / 3, 1e-12);
+    EXPECT_NEAR(errors["bias"].number(), -0.25 / 3, 1e-12);
+    EXPECT_NEAR(errors["sum"].number(), 1.75 * pixels, 1e-12);
     EXPECT_EQ(errors["max"], 1);
-    EXPECT_NEAR(errors["mean_ratio"][2].get<double>(), 2.0 / 3, 1e-12);
+    EXPECT_NEAR(errors["mean_ratio"][2].number(), 2.0 / 3, 1e-12);
   }
 
   const TempDir dir_;
@@ -107,9 +106,9 @@ TEST_F(Compare, WhatAMaskLeavesOutIsNotBad) {
 }
 
 TEST_F(Compare, ExposureMultipliesBothPictures) {
-  const json errors = run_json(command({"--exposure", "2"}));
-  EXPECT_NEAR(errors["mae"].get<double>(), 4 * 1.75 / 3, 1e-12);
-  EXPECT_NEAR(errors["mean_ratio"][0].get<double>(), 1.25, 1e-12);
+  const json::Value errors = run_json(command({"--exposure", "2"}));
+  EXPECT_NEAR(errors["mae"].number(), 4 * 1.75 / 3, 1e-12);
+  EXPECT_NEAR(errors["mean_ratio"][0].number(), 1.25, 1e-12);
 }
 
 }  // namespace

@@ -15,7 +15,6 @@
 namespace ssphh {
 namespace {
 
-using nlohmann::json;
 using test::json_here;
 using test::problem_here;
 using test::text_here;
@@ -40,7 +39,7 @@ class Farm : public testing::Test {
     majordomo::Client client({.endpoint = endpoint_});
     for (int i = 0; i < jobs; ++i) client.call("gen", {"x"}, {.deadline = 5000}, {});
   }
-  json status() const { return json_here({"farm", "status", "--broker", endpoint_}); }
+  const json::Value status() const { return json_here({"farm", "status", "--broker", endpoint_}); }
 
   const test::TempDir dir_;
   const std::string endpoint_ = "ipc://" + (dir_ / "broker").string();
@@ -53,10 +52,12 @@ class Farm : public testing::Test {
 TEST_F(Farm, StatusShowsCountsServicesAndWorkers) {
   finish(3);
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  const auto since = [](const json& status) { return status["workers"][0]["since_ms"].get<double>() / 1000; };
-  const json before = status();
+  const auto since = [](const json::Value& status) {
+    return status["workers"][0]["since_ms"].number() / 1000;
+  };
+  const json::Value before = status();
   const std::string text = text_here({"farm", "status", "--broker", endpoint_});
-  const json after = status();
+  const json::Value after = status();
   EXPECT_EQ(before["stats"]["services"][0]["finished"], 3);
   ASSERT_EQ(before["workers"].size(), 1u);
   EXPECT_THAT(
@@ -86,7 +87,7 @@ TEST_F(Farm, TopTellsTheRateFromTheSecondLookOn) {
 
 TEST_F(Farm, JobsAreNamedToReleaseOrDropThem) {
   EXPECT_EQ(text_here({"farm", "parked", "--broker", endpoint_}), "no job is set aside");
-  EXPECT_EQ(json_here({"farm", "release", "--all", "--broker", endpoint_}), json({{"released", 0}}));
+  EXPECT_EQ(json_here({"farm", "release", "--all", "--broker", endpoint_}), json::Value({{"released", 0}}));
   EXPECT_EQ(text_here({"farm", "drop", "--all", "--broker", endpoint_}), "0 jobs are forgotten");
   EXPECT_THAT(problem_here({"farm", "drop", "--broker", endpoint_}), HasSubstr("jobs: none are named"));
   EXPECT_THAT(problem_here({"farm", "release", "7", "--broker", endpoint_}),
@@ -96,10 +97,10 @@ TEST_F(Farm, JobsAreNamedToReleaseOrDropThem) {
 TEST(FarmKeys, AreMadeWithTheRightsOfTheirRole) {
   const test::TempDir dir;
   const std::string folder = dir / "keys";
-  const json first = json_here({"farm", "keygen", "ann", "--role", "client", "--keys", folder});
-  EXPECT_EQ(first, json({{"folder", folder}, {"made", {"broker", "ann"}}, {"role", "client"}}));
-  const json second = json_here({"farm", "keygen", "box", "--role", "worker", "--keys", folder});
-  EXPECT_EQ(second["made"], json({"box"})) << "the broker has one";
+  const json::Value first = json_here({"farm", "keygen", "ann", "--role", "client", "--keys", folder});
+  EXPECT_EQ(first, json::Value({{"folder", folder}, {"made", {"broker", "ann"}}, {"role", "client"}}));
+  const json::Value second = json_here({"farm", "keygen", "box", "--role", "worker", "--keys", folder});
+  EXPECT_EQ(second["made"], json::Value::array({"box"})) << "the broker has one";
   EXPECT_THAT(text_here({"farm", "keygen", "eve", "--role", "admin", "--keys", folder}),
               testing::StartsWith(
                   folder + ": made eve.key, which may be a admin\ngive its user eve.key and broker.pub"));

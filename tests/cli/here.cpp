@@ -35,11 +35,11 @@ std::string text_here(const std::vector<std::string>& arguments) {
   return text;
 }
 
-nlohmann::json json_here(std::vector<std::string> arguments, int exit_code) {
+const json::Value json_here(std::vector<std::string> arguments, int exit_code) {
   arguments.emplace_back("--json");
   const HereResult result = run_here(arguments);
   EXPECT_EQ(result.exit_code, exit_code) << result.err;
-  return nlohmann::json::parse(result.out);
+  return parse_json(result.out);
 }
 
 std::string problem_here(const std::vector<std::string>& arguments) {

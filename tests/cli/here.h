@@ -5,9 +5,10 @@
 #include <vector>
 
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
 #include <ssphh/core/control.h>
+
+#include "json_text.h"
 
 namespace ssphh::test {
 
@@ -22,7 +23,7 @@ HereResult run_here(const std::vector<std::string>& arguments, const Control& co
 /// What it prints for people, without the newline at the end.
 std::string text_here(const std::vector<std::string>& arguments);
 
-nlohmann::json json_here(std::vector<std::string> arguments, int exit_code = 0);
+const json::Value json_here(std::vector<std::string> arguments, int exit_code = 0);
 
 /// The message of the Error that it throws.
 std::string problem_here(const std::vector<std::string>& arguments);

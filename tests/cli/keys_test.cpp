@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "temp_dir.h"
 #include "tool_checks.h"
@@ -10,7 +9,6 @@
 namespace ssphh {
 namespace {
 
-using nlohmann::json;
 using test::expect_keys;
 using test::run_json;
 using test::run_tool;
@@ -54,11 +52,11 @@ TEST(Keys, EveryCommandHasHelp) {
 }
 
 TEST(Keys, SceneInfo) {
-  const json info = run_json({"scene", "info", "builtin:two-rooms"});
+  const json::Value info = run_json({"scene", "info", "builtin:two-rooms"});
   expect_keys(info, {"triangles", "instances", "materials", "textures", "lights", "cameras", "sphls",
                      "movable", "ignored"});
-  EXPECT_GT(info["movable"], 0) << "the door";
-  EXPECT_GE(info["sphls"], 4);
+  EXPECT_GT(info["movable"].number(), 0) << "the door";
+  EXPECT_GE(info["sphls"].number(), 4);
 }
 
 TEST(Keys, FromSceneToComparedPicture) {
@@ -66,11 +64,11 @@ TEST(Keys, FromSceneToComparedPicture) {
   const std::string probes = dir / "a.sphl.json", lit = dir / "b.sphl", sheet = dir / "sheet.png";
   const std::string path = dir / "path.exr", ssphh = dir / "ssphh.exr", png = dir / "ssphh.png";
 
-  const json bake =
+  const json::Value bake =
       run_json({"bake", "builtin:cornell", "-o", probes, "--degree", "4", "--face", "8", "--spp", "2"});
   expect_keys(bake, {"probes", "gen_seconds", "viz_seconds", "rays"});
-  EXPECT_GE(bake["probes"], 4);
-  const json hier =
+  EXPECT_GE(bake["probes"].number(), 4);
+  const json::Value hier =
       run_json({"hier", probes, "-o", lit, "--operator", "mean", "--neighbors", "2", "--threshold", "0"});
   expect_keys(hier, {"seconds", "edges", "operator"});
   EXPECT_EQ(hier["operator"], "mean");
@@ -87,7 +85,7 @@ TEST(Keys, FromSceneToComparedPicture) {
   expect_keys(run_json(arguments), {"seconds", "rays", "paths", "mean"});
   EXPECT_TRUE(std::filesystem::exists(png));
 
-  const json compare = run_json({"compare", path, ssphh, "--block", "8", "-o", dir / "diff.png"});
+  const json::Value compare = run_json({"compare", path, ssphh, "--block", "8", "-o", dir / "diff.png"});
   expect_keys(compare, {"mae", "rmse", "mse", "relmse", "mape", "smape", "mean_ratio", "psnr", "ssim", "flip",
                         "width", "height"});
   EXPECT_EQ(compare["width"], 32);
@@ -97,12 +95,12 @@ TEST(Keys, FromSceneToComparedPicture) {
 }
 
 TEST(Keys, ShEvalGivesTheFirstBands) {
-  const json eval = run_json({"sh", "eval", "--degree", "1", "--direction", "0", "1", "0"});
+  const json::Value eval = run_json({"sh", "eval", "--degree", "1", "--direction", "0", "1", "0"});
   EXPECT_EQ(eval["degree"], 1);
   ASSERT_EQ(eval["values"].size(), 4u);
-  EXPECT_NEAR(eval["values"][0].get<double>(), 0.282095, 1e-6);
-  EXPECT_NEAR(eval["values"][1].get<double>(), 0.488603, 1e-6);  // Y₁₋₁ = 0.488603 y
-  EXPECT_NEAR(eval["values"][2].get<double>(), 0, 1e-6);
+  EXPECT_NEAR(eval["values"][0].number(), 0.282095, 1e-6);
+  EXPECT_NEAR(eval["values"][1].number(), 0.488603, 1e-6);  // Y₁₋₁ = 0.488603 y
+  EXPECT_NEAR(eval["values"][2].number(), 0, 1e-6);
 }
 
 TEST(Keys, ShProjectFeedsTheOtherShCommands) {
@@ -111,16 +109,16 @@ TEST(Keys, ShProjectFeedsTheOtherShCommands) {
   // Closed box, Le = 1, depth 0: radiance 1 in every direction, without noise.
   run_json({"render", "builtin:box", "-o", strip, "--projection", "cube", "--width", "96", "--height", "16",
             "--max-depth", "0", "--spp", "1"});
-  const json project =
+  const json::Value project =
       run_json({"sh", "project", strip, "--layout", "strip-h", "--degree", "2", "-o", coefficients});
   expect_keys(project, {"degree", "coefficients"});
   ASSERT_EQ(project["coefficients"].size(), 9u);
   // √4π to the five digits of the file, no higher band.
-  EXPECT_NEAR(project["coefficients"][0][0].get<double>(), 3.5449077, 5e-5);
-  EXPECT_NEAR(project["coefficients"][1][0].get<double>(), 0, 5e-5);
-  const json irradiance = run_json({"sh", "irradiance", coefficients, "--normal", "0", "0", "1"});
+  EXPECT_NEAR(project["coefficients"][0][0].number(), 3.5449077, 5e-5);
+  EXPECT_NEAR(project["coefficients"][1][0].number(), 0, 5e-5);
+  const json::Value irradiance = run_json({"sh", "irradiance", coefficients, "--normal", "0", "0", "1"});
   ASSERT_EQ(irradiance["irradiance"].size(), 3u);
-  EXPECT_NEAR(irradiance["irradiance"][0].get<double>(), 3.14159265, 5e-5);
+  EXPECT_NEAR(irradiance["irradiance"][0].number(), 3.14159265, 5e-5);
   run_json({"sh", "reconstruct", coefficients, "-o", image, "--layout", "equirect", "--size", "16"});
   EXPECT_TRUE(std::filesystem::exists(image));
   expect_keys(run_json({"sh", "rotate", coefficients, "--axis", "0", "1", "0", "--angle", "90"}),

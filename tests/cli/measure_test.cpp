@@ -26,7 +26,6 @@
 namespace ssphh {
 namespace {
 
-using nlohmann::json;
 using test::joined;
 using test::json_here;
 using test::problem_here;
@@ -76,16 +75,16 @@ TEST_F(Rooms, LeakIsThatOfTheLibraryAtTheTimeOfTheProbes) {
       "leak",      "builtin:two-rooms", "--probes", file_,    "--points", "24",     "--truth-spp",
       "8",         "--max-depth",       "3",        "--seed", "3",        "--dark", "0.01",
       "--weights", "distance"};
-  const json leak = json_here(command);
+  const json::Value leak = json_here(command);
   EXPECT_EQ(leak["points"], 24);
   EXPECT_EQ(leak["dark_points"], wanted.dark);
   EXPECT_GT(wanted.dark, 0u);
-  EXPECT_NEAR(leak["leak_ratio"].get<double>(), wanted.ratio, 1e-9);
+  EXPECT_NEAR(leak["leak_ratio"].number(), wanted.ratio, 1e-9);
   EXPECT_GT(wanted.ratio, 0);
-  EXPECT_NEAR(leak["mean_truth"].get<double>(), wanted.mean_truth, 1e-9);
-  EXPECT_NEAR(leak["mean_looked_up"].get<double>(), wanted.mean_looked_up, 1e-9);
-  EXPECT_NEAR(leak["truth_noise"].get<double>(), wanted.truth_noise, 1e-9);
-  EXPECT_NEAR(leak["dark_share"].get<double>(), 0.01, 1e-8);
+  EXPECT_NEAR(leak["mean_truth"].number(), wanted.mean_truth, 1e-9);
+  EXPECT_NEAR(leak["mean_looked_up"].number(), wanted.mean_looked_up, 1e-9);
+  EXPECT_NEAR(leak["truth_noise"].number(), wanted.truth_noise, 1e-9);
+  EXPECT_NEAR(leak["dark_share"].number(), 0.01, 1e-8);
   EXPECT_EQ(leak["truth_spp"], 8);
   EXPECT_EQ(leak["weights"], "distance");
   EXPECT_EQ(leak["time"], 0.25);
@@ -108,18 +107,18 @@ TEST_F(Rooms, MeasureIsThatOfTheLibrary) {
   const std::vector<std::string> command = {
       "measure", "builtin:two-rooms", "--time", "0.25",        "--probes", file_,    "--points",
       "24",      "--truth-spp",       "8",      "--max-depth", "3",        "--seed", "3"};
-  const auto expect = [&](const json& all, const std::vector<scene::SurfacePoint>& at) {
+  const auto expect = [&](const json::Value& all, const std::vector<scene::SurfacePoint>& at) {
     const gi::TruthAtPoints truth = gi::trace_truth(tracer_, at, params);
     EXPECT_EQ(all["points"], at.size());
     EXPECT_EQ(all["dark_points"], truth.dark);
-    EXPECT_NEAR(all["mean_truth"].get<double>(), truth.mean, 1e-9);
+    EXPECT_NEAR(all["mean_truth"].number(), truth.mean, 1e-9);
     EXPECT_EQ(all["truth_spp"], 8);
-    for (const json& one : all["results"]) {
+    for (const json::Value& one : all["results"].elements()) {
       gi::LookupParams lookup;
-      lookup.weights = gi::weights_named(one["weights"]);
+      lookup.weights = gi::weights_named(one["weights"].string());
       const std::vector<vec3> found = gi::look_up(gi::IrradianceLookup(set_, tracer_, lookup), at);
       const gi::LookupError e = gi::lookup_error(found, truth.estimates);
-      EXPECT_NEAR(all["noise"].get<double>(), e.noise, 1e-9);
+      EXPECT_NEAR(all["noise"].number(), e.noise, 1e-9);
       const std::map<std::string, double> wanted = {{"ratio", e.ratio},
                                                     {"mean_error", e.mean_error},
                                                     {"mean_relative", e.mean_relative},
@@ -128,23 +127,23 @@ TEST_F(Rooms, MeasureIsThatOfTheLibrary) {
                                                     {"relmse", e.relmse},
                                                     {"leak_ratio", gi::leak_ratio(found, truth)}};
       for (const auto& [name, value] : wanted)
-        EXPECT_NEAR(one[name].get<double>(), value, 1e-9 * (1 + std::abs(value))) << name;
-      EXPECT_GT(one["lookup_us"], 0);
+        EXPECT_NEAR(one[name.c_str()].number(), value, 1e-9 * (1 + std::abs(value))) << name;
+      EXPECT_GT(one["lookup_us"].number(), 0);
       EXPECT_EQ(one["probes"], file_);
     }
   };
-  const json all = json_here(joined(command, {"--weights", "mls,distance"}));
+  const json::Value all = json_here(joined(command, {"--weights", "mls,distance"}));
   ASSERT_EQ(all["results"].size(), 2u);
   EXPECT_EQ(all["results"][0]["weights"], "mls");
   EXPECT_EQ(all["results"][1]["weights"], "distance");
   expect(all, points(0.05f, 24, 3));
   const std::string text = text_here(joined(command, {"--weights", "mls,distance"}));
   double leaks = 0;
-  for (const json& one : all["results"]) {
-    const auto number = [&](const char* key) { return one[key].get<double>(); };
+  for (const json::Value& one : all["results"].elements()) {
+    const auto number = [&](const char* key) { return one[key].number(); };
     leaks += number("leak_ratio");
     EXPECT_THAT(text, HasSubstr(fmt::format("\n{:<24}{:<11}{:>8.3f}{:>9.1f} %{:>7.1f} %{:>10.4f}{:>7.2f} %",
-                                            file_, one["weights"].get<std::string>(), number("ratio"),
+                                            file_, one["weights"].string(), number("ratio"),
                                             100 * number("mean_error"), 100 * number("p95_relative"),
                                             number("relmse"), 100 * number("leak_ratio"))));
   }
@@ -164,9 +163,9 @@ TEST_F(Rooms, MeasureIsThatOfTheLibrary) {
 
 TEST_F(Rooms, RespondTellsTheSameInItsListAndItsTable) {
   const std::string csv = dir_ / "f.csv";
-  const json run = json_here({"respond", "builtin:two-rooms", "--method", "direct", "--frames", "4",
-                              "--before", "2", "--points", "16", "--truth-spp", "8", "--max-depth", "2",
-                              "--event", "lamp.scale=1:2", "-o", csv});
+  const json::Value run = json_here({"respond", "builtin:two-rooms", "--method", "direct", "--frames", "4",
+                                     "--before", "2", "--points", "16", "--truth-spp", "8", "--max-depth",
+                                     "2", "--event", "lamp.scale=1:2", "-o", csv});
   EXPECT_EQ(run["method"], "direct");
   EXPECT_EQ(run["points"], 16);
   ASSERT_EQ(run["frames"].size(), 4u);
@@ -177,7 +176,7 @@ TEST_F(Rooms, RespondTellsTheSameInItsListAndItsTable) {
   EXPECT_EQ(run["frames_to_settle"], 1);
   EXPECT_EQ(run["first_ms"], run["frames"][0]["ms"]);
   std::vector<double> ms;
-  for (const json& frame : run["frames"]) ms.push_back(frame["ms"]);
+  for (const json::Value& frame : run["frames"].elements()) ms.push_back(frame["ms"].number());
   std::sort(ms.begin(), ms.end());
   EXPECT_EQ(run["median_ms"], ms[1]) << "half of the four are not above it";
   std::istringstream lines(read_text_file(csv));
@@ -186,9 +185,9 @@ TEST_F(Rooms, RespondTellsTheSameInItsListAndItsTable) {
   EXPECT_EQ(line, "frame,ms,ratio,mean_error,p95_relative,relmse");
   for (std::size_t f = 0; f < 4; ++f) {
     std::getline(lines, line);
-    EXPECT_THAT(line, testing::StartsWith(fmt::format("{},{:.4f},0,{:.6g},", f + 1,
-                                                      run["frames"][f]["ms"].get<double>(),
-                                                      run["frames"][f]["mean_error"].get<double>())));
+    EXPECT_THAT(line,
+                testing::StartsWith(fmt::format("{},{:.4f},0,{:.6g},", f + 1, run["frames"][f]["ms"].number(),
+                                                run["frames"][f]["mean_error"].number())));
   }
   EXPECT_FALSE(std::getline(lines, line));
 }
@@ -201,7 +200,7 @@ TEST_F(Rooms, PlaceTellsWhatBecameOfEveryPlace) {
   const std::vector<std::string> command = {
       "place", "builtin:two-rooms", "--time", "0.5", "--probes", "auto:2", "--clearance",
       "0.1",   "--refine",          "0",      "-o",  out};
-  const json place = json_here(command);
+  const json::Value place = json_here(command);
   const auto count = [&](gi::PlaceKind kind) {
     return std::ranges::count(wanted.probes, kind, &gi::PlacedProbe::kind);
   };
@@ -212,30 +211,30 @@ TEST_F(Rooms, PlaceTellsWhatBecameOfEveryPlace) {
   EXPECT_EQ(place["passages"], count(gi::PlaceKind::passage));
   EXPECT_EQ(place["spacing"], wanted.spacing);
   EXPECT_EQ(place["clearance"], wanted.clearance);
-  EXPECT_EQ(place["origin"], json({wanted.origin.x, wanted.origin.y, wanted.origin.z}));
+  EXPECT_EQ(place["origin"], json::Value({wanted.origin.x, wanted.origin.y, wanted.origin.z}));
   const gi::PlaceCounts& c = wanted.counts;
   EXPECT_EQ(place["candidates"], c.candidates);
   EXPECT_EQ(place["relocated"], c.relocated);
-  EXPECT_EQ(place["removed"], json({{"total", c.removed()},
-                                    {"inside", c.inside},
-                                    {"too_close", c.too_close},
-                                    {"open_air", c.open_air},
-                                    {"redundant", c.redundant},
-                                    {"swept", c.swept},
-                                    {"unreachable", c.unreachable},
-                                    {"surplus", c.surplus}}));
+  EXPECT_EQ(place["removed"], json::Value({{"total", c.removed()},
+                                           {"inside", c.inside},
+                                           {"too_close", c.too_close},
+                                           {"open_air", c.open_air},
+                                           {"redundant", c.redundant},
+                                           {"swept", c.swept},
+                                           {"unreachable", c.unreachable},
+                                           {"surplus", c.surplus}}));
   EXPECT_EQ(place["edges"], wanted.edges.size());
   EXPECT_EQ(place["edges_behind_moving_parts"],
             std::ranges::count(wanted.edges, true, &gi::PlacedEdge::moving));
-  const json overlay = json::parse(read_text_file(out));
+  const json::Value overlay = test::parse_json(read_text_file(out));
   EXPECT_EQ(overlay["scene"], "builtin:two-rooms");
-  std::vector<json> sphls;
+  std::vector<json::Value> sphls;
   for (const gi::PlacedProbe& probe : wanted.probes)
     if (probe.kind != gi::PlaceKind::manual)
       sphls.push_back({{"name", probe.name},
                        {"position", {probe.position.x, probe.position.y, probe.position.z}},
                        {"radius", probe.radius}});
-  EXPECT_EQ(overlay["sphls"], json(sphls));
+  EXPECT_EQ(overlay["sphls"], json::Value(sphls));
   EXPECT_THAT(text_here(command),
               HasSubstr(fmt::format(
                   "{} manual, {} near surfaces, {} in passages; {} edges\nof {} places {} were "
@@ -282,7 +281,7 @@ TEST_F(Rooms, ViewpointsAreCamerasAndProbesOrWhatTheSceneHas) {
 }
 
 /// A bake of as little as can be.
-json small_bake(const std::string& output, const std::vector<std::string>& more) {
+const json::Value small_bake(const std::string& output, const std::vector<std::string>& more) {
   return json_here(
       joined({"bake", "builtin:box", "-o", output, "--face", "1", "--spp", "1", "--degree", "0"}, more));
 }
@@ -290,16 +289,16 @@ json small_bake(const std::string& output, const std::vector<std::string>& more)
 TEST(BakeOptions, ReachTheFile) {
   const test::TempDir dir;
   const std::string file = dir / "a.sphl";
-  const json bake = json_here({"bake",        "builtin:two-rooms",
-                               "-o",          file,
-                               "--face",      "3",
-                               "--spp",       "2",
-                               "--passes",    "4",
-                               "--max-depth", "2",
-                               "--seed",      "9",
-                               "--degree",    "2",
-                               "--time",      "0.5",
-                               "--viz",       "off"});
+  const json::Value bake = json_here({"bake",        "builtin:two-rooms",
+                                      "-o",          file,
+                                      "--face",      "3",
+                                      "--spp",       "2",
+                                      "--passes",    "4",
+                                      "--max-depth", "2",
+                                      "--seed",      "9",
+                                      "--degree",    "2",
+                                      "--time",      "0.5",
+                                      "--viz",       "off"});
   const gi::ProbeSet set = gi::read_probe_file(file);
   EXPECT_EQ(set.degree, 2);
   EXPECT_EQ(bake["degree"], 2);
@@ -322,7 +321,7 @@ TEST(BakeOptions, ReachTheFile) {
   small_bake(file, {"--gen", "local", "--viz", "off"});
   EXPECT_EQ(gi::read_probe_file(file).generator.gen, gi::GenMode::local);
   // Four neighbours each, the strongest one kept; none is above 1.
-  const json few = small_bake(file, {"--neighbors", "1"});
+  const json::Value few = small_bake(file, {"--neighbors", "1"});
   EXPECT_EQ(few["edges"], 5);
   EXPECT_EQ(small_bake(file, {"--threshold", "1"})["edges"], 0);
   EXPECT_EQ(small_bake(file, {"--viz-transfer"})["viz"], "path");
@@ -332,18 +331,18 @@ TEST(BakeOptions, ReachTheFile) {
 TEST(BakeOptions, VizIsLeftOutForManyProbes) {
   const test::TempDir dir;
   const auto overlay = [&](int count) {
-    json sphls = json::array();
+    json::Value sphls = json::Value::array();
     for (int i = 0; i < count; ++i) {
       const double x = -0.4 + 0.1 * (i % 8), y = -0.4 + 0.1 * (i / 8 % 8), z = -0.4 + 0.1 * (i / 64);
       sphls.push_back({{"name", "p" + std::to_string(i)}, {"position", {x, y, z}}, {"radius", 0.01}});
     }
     const std::string file = dir / ("o" + std::to_string(count) + ".json");
-    std::ofstream(file) << json{{"sphls", sphls}};
+    std::ofstream(file) << print(json::Value{{"sphls", sphls}});
     return file;
   };
   const auto viz = [&](int count, const std::vector<std::string>& more = {}) {
     const int own = 5;  // of builtin:box
-    const json bake = small_bake(dir / "a.sphl", joined({"--overlay", overlay(count - own)}, more));
+    const json::Value bake = small_bake(dir / "a.sphl", joined({"--overlay", overlay(count - own)}, more));
     EXPECT_EQ(bake["probes"], count);
     return bake["viz"];
   };

@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <ssphh/core/file.h>
 
@@ -13,16 +12,15 @@
 namespace ssphh {
 namespace {
 
-using nlohmann::json;
 using test::expect_failure;
 using test::expect_keys;
 using test::run_json;
 using test::TempDir;
 
 TEST(Methods, ListNamesParameters) {
-  const json all = run_json({"methods"})["methods"];
+  const json::Value all = run_json({"methods"})["methods"];
   EXPECT_GE(all.size(), 3u);
-  const json one = run_json({"methods", "ssphh"})["methods"];
+  const json::Value one = run_json({"methods", "ssphh"})["methods"];
   ASSERT_EQ(one.size(), 1u);
   expect_keys(one[0], {"name", "about", "parameters"});
   expect_keys(one[0]["parameters"][0], {"name", "default", "about", "choices"});
@@ -32,8 +30,9 @@ TEST(Methods, ListNamesParameters) {
 TEST(Methods, RenderReportsWhatTheMethodTook) {
   const TempDir dir;
   const std::string picture = dir / "a.exr";
-  const json run = run_json({"render", "builtin:box", "--method", "ssphh", "--param", "probes=8", "--param",
-                             "weights=mls", "--width", "8", "--height", "8", "--spp", "1", "-o", picture});
+  const json::Value run =
+      run_json({"render", "builtin:box", "--method", "ssphh", "--param", "probes=8", "--param", "weights=mls",
+                "--width", "8", "--height", "8", "--spp", "1", "-o", picture});
   expect_keys(run, {"mean", "bake_seconds", "update_seconds", "lookup_bytes", "update_bytes", "probes"});
   EXPECT_EQ(run["probes"], 8);
   const std::vector<std::string> base = {"render", "builtin:box", "-o", picture, "--method"};
@@ -48,13 +47,13 @@ TEST(Methods, RenderReportsWhatTheMethodTook) {
 }
 
 TEST(Methods, MeasureComparesThem) {
-  const json run = run_json({"measure", "builtin:box", "--method", "direct", "--method",
-                             "ssphh,probes=8,weights=mls", "--points", "32", "--truth-spp", "32"});
+  const json::Value run = run_json({"measure", "builtin:box", "--method", "direct", "--method",
+                                    "ssphh,probes=8,weights=mls", "--points", "32", "--truth-spp", "32"});
   ASSERT_EQ(run["results"].size(), 2u);
   expect_keys(run["results"][1], {"method", "ratio", "mean_error", "relmse", "leak_ratio", "lookup_us",
                                   "bake_seconds", "update_seconds", "lookup_bytes"});
   EXPECT_EQ(run["results"][0]["ratio"], 0);
-  EXPECT_NEAR(run["results"][1]["ratio"].get<double>(), 1, 0.3);
+  EXPECT_NEAR(run["results"][1]["ratio"].number(), 1, 0.3);
   expect_failure({"measure", "builtin:box"}, {"--method"});
   expect_failure({"measure", "builtin:box", "--method", "radiosity"}, {"radiosity"});
 }
@@ -62,20 +61,20 @@ TEST(Methods, MeasureComparesThem) {
 TEST(Respond, TellsHowFastAMethodFollows) {
   const TempDir dir;
   const std::string csv = dir / "frames.csv";
-  const json run = run_json({"respond",     "builtin:two-rooms",
-                             "--method",    "ssphh",
-                             "--param",     "places=scene",
-                             "--param",     "weights=mls",
-                             "--param",     "surfel_size=0.8",
-                             "--frames",    "3",
-                             "--points",    "32",
-                             "--truth-spp", "64",
-                             "--event",     "lamp.scale=0.1:1",
-                             "-o",          csv});
+  const json::Value run = run_json({"respond",     "builtin:two-rooms",
+                                    "--method",    "ssphh",
+                                    "--param",     "places=scene",
+                                    "--param",     "weights=mls",
+                                    "--param",     "surfel_size=0.8",
+                                    "--frames",    "3",
+                                    "--points",    "32",
+                                    "--truth-spp", "64",
+                                    "--event",     "lamp.scale=0.1:1",
+                                    "-o",          csv});
   expect_keys(run, {"before_error", "first_error", "last_error", "frames_to_settle", "median_ms", "frames"});
   EXPECT_EQ(run["frames"].size(), 3u);
   EXPECT_EQ(run["frames_to_settle"], 1);
-  EXPECT_LT(run["first_error"], run["before_error"]);
+  EXPECT_LT(run["first_error"].number(), run["before_error"].number());
   const std::string text = read_text_file(csv);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);
   expect_failure({"respond", "builtin:two-rooms", "--event", "time=1:1"},

@@ -4,7 +4,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
+
+#include <ssphh/core/file.h>
 
 #include "temp_dir.h"
 #include "tool_checks.h"
@@ -12,7 +13,6 @@
 namespace ssphh {
 namespace {
 
-using nlohmann::json;
 using test::run_json;
 using test::run_tool;
 using test::TempDir;
@@ -28,7 +28,7 @@ std::vector<std::string> with(std::vector<std::string> arguments, const std::vec
 
 TEST(PlaceTool, BakeTakesTheScenesProbesUnlessAsked) {
   const TempDir dir;
-  const json bake = run_json(with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl"}, quick));
+  const json::Value bake = run_json(with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl"}, quick));
   EXPECT_EQ(bake["probes"], 6);
   EXPECT_FALSE(bake.contains("placement"));
   EXPECT_EQ(bake["viz"], "path");
@@ -36,38 +36,40 @@ TEST(PlaceTool, BakeTakesTheScenesProbesUnlessAsked) {
 
 TEST(PlaceTool, ANumberOfProbesKeepsTheScenesOwn) {
   const TempDir dir;
-  const json bake = run_json(
+  const json::Value bake = run_json(
       with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", "20", "--viz", "off"}, quick));
   EXPECT_EQ(bake["probes"], 20);
   EXPECT_EQ(bake["placement"]["manual"], 6);
   for (const char* key : {"probes", "spacing", "removed", "relocated", "edges", "seconds"})
     EXPECT_TRUE(bake["placement"].contains(key)) << key;
-  const json info = run_json({"probe", "info", dir / "a.sphl"});
+  const json::Value info = run_json({"probe", "info", dir / "a.sphl"});
   EXPECT_EQ(info["probes"][0]["name"], "A west");
 }
 
 TEST(PlaceTool, ManyProbesGetTheirEdgesFromLinks) {
   const TempDir dir;
-  const json bake = run_json(with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", "auto:1",
-                                   "--directions", "64", "--link-rays", "16", "--surfel-size", "0.5"},
-                                  quick));
-  EXPECT_GT(bake["probes"], 64);
+  const json::Value bake =
+      run_json(with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", "auto:1", "--directions",
+                     "64", "--link-rays", "16", "--surfel-size", "0.5"},
+                    quick));
+  EXPECT_GT(bake["probes"].number(), 64);
   EXPECT_EQ(bake["viz"], "links");
-  EXPECT_GT(bake["edges"], bake["probes"]);
+  EXPECT_GT(bake["edges"].number(), bake["probes"].number());
 }
 
 TEST(PlaceTool, WhatPlaceWritesIsAScene) {
   const TempDir dir;
   const std::string overlay = dir / "placed.ssphh.json";
-  const json place = run_json({"place", "builtin:two-rooms", "--probes", "auto:1.5", "-o", overlay});
+  const json::Value place = run_json({"place", "builtin:two-rooms", "--probes", "auto:1.5", "-o", overlay});
   for (const char* key : {"probes", "spacing", "removed", "relocated", "edges", "seconds"})
     EXPECT_TRUE(place.contains(key)) << key;
-  const json info = run_json({"scene", "info", overlay});
+  const json::Value info = run_json({"scene", "info", overlay});
   EXPECT_EQ(info["sphls"], place["probes"]);
   // Places found once more beside them: all are taken.
-  const json again = run_json({"place", overlay, "--probes", "auto:1.5", "-o", dir / "again.ssphh.json"});
+  const json::Value again =
+      run_json({"place", overlay, "--probes", "auto:1.5", "-o", dir / "again.ssphh.json"});
   EXPECT_EQ(again["manual"], place["probes"]);
-  EXPECT_LE(again["probes"].get<int>(), place["probes"].get<int>() + 8);
+  EXPECT_LE(test::count_of(again["probes"]), test::count_of(place["probes"]) + 8);
 }
 
 TEST(PlaceTool, SaysWhatIsWrong) {
@@ -94,21 +96,21 @@ TEST(LintTool, ExitCodeIsAGate) {
   const TempDir dir;
   const std::string file = dir / "a.sphl.json";
   run_json(with({"bake", "builtin:cornell", "-o", file, "--viz", "off"}, {"--face", "8", "--spp", "16"}));
-  const json clean = run_json({"probe", "lint", file, "--scene", "builtin:cornell"});
+  const json::Value clean = run_json({"probe", "lint", file, "--scene", "builtin:cornell"});
   EXPECT_EQ(clean["probes"], 5);
   EXPECT_THAT(clean["problems"], testing::IsEmpty());
 
   // Put one into the tall box.
-  json set = json::parse(std::ifstream(file));
+  json::Value set = test::parse_json(read_text_file(file));
   set["probes"][1]["position"] = {-0.335, 0.5, -0.29};
-  std::ofstream(file) << set;
-  const json broken = run_json({"probe", "lint", file, "--scene", "builtin:cornell"}, 1);
+  std::ofstream(file) << print(set);
+  const json::Value broken = run_json({"probe", "lint", file, "--scene", "builtin:cornell"}, 1);
   ASSERT_FALSE(broken["problems"].empty());
-  const json& problem = broken["problems"][0];
+  const json::Value& problem = broken["problems"][0];
   EXPECT_EQ(problem["kind"], "inside");
   EXPECT_EQ(problem["probe"], set["probes"][1]["name"]);
-  EXPECT_NEAR(problem["position"][1].get<double>(), 0.5, 1e-6);
-  EXPECT_THAT(problem["message"].get<std::string>(), HasSubstr("inside"));
+  EXPECT_NEAR(problem["position"][1].number(), 0.5, 1e-6);
+  EXPECT_THAT(problem["message"].string(), HasSubstr("inside"));
   EXPECT_EQ(run_tool({"probe", "lint", file}).exit_code, 2) << "--scene is missing";
 }
 

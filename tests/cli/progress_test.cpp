@@ -1,14 +1,13 @@
 // Progress as the tool tells it on stderr.
 
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
+#include "json_text.h"
 #include "results/stderr_progress.h"
 
 namespace ssphh::app {
 namespace {
 
-using nlohmann::json;
 using testing::HasSubstr;
 using testing::MatchesRegex;
 
@@ -38,18 +37,18 @@ TEST(Progress, NoneSaysNothing) {
 }
 
 TEST(Progress, JsonTellsRateAndRemainingTimeOfOneLine) {
-  const json line = json::parse(told(ProgressStyle::json, 40, 10));
+  const json::Value line = test::parse_json(told(ProgressStyle::json, 40, 10));
   EXPECT_EQ(line["stage"], "baking");
   EXPECT_EQ(line["unit"], "rays");
   EXPECT_EQ(line["done"], 10);
   EXPECT_EQ(line["total"], 40);
-  const double seconds = line["seconds"], rate = line["rate"], eta = line["eta"];
+  const double seconds = line["seconds"].number(), rate = line["rate"].number(), eta = line["eta"].number();
   EXPECT_GT(seconds, 0);
   EXPECT_NEAR(rate * seconds, 10, 1e-6);
   EXPECT_NEAR(eta * rate, 30, 1e-6);
-  EXPECT_EQ(json::parse(told(ProgressStyle::json, 40, 40))["eta"], 0);
-  EXPECT_EQ(json::parse(told(ProgressStyle::json, 40, 0))["eta"], 0) << "not known";
-  EXPECT_EQ(json::parse(told(ProgressStyle::json, 40, 50))["eta"], 0) << "more than was said";
+  EXPECT_EQ(test::parse_json(told(ProgressStyle::json, 40, 40))["eta"], 0);
+  EXPECT_EQ(test::parse_json(told(ProgressStyle::json, 40, 0))["eta"], 0) << "not known";
+  EXPECT_EQ(test::parse_json(told(ProgressStyle::json, 40, 50))["eta"], 0) << "more than was said";
 }
 
 TEST(Progress, ANewStageBeginsAtNothing) {
@@ -59,7 +58,7 @@ TEST(Progress, ANewStageBeginsAtNothing) {
   progress.advance(5);
   progress.begin("two", 7, "texels");
   progress.end();
-  const json line = json::parse(testing::internal::GetCapturedStderr());
+  const json::Value line = test::parse_json(testing::internal::GetCapturedStderr());
   EXPECT_EQ(line["stage"], "two");
   EXPECT_EQ(line["unit"], "texels");
   EXPECT_EQ(line["done"], 0);

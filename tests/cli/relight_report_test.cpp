@@ -9,6 +9,7 @@
 
 #include <ssphh/core/file.h>
 
+#include "json_text.h"
 #include "temp_dir.h"
 
 namespace ssphh::app {

@@ -20,7 +20,6 @@ namespace ssphh {
 namespace {
 
 using image::Image;
-using nlohmann::json;
 using test::joined;
 using test::json_here;
 using test::problem_here;
@@ -66,7 +65,7 @@ class Render : public testing::Test {
 };
 
 TEST_F(Render, WritesThePictureThatWasAskedForAndTellsItsMean) {
-  const json result = json_here(command({"--aov", "direct,normal"}));
+  const json::Value result = json_here(command({"--aov", "direct,normal"}));
   const trace::RenderState state = traced();
   const Image wanted = trace::resolve(state.color, 3), written = image::read_image(out_);
   EXPECT_EQ(written.pixels, wanted.pixels);
@@ -79,12 +78,12 @@ TEST_F(Render, WritesThePictureThatWasAskedForAndTellsItsMean) {
   EXPECT_EQ(result["passes"], 3);
   EXPECT_EQ(result["paths"], 12 * 8 * 3 * 2);
   EXPECT_EQ(result["rays"], state.rays);
-  EXPECT_GT(result["seconds"], 0);
+  EXPECT_GT(result["seconds"].number(), 0);
   glm::dvec3 sum(0);
   for (int y = 0; y < 8; ++y)
     for (int x = 0; x < 12; ++x) sum += glm::dvec3(wanted.rgb(x, y));
   for (int c = 0; c < 3; ++c)
-    EXPECT_NEAR(result["mean"][static_cast<std::size_t>(c)].get<double>(), sum[c] / 96, 1e-12);
+    EXPECT_NEAR(result["mean"][static_cast<std::size_t>(c)].number(), sum[c] / 96, 1e-12);
   EXPECT_THAT(text_here(command()),
               testing::MatchesRegex(".*o.exr: 12×8, 576 paths, [0-9]+ rays in [0-9.]+ s, mean radiance .*"));
 }
@@ -195,7 +194,7 @@ TEST_F(Render, TruthIsTheMeanOfTwoHalves) {
       "--halves"};
   for (const bool sphere : {false, true}) {
     if (sphere) params_.projection = trace::Projection::equirect;
-    const json result = json_here(sphere ? joined(truth, {"--projection", "equirect"}) : truth);
+    const json::Value result = json_here(sphere ? joined(truth, {"--projection", "equirect"}) : truth);
     const Image a = half(10), b = half(11);
     EXPECT_EQ(image::read_image(dir_ / "o.a.exr").pixels, a.pixels);
     EXPECT_EQ(image::read_image(dir_ / "o.b.exr").pixels, b.pixels);
@@ -203,7 +202,8 @@ TEST_F(Render, TruthIsTheMeanOfTwoHalves) {
     for (std::size_t i = 0; i < a.pixels.size(); ++i) mean.pixels[i] = 0.5f * (a.pixels[i] + b.pixels[i]);
     EXPECT_EQ(image::read_image(out_).pixels, mean.pixels);
     const metrics::ImageError noise = metrics::compare(mean, a);
-    EXPECT_EQ(result["noise"], json({{"mse", noise.mse}, {"rmse", noise.rmse}, {"relmse", noise.relmse}}));
+    EXPECT_EQ(result["noise"],
+              json::Value({{"mse", noise.mse}, {"rmse", noise.rmse}, {"relmse", noise.relmse}}));
     EXPECT_EQ(result["spp"], 6) << "an even number";
     EXPECT_EQ(result["max_depth"], 2);
     EXPECT_EQ(result["width"], 12);
@@ -217,8 +217,8 @@ TEST_F(Render, TruthIsTheMeanOfTwoHalves) {
         sum += 0.5 * (static_cast<double>(a.pixels[i]) + b.pixels[i]);
         squares += std::pow(0.5 * (static_cast<double>(a.pixels[i]) - b.pixels[i]), 2);
       }
-      EXPECT_NEAR(result["mean"][c].get<double>(), sum / 96, 1e-9);
-      EXPECT_NEAR(result["standard_error"][c].get<double>(), std::sqrt(squares) / 96, 1e-9);
+      EXPECT_NEAR(result["mean"][c].number(), sum / 96, 1e-9);
+      EXPECT_NEAR(result["standard_error"][c].number(), std::sqrt(squares) / 96, 1e-9);
     }
   }
   EXPECT_THAT(text_here(truth), HasSubstr("12×8, 6 samples per pixel, depth 2, by path in "));

@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "places.h"
 #include "temp_dir.h"
@@ -14,7 +13,6 @@ namespace ssphh {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 using test::expect_failure;
 using test::expect_keys;
 using test::run_json;
@@ -28,21 +26,21 @@ std::string slurp(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void write_json(const fs::path& path, const json& object) {
-  std::ofstream(path) << object.dump();
+void write_json(const fs::path& path, const json::Value& object) {
+  std::ofstream(path) << print(object);
 }
 
-json plan_of(std::vector<json> methods) {
+json::Value plan_of(std::vector<json::Value> methods) {
   return {{"scenes", {{{"name", "box"}, {"scene", "builtin:box"}}}}, {"methods", std::move(methods)}};
 }
 
-json method(const std::string& name, const std::string& step) {
+json::Value method(const std::string& name, const std::string& step) {
   return {{"name", name}, {"steps", {step}}, {"picture", "o.exr"}};
 }
 
-const json& cell(const json& report, const std::string& label) {
-  static const json none;
-  for (const json& c : report["cells"]) {
+const json::Value& cell(const json::Value& report, const std::string& label) {
+  static const json::Value none;
+  for (const json::Value& c : report["cells"].elements()) {
     if (c["label"] == label) return c;
   }
   ADD_FAILURE() << "no cell " << label;
@@ -52,23 +50,23 @@ const json& cell(const json& report, const std::string& label) {
 TEST(Report, RunsAPlanOnceAndAgainOnlyWhatChanged) {
   const TempDir dir;
   const std::string out = dir / "out/tiny";
-  const json first = run_json({"report", tiny, "-o", out});
+  const json::Value first = run_json({"report", tiny, "-o", out});
   expect_keys(first, {"output", "commands", "run", "cached", "cells", "failed", "notes", "page_bytes"});
   EXPECT_EQ(first["failed"], 0);
   EXPECT_EQ(first["cells"], 4);  // truth, path at two depths, ssphh
   EXPECT_EQ(first["run"], 9);    // 1 + 2·3 + 2
   ASSERT_EQ(first["notes"].size(), 1u);
-  EXPECT_THAT(first["notes"][0].get<std::string>(), HasSubstr("no-such-scene.glb"));
+  EXPECT_THAT(first["notes"][0].string(), HasSubstr("no-such-scene.glb"));
 
-  const json report = json::parse(slurp(out + "/report.json"));
-  const json& path = cell(report, "path, depth 4")["values"];
+  const json::Value report = test::parse_json(slurp(out + "/report.json"));
+  const json::Value& path = cell(report, "path, depth 4")["values"];
   EXPECT_EQ(path["relmse"]["count"], 3);
-  EXPECT_GT(path["noise"]["mean"].get<double>(), 0);
-  EXPECT_GT(cell(report, "path, depth 1")["values"]["relmse_bias"]["mean"].get<double>(),
-            path["relmse_bias"]["mean"].get<double>())
+  EXPECT_GT(path["noise"]["mean"].number(), 0);
+  EXPECT_GT(cell(report, "path, depth 1")["values"]["relmse_bias"]["mean"].number(),
+            path["relmse_bias"]["mean"].number())
       << "without indirect light the picture is biased";
-  EXPECT_GT(cell(report, "ssphh")["values"]["bake.file_bytes"]["mean"].get<double>(), 100);
-  EXPECT_THAT(cell(report, "ssphh")["steps"][1]["command"].get<std::string>(),
+  EXPECT_GT(cell(report, "ssphh")["values"]["bake.file_bytes"]["mean"].number(), 100);
+  EXPECT_THAT(cell(report, "ssphh")["steps"][1]["command"].string(),
               HasSubstr("render builtin:two-rooms --time 1"));
   EXPECT_EQ(report["scenes"][0]["hash"], run_json({"scene", "info", "builtin:two-rooms"})["hash"]);
   const std::string page = slurp(out + "/report.html");
@@ -77,10 +75,10 @@ TEST(Report, RunsAPlanOnceAndAgainOnlyWhatChanged) {
 
   EXPECT_EQ(run_json({"report", tiny, "-o", out})["changed"], false);
   fs::remove(out + "/report.md");
-  const json again = run_json({"report", tiny, "-o", out});
+  const json::Value again = run_json({"report", tiny, "-o", out});
   EXPECT_EQ(again["run"], 0);
   EXPECT_EQ(again["cached"], 9);
-  const json finer = run_json({"report", tiny, "-o", out, "--set", "spp=3"});
+  const json::Value finer = run_json({"report", tiny, "-o", out, "--set", "spp=3"});
   EXPECT_EQ(finer["run"], 7);  // not the truth, not the bake
   fs::remove_all(dir / "out/cache");
   EXPECT_EQ(run_json({"report", tiny, "-o", dir / "out/other"})["run"], 9);
@@ -88,26 +86,29 @@ TEST(Report, RunsAPlanOnceAndAgainOnlyWhatChanged) {
 
 TEST(Report, AFailureIsACellWithItsLogAndIsTriedAgain) {
   const TempDir dir;
-  json plan = plan_of({method("good", "render {scene} --width 8 --height 8 --spp 1 -o o.exr"),
-                       method("bad", "render {scene} --camera nowhere --width 8 --height 8 -o o.exr"),
-                       method("slow", "render {scene} --width 2000 --height 2000 --spp 60000 -o o.exr")});
+  json::Value plan =
+      plan_of({method("good", "render {scene} --width 8 --height 8 --spp 1 -o o.exr"),
+               method("bad", "render {scene} --camera nowhere --width 8 --height 8 -o o.exr"),
+               method("slow", "render {scene} --width 2000 --height 2000 --spp 60000 -o o.exr")});
   plan["methods"].push_back(
       {{"name", "after bad"},
        {"steps", {"bake {scene} --probes nonsense -o p.sphl", "hier p.sphl -o h.sphl"}}});
   plan["time_limit"] = 2;
   write_json(dir / "plan.json", plan);
-  const json result = run_json({"report", dir / "plan.json", "-o", dir / "out"}, 1);
+  const json::Value result = run_json({"report", dir / "plan.json", "-o", dir / "out"}, 1);
   EXPECT_EQ(result["failed"], 3);
-  const json report = json::parse(slurp(dir / "out/report.json"));
+  const json::Value report = test::parse_json(slurp(dir / "out/report.json"));
   EXPECT_TRUE(cell(report, "good")["failure"].is_null());
-  EXPECT_THAT(cell(report, "bad")["failure"].get<std::string>(), HasSubstr("nowhere"));
-  EXPECT_THAT(cell(report, "slow")["failure"].get<std::string>(), HasSubstr("not done after 2 s"));
-  EXPECT_THAT(cell(report, "after bad")["failure"].get<std::string>(), HasSubstr("nonsense"));
+  EXPECT_THAT(cell(report, "bad")["failure"].string(), HasSubstr("nowhere"));
+  EXPECT_THAT(cell(report, "slow")["failure"].string(), HasSubstr("not done after 2 s"));
+  EXPECT_THAT(cell(report, "after bad")["failure"].string(), HasSubstr("nonsense"));
   EXPECT_THAT(slurp(dir / "out/report.md"), HasSubstr("Failed: box, slow"));
 
-  plan["methods"].erase(2);
+  json::Array methods = plan["methods"].elements();
+  methods.erase(methods.begin() + 2);
+  plan["methods"] = methods;
   write_json(dir / "plan.json", plan);
-  const json again = run_json({"report", dir / "plan.json", "-o", dir / "out"}, 1);
+  const json::Value again = run_json({"report", dir / "plan.json", "-o", dir / "out"}, 1);
   EXPECT_EQ(again["cached"], 1);
   EXPECT_EQ(again["failed"], 2);
 }
@@ -139,14 +140,15 @@ TEST(Report, AnInterruptedOneContinues) {
   write_json(dir / "plan.json",
              plan_of({method("quick", "render {scene} --width 8 --height 8 --spp 1 -o o.exr"),
                       method("short", "render {scene} --width 8 --height 8 --spp 2 -o o.exr")}));
-  const json result = run_json({"report", dir / "plan.json", "-o", dir / "out", "--cache", dir / "cache"});
+  const json::Value result =
+      run_json({"report", dir / "plan.json", "-o", dir / "out", "--cache", dir / "cache"});
   EXPECT_EQ(result["cached"], 1);
   EXPECT_EQ(result["run"], 1);
 }
 
 TEST(Report, PicturesOfDifferentSizesAreAFailedCell) {
   const TempDir dir;
-  json plan = plan_of({method("small", "render {scene} --width 8 --height 8 --spp 1 -o o.exr")});
+  json::Value plan = plan_of({method("small", "render {scene} --width 8 --height 8 --spp 1 -o o.exr")});
   plan["reference"] = {{"steps", {"render {scene} --width 16 --height 8 --spp 1 -o t.exr"}},
                        {"picture", "t.exr"}};
   write_json(dir / "plan.json", plan);
@@ -155,8 +157,8 @@ TEST(Report, PicturesOfDifferentSizesAreAFailedCell) {
 
 TEST(Report, MistakesInThePlanAreNamed) {
   const TempDir dir;
-  json plan = plan_of({method("m", "render {scene} -o o.exr")});
-  plan["colums"] = json::array();
+  json::Value plan = plan_of({method("m", "render {scene} -o o.exr")});
+  plan["colums"] = json::Value::array();
   write_json(dir / "key.json", plan);
   expect_failure({"report", dir / "key.json", "-o", dir / "out"},
                  {"unknown member \"colums\"", "\"columns\""});

@@ -26,7 +26,6 @@
 namespace ssphh {
 namespace {
 
-using nlohmann::json;
 using test::joined;
 using test::json_here;
 using test::problem_here;
@@ -55,11 +54,11 @@ class ShTool : public testing::Test {
   std::vector<std::string> sh(const char* command, const std::vector<std::string>& more) const {
     return joined({"sh", command, file_}, more);
   }
-  static void expect_values(const json& object, std::span<const vec3> wanted) {
+  static void expect_values(const json::Value& object, std::span<const vec3> wanted) {
     ASSERT_EQ(object["coefficients"].size(), wanted.size());
     for (std::size_t k = 0; k < wanted.size(); ++k) {
       for (int c = 0; c < 3; ++c)
-        EXPECT_EQ(object["coefficients"][k][static_cast<std::size_t>(c)].get<float>(), wanted[k][c])
+        EXPECT_EQ(test::float_of(object["coefficients"][k][static_cast<std::size_t>(c)]), wanted[k][c])
             << k << " " << c;
     }
   }
@@ -70,11 +69,11 @@ class ShTool : public testing::Test {
 };
 
 TEST_F(ShTool, EvalGivesEveryBandOfTheUnitDirection) {
-  const json eval = json_here({"sh", "eval", "--direction", "1", "-2", "2", "--degree", "4"});
+  const json::Value eval = json_here({"sh", "eval", "--direction", "1", "-2", "2", "--degree", "4"});
   std::vector<double> wanted(25);
   sh::eval_basis(4, glm::dvec3(vec3(1, -2, 2) / 3.0f), wanted);
   ASSERT_EQ(eval["values"].size(), 25u);
-  for (std::size_t k = 0; k < 25; ++k) EXPECT_NEAR(eval["values"][k].get<double>(), wanted[k], 1e-6) << k;
+  for (std::size_t k = 0; k < 25; ++k) EXPECT_NEAR(eval["values"][k].number(), wanted[k], 1e-6) << k;
   EXPECT_EQ(json_here({"sh", "eval", "--direction", "0", "0", "1"})["values"].size(), 100u);
   EXPECT_EQ(text_here({"sh", "eval", "--direction", "0", "2", "0", "--degree", "1"}),
             "  0    0    0.28209479\n  1   -1    0.48860251\n  1    0    0.00000000\n  1    1    0.00000000");
@@ -85,9 +84,9 @@ TEST_F(ShTool, EvalGivesEveryBandOfTheUnitDirection) {
 
 TEST_F(ShTool, IrradianceIsOnASurfaceWithTheNormal) {
   const vec3 wanted = sh::irradiance(light_, glm::normalize(vec3(3, 4, -12)));
-  const json found = json_here(sh("irradiance", {"--normal", "3", "4", "-12"}))["irradiance"];
+  const json::Value found = json_here(sh("irradiance", {"--normal", "3", "4", "-12"}))["irradiance"];
   for (int c = 0; c < 3; ++c)
-    EXPECT_NEAR(found[static_cast<std::size_t>(c)].get<float>(), wanted[c], 1e-6f) << c;
+    EXPECT_NEAR(test::float_of(found[static_cast<std::size_t>(c)]), wanted[c], 1e-6f) << c;
   EXPECT_EQ(text_here(sh("irradiance", {"--normal", "3", "4", "-12"})),
             fmt::format("{:.6g} {:.6g} {:.6g}", wanted.x, wanted.y, wanted.z));
 }
@@ -109,11 +108,11 @@ TEST_F(ShTool, ProjectIsThatOfTheFaces) {
     const image::CubeMap cube = image::to_cube(rgb, image::Layout::strip_h);
     sh::CubeFaces faces;
     for (std::size_t f = 0; f < 6; ++f) faces[f] = cube.faces[f].pixels;
-    const json project = json_here(
+    const json::Value project = json_here(
         {"sh", "project", dir_ / "strip.exr", "--layout", "strip-h", "--degree", "2", "-o", dir_ / "c.json"});
     EXPECT_EQ(project["degree"], 2);
     expect_values(project, sh::project_cube(2, 4, faces).values);
-    EXPECT_EQ(json::parse(read_text_file(dir_ / "c.json")), project);
+    EXPECT_EQ(test::parse_json(read_text_file(dir_ / "c.json")), project);
   }
   image::Image bad = strip(3);
   bad.pixels[7] = NAN;
@@ -128,7 +127,7 @@ TEST_F(ShTool, ReconstructEvaluatesAtEveryTexel) {
     std::vector<std::string> command =
         sh("reconstruct", {"-o", dir_ / "r.exr", "--layout", "strip-v", "--size", "5"});
     if (irradiance) command.emplace_back("--irradiance");
-    const json result = json_here(command);
+    const json::Value result = json_here(command);
     EXPECT_EQ(result["output"], (dir_ / "r.exr").string());
     EXPECT_EQ(result["width"], 5);
     EXPECT_EQ(result["height"], 30);
@@ -143,7 +142,7 @@ TEST_F(ShTool, ReconstructEvaluatesAtEveryTexel) {
       }
     }
   }
-  const json equirect = json_here(sh("reconstruct", {"-o", dir_ / "e.exr", "--size", "32"}));
+  const json::Value equirect = json_here(sh("reconstruct", {"-o", dir_ / "e.exr", "--size", "32"}));
   EXPECT_EQ(equirect["width"], 64);
   EXPECT_EQ(equirect["height"], 32);
   // Over the poles by what a cube of half the height shows there, to its texels' size.
@@ -155,12 +154,12 @@ TEST_F(ShTool, ReconstructEvaluatesAtEveryTexel) {
 TEST_F(ShTool, RotateTurnsByAxisAndAngleOrByAQuaternion) {
   const auto wanted = sh::Rotation::about_axis(3, {1, 2, -2}, glm::radians(30.0)).apply(light_);
   const double s = std::sin(glm::radians(15.0)) / 3, c = std::cos(glm::radians(15.0));
-  const auto near = [&](const json& object) {
+  const auto near = [&](const json::Value& object) {
     EXPECT_EQ(object["degree"], 3);
     for (std::size_t k = 0; k < 16; ++k)
       for (int i = 0; i < 3; ++i)
-        EXPECT_NEAR(object["coefficients"][k][static_cast<std::size_t>(i)].get<float>(), wanted.values[k][i],
-                    1e-5f);
+        EXPECT_NEAR(test::float_of(object["coefficients"][k][static_cast<std::size_t>(i)]),
+                    wanted.values[k][i], 1e-5f);
   };
   near(json_here(sh("rotate", {"--axis", "2", "4", "-4", "--angle", "30"})));
   near(json_here(sh("rotate", {"--quaternion", std::to_string(2 * s), std::to_string(4 * s),
@@ -174,17 +173,17 @@ TEST_F(ShTool, RotateTurnsByAxisAndAngleOrByAQuaternion) {
 }
 
 TEST_F(ShTool, ConvertGoesToAConventionAndBack) {
-  const json unity = json_here(sh("convert", {"--to", "unity", "-o", dir_ / "u.json"}));
+  const json::Value unity = json_here(sh("convert", {"--to", "unity", "-o", dir_ / "u.json"}));
   EXPECT_EQ(unity["convention"], "unity");
   EXPECT_EQ(unity["degree"], 2) << "what it holds";
   expect_values(unity, sh::to_convention(light_, sh::Convention::unity));
   EXPECT_THAT(test::run_here(sh("convert", {"--to", "unity"})).err,
               HasSubstr("bands 3..3 are dropped, unity holds degree 2"));
   EXPECT_THAT(test::run_here(sh("convert", {"--to", "unreal"})).err, testing::Not(HasSubstr("dropped")));
-  const json back = json_here({"sh", "convert", dir_ / "u.json", "--from", "unity", "--to", "ssphh"});
+  const json::Value back = json_here({"sh", "convert", dir_ / "u.json", "--from", "unity", "--to", "ssphh"});
   EXPECT_EQ(back["convention"], "ssphh");
   for (std::size_t k = 0; k < 9; ++k)
-    EXPECT_NEAR(back["coefficients"][k][1].get<float>(), light_.values[k].y, 1e-6f);
+    EXPECT_NEAR(test::float_of(back["coefficients"][k][1]), light_.values[k].y, 1e-6f);
   EXPECT_THAT(problem_here({"sh", "convert", dir_ / "u.json", "--to", "three"}),
               AllOf(HasSubstr("is in convention \"unity\", not \"ssphh\""), HasSubstr("--from CONVENTION")));
   EXPECT_THAT(problem_here(sh("convert", {"--to", "maya"})),
@@ -261,11 +260,11 @@ TEST_F(ShTool, CubemapConvertRearrangesAndResamples) {
         {"cubemap", "convert", dir_ / "strip.exr", "-o", dir_ / "out.exr", "--from", "strip-h", "--to", to},
         more));
   };
-  EXPECT_EQ(convert("cross-v", {}), json({{"output", (dir_ / "out.exr").string()},
-                                          {"from", "strip-h"},
-                                          {"to", "cross-v"},
-                                          {"width", 12},
-                                          {"height", 16}}));
+  EXPECT_EQ(convert("cross-v", {}), json::Value({{"output", (dir_ / "out.exr").string()},
+                                                 {"from", "strip-h"},
+                                                 {"to", "cross-v"},
+                                                 {"width", 12},
+                                                 {"height", 16}}));
   EXPECT_EQ(image::read_image(dir_ / "out.exr").pixels,
             image::convert_layout(input, image::Layout::strip_h, image::Layout::cross_v).pixels);
   convert("equirect", {"--size", "6"});

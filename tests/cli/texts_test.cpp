@@ -16,7 +16,6 @@
 namespace ssphh {
 namespace {
 
-using nlohmann::json;
 using test::joined;
 using test::json_here;
 using test::text_here;
@@ -38,48 +37,46 @@ std::string pattern(const std::string& text) {
   return result;
 }
 
-double number(const json& object, const char* key) {
-  return object[key].get<double>();
+double number(const json::Value& object, const char* key) {
+  return object[key].number();
 }
 
 TEST(Texts, OfScenes) {
-  const json list = json_here({"scene", "list"})["scenes"];
+  const json::Value list = json_here({"scene", "list"})["scenes"];
   ASSERT_EQ(list.size(), scene::builtin_scenes().size());
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < list.size(); ++i) {
     EXPECT_EQ(list[i]["name"], "builtin:" + scene::builtin_scenes()[i].name);
     EXPECT_EQ(list[i]["description"], scene::builtin_scenes()[i].description);
-    lines.push_back(fmt::format("{:<20} {}", list[i]["name"].get<std::string>(),
-                                list[i]["description"].get<std::string>()));
+    lines.push_back(fmt::format("{:<20} {}", list[i]["name"].string(), list[i]["description"].string()));
   }
   EXPECT_EQ(text_here({"scene", "list"}), fmt::format("{}", fmt::join(lines, "\n")));
 
-  const json info = json_here({"scene", "info", "builtin:cornell"});
+  const json::Value info = json_here({"scene", "info", "builtin:cornell"});
   EXPECT_EQ(info["movable"], 0);
   EXPECT_EQ(info["emissive_instances"], 1);
-  EXPECT_LT(info["bounds"]["min"][1], info["bounds"]["max"][1]);
+  EXPECT_LT(info["bounds"]["min"][1].number(), info["bounds"]["max"][1].number());
   std::vector<std::string> names;
-  for (const json& place : info["sphl_places"]) names.push_back(place["name"]);
+  for (const json::Value& place : info["sphl_places"].elements()) names.push_back(place["name"].string());
   const auto bound = [&](const char* which) {
-    const json& b = info["bounds"][which];
-    return fmt::format("{:.3f} {:.3f} {:.3f}", b[0].get<double>(), b[1].get<double>(), b[2].get<double>());
+    const json::Value& b = info["bounds"][which];
+    return fmt::format("{:.3f} {:.3f} {:.3f}", b[0].number(), b[1].number(), b[2].number());
   };
-  EXPECT_EQ(
-      text_here({"scene", "info", "builtin:cornell"}),
-      fmt::format("builtin:cornell (cornell)\n"
-                  "triangles    {} in {} instances of {} meshes\n"
-                  "materials    {}, 0 textures\n"
-                  "lights       {}, 1 emissive instances, no environment\n"
-                  "light groups {}\n"
-                  "cameras      {}\n"
-                  "SPHLs        {}: {}\n"
-                  "movable      0 nodes; animations last 0 s\n"
-                  "bounds       {} to {} m\n"
-                  "ignored      nothing",
-                  info["triangles"].dump(), info["instances"].dump(), info["meshes"].dump(),
-                  info["materials"].dump(), info["lights"].dump(), info["light_groups"][0].get<std::string>(),
-                  info["camera_names"][0].get<std::string>(), names.size(), fmt::join(names, ", "),
-                  bound("min"), bound("max")));
+  EXPECT_EQ(text_here({"scene", "info", "builtin:cornell"}),
+            fmt::format("builtin:cornell (cornell)\n"
+                        "triangles    {} in {} instances of {} meshes\n"
+                        "materials    {}, 0 textures\n"
+                        "lights       {}, 1 emissive instances, no environment\n"
+                        "light groups {}\n"
+                        "cameras      {}\n"
+                        "SPHLs        {}: {}\n"
+                        "movable      0 nodes; animations last 0 s\n"
+                        "bounds       {} to {} m\n"
+                        "ignored      nothing",
+                        print(info["triangles"]), print(info["instances"]), print(info["meshes"]),
+                        print(info["materials"]), print(info["lights"]), info["light_groups"][0].string(),
+                        info["camera_names"][0].string(), names.size(), fmt::join(names, ", "), bound("min"),
+                        bound("max")));
   const test::TempDir dir;
   std::ofstream(dir / "a.obj") << "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n";
   EXPECT_THAT(text_here({"scene", "info", dir / "a.obj"}),
@@ -87,24 +84,23 @@ TEST(Texts, OfScenes) {
 }
 
 TEST(Texts, OfMethods) {
-  const json methods = json_here({"methods"})["methods"];
+  const json::Value methods = json_here({"methods"})["methods"];
   ASSERT_GT(methods.size(), 5u);
-  for (const json& method : methods) {
-    std::string text =
-        fmt::format("{}\n    {}\n", method["name"].get<std::string>(), method["about"].get<std::string>());
-    for (const json& p : method["parameters"]) {
+  for (const json::Value& method : methods.elements()) {
+    std::string text = fmt::format("{}\n    {}\n", method["name"].string(), method["about"].string());
+    for (const json::Value& p : method["parameters"].elements()) {
       const bool choice = p.contains("choices");
       std::vector<std::string> choices;
-      if (choice) choices = p["choices"].get<std::vector<std::string>>();
-      text +=
-          fmt::format("    {:<16} {:<10} {} ({})\n", p["name"].get<std::string>(),
-                      choice ? p["default"].get<std::string>() : fmt::format("{:g}", number(p, "default")),
-                      p["about"].get<std::string>(),
-                      choice ? fmt::format("{}", fmt::join(choices, "|"))
-                             : fmt::format("{:g}..{:g}", number(p, "least"), number(p, "most")));
+      if (choice)
+        for (const json::Value& name : p["choices"].elements()) choices.push_back(name.string());
+      text += fmt::format("    {:<16} {:<10} {} ({})\n", p["name"].string(),
+                          choice ? p["default"].string() : fmt::format("{:g}", number(p, "default")),
+                          p["about"].string(),
+                          choice ? fmt::format("{}", fmt::join(choices, "|"))
+                                 : fmt::format("{:g}..{:g}", number(p, "least"), number(p, "most")));
     }
     text.pop_back();
-    const std::string said = text_here({"methods", method["name"]});
+    const std::string said = text_here({"methods", method["name"].string()});
     EXPECT_EQ(said.substr(0, text.size()), text);
     EXPECT_THAT(text_here({"methods"}), testing::HasSubstr(text));
   }
@@ -117,17 +113,17 @@ TEST(Texts, OfMeasure) {
                                             "--points",    "16",
                                             "--truth-spp", "4",
                                             "--max-depth", "3"};
-  const json all = json_here(command);
+  const json::Value all = json_here(command);
   EXPECT_EQ(all["geometry_builds"], 1);
   std::string text = fmt::format(
       "16 points of 4 paths, {} of them dark; mean {:.5g} W/m2\n"
       "light                   weights       ratio mean error     95 %    relMSE     leak   lookup",
-      all["dark_points"].dump(), number(all, "mean_truth"));
-  for (const json& one : all["results"]) {
+      print(all["dark_points"]), number(all, "mean_truth"));
+  for (const json::Value& one : all["results"].elements()) {
     text += fmt::format("\n{:<24}{:<11}{:>8.3f}{:>9.1f} %{:>7.1f} %{:>10.4f}{:>7.2f} % *@ us",
-                        one["method"].get<std::string>(), "", number(one, "ratio"),
-                        100 * number(one, "mean_error"), 100 * number(one, "p95_relative"),
-                        number(one, "relmse"), 100 * number(one, "leak_ratio"));
+                        one["method"].string(), "", number(one, "ratio"), 100 * number(one, "mean_error"),
+                        100 * number(one, "p95_relative"), number(one, "relmse"),
+                        100 * number(one, "leak_ratio"));
     EXPECT_GT(number(one, "frame_ms"), 0);
     EXPECT_LT(number(one, "frame_ms"), 2000);
   }
@@ -147,7 +143,7 @@ TEST(Texts, OfRespond) {
                                             "--frames",    "2",
                                             "--points",    "9",
                                             "--truth-spp", "4"};
-  const json run = json_here(command);
+  const json::Value run = json_here(command);
   EXPECT_EQ(run["frames_to_settle"], 1);
   EXPECT_NE(run["before_error"], run["first_error"]);
   const std::string text = text_here(command);
@@ -165,20 +161,20 @@ TEST(Texts, OfBakes) {
   const std::vector<std::string> paths = {"bake", "builtin:box", "-o", dir / "a.sphl", "--face",
                                           "1",    "--spp",       "1",  "--degree",     "0"};
   const std::string head = (dir / "a.sphl").string() + ": 5 probes of degree 0, 1 light groups, 20 edges";
-  const json traced = json_here(paths);
+  const json::Value traced = json_here(paths);
   EXPECT_THAT(text_here(paths), MatchesRegex(pattern(fmt::format("{}\nGEN @ s\nVIZ from paths @ s\n{} rays",
-                                                                 head, traced["rays"].dump()))));
+                                                                 head, print(traced["rays"])))));
   const std::vector<std::string> transport = {
       "bake", "builtin:box",   "-o",  dir / "a.sphl", "--operator", "surfel",   "--fit", "--directions",
       "64",   "--surfel-size", "0.5", "--link-rays",  "8",          "--degree", "0"};
-  const json solved = json_here(transport);
+  const json::Value solved = json_here(transport);
   EXPECT_THAT(
       text_here(transport),
       MatchesRegex(pattern(fmt::format(
           "{}\n{} surfels of 0.5 m, {} links; {} iterations, a bounce keeps at most {:.3g} of the light; "
           "@ s\nweights fitted at {} points in @ s\nVIZ from links @ s\n{} rays",
-          head, solved["surfels"].dump(), solved["links"].dump(), solved["iterations"].dump(),
-          number(solved, "contraction"), solved["fitted"].dump(), solved["rays"].dump()))));
+          head, print(solved["surfels"]), print(solved["links"]), print(solved["iterations"]),
+          number(solved, "contraction"), print(solved["fitted"]), print(solved["rays"])))));
 }
 
 TEST(Texts, OfPictures) {
@@ -186,21 +182,20 @@ TEST(Texts, OfPictures) {
   const std::vector<std::string> size = {"--width", "6", "--height", "4", "--spp", "2", "--max-depth", "2"};
   const std::string out = dir / "a.exr";
   const std::vector<std::string> render = joined({"render", "builtin:cornell", "-o", out}, size);
-  const json picture = json_here(render);
+  const json::Value picture = json_here(render);
   EXPECT_THAT(text_here(render), MatchesRegex(pattern(fmt::format(
                                      "{}: 6×4, 48 paths, {} rays in @ s, mean radiance {:.4g} {:.4g} {:.4g}",
-                                     out, picture["rays"].dump(), picture["mean"][0].get<double>(),
-                                     picture["mean"][1].get<double>(), picture["mean"][2].get<double>()))));
+                                     out, print(picture["rays"]), picture["mean"][0].number(),
+                                     picture["mean"][1].number(), picture["mean"][2].number()))));
   const std::vector<std::string> truth = joined({"truth", "builtin:cornell", "-o", out}, size);
-  const json t = json_here(truth);
-  const json &m = t["mean"], &e = t["standard_error"];
+  const json::Value t = json_here(truth);
+  const json::Value &m = t["mean"], &e = t["standard_error"];
   EXPECT_THAT(text_here(truth),
               MatchesRegex(pattern(fmt::format(
                   "{}: 6×4, 2 samples per pixel, depth 2, by path in @ s\nmean radiance {:.5g} {:.5g} {:.5g} "
                   "(standard error {:.1e} {:.1e} {:.1e})\nnoise: RMSE {:.4g}, relMSE {:.4g}",
-                  out, m[0].get<double>(), m[1].get<double>(), m[2].get<double>(), e[0].get<double>(),
-                  e[1].get<double>(), e[2].get<double>(), number(t["noise"], "rmse"),
-                  number(t["noise"], "relmse")))));
+                  out, m[0].number(), m[1].number(), m[2].number(), e[0].number(), e[1].number(),
+                  e[2].number(), number(t["noise"], "rmse"), number(t["noise"], "relmse")))));
 }
 
 TEST(Texts, OfComparisons) {
@@ -213,28 +208,28 @@ TEST(Texts, OfComparisons) {
   image::write_image(dir / "a.exr", a), image::write_image(dir / "b.exr", b);
   const std::vector<std::string> command = {"compare", dir / "a.exr", dir / "b.exr", "--block",
                                             "2",       "-o",          dir / "m.png"};
-  const json c = json_here(command);
-  const json &blocks = c["blocks"], &ratio = c["mean_ratio"];
+  const json::Value c = json_here(command);
+  const json::Value &blocks = c["blocks"], &ratio = c["mean_ratio"];
   EXPECT_EQ(blocks["columns"], 3);
   EXPECT_EQ(blocks["rows"], 2);
-  EXPECT_EQ(text_here(command),
-            fmt::format("size       5 x 3\n"
-                        "MAE        {:.6g}   (sum {:.6g}, max {:.6g}, bias {:+.6g})\n"
-                        "RMSE       {:.6g}   (MSE {:.6g})\n"
-                        "relMSE     {:.6g}\nMAPE       {:.6g}\nSMAPE      {:.6g}\n"
-                        "mean ratio {:.6g} {:.6g} {:.6g}\n"
-                        "FLIP       {:.6g}   (largest of {} exposures from {:.2f} to {:.2f} EV)\n"
-                        "SSIM       {:.6g}\nPSNR       {:.6g} dB\n"
-                        "blocks     3 x 2 of 2 pixels: mean sum {:.6g}, max {:.6g} in block {}, {}\n"
-                        "map        {} (absolute, last colour at {:.6g})",
-                        number(c, "mae"), number(c, "sum"), number(c, "max"), number(c, "bias"),
-                        number(c, "rmse"), number(c, "mse"), number(c, "relmse"), number(c, "mape"),
-                        number(c, "smape"), ratio[0].get<double>(), ratio[1].get<double>(),
-                        ratio[2].get<double>(), number(c["flip"], "mean"),
-                        c["flip"]["exposures"]["count"].dump(), number(c["flip"]["exposures"], "first"),
-                        number(c["flip"]["exposures"], "last"), number(c, "ssim"), number(c, "psnr"),
-                        number(blocks, "mean"), number(blocks, "max"), blocks["max_block"][0].dump(),
-                        blocks["max_block"][1].dump(), (dir / "m.png").string(), number(c["map"], "scale")));
+  EXPECT_EQ(
+      text_here(command),
+      fmt::format("size       5 x 3\n"
+                  "MAE        {:.6g}   (sum {:.6g}, max {:.6g}, bias {:+.6g})\n"
+                  "RMSE       {:.6g}   (MSE {:.6g})\n"
+                  "relMSE     {:.6g}\nMAPE       {:.6g}\nSMAPE      {:.6g}\n"
+                  "mean ratio {:.6g} {:.6g} {:.6g}\n"
+                  "FLIP       {:.6g}   (largest of {} exposures from {:.2f} to {:.2f} EV)\n"
+                  "SSIM       {:.6g}\nPSNR       {:.6g} dB\n"
+                  "blocks     3 x 2 of 2 pixels: mean sum {:.6g}, max {:.6g} in block {}, {}\n"
+                  "map        {} (absolute, last colour at {:.6g})",
+                  number(c, "mae"), number(c, "sum"), number(c, "max"), number(c, "bias"), number(c, "rmse"),
+                  number(c, "mse"), number(c, "relmse"), number(c, "mape"), number(c, "smape"),
+                  ratio[0].number(), ratio[1].number(), ratio[2].number(), number(c["flip"], "mean"),
+                  print(c["flip"]["exposures"]["count"]), number(c["flip"]["exposures"], "first"),
+                  number(c["flip"]["exposures"], "last"), number(c, "ssim"), number(c, "psnr"),
+                  number(blocks, "mean"), number(blocks, "max"), print(blocks["max_block"][0]),
+                  print(blocks["max_block"][1]), (dir / "m.png").string(), number(c["map"], "scale")));
 }
 
 TEST(Texts, OfFarms) {

@@ -8,8 +8,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
+#include <ssphh/core/file.h>
 #include <ssphh/image/io.h>
 
 #include "temp_dir.h"
@@ -18,58 +18,57 @@
 namespace ssphh {
 namespace {
 
-using nlohmann::json;
 using test::expect_keys;
 using test::run_json;
 using test::run_tool;
 using test::TempDir;
 
-json read_json(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return json::parse(file, nullptr, false);
+const json::Value read_json(const std::filesystem::path& path) {
+  return test::parse_json_if_any(read_text_file(path));
 }
 
 TEST(Export, CyclesGetsTheSceneInWorldSpaceAndTheReportNamesWhatDiffers) {
   const TempDir dir;
-  const json plain =
+  const json::Value plain =
       run_json({"export", "builtin:two-rooms", "--to", "cycles", "-o", dir / "a", "--time", "1"});
   expect_keys(plain, {"to", "files", "command", "differences", "triangles", "hash"});
-  EXPECT_TRUE(plain["differences"].empty()) << plain["differences"].dump();
-  const json scene = read_json(dir / "a/scene.json");
+  EXPECT_TRUE(plain["differences"].empty()) << print(plain["differences"]);
+  const json::Value scene = read_json(dir / "a/scene.json");
   ASSERT_TRUE(scene.is_object());
   EXPECT_EQ(scene["lights"].size(), 1u);
   std::size_t triangles = 0, floats = 0;
-  for (const json& mesh : scene["meshes"]) {
-    triangles += mesh["triangles"].get<std::size_t>();
-    floats += 3 * mesh["vertices"].get<std::size_t>() + 3 * mesh["triangles"].get<std::size_t>();
-    if (mesh.contains("normals")) floats += 3 * mesh["vertices"].get<std::size_t>();
+  for (const json::Value& mesh : scene["meshes"].elements()) {
+    triangles += test::count_of(mesh["triangles"]);
+    floats += 3 * test::count_of(mesh["vertices"]) + 3 * test::count_of(mesh["triangles"]);
+    if (mesh.contains("normals")) floats += 3 * test::count_of(mesh["vertices"]);
     for (const char* uv : {"uv0", "uv1"})
-      if (mesh.contains(uv)) floats += 2 * mesh["vertices"].get<std::size_t>();
+      if (mesh.contains(uv)) floats += 2 * test::count_of(mesh["vertices"]);
   }
   EXPECT_EQ(triangles, plain["triangles"]);
   EXPECT_EQ(std::filesystem::file_size(dir / "a/scene.bin"), 4 * floats);
 
-  const json bronze = run_json({"export", "builtin:gallery2", "--to", "cycles", "-o", dir / "b"});
+  const json::Value bronze = run_json({"export", "builtin:gallery2", "--to", "cycles", "-o", dir / "b"});
   ASSERT_EQ(bronze["differences"].size(), 1u);
-  EXPECT_THAT(bronze["differences"][0].get<std::string>(), testing::HasSubstr("bronze"));
+  EXPECT_THAT(bronze["differences"][0].string(), testing::HasSubstr("bronze"));
 }
 
 TEST(Export, EveryRendererGetsItsFilesAndTheReportNamesWhatDiffers) {
   const TempDir dir;
   for (const char* renderer : {"mitsuba", "pbrt", "corona"}) {
-    const json written = run_json({"export", "builtin:gallery2", "--to", renderer, "-o", dir / renderer});
+    const json::Value written =
+        run_json({"export", "builtin:gallery2", "--to", renderer, "-o", dir / renderer});
     EXPECT_EQ(written["to"], renderer);
-    for (const json& file : written["files"])
-      EXPECT_TRUE(std::filesystem::is_regular_file(file.get<std::string>()));
-    EXPECT_THAT(written["command"].get<std::string>(),
-                testing::HasSubstr(written["files"][0].get<std::string>()));
-    EXPECT_THAT(written["differences"].dump(), testing::HasSubstr("bronze")) << renderer;
+    for (const json::Value& file : written["files"].elements())
+      EXPECT_TRUE(std::filesystem::is_regular_file(file.string()));
+    EXPECT_THAT(written["command"].string(), testing::HasSubstr(written["files"][0].string()));
+    EXPECT_THAT(print(written["differences"]), testing::HasSubstr("bronze")) << renderer;
   }
 }
 
 TEST(Export, GltfLoadsBackTheSame) {
   const TempDir dir;
-  const json written = run_json({"export", "builtin:two-rooms", "--to", "gltf", "-o", dir / "rooms.glb"});
+  const json::Value written =
+      run_json({"export", "builtin:two-rooms", "--to", "gltf", "-o", dir / "rooms.glb"});
   EXPECT_EQ(run_json({"scene", "info", dir / "rooms.glb"})["hash"], written["hash"]);
 }
 
@@ -82,12 +81,12 @@ TEST(Truth, TellsItsOwnNoise) {
     arguments.insert(arguments.end(), {"--spp", spp, "-o", dir / name, "--halves"});
     return run_json(arguments);
   };
-  const json few = truth("8", "few.exr"), many = truth("128", "many.exr");
+  const json::Value few = truth("8", "few.exr"), many = truth("128", "many.exr");
   expect_keys(few, {"output", "renderer", "seconds", "mean", "standard_error", "noise", "differences"});
   // Sixteen times the samples: a quarter of the RMSE, somewhat less with stratified samples.
-  EXPECT_LT(many["noise"]["rmse"].get<double>(), 0.5 * few["noise"]["rmse"].get<double>());
-  const json halves = run_json({"compare", dir / "few.a.exr", dir / "few.b.exr"});
-  EXPECT_NEAR(halves["rmse"].get<double>() / 2, few["noise"]["rmse"].get<double>(), 1e-7);
+  EXPECT_LT(many["noise"]["rmse"].number(), 0.5 * few["noise"]["rmse"].number());
+  const json::Value halves = run_json({"compare", dir / "few.a.exr", dir / "few.b.exr"});
+  EXPECT_NEAR(halves["rmse"].number() / 2, few["noise"]["rmse"].number(), 1e-7);
 }
 
 bool blender_is_there() {
@@ -102,13 +101,12 @@ TEST(Truth, CyclesAgrees) {
     return run_json({"truth", "builtin:two-rooms", "--renderer", renderer, "--max-depth", "3", "--spp", "64",
                      "--width", "80", "--height", "45", "-o", dir / (renderer + ".exr")});
   };
-  const json ours = truth("path"), cycles = truth("cycles");
+  const json::Value ours = truth("path"), cycles = truth("cycles");
   EXPECT_TRUE(cycles["differences"].empty());
   for (std::size_t c = 0; c < 3; ++c) {
-    const double a = ours["mean"][c], b = cycles["mean"][c];
+    const double a = ours["mean"][c].number(), b = cycles["mean"][c].number();
     EXPECT_NEAR(b / a, 1, 0.01);
-    const double error =
-        std::hypot(ours["standard_error"][c].get<double>(), cycles["standard_error"][c].get<double>());
+    const double error = std::hypot(ours["standard_error"][c].number(), cycles["standard_error"][c].number());
     EXPECT_LT(std::abs(b - a), 5 * error + 0.002 * a);  // pixel edges: 0.2 %
   }
 }

@@ -35,7 +35,7 @@ TEST(FarmBake, LocalOptionAndJsonSayWhatWasDone) {
   auto command = bake.arguments;
   const std::string file = (dir / "out.sphl").string(), cache = (dir / "cache").string();
   command.insert(command.end(), {"-o", file, "--local", "2", "--cache", cache});
-  nlohmann::json object = run_json(command);
+  json::Value object = run_json(command);
   EXPECT_EQ(object["farm"]["units"], 12);
   EXPECT_EQ(object["farm"]["cached"], 0);
   EXPECT_EQ(read_file(file), bake.wanted);
@@ -115,7 +115,7 @@ TEST(FarmBake, CancelledBakeGoesOnWhereItStopped) {
   const auto other = dir / "other.sphl";
   const ToolResult again = run_tool(bake.on(farm.endpoint(), other, cache));
   ASSERT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_GT(nlohmann::json::parse(again.out)["farm"]["cached"], 0);
+  EXPECT_GT(parse_json(again.out)["farm"]["cached"].number(), 0);
   EXPECT_EQ(read_file(other), bake.wanted);
 }
 

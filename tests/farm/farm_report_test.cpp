@@ -40,8 +40,8 @@ TEST(FarmReport, RunsOfAFarmHaveTheKeysAndTheBitsOfLocalOnes) {
 
   int on_farm = 0;
   for (const auto& entry : fs::directory_iterator(dir / "far/cache")) {
-    const auto record = nlohmann::json::parse(read_text_file(entry.path() / "run.json"));
-    on_farm += record["machine"].get<std::string>().ends_with("and a farm");
+    const auto record = parse_json(read_text_file(entry.path() / "run.json"));
+    on_farm += record["machine"].string().ends_with("and a farm");
   }
   EXPECT_EQ(on_farm, 9);
 }
@@ -67,10 +67,10 @@ TEST(FarmCommand, ParkedJobsAreShownReleasedAndDropped) {
   };
   const auto parked = run_json(farm_command({"parked"}))["jobs"];
   ASSERT_GE(parked.size(), 1u);
-  EXPECT_THAT(parked[0]["failures"][0].get<std::string>(), testing::HasSubstr("cache0"));
+  EXPECT_THAT(parked[0]["failures"][0].string(), testing::HasSubstr("cache0"));
   expect_failure(farm_command({"release"}), "--all");
   expect_failure(farm_command({"release", "99999"}), "job 99999 is not set aside");
-  EXPECT_EQ(run_json(farm_command({"drop", parked[0]["job"].dump()}))["dropped"], 1);
+  EXPECT_EQ(run_json(farm_command({"drop", print(parked[0]["job"])}))["dropped"], 1);
   EXPECT_EQ(run_json(farm_command({"release", "--all"}))["released"], parked.size() - 1);
   EXPECT_EQ(run_json(farm_command({"drop", "--all"}))["dropped"].is_number(), true);
 }

@@ -283,13 +283,16 @@ TEST_F(MethodLight, FollowsLampsAndKeepsMapsThatHold) {
   Subject lights("two-rooms", "vpl", {"photons=64", "check_points=0"});
   realtime::Renderer renderer(gl(), lights.scene, quick);
   renderer.set_method_light(lights.method->light_data());
+  const scene::CameraPose camera = lights.camera("room-a");
+  const realtime::Target target{.width = size.width, .height = size.height};
+  EXPECT_GT(renderer.draw(camera, {}, target).shadow_maps_drawn, number(renderer, "gl_lights"))
+      << "some faces of each light's cube, beside the lamp's";
   const double once = test::mean_luminance(draw(renderer, lights, "room-a").radiance);
   scene::LightingState state = scene::lighting_at(lights.source, 0);
   for (vec3& scale : state.group_scales) scale = vec3(2);
   lights.method->update(state, {});
   renderer.set_method_light(lights.method->light_data());
-  const scene::CameraPose camera = lights.camera("room-a");
-  EXPECT_EQ(renderer.draw(camera, {}, {.width = size.width, .height = size.height}).shadow_maps_drawn, 0);
+  EXPECT_EQ(renderer.draw(camera, {}, target).shadow_maps_drawn, 0);
   EXPECT_NEAR(test::mean_luminance(draw(renderer, lights, "room-a").radiance) / once, 2, 1e-4);
 
   state.lights[0].world[3].x += 0.5f;

@@ -3,25 +3,25 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
+#include "json_text.h"
 #include "tool.h"
 
 namespace ssphh::test {
 
 /// Runs a command with --json; the object on stdout, empty when there was none (the test fails then).
-inline nlohmann::json run_json(std::vector<std::string> arguments, int exit_code = 0) {
+inline const json::Value run_json(std::vector<std::string> arguments, int exit_code = 0) {
   arguments.emplace_back("--json");
   const ToolResult result = run_tool(arguments);
   EXPECT_EQ(result.exit_code, exit_code) << result.err;
-  nlohmann::json object = nlohmann::json::parse(result.out, nullptr, false);
+  const json::Value object = parse_json_if_any(result.out);
   EXPECT_TRUE(object.is_object()) << "stdout is not one JSON object: " << result.out;
-  return object.is_object() ? object : nlohmann::json::object();
+  return object.is_object() ? object : json::Value::object();
 }
 
-inline void expect_keys(const nlohmann::json& object, const std::vector<std::string>& keys) {
+inline void expect_keys(const json::Value& object, const std::vector<std::string>& keys) {
   for (const std::string& key : keys)
-    EXPECT_TRUE(object.contains(key)) << key << " is missing in " << object.dump();
+    EXPECT_TRUE(object.contains(key)) << key << " is missing in " << print(object);
 }
 
 /// The command ends with `exit_code` and says each of `messages`.

@@ -10,8 +10,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
+#include <ssphh/core/file.h>
 #include <ssphh/image/io.h>
 
 #include "temp_dir.h"
@@ -21,7 +21,6 @@
 namespace ssphh {
 namespace {
 
-using nlohmann::json;
 using test::expect_failure;
 using test::expect_keys;
 using test::run_json;
@@ -64,7 +63,7 @@ std::vector<std::string> with(std::vector<std::string> arguments, const std::vec
 }
 
 TEST_F(View, AnOpenedDoorBrightensTheRoomBehindIt) {
-  const json run = run_json(with(
+  const json::Value run = run_json(with(
       two_rooms,
       {"--camera", "room-b", "--stats", path("times.json"), "--script",
        script("settle\nscreenshot " + path("shut.png") + "\ntime 1\nsettle\nscreenshot " + path("open.png") +
@@ -76,9 +75,8 @@ TEST_F(View, AnOpenedDoorBrightensTheRoomBehindIt) {
   EXPECT_LT(brightness("shut.png"), 2.0 / 255 / 12.92);
   EXPECT_GT(brightness("open.png"), 0.005);
   EXPECT_EQ(brightness("off.png"), 0);
-  std::ifstream stats(path("times.json"));
-  const json times = json::parse(stats);
-  EXPECT_THAT(times["stages"].dump(), testing::AllOf(HasSubstr("relight"), HasSubstr("frame")));
+  const json::Value times = test::parse_json(read_text_file(path("times.json")));
+  EXPECT_THAT(print(times["stages"]), testing::AllOf(HasSubstr("relight"), HasSubstr("frame")));
 }
 
 TEST_F(View, MouseAndKeysChangeWhatIsShown) {
@@ -114,14 +112,14 @@ TEST_F(View, SavesWhatWasEdited) {
                  script("settle\nlight lamp intensity 7\nsphl 2 1.5 0.5\nsettle\nsave " + path("rooms.glb") +
                         "\nsave " + path("rooms.sphl") + "\nbookmark\nview 1 1 1 2 1 0\nbookmark\nsave " +
                         path("path.json") + "\nquit\n")}));
-  const json scene = run_json({"scene", "info", path("rooms.glb")});
+  const json::Value scene = run_json({"scene", "info", path("rooms.glb")});
   EXPECT_EQ(scene["sphls"], 7);
   EXPECT_EQ(scene["lights"], 1);
   // The saved probes are those of the saved scene: the viewer takes them without --force.
-  const json again = run_json({"view", path("rooms.glb"), "--probes", path("rooms.sphl"), "--size", "160x100",
-                               "--no-panels", "--screenshot", path("again.png")});
+  const json::Value again = run_json({"view", path("rooms.glb"), "--probes", path("rooms.sphl"), "--size",
+                                      "160x100", "--no-panels", "--screenshot", path("again.png")});
   EXPECT_EQ(again["probes"], 7);
-  const json frames =
+  const json::Value frames =
       run_json(with(two_rooms, {"--path", path("path.json"), "--export", path("frames"), "--fps", "1"}));
   EXPECT_EQ(frames["written"].size(), 3u);
   EXPECT_TRUE(exists("frames/frame-0002.png"));

@@ -1,11 +1,11 @@
 // The turns of the App, its time, and what can be done with a document, without a picture.
 
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
 #include <ssphh/core/file.h>
 
 #include "app_stage.h"
+#include "json_text.h"
 
 namespace ssphh::viewer {
 namespace {
@@ -184,7 +184,7 @@ TEST_F(AppTest, TimesAreSavedWithWhatTheyAreOf) {
   app().times.add("frame", 2);
   const auto saved = [&] {
     app().save_stats("times.json");
-    return nlohmann::json::parse(read_text_file("times.json"));
+    return test::parse_json(read_text_file("times.json"));
   };
   EXPECT_EQ(saved()["probes"], "0");
   app().light.take(std::move(set), "x");

@@ -1,10 +1,10 @@
 #include <cmath>
 
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
 #include <ssphh/scene/builtin.h>
 
+#include "json_text.h"
 #include "model/document.h"
 #include "model/frame_times.h"
 #include "model/live_light.h"
@@ -212,12 +212,11 @@ TEST(FrameTimes, QuantilesAreOfTheLastFramesOnly) {
 TEST(FrameTimes, AreWrittenAsJsonAndCsv) {
   FrameTimes times;
   times.add("frame", 2), times.add("frame", 4), times.add("shadow", 1);
-  const auto json = nlohmann::json::parse(times.to_json({{"renderer", "x"}}));
+  const auto json = test::parse_json(times.to_json({{"renderer", "x"}}));
   EXPECT_EQ(json["renderer"], "x");
   EXPECT_EQ(json["stages"][0]["median_ms"], 2);
-  EXPECT_EQ(
-      json["stages"][0],
-      nlohmann::json({{"name", "frame"}, {"frames", 2}, {"median_ms", 2}, {"p99_ms", 4}, {"last_ms", 4}}));
+  EXPECT_EQ(json["stages"][0],
+            json::Value({{"name", "frame"}, {"frames", 2}, {"median_ms", 2}, {"p99_ms", 4}, {"last_ms", 4}}));
   EXPECT_EQ(json["stages"][1]["frames"], 1);
   EXPECT_EQ(json["stages"].size(), 2u);
   times.clear();

@@ -3,7 +3,6 @@
 #include "picture.h"
 
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
 #include <ssphh/core/file.h>
 #include <ssphh/gi/probe_file.h>

@@ -1,7 +1,5 @@
 /// A worker that leaves properly, drains or gives its job back has not failed.
 
-#include <nlohmann/json.hpp>
-
 #include "broker_harness.h"
 #include "recount.h"
 

@@ -1,8 +1,7 @@
 /// Every limit of the broker, on both sides: the last that is taken and the first that is not.
 
-#include <nlohmann/json.hpp>
-
 #include "broker_harness.h"
+#include "json_text.h"
 #include "recount.h"
 
 namespace ssphh::majordomo::test {
@@ -295,9 +294,9 @@ class ParkedEdge : public Edge {
   }
   std::vector<std::size_t> sizes() {
     h->send("admin", client02("mmi.parked", {""}));
-    const auto answer = nlohmann::json::parse(h->taken("admin").at(0).at(4));
+    const auto answer = ssphh::test::parse_json(h->taken("admin").at(0).at(4));
     std::vector<std::size_t> all;
-    for (const auto& job : answer["jobs"]) all.push_back(job["bytes"]);
+    for (const auto& job : answer["jobs"].elements()) all.push_back(ssphh::test::count_of(job["bytes"]));
     return all;
   }
 };

@@ -1,8 +1,7 @@
 /// Jobs that were set aside: listed, put back, forgotten.
 
-#include <nlohmann/json.hpp>
-
 #include "broker_harness.h"
+#include "json_text.h"
 #include "recount.h"
 
 namespace ssphh::majordomo::test {
@@ -30,8 +29,8 @@ Frames ask(Harness& h, const std::string& service, const std::string& body, cons
   return Frames(reply.begin() + 3, reply.end());
 }
 
-nlohmann::json list(Harness& h) {
-  return nlohmann::json::parse(ask(h, "mmi.parked", "").at(1))["jobs"];
+const json::Value list(Harness& h) {
+  return ssphh::test::parse_json(ask(h, "mmi.parked", "").at(1))["jobs"];
 }
 
 TEST(Parked, ReleasedJobsRunAgainAndTheirResultIsForWhoeverAsksForTheSame) {
@@ -48,7 +47,7 @@ TEST(Parked, ReleasedJobsRunAgainAndTheirResultIsForWhoeverAsksForTheSame) {
 
   EXPECT_THAT(ask(h, "mmi.release", "99"), ElementsAre("404"));
   EXPECT_THAT(ask(h, "mmi.release", "all of them"), ElementsAre("400"));
-  EXPECT_THAT(ask(h, "mmi.release", parked[0]["job"].dump()), ElementsAre("200", "1"));
+  EXPECT_THAT(ask(h, "mmi.release", print(parked[0]["job"])), ElementsAre("200", "1"));
   EXPECT_TRUE(list(h).empty());
   h.send(own_a, ready02("gen"));
   const std::string address = h.job_of(own_a);

@@ -2,7 +2,6 @@
 #include <set>
 
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
@@ -10,6 +9,7 @@
 #include <ssphh/report/jobs.h>
 
 #include "error_message.h"
+#include "json_text.h"
 #include "temp_dir.h"
 
 namespace ssphh::report {
@@ -291,13 +291,13 @@ TEST(Cache, WhatIsNotAsItWasWrittenIsNoRun) {
   const auto kept = make();
   ASSERT_TRUE(kept);
   EXPECT_EQ(kept->files.size(), 2u) << "folders do not count";
-  const auto json = nlohmann::ordered_json::parse(read_text_file(record));
+  const auto json = test::parse_json(read_text_file(record));
   EXPECT_EQ(json["key"], job.key);
-  for (const auto& [key, value] : json.items()) {
+  for (const auto& [key, value] : json.members()) {
     if (key == "key") continue;
-    nlohmann::ordered_json less = json;
+    json::Value less = json;
     less.erase(key);
-    write_file(record, less.dump());
+    write_file(record, print(less));
     EXPECT_FALSE(find_run(dir.path(), job.key, "")) << "without " << key;
   }
   write_file(record, std::string_view("{"));

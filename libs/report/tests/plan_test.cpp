@@ -1,24 +1,22 @@
 #include <filesystem>
 
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
 #include <ssphh/report/plan.h>
 
 #include "json_schema.h"
+#include "json_text.h"
 #include "places.h"
 
 namespace ssphh::report {
 namespace {
 
-using nlohmann::ordered_json;
-
 const std::vector<std::string> commands = {"render", "bake", "hier", "truth", "sh", "measure"};
 
-ordered_json valid() {
-  return ordered_json::parse(R"({
+json::Value valid() {
+  return test::parse_json(R"({
     "title": "T",
     "variables": {"width": 48, "spp": 2},
     "scenes": [{"name": "s", "scene": "builtin:two-rooms --time 1", "variables": {"spp": 3},
@@ -34,13 +32,13 @@ ordered_json valid() {
   })");
 }
 
-Plan parse(const ordered_json& json) {
-  return parse_plan(json.dump(), "plan", commands);
+Plan parse(const json::Value& json) {
+  return parse_plan(print(json), "plan", commands);
 }
 
 // The message of the Error that a changed plan gives.
-std::string message_of(const std::function<void(ordered_json&)>& change) {
-  ordered_json json = valid();
+std::string message_of(const std::function<void(json::Value&)>& change) {
+  json::Value json = valid();
   change(json);
   try {
     parse(json);
@@ -50,8 +48,8 @@ std::string message_of(const std::function<void(ordered_json&)>& change) {
   return "accepted";
 }
 
-std::vector<std::string> schema_errors(const ordered_json& json) {
-  return test::schema_errors(test::source_dir() / "schemas/report-plan.schema.json", json.dump());
+std::vector<std::string> schema_errors(const json::Value& json) {
+  return test::schema_errors(test::source_dir() / "schemas/report-plan.schema.json", print(json));
 }
 
 TEST(Plan, EverythingIsRead) {
@@ -72,8 +70,8 @@ TEST(Plan, EverythingIsRead) {
 }
 
 TEST(Plan, ParametersAsListStandForThemselves) {
-  ordered_json json = valid();
-  json["published"]["rows"] = ordered_json::array();
+  json::Value json = valid();
+  json["published"]["rows"] = json::Value::array();
   json["methods"][0]["parameters"] = {{{"depth", 25}, {"n", "x"}}, {{"depth", 3}, {"n", "y"}}};
   const Plan plan = parse(json);
   ASSERT_EQ(plan.methods[0].variants.size(), 2u);
@@ -102,7 +100,7 @@ TEST(Plan, UnknownNamesAreAnsweredWithTheNearest) {
 TEST(Plan, WrongValuesAreNamedWithTheirPlace) {
   using testing::HasSubstr;
   EXPECT_THAT(message_of([](auto& j) { j.erase("scenes"); }), HasSubstr("\"scenes\" is missing"));
-  EXPECT_THAT(message_of([](auto& j) { j["scenes"] = ordered_json::array(); }), HasSubstr("plan: scenes"));
+  EXPECT_THAT(message_of([](auto& j) { j["scenes"] = json::Value::array(); }), HasSubstr("plan: scenes"));
   EXPECT_THAT(message_of([](auto& j) { j["block"] = 0; }), HasSubstr("plan: block"));
   EXPECT_THAT(message_of([](auto& j) { j["block"] = 1.5; }),
               HasSubstr("1.5 must be an integer from 1 to 4096"));
@@ -167,7 +165,7 @@ TEST(Plan, WhatIsLeftOutHasItsDefault) {
 }
 
 TEST(Plan, EveryKeyGoesWhereItBelongs) {
-  ordered_json json = valid();
+  json::Value json = valid();
   json["about"] = "A";
   json["scenes"][0].update({{"title", "S"}, {"exposure", -1.5}, {"optional", true}});
   json["reference"].update({{"name", "r"}, {"title", "R"}, {"about", "of r"}});
@@ -218,20 +216,20 @@ TEST(Plan, EveryKeyGoesWhereItBelongs) {
 }
 
 TEST(Plan, NumbersHaveLimits) {
-  const auto accepted = [](const std::function<void(ordered_json&)>& change) {
+  const auto accepted = [](const std::function<void(json::Value&)>& change) {
     const std::string message = message_of(change);
     EXPECT_TRUE(message == "accepted" || message.find(" must be ") != std::string::npos) << message;
     return message == "accepted";
   };
-  const auto expect_range = [&](const std::function<ordered_json&(ordered_json&)>& at,
-                                const ordered_json& low, const ordered_json& high, const ordered_json& step) {
+  const auto expect_range = [&](const std::function<json::Value&(json::Value&)>& at, const json::Value& low,
+                                const json::Value& high, const json::Value& step) {
     for (const auto& [value, good] :
-         std::vector<std::pair<double, bool>>{{low.get<double>(), true},
-                                              {high.get<double>(), true},
-                                              {low.get<double>() - step.get<double>(), false},
-                                              {high.get<double>() + step.get<double>(), false}})
+         std::vector<std::pair<double, bool>>{{low.number(), true},
+                                              {high.number(), true},
+                                              {low.number() - step.number(), false},
+                                              {high.number() + step.number(), false}})
       EXPECT_EQ(accepted([&, value = value](auto& j) {
-                  if (step.is_number_integer())
+                  if (step.is_integer())
                     at(j) = static_cast<int>(value);
                   else
                     at(j) = value;
@@ -239,14 +237,14 @@ TEST(Plan, NumbersHaveLimits) {
                 good)
           << value;
   };
-  expect_range([](auto& j) -> ordered_json& { return j["block"]; }, 1, 4096, 1);
-  expect_range([](auto& j) -> ordered_json& { return j["time_limit"]; }, 1, 1000000, 1);
-  expect_range([](auto& j) -> ordered_json& { return j["methods"][0]["repetitions"]; }, 1, 1000, 1);
-  expect_range([](auto& j) -> ordered_json& { return j["scenes"][0]["exposure"]; }, -30, 30, 0.25);
+  expect_range([](auto& j) -> json::Value& { return j["block"]; }, 1, 4096, 1);
+  expect_range([](auto& j) -> json::Value& { return j["time_limit"]; }, 1, 1000000, 1);
+  expect_range([](auto& j) -> json::Value& { return j["methods"][0]["repetitions"]; }, 1, 1000, 1);
+  expect_range([](auto& j) -> json::Value& { return j["scenes"][0]["exposure"]; }, -30, 30, 0.25);
 }
 
 TEST(Plan, AnInsetLiesWithinThePicture) {
-  const auto at = [](const ordered_json& value) {
+  const auto at = [](const json::Value& value) {
     return message_of([&](auto& j) { j["scenes"][0]["insets"][0]["at"] = value; });
   };
   EXPECT_EQ(at({0, 0, 1, 1}), "accepted");
@@ -271,10 +269,10 @@ TEST(Plan, AnInsetLiesWithinThePicture) {
 
 TEST(Plan, WrongKindsAndDoublesAreNamed) {
   using testing::HasSubstr;
-  const auto expect = [](const char* message, const std::function<void(ordered_json&)>& change) {
+  const auto expect = [](const char* message, const std::function<void(json::Value&)>& change) {
     EXPECT_THAT(message_of(change), HasSubstr(message));
   };
-  expect("plan: must be an object", [](auto& j) { j = ordered_json::array(); });
+  expect("plan: must be an object", [](auto& j) { j = json::Value::array(); });
   expect("plan: title: must be a string", [](auto& j) { j["title"] = 7; });
   expect("plan: block: must be a number", [](auto& j) { j["block"] = "8"; });
   expect("scenes[0].exposure: must be a number", [](auto& j) { j["scenes"][0]["exposure"] = "1"; });
@@ -284,8 +282,8 @@ TEST(Plan, WrongKindsAndDoublesAreNamed) {
   expect("plan: variables: must be an object", [](auto& j) { j["variables"] = 1; });
   expect("plan: variables.width: must be a number or text", [](auto& j) { j["variables"]["width"] = true; });
   expect("scenes[0].scene: is empty", [](auto& j) { j["scenes"][0]["scene"] = " "; });
-  expect("methods: is empty", [](auto& j) { j["methods"] = ordered_json::array(), j.erase("published"); });
-  expect("methods[0].steps: is empty", [](auto& j) { j["methods"][0]["steps"] = ordered_json::array(); });
+  expect("methods: is empty", [](auto& j) { j["methods"] = json::Value::array(), j.erase("published"); });
+  expect("methods[0].steps: is empty", [](auto& j) { j["methods"][0]["steps"] = json::Value::array(); });
   expect("methods[0].steps[0]: is empty", [](auto& j) { j["methods"][0]["steps"][0] = ""; });
   expect("plan: methods[0].steps[0]: \"run\" is missing", [](auto& j) {
     j["methods"][0]["steps"][0] = {{"name", "x"}};
@@ -310,7 +308,7 @@ TEST(Plan, WrongKindsAndDoublesAreNamed) {
          [](auto& j) { j["methods"][0]["parameters"]["depth"] = 1; });
   expect("parameters: must be an object of lists or a list",
          [](auto& j) { j["methods"][0]["parameters"] = 1; });
-  expect("parameters: is empty", [](auto& j) { j["methods"][0]["parameters"] = ordered_json::array(); });
+  expect("parameters: is empty", [](auto& j) { j["methods"][0]["parameters"] = json::Value::array(); });
   expect("plan: reference: unknown name {n} in \"truth '{n}'\"",
          [](auto& j) { j["reference"]["steps"] = {"truth {n}"}; });
 }
@@ -326,17 +324,17 @@ TEST(Plan, VariablesAreSetByName) {
 
 TEST(Plan, SchemaAndReaderAgree) {
   EXPECT_THAT(schema_errors(valid()), testing::IsEmpty());
-  const std::vector<std::function<void(ordered_json&)>> bad = {
+  const std::vector<std::function<void(json::Value&)>> bad = {
       [](auto& j) { j["titel"] = "x"; },
       [](auto& j) { j.erase("methods"); },
       [](auto& j) { j["block"] = 0; },
       [](auto& j) { j["layers"] = {"indirekt"}; },
       [](auto& j) { j["reference"]["picture"] = "x.exr"; },
-      [](auto& j) { j["methods"][0]["parameters"]["depth"] = ordered_json::array(); },
+      [](auto& j) { j["methods"][0]["parameters"]["depth"] = json::Value::array(); },
       [](auto& j) { j["columns"][1]["better"] = "yes"; },
   };
   for (std::size_t i = 0; i < bad.size(); ++i) {
-    ordered_json json = valid();
+    json::Value json = valid();
     bad[i](json);
     EXPECT_THAT(schema_errors(json), testing::Not(testing::IsEmpty())) << i;
     EXPECT_THROW(parse(json), Error) << i;
@@ -347,7 +345,7 @@ TEST(Plan, ShippedPlansAreValid) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() / "plans")) {
     const std::string text = read_text_file(entry.path());
-    EXPECT_THAT(schema_errors(ordered_json::parse(text)), testing::IsEmpty()) << entry.path();
+    EXPECT_THAT(schema_errors(test::parse_json(text)), testing::IsEmpty()) << entry.path();
     EXPECT_NO_THROW(parse_plan(text, entry.path().string(), commands));
     ++count;
   }

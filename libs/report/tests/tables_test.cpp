@@ -1,14 +1,14 @@
 #include <sstream>
 
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
 #include "example_report.h"
+#include "json_text.h"
 
 namespace ssphh::report {
 namespace {
 
-using nlohmann::json;
+using ssphh::test::parse_json;
 using test::example_report;
 using testing::HasSubstr;
 
@@ -57,13 +57,13 @@ TEST(Tables, CsvHoldsEveryValueOfEveryCell) {
 }
 
 TEST(Tables, JsonHoldsNumbersAndWhereTheyCameFrom) {
-  const json data = json::parse(report_json(example_report()));
+  const json::Value data = parse_json(report_json(example_report()));
   EXPECT_EQ(data["cells"][2]["values"]["render.seconds"]["median"], 4);
   EXPECT_EQ(data["cells"][2]["values"]["render.seconds"]["count"], 3);
   EXPECT_EQ(data["cells"][3]["failure"], "it failed </script>");
   const std::string methods[] = {"truth", "m", "m", "bad, \"quoted\""};
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(data["cells"][i]["method"], methods[i]);
-  EXPECT_EQ(data["cells"][2]["parameters"], json({{"n", "2"}}));
+  EXPECT_EQ(data["cells"][2]["parameters"], json::Value({{"n", "2"}}));
   EXPECT_EQ(data["cells"][1]["steps"][0]["command"], "render 'a b' -o o.exr");
   EXPECT_EQ(data["scenes"][0]["hash"], "hash");
   EXPECT_EQ(identity_of(report_json(example_report())), "id");
@@ -142,36 +142,35 @@ TEST(Tables, CsvAsAWhole) {
 }
 
 TEST(Tables, JsonAsAWhole) {
-  const json data = json::parse(report_json(whole_report()));
+  const json::Value data = parse_json(report_json(whole_report()));
   EXPECT_EQ(data["title"], "Title");
   EXPECT_EQ(data["about"], "About it.");
   EXPECT_EQ(data["provenance"],
-            json::parse(R"({"identity": "id", "version": "1.0", "build": "b", "commit": "abc",
+            parse_json(R"({"identity": "id", "version": "1.0", "build": "b", "commit": "abc",
       "machine": "a machine", "created": "today", "command": "ssphh report p"})"));
-  EXPECT_EQ(data["notes"], json({"a note"}));
-  EXPECT_EQ(data["variables"], json({{"w", "4"}}));
+  EXPECT_EQ(data["notes"], json::Value::array({"a note"}));
+  EXPECT_EQ(data["variables"], json::Value({{"w", "4"}}));
   EXPECT_EQ(data["block"], 8);
-  EXPECT_EQ(data["layers"], json({"direct"}));
-  EXPECT_EQ(data["scenes"][0],
-            json::parse(R"({"name": "s", "title": "Scene S", "exposure": 1.5, "hash": "hash of s",
-      "insets": [{"name": "corner", "at": [0, 0.25, 0.5, 1]}]})"));
-  EXPECT_EQ(data["scenes"][1]["hash"], json());
-  EXPECT_EQ(data["columns"], json::parse(R"([{"value": "mae", "title": "MAE | abs", "unit": "", "better": -1},
+  EXPECT_EQ(data["layers"], json::Value::array({"direct"}));
+  EXPECT_EQ(data["scenes"][0], parse_json(R"({"name": "s", "title": "Scene S", "exposure": 1.5,
+      "insets": [{"name": "corner", "at": [0, 0.25, 0.5, 1]}], "hash": "hash of s"})"));
+  EXPECT_EQ(data["scenes"][1]["hash"], json::Value());
+  EXPECT_EQ(data["columns"], parse_json(R"([{"value": "mae", "title": "MAE | abs", "unit": "", "better": -1},
       {"value": "a.seconds", "title": "time", "unit": "s", "better": 0}])"));
   EXPECT_EQ(data["charts"],
-            json::parse(R"([{"title": "C", "x": "x", "y": "y", "log_x": true, "log_y": false}])"));
+            parse_json(R"([{"title": "C", "x": "x", "y": "y", "log_x": true, "log_y": false}])"));
   EXPECT_EQ(
       data["published"],
-      json::parse(
+      parse_json(
           R"({"source": "a paper", "rows": [{"scene": "s", "method": "m, n 1", "values": {"time": 9.5}}]})"));
   EXPECT_EQ(data["cells"].size(), 3u);
   EXPECT_EQ(data["cells"][0]["reference"], true);
   EXPECT_EQ(data["cells"][0]["title"], "Truth");
   EXPECT_EQ(data["cells"][0]["about"], "of truth");
-  EXPECT_EQ(data["cells"][1], json::parse(R"({"scene": "s", "method": "m", "title": "M", "about": "of m",
+  EXPECT_EQ(data["cells"][1], parse_json(R"({"scene": "s", "method": "m", "title": "M", "about": "of m",
       "label": "m, n 1", "reference": false, "parameters": {"n": "1"}, "failure": null,
-      "values": {"mae": {"mean": 0.123456, "median": 0.2, "deviation": 0.0015, "count": 2},
-                 "a.seconds": {"mean": 7, "median": 6, "deviation": 1.25, "count": 2}},
+      "values": {"a.seconds": {"mean": 7, "median": 6, "deviation": 1.25, "count": 2},
+                 "mae": {"mean": 0.123456, "median": 0.2, "deviation": 0.0015, "count": 2}},
       "steps": [{"name": "a", "repetition": 1, "command": "render x", "key": "k1", "seconds": 1.504,
                  "peak_bytes": 3145733, "started": "then", "machine": "here"},
                 {"name": "b", "repetition": 0, "command": "bake y", "key": "k2", "seconds": 2,
@@ -179,7 +178,7 @@ TEST(Tables, JsonAsAWhole) {
   EXPECT_EQ(data["cells"][2]["scene"], "t");
   EXPECT_EQ(data["cells"][2]["failure"], "line 1\nline 2");
   EXPECT_EQ(data["cells"][2]["values"]["mae"],
-            json::parse(R"({"mean": null, "median": null, "deviation": null, "count": 1})"));
+            parse_json(R"({"mean": null, "median": null, "deviation": null, "count": 1})"));
 }
 
 TEST(Tables, APlanWithoutColumnsShowsTheUsualOnes) {
@@ -227,7 +226,7 @@ TEST(Values, NumbersOfAResultAreNamedByTheirPath) {
 TEST(Values, OfAListOfSixteenEachIsAValueAndOfALongerOneNone) {
   const auto count = [](std::size_t length) {
     std::map<std::string, std::vector<double>> values;
-    add_numbers("s", json{{"list", std::vector<int>(length, 1)}}.dump(), values);
+    add_numbers("s", print(json::Value{{"list", std::vector<int>(length, 1)}}), values);
     return values.size();
   };
   EXPECT_EQ(count(16), 16u);

@@ -9,6 +9,7 @@
 #include <ssphh/report/plan.h>
 
 #include "error_message.h"
+#include "json_text.h"
 #include "places.h"
 #include "yaml_reader.h"
 

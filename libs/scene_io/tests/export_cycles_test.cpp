@@ -3,31 +3,26 @@
 #include <cstring>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <ssphh/image/io.h>
 #include <ssphh/scene/query.h>
 
 #include "export_fixture.h"
+#include "json_text.h"
 #include "temp_dir.h"
 
 namespace ssphh::test {
 namespace {
 
-using nlohmann::json;
-
 class ExportCycles : public testing::Test {
  protected:
-  ExportCycles() {
-    report_ = scene_io::export_cycles(scene_, settings_, dir_.path());
-    json_ = json::parse(read_text_file(dir_ / "scene.json"));
-    binary_ = read_file(dir_ / "scene.bin");
-  }
+  /// What the last export wrote.
+  const json::Value written_json() const { return parse_json(read_text_file(dir_ / "scene.json")); }
 
   template <class T>
-  std::vector<T> array(const json& offset, const json& count) const {
-    std::vector<T> result(count.get<std::size_t>());
-    const auto begin = offset.get<std::size_t>();
+  std::vector<T> array(const json::Value& offset, const json::Value& count) const {
+    std::vector<T> result(count_of(count));
+    const auto begin = count_of(offset);
     EXPECT_LE(begin + result.size() * sizeof(T), binary_.size());
     std::memcpy(result.data(), binary_.data() + begin, result.size() * sizeof(T));
     return result;
@@ -36,20 +31,20 @@ class ExportCycles : public testing::Test {
   TempDir dir_;
   scene::Scene scene_ = scene_of_everything();
   scene_io::ExportSettings settings_ = export_settings();
-  scene_io::ExportReport report_;
-  json json_;
-  std::vector<std::byte> binary_;
+  const scene_io::ExportReport report_ = scene_io::export_cycles(scene_, settings_, dir_.path());
+  const json::Value json_ = written_json();
+  const std::vector<std::byte> binary_ = read_file(dir_ / "scene.bin");
 };
 
-json numbers(const vec3& v) {
+json::Value numbers(const vec3& v) {
   return {v.x, v.y, v.z};
 }
 
-mat4 matrix(const json& rows) {
+mat4 matrix(const json::Value& rows) {
   mat4 m;
   for (int r = 0; r < 4; ++r) {
     for (int c = 0; c < 4; ++c)
-      m[c][r] = rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)].get<float>();
+      m[c][r] = float_of(rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)]);
   }
   return m;
 }
@@ -59,11 +54,11 @@ TEST_F(ExportCycles, PictureAndCameraAreTheSettings) {
   EXPECT_EQ(json_["height"], 36);
   EXPECT_EQ(json_["max_depth"], 3);
   EXPECT_EQ(json_["spp"], 16);
-  const json& camera = json_["camera"];
+  const json::Value& camera = json_["camera"];
   EXPECT_EQ(matrix(camera["world"]), settings_.camera.world);
   EXPECT_EQ(camera["orthographic"], false);
-  EXPECT_EQ(camera["yfov"].get<float>(), 0.9f);
-  EXPECT_EQ(camera["yheight"].get<float>(), settings_.camera.camera.yheight);
+  EXPECT_EQ(float_of(camera["yfov"]), 0.9f);
+  EXPECT_EQ(float_of(camera["yheight"]), settings_.camera.camera.yheight);
 }
 
 TEST_F(ExportCycles, LightsAreInWorldSpace) {
@@ -72,23 +67,23 @@ TEST_F(ExportCycles, LightsAreInWorldSpace) {
   ASSERT_EQ(json_["lights"].size(), scene_.lights.size());
   for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
     const scene::Light& light = scene_.lights[i];
-    const json& written = json_["lights"][i];
+    const json::Value& written = json_["lights"][i];
     const mat4& place = world[static_cast<std::size_t>(light.node)];
     EXPECT_EQ(written["type"], types[i]);
     EXPECT_EQ(matrix(written["world"]), place);
     EXPECT_EQ(written["position"], numbers(vec3(place[3])));
     EXPECT_EQ(written["direction"], numbers(-glm::normalize(vec3(place[2]))));
     EXPECT_EQ(written["color"], numbers(light.color));
-    EXPECT_EQ(written["intensity"].get<float>(), light.intensity);
-    EXPECT_EQ(written["radius"].get<float>(), light.radius);
-    EXPECT_EQ(written["angular_radius"].get<float>(), light.angular_radius);
-    EXPECT_EQ(written["cos_inner"].get<float>(), std::cos(light.inner_cone));
-    EXPECT_EQ(written["cos_outer"].get<float>(), std::cos(light.outer_cone));
+    EXPECT_EQ(float_of(written["intensity"]), light.intensity);
+    EXPECT_EQ(float_of(written["radius"]), light.radius);
+    EXPECT_EQ(float_of(written["angular_radius"]), light.angular_radius);
+    EXPECT_EQ(float_of(written["cos_inner"]), std::cos(light.inner_cone));
+    EXPECT_EQ(float_of(written["cos_outer"]), std::cos(light.outer_cone));
   }
   EXPECT_EQ(differences_with(report_, "range").size(), 1u);
 }
 
-void expect_use(const json& written, const scene::TextureUse& use) {
+void expect_use(const json::Value& written, const scene::TextureUse& use) {
   if (use.texture < 0) {
     EXPECT_TRUE(written.is_null());
     return;
@@ -97,10 +92,10 @@ void expect_use(const json& written, const scene::TextureUse& use) {
       {scene::Wrap::repeat, "repeat"}, {scene::Wrap::mirror, "mirror"}, {scene::Wrap::clamp, "clamp"}};
   EXPECT_EQ(written["texture"], use.texture);
   EXPECT_EQ(written["uv_set"], use.uv_set);
-  EXPECT_EQ(written["offset"], json({use.offset.x, use.offset.y}));
-  EXPECT_EQ(written["scale"], json({use.scale.x, use.scale.y}));
-  EXPECT_EQ(written["rotation"].get<float>(), use.rotation);
-  EXPECT_EQ(written["wrap"], json({wraps.at(use.wrap_u), wraps.at(use.wrap_v)}));
+  EXPECT_EQ(written["offset"], json::Value({use.offset.x, use.offset.y}));
+  EXPECT_EQ(written["scale"], json::Value({use.scale.x, use.scale.y}));
+  EXPECT_EQ(float_of(written["rotation"]), use.rotation);
+  EXPECT_EQ(written["wrap"], json::Value({wraps.at(use.wrap_u), wraps.at(use.wrap_v)}));
   EXPECT_EQ(written["nearest"], use.nearest);
 }
 
@@ -109,29 +104,29 @@ TEST_F(ExportCycles, MaterialsKeepEveryValueAndTexture) {
   const char* modes[] = {"opaque", "mask", "blend"};
   for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
     const scene::Material& m = scene_.materials[i];
-    const json& written = json_["materials"][i];
+    const json::Value& written = json_["materials"][i];
     SCOPED_TRACE(m.name);
     EXPECT_EQ(written["base_color"], numbers(m.base_color));
     EXPECT_EQ(written["emission"], numbers(m.emission));
-    EXPECT_EQ(written["alpha"].get<float>(), m.alpha);
-    EXPECT_EQ(written["alpha_cutoff"].get<float>(), m.alpha_cutoff);
+    EXPECT_EQ(float_of(written["alpha"]), m.alpha);
+    EXPECT_EQ(float_of(written["alpha_cutoff"]), m.alpha_cutoff);
     EXPECT_EQ(written["alpha_mode"], modes[static_cast<int>(m.alpha_mode)]);
-    EXPECT_EQ(written["metallic"].get<float>(), m.metallic);
-    EXPECT_EQ(written["diffuse_roughness"].get<float>(), m.diffuse_roughness);
-    EXPECT_EQ(written["specular_roughness"].get<float>(), m.specular_roughness);
-    EXPECT_FLOAT_EQ(written["f0"].get<float>(), 0.04f * m.specular) << "(0.5/2.5)²";
+    EXPECT_EQ(float_of(written["metallic"]), m.metallic);
+    EXPECT_EQ(float_of(written["diffuse_roughness"]), m.diffuse_roughness);
+    EXPECT_EQ(float_of(written["specular_roughness"]), m.specular_roughness);
+    EXPECT_FLOAT_EQ(float_of(written["f0"]), 0.04f * m.specular) << "(0.5/2.5)²";
     EXPECT_EQ(written["unlit"], m.unlit);
     EXPECT_EQ(written["double_sided"], m.double_sided);
-    EXPECT_EQ(written["normal_scale"].get<float>(), m.normal_scale);
+    EXPECT_EQ(float_of(written["normal_scale"]), m.normal_scale);
     expect_use(written["base_color_texture"], m.base_color_texture);
     expect_use(written["metallic_roughness_texture"], m.metallic_roughness_texture);
     expect_use(written["emission_texture"], m.emission_texture);
     expect_use(written["normal_texture"], m.normal_texture);
   }
   for (std::size_t t = 0; t < scene_.textures.size(); ++t) {
-    const json& written = json_["textures"][t];
+    const json::Value& written = json_["textures"][t];
     EXPECT_EQ(written["width"], scene_.textures[t].width);
-    const auto bytes = read_file(dir_ / written["file"].get<std::string>());
+    const auto bytes = read_file(dir_ / written["file"].string());
     EXPECT_EQ(image::decode_rgba8(bytes, "texture").rgba, scene_.textures[t].rgba);
   }
 }
@@ -143,7 +138,7 @@ TEST_F(ExportCycles, MeshesAreThoseOfTheInstancesInWorldSpace) {
     SCOPED_TRACE(i);
     const scene::Mesh& mesh = scene_.meshes[static_cast<std::size_t>(scene_.instances[i].mesh)];
     const mat4& m = world[static_cast<std::size_t>(scene_.instances[i].node)];
-    const json& written = json_["meshes"][i];
+    const json::Value& written = json_["meshes"][i];
     EXPECT_EQ(written["material"], mesh.material);
     const auto positions = array<vec3>(written["positions"], written["vertices"]);
     ASSERT_EQ(positions.size(), mesh.positions.size());
@@ -159,7 +154,7 @@ TEST_F(ExportCycles, MeshesAreThoseOfTheInstancesInWorldSpace) {
       const std::vector<vec2>& uv = mesh.uvs[static_cast<std::size_t>(set)];
       EXPECT_EQ(written.contains(name), !uv.empty());
       if (!uv.empty()) {
-        EXPECT_EQ(array<vec2>(written[name], written["vertices"]), uv);
+        EXPECT_EQ(array<vec2>(written[name.c_str()], written["vertices"]), uv);
       }
     }
     EXPECT_EQ(written.contains("colors"), !mesh.colors.empty());
@@ -174,16 +169,16 @@ TEST_F(ExportCycles, TextureFilesHaveNamesThatFileSystemsTake) {
   scene_.textures[0].name = std::string(300, 'x');
   scene_.textures[1].name = "../a b";
   scene_io::export_cycles(scene_, settings_, dir_.path());
-  json_ = json::parse(read_text_file(dir_ / "scene.json"));
-  EXPECT_EQ(json_["textures"][0]["file"], "texture0" + std::string(52, 'x') + ".png");
-  EXPECT_EQ(json_["textures"][1]["file"], "texture1ab.png");
+  const json::Value json = written_json();
+  EXPECT_EQ(json["textures"][0]["file"], "texture0" + std::string(52, 'x') + ".png");
+  EXPECT_EQ(json["textures"][1]["file"], "texture1ab.png");
 }
 
 TEST_F(ExportCycles, TheEnvironmentKeepsColourRotationAndImage) {
-  const json& written = json_["environment"];
+  const json::Value& written = json_["environment"];
   EXPECT_EQ(written["color"], numbers({1, 2, 0.5f}));
-  EXPECT_EQ(written["rotation"].get<float>(), 0.7f);
-  const image::Image image = image::read_image(dir_ / written["file"].get<std::string>());
+  EXPECT_EQ(float_of(written["rotation"]), 0.7f);
+  const image::Image image = image::read_image(dir_ / written["file"].string());
   EXPECT_EQ(image.pixels, scene_.environment->equirect.pixels);
 }
 

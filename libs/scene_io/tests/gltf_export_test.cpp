@@ -3,7 +3,6 @@
 #include <ostream>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
@@ -14,6 +13,7 @@
 #include <ssphh/scene_io/gltf.h>
 #include <ssphh/scene_io/gltf_export.h>
 
+#include "json_text.h"
 #include "temp_dir.h"
 
 namespace ssphh::scene {
@@ -29,7 +29,7 @@ namespace {
 
 using namespace scene;
 
-nlohmann::json json_chunk(const std::vector<std::byte>& glb) {
+const json::Value json_chunk(const std::vector<std::byte>& glb) {
   std::uint32_t header[5];
   std::memcpy(header, glb.data(), sizeof header);
   EXPECT_EQ(header[0], 0x46546c67u);
@@ -38,7 +38,7 @@ nlohmann::json json_chunk(const std::vector<std::byte>& glb) {
   EXPECT_EQ(header[3] % 4, 0u);
   EXPECT_EQ(header[4], 0x4e4f534au);
   const auto* text = reinterpret_cast<const char*>(glb.data()) + sizeof header;
-  return nlohmann::json::parse(text, text + header[3]);
+  return test::parse_json({text, header[3]});
 }
 
 Scene round_trip(const Scene& scene) {
@@ -200,7 +200,7 @@ TEST(GltfExport, SharesMeshesAndTheirArrays) {
   scene.meshes.push_back(make_box(vec3(0), vec3(1)));
   scene.nodes.resize(3);
   scene.instances = {{0, 0, 0, ""}, {0, 1, 0, ""}, {0, 2, 1, ""}};
-  const nlohmann::json json = json_chunk(export_glb(scene));
+  const json::Value json = json_chunk(export_glb(scene));
   EXPECT_EQ(json["meshes"].size(), 2u);     // one per material
   EXPECT_EQ(json["accessors"].size(), 4u);  // positions, normals, texture coordinates, indices: once
   EXPECT_EQ(json["nodes"][0]["mesh"], json["nodes"][1]["mesh"]);
@@ -229,7 +229,7 @@ TEST(GltfExport, LeavesOutWhatGltfForbids) {
   scene.nodes.resize(1);
   scene.meshes.resize(1);
   scene.instances = {{0, 0, -1, ""}};
-  const nlohmann::json json = json_chunk(export_glb(scene));
+  const json::Value json = json_chunk(export_glb(scene));
   for (const char* key : {"meshes", "accessors", "buffers", "bufferViews", "images", "extensionsUsed"}) {
     EXPECT_FALSE(json.contains(key)) << key;
   }

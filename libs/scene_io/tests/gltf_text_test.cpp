@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <ssphh/core/log.h>
 #include <ssphh/image/io.h>
@@ -22,11 +21,10 @@
 namespace ssphh::scene_io {
 namespace {
 
-using nlohmann::json;
 using test::GlbBuilder;
 
 struct File {
-  json document;
+  json::Value document;
   std::vector<std::byte> binary;
 };
 
@@ -39,14 +37,14 @@ File unpack(const std::vector<std::byte>& glb) {
   };
   const std::size_t size = u32(12), begin = 20 + size;
   const char* text = reinterpret_cast<const char*>(glb.data()) + 20;
-  File file{json::parse(text, text + size), {}};
+  File file{test::sorted(test::parse_json({text, size})), {}};
   if (begin + 8 <= glb.size())
     file.binary.assign(glb.begin() + static_cast<std::ptrdiff_t>(begin) + 8, glb.end());
   return file;
 }
 
 std::vector<std::byte> pack(const File& file) {
-  return GlbBuilder::container(file.document.dump(), file.binary);
+  return GlbBuilder::container(print(file.document), file.binary);
 }
 
 constexpr const char* members = R"(
@@ -183,7 +181,7 @@ TEST(GltfText, EveryMemberCounts) {
 
 TEST(GltfText, EveryByteOfTheContainerCounts) {
   File file;
-  file.document = json::parse(R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 4}]})");
+  file.document = test::parse_json(R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 4}]})");
   file.binary.resize(4);
   const std::vector<std::byte> whole = pack(file);
   const std::vector<std::string> before = test::lines_of(read_text(whole));
@@ -231,9 +229,9 @@ TEST(GltfText, TheExportWritesWhatTheListSays) {
                                    {vec4(1), vec4(2), vec4(3)}}};
   scene.environment->group = "dome";
   const File file = unpack(export_glb(scene));
-  std::string text = file.document.dump(1) + "\n";
-  for (const json& view : file.document["bufferViews"]) {
-    const auto begin = view["byteOffset"].get<std::size_t>(), length = view["byteLength"].get<std::size_t>();
+  std::string text = print(file.document, 1) + "\n";
+  for (const json::Value& view : file.document["bufferViews"].elements()) {
+    const auto begin = test::count_of(view["byteOffset"]), length = test::count_of(view["byteLength"]);
     std::vector<float> values(length / 4);
     std::memcpy(values.data(), file.binary.data() + begin, values.size() * 4);
     const bool floats = std::all_of(values.begin(), values.end(), [](float v) {

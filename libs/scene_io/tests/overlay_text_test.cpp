@@ -2,7 +2,6 @@
 // expected/overlay.txt and expected/overlay-changes.txt.
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <ssphh/core/file.h>
 #include <ssphh/image/io.h>
@@ -52,6 +51,10 @@ scene::Scene base() {
   return s;
 }
 
+json::Value parsed(const char* text) {
+  return test::sorted(test::parse_json(text));
+}
+
 class OverlayText : public testing::Test {
  protected:
   OverlayText() {
@@ -60,10 +63,10 @@ class OverlayText : public testing::Test {
     image::write_image(dir_ / "sky.exr", sky);
   }
 
-  std::string read(const nlohmann::json& document) const {
+  std::string read(const json::Value& document) const {
     scene::Scene scene = base();
     const std::string said =
-        test::message_of([&] { apply_overlay(scene, document.dump(), dir_ / "o.json"); });
+        test::message_of([&] { apply_overlay(scene, print(document), dir_ / "o.json"); });
     std::string text = said == "no error" ? test::scene_text(scene) : said + "\n";
     const std::string folder = dir_.path().string();
     for (std::size_t at; (at = text.find(folder)) != std::string::npos;)
@@ -71,7 +74,7 @@ class OverlayText : public testing::Test {
     return text;
   }
 
-  void expect_changes(nlohmann::json document, const std::string& file) {
+  void expect_changes(json::Value document, const std::string& file) {
     const std::vector<std::string> before = test::lines_of(read(document));
     std::string text;
     test::change_members(document, [&](const std::string& change) {
@@ -84,18 +87,18 @@ class OverlayText : public testing::Test {
 };
 
 TEST_F(OverlayText, AllThatIsSaidStandsInTheScene) {
-  test::expect_text_of("libs/scene_io/tests/expected/overlay.txt", read(nlohmann::json::parse(overlay)));
+  test::expect_text_of("libs/scene_io/tests/expected/overlay.txt", read(parsed(overlay)));
 }
 
 TEST_F(OverlayText, EveryMemberCounts) {
-  expect_changes(nlohmann::json::parse(overlay), "overlay-changes.txt");
+  expect_changes(parsed(overlay), "overlay-changes.txt");
 }
 
 TEST_F(OverlayText, EveryMemberOfTheSkyCounts) {
   const auto sky = R"({"sun_sky": {"elevation_degrees": 30, "azimuth_degrees": 100, "turbidity": 4,
                        "ground_albedo": [0.5, 0.25, 0.125], "sun": true, "width": 8}})";
-  test::expect_text_of("libs/scene_io/tests/expected/overlay-sky.txt", read(nlohmann::json::parse(sky)));
-  expect_changes(nlohmann::json::parse(sky), "overlay-sky-changes.txt");
+  test::expect_text_of("libs/scene_io/tests/expected/overlay-sky.txt", read(parsed(sky)));
+  expect_changes(parsed(sky), "overlay-sky-changes.txt");
 }
 
 }  // namespace

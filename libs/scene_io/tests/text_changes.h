@@ -2,13 +2,14 @@
 /// A file changed in one place at a time, and what is new in the text of the scene that it then becomes.
 
 #include <algorithm>
+#include <map>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "expected_text.h"
+#include "json_text.h"
 
 namespace ssphh::test {
 
@@ -54,43 +55,59 @@ inline std::vector<std::pair<std::string, std::string>> changes_of_lines(const s
   return result;
 }
 
+/// With the members of every object in the order of their names, whatever the order in which they were
+/// written.
+inline json::Value sorted(const json::Value& value) {
+  if (value.is_array()) {
+    json::Value result = json::Value::array();
+    for (const json::Value& element : value.elements()) result.push_back(sorted(element));
+    return result;
+  }
+  if (!value.is_object()) return value;
+  std::map<std::string, json::Value> members;
+  for (const auto& [name, member] : value.members()) members.emplace(name, sorted(member));
+  return members;
+}
+
 /// Other values of a member: too small, too large, of another kind.
-inline std::vector<nlohmann::json> others(const nlohmann::json& value) {
-  if (value.is_boolean()) return {!value.get<bool>(), 1};
-  if (value.is_number_integer()) return {-1, value.get<int>() + 1, 1000000};
-  if (value.is_number()) return {-1.5, 0, 0.25 * value.get<double>(), 2.5, 1e39};
+inline std::vector<json::Value> others(const json::Value& value) {
+  if (value.is_boolean()) return {!value.boolean(), 1};
+  if (value.is_integer()) return {-1, static_cast<int>(value.number()) + 1, 1000000};
+  if (value.is_number()) return {-1.5, 0, 0.25 * value.number(), 2.5, 1e39};
   if (value.is_string()) return {"A:%41", std::string(70, 'm'), 7};
   if (!value.is_array() || value.empty()) return {3};
-  nlohmann::json shorter = value, longer = value;
-  shorter.erase(shorter.size() - 1), longer.push_back(value.back());
+  json::Array shorter = value.elements(), longer = value.elements();
+  shorter.pop_back(), longer.push_back(value.elements().back());
   return {shorter, longer};
 }
 
-/// Calls tell(what was changed) with every member of `document` changed, one at a time: others(), and left
-/// out. Of an array of plain values the first and the last.
+inline bool is_plain(const json::Value& value) {
+  return !value.is_array() && !value.is_object();
+}
+
+/// Calls tell(what was changed) with every member of a document changed, one at a time: others(), and left
+/// out. Of an array of plain values the first and the last. `value` is what stands at `place` in it.
 template <class Tell>
-void change_members(nlohmann::json& document, const Tell& tell,
-                    const nlohmann::json::json_pointer& place = nlohmann::json::json_pointer()) {
-  const nlohmann::json value = document[place];
-  if (!place.empty()) {
-    for (const nlohmann::json& other : others(value)) {
-      document[place] = other;
-      tell(place.to_string() + " " +
-           (value.is_structured() && other.is_array() ? fmt::format("of {}", other.size()) : other.dump()));
+void change_members(json::Value& value, const Tell& tell, const std::string& place = {}) {
+  const json::Value whole = value;
+  const auto change = [&](const auto& key, const std::string& part) {
+    const json::Value before = value[key];
+    for (const json::Value& other : others(before)) {
+      value[key] = other;
+      tell(place + part + " " +
+           (!is_plain(before) && other.is_array() ? fmt::format("of {}", other.size()) : print(other)));
     }
-    nlohmann::json& parent = document[place.parent_pointer()];
-    if (parent.is_object()) {
-      parent.erase(place.back());
-      tell(place.to_string() + " left out");
+    if constexpr (!std::is_integral_v<std::remove_cvref_t<decltype(key)>>) {
+      value.erase(key);
+      tell(place + part + " left out");
     }
-    document[place] = value;
-  }
+    value = whole;
+    change_members(value[key], tell, place + part);
+  };
   if (value.is_object())
-    for (const auto& [key, unused] : value.items()) change_members(document, tell, place / key);
-  if (value.is_array())
-    for (std::size_t i = 0; i < value.size(); ++i)
-      if (value[i].is_structured() || i == 0 || i + 1 == value.size())
-        change_members(document, tell, place / i);
+    for (const auto& [name, unused] : whole.members()) change(name, "/" + name);
+  for (std::size_t i = 0; value.is_array() && i < whole.size(); ++i)
+    if (!is_plain(whole[i]) || i == 0 || i + 1 == whole.size()) change(i, fmt::format("/{}", i));
 }
 
 }  // namespace ssphh::test
