@@ -95,6 +95,9 @@ TEST(Plan, UnknownNamesAreAnsweredWithTheNearest) {
   EXPECT_THAT(message_of([](auto& j) { j["published"]["rows"][0]["method"] = "m, depth 2, n a"; }),
               HasSubstr("did you mean \"m, depth 1, n a\""));
   EXPECT_THAT(message_of([](auto& j) { j["columns"][1]["titel"] = 1; }), HasSubstr("\"title\""));
+  EXPECT_THAT(message_of([](auto& j) { j["published"]["sources"] = "me"; }), HasSubstr("\"source\""));
+  EXPECT_THAT(message_of([](auto& j) { j["published"]["rows"][0]["scenes"] = 1; }), HasSubstr("\"scene\""));
+  EXPECT_THAT(message_of([](auto& j) { j["charts"][0]["titel"] = "x"; }), HasSubstr("\"title\""));
 }
 
 TEST(Plan, WrongValuesAreNamedWithTheirPlace) {

@@ -189,6 +189,29 @@ TEST(TransportScene, PointsOnAPartAreUniformByArea) {
   EXPECT_EQ(again[5].point.position, source.sample_part(2, 0)[5].point.position);
 }
 
+TEST(TransportScene, PointsOnAMirroredPartFaceOutward) {
+  scene::Scene scene;
+  scene.nodes.resize(2);
+  scene.nodes[1].parent = 0;
+  scene.nodes[1].local.scale = {-2, 1, 0.5f};
+  scene.animations.push_back(
+      {"a",
+       {{0, scene::AnimationPath::translation, scene::Interpolation::linear, {0, 1}, {vec4(0), vec4(1)}}}});
+  scene.materials.emplace_back();
+  scene.meshes.push_back(scene::make_box(vec3(-0.1f), vec3(0.1f)));
+  scene.meshes[0].material = 0;
+  scene.instances.emplace_back().mesh = 0;
+  scene.instances[0].node = 1;
+  scene::validate(scene);
+  const trace::TransportScene source(scene);
+  const auto points = source.sample_part(1, 100);
+  ASSERT_GE(points.size(), 12u);
+  for (const scene::PartPoint& p : points) {
+    EXPECT_NEAR(glm::length(p.point.normal), 1, 1e-6f);
+    EXPECT_GT(glm::dot(p.point.position, p.point.normal), 0.049f);
+  }
+}
+
 TEST(TransportScene, UnlitAndMaskedSurfaces) {
   scene::Scene scene;
   scene::Material sign = lambertian(vec3(0.2f, 0.4f, 0.6f));
