@@ -118,7 +118,7 @@ TEST_F(TexturedPixels, OfAnEvenNormalMapAreTheTracersToAPercent) {
   scene::Scene s = sheet();
   scene::Texture& lean = s.textures.emplace_back();
   lean.name = "lean", lean.width = lean.height = 2;
-  for (int i = 0; i < 4; ++i) lean.rgba.insert(lean.rgba.end(), {210, 60, 200, 255});
+  for (int i = 0; i < 4; ++i) lean.rgba.insert(lean.rgba.end(), {80, 170, 215, 255});
   s.materials[0].base_color = {0.8f, 0.6f, 0.4f};
   for (const float scale : {0.8f, 0.3f, -0.5f}) {
     SCOPED_TRACE(testing::Message() << "scale " << scale);

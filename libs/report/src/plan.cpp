@@ -232,8 +232,9 @@ class PlanReader {
     const std::vector<std::string> scene_names(scenes.begin(), scenes.end());
     if (plan_.has_reference) check_words(plan_.reference, {}, name_ + ": reference");
     std::vector<std::string> labels;
-    for (const PlanMethod& method : plan_.methods) {
-      const std::string where = name_ + ": methods/" + method.name;
+    for (std::size_t i = 0; i < plan_.methods.size(); ++i) {
+      const PlanMethod& method = plan_.methods[i];
+      const std::string where = fmt::format("{}: methods[{}]", name_, i);
       for (const std::string& scene : method.scenes) {
         if (!scenes.count(scene))
           throw Error(where, fmt::format("unknown scene \"{}\"", scene), nearest_hint(scene, scene_names));

@@ -302,10 +302,10 @@ TEST(Plan, WrongKindsAndDoublesAreNamed) {
   expect("better: must be less, more or none", [](auto& j) { j["columns"][1]["better"] = "yes"; });
   expect("values.R: must be a number", [](auto& j) { j["published"]["rows"][0]["values"]["R"] = "x"; });
   expect("unknown scene \"t\"", [](auto& j) { j["published"]["rows"][0]["scene"] = "t"; });
-  expect("methods/m: unknown scene \"t\" (known: s)", [](auto& j) { j["methods"][0]["scenes"] = {"t"}; });
+  expect("methods[0]: unknown scene \"t\" (known: s)", [](auto& j) { j["methods"][0]["scenes"] = {"t"}; });
   expect("two scenes are called \"s\"", [](auto& j) { j["scenes"].push_back(j["scenes"][0]); });
   expect("two scenes are called \"\"", [](auto& j) { j["scenes"][0]["name"] = ""; });
-  expect("methods/m: two methods are called \"m, depth 1, n a\"",
+  expect("methods[1]: two methods are called \"m, depth 1, n a\"",
          [](auto& j) { j["methods"].push_back(j["methods"][0]); });
   expect("parameters.depth: must be a list of values",
          [](auto& j) { j["methods"][0]["parameters"]["depth"] = 1; });
