@@ -1,5 +1,7 @@
 #pragma once
-/// How a command of the tool is made: one file <name>.cpp per command, one line in add_commands().
+/// How a command of the tool is made: one file <name>.cpp per command, one line in add_commands(). What a
+/// command does is a function of its own, run_<name>() in <name>.h, from a struct of options to a struct of
+/// results that to_json() and to_text() say.
 
 #include <cstdint>
 #include <functional>
@@ -25,6 +27,12 @@ struct Context {
   /// The command's result: with --json the object alone on stdout, else `text`.
   void result(const json::Value& object, const std::string& text) const;
 };
+
+/// Prints what a command's function gave.
+template <class Result, class Options>
+void print_result(const Context& context, const Result& result, const Options& options) {
+  context.result(to_json(result, options), to_text(result, options));
+}
 
 /// A leaf command with the common options (--json, --seed, --threads, --progress). `action` runs after
 /// parsing; it throws Error for bad input.

@@ -1,3 +1,5 @@
+#include "commands/compare.h"
+
 #include <cmath>
 #include <memory>
 
@@ -5,11 +7,8 @@
 
 #include <ssphh/core/file.h>
 #include <ssphh/image/io.h>
-#include <ssphh/metrics/compare.h>
-#include <ssphh/metrics/flip.h>
 #include <ssphh/metrics/heat_map.h>
 #include <ssphh/metrics/mask.h>
-#include <ssphh/metrics/perceptual.h>
 
 #include "commands/command.h"
 
@@ -17,21 +16,6 @@ namespace ssphh::app {
 namespace {
 
 using image::Image;
-struct CompareOptions {
-  std::string reference, test, output, mask, map = "absolute";
-  int block = 16;
-  float scale = 0, exposure = 0;
-  double pixels_per_degree = metrics::FlipParams{}.pixels_per_degree;
-  bool allow_nonfinite = false;
-};
-
-struct Errors {
-  metrics::ImageError linear;
-  metrics::BlockError blocks;
-  metrics::DisplayError display;
-  metrics::FlipError flip;
-  bool hdr = false;  // which FLIP
-};
 
 Image read_exposed(const std::string& path, float exposure) {
   Image image = image::read_image(path);
@@ -47,8 +31,8 @@ bool is_display_file(const std::string& path) {
   return format == image::FileFormat::png || format == image::FileFormat::jpeg;
 }
 
-Errors measure(const CompareOptions& options, const Image& reference, const Image& test) {
-  Errors e;
+CompareResult measure(const CompareOptions& options, const Image& reference, const Image& test) {
+  CompareResult e;
   e.linear = metrics::compare(reference, test);
   e.blocks =
       metrics::block_error(metrics::pixelated_error_map(reference, test, options.block), options.block);
@@ -60,30 +44,31 @@ Errors measure(const CompareOptions& options, const Image& reference, const Imag
 }
 
 Image error_map(const CompareOptions& options, const Image& reference, const Image& test,
-                const Errors& errors) {
-  if (options.map == "flip") return errors.flip.map;
-  if (options.map == "signed") return metrics::signed_error_map(reference, test);
-  if (options.map == "relmse") return metrics::relative_squared_error_map(reference, test);
-  if (options.map == "pixelated") return metrics::pixelated_error_map(reference, test, options.block);
+                const CompareResult& errors) {
+  if (options.map == ErrorMap::flip) return errors.flip.map;
+  if (options.map == ErrorMap::with_sign) return metrics::signed_error_map(reference, test);
+  if (options.map == ErrorMap::relmse) return metrics::relative_squared_error_map(reference, test);
+  if (options.map == ErrorMap::pixelated) return metrics::pixelated_error_map(reference, test, options.block);
   return metrics::absolute_error_map(reference, test);
 }
 
 // Writes the map and returns the error that has the ramp's last colour; 0 when the numbers themselves are
 // written.
 float write_map(const CompareOptions& options, const Image& reference, const Image& test,
-                const Errors& errors) {
+                const CompareResult& errors) {
   const image::FileFormat format = image::format_of_extension(options.output);
   Image map = error_map(options, reference, test, errors);
   if (format == image::FileFormat::exr) {
     image::write_image(options.output, map);
     return 0;
   }
-  const float automatic = options.map == "flip" ? 1 : metrics::automatic_scale(map);
+  const float automatic = options.map == ErrorMap::flip ? 1 : metrics::automatic_scale(map);
   const float scale = options.scale > 0 ? options.scale : automatic;
-  if (options.map == "pixelated") {
+  if (options.map == ErrorMap::pixelated) {
     map = metrics::enlarge_blocks(map, options.block, reference.width, reference.height);
   }
-  const auto ramp = options.map == "signed" ? metrics::ColorRamp::diverging : metrics::ColorRamp::inferno;
+  const auto ramp =
+      options.map == ErrorMap::with_sign ? metrics::ColorRamp::diverging : metrics::ColorRamp::inferno;
   write_file(options.output, image::encode_png(metrics::heat_map(map, ramp, scale)));
   return scale;
 }
@@ -93,67 +78,9 @@ json::Value finite_or_null(double x) {
   return std::isfinite(x) ? json::Value(x) : json::Value(nullptr);
 }
 
-json::Value to_json(const Errors& errors) {
-  const metrics::ImageError& e = errors.linear;
-  const metrics::BlockError& blocks = errors.blocks;
-  json::Value flip = {{"mean", errors.flip.mean}, {"kind", errors.hdr ? "hdr" : "ldr"}};
-  if (errors.hdr) {
-    flip["exposures"] = {{"first", errors.flip.first_exposure},
-                         {"last", errors.flip.last_exposure},
-                         {"count", errors.flip.exposures}};
-  }
-  return {{"width", e.width},
-          {"height", e.height},
-          {"mae", e.mae},
-          {"rmse", e.rmse},
-          {"mse", e.mse},
-          {"relmse", e.relmse},
-          {"mape", e.mape},
-          {"smape", e.smape},
-          {"mean_ratio", e.mean_ratio},
-          {"bias", e.bias},
-          {"sum", e.sum},
-          {"max", e.max},
-          {"psnr", finite_or_null(errors.display.psnr)},
-          {"ssim", errors.display.ssim},
-          {"flip", flip},
-          {"pixels", e.pixels},
-          {"nonfinite_pixels", e.nonfinite_pixels},
-          {"blocks",
-           {{"size", blocks.block},
-            {"columns", blocks.columns},
-            {"rows", blocks.rows},
-            {"mean", blocks.mean},
-            {"max", blocks.max},
-            {"max_block", {blocks.max_column, blocks.max_row}}}}};
-}
+}  // namespace
 
-std::string to_text(const Errors& errors) {
-  const metrics::ImageError& e = errors.linear;
-  const metrics::BlockError& blocks = errors.blocks;
-  const std::string flip =
-      errors.hdr ? fmt::format("largest of {} exposures from {:.2f} to {:.2f} EV", errors.flip.exposures,
-                               errors.flip.first_exposure, errors.flip.last_exposure)
-                 : "as displayed";
-  return fmt::format(
-      "size       {} x {}\n"
-      "MAE        {:.6g}   (sum {:.6g}, max {:.6g}, bias {:+.6g})\n"
-      "RMSE       {:.6g}   (MSE {:.6g})\n"
-      "relMSE     {:.6g}\n"
-      "MAPE       {:.6g}\n"
-      "SMAPE      {:.6g}\n"
-      "mean ratio {:.6g} {:.6g} {:.6g}\n"
-      "FLIP       {:.6g}   ({})\n"
-      "SSIM       {:.6g}\n"
-      "PSNR       {:.6g} dB\n"
-      "blocks     {} x {} of {} pixels: mean sum {:.6g}, max {:.6g} in block {}, {}",
-      e.width, e.height, e.mae, e.sum, e.max, e.bias, e.rmse, e.mse, e.relmse, e.mape, e.smape,
-      e.mean_ratio[0], e.mean_ratio[1], e.mean_ratio[2], errors.flip.mean, flip, errors.display.ssim,
-      errors.display.psnr, blocks.columns, blocks.rows, blocks.block, blocks.mean, blocks.max,
-      blocks.max_column, blocks.max_row);
-}
-
-void compare(Context& context, const CompareOptions& options) {
+CompareResult run_compare(const CompareOptions& options, const Control&) {
   if (!options.output.empty()) {
     const image::FileFormat format = image::format_of_extension(options.output);
     if (format != image::FileFormat::png && format != image::FileFormat::exr) {
@@ -172,32 +99,97 @@ void compare(Context& context, const CompareOptions& options) {
     outside = metrics::pixels_outside(mask, reference.width, reference.height);
     reference = metrics::masked(reference, mask);
   }
-  Errors errors = measure(options, reference, test);
-  errors.linear.nonfinite_pixels -= outside;
-  json::Value object = to_json(errors);
-  std::string text = to_text(errors);
-  if (!options.output.empty()) {
-    const float scale = write_map(options, reference, test, errors);
-    object["map"] = {{"output", options.output}, {"kind", options.map}, {"scale", scale}};
-    text += fmt::format("\nmap        {} ({}", options.output, options.map);
-    text += scale > 0 ? fmt::format(", last colour at {:.6g})", scale) : ")";
-  }
-  if (errors.linear.nonfinite_pixels > 0) {
-    text += fmt::format("\n{} pixels are infinite or NaN and were left out", errors.linear.nonfinite_pixels);
-    if (!options.allow_nonfinite) {
-      text += " (--allow-nonfinite accepts them)";
-      context.exit_code = 1;
-    }
-  }
-  context.result(object, text);
+  CompareResult result = measure(options, reference, test);
+  result.linear.nonfinite_pixels -= outside;
+  if (!options.output.empty()) result.map_scale = write_map(options, reference, test, result);
+  return result;
 }
 
-}  // namespace
+bool has_failed(const CompareResult& result, const CompareOptions& options) {
+  return result.linear.nonfinite_pixels > 0 && !options.allow_nonfinite;
+}
+
+json::Value to_json(const CompareResult& result, const CompareOptions& options) {
+  const metrics::ImageError& e = result.linear;
+  const metrics::BlockError& blocks = result.blocks;
+  json::Value flip = {{"mean", result.flip.mean}, {"kind", result.hdr ? "hdr" : "ldr"}};
+  if (result.hdr) {
+    flip["exposures"] = {{"first", result.flip.first_exposure},
+                         {"last", result.flip.last_exposure},
+                         {"count", result.flip.exposures}};
+  }
+  json::Value object = {{"width", e.width},
+                        {"height", e.height},
+                        {"mae", e.mae},
+                        {"rmse", e.rmse},
+                        {"mse", e.mse},
+                        {"relmse", e.relmse},
+                        {"mape", e.mape},
+                        {"smape", e.smape},
+                        {"mean_ratio", e.mean_ratio},
+                        {"bias", e.bias},
+                        {"sum", e.sum},
+                        {"max", e.max},
+                        {"psnr", finite_or_null(result.display.psnr)},
+                        {"ssim", result.display.ssim},
+                        {"flip", flip},
+                        {"pixels", e.pixels},
+                        {"nonfinite_pixels", e.nonfinite_pixels},
+                        {"blocks",
+                         {{"size", blocks.block},
+                          {"columns", blocks.columns},
+                          {"rows", blocks.rows},
+                          {"mean", blocks.mean},
+                          {"max", blocks.max},
+                          {"max_block", {blocks.max_column, blocks.max_row}}}}};
+  if (result.map_scale)
+    object["map"] = {
+        {"output", options.output}, {"kind", name_of(options.map)}, {"scale", *result.map_scale}};
+  return object;
+}
+
+std::string to_text(const CompareResult& result, const CompareOptions& options) {
+  const metrics::ImageError& e = result.linear;
+  const metrics::BlockError& blocks = result.blocks;
+  const std::string flip =
+      result.hdr ? fmt::format("largest of {} exposures from {:.2f} to {:.2f} EV", result.flip.exposures,
+                               result.flip.first_exposure, result.flip.last_exposure)
+                 : "as displayed";
+  std::string text = fmt::format(
+      "size       {} x {}\n"
+      "MAE        {:.6g}   (sum {:.6g}, max {:.6g}, bias {:+.6g})\n"
+      "RMSE       {:.6g}   (MSE {:.6g})\n"
+      "relMSE     {:.6g}\n"
+      "MAPE       {:.6g}\n"
+      "SMAPE      {:.6g}\n"
+      "mean ratio {:.6g} {:.6g} {:.6g}\n"
+      "FLIP       {:.6g}   ({})\n"
+      "SSIM       {:.6g}\n"
+      "PSNR       {:.6g} dB\n"
+      "blocks     {} x {} of {} pixels: mean sum {:.6g}, max {:.6g} in block {}, {}",
+      e.width, e.height, e.mae, e.sum, e.max, e.bias, e.rmse, e.mse, e.relmse, e.mape, e.smape,
+      e.mean_ratio[0], e.mean_ratio[1], e.mean_ratio[2], result.flip.mean, flip, result.display.ssim,
+      result.display.psnr, blocks.columns, blocks.rows, blocks.block, blocks.mean, blocks.max,
+      blocks.max_column, blocks.max_row);
+  if (result.map_scale) {
+    text += fmt::format("\nmap        {} ({}", options.output, name_of(options.map));
+    text += *result.map_scale > 0 ? fmt::format(", last colour at {:.6g})", *result.map_scale) : ")";
+  }
+  if (e.nonfinite_pixels > 0) {
+    text += fmt::format("\n{} pixels are infinite or NaN and were left out", e.nonfinite_pixels);
+    if (has_failed(result, options)) text += " (--allow-nonfinite accepts them)";
+  }
+  return text;
+}
 
 void add_compare_command(Command app, Context& context) {
   auto options = std::make_shared<CompareOptions>();
   Command command = add_command(app, context, "compare", "Measure the error of an image against a reference",
-                                [&context, options] { compare(context, *options); });
+                                [&context, options] {
+                                  const CompareResult result = run_compare(*options, context.control);
+                                  if (has_failed(result, *options)) context.exit_code = 1;
+                                  print_result(context, result, *options);
+                                });
   command.option("REF", options->reference, "Reference image: .exr .hdr .png .jpg").required();
   command.option("TEST", options->test, "Image of the same size").required();
   command.option("--mask", options->mask,
@@ -205,10 +197,8 @@ void add_compare_command(Command app, Context& context) {
   command.option("--block", options->block, "Side of the blocks of the pixelated map, in pixels")
       .range(1, 65536);
   command.option("-o,--output", options->output, "Error map to write: .png (colours) or .exr (numbers)");
-  command
-      .option("--map", options->map,
-              "Which map: absolute |d|, signed d, pixelated (sum of |d| in each block), relmse, flip")
-      .one_of({"absolute", "signed", "pixelated", "relmse", "flip"});
+  command.choice("--map", options->map,
+                 "Which map: absolute |d|, signed d, pixelated (sum of |d| in each block), relmse, flip");
   command
       .option("--scale", options->scale,
               "Error shown in the last colour of a .png map; 0: the 99th percentile, for flip 1")

@@ -1,3 +1,5 @@
+#include "commands/hier.h"
+
 #include <chrono>
 #include <cstdlib>
 #include <memory>
@@ -5,7 +7,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
-#include <ssphh/gi/hier.h>
+#include <ssphh/gi/probe_file.h>
 
 #include "commands/command.h"
 #include "options/probe_options.h"
@@ -13,12 +15,6 @@
 
 namespace ssphh::app {
 namespace {
-
-struct HierOptions {
-  std::string input, output;
-  gi::HierParams params;
-  std::vector<std::string> scales;
-};
 
 /// "GROUP=R,G,B" or "GROUP=X"; the last '=' separates, so that names may hold some.
 void apply_scale(gi::ProbeSet& set, const std::string& text) {
@@ -51,8 +47,11 @@ std::string light_of(const gi::GeneratorInfo& g) {
                                          : fmt::format("light by {}", name_of(g.op));
 }
 
-void hier(Context& context, HierOptions& options) {
-  gi::ProbeSet set = gi::read_probe_file(options.input);
+}  // namespace
+
+HierResult run_hier(const HierOptions& options, const Control&) {
+  HierResult result;
+  gi::ProbeSet& set = result.set = gi::read_probe_file(options.input);
   for (const std::string& scale : options.scales) apply_scale(set, scale);
   if (gi::edge_count(set) == 0 && set.probes.size() > 1) {
     log_warning("{} has no edges between its probes, so HIER adds nothing; bake with --viz links or path",
@@ -60,43 +59,49 @@ void hier(Context& context, HierOptions& options) {
   }
 
   // Once to take the memory, then timed as a frame would do it: the median of some.
-  const std::size_t edges = gi::hier(set, options.params);
+  result.edges = gi::hier(set, options.params);
   std::vector<double> times;
   for (int run = 0; run < 7; ++run) {
     const auto start = std::chrono::steady_clock::now();
     gi::hier(set, options.params);
     times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
-  const double seconds = percentile(std::move(times), 0.5);
+  result.seconds = percentile(std::move(times), 0.5);
   gi::write_probe_file(set, options.output);
-
-  const std::optional<gi::Contraction> contraction = gi::hier_contraction(set, options.params);
-  const std::string shrinks =
-      contraction
-          ? fmt::format("; another application would change light by up to {:.3g}", contraction->upper)
-          : "";
-  context.result({{"output", options.output},
-                  {"seconds", seconds},
-                  {"edges", edges},
-                  {"operator", name_of(options.params.op)},
-                  {"neighbors", options.params.neighbors},
-                  {"threshold", options.params.threshold},
-                  {"probes", set.probes.size()},
-                  {"contraction", contraction ? json::Value(contraction->upper) : json::Value()},
-                  {"gen", name_of(set.generator.gen)},
-                  {"light", name_of(set.generator.op)},
-                  {"viz", name_of(set.generator.viz)}},
-                 fmt::format("{}: {} edges between {} probes, operator {}, {}: {:.1f} us{}", options.output,
-                             edges, set.probes.size(), name_of(options.params.op), light_of(set.generator),
-                             1e6 * seconds, shrinks));
+  result.contraction = gi::hier_contraction(set, options.params);
+  return result;
 }
 
-}  // namespace
+json::Value to_json(const HierResult& result, const HierOptions& options) {
+  const gi::GeneratorInfo& generator = result.set.generator;
+  return {{"output", options.output},
+          {"seconds", result.seconds},
+          {"edges", result.edges},
+          {"operator", name_of(options.params.op)},
+          {"neighbors", options.params.neighbors},
+          {"threshold", options.params.threshold},
+          {"probes", result.set.probes.size()},
+          {"contraction", result.contraction ? json::Value(result.contraction->upper) : json::Value()},
+          {"gen", name_of(generator.gen)},
+          {"light", name_of(generator.op)},
+          {"viz", name_of(generator.viz)}};
+}
+
+std::string to_text(const HierResult& result, const HierOptions& options) {
+  const std::string shrinks =
+      result.contraction
+          ? fmt::format("; another application would change light by up to {:.3g}", result.contraction->upper)
+          : "";
+  return fmt::format("{}: {} edges between {} probes, operator {}, {}: {:.1f} us{}", options.output,
+                     result.edges, result.set.probes.size(), name_of(options.params.op),
+                     light_of(result.set.generator), 1e6 * result.seconds, shrinks);
+}
 
 void add_hier_command(Command app, Context& context) {
   auto options = std::make_shared<HierOptions>();
-  Command command = add_command(app, context, "hier", "Add each probe's neighbours to its light (HIER)",
-                                [&context, options] { hier(context, *options); });
+  Command command = add_command(
+      app, context, "hier", "Add each probe's neighbours to its light (HIER)",
+      [&context, options] { print_result(context, run_hier(*options, context.control), *options); });
   add_probe_file(command, "FILE", options->input, "Probe file of `ssphh bake`").required();
   add_probe_file(command, "-o,--output", options->output, "Probe file to write: .sphl or .sphl.json")
       .required();

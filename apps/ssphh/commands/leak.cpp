@@ -1,4 +1,5 @@
-#include <filesystem>
+#include "commands/leak.h"
+
 #include <memory>
 
 #include <fmt/format.h>
@@ -17,19 +18,8 @@
 #include "results/leak_map.h"
 
 namespace ssphh::app {
-namespace {
 
-struct LeakOptions {
-  SceneOptions scene;
-  std::string probes, output, camera;
-  gi::LookupSpec lookup;
-  std::optional<float> time;  ///< seconds; none: that of the probe file
-  bool force = false;
-  int points = 2048, width = 320, height = 180, map_spp = 64;
-  gi::LeakParams params;
-};
-
-void leak(Context& context, LeakOptions& o) {
+LeakResult run_leak(const LeakOptions& o, const Control& control) {
   const GeometryBuilds builds;
   if (!o.output.empty()) {
     const image::FileFormat format = image::format_of_extension(o.output);
@@ -38,7 +28,8 @@ void leak(Context& context, LeakOptions& o) {
   }
   const gi::ProbeSet set = gi::read_probe_file(o.probes);
   const scene::Scene scene = load_scene(o.scene);
-  const float time = o.time.value_or(set.generator.time);
+  LeakResult result;
+  const float time = result.time = o.time.value_or(set.generator.time);
   if (time != set.generator.time) {
     log_warning("{}: was baked at {} s, not at {} s: what moved since counts as leaking", o.probes,
                 set.generator.time, time);
@@ -52,52 +43,67 @@ void leak(Context& context, LeakOptions& o) {
   const trace::TransportScene surfaces(geometry, scene);
   const gi::LookupParams params_of_lookup = lookup_params(o.probes, set, o.lookup);
   const gi::IrradianceLookup lookup(set, tracer, params_of_lookup);
+  result.weights = params_of_lookup.weights.chosen(set.fitted.has_value());
 
-  o.params.path.seed = context.seed;
-  const std::vector<scene::SurfacePoint> points = gi::reachable_points(
-      surfaces, viewpoints(scene, {&set, 1}, time), time, {o.points, context.seed}, context.control);
-  const gi::LeakReport report = gi::measure_leak(tracer, lookup, points, o.params, context.control);
-  if (!(report.mean_truth > 0))
-    log_warning("{}: path tracing finds no indirect light at all", o.scene.source);
+  gi::LeakParams params = o.params;
+  params.path.seed = o.seed;
+  result.points =
+      gi::reachable_points(surfaces, viewpoints(scene, {&set, 1}, time), time, {o.points, o.seed}, control);
+  result.report = gi::measure_leak(tracer, lookup, result.points, params, control);
+  const double mean = result.report.mean_truth;
+  if (!(mean > 0)) log_warning("{}: path tracing finds no indirect light at all", o.scene.source);
+  if (!o.output.empty()) {
+    params.path.spp = o.map_spp;
+    params.mean = static_cast<float>(mean > 0 ? mean : 1);
+    const LeakMap map = leak_map(surfaces, time, camera, o.width, o.height, tracer, lookup, params, control);
+    result.map = {map.dark, write_leak_map(o.output, map)};
+  }
+  result.geometry_builds = builds.count();
+  return result;
+}
 
+json::Value to_json(const LeakResult& result, const LeakOptions& o) {
+  const gi::LeakReport& report = result.report;
   json::Value object = {{"leak_ratio", report.ratio},
-                        {"points", points.size()},
+                        {"points", result.points.size()},
                         {"dark_points", report.dark},
                         {"dark_share", o.params.dark_share},
                         {"truth_noise", report.truth_noise},
                         {"truth_spp", o.params.path.spp},
                         {"mean_truth", report.mean_truth},
                         {"mean_looked_up", report.mean_looked_up},
-                        {"weights", name_of(params_of_lookup.weights.chosen(set.fitted.has_value()))},
-                        {"time", time},
-                        {"geometry_builds", builds.count()}};
+                        {"weights", name_of(result.weights)},
+                        {"time", result.time},
+                        {"geometry_builds", result.geometry_builds}};
+  if (result.map) {
+    object["map"] = {{"output", o.output}, {"dark_pixels", result.map->dark}, {"scale", result.map->scale}};
+  }
+  return object;
+}
+
+std::string to_text(const LeakResult& result, const LeakOptions& o) {
+  const gi::LeakReport& report = result.report;
   std::string text = fmt::format(
       "leaked      {:.4g} % of the looked-up light stands on dark points\n"
       "dark        {} of {} points: path traced indirect irradiance under {:g} of the mean, at {:g} sigma\n"
       "mean        {:.5g} W/m2 looked up, {:.5g} path traced (noise of a point {:.2g} %)",
-      100 * report.ratio, report.dark, points.size(), o.params.dark_share, o.params.sigmas,
+      100 * report.ratio, report.dark, result.points.size(), o.params.dark_share, o.params.sigmas,
       report.mean_looked_up, report.mean_truth, 100 * report.truth_noise);
-  if (!o.output.empty()) {
-    gi::LeakParams params = o.params;
-    params.path.spp = o.map_spp;
-    params.mean = static_cast<float>(report.mean_truth > 0 ? report.mean_truth : 1);
-    const LeakMap map =
-        leak_map(surfaces, time, camera, o.width, o.height, tracer, lookup, params, context.control);
-    const float scale = write_leak_map(o.output, map);
-    object["map"] = {{"output", o.output}, {"dark_pixels", map.dark}, {"scale", scale}};
-    text += fmt::format("\nmap         {}, {} dark pixels", o.output, map.dark);
-    if (scale > 0) text += fmt::format(", last colour at {:.3g} of the mean", scale);
+  if (result.map) {
+    text += fmt::format("\nmap         {}, {} dark pixels", o.output, result.map->dark);
+    if (result.map->scale > 0) text += fmt::format(", last colour at {:.3g} of the mean", result.map->scale);
   }
-  context.result(object, text);
+  return text;
 }
-
-}  // namespace
 
 void add_leak_command(Command app, Context& context) {
   auto options = std::make_shared<LeakOptions>();
   LeakOptions& o = *options;
   Command command = add_command(app, context, "leak", "Measure the light that probes put where there is none",
-                                [&context, options] { leak(context, *options); });
+                                [&context, options] {
+                                  options->seed = context.seed;
+                                  print_result(context, run_leak(*options, context.control), *options);
+                                });
   add_scene_options(command, o.scene, false);
   command.option("--time", o.time, "Pose the scene's animations at this time [s]")
       .shown_default("that of the probe file")

@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
+#include <ssphh/core/control.h>
 #include <ssphh/gi/methods/table.h>
 #include <ssphh/trace/transport_scene.h>
 
-#include "commands/command.h"
+#include "results/method_figures.h"
 
 namespace ssphh::app {
 
@@ -19,7 +20,7 @@ class LiveMethod {
   LiveMethod(const std::string& name, const std::vector<std::string>& settings,
              trace::SharedGeometry geometry, const scene::Scene& scene, const Control& control);
 
-  /// One frame; its time is added to json().
+  /// One frame; its time is added to figures().
   void update(const scene::LightingState& state, const Control& control);
 
   gi::Method& method() { return *method_; }
@@ -28,9 +29,9 @@ class LiveMethod {
   double bake_seconds() const { return bake_seconds_; }
   double update_seconds() const { return update_seconds_; }
 
-  /// bake_seconds, update_seconds (of the last update), lookup_bytes, update_bytes and the method's numbers.
-  json::Value json() const;
-  std::string text() const;
+  MethodFigures figures() const;
+  json::Value json() const { return to_json(figures()); }
+  std::string text() const { return to_text(figures()); }
 
  private:
   trace::TransportScene source_;

@@ -1,3 +1,5 @@
+#include "commands/measure.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -6,8 +8,6 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/parallel.h>
-#include <ssphh/gi/leak.h>
-#include <ssphh/gi/lookup_error.h>
 #include <ssphh/gi/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
@@ -22,55 +22,41 @@
 namespace ssphh::app {
 namespace {
 
-struct MeasureOptions {
-  SceneOptions scene;
-  std::vector<std::string> probes, methods, weights;
-  std::vector<float> box;
-  float clearance = 0.05f;
-  bool open = false, force = false;
-  int points = 1024;
-  gi::LeakParams params{.path = {.max_depth = 25, .passes = 1, .spp = 1024, .seed = 0}};
-};
-
 /// Points on surfaces, or in the open near them; within the box, if one is given.
 std::vector<scene::SurfacePoint> find_points(const MeasureOptions& o, const scene::TransportSource& surfaces,
-                                             std::span<const vec3> origins, const Context& context) {
-  std::vector<scene::SurfacePoint> points = gi::reachable_points(
-      surfaces, origins, o.scene.time, {o.points, context.seed, o.clearance}, context.control);
-  if (o.open) points = gi::points_in_the_open(surfaces, points, o.scene.time, context.seed);
-  if (!o.box.empty()) {
-    const vec3 low(o.box[0], o.box[1], o.box[2]), high(o.box[3], o.box[4], o.box[5]);
+                                             std::span<const vec3> origins, const Control& control) {
+  std::vector<scene::SurfacePoint> points =
+      gi::reachable_points(surfaces, origins, o.scene.time, {o.points, o.seed, o.clearance}, control);
+  if (o.open) points = gi::points_in_the_open(surfaces, points, o.scene.time, o.seed);
+  if (o.box) {
     std::erase_if(points, [&](const scene::SurfacePoint& p) {
-      return !glm::all(glm::lessThanEqual(low, p.position)) ||
-             !glm::all(glm::lessThanEqual(p.position, high));
+      return !glm::all(glm::lessThanEqual(o.box->min, p.position)) ||
+             !glm::all(glm::lessThanEqual(p.position, o.box->max));
     });
     if (points.empty()) throw Error("--box", "no point that can be reached lies in it");
   }
   return points;
 }
 
-/// A way to look light up, and what its line and its JSON object say beside the errors.
+/// A way to look light up, and what is known of it before it is measured.
 struct Candidate {
-  std::string name, detail;
+  MeasuredLight known;
   std::shared_ptr<const scene::IndirectLight> light;
-  json::Value json;
   std::shared_ptr<LiveMethod> live = nullptr;  ///< null for probe files
 };
 
 std::vector<Candidate> probe_candidates(const MeasureOptions& o, const std::vector<gi::ProbeSet>& sets,
                                         const trace::PathTracer& tracer) {
-  std::vector<std::optional<gi::WeightMethod>> weights;
-  for (const std::string& name : o.weights) weights.push_back(parse_enum<gi::WeightMethod>(name));
+  std::vector<std::optional<gi::WeightMethod>> weights(o.weights.begin(), o.weights.end());
   if (weights.empty()) weights.emplace_back();
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < sets.size(); ++i) {
     for (const std::optional<gi::WeightMethod>& method : weights) {
       const gi::LookupParams params = lookup_params(o.probes[i], sets[i], {.weights = method});
-      const std::string used(name_of(params.weights.chosen(sets[i].fitted.has_value())));
-      candidates.push_back({o.probes[i],
-                            used,
-                            std::make_shared<gi::IrradianceLookup>(sets[i], tracer, params),
-                            {{"probes", o.probes[i]}, {"weights", used}}});
+      Candidate& candidate = candidates.emplace_back();
+      candidate.known.name = o.probes[i];
+      candidate.known.weights = params.weights.chosen(sets[i].fitted.has_value());
+      candidate.light = std::make_shared<gi::IrradianceLookup>(sets[i], tracer, params);
     }
   }
   return candidates;
@@ -89,10 +75,12 @@ Candidate method_candidate(const std::string& spec, const trace::SharedGeometry&
   words.erase(words.begin());
   auto live = std::make_shared<LiveMethod>(name, words, geometry, scene, control);
   live->update(scene::lighting_at(live->source(), time), control);
-  json::Value json = {{"method", spec}};
-  json.update(live->json());
-  const scene::IndirectLight* light = &live->method().light();
-  return {spec, "", {live, light}, std::move(json), live};
+  Candidate candidate;
+  candidate.known.name = spec;
+  candidate.known.method = live->figures();
+  candidate.light = {live, &live->method().light()};
+  candidate.live = std::move(live);
+  return candidate;
 }
 
 /// Microseconds of all threads' time together for one lookup, from batches of at least 50 ms.
@@ -131,7 +119,42 @@ double frame_milliseconds(LiveMethod& live, float time, const Control& control) 
   return percentile(std::move(ms), 0.5);
 }
 
-void measure(Context& context, MeasureOptions& o) {
+MeasuredLight measured(const Candidate& candidate, std::span<const scene::SurfacePoint> points,
+                       const gi::TruthAtPoints& truth, float time, const Control& control) {
+  MeasuredLight result = candidate.known;
+  const std::vector<vec3> looked_up = gi::look_up(*candidate.light, points, control);
+  result.lookup_us = lookup_microseconds(*candidate.light, points, control);
+  result.error = gi::lookup_error(looked_up, truth.estimates);
+  result.leak_ratio = gi::leak_ratio(looked_up, truth);
+  if (candidate.live) result.frame_ms = frame_milliseconds(*candidate.live, time, control);
+  return result;
+}
+
+/// The noise of the truth, which is the same whatever is compared with it.
+double noise_of(const MeasureResult& result) {
+  return result.lights.empty() ? 0 : result.lights.back().error.noise;
+}
+
+json::Value light_json(const MeasuredLight& light) {
+  json::Value object = {{light.method ? "method" : "probes", light.name}};
+  if (light.weights) object["weights"] = name_of(*light.weights);
+  if (light.method) object.update(to_json(*light.method));
+  const gi::LookupError& e = light.error;
+  object.update({{"ratio", std::isfinite(e.ratio) ? json::Value(e.ratio) : json::Value(nullptr)},
+                 {"mean_error", e.mean_error},
+                 {"mean_relative", e.mean_relative},
+                 {"median_relative", e.median_relative},
+                 {"p95_relative", e.p95_relative},
+                 {"relmse", e.relmse},
+                 {"leak_ratio", light.leak_ratio},
+                 {"lookup_us", light.lookup_us}});
+  if (light.frame_ms) object["frame_ms"] = *light.frame_ms;
+  return object;
+}
+
+}  // namespace
+
+MeasureResult run_measure(const MeasureOptions& o, const Control& control) {
   const GeometryBuilds builds;
   if (o.probes.empty() && o.methods.empty())
     throw Error("measure", "there is nothing to compare", "give --probes FILE or --method NAME");
@@ -143,68 +166,68 @@ void measure(Context& context, MeasureOptions& o) {
     sets.push_back(gi::read_probe_file(file));
     require_same_scene(file, sets.back(), scene, tracer.light_groups(), o.scene.time, o.force);
   }
-  std::vector<Candidate> candidates = probe_candidates(o, sets, tracer);  // fails before the work
+  const std::vector<Candidate> candidates = probe_candidates(o, sets, tracer);  // fails before the work
   const trace::TransportScene surfaces(geometry, scene);
-  const std::vector<scene::SurfacePoint> points =
-      find_points(o, surfaces, viewpoints(scene, sets, o.scene.time), context);
-  o.params.path.seed = context.seed;
-  const gi::TruthAtPoints truth = gi::trace_truth(tracer, points, o.params, context.control);
+  MeasureResult result;
+  result.points = find_points(o, surfaces, viewpoints(scene, sets, o.scene.time), control);
+  gi::LeakParams params = o.params;
+  params.path.seed = o.seed;
+  result.truth = gi::trace_truth(tracer, result.points, params, control);
 
-  json::Value results = json::Value::array();
+  const auto measure = [&](const Candidate& candidate) {
+    result.lights.push_back(measured(candidate, result.points, result.truth, o.scene.time, control));
+  };
+  for (const Candidate& candidate : candidates) measure(candidate);
+  for (const std::string& spec : o.methods)
+    measure(method_candidate(spec, geometry, scene, o.scene.time, control));
+  result.geometry_builds = builds.count();
+  return result;
+}
+
+json::Value to_json(const MeasureResult& result, const MeasureOptions& options) {
+  json::Value lights = json::Value::array();
+  for (const MeasuredLight& light : result.lights) lights.push_back(light_json(light));
+  return {{"points", result.points.size()},  {"dark_points", result.truth.dark},
+          {"mean_truth", result.truth.mean}, {"truth_spp", options.params.path.spp},
+          {"noise", noise_of(result)},       {"geometry_builds", result.geometry_builds},
+          {"results", std::move(lights)}};
+}
+
+std::string to_text(const MeasureResult& result, const MeasureOptions& options) {
   std::string text = fmt::format(
       "{} points of {} paths, {} of them dark; mean {:.5g} "
       "W/m2\n{:<24}{:<11}{:>8}{:>11}{:>9}{:>10}{:>9}{:>9}",
-      points.size(), o.params.path.spp, truth.dark, truth.mean, "light", "weights", "ratio", "mean error",
-      "95 %", "relMSE", "leak", "lookup");
-  double noise = 0;
-  const auto compare = [&](Candidate candidate) {
-    const std::vector<vec3> looked_up = gi::look_up(*candidate.light, points, context.control);
-    const double lookup_us = lookup_microseconds(*candidate.light, points, context.control);
-    const gi::LookupError e = gi::lookup_error(looked_up, truth.estimates);
-    const double leak = gi::leak_ratio(looked_up, truth);
-    noise = e.noise;
-    const auto number = [](double value) {
-      return std::isfinite(value) ? json::Value(value) : json::Value(nullptr);
-    };
-    candidate.json.update({{"ratio", number(e.ratio)},
-                           {"mean_error", e.mean_error},
-                           {"mean_relative", e.mean_relative},
-                           {"median_relative", e.median_relative},
-                           {"p95_relative", e.p95_relative},
-                           {"relmse", e.relmse},
-                           {"leak_ratio", leak},
-                           {"lookup_us", lookup_us}});
-    if (candidate.live)
-      candidate.json["frame_ms"] = frame_milliseconds(*candidate.live, o.scene.time, context.control);
+      result.points.size(), options.params.path.spp, result.truth.dark, result.truth.mean, "light", "weights",
+      "ratio", "mean error", "95 %", "relMSE", "leak", "lookup");
+  for (const MeasuredLight& light : result.lights) {
+    const gi::LookupError& e = light.error;
     text += fmt::format("\n{:<24}{:<11}{:>8.3f}{:>9.1f} %{:>7.1f} %{:>10.4f}{:>7.2f} %{:>6.3g} us",
-                        candidate.name, candidate.detail, e.ratio, 100 * e.mean_error, 100 * e.p95_relative,
-                        e.relmse, 100 * leak, lookup_us);
-    results.push_back(std::move(candidate.json));
-  };
-  for (Candidate& candidate : candidates) compare(std::move(candidate));
-  for (const std::string& spec : o.methods)
-    compare(method_candidate(spec, geometry, scene, o.scene.time, context.control));
-  context.result({{"points", points.size()},
-                  {"dark_points", truth.dark},
-                  {"mean_truth", truth.mean},
-                  {"truth_spp", o.params.path.spp},
-                  {"noise", noise},
-                  {"geometry_builds", builds.count()},
-                  {"results", std::move(results)}},
-                 text + fmt::format("\nnoise of the truth: {:.2g} % of a point, taken off the mean error and "
-                                    "relMSE",
-                                    100 * noise));
+                        light.name, light.weights ? name_of(*light.weights) : "", e.ratio, 100 * e.mean_error,
+                        100 * e.p95_relative, e.relmse, 100 * light.leak_ratio, light.lookup_us);
+  }
+  return text + fmt::format("\nnoise of the truth: {:.2g} % of a point, taken off the mean error and relMSE",
+                            100 * noise_of(result));
 }
 
-}  // namespace
-
 void add_measure_command(Command app, Context& context) {
-  auto options = std::make_shared<MeasureOptions>();
-  MeasureOptions& o = *options;
-  Command command =
-      add_command(app, context, "measure",
-                  "Compare light looked up from probes, or found by any method, with path tracing",
-                  [&context, options] { measure(context, *options); });
+  struct Words {
+    MeasureOptions options;
+    std::vector<std::string> weights;
+    std::vector<float> box;
+  };
+  auto words = std::make_shared<Words>();
+  MeasureOptions& o = words->options;
+  Command command = add_command(
+      app, context, "measure",
+      "Compare light looked up from probes, or found by any method, with path tracing", [&context, words] {
+        MeasureOptions& options = words->options;
+        options.seed = context.seed;
+        for (const std::string& name : words->weights)
+          options.weights.push_back(*parse_enum<gi::WeightMethod>(name));
+        if (const std::vector<float>& b = words->box; !b.empty())
+          options.box = {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
+        print_result(context, run_measure(options, context.control), options);
+      });
   add_scene_options(command, o.scene);
   add_probe_files(command, "--probes", o.probes, "Probe files; all are compared with the same truth");
   command
@@ -213,7 +236,7 @@ void add_measure_command(Command app, Context& context) {
               "`ssphh methods` lists them")
       .repeatable();
   command
-      .option("--weights", o.weights,
+      .option("--weights", words->weights,
               "How probes are blended, one or several: distance, trilinear, mls, fitted; by default what "
               "`render` would take")
       .separated_by(',')
@@ -224,7 +247,7 @@ void add_measure_command(Command app, Context& context) {
       .option("--clearance", o.clearance,
               "Only points with so much free space before them [m]: slits are nobody's view")
       .non_negative();
-  command.option("--box", o.box, "x0,y0,z0,x1,y1,z1: only points within [m]; so many fewer")
+  command.option("--box", words->box, "x0,y0,z0,x1,y1,z1: only points within [m]; so many fewer")
       .separated_by(',')
       .values(6);
   command.flag("--open", o.open,

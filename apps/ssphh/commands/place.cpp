@@ -1,3 +1,5 @@
+#include "commands/place.h"
+
 #include <filesystem>
 #include <memory>
 
@@ -7,18 +9,11 @@
 #include <ssphh/scene_io/overlay.h>
 
 #include "commands/command.h"
-#include "options/place_options.h"
-#include "options/scene_options.h"
 
 namespace ssphh::app {
 namespace {
 
 namespace fs = std::filesystem;
-struct PlaceCommand {
-  SceneOptions scene;
-  PlaceOptions place;
-  std::string output;
-};
 
 bool is_overlay_name(const std::string& name) {
   return name.ends_with(".ssphh.json");
@@ -59,14 +54,15 @@ json::Value base_overlay(const SceneOptions& scene, const fs::path& output) {
   return base;
 }
 
-void place(Context& context, const PlaceCommand& options) {
+}  // namespace
+
+PlaceResult run_place(const PlaceOverlayOptions& options, const Control& control) {
   if (fs::weakly_canonical(options.output) == fs::weakly_canonical(options.scene.source)) {
     throw Error(options.output, "is the scene itself", "choose another name with -o");
   }
   const scene::Scene scene = load_scene(options.scene);
-  const std::optional<PlaceResult> result =
-      place_for(std::make_shared<const trace::SceneGeometry>(scene), scene, options.scene.time, options.place,
-                "auto", context.control);
+  std::optional<PlaceResult> result = place_for(std::make_shared<const trace::SceneGeometry>(scene), scene,
+                                                options.scene.time, options.place, "auto", control);
   if (!result)
     throw Error("--probes scene", "there is nothing to place", "use auto, auto:METRES or a number");
 
@@ -78,17 +74,24 @@ void place(Context& context, const PlaceCommand& options) {
                                 {"radius", probe.radius}});
   }
   write_file(options.output, json::print(overlay, 1) + "\n");
-  json::Value object = place_json(*result);
-  object["output"] = options.output;
-  context.result(object, fmt::format("{}: {}", options.output, place_text(*result)));
+  return std::move(*result);
 }
 
-}  // namespace
+json::Value to_json(const PlaceResult& result, const PlaceOverlayOptions& options) {
+  json::Value object = place_json(result);
+  object["output"] = options.output;
+  return object;
+}
+
+std::string to_text(const PlaceResult& result, const PlaceOverlayOptions& options) {
+  return fmt::format("{}: {}", options.output, place_text(result));
+}
 
 void add_place_command(Command app, Context& context) {
-  auto options = std::make_shared<PlaceCommand>();
-  Command command = add_command(app, context, "place", "Find places for SPHLs and write them as an overlay",
-                                [&context, options] { place(context, *options); });
+  auto options = std::make_shared<PlaceOverlayOptions>();
+  Command command = add_command(
+      app, context, "place", "Find places for SPHLs and write them as an overlay",
+      [&context, options] { print_result(context, run_place(*options, context.control), *options); });
   add_scene_options(command, options->scene);
   add_place_options(command, options->place);
   command.option("-o,--output", options->output, "Overlay to write: a scene of its own, to look at and edit")

@@ -1,11 +1,11 @@
+#include "commands/respond.h"
+
 #include <algorithm>
-#include <cmath>
+#include <memory>
 
 #include <fmt/format.h>
 
 #include <ssphh/core/file.h>
-#include <ssphh/gi/leak.h>
-#include <ssphh/gi/lookup_error.h>
 #include <ssphh/gi/surface_points.h>
 #include <ssphh/scene/with_lighting.h>
 #include <ssphh/trace/path_tracer.h>
@@ -16,38 +16,12 @@
 #include "commands/relight_animation.h"
 #include "options/method_options.h"
 #include "options/probe_options.h"
-#include "options/scene_options.h"
 #include "results/percentile.h"
 
 namespace ssphh::app {
 namespace {
 
-struct RespondOptions {
-  SceneOptions scene;
-  std::string method = "ssphh", output;
-  std::vector<std::string> parameters, events;
-  int frames = 60, before = 1, points = 512;
-  float clearance = 0.05f;
-  gi::LeakParams truth{.path = {.max_depth = 25, .passes = 1, .spp = 1024, .seed = 0}};
-};
-
-/// A frame after the event.
-struct Frame {
-  double ms;
-  gi::LookupError error;
-};
-
-/// Frames until the error is, and stays, as good as the last frame's: within a tenth of it or half a per
-/// cent.
-int frames_to_settle(const std::vector<Frame>& frames) {
-  const double last = frames.back().error.mean_error;
-  const double bound = std::max(1.1 * last, last + 0.005);
-  int settled = static_cast<int>(frames.size());
-  while (settled > 1 && frames[static_cast<std::size_t>(settled) - 2].error.mean_error <= bound) --settled;
-  return settled;
-}
-
-std::string csv_text(const std::vector<Frame>& frames) {
+std::string csv_text(const std::vector<RespondFrame>& frames) {
   std::string text = "frame,ms,ratio,mean_error,p95_relative,relmse\n";
   for (std::size_t f = 0; f < frames.size(); ++f) {
     const gi::LookupError& e = frames[f].error;
@@ -57,81 +31,102 @@ std::string csv_text(const std::vector<Frame>& frames) {
   return text;
 }
 
-void respond(Context& context, RespondOptions& o) {
+double median_ms(const std::vector<RespondFrame>& frames) {
+  std::vector<double> ms;
+  for (const RespondFrame& frame : frames) ms.push_back(frame.ms);
+  return percentile(std::move(ms), 0.5);
+}
+
+}  // namespace
+
+int frames_to_settle(const std::vector<RespondFrame>& frames) {
+  const double last = frames.back().error.mean_error;
+  const double bound = std::max(1.1 * last, last + 0.005);
+  int settled = static_cast<int>(frames.size());
+  while (settled > 1 && frames[static_cast<std::size_t>(settled) - 2].error.mean_error <= bound) --settled;
+  return settled;
+}
+
+RespondResult run_respond(const RespondOptions& o, const Control& control) {
+  if (o.frames < 1 || o.before < 1) throw Error("respond", "needs a frame before and one after the event");
   const scene::Scene scene = load_scene(o.scene);
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   const trace::TransportScene surfaces(geometry, scene);
   const RelightAnimation event(surfaces, scene, o.scene.time, o.events);
   const scene::LightingState before = event.frame(0), after = event.frame(1);
   if (before == after) throw Error("--event", "nothing changes", "give two different keys, as in time=0:1");
-  LiveMethod live(o.method, o.parameters, geometry, scene, context.control);
+  LiveMethod live(o.method, o.parameters, geometry, scene, control);
 
   const scene::Scene lit = scene::with_lighting(scene, after);
   const trace::PathTracer tracer(geometry, lit, after.time);
-  o.truth.path.seed = context.seed;
-  const std::vector<scene::SurfacePoint> points =
-      gi::reachable_points(surfaces, viewpoints(scene, {}, after.time), after.time,
-                           {o.points, context.seed, o.clearance}, context.control);
-  const gi::TruthAtPoints truth = gi::trace_truth(tracer, points, o.truth, context.control);
+  gi::LeakParams params = o.truth;
+  params.path.seed = o.seed;
+  RespondResult result;
+  result.points = gi::reachable_points(surfaces, viewpoints(scene, {}, after.time), after.time,
+                                       {o.points, o.seed, o.clearance}, control);
+  const gi::TruthAtPoints truth = gi::trace_truth(tracer, result.points, params, control);
+  const auto error_now = [&] {
+    return gi::lookup_error(gi::look_up(live.method().light(), result.points, control), truth.estimates);
+  };
 
-  for (int f = 0; f < o.before; ++f) live.update(before, context.control);
-  const double first_ms = 1e3 * live.update_seconds();
-  const gi::LookupError stale =
-      gi::lookup_error(gi::look_up(live.method().light(), points, context.control), truth.estimates);
-  std::vector<Frame> frames;
+  for (int f = 0; f < o.before; ++f) live.update(before, control);
+  result.before_ms = 1e3 * live.update_seconds();
+  result.stale = error_now();
   {
-    ProgressStage progress(context.control, "responding", static_cast<std::uint64_t>(o.frames), "frames");
+    ProgressStage progress(control, "responding", static_cast<std::uint64_t>(o.frames), "frames");
     for (int f = 0; f < o.frames; ++f) {
-      context.control.check();
-      live.update(after, context.control);
-      const std::vector<vec3> found = gi::look_up(live.method().light(), points, context.control);
-      frames.push_back({1e3 * live.update_seconds(), gi::lookup_error(found, truth.estimates)});
+      control.check();
+      live.update(after, control);
+      result.frames.push_back({1e3 * live.update_seconds(), error_now()});
       progress.advance(1);
     }
   }
-
-  std::vector<double> ms;
-  json::Value list = json::Value::array();
-  for (const Frame& frame : frames) {
-    ms.push_back(frame.ms);
-    list.push_back({{"ms", frame.ms}, {"ratio", frame.error.ratio}, {"mean_error", frame.error.mean_error}});
-  }
-  const double median_ms = percentile(ms, 0.5);
-  const int settled = frames_to_settle(frames);
-  if (!o.output.empty()) write_file(o.output, csv_text(frames));
-
-  const gi::LookupError& last = frames.back().error;
-  json::Value object = {{"method", o.method},
-                        {"points", points.size()},
-                        {"noise", last.noise},
-                        {"before_error", stale.mean_error},
-                        {"first_error", frames.front().error.mean_error},
-                        {"last_error", last.mean_error},
-                        {"last_ratio", last.ratio},
-                        {"frames_to_settle", settled},
-                        {"first_ms", frames.front().ms},
-                        {"median_ms", median_ms},
-                        {"before_ms", first_ms}};
-  object.update(live.json());
-  object["frames"] = std::move(list);
-  context.result(
-      object,
-      fmt::format("{}: {}\nmean error at {} points: {:.1f} % with the light of before, {:.1f} % after one "
-                  "frame, {:.1f} % after {} (ratio {:.3f})\nsettled after {} frame{}, {:.3g} ms a frame "
-                  "(the first {:.3g})",
-                  o.method, live.text(), points.size(), 100 * stale.mean_error,
-                  100 * frames.front().error.mean_error, 100 * last.mean_error, o.frames, last.ratio, settled,
-                  settled == 1 ? "" : "s", median_ms, frames.front().ms));
+  result.method = live.figures();
+  if (!o.output.empty()) write_file(o.output, csv_text(result.frames));
+  return result;
 }
 
-}  // namespace
+json::Value to_json(const RespondResult& result, const RespondOptions& o) {
+  const RespondFrame &first = result.frames.front(), &last = result.frames.back();
+  json::Value object = {{"method", o.method},
+                        {"points", result.points.size()},
+                        {"noise", last.error.noise},
+                        {"before_error", result.stale.mean_error},
+                        {"first_error", first.error.mean_error},
+                        {"last_error", last.error.mean_error},
+                        {"last_ratio", last.error.ratio},
+                        {"frames_to_settle", frames_to_settle(result.frames)},
+                        {"first_ms", first.ms},
+                        {"median_ms", median_ms(result.frames)},
+                        {"before_ms", result.before_ms}};
+  object.update(to_json(result.method));
+  json::Value& list = object["frames"] = json::Value::array();
+  for (const RespondFrame& frame : result.frames)
+    list.push_back({{"ms", frame.ms}, {"ratio", frame.error.ratio}, {"mean_error", frame.error.mean_error}});
+  return object;
+}
+
+std::string to_text(const RespondResult& result, const RespondOptions& o) {
+  const RespondFrame &first = result.frames.front(), &last = result.frames.back();
+  const int settled = frames_to_settle(result.frames);
+  return fmt::format(
+      "{}: {}\nmean error at {} points: {:.1f} % with the light of before, {:.1f} % after one "
+      "frame, {:.1f} % after {} (ratio {:.3f})\nsettled after {} frame{}, {:.3g} ms a frame "
+      "(the first {:.3g})",
+      o.method, to_text(result.method), result.points.size(), 100 * result.stale.mean_error,
+      100 * first.error.mean_error, 100 * last.error.mean_error, o.frames, last.error.ratio, settled,
+      settled == 1 ? "" : "s", median_ms(result.frames), first.ms);
+}
 
 void add_respond_command(Command app, Context& context) {
   auto options = std::make_shared<RespondOptions>();
   RespondOptions& o = *options;
   Command command =
       add_command(app, context, "respond", "Change lamps or doors at once and see how fast a method follows",
-                  [&context, options] { respond(context, *options); });
+                  [&context, options] {
+                    options->seed = context.seed;
+                    print_result(context, run_respond(*options, context.control), *options);
+                  });
   add_scene_options(command, o.scene);
   std::vector<std::string> names;
   for (const gi::MethodEntry& entry : gi::method_table()) names.emplace_back(entry.name);

@@ -1,0 +1,61 @@
+#pragma once
+/// `ssphh compare`: the error of an image against a reference.
+
+#include <optional>
+#include <string>
+
+#include <ssphh/core/control.h>
+#include <ssphh/core/enum_names.h>
+#include <ssphh/core/json.h>
+#include <ssphh/metrics/compare.h>
+#include <ssphh/metrics/flip.h>
+#include <ssphh/metrics/perceptual.h>
+
+namespace ssphh::app {
+
+/// |d|, d with its sign, the sum of |d| in each block, d² over the reference's, FLIP.
+enum class ErrorMap { absolute, with_sign, pixelated, relmse, flip };
+constexpr auto enum_table(ErrorMap) {
+  using enum ErrorMap;
+  return std::to_array<EnumName<ErrorMap>>({{absolute, "absolute"},
+                                            {with_sign, "signed"},
+                                            {pixelated, "pixelated"},
+                                            {relmse, "relmse"},
+                                            {flip, "flip"}});
+}
+
+struct CompareOptions {
+  std::string reference, test;  ///< image files of one size: .exr .hdr .png .jpg
+  std::string mask;             ///< picture that is white where to measure; empty: everywhere
+  int block = 16;               ///< side of the blocks of the pixelated map, in pixels
+  float exposure = 0;           ///< both images are multiplied by 2^EV first
+  double pixels_per_degree = metrics::FlipParams{}.pixels_per_degree;  ///< of the viewer's sight, for FLIP
+  bool allow_nonfinite = false;  ///< infinite pixels and NaN are no failure
+
+  std::string output;  ///< error map to write: .png (colours) or .exr (numbers); empty: none
+  ErrorMap map = ErrorMap::absolute;
+  float scale = 0;  ///< error shown in the last colour of a .png; 0: the 99th percentile, for flip 1
+};
+
+/// Pixels that are infinite or NaN, or outside the mask, are left out; the former are counted.
+struct CompareResult {
+  metrics::ImageError linear;
+  metrics::BlockError blocks;
+  metrics::DisplayError display;
+  metrics::FlipError flip;
+  bool hdr = false;                ///< which FLIP: HDR-FLIP, or that of two display images
+  std::optional<float> map_scale;  ///< of the map written: error shown in its last colour, 0 for numbers
+};
+
+/// Measures, and writes the map if there is to be one. Throws Error for a map's name that is of another kind
+/// (before anything else), for files that cannot be read or written and for images of different sizes. Too
+/// short to be cancelled or to tell of its progress.
+CompareResult run_compare(const CompareOptions& options, const Control& control = {});
+
+/// Whether pixels that are infinite or NaN make the comparison a failure.
+bool has_failed(const CompareResult& result, const CompareOptions& options);
+
+json::Value to_json(const CompareResult& result, const CompareOptions& options);
+std::string to_text(const CompareResult& result, const CompareOptions& options);
+
+}  // namespace ssphh::app

@@ -1,0 +1,241 @@
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/log.h>
+#include <ssphh/gi/fitted_weights.h>
+#include <ssphh/gi/lookup.h>
+#include <ssphh/gi/lookup_error.h>
+#include <ssphh/gi/probe_file.h>
+#include <ssphh/gi/session_sets.h>
+#include <ssphh/gi/surface_points.h>
+#include <ssphh/image/io.h>
+#include <ssphh/image/tonemap.h>
+#include <ssphh/scene/with_lighting.h>
+#include <ssphh/trace/path_tracer.h>
+#include <ssphh/trace/transport_scene.h>
+
+#include "commands/relight.h"
+#include "commands/relight_animation.h"
+#include "commands/relight_check.h"
+#include "options/probe_options.h"
+#include "results/geometry_builds.h"
+
+namespace ssphh::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A frame whose light is kept for what comes after the timed run.
+struct KeptFrame {
+  int frame;
+  scene::LightingState state;
+  std::vector<sh::RadianceSh> reflected;
+};
+
+class Relighting {
+ public:
+  Relighting(const RelightOptions& options, const Control& control)
+      : control_(control),
+        o_(options),
+        scene_(load_scene(options.scene)),
+        geometry_(std::make_shared<const trace::SceneGeometry>(scene_)),
+        source_(geometry_, scene_),
+        animation_(source_, scene_, options.scene.time, options.animate) {}
+
+  RelightResult run() {
+    run_.frames_asked = o_.frames;
+    run_.fps = o_.fps;
+    if (!o_.output.empty() && o_.pictures > 0)  // Fails before the work rather than after it.
+      scene::camera_pose(scene_, o_.camera, o_.scene.time);
+    std::vector<gi::ProbePlace> places = find_places();
+    warn_about_places(places, source_, gi::place_params(scene_, o_.scene.time).interest,
+                      animation_.moves_time(), control_);
+    const auto start = std::chrono::steady_clock::now();
+    gi::RelightSession session(source_, std::move(places), o_.params, animation_.frame(0).time, control_);
+    run_.build_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    warn_about_network(session);
+    try {
+      play(session);
+      if (!o_.save.empty()) save(session);
+      look_back(session);
+    } catch (const Cancelled&) {
+      if (run_.updates.empty()) throw;
+      run_.cancelled = true;
+      log(LogLevel::error, "cancelled");
+    }
+    if (!o_.output.empty() && !run_.errors.empty())
+      write_error_curve(fs::path(o_.output) / "error.svg", run_);
+    const gi::TransportNetwork& network = session.network();
+    return {std::move(run_),
+            session.places(),
+            network.surfel_count(),
+            network.links().link_count(),
+            network.params().surfel_size,
+            saved_,
+            builds_.count()};
+  }
+
+ private:
+  std::vector<gi::ProbePlace> find_places() {
+    std::vector<gi::ProbePlace> places;
+    if (is_probe_file(o_.place)) {
+      const gi::ProbeSet set = gi::read_probe_file(o_.place.probes);
+      require_same_scene(o_.place.probes, set, scene_, source_.light_groups(), {}, o_.force);
+      for (const gi::Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
+    } else if (const auto placed = place_for(geometry_, scene_, o_.scene.time, o_.place, "", control_)) {
+      for (const gi::PlacedProbe& probe : placed->placement.probes)
+        places.push_back({probe.name, probe.position, probe.radius});
+    } else {
+      for (const scene::SphlPlace& sphl : scene::sphl_places(scene_, o_.scene.time))
+        places.push_back({sphl.name, sphl.position, sphl.radius});
+    }
+    if (places.empty()) throw Error("--probes", "there are no probes", "let --probes auto find places");
+    return places;
+  }
+
+  static bool is_due(int frame, int every) { return every > 0 && frame % every == 0; }
+  float share(int frame) const {
+    return o_.frames > 1 ? static_cast<float>(frame) / static_cast<float>(o_.frames - 1) : 0;
+  }
+
+  /// All frames one after the other, with nothing in between that would disturb their times.
+  void play(gi::RelightSession& session) {
+    ProgressStage progress(control_, "relighting", static_cast<std::uint64_t>(o_.frames), "frames");
+    for (int f = 0; f < o_.frames; ++f) {
+      control_.check();
+      scene::LightingState state = animation_.frame(share(f));
+      run_.updates.push_back(session.update(state));
+      if (is_due(f, o_.truth) || (!o_.output.empty() && is_due(f, o_.pictures)))
+        kept_.push_back({f, std::move(state), session.reflected()});
+      progress.advance(1);
+    }
+  }
+
+  void save(const gi::RelightSession& session) {
+    scene::LightingState unscaled = session.lighting();
+    unscaled.group_scales.assign(unscaled.group_scales.size(), vec3(1));
+    gi::GeneratorInfo generator;
+    generator.op = o_.params.op;
+    generator.scene = scene_.name;
+    generator.scene_hash = scene::light_hash(scene::with_lighting(scene_, unscaled));
+    gi::write_probe_file(gi::baked_set(session, source_.light_groups(), generator, control_), o_.save);
+    saved_ = true;
+  }
+
+  /// Truth and pictures of the frames kept.
+  void look_back(gi::RelightSession& session) {
+    if (kept_.empty()) return;
+    ProgressStage progress(control_, o_.truth > 0 ? "path tracing the truth" : "pictures", kept_.size(),
+                           "frames");
+    const Control quiet{nullptr, control_.cancel};
+    gi::LookupParams params;
+    params.weights.method = o_.weights;
+    std::optional<gi::FittedPoints> fitted;
+    if (params.weights.method == gi::WeightMethod::fitted) fitted = fit(session, quiet);
+    for (const KeptFrame& kept : kept_) {
+      const scene::Scene lit = scene::with_lighting(scene_, kept.state);
+      const trace::PathTracer tracer(geometry_, lit, kept.state.time);
+      gi::ProbeSet set = gi::lookup_set(session.places(), kept.reflected);
+      set.fitted = fitted;
+      const gi::IrradianceLookup lookup(set, tracer, params);
+      if (is_due(kept.frame, o_.truth)) measure(session, kept, tracer, lookup, quiet);
+      if (!o_.output.empty() && is_due(kept.frame, o_.pictures)) draw(kept, lit, tracer, lookup, quiet);
+      progress.advance(1);
+    }
+  }
+
+  /// Weights that serve the whole run: fitted at once to frames evenly spaced over it.
+  gi::FittedPoints fit(gi::RelightSession& session, const Control& control) {
+    gi::WeightFit fit(gi::surfel_points(session.network()));
+    const int count = std::min(o_.fit_frames, o_.frames);
+    for (int k = 0; k < count; ++k) {
+      session.update(animation_.frame(count > 1 ? static_cast<float>(k) / static_cast<float>(count - 1) : 0),
+                     control);
+      fit.add_pose(session.network(), source_, session.direct_by_group(), control);
+    }
+    return fit.solve(control);
+  }
+
+  void measure(const gi::RelightSession& session, const KeptFrame& kept, const trace::PathTracer& tracer,
+               const scene::IndirectLight& lookup, const Control& control) {
+    std::vector<vec3> origins;
+    const std::vector<mat4> world = scene::world_matrices(scene_, kept.state.time);
+    for (const scene::Camera& camera : scene_.cameras)
+      origins.emplace_back(world[static_cast<std::size_t>(camera.node)][3]);
+    for (const gi::ProbePlace& place : session.places()) origins.push_back(place.position);
+    const std::vector<scene::SurfacePoint> points =
+        gi::reachable_points(source_, origins, kept.state.time, {o_.points, o_.seed}, control);
+
+    std::vector<vec3> looked_up;
+    for (const scene::SurfacePoint& point : points) looked_up.push_back(lookup.irradiance(point));
+    const auto truth = tracer.surface_irradiance(
+        points, {.max_depth = o_.max_depth, .passes = 1, .spp = o_.truth_spp, .seed = o_.seed}, control);
+    run_.errors.push_back({kept.frame, gi::lookup_error(looked_up, truth)});
+  }
+
+  void draw(const KeptFrame& kept, const scene::Scene& lit, const trace::PathTracer& tracer,
+            const scene::IndirectLight& lookup, const Control& control) const {
+    trace::RenderParams params;
+    params.width = o_.width;
+    params.height = o_.height;
+    params.camera = scene::camera_pose(lit, o_.camera, kept.state.time);
+    if (params.camera.camera.orthographic) params.projection = trace::Projection::orthographic;
+    params.path = {.max_depth = 3, .passes = 1, .spp = o_.spp, .seed = o_.seed};
+    trace::RenderState state;
+    tracer.render_with(lookup, params, state, control);
+    const image::Image picture = trace::resolve(state.color, state.passes_done);
+    const fs::path path = fs::path(o_.output) / fmt::format("frame-{:04}.{}", kept.frame, o_.format);
+    image::write_image(path,
+                       o_.format == "png" ? image::tone_map(picture, {.exposure = o_.exposure}) : picture);
+  }
+
+  const Control& control_;
+  const RelightOptions& o_;
+  GeometryBuilds builds_;
+  scene::Scene scene_;
+  trace::SharedGeometry geometry_;
+  trace::TransportScene source_;
+  RelightAnimation animation_;
+  RelightRun run_;
+  std::vector<KeptFrame> kept_;
+  bool saved_ = false;
+};
+
+}  // namespace
+
+RelightResult run_relight(const RelightOptions& options, const Control& control) {
+  if (options.frames < 1) throw Error("relight", "needs a frame");
+  if (options.params.op == gi::LightOperator::bounce && options.params.poses != 0)
+    throw Error("--poses", "is of --operator surfel");
+  if (!options.output.empty()) {
+    std::error_code error;
+    fs::create_directories(options.output, error);
+    if (!fs::is_directory(options.output))
+      throw Error(options.output, "cannot make this folder for the frames");
+  }
+  return Relighting(options, control).run();
+}
+
+json::Value to_json(const RelightResult& result, const RelightOptions& options) {
+  json::Value object = relight_json(result.run);
+  object["operator"] = name_of(options.params.op);
+  object["weights"] = name_of(options.weights);
+  object["probes"] = result.places.size();
+  object["surfels"] = result.surfels;
+  object["surfel_size"] = result.surfel_size;
+  object["links"] = result.links;
+  object["geometry_builds"] = result.geometry_builds;
+  if (result.saved) object["saved"] = options.save;
+  return object;
+}
+
+std::string to_text(const RelightResult& result, const RelightOptions&) {
+  return fmt::format("{} probes, {} surfels of {:.3g} m, {} links\n{}", result.places.size(), result.surfels,
+                     result.surfel_size, result.links, relight_text(result.run));
+}
+
+}  // namespace ssphh::app

@@ -1,0 +1,21 @@
+#pragma once
+/// What a method made for a scene took.
+
+#include <string>
+
+#include <ssphh/core/json.h>
+#include <ssphh/gi/methods/method.h>
+
+namespace ssphh::app {
+
+struct MethodFigures {
+  double bake_seconds = 0, update_seconds = 0;  ///< of making it, of its last update
+  gi::MethodMemory memory;                      ///< bytes
+  gi::MethodNumbers numbers;                    ///< its own
+};
+
+/// bake_seconds, update_seconds, lookup_bytes, update_bytes and the method's numbers.
+json::Value to_json(const MethodFigures& figures);
+std::string to_text(const MethodFigures& figures);
+
+}  // namespace ssphh::app
