@@ -123,7 +123,8 @@ TEST(Relight, SaysWhatCannotBeAnimated) {
   expect_failure(relight({"--animate", "lamp.position=1,2"}), {"three numbers"});
   expect_failure(relight({"--animate", "lamp.direction=0,-1,0"}), {"position"});
   expect_failure(relight({"--animate", "time=0:1", "--animate", "time=1:0"}), {"twice"});
-  expect_failure(relight({"--animate", "environment.rotation=0:90"}), {"--animate \"environment.rotation=0:90\": the scene has no environment"});
+  expect_failure(relight({"--animate", "environment.rotation=0:90"}),
+                 {"--animate \"environment.rotation=0:90\": the scene has no environment"});
   expect_failure({"relight", "builtin:cornell"}, {"nothing moves"});
 }
 
