@@ -24,7 +24,7 @@ TEST(Foreign, Mdp01PeersInRawFrames) {
 // Silence is allowed to last for minutes here: only the connection's end tells.
 TEST(Foreign, AWorkerWhoseConnectionEndsGivesUpItsJobAtOnce) {
   BrokerOptions options;
-  options.timers.worker_expiry = 600'000;
+  options.timers.heartbeat = 150'000, options.timers.worker_expiry = 600'000;
   RunningBroker broker(options);
   auto first = std::make_unique<RawPeer>(zmq::socket_type::dealer, broker.endpoint());
   first->send({"", "MDPW01", "\x01", "echo"});
