@@ -110,5 +110,30 @@ TEST_F(DirectLight, ASkyTurnedAndColouredIsThatOfASceneWhoseSkyIsSo) {
   }
 }
 
+TEST_F(DirectLight, TheSkyIsWholeWhateverTheScaleOfIndirectLight) {
+  const scene::Scene s = ball_under_sky();
+  realtime::Renderer renderer(gl(), s);
+  renderer.set_probes(test::made_up_probes({{0, 1.5f, 1}, {1, -1.5f, 1}}));
+  const PictureSize size{64, 64};
+  realtime::FrameSettings settings;
+  const image::Image whole = test::drawn(renderer, s, size, settings);
+  settings.sky = realtime::Sky::black;
+  const image::Image ball = test::drawn(renderer, s, size, settings);
+  settings.sky = realtime::Sky::environment;
+  for (const int scale : {2, 3, 8}) {
+    settings.indirect_scale = scale;
+    const image::Image picture = test::drawn(renderer, s, size, settings);
+    int sky = 0;
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = 0; x < size.width; ++x) {
+        if (ball.rgb(x, y) != vec3(0)) continue;
+        ++sky;
+        EXPECT_EQ(picture.rgb(x, y), whole.rgb(x, y)) << scale << ": " << x << " " << y;
+      }
+    }
+    EXPECT_GT(sky, 1000);
+  }
+}
+
 }  // namespace
 }  // namespace ssphh

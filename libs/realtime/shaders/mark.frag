@@ -1,6 +1,6 @@
 #version 450 core
 // Leaves the pixels that may be interpolated: those looked up, and those on the surface of a cell that agrees. Lists
-// the others that reflect.
+// the others that reflect. What no surface covers stays unmarked: the sky is drawn there.
 #include "gbuffer_read.glsl"
 #include "listed_pixels.glsl"
 
@@ -23,7 +23,7 @@ void main() {
   float z = linear_depth(at);
   bool on_plane = abs(z - plane.x - dot(plane.yz, vec2(off))) < 0.004 * z &&
                   dot(normal, oct_decode(unpackSnorm2x16(cell.w))) > 0.95;
-  if (off == ivec2(0) || (plane.x > 0 && on_plane)) return;
+  if (z > 0 && (off == ivec2(0) || (plane.x > 0 && on_plane))) return;
   bool reflects = z > 0 && ((surface.z | surface.w) & 0x3fffffffu) != 0u;
   if (reflects) list_pixel(at);
   discard;
