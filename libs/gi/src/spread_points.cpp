@@ -51,7 +51,7 @@ std::vector<scene::SurfacePoint> spread_points(std::span<const scene::SurfacePoi
   }
 
   // The smallest cells, within one per cent, that are no more than asked for
-  const float extent = std::max(max_component(high - low), 1e-30f);
+  const float extent = std::max(max_component(high - low), 1e-15f);  // its square is above 0
   float small = extent * 1e-6f, large = 2 * extent;  // large: six cells at most, one for each side
   Cells best = sort_into_cells(points, low, large);
   while (large > 1.01f * small) {
