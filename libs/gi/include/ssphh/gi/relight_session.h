@@ -69,7 +69,7 @@ class RelightSession {
   /// changed.
   RelightReport update(const scene::LightingState& state, const Control& control = {});
 
-  /// The state that the probes were last brought up to date with.
+  /// The state that the last update() was asked for, also where it threw; at first the source's own.
   const scene::LightingState& lighting() const;
   const std::vector<ProbePlace>& places() const;
   /// S_loop: reflected light alone, for surfaces that get direct light from elsewhere. None before the first
