@@ -3,9 +3,9 @@
 #include <benchmark/benchmark.h>
 
 #include <ssphh/core/random.h>
-#include <ssphh/gi/hier.h>
-#include <ssphh/gi/lookup.h>
-#include <ssphh/gi/probe_file.h>
+#include <ssphh/probes/hier.h>
+#include <ssphh/probes/lookup.h>
+#include <ssphh/probes/probe_file.h>
 
 #include "dark_space.h"
 
@@ -20,20 +20,20 @@ sh::RadianceSh random_light(Pcg32& rng, int degree) {
 }
 
 /// Probes at random places, each with its `neighbors` successors as edges.
-gi::ProbeSet random_set(int count, int degree, int neighbors) {
+probes::ProbeSet random_set(int count, int degree, int neighbors) {
   Pcg32 rng(1);
-  gi::ProbeSet set;
+  probes::ProbeSet set;
   set.degree = degree;
   set.light_groups.push_back({"lamp", vec3(1)});
   for (int i = 0; i < count; ++i) {
-    gi::Probe probe;
+    probes::Probe probe;
     probe.position = 10.0f * rng.uniform3();
     probe.groups.push_back({{}, random_light(rng, degree)});
     std::vector<int> from;
     for (int n = 1; n <= neighbors; ++n) from.push_back((i + n) % count);
     std::sort(from.begin(), from.end());
     for (const int j : from) {
-      gi::Edge edge;
+      probes::Edge edge;
       edge.from = j;
       edge.transfer = rng.uniform();
       edge.h = random_light(rng, degree);
@@ -41,19 +41,19 @@ gi::ProbeSet random_set(int count, int degree, int neighbors) {
     }
     set.probes.push_back(std::move(probe));
   }
-  gi::merge_groups(set);
+  probes::merge_groups(set);
   return set;
 }
 
 /// Arguments: probes, degree, neighbours, operator.
 void hier(benchmark::State& state) {
-  gi::ProbeSet set = random_set(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)),
-                                static_cast<int>(state.range(2)));
-  gi::HierParams params;
-  params.op = static_cast<gi::HierOperator>(state.range(3));
+  probes::ProbeSet set = random_set(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)),
+                                    static_cast<int>(state.range(2)));
+  probes::HierParams params;
+  params.op = static_cast<probes::HierOperator>(state.range(3));
   std::size_t edges = 0;
   for (auto _ : state) {
-    edges = gi::hier(set, params);
+    edges = probes::hier(set, params);
     benchmark::DoNotOptimize(set.hierarchy->sum.data());
   }
   state.counters["edges"] = static_cast<double>(edges);
@@ -73,11 +73,11 @@ BENCHMARK(hier)
 /// The cost of the lookup itself, without rays. Arguments: probes, method (0 light, 1 irradiance), glossy.
 void lookup(benchmark::State& state) {
   const test::DarkSpace space;
-  const gi::ProbeSet set = random_set(static_cast<int>(state.range(0)), 9, 0);
-  const auto method = static_cast<gi::LookupMethod>(state.range(1));
-  const auto light = gi::make_lookup(method, set, space);
+  const probes::ProbeSet set = random_set(static_cast<int>(state.range(0)), 9, 0);
+  const auto method = static_cast<probes::LookupMethod>(state.range(1));
+  const auto light = probes::make_lookup(method, set, space);
   Pcg32 rng(2);
-  std::vector<scene::SurfacePoint> points;
+  std::vector<rays::SurfacePoint> points;
   for (int i = 0; i < 1024; ++i) {
     const vec3 position = 10.0f * rng.uniform3();
     points.push_back({position, sample_uniform_sphere(rng.uniform2())});
@@ -100,25 +100,25 @@ BENCHMARK(lookup)
     ->Args({1000, 1, 0});
 
 void write_json(benchmark::State& state) {
-  const gi::ProbeSet set = random_set(6, 10, 5);
+  const probes::ProbeSet set = random_set(6, 10, 5);
   std::size_t bytes = 0;
-  for (auto _ : state) bytes = gi::probes_to_json(set).size();
+  for (auto _ : state) bytes = probes::probes_to_json(set).size();
   state.SetBytesProcessed(static_cast<std::int64_t>(bytes) * state.iterations());
 }
 void read_json(benchmark::State& state) {
-  const std::string text = gi::probes_to_json(random_set(6, 10, 5));
-  for (auto _ : state) benchmark::DoNotOptimize(gi::probes_from_json(text, "memory"));
+  const std::string text = probes::probes_to_json(random_set(6, 10, 5));
+  for (auto _ : state) benchmark::DoNotOptimize(probes::probes_from_json(text, "memory"));
   state.SetBytesProcessed(static_cast<std::int64_t>(text.size()) * state.iterations());
 }
 void write_binary(benchmark::State& state) {
-  const gi::ProbeSet set = random_set(6, 10, 5);
+  const probes::ProbeSet set = random_set(6, 10, 5);
   std::size_t bytes = 0;
-  for (auto _ : state) bytes = gi::probes_to_binary(set).size();
+  for (auto _ : state) bytes = probes::probes_to_binary(set).size();
   state.SetBytesProcessed(static_cast<std::int64_t>(bytes) * state.iterations());
 }
 void read_binary(benchmark::State& state) {
-  const auto data = gi::probes_to_binary(random_set(6, 10, 5));
-  for (auto _ : state) benchmark::DoNotOptimize(gi::probes_from_binary(data, "memory"));
+  const auto data = probes::probes_to_binary(random_set(6, 10, 5));
+  for (auto _ : state) benchmark::DoNotOptimize(probes::probes_from_binary(data, "memory"));
   state.SetBytesProcessed(static_cast<std::int64_t>(data.size()) * state.iterations());
 }
 BENCHMARK(write_json)->Unit(benchmark::kMicrosecond);

@@ -196,9 +196,9 @@ BENCHMARK_CAPTURE(ray_rate, gallery3_260k, "gallery3_260k")->UseManualTime()->Un
 BENCHMARK_CAPTURE(ray_rate, sponza_260k, "sponza_260k")->UseManualTime()->Unit(benchmark::kMillisecond);
 
 /// Six places: the scene's SPHLs, repeated around if there are fewer.
-std::vector<scene::CubeRequest> six_probes(const scene::Scene& scene) {
+std::vector<rays::CubeRequest> six_probes(const scene::Scene& scene) {
   const std::vector<scene::SphlPlace> places = scene::sphl_places(scene);
-  std::vector<scene::CubeRequest> requests;
+  std::vector<rays::CubeRequest> requests;
   for (std::size_t i = 0; i < 6; ++i) {
     const vec3 position =
         places[i % places.size()].position + vec3(0.05f * static_cast<float>(i / places.size()));
@@ -210,10 +210,10 @@ std::vector<scene::CubeRequest> six_probes(const scene::Scene& scene) {
 void gen_six_probes(benchmark::State& state, const std::string& name) {
   const scene::Scene scene = scene::make_builtin(name);
   const trace::PathTracer tracer(scene);
-  const std::vector<scene::CubeRequest> requests = six_probes(scene);
+  const std::vector<rays::CubeRequest> requests = six_probes(scene);
   const std::uint64_t before = tracer.rays_traced();
   for (auto _ : state) {
-    for (const scene::CubeRequest& request : requests)
+    for (const rays::CubeRequest& request : requests)
       benchmark::DoNotOptimize(tracer.incident_radiance(request, {}));
   }
   state.counters["rays"] =
@@ -225,11 +225,11 @@ BENCHMARK_CAPTURE(gen_six_probes, gallery3, "gallery3")->UseRealTime()->Unit(ben
 void viz_thirty_pairs(benchmark::State& state, const std::string& name) {
   const scene::Scene scene = scene::make_builtin(name);
   const trace::PathTracer tracer(scene);
-  const std::vector<scene::CubeRequest> requests = six_probes(scene);
+  const std::vector<rays::CubeRequest> requests = six_probes(scene);
   const std::uint64_t before = tracer.rays_traced();
   for (auto _ : state) {
     for (std::size_t i = 0; i < requests.size(); ++i) {
-      std::vector<scene::GhostSphere> others;
+      std::vector<rays::GhostSphere> others;
       for (std::size_t j = 0; j < requests.size(); ++j) {
         if (j != i) others.push_back({requests[j].position, 0.1f});
       }

@@ -13,15 +13,15 @@
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
-#include <ssphh/gi/place.h>
-#include <ssphh/gi/relight_session.h>
-#include <ssphh/gi/transport/projection.h>
-#include <ssphh/gi/transport/solve.h>
+#include <ssphh/place/place.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/trace/transport_scene.h>
+#include <ssphh/transport/projection.h>
+#include <ssphh/transport/relight_session.h>
+#include <ssphh/transport/solve.h>
 
+#include "link_file.h"
 #include "peak_fma.h"
-#include "transport/link_file.h"
 
 namespace ssphh {
 namespace {
@@ -62,10 +62,10 @@ double read_bandwidth() {
 }
 
 /// A network as space-filling order leaves it: links go to surfels near by, with some far ones.
-void write_synthetic_links(std::size_t count, std::size_t per_row, gi::LinkRows& rows,
-                           std::vector<gi::Link>& links, gi::LinkFileWriter* file = nullptr) {
+void write_synthetic_links(std::size_t count, std::size_t per_row, transport::LinkRows& rows,
+                           std::vector<transport::Link>& links, transport::LinkFileWriter* file = nullptr) {
   Pcg32 rng(count);
-  std::vector<gi::Link> row(per_row);
+  std::vector<transport::Link> row(per_row);
   const float reach = std::min(static_cast<float>(count), 4096.0f);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t k = 0; k < per_row; ++k) {
@@ -77,7 +77,7 @@ void write_synthetic_links(std::size_t count, std::size_t per_row, gi::LinkRows&
       row[k] = {static_cast<std::uint32_t>(((at % n) + n) % n), 1 / static_cast<float>(per_row)};
     }
     std::sort(row.begin(), row.end(),
-              [](const gi::Link& a, const gi::Link& b) { return a.surfel < b.surfel; });
+              [](const transport::Link& a, const transport::Link& b) { return a.surfel < b.surfel; });
     if (file) {
       file->add_row(row);
     } else {
@@ -88,12 +88,12 @@ void write_synthetic_links(std::size_t count, std::size_t per_row, gi::LinkRows&
     rows.rows.push_back({{links.data() + i * per_row, per_row}, {}});
 }
 
-void solve_synthetic(benchmark::State& state, const gi::LinkRows& rows) {
+void solve_synthetic(benchmark::State& state, const transport::LinkRows& rows) {
   const std::size_t count = rows.rows.size();
   const std::vector<vec3> albedo(count, vec3(0.7f));
-  const std::vector<gi::Irradiance4> direct(count, gi::Irradiance4(1, 1, 1, 0));
-  std::vector<gi::Irradiance4> indirect;
-  gi::Solver solver;
+  const std::vector<transport::Irradiance4> direct(count, transport::Irradiance4(1, 1, 1, 0));
+  std::vector<transport::Irradiance4> indirect;
+  transport::Solver solver;
   int iterations = 0;
   double seconds = 0;
   for (auto _ : state) {
@@ -117,8 +117,8 @@ void solve_synthetic(benchmark::State& state, const gi::LinkRows& rows) {
 constexpr std::size_t links_per_surfel = 64;
 
 void solve(benchmark::State& state) {
-  gi::LinkRows rows;
-  std::vector<gi::Link> links;
+  transport::LinkRows rows;
+  std::vector<transport::Link> links;
   links.reserve(static_cast<std::size_t>(state.range(0)) * links_per_surfel);
   write_synthetic_links(static_cast<std::size_t>(state.range(0)), links_per_surfel, rows, links);
   solve_synthetic(state, rows);
@@ -130,14 +130,14 @@ void solve_from_disk(benchmark::State& state) {
   const auto path = std::filesystem::temp_directory_path() / "ssphh-bench.links";
   const auto count = static_cast<std::size_t>(state.range(0));
   {
-    gi::LinkRows rows;
-    std::vector<gi::Link> links;
-    gi::LinkFileWriter file(path);
+    transport::LinkRows rows;
+    std::vector<transport::Link> links;
+    transport::LinkFileWriter file(path);
     write_synthetic_links(count, links_per_surfel, rows, links, &file);
     file.finish();
   }
   {
-    const gi::MappedLinks mapped(path);
+    const transport::MappedLinks mapped(path);
     state.counters["file_MB"] = static_cast<double>(mapped.bytes()) / 1e6;
     solve_synthetic(state, mapped.rows());
   }
@@ -152,7 +152,7 @@ void project(benchmark::State& state) {
   constexpr int directions = 384;
   std::vector<vec3> fan;
   for (int q = 0; q < directions; ++q) fan.push_back(spherical_fibonacci(q, directions));
-  const gi::DirectionProjector projector(degree, fan);
+  const transport::DirectionProjector projector(degree, fan);
   std::vector<sh::RadianceSh> out(probes, sh::RadianceSh(degree));
   const std::vector<float> radiance(3 * projector.stride(), 0.5f);
   double seconds = 0;
@@ -182,16 +182,17 @@ struct Relit {
   scene::Scene scene;
   trace::TransportScene source;
   double build_seconds = 0;
-  std::unique_ptr<gi::RelightSession> session;
+  std::unique_ptr<transport::RelightSession> session;
 
   Relit(const std::string& name, float spacing) : scene(scene::make_builtin(name)), source(scene) {
-    gi::PlaceParams place = gi::place_params(scene, 1.0f);
+    place::PlaceParams place = place::place_params(scene, 1.0f);
     place.spacing = spacing;
-    std::vector<gi::ProbePlace> places;
-    for (const auto& probe : gi::place_probes(source, place).probes)
+    std::vector<transport::ProbePlace> places;
+    for (const auto& probe : place::place_probes(source, place).probes)
       places.push_back({probe.name, probe.position, 0.1f});
     const auto start = Clock::now();
-    session = std::make_unique<gi::RelightSession>(source, std::move(places), gi::RelightParams{}, 1.0f);
+    session = std::make_unique<transport::RelightSession>(source, std::move(places),
+                                                          transport::RelightParams{}, 1.0f);
     build_seconds = seconds_since(start);
     session->update(session->lighting());
   }
@@ -206,15 +207,15 @@ Relit& relit(const std::string& name, float spacing) {
 
 /// Median of each stage over frames.
 void report_frames(benchmark::State& state, const Relit& scene,
-                   const std::vector<gi::RelightReport>& frames) {
+                   const std::vector<transport::RelightReport>& frames) {
   const auto median = [&](auto value) {
     std::vector<double> values;
-    for (const gi::RelightReport& frame : frames) values.push_back(static_cast<double>(value(frame)));
+    for (const transport::RelightReport& frame : frames) values.push_back(static_cast<double>(value(frame)));
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
                      values.end());
     return values[values.size() / 2];
   };
-  const gi::TransportNetwork& network = scene.session->network();
+  const transport::TransportNetwork& network = scene.session->network();
   state.counters["probes"] = static_cast<double>(scene.session->places().size());
   state.counters["surfels"] = static_cast<double>(network.surfel_count());
   state.counters["links"] = static_cast<double>(network.links().link_count());
@@ -261,7 +262,7 @@ double bare_shadow_rate(const Relit& scene, const vec3& lamp) {
   rtcCommitScene(embree);
 
   std::vector<RTCRay> rays;
-  for (const scene::SurfacePoint& p : scene.session->network().samples()) {
+  for (const rays::SurfacePoint& p : scene.session->network().samples()) {
     const vec3 origin = p.position + 1e-3f * p.normal, d = lamp - origin;
     if (!(glm::dot(d, p.normal) > 0)) continue;
     RTCRay ray{};
@@ -292,7 +293,7 @@ void moving_lamp(benchmark::State& state, const std::string& name, float spacing
   scene::LightingState lit = scene.session->lighting();
   vec4& place = lit.lights[static_cast<std::size_t>(light)].world[3];
   const vec4 home = place;
-  std::vector<gi::RelightReport> frames;
+  std::vector<transport::RelightReport> frames;
   int frame = 0;
   for (auto _ : state) {
     const float phase = 0.1f * static_cast<float>(frame++);
@@ -301,7 +302,8 @@ void moving_lamp(benchmark::State& state, const std::string& name, float spacing
   }
   report_frames(state, scene, frames);
   double rays = 0, ms = 0;
-  for (const gi::RelightReport& f : frames) rays += static_cast<double>(f.direct_rays), ms += f.direct_ms;
+  for (const transport::RelightReport& f : frames)
+    rays += static_cast<double>(f.direct_rays), ms += f.direct_ms;
   state.counters["direct_Mrays/s"] = rays / ms / 1e3;
   state.counters["share_of_bare_embree"] = rays / (1e-3 * ms) / bare_shadow_rate(scene, vec3(home));
 }
@@ -314,15 +316,15 @@ BENCHMARK_CAPTURE(moving_lamp, gallery3, "gallery3", 1.5f, 0)->Unit(benchmark::k
 /// Arguments: K prepared poses, 0 for exact ones.
 void moving_door(benchmark::State& state) {
   Relit& scene = relit("two-rooms", 0.7f);
-  gi::RelightParams params;
+  transport::RelightParams params;
   params.poses = static_cast<int>(state.range(0));
-  gi::RelightSession session(scene.source, scene.session->places(), params, 0);
+  transport::RelightSession session(scene.source, scene.session->places(), params, 0);
   session.update(session.lighting());
   // The exact answer, for the error of blending.
-  gi::RelightSession exact(scene.source, scene.session->places(), {}, 0);
+  transport::RelightSession exact(scene.source, scene.session->places(), {}, 0);
   exact.update(exact.lighting());
   scene::LightingState lit = session.lighting();
-  std::vector<gi::RelightReport> frames;
+  std::vector<transport::RelightReport> frames;
   double error2[2] = {}, truth2[2] = {};
   int frame = 0;
   for (auto _ : state) {

@@ -2,10 +2,10 @@
 
 #include <cstdio>
 
+#include <ssphh/bake/bake.h>
 #include <ssphh/core/log.h>
-#include <ssphh/gi/bake.h>
-#include <ssphh/gi/init.h>
-#include <ssphh/gi/lookup.h>
+#include <ssphh/place/init.h>
+#include <ssphh/probes/lookup.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/trace/path_tracer.h>
 
@@ -17,23 +17,23 @@ int main() {
   const scene::Scene scene = scene::make_builtin("box");
   const trace::PathTracer tracer(scene);
 
-  gi::BakeParams params;
+  bake::BakeParams params;
   params.face_size = 16;
   params.path = {.max_depth = 2, .passes = 1, .spp = 64, .seed = 1};
   params.viz = false;
-  gi::BakeReport report;
-  gi::ProbeSet probes = gi::bake(tracer, gi::init_from_scene(scene, 2), params, "", report);
+  bake::BakeReport report;
+  probes::ProbeSet probes = bake::bake(tracer, place::init_from_scene(scene, 2), params, "", report);
 
   const auto print = [&](const char* state) {
-    const auto light = gi::make_lookup(gi::LookupMethod::irradiance, probes, tracer);
+    const auto light = probes::make_lookup(probes::LookupMethod::irradiance, probes, tracer);
     const vec3 e = light->irradiance({probes.probes[0].position, {0, 1, 0}});
     std::printf("%-9s indirect irradiance %.1f W/m2\n", state, static_cast<double>(e.x));
   };
   print("lamps on");  // π (½ + ¼) = 2.36
-  for (const gi::LightGroup& group : gi::ProbeSet(probes).light_groups)
-    gi::relight(probes, group.name, vec3(0.5f));
+  for (const probes::LightGroup& group : probes::ProbeSet(probes).light_groups)
+    probes::relight(probes, group.name, vec3(0.5f));
   print("dimmed");
-  for (const gi::LightGroup& group : gi::ProbeSet(probes).light_groups)
-    gi::relight(probes, group.name, vec3(0));
+  for (const probes::LightGroup& group : probes::ProbeSet(probes).light_groups)
+    probes::relight(probes, group.name, vec3(0));
   print("lamps off");
 }

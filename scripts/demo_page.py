@@ -88,7 +88,7 @@ def section(name):
         "<h3>Error against the ground truth</h3>",
         table(("method", "seconds", "MAE", "RMSE", "relMSE", "MAPE", "ratio of means R, G, B"), errors),
         "<p>The two HIER operators add neighbours' light to probes that already hold every bounce, so they are expected "
-        "to be too bright: docs/methods/ssphh.md.</p>",
+        "to be too bright: libs/methods/ssphh/README.md.</p>",
         '<div class="pair">',
         picture(f"{name}.direct.png", "direct light only"),
         picture(f"{name}.coefficient.png", "ssphh: HIER with operator coefficient"),

@@ -8,7 +8,7 @@
 
 #include <ssphh/core/file.h>
 #include <ssphh/image/io.h>
-#include <ssphh/scene/posed_world.h>
+#include <ssphh/rays/posed_world.h>
 
 #include "input.h"
 #include "overlay.h"
@@ -201,7 +201,7 @@ void App::draw_scene() {
 /// Which probes the eye sees: their names are shown, the others' are not.
 void App::update_visible() {
   if (light.empty()) return visible_.clear();
-  const std::vector<gi::Probe>& probes = light.set().probes;
+  const std::vector<probes::Probe>& probes = light.set().probes;
   const bool wanted = settings.names || settings.graph || place_mode;
   if (!wanted) {
     visible_seen_.reset();
@@ -209,10 +209,10 @@ void App::update_visible() {
   }
   if (visible_seen_ == std::pair(view, document.time)) return;
   visible_seen_ = {view, document.time};
-  std::vector<scene::RayQuery> to_eye;
-  for (const gi::Probe& probe : probes) to_eye.push_back({probe.position, view.eye - probe.position, 1});
+  std::vector<rays::RayQuery> to_eye;
+  for (const probes::Probe& probe : probes) to_eye.push_back({probe.position, view.eye - probe.position, 1});
   std::vector<std::uint8_t> blocked(probes.size());
-  scene::PosedWorld(*picking_, document.time).occluded(to_eye, blocked);
+  rays::PosedWorld(*picking_, document.time).occluded(to_eye, blocked);
   visible_.clear();
   for (const std::uint8_t b : blocked) visible_.push_back(b ? 0 : 1);
 }

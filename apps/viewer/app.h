@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include <ssphh/gi/bake.h>
+#include <ssphh/bake/bake.h>
 #include <ssphh/gl/context.h>
 
 #include "model/camera_path.h"
@@ -79,7 +79,7 @@ class App {
   void start_gen(bool viz_only);
   void take_probe_file(const std::string& file);
   /// Makes fitted weights of the probes ready, in the background.
-  void prepare_fitted(const gi::FittedPoints& fitted);
+  void prepare_fitted(const probes::FittedPoints& fitted);
   void delete_selection();
   void add_sphl(const vec3& position);
   void say(const std::string& message);
@@ -120,7 +120,7 @@ class App {
   std::string message;
   bool message_is_error = false;
   double message_since = 0;  ///< of Window::seconds(), as the members below
-  gi::BakeParams bake_params;
+  bake::BakeParams bake_params;
   ViewerReport report;
   float fly_speed = 2;  ///< m/s
 

@@ -87,17 +87,17 @@ void App::save_probes(const std::string& file) {
   if (light.empty()) throw Error(file, "there are no probes to save", "place some, or open a probe file");
   if (light.live()) {
     const scene::Scene scene = edited_scene(*document.scene, document.edits(), document.time);
-    gi::ProbeSet set = light.live_light()->bake(scene);
+    probes::ProbeSet set = light.live_light()->bake(scene);
     for (std::size_t i = 0; i < set.probes.size(); ++i) {
       // Edges are of another degree where VIZ ran with one of its own.
-      const std::vector<gi::Edge>& edges = light.set().probes[i].edges;
+      const std::vector<probes::Edge>& edges = light.set().probes[i].edges;
       if (std::all_of(edges.begin(), edges.end(),
-                      [&](const gi::Edge& edge) { return edge.h.degree() == set.degree; }))
+                      [&](const probes::Edge& edge) { return edge.h.degree() == set.degree; }))
         set.probes[i].edges = edges;
     }
-    gi::write_probe_file(set, file);
+    probes::write_probe_file(set, file);
   } else {
-    gi::write_probe_file(light.set(), file);
+    probes::write_probe_file(light.set(), file);
   }
   report.written.push_back(file);
   say("saved " + file);

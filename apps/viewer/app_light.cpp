@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
-#include <ssphh/gi/init.h>
+#include <ssphh/place/init.h>
 #include <ssphh/trace/path_tracer.h>
 
 #include "app.h"
@@ -11,10 +11,10 @@
 namespace ssphh::viewer {
 namespace {
 
-std::vector<gi::ProbePlace> places_of(const Document& document) {
+std::vector<transport::ProbePlace> places_of(const Document& document) {
   const scene::Scene& scene = *document.scene;
   const std::vector<mat4> world = scene::world_matrices(scene, document.time);
-  std::vector<gi::ProbePlace> places;
+  std::vector<transport::ProbePlace> places;
   for (const SphlEdit& sphl : document.edits().sphls) {
     if (sphl.enabled) places.push_back({sphl.name, sphl_position(scene, world, sphl), sphl.radius});
   }
@@ -78,7 +78,7 @@ void App::place_probes(float spacing) {
       document.history.seal();
       document.edit("place probes", [&](Edits& edits) {
         edits.sphls.clear();
-        for (const gi::ProbePlace& place : live->session().places())
+        for (const transport::ProbePlace& place : live->session().places())
           edits.sphls.push_back({-1, place.position, place.name, place.radius, true});
       });
       document.history.seal();
@@ -91,31 +91,31 @@ void App::place_probes(float spacing) {
 }
 
 void App::start_gen(bool viz_only) {
-  const std::vector<gi::ProbePlace> places = places_of(document);
+  const std::vector<transport::ProbePlace> places = places_of(document);
   if (places.empty()) throw Error("GEN", "there are no SPHLs", "place some first");
   auto scene =
       std::make_shared<const scene::Scene>(edited_scene(*document.scene, document.edits(), document.time));
-  gi::BakeParams params = bake_params;
-  gi::ProbeDone on_probe;
+  bake::BakeParams params = bake_params;
+  bake::ProbeDone on_probe;
   // HIER multiplies edges with light band by band, so they must be of one degree.
   const int degree = viz_only && !light.empty() ? light.set().degree : 9;
-  gi::ProbeSet set = gi::init_from_scene(*scene, degree, document.time);
+  probes::ProbeSet set = place::init_from_scene(*scene, degree, document.time);
   const float time = document.time;
   if (viz_only) {
     // Edges beside whatever light there is: VIZ alone, in a set of its own.
     params.keep_light = true;
     params.viz = true;
-    on_probe = [this](std::size_t i, const gi::Probe& probe) {
+    on_probe = [this](std::size_t i, const probes::Probe& probe) {
       job.hand_over([this, i, edges = probe.edges] { light.take_edges(i, edges); });
     };
   } else {
-    on_probe = [this](std::size_t i, const gi::Probe& probe) {
+    on_probe = [this](std::size_t i, const probes::Probe& probe) {
       job.hand_over([this, i, probe] { light.take_probe(i, probe); });
     };
-    gi::ProbeSet dark = set;
+    probes::ProbeSet dark = set;
     for (const std::string& group : scene::light_groups(*scene))
       dark.light_groups.push_back({group, vec3(1)});
-    for (gi::Probe& probe : dark.probes)
+    for (probes::Probe& probe : dark.probes)
       probe.groups.assign(dark.light_groups.size(), {{}, sh::RadianceSh(degree)});
     light.take(std::move(dark), "GEN");
   }
@@ -125,16 +125,16 @@ void App::start_gen(bool viz_only) {
               if (params.keep_light) {
                 for (const std::string& group : tracer.light_groups())
                   set.light_groups.push_back({group, vec3(1)});
-                for (gi::Probe& probe : set.probes)
+                for (probes::Probe& probe : set.probes)
                   probe.groups.assign(set.light_groups.size(), {{}, sh::RadianceSh(set.degree)});
               }
-              gi::BakeReport bake_report;
-              auto baked = std::make_shared<gi::ProbeSet>(
-                  gi::bake(tracer, std::move(set), params, {}, bake_report, control, nullptr, on_probe));
+              bake::BakeReport bake_report;
+              auto baked = std::make_shared<probes::ProbeSet>(
+                  bake::bake(tracer, std::move(set), params, {}, bake_report, control, nullptr, on_probe));
               const bool keep = params.keep_light;
               return [this, baked, keep] {
                 if (keep) {
-                  say(fmt::format("VIZ: {} edges", gi::edge_count(*baked)));
+                  say(fmt::format("VIZ: {} edges", probes::edge_count(*baked)));
                 } else {
                   light.take(std::move(*baked), "GEN");
                   say("GEN is done");
@@ -145,7 +145,7 @@ void App::start_gen(bool viz_only) {
 
 void App::take_probe_file(const std::string& file) {
   if (!scene_open()) throw Error(file, "there is no scene for these probes", "open the scene first");
-  gi::ProbeSet set = gi::read_probe_file(file);
+  probes::ProbeSet set = probes::read_probe_file(file);
   if (set.generator.scene_hash != scene::light_hash(*document.scene)) {
     const std::string problem = fmt::format("was baked in another scene (\"{}\")", set.generator.scene);
     if (!options.force) throw Error(file, problem, "open that scene, or go on with --force");
@@ -154,19 +154,19 @@ void App::take_probe_file(const std::string& file) {
   document.history.seal();
   document.edit("probes of a file", [&](Edits& edits) {
     edits.sphls.clear();
-    for (const gi::Probe& probe : set.probes)
+    for (const probes::Probe& probe : set.probes)
       edits.sphls.push_back({-1, probe.position, probe.name, probe.radius, true});
   });
   document.history.seal();
   applied_sphls_ = document.edits().sphls;
   selection = {};
   say(fmt::format("{}: {} probes", file, set.probes.size()));
-  const std::optional<gi::FittedPoints> fitted = set.fitted;
+  const std::optional<probes::FittedPoints> fitted = set.fitted;
   light.take(std::move(set), file);
   if (fitted) prepare_fitted(*fitted);
 }
 
-void App::prepare_fitted(const gi::FittedPoints& fitted) {
+void App::prepare_fitted(const probes::FittedPoints& fitted) {
   job.start("fitted weights", [this, fitted, geometry = geometry_, scene = document.scene,
                                time = document.time](const Control& control) {
     // What a door hides at any of these times lights nothing behind it at any other
@@ -175,7 +175,7 @@ void App::prepare_fitted(const gi::FittedPoints& fitted) {
       if (poses.empty() || t != time)
         poses.push_back(std::make_unique<trace::PathTracer>(geometry, *scene, t));
     }
-    const gi::SeesProbe sees = [&](const vec3& a, const vec3& b) {
+    const probes::SeesProbe sees = [&](const vec3& a, const vec3& b) {
       return std::all_of(poses.begin(), poses.end(), [&](const auto& pose) { return pose->visible(a, b); });
     };
     auto prepared = std::make_shared<realtime::FittedSurfaces>(

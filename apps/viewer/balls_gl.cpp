@@ -102,7 +102,7 @@ struct BallsGl::Data {
 BallsGl::BallsGl() : data_(std::make_unique<Data>()) {}
 BallsGl::~BallsGl() = default;
 
-void BallsGl::update(const gi::ProbeSet& set, Ball ball) {
+void BallsGl::update(const probes::ProbeSet& set, Ball ball) {
   Data& d = *data_;
   const std::size_t probes = set.probes.size();
   d.set_levels(ball_levels(probes));
@@ -120,7 +120,7 @@ void BallsGl::update(const gi::ProbeSet& set, Ball ball) {
   d.colors.update(std::span<const vec4>(d.values));
 }
 
-void BallsGl::draw(const gi::ProbeSet& set, const Look& look, const Behind& frame, unsigned framebuffer,
+void BallsGl::draw(const probes::ProbeSet& set, const Look& look, const Behind& frame, unsigned framebuffer,
                    int width, int height) {
   Data& d = *data_;
   d.places.clear();

@@ -19,7 +19,7 @@ class BallsGl {
   BallsGl& operator=(const BallsGl&) = delete;
 
   /// New colours. Call when the set's light, or what the balls shall show, changed.
-  void update(const gi::ProbeSet& set, Ball ball);
+  void update(const probes::ProbeSet& set, Ball ball);
 
   struct Look {
     View view;
@@ -35,8 +35,8 @@ class BallsGl {
   };
   /// Draws all probes into a framebuffer that has a depth buffer of its own, the picture's lower left corner
   /// at (0, 0): behind each other they are hidden, behind the frame's surfaces faint.
-  void draw(const gi::ProbeSet& set, const Look& look, const Behind& frame, unsigned framebuffer, int width,
-            int height);
+  void draw(const probes::ProbeSet& set, const Look& look, const Behind& frame, unsigned framebuffer,
+            int width, int height);
 
  private:
   struct Data;

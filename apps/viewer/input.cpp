@@ -115,7 +115,7 @@ vec2 picture_point(const App& app, const ImVec2& mouse) {
           1 - (mouse.y - app.viewport.y) / app.viewport.height};
 }
 
-scene::RayQuery mouse_ray(const App& app) {
+rays::RayQuery mouse_ray(const App& app) {
   return pixel_ray(app.view, picture_point(app, ImGui::GetIO().MousePos), app.viewport.aspect());
 }
 
@@ -128,14 +128,14 @@ void grab(App& app, Drag::What what, int axis) {
 /// The SPHL whose ball is under the mouse; −1: none.
 int ball_under_mouse(const App& app) {
   if (!app.settings.balls || app.light.empty()) return -1;
-  const scene::RayQuery ray = mouse_ray(app);
+  const rays::RayQuery ray = mouse_ray(app);
   float limit = 1e30f;
   if (app.picking()) {
     if (const auto surface = pick_surface(*app.picking(), app.document.time, ray))
       limit = glm::distance(surface->position, ray.origin);
   }
   std::vector<vec3> centers;
-  for (const gi::Probe& probe : app.light.set().probes) centers.push_back(probe.position);
+  for (const probes::Probe& probe : app.light.set().probes) centers.push_back(probe.position);
   const float radius =
       app.settings.ball_size > 0 ? app.settings.ball_size : default_ball_size(app.light.set());
   return sphl_of_probe(app, pick_sphere(ray, centers, 1.1f * radius, limit));
@@ -146,7 +146,7 @@ void place_sphl(App& app) {
   if (!app.picking()) return;
   const auto surface = pick_surface(*app.picking(), app.document.time, mouse_ray(app));
   if (!surface) return app.say("there is no surface under the mouse");
-  const scene::RayQuery off{surface->position + 1e-3f * surface->normal, surface->normal, 100};
+  const rays::RayQuery off{surface->position + 1e-3f * surface->normal, surface->normal, 100};
   const auto ceiling = pick_surface(*app.picking(), app.document.time, off);
   const float room = ceiling ? glm::distance(ceiling->position, off.origin) : 1;
   app.add_sphl(surface->position + std::min(0.5f, 0.5f * room) * surface->normal);

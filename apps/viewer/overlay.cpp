@@ -64,7 +64,7 @@ void draw_lamps(const App& app, ImDrawList& list) {
 /// Figure 9 of the paper: edges of VIZ, the strong ones bright. Strength spans decades, so it is shown by its
 /// logarithm.
 void draw_graph(const App& app, const std::vector<unsigned char>& visible, ImDrawList& list) {
-  const gi::ProbeSet& set = app.light.set();
+  const probes::ProbeSet& set = app.light.set();
   struct Line {
     float strength;
     std::size_t a, b;
@@ -73,8 +73,8 @@ void draw_graph(const App& app, const std::vector<unsigned char>& visible, ImDra
   lines.clear();
   float strongest = 0;
   for (std::size_t i = 0; i < set.probes.size(); ++i) {
-    for (const int e : gi::select_neighbors(set.probes[i], app.settings.hier_params)) {
-      const gi::Edge& edge = set.probes[i].edges[static_cast<std::size_t>(e)];
+    for (const int e : probes::select_neighbors(set.probes[i], app.settings.hier_params)) {
+      const probes::Edge& edge = set.probes[i].edges[static_cast<std::size_t>(e)];
       lines.push_back({edge.transfer, i, static_cast<std::size_t>(edge.from)});
       strongest = std::max(strongest, edge.transfer);
     }
@@ -100,7 +100,7 @@ void draw_graph(const App& app, const std::vector<unsigned char>& visible, ImDra
 }
 
 void draw_names(const App& app, const std::vector<unsigned char>& visible, ImDrawList& list) {
-  const std::vector<gi::Probe>& probes = app.light.set().probes;
+  const std::vector<probes::Probe>& probes = app.light.set().probes;
   for (std::size_t i = 0; i < probes.size(); ++i) {
     if (!visible[i]) continue;
     if (const auto at = on_screen(app, probes[i].position))

@@ -12,14 +12,14 @@ double ms_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool has_edges(const gi::ProbeSet& set) {
-  return gi::edge_count(set) > 0;
+bool has_edges(const probes::ProbeSet& set) {
+  return probes::edge_count(set) > 0;
 }
 
 }  // namespace
 
 void ProbeLight::take(std::shared_ptr<LiveLight> live) {
-  std::vector<std::vector<gi::Edge>> edges;
+  std::vector<std::vector<probes::Edge>> edges;
   const std::size_t count = live->session().places().size();
   if (set_ && set_->probes.size() == count) {
     // Edges of VIZ tell of places and surfaces, not of lamps: they outlive a change of lamps.
@@ -27,7 +27,7 @@ void ProbeLight::take(std::shared_ptr<LiveLight> live) {
     for (std::size_t i = 0; i < count; ++i)
       same_places &= set_->probes[i].position == live->session().places()[i].position;
     if (same_places) {
-      for (gi::Probe& probe : set_->probes) edges.push_back(std::move(probe.edges));
+      for (probes::Probe& probe : set_->probes) edges.push_back(std::move(probe.edges));
     }
   }
   live_ = std::move(live);
@@ -39,10 +39,10 @@ void ProbeLight::take(std::shared_ptr<LiveLight> live) {
   places_new_ = light_new_ = true;
 }
 
-void ProbeLight::take(gi::ProbeSet set, const std::string& origin) {
+void ProbeLight::take(probes::ProbeSet set, const std::string& origin) {
   live_.reset();
   set_ = std::move(set);
-  gi::merge_groups(*set_);
+  probes::merge_groups(*set_);
   origin_ = origin;
   fitted_ = {};
   lighting_.reset();
@@ -60,14 +60,14 @@ void ProbeLight::clear() {
   places_new_ = true;
 }
 
-void ProbeLight::take_probe(std::size_t i, const gi::Probe& probe) {
+void ProbeLight::take_probe(std::size_t i, const probes::Probe& probe) {
   if (!set_ || i >= set_->probes.size()) return;
   set_->probes[i].groups = probe.groups;
-  gi::merge_groups(*set_);
+  probes::merge_groups(*set_);
   light_new_ = true;
 }
 
-void ProbeLight::take_edges(std::size_t i, std::vector<gi::Edge> edges) {
+void ProbeLight::take_edges(std::size_t i, std::vector<probes::Edge> edges) {
   if (!set_ || i >= set_->probes.size()) return;
   set_->probes[i].edges = std::move(edges);
   light_new_ = true;
@@ -84,7 +84,7 @@ bool ProbeLight::relight(const Document& document) {
     const bool dimmed = !lighting_ || lighting_->group_scales != scales;
     if (!dimmed || scales.size() != set_->light_groups.size()) return false;
     for (std::size_t g = 0; g < scales.size(); ++g) set_->light_groups[g].scale = scales[g];
-    gi::merge_groups(*set_);
+    probes::merge_groups(*set_);
   }
   lighting_ = std::move(state);
   return true;
@@ -97,22 +97,22 @@ bool ProbeLight::rebuild_hierarchy(const Settings& settings) {
     set_->hierarchy.reset();
     return had;
   }
-  gi::hier(*set_, settings.hier_params);
+  probes::hier(*set_, settings.hier_params);
   return true;
 }
 
-gi::LookupParams ProbeLight::lookup_params(const Settings& settings) const {
-  gi::LookupParams params = gi::lookup_params({.layer = settings.layer}, *set_);
+probes::LookupParams ProbeLight::lookup_params(const Settings& settings) const {
+  probes::LookupParams params = probes::lookup_params({.layer = settings.layer}, *set_);
   params.irradiance_degree = settings.degree;
   return params;
 }
 
 /// What surfaces look up: the reflected part of the probe's own light, and what HIER adds.
 sh::RadianceSh ProbeLight::looked_up(std::size_t i, const Settings& settings) const {
-  const gi::ProbeLayer layer = lookup_params(settings).layer.value();
-  if (layer == gi::ProbeLayer::neighbor) return set_->hierarchy->neighbor[i];
+  const probes::ProbeLayer layer = lookup_params(settings).layer.value();
+  if (layer == probes::ProbeLayer::neighbor) return set_->hierarchy->neighbor[i];
   sh::RadianceSh light = set_->probes[i].reflected;
-  if (layer == gi::ProbeLayer::sum) light += set_->hierarchy->neighbor[i];
+  if (layer == probes::ProbeLayer::sum) light += set_->hierarchy->neighbor[i];
   return light;
 }
 

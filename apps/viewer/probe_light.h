@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include <ssphh/gi/probe_file.h>
+#include <ssphh/probes/probe_file.h>
 #include <ssphh/realtime/renderer.h>
 
 #include "balls_gl.h"
@@ -19,22 +19,22 @@ class ProbeLight {
   /// Light by transport that follows every edit; replaces what there was.
   void take(std::shared_ptr<LiveLight> live);
   /// Fixed light, of a file or a bake. Only its light groups can still be scaled.
-  void take(gi::ProbeSet set, const std::string& origin);
+  void take(probes::ProbeSet set, const std::string& origin);
   /// Fitted weights of the set that was taken last, made ready.
   void take_fitted(realtime::FittedSurfaces fitted);
   void clear();
   /// Light of one probe of a bake that is under way: `set` was taken at its start.
-  void take_probe(std::size_t i, const gi::Probe& probe);
+  void take_probe(std::size_t i, const probes::Probe& probe);
   /// Edges of VIZ for the same places.
-  void take_edges(std::size_t i, std::vector<gi::Edge> edges);
+  void take_edges(std::size_t i, std::vector<probes::Edge> edges);
 
   bool empty() const { return !set_; }
   bool live() const { return live_ != nullptr; }
-  const gi::ProbeSet& set() const { return *set_; }
+  const probes::ProbeSet& set() const { return *set_; }
   /// "live", or the file's name.
   const std::string& origin() const { return origin_; }
   const LiveLight* live_light() const { return live_.get(); }
-  const gi::RelightReport& report() const { return report_; }
+  const transport::RelightReport& report() const { return report_; }
 
   struct Update {
     bool relit = false;     ///< light changed
@@ -49,12 +49,12 @@ class ProbeLight {
   bool relight(const Document& document);
   bool rebuild_hierarchy(const Settings& settings);
   sh::RadianceSh looked_up(std::size_t i, const Settings& settings) const;
-  gi::LookupParams lookup_params(const Settings& settings) const;
+  probes::LookupParams lookup_params(const Settings& settings) const;
 
   std::shared_ptr<LiveLight> live_;
-  std::optional<gi::ProbeSet> set_;
+  std::optional<probes::ProbeSet> set_;
   std::string origin_;
-  gi::RelightReport report_;
+  transport::RelightReport report_;
   realtime::FittedSurfaces fitted_;
 
   // What was last brought to the set and the renderer.

@@ -6,12 +6,12 @@
 #include <gmock/gmock.h>
 
 #include <ssphh/core/file.h>
-#include <ssphh/gi/init.h>
-#include <ssphh/gi/lookup.h>
-#include <ssphh/gi/probe_file.h>
-#include <ssphh/gi/surface_points.h>
 #include <ssphh/image/io.h>
+#include <ssphh/place/init.h>
+#include <ssphh/probes/lookup.h>
+#include <ssphh/probes/probe_file.h>
 #include <ssphh/scene/builtin.h>
+#include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -48,15 +48,15 @@ class BakedRooms : public testing::Test {
     return o;
   }
   /// What the library bakes by these options, in one go and without files.
-  gi::ProbeSet baked(const BakeOptions& o) const {
-    gi::BakeParams params = o.params;
+  probes::ProbeSet baked(const BakeOptions& o) const {
+    bake::BakeParams params = o.params;
     params.path.seed = o.seed;
     params.viz_params.neighbors = o.neighbors.value_or(-1);
-    gi::BakeReport report;
-    return gi::bake(tracer_, gi::init_from_scene(scene_, o.degree, o.scene.time), params, "", report);
+    bake::BakeReport report;
+    return bake::bake(tracer_, place::init_from_scene(scene_, o.degree, o.scene.time), params, "", report);
   }
-  std::vector<scene::SurfacePoint> points(const gi::ProbeSet& set, int count, float clearance) const {
-    return gi::reachable_points(source_, viewpoints(scene_, {&set, 1}, 0.5f), 0.5f, {count, 7, clearance});
+  std::vector<rays::SurfacePoint> points(const probes::ProbeSet& set, int count, float clearance) const {
+    return study::reachable_points(source_, viewpoints(scene_, {&set, 1}, 0.5f), 0.5f, {count, 7, clearance});
   }
 
   const test::TempDir dir_;
@@ -71,42 +71,42 @@ TEST_F(BakedRooms, BakeWritesAndHandsBackWhatTheLibraryBakes) {
   options.neighbors = 2;
   const BakeResult result = run_bake(options);
   EXPECT_EQ(result.set, baked(options));
-  EXPECT_EQ(result.set, gi::read_probe_file(file_));
-  EXPECT_EQ(result.viz, gi::VizMethod::path) << "so it is for few probes";
+  EXPECT_EQ(result.set, probes::read_probe_file(file_));
+  EXPECT_EQ(result.viz, probes::VizMethod::path) << "so it is for few probes";
   EXPECT_EQ(result.geometry_builds, 1u);
   EXPECT_FALSE(result.place);
   EXPECT_FALSE(result.farm);
   EXPECT_FALSE(std::filesystem::exists(file_ + ".checkpoint"));
   EXPECT_FALSE(options.viz) << "the caller's options are as they were";
 
-  options.viz = gi::VizMethod::none;
-  EXPECT_EQ(gi::edge_count(run_bake(options).set), 0u);
+  options.viz = probes::VizMethod::none;
+  EXPECT_EQ(probes::edge_count(run_bake(options).set), 0u);
   options.of_viz = {"--threshold"};
   EXPECT_EQ(message_of([&] { run_bake(options); }), "--threshold: is of VIZ: use --viz links or path");
 }
 
 TEST_F(BakedRooms, HierScalesGroupsAndAddsTheNeighbours) {
-  gi::ProbeSet wanted = run_bake(small_bake(file_)).set;
+  probes::ProbeSet wanted = run_bake(small_bake(file_)).set;
   HierOptions options{.input = file_, .output = dir_ / "h.sphl", .params = {}, .scales = {"lamp=0.5"}};
-  options.params.op = gi::HierOperator::mean;
+  options.params.op = probes::HierOperator::mean;
   options.params.neighbors = 1;
   const HierResult result = run_hier(options);
-  gi::relight(wanted, "lamp", vec3(0.5f));
-  EXPECT_EQ(result.edges, gi::hier(wanted, options.params));
+  probes::relight(wanted, "lamp", vec3(0.5f));
+  EXPECT_EQ(result.edges, probes::hier(wanted, options.params));
   EXPECT_EQ(result.edges, wanted.probes.size()) << "one neighbour each";
   EXPECT_EQ(result.set, wanted);
-  EXPECT_EQ(gi::read_probe_file(options.output), wanted);
+  EXPECT_EQ(probes::read_probe_file(options.output), wanted);
   ASSERT_TRUE(result.contraction);
-  EXPECT_EQ(result.contraction->upper, gi::hier_contraction(wanted, options.params)->upper);
+  EXPECT_EQ(result.contraction->upper, probes::hier_contraction(wanted, options.params)->upper);
   EXPECT_GT(result.seconds, 0);
 }
 
 TEST_F(BakedRooms, LeakAndMeasureAgreeWithTheLibraryPointByPoint) {
-  const gi::ProbeSet set = run_bake(small_bake(file_)).set;
+  const probes::ProbeSet set = run_bake(small_bake(file_)).set;
   // By these some of the few points count as dark.
-  gi::LeakParams params{
+  study::LeakParams params{
       .dark_share = 0.5f, .sigmas = 0, .path = {.max_depth = 3, .passes = 1, .spp = 8, .seed = 7}};
-  const gi::IrradianceLookup lookup(set, tracer_, gi::lookup_params({}, set));
+  const probes::IrradianceLookup lookup(set, tracer_, probes::lookup_params({}, set));
 
   LeakOptions leak;
   leak.scene.source = "builtin:two-rooms";
@@ -118,7 +118,7 @@ TEST_F(BakedRooms, LeakAndMeasureAgreeWithTheLibraryPointByPoint) {
   leak.output = dir_ / "map.exr";
   leak.width = 8, leak.height = 4, leak.map_spp = 2;
   const LeakResult leaked = run_leak(leak);
-  const gi::LeakReport report = gi::measure_leak(tracer_, lookup, points(set, 16, 0), params);
+  const study::LeakReport report = study::measure_leak(tracer_, lookup, points(set, 16, 0), params);
   EXPECT_EQ(leaked.report.truth, report.truth);
   EXPECT_EQ(leaked.report.looked_up, report.looked_up);
   EXPECT_EQ(leaked.report.ratio, report.ratio);
@@ -133,7 +133,7 @@ TEST_F(BakedRooms, LeakAndMeasureAgreeWithTheLibraryPointByPoint) {
   measure.scene.source = "builtin:two-rooms";
   measure.scene.time = 0.5f;
   measure.probes = {file_};
-  measure.weights = {gi::WeightMethod::distance, gi::WeightMethod::mls};
+  measure.weights = {probes::WeightMethod::distance, probes::WeightMethod::mls};
   measure.methods = {"direct"};
   measure.points = 16;
   measure.seed = 7;
@@ -141,19 +141,19 @@ TEST_F(BakedRooms, LeakAndMeasureAgreeWithTheLibraryPointByPoint) {
   measure.params.path.seed = 0;
   measure.box = {{-9, -1, -9}, {0, 9, 9}};  // one of the rooms
   const MeasureResult measured = run_measure(measure);
-  std::vector<scene::SurfacePoint> within = points(set, 16, 0.05f);
-  ASSERT_GT(std::erase_if(within, [](const scene::SurfacePoint& p) { return p.position.x > 0; }), 0u);
+  std::vector<rays::SurfacePoint> within = points(set, 16, 0.05f);
+  ASSERT_GT(std::erase_if(within, [](const rays::SurfacePoint& p) { return p.position.x > 0; }), 0u);
   ASSERT_FALSE(within.empty());
-  const gi::TruthAtPoints truth = gi::trace_truth(tracer_, within, params);
+  const study::TruthAtPoints truth = study::trace_truth(tracer_, within, params);
   ASSERT_EQ(measured.points.size(), within.size());
   EXPECT_EQ(measured.truth.mean, truth.mean);
   ASSERT_EQ(measured.lights.size(), 3u);
-  EXPECT_EQ(measured.lights[0].weights, gi::WeightMethod::distance);
+  EXPECT_EQ(measured.lights[0].weights, probes::WeightMethod::distance);
   const MeasuredLight& mls = measured.lights[1];
-  const std::vector<vec3> found = gi::look_up(lookup, within);
-  EXPECT_EQ(mls.weights, gi::WeightMethod::mls);
-  EXPECT_EQ(mls.error.mean_error, gi::lookup_error(found, truth.estimates).mean_error);
-  EXPECT_EQ(mls.leak_ratio, gi::leak_ratio(found, truth));
+  const std::vector<vec3> found = study::look_up(lookup, within);
+  EXPECT_EQ(mls.weights, probes::WeightMethod::mls);
+  EXPECT_EQ(mls.error.mean_error, study::lookup_error(found, truth.estimates).mean_error);
+  EXPECT_EQ(mls.leak_ratio, study::leak_ratio(found, truth));
   EXPECT_GT(mls.leak_ratio, 0);
   EXPECT_FALSE(mls.frame_ms);
   const MeasuredLight& direct = measured.lights[2];
@@ -171,10 +171,10 @@ TEST(Commands, PlaceHandsBackTheLibrarysPlacement) {
   options.place.probes = "auto:2";
   options.place.levels = 0;
   const scene::Scene scene = scene::make_builtin("two-rooms");
-  gi::PlaceParams params = gi::place_params(scene);
+  place::PlaceParams params = place::place_params(scene);
   params.spacing = 2, params.levels = 0;
   const PlaceResult result = run_place(options);
-  EXPECT_EQ(result.placement, gi::place_probes(trace::TransportScene(scene), params));
+  EXPECT_EQ(result.placement, place::place_probes(trace::TransportScene(scene), params));
   const json::Value overlay = json::parse(read_text_file(options.output), options.output);
   EXPECT_EQ(overlay["sphls"].size(), result.placement.probes.size() - params.manual.size());
 }
@@ -202,14 +202,14 @@ TEST(Commands, RelightSavesTheLastFrameOfASession) {
 
   const scene::Scene scene = scene::make_builtin("two-rooms");
   const trace::TransportScene source(scene);
-  gi::RelightSession session(source, result.places, options.params);
-  scene::LightingState state = scene::lighting_at(source, 0);
+  transport::RelightSession session(source, result.places, options.params);
+  scene::LightingState state = rays::lighting_at(source, 0);
   session.update(state);
   state.group_scales.at(0) = vec3(3);
   session.update(state);
   EXPECT_EQ(result.surfels, session.network().surfel_count());
   EXPECT_EQ(result.links, session.network().links().link_count());
-  const gi::ProbeSet saved = gi::read_probe_file(options.save);
+  const probes::ProbeSet saved = probes::read_probe_file(options.save);
   ASSERT_EQ(saved.probes.size(), session.places().size());
   // A bake solves each group anew, to the solver's residual; a frame starts from the one before.
   for (std::size_t i = 0; i < saved.probes.size(); ++i) {

@@ -22,12 +22,12 @@ namespace ssphh::app {
 namespace {
 
 /// Everywhere as much as x + 2 y says, and black elsewhere.
-class Slope final : public scene::IndirectLight {
+class Slope final : public rays::IndirectLight {
  public:
-  vec3 irradiance(const scene::SurfacePoint& at) const override {
+  vec3 irradiance(const rays::SurfacePoint& at) const override {
     return vec3(std::max(0.0f, at.position.x + 2 * at.position.y));
   }
-  vec3 glossy(const scene::SurfacePoint&, const vec3&, float) const override { return vec3(0); }
+  vec3 glossy(const rays::SurfacePoint&, const vec3&, float) const override { return vec3(0); }
 };
 
 /// A tilted quad of albedo 0.6, five to seven metres before a camera at (0, 0, 5), in a scene without light.
@@ -81,7 +81,7 @@ class LeakPicture : public testing::Test {
   static constexpr int width = 10, height = 7;
   const scene::Scene scene_ = make_scene();
   scene::CameraPose pose_;
-  gi::LeakParams params_;
+  study::LeakParams params_;
 };
 
 TEST_F(LeakPicture, LooksThroughThePixelsCentres) {

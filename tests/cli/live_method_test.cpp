@@ -17,7 +17,7 @@ using testing::HasSubstr;
 TEST(LiveMethod, TextAndJsonTellTheSame) {
   const scene::Scene scene = scene::make_builtin("cornell");
   LiveMethod live("ambient", {"factor=0.5"}, std::make_shared<const trace::SceneGeometry>(scene), scene, {});
-  live.update(scene::lighting_at(live.source(), 0), {});
+  live.update(rays::lighting_at(live.source(), 0), {});
   const json::Value object = live.json();
   EXPECT_EQ(object["update_seconds"].number(), live.update_seconds());
   EXPECT_EQ(object["bake_seconds"].number(), live.bake_seconds());

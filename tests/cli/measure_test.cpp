@@ -8,14 +8,14 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/file.h>
-#include <ssphh/gi/init.h>
-#include <ssphh/gi/leak.h>
-#include <ssphh/gi/lookup.h>
-#include <ssphh/gi/lookup_error.h>
-#include <ssphh/gi/place.h>
-#include <ssphh/gi/probe_file.h>
-#include <ssphh/gi/surface_points.h>
+#include <ssphh/place/init.h>
+#include <ssphh/place/place.h>
+#include <ssphh/probes/lookup.h>
+#include <ssphh/probes/probe_file.h>
 #include <ssphh/scene/builtin.h>
+#include <ssphh/study/leak.h>
+#include <ssphh/study/lookup_error.h>
+#include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -47,12 +47,12 @@ class Rooms : public testing::Test {
       light[2] = vec3(0.5f);
       set_.probes[i].groups = {{{}, light}};
     }
-    gi::merge_groups(set_);
-    gi::write_probe_file(set_, file_);
+    probes::merge_groups(set_);
+    probes::write_probe_file(set_, file_);
   }
-  std::vector<scene::SurfacePoint> points(float clearance, int count, std::uint64_t seed) const {
-    return gi::reachable_points(source_, app::viewpoints(scene_, {&set_, 1}, 0.25f), 0.25f,
-                                {count, seed, clearance});
+  std::vector<rays::SurfacePoint> points(float clearance, int count, std::uint64_t seed) const {
+    return study::reachable_points(source_, app::viewpoints(scene_, {&set_, 1}, 0.25f), 0.25f,
+                                   {count, seed, clearance});
   }
 
   const test::TempDir dir_;
@@ -60,17 +60,17 @@ class Rooms : public testing::Test {
   const scene::Scene scene_ = scene::make_builtin("two-rooms");
   const trace::TransportScene source_{scene_};
   const trace::PathTracer tracer_{scene_, 0.25f};
-  gi::ProbeSet set_ = gi::init_from_scene(scene_, 1, 0.25f);
+  probes::ProbeSet set_ = place::init_from_scene(scene_, 1, 0.25f);
 };
 
 TEST_F(Rooms, LeakIsThatOfTheLibraryAtTheTimeOfTheProbes) {
-  gi::LeakParams params;
+  study::LeakParams params;
   params.path.spp = 8, params.path.max_depth = 3, params.path.seed = 3;
   params.dark_share = 0.01f;
-  gi::LookupParams lookup;
-  lookup.weights = gi::weights_named("distance");
-  const gi::LeakReport wanted =
-      gi::measure_leak(tracer_, gi::IrradianceLookup(set_, tracer_, lookup), points(0, 24, 3), params);
+  probes::LookupParams lookup;
+  lookup.weights = probes::weights_named("distance");
+  const study::LeakReport wanted =
+      study::measure_leak(tracer_, probes::IrradianceLookup(set_, tracer_, lookup), points(0, 24, 3), params);
   const std::vector<std::string> command = {
       "leak",      "builtin:two-rooms", "--probes", file_,    "--points", "24",     "--truth-spp",
       "8",         "--max-depth",       "3",        "--seed", "3",        "--dark", "0.01",
@@ -103,21 +103,21 @@ TEST_F(Rooms, LeakIsThatOfTheLibraryAtTheTimeOfTheProbes) {
 }
 
 TEST_F(Rooms, MeasureIsThatOfTheLibrary) {
-  gi::LeakParams params{.path = {.max_depth = 3, .passes = 1, .spp = 8, .seed = 3}};
+  study::LeakParams params{.path = {.max_depth = 3, .passes = 1, .spp = 8, .seed = 3}};
   const std::vector<std::string> command = {
       "measure", "builtin:two-rooms", "--time", "0.25",        "--probes", file_,    "--points",
       "24",      "--truth-spp",       "8",      "--max-depth", "3",        "--seed", "3"};
-  const auto expect = [&](const json::Value& all, const std::vector<scene::SurfacePoint>& at) {
-    const gi::TruthAtPoints truth = gi::trace_truth(tracer_, at, params);
+  const auto expect = [&](const json::Value& all, const std::vector<rays::SurfacePoint>& at) {
+    const study::TruthAtPoints truth = study::trace_truth(tracer_, at, params);
     EXPECT_EQ(all["points"], at.size());
     EXPECT_EQ(all["dark_points"], truth.dark);
     EXPECT_NEAR(all["mean_truth"].number(), truth.mean, 1e-9);
     EXPECT_EQ(all["truth_spp"], 8);
     for (const json::Value& one : all["results"].elements()) {
-      gi::LookupParams lookup;
-      lookup.weights = gi::weights_named(one["weights"].string());
-      const std::vector<vec3> found = gi::look_up(gi::IrradianceLookup(set_, tracer_, lookup), at);
-      const gi::LookupError e = gi::lookup_error(found, truth.estimates);
+      probes::LookupParams lookup;
+      lookup.weights = probes::weights_named(one["weights"].string());
+      const std::vector<vec3> found = study::look_up(probes::IrradianceLookup(set_, tracer_, lookup), at);
+      const study::LookupError e = study::lookup_error(found, truth.estimates);
       EXPECT_NEAR(all["noise"].number(), e.noise, 1e-9);
       const std::map<std::string, double> wanted = {{"ratio", e.ratio},
                                                     {"mean_error", e.mean_error},
@@ -125,7 +125,7 @@ TEST_F(Rooms, MeasureIsThatOfTheLibrary) {
                                                     {"median_relative", e.median_relative},
                                                     {"p95_relative", e.p95_relative},
                                                     {"relmse", e.relmse},
-                                                    {"leak_ratio", gi::leak_ratio(found, truth)}};
+                                                    {"leak_ratio", study::leak_ratio(found, truth)}};
       for (const auto& [name, value] : wanted)
         EXPECT_NEAR(one[name.c_str()].number(), value, 1e-9 * (1 + std::abs(value))) << name;
       EXPECT_GT(one["lookup_us"].number(), 0);
@@ -149,8 +149,8 @@ TEST_F(Rooms, MeasureIsThatOfTheLibrary) {
   }
   EXPECT_GT(leaks, 0.01);
   expect(json_here(joined(command, {"--open", "--clearance", "0.5"})),
-         gi::points_in_the_open(source_, points(0.5f, 24, 3), 0.25f, 3));
-  std::vector<scene::SurfacePoint> within = points(0.05f, 24, 3);
+         study::points_in_the_open(source_, points(0.5f, 24, 3), 0.25f, 3));
+  std::vector<rays::SurfacePoint> within = points(0.05f, 24, 3);
   const vec3 low(-3, 0, -1), high(0, 2.5f, 1.5f);
   std::erase_if(within, [&](const auto& p) {
     return glm::any(glm::lessThan(p.position, low)) || glm::any(glm::greaterThan(p.position, high));
@@ -194,25 +194,25 @@ TEST_F(Rooms, RespondTellsTheSameInItsListAndItsTable) {
 
 TEST_F(Rooms, PlaceTellsWhatBecameOfEveryPlace) {
   const std::string out = dir_ / "p.ssphh.json";
-  gi::PlaceParams params = gi::place_params(scene_, 0.5f);
+  place::PlaceParams params = place::place_params(scene_, 0.5f);
   params.spacing = 2, params.clearance = 0.1f, params.levels = 0;
-  const gi::Placement wanted = gi::place_probes(source_, params);
+  const place::Placement wanted = place::place_probes(source_, params);
   const std::vector<std::string> command = {
       "place", "builtin:two-rooms", "--time", "0.5", "--probes", "auto:2", "--clearance",
       "0.1",   "--refine",          "0",      "-o",  out};
   const json::Value place = json_here(command);
-  const auto count = [&](gi::PlaceKind kind) {
-    return std::ranges::count(wanted.probes, kind, &gi::PlacedProbe::kind);
+  const auto count = [&](place::PlaceKind kind) {
+    return std::ranges::count(wanted.probes, kind, &place::PlacedProbe::kind);
   };
   EXPECT_EQ(place["output"], out);
   EXPECT_EQ(place["probes"], wanted.probes.size());
-  EXPECT_EQ(place["manual"], count(gi::PlaceKind::manual));
-  EXPECT_EQ(place["refined"], count(gi::PlaceKind::refined));
-  EXPECT_EQ(place["passages"], count(gi::PlaceKind::passage));
+  EXPECT_EQ(place["manual"], count(place::PlaceKind::manual));
+  EXPECT_EQ(place["refined"], count(place::PlaceKind::refined));
+  EXPECT_EQ(place["passages"], count(place::PlaceKind::passage));
   EXPECT_EQ(place["spacing"], wanted.spacing);
   EXPECT_EQ(place["clearance"], wanted.clearance);
   EXPECT_EQ(place["origin"], json::Value({wanted.origin.x, wanted.origin.y, wanted.origin.z}));
-  const gi::PlaceCounts& c = wanted.counts;
+  const place::PlaceCounts& c = wanted.counts;
   EXPECT_EQ(place["candidates"], c.candidates);
   EXPECT_EQ(place["relocated"], c.relocated);
   EXPECT_EQ(place["removed"], json::Value({{"total", c.removed()},
@@ -225,12 +225,12 @@ TEST_F(Rooms, PlaceTellsWhatBecameOfEveryPlace) {
                                            {"surplus", c.surplus}}));
   EXPECT_EQ(place["edges"], wanted.edges.size());
   EXPECT_EQ(place["edges_behind_moving_parts"],
-            std::ranges::count(wanted.edges, true, &gi::PlacedEdge::moving));
+            std::ranges::count(wanted.edges, true, &place::PlacedEdge::moving));
   const json::Value overlay = test::parse_json(read_text_file(out));
   EXPECT_EQ(overlay["scene"], "builtin:two-rooms");
   std::vector<json::Value> sphls;
-  for (const gi::PlacedProbe& probe : wanted.probes)
-    if (probe.kind != gi::PlaceKind::manual)
+  for (const place::PlacedProbe& probe : wanted.probes)
+    if (probe.kind != place::PlaceKind::manual)
       sphls.push_back({{"name", probe.name},
                        {"position", {probe.position.x, probe.position.y, probe.position.z}},
                        {"radius", probe.radius}});
@@ -241,9 +241,9 @@ TEST_F(Rooms, PlaceTellsWhatBecameOfEveryPlace) {
                   "removed: {} inside bodies, {} too close to a surface, {} in open air, {} beside "
                   "others, {} in a moving part's way, {} out of sight of cameras, lamps and SPHLs, "
                   "{} more than asked for; {} moved",
-                  count(gi::PlaceKind::manual), count(gi::PlaceKind::refined), count(gi::PlaceKind::passage),
-                  wanted.edges.size(), c.candidates, c.removed(), c.inside, c.too_close, c.open_air,
-                  c.redundant, c.swept, c.unreachable, c.surplus, c.relocated)));
+                  count(place::PlaceKind::manual), count(place::PlaceKind::refined),
+                  count(place::PlaceKind::passage), wanted.edges.size(), c.candidates, c.removed(), c.inside,
+                  c.too_close, c.open_air, c.redundant, c.swept, c.unreachable, c.surplus, c.relocated)));
   EXPECT_THAT(problem_here({"place", "builtin:two-rooms", "--probes", "scene", "-o", out}),
               HasSubstr("there is nothing to place"));
   EXPECT_THAT(problem_here({"place", out, "-o", out}), HasSubstr("is the scene itself"));
@@ -256,7 +256,7 @@ TEST_F(Rooms, DifferencesOfScenesAreNamed) {
   EXPECT_EQ(app::scene_difference(set_, scene_, groups, {}), "");
   EXPECT_EQ(app::scene_difference(set_, scene_, groups, 0.25f), "");
   EXPECT_EQ(app::scene_difference(set_, scene_, groups, 0.5f), "time 0.25 s, now 0.5 s");
-  gi::ProbeSet other = set_;
+  probes::ProbeSet other = set_;
   other.generator.scene_hash.high ^= 1;
   const std::string hashes = fmt::format("geometry, materials or lights (hash {:.8}, now {:.8})",
                                          other.generator.scene_hash.hex(), set_.generator.scene_hash.hex());
@@ -272,7 +272,7 @@ TEST_F(Rooms, DifferencesOfScenesAreNamed) {
 TEST_F(Rooms, ViewpointsAreCamerasAndProbesOrWhatTheSceneHas) {
   const auto cameras = scene_.cameras.size();
   EXPECT_EQ(app::viewpoints(scene_, {&set_, 1}, 0).size(), cameras + set_.probes.size());
-  const gi::PlaceParams own = gi::place_params(scene_, 0);
+  const place::PlaceParams own = place::place_params(scene_, 0);
   const std::vector<vec3> none = app::viewpoints(scene_, {}, 0);
   ASSERT_EQ(none.size(), cameras + own.interest.size() + own.manual.size());
   EXPECT_EQ(none[cameras], own.interest[0]);
@@ -299,17 +299,17 @@ TEST(BakeOptions, ReachTheFile) {
                                       "--degree",    "2",
                                       "--time",      "0.5",
                                       "--viz",       "off"});
-  const gi::ProbeSet set = gi::read_probe_file(file);
+  const probes::ProbeSet set = probes::read_probe_file(file);
   EXPECT_EQ(set.degree, 2);
   EXPECT_EQ(bake["degree"], 2);
-  const gi::GeneratorInfo& g = set.generator;
+  const probes::GeneratorInfo& g = set.generator;
   EXPECT_EQ(g.face_size, 3);
   EXPECT_EQ(g.spp, 2);
   EXPECT_EQ(g.passes, 4);
   EXPECT_EQ(g.max_depth, 2);
   EXPECT_EQ(g.seed, 9u);
   EXPECT_EQ(g.time, 0.5f);
-  EXPECT_EQ(g.gen, gi::GenMode::full);
+  EXPECT_EQ(g.gen, probes::GenMode::full);
   EXPECT_EQ(bake["output"], file);
   EXPECT_EQ(bake["probes"], set.probes.size());
   EXPECT_EQ(bake["light_groups"], set.light_groups.size());
@@ -319,13 +319,13 @@ TEST(BakeOptions, ReachTheFile) {
   EXPECT_EQ(bake["resumed"], 0);
   EXPECT_TRUE(bake["warnings"].is_array());
   small_bake(file, {"--gen", "local", "--viz", "off"});
-  EXPECT_EQ(gi::read_probe_file(file).generator.gen, gi::GenMode::local);
+  EXPECT_EQ(probes::read_probe_file(file).generator.gen, probes::GenMode::local);
   // Four neighbours each, the strongest one kept; none is above 1.
   const json::Value few = small_bake(file, {"--neighbors", "1"});
   EXPECT_EQ(few["edges"], 5);
   EXPECT_EQ(small_bake(file, {"--threshold", "1"})["edges"], 0);
   EXPECT_EQ(small_bake(file, {"--viz-transfer"})["viz"], "path");
-  EXPECT_FALSE(gi::read_probe_file(file).probes[0].edges[0].matrix.values.empty());
+  EXPECT_FALSE(probes::read_probe_file(file).probes[0].edges[0].matrix.values.empty());
 }
 
 TEST(BakeOptions, VizIsLeftOutForManyProbes) {

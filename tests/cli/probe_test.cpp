@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <ssphh/gi/hier.h>
-#include <ssphh/gi/probe_file.h>
 #include <ssphh/image/io.h>
 #include <ssphh/image/sphere_map.h>
+#include <ssphh/probes/hier.h>
+#include <ssphh/probes/probe_file.h>
 #include <ssphh/sh/irradiance.h>
 #include <ssphh/sh/reconstruct.h>
 #include <ssphh/sh/window.h>
@@ -33,37 +33,37 @@ sh::RadianceSh light_of(float mean, float slope) {
 }
 
 /// Three probes in a row, each lit by a lamp and the sky; edges of different strength.
-gi::ProbeSet example_set() {
-  gi::ProbeSet set;
+probes::ProbeSet example_set() {
+  probes::ProbeSet set;
   set.degree = 1;
-  gi::GeneratorInfo& g = set.generator;
-  g.op = gi::LightOperator::path, g.viz = gi::VizMethod::links, g.gen = gi::GenMode::local;
+  probes::GeneratorInfo& g = set.generator;
+  g.op = probes::LightOperator::path, g.viz = probes::VizMethod::links, g.gen = probes::GenMode::local;
   g.max_depth = 5, g.passes = 2, g.spp = 7, g.face_size = 9, g.seed = 11;
   g.directions = 64, g.surfel_size = 0.25f, g.link_rays = 16;
   g.scene = "rooms", g.scene_hash = {0x1234, 0x5678}, g.time = 1.5f;
   set.light_groups = {{"lamp", {1, 0.5f, 0.25f}}, {"sky", {2, 2, 2}}};
   for (int i = 0; i < 3; ++i) {
     const auto x = static_cast<float>(i);
-    gi::Probe probe;
+    probes::Probe probe;
     probe.name = std::string(1, static_cast<char>('a' + i));
     probe.position = {x, 1 + x, -2}, probe.radius = 0.125f * (x + 1);
     probe.groups = {{light_of(0.5f, 0.2f), light_of(1 + x, 0.25f)}, {{}, light_of(0.25f, 0.5f * x)}};
     for (int from = 0; from < 3; ++from) {
       if (from == i) continue;
-      gi::Edge edge;
+      probes::Edge edge;
       edge.from = from, edge.transfer = 0.125f * static_cast<float>(1 + from + i);
       edge.h = light_of(edge.transfer, 0.01f);
       probe.edges.push_back(edge);
     }
     set.probes.push_back(probe);
   }
-  gi::merge_groups(set);
+  probes::merge_groups(set);
   return set;
 }
 
 class ProbeTool : public testing::Test {
  protected:
-  ProbeTool() { gi::write_probe_file(set_, file_); }
+  ProbeTool() { probes::write_probe_file(set_, file_); }
   static void expect_rgb(const json::Value& got, const vec3& wanted) {
     ASSERT_EQ(got.size(), 3u);
     for (int c = 0; c < 3; ++c)
@@ -73,7 +73,7 @@ class ProbeTool : public testing::Test {
 
   const test::TempDir dir_;
   const std::string file_ = dir_ / "a.sphl", out_ = dir_ / "b.sphl";
-  const gi::ProbeSet set_ = example_set();
+  const probes::ProbeSet set_ = example_set();
 };
 
 TEST_F(ProbeTool, InfoHoldsEverythingOfTheFile) {
@@ -102,7 +102,7 @@ TEST_F(ProbeTool, InfoHoldsEverythingOfTheFile) {
   ASSERT_EQ(info["probes"].size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     const json::Value& probe = info["probes"][i];
-    const gi::Probe& wanted = set_.probes[i];
+    const probes::Probe& wanted = set_.probes[i];
     EXPECT_EQ(probe["name"], wanted.name);
     expect_rgb(probe["position"], wanted.position);
     EXPECT_EQ(probe["radius"], wanted.radius);
@@ -125,8 +125,8 @@ TEST_F(ProbeTool, InfoHoldsEverythingOfTheFile) {
 
 TEST_F(ProbeTool, InfoOfAHierarchyHasTheNeighboursLight) {
   json_here({"hier", file_, "-o", out_, "--operator", "mean", "--neighbors", "1", "--threshold", "0.3"});
-  gi::ProbeSet set = set_;
-  gi::hier(set, {gi::HierOperator::mean, 1, 0.3f});
+  probes::ProbeSet set = set_;
+  probes::hier(set, {probes::HierOperator::mean, 1, 0.3f});
   const json::Value info = json_here({"probe", "info", out_});
   EXPECT_NEAR(info["hierarchy"]["threshold"].number(), 0.3, 1e-7);
   EXPECT_EQ(info["hierarchy"]["operator"], "mean");
@@ -157,11 +157,11 @@ TEST_F(ProbeTool, InfoForPeopleTellsTheSame) {
                                           "     P  0: 0.25  2: 0.5",
                                           2 * unit, 4 * unit, 6 * unit, 0.5 * unit, unit, 1.5 * unit,
                                           0.25 * unit, 0.5 * unit, 0.75 * unit)));
-  gi::ProbeSet bare = set_;
-  bare.generator.op = gi::LightOperator::surfel;
+  probes::ProbeSet bare = set_;
+  bare.generator.op = probes::LightOperator::surfel;
   bare.generator.directions = 0;
-  for (gi::Probe& probe : bare.probes) probe.edges.clear();
-  gi::write_probe_file(bare, file_);
+  for (probes::Probe& probe : bare.probes) probe.edges.clear();
+  probes::write_probe_file(bare, file_);
   const std::string less = text_here({"probe", "info", file_});
   EXPECT_THAT(less, testing::AllOf(testing::Not(HasSubstr("paths:")), testing::Not(HasSubstr("transport:")),
                                    testing::EndsWith("     P  no edges")));
@@ -172,13 +172,13 @@ TEST_F(ProbeTool, ConvertTellsTheSizeOfWhatItWrote) {
   const json::Value result = json_here({"probe", "convert", file_, "-o", text});
   EXPECT_EQ(result,
             json::Value({{"output", text}, {"probes", 3}, {"bytes", std::filesystem::file_size(text)}}));
-  EXPECT_EQ(gi::read_probe_file(text).probes.size(), 3u);
+  EXPECT_EQ(probes::read_probe_file(text).probes.size(), 3u);
 }
 
 TEST_F(ProbeTool, HierAddsTheNeighboursThatWereAskedFor) {
-  const auto expect = [&](const std::vector<std::string>& options, const gi::HierParams& params) {
-    gi::ProbeSet set = set_;
-    const std::size_t edges = gi::hier(set, params);
+  const auto expect = [&](const std::vector<std::string>& options, const probes::HierParams& params) {
+    probes::ProbeSet set = set_;
+    const std::size_t edges = probes::hier(set, params);
     const json::Value hier = json_here(joined({"hier", file_, "-o", out_}, options));
     EXPECT_EQ(hier["output"], out_);
     EXPECT_EQ(hier["edges"], edges);
@@ -191,20 +191,20 @@ TEST_F(ProbeTool, HierAddsTheNeighboursThatWereAskedFor) {
     EXPECT_EQ(hier["viz"], "links");
     EXPECT_GT(hier["seconds"].number(), 0);
     EXPECT_LT(hier["seconds"].number(), 1) << "six products of four coefficients";
-    const auto contraction = gi::hier_contraction(set, params);
+    const auto contraction = probes::hier_contraction(set, params);
     if (contraction)
       EXPECT_NEAR(hier["contraction"].number(), contraction->upper, 1e-6);
     else
       EXPECT_TRUE(hier["contraction"].is_null());
-    const gi::ProbeSet written = gi::read_probe_file(out_);
+    const probes::ProbeSet written = probes::read_probe_file(out_);
     ASSERT_TRUE(written.hierarchy);
     EXPECT_EQ(written.hierarchy->sum, set.hierarchy->sum);
   };
   expect({}, {});
-  expect({"--operator", "mean"}, {gi::HierOperator::mean, -1, 0});
-  expect({"--operator", "mean", "--neighbors", "1"}, {gi::HierOperator::mean, 1, 0});
-  expect({"--threshold", "0.26"}, {gi::HierOperator::coefficient, -1, 0.26f});
-  expect({"--neighbors", "0"}, {gi::HierOperator::coefficient, 0, 0});
+  expect({"--operator", "mean"}, {probes::HierOperator::mean, -1, 0});
+  expect({"--operator", "mean", "--neighbors", "1"}, {probes::HierOperator::mean, 1, 0});
+  expect({"--threshold", "0.26"}, {probes::HierOperator::coefficient, -1, 0.26f});
+  expect({"--neighbors", "0"}, {probes::HierOperator::coefficient, 0, 0});
   EXPECT_THAT(
       text_here({"hier", file_, "-o", out_}),
       testing::MatchesRegex(".*: 6 edges between 3 probes, operator coefficient, GEN local: [0-9.]+ us"));
@@ -214,11 +214,11 @@ TEST_F(ProbeTool, HierAddsTheNeighboursThatWereAskedFor) {
 
 TEST_F(ProbeTool, HierScalesGroupsFirst) {
   const auto expect = [&](const std::string& option, const std::string& group, const vec3& scale) {
-    gi::ProbeSet set = set_;
-    gi::relight(set, group, scale);
-    gi::hier(set, {});
+    probes::ProbeSet set = set_;
+    probes::relight(set, group, scale);
+    probes::hier(set, {});
     json_here({"hier", file_, "-o", out_, "--scale", option});
-    const gi::ProbeSet written = gi::read_probe_file(out_);
+    const probes::ProbeSet written = probes::read_probe_file(out_);
     EXPECT_EQ(written.light_groups, set.light_groups) << option;
     EXPECT_EQ(written.hierarchy->sum, set.hierarchy->sum) << option;
   };
@@ -226,7 +226,7 @@ TEST_F(ProbeTool, HierScalesGroupsFirst) {
   expect("sky=1,2,3", "sky", {1, 2, 3});
   expect("lamp=0", "lamp", vec3(0));
   json_here({"hier", file_, "-o", out_, "--scale", "lamp=3", "--scale", "sky=0,0,1"});
-  const gi::ProbeSet both = gi::read_probe_file(out_);
+  const probes::ProbeSet both = probes::read_probe_file(out_);
   EXPECT_EQ(both.light_groups[0].scale, vec3(3));
   EXPECT_EQ(both.light_groups[1].scale, vec3(0, 0, 1));
   for (const char* bad : {"lamp", "lamp=", "lamp=x", "lamp=1,", "lamp=1,2", "lamp=1,2,", "lamp=1,2,3,4",
@@ -238,18 +238,18 @@ TEST_F(ProbeTool, HierScalesGroupsFirst) {
 }
 
 TEST_F(ProbeTool, HierWithoutEdgesSaysSo) {
-  gi::ProbeSet bare = set_;
-  for (gi::Probe& probe : bare.probes) probe.edges.clear();
-  gi::write_probe_file(bare, file_);
+  probes::ProbeSet bare = set_;
+  for (probes::Probe& probe : bare.probes) probe.edges.clear();
+  probes::write_probe_file(bare, file_);
   const auto warned = [&] {
     return test::run_here({"hier", file_, "-o", out_}).err.find("has no edges between its probes") !=
            std::string::npos;
   };
   EXPECT_TRUE(warned());
   bare.probes.resize(1);
-  gi::write_probe_file(bare, file_);
+  probes::write_probe_file(bare, file_);
   EXPECT_FALSE(warned()) << "one probe has no neighbours";
-  gi::write_probe_file(set_, file_);
+  probes::write_probe_file(set_, file_);
   EXPECT_FALSE(warned());
 }
 
@@ -262,9 +262,9 @@ vec3 seen(const sh::RadianceSh& light, int width, int x, int y) {
 }
 
 TEST_F(ProbeTool, PreviewShowsOneRowAProbeAndOneColumnALayer) {
-  gi::ProbeSet set = set_;
-  gi::hier(set, {});
-  gi::write_probe_file(set, file_);
+  probes::ProbeSet set = set_;
+  probes::hier(set, {});
+  probes::write_probe_file(set, file_);
   const json::Value result =
       json_here({"probe", "preview", file_, "-o", dir_ / "p.exr", "--width", "16", "--exposure", "1"});
   // 16 × 8 pixels each, four between them.
@@ -306,19 +306,19 @@ TEST_F(ProbeTool, PreviewExposesByTheBrightest) {
     return all[static_cast<std::size_t>(0.99 * static_cast<double>(all.size() - 1))];
   };
   std::vector<sh::RadianceSh> self;
-  for (const gi::Probe& probe : set_.probes) self.push_back(probe.self);
+  for (const probes::Probe& probe : set_.probes) self.push_back(probe.self);
   const app::ProbeSheet plain = app::probe_sheet(set_, 16, 0);
   ASSERT_EQ(plain.columns.size(), 1u);
   EXPECT_EQ(plain.columns[0].name, "self");
   EXPECT_NEAR(plain.columns[0].exposure, std::log2(0.8f / level(self)), 1e-5f);
   EXPECT_NEAR(app::probe_sheet(set_, 16, -2).columns[0].exposure, plain.columns[0].exposure - 2, 1e-5f);
-  gi::ProbeSet set = set_;
-  gi::hier(set, {});
+  probes::ProbeSet set = set_;
+  probes::hier(set, {});
   const app::ProbeSheet sheet = app::probe_sheet(set, 16, 0);
   EXPECT_NEAR(sheet.columns[0].exposure, std::log2(0.8f / level(set.hierarchy->sum)), 1e-5f);
   EXPECT_EQ(sheet.columns[2].exposure, sheet.columns[0].exposure);
   EXPECT_NEAR(sheet.columns[1].exposure, std::log2(0.8f / level(set.hierarchy->neighbor)), 1e-5f);
-  for (gi::Probe& probe : set.probes) probe.self *= vec3(0);
+  for (probes::Probe& probe : set.probes) probe.self *= vec3(0);
   set.hierarchy.reset();
   EXPECT_EQ(app::probe_sheet(set, 16, 0).columns[0].exposure, 0) << "all is dark";
   EXPECT_THAT(
@@ -329,9 +329,9 @@ TEST_F(ProbeTool, PreviewExposesByTheBrightest) {
 
 TEST_F(ProbeTool, SheetsThatNobodyCouldOpenAreRefused) {
   EXPECT_THAT(test::message_of([] { app::probe_sheet({}, 16, 0); }), HasSubstr("holds no probes"));
-  gi::ProbeSet many;
+  probes::ProbeSet many;
   many.probes.resize(127);  // 2052 · 1028 pixels each: 128 of them are over 2^28
-  for (gi::Probe& probe : many.probes) probe.self = light_of(1, 0);
+  for (probes::Probe& probe : many.probes) probe.self = light_of(1, 0);
   many.probes.resize(128, many.probes[0]);
   EXPECT_THAT(test::message_of([&] { app::probe_sheet(many, 2048, 0); }),
               HasSubstr("too large (lower --width)"));

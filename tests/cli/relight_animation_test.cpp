@@ -50,7 +50,7 @@ class Animation : public testing::Test {
 
   const scene::Scene scene_ = lit_stage();
   const trace::TransportScene source_{scene_};
-  const scene::LightingState still_ = scene::lighting_at(source_, 0);
+  const scene::LightingState still_ = rays::lighting_at(source_, 0);
 };
 
 TEST(Track, KeysAreSpreadEvenlyAndMixedBetween) {

@@ -17,8 +17,9 @@ namespace {
 
 using testing::HasSubstr;
 
-gi::RelightReport update(double scale, std::uint64_t pose_rays, std::uint64_t direct_rays, int iterations) {
-  gi::RelightReport report;
+transport::RelightReport update(double scale, std::uint64_t pose_rays, std::uint64_t direct_rays,
+                                int iterations) {
+  transport::RelightReport report;
   report.pose_ms = scale, report.direct_ms = 2 * scale, report.solve_ms = 4 * scale;
   report.project_ms = 8 * scale;
   report.pose_rays = pose_rays, report.direct_rays = direct_rays, report.solve.iterations = iterations;

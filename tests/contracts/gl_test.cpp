@@ -123,7 +123,7 @@ std::vector<GlContract> of_renderer() {
   std::vector<GlContract> rows = {
       refuses_frame("ProbesOfHigherDegree",
                     [](Renderer& r) {
-                      gi::ProbeSet set = sound_set();
+                      probes::ProbeSet set = sound_set();
                       set.probes[1].reflected = sh::RadianceSh(4);
                       r.set_probes(set);
                     },

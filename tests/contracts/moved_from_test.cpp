@@ -1,12 +1,12 @@
 /// Objects that were moved from can be assigned to and destroyed; any other use of them is an Error.
 
-#include <ssphh/gi/fitted_weights.h>
-#include <ssphh/gi/lookup.h>
-#include <ssphh/gi/transport/network.h>
+#include <ssphh/probes/lookup.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/shading/lights.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
+#include <ssphh/transport/fitted_weights.h>
+#include <ssphh/transport/network.h>
 
 #include "contract.h"
 #include "probe_sets.h"
@@ -32,8 +32,8 @@ std::vector<Contract> rows() {
             }),
       gives("WeightFit", "ThatWasMoved",
             [] {
-              gi::WeightFit first(std::vector<scene::SurfacePoint>(2));
-              const gi::WeightFit second = std::move(first);
+              transport::WeightFit first(std::vector<rays::SurfacePoint>(2));
+              const transport::WeightFit second = std::move(first);
               expect_refusal([&] { first.solve(); }, {"moved from"});
               EXPECT_EQ(second.solve().points.size(), 2u);
             }),
@@ -51,9 +51,9 @@ std::vector<Contract> rows() {
             [] {
               const scene::Scene scene = sound_scene();
               const trace::PathTracer tracer(scene);
-              gi::IrradianceLookup first(sound_set(), tracer);
+              probes::IrradianceLookup first(sound_set(), tracer);
               const vec3 seen = first.irradiance({});
-              gi::IrradianceLookup second = std::move(first);
+              probes::IrradianceLookup second = std::move(first);
               expect_refusal([&] { first.irradiance({}); }, {"moved from"});
               EXPECT_EQ(second.irradiance({}), seen);
               first = std::move(second);
@@ -63,9 +63,9 @@ std::vector<Contract> rows() {
             [] {
               const scene::Scene scene = sound_scene();
               const trace::PathTracer tracer(scene);
-              gi::LightLookup first(sound_set(), tracer);
+              probes::LightLookup first(sound_set(), tracer);
               const vec3 seen = first.irradiance({});
-              const gi::LightLookup second = std::move(first);
+              const probes::LightLookup second = std::move(first);
               expect_refusal([&] { first.glossy({}, {0, 0, 1}, 0.5f); }, {"moved from"});
               EXPECT_EQ(second.irradiance({}), seen);
             }),
@@ -74,10 +74,10 @@ std::vector<Contract> rows() {
               const scene::Scene scene = door_scene();
               const trace::TransportScene source(scene);
               const std::vector<vec3> places{scene::sphl_places(scene)[0].position};
-              gi::TransportNetwork first(source, places,
-                                         {.directions = 32, .surfel_size = 0.5f, .link_rays = 8});
+              transport::TransportNetwork first(source, places,
+                                                {.directions = 32, .surfel_size = 0.5f, .link_rays = 8});
               const std::size_t surfels = first.surfel_count();
-              gi::TransportNetwork second = std::move(first);
+              transport::TransportNetwork second = std::move(first);
               expect_refusal([&] { first.surfel_count(); }, {"moved from"});
               EXPECT_EQ(second.surfel_count(), surfels);
               second.set_time(0.5f);

@@ -1,18 +1,18 @@
 #pragma once
 /// Small sets of probes that are as they should be, to be spoilt.
 
-#include <ssphh/gi/lookup.h>
-#include <ssphh/gi/probe_set.h>
+#include <ssphh/probes/lookup.h>
+#include <ssphh/probes/probe_set.h>
 
 namespace ssphh::test {
 
 /// Three probes on a line, of which each has light of its own: E differs in place and colour.
-inline gi::ProbeSet sound_set(int degree = 2) {
-  gi::ProbeSet set;
+inline probes::ProbeSet sound_set(int degree = 2) {
+  probes::ProbeSet set;
   set.degree = degree;
   set.light_groups = {{"lamp", vec3(1)}};
   for (int i = 0; i < 3; ++i) {
-    gi::Probe& probe = set.probes.emplace_back();
+    probes::Probe& probe = set.probes.emplace_back();
     probe.name = "probe " + std::to_string(i);
     probe.position = vec3(static_cast<float>(i), 0, 0);
     sh::RadianceSh reflected(degree), emitted(degree);
@@ -20,14 +20,14 @@ inline gi::ProbeSet sound_set(int degree = 2) {
     emitted[0] = vec3(0.5f, 0.25f, 0.125f);
     probe.groups.push_back({emitted, reflected});
   }
-  gi::merge_groups(set);
+  probes::merge_groups(set);
   return set;
 }
 
 /// The same with an edge 1 ← 0 and its hierarchy's input.
-inline gi::ProbeSet linked_set() {
-  gi::ProbeSet set = sound_set();
-  gi::Edge& edge = set.probes[1].edges.emplace_back();
+inline probes::ProbeSet linked_set() {
+  probes::ProbeSet set = sound_set();
+  probes::Edge& edge = set.probes[1].edges.emplace_back();
   edge.from = 0;
   edge.transfer = 0.5f;
   edge.h = sh::RadianceSh(set.degree);
@@ -42,12 +42,12 @@ inline bool all_seen(const vec3&, const vec3&) {
 }
 
 /// A lookup with weights that need no scene.
-inline std::unique_ptr<gi::IrradianceLookup> lookup_of(const gi::ProbeSet& set,
-                                                       const gi::LookupParams& params = {}) {
+inline std::unique_ptr<probes::IrradianceLookup> lookup_of(const probes::ProbeSet& set,
+                                                           const probes::LookupParams& params = {}) {
   std::vector<vec3> places;
-  for (const gi::Probe& probe : set.probes) places.push_back(probe.position);
-  return std::make_unique<gi::IrradianceLookup>(set, gi::make_weights(places, all_seen, params.weights),
-                                                params);
+  for (const probes::Probe& probe : set.probes) places.push_back(probe.position);
+  return std::make_unique<probes::IrradianceLookup>(
+      set, probes::make_weights(places, all_seen, params.weights), params);
 }
 
 }  // namespace ssphh::test

@@ -1,8 +1,8 @@
-/// Contracts of gi::RelightSession: refused input, a source that fails, and the light afterwards.
+/// Contracts of transport::RelightSession: refused input, a source that fails, and the light afterwards.
 
-#include <ssphh/gi/session_sets.h>
-#include <ssphh/gi/transport/direct_field.h>
 #include <ssphh/scene/query.h>
+#include <ssphh/transport/direct_field.h>
+#include <ssphh/transport/session_sets.h>
 
 #include "contract.h"
 #include "unruly_source.h"
@@ -10,16 +10,16 @@
 namespace ssphh::test {
 namespace {
 
-std::vector<gi::ProbePlace> door_places() {
-  std::vector<gi::ProbePlace> places;
+std::vector<transport::ProbePlace> door_places() {
+  std::vector<transport::ProbePlace> places;
   for (const scene::SphlPlace& place : scene::sphl_places(door_scene()))
     places.push_back({place.name, place.position, place.radius});
   places.resize(std::min<std::size_t>(places.size(), 3));
   return places;
 }
 
-gi::RelightParams coarse(gi::LightOperator op = gi::LightOperator::surfel) {
-  gi::RelightParams params;
+transport::RelightParams coarse(probes::LightOperator op = probes::LightOperator::surfel) {
+  transport::RelightParams params;
   params.transport = {.directions = 32, .surfel_size = 0.5f, .link_rays = 8, .samples = 2};
   params.degree = 1;
   params.warm_start = false;  // so that the bits tell nothing of the past
@@ -28,13 +28,13 @@ gi::RelightParams coarse(gi::LightOperator op = gi::LightOperator::surfel) {
 }
 
 struct Session {
-  explicit Session(gi::LightOperator op = gi::LightOperator::surfel)
+  explicit Session(probes::LightOperator op = probes::LightOperator::surfel)
       : source(door_scene()), session(source, door_places(), coarse(op)) {}
   UnrulySource source;
-  gi::RelightSession session;
+  transport::RelightSession session;
 
   /// Brings the light up to date with the last state.
-  gi::RelightReport update() { return session.update(session.lighting()); }
+  transport::RelightReport update() { return session.update(session.lighting()); }
 };
 
 /// A lit session.
@@ -54,7 +54,7 @@ void is_up_to_date(Session& s) {
 }
 
 /// A row for input that a lit session refuses without a change of its light.
-Contract refuses_input(const std::string& given, std::function<void(gi::RelightSession&)> call,
+Contract refuses_input(const std::string& given, std::function<void(transport::RelightSession&)> call,
                        std::vector<std::string> words) {
   return refuses(
       "RelightSession", given, lit, [call](Session& s) { call(s.session); }, std::move(words), is_up_to_date);
@@ -65,7 +65,7 @@ Contract refuses_state(const std::string& given, std::function<void(scene::Light
                        std::vector<std::string> words) {
   return refuses_input(
       given,
-      [spoil](gi::RelightSession& session) {
+      [spoil](transport::RelightSession& session) {
         scene::LightingState state = session.lighting();
         spoil(state);
         session.update(state);
@@ -73,11 +73,11 @@ Contract refuses_state(const std::string& given, std::function<void(scene::Light
       std::move(words));
 }
 
-void make_session(std::function<void(UnrulySource&)> spoil, gi::RelightParams params = coarse(),
-                  std::vector<gi::ProbePlace> places = door_places(), float time = 0) {
+void make_session(std::function<void(UnrulySource&)> spoil, transport::RelightParams params = coarse(),
+                  std::vector<transport::ProbePlace> places = door_places(), float time = 0) {
   UnrulySource source(door_scene());
   spoil(source);
-  gi::RelightSession session(source, std::move(places), params, time);
+  transport::RelightSession session(source, std::move(places), params, time);
   session.update(session.lighting());
 }
 
@@ -134,36 +134,37 @@ std::vector<Contract> of_input() {
       refuses_input("NetworkSampleThatIsNotThere", [](auto& s) { s.network().sample_exists(1u << 30); },
                     {"sample"}),
       refuses_input("NetworkGatherWithoutRays",
-                    [](auto& s) { s.network().gather(std::vector<scene::SurfacePoint>(1), -1); },
+                    [](auto& s) { s.network().gather(std::vector<rays::SurfacePoint>(1), -1); },
                     {"gather rays"}),
       refuses_input("DirectFieldOfNoGroup",
                     [](auto& s) {
-                      gi::DirectField field(s.network(), 1);
+                      transport::DirectField field(s.network(), 1);
                       const UnrulySource source(door_scene());
                       const auto light = source.direct_light(source.lights(0), s.network().poses(), 0);
                       field.update_all(1, *light);
                     },
                     {"light group"}),
       refuses("RelightSession", "WithoutProbes", [] { make_session(sound, coarse(), {}); }, {"no probes"}),
-      refuses("RelightSession", "OfPathTracing", [] { make_session(sound, coarse(gi::LightOperator::path)); },
+      refuses("RelightSession", "OfPathTracing",
+              [] { make_session(sound, coarse(probes::LightOperator::path)); },
               {"relighting", "surfel or bounce"}),
       refuses("RelightSession", "OfDegreeEleven",
               [] {
-                gi::RelightParams params = coarse();
+                transport::RelightParams params = coarse();
                 params.degree = 11;
                 make_session(sound, params);
               },
               {"0..10"}),
       refuses("RelightSession", "OfOnePose",
               [] {
-                gi::RelightParams params = coarse();
+                transport::RelightParams params = coarse();
                 params.poses = 1;
                 make_session(sound, params);
               },
               {"poses"}),
       refuses("RelightSession", "OfASurfelSizeThatIsNoNumber",
               [] {
-                gi::RelightParams params = coarse();
+                transport::RelightParams params = coarse();
                 params.transport.surfel_size = nan;
                 make_session(sound, params);
               },
@@ -172,17 +173,17 @@ std::vector<Contract> of_input() {
               {"time"}),
       refuses("RelightSession", "OfARadiusThatIsNone",
               [] {
-                std::vector<gi::ProbePlace> places = door_places();
+                std::vector<transport::ProbePlace> places = door_places();
                 places[1].radius = nan;
                 make_session(sound, coarse(), places);
               },
               {"probe 1", "radius"}),
-      refuses("LookupSet", "BeforeTheFirstUpdate", [] { gi::lookup_set(door_places(), {}); },
+      refuses("LookupSet", "BeforeTheFirstUpdate", [] { transport::lookup_set(door_places(), {}); },
               {"lookup set", "update()"}),
-      refuses("LookupSet", "OfNoPlaces", [] { gi::lookup_set({}, {}); }, {"no probes"}),
+      refuses("LookupSet", "OfNoPlaces", [] { transport::lookup_set({}, {}); }, {"no probes"}),
       refuses("LookupSet", "OfTwoDegrees",
               [] {
-                gi::lookup_set({{}, {}}, {sh::RadianceSh(2), sh::RadianceSh(1)});
+                transport::lookup_set({{}, {}}, {sh::RadianceSh(2), sh::RadianceSh(1)});
               },
               {"probe 1"}),
       gives("RelightSession", "BeforeTheFirstUpdateIsDark",
@@ -217,7 +218,7 @@ SSPHH_CONTRACTS(TransportSource, of_sources());
 
 /// A source that fails once, in each of the calls that an update makes in turn: the light stays, and the next
 /// update makes it what an undisturbed session has, to the bit.
-class FailingUpdate : public testing::TestWithParam<gi::LightOperator> {};
+class FailingUpdate : public testing::TestWithParam<probes::LightOperator> {};
 
 TEST_P(FailingUpdate, IsDoneAgainByTheNextOne) {
   Session undisturbed(GetParam());
@@ -261,7 +262,7 @@ TEST_P(FailingUpdate, LeavesTheFirstOneToTheNext) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, FailingUpdate,
-                         testing::Values(gi::LightOperator::surfel, gi::LightOperator::bounce),
+                         testing::Values(probes::LightOperator::surfel, probes::LightOperator::bounce),
                          [](const auto& op) { return std::string(name_of(op.param)); });
 
 }  // namespace

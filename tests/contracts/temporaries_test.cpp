@@ -5,22 +5,22 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/farm/farm_bake.h>
-#include <ssphh/gi/lookup.h>
-#include <ssphh/gi/relight_session.h>
-#include <ssphh/scene/posed_world.h>
+#include <ssphh/probes/lookup.h>
+#include <ssphh/rays/posed_world.h>
 #include <ssphh/shading/lights.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
+#include <ssphh/transport/relight_session.h>
 
 namespace ssphh::test {
 namespace {
 
-using gi::LookupParams;
-using gi::ProbeSet;
+using probes::LookupParams;
+using probes::ProbeSet;
 using scene::Scene;
 using trace::PathTracer;
 using trace::TransportScene;
-using Places = std::vector<gi::ProbePlace>;
+using Places = std::vector<transport::ProbePlace>;
 using Matrices = std::vector<mat4>;
 
 /// Whether `T` can be made from an object that stays and the rest, and not from one that goes.
@@ -43,26 +43,30 @@ TEST(Temporaries, OfScenesAreRefusedByWhatReadsThemLater) {
 }
 
 TEST(Temporaries, OfSourcesAreRefusedByWhatAsksThemLater) {
-  EXPECT_TRUE((only_of_what_stays<gi::RelightSession, TransportScene, Places>));
-  EXPECT_TRUE((only_of_what_stays<gi::RelightSession, TransportScene, Places, gi::RelightParams, float>));
-  EXPECT_TRUE(
-      (only_of_what_stays<gi::TransportNetwork, TransportScene, std::span<const vec3>, gi::TransportParams>));
-  EXPECT_TRUE((only_of_what_stays<scene::PosedWorld, TransportScene, float>));
-  EXPECT_TRUE((only_of_what_stays<scene::PosedWorld, TransportScene, Matrices&>));
-  EXPECT_TRUE((only_of_what_stays<gi::SurfelSet, TransportScene, float>));
+  EXPECT_TRUE((only_of_what_stays<transport::RelightSession, TransportScene, Places>));
+  EXPECT_TRUE((only_of_what_stays<transport::RelightSession, TransportScene, Places, transport::RelightParams,
+                                  float>));
+  EXPECT_TRUE((only_of_what_stays<transport::TransportNetwork, TransportScene, std::span<const vec3>,
+                                  transport::TransportParams>));
+  EXPECT_TRUE((only_of_what_stays<rays::PosedWorld, TransportScene, float>));
+  EXPECT_TRUE((only_of_what_stays<rays::PosedWorld, TransportScene, Matrices&>));
+  EXPECT_TRUE((only_of_what_stays<transport::SurfelSet, TransportScene, float>));
 }
 
 TEST(Temporaries, OfTracersAreRefusedByLookups) {
-  EXPECT_TRUE((std::is_constructible_v<gi::IrradianceLookup, ProbeSet, PathTracer&, LookupParams>));
-  EXPECT_FALSE((std::is_constructible_v<gi::IrradianceLookup, ProbeSet, PathTracer, LookupParams>));
-  EXPECT_TRUE((std::is_constructible_v<gi::LightLookup, ProbeSet, PathTracer&>));
-  EXPECT_FALSE((std::is_constructible_v<gi::LightLookup, ProbeSet, PathTracer>));
+  EXPECT_TRUE((std::is_constructible_v<probes::IrradianceLookup, ProbeSet, PathTracer&, LookupParams>));
+  EXPECT_FALSE((std::is_constructible_v<probes::IrradianceLookup, ProbeSet, PathTracer, LookupParams>));
+  EXPECT_TRUE((std::is_constructible_v<probes::LightLookup, ProbeSet, PathTracer&>));
+  EXPECT_FALSE((std::is_constructible_v<probes::LightLookup, ProbeSet, PathTracer>));
 }
 
 TEST(Temporaries, OfNetworksAreRefusedByWhatFollowsThem) {
-  EXPECT_TRUE((std::is_constructible_v<gi::BounceOperator, gi::TransportNetwork&, TransportScene&, int>));
-  EXPECT_FALSE((std::is_constructible_v<gi::BounceOperator, gi::TransportNetwork, TransportScene&, int>));
-  EXPECT_FALSE((std::is_constructible_v<gi::BounceOperator, gi::TransportNetwork&, TransportScene, int>));
+  EXPECT_TRUE((std::is_constructible_v<transport::BounceOperator, transport::TransportNetwork&,
+                                       TransportScene&, int>));
+  EXPECT_FALSE((
+      std::is_constructible_v<transport::BounceOperator, transport::TransportNetwork, TransportScene&, int>));
+  EXPECT_FALSE((
+      std::is_constructible_v<transport::BounceOperator, transport::TransportNetwork&, TransportScene, int>));
 }
 
 TEST(Temporaries, OfOptionsOrScenesAreRefusedByTheFarmsCrew) {
@@ -80,10 +84,10 @@ concept LendsItsWeights = requires(List&& list) {
 };
 
 TEST(Temporaries, OfWeightListsLendNoWeights) {
-  EXPECT_TRUE(LendsItsWeights<gi::ProbeWeights&>);
-  EXPECT_TRUE(LendsItsWeights<const gi::ProbeWeights&>);
-  EXPECT_FALSE(LendsItsWeights<gi::ProbeWeights>);
-  EXPECT_FALSE(LendsItsWeights<const gi::ProbeWeights>);
+  EXPECT_TRUE(LendsItsWeights<probes::ProbeWeights&>);
+  EXPECT_TRUE(LendsItsWeights<const probes::ProbeWeights&>);
+  EXPECT_FALSE(LendsItsWeights<probes::ProbeWeights>);
+  EXPECT_FALSE(LendsItsWeights<const probes::ProbeWeights>);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 /// Contracts of libs/shading and libs/trace.
 
+#include <ssphh/rays/posed_world.h>
 #include <ssphh/scene/builtin.h>
-#include <ssphh/scene/posed_world.h>
 #include <ssphh/shading/lights.h>
 #include <ssphh/shading/mesh_view.h>
 #include <ssphh/trace/path_tracer.h>
@@ -30,7 +30,7 @@ struct Traced {
     for (int part = 0; part < transport.part_count(); ++part) poses.push_back(transport.part_pose(part, 0));
     return poses;
   }
-  std::unique_ptr<scene::DirectLight> light() const {
+  std::unique_ptr<rays::DirectLight> light() const {
     return transport.direct_light(transport.lights(0), poses());
   }
 };
@@ -130,7 +130,7 @@ std::vector<Contract> of_tracers() {
                       {"position"}),
       refuses_tracing("GhostRadiance", "OfASphereThatIsNone",
                       [](Traced& t) {
-                        const scene::GhostSphere ghost{vec3(0), nan};
+                        const rays::GhostSphere ghost{vec3(0), nan};
                         t.tracer.ghost_radiance({vec3(0), 2, {}}, {&ghost, 1}, nullptr, {});
                       },
                       {"ghost sphere"}),
@@ -147,13 +147,13 @@ std::vector<Contract> of_tracers() {
                       {"points per square metre"}),
       refuses_tracing("Intersect", "WithOtherHits",
                       [](Traced& t) {
-                        std::vector<scene::RayHit> hits(1);
-                        t.transport.intersect(0, std::vector<scene::RayQuery>(2), hits);
+                        std::vector<rays::RayHit> hits(1);
+                        t.transport.intersect(0, std::vector<rays::RayQuery>(2), hits);
                       },
                       {"rays", "each"}),
       refuses_tracing("Occluded", "OfNoPart", [](Traced& t) { t.transport.occluded(99, {}, {}); }, {"part"}),
       refuses_tracing("Occluded", "WithOtherAnswers",
-                      [](Traced& t) { t.transport.occluded(0, std::vector<scene::RayQuery>(2), {}); },
+                      [](Traced& t) { t.transport.occluded(0, std::vector<rays::RayQuery>(2), {}); },
                       {"rays", "each"}),
       refuses_tracing("LightGroupOf", "NoLight", [](Traced& t) { t.transport.light_group_of(1); }, {"light"}),
       refuses_tracing("GroupEmitsFrom", "NoPart", [](Traced& t) { t.transport.group_emits_from(0, 99); },
@@ -166,7 +166,7 @@ std::vector<Contract> of_tracers() {
       refuses_tracing("DirectIrradiance", "OfNoGroup", [](Traced& t) { t.light()->irradiance(9, {}, {}); },
                       {"light group"}),
       refuses_tracing("DirectIrradiance", "IntoOtherValues",
-                      [](Traced& t) { t.light()->irradiance(0, std::vector<scene::SurfacePoint>(2), {}); },
+                      [](Traced& t) { t.light()->irradiance(0, std::vector<rays::SurfacePoint>(2), {}); },
                       {"each point"}),
       refuses_tracing("DirectFlux", "OfNoGroup", [](Traced& t) { t.light()->flux(-1); }, {"light group"}),
       gives("DirectEmitted", "OfNoGroup", [] { EXPECT_EQ(traced()->light()->emitted(9, {}, 1), vec3(0)); }),
@@ -188,7 +188,7 @@ std::vector<Contract> of_tracers() {
           {"scene geometry", "other surfaces"}),
       refuses("GeometryOf", "NoScene", [] { trace::geometry_of(nullptr); }, {"scene geometry", "no scene"}),
       refuses_tracing("PosedWorld", "OfTooFewPoses",
-                      [](Traced& t) { scene::PosedWorld(t.transport, std::vector<mat4>{}); },
+                      [](Traced& t) { rays::PosedWorld(t.transport, std::vector<mat4>{}); },
                       {"posed world", "each part"}),
       refuses("PathTracer", "AtNoTime", [] { trace::PathTracer(the_scene(), nan); }, {"time"}),
       refuses("TransportScene", "OfOptionsThatAreNone",

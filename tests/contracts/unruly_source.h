@@ -1,8 +1,8 @@
 #pragma once
 /// Sources of light that break their promises on demand: plug-ins as a host may write them.
 
+#include <ssphh/rays/radiance_source.h>
 #include <ssphh/scene/builtin.h>
-#include <ssphh/scene/radiance_source.h>
 #include <ssphh/trace/transport_scene.h>
 
 namespace ssphh::test {
@@ -14,7 +14,7 @@ inline const scene::Scene& door_scene() {
 }
 
 /// Passes everything on to a sound source, but for what the test spoils.
-class UnrulySource : public scene::TransportSource {
+class UnrulySource : public rays::TransportSource {
  public:
   explicit UnrulySource(const scene::Scene& scene) : sound_(scene) {}
 
@@ -35,14 +35,14 @@ class UnrulySource : public scene::TransportSource {
     tire();
     return sound_.part_pose(part, time);
   }
-  std::vector<scene::PartPoint> sample_part(int part, double density) const override {
+  std::vector<rays::PartPoint> sample_part(int part, double density) const override {
     return sound_.sample_part(part, density);
   }
-  void intersect(int part, std::span<const scene::RayQuery> rays,
-                 std::span<scene::RayHit> hits) const override {
+  void intersect(int part, std::span<const rays::RayQuery> rays,
+                 std::span<rays::RayHit> hits) const override {
     sound_.intersect(part, rays, hits);
   }
-  void occluded(int part, std::span<const scene::RayQuery> rays,
+  void occluded(int part, std::span<const rays::RayQuery> rays,
                 std::span<std::uint8_t> blocked) const override {
     tire();
     sound_.occluded(part, rays, blocked);
@@ -55,9 +55,9 @@ class UnrulySource : public scene::TransportSource {
   }
   bool group_emits_from(int group, int part) const override { return sound_.group_emits_from(group, part); }
   int environment_group() const override { return sound_.environment_group(); }
-  std::unique_ptr<scene::DirectLight> direct_light(std::span<const scene::LightState> lights,
-                                                   std::span<const mat4> poses,
-                                                   float rotation) const override {
+  std::unique_ptr<rays::DirectLight> direct_light(std::span<const scene::LightState> lights,
+                                                  std::span<const mat4> poses,
+                                                  float rotation) const override {
     tire();
     if (!gives_direct_light) return nullptr;
     auto light = sound_.direct_light(lights, poses, rotation);
@@ -67,20 +67,20 @@ class UnrulySource : public scene::TransportSource {
   std::uint64_t rays_traced() const override { return sound_.rays_traced(); }
 
  private:
-  struct Dazzling : scene::DirectLight {
-    explicit Dazzling(std::unique_ptr<scene::DirectLight> light) : sound(std::move(light)) {}
-    void irradiance(int group, std::span<const scene::SurfacePoint> points,
+  struct Dazzling : rays::DirectLight {
+    explicit Dazzling(std::unique_ptr<rays::DirectLight> light) : sound(std::move(light)) {}
+    void irradiance(int group, std::span<const rays::SurfacePoint> points,
                     std::span<vec3> out) const override {
       sound->irradiance(group, points, out);
       if (!out.empty()) out.back().y = std::numeric_limits<float>::quiet_NaN();
     }
-    bool may_shadow(int group, const scene::SurfacePoint& p, const scene::Bounds& box) const override {
+    bool may_shadow(int group, const rays::SurfacePoint& p, const scene::Bounds& box) const override {
       return sound->may_shadow(group, p, box);
     }
-    vec3 emitted(int group, const scene::RayQuery& ray, float distance) const override {
+    vec3 emitted(int group, const rays::RayQuery& ray, float distance) const override {
       return sound->emitted(group, ray, distance);
     }
-    std::unique_ptr<scene::DirectLight> sound;
+    std::unique_ptr<rays::DirectLight> sound;
   };
 
   void tire() const {

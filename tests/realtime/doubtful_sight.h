@@ -7,19 +7,19 @@
 #include <cmath>
 #include <vector>
 
-#include <ssphh/gi/lookup.h>
-#include <ssphh/scene/radiance_source.h>
+#include <ssphh/probes/lookup.h>
+#include <ssphh/rays/radiance_source.h>
 
 namespace ssphh::test {
 
 /// Sight of probes from places just above surfaces, and which of it a texel decides. For one thread.
 class DoubtfulSight {
  public:
-  explicit DoubtfulSight(const scene::RadianceSource& source) : source_(source) {}
+  explicit DoubtfulSight(const rays::RadianceSource& source) : source_(source) {}
   DoubtfulSight(const DoubtfulSight&) = delete;
   DoubtfulSight& operator=(const DoubtfulSight&) = delete;
 
-  gi::SeesProbe sees() {
+  probes::SeesProbe sees() {
     return [this](const vec3& from, const vec3& probe) { return seen(from, probe); };
   }
 
@@ -28,7 +28,7 @@ class DoubtfulSight {
   /// Calls `look_up`, which asks sees() at that point alone, for every choice of what is in doubt, at first
   /// as the source sees it; of more than `most` doubts, the others stay so. Returns how many there are.
   template <class LookUp>
-  int for_each_choice(const scene::SurfacePoint& at, const LookUp& look_up) {
+  int for_each_choice(const rays::SurfacePoint& at, const LookUp& look_up) {
     at_ = at, asked_.clear(), doubts_ = 0;
     for (choice_ = 0; choice_ < 1u << std::min(doubts_, most); ++choice_) look_up();
     return doubts_;
@@ -68,8 +68,8 @@ class DoubtfulSight {
     return false;
   }
 
-  const scene::RadianceSource& source_;
-  scene::SurfacePoint at_;
+  const rays::RadianceSource& source_;
+  rays::SurfacePoint at_;
   std::vector<Asked> asked_;
   int doubts_ = 0;
   unsigned choice_ = 0;

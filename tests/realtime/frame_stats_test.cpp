@@ -45,7 +45,7 @@ class FrameStatsTest : public WithGl {
     for (const realtime::PassTime& pass : stats.passes) names.emplace_back(pass.name);
     return names;
   }
-  static gi::ProbeSet one_probe() { return made_up_probes(std::vector{vec3(0, 0, 1)}); }
+  static probes::ProbeSet one_probe() { return made_up_probes(std::vector{vec3(0, 0, 1)}); }
 
   scene::Scene scene_ = wall_alone();
 };
@@ -183,8 +183,8 @@ TEST_F(FrameStatsTest, FrameWithoutAWordShowsAllLightAtEveryPixel) {
   const auto& [direct, indirect, lookup, weights, scale, tolerance, supersample, occlusion, radius, view, sky,
                tone, wireframe] = FrameSettings{};
   EXPECT_TRUE(direct && indirect);
-  EXPECT_EQ(lookup, gi::LookupMethod::irradiance);
-  EXPECT_EQ(weights, gi::WeightMethod::fitted);
+  EXPECT_EQ(lookup, probes::LookupMethod::irradiance);
+  EXPECT_EQ(weights, probes::WeightMethod::fitted);
   EXPECT_EQ(scale, 1);
   EXPECT_EQ(tolerance, 0.1f);
   EXPECT_EQ(supersample, 1);

@@ -24,7 +24,7 @@ struct GroupLight {
     std::erase_if(empty.instances, [&](const scene::Instance& i) {
       return !scene.materials[static_cast<std::size_t>(scene::instance_material(scene, i))].emissive();
     });
-    std::vector<scene::SurfacePoint> places;
+    std::vector<rays::SurfacePoint> places;
     for (const PixelPoint& p : points.pixels) places.push_back({p.point.position, stage_normal(p.point)});
     const auto fill = [&](const scene::Scene& lamps, std::vector<vec3>& out) {
       const trace::TransportScene source(lamps, {.light_samples = 256});

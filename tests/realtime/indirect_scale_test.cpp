@@ -100,13 +100,13 @@ TEST_F(IndirectScale, WhatStandsBeforeAWallKeepsItsOwnLight) {
   scene.cameras.push_back(camera);
   scene::validate(scene);
   // Dim between wall and posts, bright before the posts
-  gi::ProbeSet probes = test::made_up_probes({{0, 0, 0.5f}, {0, 0, 2}});
-  for (gi::GroupLight& light : probes.probes[1].groups) light.reflected *= vec3(20);
-  gi::merge_groups(probes);
+  probes::ProbeSet probes = test::made_up_probes({{0, 0, 0.5f}, {0, 0, 2}});
+  for (probes::GroupLight& light : probes.probes[1].groups) light.reflected *= vec3(20);
+  probes::merge_groups(probes);
   Renderer renderer(gl(), scene);
   renderer.set_probes(probes);
   FrameSettings settings;
-  settings.weights = gi::WeightMethod::distance;
+  settings.weights = probes::WeightMethod::distance;
   settings.indirect_tolerance = 1;  // light agrees everywhere: places must tell
   const Target target{.width = 192, .height = 108};
   const image::Image exact = draw(renderer, scene, settings, target);
@@ -134,7 +134,7 @@ TEST_F(IndirectScale, ManyPixelsThatDifferAreAllLookedUp) {
   Renderer renderer(gl(), scene);
   renderer.set_probes(test::made_up_probes(scene));
   FrameSettings settings;
-  settings.weights = gi::WeightMethod::distance;
+  settings.weights = probes::WeightMethod::distance;
   const Target target{.width = 480, .height = 320};
   const image::Image exact = draw(renderer, scene, settings, target);
   settings.indirect_scale = 2;

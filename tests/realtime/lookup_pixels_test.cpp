@@ -17,8 +17,8 @@ namespace {
 
 constexpr PictureSize size{72, 48};
 
-using gi::LookupMethod;
-using gi::WeightMethod;
+using probes::LookupMethod;
+using probes::WeightMethod;
 
 /// An empty room of walls of other colours, 4 × 3 × 5 m, seen from inside: no probe hides another.
 scene::Scene room(const scene::Material& walls) {
@@ -61,7 +61,7 @@ std::vector<vec3> eight() {
 }
 
 /// What surfaces reflect of a lookup: libs/trace does the same at the first hit.
-image::Image looked_up(const PixelPoints& points, const scene::IndirectLight& light,
+image::Image looked_up(const PixelPoints& points, const rays::IndirectLight& light,
                        const scene::Material& walls = matte(vec3(1))) {
   const float root = (walls.ior - 1) / (walls.ior + 1), f0 = root * root * walls.specular;
   return points.picture([&](const PixelPoint& p) {
@@ -84,12 +84,12 @@ image::Image looked_up(const PixelPoints& points, const scene::IndirectLight& li
 }
 
 /// Every second one red, the others blue.
-gi::ProbeSet coloured(gi::ProbeSet set) {
+probes::ProbeSet coloured(probes::ProbeSet set) {
   for (std::size_t i = 0; i < set.probes.size(); ++i) {
-    for (gi::GroupLight& light : set.probes[i].groups)
+    for (probes::GroupLight& light : set.probes[i].groups)
       light.reflected *= (i + i / 2 + i / 4) % 2 ? vec3(4, 1, 0.4f) : vec3(0.3f, 1.5f, 3);
   }
-  gi::merge_groups(set);
+  probes::merge_groups(set);
   return set;
 }
 
@@ -129,12 +129,12 @@ class LookupPixels : public WithGl {
     pose.world[3] += vec4(0.013f, 0.007f, 0, 0);  // no edge passes through the middle of pixels
     return pose;
   }
-  static std::unique_ptr<scene::IndirectLight> lookup(const gi::ProbeSet& probes,
-                                                      const trace::PathTracer& tracer, LookupMethod method,
-                                                      WeightMethod weights) {
-    gi::LookupParams params;
+  static std::unique_ptr<rays::IndirectLight> lookup(const probes::ProbeSet& probes,
+                                                     const trace::PathTracer& tracer, LookupMethod method,
+                                                     WeightMethod weights) {
+    probes::LookupParams params;
     params.weights.method = weights;
-    return gi::make_lookup(method, probes, tracer, params);
+    return probes::make_lookup(method, probes, tracer, params);
   }
 };
 
@@ -164,9 +164,9 @@ TEST_P(EveryWeight, InAnEmptyRoomEveryPixelIsTheCpus) {
   const Weights& w = GetParam();
   const scene::Scene scene = room(matte(vec3(1)));
   const trace::PathTracer tracer(scene);
-  gi::ProbeSet probes = w.method == LookupMethod::light       ? coloured(smooth_probes(eight()))
-                        : w.weights == WeightMethod::distance ? coloured(made_up_probes(eight()))
-                                                              : made_up_probes(grid());
+  probes::ProbeSet probes = w.method == LookupMethod::light       ? coloured(smooth_probes(eight()))
+                            : w.weights == WeightMethod::distance ? coloured(made_up_probes(eight()))
+                                                                  : made_up_probes(grid());
   if (w.weights == WeightMethod::fitted) probes.fitted = made_up_fit(scene, probes, 800);
   const trace::TransportScene source(scene);
   const PixelPoints points(source, pose_of(scene, ""), size);
@@ -216,10 +216,10 @@ TEST_F(LookupPixels, GlossyWallsMirrorTheProbesByTheirRoughness) {
     const scene::Scene scene = room(gloss);
     const trace::PathTracer tracer(scene);
     // All bands, for lobes to differ by, over twice the mean, so that it is hardly ever dark
-    gi::ProbeSet probes = made_up_probes(grid());
-    for (gi::Probe& probe : probes.probes)
-      for (gi::GroupLight& light : probe.groups) light.reflected[0] *= 2;
-    gi::merge_groups(probes);
+    probes::ProbeSet probes = made_up_probes(grid());
+    for (probes::Probe& probe : probes.probes)
+      for (probes::GroupLight& light : probe.groups) light.reflected[0] *= 2;
+    probes::merge_groups(probes);
     const trace::TransportScene source(scene);
     const PixelPoints points(source, pose_of(scene, ""), size);
     realtime::Renderer renderer(gl(), scene);

@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 
 #include <ssphh/core/parallel.h>
-#include <ssphh/gi/methods/table.h>
+#include <ssphh/methods/table.h>
+#include <ssphh/rays/posed_world.h>
 #include <ssphh/scene/builtin.h>
-#include <ssphh/scene/posed_world.h>
 #include <ssphh/shading/bsdf.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -31,9 +31,9 @@ const realtime::RendererParams quick{.virtual_light_map_bytes = std::size_t{16} 
 struct Subject {
   Subject(scene::Scene given, const std::string& name, const Settings& settings, float at = 0)
       : scene(std::move(given)), source(scene), time(at) {
-    const gi::MethodEntry& entry = gi::find_method(name);
-    method = entry.make({scene, source}, gi::MethodParameters(name, entry.parameters, settings), {});
-    method->update(scene::lighting_at(source, time), {});
+    const methods::MethodEntry& entry = methods::find_method(name);
+    method = entry.make({scene, source}, methods::MethodParameters(name, entry.parameters, settings), {});
+    method->update(rays::lighting_at(source, time), {});
   }
   Subject(const std::string& builtin, const std::string& name, const Settings& settings, float at = 0)
       : Subject(scene::make_builtin(builtin), name, settings, at) {}
@@ -48,7 +48,7 @@ struct Subject {
   scene::Scene scene;
   trace::TransportScene source;
   float time;
-  std::unique_ptr<gi::Method> method;
+  std::unique_ptr<methods::Method> method;
 };
 
 struct Picture {
@@ -59,16 +59,16 @@ struct Picture {
 /// material.
 Picture looked_up(const Subject& subject, const std::string& camera,
                   const shading::BsdfParams* glossy = nullptr) {
-  const std::vector<scene::RayQuery> rays = test::pixel_rays(subject.camera(camera), size);
-  std::vector<scene::RayHit> hits(rays.size());
-  scene::PosedWorld(subject.source, subject.time).intersect(rays, hits);
+  const std::vector<rays::RayQuery> rays = test::pixel_rays(subject.camera(camera), size);
+  std::vector<rays::RayHit> hits(rays.size());
+  rays::PosedWorld(subject.source, subject.time).intersect(rays, hits);
   Picture picture{{size.width, size.height, 3}, {size.width, size.height, 3}};
   parallel_for(rays.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (hits[i].escaped()) continue;
       const int x = static_cast<int>(i) % size.width, y = static_cast<int>(i) / size.width;
       const vec3 at = rays[i].origin + hits[i].distance * rays[i].direction;
-      const scene::SurfacePoint point{at, hits[i].normal};
+      const rays::SurfacePoint point{at, hits[i].normal};
       const vec3 irradiance = subject.method->light().irradiance(point);
       vec3 radiance = hits[i].albedo / pi * irradiance;
       if (glossy) {
@@ -288,7 +288,7 @@ TEST_F(MethodLight, FollowsLampsAndKeepsMapsThatHold) {
   EXPECT_GT(renderer.draw(camera, {}, target).shadow_maps_drawn, number(renderer, "gl_lights"))
       << "some faces of each light's cube, beside the lamp's";
   const double once = test::mean_luminance(draw(renderer, lights, "room-a").radiance);
-  scene::LightingState state = scene::lighting_at(lights.source, 0);
+  scene::LightingState state = rays::lighting_at(lights.source, 0);
   for (vec3& scale : state.group_scales) scale = vec3(2);
   lights.method->update(state, {});
   renderer.set_method_light(lights.method->light_data());

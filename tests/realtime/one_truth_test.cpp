@@ -36,14 +36,15 @@ BlockMeans block_means(const image::Image& image, int block = 16) {
 
 /// How far apart what a matte surface reflects may lie where a texel of a probe's map decides what it sees.
 /// Seen along a surface, as that beside a doorway from a probe in it, a texel is as long as a wall.
-BlockMeans doubts(const scene::Scene& scene, const gi::ProbeSet& probes, const gi::LookupParams& params,
-                  const trace::PathTracer& tracer) {
+BlockMeans doubts(const scene::Scene& scene, const probes::ProbeSet& probes,
+                  const probes::LookupParams& params, const trace::PathTracer& tracer) {
   const trace::TransportScene source(scene);
   const test::PixelPoints points(source, scene::camera_pose(scene, ""), {64, 36});
   std::vector<vec3> places;
-  for (const gi::Probe& probe : probes.probes) places.push_back(probe.position);
+  for (const probes::Probe& probe : probes.probes) places.push_back(probe.position);
   test::DoubtfulSight sight(tracer);
-  const gi::IrradianceLookup lookup(probes, gi::make_weights(places, sight.sees(), params.weights), params);
+  const probes::IrradianceLookup lookup(probes, probes::make_weights(places, sight.sees(), params.weights),
+                                        params);
   image::Image apart(points.size.width, points.size.height, 3);
   for (const test::PixelPoint& pixel : points.pixels) {
     if (pixel.hit.escaped()) continue;
@@ -60,13 +61,13 @@ BlockMeans doubts(const scene::Scene& scene, const gi::ProbeSet& probes, const g
 
 class OneTruth : public test::WithGl, public testing::WithParamInterface<std::string> {
  protected:
-  void compare(gi::LookupMethod method, gi::WeightMethod weights = gi::WeightMethod::mls) {
+  void compare(probes::LookupMethod method, probes::WeightMethod weights = probes::WeightMethod::mls) {
     const scene::Scene scene = scene::make_builtin(GetParam());
     compare(scene, method, weights, test::made_up_probes(scene));
   }
   /// `edges`: something throws shadows. `sharing`: so many probes, about, light a point.
-  void compare(const scene::Scene& scene, gi::LookupMethod method, gi::WeightMethod weights,
-               const gi::ProbeSet& probes, bool edges = true, int sharing = 8);
+  void compare(const scene::Scene& scene, probes::LookupMethod method, probes::WeightMethod weights,
+               const probes::ProbeSet& probes, bool edges = true, int sharing = 8);
 };
 
 /// What may differ in a block:
@@ -76,8 +77,8 @@ class OneTruth : public test::WithGl, public testing::WithParamInterface<std::st
 ///   d, d as much as the width the picture shows, against a block of 16 of 128 pixels of that width;
 /// - half shadows of lights with an extent come in steps of one of 16 points (8 on spheres).
 /// A block with an edge through it has all of that at once.
-void OneTruth::compare(const scene::Scene& scene, gi::LookupMethod method, gi::WeightMethod weights,
-                       const gi::ProbeSet& probes, bool edges, int sharing) {
+void OneTruth::compare(const scene::Scene& scene, probes::LookupMethod method, probes::WeightMethod weights,
+                       const probes::ProbeSet& probes, bool edges, int sharing) {
   const double edge = edges ? 1.5 * 2.0 / 256 / (16.0 / 128) : 0, steps = edges ? 1.0 / 16 : 0;
   // What is left is interpolation within a probe's tile: seen to be 0.2 % in a block; one probe of sixteen
   // missed makes 1.5 %. 0.5 % lies between; a quarter of it counts four times. It falls as the probes'
@@ -86,21 +87,22 @@ void OneTruth::compare(const scene::Scene& scene, gi::LookupMethod method, gi::W
   const PictureSize size;
 
   const trace::PathTracer tracer(scene);
-  gi::LookupParams params;
+  probes::LookupParams params;
   params.weights.method = weights;
-  const auto lookup = gi::make_lookup(method, probes, tracer, params);
+  const auto lookup = probes::make_lookup(method, probes, tracer, params);
   const BlockMeans a = block_means(test::traced(scene, lookup.get(), size, 24, 1, tracer));
   const BlockMeans b = block_means(test::traced(scene, lookup.get(), size, 24, 2, tracer));
   realtime::Renderer renderer(gl(), scene);
   renderer.set_probes(probes);
-  if (weights == gi::WeightMethod::fitted) renderer.set_fitted(test::prepared(scene, *probes.fitted, tracer));
+  if (weights == probes::WeightMethod::fitted)
+    renderer.set_fitted(test::prepared(scene, *probes.fitted, tracer));
   realtime::FrameSettings settings;
   settings.lookup = method;
   settings.weights = weights;
   const BlockMeans picture = block_means(test::drawn(renderer, scene, size, settings));
 
   BlockMeans doubt{a.columns, a.rows, std::vector<double>(a.values.size(), 0)};
-  if (edges && weights != gi::WeightMethod::fitted && method == gi::LookupMethod::irradiance)
+  if (edges && weights != probes::WeightMethod::fitted && method == probes::LookupMethod::irradiance)
     doubt = doubts(scene, probes, params, tracer);
 
   double mean = 0, squares = 0, noise2 = 0;
@@ -121,17 +123,17 @@ void OneTruth::compare(const scene::Scene& scene, gi::LookupMethod method, gi::W
   const auto n = static_cast<double>(a.values.size());
   // Few blocks have edges, and those rarely all of their light; a fit changes more than an average does where
   // a probe comes into sight, so that more of its edges count
-  const double share = weights == gi::WeightMethod::mls ? 0.2 : 0.1;
+  const double share = weights == probes::WeightMethod::mls ? 0.2 : 0.1;
   EXPECT_LT(squares / n, 4 * noise2 / n + share * edge * edge);
 }
 
 TEST_P(OneTruth, PictureIsTheTracedOne) {
-  compare(gi::LookupMethod::irradiance);
+  compare(probes::LookupMethod::irradiance);
 }
 
 using OneTruthDistance = OneTruth;
 TEST_P(OneTruthDistance, PictureWithWeightsByDistanceIsTheTracedOne) {
-  compare(gi::LookupMethod::irradiance, gi::WeightMethod::distance);
+  compare(probes::LookupMethod::irradiance, probes::WeightMethod::distance);
 }
 INSTANTIATE_TEST_SUITE_P(Builtin, OneTruthDistance, testing::Values("gallery3"));
 
@@ -161,12 +163,12 @@ TEST_P(OneTruthCrowded, PictureWithMoreProbesAroundThanAPointTakesIsTheTracedOne
     const vec3 share = (cell + 0.25f + face + vec3(shake(random), shake(random), shake(random))) / 5.0f;
     places.push_back(glm::mix(room.min, room.max, share));
   }
-  gi::ProbeSet probes = test::made_up_probes(places);
+  probes::ProbeSet probes = test::made_up_probes(places);
   // Every second one dark, the rest twice as bright: to miss one shows
   for (std::size_t i = 0; i < probes.probes.size(); ++i)
-    for (gi::GroupLight& light : probes.probes[i].groups) light.reflected *= vec3(i % 2 ? 0.1f : 2);
-  gi::merge_groups(probes);
-  compare(scene, gi::LookupMethod::irradiance, gi::WeightMethod::mls, probes, false);
+    for (probes::GroupLight& light : probes.probes[i].groups) light.reflected *= vec3(i % 2 ? 0.1f : 2);
+  probes::merge_groups(probes);
+  compare(scene, probes::LookupMethod::irradiance, probes::WeightMethod::mls, probes, false);
 }
 INSTANTIATE_TEST_SUITE_P(Builtin, OneTruthCrowded, testing::Values("box"));
 
@@ -182,8 +184,8 @@ TEST_P(OneTruthHidden, PictureWithoutAProbeInSightIsTheTracedOne) {
     outside.push_back(glm::mix(room.min, room.max, vec3(0.6f, u, 0.4f)));
     outside.push_back(glm::mix(room.min, room.max, vec3(0.4f, 0.6f, u)));
   }
-  compare(scene, gi::LookupMethod::irradiance, gi::WeightMethod::distance, test::made_up_probes(outside),
-          false, 2);
+  compare(scene, probes::LookupMethod::irradiance, probes::WeightMethod::distance,
+          test::made_up_probes(outside), false, 2);
 }
 INSTANTIATE_TEST_SUITE_P(Builtin, OneTruthHidden, testing::Values("two-rooms"));
 
@@ -191,9 +193,9 @@ INSTANTIATE_TEST_SUITE_P(Builtin, OneTruthHidden, testing::Values("two-rooms"));
 using OneTruthFitted = OneTruth;
 TEST_P(OneTruthFitted, PictureWithFittedWeightsIsTheTracedOne) {
   const scene::Scene scene = scene::make_builtin(GetParam());
-  gi::ProbeSet probes = test::made_up_probes(scene);
+  probes::ProbeSet probes = test::made_up_probes(scene);
   probes.fitted = test::made_up_fit(scene, probes, 1200);
-  compare(scene, gi::LookupMethod::irradiance, gi::WeightMethod::fitted, probes);
+  compare(scene, probes::LookupMethod::irradiance, probes::WeightMethod::fitted, probes);
 }
 INSTANTIATE_TEST_SUITE_P(Builtin, OneTruthFitted, testing::Values("cornell", "two-rooms"));
 
@@ -206,13 +208,14 @@ TEST_P(OneTruthTrilinear, PictureWithTrilinearWeightsIsTheTracedOne) {
     const vec3 cell(static_cast<float>(i % 4), static_cast<float>(i / 4 % 4), static_cast<float>(i / 16));
     places.push_back(glm::mix(room.min, room.max, (cell + 0.5f) / 4.0f));
   }
-  compare(scene, gi::LookupMethod::irradiance, gi::WeightMethod::trilinear, test::made_up_probes(places));
+  compare(scene, probes::LookupMethod::irradiance, probes::WeightMethod::trilinear,
+          test::made_up_probes(places));
 }
 INSTANTIATE_TEST_SUITE_P(Builtin, OneTruthTrilinear, testing::Values("box"));
 
 using OneTruthLight = OneTruth;
 TEST_P(OneTruthLight, PictureOfSphlsAsLightsIsTheTracedOne) {
-  compare(gi::LookupMethod::light);
+  compare(probes::LookupMethod::light);
 }
 INSTANTIATE_TEST_SUITE_P(Builtin, OneTruthLight, testing::Values("cornell"));
 

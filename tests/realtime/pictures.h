@@ -3,9 +3,9 @@
 
 #include <random>
 
-#include <ssphh/gi/lookup.h>
-#include <ssphh/gi/surface_points.h>
+#include <ssphh/probes/lookup.h>
 #include <ssphh/realtime/renderer.h>
+#include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -15,22 +15,22 @@ namespace ssphh::test {
 
 /// Probes at the scene's SPHLs with made-up light of degree 4, positive and different in every direction: a
 /// lookup that is wrong anywhere shows.
-inline gi::ProbeSet made_up_probes(const std::vector<vec3>& places, unsigned seed = 1) {
+inline probes::ProbeSet made_up_probes(const std::vector<vec3>& places, unsigned seed = 1) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> mean(0.5f, 2), rest(-0.25f, 0.25f);
-  gi::ProbeSet set;
+  probes::ProbeSet set;
   set.degree = 4;
   set.light_groups = {{"made up", vec3(1)}};
   for (const vec3& place : places) {
-    gi::Probe probe;
+    probes::Probe probe;
     probe.position = place;
-    gi::GroupLight light{sh::RadianceSh(4), sh::RadianceSh(4)};
+    probes::GroupLight light{sh::RadianceSh(4), sh::RadianceSh(4)};
     light.reflected[0] = vec3(mean(random), mean(random), mean(random));
     for (int k = 1; k < 25; ++k) light.reflected[k] = vec3(rest(random), rest(random), rest(random));
     probe.groups.push_back(light);
     set.probes.push_back(probe);
   }
-  gi::merge_groups(set);
+  probes::merge_groups(set);
   return set;
 }
 
@@ -40,44 +40,45 @@ inline std::vector<vec3> probe_places(const scene::Scene& scene) {
   return places;
 }
 
-inline gi::ProbeSet made_up_probes(const scene::Scene& scene) {
+inline probes::ProbeSet made_up_probes(const scene::Scene& scene) {
   return made_up_probes(probe_places(scene));
 }
 
 /// Smooth enough that it is nowhere dark, where tiles interpolate between what is cut off at 0.
-inline gi::ProbeSet smooth_probes(const std::vector<vec3>& places) {
-  gi::ProbeSet set = made_up_probes(places);
-  for (gi::Probe& probe : set.probes) {
-    for (gi::GroupLight& light : probe.groups) {
+inline probes::ProbeSet smooth_probes(const std::vector<vec3>& places) {
+  probes::ProbeSet set = made_up_probes(places);
+  for (probes::Probe& probe : set.probes) {
+    for (probes::GroupLight& light : probe.groups) {
       for (int k = 0; k < 25; ++k) {
         const float band = std::floor(std::sqrt(static_cast<float>(k)));
         light.reflected[k] *= k == 0 ? 2 : 1 / (band * band);
       }
     }
   }
-  gi::merge_groups(set);
+  probes::merge_groups(set);
   return set;
 }
 
 /// Points all over the still surfaces with smooth weights of the nearest visible probes.
-inline gi::FittedPoints made_up_fit(const scene::Scene& scene, const gi::ProbeSet& probes, int count) {
+inline probes::FittedPoints made_up_fit(const scene::Scene& scene, const probes::ProbeSet& probes,
+                                        int count) {
   const trace::TransportScene source(scene);
   const trace::PathTracer tracer(scene);
   std::vector<vec3> places;
-  for (const gi::Probe& probe : probes.probes) places.push_back(probe.position);
-  gi::WeightParams params;
-  params.method = gi::WeightMethod::distance;
-  const auto weights = gi::make_weights(
+  for (const probes::Probe& probe : probes.probes) places.push_back(probe.position);
+  probes::WeightParams params;
+  params.method = probes::WeightMethod::distance;
+  const auto weights = probes::make_weights(
       places, [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); }, params);
-  gi::SurfacePointParams points;
+  study::SurfacePointParams points;
   points.count = count;
-  gi::FittedPoints fitted;
-  for (const scene::SurfacePoint& point : gi::reachable_points(source, places, 0, points)) {
+  probes::FittedPoints fitted;
+  for (const rays::SurfacePoint& point : study::reachable_points(source, places, 0, points)) {
     if (point.moves) continue;
-    const gi::ProbeWeights found = weights->at(point);
+    const probes::ProbeWeights found = weights->at(point);
     fitted.points.push_back(point);
-    gi::PointWeights& kept = fitted.weights.emplace_back();
-    for (const gi::ProbeWeight& weight : found.used()) kept.add(weight.probe, weight.weight);
+    probes::PointWeights& kept = fitted.weights.emplace_back();
+    for (const probes::ProbeWeight& weight : found.used()) kept.add(weight.probe, weight.weight);
   }
   return fitted;
 }
@@ -87,14 +88,14 @@ inline mat4 light_world(const scene::Scene& scene, std::size_t light) {
   return node < 0 ? mat4(1) : scene::world_matrices(scene, 0)[static_cast<std::size_t>(node)];
 }
 
-inline realtime::FittedSurfaces prepared(const scene::Scene& scene, const gi::FittedPoints& fitted,
+inline realtime::FittedSurfaces prepared(const scene::Scene& scene, const probes::FittedPoints& fitted,
                                          const trace::PathTracer& tracer) {
   return realtime::prepare_fitted(scene, 0, fitted,
                                   [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); });
 }
 
 /// Direct light traced, indirect light looked up (none: max_depth 1).
-inline image::Image traced(const scene::Scene& scene, const scene::IndirectLight* indirect, PictureSize size,
+inline image::Image traced(const scene::Scene& scene, const rays::IndirectLight* indirect, PictureSize size,
                            int spp, std::uint64_t seed, const trace::PathTracer& tracer) {
   trace::RenderParams params;
   params.width = size.width, params.height = size.height;

@@ -144,7 +144,7 @@ TEST_F(RendererInput, ProbeSendsOutWhatItsFunctionSaysInEveryDirection) {
                                  std::cos(5.0f * static_cast<float>(k)), 0.5f) /
                                 static_cast<float>(degree);
     Renderer renderer(gl(), s);
-    gi::ProbeSet set = made_up_probes({place, {-1, 0, 1}});
+    probes::ProbeSet set = made_up_probes({place, {-1, 0, 1}});
     set.probes[0].radius = 0.2f;
     renderer.set_probes(set);
     change_lighting(renderer, [&](auto& state) { state.emission = {{0, leaving}}; });
@@ -154,7 +154,7 @@ TEST_F(RendererInput, ProbeSendsOutWhatItsFunctionSaysInEveryDirection) {
     const scene::CameraPose pose = scene::camera_pose(s, "");
     renderer.draw(pose, settings, {.width = size.width, .height = size.height});
     image::Image expected(size.width, size.height, 3);
-    const std::vector<scene::RayQuery> rays = pixel_rays(pose, size);
+    const std::vector<rays::RayQuery> rays = pixel_rays(pose, size);
     std::vector<float> y(static_cast<std::size_t>(sh::coefficient_count(degree)));
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const vec3 way = vec3(vec2(rays[i].origin), 0) - place, w = glm::normalize(way);

@@ -2,10 +2,10 @@
 
 #include <gmock/gmock.h>
 
-#include <ssphh/gi/session_sets.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/scene/with_lighting.h>
 #include <ssphh/trace/transport_scene.h>
+#include <ssphh/transport/session_sets.h>
 
 #include "change_lighting.h"
 #include "count_allocations.h"
@@ -126,7 +126,7 @@ TEST_F(RendererTest, DirectAndIndirectAddUp) {
 
 TEST_F(RendererTest, ProbesChangeByWhatIsUploadedForThem) {
   Renderer renderer(gl(), scene_);
-  gi::ProbeSet set = test::made_up_probes(scene_);
+  probes::ProbeSet set = test::made_up_probes(scene_);
   renderer.set_probes(set);
   const image::Image before = picture(renderer, "room-a", View::indirect);
   const vec3 scale(2, 0.6f, 3.3f);
@@ -149,18 +149,18 @@ TEST_F(RendererTest, ProbesChangeByWhatIsUploadedForThem) {
 }
 
 TEST_F(RendererTest, FittedWeightsDoNotLeakThroughAShutDoor) {
-  gi::ProbeSet set = test::made_up_probes(scene_);
+  probes::ProbeSet set = test::made_up_probes(scene_);
   const trace::PathTracer tracer(scene_);
   // Light in room A alone: at probes that its lamp sees
   const vec3 lamp(test::light_world(scene_, 0)[3]);
   int lit = 0;
-  for (gi::Probe& probe : set.probes) {
+  for (probes::Probe& probe : set.probes) {
     const bool in_a = tracer.visible(probe.position, lamp);
     lit += in_a;
-    for (gi::GroupLight& light : probe.groups) light.reflected *= vec3(in_a ? 1 : 0);
+    for (probes::GroupLight& light : probe.groups) light.reflected *= vec3(in_a ? 1 : 0);
   }
   ASSERT_TRUE(lit > 0 && lit < static_cast<int>(set.probes.size()));
-  gi::merge_groups(set);
+  probes::merge_groups(set);
   Renderer renderer(gl(), scene_);
   renderer.set_probes(set);
   renderer.set_fitted(test::prepared(scene_, test::made_up_fit(scene_, set, 1200), tracer));
@@ -175,12 +175,12 @@ TEST_F(RendererTest, FittedWeightsDoNotLeakThroughAShutDoor) {
 }
 
 TEST_F(RendererTest, NewLightOfAProbeCostsThePointsThatItLightsAlone) {
-  const gi::ProbeSet set = test::made_up_probes(scene_);
+  const probes::ProbeSet set = test::made_up_probes(scene_);
   const trace::PathTracer tracer(scene_);
-  const gi::FittedPoints fitted = test::made_up_fit(scene_, set, 600);
+  const probes::FittedPoints fitted = test::made_up_fit(scene_, set, 600);
   std::size_t lit_by_it = 0;
-  for (const gi::PointWeights& weights : fitted.weights) {
-    for (const gi::ProbeWeight& weight : weights.used()) lit_by_it += weight.probe == 0;
+  for (const probes::PointWeights& weights : fitted.weights) {
+    for (const probes::ProbeWeight& weight : weights.used()) lit_by_it += weight.probe == 0;
   }
   Renderer renderer(gl(), scene_);
   renderer.set_probes(set);
@@ -196,9 +196,9 @@ TEST_F(RendererTest, NewLightOfAProbeCostsThePointsThatItLightsAlone) {
 
   // The same as all light new
   const image::Image updated = renderer.read_back();
-  gi::ProbeSet changed = set;
+  probes::ProbeSet changed = set;
   changed.probes[0].groups = set.probes[1].groups;
-  gi::merge_groups(changed);
+  probes::merge_groups(changed);
   renderer.set_probes(changed);
   renderer.set_fitted(prepared);
   frame(renderer);
@@ -227,7 +227,7 @@ TEST_F(RendererTest, AProbeThatEmitsLightsAsAPointLightOfItsIntensity) {
   // Radiance L from a sphere of radius r in every direction is the intensity L π r²
   scene::Scene dark = scene_;
   dark.lights.clear();
-  gi::ProbeSet set = test::made_up_probes(scene_);
+  probes::ProbeSet set = test::made_up_probes(scene_);
   set.probes[0].radius = 0.1f;
   Renderer probe(gl(), dark);
   probe.set_probes(set);
@@ -265,14 +265,14 @@ TEST_F(RendererTest, FramesInSteadyStateAllocateNothing) {
 
 TEST_F(RendererTest, AStateThatDidNotChangeAllocatesNothing) {
   const trace::TransportScene source(scene_);
-  gi::RelightParams params;
+  transport::RelightParams params;
   params.transport = {.directions = 64, .surfel_size = 0.5f, .link_rays = 16};
   params.degree = 2;
-  const gi::ProbeSet set = test::made_up_probes(scene_);
-  gi::RelightSession session(source, gi::places_of(set), params);
+  const probes::ProbeSet set = test::made_up_probes(scene_);
+  transport::RelightSession session(source, transport::places_of(set), params);
   Renderer renderer(gl(), scene_);
   renderer.set_probes(set);
-  scene::LightingState state = scene::lighting_at(source, 0.5f);
+  scene::LightingState state = rays::lighting_at(source, 0.5f);
   state.group_scales[0] = {1, 0.5f, 2};
   state.emission = {{1, sh::RadianceSh(2)}, {3, sh::RadianceSh(2)}};
   session.update(state);

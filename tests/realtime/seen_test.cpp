@@ -52,7 +52,7 @@ class Seen : public WithGl {
   template <class Light>
   static void expect_seen(const image::Image& drawn, const scene::Scene& scene, const Light& light,
                           float share = 1e-4f) {
-    const std::vector<scene::RayQuery> rays = pixel_rays(scene::camera_pose(scene, ""), size);
+    const std::vector<rays::RayQuery> rays = pixel_rays(scene::camera_pose(scene, ""), size);
     image::Image expected(size.width, size.height, 3);
     std::vector<bool> doubtful;
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -67,7 +67,7 @@ class Seen : public WithGl {
     EXPECT_TRUE(picture_is(drawn, bounds));
   }
   /// Distance at which a ray meets the wall; none: infinite.
-  static float wall_distance(const scene::RayQuery& ray) {
+  static float wall_distance(const rays::RayQuery& ray) {
     const float t = (-2 - ray.origin.z) / ray.direction.z;
     const float x = ray.origin.x + t * ray.direction.x;
     return std::abs(x) < 1e-3f ? NAN : t > 0 && x > 0 ? t : INFINITY;
@@ -82,7 +82,7 @@ TEST_F(Seen, SphereShinesBeforeWhatStandsBehindIt) {
       s.cameras[0].orthographic = parallel;
       scene::Light& lamp = add_lamp(s, scene::LightType::sphere, middle);
       lamp.radius = 0.35f, lamp.intensity = 5;
-      expect_seen(draw(s, {.sky = Sky::black}), s, [&](const scene::RayQuery& ray) {
+      expect_seen(draw(s, {.sky = Sky::black}), s, [&](const rays::RayQuery& ray) {
         const vec3 c = middle - ray.origin;
         const float along = glm::dot(c, ray.direction), wall = wall_distance(ray);
         const float half2 = 0.35f * 0.35f - glm::dot(c, c) + along * along;
@@ -99,7 +99,7 @@ TEST_F(Seen, FromWithinASphereItsFarSideIsSeen) {
   scene::Scene s = black_wall();
   scene::Light& lamp = add_lamp(s, scene::LightType::sphere, {0.3f, 0, -0.2f});
   lamp.radius = 3, lamp.intensity = 0.5f;
-  expect_seen(draw(s), s, [&](const scene::RayQuery& ray) {
+  expect_seen(draw(s), s, [&](const rays::RayQuery& ray) {
     const vec3 c = vec3(0.3f, 0, -0.2f) - ray.origin;
     const float along = glm::dot(c, ray.direction), wall = wall_distance(ray);
     const float t = along + std::sqrt(9 - glm::dot(c, c) + along * along);
@@ -114,7 +114,7 @@ TEST_F(Seen, SunIsADiscBehindEverything) {
     scene::Light& sun = add_lamp(s, scene::LightType::directional, vec3(0), -toward);
     sun.angular_radius = radius, sun.intensity = 2;
     const vec3 radiance = 2.0f * sun.color / (pi * std::sin(radius) * std::sin(radius));
-    expect_seen(draw(s), s, [&](const scene::RayQuery& ray) {
+    expect_seen(draw(s), s, [&](const rays::RayQuery& ray) {
       const float away = std::acos(std::min(glm::dot(ray.direction, toward), 1.0f)),
                   wall = wall_distance(ray);
       if (std::isnan(wall) || std::abs(away - radius) < 1e-3f) return unsure;
@@ -137,7 +137,7 @@ TEST_F(Seen, SkyOfOneColourIsThatColour) {
     scene::Scene s = black_wall();
     s.cameras[0].orthographic = parallel;
     s.environment.emplace().color = {0.4f, 0.7f, 1.5f};
-    const auto sky = [&](const scene::RayQuery& ray) {
+    const auto sky = [&](const rays::RayQuery& ray) {
       const float wall = wall_distance(ray);
       return std::isnan(wall) ? unsure : wall == INFINITY ? vec3(0.4f, 0.7f, 1.5f) : vec3(0);
     };
@@ -205,7 +205,7 @@ TEST_F(Views, ShadowIsTheShareOfAllLampsLightThatArrives) {
   renderer.draw(pose, settings, {.width = square.width, .height = square.height});
   image::Image expected(square.width, square.height, 3);
   std::vector<bool> doubtful;
-  const std::vector<scene::RayQuery> rays = pixel_rays(pose, square);
+  const std::vector<rays::RayQuery> rays = pixel_rays(pose, square);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const vec3 x(rays[i].origin.x, 0, rays[i].origin.z);
     float arrives = 0, all = 0;
@@ -247,7 +247,7 @@ TEST_F(Views, ChosenProbeHasItsOwnColourAndIsBrighterTheMoreAreInSight) {
   const auto colours = [&](const std::vector<vec3>& places) {
     renderer.set_probes(made_up_probes(places));
     FrameSettings settings;
-    settings.view = View::chosen_sphl, settings.weights = gi::WeightMethod::distance;
+    settings.view = View::chosen_sphl, settings.weights = probes::WeightMethod::distance;
     renderer.draw(scene::camera_pose(s, ""), settings, {.width = 8, .height = 4});
     return renderer.read_back();
   };

@@ -13,7 +13,7 @@
 namespace ssphh::test {
 namespace {
 
-using gi::WeightMethod;
+using probes::WeightMethod;
 
 constexpr PictureSize size{80, 45};
 
@@ -24,7 +24,7 @@ constexpr float tile = 0.01f, least = 1e-3f;
 class SightPixels : public WithGl {
  protected:
   /// Matte scenes, whose indirect light is ρ E / π.
-  void compare(const scene::Scene& scene, const std::string& camera, const gi::ProbeSet& probes,
+  void compare(const scene::Scene& scene, const std::string& camera, const probes::ProbeSet& probes,
                WeightMethod method) {
     const trace::PathTracer tracer(scene);
     const trace::TransportScene source(scene);
@@ -33,11 +33,12 @@ class SightPixels : public WithGl {
     const PixelPoints points(source, pose, size);
 
     std::vector<vec3> places;
-    for (const gi::Probe& probe : probes.probes) places.push_back(probe.position);
-    gi::LookupParams params;
+    for (const probes::Probe& probe : probes.probes) places.push_back(probe.position);
+    probes::LookupParams params;
     params.weights.method = method;
     DoubtfulSight sight(tracer);
-    const gi::IrradianceLookup lookup(probes, gi::make_weights(places, sight.sees(), params.weights), params);
+    const probes::IrradianceLookup lookup(probes, probes::make_weights(places, sight.sees(), params.weights),
+                                          params);
 
     const image::Image black(size.width, size.height, 3);
     PictureBounds bounds{black, black, {}, {}};

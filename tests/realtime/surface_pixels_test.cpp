@@ -56,7 +56,7 @@ std::vector<std::optional<shading::Surface>> surfaces_of(const scene::Scene& sce
   const mat4 world = scene::world_matrices(scene, 0)[0];
   const mat3 normals = glm::transpose(glm::inverse(mat3(world)));
   std::vector<std::optional<shading::Surface>> found;
-  for (const scene::RayQuery& ray : pixel_rays(scene::camera_pose(scene, ""), size)) {
+  for (const rays::RayQuery& ray : pixel_rays(scene::camera_pose(scene, ""), size)) {
     std::optional<shading::Surface>& surface = found.emplace_back();
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const auto corner = [&](int c) { return vec3(world * vec4(mesh.positions[mesh.triangles[t][c]], 1)); };

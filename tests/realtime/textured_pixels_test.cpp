@@ -63,14 +63,14 @@ class TexturedPixels : public WithGl {
   /// picture changes by more than `edge` from pixel to pixel, its samples and the drawn ones may mix
   /// otherwise: anything between a pixel and those around it will do. At most `edges` of the picture are
   /// such. `filtered`: what 8 bits of a filter's weight may change a radiance by.
-  void expect_traced(scene::Scene scene, const gi::ProbeSet* probes, float edge, double edges,
+  void expect_traced(scene::Scene scene, const probes::ProbeSet* probes, float edge, double edges,
                      float filtered = 0.011f) {
     scene::validate(scene);
     const trace::PathTracer tracer(scene);
-    gi::LookupParams params;
-    params.weights.method = gi::WeightMethod::distance;
+    probes::LookupParams params;
+    params.weights.method = probes::WeightMethod::distance;
     const auto lookup =
-        probes ? gi::make_lookup(gi::LookupMethod::irradiance, *probes, tracer, params) : nullptr;
+        probes ? probes::make_lookup(probes::LookupMethod::irradiance, *probes, tracer, params) : nullptr;
     PictureSamples samples;
     for (std::uint64_t seed = 1; seed <= 8; ++seed)
       samples.add(traced(scene, lookup.get(), size, 8, seed, tracer));
@@ -92,7 +92,7 @@ class TexturedPixels : public WithGl {
     realtime::Renderer renderer(gl(), scene);
     if (probes) renderer.set_probes(*probes);
     realtime::FrameSettings settings;
-    settings.weights = gi::WeightMethod::distance;
+    settings.weights = probes::WeightMethod::distance;
     const image::Image picture = drawn(renderer, scene, size, settings);
     EXPECT_TRUE(picture_is(picture, bounds));
     EXPECT_GT(mean_luminance(truth), 0.1);
@@ -108,7 +108,7 @@ TEST_F(TexturedPixels, OfColoursAndNormalsTurnedAndUnevenlyScaledAreTheTracers) 
   s.materials[0].normal_texture = {
       .texture = 1, .offset = {-0.2f, 0.1f}, .scale = {0.4f, 0.7f}, .rotation = -0.9f};
   s.materials[0].normal_scale = 0.8f;
-  const gi::ProbeSet probes = smooth_probes({{-1.5f, 0.5f, 2}, {1.5f, -0.5f, 2.5f}, {0.2f, 1.5f, 1.8f}});
+  const probes::ProbeSet probes = smooth_probes({{-1.5f, 0.5f, 2}, {1.5f, -0.5f, 2.5f}, {0.2f, 1.5f, 1.8f}});
   expect_traced(std::move(s), &probes, INFINITY, 0);
 }
 

@@ -6,11 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/core/parallel.h>
-#include <ssphh/gi/leak.h>
-#include <ssphh/gi/lookup_error.h>
-#include <ssphh/gi/methods/table.h>
-#include <ssphh/gi/place.h>
-#include <ssphh/gi/surface_points.h>
+#include <ssphh/methods/table.h>
+#include <ssphh/place/place.h>
+#include <ssphh/study/leak.h>
+#include <ssphh/study/lookup_error.h>
+#include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 
 #include "transport_fixtures.h"
@@ -20,29 +20,29 @@ namespace {
 
 using Settings = std::vector<std::string>;
 
-std::unique_ptr<gi::Method> make(const std::string& name, const scene::Scene& scene,
-                                 const trace::TransportScene& source, const Settings& settings) {
-  const gi::MethodEntry& entry = gi::find_method(name);
+std::unique_ptr<methods::Method> make(const std::string& name, const scene::Scene& scene,
+                                      const trace::TransportScene& source, const Settings& settings) {
+  const methods::MethodEntry& entry = methods::find_method(name);
   return entry.make({scene, source}, {name, entry.parameters, settings}, {});
 }
 
-double number(const gi::Method& method, const std::string& name) {
+double number(const methods::Method& method, const std::string& name) {
   for (const auto& [n, value] : method.numbers()) {
     if (n == name) return value;
   }
   return NAN;
 }
 
-std::vector<scene::SurfacePoint> points_of(const scene::Scene& scene, const trace::TransportScene& source,
-                                           float time, int count) {
-  std::vector<vec3> origins = gi::place_params(scene, time).interest;
+std::vector<rays::SurfacePoint> points_of(const scene::Scene& scene, const trace::TransportScene& source,
+                                          float time, int count) {
+  std::vector<vec3> origins = place::place_params(scene, time).interest;
   for (const scene::SphlPlace& place : scene::sphl_places(scene, time)) origins.push_back(place.position);
-  return gi::reachable_points(source, origins, time, {count, 1, 0.05f});
+  return study::reachable_points(source, origins, time, {count, 1, 0.05f});
 }
 
-double error_of(const gi::Method& method, const std::vector<scene::SurfacePoint>& points,
-                const std::vector<scene::IrradianceEstimate>& truth) {
-  return gi::lookup_error(gi::look_up(method.light(), points), truth).mean_error;
+double error_of(const methods::Method& method, const std::vector<rays::SurfacePoint>& points,
+                const std::vector<rays::IrradianceEstimate>& truth) {
+  return study::lookup_error(study::look_up(method.light(), points), truth).mean_error;
 }
 
 /// The glowing box, Le = 1: direct irradiance is π everywhere, so that a field E gives radiance ρ (π + E)/π.
@@ -50,14 +50,14 @@ struct Furnace {
   explicit Furnace(float albedo) : scene(GlowingBox::painted(albedo)), source(scene) {}
   scene::Scene scene;
   trace::TransportScene source;
-  const scene::SurfacePoint point{{0.9f, 0.2f, 0.1f}, {-1, 0, 0}};
+  const rays::SurfacePoint point{{0.9f, 0.2f, 0.1f}, {-1, 0, 0}};
 };
 
 TEST(Ddgi, FurnaceHoldsEveryBounce) {
   for (const float albedo : {0.3f, 0.8f}) {
     const Furnace furnace(albedo);
     const auto ddgi = make("ddgi", furnace.scene, furnace.source, {"probes=8", "warmup=100"});
-    ddgi->update(scene::lighting_at(furnace.source, 0), {});
+    ddgi->update(rays::lighting_at(furnace.source, 0), {});
     const float expected = pi * albedo / (1 - albedo);
     const vec3 e = ddgi->light().irradiance(furnace.point);
     // The bounces that hundred frames leave out, and the walls' direct irradiance by quadrature.
@@ -74,7 +74,7 @@ TEST(Ddgi, LightFadesAsHysteresisAndAlbedoSay) {
   Settings plain = settings;
   plain.emplace_back("change=0");
   const auto ddgi = make("ddgi", furnace.scene, furnace.source, plain);
-  scene::LightingState state = scene::lighting_at(furnace.source, 0);
+  scene::LightingState state = rays::lighting_at(furnace.source, 0);
   ddgi->update(state, {});
   const float before = ddgi->light().irradiance(furnace.point).g;
   for (vec3& scale : state.group_scales) scale = vec3(0);
@@ -94,7 +94,7 @@ TEST(Ddgi, LightFadesAsHysteresisAndAlbedoSay) {
     Settings alert = settings;
     alert.emplace_back(change);
     const auto quick = make("ddgi", furnace.scene, furnace.source, alert);
-    quick->update(scene::lighting_at(furnace.source, 0), {});
+    quick->update(rays::lighting_at(furnace.source, 0), {});
     const float start = quick->light().irradiance(furnace.point).g;
     quick->update(state, {});
     EXPECT_NEAR(quick->light().irradiance(furnace.point).g / start, stays + (1 - stays) * albedo, 0.01f)
@@ -110,7 +110,7 @@ TEST(Ddgi, TendsToPathTracingWithMoreProbes) {
   double last = 1;
   for (const char* probes : {"probes=1", "probes=27", "probes=343"}) {
     const auto ddgi = make("ddgi", scene, source, {probes, "rays=48", "warmup=32"});
-    ddgi->update(scene::lighting_at(source, 0), {});
+    ddgi->update(rays::lighting_at(source, 0), {});
     const double error = error_of(*ddgi, points, truth);
     RecordProperty(probes, std::to_string(error));
     EXPECT_LT(error, last) << probes;
@@ -128,8 +128,8 @@ TEST(Ddgi, SameBitsForAnyNumberOfThreads) {
   for (const int threads : {1, 4}) {
     set_thread_count(threads);
     const auto ddgi = make("ddgi", scene, source, {"probes=60", "rays=32", "warmup=4"});
-    for (const float time : {0.0f, 0.5f}) ddgi->update(scene::lighting_at(source, time), {});
-    light.push_back(gi::look_up(ddgi->light(), points));
+    for (const float time : {0.0f, 0.5f}) ddgi->update(rays::lighting_at(source, time), {});
+    light.push_back(study::look_up(ddgi->light(), points));
   }
   set_thread_count(before);
   EXPECT_EQ(light[0], light[1]);
@@ -140,13 +140,13 @@ TEST(Ddgi, AShutDoorLeaksLittleAndLessThanWithoutVisibility) {
   const trace::TransportScene source(scene);
   const trace::PathTracer tracer(scene, 0);
   const auto points = points_of(scene, source, 0, 300);
-  const gi::LeakParams params{.path = {.max_depth = 25, .passes = 1, .spp = 64, .seed = 1}};
+  const study::LeakParams params{.path = {.max_depth = 25, .passes = 1, .spp = 64, .seed = 1}};
   double leak[2] = {};
   for (int k = 0; k < 2; ++k) {
     const auto ddgi = make("ddgi", scene, source,
                            {k == 0 ? "visibility=0" : "visibility=1", "spacing=0.7", "rays=48", "warmup=16"});
-    ddgi->update(scene::lighting_at(source, 0), {});
-    const gi::LeakReport report = gi::measure_leak(tracer, ddgi->light(), points, params);
+    ddgi->update(rays::lighting_at(source, 0), {});
+    const study::LeakReport report = study::measure_leak(tracer, ddgi->light(), points, params);
     EXPECT_GT(report.dark, 100u);
     leak[k] = report.ratio;
   }
@@ -163,10 +163,10 @@ TEST(Ddgi, AnOpenedDoorTakesFrames) {
   const auto truth = trace::PathTracer(scene, open).surface_irradiance(points, {25, 1, 256, 3}, {});
   const auto ddgi =
       make("ddgi", scene, source, {"spacing=0.8", "rays=64", "warmup=32", "hysteresis=0.9", "change=0"});
-  ddgi->update(scene::lighting_at(source, 0), {});
+  ddgi->update(rays::lighting_at(source, 0), {});
   std::vector<double> errors;
   for (int frame = 0; frame < 33; ++frame) {
-    ddgi->update(scene::lighting_at(source, open), {});
+    ddgi->update(rays::lighting_at(source, open), {});
     if (frame % 8 == 0) errors.push_back(error_of(*ddgi, points, truth));
   }
   for (std::size_t i = 1; i < 4; ++i) EXPECT_LT(errors[i], errors[i - 1]) << i;
@@ -181,7 +181,7 @@ TEST(Ddgi, ARoofSeenFromOutsideStaysDark) {
   scene::validate(scene);
   const trace::TransportScene source(scene);
   const auto ddgi = make("ddgi", scene, source, {"spacing=0.4", "rays=64", "warmup=8"});
-  ddgi->update(scene::lighting_at(source, 0), {});
+  ddgi->update(rays::lighting_at(source, 0), {});
   const float inside = ddgi->light().irradiance({{0, -0.99f, 0}, {0, 1, 0}}).g;
   EXPECT_GT(inside, 1);
   for (const vec2& at : {vec2(0), vec2(0.5f, 0.3f), vec2(-0.7f, 0.6f)})
@@ -197,13 +197,13 @@ TEST(Ddgi, ProbesLeaveWallsOrSleep) {
   scene::validate(scene);
   const trace::TransportScene source(scene);
   const auto ddgi = make("ddgi", scene, source, {"spacing=0.25", "rays=16", "warmup=1"});
-  ddgi->update(scene::lighting_at(source, 0), {});
+  ddgi->update(rays::lighting_at(source, 0), {});
   EXPECT_EQ(number(*ddgi, "probes"), 512);
   // 4·6·4 stand in the block, the 2·6·2 in its middle too deep to get out.
   EXPECT_LE(number(*ddgi, "active"), 512 - 2 * 6 * 2);
   EXPECT_GT(number(*ddgi, "active"), 512 - 4 * 6 * 4);
   const auto still = make("ddgi", scene, source, {"spacing=0.25", "rays=16", "warmup=1", "relocate=0"});
-  still->update(scene::lighting_at(source, 0), {});
+  still->update(rays::lighting_at(source, 0), {});
   EXPECT_EQ(number(*still, "active"), 512 - 4 * 6 * 4);
 }
 

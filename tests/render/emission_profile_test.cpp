@@ -2,11 +2,11 @@
 
 #include <gmock/gmock.h>
 
-#include <ssphh/gi/relight_session.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/scene/primitives.h>
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/trace/transport_scene.h>
+#include <ssphh/transport/relight_session.h>
 
 #include "lit_session.h"
 
@@ -58,7 +58,7 @@ TEST(EmissionProfile, StandsInForTheObject) {
   // itself.
   const scene::Scene scene = glowing_square();
   const trace::TransportScene source(scene);
-  gi::RelightParams params;
+  transport::RelightParams params;
   params.degree = 2;
   const vec3 far_place{0, 3, 1};
   test::LitSession session(source, {{"square", {0, 0, 0}, 0.25f}, {"far", far_place, 0.1f}}, params);

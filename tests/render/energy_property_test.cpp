@@ -1,8 +1,8 @@
 /// Light in rooms of any albedo and any size, by transport and by path tracing: bounded by its geometric
 /// series, more with every bounce, and scaling with the room as its emitters say.
 
-#include <ssphh/gi/bake.h>
-#include <ssphh/gi/init.h>
+#include <ssphh/bake/bake.h>
+#include <ssphh/place/init.h>
 #include <ssphh/trace/path_tracer.h>
 
 #include "property.h"
@@ -57,7 +57,7 @@ TEST(EnergyProperty, BrighterWallsOrMoreBouncesNeverTakeLightAway) {
                     const scene::Scene bright = swinging_room(seed);
                     scene::Scene dark = bright;
                     dark.materials[0].base_color *= dim;
-                    gi::RelightParams params = tiny_session();
+                    transport::RelightParams params = tiny_session();
                     const auto above = [](const std::vector<sh::RadianceSh>& less,
                                           const std::vector<sh::RadianceSh>& more, double tolerance) {
                       double worst = -INFINITY;
@@ -72,7 +72,7 @@ TEST(EnergyProperty, BrighterWallsOrMoreBouncesNeverTakeLightAway) {
                             above(LitRoom(dark, params).light(), LitRoom(bright, params).light(), 1e-2);
                         !more)
                       return more << ": darker walls";
-                    params.op = gi::LightOperator::bounce;
+                    params.op = probes::LightOperator::bounce;
                     params.bounce.applications = applications;
                     const std::vector<sh::RadianceSh> once = LitRoom(bright, params).light();
                     ++params.bounce.applications;
@@ -97,7 +97,7 @@ TEST(EnergyProperty, LargerRoomsKeepTheLightOfSurfacesAndSkiesAndPointLampsFadeW
           .holds([](std::uint64_t seed, int exponent) -> AssertionResult {
             const float size = std::ldexp(1.0f, exponent);
             const scene::Scene scene = swinging_room(seed), large = grown(scene, size);
-            gi::RelightParams params = tiny_session();
+            transport::RelightParams params = tiny_session();
             LitRoom small_room(scene, params);
             params.transport.surfel_size *= size;
             LitRoom large_room(large, params);
@@ -130,12 +130,12 @@ TEST(EnergyProperty, ABakedLampMayBeSplitInTwoHalvesAndBakesAreLinear) {
             scene.materials[1].emission = scene.materials[2].emission = vec3(0);
             scene.lights.erase(scene.lights.begin() + (1 - lamp));
             const auto baked = [&](const scene::Scene& s) {
-              gi::BakeParams params;
+              bake::BakeParams params;
               params.face_size = 4, params.path = {3, 1, 2, seed}, params.viz = false;
-              gi::BakeReport report;
+              bake::BakeReport report;
               std::vector<sh::RadianceSh> light;
-              for (const gi::Probe& probe :
-                   gi::bake(trace::PathTracer(s), gi::init_from_scene(s, 3), params, {}, report).probes)
+              for (const probes::Probe& probe :
+                   bake::bake(trace::PathTracer(s), place::init_from_scene(s, 3), params, {}, report).probes)
                 light.push_back(probe.self);
               return light;
             };

@@ -3,27 +3,27 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <ssphh/gi/fitted_weights.h>
-#include <ssphh/gi/lookup.h>
+#include <ssphh/probes/lookup.h>
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/sh/irradiance.h>
 #include <ssphh/trace/path_tracer.h>
+#include <ssphh/transport/fitted_weights.h>
 
 #include "transport_fixtures.h"
 
 namespace ssphh::test {
 namespace {
 
-gi::ProbeSet set_of(const gi::RelightSession& session) {
-  gi::ProbeSet set;
+probes::ProbeSet set_of(const transport::RelightSession& session) {
+  probes::ProbeSet set;
   set.degree = session.reflected().front().degree();
   set.light_groups.push_back({"all", vec3(1)});
   for (std::size_t i = 0; i < session.places().size(); ++i) {
-    gi::Probe& probe = set.probes.emplace_back();
+    probes::Probe& probe = set.probes.emplace_back();
     probe.position = session.places()[i].position;
     probe.groups.push_back({{}, session.reflected()[i]});
   }
-  gi::merge_groups(set);
+  probes::merge_groups(set);
   return set;
 }
 
@@ -32,18 +32,19 @@ TEST(FittedWeights, ReproduceTheLightTheyWereFittedToEverywhere) {
   // give it at every point of every wall; 256 directions leave 1e-3 in bands 1 and 2 of the probes.
   constexpr float rho = 0.5f;
   const GlowingBox box(rho);
-  gi::FitParams params;
+  transport::FitParams params;
   params.own_weight = 1000;
-  gi::ProbeSet set = set_of(box.session);
-  set.fitted = gi::fit_weights(box.session.network(), box.source, gi::surfel_points(box.session.network()),
-                               params, box.session.direct_by_group());
+  probes::ProbeSet set = set_of(box.session);
+  set.fitted = transport::fit_weights(box.session.network(), box.source,
+                                      transport::surfel_points(box.session.network()), params,
+                                      box.session.direct_by_group());
   const trace::PathTracer tracer(box.scene);
-  const gi::IrradianceLookup lookup(set, tracer);
+  const probes::IrradianceLookup lookup(set, tracer);
   const scene::Bounds bounds = scene::world_bounds(box.scene, scene::world_matrices(box.scene));
   const Walls walls{bounds.min, bounds.max};
   Pcg32 rng(3);
   for (int i = 0; i < 300; ++i) {
-    const scene::SurfacePoint p = walls.at(i % 6, rng.uniform2());
+    const rays::SurfacePoint p = walls.at(i % 6, rng.uniform2());
     EXPECT_NEAR(lookup.irradiance(p).y / (pi * rho / (1 - rho)), 1, 6e-3f);
   }
 }
@@ -52,20 +53,20 @@ TEST(FittedWeights, ReproduceTheLightTheyWereFittedToEverywhere) {
 struct Compared {
   std::vector<vec3> truth, looked_up;
 
-  Compared(const gi::FittedPoints& fitted, const gi::RelightSession& session, int rays) {
-    const gi::TransportNetwork& network = session.network();
+  Compared(const probes::FittedPoints& fitted, const transport::RelightSession& session, int rays) {
+    const transport::TransportNetwork& network = session.network();
     const std::vector<std::int32_t> seen = network.gather(fitted.points, rays);
     const auto count = static_cast<std::size_t>(rays);
     for (std::size_t p = 0; p < fitted.points.size(); ++p) {
       vec3& t = truth.emplace_back(0);
       for (std::size_t r = p * count; r < (p + 1) * count; ++r) {
-        if (seen[r] == gi::no_surfel) continue;
+        if (seen[r] == transport::no_surfel) continue;
         const auto s = static_cast<std::size_t>(seen[r]);
         t += network.albedo()[s] * vec3(session.surfel_direct()[s] + session.surfel_irradiance()[s]) /
              static_cast<float>(rays);
       }
       vec3& e = looked_up.emplace_back(0);
-      for (const gi::ProbeWeight& entry : fitted.weights[p].used()) {
+      for (const probes::ProbeWeight& entry : fitted.weights[p].used()) {
         const sh::IrradianceSh function =
             sh::irradiance_from_radiance(session.reflected()[static_cast<std::size_t>(entry.probe)]);
         std::vector<float> basis(function.values.size());
@@ -81,17 +82,18 @@ TEST(FittedWeights, MeetTheSumOfTheirEquations) {
   // relative errors would be too dark, by what the channels differ.
   const scene::Scene scene = coloured_room({3, 2.5f, 2});
   const trace::TransportScene source(scene);
-  gi::RelightParams session_params;
+  transport::RelightParams session_params;
   session_params.transport = small_network();
   session_params.degree = 2;
   LitSession session(source, places_of(scene), session_params);
   session.update();
-  gi::FitParams params;
+  transport::FitParams params;
   params.probes = 1;
   params.training_lights = 1;
   params.own_weight = 1000;
-  const gi::FittedPoints fitted = gi::fit_weights(
-      session.network(), source, gi::surfel_points(session.network()), params, session.direct_by_group());
+  const probes::FittedPoints fitted =
+      transport::fit_weights(session.network(), source, transport::surfel_points(session.network()), params,
+                             session.direct_by_group());
   const Compared compared(fitted, session, params.gather_rays);
   double squares = 0;
   for (std::size_t p = 0; p < fitted.points.size(); ++p) {
@@ -120,16 +122,17 @@ TEST(FittedWeights, ErrInLightThatIsATenthOfTheProbesAsIfItWereATenth) {
   add_sphl(scene, "only", {1, 1, 1});
   scene::validate(scene);
   const trace::TransportScene source(scene);
-  gi::RelightParams session_params;
+  transport::RelightParams session_params;
   session_params.transport = small_network();
   session_params.degree = 2;
   LitSession session(source, places_of(scene), session_params);
   session.update();
-  gi::FitParams params;
+  transport::FitParams params;
   params.probes = params.training_lights = 1;
   params.own_weight = 1000;
-  const gi::FittedPoints fitted = gi::fit_weights(
-      session.network(), source, gi::surfel_points(session.network()), params, session.direct_by_group());
+  const probes::FittedPoints fitted =
+      transport::fit_weights(session.network(), source, transport::surfel_points(session.network()), params,
+                             session.direct_by_group());
   std::vector<Compared> lit;
   for (const int group : {0, 1}) {
     session.state.group_scales[group] = vec3(1);
@@ -156,7 +159,7 @@ TEST(FittedWeights, ErrInLightThatIsATenthOfTheProbesAsIfItWereATenth) {
 }
 
 /// Mean over the points with x > min_x of the relative error, green.
-double error_of(const gi::FittedPoints& fitted, const gi::RelightSession& session, float min_x) {
+double error_of(const probes::FittedPoints& fitted, const transport::RelightSession& session, float min_x) {
   const Compared compared(fitted, session, 1024);
   double sum = 0;
   int count = 0;
@@ -171,24 +174,24 @@ double error_of(const gi::FittedPoints& fitted, const gi::RelightSession& sessio
 TEST(FittedWeights, OfBothPosesServeADoorThatMoves) {
   const scene::Scene scene = scene::make_builtin("two-rooms");
   const trace::TransportScene source(scene);
-  gi::RelightParams params;
+  transport::RelightParams params;
   params.transport = small_network();
   params.degree = 2;
   LitSession session(source, places_of(scene), params);
   session.update();
-  const std::vector<scene::SurfacePoint> points =
-      gi::spread_points(gi::surfel_points(session.network()), 300);
-  gi::WeightFit both(points);
+  const std::vector<rays::SurfacePoint> points =
+      transport::spread_points(transport::surfel_points(session.network()), 300);
+  transport::WeightFit both(points);
   both.add_pose(session.network(), source, session.direct_by_group());
-  const gi::FittedPoints shut = both.solve();
-  EXPECT_EQ(shut, gi::fit_weights(session.network(), source, points, {}, session.direct_by_group()))
+  const probes::FittedPoints shut = both.solve();
+  EXPECT_EQ(shut, transport::fit_weights(session.network(), source, points, {}, session.direct_by_group()))
       << "one pose is a fit of its own";
 
   session.state.time = 1;
   session.update();
   both.add_pose(session.network(), source, session.direct_by_group());
-  const gi::FittedPoints open =
-      gi::fit_weights(session.network(), source, points, {}, session.direct_by_group());
+  const probes::FittedPoints open =
+      transport::fit_weights(session.network(), source, points, {}, session.direct_by_group());
   // In room B, the door open: weights that know the pose are best, those of the shut door alone useless.
   const double joint_error = error_of(both.solve(), session, 0.3f);
   const double shut_error = error_of(shut, session, 0.3f), open_error = error_of(open, session, 0.3f);
@@ -198,11 +201,12 @@ TEST(FittedWeights, OfBothPosesServeADoorThatMoves) {
 }
 
 TEST(FittedWeights, RefuseParametersOutOfRange) {
-  for (const gi::FitParams& params :
-       {gi::FitParams{.probes = 0}, gi::FitParams{.probes = 17}, gi::FitParams{.training_lights = 0},
-        gi::FitParams{.own_weight = 0}, gi::FitParams{.own_weight = NAN}, gi::FitParams{.gather_rays = 1},
-        gi::FitParams{.degree = 11}})
-    EXPECT_THROW(gi::WeightFit({}, params), Error);
+  for (const transport::FitParams& params :
+       {transport::FitParams{.probes = 0}, transport::FitParams{.probes = 17},
+        transport::FitParams{.training_lights = 0}, transport::FitParams{.own_weight = 0},
+        transport::FitParams{.own_weight = NAN}, transport::FitParams{.gather_rays = 1},
+        transport::FitParams{.degree = 11}})
+    EXPECT_THROW(transport::WeightFit({}, params), Error);
 }
 
 }  // namespace

@@ -2,12 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include <ssphh/bake/bake.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/parallel.h>
-#include <ssphh/gi/bake.h>
-#include <ssphh/gi/hier.h>
-#include <ssphh/gi/init.h>
-#include <ssphh/gi/probe_file.h>
+#include <ssphh/place/init.h>
+#include <ssphh/probes/hier.h>
+#include <ssphh/probes/probe_file.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/trace/path_tracer.h>
 
@@ -18,14 +18,14 @@ namespace {
 
 constexpr float root_4pi = 3.5449077018110318f;
 
-gi::ProbeSet bake(const scene::Scene& scene, int degree, const gi::BakeParams& params, float time = 0) {
+probes::ProbeSet bake(const scene::Scene& scene, int degree, const bake::BakeParams& params, float time = 0) {
   const trace::PathTracer tracer(scene, time);
-  gi::BakeReport report;
-  return gi::bake(tracer, gi::init_from_scene(scene, degree, time), params, {}, report);
+  bake::BakeReport report;
+  return bake::bake(tracer, place::init_from_scene(scene, degree, time), params, {}, report);
 }
 
-gi::BakeParams effort(int face, int spp, int max_depth) {
-  gi::BakeParams params;
+bake::BakeParams effort(int face, int spp, int max_depth) {
+  bake::BakeParams params;
   params.face_size = face;
   params.path.spp = spp;
   params.path.max_depth = max_depth;
@@ -54,15 +54,15 @@ TEST(GiBake, ClosedBoxGivesEachDepthsRadianceInBandZeroAndNothingElse) {
   // Every wall emits Le = 1 and has albedo ½: depth 0 is 1, depths 1..3 add ½ + ¼ + ⅛, from every direction.
   const scene::Scene scene = scene::make_builtin("box");
   const trace::PathTracer tracer(scene);
-  const gi::ProbeSet places = gi::init_from_scene(scene, 3);
+  const probes::ProbeSet places = place::init_from_scene(scene, 3);
   ASSERT_GE(places.probes.size(), 4u);
   std::vector<test::Samples> reflected(16);
   for (int seed = 0; seed < 40; ++seed) {
-    gi::BakeParams params = effort(4, 4, 3);
+    bake::BakeParams params = effort(4, 4, 3);
     params.viz = false;
     params.path.seed = static_cast<std::uint64_t>(seed);
-    gi::BakeReport report;
-    const gi::ProbeSet set = gi::bake(tracer, places, params, {}, report);
+    bake::BakeReport report;
+    const probes::ProbeSet set = bake::bake(tracer, places, params, {}, report);
     EXPECT_NEAR(set.probes[1].self[0].y - set.probes[1].reflected[0].y, root_4pi, 1e-4f)
         << "emitters have no noise";
     for (std::size_t k = 0; k < reflected.size(); ++k)
@@ -79,9 +79,9 @@ TEST(GiBake, TwoProbesInEmptySpaceSeeTheSolidAngle) {
   silence_warnings();
   for (const float d : {1.0f, 3.0f, 20.0f}) {
     const float r = 0.25f;
-    const gi::ProbeSet set = bake(empty_space({{0, 0, 0}, {0, d, 0}}, r), 2, effort(32, 16, 3));
+    const probes::ProbeSet set = bake(empty_space({{0, 0, 0}, {0, d, 0}}, r), 2, effort(32, 16, 3));
     const double omega = 2 * pi_d * (1 - std::sqrt(1 - double(r) * r / (double(d) * d)));
-    for (const gi::Probe& probe : set.probes) {
+    for (const probes::Probe& probe : set.probes) {
       ASSERT_EQ(probe.edges.size(), 1u);
       // A large ball is found by rays through texels: its rim is noise below 1 %; a small one is sampled
       // exactly.
@@ -95,12 +95,12 @@ TEST(GiBake, AMatrixOverAllEmissionDirectionsIsTheResponse) {
   silence_warnings();
   scene::Scene scene = scene::make_builtin("cornell");
   scene.sphls.resize(3);
-  gi::BakeParams params = effort(8, 4, 2);
+  bake::BakeParams params = effort(8, 4, 2);
   params.viz_params.matrix = true;
-  const gi::ProbeSet set = bake(scene, 2, params);
+  const probes::ProbeSet set = bake(scene, 2, params);
   std::size_t edges = 0;
-  for (const gi::Probe& probe : set.probes) {
-    for (const gi::Edge& edge : probe.edges) {
+  for (const probes::Probe& probe : set.probes) {
+    for (const probes::Edge& edge : probe.edges) {
       // T[0, 0] = Y00² ∫L dω and H[0] = Y00 ∫L dω, of the same paths: only the order of the sum differs.
       EXPECT_NEAR(edge.matrix.values[0].x, edge.h[0].x / root_4pi, 1e-4f * edge.h[0].x);
       ++edges;
@@ -112,12 +112,12 @@ TEST(GiBake, AMatrixOverAllEmissionDirectionsIsTheResponse) {
 TEST(GiBake, AShutDoorLetsNothingThroughAndAnOpenOneDoes) {
   silence_warnings();
   const scene::Scene scene = scene::make_builtin("two-rooms");
-  const auto in_b = [](const gi::Probe& probe) { return probe.position.x > 0.1f; };
+  const auto in_b = [](const probes::Probe& probe) { return probe.position.x > 0.1f; };
   for (const float time : {0.0f, 1.0f}) {
-    const gi::ProbeSet set = bake(scene, 2, effort(16, 4, 4), time);
+    const probes::ProbeSet set = bake(scene, 2, effort(16, 4, 4), time);
     int across = 0, within = 0, lit_in_b = 0;
-    for (const gi::Probe& probe : set.probes) {
-      for (const gi::Edge& edge : probe.edges) {
+    for (const probes::Probe& probe : set.probes) {
+      for (const probes::Edge& edge : probe.edges) {
         ++(in_b(probe) != in_b(set.probes[static_cast<std::size_t>(edge.from)]) ? across : within);
       }
       lit_in_b += in_b(probe) && probe.self[0].x > 0;
@@ -136,13 +136,13 @@ TEST(GiBake, AShutDoorLetsNothingThroughAndAnOpenOneDoes) {
 TEST(GiBake, DimmingALightGroupEqualsABakeWithADimmerLamp) {
   silence_warnings();
   scene::Scene scene = scene::make_builtin("two-rooms");
-  gi::BakeParams params = effort(8, 4, 3);
+  bake::BakeParams params = effort(8, 4, 3);
   params.viz = false;
-  gi::ProbeSet dimmed = bake(scene, 2, params, 1);
+  probes::ProbeSet dimmed = bake(scene, 2, params, 1);
   ASSERT_EQ(dimmed.light_groups.size(), 1u);
-  gi::relight(dimmed, dimmed.light_groups[0].name, vec3(0.5f));
+  probes::relight(dimmed, dimmed.light_groups[0].name, vec3(0.5f));
   scene.lights[0].intensity *= 0.5f;
-  const gi::ProbeSet baked = bake(scene, 2, params, 1);
+  const probes::ProbeSet baked = bake(scene, 2, params, 1);
   for (std::size_t i = 0; i < baked.probes.size(); ++i) {
     for (int k = 0; k < 9; ++k) {
       // The same paths with half the light; halving is exact up to the order of roundings.
@@ -159,11 +159,11 @@ TEST(GiBake, GroupsAddUpToAllLights) {
   scene.lights[1].group = "second";
   scene.lights[1].color = {0.2f, 0.4f, 1};
   scene.lights[1].node = scene.sphls[1].node;
-  gi::BakeParams params = effort(8, 4, 3);
+  bake::BakeParams params = effort(8, 4, 3);
   params.viz = false;
-  const gi::ProbeSet apart = bake(scene, 2, params, 1);
+  const probes::ProbeSet apart = bake(scene, 2, params, 1);
   scene.lights[0].group = scene.lights[1].group = "all";
-  const gi::ProbeSet together = bake(scene, 2, params, 1);
+  const probes::ProbeSet together = bake(scene, 2, params, 1);
   ASSERT_EQ(apart.light_groups.size(), 2u);
   ASSERT_EQ(together.light_groups.size(), 1u);
   for (std::size_t i = 0; i < together.probes.size(); ++i) {
@@ -178,14 +178,14 @@ TEST(GiBake, GroupsAddUpToAllLights) {
 TEST(GiBake, TheNumberOfThreadsChangesNoBit) {
   silence_warnings();
   const scene::Scene scene = scene::make_builtin("cornell");
-  gi::BakeParams params = effort(8, 2, 2);
+  bake::BakeParams params = effort(8, 2, 2);
   params.viz_params.matrix = true;
   std::vector<std::vector<std::byte>> files;
   for (const int threads : {1, 3}) {
     set_thread_count(threads);
-    gi::ProbeSet set = bake(scene, 3, params);
-    gi::hier(set, {gi::HierOperator::matrix});
-    files.push_back(gi::probes_to_binary(set));
+    probes::ProbeSet set = bake(scene, 3, params);
+    probes::hier(set, {probes::HierOperator::matrix});
+    files.push_back(probes::probes_to_binary(set));
   }
   set_thread_count(0);
   EXPECT_EQ(files[0], files[1]);

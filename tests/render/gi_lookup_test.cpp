@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <ssphh/gi/bake.h>
-#include <ssphh/gi/init.h>
-#include <ssphh/gi/lookup.h>
+#include <ssphh/bake/bake.h>
+#include <ssphh/place/init.h>
+#include <ssphh/probes/lookup.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/trace/path_tracer.h>
 
@@ -13,8 +13,8 @@
 namespace ssphh {
 namespace {
 
-gi::BakeParams small(int seed) {
-  gi::BakeParams params;
+bake::BakeParams small(int seed) {
+  bake::BakeParams params;
   params.face_size = 4;
   params.path.spp = 4;
   params.path.max_depth = 3;
@@ -27,11 +27,11 @@ gi::BakeParams small(int seed) {
 struct BoxTest : testing::Test {
   scene::Scene scene = scene::make_builtin("box");
   trace::PathTracer tracer{scene};
-  gi::ProbeSet places = gi::init_from_scene(scene, 3);
+  probes::ProbeSet places = place::init_from_scene(scene, 3);
 
-  gi::ProbeSet bake(int seed) const {
-    gi::BakeReport report;
-    return gi::bake(tracer, places, small(seed), {}, report);
+  probes::ProbeSet bake(int seed) const {
+    bake::BakeReport report;
+    return bake::bake(tracer, places, small(seed), {}, report);
   }
   static constexpr double arriving = 0.875;
 };
@@ -43,15 +43,15 @@ TEST_F(GiLookup, OnAWallOfTheBoxBothLookupsGiveTheirClosedForms) {
   const vec3 x(0.3f, bounds.min.y, 0.2f), n(0, 1, 0);
   test::Samples irradiance, light, glossy;
   for (int seed = 0; seed < 40; ++seed) {
-    const gi::ProbeSet set = bake(seed);
-    const gi::IrradianceLookup volume(set, tracer);
+    const probes::ProbeSet set = bake(seed);
+    const probes::IrradianceLookup volume(set, tracer);
     irradiance.add(double(volume.irradiance({x, n}).y));
     glossy.add(double(volume.glossy({x, n}, glm::normalize(vec3(1, 1, 0)), 0.5f).y));
-    light.add(double(gi::LightLookup(set, tracer).irradiance({x, n}).y));
+    light.add(double(probes::LightLookup(set, tracer).irradiance({x, n}).y));
   }
   // The nearest probe above the floor that x sees.
   vec3 nearest = places.probes[0].position;
-  for (const gi::Probe& probe : places.probes) {
+  for (const probes::Probe& probe : places.probes) {
     if (glm::distance(probe.position, x) < glm::distance(nearest, x)) nearest = probe.position;
   }
   const auto cosine = double(glm::dot(n, glm::normalize(nearest - x)));
@@ -67,8 +67,8 @@ TEST_F(GiLookup, DirectLightAndProbesTogetherAreTheWholeSeriesOfTheBox) {
   // scattering.
   test::Samples pixels;
   for (int seed = 0; seed < 40; ++seed) {
-    const gi::ProbeSet set = bake(seed);
-    const gi::IrradianceLookup lookup(set, tracer);
+    const probes::ProbeSet set = bake(seed);
+    const probes::IrradianceLookup lookup(set, tracer);
     trace::RenderParams params;
     params.width = params.height = 4;
     params.camera = scene::camera_pose(scene, "");

@@ -2,12 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include <ssphh/bake/bake.h>
+#include <ssphh/bake/transport_bake.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/parallel.h>
-#include <ssphh/gi/bake.h>
-#include <ssphh/gi/init.h>
-#include <ssphh/gi/probe_file.h>
-#include <ssphh/gi/transport_bake.h>
+#include <ssphh/place/init.h>
+#include <ssphh/probes/probe_file.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/sh/irradiance.h>
 #include <ssphh/trace/path_tracer.h>
@@ -24,23 +24,23 @@ void silence_warnings() {
 }
 
 struct Baked {
-  gi::ProbeSet set;
-  gi::TransportBakeReport report;
+  probes::ProbeSet set;
+  bake::TransportBakeReport report;
 };
 
-Baked bake(const scene::Scene& scene, int degree, const gi::TransportBakeParams& params = {}) {
+Baked bake(const scene::Scene& scene, int degree, const bake::TransportBakeParams& params = {}) {
   const trace::TransportScene source(scene);
   Baked baked;
-  baked.set = gi::bake_transport(source, gi::init_from_scene(scene, degree), params, baked.report);
+  baked.set = bake::bake_transport(source, place::init_from_scene(scene, degree), params, baked.report);
   return baked;
 }
 
 TEST(GiTransportBake, TheClosedBoxHoldsTheWholeGeometricSeries) {
   // Emission 1 and albedo 1/2 everywhere: 1 is seen directly, 1/2 + 1/4 + ... = 1 is reflected.
-  gi::TransportBakeParams params;
+  bake::TransportBakeParams params;
   params.solve.tolerance = 1e-5f;
   const Baked baked = bake(scene::make_builtin("box"), 3, params);
-  for (const gi::Probe& probe : baked.set.probes) {
+  for (const probes::Probe& probe : baked.set.probes) {
     ASSERT_EQ(probe.groups.size(), 1u);
     EXPECT_NEAR(double(sh::mean(probe.groups[0].emitted).y), 1, 2e-3);  // emissions are kept to 1 in 512
     // Rows of links add up to 1 to float's precision; direct light of an emissive mesh is an estimate.
@@ -57,12 +57,12 @@ TEST(GiTransportBake, TheClosedBoxHoldsTheWholeGeometricSeries) {
 }
 
 TEST(GiTransportBake, TheSetTellsHowItWasMade) {
-  gi::TransportBakeParams params;
+  bake::TransportBakeParams params;
   params.transport.directions = 200;
   params.transport.link_rays = 32;
   const scene::Scene scene = scene::make_builtin("box");
-  const gi::GeneratorInfo g = bake(scene, 2, params).set.generator;
-  EXPECT_EQ(g.op, gi::LightOperator::surfel);
+  const probes::GeneratorInfo g = bake(scene, 2, params).set.generator;
+  EXPECT_EQ(g.op, probes::LightOperator::surfel);
   EXPECT_EQ(g.directions, 200);
   EXPECT_EQ(g.link_rays, 32);
   EXPECT_GT(g.surfel_size, 0) << "as resolved, not 0 for automatic";
@@ -71,16 +71,16 @@ TEST(GiTransportBake, TheSetTellsHowItWasMade) {
 
 TEST(GiTransportBake, GroupsAddUpToTheLightOfAll) {
   const scene::Scene scene = scene::make_builtin("gallery1");
-  gi::TransportBakeParams params;
+  bake::TransportBakeParams params;
   params.transport.link_rays = 32;
   params.solve.tolerance = 1e-5f;
-  const gi::ProbeSet set = bake(scene, 2, params).set;
+  const probes::ProbeSet set = bake(scene, 2, params).set;
   ASSERT_GT(set.light_groups.size(), 1u);
 
   const trace::TransportScene source(scene);
-  std::vector<gi::ProbePlace> places;
-  for (const gi::Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
-  gi::RelightParams relight{params.transport, params.solve};
+  std::vector<transport::ProbePlace> places;
+  for (const probes::Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
+  transport::RelightParams relight{params.transport, params.solve};
   relight.degree = 2;
   relight.transport.surfel_size = set.generator.surfel_size;
   test::LitSession session(source, places, relight);
@@ -100,91 +100,91 @@ TEST(GiTransportBake, GroupsAddUpToTheLightOfAll) {
 
 TEST(GiTransportBake, FittedPointsAreThoseOfASessionOfTheSameParameters) {
   const scene::Scene scene = scene::make_builtin("box");
-  gi::TransportBakeParams params;
+  bake::TransportBakeParams params;
   params.fit = true;
   params.fit_params.probes = 3;
   params.transport.surfel_size = 0.2f;
-  const gi::ProbeSet set = bake(scene, 2, params).set;
+  const probes::ProbeSet set = bake(scene, 2, params).set;
   ASSERT_TRUE(set.fitted);
 
   const trace::TransportScene source(scene);
-  std::vector<gi::ProbePlace> places;
-  for (const gi::Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
-  gi::RelightParams same;
+  std::vector<transport::ProbePlace> places;
+  for (const probes::Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
+  transport::RelightParams same;
   same.transport.directions = set.generator.directions;
   same.transport.surfel_size = set.generator.surfel_size;
   same.transport.link_rays = set.generator.link_rays;
   test::LitSession session(source, places, same);
   session.update();
-  const gi::TransportNetwork& network = session.network();
-  EXPECT_EQ(*set.fitted, gi::fit_weights(network, source, gi::surfel_points(network), params.fit_params,
-                                         session.direct_by_group()));
+  const transport::TransportNetwork& network = session.network();
+  EXPECT_EQ(*set.fitted, transport::fit_weights(network, source, transport::surfel_points(network),
+                                                params.fit_params, session.direct_by_group()));
   int most = 0;
-  for (const gi::PointWeights& weights : set.fitted->weights) most = std::max(most, weights.count);
+  for (const probes::PointWeights& weights : set.fitted->weights) most = std::max(most, weights.count);
   EXPECT_EQ(most, 3);
 }
 
 TEST(GiTransportBake, WeightsFitBesidePathTracedLight) {
   const scene::Scene scene = scene::make_builtin("box");
   const trace::TransportScene source(scene);
-  gi::ProbeSet set = gi::init_from_scene(scene, 1);
-  gi::TransportBakeReport report;
-  gi::TransportBakeParams params;
+  probes::ProbeSet set = place::init_from_scene(scene, 1);
+  bake::TransportBakeReport report;
+  bake::TransportBakeParams params;
   params.fit = true;
   params.transport.surfel_size = 0.25f;
-  gi::add_transport(source, set, params, report);
+  bake::add_transport(source, set, params, report);
   ASSERT_TRUE(set.fitted);
-  EXPECT_EQ(set.generator.op, gi::LightOperator::path);
+  EXPECT_EQ(set.generator.op, probes::LightOperator::path);
   EXPECT_GT(set.generator.directions, 0);
-  gi::BakeParams paths;
+  bake::BakeParams paths;
   paths.face_size = 4;
   paths.path.spp = 1;
   paths.viz = false;
-  gi::BakeReport path_report;
+  bake::BakeReport path_report;
   const trace::PathTracer tracer(scene);
-  const gi::ProbeSet baked = gi::bake(tracer, set, paths, {}, path_report);
+  const probes::ProbeSet baked = bake::bake(tracer, set, paths, {}, path_report);
   EXPECT_EQ(baked.fitted, set.fitted);
 }
 
 TEST(GiTransportBake, VizStandsBesideTheLightAndKeepsIt) {
   const scene::Scene scene = scene::make_builtin("box");
-  const gi::ProbeSet lit = bake(scene, 2).set;
-  gi::BakeParams viz;
+  const probes::ProbeSet lit = bake(scene, 2).set;
+  bake::BakeParams viz;
   viz.keep_light = true;
   viz.face_size = 4;
   viz.path.spp = 2;
-  gi::BakeReport report;
+  bake::BakeReport report;
   const trace::PathTracer tracer(scene);
-  gi::ProbeSet both = gi::bake(tracer, lit, viz, {}, report);
-  EXPECT_GT(gi::edge_count(both), 0u);
-  EXPECT_EQ(both.generator.op, gi::LightOperator::surfel);
+  probes::ProbeSet both = bake::bake(tracer, lit, viz, {}, report);
+  EXPECT_GT(probes::edge_count(both), 0u);
+  EXPECT_EQ(both.generator.op, probes::LightOperator::surfel);
   for (std::size_t i = 0; i < both.probes.size(); ++i) EXPECT_EQ(both.probes[i].groups, lit.probes[i].groups);
 
-  gi::ProbeSet other = lit;
+  probes::ProbeSet other = lit;
   other.light_groups[0].name = "another lamp";
-  EXPECT_THROW(gi::bake(tracer, other, viz, {}, report), Error);
+  EXPECT_THROW(bake::bake(tracer, other, viz, {}, report), Error);
 }
 
 TEST(GiTransportBake, WhatIsWrongIsNamed) {
   const scene::Scene scene = scene::make_builtin("box");
   silence_warnings();
   const trace::TransportScene source(scene);
-  gi::TransportBakeReport report;
-  EXPECT_THROW(gi::bake_transport(source, {}, {}, report), Error);
-  gi::TransportBakeParams params;
+  bake::TransportBakeReport report;
+  EXPECT_THROW(bake::bake_transport(source, {}, {}, report), Error);
+  bake::TransportBakeParams params;
   params.transport.directions = 0;
-  EXPECT_THROW(gi::bake_transport(source, gi::init_from_scene(scene, 1), params, report), Error);
+  EXPECT_THROW(bake::bake_transport(source, place::init_from_scene(scene, 1), params, report), Error);
 
   const scene::Scene cornell = scene::make_builtin("cornell");
-  gi::ProbeSet buried = gi::init_from_scene(cornell, 1);
+  probes::ProbeSet buried = place::init_from_scene(cornell, 1);
   buried.probes[1].position = {0.33f, 0.2f, 0.3f};  // in the shorter block
   buried.probes[1].name = "buried";
-  gi::bake_transport(trace::TransportScene(cornell), buried, {}, report);
+  bake::bake_transport(trace::TransportScene(cornell), buried, {}, report);
   EXPECT_THAT(report.warnings, testing::Contains(testing::AllOf(testing::HasSubstr("inside a body"),
                                                                 testing::HasSubstr("\"buried\""))));
 }
 
-gi::TransportBakeReport report_of(const scene::Scene& scene, gi::TransportBakeParams params) {
+bake::TransportBakeReport report_of(const scene::Scene& scene, bake::TransportBakeParams params) {
   silence_warnings();
   params.transport.directions = 64, params.transport.link_rays = 16;
   if (params.transport.surfel_size == 0) params.transport.surfel_size = 0.4f;
@@ -202,14 +202,14 @@ TEST(GiTransportBake, WarningsCountTheProbesAndNameTheFirstFive) {
 }
 
 TEST(GiTransportBake, LightThatDidNotConvergeIsToldWithItsIterations) {
-  gi::TransportBakeParams params;
+  bake::TransportBakeParams params;
   params.solve = {1e-9f, 2};
-  const gi::TransportBakeReport surfel = report_of(test::coloured_room(vec3(1)), params);
+  const bake::TransportBakeReport surfel = report_of(test::coloured_room(vec3(1)), params);
   EXPECT_EQ(surfel.iterations, 2);
   EXPECT_THAT(surfel.warnings, testing::ElementsAre(testing::HasSubstr("did not converge in 2 iterations")));
-  params.op = gi::LightOperator::bounce;
+  params.op = probes::LightOperator::bounce;
   params.bounce.max_iterations = 3, params.bounce.tolerance = 1e-9f;
-  const gi::TransportBakeReport bounce = report_of(test::coloured_room(vec3(1)), params);
+  const bake::TransportBakeReport bounce = report_of(test::coloured_room(vec3(1)), params);
   EXPECT_EQ(bounce.iterations, 3);
   EXPECT_THAT(bounce.warnings, testing::ElementsAre(testing::HasSubstr("did not converge in 3 iterations")));
   EXPECT_GT(bounce.contraction, 0.1);
@@ -223,12 +223,12 @@ TEST(GiTransportBake, SurfelsAreAThirtySecondOfTheRadiusWithinFourCentimetresAnd
     for (scene::Mesh& mesh : room.meshes)
       for (vec3& p : mesh.positions) p *= scale;
     const trace::TransportScene source(room);
-    gi::ProbeSet set = gi::init_from_scene(room, 0);
+    probes::ProbeSet set = place::init_from_scene(room, 0);
     set.probes.resize(1);
-    gi::TransportBakeParams params;
+    bake::TransportBakeParams params;
     params.transport.directions = 16, params.transport.link_rays = 4, params.transport.samples = 1;
-    gi::TransportBakeReport report;
-    gi::add_transport(source, set, params, report);
+    bake::TransportBakeReport report;
+    bake::add_transport(source, set, params, report);
     return set.generator.surfel_size;
   };
   EXPECT_EQ(size_of(0.5f), 0.04f);
@@ -240,9 +240,9 @@ TEST(GiTransportBake, SurfelsAreAThirtySecondOfTheRadiusWithinFourCentimetresAnd
     for (scene::Mesh& mesh : room.meshes)
       for (vec3& p : mesh.positions) p *= scale;
     const trace::TransportScene source(room);
-    gi::TransportParams params;
+    transport::TransportParams params;
     params.directions = 16, params.link_rays = 4, params.samples = 1;
-    return gi::TransportNetwork(source, std::vector<vec3>{vec3(0)}, params).params().surfel_size;
+    return transport::TransportNetwork(source, std::vector<vec3>{vec3(0)}, params).params().surfel_size;
   };
   EXPECT_EQ(session_size(0.5f), 0.05f);
   EXPECT_FLOAT_EQ(session_size(1), std::sqrt(3.0f) / 20);
@@ -252,14 +252,14 @@ TEST(GiTransportBake, SurfelsAreAThirtySecondOfTheRadiusWithinFourCentimetresAnd
 TEST(GiTransportBake, TheNumberOfThreadsChangesNoBit) {
   silence_warnings();
   const scene::Scene scene = scene::make_builtin("two-rooms");
-  gi::TransportBakeParams params;
+  bake::TransportBakeParams params;
   params.transport.link_rays = 16;
   params.transport.surfel_size = 0.5f;
   params.fit = true;
   set_thread_count(1);
-  const auto one = gi::probes_to_binary(bake(scene, 3, params).set);
+  const auto one = probes::probes_to_binary(bake(scene, 3, params).set);
   set_thread_count(0);
-  EXPECT_EQ(gi::probes_to_binary(bake(scene, 3, params).set), one);
+  EXPECT_EQ(probes::probes_to_binary(bake(scene, 3, params).set), one);
 }
 
 }  // namespace

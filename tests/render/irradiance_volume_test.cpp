@@ -14,8 +14,8 @@ TEST(IrradianceVolume, ErrorsFallWithMoreProbes) {
   const std::pair<std::string, double> cases[] = {{"cornell", 0.9}, {"gallery1", 0.65}};
   for (const auto& [name, share] : cases) {
     const scene::Scene scene = scene::make_builtin(name);
-    const std::vector<scene::SurfacePoint> points = test::points_of(scene, 200);
-    const std::vector<scene::IrradianceEstimate> truth = test::truth_at(scene, 0, points, 25, 128);
+    const std::vector<rays::SurfacePoint> points = test::points_of(scene, 200);
+    const std::vector<rays::IrradianceEstimate> truth = test::truth_at(scene, 0, points, 25, 128);
     for (const std::string interpolation : {"tetrahedra", "trilinear"}) {
       if (name == "gallery1" && interpolation == "trilinear") continue;  // time
       std::vector<double> errors;
@@ -24,7 +24,7 @@ TEST(IrradianceVolume, ErrorsFallWithMoreProbes) {
             "irradiance-volume",
             {"places=grid", "probes=" + probes, "interpolation=" + interpolation, "directions=256"}, scene);
         errors.push_back(
-            test::absolute_error(made.irradiance(scene::lighting_at(made.source, 0), points), truth));
+            test::absolute_error(made.irradiance(rays::lighting_at(made.source, 0), points), truth));
       }
       EXPECT_LT(errors[1], share * errors[0]) << name << " " << interpolation;
     }
@@ -33,26 +33,26 @@ TEST(IrradianceVolume, ErrorsFallWithMoreProbes) {
 
 TEST(IrradianceVolume, LeaksThroughAShutDoor) {
   const scene::Scene scene = scene::make_builtin("two-rooms");
-  const std::vector<scene::SurfacePoint> points = test::points_of(scene, 400);
+  const std::vector<rays::SurfacePoint> points = test::points_of(scene, 400);
   const trace::PathTracer tracer(scene, 0);
-  const gi::LeakParams params{.path = {.max_depth = 25, .passes = 1, .spp = 64, .seed = 1}};
-  const gi::TruthAtPoints truth = gi::trace_truth(tracer, points, params);
+  const study::LeakParams params{.path = {.max_depth = 25, .passes = 1, .spp = 64, .seed = 1}};
+  const study::TruthAtPoints truth = study::trace_truth(tracer, points, params);
   ASSERT_GT(truth.dark, 100u);
   test::MadeMethod volume("irradiance-volume", {}, scene), ssphh("ssphh", {"weights=mls"}, scene);
-  const scene::LightingState state = scene::lighting_at(volume.source, 0);
+  const scene::LightingState state = rays::lighting_at(volume.source, 0);
   // Its cells reach through the wall; lookups that ask for visibility do not leak at all.
-  EXPECT_GT(gi::leak_ratio(volume.irradiance(state, points), truth), 0.005);
-  EXPECT_LE(gi::leak_ratio(ssphh.irradiance(state, points), truth), 1e-5);
+  EXPECT_GT(study::leak_ratio(volume.irradiance(state, points), truth), 0.005);
+  EXPECT_LE(study::leak_ratio(ssphh.irradiance(state, points), truth), 1e-5);
 }
 
 TEST(IrradianceVolume, ASecondUpdateIsThatOfAFreshOne) {
   const scene::Scene scene = scene::make_builtin("two-rooms");
-  const std::vector<scene::SurfacePoint> points = test::points_of(scene, 100);
+  const std::vector<rays::SurfacePoint> points = test::points_of(scene, 100);
   const std::vector<std::string> settings = {"probes=40"};
   test::MadeMethod kept("irradiance-volume", settings, scene), fresh("irradiance-volume", settings, scene);
-  scene::LightingState state = scene::lighting_at(kept.source, 0);
+  scene::LightingState state = rays::lighting_at(kept.source, 0);
   kept.irradiance(state, points);
-  state = scene::lighting_at(kept.source, 0.6f);
+  state = rays::lighting_at(kept.source, 0.6f);
   state.lights[0].world[3].x += 0.3f;
   state.group_scales[0] = {2, 1, 0.5f};
   const std::vector<vec3> now = kept.irradiance(state, points), expected = fresh.irradiance(state, points);

@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <ssphh/gi/leak.h>
-#include <ssphh/gi/lookup.h>
-#include <ssphh/gi/relight_session.h>
-#include <ssphh/gi/surface_points.h>
+#include <ssphh/probes/lookup.h>
 #include <ssphh/scene/builtin.h>
+#include <ssphh/study/leak.h>
+#include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
+#include <ssphh/transport/relight_session.h>
 
 #include "lit_session.h"
 
@@ -18,8 +18,8 @@ namespace {
 /// builtin:two-rooms with probes on a 0.7 m grid in both rooms, lit by surfels.
 class TwoRooms : public testing::Test {
  protected:
-  static std::vector<gi::ProbePlace> grid() {
-    std::vector<gi::ProbePlace> places;
+  static std::vector<transport::ProbePlace> grid() {
+    std::vector<transport::ProbePlace> places;
     for (const float x0 : {-4.075f, 0.075f}) {
       for (int i = 0; i < 6; ++i) {
         for (int j = 0; j < 4; ++j) {
@@ -34,41 +34,42 @@ class TwoRooms : public testing::Test {
     return places;
   }
 
-  gi::ProbeSet lit(float time) const {
+  probes::ProbeSet lit(float time) const {
     test::LitSession session(source, places, {}, time);
     session.update();
-    gi::ProbeSet set;
+    probes::ProbeSet set;
     set.degree = 4;
     set.light_groups.push_back({"lamp"});
     for (std::size_t i = 0; i < places.size(); ++i) {
-      gi::Probe& probe = set.probes.emplace_back();
+      probes::Probe& probe = set.probes.emplace_back();
       probe.position = places[i].position;
       probe.groups.push_back({{}, session.reflected()[i]});
     }
-    gi::merge_groups(set);
+    probes::merge_groups(set);
     return set;
   }
 
-  std::vector<scene::SurfacePoint> points(float time) const {
+  std::vector<rays::SurfacePoint> points(float time) const {
     std::vector<vec3> positions;
-    for (const gi::ProbePlace& place : places) positions.push_back(place.position);
-    return gi::reachable_points(source, positions, time, {400, 1});
+    for (const transport::ProbePlace& place : places) positions.push_back(place.position);
+    return study::reachable_points(source, positions, time, {400, 1});
   }
 
   const scene::Scene scene = scene::make_builtin("two-rooms");
   const trace::TransportScene source{scene};
-  const std::vector<gi::ProbePlace> places = grid();
-  const gi::LeakParams params{.path = {.max_depth = 25, .passes = 1, .spp = 64, .seed = 1}};
+  const std::vector<transport::ProbePlace> places = grid();
+  const study::LeakParams params{.path = {.max_depth = 25, .passes = 1, .spp = 64, .seed = 1}};
 };
 
 TEST_F(TwoRooms, NothingLeaksThroughAShutDoor) {
   const trace::PathTracer tracer(scene, 0);
-  const gi::ProbeSet set = lit(0);
-  for (const auto method : {gi::WeightMethod::distance, gi::WeightMethod::trilinear, gi::WeightMethod::mls}) {
-    gi::LookupParams lookup;
+  const probes::ProbeSet set = lit(0);
+  for (const auto method :
+       {probes::WeightMethod::distance, probes::WeightMethod::trilinear, probes::WeightMethod::mls}) {
+    probes::LookupParams lookup;
     lookup.weights.method = method;
-    const gi::LeakReport report =
-        gi::measure_leak(tracer, gi::IrradianceLookup(set, tracer, lookup), points(0), params);
+    const study::LeakReport report =
+        study::measure_leak(tracer, probes::IrradianceLookup(set, tracer, lookup), points(0), params);
     // Half of the surface belongs to room B, whose every point is dark: within five standard deviations.
     EXPECT_NEAR(static_cast<double>(report.dark), 200, 5 * 10);
     EXPECT_LE(report.ratio, 1e-5) << name_of(method);
@@ -79,14 +80,14 @@ TEST_F(TwoRooms, NothingLeaksThroughAShutDoor) {
 
 TEST_F(TwoRooms, WithoutVisibilityLightPassesTheWall) {
   const trace::PathTracer tracer(scene, 0);
-  const gi::ProbeSet set = lit(0);
+  const probes::ProbeSet set = lit(0);
   std::vector<vec3> positions;
-  for (const gi::ProbePlace& place : places) positions.push_back(place.position);
-  gi::WeightParams blind;
-  blind.method = gi::WeightMethod::trilinear;
+  for (const transport::ProbePlace& place : places) positions.push_back(place.position);
+  probes::WeightParams blind;
+  blind.method = probes::WeightMethod::trilinear;
   const auto sees_all = [](const vec3&, const vec3&) { return true; };
-  const gi::IrradianceLookup lookup(set, gi::make_weights(positions, sees_all, blind));
-  const gi::LeakReport report = gi::measure_leak(tracer, lookup, points(0), params);
+  const probes::IrradianceLookup lookup(set, probes::make_weights(positions, sees_all, blind));
+  const study::LeakReport report = study::measure_leak(tracer, lookup, points(0), params);
   RecordProperty("leak_percent", std::to_string(100 * report.ratio));
   EXPECT_GT(report.ratio, 0.03);
   EXPECT_LT(report.ratio, 0.12);
@@ -94,8 +95,8 @@ TEST_F(TwoRooms, WithoutVisibilityLightPassesTheWall) {
 
 TEST_F(TwoRooms, AnOpenDoorLeavesNoPointDark) {
   const trace::PathTracer tracer(scene, 1);
-  const gi::LeakReport report =
-      gi::measure_leak(tracer, gi::IrradianceLookup(lit(1), tracer), points(1), params);
+  const study::LeakReport report =
+      study::measure_leak(tracer, probes::IrradianceLookup(lit(1), tracer), points(1), params);
   EXPECT_EQ(report.dark, 0u);
   EXPECT_EQ(report.ratio, 0);
 }

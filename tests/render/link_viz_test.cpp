@@ -2,14 +2,14 @@
 
 #include <gmock/gmock.h>
 
+#include <ssphh/bake/bake.h>
+#include <ssphh/bake/transport_bake.h>
 #include <ssphh/core/error.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/parallel.h>
-#include <ssphh/gi/bake.h>
-#include <ssphh/gi/hier.h>
-#include <ssphh/gi/init.h>
-#include <ssphh/gi/probe_file.h>
-#include <ssphh/gi/transport_bake.h>
+#include <ssphh/place/init.h>
+#include <ssphh/probes/hier.h>
+#include <ssphh/probes/probe_file.h>
 #include <ssphh/trace/path_tracer.h>
 
 #include "transport_fixtures.h"
@@ -27,20 +27,20 @@ scene::Scene black_box() {
   return scene;
 }
 
-gi::ProbeSet with_edges(const scene::Scene& scene, int degree, const gi::LinkVizParams& viz = {},
-                        float time = 0, const gi::TransportParams& transport = small_network()) {
+probes::ProbeSet with_edges(const scene::Scene& scene, int degree, const transport::LinkVizParams& viz = {},
+                            float time = 0, const transport::TransportParams& transport = small_network()) {
   set_log_level(LogLevel::error);  // Dark rooms are meant here.
-  gi::TransportBakeParams params;
+  bake::TransportBakeParams params;
   params.transport = transport;
   params.viz = true;
   params.viz_params = viz;
-  gi::TransportBakeReport report;
-  return gi::bake_transport(trace::TransportScene(scene), gi::init_from_scene(scene, degree, time), params,
-                            report);
+  bake::TransportBakeReport report;
+  return bake::bake_transport(trace::TransportScene(scene), place::init_from_scene(scene, degree, time),
+                              params, report);
 }
 
-const gi::Edge* edge(const gi::ProbeSet& set, std::size_t i, int from) {
-  for (const gi::Edge& e : set.probes[i].edges) {
+const probes::Edge* edge(const probes::ProbeSet& set, std::size_t i, int from) {
+  for (const probes::Edge& e : set.probes[i].edges) {
     if (e.from == from) return &e;
   }
   return nullptr;
@@ -51,10 +51,10 @@ TEST(LinkViz, WithoutReflectionASphereIsItsDisc) {
   const float r = 0.25f;
   const std::vector<vec3> places = {{0, 0, 0}, {0, 1, 0}, {0, 0, 3}, {0.1f, 0.1f, 0}};
   for (const vec3& p : places) add_sphl(scene, "SPHL", p, r);
-  const gi::ProbeSet set = with_edges(scene, 2);
+  const probes::ProbeSet set = with_edges(scene, 2);
   for (std::size_t i = 0; i < places.size(); ++i) {
     ASSERT_EQ(set.probes[i].edges.size(), places.size() - 1);
-    for (const gi::Edge& e : set.probes[i].edges) {
+    for (const probes::Edge& e : set.probes[i].edges) {
       const vec3 way = places[static_cast<std::size_t>(e.from)] - places[i];
       const double sine = double(r) / double(glm::length(way));
       const double share = sine >= 1 ? 1 : (1 - std::sqrt(1 - sine * sine)) / 2;
@@ -75,7 +75,7 @@ TEST(LinkViz, WhatStandsInFrontHidesAsMuchOfTheSphereAsItCovers) {
   add_sphl(scene, "half", {0, 0, 3}, 0.2f);
   add_sphl(scene, "whole", {0, -0.5f, 3}, 0.2f);
   add_sphl(scene, "hidden", {0, 0.5f, 3}, 0.2f);
-  const gi::ProbeSet set = with_edges(scene, 1);
+  const probes::ProbeSet set = with_edges(scene, 1);
   const double sine = 0.2 / 3, share = (1 - std::sqrt(1 - sine * sine)) / 2;
   ASSERT_TRUE(edge(set, 0, 1));
   EXPECT_NEAR(double(edge(set, 0, 1)->transfer), share / 2, share / 16);  // one of 16 rays
@@ -87,24 +87,24 @@ TEST(LinkViz, WhatStandsInFrontHidesAsMuchOfTheSphereAsItCovers) {
 
 TEST(LinkViz, AgreesWithTracedPathsInAClosedRoomOfColouredWalls) {
   const scene::Scene scene = coloured_room(vec3(0));
-  gi::TransportParams fine = small_network();
+  transport::TransportParams fine = small_network();
   fine.directions = 1536, fine.surfel_size = 0.2f, fine.link_rays = 128;
-  const gi::ProbeSet links = with_edges(scene, 1, {}, 0, fine);
+  const probes::ProbeSet links = with_edges(scene, 1, {}, 0, fine);
 
   const trace::PathTracer tracer(scene);
   const std::size_t n = links.probes.size();
   std::vector<Samples> transfer(n * n), red(n * n);
-  gi::BakeParams paths;
+  bake::BakeParams paths;
   paths.keep_light = true;
   paths.face_size = 8;
   paths.path.spp = 8;
   paths.path.max_depth = 24;  // 0.75^24 of the light is left
   for (int seed = 0; seed < 32; ++seed) {
     paths.path.seed = static_cast<std::uint64_t>(seed);
-    gi::BakeReport report;
-    const gi::ProbeSet traced = gi::bake(tracer, links, paths, {}, report);
+    bake::BakeReport report;
+    const probes::ProbeSet traced = bake::bake(tracer, links, paths, {}, report);
     for (std::size_t i = 0; i < n; ++i) {
-      for (const gi::Edge& e : traced.probes[i].edges) {
+      for (const probes::Edge& e : traced.probes[i].edges) {
         transfer[i * n + static_cast<std::size_t>(e.from)].add(double(e.transfer));
         red[i * n + static_cast<std::size_t>(e.from)].add(double(e.h[0].x) / root_4pi);
       }
@@ -114,7 +114,7 @@ TEST(LinkViz, AgreesWithTracedPathsInAClosedRoomOfColouredWalls) {
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
       if (j == i) continue;
-      const gi::Edge* e = edge(links, i, static_cast<int>(j));
+      const probes::Edge* e = edge(links, i, static_cast<int>(j));
       ASSERT_TRUE(e) << i << " " << j;
       // Surfels of a tenth of the room, spheres' shadows by one ray, solved to a hundredth: 2.5 %.
       EXPECT_TRUE(
@@ -128,13 +128,13 @@ TEST(LinkViz, AgreesWithTracedPathsInAClosedRoomOfColouredWalls) {
 
 TEST(LinkViz, AShutDoorLetsExactlyNothingThroughAnOpenOneAsMuchAsTracedPaths) {
   const scene::Scene scene = scene::make_builtin("two-rooms");
-  const auto in_b = [](const gi::Probe& probe) { return probe.position.x > 0.1f; };
+  const auto in_b = [](const probes::Probe& probe) { return probe.position.x > 0.1f; };
   for (const float time : {0.0f, 1.0f}) {
-    const gi::ProbeSet set = with_edges(scene, 1, {}, time);
+    const probes::ProbeSet set = with_edges(scene, 1, {}, time);
     double across = 0;
     int count_across = 0, count_within = 0;
-    for (const gi::Probe& probe : set.probes) {
-      for (const gi::Edge& e : probe.edges) {
+    for (const probes::Probe& probe : set.probes) {
+      for (const probes::Edge& e : probe.edges) {
         const bool crosses = in_b(probe) != in_b(set.probes[static_cast<std::size_t>(e.from)]);
         ++(crosses ? count_across : count_within);
         if (crosses) across += double(e.transfer);
@@ -146,17 +146,17 @@ TEST(LinkViz, AShutDoorLetsExactlyNothingThroughAnOpenOneAsMuchAsTracedPaths) {
 
     Samples traced_across;
     const trace::PathTracer tracer(scene, time);
-    gi::BakeParams paths;
+    bake::BakeParams paths;
     paths.keep_light = true;
     paths.face_size = 8;
     paths.path.spp = 4;
     paths.path.max_depth = 24;
     for (int seed = 0; seed < 32; ++seed) {
       paths.path.seed = static_cast<std::uint64_t>(seed);
-      gi::BakeReport report;
+      bake::BakeReport report;
       double sum = 0;
-      for (const gi::Probe& probe : gi::bake(tracer, set, paths, {}, report).probes) {
-        for (const gi::Edge& e : probe.edges) {
+      for (const probes::Probe& probe : bake::bake(tracer, set, paths, {}, report).probes) {
+        for (const probes::Edge& e : probe.edges) {
           if (in_b(probe) != in_b(set.probes[static_cast<std::size_t>(e.from)])) sum += double(e.transfer);
         }
       }
@@ -169,26 +169,28 @@ TEST(LinkViz, AShutDoorLetsExactlyNothingThroughAnOpenOneAsMuchAsTracedPaths) {
 
 TEST(LinkViz, KeepsTheStrongestNeighboursOverTheThreshold) {
   const scene::Scene scene = scene::make_builtin("gallery1");
-  gi::TransportParams coarse = small_network();
+  transport::TransportParams coarse = small_network();
   coarse.surfel_size = 1;  // the edges are compared with each other alone
-  const auto edges = [&](const gi::LinkVizParams& viz) { return with_edges(scene, 1, viz, 0, coarse); };
-  const gi::ProbeSet all = edges({.neighbors = -1});
-  const gi::ProbeSet two = edges({.neighbors = 2});
-  const gi::ProbeSet none = edges({.neighbors = 0});
+  const auto edges = [&](const transport::LinkVizParams& viz) {
+    return with_edges(scene, 1, viz, 0, coarse);
+  };
+  const probes::ProbeSet all = edges({.neighbors = -1});
+  const probes::ProbeSet two = edges({.neighbors = 2});
+  const probes::ProbeSet none = edges({.neighbors = 0});
   const float threshold = all.probes[0].edges[0].transfer;
-  const gi::ProbeSet strong = edges({.neighbors = -1, .threshold = threshold});
-  EXPECT_EQ(all.generator.viz, gi::VizMethod::links);
-  EXPECT_EQ(gi::edge_count(none), 0u);
+  const probes::ProbeSet strong = edges({.neighbors = -1, .threshold = threshold});
+  EXPECT_EQ(all.generator.viz, probes::VizMethod::links);
+  EXPECT_EQ(probes::edge_count(none), 0u);
   for (std::size_t i = 0; i < all.probes.size(); ++i) {
-    std::vector<int> best = gi::select_neighbors(all.probes[i], {.neighbors = 2});
+    std::vector<int> best = probes::select_neighbors(all.probes[i], {.neighbors = 2});
     std::ranges::sort(best);
     ASSERT_EQ(two.probes[i].edges.size(), 2u);
     for (std::size_t k = 0; k < 2; ++k)
       EXPECT_EQ(two.probes[i].edges[k], all.probes[i].edges[static_cast<std::size_t>(best[k])]);
     std::size_t over = 0;
-    for (const gi::Edge& e : all.probes[i].edges) over += e.transfer > threshold;
+    for (const probes::Edge& e : all.probes[i].edges) over += e.transfer > threshold;
     EXPECT_EQ(strong.probes[i].edges.size(), over);
-    EXPECT_TRUE(std::ranges::is_sorted(all.probes[i].edges, {}, &gi::Edge::from));
+    EXPECT_TRUE(std::ranges::is_sorted(all.probes[i].edges, {}, &probes::Edge::from));
   }
   EXPECT_THROW(with_edges(scene, 1, {.neighbors = -2}), Error);
   EXPECT_THROW(with_edges(scene, 1, {.threshold = 1.5f}), Error);
@@ -197,17 +199,17 @@ TEST(LinkViz, KeepsTheStrongestNeighboursOverTheThreshold) {
 TEST(LinkViz, TracedEdgesAreCutAlike) {
   const scene::Scene scene = scene::make_builtin("gallery1");
   const trace::PathTracer tracer(scene);
-  const gi::ProbeSet places = gi::init_from_scene(scene, 1);
-  gi::BakeParams params;
+  const probes::ProbeSet places = place::init_from_scene(scene, 1);
+  bake::BakeParams params;
   params.face_size = 4;
   params.path.spp = 1;
-  gi::BakeReport report;
-  const gi::ProbeSet all = gi::bake(tracer, places, params, {}, report);
+  bake::BakeReport report;
+  const probes::ProbeSet all = bake::bake(tracer, places, params, {}, report);
   params.viz_params.neighbors = 2;
-  const gi::ProbeSet two = gi::bake(tracer, places, params, {}, report);
-  EXPECT_EQ(all.generator.viz, gi::VizMethod::path);
+  const probes::ProbeSet two = bake::bake(tracer, places, params, {}, report);
+  EXPECT_EQ(all.generator.viz, probes::VizMethod::path);
   for (std::size_t i = 0; i < all.probes.size(); ++i) {
-    std::vector<int> best = gi::select_neighbors(all.probes[i], {.neighbors = 2});
+    std::vector<int> best = probes::select_neighbors(all.probes[i], {.neighbors = 2});
     std::ranges::sort(best);
     ASSERT_EQ(two.probes[i].edges.size(), 2u);
     for (std::size_t k = 0; k < 2; ++k)
@@ -217,7 +219,7 @@ TEST(LinkViz, TracedEdgesAreCutAlike) {
 
 TEST(LinkViz, TheNumberOfThreadsChangesNoBit) {
   const scene::Scene scene = scene::make_builtin("two-rooms");
-  const auto bytes = [&] { return gi::probes_to_binary(with_edges(scene, 3, {.neighbors = 2}, 1)); };
+  const auto bytes = [&] { return probes::probes_to_binary(with_edges(scene, 3, {.neighbors = 2}, 1)); };
   set_thread_count(1);
   const auto one = bytes();
   set_thread_count(0);

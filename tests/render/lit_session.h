@@ -3,17 +3,17 @@
 
 #include <utility>
 
-#include <ssphh/gi/relight_session.h>
+#include <ssphh/transport/relight_session.h>
 
 namespace ssphh::test {
 
-struct LitSession : gi::RelightSession {
-  LitSession(const scene::TransportSource& source, std::vector<gi::ProbePlace> places,
-             const gi::RelightParams& params = {}, float time = 0)
+struct LitSession : transport::RelightSession {
+  LitSession(const rays::TransportSource& source, std::vector<transport::ProbePlace> places,
+             const transport::RelightParams& params = {}, float time = 0)
       : RelightSession(source, std::move(places), params, time), state(lighting()) {}
 
   using RelightSession::update;
-  gi::RelightReport update() { return update(state); }
+  transport::RelightReport update() { return update(state); }
 
   /// One probe shines, or no more.
   void shine(int probe, const sh::RadianceSh& leaving) {

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include <ssphh/gi/leak.h>
-#include <ssphh/gi/lookup_error.h>
-#include <ssphh/gi/methods/table.h>
-#include <ssphh/gi/place.h>
-#include <ssphh/gi/surface_points.h>
+#include <ssphh/methods/table.h>
+#include <ssphh/place/place.h>
 #include <ssphh/scene/with_lighting.h>
+#include <ssphh/study/leak.h>
+#include <ssphh/study/lookup_error.h>
+#include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -19,38 +19,38 @@ namespace ssphh::test {
 struct MadeMethod {
   MadeMethod(const std::string& name, const std::vector<std::string>& settings, const scene::Scene& scene)
       : source(scene) {
-    const gi::MethodEntry& entry = gi::find_method(name);
-    method = entry.make({scene, source}, gi::MethodParameters(name, entry.parameters, settings), {});
+    const methods::MethodEntry& entry = methods::find_method(name);
+    method = entry.make({scene, source}, methods::MethodParameters(name, entry.parameters, settings), {});
   }
 
   std::vector<vec3> irradiance(const scene::LightingState& state,
-                               std::span<const scene::SurfacePoint> points) {
+                               std::span<const rays::SurfacePoint> points) {
     method->update(state, {});
-    return gi::look_up(method->light(), points);
+    return study::look_up(method->light(), points);
   }
 
   trace::TransportScene source;
-  std::unique_ptr<gi::Method> method;
+  std::unique_ptr<methods::Method> method;
 };
 
 /// Points that the scene's cameras and SPHLs can reach.
-inline std::vector<scene::SurfacePoint> points_of(const scene::Scene& scene, int count, float time = 0) {
+inline std::vector<rays::SurfacePoint> points_of(const scene::Scene& scene, int count, float time = 0) {
   const trace::TransportScene source(scene);
-  const gi::PlaceParams seen = gi::place_params(scene, time);
+  const place::PlaceParams seen = place::place_params(scene, time);
   std::vector<vec3> origins = seen.interest;
   for (const scene::SphlPlace& place : seen.manual) origins.push_back(place.position);
-  return gi::reachable_points(source, origins, time, {count, 1});
+  return study::reachable_points(source, origins, time, {count, 1});
 }
 
-inline std::vector<scene::IrradianceEstimate> truth_at(const scene::Scene& scene, float time,
-                                                       std::span<const scene::SurfacePoint> points,
-                                                       int max_depth, int spp) {
+inline std::vector<rays::IrradianceEstimate> truth_at(const scene::Scene& scene, float time,
+                                                      std::span<const rays::SurfacePoint> points,
+                                                      int max_depth, int spp) {
   const trace::PathTracer tracer(scene, time);
   return tracer.surface_irradiance(points, {.max_depth = max_depth, .passes = 1, .spp = spp, .seed = 5}, {});
 }
 
 /// Σ |looked up − true| / Σ true, as luminance: unlike relative errors, not decided by a dark nook.
-inline double absolute_error(std::span<const vec3> found, std::span<const scene::IrradianceEstimate> truth) {
+inline double absolute_error(std::span<const vec3> found, std::span<const rays::IrradianceEstimate> truth) {
   double sum = 0, all = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const float t = luminance(truth[i].indirect);

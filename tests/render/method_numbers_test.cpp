@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <ssphh/gi/fitted_weights.h>
+#include <ssphh/transport/fitted_weights.h>
 
 #include "method_fixtures.h"
 #include "transport_fixtures.h"
@@ -28,9 +28,9 @@ struct Framed : MadeMethod {
     frame();
   }
   Framed(const std::string&, const std::vector<std::string>&, const scene::Scene&&) = delete;
-  void frame(float time = 0) { method->update(scene::lighting_at(source, time), {}); }
+  void frame(float time = 0) { method->update(rays::lighting_at(source, time), {}); }
   Numbers numbers() const {
-    const gi::MethodNumbers list = method->numbers();
+    const methods::MethodNumbers list = method->numbers();
     Numbers found(list.begin(), list.end());
     EXPECT_EQ(found.size(), list.size()) << "names are unique";
     return found;
@@ -39,11 +39,11 @@ struct Framed : MadeMethod {
 
 /// What a network takes, of its plain data.
 struct Network {
-  gi::TransportNetwork network;
+  transport::TransportNetwork network;
   explicit Network(const trace::TransportScene& source)
       : network(source, test::positions_of(test::places_of(room())), params()) {}
-  static gi::TransportParams params() {
-    gi::TransportParams p;
+  static transport::TransportParams params() {
+    transport::TransportParams p;
     p.directions = 64, p.surfel_size = 0.5f;
     return p;
   }
@@ -52,7 +52,7 @@ struct Network {
     const std::size_t rays = 4u * 64;
     // Links; what rays see, how far, and as packed; eight samples a surfel; and the surfels with their light.
     return network.links().link_count() * 8 + rays * (8 + 4 + 16) + network.surfel_count() * 8 * (28 + 1) +
-           network.surfel_count() * (sizeof(gi::Surfel) + 12 + 4 * 16);
+           network.surfel_count() * (sizeof(transport::Surfel) + 12 + 4 * 16);
   }
 };
 
@@ -113,17 +113,17 @@ TEST(MethodNumbers, OfTransferAreItsMesh) {
 
 TEST(MethodNumbers, OfVirtualLightsAreTheirPhotonsAndWhatWasMeasured) {
   const Framed vpl("vpl", {"photons=64", "check_points=16", "clamp=0"});
-  const auto lights = std::get<gi::VirtualLights>(vpl.method->light_data());
+  const auto lights = std::get<methods::VirtualLights>(vpl.method->light_data());
   const auto count = static_cast<double>(lights.lights.size());
   EXPECT_EQ(vpl.numbers(),
             (Numbers{{"photons", 64}, {"vpls", count}, {"lost_energy", 0}, {"lights_per_point", count}}));
-  EXPECT_EQ(vpl.method->memory().lookup, lights.lights.size() * sizeof(gi::vpl::Vpl));
-  EXPECT_EQ(lights.params.kind, gi::vpl::VplKind::point);
+  EXPECT_EQ(vpl.method->memory().lookup, lights.lights.size() * sizeof(methods::vpl::Vpl));
+  EXPECT_EQ(lights.params.kind, methods::vpl::VplKind::point);
   EXPECT_EQ(lights.params.least_distance, 0);
   const Framed unmeasured("vpl", {"photons=64", "check_points=0", "kind=sphere", "clamp=0.1", "depth=2"});
   EXPECT_EQ(unmeasured.numbers(), (Numbers{{"photons", 64}, {"vpls", 64}}));
-  const auto spheres = std::get<gi::VirtualLights>(unmeasured.method->light_data());
-  EXPECT_EQ(spheres.params.kind, gi::vpl::VplKind::sphere);
+  const auto spheres = std::get<methods::VirtualLights>(unmeasured.method->light_data());
+  EXPECT_EQ(spheres.params.kind, methods::vpl::VplKind::sphere);
   EXPECT_FLOAT_EQ(spheres.params.least_distance, 0.1f * std::sqrt(3.0f)) << "of the room's radius";
   EXPECT_GT(spheres.lights[0].radius, 0);
   EXPECT_GT(Framed("vpl", {"photons=64", "check_points=16", "clamp=0.5"}).numbers()["lost_energy"], 0.01);
@@ -137,7 +137,7 @@ TEST(MethodNumbers, OfVoxelsAreTheirGridAndWhatIsRelit) {
   Framed vct("vct", {"resolution=32", "bounces=1", "samples=2"}, rooms);
   const Numbers first = vct.numbers();
   EXPECT_EQ(first.at("levels"), 4) << "32, 16, 8 and 4 voxels";
-  const auto cones = std::get<gi::VoxelCones>(vct.method->light_data());
+  const auto cones = std::get<methods::VoxelCones>(vct.method->light_data());
   EXPECT_EQ(cones.cones.cones, 16);
   EXPECT_EQ(first.at("bricks"), static_cast<double>(cones.voxels->bricks(0)));
   EXPECT_EQ(first.at("voxel_size"), static_cast<double>(cones.voxels->grid().voxel));
@@ -162,7 +162,7 @@ TEST(MethodNumbers, OfDdgiAreItsProbesRaysAndFrames) {
       << "2 m in three, of which points were found nearly to the rim";
   EXPECT_EQ(numbers.at("rays_per_frame"), 27 * 16);
   EXPECT_EQ(numbers.at("frames"), 3);
-  // Maps as in docs/methods/ddgi.md; a ray is a radiance and a distance.
+  // Maps as in libs/methods/ddgi/README.md; a ray is a radiance and a distance.
   EXPECT_EQ(ddgi.method->memory().lookup, 27u * (12 + 1 + 64 * 12 + 256 * 8));
   EXPECT_EQ(ddgi.method->memory().update, 27u * (16 * 16 + 1));
   ddgi.frame();
@@ -184,7 +184,7 @@ TEST(MethodNumbers, OfDdgiHoldTheRaysThatFollowADoor) {
 
 TEST(MethodNumbers, OfTheAmbientTermAreItsColour) {
   const Framed once("ambient", {"points=256"}), twice("ambient", {"points=256", "factor=2"});
-  const scene::SurfacePoint anywhere{vec3(0.5f), {0, 0, 1}};
+  const rays::SurfacePoint anywhere{vec3(0.5f), {0, 0, 1}};
   const vec3 light = once.method->light().irradiance(anywhere);
   EXPECT_EQ(once.numbers(), (Numbers{{"red", static_cast<double>(light.r)},
                                      {"green", static_cast<double>(light.g)},

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/core/parallel.h>
-#include <ssphh/gi/leak.h>
-#include <ssphh/gi/methods/table.h>
-#include <ssphh/gi/surface_points.h>
+#include <ssphh/methods/table.h>
+#include <ssphh/study/leak.h>
+#include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 
 #include "transport_fixtures.h"
@@ -18,26 +18,26 @@ namespace {
 
 using test::coloured_room;
 
-std::vector<scene::SurfacePoint> points_of(const scene::TransportSource& source, int count) {
+std::vector<rays::SurfacePoint> points_of(const rays::TransportSource& source, int count) {
   const vec3 middle(0, 0.1f, 0);
-  return gi::reachable_points(source, {&middle, 1}, 0, {count, 0});
+  return study::reachable_points(source, {&middle, 1}, 0, {count, 0});
 }
 
-std::unique_ptr<gi::Method> make(const gi::MethodEntry& entry, const scene::Scene& scene,
-                                 const scene::TransportSource& source,
-                                 const std::vector<std::string>& settings = {}) {
-  return entry.make({scene, source}, gi::MethodParameters(entry.name, entry.parameters, settings), {});
+std::unique_ptr<methods::Method> make(const methods::MethodEntry& entry, const scene::Scene& scene,
+                                      const rays::TransportSource& source,
+                                      const std::vector<std::string>& settings = {}) {
+  return entry.make({scene, source}, methods::MethodParameters(entry.name, entry.parameters, settings), {});
 }
 
-std::vector<vec3> after(gi::Method& method, const scene::LightingState& state,
-                        std::span<const scene::SurfacePoint> points) {
+std::vector<vec3> after(methods::Method& method, const scene::LightingState& state,
+                        std::span<const rays::SurfacePoint> points) {
   method.update(state, {});
-  return gi::look_up(method.light(), points);
+  return study::look_up(method.light(), points);
 }
 
 /// Enough to see what is promised.
-std::unique_ptr<gi::Method> make_small(const gi::MethodEntry& entry, const scene::Scene& scene,
-                                       const scene::TransportSource& source) {
+std::unique_ptr<methods::Method> make_small(const methods::MethodEntry& entry, const scene::Scene& scene,
+                                            const rays::TransportSource& source) {
   static const std::map<std::string, std::vector<std::string>> small = {
       {"ssphh", {"probes=8", "directions=64", "surfel_size=0.4"}},
       {"irradiance-volume", {"probes=8", "directions=64", "surfel_size=0.4"}},
@@ -49,14 +49,14 @@ std::unique_ptr<gi::Method> make_small(const gi::MethodEntry& entry, const scene
   return make(entry, scene, source, found == small.end() ? std::vector<std::string>{} : found->second);
 }
 
-class EveryMethod : public testing::TestWithParam<const gi::MethodEntry*> {};
+class EveryMethod : public testing::TestWithParam<const methods::MethodEntry*> {};
 
 TEST_P(EveryMethod, GivesLightInProportionToTheLamps) {
   const scene::Scene scene = coloured_room(vec3(2, 1, 0.5f));
   const trace::TransportScene source(scene);
-  const std::vector<scene::SurfacePoint> points = points_of(source, 32);
+  const std::vector<rays::SurfacePoint> points = points_of(source, 32);
   const auto method = make_small(*GetParam(), scene, source);
-  scene::LightingState state = scene::lighting_at(source, 0);
+  scene::LightingState state = rays::lighting_at(source, 0);
   const std::vector<vec3> once = after(*method, state, points);
   const auto brighter = make_small(*GetParam(), scene, source);
   state.group_scales.assign(state.group_scales.size(), vec3(4));
@@ -77,8 +77,8 @@ TEST_P(EveryMethod, GivesLightInProportionToTheLamps) {
 TEST_P(EveryMethod, GivesTheSameBitsOnOneThread) {
   const scene::Scene scene = coloured_room(vec3(1));
   const trace::TransportScene source(scene);
-  const std::vector<scene::SurfacePoint> points = points_of(source, 32);
-  const scene::LightingState state = scene::lighting_at(source, 0);
+  const std::vector<rays::SurfacePoint> points = points_of(source, 32);
+  const scene::LightingState state = rays::lighting_at(source, 0);
   const std::vector<vec3> many = after(*make_small(*GetParam(), scene, source), state, points);
   set_thread_count(1);
   const std::vector<vec3> one = after(*make_small(*GetParam(), scene, source), state, points);
@@ -87,11 +87,12 @@ TEST_P(EveryMethod, GivesTheSameBitsOnOneThread) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::ValuesIn([] {
-                           std::vector<const gi::MethodEntry*> entries;
-                           for (const gi::MethodEntry& entry : gi::method_table()) entries.push_back(&entry);
+                           std::vector<const methods::MethodEntry*> entries;
+                           for (const methods::MethodEntry& entry : methods::method_table())
+                             entries.push_back(&entry);
                            return entries;
                          }()),
-                         [](const testing::TestParamInfo<const gi::MethodEntry*>& method) {
+                         [](const testing::TestParamInfo<const methods::MethodEntry*>& method) {
                            std::string name = method.param->name;
                            std::erase(name, '-');
                            return name;
@@ -104,15 +105,15 @@ TEST(Ambient, IsTheMeanOfAClosedRoom) {
   constexpr float albedo = 0.6f;
   for (scene::Material& material : scene.materials) material.base_color = vec3(albedo);
   const trace::TransportScene source(scene);
-  const std::vector<scene::SurfacePoint> points = points_of(source, 4096);
-  const auto lights = source.direct_light(source.lights(0), gi::part_poses(source, 0));
+  const std::vector<rays::SurfacePoint> points = points_of(source, 4096);
+  const auto lights = source.direct_light(source.lights(0), methods::part_poses(source, 0));
   std::vector<vec3> direct(points.size());
   lights->irradiance(0, points, direct);
   double mean = 0;
   for (const vec3& e : direct) mean += e.g / static_cast<double>(points.size());
 
-  const auto method = make(gi::find_method("ambient"), scene, source, {"points=16384"});
-  const vec3 found = after(*method, scene::lighting_at(source, 0), {points.data(), 1})[0];
+  const auto method = make(methods::find_method("ambient"), scene, source, {"points=16384"});
+  const vec3 found = after(*method, rays::lighting_at(source, 0), {points.data(), 1})[0];
   EXPECT_NEAR(found.g, mean * albedo / (1 - albedo), 0.04 * mean);
 }
 
@@ -121,11 +122,11 @@ TEST(SsphhMethod, ForgetsWhatWas) {
   const scene::Scene scene = scene::make_builtin("two-rooms");
   const trace::TransportScene source(scene);
   const std::vector<vec3> origins = {vec3(-1, 1, 0), vec3(1, 1, 0)};
-  const std::vector<scene::SurfacePoint> points = gi::reachable_points(source, origins, 0, {64, 0});
+  const std::vector<rays::SurfacePoint> points = study::reachable_points(source, origins, 0, {64, 0});
   const std::vector<std::string> settings = {"places=scene", "weights=mls", "warm_start=0"};
-  const gi::MethodEntry& entry = gi::find_method("ssphh");
+  const methods::MethodEntry& entry = methods::find_method("ssphh");
   const auto moved = make(entry, scene, source, settings), fresh = make(entry, scene, source, settings);
-  const scene::LightingState shut = scene::lighting_at(source, 0), open = scene::lighting_at(source, 1);
+  const scene::LightingState shut = rays::lighting_at(source, 0), open = rays::lighting_at(source, 1);
   const std::vector<vec3> before = after(*moved, shut, points);
   const std::vector<vec3> now = after(*moved, open, points);
   EXPECT_NE(before, now);

@@ -45,9 +45,9 @@ TEST(PathScenes, ProbeInTheBuiltinBoxHoldsBandZeroOnly) {
   // Independent probes at one place: mean and variance of each coefficient.
   std::vector<Samples> coefficients(9);
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const scene::CubeRequest request{vec3(0.1f, 0, -0.1f), 8, {3, 1, 2, seed}};
+    const rays::CubeRequest request{vec3(0.1f, 0, -0.1f), 8, {3, 1, 2, seed}};
     std::vector<double> sum(9);
-    for (const scene::GroupRadiance& group : tracer.incident_radiance(request, {})) {
+    for (const rays::GroupRadiance& group : tracer.incident_radiance(request, {})) {
       for (const image::CubeMap* map : {&group.emitted, &group.reflected}) {
         sh::CubeFaces faces;
         for (std::size_t f = 0; f < 6; ++f) faces[f] = map->faces[f].pixels;
@@ -89,7 +89,7 @@ TEST(PathScenes, BuiltinFurnaceShowsItsAlbedo) {
 double light_in_room_b(float time) {
   const scene::Scene rooms = scene::make_builtin("two-rooms");
   double sum = 0;
-  for (const scene::GroupRadiance& group :
+  for (const rays::GroupRadiance& group :
        trace::PathTracer(rooms, time).incident_radiance({vec3(1.6f, 1.5f, -0.9f), 8, {6, 1, 8, 2}}, {})) {
     for (const image::Image& face : group.reflected.faces) {
       for (const float v : face.pixels) sum += static_cast<double>(v);

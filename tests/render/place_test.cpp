@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <ssphh/gi/place.h>
+#include <ssphh/place/place.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/scene_io/load.h>
 #include <ssphh/trace/transport_scene.h>
@@ -17,12 +17,12 @@ namespace {
 TEST(Placement, TwoRoomsWithEmbree) {
   const scene::Scene scene = scene::make_builtin("two-rooms");
   const trace::TransportScene source(scene);
-  gi::PlaceParams params = gi::place_params(scene);
+  place::PlaceParams params = place::place_params(scene);
   params.spacing = 0.7f;
   params.manual.clear();
-  const gi::Placement placement = gi::place_probes(source, params);
+  const place::Placement placement = place::place_probes(source, params);
   int in_doorway = 0;
-  for (const gi::PlacedProbe& probe : placement.probes) {
+  for (const place::PlacedProbe& probe : placement.probes) {
     const vec3& p = probe.position;
     EXPECT_TRUE(p.y > 0 && p.y < 3 && std::abs(p.z) < 2 && std::abs(p.x) < 4.075f) << probe.name;
     if (std::abs(p.x) > 0.075f) continue;
@@ -39,11 +39,11 @@ TEST(Placement, EveryCandidateBecomesAProbeOrIsCounted) {
     const scene::Scene scene = scene::make_builtin(name);
     const trace::TransportScene source(scene);
     for (const int count : {0, 20}) {
-      gi::PlaceParams params = gi::place_params(scene);
+      place::PlaceParams params = place::place_params(scene);
       params.spacing = 1.2f;
       params.count = count;
-      const gi::Placement placement = gi::place_probes(source, params);
-      const gi::PlaceCounts& c = placement.counts;
+      const place::Placement placement = place::place_probes(source, params);
+      const place::PlaceCounts& c = placement.counts;
       EXPECT_EQ(c.candidates + params.manual.size(), placement.probes.size() + c.removed()) << name;
       EXPECT_TRUE(count == 0 || placement.probes.size() == 20u) << name;
       EXPECT_EQ(c.surplus > 0, count > 0) << name;
@@ -54,11 +54,11 @@ TEST(Placement, EveryCandidateBecomesAProbeOrIsCounted) {
 TEST(Placement, TheGalleriesHallIsFilled) {
   const scene::Scene scene = scene::make_builtin("gallery1");
   const trace::TransportScene source(scene);
-  gi::PlaceParams params = gi::place_params(scene);
+  place::PlaceParams params = place::place_params(scene);
   params.spacing = 2;
   params.manual.clear();
   std::set<int> octants;
-  for (const gi::PlacedProbe& probe : gi::place_probes(source, params).probes) {
+  for (const place::PlacedProbe& probe : place::place_probes(source, params).probes) {
     const vec3& p = probe.position;
     EXPECT_LT(std::abs(p.x), 5);
     EXPECT_LT(std::abs(p.z), 4);
@@ -72,14 +72,14 @@ TEST(Placement, SponzasAtticStaysEmpty) {
   SSPHH_SHARED_SCENE(file, "sponza/sponza.glb");
   const scene::Scene scene = scene_io::load_scene(file.string());
   const trace::TransportScene source(scene);
-  gi::PlaceParams params;
+  place::PlaceParams params;
   params.interest = {{0, 3, 0}};  // somebody in the nave
   params.spacing = 3;
-  const gi::Placement placement = gi::place_probes(source, params);
+  const place::Placement placement = place::place_probes(source, params);
   EXPECT_GT(placement.counts.unreachable, 0u);
   EXPECT_GT(placement.probes.size(), 300u);
   bool nave = false, gallery = false;
-  for (const gi::PlacedProbe& probe : placement.probes) {
+  for (const place::PlacedProbe& probe : placement.probes) {
     const vec3& p = probe.position;
     // Over the upper gallery's ceiling at 10 m and under the roof, all around the open court.
     EXPECT_FALSE(p.y > 10.3f && p.y < 12 && std::abs(p.z) > 5) << probe.name;

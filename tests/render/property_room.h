@@ -48,8 +48,8 @@ inline scene::Scene swinging_room(std::uint64_t seed) {
 }
 
 /// A network in a few milliseconds.
-inline gi::RelightParams tiny_session() {
-  gi::RelightParams params;
+inline transport::RelightParams tiny_session() {
+  transport::RelightParams params;
   params.transport.directions = 64;
   params.transport.surfel_size = 0.7f;
   params.transport.link_rays = 16;
@@ -61,7 +61,7 @@ inline gi::RelightParams tiny_session() {
 
 /// A session with its source; the scene must outlive it.
 struct LitRoom {
-  explicit LitRoom(const scene::Scene& scene, const gi::RelightParams& params = tiny_session(),
+  explicit LitRoom(const scene::Scene& scene, const transport::RelightParams& params = tiny_session(),
                    float time = 0)
       : source(scene, {.light_samples = 4, .environment_samples = 16}),
         session(source, places_of(scene), params, time) {}

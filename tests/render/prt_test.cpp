@@ -16,19 +16,19 @@ namespace {
 TEST(Prt, RotatingEnvironmentIsThatOfPathTracing) {
   const scene::Scene scene = scene::make_builtin("court");
   test::MadeMethod made("prt", {"places=scene", "interreflect=4", "degree=2", "edge=0.3", "rays=128"}, scene);
-  const std::vector<scene::SurfacePoint> points = test::points_of(scene, 200);
-  scene::LightingState state = scene::lighting_at(made.source, 0);
+  const std::vector<rays::SurfacePoint> points = test::points_of(scene, 200);
+  scene::LightingState state = rays::lighting_at(made.source, 0);
   for (const float turn : {0.0f, 1.8f}) {
     state.environment_rotation = turn;
-    const std::vector<scene::IrradianceEstimate> truth =
+    const std::vector<rays::IrradianceEstimate> truth =
         test::truth_at(test::scene_in(scene, state), 0, points, 5, 256);
-    const gi::LookupError error = gi::lookup_error(made.irradiance(state, points), truth);
+    const study::LookupError error = study::lookup_error(made.irradiance(state, points), truth);
     EXPECT_NEAR(error.ratio, 1, 0.03) << turn;
     EXPECT_LT(error.mean_error, 0.08) << turn;
     // The light of the other rotation is not this one.
     state.environment_rotation = -turn;
     if (turn == 0) continue;
-    EXPECT_GT(gi::lookup_error(made.irradiance(state, points), truth).mean_error, 2 * error.mean_error);
+    EXPECT_GT(study::lookup_error(made.irradiance(state, points), truth).mean_error, 2 * error.mean_error);
   }
 }
 
@@ -38,8 +38,8 @@ TEST(Prt, EnvironmentInTheProbesFollowsRotationToo) {
   other.environment->rotation = 0.7f;
   test::MadeMethod made("irradiance-volume", {"places=scene"}, scene);
   test::MadeMethod loaded("irradiance-volume", {"places=scene"}, other);
-  const std::vector<scene::SurfacePoint> points = test::points_of(scene, 50);
-  scene::LightingState state = scene::lighting_at(made.source, 0);
+  const std::vector<rays::SurfacePoint> points = test::points_of(scene, 50);
+  scene::LightingState state = rays::lighting_at(made.source, 0);
   made.irradiance(state, points);
   state.environment_rotation = 0.7f;
   const std::vector<vec3> now = made.irradiance(state, points);
@@ -68,27 +68,26 @@ TEST(Prt, EdgesAreAFourteenthOfTheScenesRadiusUnlessTold) {
 TEST(Prt, MovingThingsAreLitFromTheProbes) {
   const scene::Scene scene = scene::make_builtin("court");
   test::MadeMethod made("prt", {"places=scene", "degree=2", "edge=0.5", "rays=64"}, scene);
-  const std::vector<scene::SurfacePoint> still = test::points_of(scene, 200);
-  std::vector<scene::SurfacePoint> moving = still;
-  for (scene::SurfacePoint& point : moving) point.moves = true;
-  const std::vector<scene::IrradianceEstimate> truth = test::truth_at(scene, 0, still, 5, 128);
-  const scene::LightingState state = scene::lighting_at(made.source, 0);
+  const std::vector<rays::SurfacePoint> still = test::points_of(scene, 200);
+  std::vector<rays::SurfacePoint> moving = still;
+  for (rays::SurfacePoint& point : moving) point.moves = true;
+  const std::vector<rays::IrradianceEstimate> truth = test::truth_at(scene, 0, still, 5, 128);
+  const scene::LightingState state = rays::lighting_at(made.source, 0);
   // Six probes for a court: coarse, but the energy is there.
-  EXPECT_NEAR(gi::lookup_error(made.irradiance(state, moving), truth).ratio, 1, 0.35);
-  EXPECT_LT(gi::lookup_error(made.irradiance(state, still), truth).mean_error,
-            gi::lookup_error(made.irradiance(state, moving), truth).mean_error);
+  EXPECT_NEAR(study::lookup_error(made.irradiance(state, moving), truth).ratio, 1, 0.35);
+  EXPECT_LT(study::lookup_error(made.irradiance(state, still), truth).mean_error,
+            study::lookup_error(made.irradiance(state, moving), truth).mean_error);
 }
 
 TEST(Prt, LampsByProbesAndErrorsFallWithMoreOfThem) {
   const scene::Scene scene = scene::make_builtin("cornell");
-  const std::vector<scene::SurfacePoint> points = test::points_of(scene, 200);
-  const std::vector<scene::IrradianceEstimate> truth = test::truth_at(scene, 0, points, 25, 128);
+  const std::vector<rays::SurfacePoint> points = test::points_of(scene, 200);
+  const std::vector<rays::IrradianceEstimate> truth = test::truth_at(scene, 0, points, 25, 128);
   std::vector<double> errors;
   for (const std::string probes : {"8", "512"}) {
     test::MadeMethod made("prt", {"places=grid", "probes=" + probes, "directions=256", "rays=64", "edge=0.2"},
                           scene);
-    errors.push_back(
-        test::absolute_error(made.irradiance(scene::lighting_at(made.source, 0), points), truth));
+    errors.push_back(test::absolute_error(made.irradiance(rays::lighting_at(made.source, 0), points), truth));
   }
   // Measured: 0.147 and 0.120, of which 0.08 are the truth's own noise.
   EXPECT_LT(errors[1], 0.9 * errors[0]);

@@ -58,22 +58,23 @@ Generator<std::vector<int>> walks() {
 }
 
 TEST(RelightProperty, AfterAnyWalkAndBackTheBitsAreThoseOfAFreshSession) {
-  EXPECT_TRUE(for_all(seeds(), walks(),
-                      one_of<gi::LightOperator>({gi::LightOperator::surfel, gi::LightOperator::bounce}))
-                  .cases(20)
-                  .holds([](std::uint64_t seed, std::vector<int> walk, gi::LightOperator op) {
-                    const scene::Scene scene = swinging_room(seed);
-                    gi::RelightParams params = tiny_session();
-                    params.op = op;
-                    if (op == gi::LightOperator::bounce)
-                      std::erase_if(walk, [](int code) { return code % change_kinds == 5; });
-                    LitRoom room(scene, params);
-                    const scene::LightingState own = room.session.state;
-                    const std::vector<sh::RadianceSh> before = shown(room);
-                    for (const int code : walk) change(room, code), room.session.update();
-                    room.session.state = own;
-                    return shown(room) == before;
-                  }));
+  EXPECT_TRUE(
+      for_all(seeds(), walks(),
+              one_of<probes::LightOperator>({probes::LightOperator::surfel, probes::LightOperator::bounce}))
+          .cases(20)
+          .holds([](std::uint64_t seed, std::vector<int> walk, probes::LightOperator op) {
+            const scene::Scene scene = swinging_room(seed);
+            transport::RelightParams params = tiny_session();
+            params.op = op;
+            if (op == probes::LightOperator::bounce)
+              std::erase_if(walk, [](int code) { return code % change_kinds == 5; });
+            LitRoom room(scene, params);
+            const scene::LightingState own = room.session.state;
+            const std::vector<sh::RadianceSh> before = shown(room);
+            for (const int code : walk) change(room, code), room.session.update();
+            room.session.state = own;
+            return shown(room) == before;
+          }));
 }
 
 TEST(RelightProperty, ManyUpdatesOrOneForAllChangesGiveTheSameBits) {
@@ -92,7 +93,7 @@ TEST(RelightProperty, ManyUpdatesOrOneForAllChangesGiveTheSameBits) {
 TEST(RelightProperty, AWarmWalkEndsWithinTheSolversTolerance) {
   EXPECT_TRUE(for_all(seeds(), walks()).cases(20).holds([](std::uint64_t seed, const std::vector<int>& walk) {
     const scene::Scene scene = swinging_room(seed);
-    gi::RelightParams warm = tiny_session();
+    transport::RelightParams warm = tiny_session();
     warm.warm_start = true;
     LitRoom cold_room(scene), warm_room(scene, warm);
     warm_room.session.update();
@@ -111,7 +112,7 @@ TEST(RelightProperty, GroupsAddUpWithAnyScales) {
                   .cases(20)
                   .holds([](std::uint64_t seed, const vec3& bulb, const vec3& panel) {
                     const scene::Scene scene = swinging_room(seed);
-                    gi::RelightParams params = tiny_session();
+                    transport::RelightParams params = tiny_session();
                     params.solve.tolerance = 1e-5f;
                     LitRoom room(scene, params);
                     std::vector<vec3> scales(room.source.light_groups().size(), vec3(1));

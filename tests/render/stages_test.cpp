@@ -2,10 +2,10 @@
 
 #include <gmock/gmock.h>
 
-#include <ssphh/gi/init.h>
-#include <ssphh/gi/relight_session.h>
-#include <ssphh/gi/transport_bake.h>
+#include <ssphh/bake/transport_bake.h>
+#include <ssphh/place/init.h>
 #include <ssphh/scene/builtin.h>
+#include <ssphh/transport/relight_session.h>
 
 #include "method_fixtures.h"
 #include "progress_recorder.h"
@@ -22,12 +22,12 @@ testing::Matcher<std::string> some(const std::string& stage, const std::string& 
 TEST(Stages, OfTransportBakes) {
   const scene::Scene scene = scene::make_builtin("box");
   const trace::TransportScene source(scene);
-  gi::TransportBakeParams params;
+  bake::TransportBakeParams params;
   params.transport = {.directions = 64, .surfel_size = 0.5f, .link_rays = 8, .samples = 2};
   params.viz = params.fit = true;
   test::ProgressRecorder progress;
-  gi::TransportBakeReport report;
-  gi::bake_transport(source, gi::init_from_scene(scene, 1), params, report, {&progress, nullptr});
+  bake::TransportBakeReport report;
+  bake::bake_transport(source, place::init_from_scene(scene, 1), params, report, {&progress, nullptr});
   EXPECT_THAT(progress.finished(),
               ElementsAre("probe G-buffers: 5 probes", some("finding surfels", "surfels"),
                           some("finding surfels", "surfels"), some("linking surfels", "surfels"),
@@ -38,11 +38,12 @@ TEST(Stages, OfTransportBakes) {
 TEST(Stages, OfPosesFoundBeforehand) {
   const scene::Scene scene = scene::make_builtin("two-rooms");
   const trace::TransportScene source(scene);
-  gi::RelightParams params;
+  transport::RelightParams params;
   params.transport = {.directions = 32, .surfel_size = 0.5f, .link_rays = 8, .samples = 2};
   params.poses = 3;
   test::ProgressRecorder progress;
-  const gi::RelightSession session(source, {{"p", vec3(-1, 1, 0), 0.1f}}, params, 0, {&progress, nullptr});
+  const transport::RelightSession session(source, {{"p", vec3(-1, 1, 0), 0.1f}}, params, 0,
+                                          {&progress, nullptr});
   const std::vector<std::string> done = progress.finished();
   EXPECT_EQ(done.front(), "probe G-buffers: 1 probes");
   EXPECT_EQ(done.back(), "poses: 3 poses");
@@ -52,7 +53,7 @@ TEST(Stages, OfPointsInReach) {
   const scene::Scene scene = scene::make_builtin("box");
   const trace::TransportScene source(scene);
   test::ProgressRecorder progress;
-  gi::reachable_points(source, std::vector<vec3>{vec3(0)}, 0, {300, 1}, {&progress, nullptr});
+  study::reachable_points(source, std::vector<vec3>{vec3(0)}, 0, {300, 1}, {&progress, nullptr});
   EXPECT_THAT(progress.finished(), ElementsAre("surface points: 300 points"));
 }
 
@@ -61,10 +62,10 @@ TEST(Stages, OfMethods) {
   const trace::TransportScene source(scene);
   const auto of = [&](const std::string& name, const std::vector<std::string>& settings) {
     test::ProgressRecorder progress;
-    const gi::MethodEntry& entry = gi::find_method(name);
-    const auto method = entry.make({scene, source}, gi::MethodParameters(name, entry.parameters, settings),
-                                   {&progress, nullptr});
-    method->update(scene::lighting_at(source, 0), {&progress, nullptr});
+    const methods::MethodEntry& entry = methods::find_method(name);
+    const auto method = entry.make(
+        {scene, source}, methods::MethodParameters(name, entry.parameters, settings), {&progress, nullptr});
+    method->update(rays::lighting_at(source, 0), {&progress, nullptr});
     return progress.finished();
   };
   EXPECT_THAT(of("ddgi", {"probes=8", "rays=8", "warmup=3"}), testing::Contains("warm-up: 3 frames"));

@@ -29,7 +29,7 @@ image::Image coarse(const image::Image& picture) {
 }
 
 /// Independent pictures of the scene by its own camera.
-PictureSamples traced(const scene::Scene& scene, const scene::IndirectLight* indirect, int max_depth) {
+PictureSamples traced(const scene::Scene& scene, const rays::IndirectLight* indirect, int max_depth) {
   const trace::PathTracer tracer(scene);
   trace::RenderParams params;
   params.width = size.width, params.height = size.height;
@@ -90,13 +90,13 @@ INSTANTIATE_TEST_SUITE_P(Lamps, TracedLamp, testing::ValuesIn(lamps_without_exte
 
 /// Indirect light by formula: linear in place and normal, each colour in its own way; lobes turn with the
 /// direction and fade with roughness.
-class FormulaLight final : public scene::IndirectLight {
+class FormulaLight final : public rays::IndirectLight {
  public:
-  vec3 irradiance(const scene::SurfacePoint& at) const override {
+  vec3 irradiance(const rays::SurfacePoint& at) const override {
     const vec3 &x = at.position, &n = at.normal;
     return vec3(3 + 0.5f * x.x, 2 + 0.3f * x.y, 2 - 0.4f * x.z) + vec3(0.8f * n.x, n.y, 1.2f * n.z);
   }
-  vec3 glossy(const scene::SurfacePoint& at, const vec3& r, float roughness) const override {
+  vec3 glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const override {
     return (vec3(2, 1.5f, 1) + vec3(r.y, r.z, r.x) * (1 - 0.5f * roughness)) * (1 + 0.1f * at.position.x);
   }
 };
@@ -113,7 +113,7 @@ TEST(TracedPixels, LookedUpLightIsReflectedByPlaceNormalAndRoughness) {
   const PixelPoints points(source, scene::camera_pose(scene, ""), fine_size);
   const image::Image truth = points.picture([&](const PixelPoint& p) {
     const vec3 n = stage_normal(p.point);
-    const scene::SurfacePoint at{p.point.position, n};
+    const rays::SurfacePoint at{p.point.position, n};
     if (!on_stage_ball(p.point)) return p.hit.albedo / pi * light.irradiance(at);
     const vec3 e = shading::directional_albedo({vec3(0), ball.f0, 0, 0.4f}, glm::dot(n, p.wo));
     return ball.diffuse * (vec3(1) - e) / pi * light.irradiance(at) +
@@ -159,7 +159,7 @@ TEST(TracedPixels, ProbesSeeEveryTexelOfTheirSixFacesInItsPlace) {
     for (std::size_t f = 0; f < 6; ++f) emitted[f].add(groups.back().emitted.faces[f]);
   }
   const trace::TransportScene source(scene);
-  const scene::PosedWorld surfaces(source, 0);
+  const rays::PosedWorld surfaces(source, 0);
   for (std::size_t f = 0; f < 6; ++f) {
     const auto& [right, down, forward] = faces[f];
     image::Image truth(n * fine, n * fine, 3);

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/core/error.h>
-#include <ssphh/gi/relight_session.h>
-#include <ssphh/gi/transport/bounce.h>
+#include <ssphh/transport/bounce.h>
+#include <ssphh/transport/relight_session.h>
 
 #include "transport_fixtures.h"
 
@@ -14,12 +14,12 @@ namespace {
 TEST(Bounce, AClosedBoxOfEqualWallsReachesTheGeometricSeries) {
   for (const float rho : {0.3f, 0.8f, 0.95f}) {
     GlowingBox box(rho);
-    gi::BounceParams params;
+    transport::BounceParams params;
     params.tolerance = 1e-5f;
     params.max_iterations = 400;
-    const gi::BounceOperator bounce(box.session.network(), box.source, 2, params);
+    const transport::BounceOperator bounce(box.session.network(), box.source, 2, params);
     std::vector<sh::RadianceSh> reflected;
-    const gi::BounceReport report = bounce.solve(box.session.surfel_direct(), reflected);
+    const transport::BounceReport report = bounce.solve(box.session.surfel_direct(), reflected);
     EXPECT_TRUE(report.converged);
     EXPECT_NEAR(report.contraction, double(rho), 0.01 * double(rho));
     EXPECT_GT(report.edges, reflected.size());
@@ -33,20 +33,20 @@ TEST(Bounce, AClosedBoxOfEqualWallsReachesTheGeometricSeries) {
 
 TEST(Bounce, OneApplicationAddsOneBounceToDirectLight) {
   GlowingBox box(0.5f);
-  gi::BounceParams params;
+  transport::BounceParams params;
   params.applications = 1;
-  const gi::BounceOperator bounce(box.session.network(), box.source, 2, params);
+  const transport::BounceOperator bounce(box.session.network(), box.source, 2, params);
   std::vector<sh::RadianceSh> reflected;
   EXPECT_EQ(bounce.solve(box.session.surfel_direct(), reflected).iterations, 1);
   // D = Le ρ, and one bounce more Le ρ².
   for (const sh::RadianceSh& s : reflected) EXPECT_NEAR(s[0].y / root_4pi, 0.75f, 3e-3f);
 }
 
-gi::RelightParams bounce_session() {
-  gi::RelightParams params;
+transport::RelightParams bounce_session() {
+  transport::RelightParams params;
   params.transport = small_network();
   params.degree = 2;
-  params.op = gi::LightOperator::bounce;
+  params.op = probes::LightOperator::bounce;
   params.warm_start = false;
   return params;
 }
@@ -54,11 +54,11 @@ gi::RelightParams bounce_session() {
 TEST(BounceSession, EqualsTheOperatorAndTheGeometricSeries) {
   GlowingBox box(0.5f);
   LitSession session(box.source, places_of(box.scene), bounce_session());
-  const gi::RelightReport report = session.update();
+  const transport::RelightReport report = session.update();
   EXPECT_TRUE(report.solve.converged);
   EXPECT_GT(report.solve.iterations, 2);
   std::vector<sh::RadianceSh> reflected;
-  gi::BounceOperator(session.network(), box.source, 2).solve(session.surfel_direct(), reflected);
+  transport::BounceOperator(session.network(), box.source, 2).solve(session.surfel_direct(), reflected);
   EXPECT_EQ(session.reflected(), reflected);
   ASSERT_EQ(session.reflected_by_group().size(), 1u);
   EXPECT_EQ(session.reflected_by_group()[0], reflected);
@@ -84,7 +84,7 @@ TEST(BounceSession, ADoorThatMovedEqualsASessionBuiltThere) {
 
 TEST(BounceSession, AWarmStartComesToTheSameLightSooner) {
   GlowingBox box(0.8f);
-  gi::RelightParams params = bounce_session();
+  transport::RelightParams params = bounce_session();
   params.bounce.tolerance = 1e-5f;
   LitSession cold(box.source, places_of(box.scene), params);
   params.warm_start = true;
@@ -101,18 +101,18 @@ TEST(BounceSession, AWarmStartComesToTheSameLightSooner) {
 
 TEST(BounceSession, WhatItCannotDoIsRefused) {
   GlowingBox box(0.5f);
-  gi::RelightParams params = bounce_session();
+  transport::RelightParams params = bounce_session();
   LitSession session(box.source, places_of(box.scene), params);
   EXPECT_THROW(session.emission_profile(vec3(0), 0.1f, 1), Error);
   params.poses = 4;
-  EXPECT_THROW(gi::RelightSession(box.source, places_of(box.scene), params), Error);
+  EXPECT_THROW(transport::RelightSession(box.source, places_of(box.scene), params), Error);
   params.poses = 0;
-  params.op = gi::LightOperator::path;
-  EXPECT_THROW(gi::RelightSession(box.source, places_of(box.scene), params), Error);
+  params.op = probes::LightOperator::path;
+  EXPECT_THROW(transport::RelightSession(box.source, places_of(box.scene), params), Error);
 }
 
 /// Root mean square difference of band 0 in room B, relative.
-double difference_in_room_b(const gi::RelightSession& a, const gi::RelightSession& b) {
+double difference_in_room_b(const transport::RelightSession& a, const transport::RelightSession& b) {
   double difference = 0, sum = 0;
   for (std::size_t i = 0; i < a.places().size(); ++i) {
     if (a.places()[i].position.x < 0.2f) continue;
@@ -126,14 +126,14 @@ double difference_in_room_b(const gi::RelightSession& a, const gi::RelightSessio
 TEST(BlendedPoses, EqualExactOnesAtThePreparedTimesAndComeCloserWithMore) {
   const scene::Scene scene = scene::make_builtin("two-rooms");
   const trace::TransportScene source(scene);
-  gi::RelightParams params;
+  transport::RelightParams params;
   params.transport = small_network();
   params.degree = 1;
   params.warm_start = false;
   LitSession exact(source, places_of(scene), params);
   std::vector<double> errors;
   for (const int poses : {2, 5, 17}) {
-    gi::RelightParams blended = params;
+    transport::RelightParams blended = params;
     blended.poses = poses;
     LitSession session(source, places_of(scene), blended);
     for (const float at_pose : {0.0f, 1.0f}) {
@@ -161,10 +161,10 @@ TEST(BlendedPoses, EqualExactOnesAtThePreparedTimesAndComeCloserWithMore) {
 TEST(BlendedPoses, OnePoseIsRefused) {
   const scene::Scene scene = scene::make_builtin("two-rooms");
   const trace::TransportScene source(scene);
-  gi::RelightParams params;
+  transport::RelightParams params;
   params.transport = small_network();
   params.poses = 1;
-  EXPECT_THROW(gi::RelightSession(source, places_of(scene), params), Error);
+  EXPECT_THROW(transport::RelightSession(source, places_of(scene), params), Error);
 }
 
 }  // namespace

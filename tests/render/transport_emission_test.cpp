@@ -2,15 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <ssphh/gi/relight_session.h>
+#include <ssphh/transport/relight_session.h>
 
 #include "transport_fixtures.h"
 
 namespace ssphh::test {
 namespace {
 
-using gi::RelightParams;
-using gi::RelightSession;
+using transport::RelightParams;
+using transport::RelightSession;
 
 RelightParams small_session() {
   RelightParams params;
@@ -71,7 +71,7 @@ TEST(RelightEmission, AnIsotropicSphlIsASphereLight) {
 
 TEST(RelightEmission, OtherProbesSeeTheSphereAsADisc) {
   const DarkRoom room;
-  const std::vector<gi::ProbePlace> places = places_of(room.scene);
+  const std::vector<transport::ProbePlace> places = places_of(room.scene);
   LitSession session(room.source, places, small_session());
   const vec3 radiance(5, 3, 2);
   session.shine(0, isotropic(radiance));
@@ -109,7 +109,7 @@ TEST(RelightEmission, SphereLightsAndSmallLampsAreSeenAtTheirTrueSize) {
            vec3(1));
   scene::validate(scene);
   const trace::TransportScene source(scene);
-  const std::vector<gi::ProbePlace> places = places_of(scene);
+  const std::vector<transport::ProbePlace> places = places_of(scene);
   LitSession session(source, places, small_session());
   session.update();
   const auto groups = session.emitted_by_group();
@@ -142,7 +142,7 @@ TEST(RelightEmission, ADirectedSphlLightsItsSideByItsOwnFunction) {
   leaving[3] = vec3(2 / std::sqrt(3 / (4 * pi)));
   session.shine(0, leaving);
   session.update();
-  const gi::TransportNetwork& network = session.network();
+  const transport::TransportNetwork& network = session.network();
   const auto samples = static_cast<std::size_t>(network.params().samples);
   std::size_t lit = 0, dark = 0;
   for (std::size_t s = 0; s < network.surfel_count(); ++s) {
@@ -151,7 +151,7 @@ TEST(RelightEmission, ADirectedSphlLightsItsSideByItsOwnFunction) {
     for (std::size_t i = s * samples; i < (s + 1) * samples; ++i) {
       if (!network.sample_used()[i]) continue;
       ++used;
-      const scene::SurfacePoint& p = network.samples()[i];
+      const rays::SurfacePoint& p = network.samples()[i];
       const double d = double(glm::length(p.position));
       const vec3 away = p.position / static_cast<float>(d);
       const double cosine = double(-glm::dot(away, p.normal));

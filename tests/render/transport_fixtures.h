@@ -5,27 +5,27 @@
 #include <vector>
 
 #include <ssphh/core/random.h>
-#include <ssphh/gi/relight_session.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/scene/primitives.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/trace/transport_scene.h>
+#include <ssphh/transport/relight_session.h>
 
 #include "lit_session.h"
 
 namespace ssphh::test {
 
 /// The scene's own SPHLs.
-inline std::vector<gi::ProbePlace> places_of(const scene::Scene& scene) {
-  std::vector<gi::ProbePlace> places;
+inline std::vector<transport::ProbePlace> places_of(const scene::Scene& scene) {
+  std::vector<transport::ProbePlace> places;
   for (const scene::SphlPlace& place : scene::sphl_places(scene))
     places.push_back({place.name, place.position, place.radius});
   return places;
 }
 
-inline std::vector<vec3> positions_of(const std::vector<gi::ProbePlace>& places) {
+inline std::vector<vec3> positions_of(const std::vector<transport::ProbePlace>& places) {
   std::vector<vec3> positions;
-  for (const gi::ProbePlace& place : places) positions.push_back(place.position);
+  for (const transport::ProbePlace& place : places) positions.push_back(place.position);
   return positions;
 }
 
@@ -76,8 +76,8 @@ inline scene::Scene coloured_room(const vec3& glow) {
 }
 
 /// A few hundred surfels: a network in a tenth of a second.
-inline gi::TransportParams small_network() {
-  gi::TransportParams params;
+inline transport::TransportParams small_network() {
+  transport::TransportParams params;
   params.directions = 256;
   params.surfel_size = 0.4f;
   params.link_rays = 64;
@@ -97,8 +97,8 @@ struct GlowingBox {
     for (scene::Material& material : box.materials) material.base_color = vec3(rho);
     return box;
   }
-  static gi::RelightParams params() {
-    gi::RelightParams p;
+  static transport::RelightParams params() {
+    transport::RelightParams p;
     p.transport = small_network();
     p.degree = 2;
     return p;
@@ -114,9 +114,9 @@ struct Walls {
   vec3 low, high;
 
   /// Wall 2·axis at the low end, 2·axis + 1 at the high end.
-  scene::SurfacePoint at(int wall, const vec2& u) const {
+  rays::SurfacePoint at(int wall, const vec2& u) const {
     const int axis = wall / 2, a = (axis + 1) % 3, b = (axis + 2) % 3;
-    scene::SurfacePoint p{low, vec3(0)};
+    rays::SurfacePoint p{low, vec3(0)};
     p.position[a] += u.x * (high[a] - low[a]);
     p.position[b] += u.y * (high[b] - low[b]);
     if (wall % 2 == 1) p.position[axis] = high[axis];

@@ -8,7 +8,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
-#include <ssphh/gi/transport/network.h>
+#include <ssphh/transport/network.h>
 
 #include "transport_fixtures.h"
 #include "z_test.h"
@@ -16,13 +16,13 @@
 namespace ssphh::test {
 namespace {
 
-using gi::TransportNetwork;
-using gi::TransportParams;
+using transport::TransportNetwork;
+using transport::TransportParams;
 
-double row_sum(const gi::LinkRows::Row& row) {
+double row_sum(const transport::LinkRows::Row& row) {
   double sum = 0;
-  for (const gi::Link& link : row.fixed) sum += double(link.weight);
-  for (const gi::Link& link : row.moving) sum += double(link.weight);
+  for (const transport::Link& link : row.fixed) sum += double(link.weight);
+  for (const transport::Link& link : row.moving) sum += double(link.weight);
   return sum;
 }
 
@@ -45,7 +45,7 @@ struct Areas {
       const int s = network.find(0, walls.at(wall, random.uniform2()));
       const double share = walls.area(wall) / points;
       total += share;
-      if (s == gi::no_surfel) {
+      if (s == transport::no_surfel) {
         lost += share;
         continue;
       }
@@ -60,7 +60,7 @@ struct Areas {
       if (group[s] != from) continue;
       double f = 0;
       for (const auto links : {network.links().rows[s].fixed, network.links().rows[s].moving}) {
-        for (const gi::Link& link : links) f += group[link.surfel] == to ? double(link.weight) : 0;
+        for (const transport::Link& link : links) f += group[link.surfel] == to ? double(link.weight) : 0;
       }
       e.value += area[s] * f;
       // Rays of a surfel are spread evenly; as many independent ones would have more variance.
@@ -80,7 +80,7 @@ TEST(TransportNetworkLinks, WallsOfACubeHaveTheFormFactorsOfSquares) {
   Areas areas(network);
   for (int wall = 0; wall < 6; ++wall) areas.add(network, {vec3(-1), vec3(1)}, wall, wall, 4000);
   EXPECT_EQ(areas.lost, 0);
-  for (const gi::LinkRows::Row& row : network.links().rows) EXPECT_NEAR(row_sum(row), 1, 1e-6);
+  for (const transport::LinkRows::Row& row : network.links().rows) EXPECT_NEAR(row_sum(row), 1, 1e-6);
   // Opposite and adjacent faces of a cube (Howell, A Catalog of Radiation Configuration Factors, C-11, C-14).
   const double opposite =
       2 / pi_d * (0.5 * std::log(4 / 3.0) + 2 * std::sqrt(2.0) * std::atan(std::sqrt(0.5)) - pi_d / 2);
@@ -112,7 +112,7 @@ TEST(TransportNetworkLinks, LightFlowsAsWellFromAToBAsBack) {
 
 /// What a network answers, without its history.
 struct Answers {
-  std::vector<gi::SeenPatch> seen;
+  std::vector<transport::SeenPatch> seen;
   std::vector<float> distance;
   std::vector<std::uint16_t> emission;
   std::vector<std::uint8_t> used;
@@ -126,13 +126,13 @@ struct Answers {
         emission(n.seen_emission()),
         used(n.sample_used()),
         lost(n.lost_links()) {
-    for (const scene::SurfacePoint& p : n.samples()) samples.insert(samples.end(), {p.position, p.normal});
-    const auto copy = [](std::span<const gi::Link> links) {
+    for (const rays::SurfacePoint& p : n.samples()) samples.insert(samples.end(), {p.position, p.normal});
+    const auto copy = [](std::span<const transport::Link> links) {
       std::vector<std::pair<std::uint32_t, float>> out;
-      for (const gi::Link& link : links) out.emplace_back(link.surfel, link.weight);
+      for (const transport::Link& link : links) out.emplace_back(link.surfel, link.weight);
       return out;
     };
-    for (const gi::LinkRows::Row& row : n.links().rows)
+    for (const transport::LinkRows::Row& row : n.links().rows)
       fixed.push_back(copy(row.fixed)), moving.push_back(copy(row.moving));
   }
 };
@@ -211,7 +211,7 @@ void history_leaves_no_trace(const scene::Scene& scene, float end) {
   bool anything_moved = false;
   for (std::size_t step = 0; step < walk.size(); ++step) {
     set_thread_count(1 + static_cast<int>(step) % 2);
-    const gi::PoseReport report = walker.set_time(walk[step]);
+    const transport::PoseReport report = walker.set_time(walk[step]);
     anything_moved |= report.hits_changed > 0;
     set_thread_count(1 + static_cast<int>(step / 2) % 2);
     const TransportNetwork fresh(source, positions, params, walk[step]);
@@ -258,7 +258,7 @@ enum class Place { room_a, room_b, hollow };
 
 /// Where a surface point of two-rooms with its door shut lies: the leaf stands on room B's side of the wall,
 /// 0.075 < x < 0.115; the doorway belongs to A; within the walls and under the floor is hollow.
-Place place_of(const scene::SurfacePoint& p) {
+Place place_of(const rays::SurfacePoint& p) {
   const vec3 x = p.position + 1e-3f * p.normal;
   const auto inside = [&](const vec3& low, const vec3& high) {
     return glm::all(glm::greaterThan(x, low)) && glm::all(glm::lessThan(x, high));
@@ -292,8 +292,9 @@ TEST(TransportNetworkPose, NothingCrossesAShutDoor) {
       std::size_t count = 0;
       for (std::size_t s = 0; s < places.size(); ++s) {
         for (const auto links : {network.links().rows[s].fixed, network.links().rows[s].moving})
-          count += static_cast<std::size_t>(std::count_if(
-              links.begin(), links.end(), [&](const gi::Link& l) { return places[l.surfel] != places[s]; }));
+          count += static_cast<std::size_t>(
+              std::count_if(links.begin(), links.end(),
+                            [&](const transport::Link& l) { return places[l.surfel] != places[s]; }));
         for (int i = 1; i < params.samples; ++i) {
           const std::size_t sample =
               s * static_cast<std::size_t>(params.samples) + static_cast<std::size_t>(i);
@@ -304,7 +305,7 @@ TEST(TransportNetworkPose, NothingCrossesAShutDoor) {
         const int s = network.seen()[i].surfel;
         const Place of_probe =
             positions[i / network.gbuffer().directions.size()].x < 0 ? Place::room_a : Place::room_b;
-        count += s != gi::no_surfel && places[static_cast<std::size_t>(s)] != of_probe;
+        count += s != transport::no_surfel && places[static_cast<std::size_t>(s)] != of_probe;
       }
       return count;
     };
@@ -320,13 +321,13 @@ TEST(TransportNetworkPose, ContractionBoundsTheFirstAndTheLastPose) {
     for (scene::AnimationChannel& channel : rooms.animations[0].channels)
       if (backward) std::ranges::reverse(channel.values);
     const trace::TransportScene source(rooms);
-    gi::TransportNetwork network(source, test::positions_of(test::places_of(rooms)), test::small_network(),
-                                 0.3f);
-    const gi::Contraction bounds = network.contraction();
+    transport::TransportNetwork network(source, test::positions_of(test::places_of(rooms)),
+                                        test::small_network(), 0.3f);
+    const transport::Contraction bounds = network.contraction();
     network.set_time(0);
-    const gi::Contraction first = gi::contraction(network.links(), network.albedo());
+    const transport::Contraction first = transport::contraction(network.links(), network.albedo());
     network.set_time(source.duration());
-    const gi::Contraction last = gi::contraction(network.links(), network.albedo());
+    const transport::Contraction last = transport::contraction(network.links(), network.albedo());
     EXPECT_NE(first.upper, last.upper);
     EXPECT_EQ(bounds.lower, std::min(first.lower, last.lower));
     EXPECT_EQ(bounds.upper, std::max(first.upper, last.upper));

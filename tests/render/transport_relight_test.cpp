@@ -6,16 +6,16 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
-#include <ssphh/gi/relight_session.h>
+#include <ssphh/transport/relight_session.h>
 
 #include "transport_fixtures.h"
 
 namespace ssphh::test {
 namespace {
 
-using gi::RelightParams;
-using gi::RelightReport;
-using gi::RelightSession;
+using transport::RelightParams;
+using transport::RelightReport;
+using transport::RelightSession;
 
 RelightParams small_session(bool warm_start = true) {
   RelightParams params;
@@ -28,7 +28,7 @@ RelightParams small_session(bool warm_start = true) {
 struct TwoRooms {
   scene::Scene scene = scene::make_builtin("two-rooms");
   trace::TransportScene source{scene};
-  std::vector<gi::ProbePlace> places = places_of(scene);
+  std::vector<transport::ProbePlace> places = places_of(scene);
 };
 
 TEST(RelightSession, AClosedBoxOfEqualWallsReachesTheGeometricSeries) {
@@ -64,11 +64,10 @@ TEST(RelightSession, AClosedBoxOfEqualWallsReachesTheGeometricSeries) {
 struct RoomLight {
   double walls[2] = {}, probes[2] = {};
 
-  explicit RoomLight(const gi::RelightSession& session) {
-    const gi::TransportNetwork& network = session.network();
+  explicit RoomLight(const transport::RelightSession& session) {
+    const transport::TransportNetwork& network = session.network();
     for (std::size_t s = 0; s < network.surfel_count(); ++s) {
-      const scene::SurfacePoint& p =
-          network.samples()[s * static_cast<std::size_t>(network.params().samples)];
+      const rays::SurfacePoint& p = network.samples()[s * static_cast<std::size_t>(network.params().samples)];
       const vec3 x = p.position + 1e-3f * p.normal;
       if (!(x.y > 0) || !(x.y < 3) || !(std::abs(x.z) < 2)) continue;
       // The shut leaf stands at 0.075 < x < 0.115.
@@ -339,7 +338,7 @@ TEST(RelightSession, IsMovedWithItsLight) {
 TEST(RelightSession, AProbeThatSeesNothingIsDarkAmongOthersThatSee) {
   const scene::Scene scene = scene::make_builtin("cornell");
   const trace::TransportScene source(scene);
-  std::vector<gi::ProbePlace> places = places_of(scene);
+  std::vector<transport::ProbePlace> places = places_of(scene);
   places.push_back({"lost", {0, 1000, 0}});
   EXPECT_THROW(RelightSession(source, {places.back()}), Error) << "alone it has nothing to show";
   LitSession session(source, places, small_session());

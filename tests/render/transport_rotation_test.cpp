@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <ssphh/gi/bake.h>
-#include <ssphh/gi/hier.h>
-#include <ssphh/gi/init.h>
-#include <ssphh/gi/relight_session.h>
-#include <ssphh/gi/transport/bounce.h>
+#include <ssphh/bake/bake.h>
+#include <ssphh/place/init.h>
+#include <ssphh/probes/hier.h>
 #include <ssphh/sh/rotate.h>
 #include <ssphh/trace/path_tracer.h>
+#include <ssphh/transport/bounce.h>
+#include <ssphh/transport/relight_session.h>
 
 #include "transport_fixtures.h"
 #include "turned_scene.h"
@@ -45,7 +45,7 @@ double difference(const Functions& a, const Functions& b) {
 template <class Ask>
 Functions in_session(const scene::Scene& scene, float surfel_size, int directions, const Ask& ask) {
   const trace::TransportScene source(scene);
-  gi::RelightParams params;
+  transport::RelightParams params;
   params.transport.surfel_size = surfel_size;
   params.transport.directions = directions;
   params.transport.link_rays = 64;
@@ -59,10 +59,9 @@ template <class Ask>
 void expect_to_turn_with_the_scene(const Ask& ask) {
   const scene::Scene scene = scene::make_builtin("cornell");
   const auto found = [&](const quat& turn, float size, int directions) {
-    return in_session(turned(scene, turn), size, directions,
-                      [&](LitSession& session, const scene::TransportSource& source) {
-                        return ask(session, source, turn);
-                      });
+    return in_session(
+        turned(scene, turn), size, directions,
+        [&](LitSession& session, const rays::TransportSource& source) { return ask(session, source, turn); });
   };
   const quat none(1, 0, 0, 0);
   const Functions base = found(none, 0.15f, 2048);
@@ -80,7 +79,7 @@ void expect_to_turn_with_the_scene(const Ask& ask) {
 
 TEST(TransportRotation, SurfelProbesTurnWithTheSceneBeyondSamplingOnly) {
   expect_to_turn_with_the_scene(
-      [](LitSession& session, const scene::TransportSource&, const quat&) -> Functions {
+      [](LitSession& session, const rays::TransportSource&, const quat&) -> Functions {
         session.update();
         return session.reflected();
       });
@@ -88,15 +87,15 @@ TEST(TransportRotation, SurfelProbesTurnWithTheSceneBeyondSamplingOnly) {
 
 TEST(TransportRotation, BounceProbesTurnWithTheSceneBeyondSamplingOnly) {
   // With weights that know no axes: the tents of `trilinear` stand along them.
-  expect_to_turn_with_the_scene(
-      [](LitSession& session, const scene::TransportSource& source, const quat&) -> Functions {
-        session.update();
-        gi::BounceParams params;
-        params.weights.method = gi::WeightMethod::mls;
-        Functions reflected;
-        gi::BounceOperator(session.network(), source, 4, params).solve(session.surfel_direct(), reflected);
-        return reflected;
-      });
+  expect_to_turn_with_the_scene([](LitSession& session, const rays::TransportSource& source,
+                                   const quat&) -> Functions {
+    session.update();
+    transport::BounceParams params;
+    params.weights.method = probes::WeightMethod::mls;
+    Functions reflected;
+    transport::BounceOperator(session.network(), source, 4, params).solve(session.surfel_direct(), reflected);
+    return reflected;
+  });
 }
 
 TEST(TransportRotation, SphlsThatAreLightsTurnWithTheScene) {
@@ -105,7 +104,7 @@ TEST(TransportRotation, SphlsThatAreLightsTurnWithTheScene) {
   for (std::size_t k = 0; k < lobe.values.size(); ++k)
     lobe.values[k] = vec3(k == 0 ? 3.0f : 0.9f / static_cast<float>(k), 1.0f, 0.5f);
   expect_to_turn_with_the_scene(
-      [&](LitSession& session, const scene::TransportSource& source, const quat& turn) -> Functions {
+      [&](LitSession& session, const rays::TransportSource& source, const quat& turn) -> Functions {
         for (int g = 0; g < static_cast<int>(source.light_groups().size()); ++g)
           session.state.group_scales[g] = vec3(0);
         session.shine(0, sh::rotate(lobe, turn));
@@ -117,28 +116,28 @@ TEST(TransportRotation, SphlsThatAreLightsTurnWithTheScene) {
 TEST(TransportRotation, CoefficientHierarchyDependsOnTheAxes) {
   const scene::Scene scene = scene::make_builtin("cornell"), tilted = turned(scene, oblique);
   const auto baked = [](const scene::Scene& s, std::uint64_t seed) {
-    gi::BakeParams params;
+    bake::BakeParams params;
     params.face_size = 16;
     params.path = {3, 1, 16, seed};
     params.viz_params.matrix = true;
-    gi::BakeReport report;
-    return gi::bake(trace::PathTracer(s), gi::init_from_scene(s, 4), params, {}, report);
+    bake::BakeReport report;
+    return bake::bake(trace::PathTracer(s), place::init_from_scene(s, 4), params, {}, report);
   };
-  const auto neighbors = [](gi::ProbeSet set, gi::HierOperator op) {
-    gi::HierParams params;
+  const auto neighbors = [](probes::ProbeSet set, probes::HierOperator op) {
+    probes::HierParams params;
     params.op = op;
-    gi::hier(set, params);
+    probes::hier(set, params);
     return set.hierarchy->neighbor;
   };
-  const gi::ProbeSet straight = baked(scene, 1), again = baked(scene, 2), oblique_set = baked(tilted, 1);
-  const auto mean = gi::HierOperator::mean, coefficient = gi::HierOperator::coefficient;
+  const probes::ProbeSet straight = baked(scene, 1), again = baked(scene, 2), oblique_set = baked(tilted, 1);
+  const auto mean = probes::HierOperator::mean, coefficient = probes::HierOperator::coefficient;
   // `mean` and `matrix` commute with turning: they change as another seed and other texels make them, while
   // the paper's operator gives another answer.
   const double noise = difference(neighbors(again, mean), neighbors(straight, mean));
   const double by_mean = difference(turned_back(neighbors(oblique_set, mean)), neighbors(straight, mean));
   const double by_coefficient =
       difference(turned_back(neighbors(oblique_set, coefficient)), neighbors(straight, coefficient));
-  const auto matrix = gi::HierOperator::matrix;
+  const auto matrix = probes::HierOperator::matrix;
   const double matrix_noise = difference(neighbors(again, matrix), neighbors(straight, matrix));
   const double by_matrix =
       difference(turned_back(neighbors(oblique_set, matrix)), neighbors(straight, matrix));

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <ssphh/gi/gen.h>
-#include <ssphh/gi/relight_session.h>
+#include <ssphh/bake/gen.h>
 #include <ssphh/trace/path_tracer.h>
+#include <ssphh/transport/relight_session.h>
 
 #include "transport_fixtures.h"
 #include "z_test.h"
@@ -20,7 +20,8 @@ struct TracedProbe {
       : reflected(static_cast<std::size_t>(sh::coefficient_count(degree))), sum(reflected.size()) {
     for (std::uint64_t seed = 0; seed < 32; ++seed) {
       sh::RadianceSh r(degree), e(degree);
-      for (const gi::GroupLight& group : gi::gen(tracer, {position, face_size, {25, 1, spp, seed}}, degree)) {
+      for (const probes::GroupLight& group :
+           bake::gen(tracer, {position, face_size, {25, 1, spp, seed}}, degree)) {
         r += group.reflected;
         if (!group.emitted.empty()) e += group.emitted;
       }
@@ -41,14 +42,14 @@ TEST_P(TransportTruth, MeanLightOfTheScenesOwnProbes) {
   const scene::Scene scene = scene::make_builtin(GetParam());
   const trace::TransportScene source(scene);
   const float time = source.duration();  // doors open
-  gi::RelightParams params;
+  transport::RelightParams params;
   params.degree = 0;
   // Finer than the defaults, whose own error is up to 6 % here (gallery2): 0.2 m and 1536
   // directions leave under 3 %, 0.12 m under 2 %, in all five scenes, glossy bodies and all.
   params.transport.surfel_size = 0.2f;
   params.transport.directions = 1536;
   params.transport.link_rays = 64;
-  const std::vector<gi::ProbePlace> places = places_of(scene);
+  const std::vector<transport::ProbePlace> places = places_of(scene);
   LitSession session(source, places, params, time);
   session.update();
   const trace::PathTracer tracer(scene, time);
@@ -77,12 +78,12 @@ TEST(TransportTruthBands, ASurfaceThatGlowsIsCountedOnce) {
   // part alone, are what paths find, in bands 0..2.
   const scene::Scene scene = coloured_room({3, 2.5f, 2});
   const trace::TransportScene source(scene);
-  gi::RelightParams params;
+  transport::RelightParams params;
   params.degree = 2;
   params.transport.surfel_size = 0.125f;
   params.transport.directions = 4096;
   params.transport.link_rays = 64;
-  const std::vector<gi::ProbePlace> places = places_of(scene);
+  const std::vector<transport::ProbePlace> places = places_of(scene);
   LitSession session(source, places, params);
   session.update();
   const trace::PathTracer tracer(scene);

@@ -4,10 +4,10 @@
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/random.h>
-#include <ssphh/gi/methods/table.h>
-#include <ssphh/gi/surface_points.h>
+#include <ssphh/methods/table.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/scene/query.h>
+#include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -16,15 +16,16 @@ namespace {
 
 using Settings = std::vector<std::string>;
 
-std::unique_ptr<gi::Method> make_vct(const scene::Scene& scene, const scene::TransportSource& source,
-                                     const Settings& settings) {
-  const gi::MethodEntry& entry = gi::find_method("vct");
-  return entry.make({scene, source}, gi::MethodParameters("vct", entry.parameters, settings), {});
+std::unique_ptr<methods::Method> make_vct(const scene::Scene& scene, const rays::TransportSource& source,
+                                          const Settings& settings) {
+  const methods::MethodEntry& entry = methods::find_method("vct");
+  return entry.make({scene, source}, methods::MethodParameters("vct", entry.parameters, settings), {});
 }
 
-std::vector<vec3> irradiance_at(const gi::Method& method, const std::vector<scene::SurfacePoint>& points) {
+std::vector<vec3> irradiance_at(const methods::Method& method,
+                                const std::vector<rays::SurfacePoint>& points) {
   std::vector<vec3> values;
-  for (const scene::SurfacePoint& point : points) values.push_back(method.light().irradiance(point));
+  for (const rays::SurfacePoint& point : points) values.push_back(method.light().irradiance(point));
   return values;
 }
 
@@ -34,7 +35,7 @@ struct Subject {
       : scene(scene::make_builtin(name)), source(scene), time(at) {
     std::vector<vec3> origins;
     for (const scene::SphlPlace& place : scene::sphl_places(scene)) origins.push_back(place.position);
-    points = gi::reachable_points(source, origins, time, {count, 1});
+    points = study::reachable_points(source, origins, time, {count, 1});
     const trace::PathTracer tracer(scene, time);
     for (const auto& e : tracer.surface_irradiance(points, {2, 1, spp, 1}, {}))
       truth.push_back(static_cast<double>(luminance(e.indirect)));
@@ -43,7 +44,7 @@ struct Subject {
   std::vector<vec3> lit(Settings settings, int bounces = 1) const {
     settings.push_back("bounces=" + std::to_string(bounces));
     const auto method = make_vct(scene, source, settings);
-    method->update(scene::lighting_at(source, time), {});
+    method->update(rays::lighting_at(source, time), {});
     return irradiance_at(*method, points);
   }
 
@@ -66,7 +67,7 @@ struct Subject {
   scene::Scene scene;
   trace::TransportScene source;
   float time;
-  std::vector<scene::SurfacePoint> points;
+  std::vector<rays::SurfacePoint> points;
   std::vector<double> truth;
 };
 
@@ -123,11 +124,11 @@ TEST(Vct, GlossyLobesSeeWhatIsThere) {
   // Away from edges, where cones along a wall lose the part that the wall cuts off.
   const Subject box("box", 1, 1);
   const auto method = make_vct(box.scene, box.source, {"resolution=64", "bounces=1"});
-  method->update(scene::lighting_at(box.source, 0), {});
+  method->update(rays::lighting_at(box.source, 0), {});
   for (int i = 0; i < 12; ++i) {
     Pcg32 random(1, static_cast<std::uint64_t>(i));
     const int axis = i % 3;
-    scene::SurfacePoint point{0.8f * (random.uniform3() - 0.5f), vec3(0)};
+    rays::SurfacePoint point{0.8f * (random.uniform3() - 0.5f), vec3(0)};
     point.position[axis] = -1, point.normal[axis] = 1;
     const Frame frame = Frame::around(point.normal);
     for (const float roughness : {0.0f, 0.3f, 1.0f}) {
@@ -176,7 +177,7 @@ TEST(Vct, FramesAreAsIfMadeAnew) {
     method->update(state, {});
     return irradiance_at(*method, rooms.points);
   };
-  scene::LightingState state = scene::lighting_at(rooms.source, 0);
+  scene::LightingState state = rays::lighting_at(rooms.source, 0);
   follows->update(state, {});
   std::vector<std::vector<vec3>> frames{irradiance_at(*follows, rooms.points)};
   const auto step = [&](const char* what) {
@@ -191,7 +192,7 @@ TEST(Vct, FramesAreAsIfMadeAnew) {
   step("the lamp moves");
   state.group_scales[0] = vec3(0.5f, 1, 2);
   step("its group is recoloured");
-  state = scene::lighting_at(rooms.source, 0);
+  state = rays::lighting_at(rooms.source, 0);
   step("all as before");
   EXPECT_EQ(frames.back(), frames.front());
 }
@@ -201,7 +202,7 @@ TEST(Vct, MemoryIsReported) {
   const auto bytes = [&](Settings settings) {
     settings.push_back("bounces=1");
     const auto method = make_vct(cornell.scene, cornell.source, settings);
-    method->update(scene::lighting_at(cornell.source, 0), {});
+    method->update(rays::lighting_at(cornell.source, 0), {});
     return static_cast<double>(method->memory().lookup);
   };
   // 16 bytes for each of six sides; 64³ · 8/7 voxels.

@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/core/parallel.h>
-#include <ssphh/gi/leak.h>
-#include <ssphh/gi/lookup_error.h>
-#include <ssphh/gi/methods/table.h>
-#include <ssphh/gi/surface_points.h>
+#include <ssphh/methods/table.h>
+#include <ssphh/study/leak.h>
+#include <ssphh/study/lookup_error.h>
+#include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 
 #include "transport_fixtures.h"
@@ -21,9 +21,9 @@ namespace {
 struct Vpls {
   Vpls(const scene::Scene& scene, const trace::TransportScene& source, std::vector<std::string> settings) {
     settings.emplace_back("check_points=" + std::to_string(check_points));
-    const gi::MethodEntry& entry = gi::find_method("vpl");
+    const methods::MethodEntry& entry = methods::find_method("vpl");
     method = entry.make({scene, source}, {"vpl", entry.parameters, settings}, {});
-    method->update(scene::lighting_at(source, 0), {});
+    method->update(rays::lighting_at(source, 0), {});
   }
   double number(const std::string& name) const {
     for (const auto& [n, value] : method->numbers()) {
@@ -31,11 +31,11 @@ struct Vpls {
     }
     return NAN;
   }
-  std::vector<vec3> at(const std::vector<scene::SurfacePoint>& points) const {
-    return gi::look_up(method->light(), points);
+  std::vector<vec3> at(const std::vector<rays::SurfacePoint>& points) const {
+    return study::look_up(method->light(), points);
   }
   static inline int check_points = 0;
-  std::unique_ptr<gi::Method> method;
+  std::unique_ptr<methods::Method> method;
 };
 
 /// A diffuse scene with lamps of several kinds, and points away from its corners, where unbounded virtual
@@ -52,9 +52,9 @@ struct Room {
     scene::validate(scene);
   }
   scene::Scene scene;
-  const std::vector<scene::SurfacePoint> points = {{{0, -0.2f, 0}, {0, 1, 0}},
-                                                   {{0.2f, 0.1f, -0.3f}, {1, 0, 0}},
-                                                   {{-0.3f, 0, 0.2f}, glm::normalize(vec3(-1, -1, 1))}};
+  const std::vector<rays::SurfacePoint> points = {{{0, -0.2f, 0}, {0, 1, 0}},
+                                                  {{0.2f, 0.1f, -0.3f}, {1, 0, 0}},
+                                                  {{-0.3f, 0, 0.2f}, glm::normalize(vec3(-1, -1, 1))}};
 };
 
 /// Means over independent seeds, [point][channel].
@@ -99,7 +99,7 @@ TEST(Vpl, FurnaceHoldsEveryBounce) {
   const scene::Scene scene = GlowingBox::painted(albedo);
   const trace::TransportScene source(scene);
   // At the middle no wall is near: spheres lose nothing there, nor do bounded points.
-  const std::vector<scene::SurfacePoint> middle = {{vec3(0), {0, 1, 0}}, {vec3(0), {1, 0, 0}}};
+  const std::vector<rays::SurfacePoint> middle = {{vec3(0), {0, 1, 0}}, {vec3(0), {1, 0, 0}}};
   for (const char* kind : {"kind=point", "kind=sphere"}) {
     for (const vec3& e : Vpls(scene, source, {"photons=8192", kind}).at(middle))
       EXPECT_NEAR(e.g / (pi * albedo / (1 - albedo)), 1, 0.02f) << kind;
@@ -109,12 +109,12 @@ TEST(Vpl, FurnaceHoldsEveryBounce) {
 TEST(Vpl, ErrorFallsWithTheCount) {
   const scene::Scene scene = scene::make_builtin("cornell");
   const trace::TransportScene source(scene);
-  const auto points = gi::reachable_points(source, positions_of(places_of(scene)), 0, {100, 1, 0.05f});
+  const auto points = study::reachable_points(source, positions_of(places_of(scene)), 0, {100, 1, 0.05f});
   const auto truth = trace::PathTracer(scene).surface_irradiance(points, {25, 1, 512, 3}, {});
   double last = 10;
   for (const char* photons : {"photons=16", "photons=256", "photons=4096"}) {
     const Vpls vpl(scene, source, {photons, "clamp=0"});
-    const double error = gi::lookup_error(vpl.at(points), truth).mean_error;
+    const double error = study::lookup_error(vpl.at(points), truth).mean_error;
     RecordProperty(photons, std::to_string(error));
     EXPECT_LT(error, 0.7 * last) << photons;
     last = error;
@@ -125,7 +125,7 @@ TEST(Vpl, ErrorFallsWithTheCount) {
 TEST(Vpl, TheBoundLosesWhatItSaysAndSpheresKeepIt) {
   const Room room;
   const trace::TransportScene source(room.scene);
-  const auto points = gi::reachable_points(source, positions_of(places_of(room.scene)), 0, {200, 2});
+  const auto points = study::reachable_points(source, positions_of(places_of(room.scene)), 0, {200, 2});
   Vpls::check_points = 64;
   const Vpls open(room.scene, source, {"photons=2048", "clamp=0"});
   const Vpls bounded(room.scene, source, {"photons=2048", "clamp=0.3"});
@@ -151,7 +151,7 @@ TEST(Vpl, TheBoundLosesWhatItSaysAndSpheresKeepIt) {
 TEST(Vpl, CutsErrAsLittleAsAsked) {
   const scene::Scene scene = scene::make_builtin("cornell");
   const trace::TransportScene source(scene);
-  const auto points = gi::reachable_points(source, positions_of(places_of(scene)), 0, {50, 1});
+  const auto points = study::reachable_points(source, positions_of(places_of(scene)), 0, {50, 1});
   for (const char* kind : {"kind=point", "kind=sphere"}) {
     Vpls::check_points = 16;
     const Vpls all(scene, source, {"photons=1024", kind});

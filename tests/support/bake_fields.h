@@ -1,22 +1,22 @@
 #pragma once
 /// Fields of a bake and of what one unit of it gives (fields.h).
 
-#include <ssphh/gi/bake.h>
+#include <ssphh/bake/bake.h>
 
 #include "path_fields.h"
 
 namespace ssphh::test {
 
-void fields(auto& visit, gi::VizParams& p) {
+void fields(auto& visit, bake::VizParams& p) {
   auto& [matrix, neighbors, threshold] = p;
   visit("matrix", matrix), visit("neighbors", neighbors), visit("threshold", threshold);
 }
-void fields(auto& visit, gi::BakeParams& p) {
+void fields(auto& visit, bake::BakeParams& p) {
   auto& [gen, path, face_size, keep_light, viz, viz_params] = p;
   visit("gen", gen), visit("path", path), visit("face_size", face_size), visit("keep_light", keep_light);
   visit("viz", viz), visit("viz_params", viz_params);
 }
-void fields(auto& visit, gi::GeneratorInfo& g) {
+void fields(auto& visit, probes::GeneratorInfo& g) {
   auto& [op, viz, gen, max_depth, passes, spp, face_size, seed, directions, surfel_size, link_rays, scene,
          scene_hash, time] = g;
   visit("op", op), visit("viz", viz), visit("gen", gen), visit("max_depth", max_depth);
@@ -24,7 +24,7 @@ void fields(auto& visit, gi::GeneratorInfo& g) {
   visit("directions", directions), visit("surfel_size", surfel_size), visit("link_rays", link_rays);
   visit("scene", scene), visit("scene_hash", scene_hash), visit("time", time);
 }
-void fields(auto& visit, gi::ProbeStage& s) {
+void fields(auto& visit, bake::ProbeStage& s) {
   auto& [stage, probe] = s;
   visit("stage", stage), visit("probe", probe);
 }
@@ -37,15 +37,15 @@ void fields(auto& visit, sh::TransferMatrix& m) {
   visit("arriving_degree", arriving_degree), visit("emitted_degree", emitted_degree);
   visit("values", values);
 }
-void fields(auto& visit, gi::GroupLight& l) {
+void fields(auto& visit, probes::GroupLight& l) {
   auto& [emitted, reflected] = l;
   visit("emitted", emitted), visit("reflected", reflected);
 }
-void fields(auto& visit, gi::Edge& e) {
+void fields(auto& visit, probes::Edge& e) {
   auto& [from, transfer, h, matrix] = e;
   visit("from", from), visit("transfer", transfer), visit("h", h), visit("matrix", matrix);
 }
-void fields(auto& visit, gi::ProbeStageResult& r) {
+void fields(auto& visit, bake::ProbeStageResult& r) {
   auto& [done, seconds, rays, groups, edges] = r;
   visit("done", done), visit("seconds", seconds), visit("rays", rays), visit("groups", groups);
   visit("edges", edges);

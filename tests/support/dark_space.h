@@ -2,18 +2,18 @@
 /// A RadianceSource without lights or surfaces: nothing arrives, nothing blocks. Tests override what they
 /// ask.
 
-#include <ssphh/scene/radiance_source.h>
+#include <ssphh/rays/radiance_source.h>
 
 namespace ssphh::test {
 
-class DarkSpace : public scene::RadianceSource {
+class DarkSpace : public rays::RadianceSource {
  public:
   const std::vector<std::string>& light_groups() const override { return groups_; }
-  std::vector<scene::GroupRadiance> incident_radiance(const scene::CubeRequest&,
-                                                      const Control&) const override {
+  std::vector<rays::GroupRadiance> incident_radiance(const rays::CubeRequest&,
+                                                     const Control&) const override {
     return {};
   }
-  std::vector<image::CubeMap> ghost_radiance(const scene::CubeRequest&, std::span<const scene::GhostSphere>,
+  std::vector<image::CubeMap> ghost_radiance(const rays::CubeRequest&, std::span<const rays::GhostSphere>,
                                              const GhostSink&, const Control&) const override {
     return {};
   }

@@ -1,13 +1,13 @@
 #pragma once
 /// Fields of light paths and cameras (fields.h).
 
-#include <ssphh/scene/radiance_source.h>
+#include <ssphh/rays/radiance_source.h>
 
 #include "fields.h"
 
 namespace ssphh::test {
 
-void fields(auto& visit, scene::PathParams& p) {
+void fields(auto& visit, rays::PathParams& p) {
   auto& [max_depth, passes, spp, seed] = p;
   visit("max_depth", max_depth), visit("passes", passes), visit("spp", spp), visit("seed", seed);
 }

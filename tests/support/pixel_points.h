@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <ssphh/core/parallel.h>
-#include <ssphh/scene/posed_world.h>
+#include <ssphh/rays/posed_world.h>
 #include <ssphh/scene/query.h>
 
 namespace ssphh::test {
@@ -16,11 +16,11 @@ struct PictureSize {
 };
 
 /// Through the middle of each pixel, row 0 on top.
-inline std::vector<scene::RayQuery> pixel_rays(const scene::CameraPose& pose, PictureSize size) {
+inline std::vector<rays::RayQuery> pixel_rays(const scene::CameraPose& pose, PictureSize size) {
   const bool parallel = pose.camera.orthographic;
   const float up = parallel ? 0.5f * pose.camera.yheight : std::tan(0.5f * pose.camera.yfov),
               right = up * static_cast<float>(size.width) / static_cast<float>(size.height);
-  std::vector<scene::RayQuery> rays;
+  std::vector<rays::RayQuery> rays;
   for (int y = 0; y < size.height; ++y) {
     for (int x = 0; x < size.width; ++x) {
       const vec2 place = 2.0f * vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f) /
@@ -36,19 +36,19 @@ inline std::vector<scene::RayQuery> pixel_rays(const scene::CameraPose& pose, Pi
 }
 
 struct PixelPoint {
-  scene::RayHit hit;
-  scene::SurfacePoint point;  ///< its normal toward the viewer; as the surface is, without smooth normals
-  vec3 wo{0};                 ///< toward the viewer
+  rays::RayHit hit;
+  rays::SurfacePoint point;  ///< its normal toward the viewer; as the surface is, without smooth normals
+  vec3 wo{0};                ///< toward the viewer
 };
 
 struct PixelPoints {
-  PixelPoints(const scene::TransportSource& source, const scene::CameraPose& pose, PictureSize picture_size,
+  PixelPoints(const rays::TransportSource& source, const scene::CameraPose& pose, PictureSize picture_size,
               float time = 0)
       : size(picture_size) {
-    const std::vector<scene::RayQuery> rays = pixel_rays(pose, size);
-    std::vector<scene::RayHit> hits(rays.size());
+    const std::vector<rays::RayQuery> rays = pixel_rays(pose, size);
+    std::vector<rays::RayHit> hits(rays.size());
     std::vector<std::uint8_t> moves(rays.size());
-    scene::PosedWorld(source, time).intersect(rays, hits, moves);
+    rays::PosedWorld(source, time).intersect(rays, hits, moves);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       pixels.push_back({hits[i], {}, -rays[i].direction});
       if (!hits[i].escaped())

@@ -1,9 +1,9 @@
 #pragma once
 /// A floor and a wall, a box and a ball before a camera, all of them of other colours, and a lamp above.
 
+#include <ssphh/rays/transport_source.h>
 #include <ssphh/scene/primitives.h>
 #include <ssphh/scene/scene.h>
-#include <ssphh/scene/transport_source.h>
 
 namespace ssphh::test {
 
@@ -56,11 +56,11 @@ inline void add_stage_lamp(scene::Scene& scene, scene::Light light) {
   scene::validate(scene);
 }
 
-inline bool on_stage_ball(const scene::SurfacePoint& p) {
+inline bool on_stage_ball(const rays::SurfacePoint& p) {
   return glm::distance(p.position, stage_ball) < 1.0001f * stage_ball_radius;
 }
 /// Smooth on the ball: corners' normals interpolated linearly point away from its middle everywhere.
-inline vec3 stage_normal(const scene::SurfacePoint& p) {
+inline vec3 stage_normal(const rays::SurfacePoint& p) {
   return on_stage_ball(p) ? glm::normalize(p.position - stage_ball) : p.normal;
 }
 

@@ -70,7 +70,7 @@ struct LampPicture {
   template <class Reflected>
   LampPicture(const scene::Scene& scene, PictureSize size, const Lamp& lamp, const Reflected& reflected)
       : source(scene), points(source, scene::camera_pose(scene, ""), size) {
-    const scene::PosedWorld surfaces(source, 0);
+    const rays::PosedWorld surfaces(source, 0);
     for (const PixelPoint& p : points.pixels) {
       const Arriving a = lamp(p.point.position);
       lit.push_back(

@@ -26,7 +26,7 @@ std::vector<std::string> names_of_given(const std::vector<Option>& options) {
 
 void add_path_options(Command command, BakeOptions& options, BakeUses& uses) {
   const std::string group = "GEN and VIZ: path tracing";
-  gi::BakeParams& params = options.params;
+  bake::BakeParams& params = options.params;
   const auto paths = [&](const Option& option) { uses.of_paths.push_back(option.group(group)); };
   paths(command.option("--face", params.face_size, "Texels along a face of each probe's cube map")
             .range(1, 4096));
@@ -75,7 +75,7 @@ void add_viz_options(Command command, BakeOptions& options, BakeUses& uses) {
 
 void add_transport_options(Command command, BakeOptions& options, BakeUses& uses) {
   const std::string group = "Transport: --operator surfel|bounce, --viz links, --fit";
-  gi::TransportParams& params = options.transport.transport;
+  transport::TransportParams& params = options.transport.transport;
   const auto transport = [&](const Option& option) { uses.of_transport.push_back(option.group(group)); };
   transport(command.option("--directions", params.directions, "Rays by which each probe sees surfels")
                 .range(8, 1 << 16));
@@ -98,18 +98,18 @@ void add_transport_options(Command command, BakeOptions& options, BakeUses& uses
 void add_bake_command(Command app, Context& context) {
   auto options = std::make_shared<BakeOptions>();
   auto uses = std::make_shared<BakeUses>();
-  Command command =
-      add_command(app, context, "bake",
-                  "Find the light at every SPHL of a scene (GEN or transport) and between them (VIZ)",
-                  [&context, options, uses] {
-                    if (!uses->viz.empty())
-                      options->viz = parse_enum<gi::VizMethod>(uses->viz).value_or(gi::VizMethod::none);
-                    options->of_paths = names_of_given(uses->of_paths);
-                    options->of_transport = names_of_given(uses->of_transport);
-                    options->of_viz = names_of_given(uses->of_viz);
-                    options->seed = context.seed;
-                    print_result(context, run_bake(*options, context.control), *options);
-                  });
+  Command command = add_command(
+      app, context, "bake",
+      "Find the light at every SPHL of a scene (GEN or transport) and between them (VIZ)",
+      [&context, options, uses] {
+        if (!uses->viz.empty())
+          options->viz = parse_enum<probes::VizMethod>(uses->viz).value_or(probes::VizMethod::none);
+        options->of_paths = names_of_given(uses->of_paths);
+        options->of_transport = names_of_given(uses->of_transport);
+        options->of_viz = names_of_given(uses->of_viz);
+        options->seed = context.seed;
+        print_result(context, run_bake(*options, context.control), *options);
+      });
   add_scene_options(command, options->scene);
   add_place_options(command, options->place);
   add_probe_file(command, "-o,--output", options->output,

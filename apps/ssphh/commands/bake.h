@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include <ssphh/bake/bake.h>
+#include <ssphh/bake/transport_bake.h>
 #include <ssphh/core/control.h>
 #include <ssphh/core/json.h>
-#include <ssphh/gi/bake.h>
-#include <ssphh/gi/transport_bake.h>
 
 #include "options/farm_options.h"
 #include "options/place_options.h"
@@ -23,8 +23,8 @@ inline constexpr std::size_t most_probes_for_paths = 64, most_probes_for_links =
 inline constexpr int default_link_neighbors = 16;
 
 /// Nobody waits for a frame: few probes are right to 3 % with so many directions.
-inline gi::TransportBakeParams unhurried_transport() {
-  gi::TransportBakeParams params;
+inline bake::TransportBakeParams unhurried_transport() {
+  bake::TransportBakeParams params;
   params.transport.directions = 1536;
   return params;
 }
@@ -34,16 +34,16 @@ struct BakeOptions {
   PlaceOptions place;
   FarmChoice farm;     ///< that does GEN and VIZ by paths, if there is any
   std::string output;  ///< probe file to write: .sphl or .sphl.json; OUTPUT.checkpoint beside it
-  gi::LightOperator op = gi::LightOperator::path;  ///< what finds the probes' light
+  probes::LightOperator op = probes::LightOperator::path;  ///< what finds the probes' light
   /// What finds the edges; none given: what suits the operator and the number of probes.
-  std::optional<gi::VizMethod> viz;
+  std::optional<probes::VizMethod> viz;
   int degree = 9;  ///< highest band of the probes' functions, 0..10
   std::uint64_t seed = 0;
   /// GEN and VIZ by paths. Its seed, keep_light and viz are not read, nor are the neighbours and the
   /// threshold of VIZ: they follow from the other options.
-  gi::BakeParams params;
+  bake::BakeParams params;
   /// Of transport; its operator and viz are not read either, nor the same of its VIZ.
-  gi::TransportBakeParams transport = unhurried_transport();
+  bake::TransportBakeParams transport = unhurried_transport();
   std::optional<int> neighbors;  ///< most edges of a probe, strongest first; -1: all
   float threshold = 0;           ///< only edges with P above it, 0..1
   bool resume = true;            ///< go on where OUTPUT.checkpoint of an interrupted bake ends
@@ -53,18 +53,18 @@ struct BakeOptions {
 };
 
 struct BakeResult {
-  gi::ProbeSet set;                         ///< as it was written
-  gi::VizMethod viz = gi::VizMethod::none;  ///< what found the edges
-  gi::BakeReport paths;                     ///< of GEN and VIZ by paths
-  gi::TransportBakeReport transport;        ///< of transport, VIZ by links and the fit
-  std::optional<farm::FarmReport> farm;     ///< of a farm that was asked and had anything to do
-  std::optional<PlaceResult> place;         ///< where places were looked for
-  std::uint64_t geometry_builds = 0;        ///< acceleration structures that were built
+  probes::ProbeSet set;                             ///< as it was written
+  probes::VizMethod viz = probes::VizMethod::none;  ///< what found the edges
+  bake::BakeReport paths;                           ///< of GEN and VIZ by paths
+  bake::TransportBakeReport transport;              ///< of transport, VIZ by links and the fit
+  std::optional<farm::FarmReport> farm;             ///< of a farm that was asked and had anything to do
+  std::optional<PlaceResult> place;                 ///< where places were looked for
+  std::uint64_t geometry_builds = 0;                ///< acceleration structures that were built
 };
 
 /// Bakes and writes the probe file. Warns in the log as its parts do. Throws Error for scenes that cannot be
 /// read, options that exclude each other, files that cannot be written, a farm that cannot be reached, and as
-/// gi::place_probes, gi::bake and gi::bake_transport do; Cancelled when asked to stop, which leaves
+/// place::place_probes, bake::bake and bake::bake_transport do; Cancelled when asked to stop, which leaves
 /// OUTPUT.checkpoint for the next call with the same options.
 BakeResult run_bake(const BakeOptions& options, const Control& control = {});
 

@@ -6,8 +6,8 @@
 
 #include <ssphh/core/log.h>
 #include <ssphh/farm/farm_bake.h>
-#include <ssphh/gi/init.h>
-#include <ssphh/gi/probe_file.h>
+#include <ssphh/place/init.h>
+#include <ssphh/probes/probe_file.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -17,16 +17,16 @@
 namespace ssphh::app {
 namespace {
 
-using gi::VizMethod;
+using probes::VizMethod;
 
 void refuse(const std::vector<std::string>& given, const char* needs) {
   if (!given.empty()) throw Error(given.front(), needs);
 }
 
 /// Decides on VIZ, which it returns, and refuses options that would have no effect.
-gi::VizMethod resolve(BakeOptions& o, std::size_t probes) {
-  const bool path = o.op == gi::LightOperator::path, transfer = o.params.viz_params.matrix;
-  gi::BakeParams& params = o.params;
+probes::VizMethod resolve(BakeOptions& o, std::size_t probes) {
+  const bool path = o.op == probes::LightOperator::path, transfer = o.params.viz_params.matrix;
+  bake::BakeParams& params = o.params;
   if (!o.viz) {
     o.viz = transfer || (path && probes <= most_probes_for_paths) ? VizMethod::path
             : probes <= most_probes_for_links                     ? VizMethod::links
@@ -37,7 +37,7 @@ gi::VizMethod resolve(BakeOptions& o, std::size_t probes) {
   }
   if (transfer && o.viz != VizMethod::path)
     throw Error("--viz-transfer", "needs VIZ by path tracing", "use --viz path");
-  if (!path && params.gen != gi::GenMode::full)
+  if (!path && params.gen != probes::GenMode::full)
     throw Error(fmt::format("--gen {}", name_of(params.gen)),
                 "is of --operator path; the light of surfels has every bounce");
   params.keep_light = !path;
@@ -63,21 +63,22 @@ gi::VizMethod resolve(BakeOptions& o, std::size_t probes) {
 void fill(BakeResult& result, const BakeOptions& o, const trace::SharedGeometry& geometry,
           const scene::Scene& scene, const std::filesystem::path& checkpoint, const FarmSession* session,
           const Control& control) {
-  const bool path = o.op == gi::LightOperator::path;
+  const bool path = o.op == probes::LightOperator::path;
   if (!path || o.transport.fit || o.transport.viz) {
     const trace::TransportScene source(geometry, scene);
     if (path) {
-      gi::add_transport(source, result.set, o.transport, result.transport, control);
+      bake::add_transport(source, result.set, o.transport, result.transport, control);
     } else {
-      result.set = gi::bake_transport(source, std::move(result.set), o.transport, result.transport, control);
+      result.set =
+          bake::bake_transport(source, std::move(result.set), o.transport, result.transport, control);
     }
   }
   if (path || o.params.viz) {
     const trace::PathTracer tracer(geometry, scene, o.scene.time);
     std::optional<farm::FarmCrew> crew;
     if (session) crew.emplace(session->options(), scene, o.scene.time);
-    result.set = gi::bake(tracer, std::move(result.set), o.params, checkpoint, result.paths, control,
-                          crew ? &*crew : nullptr);
+    result.set = bake::bake(tracer, std::move(result.set), o.params, checkpoint, result.paths, control,
+                            crew ? &*crew : nullptr);
     if (crew) result.farm = crew->report();
   }
 }
@@ -98,14 +99,15 @@ BakeResult run_bake(const BakeOptions& options, const Control& control) {
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   BakeResult result;
   result.place = place_for(geometry, scene, o.scene.time, o.place, "", control);
-  result.set = result.place ? gi::init_from_placement(scene, result.place->placement, o.degree, o.scene.time)
-                            : gi::init_from_scene(scene, o.degree, o.scene.time);
+  result.set = result.place
+                   ? place::init_from_placement(scene, result.place->placement, o.degree, o.scene.time)
+                   : place::init_from_scene(scene, o.degree, o.scene.time);
   result.viz = resolve(o, result.set.probes.size());
 
   const std::filesystem::path checkpoint = o.output + ".checkpoint";
   if (!o.resume) std::filesystem::remove(checkpoint);
   fill(result, o, geometry, scene, checkpoint, session ? &*session : nullptr, control);
-  gi::write_probe_file(result.set, o.output);
+  probes::write_probe_file(result.set, o.output);
   std::filesystem::remove(checkpoint);
   result.geometry_builds = builds.count();
   return result;
@@ -113,9 +115,9 @@ BakeResult run_bake(const BakeOptions& options, const Control& control) {
 
 /// Numbers of transport are null where there was none; `iterations` also where only weights were fitted.
 json::Value to_json(const BakeResult& r, const BakeOptions& o) {
-  const gi::TransportBakeReport& t = r.transport;
+  const bake::TransportBakeReport& t = r.transport;
   const auto if_any = [](bool any, const auto& value) { return any ? json::Value(value) : json::Value(); };
-  const bool solved = o.op != gi::LightOperator::path, network = t.surfels > 0;
+  const bool solved = o.op != probes::LightOperator::path, network = t.surfels > 0;
   std::vector<std::string> warnings = t.warnings;
   for (const std::string& warning : r.paths.warnings) {
     if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
@@ -125,7 +127,7 @@ json::Value to_json(const BakeResult& r, const BakeOptions& o) {
                         {"probes", r.set.probes.size()},
                         {"degree", r.set.degree},
                         {"light_groups", r.set.light_groups.size()},
-                        {"edges", gi::edge_count(r.set)},
+                        {"edges", probes::edge_count(r.set)},
                         {"gen", name_of(o.params.gen)},
                         {"gen_seconds", r.paths.gen_seconds},
                         {"viz_seconds", viz_seconds(r)},
@@ -149,12 +151,12 @@ json::Value to_json(const BakeResult& r, const BakeOptions& o) {
 std::string to_text(const BakeResult& r, const BakeOptions& o) {
   std::string text =
       fmt::format("{}: {} probes of degree {}, {} light groups, {} edges", o.output, r.set.probes.size(),
-                  r.set.degree, r.set.light_groups.size(), gi::edge_count(r.set));
-  const gi::TransportBakeReport& t = r.transport;
+                  r.set.degree, r.set.light_groups.size(), probes::edge_count(r.set));
+  const bake::TransportBakeReport& t = r.transport;
   if (t.surfels > 0) {
     text +=
         fmt::format("\n{} surfels of {:.3g} m, {} links", t.surfels, r.set.generator.surfel_size, t.links);
-    if (o.op != gi::LightOperator::path) {
+    if (o.op != probes::LightOperator::path) {
       text += fmt::format("; {} iterations, a bounce keeps at most {:.3g} of the light; {:.2f} s",
                           t.iterations, t.contraction, t.seconds);
     }
@@ -162,14 +164,14 @@ std::string to_text(const BakeResult& r, const BakeOptions& o) {
   if (r.set.fitted)
     text +=
         fmt::format("\nweights fitted at {} points in {:.2f} s", r.set.fitted->points.size(), t.fit_seconds);
-  if (o.op == gi::LightOperator::path) text += fmt::format("\nGEN {:.2f} s", r.paths.gen_seconds);
+  if (o.op == probes::LightOperator::path) text += fmt::format("\nGEN {:.2f} s", r.paths.gen_seconds);
   if (r.viz != VizMethod::none)
     text +=
         fmt::format("\nVIZ from {} {:.2f} s", r.viz == VizMethod::path ? "paths" : "links", viz_seconds(r));
   text += fmt::format("\n{} rays", r.paths.rays + t.rays);
   if (r.farm) text += "\n" + farm_text(*r.farm);
   if (r.paths.resumed > 0) {
-    const std::size_t stages = std::size_t{o.op == gi::LightOperator::path} + (r.viz == VizMethod::path);
+    const std::size_t stages = std::size_t{o.op == probes::LightOperator::path} + (r.viz == VizMethod::path);
     text += fmt::format("\n{} of {} steps were taken from the checkpoint", r.paths.resumed,
                         r.set.probes.size() * stages);
   }

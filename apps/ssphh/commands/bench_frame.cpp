@@ -59,7 +59,7 @@ void set_method(realtime::Renderer& renderer, const BenchOptions& o, const scene
                 const Context& context) {
   LiveMethod live(o.method, o.parameters, std::make_shared<const trace::SceneGeometry>(scene), scene,
                   context.control);
-  live.update(scene::lighting_at(live.source(), o.scene.time), context.control);
+  live.update(rays::lighting_at(live.source(), o.scene.time), context.control);
   renderer.set_method_light(live.method().light_data());
 }
 
@@ -171,7 +171,7 @@ void add_bench_frame_command(Command app, Context& context) {
   add_scene_options(command, o.scene);
   command.option("--probes", o.lookup.probes, "Probe file; without one: direct light alone");
   std::vector<std::string> methods = {"ssphh"};
-  for (const gi::MethodEntry& entry : gi::method_table()) {
+  for (const methods::MethodEntry& entry : methods::method_table()) {
     if (entry.has_light_data) methods.emplace_back(entry.name);
   }
   command.option("--method", o.method, "What lights the scene: probes, or another method, made first")

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
-#include <ssphh/gi/probe_file.h>
+#include <ssphh/probes/probe_file.h>
 
 #include "commands/command.h"
 #include "options/probe_options.h"
@@ -17,7 +17,7 @@ namespace ssphh::app {
 namespace {
 
 /// "GROUP=R,G,B" or "GROUP=X"; the last '=' separates, so that names may hold some.
-void apply_scale(gi::ProbeSet& set, const std::string& text) {
+void apply_scale(probes::ProbeSet& set, const std::string& text) {
   const std::size_t equals = text.rfind('=');
   const auto fail = [&]() -> Error {
     return {"--scale " + text, "must be GROUP=R,G,B or GROUP=X", "e.g. --scale lamp=0.5"};
@@ -39,41 +39,41 @@ void apply_scale(gi::ProbeSet& set, const std::string& text) {
     at = c < 2 ? end + 1 : end;
   }
   if (*at != '\0') throw fail();
-  gi::relight(set, text.substr(0, equals), scale);
+  probes::relight(set, text.substr(0, equals), scale);
 }
 
-std::string light_of(const gi::GeneratorInfo& g) {
-  return g.op == gi::LightOperator::path ? fmt::format("GEN {}", name_of(g.gen))
-                                         : fmt::format("light by {}", name_of(g.op));
+std::string light_of(const probes::GeneratorInfo& g) {
+  return g.op == probes::LightOperator::path ? fmt::format("GEN {}", name_of(g.gen))
+                                             : fmt::format("light by {}", name_of(g.op));
 }
 
 }  // namespace
 
 HierResult run_hier(const HierOptions& options, const Control&) {
   HierResult result;
-  gi::ProbeSet& set = result.set = gi::read_probe_file(options.input);
+  probes::ProbeSet& set = result.set = probes::read_probe_file(options.input);
   for (const std::string& scale : options.scales) apply_scale(set, scale);
-  if (gi::edge_count(set) == 0 && set.probes.size() > 1) {
+  if (probes::edge_count(set) == 0 && set.probes.size() > 1) {
     log_warning("{} has no edges between its probes, so HIER adds nothing; bake with --viz links or path",
                 options.input);
   }
 
   // Once to take the memory, then timed as a frame would do it: the median of some.
-  result.edges = gi::hier(set, options.params);
+  result.edges = probes::hier(set, options.params);
   std::vector<double> times;
   for (int run = 0; run < 7; ++run) {
     const auto start = std::chrono::steady_clock::now();
-    gi::hier(set, options.params);
+    probes::hier(set, options.params);
     times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   result.seconds = percentile(std::move(times), 0.5);
-  gi::write_probe_file(set, options.output);
-  result.contraction = gi::hier_contraction(set, options.params);
+  probes::write_probe_file(set, options.output);
+  result.contraction = probes::hier_contraction(set, options.params);
   return result;
 }
 
 json::Value to_json(const HierResult& result, const HierOptions& options) {
-  const gi::GeneratorInfo& generator = result.set.generator;
+  const probes::GeneratorInfo& generator = result.set.generator;
   return {{"output", options.output},
           {"seconds", result.seconds},
           {"edges", result.edges},

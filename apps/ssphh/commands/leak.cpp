@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
-#include <ssphh/gi/lookup.h>
-#include <ssphh/gi/surface_points.h>
 #include <ssphh/image/io.h>
+#include <ssphh/probes/lookup.h>
+#include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -26,7 +26,7 @@ LeakResult run_leak(const LeakOptions& o, const Control& control) {
     if (format != image::FileFormat::png && format != image::FileFormat::exr)
       throw Error(o.output, "a leak map is written as .png (colours) or .exr (numbers)");
   }
-  const gi::ProbeSet set = gi::read_probe_file(o.probes);
+  const probes::ProbeSet set = probes::read_probe_file(o.probes);
   const scene::Scene scene = load_scene(o.scene);
   LeakResult result;
   const float time = result.time = o.time.value_or(set.generator.time);
@@ -41,15 +41,15 @@ LeakResult run_leak(const LeakOptions& o, const Control& control) {
   const trace::PathTracer tracer(geometry, scene, time);
   require_same_scene(o.probes, set, scene, tracer.light_groups(), {}, o.force);
   const trace::TransportScene surfaces(geometry, scene);
-  const gi::LookupParams params_of_lookup = lookup_params(o.probes, set, o.lookup);
-  const gi::IrradianceLookup lookup(set, tracer, params_of_lookup);
+  const probes::LookupParams params_of_lookup = lookup_params(o.probes, set, o.lookup);
+  const probes::IrradianceLookup lookup(set, tracer, params_of_lookup);
   result.weights = params_of_lookup.weights.chosen(set.fitted.has_value());
 
-  gi::LeakParams params = o.params;
+  study::LeakParams params = o.params;
   params.path.seed = o.seed;
-  result.points =
-      gi::reachable_points(surfaces, viewpoints(scene, {&set, 1}, time), time, {o.points, o.seed}, control);
-  result.report = gi::measure_leak(tracer, lookup, result.points, params, control);
+  result.points = study::reachable_points(surfaces, viewpoints(scene, {&set, 1}, time), time,
+                                          {o.points, o.seed}, control);
+  result.report = study::measure_leak(tracer, lookup, result.points, params, control);
   const double mean = result.report.mean_truth;
   if (!(mean > 0)) log_warning("{}: path tracing finds no indirect light at all", o.scene.source);
   if (!o.output.empty()) {
@@ -63,7 +63,7 @@ LeakResult run_leak(const LeakOptions& o, const Control& control) {
 }
 
 json::Value to_json(const LeakResult& result, const LeakOptions& o) {
-  const gi::LeakReport& report = result.report;
+  const study::LeakReport& report = result.report;
   json::Value object = {{"leak_ratio", report.ratio},
                         {"points", result.points.size()},
                         {"dark_points", report.dark},
@@ -82,7 +82,7 @@ json::Value to_json(const LeakResult& result, const LeakOptions& o) {
 }
 
 std::string to_text(const LeakResult& result, const LeakOptions& o) {
-  const gi::LeakReport& report = result.report;
+  const study::LeakReport& report = result.report;
   std::string text = fmt::format(
       "leaked      {:.4g} % of the looked-up light stands on dark points\n"
       "dark        {} of {} points: path traced indirect irradiance under {:g} of the mean, at {:g} sigma\n"

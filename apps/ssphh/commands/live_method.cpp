@@ -13,8 +13,8 @@ double seconds_since(Clock::time_point start) {
 LiveMethod::LiveMethod(const std::string& name, const std::vector<std::string>& settings,
                        trace::SharedGeometry geometry, const scene::Scene& scene, const Control& control)
     : source_(std::move(geometry), scene) {
-  const gi::MethodEntry& entry = gi::find_method(name);
-  const gi::MethodParameters parameters(name, entry.parameters, settings);
+  const methods::MethodEntry& entry = methods::find_method(name);
+  const methods::MethodParameters parameters(name, entry.parameters, settings);
   const Clock::time_point start = Clock::now();
   method_ = entry.make({scene, source_}, parameters, control);
   bake_seconds_ = seconds_since(start);

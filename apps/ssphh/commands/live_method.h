@@ -1,5 +1,5 @@
 #pragma once
-/// Methods of gi::method_table() made for a scene in this process, with what they took.
+/// Methods of methods::method_table() made for a scene in this process, with what they took.
 
 #include <chrono>
 #include <memory>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <ssphh/core/control.h>
-#include <ssphh/gi/methods/table.h>
+#include <ssphh/methods/table.h>
 #include <ssphh/trace/transport_scene.h>
 
 #include "results/method_figures.h"
@@ -23,8 +23,8 @@ class LiveMethod {
   /// One frame; its time is added to figures().
   void update(const scene::LightingState& state, const Control& control);
 
-  gi::Method& method() { return *method_; }
-  const gi::Method& method() const { return *method_; }
+  methods::Method& method() { return *method_; }
+  const methods::Method& method() const { return *method_; }
   const trace::TransportScene& source() const { return source_; }
   double bake_seconds() const { return bake_seconds_; }
   double update_seconds() const { return update_seconds_; }
@@ -35,7 +35,7 @@ class LiveMethod {
 
  private:
   trace::TransportScene source_;
-  std::unique_ptr<gi::Method> method_;
+  std::unique_ptr<methods::Method> method_;
   double bake_seconds_ = 0, update_seconds_ = 0;
 };
 

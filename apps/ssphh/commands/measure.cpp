@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/parallel.h>
-#include <ssphh/gi/surface_points.h>
+#include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -23,13 +23,13 @@ namespace ssphh::app {
 namespace {
 
 /// Points on surfaces, or in the open near them; within the box, if one is given.
-std::vector<scene::SurfacePoint> find_points(const MeasureOptions& o, const scene::TransportSource& surfaces,
-                                             std::span<const vec3> origins, const Control& control) {
-  std::vector<scene::SurfacePoint> points =
-      gi::reachable_points(surfaces, origins, o.scene.time, {o.points, o.seed, o.clearance}, control);
-  if (o.open) points = gi::points_in_the_open(surfaces, points, o.scene.time, o.seed);
+std::vector<rays::SurfacePoint> find_points(const MeasureOptions& o, const rays::TransportSource& surfaces,
+                                            std::span<const vec3> origins, const Control& control) {
+  std::vector<rays::SurfacePoint> points =
+      study::reachable_points(surfaces, origins, o.scene.time, {o.points, o.seed, o.clearance}, control);
+  if (o.open) points = study::points_in_the_open(surfaces, points, o.scene.time, o.seed);
   if (o.box) {
-    std::erase_if(points, [&](const scene::SurfacePoint& p) {
+    std::erase_if(points, [&](const rays::SurfacePoint& p) {
       return !glm::all(glm::lessThanEqual(o.box->min, p.position)) ||
              !glm::all(glm::lessThanEqual(p.position, o.box->max));
     });
@@ -41,22 +41,22 @@ std::vector<scene::SurfacePoint> find_points(const MeasureOptions& o, const scen
 /// A way to look light up, and what is known of it before it is measured.
 struct Candidate {
   MeasuredLight known;
-  std::shared_ptr<const scene::IndirectLight> light;
+  std::shared_ptr<const rays::IndirectLight> light;
   std::shared_ptr<LiveMethod> live = nullptr;  ///< null for probe files
 };
 
-std::vector<Candidate> probe_candidates(const MeasureOptions& o, const std::vector<gi::ProbeSet>& sets,
+std::vector<Candidate> probe_candidates(const MeasureOptions& o, const std::vector<probes::ProbeSet>& sets,
                                         const trace::PathTracer& tracer) {
-  std::vector<std::optional<gi::WeightMethod>> weights(o.weights.begin(), o.weights.end());
+  std::vector<std::optional<probes::WeightMethod>> weights(o.weights.begin(), o.weights.end());
   if (weights.empty()) weights.emplace_back();
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    for (const std::optional<gi::WeightMethod>& method : weights) {
-      const gi::LookupParams params = lookup_params(o.probes[i], sets[i], {.weights = method});
+    for (const std::optional<probes::WeightMethod>& method : weights) {
+      const probes::LookupParams params = lookup_params(o.probes[i], sets[i], {.weights = method});
       Candidate& candidate = candidates.emplace_back();
       candidate.known.name = o.probes[i];
       candidate.known.weights = params.weights.chosen(sets[i].fitted.has_value());
-      candidate.light = std::make_shared<gi::IrradianceLookup>(sets[i], tracer, params);
+      candidate.light = std::make_shared<probes::IrradianceLookup>(sets[i], tracer, params);
     }
   }
   return candidates;
@@ -74,7 +74,7 @@ Candidate method_candidate(const std::string& spec, const trace::SharedGeometry&
   const std::string name = words.front();
   words.erase(words.begin());
   auto live = std::make_shared<LiveMethod>(name, words, geometry, scene, control);
-  live->update(scene::lighting_at(live->source(), time), control);
+  live->update(rays::lighting_at(live->source(), time), control);
   Candidate candidate;
   candidate.known.name = spec;
   candidate.known.method = live->figures();
@@ -84,14 +84,14 @@ Candidate method_candidate(const std::string& spec, const trace::SharedGeometry&
 }
 
 /// Microseconds of all threads' time together for one lookup, from batches of at least 50 ms.
-double lookup_microseconds(const scene::IndirectLight& light, std::span<const scene::SurfacePoint> points,
+double lookup_microseconds(const rays::IndirectLight& light, std::span<const rays::SurfacePoint> points,
                            const Control& control) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   double seconds = 0;
   std::size_t lookups = 0;
   do {
-    gi::look_up(light, points, control);
+    study::look_up(light, points, control);
     lookups += points.size();
     seconds = std::chrono::duration<double>(Clock::now() - start).count();
   } while (seconds < 0.05);
@@ -106,7 +106,7 @@ double frame_milliseconds(LiveMethod& live, float time, const Control& control) 
   std::vector<double> ms;
   double total = 0;
   for (int f = 0; f < most_frames && total < most_ms; ++f) {
-    scene::LightingState state = scene::lighting_at(live.source(), time);
+    scene::LightingState state = rays::lighting_at(live.source(), time);
     const float step = f % 2 == 0 ? 0.01f : 0;
     for (scene::LightState& light : state.lights) light.world[3].x += step;
     if (state.lights.empty()) {
@@ -119,13 +119,13 @@ double frame_milliseconds(LiveMethod& live, float time, const Control& control) 
   return percentile(std::move(ms), 0.5);
 }
 
-MeasuredLight measured(const Candidate& candidate, std::span<const scene::SurfacePoint> points,
-                       const gi::TruthAtPoints& truth, float time, const Control& control) {
+MeasuredLight measured(const Candidate& candidate, std::span<const rays::SurfacePoint> points,
+                       const study::TruthAtPoints& truth, float time, const Control& control) {
   MeasuredLight result = candidate.known;
-  const std::vector<vec3> looked_up = gi::look_up(*candidate.light, points, control);
+  const std::vector<vec3> looked_up = study::look_up(*candidate.light, points, control);
   result.lookup_us = lookup_microseconds(*candidate.light, points, control);
-  result.error = gi::lookup_error(looked_up, truth.estimates);
-  result.leak_ratio = gi::leak_ratio(looked_up, truth);
+  result.error = study::lookup_error(looked_up, truth.estimates);
+  result.leak_ratio = study::leak_ratio(looked_up, truth);
   if (candidate.live) result.frame_ms = frame_milliseconds(*candidate.live, time, control);
   return result;
 }
@@ -139,7 +139,7 @@ json::Value light_json(const MeasuredLight& light) {
   json::Value object = {{light.method ? "method" : "probes", light.name}};
   if (light.weights) object["weights"] = name_of(*light.weights);
   if (light.method) object.update(to_json(*light.method));
-  const gi::LookupError& e = light.error;
+  const study::LookupError& e = light.error;
   object.update({{"ratio", std::isfinite(e.ratio) ? json::Value(e.ratio) : json::Value(nullptr)},
                  {"mean_error", e.mean_error},
                  {"mean_relative", e.mean_relative},
@@ -161,18 +161,18 @@ MeasureResult run_measure(const MeasureOptions& o, const Control& control) {
   const scene::Scene scene = load_scene(o.scene);
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   const trace::PathTracer tracer(geometry, scene, o.scene.time);
-  std::vector<gi::ProbeSet> sets;
+  std::vector<probes::ProbeSet> sets;
   for (const std::string& file : o.probes) {
-    sets.push_back(gi::read_probe_file(file));
+    sets.push_back(probes::read_probe_file(file));
     require_same_scene(file, sets.back(), scene, tracer.light_groups(), o.scene.time, o.force);
   }
   const std::vector<Candidate> candidates = probe_candidates(o, sets, tracer);  // fails before the work
   const trace::TransportScene surfaces(geometry, scene);
   MeasureResult result;
   result.points = find_points(o, surfaces, viewpoints(scene, sets, o.scene.time), control);
-  gi::LeakParams params = o.params;
+  study::LeakParams params = o.params;
   params.path.seed = o.seed;
-  result.truth = gi::trace_truth(tracer, result.points, params, control);
+  result.truth = study::trace_truth(tracer, result.points, params, control);
 
   const auto measure = [&](const Candidate& candidate) {
     result.lights.push_back(measured(candidate, result.points, result.truth, o.scene.time, control));
@@ -200,7 +200,7 @@ std::string to_text(const MeasureResult& result, const MeasureOptions& options) 
       result.points.size(), options.params.path.spp, result.truth.dark, result.truth.mean, "light", "weights",
       "ratio", "mean error", "95 %", "relMSE", "leak", "lookup");
   for (const MeasuredLight& light : result.lights) {
-    const gi::LookupError& e = light.error;
+    const study::LookupError& e = light.error;
     text += fmt::format("\n{:<24}{:<11}{:>8.3f}{:>9.1f} %{:>7.1f} %{:>10.4f}{:>7.2f} %{:>6.3g} us",
                         light.name, light.weights ? name_of(*light.weights) : "", e.ratio, 100 * e.mean_error,
                         100 * e.p95_relative, e.relmse, 100 * light.leak_ratio, light.lookup_us);
@@ -223,7 +223,7 @@ void add_measure_command(Command app, Context& context) {
         MeasureOptions& options = words->options;
         options.seed = context.seed;
         for (const std::string& name : words->weights)
-          options.weights.push_back(*parse_enum<gi::WeightMethod>(name));
+          options.weights.push_back(*parse_enum<probes::WeightMethod>(name));
         if (const std::vector<float>& b = words->box; !b.empty())
           options.box = {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
         print_result(context, run_measure(options, context.control), options);
@@ -240,7 +240,7 @@ void add_measure_command(Command app, Context& context) {
               "How probes are blended, one or several: distance, trilinear, mls, fitted; by default what "
               "`render` would take")
       .separated_by(',')
-      .one_of(names_of<gi::WeightMethod>());
+      .one_of(names_of<probes::WeightMethod>());
   command.option("--points", o.points, "Points to compare at, uniform by area over what can be reached")
       .range(1, 1 << 24);
   command

@@ -7,10 +7,10 @@
 
 #include <ssphh/core/control.h>
 #include <ssphh/core/json.h>
-#include <ssphh/gi/leak.h>
-#include <ssphh/gi/lookup_error.h>
-#include <ssphh/gi/lookup_weights.h>
+#include <ssphh/probes/lookup_weights.h>
 #include <ssphh/scene/query.h>
+#include <ssphh/study/leak.h>
+#include <ssphh/study/lookup_error.h>
 
 #include "options/scene_options.h"
 #include "results/method_figures.h"
@@ -20,7 +20,7 @@ namespace ssphh::app {
 struct MeasureOptions {
   SceneOptions scene;
   std::vector<std::string> probes;  ///< probe files
-  std::vector<gi::WeightMethod>
+  std::vector<probes::WeightMethod>
       weights;                       ///< each file is looked up with each; none: as the file would have it
   std::vector<std::string> methods;  ///< each as "NAME" or "NAME,PARAMETER=VALUE,..."
   std::optional<scene::Bounds> box;  ///< only points within [m], so many fewer
@@ -30,31 +30,31 @@ struct MeasureOptions {
   int points = 1024;                 ///< surface points, over 0
   std::uint64_t seed = 0;            ///< of points and paths
   /// Of the truth; its seed is not read.
-  gi::LeakParams params{.path = {.max_depth = 25, .passes = 1, .spp = 1024, .seed = 0}};
+  study::LeakParams params{.path = {.max_depth = 25, .passes = 1, .spp = 1024, .seed = 0}};
 };
 
 /// One way to look light up.
 struct MeasuredLight {
-  std::string name;                         ///< probe file or method, as the options have it
-  std::optional<gi::WeightMethod> weights;  ///< of a probe file
-  std::optional<MethodFigures> method;      ///< of a method, after its first update
-  gi::LookupError error;
+  std::string name;                             ///< probe file or method, as the options have it
+  std::optional<probes::WeightMethod> weights;  ///< of a probe file
+  std::optional<MethodFigures> method;          ///< of a method, after its first update
+  study::LookupError error;
   double leak_ratio = 0;           ///< share of its light that stands on dark points
   double lookup_us = 0;            ///< microseconds of all threads together for one lookup
   std::optional<double> frame_ms;  ///< milliseconds of a method's update after a small change
 };
 
 struct MeasureResult {
-  std::vector<scene::SurfacePoint> points;
-  gi::TruthAtPoints truth;            ///< at these
+  std::vector<rays::SurfacePoint> points;
+  study::TruthAtPoints truth;         ///< at these
   std::vector<MeasuredLight> lights;  ///< probe files first; none is missing
   std::uint64_t geometry_builds = 0;  ///< acceleration structures that were built
 };
 
 /// Measures all probe files and methods at the same points. Throws Error where there is nothing to measure,
 /// for files that cannot be read, for probes of another scene or pose, for weights that a file does not
-/// have, for unknown methods and parameters, where no point lies in the box, and as gi::reachable_points and
-/// gi::trace_truth do; Cancelled when asked to stop.
+/// have, for unknown methods and parameters, where no point lies in the box, and as study::reachable_points
+/// and study::trace_truth do; Cancelled when asked to stop.
 MeasureResult run_measure(const MeasureOptions& options, const Control& control = {});
 
 json::Value to_json(const MeasureResult& result, const MeasureOptions& options);

@@ -67,8 +67,8 @@ PlaceResult run_place(const PlaceOverlayOptions& options, const Control& control
     throw Error("--probes scene", "there is nothing to place", "use auto, auto:METRES or a number");
 
   json::Value overlay = base_overlay(options.scene, options.output);
-  for (const gi::PlacedProbe& probe : result->placement.probes) {
-    if (probe.kind == gi::PlaceKind::manual) continue;
+  for (const place::PlacedProbe& probe : result->placement.probes) {
+    if (probe.kind == place::PlaceKind::manual) continue;
     overlay["sphls"].push_back({{"name", probe.name},
                                 {"position", {probe.position.x, probe.position.y, probe.position.z}},
                                 {"radius", probe.radius}});

@@ -20,7 +20,7 @@ struct PlaceOverlayOptions {
 /// Finds places and writes an overlay that names the scene, repeats the overlay that lies on it and adds the
 /// places, those of the scene's own SPHLs apart. Throws Error where the output is the scene itself, where
 /// there is nothing to place, for two overlays at once, for files that cannot be read or written, and as
-/// gi::place_probes does; Cancelled when asked to stop.
+/// place::place_probes does; Cancelled when asked to stop.
 PlaceResult run_place(const PlaceOverlayOptions& options, const Control& control = {});
 
 json::Value to_json(const PlaceResult& result, const PlaceOverlayOptions& options);

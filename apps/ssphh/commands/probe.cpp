@@ -26,7 +26,7 @@ float lowest_irradiance(const sh::RadianceSh& light) {
   return std::min({lowest.x, lowest.y, lowest.z});
 }
 
-json::Value generator_json(const gi::GeneratorInfo& g) {
+json::Value generator_json(const probes::GeneratorInfo& g) {
   return {{"operator", name_of(g.op)},
           {"viz", name_of(g.viz)},
           {"gen", name_of(g.gen)},
@@ -43,14 +43,14 @@ json::Value generator_json(const gi::GeneratorInfo& g) {
           {"time", g.time}};
 }
 
-json::Value probe_json(const gi::ProbeSet& set, std::size_t i) {
-  const gi::Probe& probe = set.probes[i];
+json::Value probe_json(const probes::ProbeSet& set, std::size_t i) {
+  const probes::Probe& probe = set.probes[i];
   json::Value groups = json::Value::array(), edges = json::Value::array();
-  for (const gi::GroupLight& group : probe.groups) {
+  for (const probes::GroupLight& group : probe.groups) {
     groups.push_back(
         {{"emitted", rgb(sh::mean(group.emitted))}, {"reflected", rgb(sh::mean(group.reflected))}});
   }
-  for (const gi::Edge& edge : probe.edges) {
+  for (const probes::Edge& edge : probe.edges) {
     edges.push_back(
         {{"from", edge.from}, {"transfer", edge.transfer}, {"matrix", !edge.matrix.values.empty()}});
   }
@@ -66,15 +66,15 @@ json::Value probe_json(const gi::ProbeSet& set, std::size_t i) {
   return object;
 }
 
-std::string probe_text(const gi::ProbeSet& set, std::size_t i) {
-  const gi::Probe& probe = set.probes[i];
+std::string probe_text(const probes::ProbeSet& set, std::size_t i) {
+  const probes::Probe& probe = set.probes[i];
   std::string text =
       fmt::format("\n{:3}  {}  at ({:.4g}, {:.4g}, {:.4g}) m, radius {:.3g} m\n", i, probe.name,
                   probe.position.x, probe.position.y, probe.position.z, probe.radius);
   text += fmt::format("     self       {}   lowest irradiance {:.4g}\n", rgb_text(sh::mean(probe.self)),
                       lowest_irradiance(probe.self));
   for (std::size_t g = 0; g < probe.groups.size(); ++g) {
-    const gi::GroupLight& group = probe.groups[g];
+    const probes::GroupLight& group = probe.groups[g];
     text += fmt::format("     reflected  {}   {}\n", rgb_text(sh::mean(group.reflected)),
                         set.light_groups[g].name);
     if (!group.emitted.empty()) {
@@ -85,18 +85,18 @@ std::string probe_text(const gi::ProbeSet& set, std::size_t i) {
   if (set.hierarchy)
     text += fmt::format("     neighbours {}\n", rgb_text(sh::mean(set.hierarchy->neighbor[i])));
   text += "     P";
-  for (const gi::Edge& edge : probe.edges) text += fmt::format("  {}: {:.4g}", edge.from, edge.transfer);
+  for (const probes::Edge& edge : probe.edges) text += fmt::format("  {}: {:.4g}", edge.from, edge.transfer);
   return text + (probe.edges.empty() ? "  no edges" : "");
 }
 
 void info(Context& context, const std::string& path) {
-  const gi::ProbeSet set = gi::read_probe_file(path);
-  const gi::GeneratorInfo& g = set.generator;
+  const probes::ProbeSet set = probes::read_probe_file(path);
+  const probes::GeneratorInfo& g = set.generator;
   json::Value groups = json::Value::array(), probes = json::Value::array();
   std::string text = fmt::format(
       "{}: {} probes of degree {}, {} edges\nscene {} at {} s; light by {}, edges by {}\n", path,
-      set.probes.size(), set.degree, gi::edge_count(set), g.scene, g.time, name_of(g.op), name_of(g.viz));
-  if (g.op == gi::LightOperator::path || g.viz == gi::VizMethod::path) {
+      set.probes.size(), set.degree, probes::edge_count(set), g.scene, g.time, name_of(g.op), name_of(g.viz));
+  if (g.op == probes::LightOperator::path || g.viz == probes::VizMethod::path) {
     text += fmt::format("paths: GEN {}, depth {}, {} x {} samples, {}x{}x6 texels, seed {}\n", name_of(g.gen),
                         g.max_depth, g.passes, g.spp, g.face_size, g.face_size, g.seed);
   }
@@ -105,7 +105,7 @@ void info(Context& context, const std::string& path) {
                         g.surfel_size, g.link_rays);
   }
   if (set.fitted) text += fmt::format("weights fitted at {} surface points\n", set.fitted->points.size());
-  for (const gi::LightGroup& group : set.light_groups) {
+  for (const probes::LightGroup& group : set.light_groups) {
     groups.push_back({{"name", group.name}, {"scale", rgb(group.scale)}});
     text += fmt::format("light group {}, scale {:g} {:g} {:g}\n", group.name, group.scale.x, group.scale.y,
                         group.scale.z);
@@ -114,10 +114,10 @@ void info(Context& context, const std::string& path) {
                         {"degree", set.degree},
                         {"generator", generator_json(g)},
                         {"light_groups", groups},
-                        {"edges", gi::edge_count(set)},
+                        {"edges", probes::edge_count(set)},
                         {"fitted", set.fitted ? set.fitted->points.size() : 0}};
   if (set.hierarchy) {
-    const gi::Hierarchy& h = *set.hierarchy;
+    const probes::Hierarchy& h = *set.hierarchy;
     object["hierarchy"] = {
         {"operator", name_of(h.op)}, {"neighbors", h.neighbors}, {"threshold", h.threshold}};
     text += fmt::format("HIER {}, neighbors {}, threshold {:g}\n", name_of(h.op),
@@ -139,7 +139,7 @@ struct PreviewOptions {
 };
 
 void preview(Context& context, const PreviewOptions& options) {
-  const gi::ProbeSet set = gi::read_probe_file(options.input);
+  const probes::ProbeSet set = probes::read_probe_file(options.input);
   const ProbeSheet sheet = probe_sheet(set, options.width, options.exposure);
   image::write_image(options.output, sheet.image);
   std::string text =
@@ -150,7 +150,7 @@ void preview(Context& context, const PreviewOptions& options) {
     columns.push_back({{"layer", column.name}, {"exposure", column.exposure}});
     text += fmt::format(" {} (exposure {:+.2f} EV)", column.name, column.exposure);
   }
-  for (const gi::Probe& probe : set.probes) rows.push_back(probe.name);
+  for (const probes::Probe& probe : set.probes) rows.push_back(probe.name);
   if (!set.hierarchy) text += "\nrun `ssphh hier` on the file for the neighbours' part and the sum";
   context.result({{"output", options.output},
                   {"width", sheet.image.width},
@@ -165,8 +165,8 @@ struct ConvertOptions {
 };
 
 void convert(Context& context, const ConvertOptions& options) {
-  const gi::ProbeSet set = gi::read_probe_file(options.input);
-  gi::write_probe_file(set, options.output);
+  const probes::ProbeSet set = probes::read_probe_file(options.input);
+  probes::write_probe_file(set, options.output);
   const auto bytes = std::filesystem::file_size(options.output);
   context.result({{"output", options.output}, {"probes", set.probes.size()}, {"bytes", bytes}},
                  fmt::format("{}: {} probes, {} bytes", options.output, set.probes.size(), bytes));

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <ssphh/gi/lint.h>
-#include <ssphh/gi/place.h>
-#include <ssphh/gi/probe_file.h>
+#include <ssphh/place/place.h>
+#include <ssphh/probes/probe_file.h>
+#include <ssphh/study/lint.h>
 #include <ssphh/trace/transport_scene.h>
 
 #include "commands/command.h"
@@ -17,21 +17,22 @@ namespace {
 struct LintOptions {
   SceneOptions scene;
   std::string input;
-  gi::LintParams params;
+  study::LintParams params;
   bool force = false;
 };
 
 void lint(Context& context, LintOptions& options) {
-  const gi::ProbeSet set = gi::read_probe_file(options.input);
+  const probes::ProbeSet set = probes::read_probe_file(options.input);
   const scene::Scene scene = load_scene(options.scene);
-  options.params.interest = gi::place_params(scene, set.generator.time).interest;
+  options.params.interest = place::place_params(scene, set.generator.time).interest;
   const trace::TransportScene source(scene);
   require_same_scene(options.input, set, scene, source.light_groups(), {}, options.force);
-  const std::vector<gi::LintProblem> problems = gi::lint_probes(set, source, options.params, context.control);
+  const std::vector<study::LintProblem> problems =
+      study::lint_probes(set, source, options.params, context.control);
 
   json::Value list = json::Value::array();
   std::string text;
-  for (const gi::LintProblem& problem : problems) {
+  for (const study::LintProblem& problem : problems) {
     const std::string name =
         problem.probe < 0 ? "" : set.probes[static_cast<std::size_t>(problem.probe)].name;
     const vec3& p = problem.position;

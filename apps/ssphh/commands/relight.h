@@ -6,8 +6,8 @@
 
 #include <ssphh/core/control.h>
 #include <ssphh/core/json.h>
-#include <ssphh/gi/lookup_weights.h>
-#include <ssphh/gi/relight_session.h>
+#include <ssphh/probes/lookup_weights.h>
+#include <ssphh/transport/relight_session.h>
 
 #include "options/place_options.h"
 #include "options/scene_options.h"
@@ -21,15 +21,15 @@ struct RelightOptions {
   bool force = false;                ///< go on, with a warning, where that file is of another scene
   std::vector<std::string> animate;  ///< as --animate says (relight_animation.h)
   int frames = 60;                   ///< over 0; the keys go from the first to the last
-  double fps = 30;           ///< frames a second: the curve's time axis, and the time a frame may take
-  std::uint64_t seed = 0;    ///< of truth and pictures
-  gi::RelightParams params;  ///< operator surfel or bounce
+  double fps = 30;                  ///< frames a second: the curve's time axis, and the time a frame may take
+  std::uint64_t seed = 0;           ///< of truth and pictures
+  transport::RelightParams params;  ///< operator surfel or bounce
 
   int truth = 0;         ///< every so-many-th frame is path traced, and the lookup's error found; 0: none
   int points = 256;      ///< surface points of the truth, over 0
   int truth_spp = 1024;  ///< paths per point
   int max_depth = 25;    ///< scattering events of a path
-  gi::WeightMethod weights = gi::WeightMethod::mls;  ///< of lookups for truth and pictures
+  probes::WeightMethod weights = probes::WeightMethod::mls;  ///< of lookups for truth and pictures
   int fit_frames = 3;  ///< frames that `fitted` weights are fitted to, evenly spaced over the run, over 0
 
   std::string output;             ///< folder for pictures and error.svg; empty: neither is written
@@ -44,18 +44,18 @@ struct RelightOptions {
 
 struct RelightResult {
   RelightRun run;
-  std::vector<gi::ProbePlace> places;  ///< of the probes
-  std::size_t surfels = 0, links = 0;  ///< of the network
-  float surfel_size = 0;               ///< edge of a surfel [m]
-  bool saved = false;                  ///< whether the probe file was written
-  std::uint64_t geometry_builds = 0;   ///< acceleration structures that were built
+  std::vector<transport::ProbePlace> places;  ///< of the probes
+  std::size_t surfels = 0, links = 0;         ///< of the network
+  float surfel_size = 0;                      ///< edge of a surfel [m]
+  bool saved = false;                         ///< whether the probe file was written
+  std::uint64_t geometry_builds = 0;          ///< acceleration structures that were built
 };
 
 /// Times all frames one after the other, then saves the probes, path traces and draws. When asked to stop
 /// after the first frame it says so in the log and returns what there is, with run.cancelled; before that it
 /// throws Cancelled. Warns in the log about places and networks that cannot light what they should. Throws
 /// Error for poses with operator bounce, where there are no frames or no probes, for files that cannot be
-/// read or written, for unknown names of cameras, lights and groups, and as gi::RelightSession does.
+/// read or written, for unknown names of cameras, lights and groups, and as transport::RelightSession does.
 RelightResult run_relight(const RelightOptions& options, const Control& control = {});
 
 json::Value to_json(const RelightResult& result, const RelightOptions& options);

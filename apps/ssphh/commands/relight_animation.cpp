@@ -62,7 +62,7 @@ vec3 read_key(const std::string& where, std::string_view text, TrackProperty pro
   return key;
 }
 
-int find_light(const std::string& where, const std::string& name, const scene::TransportSource& source) {
+int find_light(const std::string& where, const std::string& name, const rays::TransportSource& source) {
   const std::vector<std::string>& names = source.light_names();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
@@ -77,7 +77,7 @@ int find_light(const std::string& where, const std::string& name, const scene::T
   return static_cast<int>(found - names.begin());
 }
 
-int find_group(const std::string& where, const std::string& name, const scene::TransportSource& source) {
+int find_group(const std::string& where, const std::string& name, const rays::TransportSource& source) {
   const std::vector<std::string>& names = source.light_groups();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
@@ -88,7 +88,7 @@ int find_group(const std::string& where, const std::string& name, const scene::T
   return static_cast<int>(found - names.begin());
 }
 
-Track read_track(const std::string& spec, const scene::TransportSource& source, const scene::Scene& scene) {
+Track read_track(const std::string& spec, const rays::TransportSource& source, const scene::Scene& scene) {
   const std::string where = fmt::format("--animate \"{}\"", spec);
   const std::size_t equals = spec.rfind('=');
   if (equals == std::string::npos) throw Error(where, "has no '='", "write time=0:1 or lamp.intensity=0:4");
@@ -149,8 +149,8 @@ vec3 Track::at(float u) const {
   return glm::mix(keys[i], keys[next], place - static_cast<float>(i));
 }
 
-RelightAnimation::RelightAnimation(const scene::TransportSource& source, const scene::Scene& scene,
-                                   float time, const std::vector<std::string>& specs)
+RelightAnimation::RelightAnimation(const rays::TransportSource& source, const scene::Scene& scene, float time,
+                                   const std::vector<std::string>& specs)
     : source_(source), time_(time) {
   std::set<std::pair<TrackProperty, int>> seen;
   for (const std::string& spec : specs) {
@@ -179,7 +179,7 @@ scene::LightingState RelightAnimation::frame(float u) const {
   for (const Track& track : tracks_) {
     if (track.property == TrackProperty::time) time = track.at(u).x;
   }
-  scene::LightingState state = scene::lighting_at(source_, time);
+  scene::LightingState state = rays::lighting_at(source_, time);
   for (const Track& track : tracks_) {
     const vec3 value = track.at(u);
     const auto target = static_cast<std::size_t>(std::max(track.target, 0));

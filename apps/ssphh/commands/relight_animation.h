@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <ssphh/scene/transport_source.h>
+#include <ssphh/rays/transport_source.h>
 
 namespace ssphh::app {
 
@@ -33,7 +33,7 @@ class RelightAnimation {
   /// Reads "time=0:1", "LIGHT.position=x,y,z:x,y,z", "GROUP.scale=1:0" … Throws Error that lists the scene's
   /// lights or groups for an unknown name, and for values that are no numbers, of a wrong count or out of
   /// range.
-  RelightAnimation(const scene::TransportSource& source, const scene::Scene& scene, float time,
+  RelightAnimation(const rays::TransportSource& source, const scene::Scene& scene, float time,
                    const std::vector<std::string>& specs);
 
   /// At u in 0..1 of the run; lights without a track stand where the scene's own animation puts them.
@@ -41,7 +41,7 @@ class RelightAnimation {
   bool moves_time() const;
 
  private:
-  const scene::TransportSource& source_;
+  const rays::TransportSource& source_;
   float time_;
   std::vector<Track> tracks_;
 };

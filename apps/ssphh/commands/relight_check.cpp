@@ -3,30 +3,30 @@
 #include <algorithm>
 
 #include <ssphh/core/log.h>
-#include <ssphh/gi/lint.h>
+#include <ssphh/study/lint.h>
 
 namespace ssphh::app {
 
-void warn_about_places(const std::vector<gi::ProbePlace>& places, const scene::TransportSource& source,
+void warn_about_places(const std::vector<transport::ProbePlace>& places, const rays::TransportSource& source,
                        const std::vector<vec3>& interest, bool parts_move, const Control& control) {
-  gi::ProbeSet set;
-  for (const gi::ProbePlace& place : places) {
-    gi::Probe& probe = set.probes.emplace_back();
+  probes::ProbeSet set;
+  for (const transport::ProbePlace& place : places) {
+    probes::Probe& probe = set.probes.emplace_back();
     probe.name = place.name;
     probe.position = place.position;
     probe.radius = place.radius;
   }
-  gi::LintParams params;
+  study::LintParams params;
   params.interest = interest;
-  for (const gi::LintProblem& problem : gi::lint_places(set, source, params, control)) {
-    const bool swept = problem.kind == gi::ProbeProblem::swept;
-    if (problem.kind != gi::ProbeProblem::inside && !(swept && parts_move)) continue;
+  for (const study::LintProblem& problem : study::lint_places(set, source, params, control)) {
+    const bool swept = problem.kind == study::ProbeProblem::swept;
+    if (problem.kind != study::ProbeProblem::inside && !(swept && parts_move)) continue;
     log_warning("probe \"{}\" {}", set.probes[static_cast<std::size_t>(problem.probe)].name, problem.message);
   }
 }
 
-void warn_about_network(const gi::RelightSession& session) {
-  const gi::TransportNetwork& network = session.network();
+void warn_about_network(const transport::RelightSession& session) {
+  const transport::TransportNetwork& network = session.network();
   const auto directions = static_cast<std::ptrdiff_t>(network.gbuffer().directions.size());
   for (std::size_t i = 0; i < session.places().size(); ++i) {
     const auto begin = network.seen().begin() + static_cast<std::ptrdiff_t>(i) * directions;

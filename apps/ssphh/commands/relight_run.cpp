@@ -5,17 +5,17 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
-#include <ssphh/gi/fitted_weights.h>
-#include <ssphh/gi/lookup.h>
-#include <ssphh/gi/lookup_error.h>
-#include <ssphh/gi/probe_file.h>
-#include <ssphh/gi/session_sets.h>
-#include <ssphh/gi/surface_points.h>
 #include <ssphh/image/io.h>
 #include <ssphh/image/tonemap.h>
+#include <ssphh/probes/lookup.h>
+#include <ssphh/probes/probe_file.h>
 #include <ssphh/scene/with_lighting.h>
+#include <ssphh/study/lookup_error.h>
+#include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
+#include <ssphh/transport/fitted_weights.h>
+#include <ssphh/transport/session_sets.h>
 
 #include "commands/relight.h"
 #include "commands/relight_animation.h"
@@ -50,11 +50,12 @@ class Relighting {
     run_.fps = o_.fps;
     if (!o_.output.empty() && o_.pictures > 0)  // Fails before the work rather than after it.
       scene::camera_pose(scene_, o_.camera, o_.scene.time);
-    std::vector<gi::ProbePlace> places = find_places();
-    warn_about_places(places, source_, gi::place_params(scene_, o_.scene.time).interest,
+    std::vector<transport::ProbePlace> places = find_places();
+    warn_about_places(places, source_, place::place_params(scene_, o_.scene.time).interest,
                       animation_.moves_time(), control_);
     const auto start = std::chrono::steady_clock::now();
-    gi::RelightSession session(source_, std::move(places), o_.params, animation_.frame(0).time, control_);
+    transport::RelightSession session(source_, std::move(places), o_.params, animation_.frame(0).time,
+                                      control_);
     run_.build_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     warn_about_network(session);
@@ -69,7 +70,7 @@ class Relighting {
     }
     if (!o_.output.empty() && !run_.errors.empty())
       write_error_curve(fs::path(o_.output) / "error.svg", run_);
-    const gi::TransportNetwork& network = session.network();
+    const transport::TransportNetwork& network = session.network();
     return {std::move(run_),
             session.places(),
             network.surfel_count(),
@@ -80,14 +81,15 @@ class Relighting {
   }
 
  private:
-  std::vector<gi::ProbePlace> find_places() {
-    std::vector<gi::ProbePlace> places;
+  std::vector<transport::ProbePlace> find_places() {
+    std::vector<transport::ProbePlace> places;
     if (is_probe_file(o_.place)) {
-      const gi::ProbeSet set = gi::read_probe_file(o_.place.probes);
+      const probes::ProbeSet set = probes::read_probe_file(o_.place.probes);
       require_same_scene(o_.place.probes, set, scene_, source_.light_groups(), {}, o_.force);
-      for (const gi::Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
+      for (const probes::Probe& probe : set.probes)
+        places.push_back({probe.name, probe.position, probe.radius});
     } else if (const auto placed = place_for(geometry_, scene_, o_.scene.time, o_.place, "", control_)) {
-      for (const gi::PlacedProbe& probe : placed->placement.probes)
+      for (const place::PlacedProbe& probe : placed->placement.probes)
         places.push_back({probe.name, probe.position, probe.radius});
     } else {
       for (const scene::SphlPlace& sphl : scene::sphl_places(scene_, o_.scene.time))
@@ -103,7 +105,7 @@ class Relighting {
   }
 
   /// All frames one after the other, with nothing in between that would disturb their times.
-  void play(gi::RelightSession& session) {
+  void play(transport::RelightSession& session) {
     ProgressStage progress(control_, "relighting", static_cast<std::uint64_t>(o_.frames), "frames");
     for (int f = 0; f < o_.frames; ++f) {
       control_.check();
@@ -115,33 +117,34 @@ class Relighting {
     }
   }
 
-  void save(const gi::RelightSession& session) {
+  void save(const transport::RelightSession& session) {
     scene::LightingState unscaled = session.lighting();
     unscaled.group_scales.assign(unscaled.group_scales.size(), vec3(1));
-    gi::GeneratorInfo generator;
+    probes::GeneratorInfo generator;
     generator.op = o_.params.op;
     generator.scene = scene_.name;
     generator.scene_hash = scene::light_hash(scene::with_lighting(scene_, unscaled));
-    gi::write_probe_file(gi::baked_set(session, source_.light_groups(), generator, control_), o_.save);
+    probes::write_probe_file(transport::baked_set(session, source_.light_groups(), generator, control_),
+                             o_.save);
     saved_ = true;
   }
 
   /// Truth and pictures of the frames kept.
-  void look_back(gi::RelightSession& session) {
+  void look_back(transport::RelightSession& session) {
     if (kept_.empty()) return;
     ProgressStage progress(control_, o_.truth > 0 ? "path tracing the truth" : "pictures", kept_.size(),
                            "frames");
     const Control quiet{nullptr, control_.cancel};
-    gi::LookupParams params;
+    probes::LookupParams params;
     params.weights.method = o_.weights;
-    std::optional<gi::FittedPoints> fitted;
-    if (params.weights.method == gi::WeightMethod::fitted) fitted = fit(session, quiet);
+    std::optional<probes::FittedPoints> fitted;
+    if (params.weights.method == probes::WeightMethod::fitted) fitted = fit(session, quiet);
     for (const KeptFrame& kept : kept_) {
       const scene::Scene lit = scene::with_lighting(scene_, kept.state);
       const trace::PathTracer tracer(geometry_, lit, kept.state.time);
-      gi::ProbeSet set = gi::lookup_set(session.places(), kept.reflected);
+      probes::ProbeSet set = transport::lookup_set(session.places(), kept.reflected);
       set.fitted = fitted;
-      const gi::IrradianceLookup lookup(set, tracer, params);
+      const probes::IrradianceLookup lookup(set, tracer, params);
       if (is_due(kept.frame, o_.truth)) measure(session, kept, tracer, lookup, quiet);
       if (!o_.output.empty() && is_due(kept.frame, o_.pictures)) draw(kept, lit, tracer, lookup, quiet);
       progress.advance(1);
@@ -149,8 +152,8 @@ class Relighting {
   }
 
   /// Weights that serve the whole run: fitted at once to frames evenly spaced over it.
-  gi::FittedPoints fit(gi::RelightSession& session, const Control& control) {
-    gi::WeightFit fit(gi::surfel_points(session.network()));
+  probes::FittedPoints fit(transport::RelightSession& session, const Control& control) {
+    transport::WeightFit fit(transport::surfel_points(session.network()));
     const int count = std::min(o_.fit_frames, o_.frames);
     for (int k = 0; k < count; ++k) {
       session.update(animation_.frame(count > 1 ? static_cast<float>(k) / static_cast<float>(count - 1) : 0),
@@ -160,25 +163,25 @@ class Relighting {
     return fit.solve(control);
   }
 
-  void measure(const gi::RelightSession& session, const KeptFrame& kept, const trace::PathTracer& tracer,
-               const scene::IndirectLight& lookup, const Control& control) {
+  void measure(const transport::RelightSession& session, const KeptFrame& kept,
+               const trace::PathTracer& tracer, const rays::IndirectLight& lookup, const Control& control) {
     std::vector<vec3> origins;
     const std::vector<mat4> world = scene::world_matrices(scene_, kept.state.time);
     for (const scene::Camera& camera : scene_.cameras)
       origins.emplace_back(world[static_cast<std::size_t>(camera.node)][3]);
-    for (const gi::ProbePlace& place : session.places()) origins.push_back(place.position);
-    const std::vector<scene::SurfacePoint> points =
-        gi::reachable_points(source_, origins, kept.state.time, {o_.points, o_.seed}, control);
+    for (const transport::ProbePlace& place : session.places()) origins.push_back(place.position);
+    const std::vector<rays::SurfacePoint> points =
+        study::reachable_points(source_, origins, kept.state.time, {o_.points, o_.seed}, control);
 
     std::vector<vec3> looked_up;
-    for (const scene::SurfacePoint& point : points) looked_up.push_back(lookup.irradiance(point));
+    for (const rays::SurfacePoint& point : points) looked_up.push_back(lookup.irradiance(point));
     const auto truth = tracer.surface_irradiance(
         points, {.max_depth = o_.max_depth, .passes = 1, .spp = o_.truth_spp, .seed = o_.seed}, control);
-    run_.errors.push_back({kept.frame, gi::lookup_error(looked_up, truth)});
+    run_.errors.push_back({kept.frame, study::lookup_error(looked_up, truth)});
   }
 
   void draw(const KeptFrame& kept, const scene::Scene& lit, const trace::PathTracer& tracer,
-            const scene::IndirectLight& lookup, const Control& control) const {
+            const rays::IndirectLight& lookup, const Control& control) const {
     trace::RenderParams params;
     params.width = o_.width;
     params.height = o_.height;
@@ -209,7 +212,7 @@ class Relighting {
 
 RelightResult run_relight(const RelightOptions& options, const Control& control) {
   if (options.frames < 1) throw Error("relight", "needs a frame");
-  if (options.params.op == gi::LightOperator::bounce && options.params.poses != 0)
+  if (options.params.op == probes::LightOperator::bounce && options.params.poses != 0)
     throw Error("--poses", "is of --operator surfel");
   if (!options.output.empty()) {
     std::error_code error;

@@ -10,8 +10,8 @@
 #include <ssphh/core/file.h>
 #include <ssphh/core/log.h>
 #include <ssphh/farm/farm_render.h>
-#include <ssphh/gi/lookup.h>
 #include <ssphh/image/io.h>
+#include <ssphh/probes/lookup.h>
 #include <ssphh/trace/path_tracer.h>
 
 #include "commands/command.h"
@@ -112,12 +112,12 @@ void run_passes(const RenderOptions& o, trace::RenderState& state, const Render&
   std::filesystem::remove(checkpoint_path(o), ignored);
 }
 
-gi::ProbeSet read_probes(const RenderOptions& o, const scene::Scene& scene) {
+probes::ProbeSet read_probes(const RenderOptions& o, const scene::Scene& scene) {
   if (o.probes.empty()) {
     throw Error("--probes", "a farm needs a probe file for the method ssphh",
                 fmt::format("make one with `ssphh bake {} -o probes.sphl`", o.scene.source));
   }
-  gi::ProbeSet probes = gi::read_probe_file(o.probes);
+  probes::ProbeSet probes = probes::read_probe_file(o.probes);
   require_same_scene(o.probes, probes, scene, scene::light_groups(scene), o.scene.time, o.force);
   return probes;
 }
@@ -125,9 +125,9 @@ gi::ProbeSet read_probes(const RenderOptions& o, const scene::Scene& scene) {
 void render_with_probes(const trace::PathTracer& tracer, const scene::Scene& scene, const RenderOptions& o,
                         const trace::RenderParams& params, trace::RenderState& state,
                         const Control& control) {
-  const gi::ProbeSet probes = read_probes(o, scene);
+  const probes::ProbeSet probes = read_probes(o, scene);
   const auto indirect =
-      gi::make_lookup(o.lookup.method, probes, tracer, lookup_params(o.probes, probes, o.lookup));
+      probes::make_lookup(o.lookup.method, probes, tracer, lookup_params(o.probes, probes, o.lookup));
   tracer.render_with(*indirect, params, state, control);
 }
 
@@ -158,7 +158,7 @@ json::Value render_here(const trace::SharedGeometry& geometry, const scene::Scen
     return nullptr;
   }
   LiveMethod live(o.method, o.parameters, geometry, scene, control);
-  live.update(scene::lighting_at(live.source(), o.scene.time), control);
+  live.update(rays::lighting_at(live.source(), o.scene.time), control);
   log_info("{}: {}", o.method, live.text());
   tracer.render_with(live.method().light(), params, state, control);
   return live.json();
@@ -187,7 +187,7 @@ std::vector<std::string> wanted_layers(const RenderOptions& o) {
 trace::RenderState render_on_farm(const FarmSession& session, const scene::Scene& scene,
                                   const RenderOptions& o, const trace::RenderParams& params,
                                   farm::FarmReport& report, const Control& control) {
-  std::optional<gi::ProbeSet> set;
+  std::optional<probes::ProbeSet> set;
   std::optional<farm::RenderProbes> probes;
   if (o.method == "ssphh") {
     set = read_probes(o, scene);
@@ -210,7 +210,7 @@ void render(const RenderOptions& o, const Context& context) {
                 "repeat the command without it");
   std::optional<FarmSession> session;  // first: its processes start while this one reads the scene
   if (o.farm.any()) session.emplace(o.farm);
-  if (o.lookup.weights && o.lookup.method == gi::LookupMethod::light)
+  if (o.lookup.weights && o.lookup.method == probes::LookupMethod::light)
     throw Error("--weights", "blends probes, but --lookup light takes one alone", "leave out one of them");
   const scene::Scene scene = load_scene(o.scene);
   trace::RenderParams params = render_params(o, context, scene);
@@ -279,7 +279,7 @@ void add_render_command(Command app, Context& context) {
 
   std::vector<std::string> names = {"path"};
   std::string description = "How indirect light is found: path (path tracing, the ground truth);";
-  for (const gi::MethodEntry& entry : gi::method_table()) {
+  for (const methods::MethodEntry& entry : methods::method_table()) {
     names.emplace_back(entry.name);
     description += fmt::format(" {} ({});", entry.name, entry.about);
   }

@@ -18,7 +18,7 @@ namespace {
 
 /// Whether the real-time renderer draws the method's light; method direct has none.
 bool gl_method(const std::string& name) {
-  return name == "ssphh" || name == "direct" || gi::find_method(name).has_light_data;
+  return name == "ssphh" || name == "direct" || methods::find_method(name).has_light_data;
 }
 
 void refuse_with_gl(const RenderOptions& o) {
@@ -55,14 +55,14 @@ void render_gl(const RenderOptions& o, const Context& context) {
   if (o.method != "ssphh") {
     live.emplace(o.method, o.parameters, std::make_shared<const trace::SceneGeometry>(scene), scene,
                  context.control);
-    live->update(scene::lighting_at(live->source(), o.scene.time), context.control);
+    live->update(rays::lighting_at(live->source(), o.scene.time), context.control);
     log_info("{}: {}", o.method, live->text());
   }
   gl::Context gl = gl::Context::headless();
   realtime::Renderer renderer(gl, scene, {}, o.scene.time);
   const GlLookup lookup{o.max_depth >= 2 ? o.probes : "", o.lookup, o.force};
   set_probes(renderer, lookup, scene, o.scene.time);
-  if (live && gi::find_method(o.method).has_light_data && o.max_depth >= 2)
+  if (live && methods::find_method(o.method).has_light_data && o.max_depth >= 2)
     renderer.set_method_light(live->method().light_data());
   int side = 1;
   while (side < 4 && side * side < o.spp * o.passes) ++side;

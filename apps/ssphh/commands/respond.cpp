@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/file.h>
-#include <ssphh/gi/surface_points.h>
 #include <ssphh/scene/with_lighting.h>
+#include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -24,7 +24,7 @@ namespace {
 std::string csv_text(const std::vector<RespondFrame>& frames) {
   std::string text = "frame,ms,ratio,mean_error,p95_relative,relmse\n";
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    const gi::LookupError& e = frames[f].error;
+    const study::LookupError& e = frames[f].error;
     text += fmt::format("{},{:.4f},{:.6g},{:.6g},{:.6g},{:.6g}\n", f + 1, frames[f].ms, e.ratio, e.mean_error,
                         e.p95_relative, e.relmse);
   }
@@ -59,14 +59,15 @@ RespondResult run_respond(const RespondOptions& o, const Control& control) {
 
   const scene::Scene lit = scene::with_lighting(scene, after);
   const trace::PathTracer tracer(geometry, lit, after.time);
-  gi::LeakParams params = o.truth;
+  study::LeakParams params = o.truth;
   params.path.seed = o.seed;
   RespondResult result;
-  result.points = gi::reachable_points(surfaces, viewpoints(scene, {}, after.time), after.time,
-                                       {o.points, o.seed, o.clearance}, control);
-  const gi::TruthAtPoints truth = gi::trace_truth(tracer, result.points, params, control);
+  result.points = study::reachable_points(surfaces, viewpoints(scene, {}, after.time), after.time,
+                                          {o.points, o.seed, o.clearance}, control);
+  const study::TruthAtPoints truth = study::trace_truth(tracer, result.points, params, control);
   const auto error_now = [&] {
-    return gi::lookup_error(gi::look_up(live.method().light(), result.points, control), truth.estimates);
+    return study::lookup_error(study::look_up(live.method().light(), result.points, control),
+                               truth.estimates);
   };
 
   for (int f = 0; f < o.before; ++f) live.update(before, control);
@@ -129,7 +130,7 @@ void add_respond_command(Command app, Context& context) {
                   });
   add_scene_options(command, o.scene);
   std::vector<std::string> names;
-  for (const gi::MethodEntry& entry : gi::method_table()) names.emplace_back(entry.name);
+  for (const methods::MethodEntry& entry : methods::method_table()) names.emplace_back(entry.name);
   command.option("--method", o.method, "Method; `ssphh methods` tells of each").one_of(names);
   add_method_parameters(command, o.parameters);
   command

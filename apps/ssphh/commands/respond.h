@@ -6,8 +6,8 @@
 
 #include <ssphh/core/control.h>
 #include <ssphh/core/json.h>
-#include <ssphh/gi/leak.h>
-#include <ssphh/gi/lookup_error.h>
+#include <ssphh/study/leak.h>
+#include <ssphh/study/lookup_error.h>
 
 #include "options/scene_options.h"
 #include "results/method_figures.h"
@@ -16,7 +16,7 @@ namespace ssphh::app {
 
 struct RespondOptions {
   SceneOptions scene;
-  std::string method = "ssphh";         ///< of gi::method_table()
+  std::string method = "ssphh";         ///< of methods::method_table()
   std::vector<std::string> parameters;  ///< of the method, each as "NAME=VALUE"
   /// What changes, each as "NAME=BEFORE:AFTER"; none: the scene's animations go from start to end.
   std::vector<std::string> events;
@@ -26,20 +26,20 @@ struct RespondOptions {
   float clearance = 0.05f;  ///< only points with so much free space before them [m]
   std::uint64_t seed = 0;   ///< of points and paths
   /// Of the truth; its seed is not read.
-  gi::LeakParams truth{.path = {.max_depth = 25, .passes = 1, .spp = 1024, .seed = 0}};
+  study::LeakParams truth{.path = {.max_depth = 25, .passes = 1, .spp = 1024, .seed = 0}};
   std::string output;  ///< CSV file of the frames; empty: none
 };
 
 /// A frame after the event.
 struct RespondFrame {
   double ms = 0;  ///< of the method's update
-  gi::LookupError error;
+  study::LookupError error;
 };
 
 /// All errors are against path tracing of the scene after the event.
 struct RespondResult {
-  std::vector<scene::SurfacePoint> points;
-  gi::LookupError stale;             ///< of the light of before
+  std::vector<rays::SurfacePoint> points;
+  study::LookupError stale;          ///< of the light of before
   double before_ms = 0;              ///< of the last update before the event
   std::vector<RespondFrame> frames;  ///< none is missing
   MethodFigures method;              ///< after the last frame
@@ -47,8 +47,8 @@ struct RespondResult {
 
 /// Makes the method, plays the event, and writes the frames where they are to be kept. Throws Error where
 /// nothing changes or there are no frames, for a scene that cannot be read and a file that cannot be
-/// written, for unknown methods, parameters and names of events, and as gi::reachable_points and
-/// gi::trace_truth do; Cancelled when asked to stop.
+/// written, for unknown methods, parameters and names of events, and as study::reachable_points and
+/// study::trace_truth do; Cancelled when asked to stop.
 RespondResult run_respond(const RespondOptions& options, const Control& control = {});
 
 /// Frames until the error is, and stays, as good as the last frame's: within a tenth of it or half a per

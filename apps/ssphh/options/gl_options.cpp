@@ -1,6 +1,6 @@
 #include "options/gl_options.h"
 
-#include <ssphh/gi/probe_file.h>
+#include <ssphh/probes/probe_file.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/trace/path_tracer.h>
 
@@ -11,12 +11,12 @@ namespace ssphh::app {
 void set_probes(realtime::Renderer& renderer, const GlLookup& options, const scene::Scene& scene,
                 float time) {
   if (options.probes.empty()) return;
-  const gi::ProbeSet set = gi::read_probe_file(options.probes);
+  const probes::ProbeSet set = probes::read_probe_file(options.probes);
   require_same_scene(options.probes, set, scene, scene::light_groups(scene), time, options.force);
-  const gi::LookupParams params = lookup_params(options.probes, set, options.spec);
+  const probes::LookupParams params = lookup_params(options.probes, set, options.spec);
   renderer.set_probes(set, params);
-  if (options.spec.method != gi::LookupMethod::irradiance ||
-      params.weights.chosen(set.fitted.has_value()) != gi::WeightMethod::fitted)
+  if (options.spec.method != probes::LookupMethod::irradiance ||
+      params.weights.chosen(set.fitted.has_value()) != probes::WeightMethod::fitted)
     return;
   const trace::PathTracer tracer(scene, time);
   renderer.set_fitted(realtime::prepare_fitted(
@@ -26,7 +26,7 @@ void set_probes(realtime::Renderer& renderer, const GlLookup& options, const sce
 realtime::FrameSettings still_settings(const GlLookup& options, int samples) {
   realtime::FrameSettings settings;
   settings.lookup = options.spec.method;
-  settings.weights = options.spec.weights.value_or(gi::WeightMethod::fitted);
+  settings.weights = options.spec.weights.value_or(probes::WeightMethod::fitted);
   settings.supersample = samples;
   return settings;
 }

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include <ssphh/gi/probe_set.h>
+#include <ssphh/probes/probe_set.h>
 #include <ssphh/realtime/renderer.h>
 #include <ssphh/scene/scene.h>
 
@@ -13,7 +13,7 @@ namespace ssphh::app {
 /// How surfaces look SPHLs up, as the options of `render` name it.
 struct GlLookup {
   std::string probes;  ///< file; empty: direct light alone
-  gi::LookupSpec spec;
+  probes::LookupSpec spec;
   bool force = false;
 };
 

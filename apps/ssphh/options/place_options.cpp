@@ -20,7 +20,7 @@ bool read_number(std::string_view text, T& value) {
 }
 
 /// Sets spacing or count. Returns what is wrong with the text; empty: nothing.
-std::string parse(const std::string& text, gi::PlaceParams& params) {
+std::string parse(const std::string& text, place::PlaceParams& params) {
   constexpr std::string_view prefix = "auto:";
   if (text == "scene" || text == "auto") return {};
   if (text.starts_with(prefix)) {
@@ -32,7 +32,7 @@ std::string parse(const std::string& text, gi::PlaceParams& params) {
   return fmt::format("\"{}\" is none of: scene, auto, auto:METRES, a number of probes over 0", text);
 }
 
-std::size_t count_of(const gi::Placement& placement, gi::PlaceKind kind) {
+std::size_t count_of(const place::Placement& placement, place::PlaceKind kind) {
   return static_cast<std::size_t>(std::count_if(placement.probes.begin(), placement.probes.end(),
                                                 [&](const auto& probe) { return probe.kind == kind; }));
 }
@@ -54,7 +54,7 @@ void add_place_options(Command command, PlaceOptions& options, bool files) {
       .check(
           [files](const std::string& text) -> std::string {
             if (files && is_probe_file({.probes = text})) return {};
-            gi::PlaceParams ignored;
+            place::PlaceParams ignored;
             return parse(text, ignored);
           },
           files ? "FILE|scene|auto|auto:METRES|N" : "scene|auto|auto:METRES|N")
@@ -73,7 +73,7 @@ void add_place_options(Command command, PlaceOptions& options, bool files) {
 std::optional<PlaceResult> place_for(const trace::SharedGeometry& geometry, const scene::Scene& scene,
                                      float time, const PlaceOptions& options, const std::string& fallback,
                                      const Control& control) {
-  gi::PlaceParams params = gi::place_params(scene, time);
+  place::PlaceParams params = place::place_params(scene, time);
   std::string probes = options.probes.empty() ? fallback : options.probes;
   if (probes.empty()) {
     probes = params.manual.empty() ? "auto" : "scene";
@@ -88,21 +88,21 @@ std::optional<PlaceResult> place_for(const trace::SharedGeometry& geometry, cons
   const auto start = std::chrono::steady_clock::now();
   const trace::TransportScene source(geometry, scene);
   PlaceResult result;
-  result.placement = gi::place_probes(source, params, control);
+  result.placement = place::place_probes(source, params, control);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (const std::string& warning : result.placement.warnings) log_warning("{}", warning);
   return result;
 }
 
 json::Value place_json(const PlaceResult& result) {
-  const gi::Placement& p = result.placement;
-  const gi::PlaceCounts& c = p.counts;
+  const place::Placement& p = result.placement;
+  const place::PlaceCounts& c = p.counts;
   const auto moving =
       std::count_if(p.edges.begin(), p.edges.end(), [](const auto& edge) { return edge.moving; });
   return {{"probes", p.probes.size()},
-          {"manual", count_of(p, gi::PlaceKind::manual)},
-          {"refined", count_of(p, gi::PlaceKind::refined)},
-          {"passages", count_of(p, gi::PlaceKind::passage)},
+          {"manual", count_of(p, place::PlaceKind::manual)},
+          {"refined", count_of(p, place::PlaceKind::refined)},
+          {"passages", count_of(p, place::PlaceKind::passage)},
           {"spacing", p.spacing},
           {"clearance", p.clearance},
           {"origin", {p.origin.x, p.origin.y, p.origin.z}},
@@ -124,17 +124,17 @@ json::Value place_json(const PlaceResult& result) {
 }
 
 std::string place_text(const PlaceResult& result) {
-  const gi::Placement& p = result.placement;
-  const gi::PlaceCounts& c = p.counts;
+  const place::Placement& p = result.placement;
+  const place::PlaceCounts& c = p.counts;
   return fmt::format(
       "placed {} probes in {:.2f} s, {:.3g} m apart: {} manual, {} near surfaces, {} in passages; {} edges\n"
       "of {} places {} were removed: {} inside bodies, {} too close to a surface, {} in open air, {} beside "
       "others, {} in a moving part's way, {} out of sight of cameras, lamps and SPHLs, {} more than asked "
       "for; {} moved",
-      p.probes.size(), result.seconds, p.spacing, count_of(p, gi::PlaceKind::manual),
-      count_of(p, gi::PlaceKind::refined), count_of(p, gi::PlaceKind::passage), p.edges.size(), c.candidates,
-      c.removed(), c.inside, c.too_close, c.open_air, c.redundant, c.swept, c.unreachable, c.surplus,
-      c.relocated);
+      p.probes.size(), result.seconds, p.spacing, count_of(p, place::PlaceKind::manual),
+      count_of(p, place::PlaceKind::refined), count_of(p, place::PlaceKind::passage), p.edges.size(),
+      c.candidates, c.removed(), c.inside, c.too_close, c.open_air, c.redundant, c.swept, c.unreachable,
+      c.surplus, c.relocated);
 }
 
 }  // namespace ssphh::app

@@ -5,7 +5,7 @@
 #include <string>
 
 #include <ssphh/core/json.h>
-#include <ssphh/gi/place.h>
+#include <ssphh/place/place.h>
 #include <ssphh/trace/scene_geometry.h>
 
 #include "options/command_line.h"
@@ -25,7 +25,7 @@ void add_place_options(Command command, PlaceOptions& options, bool files = fals
 bool is_probe_file(const PlaceOptions& options);
 
 struct PlaceResult {
-  gi::Placement placement;
+  place::Placement placement;
   double seconds = 0;
 };
 

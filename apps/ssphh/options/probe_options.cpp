@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <ssphh/core/log.h>
-#include <ssphh/gi/place.h>
+#include <ssphh/place/place.h>
 #include <ssphh/scene/query.h>
 
 namespace ssphh::app {
@@ -22,7 +22,7 @@ std::string names_text(const std::vector<std::string>& names) {
 
 std::string probe_file_problem(const std::string& name) {
   try {
-    gi::probe_file_format(name);
+    probes::probe_file_format(name);
     return {};
   } catch (const Error& e) {
     return e.what();
@@ -46,9 +46,9 @@ Option add_force_option(Command command, bool& force) {
                       "Go on with a warning where the probes were baked in another scene or pose");
 }
 
-std::string scene_difference(const gi::ProbeSet& set, const scene::Scene& scene,
+std::string scene_difference(const probes::ProbeSet& set, const scene::Scene& scene,
                              const std::vector<std::string>& light_groups, std::optional<float> time) {
-  const gi::GeneratorInfo& g = set.generator;
+  const probes::GeneratorInfo& g = set.generator;
   std::string text;
   const auto say = [&](const std::string& difference) { text += (text.empty() ? "" : "; ") + difference; };
   const Hash128 now = scene::light_hash(scene);
@@ -56,7 +56,7 @@ std::string scene_difference(const gi::ProbeSet& set, const scene::Scene& scene,
     if (g.scene != scene.name) say(fmt::format("scene \"{}\", now \"{}\"", g.scene, scene.name));
     say(fmt::format("geometry, materials or lights (hash {:.8}, now {:.8})", g.scene_hash.hex(), now.hex()));
     std::vector<std::string> baked;
-    for (const gi::LightGroup& group : set.light_groups) baked.push_back(group.name);
+    for (const probes::LightGroup& group : set.light_groups) baked.push_back(group.name);
     if (baked != light_groups)
       say(fmt::format("light groups: {}, now {}", names_text(baked), names_text(light_groups)));
   }
@@ -65,7 +65,7 @@ std::string scene_difference(const gi::ProbeSet& set, const scene::Scene& scene,
   return text;
 }
 
-void require_same_scene(const std::string& file, const gi::ProbeSet& set, const scene::Scene& scene,
+void require_same_scene(const std::string& file, const probes::ProbeSet& set, const scene::Scene& scene,
                         const std::vector<std::string>& light_groups, std::optional<float> time, bool force) {
   const std::string difference = scene_difference(set, scene, light_groups, time);
   if (difference.empty()) return;
@@ -74,28 +74,28 @@ void require_same_scene(const std::string& file, const gi::ProbeSet& set, const 
   log_warning("{}: {}", file, problem);
 }
 
-std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const gi::ProbeSet> sets, float time) {
+std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const probes::ProbeSet> sets, float time) {
   std::vector<vec3> places;
   const std::vector<mat4> world = scene::world_matrices(scene, time);
   for (const scene::Camera& camera : scene.cameras)
     places.emplace_back(world[static_cast<std::size_t>(camera.node)][3]);
-  for (const gi::ProbeSet& set : sets) {
-    for (const gi::Probe& probe : set.probes) places.push_back(probe.position);
+  for (const probes::ProbeSet& set : sets) {
+    for (const probes::Probe& probe : set.probes) places.push_back(probe.position);
   }
   if (sets.empty()) {
-    const gi::PlaceParams own = gi::place_params(scene, time);
+    const place::PlaceParams own = place::place_params(scene, time);
     places.insert(places.end(), own.interest.begin(), own.interest.end());
     for (const scene::SphlPlace& place : own.manual) places.push_back(place.position);
   }
   return places;
 }
 
-Option add_lookup_option(Command command, gi::LookupMethod& method) {
+Option add_lookup_option(Command command, probes::LookupMethod& method) {
   return command.choice("--lookup", method,
                         "irradiance: blend of visible SPHLs; light: nearest visible SPHL, as the paper");
 }
 
-Option add_weights_option(Command command, std::optional<gi::WeightMethod>& weights) {
+Option add_weights_option(Command command, std::optional<probes::WeightMethod>& weights) {
   return command.choice(
       "--weights", weights,
       "How --lookup irradiance blends SPHLs: fitted (to transport, for a file of `bake --fit`: the "
@@ -103,16 +103,17 @@ Option add_weights_option(Command command, std::optional<gi::WeightMethod>& weig
       "(probes on a grid), distance (nearest visible ones)");
 }
 
-Option add_layer_option(Command command, gi::ProbeLayer& layer) {
+Option add_layer_option(Command command, probes::ProbeLayer& layer) {
   return command.choice("--light", layer,
                         "sum: own and neighbours' light where HIER was run; self: own light only",
                         {"sum", "self"});
 }
 
-gi::LookupParams lookup_params(const std::string& file, const gi::ProbeSet& set, const gi::LookupSpec& spec) {
-  if (spec.weights == gi::WeightMethod::fitted && !set.fitted)
+probes::LookupParams lookup_params(const std::string& file, const probes::ProbeSet& set,
+                                   const probes::LookupSpec& spec) {
+  if (spec.weights == probes::WeightMethod::fitted && !set.fitted)
     throw Error(file, "has no fitted weights", "bake it with --fit, or choose other --weights");
-  return gi::lookup_params(spec, set);
+  return probes::lookup_params(spec, set);
 }
 
 }  // namespace ssphh::app

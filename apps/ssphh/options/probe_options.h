@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <ssphh/gi/lookup.h>
-#include <ssphh/gi/probe_file.h>
+#include <ssphh/probes/lookup.h>
+#include <ssphh/probes/probe_file.h>
 #include <ssphh/scene/scene.h>
 
 #include "options/command_line.h"
@@ -25,23 +25,24 @@ Option add_force_option(Command command, bool& force);
 
 /// What tells the scene from the one in which the set was baked: name, content, light groups, and where
 /// something moves the time, if one is given. Empty: nothing.
-std::string scene_difference(const gi::ProbeSet& set, const scene::Scene& scene,
+std::string scene_difference(const probes::ProbeSet& set, const scene::Scene& scene,
                              const std::vector<std::string>& light_groups, std::optional<float> time);
 
 /// Throws an Error that names the differences; a warning with `force`.
-void require_same_scene(const std::string& file, const gi::ProbeSet& set, const scene::Scene& scene,
+void require_same_scene(const std::string& file, const probes::ProbeSet& set, const scene::Scene& scene,
                         const std::vector<std::string>& light_groups, std::optional<float> time, bool force);
 
 /// Places of the cameras and probes (without any: also of lamps and SPHLs): what they can reach is what
 /// counts.
-std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const gi::ProbeSet> sets, float time);
+std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const probes::ProbeSet> sets, float time);
 
 /// --lookup, --weights of the lookup `irradiance` (none: the library chooses) and --light.
-Option add_lookup_option(Command command, gi::LookupMethod& method);
-Option add_weights_option(Command command, std::optional<gi::WeightMethod>& weights);
-Option add_layer_option(Command command, gi::ProbeLayer& layer);
+Option add_lookup_option(Command command, probes::LookupMethod& method);
+Option add_weights_option(Command command, std::optional<probes::WeightMethod>& weights);
+Option add_layer_option(Command command, probes::ProbeLayer& layer);
 
 /// What the choice means for the set in `file`. Throws Error for `fitted` with a set that has none.
-gi::LookupParams lookup_params(const std::string& file, const gi::ProbeSet& set, const gi::LookupSpec& spec);
+probes::LookupParams lookup_params(const std::string& file, const probes::ProbeSet& set,
+                                   const probes::LookupSpec& spec);
 
 }  // namespace ssphh::app

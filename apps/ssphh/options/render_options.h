@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <ssphh/gi/lookup.h>
 #include <ssphh/image/image.h>
 #include <ssphh/image/tonemap.h>
+#include <ssphh/probes/lookup.h>
 
 #include "options/farm_options.h"
 #include "options/scene_options.h"
@@ -20,7 +20,7 @@ struct RenderOptions {
   FarmChoice farm;
   std::string output, png, method = "path", probes, camera, at, projection = "camera", backend = "cpu";
   image::ToneCurve tonemap = image::ToneCurve::clip;
-  gi::LookupSpec lookup;  ///< of the probes
+  probes::LookupSpec lookup;  ///< of the probes
   std::vector<std::string> aovs, parameters;
   int width = 1280, height = 720, max_depth = 3, passes = 1, spp = 16;
   float exposure = 0;

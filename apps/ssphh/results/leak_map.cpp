@@ -5,19 +5,19 @@
 #include <ssphh/core/file.h>
 #include <ssphh/image/io.h>
 #include <ssphh/metrics/heat_map.h>
-#include <ssphh/scene/posed_world.h>
+#include <ssphh/rays/posed_world.h>
 
 namespace ssphh::app {
 namespace {
 
 /// Through the centres of the pixels, row after row from the top left.
-std::vector<scene::RayQuery> camera_rays(const scene::CameraPose& pose, int width, int height) {
+std::vector<rays::RayQuery> camera_rays(const scene::CameraPose& pose, int width, int height) {
   const auto axis = [&](int i) { return glm::normalize(vec3(pose.world[i])); };
   const vec3 right = axis(0), up = axis(1), forward = -axis(2), eye(pose.world[3]);
   const scene::Camera& camera = pose.camera;
   const float half = camera.orthographic ? 0.5f * camera.yheight : std::tan(0.5f * camera.yfov);
   const auto w = static_cast<float>(width), h = static_cast<float>(height);
-  std::vector<scene::RayQuery> rays;
+  std::vector<rays::RayQuery> rays;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const float u = (2 * (static_cast<float>(x) + 0.5f) / w - 1) * half * w / h;
@@ -34,16 +34,16 @@ std::vector<scene::RayQuery> camera_rays(const scene::CameraPose& pose, int widt
 
 }  // namespace
 
-LeakMap leak_map(const scene::TransportSource& surfaces, float time, const scene::CameraPose& camera,
-                 int width, int height, const scene::RadianceSource& source,
-                 const scene::IndirectLight& lookup, const gi::LeakParams& params, const Control& control) {
-  const std::vector<scene::RayQuery> rays = camera_rays(camera, width, height);
-  std::vector<scene::RayHit> hits(rays.size());
+LeakMap leak_map(const rays::TransportSource& surfaces, float time, const scene::CameraPose& camera,
+                 int width, int height, const rays::RadianceSource& source, const rays::IndirectLight& lookup,
+                 const study::LeakParams& params, const Control& control) {
+  const std::vector<rays::RayQuery> rays = camera_rays(camera, width, height);
+  std::vector<rays::RayHit> hits(rays.size());
   std::vector<std::uint8_t> moves(rays.size());
-  scene::PosedWorld(surfaces, time).intersect(rays, hits, moves);
+  rays::PosedWorld(surfaces, time).intersect(rays, hits, moves);
 
   LeakMap map{image::Image(width, height, 1), image::Image(width, height, 1)};
-  std::vector<scene::SurfacePoint> points;
+  std::vector<rays::SurfacePoint> points;
   std::vector<std::size_t> pixel;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits[i].escaped()) continue;
@@ -53,7 +53,7 @@ LeakMap leak_map(const scene::TransportSource& surfaces, float time, const scene
     pixel.push_back(i);
   }
   if (points.empty()) return map;
-  const gi::LeakReport report = gi::measure_leak(source, lookup, points, params, control);
+  const study::LeakReport report = study::measure_leak(source, lookup, points, params, control);
   map.dark = report.dark;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (report.dark_at[i]) map.leaked.pixels[pixel[i]] = report.looked_up[i] / params.mean;

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include <ssphh/gi/leak.h>
 #include <ssphh/image/image.h>
 #include <ssphh/scene/query.h>
+#include <ssphh/study/leak.h>
 
 namespace ssphh::app {
 
@@ -17,9 +17,9 @@ struct LeakMap {
 };
 
 /// The surface at each pixel's centre, looked up and path traced. `params.mean` must be set.
-LeakMap leak_map(const scene::TransportSource& surfaces, float time, const scene::CameraPose& camera,
-                 int width, int height, const scene::RadianceSource& source,
-                 const scene::IndirectLight& lookup, const gi::LeakParams& params, const Control& control);
+LeakMap leak_map(const rays::TransportSource& surfaces, float time, const scene::CameraPose& camera,
+                 int width, int height, const rays::RadianceSource& source, const rays::IndirectLight& lookup,
+                 const study::LeakParams& params, const Control& control);
 
 /// .exr: `leaked` as numbers; .png: in colours over the grey scene. Returns the share shown in the last
 /// colour (0 for numbers).

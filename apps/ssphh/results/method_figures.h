@@ -4,14 +4,14 @@
 #include <string>
 
 #include <ssphh/core/json.h>
-#include <ssphh/gi/methods/method.h>
+#include <ssphh/methods/method.h>
 
 namespace ssphh::app {
 
 struct MethodFigures {
   double bake_seconds = 0, update_seconds = 0;  ///< of making it, of its last update
-  gi::MethodMemory memory;                      ///< bytes
-  gi::MethodNumbers numbers;                    ///< its own
+  methods::MethodMemory memory;                 ///< bytes
+  methods::MethodNumbers numbers;               ///< its own
 };
 
 /// bake_seconds, update_seconds, lookup_bytes, update_bytes and the method's numbers.

@@ -39,7 +39,7 @@ float automatic_exposure(const std::vector<std::vector<vec3>>& pictures) {
 
 }  // namespace
 
-ProbeSheet probe_sheet(const gi::ProbeSet& set, int width, float exposure) {
+ProbeSheet probe_sheet(const probes::ProbeSet& set, int width, float exposure) {
   if (set.probes.empty()) throw Error("probe preview", "the file holds no probes");
   const int height = width / 2, rows = static_cast<int>(set.probes.size());
   const int column_count = set.hierarchy ? 3 : 1;

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <ssphh/gi/probe_set.h>
 #include <ssphh/image/io.h>
+#include <ssphh/probes/probe_set.h>
 
 namespace ssphh::app {
 
@@ -21,6 +21,6 @@ struct ProbeSheet {
 /// One row per probe: equirectangular pictures of width × width/2 of self and, with a hierarchy, of the
 /// neighbours' part and the sum. `exposure` [EV] is added to the automatic one, which puts the 99th
 /// percentile at 0.8. Throws Error for an empty set, and for a sheet of over 2^28 pixels.
-ProbeSheet probe_sheet(const gi::ProbeSet& set, int width, float exposure);
+ProbeSheet probe_sheet(const probes::ProbeSet& set, int width, float exposure);
 
 }  // namespace ssphh::app

@@ -13,15 +13,15 @@
 namespace ssphh::app {
 namespace {
 
-using Value = std::function<double(const gi::RelightReport&)>;
+using Value = std::function<double(const transport::RelightReport&)>;
 
 const struct {
   const char* name;
-  double (*ms)(const gi::RelightReport&);
-} stages[] = {{"pose", [](const gi::RelightReport& r) { return r.pose_ms; }},
-              {"direct", [](const gi::RelightReport& r) { return r.direct_ms; }},
-              {"solve", [](const gi::RelightReport& r) { return r.solve_ms; }},
-              {"project", [](const gi::RelightReport& r) { return r.project_ms; }}};
+  double (*ms)(const transport::RelightReport&);
+} stages[] = {{"pose", [](const transport::RelightReport& r) { return r.pose_ms; }},
+              {"direct", [](const transport::RelightReport& r) { return r.direct_ms; }},
+              {"solve", [](const transport::RelightReport& r) { return r.solve_ms; }},
+              {"project", [](const transport::RelightReport& r) { return r.project_ms; }}};
 
 /// Of all frames but the first, which lights everything; of that one if there is no other.
 std::vector<double> of_frames(const RelightRun& run, const Value& value) {
@@ -38,13 +38,13 @@ double mean(const RelightRun& run, const Value& value) {
   return values.empty() ? 0 : sum / static_cast<double>(values.size());
 }
 
-double total(const gi::RelightReport& r) {
+double total(const transport::RelightReport& r) {
   return r.total_ms();
 }
-double pose_rays(const gi::RelightReport& r) {
+double pose_rays(const transport::RelightReport& r) {
   return static_cast<double>(r.pose_rays);
 }
-double direct_rays(const gi::RelightReport& r) {
+double direct_rays(const transport::RelightReport& r) {
   return static_cast<double>(r.direct_rays);
 }
 
@@ -69,7 +69,7 @@ json::Value relight_json(const RelightRun& run) {
   stage_times["pose"]["rays"] = mean(run, pose_rays);
   stage_times["direct"]["rays"] = mean(run, direct_rays);
   stage_times["solve"]["iterations"] =
-      mean(run, [](const gi::RelightReport& r) { return static_cast<double>(r.solve.iterations); });
+      mean(run, [](const transport::RelightReport& r) { return static_cast<double>(r.solve.iterations); });
 
   json::Value errors = json::Value::array();
   for (const FrameError& e : run.errors) {
@@ -85,10 +85,11 @@ json::Value relight_json(const RelightRun& run) {
                       {"points", e.error.points}});
   }
   json::Value frame_ms = json::Value::array();
-  for (const gi::RelightReport& r : run.updates) frame_ms.push_back(r.total_ms());
+  for (const transport::RelightReport& r : run.updates) frame_ms.push_back(r.total_ms());
   const std::vector<double> times = of_frames(run, total);
-  const auto unconverged = std::count_if(run.updates.begin(), run.updates.end(),
-                                         [](const gi::RelightReport& r) { return !r.solve.converged; });
+  const auto unconverged =
+      std::count_if(run.updates.begin(), run.updates.end(),
+                    [](const transport::RelightReport& r) { return !r.solve.converged; });
   return {{"frames", run.updates.size()},
           {"frames_asked", run.frames_asked},
           {"cancelled", run.cancelled},
@@ -141,7 +142,7 @@ namespace {
 struct Curve {
   const char* name;
   const char* color;
-  double (*value)(const gi::LookupError&);
+  double (*value)(const study::LookupError&);
 };
 
 /// A panel of a plot: axes, curves and their names.
@@ -188,12 +189,12 @@ std::string panel(const RelightRun& run, double top, double low, double high,
 
 void write_error_curve(const std::filesystem::path& path, const RelightRun& run) {
   const std::vector<Curve> ratios = {
-      {"mean looked up / path traced", "#1b6ca8", [](const gi::LookupError& e) { return e.ratio; }}};
+      {"mean looked up / path traced", "#1b6ca8", [](const study::LookupError& e) { return e.ratio; }}};
   const std::vector<Curve> errors = {
-      {"mean relative error", "#b03a2e", [](const gi::LookupError& e) { return e.mean_relative; }},
-      {"of which the truth's noise", "#999999", [](const gi::LookupError& e) { return e.noise; }},
+      {"mean relative error", "#b03a2e", [](const study::LookupError& e) { return e.mean_relative; }},
+      {"of which the truth's noise", "#999999", [](const study::LookupError& e) { return e.noise; }},
       {"root of relMSE", "#7d3c98",
-       [](const gi::LookupError& e) { return std::sqrt(std::max(e.relmse, 0.0)); }}};
+       [](const study::LookupError& e) { return std::sqrt(std::max(e.relmse, 0.0)); }}};
   double off = 0.05, most = 0.05;
   for (const FrameError& e : run.errors) {
     if (std::isfinite(e.error.ratio)) off = std::max(off, std::abs(e.error.ratio - 1));

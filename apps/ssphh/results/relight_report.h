@@ -6,21 +6,22 @@
 #include <vector>
 
 #include <ssphh/core/json.h>
-#include <ssphh/gi/lookup_error.h>
-#include <ssphh/gi/relight_session.h>
+#include <ssphh/study/lookup_error.h>
+#include <ssphh/transport/relight_session.h>
 
 namespace ssphh::app {
 
 struct FrameError {
   int frame = 0;
-  gi::LookupError error;
+  study::LookupError error;
 };
 
 struct RelightRun {
   int frames_asked = 0;
   double fps = 30;
-  double build_ms = 0;                     ///< of the network
-  std::vector<gi::RelightReport> updates;  ///< of the frames that were done; the first lights everything
+  double build_ms = 0;  ///< of the network
+  std::vector<transport::RelightReport>
+      updates;  ///< of the frames that were done; the first lights everything
   std::vector<FrameError> errors;
   bool cancelled = false;
 };

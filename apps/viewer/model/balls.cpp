@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include <ssphh/gi/lookup_weights.h>
+#include <ssphh/probes/lookup_weights.h>
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/sh/irradiance.h>
 
@@ -33,7 +33,7 @@ BallMesh halved(const BallMesh& mesh) {
   return out;
 }
 
-const sh::RadianceSh* function_of(const gi::ProbeSet& set, std::size_t i, Ball ball) {
+const sh::RadianceSh* function_of(const probes::ProbeSet& set, std::size_t i, Ball ball) {
   const auto& hierarchy = set.hierarchy;
   switch (ball) {
     case Ball::neighbor:
@@ -63,7 +63,7 @@ BallShader::BallShader(BallMesh mesh) : mesh_(std::move(mesh)) {
     sh::eval_basis(sh::max_degree, mesh_.vertices[v], std::span(basis_).subspan(v * stride, stride));
 }
 
-void BallShader::shade(const gi::ProbeSet& set, std::size_t i, Ball ball, std::span<vec3> out) const {
+void BallShader::shade(const probes::ProbeSet& set, std::size_t i, Ball ball, std::span<vec3> out) const {
   constexpr auto stride = static_cast<std::size_t>(sh::max_coefficient_count);
   const sh::RadianceSh* function = function_of(set, i, ball);
   if (!function || function->empty()) {
@@ -91,11 +91,11 @@ int ball_levels(std::size_t balls) {
   return balls <= 64 ? 4 : balls <= 512 ? 3 : 2;
 }
 
-float default_ball_size(const gi::ProbeSet& set) {
+float default_ball_size(const probes::ProbeSet& set) {
   std::vector<vec3> positions;
-  for (const gi::Probe& probe : set.probes) positions.push_back(probe.position);
+  for (const probes::Probe& probe : set.probes) positions.push_back(probe.position);
   if (positions.size() < 2) return 0.12f;
-  return std::clamp(gi::median_spacing(positions) / 6, 1e-3f, 0.12f);
+  return std::clamp(probes::median_spacing(positions) / 6, 1e-3f, 0.12f);
 }
 
 }  // namespace ssphh::viewer

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include <ssphh/gi/probe_set.h>
+#include <ssphh/probes/probe_set.h>
 
 #include "settings.h"
 
@@ -26,7 +26,7 @@ class BallShader {
   /// Radiance per vertex, not below 0: of probe `i` of the set as `ball` says; irradiance as E/π, what a
   /// white surface would leave. neighbor and sum are those of the set's hierarchy; without one black and
   /// self. `out` has as many elements as the mesh has vertices.
-  void shade(const gi::ProbeSet& set, std::size_t i, Ball ball, std::span<vec3> out) const;
+  void shade(const probes::ProbeSet& set, std::size_t i, Ball ball, std::span<vec3> out) const;
 
  private:
   BallMesh mesh_;
@@ -37,6 +37,6 @@ class BallShader {
 int ball_levels(std::size_t balls);
 
 /// Radius of balls that do not hide each other [m], for Settings::ball_size 0.
-float default_ball_size(const gi::ProbeSet& set);
+float default_ball_size(const probes::ProbeSet& set);
 
 }  // namespace ssphh::viewer

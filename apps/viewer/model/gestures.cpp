@@ -53,7 +53,7 @@ Settings after_key(Settings s, char key, bool animated) {
   return s;
 }
 
-Grip taken(const scene::RayQuery& ray, const vec3& place, int axis, const vec3& forward) {
+Grip taken(const rays::RayQuery& ray, const vec3& place, int axis, const vec3& forward) {
   Grip grip{axis, place, vec3(0)};
   if (axis >= 0)
     grip.grabbed.x = along_axis(ray, place, unit(axis)).value_or(0);
@@ -62,7 +62,7 @@ Grip taken(const scene::RayQuery& ray, const vec3& place, int axis, const vec3& 
   return grip;
 }
 
-std::optional<vec3> pulled(const Grip& grip, const scene::RayQuery& ray, const vec3& forward) {
+std::optional<vec3> pulled(const Grip& grip, const rays::RayQuery& ray, const vec3& forward) {
   if (grip.axis >= 0) {
     const auto along = along_axis(ray, grip.start, unit(grip.axis));
     if (!along) return std::nullopt;

@@ -41,9 +41,9 @@ struct Grip {
 };
 
 /// Takes a thing at `place` by the ray under the mouse of a view that looks `forward`.
-Grip taken(const scene::RayQuery& ray, const vec3& place, int axis, const vec3& forward);
+Grip taken(const rays::RayQuery& ray, const vec3& place, int axis, const vec3& forward);
 
 /// Where the thing goes with the mouse; none where the ray runs along the axis or does not meet the plane.
-std::optional<vec3> pulled(const Grip& grip, const scene::RayQuery& ray, const vec3& forward);
+std::optional<vec3> pulled(const Grip& grip, const rays::RayQuery& ray, const vec3& forward);
 
 }  // namespace ssphh::viewer

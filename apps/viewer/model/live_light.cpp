@@ -5,13 +5,14 @@
 namespace ssphh::viewer {
 namespace {
 
-std::vector<gi::ProbePlace> find_places(const scene::Scene& scene, const scene::TransportSource& source,
-                                        const LiveLightParams& params, float time, const Control& control) {
+std::vector<transport::ProbePlace> find_places(const scene::Scene& scene, const rays::TransportSource& source,
+                                               const LiveLightParams& params, float time,
+                                               const Control& control) {
   if (!params.places.empty()) return params.places;
-  gi::PlaceParams place = gi::place_params(scene, time);
+  place::PlaceParams place = place::place_params(scene, time);
   place.spacing = params.spacing;
-  std::vector<gi::ProbePlace> places;
-  for (const gi::PlacedProbe& probe : gi::place_probes(source, place, control).probes)
+  std::vector<transport::ProbePlace> places;
+  for (const place::PlacedProbe& probe : place::place_probes(source, place, control).probes)
     places.push_back({probe.name, probe.position, probe.radius});
   return places;
 }
@@ -22,34 +23,34 @@ LiveLight::LiveLight(std::shared_ptr<const scene::Scene> scene, const LiveLightP
                      const Control& control)
     : scene_(std::move(scene)),
       source_(params.geometry ? params.geometry : trace::geometry_of(scene_), *scene_) {
-  std::vector<gi::ProbePlace> places = find_places(*scene_, source_, params, time, control);
+  std::vector<transport::ProbePlace> places = find_places(*scene_, source_, params, time, control);
   session_.emplace(source_, std::move(places), params.relight, time, control);
   // The first one lights everything; the window should not wait for it
-  session_->update(scene::lighting_at(source_, time), control);
+  session_->update(rays::lighting_at(source_, time), control);
 }
 
-gi::ProbeSet LiveLight::probes() const {
-  gi::ProbeSet set = gi::lookup_set(session_->places(), session_->reflected());
-  set.generator.op = gi::LightOperator::surfel;
+probes::ProbeSet LiveLight::probes() const {
+  probes::ProbeSet set = transport::lookup_set(session_->places(), session_->reflected());
+  set.generator.op = probes::LightOperator::surfel;
   return set;
 }
 
-void LiveLight::refresh(gi::ProbeSet& set) const {
+void LiveLight::refresh(probes::ProbeSet& set) const {
   const std::vector<sh::RadianceSh>& reflected = session_->reflected();
   for (std::size_t i = 0; i < reflected.size(); ++i) {
-    gi::Probe& probe = set.probes[i];
+    probes::Probe& probe = set.probes[i];
     probe.groups[0].reflected = reflected[i];
     probe.reflected = reflected[i];
     probe.self = reflected[i];
   }
 }
 
-gi::ProbeSet LiveLight::bake(const scene::Scene& scene, const Control& control) const {
-  gi::GeneratorInfo generator;
-  generator.op = gi::LightOperator::surfel;
+probes::ProbeSet LiveLight::bake(const scene::Scene& scene, const Control& control) const {
+  probes::GeneratorInfo generator;
+  generator.op = probes::LightOperator::surfel;
   generator.scene = scene.name;
   generator.scene_hash = scene::light_hash(scene);
-  return gi::baked_set(*session_, source_.light_groups(), generator, control);
+  return transport::baked_set(*session_, source_.light_groups(), generator, control);
 }
 
 }  // namespace ssphh::viewer

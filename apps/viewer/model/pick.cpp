@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include <ssphh/scene/posed_world.h>
+#include <ssphh/rays/posed_world.h>
 
 namespace ssphh::viewer {
 
-int pick_sphere(const scene::RayQuery& ray, std::span<const vec3> centers, float radius, float limit) {
+int pick_sphere(const rays::RayQuery& ray, std::span<const vec3> centers, float radius, float limit) {
   int best = -1;
   for (std::size_t i = 0; i < centers.size(); ++i) {
     const vec3 to = centers[i] - ray.origin;
@@ -21,15 +21,15 @@ int pick_sphere(const scene::RayQuery& ray, std::span<const vec3> centers, float
   return best;
 }
 
-std::optional<scene::SurfacePoint> pick_surface(const scene::TransportSource& source, float time,
-                                                const scene::RayQuery& ray) {
-  scene::RayHit hit;
-  scene::PosedWorld(source, time).intersect({&ray, 1}, {&hit, 1});
+std::optional<rays::SurfacePoint> pick_surface(const rays::TransportSource& source, float time,
+                                               const rays::RayQuery& ray) {
+  rays::RayHit hit;
+  rays::PosedWorld(source, time).intersect({&ray, 1}, {&hit, 1});
   if (hit.escaped()) return {};
-  return scene::SurfacePoint{ray.origin + hit.distance * ray.direction, hit.normal};
+  return rays::SurfacePoint{ray.origin + hit.distance * ray.direction, hit.normal};
 }
 
-std::optional<float> along_axis(const scene::RayQuery& ray, const vec3& origin, const vec3& axis) {
+std::optional<float> along_axis(const rays::RayQuery& ray, const vec3& origin, const vec3& axis) {
   const float b = glm::dot(axis, ray.direction);
   const float determinant = glm::dot(ray.direction, ray.direction) - b * b;
   if (determinant < 1e-6f) return {};
@@ -38,7 +38,7 @@ std::optional<float> along_axis(const scene::RayQuery& ray, const vec3& origin, 
          determinant;
 }
 
-std::optional<vec3> on_plane(const scene::RayQuery& ray, const vec3& point, const vec3& normal) {
+std::optional<vec3> on_plane(const rays::RayQuery& ray, const vec3& point, const vec3& normal) {
   const float slope = glm::dot(ray.direction, normal);
   if (std::abs(slope) < 1e-6f) return {};
   const float t = glm::dot(point - ray.origin, normal) / slope;

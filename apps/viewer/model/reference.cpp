@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include <ssphh/gi/methods/table.h>
+#include <ssphh/methods/table.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -22,12 +22,12 @@ void Reference::start(const ReferenceParams& params) {
                if (params.camera.camera.orthographic) render.projection = trace::Projection::orthographic;
                render.path = {.max_depth = params.max_depth, .passes = 0, .spp = 1, .seed = 0};
                std::optional<trace::TransportScene> source;
-               std::unique_ptr<gi::Method> method;
+               std::unique_ptr<methods::Method> method;
                if (params.method != "path") {
-                 const gi::MethodEntry& entry = gi::find_method(params.method);
+                 const methods::MethodEntry& entry = methods::find_method(params.method);
                  source.emplace(geometry, *params.scene);
                  method = entry.make({*params.scene, *source}, {entry.name, entry.parameters}, control);
-                 method->update(scene::lighting_at(*source, params.time), control);
+                 method->update(rays::lighting_at(*source, params.time), control);
                }
                trace::RenderState state;
                const ProgressStage stage(control, "samples per pixel",

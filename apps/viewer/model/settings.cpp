@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <ssphh/gi/methods/table.h>
+#include <ssphh/methods/table.h>
 
 namespace ssphh::viewer {
 namespace {
@@ -48,7 +48,7 @@ SettingName word(const char* name, const char* group, const char* help, std::vec
 
 std::vector<std::string> truth_names() {
   std::vector<std::string> names = {"path"};
-  for (const gi::MethodEntry& entry : gi::method_table()) names.emplace_back(entry.name);
+  for (const methods::MethodEntry& entry : methods::method_table()) names.emplace_back(entry.name);
   return names;
 }
 
@@ -124,20 +124,20 @@ const std::vector<SettingName>& setting_names() {
              [](Settings& s) -> int& { return s.truth_passes; }),
       choice("lookup", "Probes",
              "irradiance: blend of visible SPHLs; light: nearest visible SPHL, as the paper",
-             [](Settings& s) -> gi::LookupMethod& { return s.lookup; }),
+             [](Settings& s) -> probes::LookupMethod& { return s.lookup; }),
       choice("weights", "Probes",
              "How the lookup irradiance blends probes: fitted where a file has such weights, else as mls, "
              "which fits; distance "
              "averages",
-             [](Settings& s) -> gi::WeightMethod& { return s.weights; }),
+             [](Settings& s) -> probes::WeightMethod& { return s.weights; }),
       choice("layer", "Probes", "Light of the probes that surfaces get: sum, self or neighbor",
-             [](Settings& s) -> gi::ProbeLayer& { return s.layer; }),
-      number("degree", "Probes", "Bands that the lookup keeps", 0, gi::max_irradiance_degree,
+             [](Settings& s) -> probes::ProbeLayer& { return s.layer; }),
+      number("degree", "Probes", "Bands that the lookup keeps", 0, probes::max_irradiance_degree,
              [](Settings& s) -> int& { return s.degree; }),
       toggle("hier", "Probes", "Add the neighbours' light over the edges that the set has",
              [](Settings& s) -> bool& { return s.hier; }),
       choice("operator", "Probes", "What HIER multiplies with",
-             [](Settings& s) -> gi::HierOperator& { return s.hier_params.op; }),
+             [](Settings& s) -> probes::HierOperator& { return s.hier_params.op; }),
       number("neighbors", "Probes", "At most so many neighbours a probe; -1: all", -1, 65536,
              [](Settings& s) -> int& { return s.hier_params.neighbors; }),
       number("threshold", "Probes", "Only edges with P above this", 0, 1,

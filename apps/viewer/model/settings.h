@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <ssphh/core/enum_names.h>
-#include <ssphh/gi/hier.h>
-#include <ssphh/gi/lookup.h>
 #include <ssphh/image/tonemap.h>
+#include <ssphh/probes/hier.h>
+#include <ssphh/probes/lookup.h>
 
 namespace ssphh::viewer {
 
@@ -69,21 +69,22 @@ struct Settings {
   image::ToneCurve curve = image::ToneCurve::clip;
   Show show = Show::realtime;
   DebugView debug = DebugView::none;
-  float wipe = 0.5f;             ///< place of the line, share of the width
-  int block = 16;                ///< pixels, of `pixelated`
-  std::string against = "path";  ///< what the truth's place holds: path, or a method of gi::method_table()
-  int truth_depth = 8;           ///< scattering events of the ground truth
-  int truth_passes = 256;        ///< samples per pixel
-  float scale = 1;               ///< pixels of the real-time picture per pixel of the window, along each axis
-  int indirect_scale = 3;        ///< of the real-time picture where no truth is beside it
+  float wipe = 0.5f;  ///< place of the line, share of the width
+  int block = 16;     ///< pixels, of `pixelated`
+  std::string against =
+      "path";              ///< what the truth's place holds: path, or a method of methods::method_table()
+  int truth_depth = 8;     ///< scattering events of the ground truth
+  int truth_passes = 256;  ///< samples per pixel
+  float scale = 1;         ///< pixels of the real-time picture per pixel of the window, along each axis
+  int indirect_scale = 3;  ///< of the real-time picture where no truth is beside it
 
   // Probes' light
-  gi::LookupMethod lookup = gi::LookupMethod::irradiance;
-  gi::WeightMethod weights = gi::WeightMethod::fitted;  ///< of lookup `irradiance`
-  gi::ProbeLayer layer = gi::ProbeLayer::sum;           ///< self where there is no hierarchy
-  int degree = 4;                                       ///< bands kept by the lookup
-  bool hier = false;                                    ///< HIER over the edges that the set has
-  gi::HierParams hier_params{.op = gi::HierOperator::mean};
+  probes::LookupMethod lookup = probes::LookupMethod::irradiance;
+  probes::WeightMethod weights = probes::WeightMethod::fitted;  ///< of lookup `irradiance`
+  probes::ProbeLayer layer = probes::ProbeLayer::sum;           ///< self where there is no hierarchy
+  int degree = 4;                                               ///< bands kept by the lookup
+  bool hier = false;                                            ///< HIER over the edges that the set has
+  probes::HierParams hier_params{.op = probes::HierOperator::mean};
 
   // Probes on the screen
   bool balls = false, lobes = false, graph = false, names = false;

@@ -102,9 +102,9 @@ View framed(const View& view, const scene::Bounds& bounds, float aspect) {
   return out;
 }
 
-scene::RayQuery pixel_ray(const View& view, const vec2& point, float aspect) {
+rays::RayQuery pixel_ray(const View& view, const vec2& point, float aspect) {
   const vec2 centered = 2.0f * point - 1.0f;
-  scene::RayQuery ray;
+  rays::RayQuery ray;
   if (view.orthographic) {
     const float h = 0.5f * view.yheight;
     ray.origin = view.eye + centered.x * h * aspect * view.right() + centered.y * h * view.up();

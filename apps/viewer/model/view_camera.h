@@ -1,8 +1,8 @@
 #pragma once
 /// The viewer's free camera as a value, and the gestures that move it: pure functions.
 
+#include <ssphh/rays/transport_source.h>
 #include <ssphh/scene/query.h>
-#include <ssphh/scene/transport_source.h>
 
 namespace ssphh::viewer {
 
@@ -47,7 +47,7 @@ View framed(const View& view, const scene::Bounds& bounds, float aspect);
 
 /// Ray through a point of the picture, (0, 0) its lower left and (1, 1) its upper right corner. Unit
 /// direction.
-scene::RayQuery pixel_ray(const View& view, const vec2& point, float aspect);
+rays::RayQuery pixel_ray(const View& view, const vec2& point, float aspect);
 
 /// Where a world point appears in the same coordinates, and its depth along the view axis [m] in z; z ≤ 0:
 /// behind the eye (x and y tell nothing then).

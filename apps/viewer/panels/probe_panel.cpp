@@ -39,7 +39,7 @@ void draw_source(App& app) {
 
 void draw_bake(App& app) {
   heading("Path traced: GEN and VIZ");
-  gi::BakeParams& p = app.bake_params;
+  bake::BakeParams& p = app.bake_params;
   row("samples");
   ImGui::SliderInt("##spp", &p.path.spp, 1, 256);
   tip("paths per texel of a probe's cube map");
@@ -61,9 +61,9 @@ void draw_bake(App& app) {
 void draw_lookup(App& app) {
   heading("How surfaces take it");
   setting_widget(app, "lookup", "lookup");
-  if (app.settings.lookup == gi::LookupMethod::irradiance) setting_widget(app, "weights", "weights");
-  setting_slider(app, "bands", "degree", 0, gi::max_irradiance_degree, "%.0f");
-  const std::size_t edges = app.light.empty() ? 0 : gi::edge_count(app.light.set());
+  if (app.settings.lookup == probes::LookupMethod::irradiance) setting_widget(app, "weights", "weights");
+  setting_slider(app, "bands", "degree", 0, probes::max_irradiance_degree, "%.0f");
+  const std::size_t edges = app.light.empty() ? 0 : probes::edge_count(app.light.set());
   ImGui::BeginDisabled(edges == 0);
   setting_widget(app, "hierarchy", "hier");
   if (app.settings.hier) {
@@ -141,7 +141,7 @@ void draw_selected(App& app) {
   if (ImGui::Button("Delete")) return app.delete_selection();
   const int probe = probe_of_sphl(app, app.selection.index);
   if (probe < 0) return;
-  const gi::Probe& p = app.light.set().probes[static_cast<std::size_t>(probe)];
+  const probes::Probe& p = app.light.set().probes[static_cast<std::size_t>(probe)];
   const vec3 mean = p.self.empty() ? vec3(0) : p.self[0] * 0.28209479f;
   ImGui::Text("mean radiance  %.3g %.3g %.3g", mean.x, mean.y, mean.z);
   ImGui::Text("degree %d, %zu edges", p.self.degree(), p.edges.size());

@@ -39,7 +39,7 @@ void draw_stats_panel(App& app) {
   ImGui::Text("%.1f kB uploaded, %d shadow maps drawn", static_cast<double>(s.bytes_uploaded) / 1024,
               s.shadow_maps_drawn);
   if (app.light.live()) {
-    const gi::RelightReport& r = app.light.report();
+    const transport::RelightReport& r = app.light.report();
     ImGui::Text("relight %.1f ms: pose %.1f, direct %.1f,", r.total_ms(), r.pose_ms, r.direct_ms);
     ImGui::Text("solve %.1f (%d steps), project %.1f", r.solve_ms, r.solve.iterations, r.project_ms);
   }

@@ -154,7 +154,7 @@ TEST_F(AppTest, BeginsAsItsOptionsSay) {
 
 TEST_F(AppTest, ADocumentIsTakenInPlaceOfTheOneBefore) {
   app().selection = {Kind::light, 0};
-  gi::ProbeSet set;
+  probes::ProbeSet set;
   set.probes.resize(2);
   app().light.take(std::move(set), "x");
   app().take_document(document("two-rooms"));
@@ -179,7 +179,7 @@ TEST_F(AppTest, ADocumentIsTakenInPlaceOfTheOneBefore) {
 
 TEST_F(AppTest, TimesAreSavedWithWhatTheyAreOf) {
   app().take_document(document("two-rooms"));
-  gi::ProbeSet set;
+  probes::ProbeSet set;
   set.probes.resize(3);
   app().times.add("frame", 2);
   const auto saved = [&] {

@@ -41,7 +41,7 @@ class BallsGlTest : public test::WithGl {
     scene_.upload(std::as_bytes(std::span(values)));
   }
   void add(const vec3& position, const vec3& constant, const vec3& along_x = vec3(0)) {
-    gi::Probe& probe = set_.probes.emplace_back();
+    probes::Probe& probe = set_.probes.emplace_back();
     probe.position = position;
     sh::RadianceSh light(1);
     light[0] = constant / 0.28209479f;
@@ -70,7 +70,7 @@ class BallsGlTest : public test::WithGl {
   /// Ball `i` of this radius, as the pixel shows it.
   Expected pixel(std::size_t i, float radius, int x, int y, bool selected, float alpha) const {
     const vec2 point((static_cast<float>(x) + 0.5f) / size, 1 - (static_cast<float>(y) + 0.5f) / size);
-    const scene::RayQuery ray = pixel_ray(look_.view, point, 1);
+    const rays::RayQuery ray = pixel_ray(look_.view, point, 1);
     const vec3 to = set_.probes[i].position - ray.origin;
     const float along = glm::dot(to, ray.direction), off = glm::dot(to, to) - along * along;
     Expected out;
@@ -115,7 +115,7 @@ class BallsGlTest : public test::WithGl {
     EXPECT_GT(compared, size * size * 3 / 4);
   }
 
-  gi::ProbeSet set_;
+  probes::ProbeSet set_;
   BallsGl::Look look_;
   std::optional<BallsGl> balls_;
   gl::Texture color_, depth_, scene_;

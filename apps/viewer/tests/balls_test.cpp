@@ -32,22 +32,22 @@ TEST(Balls, MeshIsAClosedUnitSphereSeenFromOutside) {
 }
 
 /// One probe whose own light is the SH of a smooth function, with a hierarchy that doubles it.
-gi::ProbeSet one_probe() {
-  gi::ProbeSet set;
+probes::ProbeSet one_probe() {
+  probes::ProbeSet set;
   set.degree = 3;
   set.light_groups.push_back({"all"});
-  gi::Probe probe;
+  probes::Probe probe;
   sh::RadianceSh light(3);
   for (int k = 0; k < 16; ++k) light[k] = vec3(0.1f, 0.2f, -0.1f) / static_cast<float>(k + 1);
   light[0] = vec3(5, 4, 3);
   probe.groups.push_back({{}, light});
   set.probes.push_back(probe);
-  gi::merge_groups(set);
+  probes::merge_groups(set);
   return set;
 }
 
 TEST(Balls, ShowTheValueOfTheFunctionAtEachVertex) {
-  gi::ProbeSet set = one_probe();
+  probes::ProbeSet set = one_probe();
   const BallShader shader(make_ball(1));
   std::vector<vec3> out(shader.mesh().vertices.size());
   const auto expect = [&](Ball ball, const auto& value) {
@@ -69,7 +69,7 @@ TEST(Balls, ShowTheValueOfTheFunctionAtEachVertex) {
 }
 
 TEST(Balls, AreNeverDarkerThanBlack) {
-  gi::ProbeSet set = one_probe();
+  probes::ProbeSet set = one_probe();
   sh::RadianceSh& light = set.probes[0].self;
   light[0] = vec3(-5, 0, 5), light[1] = vec3(0), light[2] = vec3(1);
   const BallShader shader(make_ball(0));
@@ -86,7 +86,7 @@ TEST(Balls, AreNeverDarkerThanBlack) {
 
 TEST(Balls, HaveASixthOfTheProbesDistanceAtMostTwelveCentimetres) {
   const auto size = [](float spacing, int count) {
-    gi::ProbeSet set;
+    probes::ProbeSet set;
     for (int i = 0; i < count; ++i)
       set.probes.emplace_back().position = {spacing * static_cast<float>(i), 0, 0};
     return default_ball_size(set);

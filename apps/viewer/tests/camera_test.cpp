@@ -74,7 +74,7 @@ TEST(ViewCamera, APixelsRayGoesThroughWhatIsProjectedThere) {
     View view = look_at({1, 2, 3}, {0, 0.5f, -1}, 0.8f);
     view.orthographic = orthographic;
     const vec2 at(0.2f, 0.9f);
-    const scene::RayQuery ray = pixel_ray(view, at, 1.6f);
+    const rays::RayQuery ray = pixel_ray(view, at, 1.6f);
     const vec3 seen = project(view, ray.origin + 3.0f * ray.direction, 1.6f);
     EXPECT_NEAR(seen.x, at.x, 1e-5f);
     EXPECT_NEAR(seen.y, at.y, 1e-5f);
@@ -177,7 +177,7 @@ TEST(ViewCamera, ProjectsByHandOverTwoAxes) {
   EXPECT_LT(project(view, {0, 0, 1}, 2).z, 0);
   view.orthographic = true, view.yheight = 8;
   expect_near(project(view, {2, -1, -2}, 2), {0.625f, 0.375f, 2}, 1e-6f);
-  const scene::RayQuery ray = pixel_ray(view, {0.625f, 0.375f}, 2);
+  const rays::RayQuery ray = pixel_ray(view, {0.625f, 0.375f}, 2);
   expect_near(ray.origin, {2, -1, 0}, 1e-6f);
   expect_near(ray.direction, {0, 0, -1}, 1e-6f);
 }

@@ -139,9 +139,7 @@ TEST(Gestures, WhatIsPulledAlongAnAxisStaysOnIt) {
     // The mouse goes from one point of the axis to another
     vec3 from = place, to = place;
     from[axis] += 0.2f, to[axis] -= 0.5f;
-    const auto toward = [&](const vec3& p) {
-      return scene::RayQuery{view.eye, glm::normalize(p - view.eye)};
-    };
+    const auto toward = [&](const vec3& p) { return rays::RayQuery{view.eye, glm::normalize(p - view.eye)}; };
     const Grip grip = taken(toward(from), place, axis, view.forward());
     vec3 expected = place;
     expected[axis] -= 0.7f;

@@ -24,11 +24,11 @@ class Input : public AppStage {
     return {400 * p.x, 300 * (1 - p.y)};
   }
   void take_probes() {
-    gi::ProbeSet set;
+    probes::ProbeSet set;
     set.degree = 0;
     set.light_groups.push_back({"all"});
     for (const SphlEdit& sphl : app().document.edits().sphls) {
-      gi::Probe& probe = set.probes.emplace_back();
+      probes::Probe& probe = set.probes.emplace_back();
       probe.position =
           sphl_position(*app().document.scene, scene::world_matrices(*app().document.scene, 0), sphl);
       probe.groups.push_back({{}, sh::RadianceSh(0)});
@@ -311,11 +311,11 @@ TEST_F(Input, ProbesAreTheEnabledSphlsInTheirOrder) {
 }
 
 TEST_F(Input, ShowsAtMostFourThousandEdgesTheStrongestOnes) {
-  gi::ProbeSet set;
+  probes::ProbeSet set;
   set.degree = 0;
   set.light_groups.push_back({"all"});
   for (int i = 0; i < 100; ++i) {
-    gi::Probe& probe = set.probes.emplace_back();
+    probes::Probe& probe = set.probes.emplace_back();
     probe.position = {-2, 1, -1};
     probe.groups.push_back({{}, sh::RadianceSh(0)});
     for (int j = 0; j < 41; ++j)

@@ -23,7 +23,7 @@ TEST(LiveLight, AnOpenedDoorLightsRoomB) {
     light.update(edited_lighting(*document.scene, document.edits(), time));
   };
   update(0);
-  gi::ProbeSet set = light.probes();
+  probes::ProbeSet set = light.probes();
   ASSERT_EQ(set.probes.size(), 6u);
   const auto mean = [&](std::size_t probe) { return set.probes[probe].self.values[0].x; };
   const float west_shut = mean(3), lamp_room = mean(0);
@@ -54,19 +54,19 @@ TEST(LiveLight, FollowsLampsAndFactorsAsASessionDoes) {
   state.lights[0].intensity = 7, state.lights[0].world[3].x += 0.5f;
   state.group_scales[0] = {1, 0.5f, 2};
   light.update(state);
-  gi::RelightSession session(light.source(), params.places, params.relight, 0.5f);
+  transport::RelightSession session(light.source(), params.places, params.relight, 0.5f);
   session.update(session.lighting());
   session.update(state);
   EXPECT_EQ(light.session().reflected(), session.reflected());
 
-  const gi::ProbeSet set = light.probes();
+  const probes::ProbeSet set = light.probes();
   EXPECT_EQ(set.degree, 2);
   ASSERT_EQ(set.probes.size(), 2u);
   EXPECT_EQ(set.probes[0].name, "p");
   EXPECT_EQ(set.probes[0].position, vec3(-2, 1, 0.5f));
   EXPECT_EQ(set.probes[0].radius, 0.2f);
   EXPECT_EQ(set.probes[1].self, session.reflected()[1]);
-  EXPECT_EQ(set.generator.op, gi::LightOperator::surfel);
+  EXPECT_EQ(set.generator.op, probes::LightOperator::surfel);
 }
 
 TEST(LiveLight, FindsPlacesWhereNoneAreGiven) {
@@ -74,9 +74,9 @@ TEST(LiveLight, FindsPlacesWhereNoneAreGiven) {
   LiveLightParams params = few_directions();
   params.spacing = 1.5f;
   const LiveLight light(scene, params, 0);
-  gi::PlaceParams place = gi::place_params(*scene, 0);
+  place::PlaceParams place = place::place_params(*scene, 0);
   place.spacing = 1.5f;
-  const gi::Placement wanted = gi::place_probes(light.source(), place);
+  const place::Placement wanted = place::place_probes(light.source(), place);
   ASSERT_EQ(light.session().places().size(), wanted.probes.size());
   for (std::size_t i = 0; i < wanted.probes.size(); ++i) {
     EXPECT_EQ(light.session().places()[i].name, wanted.probes[i].name);
@@ -109,10 +109,10 @@ TEST(LiveLight, ABakeHasGroupsApartAndTellsHowItWasMade) {
   ASSERT_GE(scales.size(), 2u);
   scales[1] = {0.5f, 0.25f, 2};
   light.update(state);
-  const gi::ProbeSet set = light.bake(*document.scene);
-  const gi::TransportParams& transport = light.session().network().params();
-  gi::GeneratorInfo generator;
-  generator.op = gi::LightOperator::surfel;
+  const probes::ProbeSet set = light.bake(*document.scene);
+  const transport::TransportParams& transport = light.session().network().params();
+  probes::GeneratorInfo generator;
+  generator.op = probes::LightOperator::surfel;
   generator.directions = 32, generator.surfel_size = transport.surfel_size, generator.link_rays = 8;
   generator.scene = document.scene->name, generator.scene_hash = scene::light_hash(*document.scene);
   generator.time = 0.125f;
@@ -122,19 +122,19 @@ TEST(LiveLight, ABakeHasGroupsApartAndTellsHowItWasMade) {
   const auto reflected = light.session().reflected_by_group(), emitted = light.session().emitted_by_group();
   ASSERT_EQ(set.light_groups.size(), scales.size());
   for (std::size_t g = 0; g < scales.size(); ++g) {
-    EXPECT_EQ(set.light_groups[g], (gi::LightGroup{light.source().light_groups()[g], scales[g]}));
+    EXPECT_EQ(set.light_groups[g], (probes::LightGroup{light.source().light_groups()[g], scales[g]}));
     for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(set.probes[i].groups[g].reflected, reflected[g][i]);
   }
   EXPECT_EQ(set.probes[1].radius, 0.3f);
-  gi::ProbeSet merged = set;
-  gi::merge_groups(merged);
+  probes::ProbeSet merged = set;
+  probes::merge_groups(merged);
   EXPECT_EQ(merged, set);
   EXPECT_FALSE(set.probes[0].self.empty());
 }
 
 TEST(Pick, TakesTheNearestSphereInFront) {
   const std::vector<vec3> centers{{0, 0, -9}, {0, 0.05f, -4}, {0, 0, 3}, {2, 0, -4}};
-  const scene::RayQuery ray{{0, 0, 0}, {0, 0, -1}, 100};
+  const rays::RayQuery ray{{0, 0, 0}, {0, 0, -1}, 100};
   EXPECT_EQ(pick_sphere(ray, centers, 0.1f, 100), 1);
   EXPECT_EQ(pick_sphere(ray, centers, 0.1f, 3), -1) << "a surface is nearer";
   EXPECT_EQ(pick_sphere(ray, centers, 0.01f, 100), 0);
@@ -143,7 +143,7 @@ TEST(Pick, TakesTheNearestSphereInFront) {
 // Spheres of radius 1 straight ahead, their front at a distance of 1 and 3.
 TEST(Pick, ASphereBeginsAtItsFront) {
   const std::vector<vec3> two{{0, 0, -4}, {0, 0, -2}};
-  const scene::RayQuery ray{{0, 0, 0}, {0, 0, -1}, 100};
+  const rays::RayQuery ray{{0, 0, 0}, {0, 0, -1}, 100};
   EXPECT_EQ(pick_sphere(ray, two, 1, 100), 1);
   EXPECT_EQ(pick_sphere(ray, two, 1, 1.01f), 1);
   EXPECT_EQ(pick_sphere(ray, two, 1, 1), -1) << "a surface as near hides it";
@@ -157,7 +157,7 @@ TEST(Pick, ASphereBeginsAtItsFront) {
 TEST(Pick, FindsTheDoorWhereItStandsAtThatTime) {
   const scene::Scene scene = scene::make_builtin("two-rooms");
   const trace::TransportScene source(scene);
-  const scene::RayQuery ray{{-2, 1, 0}, {1, 0, 0}, 100};
+  const rays::RayQuery ray{{-2, 1, 0}, {1, 0, 0}, 100};
   const auto shut = pick_surface(source, 0, ray);
   ASSERT_TRUE(shut);
   EXPECT_NEAR(shut->position.x, 0.075f, 0.01f);
@@ -168,7 +168,7 @@ TEST(Pick, FindsTheDoorWhereItStandsAtThatTime) {
 }
 
 TEST(Pick, DragsAlongAnAxisAndOnAPlane) {
-  const scene::RayQuery ray{{2, 3, 10}, {0, 0, -1}, 100};
+  const rays::RayQuery ray{{2, 3, 10}, {0, 0, -1}, 100};
   EXPECT_FLOAT_EQ(*along_axis(ray, {0, 3, 0}, {1, 0, 0}), 2);
   EXPECT_FALSE(along_axis(ray, {0, 0, 0}, {0, 0, 1}));
   EXPECT_EQ(*on_plane(ray, {0, 0, 1}, {0, 0, 1}), vec3(2, 3, 1));
@@ -178,11 +178,11 @@ TEST(Pick, DragsAlongAnAxisAndOnAPlane) {
 TEST(Pick, TheNearestPointOfAnAxisIsThatOfTwoLines) {
   // A ray that leans by 45 degrees, from (1, 2, 3) on: over the axis through (0, 2, 0) along x it passes at
   // x = 1 − 3 = −2, wherever on the axis its origin is put.
-  const scene::RayQuery ray{{1, 2, 3}, glm::normalize(vec3(-1, 0, -1)), 100};
+  const rays::RayQuery ray{{1, 2, 3}, glm::normalize(vec3(-1, 0, -1)), 100};
   EXPECT_NEAR(*along_axis(ray, {0, 2, 0}, {1, 0, 0}), -2, 1e-5f);
   EXPECT_NEAR(*along_axis(ray, {5, 2, 0}, {1, 0, 0}), -7, 1e-5f);
   EXPECT_NEAR(*along_axis(ray, {0, 0, 0}, {1, 0, 0}), -2, 1e-5f) << "past it, two metres above";
-  const scene::RayQuery twice{{1, 2, 3}, {-2, 0, -2}, 100};
+  const rays::RayQuery twice{{1, 2, 3}, {-2, 0, -2}, 100};
   EXPECT_NEAR(*along_axis(twice, {0, 2, 0}, {1, 0, 0}), -2, 1e-5f) << "a direction of any length";
   EXPECT_TRUE(along_axis({{0, 0, 0}, {1, 0.002f, 0}, 100}, {0, 1, 0}, {1, 0, 0}));
   EXPECT_FALSE(along_axis({{0, 0, 0}, {1, 0.0005f, 0}, 100}, {0, 1, 0}, {1, 0, 0}));

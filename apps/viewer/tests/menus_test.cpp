@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include <ssphh/gi/probe_file.h>
+#include <ssphh/probes/probe_file.h>
 
 #include "panel_stage.h"
 
@@ -19,7 +19,7 @@ TEST_F(Menus, FilesAreWrittenAndRead) {
   take_probes();
   open("Probes");
   click_text("Save");
-  EXPECT_EQ(gi::read_probe_file("probes.sphl").probes.size(), 6u);
+  EXPECT_EQ(probes::read_probe_file("probes.sphl").probes.size(), 6u);
   click_text("Open");
   EXPECT_TRUE(app().message_is_error) << "baked in no scene";
   app().times.add("frame", 3);

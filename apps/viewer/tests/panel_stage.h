@@ -31,10 +31,10 @@ class PanelStage : public AppStage {
 
   /// Fixed probes at the scene's SPHLs, each with an edge to those before it.
   void take_probes() {
-    gi::ProbeSet set;
+    probes::ProbeSet set;
     set.degree = 2;
     for (const SphlEdit& sphl : app().document.edits().sphls) {
-      gi::Probe& probe = set.probes.emplace_back();
+      probes::Probe& probe = set.probes.emplace_back();
       const auto i = static_cast<float>(set.probes.size());
       probe.name = sphl.name;
       probe.position =

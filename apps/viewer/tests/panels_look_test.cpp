@@ -54,11 +54,11 @@ TEST_F(PanelsLook, OfProbesWithLight) {
   app().selection = {Kind::sphl, 3};
   open("Probes");
   expect("probes-fixed");
-  app().settings.lookup = gi::LookupMethod::light;
+  app().settings.lookup = probes::LookupMethod::light;
   app().settings.ball_size = 0.25f;
   app().place_mode = true;
-  gi::ProbeSet set = app().light.set();
-  gi::hier(set, {});
+  probes::ProbeSet set = app().light.set();
+  probes::hier(set, {});
   app().light.take(std::move(set), "again.sphl");
   expect("probes-hierarchy");
 }

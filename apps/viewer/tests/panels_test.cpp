@@ -226,7 +226,7 @@ TEST_F(Panels, SettingsAreTickedChosenAndCounted) {
   EXPECT_EQ(s.ball, Ball::neighbor);
   click_widget("lookup");
   click_text("light");
-  EXPECT_EQ(s.lookup, gi::LookupMethod::light);
+  EXPECT_EQ(s.lookup, probes::LookupMethod::light);
   EXPECT_EQ(s.hier_params.neighbors, -1);
   click_text("+");
   EXPECT_EQ(s.hier_params.neighbors, 0);
@@ -242,7 +242,7 @@ TEST_F(Panels, SettingsAreTickedChosenAndCounted) {
   rest();
   click_widget("operator");
   click_text("matrix");
-  EXPECT_EQ(s.hier_params.op, gi::HierOperator::matrix);
+  EXPECT_EQ(s.hier_params.op, probes::HierOperator::matrix);
   app().light.clear();
   rest();
   const bool before = s.hier;

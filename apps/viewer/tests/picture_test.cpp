@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <ssphh/core/file.h>
-#include <ssphh/gi/probe_file.h>
+#include <ssphh/probes/probe_file.h>
 
 #include "app_stage.h"
 #include "drawn.h"
@@ -35,13 +35,13 @@ TEST(PictureSettings, EachDebugViewIsTheRenderersView) {
   EXPECT_TRUE(needs_truth(s));
   s.show = Show::realtime;
   s.exposure = 2, s.curve = image::ToneCurve::filmic;
-  s.lookup = gi::LookupMethod::light, s.weights = gi::WeightMethod::trilinear;
+  s.lookup = probes::LookupMethod::light, s.weights = probes::WeightMethod::trilinear;
   const realtime::FrameSettings f = frame_settings(s);
   EXPECT_EQ(f.tone.exposure, 2);
   EXPECT_EQ(f.tone.curve, image::ToneCurve::filmic);
   EXPECT_EQ(f.tone.gamma, 0);
-  EXPECT_EQ(f.lookup, gi::LookupMethod::light);
-  EXPECT_EQ(f.weights, gi::WeightMethod::trilinear);
+  EXPECT_EQ(f.lookup, probes::LookupMethod::light);
+  EXPECT_EQ(f.weights, probes::WeightMethod::trilinear);
 }
 
 TEST(PictureSettings, ThoseOfTheScreenAndTheTruthLeaveThePictureAsItIs) {
@@ -179,7 +179,7 @@ class PictureTest : public AppStage {
     EXPECT_TRUE(app().light.live());
     const auto live = shot("light lamp intensity 3");
     app().save_probes("live.sphl");
-    EXPECT_EQ(gi::read_probe_file("live.sphl").probes.size(), 6u);
+    EXPECT_EQ(probes::read_probe_file("live.sphl").probes.size(), 6u);
     EXPECT_THROW(app().use_probes("live.sphl"), Error) << "of another lamp than the scene's";
     options_.force = true;
     play("probes live.sphl");
@@ -195,7 +195,7 @@ class PictureTest : public AppStage {
     EXPECT_NEAR(mean(shot("set exposure 1\ngroup lamp 0.5")), full, 1) << "groups scale what is fixed";
     play("undo\nset exposure 0");
     app().save_probes("again.sphl");
-    EXPECT_EQ(gi::read_probe_file("again.sphl"), gi::read_probe_file("live.sphl"));
+    EXPECT_EQ(probes::read_probe_file("again.sphl"), probes::read_probe_file("live.sphl"));
     EXPECT_LT(mean(shot("probes off")), 0.5) << "no indirect light without probes";
     EXPECT_TRUE(app().light.empty());
     EXPECT_NEAR(mean(shot("probes scene")), full, 1)
@@ -206,7 +206,7 @@ class PictureTest : public AppStage {
   void generated() {
     app().bake_params.path.spp = 4, app().bake_params.face_size = 8, app().bake_params.path.max_depth = 2;
     play("viz");
-    const std::size_t edges = gi::edge_count(app().light.set());
+    const std::size_t edges = probes::edge_count(app().light.set());
     EXPECT_GT(edges, 4u);
     EXPECT_EQ(app().message, fmt::format("VIZ: {} edges", edges));
     EXPECT_TRUE(app().light.live()) << "VIZ leaves the light alone";
@@ -232,12 +232,12 @@ class PictureTest : public AppStage {
     EXPECT_FALSE(app().light.set().hierarchy.has_value());
     EXPECT_EQ(app().picture.linear().pixels, none.pixels);
     play("light lamp intensity 2");
-    EXPECT_EQ(gi::edge_count(app().light.set()), edges) << "edges outlive lamps";
+    EXPECT_EQ(probes::edge_count(app().light.set()), edges) << "edges outlive lamps";
     play("set show realtime\nset debug none\nundo\ngen");
     EXPECT_EQ(app().light.origin(), "GEN");
     EXPECT_FALSE(app().light.live());
     EXPECT_EQ(app().light.set().degree, 9);
-    EXPECT_GT(gi::edge_count(app().light.set()), 4u);
+    EXPECT_GT(probes::edge_count(app().light.set()), 4u);
     EXPECT_EQ(app().message, "GEN is done");
     EXPECT_GT(luminance(app().light.set().probes[0].self[0]), 0.1f);
     app().document.edit("none", [](Edits& e) { e.sphls.clear(); });

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include <ssphh/gi/methods/table.h>
+#include <ssphh/methods/table.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
@@ -207,9 +207,9 @@ TEST(Reference, OfAMethodIsThePictureWithItsLight) {
   ReferenceParams params = small_reference(document);
   params.method = "ambient";
   const trace::TransportScene source(*document.scene);
-  const gi::MethodEntry& entry = gi::find_method("ambient");
+  const methods::MethodEntry& entry = methods::find_method("ambient");
   const auto method = entry.make({*document.scene, source}, {entry.name, entry.parameters}, {});
-  method->update(scene::lighting_at(source, 0), {});
+  method->update(rays::lighting_at(source, 0), {});
   trace::RenderParams render;
   render.width = 12, render.height = 8, render.camera = params.camera;
   render.path = {.max_depth = 3, .passes = 3, .spp = 1, .seed = 0};

@@ -1,6 +1,6 @@
+#include <ssphh/bake/bake.h>
 #include <ssphh/farm/engine.h>
-#include <ssphh/gi/bake.h>
-#include <ssphh/gi/init.h>
+#include <ssphh/place/init.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/trace/path_tracer.h>
 
@@ -10,8 +10,9 @@ extern const char* const source_id;  // made by cmake/SourceId.cmake
 
 namespace {
 
-void add(Hasher& hasher, const std::vector<gi::GroupLight>& groups) {
-  for (const gi::GroupLight& light : groups) hasher.array(light.emitted.values).array(light.reflected.values);
+void add(Hasher& hasher, const std::vector<probes::GroupLight>& groups) {
+  for (const probes::GroupLight& light : groups)
+    hasher.array(light.emitted.values).array(light.reflected.values);
 }
 
 std::string compute_id() {
@@ -19,12 +20,12 @@ std::string compute_id() {
   hasher.text(source_id);
   const scene::Scene scene = scene::make_builtin("gallery1");
   const trace::PathTracer tracer(scene);
-  gi::ProbeSet set = gi::init_from_scene(scene, 4);
+  probes::ProbeSet set = place::init_from_scene(scene, 4);
   set.generator.face_size = 6;
   set.generator.max_depth = 4;
   set.generator.spp = 4;
-  add(hasher, gi::bake_stage(tracer, set, {}, {gi::BakeStage::gen, 0}).groups);
-  for (const gi::Edge& edge : gi::bake_stage(tracer, set, {}, {gi::BakeStage::viz, 1}).edges)
+  add(hasher, bake::bake_stage(tracer, set, {}, {bake::BakeStage::gen, 0}).groups);
+  for (const probes::Edge& edge : bake::bake_stage(tracer, set, {}, {bake::BakeStage::viz, 1}).edges)
     hasher.array(edge.h.values);
   return hasher.finish().hex().substr(0, 16);
 }

@@ -11,9 +11,9 @@
 namespace ssphh::farm {
 namespace {
 
-using gi::BakeStage;
-using gi::ProbeStage;
-using gi::ProbeStageResult;
+using bake::BakeStage;
+using bake::ProbeStage;
+using bake::ProbeStageResult;
 
 /// The probes' own places for GEN, all of them for VIZ.
 ProbeJob job_of(const ProbeJob& all, std::vector<std::uint32_t> probes) {
@@ -35,7 +35,7 @@ bool answers(const ProbeJob& all, std::span<const ProbeStage> stages, std::size_
     const ProbeStageResult& r = result.probes[i];
     if (r.done != stages[i]) return false;
     if (all.stage == BakeStage::gen && r.groups.size() != light_groups) return false;
-    for (const gi::Edge& edge : r.edges) {
+    for (const probes::Edge& edge : r.edges) {
       const auto from = static_cast<std::size_t>(edge.from);
       if (from >= all.places.size() || from == r.done.probe) return false;
       if (edge.matrix.values.empty() == all.viz_params.matrix) return false;
@@ -46,8 +46,9 @@ bool answers(const ProbeJob& all, std::span<const ProbeStage> stages, std::size_
 
 }  // namespace
 
-void FarmCrew::run(const gi::ProbeSet& set, const gi::BakeParams& params, std::span<const ProbeStage> stages,
-                   const std::function<void(ProbeStageResult)>& done, const Control& control) {
+void FarmCrew::run(const probes::ProbeSet& set, const bake::BakeParams& params,
+                   std::span<const ProbeStage> stages, const std::function<void(ProbeStageResult)>& done,
+                   const Control& control) {
   if (stages.empty()) return;
   if (set.probes.size() > job_limits::places)
     throw Error("the farm", fmt::format("bakes at most {} probes", job_limits::places));

@@ -1,5 +1,5 @@
 #include <ssphh/farm/farm_render.h>
-#include <ssphh/gi/probe_file.h>
+#include <ssphh/probes/probe_file.h>
 #include <ssphh/scene/query.h>
 
 #include "farm_progress.h"
@@ -61,7 +61,7 @@ trace::RenderState render(const FarmOptions& options, const scene::Scene& scene,
   job.layers = layers;
   std::vector<Blob> more;
   if (probes) {
-    Blob& blob = more.emplace_back(Blob{{}, gi::probes_to_binary(*probes->set)});
+    Blob& blob = more.emplace_back(Blob{{}, probes::probes_to_binary(*probes->set)});
     blob.hash = content_hash(blob.bytes);
     job.lighting = lighting_of(*probes, blob);
   }

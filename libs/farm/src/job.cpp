@@ -11,7 +11,7 @@ void require(bool condition, const std::string& where, const std::string& proble
   if (!condition) throw Error("job: " + where, problem);
 }
 
-std::uint64_t samples_of(const scene::PathParams& path) {
+std::uint64_t samples_of(const rays::PathParams& path) {
   require(path.max_depth >= 0 && path.max_depth <= 65535, "max_depth", "must lie in 0..65535");
   require(path.passes >= 1 && path.passes <= 1 << 24, "passes", "must lie in 1..2^24");
   require(path.spp >= 1 && path.spp <= 1 << 24, "spp", "must lie in 1..2^24");
@@ -32,7 +32,7 @@ void check(const ProbeJob& job) {
   const auto face = static_cast<std::uint64_t>(job.face_size);
   require(samples_of(job.path) <= job_limits::samples / (6 * face * face * job.probes.size()), "probes",
           "the job is too long: more than 2^40 paths");
-  const bool viz = job.stage == gi::BakeStage::viz;
+  const bool viz = job.stage == bake::BakeStage::viz;
   require(viz || job.places.size() == job.probes.size(), "places", "must be one for each probe");
   require(job.places.size() <= job_limits::places, "places", "must be at most 65536");
   for (std::size_t i = 0; i < job.probes.size(); ++i) {
@@ -71,7 +71,8 @@ void check(const TileJob& job) {
   require(!job.layers.empty(), "layers", "there are none");
   require((job.layers.back() == "groups") == p.per_group, "layers", "groups go with per_group");
   if (!job.lighting) return;
-  require(job.lighting->lookup.layer != gi::ProbeLayer::neighbor, "lighting/layer", "must be sum or self");
+  require(job.lighting->lookup.layer != probes::ProbeLayer::neighbor, "lighting/layer",
+          "must be sum or self");
 }
 
 }  // namespace
@@ -85,7 +86,7 @@ const std::vector<std::string>& layer_names() {
 JobKind kind_of(const Job& job) {
   const auto* probes = std::get_if<ProbeJob>(&job);
   if (!probes) return JobKind::ref;
-  return probes->stage == gi::BakeStage::gen ? JobKind::gen : JobKind::viz;
+  return probes->stage == bake::BakeStage::gen ? JobKind::gen : JobKind::viz;
 }
 
 void validate(const Job& job) {

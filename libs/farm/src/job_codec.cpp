@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <ssphh/gi/probe_codec.h>
+#include <ssphh/probes/probe_codec.h>
 
 #include "message.h"
 
@@ -25,14 +25,14 @@ SceneRef get_scene(const Field& f) {
   return scene;
 }
 
-json::Value put(const scene::PathParams& path) {
+json::Value put(const rays::PathParams& path) {
   return {{"max_depth", path.max_depth},
           {"passes", path.passes},
           {"spp", path.spp},
           {"seed", fmt::format("{:x}", path.seed)}};
 }
 
-scene::PathParams get_path(const Field& f) {
+rays::PathParams get_path(const Field& f) {
   const auto number = [&](const char* key) { return static_cast<int>(f[key].integer(0, INT32_MAX)); };
   return {number("max_depth"), number("passes"), number("spp"), f["seed"].hexadecimal()};
 }
@@ -59,7 +59,7 @@ json::Value put(const ProbeJob& job, MessageWriter& out) {
           {"places", places}};
 }
 
-ProbeJob get_probe_job(const Field& f, gi::BakeStage stage) {
+ProbeJob get_probe_job(const Field& f, bake::BakeStage stage) {
   ProbeJob job;
   job.stage = stage;
   job.scene = get_scene(f["scene"]);
@@ -91,37 +91,37 @@ struct MessageParts {
 
   void index(const char* name, int value) { object[name] = value; }
   void share(const char* name, float value) { object[name] = exact(value); }
-  void vectors(const char* name, std::span<const vec3> values, gi::Missing missing) {
-    if (!values.empty() || missing != gi::Missing::absent) object[name] = out.vectors(values);
+  void vectors(const char* name, std::span<const vec3> values, probes::Missing missing) {
+    if (!values.empty() || missing != probes::Missing::absent) object[name] = out.vectors(values);
   }
 };
-using FieldParts = gi::JsonParts<Field>;
+using FieldParts = probes::JsonParts<Field>;
 
-json::Value put(const gi::ProbeStageResult& result, MessageWriter& out) {
+json::Value put(const bake::ProbeStageResult& result, MessageWriter& out) {
   json::Value probe = {{"probe", result.done.probe}, {"seconds", result.seconds}, {"rays", result.rays}};
-  const bool gen = result.done.stage == gi::BakeStage::gen;
+  const bool gen = result.done.stage == bake::BakeStage::gen;
   json::Value& list = probe[gen ? "groups" : "edges"] = json::Value::array();
   const auto next = [&] {
     list.push_back(json::Value::object());
     return MessageParts{list[list.size() - 1], out};
   };
-  for (const gi::GroupLight& light : result.groups) gi::write_light(next(), light);
-  for (const gi::Edge& edge : result.edges) gi::write_edge(next(), edge);
+  for (const probes::GroupLight& light : result.groups) probes::write_light(next(), light);
+  for (const probes::Edge& edge : result.edges) probes::write_edge(next(), edge);
   return probe;
 }
 
-gi::ProbeStageResult get_probe(const Field& f, gi::BakeStage stage, int degree) {
-  gi::ProbeStageResult result;
+bake::ProbeStageResult get_probe(const Field& f, bake::BakeStage stage, int degree) {
+  bake::ProbeStageResult result;
   result.done = {stage, static_cast<std::uint32_t>(f["probe"].integer(0, job_limits::places - 1))};
   result.seconds = f["seconds"].precise_number();
   result.rays = static_cast<std::uint64_t>(f["rays"].integer(0, INT64_MAX));
-  if (stage == gi::BakeStage::viz) {
-    result.edges = gi::read_edges(FieldParts(f["edges"]), degree, result.done.probe, job_limits::places);
+  if (stage == bake::BakeStage::viz) {
+    result.edges = probes::read_edges(FieldParts(f["edges"]), degree, result.done.probe, job_limits::places);
     return result;
   }
   const Field groups = f["groups"];
   for (std::size_t g = 0, count = groups.size(0, 256); g < count; ++g)
-    result.groups.push_back(gi::read_light(FieldParts(groups[g]), degree));
+    result.groups.push_back(probes::read_light(FieldParts(groups[g]), degree));
   return result;
 }
 
@@ -165,11 +165,11 @@ json::Value put(const TileJob& job, MessageWriter& out) {
   return document;
 }
 
-gi::LookupSpec get_lookup(const Field& f) {
-  gi::LookupSpec lookup;
-  lookup.method = f["lookup"].named<gi::LookupMethod>();
-  if (!f["weights"].text().empty()) lookup.weights = f["weights"].named<gi::WeightMethod>();
-  lookup.layer = f["layer"].named<gi::ProbeLayer>();
+probes::LookupSpec get_lookup(const Field& f) {
+  probes::LookupSpec lookup;
+  lookup.method = f["lookup"].named<probes::LookupMethod>();
+  if (!f["weights"].text().empty()) lookup.weights = f["weights"].named<probes::WeightMethod>();
+  lookup.layer = f["layer"].named<probes::ProbeLayer>();
   return lookup;
 }
 
@@ -254,8 +254,8 @@ TileResult get_tile_result(const Field& f) {
 
 // --- both
 
-gi::BakeStage stage_of(JobKind kind) {
-  return kind == JobKind::gen ? gi::BakeStage::gen : gi::BakeStage::viz;
+bake::BakeStage stage_of(JobKind kind) {
+  return kind == JobKind::gen ? bake::BakeStage::gen : bake::BakeStage::viz;
 }
 
 }  // namespace
@@ -290,7 +290,7 @@ std::string encode_result(const JobResult& result, ContentType type) {
     document["kind"] = name_of(probes->stage);
     document["degree"] = probes->degree;
     json::Value& list = document["probes"] = json::Value::array();
-    for (const gi::ProbeStageResult& probe : probes->probes) list.push_back(put(probe, out));
+    for (const bake::ProbeStageResult& probe : probes->probes) list.push_back(put(probe, out));
   } else {
     document["kind"] = name_of(JobKind::ref);
     json::Value& list = document["tiles"] = json::Value::array();

@@ -2,25 +2,25 @@
 #include <chrono>
 
 #include <ssphh/farm/run_job.h>
-#include <ssphh/gi/lookup.h>
-#include <ssphh/gi/probe_file.h>
+#include <ssphh/probes/lookup.h>
+#include <ssphh/probes/probe_file.h>
 
 namespace ssphh::farm {
 namespace {
 
 /// As much of the set as the stages look at.
-gi::ProbeSet set_of(const ProbeJob& job) {
-  gi::ProbeSet set;
+probes::ProbeSet set_of(const ProbeJob& job) {
+  probes::ProbeSet set;
   set.degree = job.degree;
   set.generator.max_depth = job.path.max_depth;
   set.generator.passes = job.path.passes;
   set.generator.spp = job.path.spp;
   set.generator.seed = job.path.seed;
   set.generator.face_size = job.face_size;
-  const bool viz = job.stage == gi::BakeStage::viz;
+  const bool viz = job.stage == bake::BakeStage::viz;
   set.probes.resize(viz ? job.places.size() : job.probes.back() + std::size_t{1});
   for (std::size_t i = 0; i < job.places.size(); ++i) {
-    gi::Probe& probe = set.probes[viz ? i : job.probes[i]];
+    probes::Probe& probe = set.probes[viz ? i : job.probes[i]];
     probe.position = job.places[i].position;
     probe.radius = job.places[i].radius;
   }
@@ -28,19 +28,20 @@ gi::ProbeSet set_of(const ProbeJob& job) {
 }
 
 ProbeJobResult run(const ProbeJob& job, const PreparedScene& scene, const Control& control) {
-  const gi::ProbeSet set = set_of(job);
+  const probes::ProbeSet set = set_of(job);
   ProbeJobResult result{job.stage, job.degree, {}};
   for (const std::uint32_t probe : job.probes) {
     control.check();
-    result.probes.push_back(gi::bake_stage(*scene.tracer, set, job.viz_params, {job.stage, probe}, control));
+    result.probes.push_back(
+        bake::bake_stage(*scene.tracer, set, job.viz_params, {job.stage, probe}, control));
   }
   return result;
 }
 
-std::unique_ptr<scene::IndirectLight> lookup_of(const ProbeLighting& lighting,
-                                                std::span<const std::byte> file, const PreparedScene& scene) {
-  const gi::ProbeSet set = gi::probes_from_binary(file, "probes of the job");
-  return gi::make_lookup(lighting.lookup, set, *scene.tracer);
+std::unique_ptr<rays::IndirectLight> lookup_of(const ProbeLighting& lighting, std::span<const std::byte> file,
+                                               const PreparedScene& scene) {
+  const probes::ProbeSet set = probes::probes_from_binary(file, "probes of the job");
+  return probes::make_lookup(lighting.lookup, set, *scene.tracer);
 }
 
 void keep_layers(trace::RenderState& state, const std::vector<std::string>& layers) {
@@ -52,7 +53,7 @@ void keep_layers(trace::RenderState& state, const std::vector<std::string>& laye
   keep("coverage", state.coverage), keep("groups", state.groups);
 }
 
-TileJobResult run(const TileJob& job, const PreparedScene& scene, const scene::IndirectLight* lookup,
+TileJobResult run(const TileJob& job, const PreparedScene& scene, const rays::IndirectLight* lookup,
                   const Control& control) {
   TileJobResult result;
   for (const trace::Tile& tile : job.tiles) {
@@ -82,7 +83,7 @@ JobResult run_job(const Job& job, SceneStore& scenes, const FetchChunk& fetch, c
     result.data = run(*probes, *scene, control);
   } else {
     const TileJob& tiles = std::get<TileJob>(job);
-    std::unique_ptr<scene::IndirectLight> lookup;
+    std::unique_ptr<rays::IndirectLight> lookup;
     if (tiles.lighting) {
       lookup = lookup_of(*tiles.lighting,
                          fetch_blob(scenes.cache(), ref.package, tiles.lighting->probes,

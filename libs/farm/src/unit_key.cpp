@@ -6,7 +6,7 @@
 namespace ssphh::farm {
 namespace {
 
-using gi::BakeStage;
+using bake::BakeStage;
 
 void add(Hasher& h, const ProbePlace& place) {
   for (int c = 0; c < 3; ++c) h.value(place.position[c]);
@@ -15,9 +15,9 @@ void add(Hasher& h, const ProbePlace& place) {
 
 }  // namespace
 
-ProbeJob job_of_set(const gi::ProbeSet& set, const gi::VizParams& viz_params, BakeStage stage,
+ProbeJob job_of_set(const probes::ProbeSet& set, const bake::VizParams& viz_params, BakeStage stage,
                     const SceneRef& scene) {
-  const gi::GeneratorInfo& g = set.generator;
+  const probes::GeneratorInfo& g = set.generator;
   ProbeJob job;
   job.scene = scene;
   job.stage = stage;
@@ -25,7 +25,7 @@ ProbeJob job_of_set(const gi::ProbeSet& set, const gi::VizParams& viz_params, Ba
   job.face_size = g.face_size;
   job.path = {g.max_depth, g.passes, g.spp, g.seed};
   job.viz_params = viz_params;
-  for (const gi::Probe& probe : set.probes) job.places.push_back({probe.position, probe.radius});
+  for (const probes::Probe& probe : set.probes) job.places.push_back({probe.position, probe.radius});
   return job;
 }
 
@@ -42,7 +42,7 @@ Hash128 unit_key(const ProbeJob& all, std::uint32_t probe) {
   if (all.stage == BakeStage::gen) {
     add(h, all.places[probe]);
   } else {
-    const gi::VizParams& viz = all.viz_params;
+    const bake::VizParams& viz = all.viz_params;
     h.value(viz.matrix).value(viz.neighbors).value(viz.threshold);
     for (const ProbePlace& place : all.places) add(h, place);
   }

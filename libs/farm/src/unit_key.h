@@ -9,7 +9,7 @@
 namespace ssphh::farm {
 
 /// The job of all of the set's places, without probes.
-ProbeJob job_of_set(const gi::ProbeSet& set, const gi::VizParams& viz_params, gi::BakeStage stage,
+ProbeJob job_of_set(const probes::ProbeSet& set, const bake::VizParams& viz_params, bake::BakeStage stage,
                     const SceneRef& scene);
 
 /// `file`: the probes as they travel.

@@ -44,25 +44,25 @@ class WorkerThread {
   std::thread thread_;
 };
 
-gi::BakeParams small_bake() {
-  gi::BakeParams params;
+bake::BakeParams small_bake() {
+  bake::BakeParams params;
   params.face_size = 8;
   params.path = {3, 1, 4, 11};
   params.viz_params.matrix = true;
   return params;
 }
 
-gi::ProbeSet bake(const scene::Scene& scene, gi::BakeCrew* crew) {
+probes::ProbeSet bake(const scene::Scene& scene, bake::BakeCrew* crew) {
   const trace::PathTracer tracer(scene);
-  gi::BakeReport report;
-  return gi::bake(tracer, gi::init_from_scene(scene, 3), small_bake(), {}, report, {}, crew);
+  bake::BakeReport report;
+  return bake::bake(tracer, place::init_from_scene(scene, 3), small_bake(), {}, report, {}, crew);
 }
 
 TEST(Dispatch, BakeOverSocketsHasTheBitsOfALocalOne) {
   const Quiet quiet;
   const TempDir dir;
   const scene::Scene scene = scene::make_builtin("gallery1");
-  const gi::ProbeSet wanted = bake(scene, nullptr);
+  const probes::ProbeSet wanted = bake(scene, nullptr);
   BrokerThread broker;
   WorkerThread worker(broker.address(), dir / "cache", 2);
   for (const ContentType content : {ContentType::binary, ContentType::json}) {
@@ -86,7 +86,7 @@ TEST(Dispatch, KnownResultsAreNotComputedAgain) {
   DiskCache results(dir / "results", 64 << 20);
   FarmOptions options;
   options.results = &results;
-  gi::ProbeSet first;
+  probes::ProbeSet first;
   {
     BrokerThread broker;
     WorkerThread worker(broker.address(), dir / "cache", 1);
@@ -149,7 +149,7 @@ TEST(Dispatch, ResultThatAnswersAnotherJobIsRefused) {
   majordomo::Worker worker(liar);
   std::thread thread([&] {
     worker.run([](const majordomo::Job&) {
-      ProbeJobResult result{gi::BakeStage::gen, 3, {}};
+      ProbeJobResult result{bake::BakeStage::gen, 3, {}};
       return majordomo::Frames{encode_result({result, {}}, ContentType::json)};
     });
   });

@@ -3,7 +3,7 @@
 
 #include <ssphh/farm/run_job.h>
 #include <ssphh/farm/scene_package.h>
-#include <ssphh/gi/init.h>
+#include <ssphh/place/init.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/scene/query.h>
 
@@ -38,7 +38,7 @@ struct PackedScene {
 };
 
 inline ProbeJob gen_job(const PackedScene& packed) {
-  const gi::ProbeSet set = gi::init_from_scene(packed.scene, 5);
+  const probes::ProbeSet set = place::init_from_scene(packed.scene, 5);
   ProbeJob job;
   job.scene = packed.ref();
   job.degree = 5;
@@ -52,9 +52,9 @@ inline ProbeJob gen_job(const PackedScene& packed) {
 
 inline ProbeJob viz_job(const PackedScene& packed) {
   ProbeJob job = gen_job(packed);
-  job.stage = gi::BakeStage::viz;
+  job.stage = bake::BakeStage::viz;
   job.places.clear();
-  for (const gi::Probe& probe : gi::init_from_scene(packed.scene, 5).probes)
+  for (const probes::Probe& probe : place::init_from_scene(packed.scene, 5).probes)
     job.places.push_back({probe.position, probe.radius});
   return job;
 }

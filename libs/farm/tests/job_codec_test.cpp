@@ -31,8 +31,8 @@ void expect_result_to_travel(const Data& data) {
 }
 
 TEST(JobCodec, EveryFieldOfAProbeJobTravels) {
-  expect_to_travel(test::some_probe_job(gi::BakeStage::gen));
-  expect_to_travel(test::some_probe_job(gi::BakeStage::viz));
+  expect_to_travel(test::some_probe_job(bake::BakeStage::gen));
+  expect_to_travel(test::some_probe_job(bake::BakeStage::viz));
 }
 
 // As the fields of a tile job that stay at home have their defaults in the example, it is the same after the
@@ -64,10 +64,12 @@ TEST(JobCodec, WordsOfATileJobAreTheTables) {
   const auto lookup = [](const std::string& body) {
     return std::get<TileJob>(decode_job(body)).lighting->lookup;
   };
-  EXPECT_EQ(lookup(text), gi::LookupSpec());
-  EXPECT_EQ(lookup(with(R"("weights":"")", R"("weights":"trilinear")")).weights, gi::WeightMethod::trilinear);
-  EXPECT_EQ(lookup(with(R"("lookup":"irradiance")", R"("lookup":"light")")).method, gi::LookupMethod::light);
-  EXPECT_EQ(lookup(with(R"("layer":"sum")", R"("layer":"self")")).layer, gi::ProbeLayer::self);
+  EXPECT_EQ(lookup(text), probes::LookupSpec());
+  EXPECT_EQ(lookup(with(R"("weights":"")", R"("weights":"trilinear")")).weights,
+            probes::WeightMethod::trilinear);
+  EXPECT_EQ(lookup(with(R"("lookup":"irradiance")", R"("lookup":"light")")).method,
+            probes::LookupMethod::light);
+  EXPECT_EQ(lookup(with(R"("layer":"sum")", R"("layer":"self")")).layer, probes::ProbeLayer::self);
   const auto problem = [&](const std::string& from, const std::string& to) {
     return ssphh::test::message_of([&] { decode_job(with(from, to)); });
   };
@@ -91,10 +93,10 @@ sh::RadianceSh some_function(int degree, float first) {
 }
 
 TEST(JobCodec, EveryFieldOfAGenResultTravels) {
-  ProbeJobResult result{gi::BakeStage::gen, 2, {}};
+  ProbeJobResult result{bake::BakeStage::gen, 2, {}};
   for (const std::uint32_t probe : {3u, 65535u}) {
     const auto x = static_cast<float>(probe);
-    result.probes.push_back({{gi::BakeStage::gen, probe},
+    result.probes.push_back({{bake::BakeStage::gen, probe},
                              0.1 * probe,
                              (std::uint64_t{1} << 41) + probe,
                              {{some_function(2, x), some_function(2, -x)}, {{}, some_function(2, 0.1f * x)}},
@@ -104,10 +106,10 @@ TEST(JobCodec, EveryFieldOfAGenResultTravels) {
 }
 
 TEST(JobCodec, EveryFieldOfAVizResultTravels) {
-  ProbeJobResult result{gi::BakeStage::viz, 2, {{{gi::BakeStage::viz, 5}, 0.7, 9, {}, {}}}};
+  ProbeJobResult result{bake::BakeStage::viz, 2, {{{bake::BakeStage::viz, 5}, 0.7, 9, {}, {}}}};
   for (const int from : {2, 8}) {
     const float x = 0.1f * static_cast<float>(from);
-    gi::Edge edge{from, x, some_function(2, x), sh::TransferMatrix(2, 2)};
+    probes::Edge edge{from, x, some_function(2, x), sh::TransferMatrix(2, 2)};
     edge.matrix.values = some_function(8, x + 1).values;  // 9 × 9, as the matrix
     result.probes[0].edges.push_back(std::move(edge));
   }

@@ -24,7 +24,7 @@ void fields(auto& visit, farm::ProbeJob& j) {
   visit("scene", scene), visit("stage", stage), visit("degree", degree), visit("face_size", face_size);
   visit("path", path), visit("viz_params", viz_params), visit("probes", probes), visit("places", places);
 }
-void fields(auto& visit, gi::LookupSpec& l) {
+void fields(auto& visit, probes::LookupSpec& l) {
   auto& [method, weights, layer] = l;
   visit("method", method), visit("weights", weights), visit("layer", layer);
 }
@@ -65,7 +65,7 @@ inline SceneRef some_scene() {
           0.1f};
 }
 
-inline ProbeJob some_probe_job(gi::BakeStage stage) {
+inline ProbeJob some_probe_job(bake::BakeStage stage) {
   ProbeJob job;
   job.scene = some_scene();
   job.stage = stage;
@@ -92,7 +92,7 @@ inline TileJob some_tile_job() {
   job.layers = {"direct", "normal", "groups"};
   job.lighting = {{0x2468ace013579bdf, 0x0f1e2d3c4b5a6978},
                   12345,
-                  {gi::LookupMethod::light, gi::WeightMethod::mls, gi::ProbeLayer::self}};
+                  {probes::LookupMethod::light, probes::WeightMethod::mls, probes::ProbeLayer::self}};
   return job;
 }
 

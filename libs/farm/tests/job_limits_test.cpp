@@ -46,7 +46,7 @@ void set_probes(ProbeJob& job, std::size_t count) {
 }
 
 TEST(JobLimits, OfProbeJobs) {
-  for (const gi::BakeStage stage : {gi::BakeStage::gen, gi::BakeStage::viz}) {
+  for (const bake::BakeStage stage : {bake::BakeStage::gen, bake::BakeStage::viz}) {
     const ProbeJob job = test::some_probe_job(stage);
     expect_allowed<ProbeJob>(job, {{"depth", [](auto& j) { j.path.max_depth = 65535; }},
                                    {"no depth", [](auto& j) { j.path.max_depth = 0; }},
@@ -77,8 +77,8 @@ TEST(JobLimits, OfProbeJobs) {
 // GEN has the places of its probes and any index of a set; VIZ has the set's places, and its probes among
 // them.
 TEST(JobLimits, OfPlacesOfAStage) {
-  const ProbeJob gen = test::some_probe_job(gi::BakeStage::gen),
-                 viz = test::some_probe_job(gi::BakeStage::viz);
+  const ProbeJob gen = test::some_probe_job(bake::BakeStage::gen),
+                 viz = test::some_probe_job(bake::BakeStage::viz);
   expect_allowed<ProbeJob>(gen, {{"index", [](auto& j) { j.probes = {7, 9, 65535}; }}});
   expect_refused<ProbeJob>(gen, {{"index",
                                   [](auto& j) {
@@ -110,8 +110,8 @@ TEST(JobLimits, OfTileJobs) {
              [](auto& j) {
                j.tiles.assign(4096, {0, 0, 32, 32});
              }},
-            {"sum", [](auto& j) { j.lighting->lookup.layer = gi::ProbeLayer::sum; }},
-            {"irradiance", [](auto& j) { j.lighting->lookup.method = gi::LookupMethod::irradiance; }}});
+            {"sum", [](auto& j) { j.lighting->lookup.layer = probes::ProbeLayer::sum; }},
+            {"irradiance", [](auto& j) { j.lighting->lookup.method = probes::LookupMethod::irradiance; }}});
   expect_refused<TileJob>(
       job, {{"time", [](auto& j) { j.scene.time = not_a_number; }},
             {"width",
@@ -151,12 +151,12 @@ TEST(JobLimits, OfTileJobs) {
             {"doubled layer", [](auto& j) { j.layers[1] = j.layers[0]; }},
             {"groups without per_group", [](auto& j) { j.params.per_group = false; }},
             {"per_group without groups", [](auto& j) { j.layers.pop_back(); }},
-            {"layer", [](auto& j) { j.lighting->lookup.layer = gi::ProbeLayer::neighbor; }}});
+            {"layer", [](auto& j) { j.lighting->lookup.layer = probes::ProbeLayer::neighbor; }}});
 }
 
 // 2^40 paths, 2^32 samples of a pixel, 2^22 pixels.
 TEST(JobLimits, OfTheWorkOfOneJob) {
-  ProbeJob probes = test::some_probe_job(gi::BakeStage::gen);
+  ProbeJob probes = test::some_probe_job(bake::BakeStage::gen);
   probes.probes = {0}, probes.places.resize(1);
   probes.face_size = 1;
   TileJob tiles = test::some_tile_job();

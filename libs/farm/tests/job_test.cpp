@@ -3,8 +3,8 @@
 #include <ssphh/core/file.h>
 #include <ssphh/farm/engine.h>
 #include <ssphh/farm/job_codec.h>
-#include <ssphh/gi/lookup.h>
-#include <ssphh/gi/probe_file.h>
+#include <ssphh/probes/lookup.h>
+#include <ssphh/probes/probe_file.h>
 
 #include "farm_fixtures.h"
 #include "json_schema.h"
@@ -27,8 +27,8 @@ JobResult far_away(const PackedScene& packed, const Job& job, ContentType type) 
   return decode_result(encode_result(result, type));
 }
 
-gi::ProbeSet set_for(const PackedScene& packed, const ProbeJob& job) {
-  gi::ProbeSet set = gi::init_from_scene(packed.scene, job.degree);
+probes::ProbeSet set_for(const PackedScene& packed, const ProbeJob& job) {
+  probes::ProbeSet set = place::init_from_scene(packed.scene, job.degree);
   set.generator.max_depth = job.path.max_depth;
   set.generator.passes = job.path.passes;
   set.generator.spp = job.path.spp;
@@ -41,13 +41,13 @@ TEST(Job, GenAndVizGiveTheBitsOfALocalBake) {
   const PackedScene packed("gallery1");
   const trace::PathTracer tracer(packed.scene);
   for (ProbeJob job : {test::gen_job(packed), test::viz_job(packed)}) {
-    job.viz_params.matrix = job.stage == gi::BakeStage::viz;
-    const gi::ProbeSet set = set_for(packed, job);
+    job.viz_params.matrix = job.stage == bake::BakeStage::viz;
+    const probes::ProbeSet set = set_for(packed, job);
     for (const ContentType type : both) {
       const auto got = std::get<ProbeJobResult>(far_away(packed, job, type).data);
       ASSERT_EQ(got.probes.size(), job.probes.size());
       for (std::size_t i = 0; i < job.probes.size(); ++i) {
-        const auto want = gi::bake_stage(tracer, set, job.viz_params, {job.stage, job.probes[i]});
+        const auto want = bake::bake_stage(tracer, set, job.viz_params, {job.stage, job.probes[i]});
         EXPECT_EQ(got.probes[i].done, want.done);
         EXPECT_EQ(got.probes[i].groups, want.groups);
         EXPECT_EQ(got.probes[i].edges, want.edges);
@@ -98,20 +98,20 @@ TEST(Job, GBufferTilesHoldWhatIsSeenAndNothingElse) {
 TEST(Job, TilesLitByProbesGiveTheBitsOfALocalRender) {
   PackedScene packed("gallery1");
   const trace::PathTracer tracer(packed.scene);
-  gi::BakeReport report;
-  gi::BakeParams bake;
+  bake::BakeReport report;
+  bake::BakeParams bake;
   bake.face_size = 8;
-  const gi::ProbeSet set = gi::bake(tracer, gi::init_from_scene(packed.scene, 4), bake, {}, report);
-  Blob blob{{}, gi::probes_to_binary(set)};
+  const probes::ProbeSet set = bake::bake(tracer, place::init_from_scene(packed.scene, 4), bake, {}, report);
+  Blob blob{{}, probes::probes_to_binary(set)};
   blob.hash = content_hash(blob.bytes);
   packed.more.push_back(blob);
   TileJob job = test::tile_job(packed);
-  for (const gi::LookupMethod lookup : {gi::LookupMethod::irradiance, gi::LookupMethod::light}) {
-    job.lighting = {blob.hash, blob.bytes.size(), {lookup, {}, gi::ProbeLayer::self}};
+  for (const probes::LookupMethod lookup : {probes::LookupMethod::irradiance, probes::LookupMethod::light}) {
+    job.lighting = {blob.hash, blob.bytes.size(), {lookup, {}, probes::ProbeLayer::self}};
     const auto got = std::get<TileJobResult>(far_away(packed, job, ContentType::binary).data);
-    gi::LookupParams params;
-    params.layer = gi::ProbeLayer::self;
-    const auto light = gi::make_lookup(lookup, set, tracer, params);
+    probes::LookupParams params;
+    params.layer = probes::ProbeLayer::self;
+    const auto light = probes::make_lookup(lookup, set, tracer, params);
     trace::RenderParams render = job.params;
     render.tile = job.tiles[0];
     trace::RenderState want;

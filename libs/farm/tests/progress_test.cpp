@@ -61,7 +61,7 @@ TEST_F(Listening, TellsOfUnitsWorkersAndRetries) {
 
 TEST_F(Listening, ResultsAreKeptWhereThereIsACacheAndRoom) {
   const TempDir dir(memory_dir());
-  const JobResult result{ProbeJobResult{gi::BakeStage::viz, 4, {}}, {1.5, 7, "w"}};
+  const JobResult result{ProbeJobResult{bake::BakeStage::viz, 4, {}}, {1.5, 7, "w"}};
   const Hash128 key{1, 2};
   EXPECT_FALSE(find_result(nullptr, key));
   keep_result(nullptr, key, result);

@@ -38,7 +38,7 @@ TEST(SceneStore, AJobIsDoneInThePoseThatItNames) {
     job.scene.time = time;
     return std::get<ProbeJobResult>(run_job(job, scenes, packed.fetch()).data).probes[0].groups;
   };
-  gi::ProbeSet set;
+  probes::ProbeSet set;
   set.degree = job.degree;
   set.generator.max_depth = job.path.max_depth, set.generator.passes = job.path.passes;
   set.generator.spp = job.path.spp, set.generator.seed = job.path.seed;
@@ -46,7 +46,7 @@ TEST(SceneStore, AJobIsDoneInThePoseThatItNames) {
   set.probes.resize(job.probes[0] + 1);
   set.probes[job.probes[0]].position = job.places[0].position;
   const trace::PathTracer open(packed.scene, 0.75f);
-  EXPECT_EQ(light_at(0.75f), gi::bake_stage(open, set, {}, {gi::BakeStage::gen, job.probes[0]}).groups);
+  EXPECT_EQ(light_at(0.75f), bake::bake_stage(open, set, {}, {bake::BakeStage::gen, job.probes[0]}).groups);
   EXPECT_NE(light_at(0.75f), light_at(0));
 }
 

@@ -46,7 +46,7 @@ TEST(UnitKey, OfATileHoldsItsPlaceAndSize) {
 
 TEST(UnitKey, OfGenHoldsThePathsAndTheProbesOwnPlace) {
   expect_a_key_of_every_field(
-      test::some_probe_job(gi::BakeStage::gen), [](const ProbeJob& all) { return unit_key(all, 1); },
+      test::some_probe_job(bake::BakeStage::gen), [](const ProbeJob& all) { return unit_key(all, 1); },
       besides({
           {"viz_params", "of VIZ alone"},
           {"probes", "others of the job: the key is one probe's"},
@@ -58,13 +58,13 @@ TEST(UnitKey, OfGenHoldsThePathsAndTheProbesOwnPlace) {
 
 TEST(UnitKey, OfVizHoldsThePathsAllPlacesAndWhichEdges) {
   expect_a_key_of_every_field(
-      test::some_probe_job(gi::BakeStage::viz), [](const ProbeJob& all) { return unit_key(all, 1); },
+      test::some_probe_job(bake::BakeStage::viz), [](const ProbeJob& all) { return unit_key(all, 1); },
       besides({{"probes", "others of the job: the key is one probe's"}}));
 }
 
 // Every probe derives its seed from its index, so that two at the same place differ.
 TEST(UnitKey, IsAnotherForEveryProbe) {
-  for (const gi::BakeStage stage : {gi::BakeStage::gen, gi::BakeStage::viz}) {
+  for (const bake::BakeStage stage : {bake::BakeStage::gen, bake::BakeStage::viz}) {
     ProbeJob all = test::some_probe_job(stage);
     all.places.assign(3, all.places[0]);
     EXPECT_NE(unit_key(all, 1), unit_key(all, 2));
@@ -72,16 +72,16 @@ TEST(UnitKey, IsAnotherForEveryProbe) {
 }
 
 TEST(UnitKey, AJobHoldsWhatTheSetsGeneratorSays) {
-  gi::ProbeSet set;
+  probes::ProbeSet set;
   set.degree = 6;
   set.generator.max_depth = 5, set.generator.passes = 2, set.generator.spp = 3;
   set.generator.face_size = 11, set.generator.seed = 0x123456789abcdef0;
   for (const float x : {0.5f, 2.5f}) {
-    gi::Probe probe;
+    probes::Probe probe;
     probe.position = {x, x + 0.1f, x + 0.2f}, probe.radius = x + 0.3f;
     set.probes.push_back(probe);
   }
-  for (const gi::BakeStage stage : {gi::BakeStage::gen, gi::BakeStage::viz}) {
+  for (const bake::BakeStage stage : {bake::BakeStage::gen, bake::BakeStage::viz}) {
     ProbeJob wanted;
     wanted.scene = test::some_scene(), wanted.stage = stage;
     wanted.degree = 6, wanted.face_size = 11;
@@ -96,7 +96,7 @@ TEST(UnitKey, LightingHoldsWhatARenderSaysOfItsProbes) {
   const Blob file{{0x2468ace013579bdf, 0x0f1e2d3c4b5a6978}, std::vector<std::byte>(77)};
   RenderProbes asked;
   auto& [set, lookup] = asked;
-  set = nullptr, lookup = {gi::LookupMethod::light, gi::WeightMethod::mls, gi::ProbeLayer::self};
+  set = nullptr, lookup = {probes::LookupMethod::light, probes::WeightMethod::mls, probes::ProbeLayer::self};
   expect_same_fields(lighting_of(asked, file), ProbeLighting{file.hash, 77, lookup});
 }
 

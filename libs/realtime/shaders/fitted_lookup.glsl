@@ -1,4 +1,4 @@
-// Irradiance from fitted points, as gi::FittedLookupWeights finds it: a linear fit to the points around on the same
+// Irradiance from fitted points, as probes::FittedLookupWeights finds it: a linear fit to the points around on the same
 // surface that the pixel sees. Lists, sight and light are made by FittedSurfaces and FittedLight.
 layout(binding = 8) uniform usampler2D fitted_ranges;  // of each cell: first entry of its list, number of points
 layout(binding = 9) uniform usampler2D fitted_lists;   // a header, then points (fitted_entry.h)

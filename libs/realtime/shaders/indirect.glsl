@@ -1,5 +1,5 @@
 #version 450 core
-// Light from SPHLs, as libs/gi's lookups find it. Variants: LOOKUP_LIGHT, else irradiance; MLS or TRILINEAR, else
+// Light from SPHLs, as the lookups of libs/probes find it. Variants: LOOKUP_LIGHT, else irradiance; MLS or TRILINEAR, else
 // weights by distance; FITTED with MLS, irradiance from fitted points where there are any; those of indirect_out.glsl;
 // CHOSEN_VIEW the probe that counts most.
 #include "gbuffer_read.glsl"
@@ -96,7 +96,7 @@ uint nearest_of(float d2_of[MAX_LISTED], int listed, int within, float far2) {
 }
 
 // MLS: a linear fit to what the probes in sight within two spacings give, weighted by a bump, and its value at x
-// (gi::WeightMethod::mls). TRILINEAR: a tent of one spacing along each axis. Else, or where x sees none of those: inverse
+// (probes::WeightMethod::mls). TRILINEAR: a tent of one spacing along each axis. Else, or where x sees none of those: inverse
 // squared distance times a wrapped cosine over the nearest that x sees; if it sees none, over the nearest, less those
 // below the tangent plane. Without `wanted` the result means nothing and costs little.
 Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
@@ -191,7 +191,7 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
     weight = fits ? tent_of(d) : weight;
 #endif
     sum += weight;
-    weight *= seen != 0 ? 1 : clamp(4 * cosine, 0.0, 1.0);  // as gi::LookupWeights
+    weight *= seen != 0 ? 1 : clamp(4 * cosine, 0.0, 1.0);  // as probes::LookupWeights
     found.irradiance += weight * irradiance_of(probe, e_place);
 #ifdef FULL_BSDF
     found.glossy += weight * radiance_of(probe, l_place);

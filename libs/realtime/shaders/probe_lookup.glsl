@@ -63,7 +63,7 @@ vec3 radiance_of(int probe, RadiancePlace at) {
   return sum;
 }
 
-// From off the surface by 1 % of the distance, as gi::ProbeSight starts its rays; one texel decides.
+// From off the surface by 1 % of the distance, as probes::ProbeSight starts its rays; one texel decides.
 bool sees_probe(vec3 probe_place, int probe, vec3 x, vec3 n, vec3 geometric, float distance) {
   vec3 lift = 0.01 * min(distance, frame.tone.w) * n;
   return cube_sight(probe_maps, frame.maps.z, frame.map_tiles.z, frame.map_near.z, probe, probe_place, x, lift, geometric);

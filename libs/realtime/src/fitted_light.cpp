@@ -37,17 +37,17 @@ FittedLight::FittedLight(const FittedSurfaces& surfaces, int probe_count, FrameC
       cell_size_(surfaces.cell_size),
       origin_(surfaces.origin),
       cells_(surfaces.cells) {
-  gi::require_whole(points_, static_cast<std::size_t>(probe_count));
+  probes::require_whole(points_, static_cast<std::size_t>(probe_count));
   first_of_probe_.assign(static_cast<std::size_t>(probe_count) + 1, 0);
   for (std::size_t i = 0; i < points_.points.size(); ++i) {
-    for (const gi::ProbeWeight& weight : points_.weights[i].used())
+    for (const probes::ProbeWeight& weight : points_.weights[i].used())
       ++first_of_probe_[static_cast<std::size_t>(weight.probe) + 1];
   }
   for (std::size_t p = 0; p + 1 < first_of_probe_.size(); ++p) first_of_probe_[p + 1] += first_of_probe_[p];
   lit_by_.resize(first_of_probe_.back());
   std::vector<std::size_t> next = first_of_probe_;
   for (std::size_t i = 0; i < points_.points.size(); ++i) {
-    for (const gi::ProbeWeight& weight : points_.weights[i].used())
+    for (const probes::ProbeWeight& weight : points_.weights[i].used())
       lit_by_[next[static_cast<std::size_t>(weight.probe)]++] = static_cast<std::uint32_t>(i);
   }
   marked_.assign(points_.points.size(), 0);
@@ -82,7 +82,7 @@ void FittedLight::update(std::span<const int> probes, std::span<const vec3> irra
 void FittedLight::evaluate(std::size_t point, std::span<const vec3> irradiance, std::size_t count,
                            std::span<uvec4> texels) const {
   std::array<vec3, 25> sum{};
-  for (const gi::ProbeWeight& weight : points_.weights[point].used()) {
+  for (const probes::ProbeWeight& weight : points_.weights[point].used()) {
     const vec3* e = irradiance.data() + static_cast<std::size_t>(weight.probe) * count;
     for (std::size_t k = 0; k < count; ++k) sum[k] += weight.weight * e[k];
   }

@@ -32,7 +32,7 @@ class FittedLight {
                 std::span<uvec4> texels) const;
   void upload_changed(FrameCounters& counters);
 
-  gi::FittedPoints points_;
+  probes::FittedPoints points_;
   float spacing_ = 0, cell_size_ = 1;
   vec3 origin_{0};
   ivec3 cells_{0};

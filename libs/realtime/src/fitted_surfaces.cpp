@@ -7,7 +7,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
-#include <ssphh/gi/nearest.h>
+#include <ssphh/geometry/nearest.h>
 #include <ssphh/realtime/fitted_surfaces.h>
 
 #include "fitted_entry.h"
@@ -16,13 +16,13 @@
 namespace ssphh::realtime {
 namespace {
 
-// By how much less than gi::FittedLookupWeights takes a point's normal may agree with the surface's: shading
-// normals are not those.
+// By how much less than probes::FittedLookupWeights takes a point's normal may agree with the surface's:
+// shading normals are not those.
 constexpr float least_cosine = 0.2f;
 
-gi::FittedPoints with_weights(const gi::FittedPoints& fitted) {
-  gi::require_whole(fitted, std::numeric_limits<std::size_t>::max());
-  gi::FittedPoints kept;
+probes::FittedPoints with_weights(const probes::FittedPoints& fitted) {
+  probes::require_whole(fitted, std::numeric_limits<std::size_t>::max());
+  probes::FittedPoints kept;
   for (std::size_t i = 0; i < fitted.points.size(); ++i) {
     if (fitted.weights[i].count == 0) continue;
     kept.points.push_back(fitted.points[i]);
@@ -31,9 +31,9 @@ gi::FittedPoints with_weights(const gi::FittedPoints& fitted) {
   return kept;
 }
 
-std::vector<vec3> positions_of(const gi::FittedPoints& fitted) {
+std::vector<vec3> positions_of(const probes::FittedPoints& fitted) {
   std::vector<vec3> positions;
-  for (const scene::SurfacePoint& point : fitted.points) positions.push_back(point.position);
+  for (const rays::SurfacePoint& point : fitted.points) positions.push_back(point.position);
   return positions;
 }
 
@@ -51,7 +51,7 @@ struct Work {
     std::vector<std::uint32_t> asked;  ///< samples that it may light
     std::vector<char> seen;            ///< by those; empty: by all
   };
-  std::vector<gi::Near> near;
+  std::vector<geometry::Near> near;
   std::vector<Sample> samples;
   std::vector<unsigned char> taken;
   std::vector<Candidate> candidates;
@@ -60,7 +60,7 @@ struct Work {
 
 class Preparation {
  public:
-  Preparation(FittedSurfaces& out, std::vector<StillTriangle> triangles, const gi::SeesProbe& sees)
+  Preparation(FittedSurfaces& out, std::vector<StillTriangle> triangles, const probes::SeesProbe& sees)
       : out_(out),
         triangles_(std::move(triangles)),
         sees_(sees),
@@ -107,10 +107,10 @@ class Preparation {
   /// How far a lookup at x looks [m].
   float reach(const vec3& x) const {
     const float radius = 4 * out_.spacing;
-    std::array<gi::Near, gi::most_fitted_points> near;
+    std::array<geometry::Near, probes::most_fitted_points> near;
     const int count = near_.find(x, near, radius);
-    return count == static_cast<int>(gi::most_fitted_points)
-               ? std::sqrt(near[gi::most_fitted_points - 1].distance2) * 1.0001f
+    return count == static_cast<int>(probes::most_fitted_points)
+               ? std::sqrt(near[probes::most_fitted_points - 1].distance2) * 1.0001f
                : radius;
   }
 
@@ -144,7 +144,7 @@ class Preparation {
     }
     for (const Work::Candidate& candidate : work.candidates) {
       if (work.list.size() > static_cast<std::size_t>(FittedSurfaces::longest)) break;
-      const scene::SurfacePoint& point = out_.points.points[candidate.point];
+      const rays::SurfacePoint& point = out_.points.points[candidate.point];
       const CoarseNormal normal = CoarseNormal::of(point.normal);
       const std::uint64_t squares = squares_of(candidate, normal.axis(), corner, work);
       if (squares == 0) continue;
@@ -184,7 +184,7 @@ class Preparation {
     work.candidates.clear();
     for (int k = 0; k < found; ++k) {
       const auto p = static_cast<std::uint32_t>(work.near[static_cast<std::size_t>(k)].index);
-      const scene::SurfacePoint& point = out_.points.points[p];
+      const rays::SurfacePoint& point = out_.points.points[p];
       Work::Candidate candidate{p, {}, {}};
       for (std::size_t i = 0; i < work.samples.size(); ++i) {
         const Sample& s = work.samples[i];
@@ -208,7 +208,7 @@ class Preparation {
   }
 
   bool sees(const Sample& sample, std::uint32_t p) const {
-    const scene::SurfacePoint& point = out_.points.points[p];
+    const rays::SurfacePoint& point = out_.points.points[p];
     const float lift = 0.02f * out_.spacing;
     const vec3 n = side(sample, p) ? -sample.normal : sample.normal;
     return sees_(sample.position + lift * n, point.position + lift * point.normal);
@@ -260,22 +260,22 @@ class Preparation {
 
   FittedSurfaces& out_;
   std::vector<StillTriangle> triangles_;
-  const gi::SeesProbe& sees_;
+  const probes::SeesProbe& sees_;
   std::vector<vec3> positions_;
-  gi::NearestPoints near_;
+  geometry::NearestPoints near_;
   TriangleCells in_cells_;
 };
 
 }  // namespace
 
-FittedSurfaces prepare_fitted(const scene::Scene& scene, float time, const gi::FittedPoints& fitted,
-                              const gi::SeesProbe& sees, const Control& control) {
+FittedSurfaces prepare_fitted(const scene::Scene& scene, float time, const probes::FittedPoints& fitted,
+                              const probes::SeesProbe& sees, const Control& control) {
   FittedSurfaces out;
   out.points = with_weights(fitted);
   if (out.points.points.size() > FittedSurfaces::most_points)
     throw Error("fitted weights", fmt::format("{} points, at most {} can be drawn", out.points.points.size(),
                                               FittedSurfaces::most_points));
-  out.spacing = gi::median_spacing(positions_of(out.points));
+  out.spacing = probes::median_spacing(positions_of(out.points));
   std::vector<StillTriangle> triangles = still_triangles(scene, time);
   if (!std::isfinite(out.spacing) || triangles.empty()) return out;
   Preparation(out, std::move(triangles), sees).run(control);

@@ -56,7 +56,7 @@ const FrameStats& Renderer::draw(const scene::CameraPose& camera, const FrameSet
   const bool wants_indirect =
       !wants_method && d.probes.count() > 0 &&
       (settings.view == View::chosen_sphl || (settings.indirect && (lit || settings.view == View::indirect)));
-  if (wants_indirect && (d.scene.any_full() || settings.lookup == gi::LookupMethod::light))
+  if (wants_indirect && (d.scene.any_full() || settings.lookup == probes::LookupMethod::light))
     d.probes.want_radiance(d.counters);
   const FrameBlock block = frame_block(camera, settings, d.images, d.lights, d.probes, d.scene.bounds());
   upload(d.counters, d.frame_buffer, std::span<const FrameBlock>(&block, 1));

@@ -31,9 +31,9 @@ FrameBlock frame_block(const scene::CameraPose& camera, const FrameSettings& set
   b.camera_forward = vec4(forward, lens.orthographic ? far : near);
   const ProbeGrid& grid = probes.grid();
   b.counts = ivec4(static_cast<int>(lights.lit().size()), probes.count(), grid.length, 0);
-  b.switches =
-      ivec4(settings.direct, settings.indirect && probes.count() > 0,
-            static_cast<int>(settings.lookup == gi::LookupMethod::light), static_cast<int>(settings.view));
+  b.switches = ivec4(settings.direct, settings.indirect && probes.count() > 0,
+                     static_cast<int>(settings.lookup == probes::LookupMethod::light),
+                     static_cast<int>(settings.view));
   b.grid_size = ivec4(grid.cells, 0);
   b.grid_origin = vec4(grid.origin, grid.cell_size);
   b.tone = vec4(std::exp2(settings.tone.exposure), settings.tone.curve == image::ToneCurve::filmic ? 1 : 0,

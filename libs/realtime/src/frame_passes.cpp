@@ -81,11 +81,13 @@ void Renderer::Data::draw_direct(bool shadow_view) {
 }
 
 IndirectLookup Renderer::Data::lookup_of(const FrameSettings& settings) const {
-  if (settings.lookup == gi::LookupMethod::light) return IndirectLookup::light;
-  if (settings.weights == gi::WeightMethod::fitted && probes.has_fitted()) return IndirectLookup::fitted;
+  if (settings.lookup == probes::LookupMethod::light) return IndirectLookup::light;
+  if (settings.weights == probes::WeightMethod::fitted && probes.has_fitted()) return IndirectLookup::fitted;
   // One probe has no spacing, nor anything to fit
-  if (settings.weights == gi::WeightMethod::distance || probes.count() < 2) return IndirectLookup::distance;
-  return settings.weights == gi::WeightMethod::trilinear ? IndirectLookup::trilinear : IndirectLookup::mls;
+  if (settings.weights == probes::WeightMethod::distance || probes.count() < 2)
+    return IndirectLookup::distance;
+  return settings.weights == probes::WeightMethod::trilinear ? IndirectLookup::trilinear
+                                                             : IndirectLookup::mls;
 }
 
 void Renderer::Data::draw_indirect(const FrameSettings& settings) {

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include <ssphh/gi/methods/method.h>
+#include <ssphh/methods/method.h>
 #include <ssphh/realtime/renderer.h>
 
 #include "method_kind.h"
@@ -17,7 +17,7 @@ class MethodLight {
 
   virtual MethodKind kind() const = 0;
   /// New data of the same kind, keeping what still holds; false: a new object must be made for it.
-  virtual bool take(const gi::LightData& data, FrameCounters& counters) = 0;
+  virtual bool take(const methods::LightData& data, FrameCounters& counters) = 0;
 
   /// Something in these boxes moved.
   virtual void invalidate(const std::vector<scene::Bounds>& /*moved*/) {}
@@ -33,11 +33,11 @@ class MethodLight {
   virtual void bind(gl::Program& program, int pass) const = 0;
 
   virtual std::size_t bytes() const = 0;
-  virtual gi::MethodNumbers numbers() const = 0;
+  virtual methods::MethodNumbers numbers() const = 0;
 };
 
 /// Throws Error for data that OpenGL cannot look up or that does not fit into the memory of `params`.
-std::unique_ptr<MethodLight> make_method_light(const gi::LightData& data, const RendererParams& params,
+std::unique_ptr<MethodLight> make_method_light(const methods::LightData& data, const RendererParams& params,
                                                const scene::Bounds& bounds, FrameCounters& counters);
 
 }  // namespace ssphh::realtime

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include <ssphh/gi/vct/voxel_grid.h>
+#include <ssphh/methods/vct/voxel_grid.h>
 
 #include "gpu_types.h"
 
@@ -18,14 +18,14 @@ struct GpuConeBlock {
   ivec4 counts{0};  // cones, coarsest level
   vec4 part{0};     // texels of a side's part in the volume
   vec4 texel{0};    // 1 / texels of the volume
-  vec4 cells[gi::vct::VoxelGrid::most_levels] = {};
-  vec4 first[gi::vct::VoxelGrid::most_levels] = {};
+  vec4 cells[methods::vct::VoxelGrid::most_levels] = {};
+  vec4 first[methods::vct::VoxelGrid::most_levels] = {};
   vec4 lobe_cosines[lobe_steps / 4 + 1] = {};  // at roughness i / lobe_steps
 };
 static_assert(offsetof(GpuConeBlock, cells) == 5 * 16);
-static_assert(offsetof(GpuConeBlock, first) == (5 + gi::vct::VoxelGrid::most_levels) * 16);
-static_assert(offsetof(GpuConeBlock, lobe_cosines) == (5 + 2 * gi::vct::VoxelGrid::most_levels) * 16);
-static_assert(gi::vct::VoxelGrid::most_levels == 9 && lobe_steps == 128, "as cones.glsl has them");
+static_assert(offsetof(GpuConeBlock, first) == (5 + methods::vct::VoxelGrid::most_levels) * 16);
+static_assert(offsetof(GpuConeBlock, lobe_cosines) == (5 + 2 * methods::vct::VoxelGrid::most_levels) * 16);
+static_assert(methods::vct::VoxelGrid::most_levels == 9 && lobe_steps == 128, "as cones.glsl has them");
 static_assert(sizeof(GpuConeBlock) <= 16384, "what every driver offers for a uniform block");
 
 /// Cones (std430): direction about the normal, tangent of the half angle.

@@ -5,14 +5,14 @@
 #include <cmath>
 
 #include <ssphh/core/parallel.h>
-#include <ssphh/gi/nearest.h>
+#include <ssphh/geometry/nearest.h>
 
 namespace ssphh::realtime {
 namespace {
 
 /// The part of `near`, sorted by distance from the middle of a cube of half side `half`, that may be among
 /// the `wanted` nearest of some point of the cube; moved to the front, in order.
-std::size_t keep_possible(std::span<gi::Near> near, std::span<const vec3> probes, const vec3& middle,
+std::size_t keep_possible(std::span<geometry::Near> near, std::span<const vec3> probes, const vec3& middle,
                           float half) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < near.size(); ++i) {
@@ -51,10 +51,10 @@ ProbeGrid make_probe_grid(std::span<const vec3> probes, const scene::Bounds& bou
   constexpr auto stride = static_cast<std::size_t>(ProbeGrid::longest);
   std::vector<int> lists(count * stride, -1);
   std::atomic<int> longest = 1;
-  const gi::NearestPoints nearest(probes);
+  const geometry::NearestPoints nearest(probes);
   const float half = 0.5f * grid.cell_size, diagonal = 2 * std::sqrt(3.0f) * half;
   parallel_for(count, 64, [&](std::size_t begin, std::size_t end) {
-    std::vector<gi::Near> near(4 * stride);
+    std::vector<geometry::Near> near(4 * stride);
     for (std::size_t cell = begin; cell < end; ++cell) {
       const auto c = static_cast<int>(cell);
       const vec3 place(c % grid.cells.x, c / grid.cells.x % grid.cells.y, c / (grid.cells.x * grid.cells.y));

@@ -55,20 +55,21 @@ Probes::Probes() {
   maps_ = MapAtlas(smallest_face, 1);
 }
 
-Probes::Probes(const gi::ProbeSet& set, const gi::LookupParams& params, const RendererParams& renderer,
-               const scene::Bounds& bounds, bool glossy, FrameCounters& counters)
-    : irradiance_degree_(gi::irradiance_degree(params, set.degree)),
+Probes::Probes(const probes::ProbeSet& set, const probes::LookupParams& params,
+               const RendererParams& renderer, const scene::Bounds& bounds, bool glossy,
+               FrameCounters& counters)
+    : irradiance_degree_(probes::irradiance_degree(params, set.degree)),
       radiance_degree_(set.degree),
       dering_(params.dering),
       near_(std::max(5e-4f * bounds.radius(), 1e-6f)),
-      light_(gi::surface_light(set, params)) {
+      light_(probes::surface_light(set, params)) {
   scene::Bounds all = bounds;
-  for (const gi::Probe& probe : set.probes) {
+  for (const probes::Probe& probe : set.probes) {
     places_.push_back(probe.position);
     radii_.push_back(probe.radius);
     all.add(probe.position);
   }
-  spacing_ = params.weights.spacing > 0 ? params.weights.spacing : gi::median_spacing(places_);
+  spacing_ = params.weights.spacing > 0 ? params.weights.spacing : probes::median_spacing(places_);
   grid_ = make_probe_grid(places_, all, spacing_);
   cells_ = cell_texture(grid_, places_);
   irradiance_basis_ = TileBasis(irradiance_tile, irradiance_degree_);

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include <ssphh/gi/lookup.h>
-#include <ssphh/gi/probe_set.h>
+#include <ssphh/probes/lookup.h>
+#include <ssphh/probes/probe_set.h>
 #include <ssphh/realtime/renderer.h>
 
 #include "fitted_light.h"
@@ -19,9 +19,9 @@ namespace ssphh::realtime {
 class Probes {
  public:
   Probes();
-  /// As gi::IrradianceLookup reads a set. Throws Error as that does. `glossy`: something reflects
+  /// As probes::IrradianceLookup reads a set. Throws Error as that does. `glossy`: something reflects
   /// otherwise than Lambert's law says, so radiance is kept by roughness.
-  Probes(const gi::ProbeSet& set, const gi::LookupParams& params, const RendererParams& renderer,
+  Probes(const probes::ProbeSet& set, const probes::LookupParams& params, const RendererParams& renderer,
          const scene::Bounds& bounds, bool glossy, FrameCounters& counters);
 
   int count() const { return static_cast<int>(places_.size()); }

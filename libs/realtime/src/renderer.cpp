@@ -119,7 +119,7 @@ void Renderer::set_material(int index, const scene::Material& material) {
   data_->scene.set_material(index, material, data_->counters);
 }
 
-void Renderer::set_probes(const gi::ProbeSet& set, const gi::LookupParams& params) {
+void Renderer::set_probes(const probes::ProbeSet& set, const probes::LookupParams& params) {
   Data& d = *data_;
   d.forget_emission();
   d.probes = Probes(set, params, d.params, d.scene.bounds(), d.scene.any_full(), d.counters);
@@ -146,7 +146,7 @@ int Renderer::probe_count() const {
   return data_->probes.count();
 }
 
-void Renderer::set_method_light(const gi::LightData& light) {
+void Renderer::set_method_light(const methods::LightData& light) {
   Data& d = *data_;
   if (!d.method || !d.method->take(light, d.counters)) {
     d.method.reset();  // first: the two would not always fit side by side
@@ -159,8 +159,8 @@ void Renderer::clear_method_light() {
   data_->method.reset();
 }
 
-gi::MethodNumbers Renderer::method_numbers() const {
-  return data_->method ? data_->method->numbers() : gi::MethodNumbers();
+methods::MethodNumbers Renderer::method_numbers() const {
+  return data_->method ? data_->method->numbers() : methods::MethodNumbers();
 }
 
 image::Image Renderer::read_back() const {

@@ -5,8 +5,8 @@
 #include <array>
 #include <optional>
 
-#include <ssphh/gi/lookup.h>
 #include <ssphh/gl/program.h>
+#include <ssphh/probes/lookup.h>
 
 #include "gpu_types.h"
 #include "method_kind.h"

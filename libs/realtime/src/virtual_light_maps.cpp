@@ -11,7 +11,7 @@
 namespace ssphh::realtime {
 namespace {
 
-using gi::vpl::Vpl;
+using methods::vpl::Vpl;
 
 constexpr int largest_face = 256, smallest_face = 32;
 /// Of one pass over the picture: drivers stop what keeps a GPU for seconds.
@@ -46,21 +46,21 @@ VirtualMapPlan plan_virtual_maps(std::size_t lights, std::size_t most_bytes) {
   return {smallest_face, static_cast<int>(low)};
 }
 
-VirtualLightMaps::VirtualLightMaps(const gi::VirtualLights& data, std::size_t most_bytes,
+VirtualLightMaps::VirtualLightMaps(const methods::VirtualLights& data, std::size_t most_bytes,
                                    const scene::Bounds& bounds, FrameCounters& counters)
     : most_bytes_(most_bytes), near_(std::max(5e-4f * bounds.radius(), 1e-6f)) {
   take(data, counters);
 }
 
-bool VirtualLightMaps::take(const gi::LightData& data, FrameCounters& counters) {
-  const auto* given = std::get_if<gi::VirtualLights>(&data);
+bool VirtualLightMaps::take(const methods::LightData& data, FrameCounters& counters) {
+  const auto* given = std::get_if<methods::VirtualLights>(&data);
   if (!given) return false;
   const VirtualMapPlan plan = plan_virtual_maps(given->lights.size(), most_bytes_);
   if (plan.lights == 0 && !given->lights.empty())
     throw Error("method vpl", fmt::format("{} bytes hold no shadow map of a virtual light", most_bytes_));
   params_ = given->params;
   std::vector<Vpl> before = std::move(lights_);
-  lights_ = gi::vpl::merge_lights(given->lights, static_cast<std::size_t>(plan.lights));
+  lights_ = methods::vpl::merge_lights(given->lights, static_cast<std::size_t>(plan.lights));
   if (plan.size != maps_.size() || 6 * plan.lights > maps_.count()) {
     maps_ = MapAtlas();  // first: the two would not always fit side by side
     maps_ = MapAtlas(plan.size, std::max(6 * plan.lights, 1));
@@ -101,13 +101,13 @@ void VirtualLightMaps::bind(gl::Program& program, int pass) const {
   program.set("lights_drawn", first, end);
   program.set("map_layout", maps_.size(), maps_.layout().columns_log2);
   program.set("map_near", near_);
-  program.set("spheres", params_.kind == gi::vpl::VplKind::sphere ? 1 : 0);
+  program.set("spheres", params_.kind == methods::vpl::VplKind::sphere ? 1 : 0);
   const float least2 = params_.least_distance * params_.least_distance;
   program.set("most_transfer", least2 > 0 ? 1 / least2 : std::numeric_limits<float>::max());
-  program.set("sharpest_lobe", gi::vpl::sharpest_lobe);
+  program.set("sharpest_lobe", methods::vpl::sharpest_lobe);
 }
 
-gi::MethodNumbers VirtualLightMaps::numbers() const {
+methods::MethodNumbers VirtualLightMaps::numbers() const {
   return {{"gl_bytes", static_cast<double>(bytes())},
           {"gl_lights", static_cast<double>(lights_.size())},
           {"gl_map_size", maps_.size()}};

@@ -18,13 +18,13 @@ VirtualMapPlan plan_virtual_maps(std::size_t lights, std::size_t most_bytes);
 
 class VirtualLightMaps final : public MethodLight {
  public:
-  /// More lights than have room for maps are merged (gi::vpl::merge_lights). Throws Error where not even one
-  /// has room.
-  VirtualLightMaps(const gi::VirtualLights& data, std::size_t most_bytes, const scene::Bounds& bounds,
+  /// More lights than have room for maps are merged (methods::vpl::merge_lights). Throws Error where not even
+  /// one has room.
+  VirtualLightMaps(const methods::VirtualLights& data, std::size_t most_bytes, const scene::Bounds& bounds,
                    FrameCounters& counters);
 
   MethodKind kind() const override { return MethodKind::virtual_lights; }
-  bool take(const gi::LightData& data, FrameCounters& counters) override;
+  bool take(const methods::LightData& data, FrameCounters& counters) override;
   void invalidate(const std::vector<scene::Bounds>& moved) override { maps_.invalidate(moved); }
   int update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most, int& waiting,
                   FrameCounters& counters) override {
@@ -33,15 +33,15 @@ class VirtualLightMaps final : public MethodLight {
   int passes() const override;
   void bind(gl::Program& program, int pass) const override;
   std::size_t bytes() const override { return maps_.bytes() + buffer_.size(); }
-  gi::MethodNumbers numbers() const override;
+  methods::MethodNumbers numbers() const override;
 
  private:
   void place(std::size_t light);
 
   std::size_t most_bytes_;
   float near_;
-  gi::vpl::VplParams params_;
-  std::vector<gi::vpl::Vpl> lights_;  ///< as drawn
+  methods::vpl::VplParams params_;
+  std::vector<methods::vpl::Vpl> lights_;  ///< as drawn
   MapAtlas maps_;
   gl::Buffer buffer_;
 };

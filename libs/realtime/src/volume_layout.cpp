@@ -6,11 +6,11 @@
 
 namespace ssphh::realtime {
 
-VolumeLayout::VolumeLayout(const gi::vct::VoxelGrid& grid) {
+VolumeLayout::VolumeLayout(const methods::vct::VoxelGrid& grid) {
   constexpr int border = 1;
   int row = 0, depth = 0;
   for (int level = 0; level < grid.levels(); ++level) {
-    const gi::vct::Cell c = grid.level_size(level);
+    const methods::vct::Cell c = grid.level_size(level);
     const ivec3 with_border = ivec3(c.x, c.y, c.z) + 2 * border;
     cells.emplace_back(c.x, c.y, c.z);
     if (level == 0) {

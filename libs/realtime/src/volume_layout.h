@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include <ssphh/gi/vct/voxel_grid.h>
+#include <ssphh/methods/vct/voxel_grid.h>
 
 namespace ssphh::realtime {
 
@@ -17,7 +17,7 @@ struct VolumeLayout {
   std::vector<ivec3> first;  ///< a level's first voxel within a part
   ivec3 part{0};             ///< texels of a part
 
-  explicit VolumeLayout(const gi::vct::VoxelGrid& grid);
+  explicit VolumeLayout(const methods::vct::VoxelGrid& grid);
   ivec3 size() const { return {3 * part.x, 2 * part.y, part.z}; }
   std::size_t bytes() const;
   /// First texel of a side's part; sides as gi::vct counts them.

@@ -6,17 +6,17 @@
 #include <glm/gtc/packing.hpp>
 
 #include <ssphh/core/error.h>
-#include <ssphh/gi/vct/pyramid.h>
+#include <ssphh/methods/vct/pyramid.h>
 
 namespace ssphh::realtime {
 namespace {
 
-using gi::vct::BrickView;
-using gi::vct::Cell;
-using gi::vct::Pyramid;
-using gi::vct::side_count;
-using gi::vct::Voxel;
-constexpr int brick = gi::vct::VoxelGrid::brick;
+using methods::vct::BrickView;
+using methods::vct::Cell;
+using methods::vct::Pyramid;
+using methods::vct::side_count;
+using methods::vct::Voxel;
+constexpr int brick = methods::vct::VoxelGrid::brick;
 
 /// Halves hold relative precision from 6e-5 to 65504: the brightest voxel stands well within.
 constexpr float brightest_in_volume = 1024;
@@ -46,8 +46,8 @@ float brightest(const Pyramid& voxels) {
   return most;
 }
 
-GpuConeBlock cone_block(const gi::VoxelCones& data, const VolumeLayout& layout, float unit_radiance) {
-  const gi::vct::VoxelGrid& grid = data.voxels->grid();
+GpuConeBlock cone_block(const methods::VoxelCones& data, const VolumeLayout& layout, float unit_radiance) {
+  const methods::vct::VoxelGrid& grid = data.voxels->grid();
   GpuConeBlock block;
   block.grid = vec4(grid.origin, grid.voxel);
   block.march = vec4(data.cones.offset, data.cones.opacity, data.cones.step, unit_radiance);
@@ -60,7 +60,7 @@ GpuConeBlock cone_block(const gi::VoxelCones& data, const VolumeLayout& layout, 
   }
   for (int i = 0; i <= lobe_steps; ++i)
     block.lobe_cosines[i / 4][i % 4] =
-        gi::vct::lobe_cosine(static_cast<float>(i) / static_cast<float>(lobe_steps));
+        methods::vct::lobe_cosine(static_cast<float>(i) / static_cast<float>(lobe_steps));
   return block;
 }
 
@@ -74,7 +74,7 @@ void check_bytes(std::size_t bytes, std::size_t most) {
 
 }  // namespace
 
-VoxelLight::VoxelLight(const gi::VoxelCones& data, std::size_t most_bytes, FrameCounters& counters)
+VoxelLight::VoxelLight(const methods::VoxelCones& data, std::size_t most_bytes, FrameCounters& counters)
     : layout_(data.voxels->grid()) {
   check_bytes(layout_.bytes(), most_bytes);
   volume_ = gl::Volume(layout_.size());
@@ -82,22 +82,22 @@ VoxelLight::VoxelLight(const gi::VoxelCones& data, std::size_t most_bytes, Frame
   upload_all(data, counters);
 }
 
-bool VoxelLight::take(const gi::LightData& data, FrameCounters& counters) {
-  const auto* cones = std::get_if<gi::VoxelCones>(&data);
+bool VoxelLight::take(const methods::LightData& data, FrameCounters& counters) {
+  const auto* cones = std::get_if<methods::VoxelCones>(&data);
   if (!cones || VolumeLayout(cones->voxels->grid()).cells != layout_.cells) return false;
   volume_.clear();
   upload_all(*cones, counters);
   return true;
 }
 
-void VoxelLight::upload_all(const gi::VoxelCones& data, FrameCounters& counters) {
+void VoxelLight::upload_all(const methods::VoxelCones& data, FrameCounters& counters) {
   const float most = brightest(*data.voxels);
   const float scale = most > 0 ? brightest_in_volume / most : 1;
   for (int level = 0; level < data.voxels->levels(); ++level)
     upload_level(*data.voxels, level, scale, counters);
 
   std::vector<GpuCone> cones;
-  for (const gi::vct::Cone& cone : gi::vct::hemisphere_cones(data.cones.cones))
+  for (const methods::vct::Cone& cone : methods::vct::hemisphere_cones(data.cones.cones))
     cones.emplace_back(cone.direction, cone.tangent);
   cones_.reserve(cones.size() * sizeof(GpuCone));
   upload(counters, cones_, std::span<const GpuCone>(cones));
@@ -150,7 +150,7 @@ std::size_t VoxelLight::bytes() const {
   return volume_.bytes() + block_.size() + cones_.size();
 }
 
-gi::MethodNumbers VoxelLight::numbers() const {
+methods::MethodNumbers VoxelLight::numbers() const {
   return {{"gl_bytes", static_cast<double>(bytes())}, {"gl_cones", cone_count_}};
 }
 

@@ -12,18 +12,18 @@ namespace ssphh::realtime {
 class VoxelLight final : public MethodLight {
  public:
   /// Throws Error when the volume would take more than `most_bytes`.
-  VoxelLight(const gi::VoxelCones& data, std::size_t most_bytes, FrameCounters& counters);
+  VoxelLight(const methods::VoxelCones& data, std::size_t most_bytes, FrameCounters& counters);
 
   MethodKind kind() const override { return MethodKind::cones; }
-  bool take(const gi::LightData& data, FrameCounters& counters) override;
+  bool take(const methods::LightData& data, FrameCounters& counters) override;
   int passes() const override { return 1; }
   void bind(gl::Program& program, int pass) const override;
   std::size_t bytes() const override;
-  gi::MethodNumbers numbers() const override;
+  methods::MethodNumbers numbers() const override;
 
  private:
-  void upload_all(const gi::VoxelCones& data, FrameCounters& counters);
-  void upload_level(const gi::vct::Pyramid& voxels, int level, float scale, FrameCounters& counters);
+  void upload_all(const methods::VoxelCones& data, FrameCounters& counters);
+  void upload_level(const methods::vct::Pyramid& voxels, int level, float scale, FrameCounters& counters);
 
   VolumeLayout layout_;
   gl::Volume volume_;

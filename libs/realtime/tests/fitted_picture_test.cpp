@@ -24,7 +24,7 @@ class FittedPicture : public test::WithGl {
   void add(const vec3& local, const vec3& normal = {0, 0, 1}, const vec3& scale = vec3(1)) {
     const Frame& f = view_.frame;
     probes_.add(f.to_world(local + vec3(0, 0, 1)), scale);
-    gi::FittedPoints& fitted = *probes_.set.fitted;
+    probes::FittedPoints& fitted = *probes_.set.fitted;
     fitted.points.push_back({f.to_world(local), glm::normalize(f.to_world(normal))});
     fitted.weights.emplace_back().add(static_cast<int>(probes_.set.probes.size()) - 1, 1);
   }
@@ -37,13 +37,13 @@ class FittedPicture : public test::WithGl {
     const Frame& f = view_.frame;
     const scene::Scene scene =
         coloured(scene::make_quad(f.to_world({-1.6f, -1.6f, 0}), 3.2f * f.x, 3.2f * f.y));
-    const gi::FittedPoints& fitted = *probes_.set.fitted;
+    const probes::FittedPoints& fitted = *probes_.set.fitted;
     Renderer renderer(gl(), scene);
     renderer.set_probes(probes_.set);
     renderer.set_fitted(prepare_fitted(scene, 0, fitted, everything_sees));
     const image::Image drawn = view_.draw(renderer);
-    const gi::IrradianceLookup lookup(probes_.set,
-                                      gi::make_weights(probes_.positions(), everything_sees, {}, &fitted));
+    const probes::IrradianceLookup lookup(
+        probes_.set, probes::make_weights(probes_.positions(), everything_sees, {}, &fitted));
     Worst worst;
     for (int y = 0; y < view_.side; ++y) {
       for (int x = 0; x < view_.side; ++x) {

@@ -40,8 +40,8 @@ scene::Scene body_on_a_floor() {
 }
 
 /// On the floor, half a metre apart, and one in the middle of the body's lower side.
-gi::FittedPoints points() {
-  gi::FittedPoints fitted;
+probes::FittedPoints points() {
+  probes::FittedPoints fitted;
   const auto add = [&](const vec3& place, const vec3& normal) {
     fitted.points.push_back({place, normal});
     fitted.weights.emplace_back().add(0, 1);
@@ -62,7 +62,7 @@ std::vector<vec3> lighting(const FittedSurfaces& surfaces, const vec3& x) {
   std::vector<vec3> places;
   for (unsigned i = 1; i <= range.y; ++i) {
     const uvec4 entry = surfaces.lists[range.x + i];
-    const scene::SurfacePoint& point = surfaces.points.points[entry.x >> 10];
+    const rays::SurfacePoint& point = surfaces.points.points[entry.x >> 10];
     if (point.normal.y > 0 && glm::distance(point.position, x) < 0.8f &&
         ((square < 32 ? entry.z : entry.w) >> (square & 31) & 1u))
       places.push_back(point.position);
@@ -80,7 +80,7 @@ TEST(FittedSurfaces, TheFloorUnderABodySeesItsNeighboursOnTheFloor) {
 }
 
 TEST(FittedSurfaces, TheFloorBesideABodySeesNothingThroughIt) {
-  gi::FittedPoints fitted = points();
+  probes::FittedPoints fitted = points();
   const auto walled = [](const vec3& a, const vec3& b) { return (a.x < 0) == (b.x < 0); };
   const FittedSurfaces surfaces = prepare_fitted(body_on_a_floor(), 0, fitted, walled);
   for (const float x : {-0.4f, -0.2f, 0.2f, 0.4f}) {

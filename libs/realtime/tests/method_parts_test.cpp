@@ -39,7 +39,7 @@ TEST(VolumeLayout, LevelsWithTheirBordersStandApartWithinThePart) {
   const std::vector<vec3> extents = {{1, 1, 1}, {8.2f, 3, 4}, {1, 20, 0.1f}, {0.1f, 0.1f, 5}, {30, 12, 19}};
   for (const vec3& extent : extents) {
     for (const int resolution : {8, 32, 128, 512}) {
-      const gi::vct::VoxelGrid grid = gi::vct::make_grid({vec3(-1), vec3(-1) + extent}, resolution);
+      const methods::vct::VoxelGrid grid = methods::vct::make_grid({vec3(-1), vec3(-1) + extent}, resolution);
       const VolumeLayout layout(grid);
       ASSERT_EQ(static_cast<int>(layout.cells.size()), grid.levels());
       std::size_t needed = 0;

@@ -3,14 +3,14 @@
 
 #include <random>
 
-#include <ssphh/gi/lookup.h>
+#include <ssphh/probes/lookup.h>
 #include <ssphh/realtime/renderer.h>
 
 #include "gl_context.h"
 
 namespace ssphh::realtime {
 
-inline const gi::SeesProbe everything_sees = [](const vec3&, const vec3&) { return true; };
+inline const probes::SeesProbe everything_sees = [](const vec3&, const vec3&) { return true; };
 
 /// Indirect light alone, seen along −z of `frame` at right angles.
 struct StraightView {
@@ -43,22 +43,22 @@ class MadeUpProbes {
   }
   void add(const vec3& position, const vec3& scale = vec3(1)) {
     std::uniform_real_distribution<float> mean(2, 4), rest(-0.3f, 0.3f);
-    gi::Probe probe;
+    probes::Probe probe;
     probe.position = position;
-    gi::GroupLight light{sh::RadianceSh(4), sh::RadianceSh(4)};
+    probes::GroupLight light{sh::RadianceSh(4), sh::RadianceSh(4)};
     for (int k = 0; k < 25; ++k)
       for (int c = 0; c < 3; ++c) light.reflected[k][c] = scale[c] * (k == 0 ? mean(random_) : rest(random_));
     probe.groups.push_back(light);
     set.probes.push_back(probe);
-    gi::merge_groups(set);
+    probes::merge_groups(set);
   }
   std::vector<vec3> positions() const {
     std::vector<vec3> all;
-    for (const gi::Probe& probe : set.probes) all.push_back(probe.position);
+    for (const probes::Probe& probe : set.probes) all.push_back(probe.position);
     return all;
   }
 
-  gi::ProbeSet set;
+  probes::ProbeSet set;
 
  private:
   std::mt19937 random_{5};

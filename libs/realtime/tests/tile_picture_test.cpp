@@ -21,9 +21,10 @@ TEST_F(TilePicture, ABallShowsTheProbesIrradianceForEveryNormal) {
     Renderer renderer(gl(), scene);
     renderer.set_probes(probes.set);
     FrameSettings settings;
-    settings.weights = gi::WeightMethod::distance;
+    settings.weights = probes::WeightMethod::distance;
     const image::Image drawn = view.draw(renderer, settings);
-    const gi::IrradianceLookup lookup(probes.set, gi::make_weights(probes.positions(), everything_sees));
+    const probes::IrradianceLookup lookup(probes.set,
+                                          probes::make_weights(probes.positions(), everything_sees));
     Worst worst;
     for (int y = 0; y < view.side; ++y) {
       for (int x = 0; x < view.side; ++x) {

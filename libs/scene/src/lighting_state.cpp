@@ -6,7 +6,6 @@
 #include <ssphh/core/require.h>
 #include <ssphh/scene/lighting_state.h>
 #include <ssphh/scene/query.h>
-#include <ssphh/scene/transport_source.h>
 
 namespace ssphh::scene {
 namespace {
@@ -41,14 +40,6 @@ LightingState lighting_at(const Scene& scene, float time) {
     state.lights.push_back({placed, light.color, light.intensity});
   }
   state.group_scales.assign(light_groups(scene).size(), vec3(1));
-  return state;
-}
-
-LightingState lighting_at(const TransportSource& source, float time) {
-  LightingState state;
-  state.time = time;
-  state.lights = source.lights(time);
-  state.group_scales.assign(source.light_groups().size(), vec3(1));
   return state;
 }
 

@@ -170,7 +170,7 @@ TEST(Emitters, SendTheirPhotonsFromWhereTheyAre) {
         power.add(0);
         continue;
       }
-      const scene::Photon& photon = emitted->photon;
+      const rays::Photon& photon = emitted->photon;
       power.add(static_cast<double>(luminance(photon.power)));
       EXPECT_LE(max_component(extent.min - photon.origin), 1e-5f) << i;
       EXPECT_LE(max_component(photon.origin - extent.max), 1e-5f) << i;

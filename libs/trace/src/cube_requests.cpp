@@ -10,7 +10,7 @@
 namespace ssphh::trace {
 namespace {
 
-void check_request(const scene::CubeRequest& request, std::size_t maps) {
+void check_request(const rays::CubeRequest& request, std::size_t maps) {
   if (request.face_size < 1 || request.face_size > 8192) throw Error("face size", "it must lie in 1..8192");
   if (!is_finite(request.position)) throw Error("probe position", "it must be finite");
   check_path_params(request.path);
@@ -39,7 +39,7 @@ class TexelSums {
   const vec3& sum(std::size_t index) const { return sums_[index]; }
 
   // For a sink: the texel's solid angle per sample, and the direction of the sample under way.
-  const scene::RadianceSource::GhostSink* sink = nullptr;
+  const rays::RadianceSource::GhostSink* sink = nullptr;
   int chunk = 0;
   float sink_scale = 0;
   vec3 direction{0};
@@ -53,11 +53,11 @@ class TexelSums {
 /// Traces all samples of all texels in rows [begin, end) of the six faces, counted through, and adds their
 /// means to `maps`.
 template <class Emitters>
-void trace_texel_rows(const TracerData& data, const Emitters& emitters, const scene::CubeRequest& request,
+void trace_texel_rows(const TracerData& data, const Emitters& emitters, const rays::CubeRequest& request,
                       std::size_t begin, std::size_t end, TexelSums& sums, RayTask& task,
                       std::vector<image::CubeMap>& maps, ProgressStage& stage, const Control& control) {
   const auto size = static_cast<std::size_t>(request.face_size);
-  const scene::PathParams& path = request.path;
+  const rays::PathParams& path = request.path;
   const PathOptions options{path.max_depth};
   const float mean_scale = 1 / (static_cast<float>(path.spp) * static_cast<float>(path.passes));
   for (std::size_t row = begin; row < end; ++row) {
@@ -87,7 +87,7 @@ void trace_texel_rows(const TracerData& data, const Emitters& emitters, const sc
   }
 }
 
-std::uint64_t path_count(const scene::CubeRequest& request) {
+std::uint64_t path_count(const rays::CubeRequest& request) {
   const auto n = static_cast<std::uint64_t>(request.face_size);
   return 6 * n * n * static_cast<std::uint64_t>(request.path.spp) *
          static_cast<std::uint64_t>(request.path.passes);
@@ -95,7 +95,7 @@ std::uint64_t path_count(const scene::CubeRequest& request) {
 
 /// Which balls shine at the probe, and how their direct view is sampled: a ball that covers few texels has
 /// its own samples, where rays through texels would rarely find it.
-GhostEmitters::Ball ball_of(const scene::GhostSphere& ghost, const scene::CubeRequest& request) {
+GhostEmitters::Ball ball_of(const rays::GhostSphere& ghost, const rays::CubeRequest& request) {
   if (!is_finite(ghost.center) || !(ghost.radius >= 0) || !std::isfinite(ghost.radius)) {
     throw Error("ghost sphere", "its centre must be finite and its radius a length");
   }
@@ -112,7 +112,7 @@ GhostEmitters::Ball ball_of(const scene::GhostSphere& ghost, const scene::CubeRe
 
 /// Adds the direct view of a small ball: unoccluded directions of its cone, each to the texel it falls into.
 void splat_ball(const TracerData& data, const GhostEmitters::Ball& ball, int index,
-                const scene::CubeRequest& request, const scene::RadianceSource::GhostSink& sink, int chunk,
+                const rays::CubeRequest& request, const rays::RadianceSource::GhostSink& sink, int chunk,
                 RayTask& task, image::CubeMap& map) {
   constexpr std::uint64_t samples_per_texel_sample = 128;
   const std::uint64_t count =
@@ -146,8 +146,8 @@ void splat_ball(const TracerData& data, const GhostEmitters::Ball& ball, int ind
 
 }  // namespace
 
-std::vector<scene::GroupRadiance> PathTracer::incident_radiance(const scene::CubeRequest& request,
-                                                                const Control& control) const {
+std::vector<rays::GroupRadiance> PathTracer::incident_radiance(const rays::CubeRequest& request,
+                                                               const Control& control) const {
   const std::size_t groups = data_->group_count();
   check_request(request, 2 * groups);
   std::vector<image::CubeMap> maps(2 * groups, image::CubeMap(request.face_size));
@@ -164,7 +164,7 @@ std::vector<scene::GroupRadiance> PathTracer::incident_radiance(const scene::Cub
       control);
   report_invalid(invalid);
 
-  std::vector<scene::GroupRadiance> result(groups);
+  std::vector<rays::GroupRadiance> result(groups);
   for (std::size_t g = 0; g < groups; ++g) {
     result[g].emitted = std::move(maps[g]);
     result[g].reflected = std::move(maps[groups + g]);
@@ -172,12 +172,12 @@ std::vector<scene::GroupRadiance> PathTracer::incident_radiance(const scene::Cub
   return result;
 }
 
-std::vector<image::CubeMap> PathTracer::ghost_radiance(const scene::CubeRequest& request,
-                                                       std::span<const scene::GhostSphere> ghosts,
+std::vector<image::CubeMap> PathTracer::ghost_radiance(const rays::CubeRequest& request,
+                                                       std::span<const rays::GhostSphere> ghosts,
                                                        const GhostSink& sink, const Control& control) const {
   check_request(request, ghosts.size());
   std::vector<GhostEmitters::Ball> balls;
-  for (const scene::GhostSphere& ghost : ghosts) balls.push_back(ball_of(ghost, request));
+  for (const rays::GhostSphere& ghost : ghosts) balls.push_back(ball_of(ghost, request));
   const GhostEmitters emitters(balls);
   std::vector<image::CubeMap> maps(ghosts.size(), image::CubeMap(request.face_size));
   std::atomic<std::uint64_t> invalid{0};

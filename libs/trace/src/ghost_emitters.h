@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include <ssphh/scene/radiance_source.h>
+#include <ssphh/rays/radiance_source.h>
 
 #include "path.h"
 

@@ -5,10 +5,10 @@
 
 namespace ssphh::trace {
 
-vec3 reflected_indirect(const scene::IndirectLight& indirect, const shading::Surface& surface,
+vec3 reflected_indirect(const rays::IndirectLight& indirect, const shading::Surface& surface,
                         const vec3& ray_origin, const vec3& wo, bool moves) {
   const vec3& n = surface.normal;
-  const scene::SurfacePoint at{ray_origin, n, moves};
+  const rays::SurfacePoint at{ray_origin, n, moves};
   const float cos_wo = std::clamp(glm::dot(n, wo), 0.0f, 1.0f);
   shading::BsdfParams specular = surface.bsdf;
   specular.diffuse = vec3(0);

@@ -1,7 +1,7 @@
 #pragma once
 /// Indirect light from probes, reflected at the first hit.
 
-#include <ssphh/scene/radiance_source.h>
+#include <ssphh/rays/radiance_source.h>
 #include <ssphh/shading/surface.h>
 
 namespace ssphh::trace {
@@ -10,7 +10,7 @@ namespace ssphh::trace {
 /// times the probes' radiance around the mirror direction (split sum: Karis, Real Shading in Unreal Engine 4,
 /// 2013). Exact under constant light, as the layered BSDF reflects it. `ray_origin` is the
 /// point raised above the surface: lookups trace rays. `moves`: the surface is of a body that moves.
-vec3 reflected_indirect(const scene::IndirectLight& indirect, const shading::Surface& surface,
+vec3 reflected_indirect(const rays::IndirectLight& indirect, const shading::Surface& surface,
                         const vec3& ray_origin, const vec3& wo, bool moves);
 
 }  // namespace ssphh::trace

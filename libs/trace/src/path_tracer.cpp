@@ -62,7 +62,7 @@ void report_invalid(std::uint64_t invalid) {
   if (invalid) log_warning("path tracer: {} contributions were not finite and were left out", invalid);
 }
 
-void check_path_params(const scene::PathParams& params) {
+void check_path_params(const rays::PathParams& params) {
   if (params.max_depth < 0) throw Error("max depth", "it must not be negative");
   if (params.passes < 0) throw Error("passes", "their number must not be negative");
   if (params.spp < 1) throw Error("spp", "at least one sample is needed");

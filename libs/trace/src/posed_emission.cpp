@@ -12,7 +12,7 @@ float PosedLight::flux(int group) const {
   return sum;
 }
 
-std::optional<scene::Photon> PosedLight::emit(int group, const scene::PhotonNumbers& numbers) const {
+std::optional<rays::Photon> PosedLight::emit(int group, const rays::PhotonNumbers& numbers) const {
   // Choose an emitter by its flux; what is left of the number is not needed.
   const float all = flux(group);
   if (!(all > 0)) return std::nullopt;
@@ -28,7 +28,7 @@ std::optional<scene::Photon> PosedLight::emit(int group, const scene::PhotonNumb
   auto emitted = lights_.emit(chosen->index, numbers.place, numbers.direction, geometry_.bounds().center(),
                               1.001f * geometry_.bounds().radius());
   if (!emitted) return std::nullopt;
-  scene::Photon& photon = emitted->photon;
+  rays::Photon& photon = emitted->photon;
   photon.power /= probability;
   if (emitted->normal != vec3(0)) photon.origin = above_surface(photon.origin, emitted->normal, data_->gap);
   return photon;

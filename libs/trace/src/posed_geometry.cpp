@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ssphh/scene/posed_world.h>
+#include <ssphh/rays/posed_world.h>
 
 #include "surface_gap.h"
 #include "sweep.h"
@@ -21,7 +21,7 @@ PosedGeometry::PosedGeometry(const ShadedGeometry& geometry, std::span<const mat
     const float rounding = 4 * position_error(scene_size(bounds) + max_abs_component(vec3(from_world[3])));
     moving_.push_back({static_cast<int>(i), poses[i], from_world, glm::transpose(mat3(from_world)),
                        grown(bounds, rounding)});
-    const scene::Bounds box = scene::transformed(bounds, poses[i]);
+    const scene::Bounds box = rays::transformed(bounds, poses[i]);
     bounds_.add(box.min), bounds_.add(box.max);
     boxes.push_back(grown(box, 4 * position_error(scene_size(box) + max_abs_component(vec3(poses[i][3])))));
   }

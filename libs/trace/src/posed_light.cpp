@@ -47,7 +47,7 @@ const std::vector<PosedLight::GroupEmitter>& PosedLight::emitters_of(int group) 
   return groups_[static_cast<std::size_t>(group)];
 }
 
-PosedLight::Receiver PosedLight::receiver(const scene::SurfacePoint& point) const {
+PosedLight::Receiver PosedLight::receiver(const rays::SurfacePoint& point) const {
   return {point.position, point.normal, above_surface(point.position, point.normal, data_->gap),
           position_seed(point.position)};
 }
@@ -172,7 +172,7 @@ vec3 PosedLight::sky_irradiance(const GroupEmitter& light, const Receiver& at, s
   return sum / static_cast<float>(count);
 }
 
-void PosedLight::irradiance(int group, std::span<const scene::SurfacePoint> points,
+void PosedLight::irradiance(int group, std::span<const rays::SurfacePoint> points,
                             std::span<vec3> out) const {
   require(points.size() == out.size(), "direct light", "there is not one value for each point");
   const std::vector<GroupEmitter>& emitters = emitters_of(group);
@@ -193,7 +193,7 @@ void PosedLight::irradiance(int group, std::span<const scene::SurfacePoint> poin
   }
 }
 
-bool PosedLight::may_shadow(int group, const scene::SurfacePoint& point, const scene::Bounds& box) const {
+bool PosedLight::may_shadow(int group, const rays::SurfacePoint& point, const scene::Bounds& box) const {
   if (box.empty()) return false;
   const vec3 start = above_surface(point.position, point.normal, data_->gap);
   const float slack = glm::distance(start, point.position) + position_error(max_abs_component(start));
@@ -211,7 +211,7 @@ bool PosedLight::may_shadow(int group, const scene::SurfacePoint& point, const s
   return false;
 }
 
-vec3 PosedLight::emitted(int group, const scene::RayQuery& ray, float distance) const {
+vec3 PosedLight::emitted(int group, const rays::RayQuery& ray, float distance) const {
   const float length = glm::length(ray.direction);
   const vec3 direction = ray.direction / length;
   vec3 sum(0);

@@ -7,16 +7,16 @@
 
 namespace ssphh::trace {
 
-class PosedLight final : public scene::DirectLight {
+class PosedLight final : public rays::DirectLight {
  public:
   PosedLight(std::shared_ptr<const TransportData> data, std::span<const scene::LightState> lights,
              std::span<const mat4> poses, float environment_rotation);
 
-  void irradiance(int group, std::span<const scene::SurfacePoint> points, std::span<vec3> out) const override;
-  bool may_shadow(int group, const scene::SurfacePoint& point, const scene::Bounds& box) const override;
-  vec3 emitted(int group, const scene::RayQuery& ray, float distance) const override;
+  void irradiance(int group, std::span<const rays::SurfacePoint> points, std::span<vec3> out) const override;
+  bool may_shadow(int group, const rays::SurfacePoint& point, const scene::Bounds& box) const override;
+  vec3 emitted(int group, const rays::RayQuery& ray, float distance) const override;
   float flux(int group) const override;
-  std::optional<scene::Photon> emit(int group, const scene::PhotonNumbers& numbers) const override;
+  std::optional<rays::Photon> emit(int group, const rays::PhotonNumbers& numbers) const override;
 
  private:
   struct GroupEmitter {
@@ -29,7 +29,7 @@ class PosedLight final : public scene::DirectLight {
     std::uint64_t seed;
   };
 
-  Receiver receiver(const scene::SurfacePoint& point) const;
+  Receiver receiver(const rays::SurfacePoint& point) const;
   /// Share of a light's irradiance that nothing holds back. `draw(u)` gives a LightSample toward it, or none;
   /// `sine2` is the squared sine of the angle from its centre to its edge, 1 if that is not known.
   template <class Draw>

@@ -13,7 +13,7 @@ namespace {
 class PixelSums {
  public:
   PixelSums(const scene::Scene& scene, std::size_t groups, const CameraRays& camera,
-            const scene::IndirectLight* indirect_light, bool indirect_wanted, RayTask& task)
+            const rays::IndirectLight* indirect_light, bool indirect_wanted, RayTask& task)
       : scene_(scene),
         groups_(groups),
         camera_(camera),
@@ -83,7 +83,7 @@ class PixelSums {
   vec3 direct_{0}, indirect_{0}, looked_up_{0}, albedo_{0}, normal_{0};
   float depth_ = 0, hits_ = 0;
   const CameraRays& camera_;
-  const scene::IndirectLight* indirect_light_;
+  const rays::IndirectLight* indirect_light_;
   bool indirect_wanted_;
   RayTask& task_;
 };
@@ -146,7 +146,7 @@ void add_pass(RenderState& state, const RenderState& pass, bool groups_are_all) 
   ++state.passes_done;
 }
 
-void run_passes(const TracerData& data, const scene::IndirectLight* indirect, const RenderParams& params,
+void run_passes(const TracerData& data, const rays::IndirectLight* indirect, const RenderParams& params,
                 RenderState& state, const Control& control) {
   const std::size_t groups = data.group_count();
   check_params(params, groups);
@@ -216,7 +216,7 @@ void PathTracer::render(const RenderParams& params, RenderState& state, const Co
   run_passes(*data_, nullptr, params, state, control);
 }
 
-void PathTracer::render_with(const scene::IndirectLight& indirect, const RenderParams& params,
+void PathTracer::render_with(const rays::IndirectLight& indirect, const RenderParams& params,
                              RenderState& state, const Control& control) const {
   run_passes(*data_, &indirect, params, state, control);
 }

@@ -36,7 +36,7 @@ class BatchSums {
 
 /// One path from the point, as if it reflected all light evenly: a light sample and a cosine-distributed ray
 /// that goes on.
-void trace_from(const TracerData& data, const scene::SurfacePoint& point, float gap,
+void trace_from(const TracerData& data, const rays::SurfacePoint& point, float gap,
                 const PathSampler& sampler, const PathOptions& options, RayTask& task, BatchSums& sums) {
   const SceneEmitters emitters = data.emitters();
   const vec3 start = above_surface(point.position, point.normal, gap);
@@ -71,8 +71,8 @@ struct BatchMean {
   vec3 direct{0}, indirect{0};
 };
 
-scene::IrradianceEstimate combine(std::span<const BatchMean> means, std::span<const float> weights) {
-  scene::IrradianceEstimate estimate;
+rays::IrradianceEstimate combine(std::span<const BatchMean> means, std::span<const float> weights) {
+  rays::IrradianceEstimate estimate;
   for (std::size_t b = 0; b < means.size(); ++b) {
     estimate.direct += weights[b] * means[b].direct;
     estimate.indirect += weights[b] * means[b].indirect;
@@ -91,11 +91,10 @@ scene::IrradianceEstimate combine(std::span<const BatchMean> means, std::span<co
 
 }  // namespace
 
-std::vector<scene::IrradianceEstimate> PathTracer::surface_irradiance(
-    std::span<const scene::SurfacePoint> points, const scene::PathParams& path,
-    const Control& control) const {
+std::vector<rays::IrradianceEstimate> PathTracer::surface_irradiance(
+    std::span<const rays::SurfacePoint> points, const rays::PathParams& path, const Control& control) const {
   check_path_params(path);
-  std::vector<scene::IrradianceEstimate> estimates(points.size());
+  std::vector<rays::IrradianceEstimate> estimates(points.size());
   const std::uint64_t paths = static_cast<std::uint64_t>(path.spp) * static_cast<std::uint64_t>(path.passes);
   if (points.empty() || path.max_depth < 1 || paths == 0) return estimates;
 

@@ -56,7 +56,7 @@ class TaskScope {
 void report_invalid(std::uint64_t invalid);
 
 /// Throw Error for sizes and efforts that make no sense or do not fit into memory.
-void check_path_params(const scene::PathParams& params);
+void check_path_params(const rays::PathParams& params);
 void check_image_memory(const std::string& where, std::uint64_t pixels, std::uint64_t floats_per_pixel);
 
 }  // namespace ssphh::trace

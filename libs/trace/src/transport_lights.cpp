@@ -44,9 +44,9 @@ int TransportScene::environment_group() const {
   return environment ? scene::light_group_index(light_groups(), scene::light_group(*environment)) : -1;
 }
 
-std::unique_ptr<scene::DirectLight> TransportScene::direct_light(std::span<const scene::LightState> lights,
-                                                                 std::span<const mat4> poses,
-                                                                 float environment_rotation) const {
+std::unique_ptr<rays::DirectLight> TransportScene::direct_light(std::span<const scene::LightState> lights,
+                                                                std::span<const mat4> poses,
+                                                                float environment_rotation) const {
   require(lights.size() == data_->scene.lights.size(), "direct light",
           "there is not one state for each light");
   require(poses.size() == data_->layout().parts.size(), "direct light",

@@ -42,7 +42,7 @@ vec2 square_to_triangle(const vec2& u) {
 
 /// Points on triangle `index` of an instance: area times density of them, at least one.
 void sample_triangle(const TransportData& data, int instance_index, std::uint32_t index, double density,
-                     std::vector<scene::PartPoint>& points) {
+                     std::vector<rays::PartPoint>& points) {
   const scene::Instance& instance = data.scene.instances[static_cast<std::size_t>(instance_index)];
   const scene::Mesh& mesh = data.scene.meshes[static_cast<std::size_t>(instance.mesh)];
   const mat4 m =
@@ -75,16 +75,16 @@ void sample_triangle(const TransportData& data, int instance_index, std::uint32_
 
 }  // namespace
 
-void TransportScene::intersect(int part, std::span<const scene::RayQuery> rays,
-                               std::span<scene::RayHit> hits) const {
+void TransportScene::intersect(int part, std::span<const rays::RayQuery> rays,
+                               std::span<rays::RayHit> hits) const {
   require(rays.size() == hits.size(), "rays", "there is not one hit for each");
   data_->part(part);  // throws where there is none
   const ShadedGeometry& geometry = data_->geometry;
   const shading::LightSet& lights = data_->lights;
   for_rays(rays.size(), data_->rays, [&](std::size_t begin, std::size_t end, RayTask& task) {
     for (std::size_t i = begin; i < end; ++i) {
-      scene::RayHit& out = hits[i] = {};
-      const scene::RayQuery& ray = rays[i];
+      rays::RayHit& out = hits[i] = {};
+      const rays::RayQuery& ray = rays[i];
       Hit hit;
       ++task.rays;
       if (!geometry.intersect(part, {ray.origin, ray.direction, ray.t_max}, 0, hit)) continue;
@@ -101,14 +101,14 @@ void TransportScene::intersect(int part, std::span<const scene::RayQuery> rays,
   });
 }
 
-void TransportScene::occluded(int part, std::span<const scene::RayQuery> rays,
+void TransportScene::occluded(int part, std::span<const rays::RayQuery> rays,
                               std::span<std::uint8_t> blocked) const {
   require(rays.size() == blocked.size(), "rays", "there is not one answer for each");
   data_->part(part);  // throws where there is none
   const ShadedGeometry& geometry = data_->geometry;
   for_rays(rays.size(), data_->rays, [&](std::size_t begin, std::size_t end, RayTask& task) {
     for (std::size_t i = begin; i < end; ++i) {
-      const scene::RayQuery& ray = rays[i];
+      const rays::RayQuery& ray = rays[i];
       const bool covers_any = ray.t_max > 0;
       task.rays += covers_any;
       blocked[i] = covers_any && geometry.occluded(part, {ray.origin, ray.direction, ray.t_max}, 0) ? 1 : 0;
@@ -116,12 +116,12 @@ void TransportScene::occluded(int part, std::span<const scene::RayQuery> rays,
   });
 }
 
-std::vector<scene::PartPoint> TransportScene::sample_part(int part_index,
-                                                          double points_per_square_metre) const {
+std::vector<rays::PartPoint> TransportScene::sample_part(int part_index,
+                                                         double points_per_square_metre) const {
   if (!(points_per_square_metre >= 0)) throw Error("points per square metre", "they must not be negative");
   require(part_index > 0, "part", "part 0 cannot be sampled");
   const ScenePart& part = data_->part(part_index);
-  std::vector<scene::PartPoint> points;
+  std::vector<rays::PartPoint> points;
   for (const int i : part.instances) {
     const scene::Instance& instance = data_->scene.instances[static_cast<std::size_t>(i)];
     const auto triangles = data_->scene.meshes[static_cast<std::size_t>(instance.mesh)].triangles.size();

@@ -73,7 +73,7 @@ TEST(Camera, CubeStripOfARenderMatchesTheProbesCube) {
   params.camera.world = mat4(1);
   params.path = {0, 1, 64, 1};
   const trace::RenderState state = render(scene, params);
-  const scene::GroupRadiance probe =
+  const rays::GroupRadiance probe =
       trace::PathTracer(scene).incident_radiance({vec3(0), 16, params.path}, {}).at(0);
   for (int face = 0; face < 6; ++face) {
     for (int y = 0; y < 16; ++y) {

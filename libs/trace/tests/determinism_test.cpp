@@ -69,17 +69,17 @@ TEST(Determinism, OneThreadAndTwoGiveTheSameImage) {
 TEST(Determinism, OneThreadAndTwoGiveTheSameCubes) {
   const scene::Scene scene = small_scene();
   const trace::PathTracer tracer(scene);
-  const scene::CubeRequest request{vec3(0.1f, 0.6f, 0.2f), 8, {2, 2, 4, 3}};
-  const std::vector<scene::GhostSphere> ghosts{{vec3(0.5f, 0.5f, 0), 0.05f}, {vec3(-0.5f, 0.6f, 0), 0.3f}};
-  std::vector<scene::GroupRadiance> gen[2];
+  const rays::CubeRequest request{vec3(0.1f, 0.6f, 0.2f), 8, {2, 2, 4, 3}};
+  const std::vector<rays::GhostSphere> ghosts{{vec3(0.5f, 0.5f, 0), 0.05f}, {vec3(-0.5f, 0.6f, 0), 0.3f}};
+  std::vector<rays::GroupRadiance> gen[2];
   std::vector<image::CubeMap> viz[2];
   std::vector<vec3> sums[2];
   for (int t = 0; t < 2; ++t) {
     const Threads threads(t + 1);
     gen[t] = tracer.incident_radiance(request, {});
-    sums[t].resize(scene::RadianceSource::ghost_chunk_count);
+    sums[t].resize(rays::RadianceSource::ghost_chunk_count);
     viz[t] = tracer.ghost_radiance(request, ghosts,
-                                   [&, t](int chunk, const scene::GhostPath& path) {
+                                   [&, t](int chunk, const rays::GhostPath& path) {
                                      sums[t][static_cast<std::size_t>(chunk)] += path.throughput;
                                    },
                                    {});

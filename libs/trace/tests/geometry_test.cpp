@@ -258,7 +258,7 @@ TEST(Geometry, ProbeInAWallOrOnASurfaceDoesNotCrash) {
   const trace::PathTracer tracer(scene);
   for (const vec3& place :
        {vec3(-0.6f, 0, 0), vec3(0, -1, 0), vec3(1, 1, 1), vec3(0, 0.9f, 0), vec3(500, 0, 0)}) {
-    const std::vector<scene::GroupRadiance> maps = tracer.incident_radiance({place, 4, {3, 1, 4, 1}}, {});
+    const std::vector<rays::GroupRadiance> maps = tracer.incident_radiance({place, 4, {3, 1, 4, 1}}, {});
     for (const image::Image& face : maps.at(0).reflected.faces) {
       for (const float v : face.pixels) EXPECT_TRUE(std::isfinite(v) && v >= 0);
     }

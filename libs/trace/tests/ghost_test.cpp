@@ -26,15 +26,15 @@ double integral(const image::CubeMap& map) {
   return sum;
 }
 
-image::CubeMap ghost(const scene::Scene& scene, const scene::GhostSphere& ghost,
-                     const scene::CubeRequest& request) {
+image::CubeMap ghost(const scene::Scene& scene, const rays::GhostSphere& ghost,
+                     const rays::CubeRequest& request) {
   return trace::PathTracer(scene).ghost_radiance(request, std::span(&ghost, 1), nullptr, {}).front();
 }
 
 TEST(Ghost, DirectViewIntegratesToTheConesSolidAngle) {
   // Small spheres have their own samples, which all count when nothing is in the way: exact up to float sums.
   for (const float distance : {1.5f, 3.0f, 20.0f}) {
-    const scene::CubeRequest request{vec3(1, 2, 3), 64, {0, 1, 16, 4}};
+    const rays::CubeRequest request{vec3(1, 2, 3), 64, {0, 1, 16, 4}};
     const vec3 direction = glm::normalize(vec3(1, -0.5f, 2));
     const double measured = integral(ghost({}, {request.position + distance * direction, 0.1f}, request));
     const double expected = 2 * pi_d * (1 - std::sqrt(1 - std::pow(0.1 / static_cast<double>(distance), 2)));
@@ -46,7 +46,7 @@ TEST(Ghost, LargeSphereIsSeenByTexelRays) {
   Samples measured;
   const double expected = 2 * pi_d * (1 - std::sqrt(1 - 0.25));
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
-    const scene::CubeRequest request{vec3(0), 16, {0, 1, 4, seed}};
+    const rays::CubeRequest request{vec3(0), 16, {0, 1, 4, seed}};
     const image::CubeMap map = ghost({}, {vec3(0, 0, 2), 1}, request);
     measured.add(integral(map));
     // In the middle of the sphere there is no noise.
@@ -58,8 +58,8 @@ TEST(Ghost, LargeSphereIsSeenByTexelRays) {
 TEST(Ghost, SmallSphereHasLowNoisePerTexel) {
   // Reference coverage of each texel from 32² points; the estimate's error summed over texels stays below 2
   // %.
-  const scene::CubeRequest request{vec3(0), 64, {0, 1, 16, 4}};
-  const scene::GhostSphere sphere{vec3(2, 1, 2), 0.1f};
+  const rays::CubeRequest request{vec3(0), 64, {0, 1, 16, 4}};
+  const rays::GhostSphere sphere{vec3(2, 1, 2), 0.1f};
   const image::CubeMap map = ghost({}, sphere, request);
   const vec3 axis = glm::normalize(sphere.center);
   const float cos_edge = std::sqrt(1 - 0.01f / 9);
@@ -94,10 +94,10 @@ TEST(Ghost, LightsAFloorAsASphereLightWould) {
   add_light(lit, scene::LightType::sphere, 1, ball).radius = 0.3f;
   const trace::PathTracer tracer(scene), reference(lit);
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const scene::CubeRequest request{vec3(0, 2.5f, 0.5f), 8, {2, 1, 4, seed}};
-    const std::vector<scene::GhostSphere> ghosts{{ball, 0.3f}};
+    const rays::CubeRequest request{vec3(0, 2.5f, 0.5f), 8, {2, 1, 4, seed}};
+    const std::vector<rays::GhostSphere> ghosts{{ball, 0.3f}};
     const image::CubeMap a = tracer.ghost_radiance(request, ghosts, nullptr, {}).front();
-    const scene::GroupRadiance b = reference.incident_radiance(request, {}).front();
+    const rays::GroupRadiance b = reference.incident_radiance(request, {}).front();
     for (std::size_t c = 0; c < 3; ++c) {
       // The −y face sees the floor, and the ball too.
       double sum_a = 0, sum_b = 0;
@@ -121,8 +121,8 @@ TEST(Ghost, WallHidesTheSphereAndEmittersAreOff) {
 
 TEST(Ghost, SphereNeitherBlocksNorReflects) {
   // Seen through a near ball, the far one is as bright as without it.
-  const scene::CubeRequest request{vec3(0), 32, {1, 1, 4, 2}};
-  const std::vector<scene::GhostSphere> both{{vec3(0, 0, 1), 0.3f}, {vec3(0, 0, 4), 0.5f}};
+  const rays::CubeRequest request{vec3(0), 32, {1, 1, 4, 2}};
+  const std::vector<rays::GhostSphere> both{{vec3(0, 0, 1), 0.3f}, {vec3(0, 0, 4), 0.5f}};
   const std::vector<image::CubeMap> maps =
       trace::PathTracer(empty_space).ghost_radiance(request, both, nullptr, {});
   const double expected = 2 * pi_d * (1 - std::sqrt(1 - 1.0 / 64));
@@ -144,13 +144,13 @@ TEST(Ghost, ProbeInsideASphereSeesOneEverywhere) {
 TEST(Ghost, SinkReceivesWhatTheMapsHold) {
   scene::Scene scene;
   add_room(scene, lambertian(vec3(0.5f)));
-  const scene::CubeRequest request{vec3(0.2f, 0.1f, 0), 8, {3, 2, 4, 7}};
-  const std::vector<scene::GhostSphere> ghosts{
+  const rays::CubeRequest request{vec3(0.2f, 0.1f, 0), 8, {3, 2, 4, 7}};
+  const std::vector<rays::GhostSphere> ghosts{
       {vec3(0.6f), 0.1f}, {vec3(-0.4f, 0, 0), 0.4f}, {vec3(0, 0.9f, 0), 0.2f}};
-  std::array<std::array<double, 3>, scene::RadianceSource::ghost_chunk_count> sums{};
-  std::array<bool, scene::RadianceSource::ghost_chunk_count> unit{};
+  std::array<std::array<double, 3>, rays::RadianceSource::ghost_chunk_count> sums{};
+  std::array<bool, rays::RadianceSource::ghost_chunk_count> unit{};
   unit.fill(true);
-  const auto sink = [&](int chunk, const scene::GhostPath& path) {
+  const auto sink = [&](int chunk, const rays::GhostPath& path) {
     const auto c = static_cast<std::size_t>(chunk);
     sums[c][static_cast<std::size_t>(path.emitter)] += static_cast<double>(path.throughput.x);
     unit[c] = unit[c] && std::abs(glm::length(path.direction) - 1) < 1e-5f &&
@@ -167,10 +167,10 @@ TEST(Ghost, SinkReceivesWhatTheMapsHold) {
 }
 
 TEST(Ghost, EmissionDirectionOfADirectPathIsOppositeToTheView) {
-  const std::vector<scene::GhostSphere> ghosts{{vec3(0, 0, 3), 0.1f}};
-  std::array<float, scene::RadianceSource::ghost_chunk_count> worst;
+  const std::vector<rays::GhostSphere> ghosts{{vec3(0, 0, 3), 0.1f}};
+  std::array<float, rays::RadianceSource::ghost_chunk_count> worst;
   worst.fill(-1);
-  const auto sink = [&](int chunk, const scene::GhostPath& path) {
+  const auto sink = [&](int chunk, const rays::GhostPath& path) {
     float& w = worst[static_cast<std::size_t>(chunk)];
     w = std::max(w, glm::dot(path.direction, path.emission));
   };

@@ -12,20 +12,20 @@ namespace ssphh::test {
 namespace {
 
 /// Answers with constants and remembers the questions.
-class AskedLight final : public scene::IndirectLight {
+class AskedLight final : public rays::IndirectLight {
  public:
-  vec3 irradiance(const scene::SurfacePoint& at) const override {
+  vec3 irradiance(const rays::SurfacePoint& at) const override {
     diffuse_at.push_back(at);
     return given_irradiance;
   }
-  vec3 glossy(const scene::SurfacePoint& at, const vec3& r, float asked_roughness) const override {
+  vec3 glossy(const rays::SurfacePoint& at, const vec3& r, float asked_roughness) const override {
     glossy_at.push_back(at);
     mirror = r, roughness = asked_roughness;
     return given_radiance;
   }
 
   vec3 given_irradiance{3, 5, 7}, given_radiance{0.4f, 0.9f, 1.3f};
-  mutable std::vector<scene::SurfacePoint> diffuse_at, glossy_at;
+  mutable std::vector<rays::SurfacePoint> diffuse_at, glossy_at;
   mutable vec3 mirror{0};
   mutable float roughness = -1;
 };

@@ -178,7 +178,7 @@ TEST(TraceMessages, OfStatesThatBelongToAnotherRender) {
 TEST(TraceMessages, OfPathsSizesAndTimes) {
   const scene::Scene scene;
   const trace::PathTracer tracer(scene);
-  const auto said = [&](const scene::PathParams& path) {
+  const auto said = [&](const rays::PathParams& path) {
     return message_of([&] { trace::check_path_params(path); });
   };
   EXPECT_EQ(said({0, 0, 1, 0}), "no error");
@@ -199,7 +199,7 @@ TEST(TraceMessages, OfPathsSizesAndTimes) {
   EXPECT_EQ(cube(vec3(0), 8193), "face size: it must lie in 1..8192");
   EXPECT_EQ(cube(vec3(0, 0, endless), 1), "probe position: it must be finite");
   const auto ball = [&](const vec3& center, float radius) {
-    const std::vector<scene::GhostSphere> ghosts = {{center, radius}};
+    const std::vector<rays::GhostSphere> ghosts = {{center, radius}};
     return message_of([&] { tracer.ghost_radiance({vec3(0), 1, {0, 1, 1, 0}}, ghosts, nullptr, {}); });
   };
   const std::string ghost = "ghost sphere: its centre must be finite and its radius a length";
@@ -270,15 +270,15 @@ TEST(TraceMessages, OfTransport) {
   EXPECT_EQ(message_of([&] { source.sample_part(0, -1); }),
             "points per square metre: they must not be negative");
   EXPECT_EQ(message_of([&] { source.sample_part(1, 1); }), "part: there is none of that index");
-  const std::vector<scene::RayQuery> rays(2);
-  std::vector<scene::RayHit> hits(1);
+  const std::vector<rays::RayQuery> rays(2);
+  std::vector<rays::RayHit> hits(1);
   std::vector<std::uint8_t> blocked(3);
   EXPECT_EQ(message_of([&] { source.intersect(0, rays, hits); }), "rays: there is not one hit for each");
   EXPECT_EQ(message_of([&] { source.occluded(0, rays, blocked); }), "rays: there is not one answer for each");
   std::vector<scene::LightState> states = source.lights(0);
   std::vector<mat4> poses(1, mat4(1));
   const auto light = source.direct_light(states, poses);
-  const std::vector<scene::SurfacePoint> points(2);
+  const std::vector<rays::SurfacePoint> points(2);
   std::vector<vec3> out(1);
   EXPECT_EQ(message_of([&] { light->irradiance(0, points, out); }),
             "direct light: there is not one value for each point");

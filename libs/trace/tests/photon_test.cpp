@@ -126,7 +126,7 @@ TEST_P(PhotonsOf, LandAsIrradianceSays) {
   // What each cell receives, by midpoints.
   constexpr int q = 8;
   constexpr float step = 2 * half_tested / (cells * q);
-  std::vector<scene::SurfacePoint> points;
+  std::vector<rays::SurfacePoint> points;
   for (int i = 0; i < cells * q; ++i) {
     for (int k = 0; k < cells * q; ++k) {
       points.push_back({{-half_tested + (static_cast<float>(i) + 0.5f) * step, 0,
@@ -153,7 +153,7 @@ TEST_P(PhotonsOf, LandAsIrradianceSays) {
   Samples flux;
   double power_of_each = 0;
   for (int n = 0; n < count; ++n) {
-    scene::PhotonNumbers numbers;
+    rays::PhotonNumbers numbers;
     numbers.emitter = random.uniform(), numbers.place = random.uniform2(),
     numbers.direction = random.uniform2();
     const auto photon = lights->emit(group, numbers);
@@ -163,7 +163,7 @@ TEST_P(PhotonsOf, LandAsIrradianceSays) {
     double power = 0;
     if (photon && photon->origin.y > 0 && photon->direction.y < 0) {
       const float distance = -photon->origin.y / photon->direction.y;
-      const scene::RayQuery way{photon->origin, photon->direction, 0.9999f * distance};
+      const rays::RayQuery way{photon->origin, photon->direction, 0.9999f * distance};
       std::uint8_t blocked = 0;
       source.occluded(0, {&way, 1}, {&blocked, 1});
       const vec3 at = photon->origin + distance * photon->direction;

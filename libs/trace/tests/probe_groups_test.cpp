@@ -9,11 +9,11 @@ namespace ssphh::test {
 namespace {
 
 /// The same light from everywhere: radiance `light`, or `moving` at bodies that move.
-class EvenLight final : public scene::IndirectLight {
+class EvenLight final : public rays::IndirectLight {
  public:
   explicit EvenLight(const vec3& light, const vec3& moving = vec3(0)) : light_(light), moving_(moving) {}
-  vec3 irradiance(const scene::SurfacePoint& at) const override { return pi * glossy(at, {}, 0); }
-  vec3 glossy(const scene::SurfacePoint& at, const vec3&, float) const override {
+  vec3 irradiance(const rays::SurfacePoint& at) const override { return pi * glossy(at, {}, 0); }
+  vec3 glossy(const rays::SurfacePoint& at, const vec3&, float) const override {
     return at.moves ? moving_ : light_;
   }
 

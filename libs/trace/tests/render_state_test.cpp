@@ -178,7 +178,7 @@ TEST(RenderState, SenselessParametersAreErrors) {
   EXPECT_THROW(tracer.incident_radiance({vec3(NAN), 4, {}}, {}), Error);
   EXPECT_THROW(tracer.incident_radiance({vec3(0), 0, {}}, {}), Error);
   EXPECT_THROW(
-      tracer.ghost_radiance({vec3(0), 4, {}}, std::vector<scene::GhostSphere>{{vec3(0), -1}}, nullptr, {}),
+      tracer.ghost_radiance({vec3(0), 4, {}}, std::vector<rays::GhostSphere>{{vec3(0), -1}}, nullptr, {}),
       Error);
 }
 

@@ -5,8 +5,8 @@
 
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
+#include <ssphh/rays/posed_world.h>
 #include <ssphh/scene/builtin.h>
-#include <ssphh/scene/posed_world.h>
 #include <ssphh/scene/with_lighting.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -140,7 +140,7 @@ TEST(SceneGeometry, WhatIsScaledToNothingIsNotThere) {
     const vec3 above(0.2f, 2, 0.1f), below(0.2f, 0.5f, 0.1f);
     const bool there = scale == vec3(1);
     EXPECT_EQ(tracer.visible(above, below), !there);
-    const scene::PosedWorld world(source, 0);
+    const rays::PosedWorld world(source, 0);
     EXPECT_EQ(world.visible(above, below), !there);
     EXPECT_EQ(world.bounds().max.y, there ? 1 : 0);
   }
@@ -152,8 +152,8 @@ TEST(SceneGeometry, OneServesEveryTimeAndBothInterfaces) {
   const auto geometry = std::make_shared<const SceneGeometry>(scene);
   const trace::TransportScene source(geometry, scene), own_source(scene);
   EXPECT_EQ(SceneGeometry::builds(), before + 2);
-  const std::vector<scene::SurfacePoint> points = {{{-1, 0.5f, 0.3f}, {1, 0, 0}},
-                                                   {{1, 0.6f, -0.3f}, {-1, 0, 0}}};
+  const std::vector<rays::SurfacePoint> points = {{{-1, 0.5f, 0.3f}, {1, 0, 0}},
+                                                  {{1, 0.6f, -0.3f}, {-1, 0, 0}}};
   std::uint64_t own_builds = 0;
   for (const float time : {0.0f, 0.4f}) {
     const trace::PathTracer tracer(geometry, scene, time), own_tracer(scene, time);
@@ -203,7 +203,7 @@ TEST(SceneGeometry, KeepsASharedSceneAlive) {
 TEST(SceneGeometry, ServesTheSceneUnderOtherLights) {
   const scene::Scene scene = robot();
   const auto geometry = std::make_shared<const SceneGeometry>(scene);
-  scene::LightingState state = scene::lighting_at(trace::TransportScene(geometry, scene), 0.2f);
+  scene::LightingState state = rays::lighting_at(trace::TransportScene(geometry, scene), 0.2f);
   state.lights[0].world[3].x += 0.1f, state.lights[0].intensity = 3;
   state.group_scales.assign(state.group_scales.size(), vec3(0.5f, 2, 1));
   const scene::Scene lit = scene::with_lighting(scene, state);

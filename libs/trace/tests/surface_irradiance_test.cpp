@@ -15,7 +15,7 @@
 namespace ssphh::test {
 namespace {
 
-using scene::SurfacePoint;
+using rays::SurfacePoint;
 
 /// Points on the inner walls of [−1, 1]³.
 std::vector<SurfacePoint> wall_points(int count, std::uint64_t seed = 1) {
@@ -32,7 +32,7 @@ std::vector<SurfacePoint> wall_points(int count, std::uint64_t seed = 1) {
 }
 
 double mean_z2(std::span<const SurfacePoint> points, const trace::PathTracer& tracer,
-               const scene::PathParams& path, double exact) {
+               const rays::PathParams& path, double exact) {
   Samples z2;
   for (const auto& e : tracer.surface_irradiance(points, path, {})) {
     const double z =

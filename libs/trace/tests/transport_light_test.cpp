@@ -17,15 +17,15 @@
 namespace ssphh::test {
 namespace {
 
-using scene::SurfacePoint;
+using rays::SurfacePoint;
 
-std::unique_ptr<scene::DirectLight> light_at(const trace::TransportScene& source, float time = 0) {
+std::unique_ptr<rays::DirectLight> light_at(const trace::TransportScene& source, float time = 0) {
   std::vector<mat4> poses;
   for (int p = 0; p < source.part_count(); ++p) poses.push_back(source.part_pose(p, time));
   return source.direct_light(source.lights(time), poses);
 }
 
-vec3 irradiance(const scene::DirectLight& light, const SurfacePoint& point, int group = 0) {
+vec3 irradiance(const rays::DirectLight& light, const SurfacePoint& point, int group = 0) {
   vec3 out;
   light.irradiance(group, {&point, 1}, {&out, 1});
   return out;
@@ -178,7 +178,7 @@ TEST(TransportLight, EmittedSeesSpheresAndTheSky) {
   const trace::TransportScene source(scene);
   const auto light = light_at(source);
   const int globe = 0, sky = 1;
-  const scene::RayQuery up{vec3(0), vec3(0, 2, 0)};
+  const rays::RayQuery up{vec3(0), vec3(0, 2, 0)};
   const float escaped = std::numeric_limits<float>::infinity();
   EXPECT_EQ(light->emitted(globe, up, escaped), vec3(7));
   EXPECT_EQ(light->emitted(globe, up, 1.8f), vec3(7)) << "3.6 m away, the sphere begins at 3.5 m";
@@ -212,8 +212,8 @@ std::vector<SurfacePoint> seen_points(const trace::TransportScene& source, const
     for (int p = 0; p < source.part_count(); ++p) {
       const mat4& pose = poses[static_cast<std::size_t>(p)];
       const mat4 from_world = glm::inverse(pose);
-      const scene::RayQuery ray{vec3(from_world * vec4(eye, 1)), mat3(from_world) * direction};
-      scene::RayHit hit;
+      const rays::RayQuery ray{vec3(from_world * vec4(eye, 1)), mat3(from_world) * direction};
+      rays::RayHit hit;
       source.intersect(p, {&ray, 1}, {&hit, 1});
       if (!(hit.distance < nearest)) continue;
       nearest = hit.distance;

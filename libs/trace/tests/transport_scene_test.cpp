@@ -5,8 +5,8 @@
 
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
+#include <ssphh/rays/posed_world.h>
 #include <ssphh/scene/builtin.h>
-#include <ssphh/scene/posed_world.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -17,8 +17,8 @@
 namespace ssphh::test {
 namespace {
 
-using scene::RayHit;
-using scene::RayQuery;
+using rays::RayHit;
+using rays::RayQuery;
 
 std::vector<mat4> poses_at(const trace::TransportScene& source, float time) {
   std::vector<mat4> poses;
@@ -111,7 +111,7 @@ void parts_make_the_whole(scene::Scene scene) {
         EXPECT_NEAR(glm::length(hits[i].normal), 1, 1e-5);
       }
     }
-    const scene::PosedWorld world(source, time);
+    const rays::PosedWorld world(source, time);
     std::vector<RayHit> in_world(rays.size());
     std::vector<std::uint8_t> moves(rays.size()), blocked_in_world(rays.size());
     world.intersect(rays, in_world, moves);
@@ -168,7 +168,7 @@ TEST(TransportScene, PointsOnAPartAreUniformByArea) {
   const mat4 back = glm::inverse(hand);
   std::array<int, 100> cells{};
   int on_side = 0;
-  for (const scene::PartPoint& p : points) {
+  for (const rays::PartPoint& p : points) {
     const vec3 x(back * vec4(p.point.position, 1)), n = mat3(back) * p.point.normal;
     EXPECT_NEAR(max_component(glm::abs(x)), 0.05, 1e-6);
     EXPECT_GT(glm::dot(x, n), 0.0499) << "front is outside";
@@ -206,7 +206,7 @@ TEST(TransportScene, PointsOnAMirroredPartFaceOutward) {
   const trace::TransportScene source(scene);
   const auto points = source.sample_part(1, 100);
   ASSERT_GE(points.size(), 12u);
-  for (const scene::PartPoint& p : points) {
+  for (const rays::PartPoint& p : points) {
     EXPECT_NEAR(glm::length(p.point.normal), 1, 1e-6f);
     EXPECT_GT(glm::dot(p.point.position, p.point.normal), 0.049f);
   }

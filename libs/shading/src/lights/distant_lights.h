@@ -95,8 +95,8 @@ class DistantLights {
   std::optional<EmitterHit> radiance_of(std::size_t i, const vec3& direction) const;
   /// As LightSet::flux and emit.
   float flux(std::size_t i, float radius) const;
-  std::optional<scene::Photon> emit(std::size_t i, const vec2& u_place, const vec2& u_direction,
-                                    const vec3& center, float radius) const;
+  std::optional<rays::Photon> emit(std::size_t i, const vec2& u_place, const vec2& u_direction,
+                                   const vec3& center, float radius) const;
   const std::shared_ptr<const EnvironmentLight>& environment() const { return environment_; }
 
  private:

@@ -11,7 +11,7 @@
 
 namespace ssphh::shading {
 
-scene::Photon PointLight::emit(const vec2& u) const {
+rays::Photon PointLight::emit(const vec2& u) const {
   if (!(cone_scale > 0)) return {position, sample_uniform_sphere(u), 4 * pi * intensity, range};
   const float one_minus = 1 + cone_offset / cone_scale, x = u.x * one_minus;
   const vec3 local(std::sqrt(glm::max(x * (2 - x), 0.0f)) * unit_circle(u.y), 1 - x);
@@ -19,7 +19,7 @@ scene::Photon PointLight::emit(const vec2& u) const {
   return {position, direction, 2 * pi * one_minus * falloff(-direction, 0) * intensity, range};
 }
 
-scene::Photon SphereLight::emit(const vec2& u_place, const vec2& u_direction) const {
+rays::Photon SphereLight::emit(const vec2& u_place, const vec2& u_direction) const {
   const vec3 n = sample_uniform_sphere(u_place);
   return {center + radius * n, Frame::around(n).to_world(sample_cosine_hemisphere(u_direction)),
           4 * pi * pi * radius * radius * radiance};
@@ -53,14 +53,14 @@ float DistantLights::flux(std::size_t i, float radius) const {
   return 4 * environment_->mean_irradiance() * disc;
 }
 
-std::optional<scene::Photon> DistantLights::emit(std::size_t i, const vec2& u_place, const vec2& u_direction,
-                                                 const vec3& center, float radius) const {
+std::optional<rays::Photon> DistantLights::emit(std::size_t i, const vec2& u_place, const vec2& u_direction,
+                                                const vec3& center, float radius) const {
   const auto sample = sample_one(i, u_direction);
   if (!sample || !(max_component(sample->radiance) > 0)) return std::nullopt;
   const Frame frame = Frame::around(sample->wi);
   const vec2 place = radius * std::sqrt(u_place.x) * unit_circle(u_place.y);
-  return scene::Photon{center + radius * sample->wi + place.x * frame.x + place.y * frame.y, -sample->wi,
-                       sample->radiance * (pi * radius * radius / sample->pdf)};
+  return rays::Photon{center + radius * sample->wi + place.x * frame.x + place.y * frame.y, -sample->wi,
+                      sample->radiance * (pi * radius * radius / sample->pdf)};
 }
 
 }  // namespace ssphh::shading

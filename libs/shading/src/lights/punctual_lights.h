@@ -17,7 +17,7 @@ struct PointLight {
   /// Cone and range factors of KHR_lights_punctual toward `wi`, which points to the light; 0..1.
   float falloff(const vec3& wi, float distance2) const;
   std::optional<LightSample> sample(const vec3& from) const;
-  scene::Photon emit(const vec2& u_direction) const;
+  rays::Photon emit(const vec2& u_direction) const;
   /// Luminance of the irradiance on a facing plane.
   float importance(const vec3& from) const;
   /// Flux divided by 4π (luminance).
@@ -32,7 +32,7 @@ struct SphereLight {
   int group = 0;
 
   std::optional<LightSample> sample(const vec3& from, const vec2& u) const;
-  scene::Photon emit(const vec2& u_place, const vec2& u_direction) const;
+  rays::Photon emit(const vec2& u_place, const vec2& u_direction) const;
   /// Solid-angle density of sample(), uniform over the directions that meet the sphere.
   float pdf(const vec3& from) const;
   /// Distance at which a ray meets the surface first; none within max_distance.

@@ -1,15 +1,15 @@
 #pragma once
-/// GEN and VIZ on a farm: the crew of gi::bake.
+/// GEN and VIZ on a farm: the crew of bake::bake.
 
+#include <ssphh/bake/bake.h>
 #include <ssphh/farm/dispatch.h>
-#include <ssphh/gi/bake.h>
 #include <ssphh/scene/scene.h>
 
 namespace ssphh::farm {
 
 /// Hands out the scene and has probes done by workers, each once, in any order. Probes whose result is in
 /// options.results are taken from there, whatever bake they come from.
-class FarmCrew final : public gi::BakeCrew {
+class FarmCrew final : public bake::BakeCrew {
  public:
   /// Keeps references to both; the scene is `scene` posed at `time`.
   FarmCrew(const FarmOptions& options, const scene::Scene& scene, float time)
@@ -19,8 +19,9 @@ class FarmCrew final : public gi::BakeCrew {
   FarmCrew(const FarmOptions&&, const scene::Scene&, float) = delete;
   FarmCrew(const FarmOptions&&, const scene::Scene&&, float) = delete;
 
-  void run(const gi::ProbeSet& set, const gi::BakeParams& params, std::span<const gi::ProbeStage> stages,
-           const std::function<void(gi::ProbeStageResult)>& done, const Control& control) override;
+  void run(const probes::ProbeSet& set, const bake::BakeParams& params,
+           std::span<const bake::ProbeStage> stages, const std::function<void(bake::ProbeStageResult)>& done,
+           const Control& control) override;
 
   const FarmReport& report() const { return report_; }
 

@@ -2,15 +2,15 @@
 /// Pictures rendered in tiles by a farm.
 
 #include <ssphh/farm/dispatch.h>
-#include <ssphh/gi/lookup.h>
+#include <ssphh/probes/lookup.h>
 #include <ssphh/scene/scene.h>
 
 namespace ssphh::farm {
 
 /// The probes and the lookup of a render that is lit by them.
 struct RenderProbes {
-  const gi::ProbeSet* set = nullptr;
-  gi::LookupSpec lookup;  ///< as ProbeLighting's
+  const probes::ProbeSet* set = nullptr;
+  probes::LookupSpec lookup;  ///< as ProbeLighting's
 };
 
 /// All of `params.path.passes` passes of the whole picture, bit for bit as PathTracer::render or, with

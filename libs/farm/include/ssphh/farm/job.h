@@ -6,9 +6,9 @@
 #include <variant>
 #include <vector>
 
+#include <ssphh/bake/bake.h>
 #include <ssphh/core/enum_names.h>
-#include <ssphh/gi/bake.h>
-#include <ssphh/gi/lookup.h>
+#include <ssphh/probes/lookup.h>
 #include <ssphh/trace/render_state.h>
 
 namespace ssphh::farm {
@@ -33,11 +33,11 @@ struct ProbePlace {
 /// GEN or VIZ of some probes of a set.
 struct ProbeJob {
   SceneRef scene;
-  gi::BakeStage stage = gi::BakeStage::gen;
+  bake::BakeStage stage = bake::BakeStage::gen;
   int degree = 9;
   int face_size = 64;
-  scene::PathParams path;    ///< `seed` is the set's; each probe derives its own from it and its index
-  gi::VizParams viz_params;  ///< VIZ: which edges, and whether with T_{j→i}
+  rays::PathParams path;       ///< `seed` is the set's; each probe derives its own from it and its index
+  bake::VizParams viz_params;  ///< VIZ: which edges, and whether with T_{j→i}
   std::vector<std::uint32_t> probes;  ///< indices in the set, ascending
   /// GEN: the places of `probes`, in that order. VIZ: those of the whole set.
   std::vector<ProbePlace> places;
@@ -47,7 +47,7 @@ struct ProbeJob {
 struct ProbeLighting {
   Hash128 probes;  ///< blob: a binary probe file, served beside the scene
   std::uint64_t bytes = 0;
-  gi::LookupSpec lookup;  ///< its layer is `sum` or `self`
+  probes::LookupSpec lookup;  ///< its layer is `sum` or `self`
 };
 
 /// Tiles of a picture: REF, and G-buffers where `layers` ask for what is seen instead of its light.
@@ -74,9 +74,9 @@ constexpr auto enum_table(JobKind) {
 JobKind kind_of(const Job& job);
 
 struct ProbeJobResult {
-  gi::BakeStage stage = gi::BakeStage::gen;
+  bake::BakeStage stage = bake::BakeStage::gen;
   int degree = 9;
-  std::vector<gi::ProbeStageResult> probes;  ///< in the order of the job
+  std::vector<bake::ProbeStageResult> probes;  ///< in the order of the job
 };
 
 struct TileResult {

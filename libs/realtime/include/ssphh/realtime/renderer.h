@@ -4,7 +4,7 @@
 ///
 ///   gl::Context context = gl::Context::headless();
 ///   realtime::Renderer renderer(context, scene);
-///   renderer.set_probes(gi::read_probe_file("probes.sphl"));
+///   renderer.set_probes(probes::read_probe_file("probes.sphl"));
 ///   renderer.draw(scene::camera_pose(scene, ""), {}, {.width = 1280, .height = 720});
 ///   const image::Image picture = renderer.read_back();
 
@@ -14,11 +14,11 @@
 #include <string>
 
 #include <ssphh/core/held.h>
-#include <ssphh/gi/methods/method.h>
-#include <ssphh/gi/probe_set.h>
 #include <ssphh/gl/context.h>
 #include <ssphh/gl/texture.h>
 #include <ssphh/image/image.h>
+#include <ssphh/methods/method.h>
+#include <ssphh/probes/probe_set.h>
 #include <ssphh/realtime/fitted_surfaces.h>
 #include <ssphh/realtime/frame_stats.h>
 #include <ssphh/realtime/settings.h>
@@ -71,8 +71,8 @@ class Renderer {
 
   /// Probes that light the scene, none of which shines until set() says so: copies what it needs.
   /// `params.weights` and `params.irradiance_degree` limit what FrameSettings may ask for. Throws Error as
-  /// gi::IrradianceLookup does.
-  void set_probes(const gi::ProbeSet& set, const gi::LookupParams& params = {});
+  /// probes::IrradianceLookup does.
+  void set_probes(const probes::ProbeSet& set, const probes::LookupParams& params = {});
   /// Fitted weights of the last set_probes' probes, for FrameSettings::weights `fitted`; set_probes forgets
   /// them. Empty: none. Throws Error for points that name a probe which there is not.
   void set_fitted(const FittedSurfaces& fitted);
@@ -86,11 +86,11 @@ class Renderer {
   /// Indirect light of another method, for one state of lamps and doors: takes the place of the probes' until
   /// cleared. Copies what it needs, and keeps of what was set before what still holds. Throws Error for data
   /// that only the CPU can look up, and for what does not fit into the memory that the parameters allow.
-  void set_method_light(const gi::LightData& light);
+  void set_method_light(const methods::LightData& light);
   void clear_method_light();
   /// Its memory here ("gl_bytes") and what there is of it: "gl_cones"; "gl_lights", of which more than have
   /// room for shadow maps were merged, and "gl_map_size". Empty: none is set.
-  gi::MethodNumbers method_numbers() const;
+  methods::MethodNumbers method_numbers() const;
 
   /// Draws a frame. Restores no OpenGL state. Throws Error when OpenGL reports an error.
   const FrameStats& draw(const scene::CameraPose& camera, const FrameSettings& settings,

@@ -1,8 +1,8 @@
 #pragma once
 /// What a frame shows and how: plain data, changed freely from frame to frame.
 
-#include <ssphh/gi/lookup.h>
 #include <ssphh/image/tonemap.h>
+#include <ssphh/probes/lookup.h>
 
 namespace ssphh::realtime {
 
@@ -24,10 +24,10 @@ enum class Sky { environment, black };
 struct FrameSettings {
   bool direct = true;
   bool indirect = true;
-  gi::LookupMethod lookup = gi::LookupMethod::irradiance;
+  probes::LookupMethod lookup = probes::LookupMethod::irradiance;
   /// Of lookup `irradiance`. `fitted` holds where Renderer::set_fitted prepared points and surfaces stand
   /// still; elsewhere it is mls, as by default on the CPU.
-  gi::WeightMethod weights = gi::WeightMethod::fitted;
+  probes::WeightMethod weights = probes::WeightMethod::fitted;
   /// n: indirect light is looked up at every n-th pixel each way, and at those between where the four around
   /// them differ by more than `indirect_tolerance` of the brightest or lie on another surface; interpolated
   /// elsewhere.

@@ -11,7 +11,6 @@
 namespace ssphh::scene {
 
 struct Scene;
-class TransportSource;
 
 /// A light of the scene as it is now; its type, cone, radius, range and group are the scene's.
 struct LightState {
@@ -44,7 +43,6 @@ struct LightingState {
 
 /// The scene's own lights where its animations put them at `time`, every group at its full strength.
 LightingState lighting_at(const Scene& scene, float time = 0);
-LightingState lighting_at(const TransportSource& source, float time = 0);
 
 /// How many of each a state must speak of.
 struct LightingCounts {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <ssphh/core/held.h>
+#include <ssphh/rays/transport_source.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene/scene.h>
-#include <ssphh/scene/transport_source.h>
 
 namespace ssphh::shading {
 
@@ -35,7 +35,7 @@ struct EmitterHit {
 
 /// A photon as it leaves emitter i.
 struct EmittedPhoton {
-  scene::Photon photon;
+  rays::Photon photon;
   vec3 normal{0};  ///< of the emissive surface on the photon's side; zero: no surface
 };
 

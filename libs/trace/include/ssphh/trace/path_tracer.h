@@ -3,7 +3,7 @@
 /// The same bits for any number of threads.
 
 #include <ssphh/core/held.h>
-#include <ssphh/scene/radiance_source.h>
+#include <ssphh/rays/radiance_source.h>
 #include <ssphh/scene/scene.h>
 #include <ssphh/trace/render_state.h>
 #include <ssphh/trace/scene_geometry.h>
@@ -11,7 +11,7 @@
 namespace ssphh::trace {
 
 /// A scene at one time, ready for rays. Keeps a reference to the scene.
-class PathTracer final : public scene::RadianceSource {
+class PathTracer final : public rays::RadianceSource {
  public:
   /// Throws Error where the geometry was built for a scene with other surfaces.
   PathTracer(SharedGeometry geometry, const scene::Scene& scene, float time = 0);
@@ -24,19 +24,19 @@ class PathTracer final : public scene::RadianceSource {
   PathTracer& operator=(PathTracer&&) noexcept;
 
   const std::vector<std::string>& light_groups() const override;
-  std::vector<scene::GroupRadiance> incident_radiance(const scene::CubeRequest& request,
-                                                      const Control& control) const override;
+  std::vector<rays::GroupRadiance> incident_radiance(const rays::CubeRequest& request,
+                                                     const Control& control) const override;
   /// A ray that meets a ghost sphere before a surface, or starts inside one, sees its radiance. The caller
   /// leaves out the probe's own sphere.
-  std::vector<image::CubeMap> ghost_radiance(const scene::CubeRequest& request,
-                                             std::span<const scene::GhostSphere> ghosts,
-                                             const GhostSink& sink, const Control& control) const override;
+  std::vector<image::CubeMap> ghost_radiance(const rays::CubeRequest& request,
+                                             std::span<const rays::GhostSphere> ghosts, const GhostSink& sink,
+                                             const Control& control) const override;
   /// Direct light by next-event estimation and scattered rays combined. Up to 16 batches of paths with
   /// sequences of their own give the variance, which one path alone leaves infinite. Rays start above points
   /// that lie up to 5e-5 of the scene's size below their surface.
-  std::vector<scene::IrradianceEstimate> surface_irradiance(std::span<const scene::SurfacePoint> points,
-                                                            const scene::PathParams& path,
-                                                            const Control& control) const override;
+  std::vector<rays::IrradianceEstimate> surface_irradiance(std::span<const rays::SurfacePoint> points,
+                                                           const rays::PathParams& path,
+                                                           const Control& control) const override;
   bool visible(const vec3& a, const vec3& b) const override;
   /// From 128 rays; a miss and a double-sided material count as front.
   float backface_fraction(const vec3& position) const override;
@@ -47,7 +47,7 @@ class PathTracer final : public scene::RadianceSource {
   void render(const RenderParams& params, RenderState& state, const Control& control = {}) const;
 
   /// Path traced direct light, indirect light looked up from probes at the first hit.
-  void render_with(const scene::IndirectLight& indirect, const RenderParams& params, RenderState& state,
+  void render_with(const rays::IndirectLight& indirect, const RenderParams& params, RenderState& state,
                    const Control& control = {}) const;
 
  private:

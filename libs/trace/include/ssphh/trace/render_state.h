@@ -7,7 +7,7 @@
 #include <ssphh/core/enum_names.h>
 #include <ssphh/core/hash.h>
 #include <ssphh/image/image.h>
-#include <ssphh/scene/radiance_source.h>
+#include <ssphh/rays/radiance_source.h>
 
 namespace ssphh::trace {
 
@@ -36,7 +36,7 @@ struct RenderParams {
   /// From the scene's camera, or the whole sphere around its position: equirect, or a 6×1 cube strip (height
   /// = face size, width = 6·height) in world axes.
   Projection projection = Projection::pinhole;
-  scene::PathParams path;
+  rays::PathParams path;
   bool per_group = false;  ///< keep one image per light group as well
 };
 

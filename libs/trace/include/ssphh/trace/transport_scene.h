@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include <ssphh/rays/transport_source.h>
 #include <ssphh/scene/scene.h>
-#include <ssphh/scene/transport_source.h>
 #include <ssphh/trace/scene_geometry.h>
 
 namespace ssphh::trace {
@@ -25,7 +25,7 @@ struct TransportOptions {
 /// where they are not. Unlit surfaces show their emission to rays but are no light: DirectLight does not know
 /// them. Random numbers depend on the bits of a point's position alone, so no answer depends on its
 /// neighbours in a batch. Calls may come from several threads; large batches use all threads themselves.
-class TransportScene final : public scene::TransportSource {
+class TransportScene final : public rays::TransportSource {
  public:
   /// Keeps a reference to the scene. Throws Error where the geometry was built for a scene with other
   /// surfaces, or for options out of range.
@@ -42,11 +42,10 @@ class TransportScene final : public scene::TransportSource {
   scene::Bounds part_bounds(int part) const override;
   float duration() const override;
   mat4 part_pose(int part, float time) const override;
-  std::vector<scene::PartPoint> sample_part(int part, double points_per_square_metre) const override;
+  std::vector<rays::PartPoint> sample_part(int part, double points_per_square_metre) const override;
 
-  void intersect(int part, std::span<const scene::RayQuery> rays,
-                 std::span<scene::RayHit> hits) const override;
-  void occluded(int part, std::span<const scene::RayQuery> rays,
+  void intersect(int part, std::span<const rays::RayQuery> rays, std::span<rays::RayHit> hits) const override;
+  void occluded(int part, std::span<const rays::RayQuery> rays,
                 std::span<std::uint8_t> blocked) const override;
 
   const std::vector<std::string>& light_groups() const override;
@@ -56,9 +55,9 @@ class TransportScene final : public scene::TransportSource {
   bool group_emits_from(int group, int part) const override;
   int environment_group() const override;
   /// What it returns may outlive this object, but not the scene.
-  std::unique_ptr<scene::DirectLight> direct_light(std::span<const scene::LightState> lights,
-                                                   std::span<const mat4> poses,
-                                                   float environment_rotation = 0) const override;
+  std::unique_ptr<rays::DirectLight> direct_light(std::span<const scene::LightState> lights,
+                                                  std::span<const mat4> poses,
+                                                  float environment_rotation = 0) const override;
 
   std::uint64_t rays_traced() const override;
 

@@ -1,0 +1,54 @@
+#pragma once
+/// A set's light by transport between surfels instead of path tracing: every bounce, no noise, seconds
+/// instead of minutes (docs/methods/transport.md).
+
+#include <ssphh/probes/probe_set.h>
+#include <ssphh/transport/bounce.h>
+#include <ssphh/transport/fitted_weights.h>
+#include <ssphh/transport/link_viz.h>
+#include <ssphh/transport/relight_session.h>
+
+namespace ssphh::bake {
+
+struct TransportBakeParams {
+  probes::LightOperator op = probes::LightOperator::surfel;  ///< surfel or bounce
+  transport::BounceParams bounce;
+  transport::TransportParams
+      transport;  ///< surfel_size 0: a thirty-second of the scene's radius, within 0.04..0.5 m
+  transport::SolveParams solve;
+  bool viz = false;  ///< also find the edges between the probes
+  transport::LinkVizParams viz_params;
+  bool fit = false;  ///< also fit lookup weights at the surfels
+  transport::FitParams fit_params;
+};
+
+/// What a bake took: not part of the set.
+struct TransportBakeReport {
+  std::size_t surfels = 0, links = 0;
+  int iterations = 0;      ///< of the light group that took most
+  double contraction = 0;  ///< surfel: upper bound of the factor by which one bounce shrinks light; bounce:
+                           ///< an estimate of it for the probes' operator
+  double lost = 0;         ///< share of the surfels' rays that end where no surfel is
+  double seconds = 0;      ///< all but VIZ and the fit
+  double viz_seconds = 0;
+  double fit_seconds = 0;
+  std::uint64_t rays = 0;
+  std::vector<std::string> warnings;
+};
+
+/// Fills the set that INIT made with `surfel` or `bounce` transport, per light group, in the pose of its
+/// time; degree and places are the set's. What the set held of light, edges, hierarchy and fitted points is
+/// replaced. Warns about probes inside a body or without light, about more than 1 % of light lost and about a
+/// solution that did not converge. Throws Error without probes and for parameters out of range.
+probes::ProbeSet bake_transport(const rays::TransportSource& source, probes::ProbeSet set,
+                                const TransportBakeParams& params, TransportBakeReport& report,
+                                const Control& control = {});
+
+/// What the parameters ask for beside light (edges, lookup weights), for a set whose light something else
+/// finds: builds a network in the pose of the set's time and notes its parameters in the set. Fills the
+/// report's surfels, links, contraction, lost, viz_seconds, fit_seconds and rays.
+void add_transport(const rays::TransportSource& source, probes::ProbeSet& set,
+                   const TransportBakeParams& params, TransportBakeReport& report,
+                   const Control& control = {});
+
+}  // namespace ssphh::bake

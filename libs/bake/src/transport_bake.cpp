@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include <ssphh/bake/transport_bake.h>
+#include <ssphh/core/log.h>
+#include <ssphh/core/require.h>
+#include <ssphh/probes/probe_file.h>
+#include <ssphh/transport/session_sets.h>
+
+namespace ssphh::bake {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void describe_network(const transport::TransportNetwork& network, probes::ProbeSet& set,
+                      TransportBakeReport& report) {
+  set.generator.directions = network.params().directions;
+  set.generator.surfel_size = network.params().surfel_size;
+  set.generator.link_rays = network.params().link_rays;
+  report.surfels = network.surfel_count();
+  report.links = network.links().link_count();
+  report.contraction = network.contraction().upper;
+  report.lost = static_cast<double>(network.lost_links()) /
+                (static_cast<double>(network.surfel_count()) * network.params().link_rays);
+}
+
+/// Share of what a probe sees that is the back of a one-sided surface.
+float back_share(const transport::ProbeGBuffer& seen, std::size_t probe) {
+  constexpr std::uint32_t back_bit = std::uint32_t{1} << 30;
+  const std::size_t count = seen.directions.size();
+  const auto first = seen.hits.begin() + static_cast<std::ptrdiff_t>(probe * count);
+  const auto backs =
+      std::count_if(first, first + static_cast<std::ptrdiff_t>(count), [](const transport::PackedHit& hit) {
+        return hit.distance < std::numeric_limits<float>::infinity() && (hit.albedo_and_back & back_bit);
+      });
+  return static_cast<float>(backs) / static_cast<float>(count);
+}
+
+/// One line, however many probes: "3 probes receive ...: "a", "b", "c"".
+void warn_of(const std::vector<std::string>& names, const char* problem, TransportBakeReport& report) {
+  if (names.empty()) return;
+  constexpr std::size_t most = 5;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+    list += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", names[i]);
+  report.warnings.push_back(
+      fmt::format("{} {}: {}{}", names.size(), problem, list, names.size() > most ? ", ..." : ""));
+}
+
+void check_light(const transport::TransportNetwork& network, const probes::ProbeSet& set, bool converged,
+                 TransportBakeReport& report) {
+  std::vector<std::string> inside, dark;
+  for (std::size_t i = 0; i < set.probes.size(); ++i) {
+    const probes::Probe& probe = set.probes[i];
+    if (back_share(network.gbuffer(), i) > 0.5f) {
+      inside.push_back(probe.name);
+    } else if (sh::mean(probe.self) == vec3(0)) {
+      dark.push_back(probe.name);
+    }
+  }
+  warn_of(inside, "probes seem to lie inside a body (most of what they see are back faces)", report);
+  warn_of(dark, "probes receive no light at all", report);
+  constexpr double most_lost = 0.01;
+  if (report.lost > most_lost) {
+    report.warnings.push_back(fmt::format(
+        "{:.1f} % of the surfels' rays end where no surfel is: their light is lost; more --directions or "
+        "smaller surfels may find the places",
+        100 * report.lost));
+  }
+  if (!converged) {
+    report.warnings.push_back(fmt::format(
+        "the light did not converge in {} iterations: surfaces reflect nearly all of it", report.iterations));
+  }
+}
+
+/// At the surfels, in the session's pose, to its lights and to training lights.
+void fit(const transport::RelightSession& session, const rays::TransportSource& source, probes::ProbeSet& set,
+         const transport::FitParams& params, TransportBakeReport& report, const Control& control) {
+  const auto start = Clock::now();
+  const transport::TransportNetwork& network = session.network();
+  set.fitted = transport::fit_weights(network, source, transport::surfel_points(network), params,
+                                      session.direct_by_group(), control);
+  report.fit_seconds += seconds_since(start);
+}
+
+void find_edges(const transport::TransportNetwork& network, const rays::TransportSource& source,
+                probes::ProbeSet& set, const transport::LinkVizParams& params, TransportBakeReport& report,
+                const Control& control) {
+  const auto start = Clock::now();
+  std::vector<std::vector<probes::Edge>> edges =
+      transport::viz_from_links(network, source, set.probes, set.degree, params, control);
+  for (std::size_t i = 0; i < edges.size(); ++i) set.probes[i].edges = std::move(edges[i]);
+  set.generator.viz = probes::VizMethod::links;
+  report.viz_seconds = seconds_since(start);
+}
+
+/// Each group's light with the probes as the only unknowns.
+std::vector<std::vector<sh::RadianceSh>> bounce_by_group(const transport::RelightSession& session,
+                                                         const rays::TransportSource& source,
+                                                         const TransportBakeParams& params, int degree,
+                                                         TransportBakeReport& report, bool& converged) {
+  const transport::BounceOperator bounce(session.network(), source, degree, params.bounce);
+  std::vector<std::vector<sh::RadianceSh>> reflected;
+  for (const std::vector<transport::Irradiance4>& direct : session.direct_by_group()) {
+    const transport::BounceReport done = bounce.solve(direct, reflected.emplace_back());
+    report.iterations = std::max(report.iterations, done.iterations);
+    report.contraction = std::max(report.contraction, done.contraction);
+    converged = converged && done.converged;
+  }
+  return reflected;
+}
+
+/// Finer than a session's: nobody waits for a frame.
+transport::TransportParams bake_resolution(const rays::TransportSource& source,
+                                           transport::TransportParams params) {
+  if (params.surfel_size == 0)
+    params.surfel_size = glm::clamp(source.part_bounds(0).radius() / 32, 0.04f, 0.5f);
+  return params;
+}
+
+void require_probes(const probes::ProbeSet& set) {
+  if (set.probes.empty())
+    throw Error("bake", "there are no probes to bake", "run INIT on a scene with SPHLs");
+}
+
+}  // namespace
+
+probes::ProbeSet bake_transport(const rays::TransportSource& source, probes::ProbeSet set,
+                                const TransportBakeParams& params, TransportBakeReport& report,
+                                const Control& control) {
+  require_probes(set);
+  require(params.op != probes::LightOperator::path, "transport bake",
+          "path tracing is no transport between probes");
+  report = {};
+  const std::uint64_t rays_before = source.rays_traced();
+  const auto start = Clock::now();
+
+  // Light everything once, then each group alone.
+  transport::RelightParams relight_params{bake_resolution(source, params.transport), params.solve};
+  relight_params.degree = set.degree;
+  transport::RelightSession session(source, transport::places_of(set), relight_params, set.generator.time,
+                                    control);
+  session.update(session.lighting(), control);
+  const transport::TransportNetwork& network = session.network();
+  describe_network(network, set, report);
+  bool converged = true;
+  std::vector<std::vector<sh::RadianceSh>> reflected;
+  if (params.op == probes::LightOperator::bounce) {
+    report.contraction = 0;
+    reflected = bounce_by_group(session, source, params, set.degree, report, converged);
+  } else {
+    transport::SolveReport slowest;
+    reflected = session.reflected_by_group(control, &slowest);
+    report.iterations = slowest.iterations;
+    converged = slowest.converged;
+  }
+
+  set.generator.op = params.op;
+  set.generator.viz = probes::VizMethod::none;
+  set.generator.gen = probes::GenMode::full;
+  set.hierarchy.reset();
+  set.fitted.reset();
+  set.light_groups.clear();
+  for (const std::string& group : source.light_groups()) set.light_groups.push_back({group, vec3(1)});
+  for (probes::Probe& probe : set.probes) probe.edges.clear();
+  transport::store_groups(set, std::move(reflected), session.emitted_by_group());
+
+  report.seconds = seconds_since(start);
+  if (params.viz) find_edges(network, source, set, params.viz_params, report, control);
+  if (params.fit) fit(session, source, set, params.fit_params, report, control);
+  report.rays = source.rays_traced() - rays_before;
+  check_light(network, set, converged, report);
+  probes::validate(set, "bake");
+  for (const std::string& warning : report.warnings) log_warning("{}", warning);
+  return set;
+}
+
+void add_transport(const rays::TransportSource& source, probes::ProbeSet& set,
+                   const TransportBakeParams& params, TransportBakeReport& report, const Control& control) {
+  require_probes(set);
+  report = {};
+  const std::uint64_t rays_before = source.rays_traced();
+  transport::RelightSession session(source, transport::places_of(set),
+                                    {bake_resolution(source, params.transport), params.solve},
+                                    set.generator.time, control);
+  const transport::TransportNetwork& network = session.network();
+  describe_network(network, set, report);
+  if (params.viz) find_edges(network, source, set, params.viz_params, report, control);
+  if (params.fit) {
+    session.update(session.lighting(), control);
+    fit(session, source, set, params.fit_params, report, control);
+  }
+  report.rays = source.rays_traced() - rays_before;
+}
+
+}  // namespace ssphh::bake

@@ -1,0 +1,66 @@
+/// Which edges VIZ keeps, in what order, and what their P is.
+
+#include <gmock/gmock.h>
+
+#include <ssphh/bake/viz.h>
+
+#include "fake_source.h"
+
+namespace ssphh::bake {
+namespace {
+
+TEST(VizTransfer, IsTheLuminanceOfTheMeanResponse) {
+  sh::RadianceSh h(2);
+  h[0] = 3.5449077f * vec3(0.2f, 0.5f, 0.9f);
+  h[3] = vec3(7);
+  EXPECT_NEAR(probes::transfer_coefficient(h), 0.2126f * 0.2f + 0.7152f * 0.5f + 0.0722f * 0.9f, 1e-5f);
+}
+
+/// Neighbours of probe 1 at 3, 1.5, 2 and 6 m, whose spheres of 0.5 m have P near (r / 2 d)²; the last is
+/// around it.
+class VizEdges : public testing::Test {
+ protected:
+  VizEdges() {
+    set_.degree = 1;
+    for (const vec3& p :
+         {vec3(3, 0, 0), vec3(0), vec3(0, -1.5f, 0), vec3(0, 0, 2), vec3(6, 0, 0), vec3(0.1f, 0, 0)}) {
+      set_.probes.emplace_back().position = p;
+      set_.probes.back().radius = 0.5f;
+    }
+  }
+  std::vector<int> kept(const VizParams& params) {
+    edges_ = viz(test::FakeSource(), set_, 1, {.face_size = 16, .path = {.spp = 4}}, params);
+    std::vector<int> from;
+    for (const probes::Edge& edge : edges_) from.push_back(edge.from);
+    return from;
+  }
+
+  probes::ProbeSet set_;
+  std::vector<probes::Edge> edges_;
+};
+
+using testing::ElementsAre;
+
+TEST_F(VizEdges, AreTheStrongestInTheOrderOfTheirNeighbours) {
+  EXPECT_THAT(kept({}), ElementsAre(0, 2, 3, 4, 5));
+  EXPECT_THAT(kept({.neighbors = 3}), ElementsAre(2, 3, 5));
+  EXPECT_THAT(kept({.neighbors = 2}), ElementsAre(2, 5));
+  EXPECT_THAT(kept({.neighbors = 0}), ElementsAre());
+}
+
+TEST_F(VizEdges, LieAboveTheThreshold) {
+  kept({});
+  const float third = edges_[2].transfer;
+  EXPECT_NEAR(third, 1.0f / 64, 0.002f);
+  EXPECT_THAT(kept({.threshold = third}), ElementsAre(2, 5)) << "not at it";
+  EXPECT_THAT(kept({.threshold = 0.999f * third}), ElementsAre(2, 3, 5));
+}
+
+TEST_F(VizEdges, OfASphereAroundTheProbeHaveAPOfOne) {
+  kept({});
+  EXPECT_NEAR(edges_[4].transfer, 1, 1e-5f);
+  EXPECT_LE(edges_[4].transfer, 1);
+}
+
+}  // namespace
+}  // namespace ssphh::bake

@@ -1,0 +1,33 @@
+#pragma once
+/// All methods. To add one: a folder beside src/ whose namespace has `MethodEntry entry()`, as
+/// examples/toy_method does outside of the tree of libs/.
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include <ssphh/methods/method.h>
+#include <ssphh/methods/parameters.h>
+
+namespace ssphh::methods {
+
+struct MethodEntry {
+  const char* name;
+  const char* about;  ///< one line
+  std::vector<MethodParameter> parameters;
+  /// Bakes whatever the method keeps for all frames. Throws Error for a scene that the method cannot do.
+  std::unique_ptr<Method> (*make)(const MethodScene& scene, const MethodParameters& parameters,
+                                  const Control& control);
+  bool has_light_data = false;  ///< Method::light_data() gives some: OpenGL can draw it
+};
+
+/// What entry() of each method's folder says; written by CMake (ssphh_method_entries).
+std::vector<MethodEntry> method_entries();
+
+/// The same, made once.
+std::span<const MethodEntry> method_table();
+
+/// Throws Error with the names that there are.
+const MethodEntry& find_method(const std::string& name);
+
+}  // namespace ssphh::methods

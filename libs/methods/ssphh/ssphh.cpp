@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <optional>
+
+#include <ssphh/methods/table.h>
+#include <ssphh/place/place.h>
+#include <ssphh/probes/lookup.h>
+#include <ssphh/rays/posed_world.h>
+#include <ssphh/transport/fitted_weights.h>
+#include <ssphh/transport/session_sets.h>
+
+#include "kept_weights.h"
+#include "network_memory.h"
+
+namespace ssphh::methods::ssphh {
+namespace {
+
+std::vector<transport::ProbePlace> find_places(const MethodScene& scene, const MethodParameters& p,
+                                               const Control& control) {
+  place::PlaceParams params = place::place_params(scene.scene);
+  std::vector<transport::ProbePlace> places;
+  if (p.choice("places") == "scene") {
+    for (const scene::SphlPlace& place : params.manual)
+      places.push_back({place.name, place.position, place.radius});
+    if (places.empty())
+      throw Error("method ssphh", "the scene has no SPHLs of its own", "let places=auto find some");
+    return places;
+  }
+  params.spacing = static_cast<float>(p.number("spacing"));
+  params.count = p.integer("probes");
+  for (const place::PlacedProbe& probe : place::place_probes(scene.source, params, control).probes)
+    places.push_back({probe.name, probe.position, probe.radius});
+  return places;
+}
+
+transport::RelightParams relight_params(const MethodParameters& p) {
+  transport::RelightParams params;
+  params.degree = p.integer("degree");
+  params.transport.surfel_size = static_cast<float>(p.number("surfel_size"));
+  params.transport.directions = p.integer("directions");
+  params.warm_start = p.flag("warm_start");
+  return params;
+}
+
+/// SPHLs lit by `surfel` transport, blended by visible or fitted weights.
+class Ssphh final : public Method {
+ public:
+  Ssphh(const MethodScene& scene, const MethodParameters& p, const Control& control)
+      : source_(scene.source),
+        session_(scene.source, find_places(scene, p, control), relight_params(p), 0, control),
+        surfaces_(std::in_place, scene.source, 0.0f) {
+    probes::WeightParams weights;
+    weights.method = p.choice<probes::WeightMethod>("weights");
+    std::optional<probes::FittedPoints> fitted;
+    if (weights.method == probes::WeightMethod::fitted)
+      fitted = fit(p.integer("fit_poses"), p.integer("fit_points"), control);
+    std::vector<vec3> positions;
+    for (const transport::ProbePlace& place : session_.places()) positions.push_back(place.position);
+    weights_ = probes::make_weights(
+        positions, [this](const vec3& a, const vec3& b) { return surfaces_->visible(a, b); }, weights,
+        fitted ? &*fitted : nullptr);
+    fitted_points_ = fitted ? fitted->points.size() : 0;
+  }
+
+  void update(const scene::LightingState& state, const Control& control) override {
+    session_.update(state, control);
+    surfaces_.emplace(source_, state.time);
+    lookup_.emplace(transport::lookup_set(session_.places(), session_.reflected()),
+                    std::make_unique<KeptWeights>(*weights_));
+  }
+
+  const rays::IndirectLight& light() const override { return *lookup_; }
+
+  MethodMemory memory() const override {
+    // Of each probe radiance for glossy lookups, and irradiance without negative values
+    const int kept = probes::irradiance_degree({}, session_.reflected().front().degree());
+    MethodMemory bytes;
+    bytes.lookup = weights_->bytes() + session_.places().size() * sizeof(vec3) *
+                                           (session_.reflected().front().values.size() +
+                                            static_cast<std::size_t>(sh::coefficient_count(kept)));
+    bytes.update = network_bytes(session_.network());
+    return bytes;
+  }
+
+  MethodNumbers numbers() const override {
+    return {{"probes", static_cast<double>(session_.places().size())},
+            {"surfels", static_cast<double>(session_.network().surfel_count())},
+            {"fitted_points", static_cast<double>(fitted_points_)}};
+  }
+
+ private:
+  /// To poses evenly spaced over the scene's animation, under its own lights.
+  probes::FittedPoints fit(int poses, int points, const Control& control) {
+    std::vector<rays::SurfacePoint> places = transport::surfel_points(session_.network());
+    if (points > 0) places = transport::spread_points(places, points);
+    transport::WeightFit fit(std::move(places));
+    const int count = source_.duration() > 0 ? poses : 1;
+    for (int k = 0; k < count; ++k) {
+      const float share = count > 1 ? static_cast<float>(k) / static_cast<float>(count - 1) : 0;
+      session_.update(rays::lighting_at(source_, share * source_.duration()), control);
+      fit.add_pose(session_.network(), source_, session_.direct_by_group(), control);
+    }
+    return fit.solve(control);
+  }
+
+  const rays::TransportSource& source_;
+  transport::RelightSession session_;
+  std::optional<rays::PosedWorld> surfaces_;
+  std::size_t fitted_points_ = 0;
+  std::unique_ptr<probes::LookupWeights> weights_;
+  std::optional<probes::IrradianceLookup> lookup_;
+};
+
+}  // namespace
+
+MethodEntry entry() {
+  return {"ssphh",
+          "SPHLs lit by transport between surfels",
+          {{"places", 0, 0, 1, "of the probes: found, or the scene's own SPHLs", true, {"auto", "scene"}},
+           {"spacing", 0, 0, 1e4, "between probes that are placed [m]; 0: some 100 to 200 probes"},
+           {"probes", 0, 0, 4096, "so many are placed; 0: as the spacing gives", true},
+           {"degree", 4, 0, 10, "highest band kept of a probe's light", true},
+           choice_parameter("weights", probes::WeightMethod::fitted, "of the probes at a point"),
+           {"fit_poses", 3, 1, 64, "of the doors, to which weights are fitted", true},
+           {"fit_points", 0, 0, 262144, "at most so many have weights; 0: one for each surfel", true},
+           {"surfel_size", 0, 0, 1e3, "edge of a surfel [m]; 0: a twentieth of the scene's radius"},
+           {"directions", 384, 16, 65536, "rays of a probe", true},
+           {"warm_start", 1, 0, 1, "solve from the last frame's light", true}},
+          [](const MethodScene& scene, const MethodParameters& p, const Control& control)
+              -> std::unique_ptr<Method> { return std::make_unique<Ssphh>(scene, p, control); }};
+}
+
+}  // namespace ssphh::methods::ssphh

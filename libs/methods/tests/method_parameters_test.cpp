@@ -1,0 +1,56 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/methods/table.h>
+
+namespace ssphh::methods {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+const std::vector<MethodParameter> declared = {{"photons", 64, 1, 1000, "per light", true},
+                                               {"clamp", 0.5, 0, 10, "of the geometry term [m⁻²]"},
+                                               {"kind", 1, 0, 1, "of light", true, {"point", "sphere"}}};
+
+MethodParameters read(const std::vector<std::string>& settings) {
+  return MethodParameters("vpl", declared, settings);
+}
+
+TEST(MethodParameters, DefaultsAndSettings) {
+  const MethodParameters p = read({"clamp=1.5", "kind=point"});
+  EXPECT_EQ(p.integer("photons"), 64);
+  EXPECT_EQ(p.number("clamp"), 1.5);
+  EXPECT_EQ(p.choice("kind"), "point");
+  EXPECT_EQ(read({}).choice("kind"), "sphere");
+}
+
+TEST(MethodParameters, BadOnesAreNamed) {
+  EXPECT_THAT([] { read({"photon=3"}); }, ThrowsMessage<Error>(HasSubstr("did you mean \"photons\"")));
+  EXPECT_THAT([] { read({"photons=1.5"}); }, ThrowsMessage<Error>(HasSubstr("whole")));
+  EXPECT_THAT([] { read({"photons=1001"}); }, ThrowsMessage<Error>(HasSubstr("1 to 1000")));
+  EXPECT_THAT([] { read({"clamp=nan"}); }, ThrowsMessage<Error>(HasSubstr("no number")));
+  EXPECT_THAT([] { read({"clamp=1m"}); }, ThrowsMessage<Error>(HasSubstr("no number")));
+  EXPECT_THAT([] { read({"kind=disc"}); }, ThrowsMessage<Error>(HasSubstr("point, sphere")));
+  EXPECT_THAT([] { read({"clamp"}); }, ThrowsMessage<Error>(HasSubstr("NAME=VALUE")));
+}
+
+TEST(MethodTable, NamesAreUniqueAndDefaultsValid) {
+  std::vector<std::string> names;
+  for (const MethodEntry& entry : method_table()) {
+    EXPECT_THAT(names, testing::Not(testing::Contains(entry.name)));
+    names.emplace_back(entry.name);
+    EXPECT_EQ(&find_method(entry.name), &entry);
+    for (const MethodParameter& p : entry.parameters) {
+      EXPECT_GE(p.value, p.least) << entry.name << " " << p.name;
+      EXPECT_LE(p.value, p.most) << entry.name << " " << p.name;
+      if (p.choices.empty()) continue;
+      EXPECT_EQ(static_cast<double>(p.choices.size()), p.most + 1) << entry.name << " " << p.name;
+    }
+  }
+  EXPECT_THAT([] { find_method("radiosity"); }, ThrowsMessage<Error>(HasSubstr("ssphh")));
+}
+
+}  // namespace
+}  // namespace ssphh::methods

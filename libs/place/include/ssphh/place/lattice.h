@@ -1,0 +1,37 @@
+#pragma once
+/// The coarse grid, and which of several offsets suits a scene.
+
+#include <ssphh/place/place.h>
+#include <ssphh/place/site.h>
+
+namespace ssphh::place {
+
+/// Places origin + spacing · (i, j, k), those inside `box`.
+struct Lattice {
+  scene::Bounds box;
+  vec3 origin{0};  ///< within one spacing of box.min
+  float spacing = 1;
+  glm::ivec3 size{0};  ///< number of places along each axis
+};
+
+/// Bounds of part 0; an axis along which these are thinner than `spacing` (a bare floor) is widened to it,
+/// upward for y. Throws Error when part 0 has no surface.
+scene::Bounds lattice_box(const rays::TransportSource& source, float spacing);
+
+/// Number of places that a lattice of this spacing has, about; infinite where it overflows.
+double lattice_places(const scene::Bounds& box, float spacing);
+
+Lattice make_lattice(const scene::Bounds& box, float spacing, const vec3& offset);
+
+/// Centred, and at eight offsets that fill the cell evenly. Each counts its valid places, less those nearer
+/// than a quarter of the spacing to a surface in proportion: a column of probes that falls into a wall hides
+/// what the wall's sides are lit by. The best one; ties go to the first.
+Lattice choose_lattice(const rays::TransportSource& source, const scene::Bounds& box, float spacing,
+                       const SiteRules& rules, const Control& control);
+
+inline vec3 lattice_point(const Lattice& lattice, const glm::ivec3& index) {
+  return lattice.origin + lattice.spacing * vec3(index);
+}
+std::vector<vec3> lattice_points(const Lattice& lattice);
+
+}  // namespace ssphh::place

@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <cmath>
+
+#include <ssphh/place/lattice.h>
+
+namespace ssphh::place {
+namespace {
+
+constexpr int offset_count = 8;
+
+/// Offset, in spacings from box.min, that leaves as much room on both sides.
+vec3 centred(const scene::Bounds& box, float spacing) {
+  vec3 offset;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float cells = (box.max[axis] - box.min[axis]) / spacing;
+    const float places = std::max(1.0f, std::round(cells));
+    offset[axis] = 0.5f * (cells - (places - 1));
+  }
+  return offset;
+}
+
+/// Roberts' R₃ sequence: powers of the plastic constant's sibling for three dimensions.
+vec3 spread_offset(int i) {
+  return glm::fract(static_cast<float>(i) * vec3(0.8191725f, 0.6710436f, 0.5497005f) + 0.5f);
+}
+
+double score(const std::vector<Site>& sites, float spacing, const SiteRules& rules) {
+  double sum = 0;
+  for (const Site& site : sites) {
+    if (valid(site, rules)) sum += std::min(1.0f, site.nearest / (0.25f * spacing));
+  }
+  return sum;
+}
+
+}  // namespace
+
+scene::Bounds lattice_box(const rays::TransportSource& source, float spacing) {
+  scene::Bounds box = source.part_bounds(0);
+  if (box.empty()) {
+    throw Error("probe placement",
+                "the scene has no surface that stands still, so there is no place to look for",
+                "give the scene SPHLs and use --probes scene");
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const float missing = spacing - (box.max[axis] - box.min[axis]);
+    if (missing <= 0) continue;
+    box.max[axis] += axis == 1 ? missing : 0.5f * missing;
+    if (axis != 1) box.min[axis] -= 0.5f * missing;
+  }
+  return box;
+}
+
+double lattice_places(const scene::Bounds& box, float spacing) {
+  const glm::dvec3 cells = glm::dvec3(box.max - box.min) / double{spacing} + 1.0;
+  return cells.x * cells.y * cells.z;
+}
+
+Lattice make_lattice(const scene::Bounds& box, float spacing, const vec3& offset) {
+  Lattice lattice;
+  lattice.box = box;
+  lattice.spacing = spacing;
+  lattice.origin = box.min + spacing * offset;
+  lattice.size = glm::ivec3(glm::floor((box.max - lattice.origin) / spacing)) + 1;
+  lattice.size = glm::max(lattice.size, glm::ivec3(0));
+  return lattice;
+}
+
+std::vector<vec3> lattice_points(const Lattice& lattice) {
+  std::vector<vec3> points;
+  for (int z = 0; z < lattice.size.z; ++z) {
+    for (int y = 0; y < lattice.size.y; ++y) {
+      for (int x = 0; x < lattice.size.x; ++x) points.push_back(lattice_point(lattice, {x, y, z}));
+    }
+  }
+  return points;
+}
+
+Lattice choose_lattice(const rays::TransportSource& source, const scene::Bounds& box, float spacing,
+                       const SiteRules& rules, const Control& control) {
+  Lattice best;
+  double best_score = -1;
+  for (int i = 0; i <= offset_count; ++i) {
+    const Lattice lattice = make_lattice(box, spacing, i == 0 ? centred(box, spacing) : spread_offset(i));
+    const double s =
+        score(look_around(source, lattice_points(lattice), coarse_fan_size, control), spacing, rules);
+    if (s > best_score) best = lattice, best_score = s;
+  }
+  return best;
+}
+
+}  // namespace ssphh::place

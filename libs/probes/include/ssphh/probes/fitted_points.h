@@ -1,0 +1,34 @@
+#pragma once
+/// Surface points with the weights of the probes that light them: plain data, made by fit_weights
+/// (fitted_weights.h), stored in probe files.
+
+#include <algorithm>
+#include <vector>
+
+#include <ssphh/probes/lookup_weights.h>
+#include <ssphh/rays/transport_source.h>
+
+namespace ssphh::probes {
+
+/// So many of the nearest points a lookup between them takes. Twice as many give the same errors.
+inline constexpr std::size_t most_fitted_points = 12;
+
+/// Points with their weights, none of them negative. `weights[i].count` is 0 where no probe sees point i.
+struct FittedPoints {
+  std::vector<rays::SurfacePoint> points;
+  std::vector<PointWeights> weights;
+
+  friend bool operator==(const FittedPoints& a, const FittedPoints& b) {
+    return std::ranges::equal(a.points, b.points,
+                              [](const rays::SurfacePoint& p, const rays::SurfacePoint& q) {
+                                return p.position == q.position && p.normal == q.normal;
+                              }) &&
+           a.weights == b.weights;
+  }
+};
+
+/// Throws Error unless every point stands at a finite place and has its weights: finite, at most max_weights,
+/// of probes 0..probe_count − 1.
+void require_whole(const FittedPoints& fitted, std::size_t probe_count);
+
+}  // namespace ssphh::probes

@@ -1,0 +1,116 @@
+#pragma once
+/// Lighting surface points from probes: the paper's `light` and the field's `irradiance`, as
+/// rays::IndirectLight for a renderer that computes direct light itself. libs/methods/ssphh/README.md says what
+/// each is worth.
+
+#include <memory>
+
+#include <ssphh/core/enum_names.h>
+#include <ssphh/core/held.h>
+#include <ssphh/probes/lookup_weights.h>
+#include <ssphh/probes/probe_set.h>
+#include <ssphh/rays/radiance_source.h>
+
+namespace ssphh::probes {
+
+/// Which part of S'_i lights the surface.
+enum class ProbeLayer { self, neighbor, sum };
+constexpr auto enum_table(ProbeLayer) {
+  using enum ProbeLayer;
+  return std::to_array<EnumName<ProbeLayer>>({{self, "self"}, {neighbor, "neighbor"}, {sum, "sum"}});
+}
+
+/// Which light of the probes' own part counts: only what surfaces reflected, for a surface that gets direct
+/// light from elsewhere; or emitters seen directly as well.
+enum class ProbeLight { reflected, all };
+
+/// Bands over it change next to nothing of irradiance: lookups keep no more, on the CPU as on a GPU.
+inline constexpr int max_irradiance_degree = 4;
+
+struct LookupParams {
+  std::optional<ProbeLayer> layer;  ///< none: sum when the set has a hierarchy, else self
+  ProbeLight light = ProbeLight::reflected;
+  WeightParams weights;                           ///< irradiance: how probes are blended
+  int irradiance_degree = max_irradiance_degree;  ///< irradiance: bands kept; 2 is 1 % worse at worst
+  bool dering = true;  ///< irradiance: windows a probe just enough that its E(n) is nowhere negative
+};
+
+/// Bands of irradiance that lookups keep of a set of this degree: 0 to max_irradiance_degree.
+int irradiance_degree(const LookupParams& params, int set_degree);
+
+/// What of each probe lights surfaces, as `params` choose. Throws Error for an empty set, for layer
+/// `neighbor` or `sum` without a hierarchy, for groups that were not merged, and for places and functions
+/// that are not finite or not of the set's degree.
+std::vector<sh::RadianceSh> surface_light(const ProbeSet& set, const LookupParams& params);
+
+/// Both are safe to call from several threads, never return a negative or non-finite number for finite input,
+/// and copy what they need of the set; `source` (for visibility) must outlive them. Constructors throw Error
+/// as surface_light does.
+
+/// The paper's SPHL as a light (§3): the nearest visible SPHL above the horizon gives I = L_S(ω)/(N·ω), ω
+/// from x to it. When there is none, the nearest SPHL's irradiance, "as if the light probe is located around
+/// x" (§4).
+class LightLookup final : public rays::IndirectLight {
+ public:
+  LightLookup(const ProbeSet& set, const rays::RadianceSource& source, const LookupParams& params = {});
+  LightLookup(const ProbeSet&, const rays::RadianceSource&&, const LookupParams& = {}) = delete;
+  ~LightLookup() override;
+  LightLookup(LightLookup&&) noexcept;
+  LightLookup& operator=(LightLookup&&) noexcept;
+  vec3 irradiance(const rays::SurfacePoint& at) const override;
+  vec3 glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const override;
+
+  /// Guard of the paper's division: N·ω is taken as at least this.
+  static constexpr float smallest_cosine = 0.05f;
+
+ private:
+  struct Data;
+  Held<Data> data_;
+};
+
+/// Irradiance volume: Σ_j v_j E_j(n), the weights by params.weights (and the set's fitted points) or as
+/// given, which may name no other probes than the set's.
+class IrradianceLookup final : public rays::IndirectLight {
+ public:
+  IrradianceLookup(const ProbeSet& set, const rays::RadianceSource& source, const LookupParams& params = {});
+  IrradianceLookup(const ProbeSet&, const rays::RadianceSource&&, const LookupParams& = {}) = delete;
+  IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWeights> weights,
+                   const LookupParams& params = {});
+  ~IrradianceLookup() override;
+  IrradianceLookup(IrradianceLookup&&) noexcept;
+  IrradianceLookup& operator=(IrradianceLookup&&) noexcept;
+  vec3 irradiance(const rays::SurfacePoint& at) const override;
+  vec3 glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const override;
+
+ private:
+  struct Data;
+  Held<Data> data_;
+};
+
+enum class LookupMethod { light, irradiance };
+constexpr auto enum_table(LookupMethod) {
+  using enum LookupMethod;
+  return std::to_array<EnumName<LookupMethod>>({{light, "light"}, {irradiance, "irradiance"}});
+}
+
+/// A lookup as people choose it, for any set: what a render, a job or a picture of the viewer asks for.
+struct LookupSpec {
+  LookupMethod method = LookupMethod::irradiance;
+  std::optional<WeightMethod> weights = {};  ///< of `irradiance`; none: as WeightParams::method
+  ProbeLayer layer = ProbeLayer::sum;  ///< of a set that has a hierarchy; of others the probes' own light
+
+  friend bool operator==(const LookupSpec&, const LookupSpec&) = default;
+};
+
+/// What the choice means for `set`.
+LookupParams lookup_params(const LookupSpec& spec, const ProbeSet& set);
+
+/// Throws Error as the lookup's constructor does.
+std::unique_ptr<rays::IndirectLight> make_lookup(const LookupSpec& spec, const ProbeSet& set,
+                                                 const rays::RadianceSource& source);
+
+std::unique_ptr<rays::IndirectLight> make_lookup(LookupMethod method, const ProbeSet& set,
+                                                 const rays::RadianceSource& source,
+                                                 const LookupParams& params = {});
+
+}  // namespace ssphh::probes

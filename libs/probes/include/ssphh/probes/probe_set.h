@@ -1,0 +1,150 @@
+#pragma once
+/// Spherical-harmonics lights (SPHLs) of a scene and the light exchanged between them: plain data, what a
+/// bake makes and a probe file holds. S_i, H_{j→i}, P_ij and T_{j→i} as in libs/methods/ssphh/README.md.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <ssphh/core/enum_names.h>
+#include <ssphh/core/hash.h>
+#include <ssphh/core/math.h>
+#include <ssphh/probes/fitted_points.h>
+#include <ssphh/sh/operators.h>
+
+namespace ssphh::probes {
+
+/// What found the light of a set: `path`: GEN, path tracing at each probe; `surfel`: light transport between
+/// surfels; `bounce`: the same with the probes as the only unknowns.
+enum class LightOperator { path, surfel, bounce };
+constexpr auto enum_table(LightOperator) {
+  using enum LightOperator;
+  return std::to_array<EnumName<LightOperator>>({{path, "path"}, {surfel, "surfel"}, {bounce, "bounce"}});
+}
+
+/// What found the edges between the probes: nothing did; `path`: VIZ, path tracing at each probe; `links`:
+/// the links between surfels of a transport network.
+enum class VizMethod { none, path, links };
+constexpr auto enum_table(VizMethod) {
+  using enum VizMethod;
+  return std::to_array<EnumName<VizMethod>>({{none, "none"}, {path, "path"}, {links, "links"}});
+}
+
+/// What the GEN cube maps hold: every bounce up to max_depth, or direct light only (max_depth 1), so that
+/// HIER does not count the neighbours' light a second time.
+enum class GenMode { full, local };
+constexpr auto enum_table(GenMode) {
+  using enum GenMode;
+  return std::to_array<EnumName<GenMode>>({{full, "full"}, {local, "local"}});
+}
+
+/// What ⊗ means in S'_i = S_i ⊕ Σ_j H_{j→i} ⊗ S_j (see hier.h).
+enum class HierOperator { coefficient, mean, matrix };
+constexpr auto enum_table(HierOperator) {
+  using enum HierOperator;
+  return std::to_array<EnumName<HierOperator>>(
+      {{coefficient, "coefficient"}, {mean, "mean"}, {matrix, "matrix"}});
+}
+
+/// How a set was made. `gen` to `seed` tell of the paths of GEN and VIZ, as far as `op` and `viz` say that
+/// there were any; light and edges of other operators have every bounce.
+struct GeneratorInfo {
+  LightOperator op = LightOperator::path;
+  VizMethod viz = VizMethod::none;
+  GenMode gen = GenMode::full;
+  int max_depth = 3;
+  int passes = 1;
+  int spp = 16;
+  int face_size = 64;
+  std::uint64_t seed = 0;
+  int directions = 0;     ///< rays per probe of the transport network; 0: there was none
+  float surfel_size = 0;  ///< of the network, metres
+  int link_rays = 0;      ///< of the network, cosine rays per surfel
+  std::string scene;      ///< name, for people
+  Hash128 scene_hash;     ///< scene::light_hash
+  float time = 0;         ///< pose of the scene, seconds
+
+  friend bool operator==(const GeneratorInfo&, const GeneratorInfo&) = default;
+};
+
+/// A light group: lamps that are switched, dimmed or coloured together.
+struct LightGroup {
+  std::string name;
+  vec3 scale{1};  ///< c_g, relative to the bake
+
+  friend bool operator==(const LightGroup&, const LightGroup&) = default;
+};
+
+/// What SPHL j, lit with radiance 1 in every direction, gives at probe i: an edge i ← j of the hierarchy.
+struct Edge {
+  int from = -1;       ///< j
+  float transfer = 0;  ///< P_ij in [0, 1]: mean over directions of the radiance seen at i (Rec.709 luminance)
+  sh::RadianceSh h;    ///< H_{j→i}
+  sh::TransferMatrix matrix;  ///< T_{j→i}, both degrees that of the set; or empty
+
+  friend bool operator==(const Edge& a, const Edge& b) {
+    return a.from == b.from && a.transfer == b.transfer && a.h == b.h && a.matrix.values == b.matrix.values;
+  }
+};
+
+/// P_ij = H_{j→i}[0]/√4π as Rec.709 luminance: the mean over directions of the unit radiance seen at i. Not
+/// clamped.
+float transfer_coefficient(const sh::RadianceSh& h);
+
+/// S_i^g as baked, in two fields so that no light is counted twice.
+struct GroupLight {
+  sh::RadianceSh emitted;    ///< path depth 0: the group's emitters seen directly; empty: zero
+  sh::RadianceSh reflected;  ///< depth 1..max_depth: what surfaces that also get direct light may look up
+
+  friend bool operator==(const GroupLight&, const GroupLight&) = default;
+};
+
+struct Probe {
+  std::string name;
+  vec3 position{0};     ///< world, metres
+  float radius = 0.1f;  ///< of the emitter sphere of VIZ, metres
+  std::vector<GroupLight> groups;
+  sh::RadianceSh reflected;  ///< Σ_g c_g reflected_g: derived by merge_groups, not stored in files
+  sh::RadianceSh self;       ///< S_i = Σ_g c_g (emitted_g + reflected_g): likewise
+  std::vector<Edge> edges;   ///< only P > 0, ascending `from`; perhaps only the strongest ones
+
+  friend bool operator==(const Probe&, const Probe&) = default;
+};
+
+/// Result of HIER for every probe, and what it was computed with.
+struct Hierarchy {
+  HierOperator op = HierOperator::coefficient;
+  int neighbors = -1;                    ///< N′; −1: all
+  float threshold = 0;                   ///< only edges with P above it
+  std::vector<sh::RadianceSh> neighbor;  ///< Σ_j H_{j→i} ⊗ S_j
+  std::vector<sh::RadianceSh> sum;       ///< S'_i = self ⊕ neighbor: derived, not stored in files
+
+  friend bool operator==(const Hierarchy&, const Hierarchy&) = default;
+};
+
+struct ProbeSet {
+  int degree = 9;  ///< of every function in the set
+  GeneratorInfo generator;
+  std::vector<LightGroup> light_groups;
+  std::vector<Probe> probes;
+  std::optional<Hierarchy> hierarchy;
+  std::optional<FittedPoints> fitted;  ///< of surface points that stand still in the pose of the bake
+
+  friend bool operator==(const ProbeSet&, const ProbeSet&) = default;
+};
+
+/// Recomputes `reflected` and `self` of every probe from its groups and the scales. Throws Error, and leaves
+/// the set as it was, for a degree outside 0..10, for functions of another, and for more groups than the
+/// set's.
+void merge_groups(ProbeSet& set);
+
+/// Switches, dims or recolours a lamp without a bake: sets the group's scale, merges again and drops the
+/// hierarchy, which must be computed anew. Throws Error that lists the groups when `group` is unknown, or for
+/// a scale outside 0..1e6.
+void relight(ProbeSet& set, const std::string& group, const vec3& scale);
+
+/// Number of edges stored in the set.
+std::size_t edge_count(const ProbeSet& set);
+
+}  // namespace ssphh::probes

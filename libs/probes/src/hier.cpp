@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/parallel.h>
+#include <ssphh/probes/hier.h>
+
+namespace ssphh::probes {
+namespace {
+
+bool stronger(const Edge& a, const Edge& b) {
+  return a.transfer != b.transfer ? a.transfer > b.transfer : a.from < b.from;
+}
+
+/// Puts the chosen edges' indices first in `order`, sorted; returns their number.
+std::size_t select(const Probe& probe, const HierParams& params, std::vector<int>& order) {
+  order.clear();
+  for (std::size_t e = 0; e < probe.edges.size(); ++e) {
+    if (probe.edges[e].transfer > params.threshold) order.push_back(static_cast<int>(e));
+  }
+  const std::size_t count = params.neighbors < 0
+                                ? order.size()
+                                : std::min(order.size(), static_cast<std::size_t>(params.neighbors));
+  std::partial_sort(
+      order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(), [&](int a, int b) {
+        return stronger(probe.edges[static_cast<std::size_t>(a)], probe.edges[static_cast<std::size_t>(b)]);
+      });
+  order.resize(count);
+  return count;
+}
+
+/// Sum over the chosen neighbours, strongest first.
+std::size_t gather(const ProbeSet& set, const HierParams& params, std::size_t i, sh::RadianceSh& neighbor,
+                   sh::RadianceSh& sum) {
+  thread_local std::vector<int> order;
+  const Probe& probe = set.probes[i];
+  const std::size_t count = select(probe, params, order);
+  const auto k = static_cast<std::size_t>(sh::coefficient_count(set.degree));
+  neighbor.values.assign(k, vec3(0));
+  for (const int e : order) {
+    const Edge& edge = probe.edges[static_cast<std::size_t>(e)];
+    const sh::RadianceSh& source = set.probes[static_cast<std::size_t>(edge.from)].self;
+    switch (params.op) {
+      case HierOperator::coefficient:
+        sh::add_coefficient_product(neighbor, edge.h, source);
+        break;
+      case HierOperator::mean:
+        sh::add_mean_product(neighbor, edge.h, source);
+        break;
+      case HierOperator::matrix:
+        sh::add_matrix_product(neighbor, edge.matrix, source);
+        break;
+    }
+  }
+  sum.values.assign(probe.self.values.begin(), probe.self.values.end());
+  sum += neighbor;
+  return count;
+}
+
+void check(const ProbeSet& set, const HierParams& params) {
+  if (params.neighbors < -1) throw Error("neighbors", "must be -1 (all) or a count");
+  if (!(params.threshold >= 0 && params.threshold <= 1)) throw Error("threshold", "must be 0..1, as P is");
+  sh::require_degree(set.degree, "probe set");
+  for (std::size_t i = 0; i < set.probes.size(); ++i) {
+    const Probe& probe = set.probes[i];
+    const auto count = static_cast<std::size_t>(sh::coefficient_count(set.degree));
+    const auto needs = [i](bool good, const char* problem, const char* hint = "") {
+      if (!good) throw Error(fmt::format("probe {}", i), problem, hint);
+    };
+    needs(probe.self.values.size() == count, "its light is not of the set's degree", "call merge_groups");
+    for (const Edge& edge : probe.edges) {
+      needs(edge.from >= 0 && static_cast<std::size_t>(edge.from) < set.probes.size(),
+            "an edge comes from no probe");
+      needs(edge.h.values.size() == count, "an edge is not of the set's degree");
+      if (params.op != HierOperator::matrix) continue;
+      if (edge.matrix.values.empty())
+        throw Error("operator matrix", "the probes were baked without transfer matrices",
+                    "bake with --viz-transfer");
+      needs(edge.matrix.arriving_degree == set.degree && edge.matrix.emitted_degree == set.degree &&
+                edge.matrix.values.size() == count * count,
+            "an edge's matrix is not of the set's degree");
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<int> select_neighbors(const Probe& probe, const HierParams& params) {
+  std::vector<int> order;
+  select(probe, params, order);
+  return order;
+}
+
+std::size_t hier(ProbeSet& set, const HierParams& params) {
+  check(set, params);
+  if (!set.hierarchy) set.hierarchy.emplace();
+  Hierarchy& hierarchy = *set.hierarchy;
+  hierarchy.op = params.op;
+  hierarchy.neighbors = params.neighbors;
+  hierarchy.threshold = params.threshold;
+  hierarchy.neighbor.resize(set.probes.size());
+  hierarchy.sum.resize(set.probes.size());
+
+  std::atomic<std::size_t> used = 0;
+  const auto range = [&](std::size_t begin, std::size_t end) {
+    std::size_t count = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      count += gather(set, params, i, hierarchy.neighbor[i], hierarchy.sum[i]);
+    }
+    used += count;
+  };
+  // A few probes take microseconds: less than it takes to wake other threads.
+  constexpr std::size_t grain = 32;
+  if (set.probes.size() <= grain) {
+    range(0, set.probes.size());
+  } else {
+    parallel_for(set.probes.size(), grain, range);
+  }
+  return used;
+}
+
+std::optional<Contraction> hier_contraction(const ProbeSet& set, const HierParams& params) {
+  if (params.op != HierOperator::mean) return std::nullopt;
+  check(set, params);
+  struct Factor {
+    std::size_t row, from;
+    double factor;
+  };
+  std::vector<Factor> factors;
+  for (std::size_t i = 0; i < set.probes.size(); ++i) {
+    for (const int e : select_neighbors(set.probes[i], params)) {
+      const Edge& edge = set.probes[i].edges[static_cast<std::size_t>(e)];
+      factors.push_back({i, static_cast<std::size_t>(edge.from),
+                         double(std::max(0.0f, max_component(sh::mean(edge.h))))});
+    }
+  }
+  return contraction(set.probes.size(), [&](std::span<const double> x, std::span<double> y) {
+    std::ranges::fill(y, 0.0);
+    for (const Factor& f : factors) y[f.row] += f.factor * x[f.from];
+  });
+}
+
+}  // namespace ssphh::probes

@@ -1,0 +1,72 @@
+#include <algorithm>
+
+#include "probe_table.h"
+
+namespace ssphh::probes {
+
+struct IrradianceLookup::Data {
+  ProbeTable table;
+  std::unique_ptr<LookupWeights> weights;
+
+  /// Σ_j v_j value(j), not negative.
+  template <class Value>
+  vec3 blend(const rays::SurfacePoint& at, const Value& value) const {
+    vec3 sum(0);
+    const ProbeWeights found = weights->at(at);
+    for (const ProbeWeight& entry : found.used()) {
+      require(entry.probe >= 0 && entry.probe < table.count(), "lookup weights",
+              "they name a probe that is not there");
+      sum += entry.weight * value(entry.probe);
+    }
+    return glm::max(sum, vec3(0));
+  }
+};
+
+IrradianceLookup::IrradianceLookup(const ProbeSet& set, const rays::RadianceSource& source,
+                                   const LookupParams& params)
+    : data_(std::unique_ptr<Data>(new Data{ProbeTable(set, params), nullptr})) {
+  data_->weights = make_weights(
+      data_->table.positions(), [&source](const vec3& a, const vec3& b) { return source.visible(a, b); },
+      params.weights, set.fitted ? &*set.fitted : nullptr);
+}
+IrradianceLookup::IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWeights> weights,
+                                   const LookupParams& params)
+    : data_(std::unique_ptr<Data>(new Data{ProbeTable(set, params), std::move(weights)})) {
+  require(data_->weights != nullptr, "probe lookup", "there are no weights");
+}
+IrradianceLookup::~IrradianceLookup() = default;
+IrradianceLookup::IrradianceLookup(IrradianceLookup&&) noexcept = default;
+IrradianceLookup& IrradianceLookup::operator=(IrradianceLookup&&) noexcept = default;
+
+vec3 IrradianceLookup::irradiance(const rays::SurfacePoint& at) const {
+  ProbeTable::Basis basis;
+  data_->table.irradiance_basis(at.normal, basis);
+  return data_->blend(at, [&](int probe) { return data_->table.irradiance(probe, basis.data()); });
+}
+
+vec3 IrradianceLookup::glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const {
+  ProbeTable::Basis basis;
+  data_->table.glossy_basis(r, roughness, basis);
+  return data_->blend(at, [&](int probe) { return data_->table.radiance(probe, basis.data()); });
+}
+
+LookupParams lookup_params(const LookupSpec& spec, const ProbeSet& set) {
+  LookupParams params;
+  params.layer = set.hierarchy ? spec.layer : ProbeLayer::self;
+  params.weights.method = spec.weights;
+  return params;
+}
+
+std::unique_ptr<rays::IndirectLight> make_lookup(const LookupSpec& spec, const ProbeSet& set,
+                                                 const rays::RadianceSource& source) {
+  return make_lookup(spec.method, set, source, lookup_params(spec, set));
+}
+
+std::unique_ptr<rays::IndirectLight> make_lookup(LookupMethod method, const ProbeSet& set,
+                                                 const rays::RadianceSource& source,
+                                                 const LookupParams& params) {
+  if (method == LookupMethod::light) return std::make_unique<LightLookup>(set, source, params);
+  return std::make_unique<IrradianceLookup>(set, source, params);
+}
+
+}  // namespace ssphh::probes

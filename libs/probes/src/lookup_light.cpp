@@ -1,0 +1,62 @@
+#include "probe_sight.h"
+#include "probe_table.h"
+
+namespace ssphh::probes {
+
+struct LightLookup::Data {
+  ProbeTable table;
+  ProbeSight sight;
+
+  /// The nearest probe that the point sees and that stands above its horizon; else the nearest, with `lights`
+  /// false.
+  struct Chosen {
+    int probe;
+    vec3 direction;  ///< ω, from x to the probe
+    float cosine;    ///< N·ω
+    bool lights;
+  };
+  Chosen choose(const vec3& x, const vec3& n) const {
+    ProbeSight::NearList near;
+    const int count = sight.nearest(x, near);
+    for (int i = 0; i < count; ++i) {
+      const geometry::Near& candidate = near[static_cast<std::size_t>(i)];
+      if (!(candidate.distance2 > 0)) continue;
+      const vec3 direction = (table.position(candidate.index) - x) / std::sqrt(candidate.distance2);
+      const float cosine = glm::dot(n, direction);
+      if (cosine > 0 && sight.sees(candidate, x, n)) return {candidate.index, direction, cosine, true};
+    }
+    return {count > 0 ? near[0].index : 0, n, 1, false};  // none is near a point that is no number
+  }
+};
+
+LightLookup::LightLookup(const ProbeSet& set, const rays::RadianceSource& source,
+                         const LookupParams& params) {
+  ProbeTable table(set, params);
+  ProbeSight sight(
+      table.positions(), [&source](const vec3& a, const vec3& b) { return source.visible(a, b); },
+      params.weights);
+  data_ = std::unique_ptr<Data>(new Data{std::move(table), std::move(sight)});
+}
+LightLookup::~LightLookup() = default;
+LightLookup::LightLookup(LightLookup&&) noexcept = default;
+LightLookup& LightLookup::operator=(LightLookup&&) noexcept = default;
+
+vec3 LightLookup::irradiance(const rays::SurfacePoint& at) const {
+  const vec3 &x = at.position, &n = at.normal;
+  const Data::Chosen chosen = data_->choose(x, n);
+  ProbeTable::Basis basis;
+  if (!chosen.lights) {
+    data_->table.irradiance_basis(n, basis);
+    return data_->table.irradiance(chosen.probe, basis.data());
+  }
+  data_->table.radiance_basis(chosen.direction, basis);
+  return data_->table.radiance(chosen.probe, basis.data()) / std::max(chosen.cosine, smallest_cosine);
+}
+
+vec3 LightLookup::glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const {
+  ProbeTable::Basis basis;
+  data_->table.glossy_basis(r, roughness, basis);
+  return data_->table.radiance(data_->choose(at.position, at.normal).probe, basis.data());
+}
+
+}  // namespace ssphh::probes

@@ -1,0 +1,204 @@
+/// File: magic (8 bytes), version (u32), payload size (u64), checksum of the payload (2×u64), payload.
+
+#include <algorithm>
+#include <array>
+
+#include <ssphh/core/hash.h>
+#include <ssphh/probes/byte_parts.h>
+#include <ssphh/probes/probe_file.h>
+#include <ssphh/probes/probe_limits.h>
+
+#include "probe_finish.h"
+
+namespace ssphh::probes {
+namespace {
+
+/// As PNG's: tells text-mode transfers and truncation at Ctrl-Z.
+constexpr std::array<char, 8> magic = {'S', 'P', 'H', 'L', '\r', '\n', '\x1a', '\n'};
+
+void write_generator(ByteWriter& out, const GeneratorInfo& g) {
+  out.value(static_cast<std::uint8_t>(g.op));
+  out.value(static_cast<std::uint8_t>(g.viz));
+  out.value(static_cast<std::uint8_t>(g.gen));
+  for (const int v : {g.max_depth, g.passes, g.spp, g.face_size}) out.value(static_cast<std::uint32_t>(v));
+  out.value(g.seed);
+  out.value(static_cast<std::uint32_t>(g.directions));
+  out.value(g.surfel_size);
+  out.value(static_cast<std::uint32_t>(g.link_rays));
+  out.text(g.scene);
+  out.value(g.scene_hash.high), out.value(g.scene_hash.low);
+  out.value(g.time);
+}
+
+int read_int(ByteReader& in, const char* what, int low, int high) {
+  return static_cast<int>(
+      in.value_in(what, static_cast<std::uint32_t>(low), static_cast<std::uint32_t>(high)));
+}
+
+GeneratorInfo read_generator(ByteReader& in) {
+  GeneratorInfo g;
+  g.op = static_cast<LightOperator>(in.value_in<std::uint8_t>("operator", 0, 2));
+  g.viz = static_cast<VizMethod>(in.value_in<std::uint8_t>("VIZ method", 0, 2));
+  g.gen = static_cast<GenMode>(in.value_in<std::uint8_t>("GEN mode", 0, 1));
+  g.max_depth = read_int(in, "max depth", 0, limits::depth);
+  g.passes = read_int(in, "passes", 1, limits::samples);
+  g.spp = read_int(in, "samples", 1, limits::samples);
+  g.face_size = read_int(in, "face size", 1, limits::face_size);
+  g.seed = in.value<std::uint64_t>("seed");
+  g.directions = read_int(in, "directions", 0, limits::rays);
+  g.surfel_size = in.value_in<float>("surfel size", 0, limits::coordinate);
+  g.link_rays = read_int(in, "link rays", 0, limits::rays);
+  g.scene = in.text("scene name", limits::text);
+  g.scene_hash.high = in.value<std::uint64_t>("scene hash");
+  g.scene_hash.low = in.value<std::uint64_t>("scene hash");
+  g.time = in.value_in<float>("time", -limits::coordinate, limits::coordinate);
+  return g;
+}
+
+void write_fitted(ByteWriter& out, const FittedPoints& fitted) {
+  out.value(static_cast<std::uint32_t>(fitted.points.size()));
+  for (std::size_t i = 0; i < fitted.points.size(); ++i) {
+    out.vector3(fitted.points[i].position);
+    out.vector3(fitted.points[i].normal);
+    out.value(static_cast<std::uint8_t>(fitted.weights[i].count));
+    for (const ProbeWeight& entry : fitted.weights[i].used()) {
+      out.value(static_cast<std::uint32_t>(entry.probe));
+      out.value(entry.weight);
+    }
+  }
+}
+
+FittedPoints read_fitted(ByteReader& in, std::size_t probe_count) {
+  const std::size_t count = in.count("fitted point count", limits::fitted_points, 2 * sizeof(vec3) + 1);
+  FittedPoints fitted;
+  fitted.points.resize(count);
+  fitted.weights.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    fitted.points[i].position = in.vector3("fitted point");
+    fitted.points[i].normal = in.vector3("fitted normal");
+    PointWeights& weights = fitted.weights[i];
+    weights.count = in.value_in<std::uint8_t>("fitted weight count", 0, max_weights);
+    for (int k = 0; k < weights.count; ++k) {
+      const auto probe = in.value<std::uint32_t>("fitted probe");
+      if (probe >= probe_count) in.fail("fitted probe", "must be a probe's index");
+      weights.entries[static_cast<std::size_t>(k)] = {
+          static_cast<int>(probe), in.value_in<float>("fitted weight", 0, limits::fitted_weight)};
+    }
+  }
+  return fitted;
+}
+
+ProbeSet read_payload(ByteReader& in) {
+  ProbeSet set;
+  set.degree = read_int(in, "degree", 0, sh::max_degree);
+  const auto coefficients = static_cast<std::size_t>(sh::coefficient_count(set.degree));
+  set.generator = read_generator(in);
+  set.light_groups.resize(
+      in.count("light group count", limits::light_groups, sizeof(std::uint32_t) + sizeof(vec3)));
+  for (LightGroup& group : set.light_groups) {
+    group.name = in.text("light group name", limits::text);
+    group.scale = in.vector3("light group scale");
+  }
+  const std::size_t bytes_each =
+      set.light_groups.size() * (coefficients * sizeof(vec3) + 2) + sizeof(vec3) + 3 * sizeof(float);
+  const std::size_t probe_count = in.count("probe count", limits::probes, bytes_each);
+  set.probes.resize(probe_count);
+  for (std::size_t i = 0; i < probe_count; ++i) {
+    Probe& probe = set.probes[i];
+    probe.name = in.text("probe name", limits::text);
+    probe.position = in.vector3("position");
+    probe.radius = in.value<float>("radius");
+    probe.groups = read_groups(in, set.degree, set.light_groups.size());
+    probe.edges = read_edges(ByteReaderParts(in), set.degree, i, probe_count);
+  }
+  if (in.value_in<std::uint8_t>("hierarchy flag", 0, 1)) {
+    Hierarchy& hierarchy = set.hierarchy.emplace();
+    hierarchy.op = static_cast<HierOperator>(in.value_in<std::uint8_t>("operator", 0, 2));
+    hierarchy.neighbors = in.value_in<std::int32_t>("neighbors", -1, static_cast<int>(limits::probes));
+    hierarchy.threshold = in.value_in<float>("threshold", 0.0f, 1.0f);
+    hierarchy.neighbor.resize(probe_count);
+    for (sh::RadianceSh& neighbor : hierarchy.neighbor)
+      neighbor.values = ByteReaderParts(in).vectors("neighbour part", coefficients, Missing::never);
+  }
+  if (in.value_in<std::uint8_t>("fitted flag", 0, 1)) set.fitted = read_fitted(in, probe_count);
+  in.expect_end();
+  return set;
+}
+
+Hash128 checksum(std::span<const std::byte> payload) {
+  return Hasher().bytes(payload).finish();
+}
+
+}  // namespace
+
+std::vector<std::byte> probes_to_binary(const ProbeSet& set) {
+  validate(set, "probe set");
+  ByteWriter payload;
+  payload.value(static_cast<std::uint32_t>(set.degree));
+  write_generator(payload, set.generator);
+  payload.value(static_cast<std::uint32_t>(set.light_groups.size()));
+  for (const LightGroup& group : set.light_groups) {
+    payload.text(group.name);
+    payload.vector3(group.scale);
+  }
+  payload.value(static_cast<std::uint32_t>(set.probes.size()));
+  for (const Probe& probe : set.probes) {
+    payload.text(probe.name);
+    payload.vector3(probe.position);
+    payload.value(probe.radius);
+    write_groups(payload, probe.groups);
+    write_edges(payload, probe.edges);
+  }
+  payload.value(static_cast<std::uint8_t>(set.hierarchy.has_value()));
+  if (set.hierarchy) {
+    payload.value(static_cast<std::uint8_t>(set.hierarchy->op));
+    payload.value(static_cast<std::int32_t>(set.hierarchy->neighbors));
+    payload.value(set.hierarchy->threshold);
+    for (const sh::RadianceSh& neighbor : set.hierarchy->neighbor)
+      ByteWriterParts(payload).vectors("neighbour part", neighbor.values, Missing::never);
+  }
+  payload.value(static_cast<std::uint8_t>(set.fitted.has_value()));
+  if (set.fitted) write_fitted(payload, *set.fitted);
+
+  ByteWriter file;
+  file.array(std::span<const char>(magic));
+  file.value(static_cast<std::uint32_t>(probe_file_version));
+  file.value(static_cast<std::uint64_t>(payload.bytes().size()));
+  const Hash128 sum = checksum(payload.bytes());
+  file.value(sum.high), file.value(sum.low);
+  file.array(std::span<const std::byte>(payload.bytes()));
+  return file.bytes();
+}
+
+ProbeSet probes_from_binary(std::span<const std::byte> data, const std::string& where) {
+  ByteReader header(data, where);
+  if (data.size() < magic.size() ||
+      !std::equal(magic.begin(), magic.end(), reinterpret_cast<const char*>(data.data()))) {
+    throw Error(where, "is not a binary probe file", "a JSON probe file's name must end in .json");
+  }
+  for (std::size_t i = 0; i < magic.size(); ++i) header.value<char>("magic");
+  const auto version = header.value<std::uint32_t>("version");
+  if (version != probe_file_version) {
+    throw Error(where, "has version " + std::to_string(version) + "; this program reads version " +
+                           std::to_string(probe_file_version));
+  }
+  const auto size = header.value<std::uint64_t>("payload size");
+  Hash128 sum;
+  sum.high = header.value<std::uint64_t>("checksum");
+  sum.low = header.value<std::uint64_t>("checksum");
+  if (size != header.left()) {
+    throw Error(
+        where,
+        "says that it holds " + std::to_string(size) + " bytes but holds " + std::to_string(header.left()),
+        "the file is cut off or damaged");
+  }
+  const auto payload = data.last(header.left());
+  if (checksum(payload) != sum) throw Error(where, "its checksum does not match", "the file is damaged");
+
+  ByteReader in(payload, where + " payload");
+  ProbeSet set = read_payload(in);
+  finish_reading(set, where);
+  return set;
+}
+
+}  // namespace ssphh::probes

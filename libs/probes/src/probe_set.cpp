@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+
+#include <ssphh/probes/probe_limits.h>
+#include <ssphh/probes/probe_set.h>
+
+namespace ssphh::probes {
+namespace {
+
+void add_scaled(sh::RadianceSh& sum, const sh::RadianceSh& term, const vec3& scale) {
+  for (std::size_t k = 0; k < term.values.size(); ++k) sum.values[k] += scale * term.values[k];
+}
+
+/// Whether the groups can be merged.
+void check_groups(const ProbeSet& set) {
+  sh::require_degree(set.degree, "probe set");
+  const auto count = static_cast<std::size_t>(sh::coefficient_count(set.degree));
+  for (std::size_t i = 0; i < set.probes.size(); ++i) {
+    const std::vector<GroupLight>& groups = set.probes[i].groups;
+    if (groups.size() > set.light_groups.size())
+      throw Error(fmt::format("probe {}", i), fmt::format("has the light of {} groups; the set has {}",
+                                                          groups.size(), set.light_groups.size()));
+    for (const GroupLight& light : groups) {
+      for (const sh::RadianceSh* f : {&light.emitted, &light.reflected}) {
+        if (!f->empty() && f->values.size() != count)
+          throw Error(fmt::format("probe {}", i), fmt::format("has {} RGB coefficients; degree {} has {}",
+                                                              f->values.size(), set.degree, count));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void merge_groups(ProbeSet& set) {
+  check_groups(set);
+  for (Probe& probe : set.probes) {
+    probe.reflected = sh::RadianceSh(set.degree);
+    probe.self = sh::RadianceSh(set.degree);
+    for (std::size_t g = 0; g < probe.groups.size(); ++g) {
+      add_scaled(probe.reflected, probe.groups[g].reflected, set.light_groups[g].scale);
+      add_scaled(probe.self, probe.groups[g].emitted, set.light_groups[g].scale);
+    }
+    probe.self += probe.reflected;
+  }
+}
+
+void relight(ProbeSet& set, const std::string& group, const vec3& scale) {
+  if (!is_finite(scale) || glm::any(glm::lessThan(scale, vec3(0))) || max_component(scale) > limits::scale) {
+    throw Error("light group \"" + group + "\"", "its scale must be three numbers in 0..1e6");
+  }
+  std::string known;
+  for (LightGroup& candidate : set.light_groups) {
+    known += (known.empty() ? "\"" : ", \"") + candidate.name + "\"";
+    if (candidate.name != group) continue;
+    check_groups(set);
+    candidate.scale = scale;
+    merge_groups(set);
+    set.hierarchy.reset();
+    return;
+  }
+  throw Error("light group \"" + group + "\"", "no such group in the probe set",
+              known.empty() ? "the set has no light groups" : "there are: " + known);
+}
+
+std::size_t edge_count(const ProbeSet& set) {
+  std::size_t count = 0;
+  for (const Probe& probe : set.probes) count += probe.edges.size();
+  return count;
+}
+
+float transfer_coefficient(const sh::RadianceSh& h) {
+  return luminance(sh::mean(h));
+}
+
+}  // namespace ssphh::probes

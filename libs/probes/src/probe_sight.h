@@ -1,0 +1,65 @@
+#pragma once
+/// The probes around a surface point, and whether the point sees them.
+
+#include <algorithm>
+#include <cmath>
+
+#include <ssphh/geometry/nearest.h>
+#include <ssphh/probes/lookup_weights.h>
+
+namespace ssphh::probes {
+
+class ProbeSight {
+ public:
+  ProbeSight(std::span<const vec3> positions, SeesProbe sees, const WeightParams& params)
+      : positions_(positions.begin(), positions.end()),
+        nearest_(positions),
+        sees_(std::move(sees)),
+        spacing_(params.spacing > 0 ? params.spacing : median_spacing(positions)),
+        offset_(params.normal_offset) {}
+
+  using NearList = std::array<geometry::Near, max_weights>;
+
+  std::size_t bytes() const { return positions_.size() * sizeof(vec3) + nearest_.bytes(); }
+  float spacing() const { return spacing_; }
+  const vec3& position(int probe) const { return positions_[static_cast<std::size_t>(probe)]; }
+
+  /// Of the angle between n and the way from x to the probe; 1 where it stands at x.
+  float cosine(int probe, const vec3& x, const vec3& n) const {
+    const vec3 d = position(probe) - x;
+    const float length = glm::length(d);
+    return length > 0 ? glm::dot(n, d) / length : 1;
+  }
+
+  int nearest(const vec3& x, std::span<geometry::Near> near,
+              float radius = std::numeric_limits<float>::infinity()) const {
+    return nearest_.find(x, near, radius);
+  }
+
+  bool sees(const geometry::Near& near, const vec3& x, const vec3& n) const {
+    constexpr float relative_offset = 0.01f;
+    const float offset =
+        offset_ > 0 ? offset_ : relative_offset * std::min(std::sqrt(near.distance2), spacing_);
+    return sees_(x + offset * n, position(near.index));
+  }
+
+  /// Moves the visible ones of the first `count` to the front, at most `wanted`; returns their number.
+  int visible_first(NearList& near, int count, int wanted, const vec3& x, const vec3& n) const {
+    int visible = 0;
+    for (int i = 0; i < count && visible < wanted; ++i) {
+      const geometry::Near candidate = near[static_cast<std::size_t>(i)];
+      if (!sees(candidate, x, n)) continue;
+      // Those that they replace were all hidden.
+      std::swap(near[static_cast<std::size_t>(visible++)], near[static_cast<std::size_t>(i)]);
+    }
+    return visible;
+  }
+
+ private:
+  std::vector<vec3> positions_;
+  geometry::NearestPoints nearest_;
+  SeesProbe sees_;
+  float spacing_, offset_;
+};
+
+}  // namespace ssphh::probes

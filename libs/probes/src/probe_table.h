@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+
+#include <ssphh/probes/lookup.h>
+
+namespace ssphh::probes {
+
+/// Floats of a vector, and the next multiple of that.
+inline constexpr std::size_t table_lanes = 8;
+constexpr std::size_t whole_lanes(std::size_t count) {
+  return (count + table_lanes - 1) / table_lanes * table_lanes;
+}
+
+/// What both lookups need of a set, laid out for one call per pixel sample.
+class ProbeTable {
+ public:
+  ProbeTable(const ProbeSet& set, const LookupParams& params);
+
+  int count() const { return static_cast<int>(positions_.size()); }
+
+  const std::vector<vec3>& positions() const { return positions_; }
+  const vec3& position(int probe) const { return positions_[static_cast<std::size_t>(probe)]; }
+  /// L(ω), not negative. `basis` holds Y_k(ω), perhaps scaled by band.
+  vec3 radiance(int probe, const float* basis) const { return radiance_.dot(probe, basis); }
+  /// E(n), not negative.
+  vec3 irradiance(int probe, const float* basis) const { return irradiance_.dot(probe, basis); }
+
+  /// Y_k(n) for irradiance(), Y_k(ω) for radiance(), and the same for a glossy lobe; zeros after these.
+  using Basis = std::array<float, whole_lanes(sh::max_coefficient_count)>;
+  void irradiance_basis(const vec3& n, Basis& basis) const;
+  void radiance_basis(const vec3& direction, Basis& basis) const;
+  void glossy_basis(const vec3& direction, float roughness, Basis& basis) const;
+
+ private:
+  ProbeTable(const ProbeSet& set, std::vector<sh::RadianceSh> lights, const LookupParams& params);
+
+  /// Functions of all probes, laid out so that one is evaluated by whole vectors.
+  struct Functions {
+    Functions(std::size_t probes, int degree);
+    void set(std::size_t probe, std::span<const vec3> coefficients);
+    vec3 dot(int probe, const float* basis) const;
+
+    int degree;
+    std::size_t stride;         ///< floats of a channel: coefficients, then zeros
+    std::vector<float> values;  ///< probe after probe, in each channel after channel
+  };
+
+  std::vector<vec3> positions_;
+  Functions radiance_, irradiance_;
+};
+
+}  // namespace ssphh::probes

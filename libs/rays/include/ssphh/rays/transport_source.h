@@ -1,0 +1,142 @@
+#pragma once
+/// Questions about surfaces and lamps that light transport between probes asks, without knowing who answers
+/// (Embree here; a GPU may answer them too). Bodies that move are kept apart from those that never do, so
+/// that a door which swings asks for little. Answers are a pure function of the scene and the arguments.
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <ssphh/core/error.h>
+#include <ssphh/scene/lighting_state.h>
+#include <ssphh/scene/query.h>
+
+namespace ssphh::rays {
+
+/// A point on a surface with its geometric unit normal, on the side that is lit or seen.
+struct SurfacePoint {
+  vec3 position{0};
+  vec3 normal{0, 1, 0};
+  bool moves = false;  ///< on a body that an animation moves
+};
+
+/// Ray or segment: covers the distances (0, t_max) in units of `direction`, which need not be a unit vector.
+struct RayQuery {
+  vec3 origin{0};
+  vec3 direction{0, 0, -1};
+  float t_max = std::numeric_limits<float>::infinity();
+};
+
+/// The nearest surface on a ray, as transport sees it: Lambertian.
+struct RayHit {
+  float distance = std::numeric_limits<float>::infinity();  ///< in units of the direction; infinite: escaped
+  vec3 normal{0};                                           ///< geometric, unit, toward the ray's origin
+  vec3 albedo{0};     ///< share of the irradiance that leaves again, diffuse and specular, 0..1
+  vec3 emission{0};   ///< radiance toward the ray's origin [W sr⁻¹ m⁻²]
+  int group = -1;     ///< light group of the emission; −1: none
+  bool back = false;  ///< the back of a one-sided surface was hit
+
+  bool escaped() const { return !(distance < std::numeric_limits<float>::infinity()); }
+};
+
+/// A place on a moving part that sample_part chose.
+struct PartPoint {
+  SurfacePoint point;  ///< in the part's frame, front side
+  vec3 albedo{0};
+  bool double_sided = false;
+};
+
+/// Light on its way from an emitter.
+struct Photon {
+  vec3 origin{0};
+  vec3 direction{0, 0, -1};  ///< unit
+  vec3 power{0};  ///< [W], divided by the density it was chosen with: its mean is what the emitters send out
+  float range = 0;  ///< of its light [m]: what arrives is held back by range_share; 0: nothing is
+
+  /// Share of the power that arrives after `distance` metres (KHR_lights_punctual's recommended falloff).
+  float range_share(float distance) const {
+    const float r = distance / range;
+    return range > 0 ? glm::clamp(1 - r * r * r * r, 0.0f, 1.0f) : 1;
+  }
+};
+
+/// Uniform numbers in [0, 1) that choose a photon.
+struct PhotonNumbers {
+  float emitter = 0;
+  vec2 place{0}, direction{0};
+};
+
+/// Light that comes straight from emitters, for one state of the lights and one pose of the parts.
+class DirectLight {
+ public:
+  virtual ~DirectLight() = default;
+  /// Irradiance [W/m²] at each point from one light group, shadowed by everything. Exact for lights that are
+  /// points; a stratified estimate, the same at every call, for those with an extent and for the environment.
+  virtual void irradiance(int group, std::span<const SurfacePoint> points, std::span<vec3> out) const = 0;
+  /// Whether a body inside `box` may change the group's light at the point; false only if it cannot.
+  virtual bool may_shadow(int group, const SurfacePoint& point, const scene::Bounds& box) const = 0;
+  /// Radiance of the group's emitters that are no surfaces (sphere lights, environment, a sun's disc) along a
+  /// world-space ray whose nearest surface is at `distance`, infinite if it escapes: darkness there is
+  /// darkness at any distance.
+  virtual vec3 emitted(int group, const RayQuery& ray, float distance) const = 0;
+  /// Luminance of the flux [W] that the group's emitters send out; of those at infinity, through the sphere
+  /// around the surfaces. Near enough to share photons out by.
+  virtual float flux(int /*group*/) const { throw Error("direct light", "it cannot emit photons"); }
+  /// A photon of the group's emitters, which arrives at surfaces as irradiance() has it; none where `numbers`
+  /// fall on darkness.
+  virtual std::optional<Photon> emit(int /*group*/, const PhotonNumbers& /*numbers*/) const {
+    throw Error("direct light", "it cannot emit photons");
+  }
+};
+
+class TransportSource {
+ public:
+  virtual ~TransportSource() = default;
+
+  /// 1 + number of moving parts. Part 0 is all that never moves, in world space; every other part is rigid in
+  /// its own frame.
+  virtual int part_count() const = 0;
+  virtual const std::string& part_name(int part) const = 0;
+  /// In the part's frame; empty for a part without triangles.
+  virtual scene::Bounds part_bounds(int part) const = 0;
+  /// Seconds after which nothing moves any more.
+  virtual float duration() const = 0;
+  /// Part to world at `time` seconds; the identity for part 0.
+  virtual mat4 part_pose(int part, float time) const = 0;
+  /// Points uniform by area, at least one per triangle; the same at every call. Not for part 0.
+  virtual std::vector<PartPoint> sample_part(int part, double points_per_square_metre) const = 0;
+
+  /// Nearest hit of each ray with one part alone, rays and hits in the part's frame.
+  virtual void intersect(int part, std::span<const RayQuery> rays, std::span<RayHit> hits) const = 0;
+  /// blocked[i] = 1 where the part alone meets segment i, else 0; in the part's frame.
+  virtual void occluded(int part, std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const = 0;
+
+  virtual const std::vector<std::string>& light_groups() const = 0;
+  /// The scene's lights posed at `time`, in the scene's order.
+  virtual std::vector<scene::LightState> lights(float time) const = 0;
+  /// Names and group indices of lights(), in the same order.
+  virtual const std::vector<std::string>& light_names() const = 0;
+  virtual int light_group_of(int light) const = 0;
+  /// Whether the group has emitters beside lights(): emissive meshes on the given part. Part 0 also stands
+  /// for the environment.
+  virtual bool group_emits_from(int group, int part) const = 0;
+  /// Group index of the environment; −1: there is none.
+  virtual int environment_group() const { return -1; }
+  /// `lights` as from lights(), perhaps changed; `poses` one matrix per part; the environment turned about +y
+  /// by so many radians beyond its own rotation.
+  virtual std::unique_ptr<DirectLight> direct_light(std::span<const scene::LightState> lights,
+                                                    std::span<const mat4> poses,
+                                                    float environment_rotation = 0) const = 0;
+
+  /// Rays traced so far by this object and its DirectLights.
+  virtual std::uint64_t rays_traced() const = 0;
+};
+
+/// The source's own lights as they are at `time` seconds, every group at its full strength.
+scene::LightingState lighting_at(const TransportSource& source, float time = 0);
+
+}  // namespace ssphh::rays

@@ -1,0 +1,13 @@
+#include <ssphh/rays/transport_source.h>
+
+namespace ssphh::rays {
+
+scene::LightingState lighting_at(const TransportSource& source, float time) {
+  scene::LightingState state;
+  state.time = time;
+  state.lights = source.lights(time);
+  state.group_scales.assign(source.light_groups().size(), vec3(1));
+  return state;
+}
+
+}  // namespace ssphh::rays

@@ -1,0 +1,39 @@
+#pragma once
+/// Points spread evenly over the surfaces of a posed scene that somebody can get to see: where lookups are
+/// compared with the truth.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <ssphh/core/control.h>
+#include <ssphh/rays/transport_source.h>
+
+namespace ssphh::study {
+
+struct SurfacePointParams {
+  int count = 1024;        ///< points wanted, over 0
+  std::uint64_t seed = 0;  ///< the same seed gives the same points
+  float clearance = 0;     ///< only points with so much free space before them, along the normal [m]
+};
+
+/// Points uniform by area over both sides of all surfaces that can be reached: that see one of `origins`
+/// (cameras, probes), or of which some ray, scattered diffusely, meets a place that does. What is shut off
+/// (the inside of walls and bodies, the outside of a closed room) has no points. Uniform, because isotropic
+/// random lines meet every patch in proportion to its area whatever its orientation (Santaló, Integral
+/// Geometry and Geometric Probability, 1976, ch. 12). As long as the scene's bounds stay, the points on what
+/// never moves are the same at every time at which they can be reached. Throws Error without origins or
+/// surfaces, and when too few points can be reached.
+std::vector<rays::SurfacePoint> reachable_points(const rays::TransportSource& source,
+                                                 std::span<const vec3> origins, float time,
+                                                 const SurfacePointParams& params = {},
+                                                 const Control& control = {});
+
+/// Points in the open, as something that moves may come there: on a cosine-distributed ray from each surface
+/// point, 5 to 95 % of the way to what it meets, the normal uniform over the sphere. None for rays that
+/// escape. The same seed gives the same points.
+std::vector<rays::SurfacePoint> points_in_the_open(const rays::TransportSource& source,
+                                                   std::span<const rays::SurfacePoint> surfaces, float time,
+                                                   std::uint64_t seed);
+
+}  // namespace ssphh::study

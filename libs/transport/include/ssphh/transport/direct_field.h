@@ -1,0 +1,39 @@
+#pragma once
+/// Direct irradiance at the surfels, per light group, kept as long as nothing changes it.
+
+#include <span>
+#include <vector>
+
+#include <ssphh/transport/network.h>
+
+namespace ssphh::transport {
+
+class DirectField {
+ public:
+  /// Keeps a reference to the network. Everything is dark until the first update.
+  DirectField(const TransportNetwork& network, std::size_t group_count);
+  DirectField(const TransportNetwork&&, std::size_t) = delete;  // it would be gone
+
+  /// Finds the group's light at all samples.
+  std::size_t update_all(int group, const rays::DirectLight& light);
+  /// After the parts moved: only at samples on parts, and where one of `moved` (the parts' world bounds
+  /// before and after) may shadow the light. Returns the number of samples asked for.
+  std::size_t update_moved(int group, const rays::DirectLight& light, std::span<const scene::Bounds> moved);
+
+  /// Σ_g scale_g · E_g at each surfel: the mean over its samples in use. `extra` is added at each sample when
+  /// not empty.
+  void sum(std::span<const vec3> group_scales, std::span<const vec3> extra,
+           std::vector<Irradiance4>& out) const;
+
+ private:
+  void require_group(int group) const;
+  std::size_t update(int group, const rays::DirectLight& light, std::span<const std::uint32_t> which);
+
+  const TransportNetwork& network_;
+  std::vector<std::vector<vec3>> groups_;  ///< [group][sample]
+  std::vector<std::uint32_t> which_;
+  std::vector<rays::SurfacePoint> points_;
+  std::vector<vec3> values_;
+};
+
+}  // namespace ssphh::transport

@@ -1,0 +1,136 @@
+#pragma once
+/// What surfels and probes see of each other: the operators of surfel transport. Lights do not enter, and a
+/// moving part changes only the rays that meet it (docs/methods/transport.md).
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <ssphh/core/control.h>
+#include <ssphh/core/held.h>
+#include <ssphh/transport/gbuffer.h>
+#include <ssphh/transport/solve.h>
+#include <ssphh/transport/surfels.h>
+
+namespace ssphh::transport {
+
+struct TransportParams {
+  int directions = 384;   ///< rays per probe
+  float surfel_size = 0;  ///< metres; 0: a twentieth of the scene's radius, within 0.05..0.5
+  int link_rays = 128;    ///< cosine rays per surfel
+  int samples = 8;        ///< points per surfel at which direct light is found, 1..32
+
+  friend bool operator==(const TransportParams&, const TransportParams&) = default;
+};
+
+/// What a probe ray sees: a surfel, or no_surfel, and the albedo of the very point.
+struct SeenPatch {
+  std::int32_t surfel;
+  std::uint32_t albedo;  ///< pack_albedo
+
+  friend bool operator==(const SeenPatch&, const SeenPatch&) = default;
+};
+
+/// What a ray meets that is no probe's.
+struct Sight {
+  std::int32_t surfel = no_surfel;  ///< of the surface; no_surfel where nothing is met or known
+  vec3 albedo{0};
+  vec3 emission{0};  ///< radiance toward the ray's origin
+  int group = -1;    ///< of the emission
+};
+
+/// A probe ray between two precomputed poses: seen()[owner] with weight 1 − share, `other` with weight share.
+struct MixedHit {
+  std::uint32_t owner;  ///< probe · directions + direction
+  SeenPatch other;
+  float share;
+};
+
+struct PoseReport {
+  std::size_t rays_near_parts = 0;  ///< rays that some part comes near at some time
+  std::size_t hits_changed = 0;     ///< probe rays and links that see something else than before
+};
+
+class TransportNetwork {
+ public:
+  /// Keeps a reference to `source`. Throws Error without probes, for parameters out of range, and for a scene
+  /// of which the probes see nothing.
+  TransportNetwork(const rays::TransportSource& source, std::span<const vec3> positions,
+                   const TransportParams& params, float time = 0, const Control& control = {});
+  TransportNetwork(const rays::TransportSource&&, std::span<const vec3>, const TransportParams&, float = 0,
+                   const Control& = {}) = delete;  // it would be gone
+  ~TransportNetwork();
+  TransportNetwork(TransportNetwork&&) noexcept;
+  TransportNetwork& operator=(TransportNetwork&&) noexcept;
+
+  /// Moves the parts. The result equals a network built at this time, to the bit.
+  PoseReport set_time(float time);
+  float time() const;
+
+  /// Time interpolation, for animations that repeat: finds the operators at `count` poses, evenly spaced over
+  /// the animation, so that set_time_between only blends two of them. Throws Error for fewer than 2 poses.
+  void prepare_poses(int count, const Control& control = {});
+  /// Like set_time, with links and probe rays blended linearly between the two nearest prepared poses;
+  /// samples for direct light are posed exactly. The error falls with the number of poses
+  /// (docs/methods/transport.md).
+  PoseReport set_time_between(float time);
+  /// By owner; empty after set_time.
+  const std::vector<MixedHit>& mixed_hits() const;
+  /// Bytes that prepare_poses keeps.
+  std::size_t pose_bytes() const;
+
+  /// As resolved: surfel_size is never 0.
+  const TransportParams& params() const;
+  const ProbeGBuffer& gbuffer() const;
+  const SurfelSet& surfels() const;
+  /// Of each surfel.
+  const std::vector<vec3>& albedo() const;
+  std::size_t surfel_count() const { return albedo().size(); }
+
+  /// Direct light of surfel s is the mean over those of its samples [s · params().samples, …) that are in
+  /// use. World space, as posed.
+  const std::vector<rays::SurfacePoint>& samples() const;
+  const std::vector<std::uint8_t>& sample_used() const;
+  /// False for the padding of a surfel with fewer samples: never in use.
+  bool sample_exists(std::size_t sample) const;
+
+  const LinkRows& links() const;
+  /// Bounds of the spectral radius of F ρ in the first and the last pose of the animation.
+  const Contraction& contraction() const;
+
+  /// [probe · directions + direction]
+  const std::vector<SeenPatch>& seen() const;
+  /// Metres to what each probe ray sees; infinite: nothing.
+  const std::vector<float>& seen_distance() const;
+  /// Palette index of the emission that each probe ray sees; empty when no surface emits.
+  const std::vector<std::uint16_t>& seen_emission() const;
+  const EmissionPalette& palette() const;
+
+  /// Part to world, per part.
+  const std::vector<mat4>& poses() const;
+  scene::Bounds part_world_bounds(int part) const;
+
+  /// What cosine rays from each point meet, as posed: `rays` per point, no_surfel for those that escape. Ray
+  /// directions depend on the point's index alone.
+  std::vector<std::int32_t> gather(std::span<const rays::SurfacePoint> points, int rays,
+                                   const Control& control = {}) const;
+
+  /// What world-space rays meet, as posed.
+  std::vector<Sight> look(std::span<const rays::RayQuery> rays) const;
+
+  /// The surfel that stands for a surface point of a part (in the part's frame): the nearest one seen from
+  /// it.
+  int find(int part, const rays::SurfacePoint& point) const;
+
+  /// Links that ended where no surfel is: their light is lost. A few are normal, where the underside of a
+  /// part looks into what nothing else sees.
+  std::size_t lost_links() const;
+
+  struct Data;
+
+ private:
+  Held<Data> data_;
+};
+
+}  // namespace ssphh::transport

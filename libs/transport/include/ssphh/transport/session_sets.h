@@ -1,0 +1,30 @@
+#pragma once
+/// The light of a RelightSession as probe sets: one group for lookups while it changes, or group by group as
+/// a bake stores it.
+
+#include <string>
+#include <vector>
+
+#include <ssphh/probes/probe_set.h>
+#include <ssphh/transport/relight_session.h>
+
+namespace ssphh::transport {
+
+std::vector<ProbePlace> places_of(const probes::ProbeSet& set);
+
+/// The places with their reflected light as one group, as lookups want it. Throws Error when there is not one
+/// function of one degree for each place, as before a session's first update().
+probes::ProbeSet lookup_set(const std::vector<ProbePlace>& places,
+                            const std::vector<sh::RadianceSh>& reflected);
+
+/// Gives every probe the light of each of the set's groups, [group][probe], as a bake stores it: emitted
+/// light that is dark is left out.
+void store_groups(probes::ProbeSet& set, std::vector<std::vector<sh::RadianceSh>> reflected,
+                  std::vector<std::vector<sh::RadianceSh>> emitted);
+
+/// The session's light as a bake would write it: groups apart and unscaled, the factors of its state beside
+/// them. `groups` are their names. Throws Cancelled when asked to stop.
+probes::ProbeSet baked_set(const RelightSession& session, const std::vector<std::string>& groups,
+                           probes::GeneratorInfo generator, const Control& control = {});
+
+}  // namespace ssphh::transport

@@ -1,0 +1,69 @@
+#pragma once
+/// Indirect irradiance by iteration: E = F (ρ ∘ (E_direct + E)) over sparse links
+/// (docs/methods/transport.md).
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <ssphh/core/contraction.h>
+#include <ssphh/core/math.h>
+
+namespace ssphh::transport {
+
+/// Share `weight` of what a surfel's cosine rays meet is surfel `surfel`.
+struct Link {
+  std::uint32_t surfel;
+  float weight;
+};
+
+/// F, a row per surfel: links that never change and those that moving parts touch. A row's weights sum to at
+/// most 1; the rest escapes or is lost.
+struct LinkRows {
+  struct Row {
+    std::span<const Link> fixed, moving;
+  };
+  std::vector<Row> rows;
+
+  std::size_t link_count() const;
+};
+
+/// Irradiance with one float of padding: 16 bytes, one load.
+using Irradiance4 = vec4;
+
+/// Bounds of the spectral radius of F ρ, ρ the largest channel's albedo: the factor by which one bounce
+/// shrinks light.
+Contraction contraction(const LinkRows& links, std::span<const vec3> albedo, int steps = 16);
+
+struct SolveParams {
+  float tolerance = 1e-3f;  ///< largest residual of a surfel, relative to its E + 1e-3 · (the largest E)
+  int max_iterations = 300;
+};
+struct SolveReport {
+  int iterations = 0;
+  float residual = 0;  ///< as `tolerance`, before the last iteration
+  bool converged = true;
+};
+
+/// out_i = Σ_j F_ij ρ_j (direct_j + indirect_j): one bounce. `radiosity` is scratch. All sizes are the row
+/// count.
+void bounce_once(const LinkRows& links, std::span<const Irradiance4> radiosity, std::span<Irradiance4> out);
+
+/// Solves for `indirect`, which holds the first guess (zero, or the last frame's answer, which is then scaled
+/// as the direct light's sum has changed since this solver's last call) on entry. Chebyshev's semi-iteration
+/// for eigenvalues within ±`contraction_bound` (Golub & Varga 1961; Saad, Iterative Methods, §12.3); plain
+/// iteration when the bound is 1 or more. Rows are computed independently of each other: the same bits for
+/// any number of threads.
+class Solver {
+ public:
+  SolveReport solve(const LinkRows& links, std::span<const vec3> albedo, std::span<const Irradiance4> direct,
+                    double contraction_bound, const SolveParams& params, std::vector<Irradiance4>& indirect);
+
+ private:
+  std::vector<Irradiance4> radiosity_, next_radiosity_, previous_;
+  std::vector<float> block_residual_, block_largest_;
+  std::optional<glm::dvec3> last_sum_;  ///< of the direct light
+};
+
+}  // namespace ssphh::transport

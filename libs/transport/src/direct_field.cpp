@@ -1,0 +1,83 @@
+#include <algorithm>
+
+#include <ssphh/core/parallel.h>
+#include <ssphh/core/require.h>
+#include <ssphh/transport/direct_field.h>
+
+namespace ssphh::transport {
+
+DirectField::DirectField(const TransportNetwork& network, std::size_t group_count)
+    : network_(network), groups_(group_count, std::vector<vec3>(network.samples().size(), vec3(0))) {}
+
+void DirectField::require_group(int group) const {
+  require(group >= 0 && static_cast<std::size_t>(group) < groups_.size(), "light group",
+          "there is none of that index");
+}
+
+std::size_t DirectField::update_all(int group, const rays::DirectLight& light) {
+  require_group(group);
+  which_.clear();
+  for (std::size_t i = 0; i < network_.samples().size(); ++i) {
+    if (network_.sample_exists(i)) which_.push_back(static_cast<std::uint32_t>(i));
+  }
+  return update(group, light, which_);
+}
+
+std::size_t DirectField::update_moved(int group, const rays::DirectLight& light,
+                                      std::span<const scene::Bounds> moved) {
+  require_group(group);
+  const auto samples = static_cast<std::size_t>(network_.params().samples);
+  const std::vector<Surfel>& surfels = network_.surfels().surfels();
+  std::vector<std::uint8_t> touched(network_.samples().size());
+  parallel_for(touched.size(), 2048, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!network_.sample_exists(i)) continue;
+      touched[i] = surfels[i / samples].part > 0 ||
+                   std::any_of(moved.begin(), moved.end(), [&](const scene::Bounds& box) {
+                     return light.may_shadow(group, network_.samples()[i], box);
+                   });
+    }
+  });
+  which_.clear();
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    if (touched[i]) which_.push_back(static_cast<std::uint32_t>(i));
+  }
+  return update(group, light, which_);
+}
+
+std::size_t DirectField::update(int group, const rays::DirectLight& light,
+                                std::span<const std::uint32_t> which) {
+  points_.resize(which.size());
+  values_.resize(which.size());
+  for (std::size_t k = 0; k < which.size(); ++k) points_[k] = network_.samples()[which[k]];
+  light.irradiance(group, points_, values_);
+  require(std::ranges::all_of(values_, is_finite), "transport source", "its direct light is not finite");
+  std::vector<vec3>& field = groups_[static_cast<std::size_t>(group)];
+  for (std::size_t k = 0; k < which.size(); ++k) field[which[k]] = values_[k];
+  return which.size();
+}
+
+void DirectField::sum(std::span<const vec3> group_scales, std::span<const vec3> extra,
+                      std::vector<Irradiance4>& out) const {
+  require(group_scales.size() == groups_.size(), "direct light", "there is not one factor for each group");
+  require(extra.empty() || extra.size() == network_.samples().size(), "direct light",
+          "what is added is not one colour for each sample");
+  const auto samples = static_cast<std::size_t>(network_.params().samples);
+  const std::vector<std::uint8_t>& used = network_.sample_used();
+  out.resize(network_.surfel_count());
+  parallel_for(out.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      vec3 total(0);
+      float count = 0;
+      for (std::size_t i = s * samples; i < (s + 1) * samples; ++i) {
+        if (!used[i]) continue;
+        ++count;
+        for (std::size_t g = 0; g < groups_.size(); ++g) total += group_scales[g] * groups_[g][i];
+        if (!extra.empty()) total += extra[i];
+      }
+      out[s] = vec4(total / std::max(count, 1.0f), 0);
+    }
+  });
+}
+
+}  // namespace ssphh::transport

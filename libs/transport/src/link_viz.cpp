@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/parallel.h>
+#include <ssphh/core/random.h>
+#include <ssphh/core/require.h>
+#include <ssphh/transport/direct_field.h>
+#include <ssphh/transport/link_viz.h>
+
+#include "probe_light.h"
+#include "sphl_emission.h"
+
+namespace ssphh::transport {
+namespace {
+
+/// The edges that a probe keeps: a heap with the weakest on top.
+class StrongestEdges {
+ public:
+  explicit StrongestEdges(const LinkVizParams& params) : params_(params) {}
+
+  /// Whether an edge with this P would be kept.
+  bool wants(float transfer) const {
+    return transfer > params_.threshold && params_.neighbors != 0 &&
+           (!full() || transfer > edges_[0].transfer);
+  }
+  void add(probes::Edge&& edge) {
+    if (full()) {
+      std::pop_heap(edges_.begin(), edges_.end(), stronger);
+      edges_.pop_back();
+    }
+    edges_.push_back(std::move(edge));
+    std::push_heap(edges_.begin(), edges_.end(), stronger);
+  }
+  std::vector<probes::Edge> by_neighbor() && {
+    std::sort(edges_.begin(), edges_.end(),
+              [](const probes::Edge& a, const probes::Edge& b) { return a.from < b.from; });
+    return std::move(edges_);
+  }
+
+ private:
+  static bool stronger(const probes::Edge& a, const probes::Edge& b) {
+    return a.transfer != b.transfer ? a.transfer > b.transfer : a.from < b.from;
+  }
+  bool full() const {
+    return params_.neighbors > 0 && edges_.size() >= static_cast<std::size_t>(params_.neighbors);
+  }
+
+  const LinkVizParams& params_;
+  std::vector<probes::Edge> edges_;
+};
+
+/// Probes in an order without any pattern in space. Neighbours that come ever closer would be projected only
+/// to be thrown out by the next.
+std::vector<std::size_t> scattered(std::size_t count) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [](std::size_t a, std::size_t b) { return mix64(a) < mix64(b); });
+  return order;
+}
+
+class LinkViz {
+ public:
+  LinkViz(const TransportNetwork& network, const rays::TransportSource& source,
+          std::span<const probes::Probe> probes, int degree, const LinkVizParams& params)
+      : network_(network),
+        source_(source),
+        probes_(probes),
+        params_(params),
+        projector_(degree, network.gbuffer().directions),
+        field_(network, 0),
+        kept_(probes.size(), StrongestEdges(params)) {}
+
+  std::vector<std::vector<probes::Edge>> run(const Control& control) {
+    ProgressStage progress(control, "VIZ from links", probes_.size(), "probes");
+    for (const std::size_t j : scattered(probes_.size())) {
+      control.check();
+      light_sphere(j);
+      read_off(j);
+      progress.advance(1);
+    }
+    std::vector<std::vector<probes::Edge>> edges;
+    for (StrongestEdges& kept : kept_) edges.push_back(std::move(kept).by_neighbor());
+    return edges;
+  }
+
+ private:
+  /// Irradiance of every surfel while probe j is the only light.
+  void light_sphere(std::size_t j) {
+    sphere_ = {probes_[j].position, probes_[j].radius, sh::RadianceSh(0)};
+    sphere_.leaving[0] = vec3(std::sqrt(4 * pi));
+    at_samples_.assign(network_.samples().size(), vec3(0));
+    add_emission(network_, source_, sphere_, at_samples_);
+    field_.sum({}, at_samples_, direct_);
+    indirect_.clear();
+    Solver().solve(network_.links(), network_.albedo(), direct_, network_.contraction().upper, params_.solve,
+                   indirect_);
+    for (std::size_t s = 0; s < direct_.size(); ++s) direct_[s] += indirect_[s];
+  }
+
+  /// P of what probe i sees on surfaces.
+  float seen_on_surfaces(std::size_t i) const {
+    const std::size_t directions = network_.gbuffer().directions.size();
+    glm::dvec3 sum(0);
+    for (std::size_t ray = i * directions; ray < (i + 1) * directions; ++ray)
+      sum += glm::dvec3(radiance_of(network_.seen()[ray], direct_));
+    return luminance(vec3(sum / double(directions)));
+  }
+
+  void read_off(std::size_t j) {
+    // Upper bounds of P first: the sphere takes rays and H a projection, and most pairs need neither.
+    std::vector<std::uint8_t> wanted(probes_.size());
+    parallel_for(probes_.size(), 8, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        wanted[i] =
+            i != j && kept_[i].wants(seen_on_surfaces(i) + sphere_share(probes_[i].position, sphere_));
+    });
+    std::vector<std::size_t> at;
+    std::vector<vec3> positions;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (wanted[i]) at.push_back(i), positions.push_back(probes_[i].position);
+    }
+    const std::vector<float> visible = visible_shares(network_, source_, positions, sphere_);
+
+    parallel_for(at.size(), 4, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        probes::Edge edge;
+        edge.from = static_cast<int>(j);
+        edge.h = sh::RadianceSh(projector_.degree());
+        project_reflected(network_, projector_, direct_, at[k], edge.h);
+        if (visible[k] > 0) {
+          sh::RadianceSh seen(projector_.degree());
+          add_seen_emission(positions[k], sphere_, seen);
+          seen *= vec3(visible[k]);
+          edge.h += seen;
+        }
+        edge.transfer = std::min(probes::transfer_coefficient(edge.h), 1.0f);
+        if (kept_[at[k]].wants(edge.transfer)) kept_[at[k]].add(std::move(edge));
+      }
+    });
+  }
+
+  const TransportNetwork& network_;
+  const rays::TransportSource& source_;
+  std::span<const probes::Probe> probes_;
+  const LinkVizParams& params_;
+  DirectionProjector projector_;
+  DirectField field_;
+  std::vector<StrongestEdges> kept_;
+  // Of the sphere that is lit.
+  SphlEmitter sphere_;
+  std::vector<vec3> at_samples_;
+  std::vector<Irradiance4> direct_, indirect_;
+};
+
+}  // namespace
+
+std::vector<std::vector<probes::Edge>> viz_from_links(const TransportNetwork& network,
+                                                      const rays::TransportSource& source,
+                                                      std::span<const probes::Probe> probes, int degree,
+                                                      const LinkVizParams& params, const Control& control) {
+  if (params.neighbors < -1) throw Error("VIZ from links", "neighbours must be -1 (all) or a count");
+  if (!(params.threshold >= 0 && params.threshold <= 1))
+    throw Error("VIZ from links", "the threshold must be 0..1, as P is");
+  const std::vector<vec3>& positions = network.gbuffer().positions;
+  require(std::ranges::equal(probes, positions, {}, &probes::Probe::position), "VIZ from links",
+          "the probes do not stand where the network's do");
+  return LinkViz(network, source, probes, degree, params).run(control);
+}
+
+}  // namespace ssphh::transport

@@ -1,0 +1,148 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/require.h>
+#include <ssphh/rays/posed_world.h>
+
+#include "network_data.h"
+
+namespace ssphh::transport {
+namespace {
+
+TransportParams checked(const rays::TransportSource& source, std::span<const vec3> positions,
+                        TransportParams params) {
+  if (positions.empty())
+    throw Error("transport", "there are no probes", "place some, or give the scene SPHLs");
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (!is_finite(positions[i]))
+      throw Error(fmt::format("probe {}", i), "its position is not a finite number");
+  }
+  const auto within = [](const char* name, int value, int low, int high) {
+    if (value < low || value > high) throw Error(name, fmt::format("{} is outside {}..{}", value, low, high));
+  };
+  within("directions", params.directions, 8, 1 << 16);
+  within("link rays", params.link_rays, 4, 1 << 16);
+  within("samples", params.samples, 1, 32);
+  if (!(params.surfel_size >= 0) || !std::isfinite(params.surfel_size))
+    throw Error("surfel size", fmt::format("{} is no length", params.surfel_size));
+  if (params.surfel_size == 0)
+    params.surfel_size = glm::clamp(source.part_bounds(0).radius() / 20, 0.05f, 0.5f);
+  return params;
+}
+
+}  // namespace
+
+TransportNetwork::TransportNetwork(const rays::TransportSource& source, std::span<const vec3> positions,
+                                   const TransportParams& params, float time, const Control& control)
+    : data_(std::make_unique<Data>(source, checked(source, positions, params))) {
+  require(std::isfinite(time), "time", "it must be a finite number of seconds");
+  data_->build(positions, time, control);
+}
+
+TransportNetwork::~TransportNetwork() = default;
+TransportNetwork::TransportNetwork(TransportNetwork&&) noexcept = default;
+TransportNetwork& TransportNetwork::operator=(TransportNetwork&&) noexcept = default;
+
+PoseReport TransportNetwork::set_time(float time) {
+  require(std::isfinite(time), "time", "it must be a finite number of seconds");
+  PoseReport report;
+  data_->place_parts(time);
+  data_->pose_samples();
+  data_->pose_hits(report);
+  data_->pose_links(report);
+  return report;
+}
+
+const std::vector<MixedHit>& TransportNetwork::mixed_hits() const {
+  return data_->mixed_hits;
+}
+float TransportNetwork::time() const {
+  return data_->time;
+}
+const TransportParams& TransportNetwork::params() const {
+  return data_->params;
+}
+const ProbeGBuffer& TransportNetwork::gbuffer() const {
+  return data_->gbuffer;
+}
+const SurfelSet& TransportNetwork::surfels() const {
+  return data_->surfels;
+}
+const std::vector<vec3>& TransportNetwork::albedo() const {
+  return data_->albedo;
+}
+const std::vector<rays::SurfacePoint>& TransportNetwork::samples() const {
+  return data_->samples;
+}
+const std::vector<std::uint8_t>& TransportNetwork::sample_used() const {
+  return data_->sample_used;
+}
+bool TransportNetwork::sample_exists(std::size_t sample) const {
+  require(sample < data_->sample_exists.size(), "sample", "there is none of that index");
+  return data_->sample_exists[sample];
+}
+const LinkRows& TransportNetwork::links() const {
+  return data_->rows;
+}
+const Contraction& TransportNetwork::contraction() const {
+  return data_->contraction;
+}
+const std::vector<SeenPatch>& TransportNetwork::seen() const {
+  return data_->seen;
+}
+const std::vector<float>& TransportNetwork::seen_distance() const {
+  return data_->seen_distance;
+}
+const std::vector<std::uint16_t>& TransportNetwork::seen_emission() const {
+  return data_->seen_emission;
+}
+const EmissionPalette& TransportNetwork::palette() const {
+  return data_->gbuffer.palette;
+}
+const std::vector<mat4>& TransportNetwork::poses() const {
+  return data_->poses;
+}
+scene::Bounds TransportNetwork::part_world_bounds(int part) const {
+  data_->check_part(part);
+  return rays::transformed(data_->source.part_bounds(part), data_->poses[static_cast<std::size_t>(part)]);
+}
+int TransportNetwork::find(int part, const rays::SurfacePoint& point) const {
+  data_->check_part(part);
+  return data_->find(part, point);
+}
+std::vector<std::int32_t> TransportNetwork::gather(std::span<const rays::SurfacePoint> points, int rays,
+                                                   const Control& control) const {
+  require(rays >= 1, "gather rays", "there must be at least one for each point");
+  const auto per_point = static_cast<std::size_t>(rays);
+  std::vector<std::int32_t> surfel(points.size() * per_point);
+  std::vector<rays::RayQuery> queries;
+  std::vector<std::uint8_t> escaped;
+  ProgressStage progress(control, "gathering", points.size(), "points");
+  constexpr std::size_t block = 1024;
+  for (std::size_t begin = 0; begin < points.size(); begin += block) {
+    control.check();
+    const std::size_t end = std::min(begin + block, points.size());
+    queries.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::uint32_t r = 0; r < static_cast<std::uint32_t>(rays); ++r)
+        queries.push_back(fan_ray(points[i], link_lift * data_->surfels.size(), r, i));
+    }
+    escaped.resize(queries.size());
+    data_->see(queries, std::span(surfel).subspan(begin * per_point, queries.size()), escaped);
+    progress.advance(end - begin);
+  }
+  return surfel;
+}
+std::vector<Sight> TransportNetwork::look(std::span<const rays::RayQuery> rays) const {
+  std::vector<Sight> sights(rays.size());
+  data_->see(rays, [&](std::size_t i, const rays::RayHit& hit, int surfel) {
+    sights[i] = {surfel, hit.albedo, hit.emission, hit.group};
+  });
+  return sights;
+}
+std::size_t TransportNetwork::lost_links() const {
+  return data_->lost_links;
+}
+
+}  // namespace ssphh::transport

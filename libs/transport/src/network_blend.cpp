@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/require.h>
+
+#include "network_data.h"
+
+namespace ssphh::transport {
+
+void TransportNetwork::prepare_poses(int count, const Control& control) {
+  Data& d = *data_;
+  if (count < 2)
+    throw Error("poses", fmt::format("{} poses leave nothing to blend", count),
+                "give at least 2, or 0 for none");
+  const float now = d.time;
+  d.prepared.clear();
+  ProgressStage progress(control, "poses", static_cast<std::uint64_t>(count), "poses");
+  for (int k = 0; k < count; ++k) {
+    control.check();
+    const float time = d.source.duration() * static_cast<float>(k) / static_cast<float>(count - 1);
+    set_time(time);
+    PreparedPose& pose = d.prepared.emplace_back();
+    pose.time = time;
+    pose.links = d.moving;
+    for (const LinkRows::Row& row : d.rows.rows)
+      pose.rows.emplace_back(
+          row.moving.empty() ? 0 : static_cast<std::size_t>(row.moving.data() - d.moving.data()),
+          row.moving.size());
+    for (const MovingRay& ray : d.moving_hits) {
+      const SeenPatch& patch = d.seen[ray.owner];
+      pose.hits.push_back({patch.surfel, patch.albedo,
+                           d.seen_emission.empty() ? std::uint16_t{0} : d.seen_emission[ray.owner],
+                           d.seen_distance[ray.owner]});
+    }
+    progress.advance(1);
+  }
+  set_time(now);
+}
+
+PoseReport TransportNetwork::set_time_between(float time) {
+  Data& d = *data_;
+  require(d.prepared.size() >= 2, "poses", "none were prepared to blend between");
+  require(std::isfinite(time), "time", "it must be a finite number of seconds");
+  PoseReport report;
+  d.place_parts(time);
+  d.pose_samples();
+
+  // Find the two poses around the time.
+  std::size_t after = 1;
+  while (after + 1 < d.prepared.size() && d.prepared[after].time < time) ++after;
+  const PreparedPose &a = d.prepared[after - 1], &b = d.prepared[after];
+  const float length = b.time - a.time;
+  const float share = length > 0 ? std::clamp((time - a.time) / length, 0.0f, 1.0f) : 0;
+
+  // Blend the rows: both poses' links, each with its share.
+  std::vector<Link> links;
+  links.reserve(a.links.size() + b.links.size());
+  std::vector<std::pair<std::size_t, std::size_t>> ranges(d.rows.rows.size());
+  for (std::size_t s = 0; s < ranges.size(); ++s) {
+    const std::size_t first = links.size();
+    const auto add = [&](const PreparedPose& pose, float weight) {
+      if (weight == 0) return;
+      for (std::size_t i = 0; i < pose.rows[s].second; ++i) {
+        const Link& link = pose.links[pose.rows[s].first + i];
+        links.push_back({link.surfel, weight * link.weight});
+      }
+    };
+    add(a, 1 - share);
+    add(b, share);
+    ranges[s] = {first, links.size() - first};
+  }
+  d.set_moving(std::move(links), ranges);
+
+  // Blend what probe rays see.
+  d.mixed_hits.clear();
+  for (std::size_t i = 0; i < d.moving_hits.size(); ++i) {
+    const std::uint32_t owner = d.moving_hits[i].owner;
+    const SeenPatch before{a.hits[i].surfel, a.hits[i].albedo}, then{b.hits[i].surfel, b.hits[i].albedo};
+    const bool nearer_b = share >= 0.5f;
+    d.set_hit(owner, nearer_b ? b.hits[i] : a.hits[i]);
+    if (before != then) {
+      d.mixed_hits.push_back({owner, nearer_b ? before : then, nearer_b ? 1 - share : share});
+      ++report.hits_changed;
+    }
+  }
+  report.rays_near_parts = d.moving_hits.size() + d.moving_links.size();
+  return report;
+}
+
+std::size_t TransportNetwork::pose_bytes() const {
+  std::size_t bytes = 0;
+  for (const PreparedPose& pose : data_->prepared) {
+    bytes += pose.links.size() * sizeof(Link) + pose.rows.size() * sizeof(pose.rows[0]) +
+             pose.hits.size() * sizeof(Resolved);
+  }
+  return bytes;
+}
+
+}  // namespace ssphh::transport

@@ -1,0 +1,364 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/core/parallel.h>
+
+#include "network_data.h"
+
+namespace ssphh::transport {
+namespace {
+
+/// Rays per surfel and round while surfaces are still being found.
+constexpr int discovery_rays = 32;
+constexpr int most_rounds = 12;
+/// Points per surfel that moving parts are sampled with.
+constexpr double part_samples_per_surfel = 24;
+
+/// Where a ray meets a surface, a little before it: a hit on the edge of two walls, rounded, may lie beyond
+/// the other one, and all that is behind would be discovered.
+vec3 just_before(const rays::RayQuery& ray, float distance) {
+  return ray.origin + (1 - 2e-5f) * distance * ray.direction;
+}
+
+bool meets_any(const rays::RayQuery& ray, const std::vector<scene::Bounds>& boxes) {
+  return std::any_of(boxes.begin(), boxes.end(),
+                     [&](const scene::Bounds& box) { return !box.empty() && meets(ray, box); });
+}
+
+/// Fills a network's data step by step.
+class NetworkBuilder {
+ public:
+  NetworkBuilder(TransportNetwork::Data& data, const Control& control) : d_(data), control_(control) {}
+
+  void build(std::span<const vec3> positions, float time) {
+    d_.swept = swept_bounds(d_.source);
+    d_.gbuffer = trace_gbuffer(d_.source, positions, d_.params.directions, control_);
+    add_probe_hits();
+    discover();
+    link_static_surfels();
+    d_.static_count = d_.surfels.count();
+    add_part_surfels();
+    d_.surfels.update_albedo();
+    for (const Surfel& surfel : d_.surfels.surfels()) d_.albedo.push_back(surfel.albedo);
+    find_hidden_samples();
+    find_moving_rays();
+    make_fixed_rows();
+
+    find_contraction();
+    pose(time);
+  }
+
+ private:
+  void pose(float time) {
+    PoseReport report;
+    d_.place_parts(time);
+    d_.pose_samples();
+    d_.pose_hits(report);
+    d_.pose_links(report);
+  }
+
+  /// Of the first and the last pose, whichever comes next: what is solved with it must not depend on when the
+  /// network was built.
+  void find_contraction() {
+    pose(0);
+    d_.contraction = contraction(d_.rows, d_.albedo);
+    if (!(d_.source.duration() > 0)) return;
+    pose(d_.source.duration());
+    const Contraction last = contraction(d_.rows, d_.albedo);
+    d_.contraction.lower = std::min(d_.contraction.lower, last.lower);
+    d_.contraction.upper = std::max(d_.contraction.upper, last.upper);
+  }
+
+  /// A link as traced, before rows are made of them.
+  struct RawLink {
+    rays::RayQuery ray;  ///< t_max: distance of the hit
+    vec3 normal;
+    std::int32_t surfel;
+  };
+
+  std::size_t rays_per_surfel() const { return static_cast<std::size_t>(d_.params.link_rays); }
+  std::size_t m() const { return d_.sample_count(); }
+
+  void add_probe_hits() {
+    const ProbeGBuffer& g = d_.gbuffer;
+    std::vector<ClusterPoint> points;
+    std::vector<std::size_t> owner;
+    d_.seen.resize(g.hits.size());
+    d_.seen_distance.resize(g.hits.size());
+    bool emits = false;
+    for (std::size_t i = 0; i < g.hits.size(); ++i) {
+      const PackedHit& hit = g.hits[i];
+      d_.seen[i] = {no_surfel, hit.albedo_and_back & 0x3fffffffu};
+      d_.seen_distance[i] = hit.distance;
+      emits |= hit.emission != 0;
+      if (std::isinf(hit.distance)) continue;
+      const rays::RayQuery ray{g.positions[i / g.directions.size()], g.directions[i % g.directions.size()]};
+      points.push_back({{just_before(ray, hit.distance), unpack_normal(hit)}, unpack_albedo(hit)});
+      owner.push_back(i);
+    }
+    if (points.empty())
+      throw Error("transport", "no probe sees any surface", "move the probes to where the scene is");
+    const std::vector<int> surfel = d_.surfels.add(0, points);
+    for (std::size_t k = 0; k < points.size(); ++k) d_.seen[owner[k]].surfel = surfel[k];
+    if (!emits) return;
+    d_.seen_emission.resize(g.hits.size());
+    for (std::size_t i = 0; i < g.hits.size(); ++i) d_.seen_emission[i] = g.hits[i].emission;
+  }
+
+  /// Traces rays of part 0 and adds what they meet to the surfels; `surfel` of each ray, or no_surfel.
+  void trace_and_add(std::vector<RawLink>& links) {
+    std::vector<rays::RayQuery> rays;
+    for (const RawLink& link : links) rays.push_back(link.ray);
+    std::vector<rays::RayHit> hits(rays.size());
+    d_.source.intersect(0, rays, hits);
+    std::vector<ClusterPoint> points;
+    std::vector<std::size_t> owner;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      links[i].ray.t_max = hits[i].distance;
+      links[i].normal = hits[i].normal;
+      links[i].surfel = no_surfel;
+      if (hits[i].escaped()) continue;
+      points.push_back({{just_before(rays[i], hits[i].distance), hits[i].normal}, hits[i].albedo});
+      owner.push_back(i);
+    }
+    const std::vector<int> surfel = d_.surfels.add(0, points);
+    for (std::size_t k = 0; k < points.size(); ++k) links[owner[k]].surfel = surfel[k];
+  }
+
+  rays::RayQuery link_ray(const rays::SurfacePoint& from, std::uint32_t index, std::size_t surfel) const {
+    return fan_ray(from, link_lift * d_.surfels.size(), index, surfel);
+  }
+
+  /// Lets surfels look around with few rays until no new ones are found.
+  void discover() {
+    std::size_t begin = 0;
+    for (int round = 0; round < most_rounds && begin < d_.surfels.count(); ++round) {
+      const std::size_t end = d_.surfels.count();
+      ProgressStage progress(control_, "finding surfels", end - begin, "surfels");
+      constexpr std::size_t block = 8192;
+      for (std::size_t b = begin; b < end; b += block) {
+        control_.check();
+        std::vector<RawLink> links;
+        for (std::size_t s = b; s < std::min(b + block, end); ++s) {
+          const auto members = d_.surfels.members(static_cast<int>(s));
+          for (int r = 0; r < discovery_rays; ++r) {
+            const auto index = static_cast<std::uint32_t>(r);
+            links.push_back({link_ray(members[index % members.size()], index, s), vec3(0), no_surfel});
+          }
+        }
+        trace_and_add(links);
+        progress.advance(std::min(b + block, end) - b);
+      }
+      begin = end;
+    }
+  }
+
+  /// Chooses every surfel's samples and traces its links; those that are found on the way follow.
+  void link_static_surfels() {
+    std::size_t begin = 0;
+    for (int round = 0; round < most_rounds && begin < d_.surfels.count(); ++round) {
+      const std::size_t end = d_.surfels.count();
+      ProgressStage progress(control_, "linking surfels", end - begin, "surfels");
+      constexpr std::size_t block = 4096;
+      for (std::size_t b = begin; b < end; b += block) {
+        control_.check();
+        const std::size_t stop = std::min(b + block, end);
+        std::vector<RawLink> links;
+        for (std::size_t s = b; s < stop; ++s) {
+          const std::size_t used = choose_samples(s);
+          for (int r = 0; r < d_.params.link_rays; ++r) {
+            const auto index = static_cast<std::uint32_t>(r);
+            links.push_back(
+                {link_ray(d_.local_samples[s * m() + index % used], index, s), vec3(0), no_surfel});
+          }
+        }
+        trace_and_add(links);
+        keep(links, b);
+        progress.advance(stop - b);
+      }
+      begin = end;
+    }
+    // What the last round found has no links: dark, but of no weight.
+    for (std::size_t s = begin; s < d_.surfels.count(); ++s) {
+      choose_samples(s);
+      links_of_.emplace_back();
+    }
+  }
+
+  std::size_t choose_samples(std::size_t s) {
+    const std::vector<rays::SurfacePoint> chosen =
+        d_.surfels.spread_members(static_cast<int>(s), d_.params.samples);
+    for (std::size_t i = 0; i < m(); ++i) {
+      d_.local_samples.push_back(i < chosen.size() ? chosen[i] : chosen[0]);
+      d_.sample_exists.push_back(i < chosen.size());
+    }
+    return chosen.size();
+  }
+
+  std::size_t sample_of_ray(std::size_t s, std::size_t ray) const {
+    return s * m() + ray % d_.used_samples(s);
+  }
+
+  /// Keeps of each link only the surfel, and all of it where a part may come.
+  void keep(const std::vector<RawLink>& links, std::size_t first_surfel) {
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const std::size_t s = first_surfel + i / rays_per_surfel();
+      if (i % rays_per_surfel() == 0) {
+        links_of_.emplace_back();
+        links_of_.back().all_moving = near_parts_surfel(s);
+      }
+      const RawLink& link = links[i];
+      SurfelLinks& row = links_of_.back();
+      if (row.all_moving || near_parts(link.ray, link.normal, link.surfel)) {
+        MovingRay moving{link.ray,
+                         link.normal,
+                         link.surfel,
+                         0,
+                         static_cast<std::uint32_t>(s),
+                         static_cast<std::uint32_t>(sample_of_ray(s, i % rays_per_surfel())),
+                         0};
+        d_.moving_links.push_back(moving);
+      } else if (link.surfel != no_surfel) {
+        row.fixed.push_back(static_cast<std::uint32_t>(link.surfel));
+      }
+    }
+  }
+
+  /// Whether some part may come into the ray's way, or between its hit and the hit's surfel.
+  bool near_parts(const rays::RayQuery& ray, const vec3& normal, int surfel) const {
+    if (d_.swept.size() < 2) return false;
+    if (meets_any(ray, d_.swept)) return true;
+    if (surfel == no_surfel) return false;
+    const rays::SurfacePoint point{ray.origin + ray.t_max * ray.direction, normal};
+    return meets_any(d_.surfels.segment(point, d_.surfels.surfels()[static_cast<std::size_t>(surfel)].point),
+                     d_.swept);
+  }
+
+  /// Whether some part may come between a surfel and one of its samples.
+  bool near_parts_surfel(std::size_t s) const {
+    if (d_.swept.size() < 2) return false;
+    for (std::size_t i = s * m(); i < (s + 1) * m(); ++i) {
+      if (meets_any(d_.surfels.segment(d_.local_samples[s * m()], d_.local_samples[i]), d_.swept))
+        return true;
+    }
+    return false;
+  }
+
+  /// Both faces of every part; a face that only sees its own part from inside lights nothing.
+  void add_part_surfels() {
+    const double density = part_samples_per_surfel / double(d_.surfels.size() * d_.surfels.size());
+    for (int part = 1; part < d_.source.part_count(); ++part) {
+      std::vector<ClusterPoint> points;
+      for (const rays::PartPoint& p : d_.source.sample_part(part, density)) {
+        points.push_back({p.point, p.albedo});
+        points.push_back({{p.point.position, -p.point.normal}, p.albedo});
+      }
+      points = without_enclosed(part, points);
+      d_.surfels.add(part, points);
+    }
+    for (std::size_t s = d_.static_count; s < d_.surfels.count(); ++s) {
+      const std::size_t used = choose_samples(s);
+      for (std::size_t r = 0; r < rays_per_surfel(); ++r) {
+        d_.part_links.push_back(
+            link_ray(d_.local_samples[s * m() + r % used], static_cast<std::uint32_t>(r), s));
+      }
+    }
+  }
+
+  std::vector<ClusterPoint> without_enclosed(int part, const std::vector<ClusterPoint>& points) const {
+    constexpr std::uint32_t rays_per_point = 16;
+    std::vector<rays::RayQuery> rays;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (std::uint32_t r = 0; r < rays_per_point; ++r) rays.push_back(link_ray(points[i].point, r, i));
+    }
+    std::vector<std::uint8_t> blocked(rays.size());
+    d_.source.occluded(part, rays, blocked);
+    std::vector<ClusterPoint> open;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto first = blocked.begin() + static_cast<std::ptrdiff_t>(i * rays_per_point);
+      if (std::count(first, first + rays_per_point, 1) < rays_per_point) open.push_back(points[i]);
+    }
+    return open;
+  }
+
+  void find_hidden_samples() {
+    d_.samples = d_.local_samples;
+    d_.sample_used = d_.sample_exists;
+    if (d_.swept.size() < 2) return;
+    for (std::size_t i = 0; i < d_.static_count * m(); ++i) {
+      if (d_.sample_exists[i] &&
+          meets_any(d_.surfels.segment(d_.local_samples[i / m() * m()], d_.local_samples[i]), d_.swept))
+        d_.hidden_samples.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+
+  void find_moving_rays() {
+    const ProbeGBuffer& g = d_.gbuffer;
+    if (d_.swept.size() < 2) return;
+    for (std::size_t i = 0; i < g.hits.size(); ++i) {
+      const PackedHit& hit = g.hits[i];
+      const rays::RayQuery ray{g.positions[i / g.directions.size()], g.directions[i % g.directions.size()],
+                               hit.distance};
+      const vec3 normal = std::isinf(hit.distance) ? vec3(0) : unpack_normal(hit);
+      if (!near_parts(ray, normal, d_.seen[i].surfel)) continue;
+      d_.moving_hits.push_back({ray, normal, d_.seen[i].surfel, d_.seen[i].albedo,
+                                static_cast<std::uint32_t>(i), 0, hit.emission});
+    }
+    add_part_emission();
+  }
+
+  /// The parts' emission must be in the palette before any pose looks it up.
+  void add_part_emission() {
+    for (std::size_t s = d_.static_count; s < d_.surfels.count(); ++s) {
+      const Surfel& surfel = d_.surfels.surfels()[s];
+      for (const rays::SurfacePoint& p : d_.surfels.members(static_cast<int>(s))) {
+        const rays::RayQuery ray{p.position + 0.5f * d_.surfels.size() * p.normal, -p.normal,
+                                 d_.surfels.size()};
+        rays::RayHit hit;
+        d_.source.intersect(surfel.part, {&ray, 1}, {&hit, 1});
+        if (d_.gbuffer.palette.add(hit.emission, hit.group) != 0 && d_.seen_emission.empty())
+          d_.seen_emission.resize(d_.gbuffer.hits.size());
+      }
+    }
+  }
+
+  void make_fixed_rows() {
+    const float weight = 1 / static_cast<float>(d_.params.link_rays);
+    std::vector<std::pair<std::size_t, std::size_t>> ranges;
+    for (SurfelLinks& row : links_of_) {
+      const std::size_t first = d_.fixed.size();
+      std::sort(row.fixed.begin(), row.fixed.end());
+      for (std::size_t i = 0; i < row.fixed.size();) {
+        std::size_t end = i;
+        while (end < row.fixed.size() && row.fixed[end] == row.fixed[i]) ++end;
+        d_.fixed.push_back({row.fixed[i], weight * static_cast<float>(end - i)});
+        i = end;
+      }
+      ranges.emplace_back(first, d_.fixed.size() - first);
+    }
+    d_.rows.rows.resize(d_.surfels.count());
+    for (std::size_t s = 0; s < ranges.size(); ++s)
+      d_.rows.rows[s].fixed = {d_.fixed.data() + ranges[s].first, ranges[s].second};
+  }
+
+  struct SurfelLinks {
+    std::vector<std::uint32_t> fixed;
+    bool all_moving = false;
+  };
+
+  TransportNetwork::Data& d_;
+  const Control& control_;
+  std::vector<SurfelLinks> links_of_;
+};
+
+}  // namespace
+
+void TransportNetwork::Data::build(std::span<const vec3> positions, float start_time,
+                                   const Control& control) {
+  NetworkBuilder(*this, control).build(positions, start_time);
+}
+
+}  // namespace ssphh::transport

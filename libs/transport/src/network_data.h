@@ -1,0 +1,128 @@
+#pragma once
+
+#include <functional>
+
+#include <ssphh/core/require.h>
+#include <ssphh/transport/network.h>
+
+namespace ssphh::transport {
+
+/// A ray that some part comes near at some time, or whose surfel it may hide.
+struct MovingRay {
+  rays::RayQuery ray;               ///< world; t_max is the distance of the static hit
+  vec3 normal{0};                   ///< of the static hit
+  std::int32_t surfel = no_surfel;  ///< that it meets when no part is in the way
+  std::uint32_t albedo = 0;
+  std::uint32_t owner = 0;   ///< probe ray, or surfel that a link leaves
+  std::uint32_t sample = 0;  ///< of a link: where it starts
+  std::uint16_t emission = 0;
+};
+
+/// A moving part where it is now.
+struct PlacedPart {
+  int part;
+  scene::Bounds bounds;  ///< in its frame
+  mat4 to_world{1}, to_part{1};
+};
+
+/// Links start so far above their surfel, in surfel sizes.
+inline constexpr float link_lift = 2e-3f;
+
+struct Resolved {
+  std::int32_t surfel = no_surfel;
+  std::uint32_t albedo = 0;
+  std::uint16_t emission = 0;
+  float distance = 0;
+};
+
+/// The part of the operators that moves, at one time.
+struct PreparedPose {
+  float time = 0;
+  std::vector<Link> links;
+  std::vector<std::pair<std::size_t, std::size_t>> rows;  ///< first link and count, per surfel
+  std::vector<Resolved> hits;                             ///< per moving hit
+};
+
+struct TransportNetwork::Data {
+  Data(const rays::TransportSource& source_in, const TransportParams& params_in)
+      : source(source_in), params(params_in), surfels(source_in, params_in.surfel_size) {}
+
+  const rays::TransportSource& source;
+  TransportParams params;
+  float time = 0;
+  ProbeGBuffer gbuffer;
+  SurfelSet surfels;
+  std::size_t static_count = 0;  ///< surfels of part 0; those of moving parts follow
+  std::vector<vec3> albedo;
+
+  // Samples, `params.samples` per surfel.
+  std::vector<rays::SurfacePoint> local_samples, samples;  ///< in the part's frame; as posed
+  std::vector<std::uint8_t> sample_exists, sample_used;
+  std::vector<std::uint32_t> hidden_samples;  ///< of part 0, that a moving part may cut off from their surfel
+
+  // Links.
+  std::vector<Link> fixed, moving;
+  LinkRows rows;
+  Contraction contraction;
+  std::vector<MovingRay> moving_links;     ///< by owner
+  std::vector<rays::RayQuery> part_links;  ///< of the parts' surfels, in their frames; params.link_rays each
+  std::size_t lost_links = 0;
+
+  // Probes.
+  std::vector<SeenPatch> seen;
+  std::vector<float> seen_distance;
+  std::vector<std::uint16_t> seen_emission;
+  std::vector<MovingRay> moving_hits;
+  std::vector<MixedHit> mixed_hits;
+  std::vector<PreparedPose> prepared;  ///< by time
+
+  // Pose.
+  std::vector<scene::Bounds> swept;  ///< per part, all that it ever occupies, world space
+  std::vector<mat4> poses;
+  std::vector<PlacedPart> placed;
+
+  void check_part(int part) const {
+    require(part >= 0 && static_cast<std::size_t>(part) < poses.size(), "part",
+            "there is none of that index");
+  }
+  std::size_t sample_count() const { return static_cast<std::size_t>(params.samples); }
+  /// Samples of a surfel that are no padding.
+  std::size_t used_samples(std::size_t surfel) const;
+  rays::SurfacePoint to_world(int part, const rays::SurfacePoint& point) const;
+  bool parts_block(const rays::RayQuery& world_segment) const;
+  bool blocked(const rays::RayQuery& world_segment) const;
+  /// Whether another body touches a part's surface there, or lies over it: nothing lights the point, and rays
+  /// from it would start within that body.
+  bool covered(int part, const rays::SurfacePoint& world_point) const;
+  int find(int part, const rays::SurfacePoint& point) const;
+  /// The first part that the ray meets before t_max; shortens t_max.
+  bool meet_part(rays::RayQuery& ray, rays::RayHit& hit, int& part) const;
+  /// The surfel that each world-space ray meets, as posed; `escaped` tells empty space from lost light.
+  void see(std::span<const rays::RayQuery> rays, std::span<std::int32_t> surfel,
+           std::span<std::uint8_t> escaped) const;
+  /// The same with the hit, in the part's frame; from several threads.
+  void see(std::span<const rays::RayQuery> rays,
+           const std::function<void(std::size_t, const rays::RayHit&, int surfel)>& visit) const;
+  Resolved resolve(const MovingRay& unobstructed) const;
+
+  void build(std::span<const vec3> positions, float start_time, const Control& control);
+  void place_parts(float time);
+  void pose_samples();
+  void pose_hits(PoseReport& report);
+  void pose_links(PoseReport& report);
+  /// Makes `links` the moving part of the rows.
+  void set_moving(std::vector<Link>&& links, std::span<const std::pair<std::size_t, std::size_t>> ranges);
+  void set_hit(std::uint32_t owner, const Resolved& found);
+};
+
+/// Ray of a point's cosine-distributed fan: point `index` of a rank-1 sequence (Roberts 2018, R2), shifted by
+/// `salt` so that neighbours differ. Starts `lift` above the surface.
+rays::RayQuery fan_ray(const rays::SurfacePoint& from, float lift, std::uint32_t index, std::size_t salt);
+
+/// Whether the ray meets the box before t_max.
+bool meets(const rays::RayQuery& ray, const scene::Bounds& box);
+
+/// Sweeps the parts over the animation.
+std::vector<scene::Bounds> swept_bounds(const rays::TransportSource& source);
+
+}  // namespace ssphh::transport

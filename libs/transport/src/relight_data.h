@@ -1,0 +1,240 @@
+#pragma once
+/// What a RelightSession keeps, and the stages of an update.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/require.h>
+#include <ssphh/transport/direct_field.h>
+#include <ssphh/transport/relight_session.h>
+
+#include "probe_light.h"
+#include "sphl_emission.h"
+
+namespace ssphh::transport {
+
+inline std::vector<vec3> positions_of(const std::vector<ProbePlace>& places) {
+  std::vector<vec3> positions;
+  for (const ProbePlace& place : places) positions.push_back(place.position);
+  return positions;
+}
+
+/// Runs `body`, adds its time and rays.
+template <class Body>
+void measure(const rays::TransportSource& source, double& ms, std::uint64_t* rays, const Body& body) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::uint64_t before = source.rays_traced();
+  body();
+  if (rays) *rays += source.rays_traced() - before;
+  ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+inline bool differs(const sh::RadianceSh& a, const sh::RadianceSh& b, float tolerance) {
+  if (a.values.size() != b.values.size()) return true;
+  const float limit =
+      tolerance * std::max(max_component(glm::abs(a.values[0])), max_component(glm::abs(b.values[0])));
+  for (std::size_t k = 0; k < a.values.size(); ++k) {
+    if (max_component(glm::abs(a.values[k] - b.values[k])) > limit) return true;
+  }
+  return false;
+}
+
+/// What a source says of itself must hold together.
+inline void check_source(const rays::TransportSource& source, std::size_t lights) {
+  const auto groups = static_cast<int>(source.light_groups().size());
+  const auto is_group = [&](int group) { return group >= 0 && group < groups; };
+  for (std::size_t i = 0; i < lights; ++i)
+    require(is_group(source.light_group_of(static_cast<int>(i))), "transport source",
+            "a light is of a group that there is not");
+  const int environment = source.environment_group();
+  require(environment == -1 || is_group(environment), "transport source",
+          "the environment is of a group that there is not");
+}
+
+inline void check_places(const std::vector<ProbePlace>& places) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!(places[i].radius >= 0) || !std::isfinite(places[i].radius))
+      throw Error(fmt::format("probe {}", i), fmt::format("its radius {} is no length", places[i].radius));
+  }
+}
+
+inline std::vector<Irradiance4> total(std::span<const Irradiance4> direct,
+                                      std::span<const Irradiance4> indirect) {
+  std::vector<Irradiance4> sum(direct.size());
+  for (std::size_t s = 0; s < sum.size(); ++s) sum[s] = direct[s] + indirect[s];
+  return sum;
+}
+
+struct RelightSession::Data {
+  Data(const rays::TransportSource& source_in, std::vector<ProbePlace> places_in,
+       const RelightParams& params_in, float time, const Control& control)
+      : source(source_in),
+        places(std::move(places_in)),
+        params(params_in),
+        network(source_in, positions_of(places), params_in.transport, time, control),
+        projector(params_in.degree, network.gbuffer().directions),
+        emitter_view(emitter_directions()),
+        emitter_projector(params_in.degree, emitter_view),
+        field(network, source_in.light_groups().size()),
+        state(rays::lighting_at(source_in, time)),
+        group_dirty(source_in.light_groups().size(), true) {
+    check_places(places);
+    check_source(source, state.lights.size());
+    if (params.op == probes::LightOperator::path)
+      throw Error("relighting", "path tracing is no transport between probes",
+                  "use operator surfel or bounce");
+    if (params.op == probes::LightOperator::bounce) {
+      if (params.poses != 0)
+        throw Error("relighting", "operator bounce cannot blend between poses",
+                    "pose exactly, or use surfel");
+      bounce = std::make_unique<BounceOperator>(network, source, params.degree, params.bounce);
+    }
+    if (params.poses != 0) network.prepare_poses(params.poses, control);
+    emitters.resize(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) emitters[i] = {places[i].position, places[i].radius, {}};
+  }
+
+  const rays::TransportSource& source;
+  std::vector<ProbePlace> places;
+  RelightParams params;
+  TransportNetwork network;
+  DirectionProjector projector;
+  std::vector<vec3> emitter_view;
+  DirectionProjector emitter_projector;
+  DirectField field;
+  Solver solver;
+  std::unique_ptr<BounceOperator> bounce;  ///< of that operator alone
+
+  scene::LightingState state;  ///< that the last update() was asked for
+  std::vector<bool> group_dirty;
+  std::vector<SphlEmitter> emitters;
+  std::vector<vec3> emission;  ///< at each sample, from the emitters; empty: none
+  bool emission_dirty = false, scale_dirty = false;
+  bool unfinished = false;  ///< an update() threw: nothing that it touched can be relied on
+
+  std::unique_ptr<rays::DirectLight> direct_light;
+  std::vector<Irradiance4> direct, indirect;
+  std::vector<sh::RadianceSh> reflected, before;
+
+  void check_probe(int probe) const {
+    if (probe < 0 || static_cast<std::size_t>(probe) >= places.size())
+      throw Error(fmt::format("probe {}", probe), fmt::format("there are {} probes", places.size()));
+  }
+
+  std::vector<sh::RadianceSh> emitted(std::size_t probe) const {
+    if (!direct_light) return {state.group_scales.size(), sh::RadianceSh(params.degree)};
+    return project_emitted(network, source, emitter_projector, emitter_view, places[probe].position,
+                           *direct_light);
+  }
+
+  bool any_group_dirty() const {
+    return std::find(group_dirty.begin(), group_dirty.end(), true) != group_dirty.end();
+  }
+
+  /// What must be found anew to come from the last state to the next one, all of it after an update() that
+  /// threw.
+  void note_changes(const scene::LightingState& next) {
+    if (unfinished) group_dirty.assign(group_dirty.size(), true);
+    for (std::size_t i = 0; i < next.lights.size(); ++i) {
+      if (next.lights[i] != state.lights[i])
+        group_dirty[static_cast<std::size_t>(source.light_group_of(static_cast<int>(i)))] = true;
+    }
+    const int environment = source.environment_group();
+    if (environment >= 0 && next.environment_rotation != state.environment_rotation)
+      group_dirty[static_cast<std::size_t>(environment)] = true;
+    scale_dirty = unfinished || next.group_scales != state.group_scales;
+    emission_dirty = unfinished || next.emission != state.emission;
+  }
+
+  /// Poses the parts; returns the world bounds that they left or entered.
+  std::vector<scene::Bounds> move_parts(RelightReport& report) {
+    std::vector<scene::Bounds> moved;
+    const std::vector<mat4> old_poses = network.poses();
+    std::vector<scene::Bounds> old_bounds;
+    for (int p = 0; p < source.part_count(); ++p) old_bounds.push_back(network.part_world_bounds(p));
+    const PoseReport pose =
+        params.poses == 0 ? network.set_time(state.time) : network.set_time_between(state.time);
+    if (bounce) bounce->update_pose();
+    report.hits_changed = pose.hits_changed;
+    for (int p = 1; p < source.part_count(); ++p) {
+      const auto index = static_cast<std::size_t>(p);
+      if (network.poses()[index] == old_poses[index]) continue;
+      moved.push_back(old_bounds[index]);
+      moved.push_back(network.part_world_bounds(p));
+      for (std::size_t g = 0; g < group_dirty.size(); ++g) {
+        if (source.group_emits_from(static_cast<int>(g), p)) group_dirty[g] = true;
+      }
+    }
+    return moved;
+  }
+
+  void place_emission() {
+    for (SphlEmitter& emitter : emitters) emitter.leaving = {};
+    for (const scene::SphlEmission& given : state.emission)
+      emitters[static_cast<std::size_t>(given.probe)].leaving = given.leaving;
+  }
+
+  void update_direct(const std::vector<scene::Bounds>& moved) {
+    if (any_group_dirty() || !moved.empty() || !direct_light) {
+      direct_light = source.direct_light(state.lights, network.poses(), state.environment_rotation);
+      require(direct_light != nullptr, "transport source", "it gives no direct light");
+    }
+    for (std::size_t g = 0; g < group_dirty.size(); ++g) {
+      if (group_dirty[g]) {
+        field.update_all(static_cast<int>(g), *direct_light);
+      } else if (!moved.empty()) {
+        field.update_moved(static_cast<int>(g), *direct_light, moved);
+      }
+      group_dirty[g] = false;
+    }
+    if (emission_dirty) place_emission();
+    if (emission_dirty || (!moved.empty() && !emission.empty())) {
+      emission.clear();
+      for (const SphlEmitter& emitter : emitters) {
+        if (emitter.leaving.empty()) continue;
+        emission.resize(network.samples().size(), vec3(0));
+        add_emission(network, source, emitter, emission);
+      }
+      emission_dirty = false;
+    }
+    field.sum(state.group_scales, emission, direct);
+    scale_dirty = false;
+  }
+
+  /// Lets the direct light bounce: `indirect`, or with bounce the probes themselves.
+  SolveReport solve(bool first) {
+    if (bounce) {
+      before = reflected;
+      return summary(
+          bounce->solve(direct, reflected, params.warm_start && !first && params.bounce.applications == 0));
+    }
+    if (!params.warm_start) indirect.clear();
+    return solver.solve(network.links(), network.albedo(), direct, network.contraction().upper, params.solve,
+                        indirect);
+  }
+  static SolveReport summary(const BounceReport& report) {
+    return {.iterations = report.iterations, .residual = 0, .converged = report.converged};
+  }
+
+  /// Reflected light of all probes under another direct light, from darkness.
+  std::vector<sh::RadianceSh> reflected_under(std::span<const Irradiance4> other, SolveReport& report) const {
+    std::vector<sh::RadianceSh> result;
+    if (bounce) {
+      report = summary(bounce->solve(other, result));
+      return result;
+    }
+    std::vector<Irradiance4> bounced;
+    report = Solver().solve(network.links(), network.albedo(), other, network.contraction().upper,
+                            params.solve, bounced);
+    project_reflected(network, projector, total(other, bounced), result);
+    return result;
+  }
+};
+
+}  // namespace ssphh::transport

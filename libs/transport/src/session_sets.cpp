@@ -1,0 +1,82 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/require.h>
+#include <ssphh/transport/session_sets.h>
+
+namespace ssphh::transport {
+namespace {
+
+std::vector<probes::Probe> dark_probes(const std::vector<ProbePlace>& places) {
+  std::vector<probes::Probe> probes(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    probes[i].name = places[i].name;
+    probes[i].position = places[i].position;
+    probes[i].radius = places[i].radius;
+  }
+  return probes;
+}
+
+bool is_dark(const sh::RadianceSh& light) {
+  return std::ranges::all_of(light.values, [](const vec3& v) { return v == vec3(0); });
+}
+
+}  // namespace
+
+std::vector<ProbePlace> places_of(const probes::ProbeSet& set) {
+  std::vector<ProbePlace> places;
+  for (const probes::Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
+  return places;
+}
+
+probes::ProbeSet lookup_set(const std::vector<ProbePlace>& places,
+                            const std::vector<sh::RadianceSh>& reflected) {
+  require(!places.empty(), "lookup set", "there are no probes");
+  if (reflected.size() != places.size())
+    throw Error("lookup set",
+                fmt::format("there are {} functions for {} probes", reflected.size(), places.size()),
+                "a session has light after its first update()");
+  probes::ProbeSet set;
+  set.degree = reflected.front().degree();
+  set.light_groups.push_back({"all"});
+  set.probes = dark_probes(places);
+  for (std::size_t i = 0; i < places.size(); ++i) set.probes[i].groups.push_back({{}, reflected[i]});
+  probes::merge_groups(set);
+  return set;
+}
+
+void store_groups(probes::ProbeSet& set, std::vector<std::vector<sh::RadianceSh>> reflected,
+                  std::vector<std::vector<sh::RadianceSh>> emitted) {
+  for (std::size_t i = 0; i < set.probes.size(); ++i) {
+    probes::Probe& probe = set.probes[i];
+    probe.groups.clear();
+    for (std::size_t g = 0; g < set.light_groups.size(); ++g) {
+      probes::GroupLight& light = probe.groups.emplace_back();
+      light.reflected = std::move(reflected[g][i]);
+      if (!is_dark(emitted[g][i])) light.emitted = std::move(emitted[g][i]);
+    }
+  }
+  probes::merge_groups(set);
+}
+
+probes::ProbeSet baked_set(const RelightSession& session, const std::vector<std::string>& groups,
+                           probes::GeneratorInfo generator, const Control& control) {
+  const std::vector<vec3>& scales = session.lighting().group_scales;
+  require(groups.size() == scales.size(), "baked set", "there is not one name for each light group");
+  const TransportParams& transport = session.network().params();
+  probes::ProbeSet set;
+  set.generator = std::move(generator);
+  set.generator.directions = transport.directions;
+  set.generator.surfel_size = transport.surfel_size;
+  set.generator.link_rays = transport.link_rays;
+  set.generator.time = session.lighting().time;
+  std::vector<std::vector<sh::RadianceSh>> reflected = session.reflected_by_group(control);
+  set.degree = session.reflected().front().degree();
+  for (std::size_t g = 0; g < groups.size(); ++g) set.light_groups.push_back({groups[g], scales[g]});
+  set.probes = dark_probes(session.places());
+  store_groups(set, std::move(reflected), session.emitted_by_group());
+  return set;
+}
+
+}  // namespace ssphh::transport

@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <cmath>
+
+#include <ssphh/core/parallel.h>
+#include <ssphh/core/require.h>
+#include <ssphh/transport/solve.h>
+
+namespace ssphh::transport {
+namespace {
+
+/// Rows per task: some 50 µs of work.
+constexpr std::size_t rows_per_block = 256;
+
+using float4 = float __attribute__((vector_size(16)));
+
+float4 load(const Irradiance4& v) {
+  float4 out;
+  __builtin_memcpy(&out, &v, sizeof(out));
+  return out;
+}
+
+/// sums += Σ_j weight_j · values_j. Four sums, so that the additions do not wait for each other.
+void gather(std::span<const Link> links, const Irradiance4* values, float4 (&sums)[4]) {
+  std::size_t i = 0;
+  for (; i + 4 <= links.size(); i += 4) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Link& link = links[i + k];
+      sums[k] += link.weight * load(values[link.surfel]);
+    }
+  }
+  for (; i < links.size(); ++i) sums[0] += links[i].weight * load(values[links[i].surfel]);
+}
+
+Irradiance4 gather(const LinkRows::Row& row, const Irradiance4* values) {
+  float4 sums[4] = {};
+  gather(row.fixed, values, sums);
+  gather(row.moving, values, sums);
+  const float4 sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+  return {sum[0], sum[1], sum[2], 0};
+}
+
+}  // namespace
+
+std::size_t LinkRows::link_count() const {
+  std::size_t count = 0;
+  for (const Row& row : rows) count += row.fixed.size() + row.moving.size();
+  return count;
+}
+
+void bounce_once(const LinkRows& links, std::span<const Irradiance4> radiosity, std::span<Irradiance4> out) {
+  require(radiosity.size() == links.rows.size() && out.size() == links.rows.size(), "bounce",
+          "sizes differ from the number of rows");
+  parallel_for(links.rows.size(), rows_per_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) out[i] = gather(links.rows[i], radiosity.data());
+  });
+}
+
+Contraction contraction(const LinkRows& links, std::span<const vec3> albedo, int steps) {
+  const auto apply = [&](std::span<const double> x, std::span<double> y) {
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      y[i] = 0;
+      for (const auto& part : {links.rows[i].fixed, links.rows[i].moving}) {
+        for (const Link& link : part)
+          y[i] += double(link.weight) * double(max_component(albedo[link.surfel])) * x[link.surfel];
+      }
+    }
+  };
+  return ssphh::contraction(links.rows.size(), apply, steps);
+}
+
+SolveReport Solver::solve(const LinkRows& links, std::span<const vec3> albedo,
+                          std::span<const Irradiance4> direct, double contraction_bound,
+                          const SolveParams& params, std::vector<Irradiance4>& indirect) {
+  const std::size_t count = links.rows.size();
+  require(albedo.size() == count && direct.size() == count, "solver", "sizes differ from the number of rows");
+  const std::size_t blocks = (count + rows_per_block - 1) / rows_per_block;
+  indirect.resize(count, Irradiance4(0));
+  previous_.resize(count);
+  radiosity_.resize(count);
+  next_radiosity_.resize(count);
+  block_residual_.assign(blocks, 0);
+  block_largest_.assign(blocks, 0);
+  const auto largest_of = [](const std::vector<float>& values) {
+    return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
+  };
+
+  // Start from what `indirect` holds: the right answer already where all that changed is the lamps' power.
+  glm::dvec3 sum(0);
+  for (const Irradiance4& e : direct) sum += glm::dvec3(e);
+  Irradiance4 start_scale(1);
+  for (int c = 0; last_sum_ && c < 3; ++c) {
+    if ((*last_sum_)[c] > 0) start_scale[c] = static_cast<float>(std::min(sum[c] / (*last_sum_)[c], 4.0));
+  }
+  last_sum_ = sum;
+  parallel_for(count, rows_per_block, [&](std::size_t begin, std::size_t end) {
+    float largest = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      indirect[i] *= start_scale;
+      previous_[i] = indirect[i];
+      radiosity_[i] = vec4(albedo[i], 0) * (direct[i] + indirect[i]);
+      largest = std::max(largest, max_component(vec3(indirect[i])));
+    }
+    block_largest_[begin / rows_per_block] = largest;
+  });
+
+  const bool accelerate = contraction_bound < 1;
+  const double c2 = contraction_bound * contraction_bound;
+  double omega = 1;
+  SolveReport report;
+  report.converged = count == 0;
+  while (!report.converged && report.iterations < params.max_iterations) {
+    // One bounce of every surfel, and from it Chebyshev's step; all that the next one reads is written at
+    // once.
+    const auto w = static_cast<float>(omega);
+    const float floor = 1e-3f * largest_of(block_largest_);
+    parallel_for(count, rows_per_block, [&](std::size_t begin, std::size_t end) {
+      float residual = 0, largest = 0;
+      for (std::size_t i = begin; i < end; ++i) {
+        const Irradiance4 bounced = gather(links.rows[i], radiosity_.data());
+        const float scale = max_component(vec3(bounced));
+        const float difference = max_component(glm::abs(vec3(bounced - indirect[i])));
+        residual = std::max(residual, difference / std::max(scale + floor, 1e-30f));
+        largest = std::max(largest, scale);
+        // Chebyshev's steps may overshoot by a hair where next to nothing arrives.
+        const Irradiance4 next = glm::max(w * (bounced - previous_[i]) + previous_[i], Irradiance4(0));
+        previous_[i] = indirect[i];
+        indirect[i] = next;
+        next_radiosity_[i] = vec4(albedo[i], 0) * (direct[i] + next);
+      }
+      block_residual_[begin / rows_per_block] = residual;
+      block_largest_[begin / rows_per_block] = largest;
+    });
+    radiosity_.swap(next_radiosity_);
+    if (accelerate) omega = report.iterations == 0 ? 1 / (1 - c2 / 2) : 1 / (1 - c2 * omega / 4);
+    ++report.iterations;
+    report.residual = largest_of(block_residual_);
+    report.converged = report.residual <= params.tolerance;
+  }
+  return report;
+}
+
+}  // namespace ssphh::transport

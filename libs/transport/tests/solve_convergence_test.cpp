@@ -1,0 +1,133 @@
+/// When the solver stops and how it gets there: every row and channel counts, and iterates are Chebyshev's.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <ssphh/transport/solve.h>
+
+namespace ssphh::transport {
+namespace {
+
+/// Rows that each send light to themselves alone: E = ρ / (1 − ρ) E_direct in closed form.
+struct Mirrors {
+  std::vector<Link> links;
+  LinkRows rows;
+  std::vector<vec3> albedo;
+  std::vector<Irradiance4> direct;
+
+  explicit Mirrors(std::size_t count)
+      : albedo(count, vec3(0.02f, 0.03f, 0.01f)), direct(count, Irradiance4(1, 2, 3, 0)) {
+    for (std::size_t i = 0; i < count; ++i) links.push_back({static_cast<std::uint32_t>(i), 1});
+    for (std::size_t i = 0; i < count; ++i)
+      rows.rows.push_back({std::span<const Link>(links).subspan(i, i % 2), {}});
+    for (std::size_t i = 0; i < count; i += 2)
+      rows.rows[i].moving = std::span<const Link>(links).subspan(i, 1);
+  }
+  SolveReport solve(double bound, const SolveParams& params, std::vector<Irradiance4>& indirect) const {
+    Solver solver;
+    return solver.solve(rows, albedo, direct, bound, params, indirect);
+  }
+  vec3 exact(std::size_t i) const { return albedo[i] / (1.0f - albedo[i]) * vec3(direct[i]); }
+};
+
+TEST(SolveConvergence, WaitsForASlowRowWhereverItStandsAndWhicheverChannelIsSlow) {
+  constexpr std::size_t count = 700;  // two full blocks of 256 rows and a part of one
+  for (const std::size_t slow : {0u, 1u, 128u, 254u, 255u, 256u, 511u, 512u, 698u, 699u}) {
+    for (int channel = 0; channel < 3; ++channel) {
+      Mirrors mirrors(count);
+      mirrors.albedo[slow][channel] = 0.9f;
+      // Where another channel is the brighter one, the residual is relative to that one.
+      mirrors.direct[slow] = Irradiance4(1, 1, 1, 0);
+      std::vector<Irradiance4> indirect;
+      const SolveReport report = mirrors.solve(1, {1e-4f, 300}, indirect);
+      EXPECT_TRUE(report.converged);
+      EXPECT_LE(report.residual, 1e-4f);
+      for (const std::size_t i : {std::size_t{3}, slow, std::size_t{600}}) {
+        for (int c = 0; c < 3; ++c) {
+          const float exact = mirrors.exact(i)[c];
+          // A last change of 1e-4 of E leaves the tail of a geometric series: 0.9 / (1 − 0.9) times that.
+          EXPECT_NEAR(indirect[i][c], exact, 1e-4f * 10 * exact + 1e-6f)
+              << "row " << i << " with row " << slow << " slow in channel " << channel;
+        }
+      }
+    }
+  }
+}
+
+TEST(SolveConvergence, DimRowsAreJudgedByAThousandthOfTheBrightest) {
+  // Row 0 is done at once and gives the largest E of the last iteration; row 300 is slow and dim. Plain
+  // iteration changes it by d ρⁿ in iteration n, to E = d ρ (1 − ρⁿ) / (1 − ρ).
+  constexpr double rho = 0.95, dim = 1e-6, bright = 0.1 / 0.9, tolerance = 1e-3;
+  Mirrors mirrors(301);
+  std::fill(mirrors.direct.begin(), mirrors.direct.end(), Irradiance4(0));
+  mirrors.albedo[0] = vec3(0.05f, 0.1f, 0.05f);
+  mirrors.direct[0] = Irradiance4(1, 1, 1, 0);
+  mirrors.albedo[300] = vec3(0.1f, 0.3f, float(rho));
+  mirrors.direct[300] = Irradiance4(float(dim));
+  int expected = 0;
+  for (double power = rho, residual = 1; residual > tolerance; ++expected, power *= rho)
+    residual = dim * power / (dim * rho * (1 - power) / (1 - rho) + 1e-3 * bright);
+  std::vector<Irradiance4> indirect;
+  EXPECT_EQ(mirrors.solve(1, {float(tolerance), 300}, indirect).iterations, expected);
+}
+
+TEST(SolveConvergence, IteratesAreChebyshevs) {
+  // Where the matrix has the eigenvalue c = the bound, n steps leave 1 / T_n(1/c) of the error.
+  constexpr double c = 0.9;
+  Mirrors mirrors(10);
+  std::fill(mirrors.albedo.begin(), mirrors.albedo.end(), vec3(float(c)));
+  for (int n = 1; n <= 8; ++n) {
+    std::vector<Irradiance4> indirect;
+    const SolveReport report = mirrors.solve(c, {0, n}, indirect);
+    EXPECT_EQ(report.iterations, n);
+    EXPECT_FALSE(report.converged);
+    const double left = 1 / std::cosh(n * std::acosh(1 / c));
+    for (int k = 0; k < 3; ++k) {
+      const double exact = double(mirrors.exact(4)[k]);
+      EXPECT_NEAR(double(indirect[4][k]), exact * (1 - left), 1e-5 * exact) << "after " << n << " steps";
+    }
+  }
+}
+
+TEST(SolveConvergence, AWarmStartFollowsEachChannelsDirectLightUpToFourTimes) {
+  Mirrors mirrors(5);
+  Solver solver;
+  std::vector<Irradiance4> indirect(5, Irradiance4(1, 2, 3, 0));
+  // No iteration: what is left is the start.
+  solver.solve(mirrors.rows, mirrors.albedo, mirrors.direct, 1, {1e-3f, 0}, indirect);
+  EXPECT_EQ(indirect[3], Irradiance4(1, 2, 3, 0)) << "nothing is known of the light before";
+  for (Irradiance4& e : mirrors.direct) e *= Irradiance4(0.25f, 3, 8, 0);
+  solver.solve(mirrors.rows, mirrors.albedo, mirrors.direct, 1, {1e-3f, 0}, indirect);
+  for (const Irradiance4& e : indirect) EXPECT_EQ(e, Irradiance4(0.25f, 6, 12, 0));
+}
+
+TEST(SolveConvergence, OneBounceIsTheMatrixTimesTheRadiosity) {
+  // Rows of 0 to 11 links, split anywhere between fixed and moving.
+  constexpr std::size_t count = 12;
+  std::vector<Link> links;
+  for (std::size_t i = 0; i < count * count; ++i)
+    links.push_back({static_cast<std::uint32_t>(i * 7 % count), 0.01f * static_cast<float>(1 + i % 13)});
+  LinkRows rows;
+  std::vector<Irradiance4> radiosity;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::span<const Link> row(links.data() + i * count, i);
+    rows.rows.push_back({row.first(i * 5 % (i + 1)), row.subspan(i * 5 % (i + 1))});
+    const auto x = static_cast<float>(i);
+    radiosity.emplace_back(1 + x, 2 + x * x, 30 - x, 0);
+  }
+  EXPECT_EQ(rows.link_count(), count * (count - 1) / 2);
+  std::vector<Irradiance4> out(count);
+  bounce_once(rows, radiosity, out);
+  for (std::size_t i = 0; i < count; ++i) {
+    glm::dvec3 expected(0);
+    for (std::size_t k = 0; k < i; ++k) {
+      const Link& link = links[i * count + k];
+      expected += double(link.weight) * glm::dvec3(radiosity[link.surfel]);
+    }
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(double(out[i][c]), expected[c], 1e-5 * expected[c]) << i;
+  }
+}
+
+}  // namespace
+}  // namespace ssphh::transport

@@ -1,0 +1,276 @@
+/// Clustering of surface points against slow ways to say the same.
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/core/parallel.h>
+#include <ssphh/core/random.h>
+#include <ssphh/core/sphere.h>
+#include <ssphh/scene/primitives.h>
+#include <ssphh/transport/surfels.h>
+
+#include "triangle_source.h"
+
+namespace ssphh::transport {
+namespace {
+
+using test::TriangleSource;
+
+void add(scene::Scene& scene, scene::Mesh mesh, bool movable = false) {
+  scene.nodes.emplace_back().movable = movable;
+  scene.meshes.push_back(std::move(mesh));
+  scene::Instance instance;
+  instance.mesh = static_cast<int>(scene.meshes.size()) - 1;
+  instance.node = static_cast<int>(scene.nodes.size()) - 1;
+  scene.instances.push_back(instance);
+}
+
+/// Two specks at the corners of [0, 4]³: bounds, and nothing in the way.
+scene::Scene specks() {
+  scene::Scene scene;
+  add(scene, scene::make_quad({0, 0, 0}, {1e-4f, 0, 0}, {0, 1e-4f, 0}));
+  add(scene, scene::make_quad({4, 4, 4}, {-1e-4f, 0, 0}, {0, -1e-4f, 0}));
+  return scene;
+}
+
+/// A floor, [0, 4]² at y = 0, with a wall of the given height along x = 2.2.
+scene::Scene walled_floor(float wall_height, bool movable = false) {
+  scene::Scene scene;
+  add(scene, scene::make_quad({0, 0, 4}, {4, 0, 0}, {0, 0, -4}));
+  add(scene, scene::make_quad({2.2f, 0, 0}, {0, 0, 4}, {0, wall_height, 0}), movable);
+  return scene;
+}
+
+std::vector<ClusterPoint> random_points(int count, std::uint64_t seed) {
+  Pcg32 random(seed);
+  std::vector<ClusterPoint> points;
+  for (int i = 0; i < count; ++i) {
+    const vec3 position = 4.0f * random.uniform3();
+    points.push_back({{position, sample_uniform_sphere(random.uniform2())}, random.uniform3()});
+  }
+  return points;
+}
+
+using Cell = std::tuple<int, int, int, int>;
+
+/// The cell of a point as the header describes it: voxel of `size`, and the axis nearest to the normal. The
+/// grid begins 2¼ voxels outside the bounds, which here begin at 0.
+Cell cell_of(const rays::SurfacePoint& p, float size) {
+  int axis = 0;
+  for (int a = 1; a < 3; ++a) {
+    if (std::abs(p.normal[a]) > std::abs(p.normal[axis])) axis = a;
+  }
+  const auto v = [&](int a) { return static_cast<int>(std::floor((p.position[a] + 2.25f * size) / size)); };
+  return {v(0), v(1), v(2), 2 * axis + (p.normal[axis] < 0 ? 1 : 0)};
+}
+
+TEST(SurfelSet, OneSurfelPerVoxelAndMainDirectionWhereNothingBlocks) {
+  const scene::Scene scene = specks();
+  const TriangleSource source(scene);
+  const std::vector<ClusterPoint> points = random_points(3000, 1);
+  SurfelSet set(source, 0.5f);
+  const std::vector<int> surfel = set.add(0, points);
+  set.update_albedo();
+
+  std::map<Cell, int> of_cell;
+  std::map<int, std::pair<glm::dvec3, int>> albedo;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto [known, fresh] = of_cell.try_emplace(cell_of(points[i].point, 0.5f), surfel[i]);
+    ASSERT_EQ(known->second, surfel[i]) << "point " << i;
+    auto& [sum, count] = albedo.try_emplace(surfel[i], glm::dvec3(0), 0).first->second;
+    sum += glm::dvec3(points[i].albedo), ++count;
+    if (!fresh) continue;
+    const Surfel& made = set.surfels()[static_cast<std::size_t>(surfel[i])];
+    EXPECT_EQ(made.point.position, points[i].point.position) << "its first point founds a surfel";
+    EXPECT_EQ(made.part, 0);
+  }
+  EXPECT_EQ(of_cell.size(), set.count()) << "different cells have different surfels";
+  for (const auto& [s, sum_and_count] : albedo) {
+    const glm::dvec3 mean = sum_and_count.first / double(sum_and_count.second);
+    for (glm::length_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(double(set.surfels()[static_cast<std::size_t>(s)].albedo[c]), mean[c], 1e-6);
+  }
+  // Numbered by cell: the map runs through the cells in the order of their keys.
+  int next = 0;
+  for (const auto& [cell, s] : of_cell) EXPECT_EQ(s, next++);
+}
+
+TEST(SurfelSet, AThinWallBetweenPointsOfOneVoxelMakesTwoSurfels) {
+  // Voxels of 1 m begin at −2.25: x 1.75…2.75, z 0.75…1.75 is one, and the wall at 2.2 divides it.
+  const std::vector<ClusterPoint> points{{{{2.1f, 0, 1.5f}, {0, 1, 0}}, vec3(0.5f)},
+                                         {{{2.3f, 0, 1.5f}, {0, 1, 0}}, vec3(0.5f)},
+                                         {{{2.7f, 0, 1.2f}, {0, 1, 0}}, vec3(0.5f)},
+                                         {{{1.8f, 0, 1.7f}, {0, 1, 0}}, vec3(0.5f)}};
+  const scene::Scene walled = walled_floor(1), low = walled_floor(0.01f), moving = walled_floor(1, true);
+  {
+    const TriangleSource source(walled);
+    SurfelSet set(source, 1);
+    EXPECT_EQ(set.add(0, points), (std::vector<int>{0, 1, 1, 0}));
+    // Later points join the surfel that they see, whichever call they come with.
+    EXPECT_EQ(set.add(0, {{points[2], points[3]}}), (std::vector<int>{1, 0}));
+    EXPECT_EQ(set.count(), 2u);
+    EXPECT_EQ(set.members(0).size(), 3u);
+    EXPECT_EQ(set.members(1).size(), 3u);
+  }
+  {
+    // Sight passes 0.08 sizes above the surface.
+    const TriangleSource source(low);
+    SurfelSet set(source, 1);
+    EXPECT_EQ(set.add(0, points), (std::vector<int>{0, 0, 0, 0}));
+  }
+  {
+    // A part of its own does not divide what never moves.
+    const TriangleSource source(moving);
+    ASSERT_EQ(source.part_count(), 2);
+    SurfelSet set(source, 1);
+    EXPECT_EQ(set.add(0, points), (std::vector<int>{0, 0, 0, 0}));
+    const int on_part = set.add(1, {{points[0]}})[0];
+    EXPECT_EQ(on_part, 1) << "parts do not share surfels";
+    EXPECT_EQ(set.surfels()[1].part, 1);
+  }
+}
+
+TEST(SurfelSet, EveryMemberSeesItsRepresentative) {
+  const scene::Scene scene = walled_floor(0.6f);
+  const TriangleSource source(scene);
+  SurfelSet set(source, 0.7f);
+  Pcg32 random(3);
+  std::vector<ClusterPoint> points;
+  for (int i = 0; i < 400; ++i)
+    points.push_back({{{4 * random.uniform(), 0, 4 * random.uniform()}, {0, 1, 0}}, vec3(0.5f)});
+  const std::vector<int> surfel = set.add(0, points);
+  std::set<int> left, right;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const rays::RayQuery sight =
+        set.segment(set.surfels()[static_cast<std::size_t>(surfel[i])].point, points[i].point);
+    std::uint8_t blocked = 1;
+    source.occluded(0, {&sight, 1}, {&blocked, 1});
+    EXPECT_FALSE(blocked);
+    (points[i].point.position.x < 2.2f ? left : right).insert(surfel[i]);
+  }
+  for (const int s : left) EXPECT_FALSE(right.contains(s)) << "surfel " << s << " reaches through the wall";
+}
+
+TEST(SurfelSet, NumbersDependOnPointsAndCallsAlone) {
+  const scene::Scene scene = walled_floor(0.6f);
+  const TriangleSource source(scene);
+  const std::vector<ClusterPoint> first = random_points(2000, 5), second = random_points(700, 6);
+  std::vector<std::vector<int>> results;
+  for (const int threads : {1, 2, 2}) {
+    set_thread_count(threads);
+    SurfelSet set(source, 0.4f);
+    results.push_back(set.add(0, first));
+    const std::size_t known = set.count();
+    const std::vector<int> later = set.add(0, second);
+    EXPECT_TRUE(std::any_of(later.begin(), later.end(), [&](int s) { return s < static_cast<int>(known); }));
+    results.back().insert(results.back().end(), later.begin(), later.end());
+  }
+  set_thread_count(0);
+  EXPECT_EQ(results[0], results[1]);
+  EXPECT_EQ(results[1], results[2]);
+}
+
+TEST(SurfelSet, CandidatesAreTheOwnCellsThenThoseAroundByDistance) {
+  const scene::Scene scene = walled_floor(0.6f);
+  const TriangleSource source(scene);
+  constexpr float size = 0.5f;
+  SurfelSet set(source, size);
+  Pcg32 random(8);
+  std::vector<ClusterPoint> points;
+  for (int i = 0; i < 800; ++i)
+    points.push_back(
+        {{{4 * random.uniform(), 0.3f * random.uniform(), 4 * random.uniform()}, {0, 1, 0}}, vec3(0.5f)});
+  set.add(0, points);
+  for (std::size_t i = 0; i < points.size(); i += 9) {
+    const rays::SurfacePoint& x = points[i].point;
+    const auto [cx, cy, cz, bin] = cell_of(x, size);
+    std::vector<std::tuple<bool, float, int>> expected;
+    std::vector<int> own;
+    for (std::size_t s = 0; s < set.count(); ++s) {
+      const rays::SurfacePoint& p = set.surfels()[s].point;
+      const auto [sx, sy, sz, surfel_bin] = cell_of(p, size);
+      if (surfel_bin != bin || std::max({std::abs(sx - cx), std::abs(sy - cy), std::abs(sz - cz)}) > 1)
+        continue;
+      const vec3 d = p.position - x.position;
+      const bool around = sx != cx || sy != cy || sz != cz;
+      expected.emplace_back(around, glm::dot(d, d), static_cast<int>(s));
+      if (!around) own.push_back(static_cast<int>(s));
+    }
+    std::sort(expected.begin(), expected.end());
+    std::vector<int> order;
+    for (const auto& entry : expected) order.push_back(std::get<2>(entry));
+    EXPECT_EQ(set.candidates(0, x), order);
+    const auto cell = set.cell(0, x);
+    EXPECT_EQ(std::vector<int>(cell.begin(), cell.end()), own) << "founded in ascending order here";
+  }
+  EXPECT_TRUE(set.candidates(0, {{2, 0, 2}, {0, -1, 0}}).empty()) << "nothing faces down";
+}
+
+TEST(SurfelSet, SpreadMembersLieFarApart) {
+  const scene::Scene scene = specks();
+  const TriangleSource source(scene);
+  SurfelSet set(source, 8);
+  std::vector<ClusterPoint> points;
+  Pcg32 random(2);
+  for (int i = 0; i < 40; ++i)
+    points.push_back({{{1 + 2 * random.uniform(), 1, 1 + 2 * random.uniform()}, {0, 1, 0}}, vec3(0.5f)});
+  set.add(0, points);
+  ASSERT_EQ(set.count(), 1u);
+  for (const int wanted : {1, 2, 8, 40, 60}) {
+    const std::vector<rays::SurfacePoint> chosen = set.spread_members(0, wanted);
+    ASSERT_EQ(chosen.size(), static_cast<std::size_t>(std::min(wanted, 40)));
+    EXPECT_EQ(chosen[0].position, points[0].point.position);
+    for (std::size_t k = 1; k < chosen.size(); ++k) {
+      // Each is as far from all before it as any point can be.
+      const auto distance_to_chosen = [&](const vec3& p) {
+        float nearest = 1e9f;
+        for (std::size_t j = 0; j < k; ++j) nearest = std::min(nearest, glm::distance(p, chosen[j].position));
+        return nearest;
+      };
+      float farthest = 0;
+      for (const ClusterPoint& p : points)
+        farthest = std::max(farthest, distance_to_chosen(p.point.position));
+      EXPECT_NEAR(distance_to_chosen(chosen[k].position), farthest, 1e-6f);
+    }
+  }
+  SurfelSet same(source, 8);
+  same.add(0, std::vector<ClusterPoint>(10, points[0]));
+  EXPECT_EQ(same.spread_members(0, 8).size(), 1u) << "points in one place are one sample";
+}
+
+TEST(SurfelSet, AWallAtTheBoundsIsOneLayer) {
+  // Hits on x = y = z = 0 and 4 with rounding errors: 4 / 0.5 leaves all six walls at the same place in
+  // their voxels.
+  const scene::Scene scene = specks();
+  const TriangleSource source(scene);
+  SurfelSet set(source, 0.5f);
+  Pcg32 random(9);
+  std::vector<ClusterPoint> points;
+  for (int i = 0; i < 60000; ++i) {
+    const int axis = i % 3;
+    const bool high = i % 2;
+    rays::SurfacePoint p{4.0f * random.uniform3(), vec3(0)};
+    p.position[axis] = (high ? 4.0f : 0.0f) + 1e-6f * (random.uniform() - 0.5f);
+    p.normal[axis] = high ? -1.0f : 1.0f;
+    points.push_back({p, vec3(0.5f)});
+  }
+  set.add(0, points);
+  EXPECT_EQ(set.count(), 6u * 9 * 9);
+}
+
+TEST(SurfelSet, RefusesSizesThatMakeNoVoxels) {
+  const scene::Scene scene = specks();
+  const TriangleSource source(scene);
+  for (const float size : {0.0f, -1.0f, NAN, INFINITY, 4 / 40000.0f})
+    EXPECT_THROW(SurfelSet(source, size), Error) << size;
+  EXPECT_NO_THROW(SurfelSet(source, 4 / 30000.0f));
+}
+
+}  // namespace
+}  // namespace ssphh::transport
