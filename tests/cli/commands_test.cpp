@@ -2,11 +2,16 @@
 // against what the library says of the same.
 
 #include <cmath>
+#include <thread>
 
 #include <gmock/gmock.h>
 
 #include <ssphh/core/file.h>
 #include <ssphh/image/io.h>
+#include <ssphh/majordomo/broker.h>
+#include <ssphh/majordomo/client.h>
+#include <ssphh/majordomo/security.h>
+#include <ssphh/majordomo/worker.h>
 #include <ssphh/place/init.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/probes/probe_file.h>
@@ -17,6 +22,7 @@
 
 #include "commands/bake.h"
 #include "commands/compare.h"
+#include "commands/farm.h"
 #include "commands/hier.h"
 #include "commands/leak.h"
 #include "commands/measure.h"
@@ -283,6 +289,67 @@ TEST(Commands, CompareMeasuresAndFailsForWhatIsNoNumber) {
   EXPECT_TRUE(has_failed(bad, options));
   options.allow_nonfinite = true;
   EXPECT_FALSE(has_failed(bad, options));
+}
+
+TEST(Commands, FarmTellsWhatItsBrokerDoes) {
+  const test::TempDir dir;
+  BrokerChoice choice;
+  choice.endpoint = "ipc://" + (dir / "broker").string();
+  majordomo::Broker broker({.bind = choice.endpoint});
+  std::thread serving([&] { broker.run(); });
+  majordomo::Worker worker({.endpoint = choice.endpoint, .service = "gen", .name = "w1"});
+  std::thread working([&] { worker.run([](const majordomo::Job& job) { return job.body; }); });
+  majordomo::Client client({.endpoint = choice.endpoint});
+  const auto finish = [&](int jobs) {
+    for (int i = 0; i < jobs; ++i) client.call("gen", {"x"}, {.deadline = 5000}, {});
+  };
+
+  finish(1);
+  const FarmStatus status = run_farm_status(choice);
+  EXPECT_EQ(status.stats["services"][0]["finished"], 1);
+  EXPECT_EQ(status.workers["workers"][0]["name"], "w1");
+  EXPECT_FALSE(status.per_second);
+
+  using Clock = std::chrono::steady_clock;
+  std::vector<FarmStatus> looks;
+  Clock::time_point first;
+  run_farm_top({choice, 0.05, 3}, [&](const FarmStatus& look) {
+    looks.push_back(look);
+    if (looks.size() == 1) std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    if (looks.size() == 2) finish(3);
+    if (looks.size() == 1) first = Clock::now();
+  });
+  const double most = std::chrono::duration<double>(Clock::now() - first).count();
+  ASSERT_EQ(looks.size(), 3u);
+  EXPECT_FALSE(looks[0].per_second);
+  EXPECT_EQ(looks[1].per_second, 0.0);
+  ASSERT_TRUE(looks[2].per_second);
+  EXPECT_GE(*looks[2].per_second, 3 / most) << "time before the look before does not count";
+  EXPECT_LE(*looks[2].per_second, 3 / 0.05);
+
+  EXPECT_EQ(run_farm_parked(choice).jobs.size(), 0u);
+  EXPECT_EQ(run_farm_release({choice, {}, true}).released, 0);
+  EXPECT_EQ(run_farm_drop({choice, {}, true}).dropped, 0);
+  EXPECT_THAT(message_of([&] { run_farm_drop({choice, {7}, false}); }), HasSubstr("job 7 is not set aside"));
+  EXPECT_THAT(message_of([&] { run_farm_release({choice, {}, false}); }), HasSubstr("none are named"));
+  EXPECT_EQ(run_farm_drain({choice, "other"}).told, 0);
+  EXPECT_EQ(run_farm_drain({choice, "w"}).told, 1);
+  working.join();
+  broker.stop();
+  broker.stop();
+  serving.join();
+}
+
+TEST(Commands, FarmKeysHaveTheRightsOfTheirRole) {
+  const test::TempDir dir;
+  const FarmKeygenOptions options{.folder = dir / "keys", .name = "ann", .role = FarmRole::admin};
+  EXPECT_EQ(run_farm_keygen(options).made, (std::vector<std::string>{"broker", "ann"}));
+  const majordomo::AllowList allowed = majordomo::read_allow_list(dir / "keys/allow.txt");
+  ASSERT_EQ(allowed.size(), 1u);
+  EXPECT_EQ(allowed[0].public_key, majordomo::read_public_key(dir / "keys/ann.pub"));
+  EXPECT_TRUE(allowed[0].rights.admin);
+  EXPECT_FALSE(allowed[0].rights.may_serve("ssphh.jobs.1"));
+  EXPECT_THROW(run_farm_keygen(options), Error) << "it has a key";
 }
 
 TEST(Commands, RunsWithoutFramesAreRefused) {

@@ -98,18 +98,17 @@ void add_transport_options(Command command, BakeOptions& options, BakeUses& uses
 void add_bake_command(Command app, Context& context) {
   auto options = std::make_shared<BakeOptions>();
   auto uses = std::make_shared<BakeUses>();
-  Command command = add_command(
-      app, context, "bake",
-      "Find the light at every SPHL of a scene (GEN or transport) and between them (VIZ)",
-      [&context, options, uses] {
-        if (!uses->viz.empty())
-          options->viz = parse_enum<probes::VizMethod>(uses->viz).value_or(probes::VizMethod::none);
-        options->of_paths = names_of_given(uses->of_paths);
-        options->of_transport = names_of_given(uses->of_transport);
-        options->of_viz = names_of_given(uses->of_viz);
-        options->seed = context.seed;
-        print_result(context, run_bake(*options, context.control), *options);
-      });
+  Command command =
+      add_command(app, context, "bake",
+                  "Find the light at every SPHL of a scene (GEN or transport) and between them (VIZ)",
+                  options, [uses](BakeOptions& o, const Control& control) {
+                    if (!uses->viz.empty())
+                      o.viz = parse_enum<probes::VizMethod>(uses->viz).value_or(probes::VizMethod::none);
+                    o.of_paths = names_of_given(uses->of_paths);
+                    o.of_transport = names_of_given(uses->of_transport);
+                    o.of_viz = names_of_given(uses->of_viz);
+                    return run_bake(o, control);
+                  });
   add_scene_options(command, options->scene);
   add_place_options(command, options->place);
   add_probe_file(command, "-o,--output", options->output,

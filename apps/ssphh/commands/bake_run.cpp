@@ -92,8 +92,7 @@ double viz_seconds(const BakeResult& r) {
 BakeResult run_bake(const BakeOptions& options, const Control& control) {
   const GeometryBuilds builds;
   BakeOptions o = options;
-  std::optional<FarmSession> session;  // first: its processes start while this one reads the scene
-  if (o.farm.any()) session.emplace(o.farm);
+  const std::optional<FarmSession> session = farm_session(o.farm);
   const scene::Scene scene = load_scene(o.scene);
   o.params.path.seed = o.seed;
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);

@@ -15,6 +15,7 @@
 #include "commands/live_method.h"
 #include "options/gl_options.h"
 #include "options/method_options.h"
+#include "options/picture_options.h"
 #include "options/probe_options.h"
 #include "options/scene_options.h"
 #include "results/moving_camera.h"
@@ -183,9 +184,8 @@ void add_bench_frame_command(Command app, Context& context) {
   command.option("--frames", o.frames, "Frames to time").range(1, 10000000);
   command.option("--warm-up", o.warm_up, "Frames before them: shaders are compiled, shadow maps drawn")
       .range(0, 1000000);
-  command.option("--width", o.width, "Pixels").range(1, 16384);
-  command.option("--height", o.height, "Pixels").range(1, 16384);
-  command.option("--camera", o.camera, "Camera by name; default: the scene's first");
+  add_size_options(command, o.width, o.height);
+  add_camera_option(command, o.camera);
   command.flag("--turn", o.turn, "The camera turns once about itself on the way");
   command.flag("--ratio", o.ratio, "Draw each frame without probes' light, too, and compare the times");
   command.flag("--move", o.move,

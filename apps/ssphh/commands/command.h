@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include <ssphh/core/control.h>
@@ -28,9 +29,14 @@ struct Context {
   void result(const json::Value& object, const std::string& text) const;
 };
 
-/// Prints what a command's function gave.
-template <class Result, class Options>
-void print_result(const Context& context, const Result& result, const Options& options) {
+template <class Options, class Run>
+void run_and_print(Context& context, Options& options, const Run& run) {
+  if constexpr (requires { options.seed; }) options.seed = context.seed;
+  if constexpr (requires { options.threads; }) options.threads = context.threads;
+  const auto result = run(options, context.control);
+  if constexpr (requires { has_failed(result, options); }) {
+    if (has_failed(result, options)) context.exit_code = 1;
+  }
   context.result(to_json(result, options), to_text(result, options));
 }
 
@@ -38,6 +44,16 @@ void print_result(const Context& context, const Result& result, const Options& o
 /// parsing; it throws Error for bad input.
 Command add_command(Command parent, Context& context, const std::string& name, const std::string& description,
                     std::function<void()> action);
+
+/// One that runs a function of options, `run(options, control)`, and prints its result. --seed and --threads
+/// go into the options' members of these names, where they have such; a result of which has_failed() is true
+/// is printed and gives exit code 1.
+template <class Options, class Run>
+Command add_command(Command parent, Context& context, const std::string& name, const std::string& description,
+                    const std::shared_ptr<Options>& options, Run run) {
+  return add_command(parent, context, name, description,
+                     [&context, options, run] { run_and_print(context, *options, run); });
+}
 
 /// A command that only groups subcommands ("sh project", "probe info").
 Command add_group(Command parent, const std::string& name, const std::string& description);

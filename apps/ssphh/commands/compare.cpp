@@ -185,11 +185,7 @@ std::string to_text(const CompareResult& result, const CompareOptions& options) 
 void add_compare_command(Command app, Context& context) {
   auto options = std::make_shared<CompareOptions>();
   Command command = add_command(app, context, "compare", "Measure the error of an image against a reference",
-                                [&context, options] {
-                                  const CompareResult result = run_compare(*options, context.control);
-                                  if (has_failed(result, *options)) context.exit_code = 1;
-                                  print_result(context, result, *options);
-                                });
+                                options, run_compare);
   command.option("REF", options->reference, "Reference image: .exr .hdr .png .jpg").required();
   command.option("TEST", options->test, "Image of the same size").required();
   command.option("--mask", options->mask,

@@ -1,22 +1,16 @@
+#include "commands/cubemap.h"
+
 #include <memory>
 
 #include <fmt/format.h>
 
-#include <ssphh/image/cube_layout.h>
 #include <ssphh/image/io.h>
 
 #include "commands/command.h"
 
 namespace ssphh::app {
-namespace {
 
-struct ConvertOptions {
-  std::string input, output;
-  image::Layout from = image::Layout::equirect, to = image::Layout::equirect;
-  int size = 0;
-};
-
-void convert(const Context& context, const ConvertOptions& options) {
+CubemapResult run_cubemap_convert(const CubemapOptions& options, const Control& control) {
   image::format_of_extension(options.output);  // before the work
   const image::Image input = image::read_image(options.input);
   try {
@@ -24,25 +18,29 @@ void convert(const Context& context, const ConvertOptions& options) {
   } catch (const Error& e) {
     throw Error(options.input, e.problem(), e.hint());
   }
-  const image::Image output =
-      image::convert_layout(input, options.from, options.to, options.size, context.control);
-  image::write_image(options.output, output);
-  context.result(
-      {{"output", options.output},
-       {"from", name_of(options.from)},
-       {"to", name_of(options.to)},
-       {"width", output.width},
-       {"height", output.height}},
-      fmt::format("{}: {} x {}, {}", options.output, output.width, output.height, name_of(options.to)));
+  CubemapResult result{image::convert_layout(input, options.from, options.to, options.size, control)};
+  image::write_image(options.output, result.picture);
+  return result;
 }
 
-}  // namespace
+json::Value to_json(const CubemapResult& result, const CubemapOptions& options) {
+  return {{"output", options.output},
+          {"from", name_of(options.from)},
+          {"to", name_of(options.to)},
+          {"width", result.picture.width},
+          {"height", result.picture.height}};
+}
+
+std::string to_text(const CubemapResult& result, const CubemapOptions& options) {
+  return fmt::format("{}: {} x {}, {}", options.output, result.picture.width, result.picture.height,
+                     name_of(options.to));
+}
 
 void add_cubemap_commands(Command app, Context& context) {
   Command group = add_group(app, "cubemap", "Images of the whole sphere: cube maps and other layouts");
-  auto options = std::make_shared<ConvertOptions>();
-  Command command = add_command(group, context, "convert", "Convert between layouts of the sphere",
-                                [&context, options] { convert(context, *options); });
+  auto options = std::make_shared<CubemapOptions>();
+  Command command = add_command(group, context, "convert", "Convert between layouts of the sphere", options,
+                                run_cubemap_convert);
   command.option("IN", options->input, "Image: .exr .hdr .png .jpg (8-bit and 16-bit are decoded from sRGB)")
       .required();
   command.option("-o,--output", options->output, "Image to write, by extension: .exr .hdr .png .jpg")

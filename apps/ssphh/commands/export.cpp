@@ -1,20 +1,16 @@
+#include "commands/export.h"
+
+#include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
 
-#include <ssphh/core/log.h>
 #include <ssphh/scene_io/gltf_export.h>
 
 #include "commands/command.h"
-#include "options/picture_options.h"
 
 namespace ssphh::app {
 namespace {
-
-struct ExportOptions {
-  PictureOptions picture;
-  std::string to, output;
-};
 
 // One file holds the whole scene, so its name may be given instead of a folder's.
 scene_io::ExportReport write_gltf(const scene::Scene& scene, const std::filesystem::path& output) {
@@ -33,45 +29,56 @@ scene_io::ExportReport write(const ExportOptions& o, const scene::Scene& scene) 
   return write_gltf(scene, o.output);
 }
 
-void run(const ExportOptions& o, const Context& context) {
-  const scene::Scene scene = load_scene(o.picture.scene);
-  const scene_io::ExportReport report = write(o, scene);
-  json::Value files = json::Value::array();
-  for (const auto& file : report.files) files.push_back(file.string());
-  std::string text =
-      fmt::format("{}: {} file{}, {} triangles", report.files.front().string(), report.files.size(),
-                  report.files.size() == 1 ? "" : "s", scene::triangle_count(scene));
-  if (!report.command.empty()) text += "\nrender with: " + report.command;
-  for (const std::string& line : report.differences) text += "\ndiffers: " + line;
-  context.result({{"to", o.to},
-                  {"files", files},
-                  {"command", report.command},
-                  {"differences", report.differences},
-                  {"triangles", scene::triangle_count(scene)},
-                  {"hash", scene::scene_hash(scene).hex()}},
-                 text);
+}  // namespace
+
+std::vector<std::string> export_formats() {
+  std::vector<std::string> names;
+  for (const scene_io::RendererFormat& format : scene_io::renderer_formats()) names.emplace_back(format.name);
+  names.emplace_back("gltf");
+  return names;
 }
 
-}  // namespace
+ExportResult run_export(const ExportOptions& o, const Control&) {
+  if (std::ranges::count(export_formats(), o.to) == 0)
+    throw Error("--to " + o.to, "is no format that there is");
+  const scene::Scene scene = load_scene(o.picture.scene);
+  return {write(o, scene), scene::triangle_count(scene), scene::scene_hash(scene)};
+}
+
+json::Value to_json(const ExportResult& result, const ExportOptions& o) {
+  json::Value files = json::Value::array();
+  for (const auto& file : result.report.files) files.push_back(file.string());
+  return {{"to", o.to},
+          {"files", files},
+          {"command", result.report.command},
+          {"differences", result.report.differences},
+          {"triangles", result.triangles},
+          {"hash", result.hash.hex()}};
+}
+
+std::string to_text(const ExportResult& result, const ExportOptions&) {
+  const scene_io::ExportReport& report = result.report;
+  std::string text = fmt::format("{}: {} file{}, {} triangles", report.files.front().string(),
+                                 report.files.size(), report.files.size() == 1 ? "" : "s", result.triangles);
+  if (!report.command.empty()) text += "\nrender with: " + report.command;
+  for (const std::string& line : report.differences) text += "\ndiffers: " + line;
+  return text;
+}
 
 void add_export_command(Command app, Context& context) {
   auto options = std::make_shared<ExportOptions>();
-  Command command = add_command(app, context, "export", "Write a scene for another renderer",
-                                [&context, options] { run(*options, context); });
+  Command command =
+      add_command(app, context, "export", "Write a scene for another renderer", options, run_export);
   add_picture_options(command, options->picture);
-  std::vector<std::string> names;
   std::string description = "Which:";
-  for (const scene_io::RendererFormat& format : scene_io::renderer_formats()) {
-    names.emplace_back(format.name);
+  for (const scene_io::RendererFormat& format : scene_io::renderer_formats())
     description += fmt::format(" {} ({});", format.name, format.description);
-  }
-  names.emplace_back("gltf");
   command
       .option(
           "--to", options->to,
           description + " gltf (one GLB file with all that a scene holds, docs/gltf.md; loads back the same)")
       .required()
-      .one_of(names);
+      .one_of(export_formats());
   command.option("-o,--output", options->output, "Folder to write into; for gltf also FILE.glb").required();
 }
 

@@ -3,12 +3,45 @@
 #include <ssphh/core/error.h>
 
 #include "commands/command.h"
+#include "commands/farm.h"
 #include "commands/farm_ask.h"
 
 namespace ssphh::app {
 namespace {
 
-std::string parked_text(const json::Value& jobs) {
+int tell(const FarmJobsOptions& choice, const std::string& service, const Control& control) {
+  if (choice.jobs.empty() && !choice.all)
+    throw Error("jobs", "none are named", "give their numbers (`ssphh farm parked`) or --all");
+  majordomo::Client client = connect(choice.broker);
+  if (choice.all) return std::stoi(ask(client, service, "all", control));
+  for (const std::uint64_t job : choice.jobs)
+    ask(client, service, std::to_string(job), control, fmt::format("job {} is not set aside", job));
+  return static_cast<int>(choice.jobs.size());
+}
+
+std::string jobs_text(int count) {
+  return count == 1 ? "1 job is" : fmt::format("{} jobs are", count);
+}
+
+void add_choice(Command command, FarmJobsOptions& choice) {
+  add_broker_options(command, choice.broker, "admin", "Broker").required();
+  Option jobs = command.option("JOB", choice.jobs, "Numbers, as `ssphh farm parked` shows them");
+  command.flag("--all", choice.all, "All that are set aside").excludes(jobs);
+}
+
+}  // namespace
+
+FarmParkedResult run_farm_parked(const BrokerChoice& broker, const Control& control) {
+  majordomo::Client client = connect(broker);
+  return {ask_json(client, "mmi.parked", control)["jobs"]};
+}
+
+json::Value to_json(const FarmParkedResult& result, const BrokerChoice&) {
+  return {{"jobs", result.jobs}};
+}
+
+std::string to_text(const FarmParkedResult& result, const BrokerChoice&) {
+  const json::Value& jobs = result.jobs;
   if (jobs.empty()) return "no job is set aside";
   std::string text;
   for (const json::Value& job : jobs.elements()) {
@@ -22,60 +55,47 @@ std::string parked_text(const json::Value& jobs) {
   return text;
 }
 
-/// Jobs by their numbers, or all of them.
-struct Choice {
-  BrokerChoice broker;
-  std::vector<std::uint64_t> jobs;
-  bool all = false;
-};
-
-int tell(const Choice& choice, const std::string& service, const Control& control) {
-  if (choice.jobs.empty() && !choice.all)
-    throw Error("jobs", "none are named", "give their numbers (`ssphh farm parked`) or --all");
-  majordomo::Client client = connect(choice.broker);
-  if (choice.all) return std::stoi(ask(client, service, "all", control));
-  for (const std::uint64_t job : choice.jobs)
-    ask(client, service, std::to_string(job), control, fmt::format("job {} is not set aside", job));
-  return static_cast<int>(choice.jobs.size());
+FarmReleaseResult run_farm_release(const FarmJobsOptions& options, const Control& control) {
+  return {tell(options, "mmi.release", control)};
 }
 
-void add_choice(Command command, Choice& choice) {
-  add_broker_options(command, choice.broker, "admin", "Broker").required();
-  Option jobs = command.option("JOB", choice.jobs, "Numbers, as `ssphh farm parked` shows them");
-  command.flag("--all", choice.all, "All that are set aside").excludes(jobs);
+json::Value to_json(const FarmReleaseResult& result, const FarmJobsOptions&) {
+  return {{"released", result.released}};
 }
 
-}  // namespace
+std::string to_text(const FarmReleaseResult& result, const FarmJobsOptions&) {
+  return jobs_text(result.released) + " queued again";
+}
+
+FarmDropResult run_farm_drop(const FarmJobsOptions& options, const Control& control) {
+  return {tell(options, "mmi.drop", control)};
+}
+
+json::Value to_json(const FarmDropResult& result, const FarmJobsOptions&) {
+  return {{"dropped", result.dropped}};
+}
+
+std::string to_text(const FarmDropResult& result, const FarmJobsOptions&) {
+  return jobs_text(result.dropped) + " forgotten";
+}
 
 void add_farm_parked_commands(Command group, Context& context) {
   const auto broker = std::make_shared<BrokerChoice>();
-  Command parked =
-      add_command(group, context, "parked",
-                  "Jobs that were set aside because workers failed on them, and why", [=, &context] {
-                    majordomo::Client client = connect(*broker);
-                    const json::Value answer = ask_json(client, "mmi.parked", context.control);
-                    context.result({{"jobs", answer["jobs"]}}, parked_text(answer["jobs"]));
-                  });
-  add_broker_options(parked, *broker, "client", "Broker").required();
+  add_broker_options(add_command(group, context, "parked",
+                                 "Jobs that were set aside because workers failed on them, and why", broker,
+                                 run_farm_parked),
+                     *broker, "client", "Broker")
+      .required();
 
-  const auto again = std::make_shared<Choice>(), gone = std::make_shared<Choice>();
-  Command release = add_command(
-      group, context, "release", "Put jobs that were set aside back into the queue", [=, &context] {
-        const int count = tell(*again, "mmi.release", context.control);
-        context.result(
-            {{"released", count}},
-            fmt::format("{} queued again", count == 1 ? "1 job is" : fmt::format("{} jobs are", count)));
-      });
+  const auto again = std::make_shared<FarmJobsOptions>(), gone = std::make_shared<FarmJobsOptions>();
+  Command release = add_command(group, context, "release", "Put jobs that were set aside back into the queue",
+                                again, run_farm_release);
   add_choice(release, *again);
   release.footer(
       "A result goes to whoever left the request on the broker's disk; without such a one it is kept for ten "
       "minutes\nfor a client that sends the same job.");
-  Command drop = add_command(group, context, "drop", "Forget jobs that were set aside", [=, &context] {
-    const int count = tell(*gone, "mmi.drop", context.control);
-    context.result({{"dropped", count}},
-                   fmt::format("{} forgotten", count == 1 ? "1 job is" : fmt::format("{} jobs are", count)));
-  });
-  add_choice(drop, *gone);
+  add_choice(add_command(group, context, "drop", "Forget jobs that were set aside", gone, run_farm_drop),
+             *gone);
 }
 
 }  // namespace ssphh::app

@@ -1,6 +1,5 @@
 #include "commands/hier.h"
 
-#include <chrono>
 #include <cstdlib>
 #include <memory>
 
@@ -12,6 +11,7 @@
 #include "commands/command.h"
 #include "options/probe_options.h"
 #include "results/percentile.h"
+#include "results/stopwatch.h"
 
 namespace ssphh::app {
 namespace {
@@ -62,9 +62,9 @@ HierResult run_hier(const HierOptions& options, const Control&) {
   result.edges = probes::hier(set, options.params);
   std::vector<double> times;
   for (int run = 0; run < 7; ++run) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     probes::hier(set, options.params);
-    times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    times.push_back(watch.seconds());
   }
   result.seconds = percentile(std::move(times), 0.5);
   probes::write_probe_file(set, options.output);
@@ -99,9 +99,8 @@ std::string to_text(const HierResult& result, const HierOptions& options) {
 
 void add_hier_command(Command app, Context& context) {
   auto options = std::make_shared<HierOptions>();
-  Command command = add_command(
-      app, context, "hier", "Add each probe's neighbours to its light (HIER)",
-      [&context, options] { print_result(context, run_hier(*options, context.control), *options); });
+  Command command =
+      add_command(app, context, "hier", "Add each probe's neighbours to its light (HIER)", options, run_hier);
   add_probe_file(command, "FILE", options->input, "Probe file of `ssphh bake`").required();
   add_probe_file(command, "-o,--output", options->output, "Probe file to write: .sphl or .sphl.json")
       .required();

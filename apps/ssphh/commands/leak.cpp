@@ -12,6 +12,7 @@
 #include <ssphh/trace/transport_scene.h>
 
 #include "commands/command.h"
+#include "options/picture_options.h"
 #include "options/probe_options.h"
 #include "options/scene_options.h"
 #include "results/geometry_builds.h"
@@ -100,10 +101,7 @@ void add_leak_command(Command app, Context& context) {
   auto options = std::make_shared<LeakOptions>();
   LeakOptions& o = *options;
   Command command = add_command(app, context, "leak", "Measure the light that probes put where there is none",
-                                [&context, options] {
-                                  options->seed = context.seed;
-                                  print_result(context, run_leak(*options, context.control), *options);
-                                });
+                                options, run_leak);
   add_scene_options(command, o.scene, false);
   command.option("--time", o.time, "Pose the scene's animations at this time [s]")
       .shown_default("that of the probe file")
@@ -131,9 +129,8 @@ void add_leak_command(Command app, Context& context) {
               "Picture of the dark places that probes light: .png (colours over the grey scene) or .exr "
               "(shares of the mean irradiance)")
       .group(map);
-  command.option("--camera", o.camera, "Camera by name; default: the scene's first").group(map);
-  command.option("--width", o.width, "Pixels").range(1, 16384).group(map);
-  command.option("--height", o.height, "Pixels").range(1, 16384).group(map);
+  add_camera_option(command, o.camera, map);
+  add_size_options(command, o.width, o.height, 16384, map);
   command.option("--map-spp", o.map_spp, "Paths per pixel").range(2, 1 << 22).group(map);
   command.footer(
       "Points are uniform by area over what cameras and probes can reach. Leaked: the sum of looked-up "

@@ -1,29 +1,23 @@
 #include "commands/live_method.h"
 
+#include "results/stopwatch.h"
+
 namespace ssphh::app {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-}  // namespace
 
 LiveMethod::LiveMethod(const std::string& name, const std::vector<std::string>& settings,
                        trace::SharedGeometry geometry, const scene::Scene& scene, const Control& control)
     : source_(std::move(geometry), scene) {
   const methods::MethodEntry& entry = methods::find_method(name);
   const methods::MethodParameters parameters(name, entry.parameters, settings);
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   method_ = entry.make({scene, source_}, parameters, control);
-  bake_seconds_ = seconds_since(start);
+  bake_seconds_ = watch.seconds();
 }
 
 void LiveMethod::update(const scene::LightingState& state, const Control& control) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   method_->update(state, control);
-  update_seconds_ = seconds_since(start);
+  update_seconds_ = watch.seconds();
 }
 
 MethodFigures LiveMethod::figures() const {

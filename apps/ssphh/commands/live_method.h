@@ -1,7 +1,6 @@
 #pragma once
 /// Methods of methods::method_table() made for a scene in this process, with what they took.
 
-#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>

@@ -1,7 +1,6 @@
 #include "commands/measure.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
@@ -18,6 +17,7 @@
 #include "options/scene_options.h"
 #include "results/geometry_builds.h"
 #include "results/percentile.h"
+#include "results/stopwatch.h"
 
 namespace ssphh::app {
 namespace {
@@ -86,14 +86,13 @@ Candidate method_candidate(const std::string& spec, const trace::SharedGeometry&
 /// Microseconds of all threads' time together for one lookup, from batches of at least 50 ms.
 double lookup_microseconds(const rays::IndirectLight& light, std::span<const rays::SurfacePoint> points,
                            const Control& control) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
+  const Stopwatch watch;
   double seconds = 0;
   std::size_t lookups = 0;
   do {
     study::look_up(light, points, control);
     lookups += points.size();
-    seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    seconds = watch.seconds();
   } while (seconds < 0.05);
   return 1e6 * seconds * thread_count() / static_cast<double>(lookups);
 }
@@ -162,10 +161,7 @@ MeasureResult run_measure(const MeasureOptions& o, const Control& control) {
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   const trace::PathTracer tracer(geometry, scene, o.scene.time);
   std::vector<probes::ProbeSet> sets;
-  for (const std::string& file : o.probes) {
-    sets.push_back(probes::read_probe_file(file));
-    require_same_scene(file, sets.back(), scene, tracer.light_groups(), o.scene.time, o.force);
-  }
+  for (const std::string& file : o.probes) sets.push_back(read_probes_of(scene, file, o.scene.time, o.force));
   const std::vector<Candidate> candidates = probe_candidates(o, sets, tracer);  // fails before the work
   const trace::TransportScene surfaces(geometry, scene);
   MeasureResult result;
@@ -211,23 +207,22 @@ std::string to_text(const MeasureResult& result, const MeasureOptions& options) 
 
 void add_measure_command(Command app, Context& context) {
   struct Words {
-    MeasureOptions options;
     std::vector<std::string> weights;
     std::vector<float> box;
   };
   auto words = std::make_shared<Words>();
-  MeasureOptions& o = words->options;
-  Command command = add_command(
-      app, context, "measure",
-      "Compare light looked up from probes, or found by any method, with path tracing", [&context, words] {
-        MeasureOptions& options = words->options;
-        options.seed = context.seed;
-        for (const std::string& name : words->weights)
-          options.weights.push_back(*parse_enum<probes::WeightMethod>(name));
-        if (const std::vector<float>& b = words->box; !b.empty())
-          options.box = {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
-        print_result(context, run_measure(options, context.control), options);
-      });
+  auto options = std::make_shared<MeasureOptions>();
+  MeasureOptions& o = *options;
+  Command command =
+      add_command(app, context, "measure",
+                  "Compare light looked up from probes, or found by any method, with path tracing", options,
+                  [words](MeasureOptions& given, const Control& control) {
+                    for (const std::string& name : words->weights)
+                      given.weights.push_back(*parse_enum<probes::WeightMethod>(name));
+                    if (const std::vector<float>& b = words->box; !b.empty())
+                      given.box = {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
+                    return run_measure(given, control);
+                  });
   add_scene_options(command, o.scene);
   add_probe_files(command, "--probes", o.probes, "Probe files; all are compared with the same truth");
   command

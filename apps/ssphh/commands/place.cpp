@@ -89,9 +89,8 @@ std::string to_text(const PlaceResult& result, const PlaceOverlayOptions& option
 
 void add_place_command(Command app, Context& context) {
   auto options = std::make_shared<PlaceOverlayOptions>();
-  Command command = add_command(
-      app, context, "place", "Find places for SPHLs and write them as an overlay",
-      [&context, options] { print_result(context, run_place(*options, context.control), *options); });
+  Command command = add_command(app, context, "place", "Find places for SPHLs and write them as an overlay",
+                                options, run_place);
   add_scene_options(command, options->scene);
   add_place_options(command, options->place);
   command.option("-o,--output", options->output, "Overlay to write: a scene of its own, to look at and edit")

@@ -4,6 +4,7 @@
 
 #include "commands/command.h"
 #include "commands/relight_animation.h"
+#include "options/picture_options.h"
 #include "options/probe_options.h"
 
 namespace ssphh::app {
@@ -72,9 +73,8 @@ void add_output_options(Command command, RelightOptions& o) {
   command.option("--format", o.format, "Of the frames: png (tone mapped) or exr (linear)")
       .one_of({"png", "exr"})
       .group(group);
-  command.option("--camera", o.camera, "Camera by name; default: the scene's first").group(group);
-  command.option("--width", o.width, "Pixels").range(1, 16384).group(group);
-  command.option("--height", o.height, "Pixels").range(1, 16384).group(group);
+  add_camera_option(command, o.camera, group);
+  add_size_options(command, o.width, o.height, 16384, group);
   command.option("--spp", o.spp, "Samples per pixel").range(1, 65536).group(group);
   command.option("--exposure", o.exposure, "Of .png frames, in stops").group(group);
   add_probe_file(command, "--save", o.save, "Write the probes of the last frame here").group(group);
@@ -87,12 +87,7 @@ void add_relight_command(Command app, Context& context) {
   RelightOptions& o = *options;
   Command command =
       add_command(app, context, "relight", "Move lamps and doors and keep the probes lit, frame by frame",
-                  [&context, options] {
-                    options->seed = context.seed;
-                    const RelightResult result = run_relight(*options, context.control);
-                    if (result.run.cancelled) context.exit_code = 1;
-                    print_result(context, result, *options);
-                  });
+                  options, run_relight);
   add_scene_options(command, o.scene);
   add_place_options(command, o.place, true);
   add_force_option(command, o.force);

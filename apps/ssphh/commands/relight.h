@@ -58,6 +58,9 @@ struct RelightResult {
 /// read or written, for unknown names of cameras, lights and groups, and as transport::RelightSession does.
 RelightResult run_relight(const RelightOptions& options, const Control& control = {});
 
+/// Whether it was stopped before its end.
+bool has_failed(const RelightResult& result, const RelightOptions& options);
+
 json::Value to_json(const RelightResult& result, const RelightOptions& options);
 std::string to_text(const RelightResult& result, const RelightOptions& options);
 

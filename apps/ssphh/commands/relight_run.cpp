@@ -1,12 +1,9 @@
-#include <chrono>
 #include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
-#include <ssphh/image/io.h>
-#include <ssphh/image/tonemap.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/scene/with_lighting.h>
@@ -20,8 +17,11 @@
 #include "commands/relight.h"
 #include "commands/relight_animation.h"
 #include "commands/relight_check.h"
+#include "options/picture_options.h"
 #include "options/probe_options.h"
 #include "results/geometry_builds.h"
+#include "results/pictures.h"
+#include "results/stopwatch.h"
 
 namespace ssphh::app {
 namespace {
@@ -53,11 +53,10 @@ class Relighting {
     std::vector<transport::ProbePlace> places = find_places();
     warn_about_places(places, source_, place::place_params(scene_, o_.scene.time).interest,
                       animation_.moves_time(), control_);
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     transport::RelightSession session(source_, std::move(places), o_.params, animation_.frame(0).time,
                                       control_);
-    run_.build_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    run_.build_ms = 1e3 * watch.seconds();
     warn_about_network(session);
     try {
       play(session);
@@ -84,8 +83,7 @@ class Relighting {
   std::vector<transport::ProbePlace> find_places() {
     std::vector<transport::ProbePlace> places;
     if (is_probe_file(o_.place)) {
-      const probes::ProbeSet set = probes::read_probe_file(o_.place.probes);
-      require_same_scene(o_.place.probes, set, scene_, source_.light_groups(), {}, o_.force);
+      const probes::ProbeSet set = read_probes_of(scene_, o_.place.probes, {}, o_.force);
       for (const probes::Probe& probe : set.probes)
         places.push_back({probe.name, probe.position, probe.radius});
     } else if (const auto placed = place_for(geometry_, scene_, o_.scene.time, o_.place, "", control_)) {
@@ -186,14 +184,13 @@ class Relighting {
     params.width = o_.width;
     params.height = o_.height;
     params.camera = scene::camera_pose(lit, o_.camera, kept.state.time);
-    if (params.camera.camera.orthographic) params.projection = trace::Projection::orthographic;
+    params.projection = projection_of(PictureProjection::camera, params.camera.camera);
     params.path = {.max_depth = 3, .passes = 1, .spp = o_.spp, .seed = o_.seed};
     trace::RenderState state;
     tracer.render_with(lookup, params, state, control);
     const image::Image picture = trace::resolve(state.color, state.passes_done);
     const fs::path path = fs::path(o_.output) / fmt::format("frame-{:04}.{}", kept.frame, o_.format);
-    image::write_image(path,
-                       o_.format == "png" ? image::tone_map(picture, {.exposure = o_.exposure}) : picture);
+    write_picture(path, picture, {.exposure = o_.exposure});
   }
 
   const Control& control_;
@@ -221,6 +218,10 @@ RelightResult run_relight(const RelightOptions& options, const Control& control)
       throw Error(options.output, "cannot make this folder for the frames");
   }
   return Relighting(options, control).run();
+}
+
+bool has_failed(const RelightResult& result, const RelightOptions&) {
+  return result.run.cancelled;
 }
 
 json::Value to_json(const RelightResult& result, const RelightOptions& options) {

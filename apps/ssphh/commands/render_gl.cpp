@@ -1,6 +1,5 @@
 #include "commands/render_gl.h"
 
-#include <chrono>
 #include <optional>
 
 #include <fmt/format.h>
@@ -12,6 +11,8 @@
 #include "commands/live_method.h"
 #include "options/gl_options.h"
 #include "results/geometry_builds.h"
+#include "results/pictures.h"
+#include "results/stopwatch.h"
 
 namespace ssphh::app {
 namespace {
@@ -29,7 +30,7 @@ void refuse_with_gl(const RenderOptions& o) {
   if (!gl_method(o.method))
     throw Error("--method " + o.method, "has no OpenGL version",
                 "take --backend cpu, or one of ssphh, vct, vpl, direct");
-  if (o.projection != "camera") refuse("--projection", "a picture of the whole sphere");
+  if (o.projection != PictureProjection::camera) refuse("--projection", "a picture of the whole sphere");
   if (o.resume) refuse("--resume", "resuming");
   if (o.farm.any()) refuse("--broker or --local", "a farm");
   if (!o.probes.empty() && o.method != "ssphh")
@@ -46,16 +47,15 @@ void refuse_with_gl(const RenderOptions& o) {
 
 }  // namespace
 
-void render_gl(const RenderOptions& o, const Context& context) {
+RenderResult render_gl(const RenderOptions& o, const Control& control) {
   refuse_with_gl(o);
   const GeometryBuilds builds;
   const scene::Scene scene = load_scene(o.scene);
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   std::optional<LiveMethod> live;
   if (o.method != "ssphh") {
-    live.emplace(o.method, o.parameters, std::make_shared<const trace::SceneGeometry>(scene), scene,
-                 context.control);
-    live->update(rays::lighting_at(live->source(), o.scene.time), context.control);
+    live.emplace(o.method, o.parameters, std::make_shared<const trace::SceneGeometry>(scene), scene, control);
+    live->update(rays::lighting_at(live->source(), o.scene.time), control);
     log_info("{}: {}", o.method, live->text());
   }
   gl::Context gl = gl::Context::headless();
@@ -76,11 +76,10 @@ void render_gl(const RenderOptions& o, const Context& context) {
     renderer.draw(camera, settings, {.width = o.width, .height = o.height});
     return renderer.read_back();
   };
-  const image::Image picture = draw(realtime::View::lit);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  write_picture(o.output, picture, o);
-  if (!o.png.empty()) write_display(o.png, picture, o);
-  const std::filesystem::path output = o.output;
+  RenderResult result;
+  result.picture = draw(realtime::View::lit);
+  result.seconds = watch.seconds();
+  write_rendered(result, o);
   for (const std::string& aov : o.aovs) {
     using realtime::View;
     const View view = aov == "direct"     ? View::direct
@@ -97,23 +96,12 @@ void render_gl(const RenderOptions& o, const Context& context) {
         }
       }
     }
-    image::write_image((output.parent_path() / output.stem()).string() + "." + aov + ".exr", image);
+    image::write_image(beside(o.output, aov + ".exr"), image);
   }
-  const auto mean = mean_radiance(picture);
-  json::Value object = {{"output", o.output},     {"method", o.method},
-                        {"backend", "gl"},        {"renderer", gl.info().renderer},
-                        {"width", picture.width}, {"height", picture.height},
-                        {"samples", side * side}, {"seconds", seconds},
-                        {"mean", mean},           {"geometry_builds", builds.count()}};
-  std::string text = fmt::format(
-      "{}: {}×{}, {} samples per pixel in {:.2f} s on {}, mean radiance {:.4g} {:.4g} {:.4g}", o.output,
-      picture.width, picture.height, side * side, seconds, gl.info().renderer, mean[0], mean[1], mean[2]);
-  if (live) object.update(live->json());
-  for (const auto& [name, value] : renderer.method_numbers()) {
-    object[name] = value;
-    text += fmt::format(", {} {:.6g}", name, value);
-  }
-  context.result(object, text);
+  if (live) result.method = live->figures();
+  result.gl = {gl.info().renderer, side * side, renderer.method_numbers()};
+  result.geometry_builds = builds.count();
+  return result;
 }
 
 }  // namespace ssphh::app

@@ -1,3 +1,5 @@
+#include "commands/report.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -21,21 +23,13 @@
 #include "commands/child_process.h"
 #include "commands/command.h"
 #include "commands/report_run.h"
-#include "options/farm_options.h"
 #include "options/scene_options.h"
+#include "results/stopwatch.h"
 
 namespace ssphh::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct ReportOptions {
-  std::string plan, output, cache;
-  std::vector<std::string> assignments;
-  int time_limit = 0;  // 0: the plan's
-  bool any_build = false;
-  FarmChoice farm;
-};
 
 // All commands that can stand in a step: this one would call itself.
 std::vector<std::string> step_commands(const Command& app) {
@@ -155,90 +149,122 @@ void write_report(const report::Report& result, const fs::path& output) {
              report::report_json(result));  // last: its identity vouches for the others
 }
 
-void run_report(const ReportOptions& o, Context& context, const std::vector<std::string>& commands) {
-  const auto start = std::chrono::steady_clock::now();
-  const fs::path plan_file = o.plan, folder = fs::absolute(plan_file).parent_path(), output = o.output;
-  const std::string plan_text = read_text_file(plan_file, std::uint64_t{16} << 20);
-  report::Report result;
-  result.plan = report::parse_plan(plan_text, plan_file.string(), commands);
-  for (const std::string& assignment : o.assignments) report::set_variable(result.plan, assignment);
-  report::load_masks(result.plan, folder);
-
+RunPlace run_place(const ReportOptions& o) {
   RunPlace place;
-  place.tool = fs::read_symlink("/proc/self/exe");
-  place.cache = fs::absolute(o.cache.empty() ? fs::absolute(output).lexically_normal().parent_path() / "cache"
-                                             : fs::path(o.cache));
+  place.tool = o.tool.empty() ? fs::read_symlink("/proc/self/exe") : fs::absolute(o.tool);
+  place.cache =
+      fs::absolute(o.cache.empty() ? fs::absolute(o.output).lexically_normal().parent_path() / "cache"
+                                   : fs::path(o.cache));
   fs::create_directories(place.cache);
   place.build = file_hash(place.tool);
-  place.machine = fmt::format(
-      "{}, {} threads", processor(),
-      context.threads > 0 ? context.threads : static_cast<int>(std::thread::hardware_concurrency()));
+  place.machine =
+      fmt::format("{}, {} threads", processor(),
+                  o.threads > 0 ? o.threads : static_cast<int>(std::thread::hardware_concurrency()));
   place.any_build = o.any_build;
+  return place;
+}
 
-  report::Provenance& p = result.provenance;
-  p.scene_hashes = hash_scenes(result.plan, folder, result.notes);
-  const report::Expansion expansion =
-      report::expand(result.plan, {folder, SSPHH_VERSION, p.scene_hashes, context.threads});
-  p.identity = report_identity(plan_text, result.plan, expansion, place.build);
-  if (already_written(output, p.identity)) {
-    context.result({{"output", o.output}, {"changed", false}, {"commands", expansion.jobs.size()}},
-                   fmt::format("{}: nothing changed", (output / "report.html").string()));
-    return;
-  }
+/// A farm for what it can do, if one was asked for; `place` learns its options.
+std::optional<FarmSession> start_farm(const ReportOptions& o, RunPlace& place) {
+  FarmChoice choice = o.farm;
+  choice.cache = "none";
+  choice.tool = place.tool.string();
+  std::optional<FarmSession> farm = farm_session(choice);
+  if (!farm) return farm;
+  // Not the farm's own results: seconds would tell of work that was done another day.
+  place.farm = {"--broker", farm->options().broker.endpoint, "--cache", "none"};
+  if (!o.farm.broker.keys.empty())
+    place.farm.insert(place.farm.end(), {"--keys", o.farm.broker.keys, "--key", o.farm.broker.key});
+  return farm;
+}
 
-  std::optional<FarmSession> farm;
-  if (o.farm.any()) {
-    FarmChoice choice = o.farm;
-    choice.cache = "none";
-    farm.emplace(choice);
-    // Not the farm's own results: seconds would tell of work that was done another day.
-    place.farm = {"--broker", farm->options().broker.endpoint, "--cache", "none"};
-    if (!o.farm.broker.keys.empty())
-      place.farm.insert(place.farm.end(), {"--keys", o.farm.broker.keys, "--key", o.farm.broker.key});
-  }
-  const RunResult runs =
-      run_jobs(expansion, place, o.time_limit > 0 ? o.time_limit : result.plan.time_limit, context.control);
-  result.cells = measure_cells(result.plan, expansion, runs, place.cache, context.control);
-  p.version = SSPHH_VERSION, p.build = place.build, p.machine = place.machine;
-  p.commit = work_tree_commit(place.tool, place.cache, context.control);
-  p.created = fmt::format("{:%Y-%m-%d %H:%M UTC}", fmt::gmtime(std::time(nullptr)));
-  p.command = fmt::format("ssphh report {}", o.plan);
-  for (const std::string& assignment : o.assignments) p.command += " --set " + assignment;
-  if (o.farm.local > 0) p.command += fmt::format(" --local {}", o.farm.local);
-  if (!o.farm.broker.endpoint.empty()) p.command += " --broker " + o.farm.broker.endpoint;
-  note_unknown_values(result);
-  const auto failed = std::count_if(result.cells.begin(), result.cells.end(),
-                                    [](const report::ReportCell& cell) { return !cell.failure.empty(); });
-  if (failed > 0) p.identity.clear();  // what failed is tried again
-  write_report(result, output);
-
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const auto page_bytes = fs::file_size(output / "report.html");
-  context.result(
-      {{"output", o.output},
-       {"changed", true},
-       {"commands", expansion.jobs.size()},
-       {"run", runs.done},
-       {"cached", runs.cached},
-       {"cells", result.cells.size()},
-       {"failed", failed},
-       {"notes", result.notes},
-       {"page_bytes", page_bytes},
-       {"seconds", seconds}},
-      fmt::format("{}: {} cells, {} failed; {} commands run, {} taken from {}; {:.1f} MB, {:.1f} s",
-                  (output / "report.html").string(), result.cells.size(), failed, runs.done, runs.cached,
-                  place.cache.string(), 1e-6 * static_cast<double>(page_bytes), seconds));
-  if (failed > 0) context.exit_code = 1;
+std::string command_line(const ReportOptions& o) {
+  std::string text = fmt::format("ssphh report {}", o.plan);
+  for (const std::string& assignment : o.assignments) text += " --set " + assignment;
+  if (o.farm.local > 0) text += fmt::format(" --local {}", o.farm.local);
+  if (!o.farm.broker.endpoint.empty()) text += " --broker " + o.farm.broker.endpoint;
+  return text;
 }
 
 }  // namespace
+
+ReportResult run_report(const ReportOptions& o, const Control& control) {
+  const Stopwatch watch;
+  const fs::path plan_file = o.plan, folder = fs::absolute(plan_file).parent_path(), output = o.output;
+  const std::string plan_text = read_text_file(plan_file, std::uint64_t{16} << 20);
+  report::Report page;
+  page.plan = report::parse_plan(plan_text, plan_file.string(), o.commands);
+  for (const std::string& assignment : o.assignments) report::set_variable(page.plan, assignment);
+  report::load_masks(page.plan, folder);
+
+  RunPlace place = run_place(o);
+  report::Provenance& p = page.provenance;
+  p.scene_hashes = hash_scenes(page.plan, folder, page.notes);
+  const report::Expansion expansion =
+      report::expand(page.plan, {folder, SSPHH_VERSION, p.scene_hashes, o.threads});
+  p.identity = report_identity(plan_text, page.plan, expansion, place.build);
+  ReportResult result;
+  result.commands = expansion.jobs.size();
+  result.cache = place.cache;
+  if (already_written(output, p.identity)) return result;
+
+  const std::optional<FarmSession> farm = start_farm(o, place);
+  const RunResult runs =
+      run_jobs(expansion, place, o.time_limit > 0 ? o.time_limit : page.plan.time_limit, control);
+  page.cells = measure_cells(page.plan, expansion, runs, place.cache, control);
+  p.version = SSPHH_VERSION, p.build = place.build, p.machine = place.machine;
+  p.commit = work_tree_commit(place.tool, place.cache, control);
+  p.created = fmt::format("{:%Y-%m-%d %H:%M UTC}", fmt::gmtime(std::time(nullptr)));
+  p.command = command_line(o);
+  note_unknown_values(page);
+  result.failed = static_cast<std::size_t>(std::ranges::count_if(
+      page.cells, [](const report::ReportCell& cell) { return !cell.failure.empty(); }));
+  if (result.failed > 0) p.identity.clear();  // what failed is tried again
+  write_report(page, output);
+
+  result.changed = true;
+  result.run = runs.done, result.cached = runs.cached;
+  result.cells = page.cells.size();
+  result.notes = std::move(page.notes);
+  result.seconds = watch.seconds();
+  result.page_bytes = fs::file_size(output / "report.html");
+  return result;
+}
+
+bool has_failed(const ReportResult& result, const ReportOptions&) {
+  return result.failed > 0;
+}
+
+json::Value to_json(const ReportResult& r, const ReportOptions& o) {
+  json::Value object = {{"output", o.output}, {"changed", r.changed}, {"commands", r.commands}};
+  if (!r.changed) return object;
+  object.update({{"run", r.run},
+                 {"cached", r.cached},
+                 {"cells", r.cells},
+                 {"failed", r.failed},
+                 {"notes", r.notes},
+                 {"page_bytes", r.page_bytes},
+                 {"seconds", r.seconds}});
+  return object;
+}
+
+std::string to_text(const ReportResult& r, const ReportOptions& o) {
+  const std::string page = (fs::path(o.output) / "report.html").string();
+  if (!r.changed) return page + ": nothing changed";
+  return fmt::format("{}: {} cells, {} failed; {} commands run, {} taken from {}; {:.1f} MB, {:.1f} s", page,
+                     r.cells, r.failed, r.run, r.cached, r.cache.string(),
+                     1e-6 * static_cast<double>(r.page_bytes), r.seconds);
+}
 
 void add_report_command(Command app, Context& context) {
   auto options = std::make_shared<ReportOptions>();
   ReportOptions& o = *options;
   Command command =
-      add_command(app, context, "report", "Run a plan of scenes and methods and show what it gave",
-                  [options, &context, app] { run_report(*options, context, step_commands(app)); });
+      add_command(app, context, "report", "Run a plan of scenes and methods and show what it gave", options,
+                  [app](ReportOptions& given, const Control& control) {
+                    given.commands = step_commands(app);
+                    return run_report(given, control);
+                  });
   command.option("PLAN", o.plan, "Plan (JSON or YAML; docs/report.md)").required().existing_file();
   command.option("-o,--output", o.output, "Folder for report.html, report.json, report.csv and report.md")
       .required();

@@ -124,10 +124,7 @@ void add_respond_command(Command app, Context& context) {
   RespondOptions& o = *options;
   Command command =
       add_command(app, context, "respond", "Change lamps or doors at once and see how fast a method follows",
-                  [&context, options] {
-                    options->seed = context.seed;
-                    print_result(context, run_respond(*options, context.control), *options);
-                  });
+                  options, run_respond);
   add_scene_options(command, o.scene);
   std::vector<std::string> names;
   for (const methods::MethodEntry& entry : methods::method_table()) names.emplace_back(entry.name);

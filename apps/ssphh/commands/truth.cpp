@@ -1,5 +1,6 @@
+#include "commands/truth.h"
+
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -9,26 +10,17 @@
 
 #include <ssphh/farm/farm_render.h>
 #include <ssphh/image/io.h>
-#include <ssphh/metrics/compare.h>
 #include <ssphh/trace/path_tracer.h>
 
 #include "commands/child_process.h"
 #include "commands/command.h"
-#include "options/farm_options.h"
-#include "options/picture_options.h"
+#include "results/pictures.h"
+#include "results/stopwatch.h"
 
 namespace ssphh::app {
 namespace {
 
 using image::Image;
-
-struct TruthOptions {
-  PictureOptions picture;
-  FarmChoice farm;
-  std::string renderer = "path", projection = "camera", output, work;
-  int time_limit = 3600;
-  bool halves = false;
-};
 
 /// Two pictures of the same scene with independent random numbers, half of the samples each.
 struct Halves {
@@ -36,34 +28,30 @@ struct Halves {
   std::vector<std::string> differences;
 };
 
-Halves render_path(const TruthOptions& o, const scene::Scene& scene, const FarmSession* session,
-                   const Context& context) {
+Halves render_path(const TruthOptions& o, const scene::Scene& scene,
+                   const std::optional<FarmSession>& session, const Control& control) {
   std::optional<trace::PathTracer> tracer;
   if (!session) tracer.emplace(scene, o.picture.scene.time);
   const auto half = [&](std::uint64_t seed) {
     trace::RenderParams params;
     params.width = o.picture.width, params.height = o.picture.height;
     params.camera = scene::camera_pose(scene, o.picture.camera, o.picture.scene.time);
-    if (o.projection == "equirect") {
-      params.projection = trace::Projection::equirect;
-    } else if (params.camera.camera.orthographic) {
-      params.projection = trace::Projection::orthographic;
-    }
+    params.projection = projection_of(o.projection, params.camera.camera);
     params.path = {o.picture.max_depth, 1, o.picture.spp / 2, seed};
     trace::RenderState state;
     if (session) {
       farm::FarmReport report;
       state = farm::render(session->options(), scene, o.picture.scene.time, params, std::nullopt, {"color"},
-                           report, context.control);
+                           report, control);
     } else {
-      tracer->render(params, state, context.control);
+      tracer->render(params, state, control);
     }
     return trace::resolve(state.color, state.passes_done);
   };
-  return {half(2 * context.seed), half(2 * context.seed + 1), {}};
+  return {half(2 * o.seed), half(2 * o.seed + 1), {}};
 }
 
-Halves render_cycles(const TruthOptions& o, const scene::Scene& scene, const Context& context) {
+Halves render_cycles(const TruthOptions& o, const scene::Scene& scene, const Control& control) {
   if (find_program("blender").empty()) {
     const char* path = std::getenv("PATH");
     throw Error(
@@ -93,18 +81,18 @@ Halves render_cycles(const TruthOptions& o, const scene::Scene& scene, const Con
                                         "--spp",
                                         std::to_string(o.picture.spp / 2),
                                         "--projection",
-                                        o.projection};
-    if (context.threads > 0) command.insert(command.end(), {"--threads", std::to_string(context.threads)});
-    run_program(command, log, std::chrono::seconds(o.time_limit), context.control);
+                                        std::string(name_of(o.projection))};
+    if (o.threads > 0) command.insert(command.end(), {"--threads", std::to_string(o.threads)});
+    run_program(command, log, std::chrono::seconds(o.time_limit), control);
     if (!std::filesystem::exists(picture)) {
       throw Error("blender", fmt::format("wrote no picture; {} says why", log.string()));
     }
     return image::read_image(picture);
   };
-  ProgressStage stage(context.control, "Cycles", 2, "halves");
-  Halves halves{half(2 * context.seed, "a.exr"), {}, report.differences};
+  ProgressStage stage(control, "Cycles", 2, "halves");
+  Halves halves{half(2 * o.seed, "a.exr"), {}, report.differences};
   stage.advance(1);
-  halves.second = half(2 * context.seed + 1, "b.exr");
+  halves.second = half(2 * o.seed + 1, "b.exr");
   stage.advance(1);
   return halves;
 }
@@ -115,91 +103,92 @@ Image mean_of(const Image& a, const Image& b) {
   return mean;
 }
 
-struct MeanRadiance {
-  glm::dvec3 mean{0}, standard_error{0};
-};
-
 // Over the picture; pixels are independent, so the errors' squares add up.
-MeanRadiance mean_radiance(const Halves& halves) {
-  MeanRadiance result;
+void find_mean(TruthResult& result) {
   glm::dvec3 squared(0);
-  for (int y = 0; y < halves.first.height; ++y) {
-    for (int x = 0; x < halves.first.width; ++x) {
-      const glm::dvec3 a(halves.first.rgb(x, y)), b(halves.second.rgb(x, y));
+  for (int y = 0; y < result.first.height; ++y) {
+    for (int x = 0; x < result.first.width; ++x) {
+      const glm::dvec3 a(result.first.rgb(x, y)), b(result.second.rgb(x, y));
       result.mean += 0.5 * (a + b);
       squared += 0.25 * (a - b) * (a - b);
     }
   }
-  const double pixels = static_cast<double>(halves.first.width) * halves.first.height;
+  const double pixels = static_cast<double>(result.first.width) * result.first.height;
   result.mean /= pixels;
   result.standard_error = glm::sqrt(squared) / pixels;
-  return result;
 }
 
 json::Value array(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
 }
 
-void run(const TruthOptions& o, const Context& context) {
-  if (o.farm.any() && o.renderer != "path")
-    throw Error("--renderer " + o.renderer, "is not for a farm", "leave out --broker and --local");
-  std::optional<FarmSession> session;  // first: its processes start while this one reads the scene
-  if (o.farm.any()) session.emplace(o.farm);
+}  // namespace
+
+TruthResult run_truth(const TruthOptions& o, const Control& control) {
+  if (o.farm.any() && o.renderer != TruthRenderer::path)
+    throw Error(fmt::format("--renderer {}", name_of(o.renderer)), "is not for a farm",
+                "leave out --broker and --local");
+  const std::optional<FarmSession> session = farm_session(o.farm);
   const scene::Scene scene = load_scene(o.picture.scene);
-  const auto start = std::chrono::steady_clock::now();
-  const Halves halves = o.renderer == "cycles"
-                            ? render_cycles(o, scene, context)
-                            : render_path(o, scene, session ? &*session : nullptr, context);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const Image picture = mean_of(halves.first, halves.second);
-  image::write_image(o.output, picture);
+  const Stopwatch watch;
+  Halves halves = o.renderer == TruthRenderer::cycles ? render_cycles(o, scene, control)
+                                                      : render_path(o, scene, session, control);
+  TruthResult result;
+  result.seconds = watch.seconds();
+  result.first = std::move(halves.first), result.second = std::move(halves.second);
+  result.differences = std::move(halves.differences);
+  result.picture = mean_of(result.first, result.second);
+  image::write_image(o.output, result.picture);
   if (o.halves) {
-    const std::filesystem::path output = o.output;
-    const std::string stem = (output.parent_path() / output.stem()).string();
-    image::write_image(stem + ".a" + output.extension().string(), halves.first);
-    image::write_image(stem + ".b" + output.extension().string(), halves.second);
+    const std::string extension = std::filesystem::path(o.output).extension().string();
+    image::write_image(beside(o.output, "a" + extension), result.first);
+    image::write_image(beside(o.output, "b" + extension), result.second);
   }
-  const MeanRadiance mean = mean_radiance(halves);
+  find_mean(result);
   // Half the halves' difference is as large as the error of their mean.
-  const metrics::ImageError noise = metrics::compare(picture, halves.first);
+  result.noise = metrics::compare(result.picture, result.first);
+  return result;
+}
+
+json::Value to_json(const TruthResult& r, const TruthOptions& o) {
+  return {{"output", o.output},
+          {"renderer", name_of(o.renderer)},
+          {"projection", name_of(o.projection)},
+          {"width", r.picture.width},
+          {"height", r.picture.height},
+          {"spp", o.picture.spp / 2 * 2},
+          {"max_depth", o.picture.max_depth},
+          {"seconds", r.seconds},
+          {"mean", array(r.mean)},
+          {"standard_error", array(r.standard_error)},
+          {"noise", {{"mse", r.noise.mse}, {"rmse", r.noise.rmse}, {"relmse", r.noise.relmse}}},
+          {"differences", r.differences}};
+}
+
+std::string to_text(const TruthResult& r, const TruthOptions& o) {
+  const glm::dvec3 &mean = r.mean, &error = r.standard_error;
   std::string text = fmt::format(
       "{}: {}×{}, {} samples per pixel, depth {}, by {} in {:.2f} s\nmean radiance {:.5g} {:.5g} {:.5g} "
       "(standard error {:.1e} {:.1e} {:.1e})\n"
       "noise: RMSE {:.4g}, relMSE {:.4g}",
-      o.output, picture.width, picture.height, o.picture.spp / 2 * 2, o.picture.max_depth, o.renderer,
-      seconds, mean.mean.x, mean.mean.y, mean.mean.z, mean.standard_error.x, mean.standard_error.y,
-      mean.standard_error.z, noise.rmse, noise.relmse);
-  for (const std::string& line : halves.differences) text += "\ndiffers: " + line;
-  context.result({{"output", o.output},
-                  {"renderer", o.renderer},
-                  {"projection", o.projection},
-                  {"width", picture.width},
-                  {"height", picture.height},
-                  {"spp", o.picture.spp / 2 * 2},
-                  {"max_depth", o.picture.max_depth},
-                  {"seconds", seconds},
-                  {"mean", array(mean.mean)},
-                  {"standard_error", array(mean.standard_error)},
-                  {"noise", {{"mse", noise.mse}, {"rmse", noise.rmse}, {"relmse", noise.relmse}}},
-                  {"differences", halves.differences}},
-                 text);
+      o.output, r.picture.width, r.picture.height, o.picture.spp / 2 * 2, o.picture.max_depth,
+      name_of(o.renderer), r.seconds, mean.x, mean.y, mean.z, error.x, error.y, error.z, r.noise.rmse,
+      r.noise.relmse);
+  for (const std::string& line : r.differences) text += "\ndiffers: " + line;
+  return text;
 }
-
-}  // namespace
 
 void add_truth_command(Command app, Context& context) {
   auto options = std::make_shared<TruthOptions>();
   TruthOptions& o = *options;
   Command command = add_command(app, context, "truth", "Render a reference picture and tell its own noise",
-                                [&context, options] { run(*options, context); });
+                                options, run_truth);
   add_picture_options(command, o.picture);
   add_farm_options(command, o.farm);
-  command.option("--renderer", o.renderer, "path: our path tracer; cycles: Blender, which must be installed")
-      .one_of({"path", "cycles"});
-  command
-      .option("--projection", o.projection,
-              "camera; or equirect, the whole sphere around it (`ssphh cubemap convert` makes it a cube)")
-      .one_of({"camera", "equirect"});
+  command.choice("--renderer", o.renderer, "path: our path tracer; cycles: Blender, which must be installed");
+  command.choice("--projection", o.projection,
+                 "camera; or equirect, the whole sphere around it (`ssphh cubemap convert` makes it a cube)",
+                 {"camera", "equirect"});
   command.option("-o,--output", o.output, "Picture: .exr or .hdr (linear radiance)").required();
   command.flag("--halves", o.halves, "Also write the two independent halves, OUT.a.exr and OUT.b.exr");
   command.option("--work", o.work, "Folder for the other renderer's files and log; default: OUT.cycles");

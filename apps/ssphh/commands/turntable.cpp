@@ -1,32 +1,23 @@
+#include "commands/turntable.h"
+
 #include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
 
-#include <ssphh/image/io.h>
-#include <ssphh/image/tonemap.h>
 #include <ssphh/realtime/renderer.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene/sun_sky.h>
 
 #include "commands/command.h"
-#include "options/gl_options.h"
+#include "options/picture_options.h"
 #include "options/probe_options.h"
-#include "options/scene_options.h"
 #include "results/moving_camera.h"
+#include "results/pictures.h"
 
 namespace ssphh::app {
-namespace {
 
-struct TurntableOptions {
-  SceneOptions scene;
-  GlLookup lookup;
-  std::string directory;
-  int width = 640, height = 640, frames = 24, samples = 2;
-  float elevation = 20, yfov = 40, exposure = 0;
-};
-
-void turntable(const TurntableOptions& o, const Context& context) {
+TurntableResult run_turntable(const TurntableOptions& o, const Control& control) {
   scene::Scene scene = load_scene(o.scene);
   const bool dark = scene::light_groups(scene).empty();
   if (dark) scene::add_sun_sky(scene);
@@ -40,40 +31,44 @@ void turntable(const TurntableOptions& o, const Context& context) {
   const scene::Bounds box = scene::world_bounds(scene, scene::world_matrices(scene, o.scene.time));
   const float aspect = static_cast<float>(o.width) / static_cast<float>(o.height);
   const realtime::FrameSettings settings = still_settings(o.lookup, o.samples);
-  ProgressStage stage(context.control, "turntable", static_cast<std::uint64_t>(o.frames), "frames");
+  ProgressStage stage(control, "turntable", static_cast<std::uint64_t>(o.frames), "frames");
   for (int i = 0; i < o.frames; ++i) {
-    context.control.check();
+    control.check();
     const float turn = 2 * pi * static_cast<float>(i) / static_cast<float>(o.frames);
     const scene::CameraPose camera =
         orbit(box, glm::radians(o.yfov), aspect, glm::radians(o.elevation), turn);
     renderer.draw(camera, settings, {.width = o.width, .height = o.height});
     const std::filesystem::path file = std::filesystem::path(o.directory) / fmt::format("{:04}.png", i);
-    image::write_image(file, image::tone_map(renderer.read_back(), {.exposure = o.exposure}));
+    write_display(file, renderer.read_back(), {.exposure = o.exposure});
     stage.advance(1);
   }
-  context.result({{"output", o.directory},
-                  {"frames", o.frames},
-                  {"width", o.width},
-                  {"height", o.height},
-                  {"renderer", gl.info().renderer},
-                  {"sun_and_sky_added", dark}},
-                 fmt::format("{}: {} frames of {}×{}{} on {}", o.directory, o.frames, o.width, o.height,
-                             dark ? ", lit by sun and sky" : "", gl.info().renderer));
+  return {gl.info().renderer, dark};
 }
 
-}  // namespace
+json::Value to_json(const TurntableResult& result, const TurntableOptions& o) {
+  return {{"output", o.directory},
+          {"frames", o.frames},
+          {"width", o.width},
+          {"height", o.height},
+          {"renderer", result.renderer},
+          {"sun_and_sky_added", result.sun_and_sky_added}};
+}
+
+std::string to_text(const TurntableResult& result, const TurntableOptions& o) {
+  return fmt::format("{}: {} frames of {}×{}{} on {}", o.directory, o.frames, o.width, o.height,
+                     result.sun_and_sky_added ? ", lit by sun and sky" : "", result.renderer);
+}
 
 void add_turntable_command(Command app, Context& context) {
   auto options = std::make_shared<TurntableOptions>();
   TurntableOptions& o = *options;
   Command command =
       add_command(app, context, "turntable", "Pictures of a model from all around, drawn with OpenGL",
-                  [options, &context] { turntable(*options, context); });
+                  options, run_turntable);
   add_scene_options(command, o.scene, true, "MODEL");
   command.option("-o,--output", o.directory, "Directory for 0000.png, 0001.png, …").required();
   command.option("--frames", o.frames, "Pictures of one turn").range(1, 100000);
-  command.option("--width", o.width, "Pixels").range(1, 16384);
-  command.option("--height", o.height, "Pixels").range(1, 16384);
+  add_size_options(command, o.width, o.height);
   command.option("--elevation", o.elevation, "Degrees of the camera above the middle").range(-89.0f, 89.0f);
   command.option("--samples", o.samples, "Samples per pixel along each side").range(1, 4);
   command.option("--exposure", o.exposure, "Stops");

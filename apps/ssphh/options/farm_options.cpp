@@ -45,7 +45,7 @@ void add_farm_options(Command command, FarmChoice& choice) {
 FarmSession::FarmSession(const FarmChoice& choice) {
   if (choice.local > 0) {
     farm::LocalFarmOptions local;
-    local.tool = "/proc/self/exe";
+    local.tool = choice.tool;
     local.workers = choice.local;
     local.cache = farm::default_cache_dir("scenes");
     local_ = std::make_unique<farm::LocalFarm>(local);
@@ -58,6 +58,10 @@ FarmSession::FarmSession(const FarmChoice& choice) {
       choice.cache.empty() ? farm::default_cache_dir("results") : std::filesystem::path(choice.cache),
       choice.cache_mb << 20);
   options_.results = results_.get();
+}
+
+std::optional<FarmSession> farm_session(const FarmChoice& choice) {
+  return choice.any() ? std::make_optional<FarmSession>(choice) : std::nullopt;
 }
 
 json::Value farm_json(const farm::FarmReport& report) {

@@ -24,9 +24,10 @@ farm::BrokerAddress broker_address(const BrokerChoice& choice);
 
 struct FarmChoice {
   BrokerChoice broker;
-  int local = 0;
+  int local = 0;      ///< workers to start here, with a broker of their own
   std::string cache;  ///< of results; "none": none
   std::uint64_t cache_mb = 4096;
+  std::string tool = "/proc/self/exe";  ///< program `ssphh`, which `local` starts
 
   bool any() const { return local > 0 || !broker.endpoint.empty(); }
 };
@@ -44,6 +45,10 @@ class FarmSession {
   std::unique_ptr<farm::DiskCache> results_;
   farm::FarmOptions options_;
 };
+
+/// None where the choice names no farm. Call it before anything that takes long: a local farm's processes
+/// start in the meantime.
+std::optional<FarmSession> farm_session(const FarmChoice& choice);
 
 json::Value farm_json(const farm::FarmReport& report);
 std::string farm_text(const farm::FarmReport& report);

@@ -1,6 +1,5 @@
 #include "options/gl_options.h"
 
-#include <ssphh/probes/probe_file.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/trace/path_tracer.h>
 
@@ -11,8 +10,7 @@ namespace ssphh::app {
 void set_probes(realtime::Renderer& renderer, const GlLookup& options, const scene::Scene& scene,
                 float time) {
   if (options.probes.empty()) return;
-  const probes::ProbeSet set = probes::read_probe_file(options.probes);
-  require_same_scene(options.probes, set, scene, scene::light_groups(scene), time, options.force);
+  const probes::ProbeSet set = read_probes_of(scene, options.probes, time, options.force);
   const probes::LookupParams params = lookup_params(options.probes, set, options.spec);
   renderer.set_probes(set, params);
   if (options.spec.method != probes::LookupMethod::irradiance ||

@@ -2,15 +2,37 @@
 
 namespace ssphh::app {
 
+trace::Projection projection_of(PictureProjection projection, const scene::Camera& camera) {
+  using enum trace::Projection;
+  if (projection == PictureProjection::equirect) return equirect;
+  if (projection == PictureProjection::cube) return cube_strip;
+  return camera.orthographic ? orthographic : pinhole;
+}
+
+void add_camera_option(Command command, std::string& camera, const std::string& group) {
+  const Option option = command.option("--camera", camera, "Camera by name; default: the scene's first");
+  if (!group.empty()) option.group(group);
+}
+
+void add_size_options(Command command, int& width, int& height, int most, const std::string& group) {
+  for (const Option& option :
+       {command.option("--width", width, "Pixels"), command.option("--height", height, "Pixels")}) {
+    option.range(1, most);
+    if (!group.empty()) option.group(group);
+  }
+}
+
+Option add_max_depth_option(Command command, int& max_depth) {
+  return command
+      .option("--max-depth", max_depth, "Scattering events: 0 emitters only, 1 direct light, 2 one bounce …")
+      .range(0, 1000);
+}
+
 void add_picture_options(Command command, PictureOptions& o) {
   add_scene_options(command, o.scene);
-  command.option("--camera", o.camera, "Camera by name; default: the scene's first");
-  command.option("--width", o.width, "Pixels").range(1, 65536);
-  command.option("--height", o.height, "Pixels").range(1, 65536);
-  command
-      .option("--max-depth", o.max_depth,
-              "Scattering events: 0 emitters only, 1 direct light, 2 one bounce …")
-      .range(0, 1000);
+  add_camera_option(command, o.camera);
+  add_size_options(command, o.width, o.height, 65536);
+  add_max_depth_option(command, o.max_depth);
   command.option("--spp", o.spp, "Samples per pixel").range(2, 1 << 20);
 }
 

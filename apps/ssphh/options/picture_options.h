@@ -1,19 +1,38 @@
 #pragma once
-/// The options of the commands that hand one picture to another renderer.
+/// The options of the commands that make pictures; PictureOptions of those that hand one to another renderer.
 
 #include <string>
 
+#include <ssphh/core/enum_names.h>
 #include <ssphh/scene_io/renderer_export.h>
+#include <ssphh/trace/render_state.h>
 
 #include "options/command_line.h"
 #include "options/scene_options.h"
 
 namespace ssphh::app {
 
+/// What the camera sees, or the whole sphere around it: equirectangular, or as a strip of 6×1 faces.
+enum class PictureProjection { camera, equirect, cube };
+constexpr auto enum_table(PictureProjection) {
+  using enum PictureProjection;
+  return std::to_array<EnumName<PictureProjection>>(
+      {{camera, "camera"}, {equirect, "equirect"}, {cube, "cube"}});
+}
+trace::Projection projection_of(PictureProjection projection, const scene::Camera& camera);
+
+void add_camera_option(Command command, std::string& camera, const std::string& group = "");
+/// --width and --height in pixels, each at most `most`.
+void add_size_options(Command command, int& width, int& height, int most = 16384,
+                      const std::string& group = "");
+Option add_max_depth_option(Command command, int& max_depth);
+
 struct PictureOptions {
   SceneOptions scene;
-  std::string camera;
-  int width = 1280, height = 720, max_depth = 25, spp = 64;
+  std::string camera;              ///< by name; empty: the scene's first
+  int width = 1280, height = 720;  ///< pixels, over 0
+  int max_depth = 25;              ///< scattering events of a path
+  int spp = 64;                    ///< samples per pixel
 };
 
 /// SCENE and its options, --camera, --width, --height, --max-depth, --spp.

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
 #include <ssphh/trace/transport_scene.h>
+
+#include "results/stopwatch.h"
 
 namespace ssphh::app {
 namespace {
@@ -85,11 +86,11 @@ std::optional<PlaceResult> place_for(const trace::SharedGeometry& geometry, cons
   params.levels = options.levels;
   params.max_probes = options.max_probes;
 
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const trace::TransportScene source(geometry, scene);
   PlaceResult result;
   result.placement = place::place_probes(source, params, control);
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.seconds = watch.seconds();
   for (const std::string& warning : result.placement.warnings) log_warning("{}", warning);
   return result;
 }

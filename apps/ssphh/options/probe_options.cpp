@@ -74,6 +74,13 @@ void require_same_scene(const std::string& file, const probes::ProbeSet& set, co
   log_warning("{}: {}", file, problem);
 }
 
+probes::ProbeSet read_probes_of(const scene::Scene& scene, const std::string& file, std::optional<float> time,
+                                bool force) {
+  probes::ProbeSet set = probes::read_probe_file(file);
+  require_same_scene(file, set, scene, scene::light_groups(scene), time, force);
+  return set;
+}
+
 std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const probes::ProbeSet> sets, float time) {
   std::vector<vec3> places;
   const std::vector<mat4> world = scene::world_matrices(scene, time);

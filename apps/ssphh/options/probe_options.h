@@ -32,6 +32,10 @@ std::string scene_difference(const probes::ProbeSet& set, const scene::Scene& sc
 void require_same_scene(const std::string& file, const probes::ProbeSet& set, const scene::Scene& scene,
                         const std::vector<std::string>& light_groups, std::optional<float> time, bool force);
 
+/// Reads a probe file and holds its set against the scene, as require_same_scene() does.
+probes::ProbeSet read_probes_of(const scene::Scene& scene, const std::string& file, std::optional<float> time,
+                                bool force);
+
 /// Places of the cameras and probes (without any: also of lamps and SPHLs): what they can reach is what
 /// counts.
 std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const probes::ProbeSet> sets, float time);

@@ -1,40 +1,90 @@
 #include "options/render_options.h"
 
-#include <ssphh/image/io.h>
-#include <ssphh/image/tonemap.h>
+#include <fmt/format.h>
+
+#include <ssphh/methods/table.h>
+
+#include "options/method_options.h"
+#include "options/probe_options.h"
 
 namespace ssphh::app {
-namespace {
 
-bool is_display_format(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+const std::vector<std::string>& aov_names() {
+  static const std::vector<std::string> names = {"direct", "indirect", "albedo", "normal", "depth", "groups"};
+  return names;
 }
 
-}  // namespace
+void add_render_options(Command command, RenderOptions& o) {
+  add_scene_options(command, o.scene);
+  add_farm_options(command, o.farm);
 
-void write_display(const std::filesystem::path& path, const image::Image& linear, const RenderOptions& o) {
-  image::write_image(path, image::tone_map(linear, {.exposure = o.exposure, .curve = o.tonemap}));
-}
-
-void write_picture(const std::filesystem::path& path, const image::Image& linear, const RenderOptions& o) {
-  if (is_display_format(path)) {
-    write_display(path, linear, o);
-  } else {
-    image::write_image(path, linear);
+  std::vector<std::string> names = {"path"};
+  std::string description = "How indirect light is found: path (path tracing, the ground truth);";
+  for (const methods::MethodEntry& entry : methods::method_table()) {
+    names.emplace_back(entry.name);
+    description += fmt::format(" {} ({});", entry.name, entry.about);
   }
-}
+  description.pop_back();
+  command.option("--method", o.method, description).one_of(names);
+  add_method_parameters(command, o.parameters);
+  command
+      .option("-o,--output", o.output, "Picture: .exr or .hdr (linear radiance), .png or .jpg (tone mapped)")
+      .required();
+  command.option("--png", o.png, "Also write a tone-mapped PNG here");
+  add_size_options(command, o.width, o.height, 65536);
+  add_camera_option(command, o.camera);
+  command.choice(
+      "--projection", o.projection,
+      "camera; or the whole sphere at its position: equirect, or cube (6×1 strip, width = 6 × height)");
+  command.option(
+      "--at", o.at,
+      "Place of the sphere, its axes the world's: a SPHL by name, or X,Y,Z; default: the camera's");
 
-std::array<double, 3> mean_radiance(const image::Image& picture) {
-  std::array<double, 3> mean{};
-  for (int y = 0; y < picture.height; ++y) {
-    for (int x = 0; x < picture.width; ++x) {
-      for (int c = 0; c < 3; ++c)
-        mean[static_cast<std::size_t>(c)] += static_cast<double>(picture.rgb(x, y)[c]);
-    }
-  }
-  for (double& m : mean) m /= static_cast<double>(picture.width) * picture.height;
-  return mean;
+  const std::string paths = "Light paths";
+  add_max_depth_option(command, o.max_depth).group(paths);
+  command.option("--passes", o.passes, "Progressive passes; Ctrl-C keeps the finished ones")
+      .range(1, 1000000)
+      .group(paths);
+  command.option("--spp", o.spp, "Samples per pixel and pass").range(1, 65536).group(paths);
+  command.flag("--resume", o.resume, "Continue from OUT.state, left by a cancelled run of the same command")
+      .group(paths);
+
+  const std::string probes = "Method ssphh";
+  command
+      .option("--probes", o.probes,
+              "Probe file (.sphl or .sphl.json); none: probes are placed and lit for this picture")
+      .group(probes);
+  add_lookup_option(command, o.lookup.method).group(probes);
+  command
+      .choice("--backend", o.backend,
+              "cpu: traced, any number of samples; gl: a frame of the real-time renderer (methods ssphh, "
+              "vct, vpl, direct), up to 4×4 samples per pixel (docs/methods/realtime.md)")
+      .group(probes);
+  command
+      .option("--occlusion", o.occlusion,
+              "With --backend gl: dim SPHLs' light in corners by what stands within so many metres; 0: off")
+      .range(0.0f, 100.0f)
+      .group(probes);
+  command
+      .option("--indirect-scale", o.indirect_scale,
+              "With --backend gl: look indirect light up at every n-th pixel each way, and interpolate where "
+              "that shows no difference (docs/methods/realtime.md)")
+      .range(1, 8)
+      .group(probes);
+  add_weights_option(command, o.lookup.weights).group(probes);
+  add_layer_option(command, o.lookup.layer).group(probes);
+
+  add_force_option(command, o.force).group(probes);
+
+  const std::string output = "Output";
+  command
+      .option("--aov", o.aovs,
+              "Extra float images beside the output: direct indirect albedo normal depth groups")
+      .separated_by(',')
+      .one_of(aov_names())
+      .group(output);
+  command.option("--exposure", o.exposure, "Exposure of tone-mapped output in stops").group(output);
+  command.choice("--tonemap", o.tonemap, "clip at white, or filmic").group(output);
 }
 
 }  // namespace ssphh::app

@@ -1,41 +1,62 @@
 #pragma once
-/// What `render` was asked for, and how its pictures are written, whoever makes them.
+/// What `ssphh render` may be told, whoever makes the picture.
 
-#include <array>
-#include <filesystem>
 #include <string>
 #include <vector>
 
-#include <ssphh/image/image.h>
+#include <ssphh/core/enum_names.h>
 #include <ssphh/image/tonemap.h>
 #include <ssphh/probes/lookup.h>
 
 #include "options/farm_options.h"
+#include "options/picture_options.h"
 #include "options/scene_options.h"
 
 namespace ssphh::app {
 
+/// Rays of the CPU, or a frame of the real-time renderer.
+enum class RenderBackend { cpu, gl };
+constexpr auto enum_table(RenderBackend) {
+  using enum RenderBackend;
+  return std::to_array<EnumName<RenderBackend>>({{cpu, "cpu"}, {gl, "gl"}});
+}
+
 struct RenderOptions {
   SceneOptions scene;
-  FarmChoice farm;
-  std::string output, png, method = "path", probes, camera, at, projection = "camera", backend = "cpu";
+  FarmChoice farm;              ///< that traces, if there is any: for methods path and ssphh
+  std::string method = "path";  ///< what finds indirect light: path, or one of methods::method_table()
+  std::vector<std::string> parameters;  ///< of the method, as NAME=VALUE
+  RenderBackend backend = RenderBackend::cpu;
+  std::uint64_t seed = 0;
+
+  std::string output;  ///< picture to write: .exr or .hdr (linear radiance), .png or .jpg (tone mapped)
+  std::string png;     ///< tone-mapped PNG to write as well; empty: none
+  /// Of aov_names(): float images to write beside the output, as OUT.NAME.exr. OpenGL draws the first four.
+  std::vector<std::string> aovs;
+  float exposure = 0;  ///< of tone-mapped pictures, in stops
   image::ToneCurve tonemap = image::ToneCurve::clip;
+
+  int width = 1280, height = 720;  ///< pixels, over 0
+  std::string camera;              ///< by name; empty: the scene's first
+  PictureProjection projection = PictureProjection::camera;
+  std::string at;  ///< place of a whole sphere: a SPHL by name, or "X,Y,Z"; empty: the camera's
+
+  int max_depth = 3;    ///< scattering events of a path: 0 emitters only, 1 direct light, 2 one bounce
+  int passes = 1;       ///< over 0; finished ones survive a cancel in OUTPUT.state
+  int spp = 16;         ///< samples per pixel and pass, over 0; OpenGL takes up to 16 in all
+  bool resume = false;  ///< go on from OUTPUT.state
+
+  std::string probes;  ///< probe file, for method ssphh; empty: probes are placed and lit for the picture
   probes::LookupSpec lookup;  ///< of the probes
-  std::vector<std::string> aovs, parameters;
-  int width = 1280, height = 720, max_depth = 3, passes = 1, spp = 16;
-  float exposure = 0;
-  float occlusion = 0;  ///< metres; 0: none
-  int indirect_scale = 1;
-  bool resume = false, force = false;
+  bool force = false;         ///< go on, with a warning, where the probes are of another scene or pose
+
+  float occlusion = 0;     ///< OpenGL dims SPHLs' light by what stands within so many metres; 0: it does not
+  int indirect_scale = 1;  ///< OpenGL looks indirect light up at every so-many-th pixel each way, 1..8
 };
 
-/// Tone mapped, whatever the format.
-void write_display(const std::filesystem::path& path, const image::Image& linear, const RenderOptions& o);
+/// direct, indirect, albedo, normal, depth and groups, which is a file for each light group.
+const std::vector<std::string>& aov_names();
 
-/// Linear radiance, or tone mapped where the format holds 8 bits.
-void write_picture(const std::filesystem::path& path, const image::Image& linear, const RenderOptions& o);
-
-/// Per channel.
-std::array<double, 3> mean_radiance(const image::Image& picture);
+void add_render_options(Command command, RenderOptions& options);
 
 }  // namespace ssphh::app

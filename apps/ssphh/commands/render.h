@@ -1,0 +1,47 @@
+#pragma once
+/// `ssphh render`: a picture of a scene.
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include <ssphh/core/control.h>
+#include <ssphh/core/json.h>
+#include <ssphh/image/image.h>
+
+#include "options/render_options.h"
+#include "results/method_figures.h"
+
+namespace ssphh::app {
+
+/// What the real-time renderer tells of its frame.
+struct GlFigures {
+  std::string renderer;            ///< as OpenGL calls itself
+  int samples = 0;                 ///< per pixel
+  methods::MethodNumbers numbers;  ///< of the method's light on the GPU
+};
+
+struct RenderResult {
+  image::Image picture;          ///< linear radiance
+  std::array<double, 3> mean{};  ///< of the picture, per channel
+  double seconds = 0;            ///< of the picture, without reading the scene and writing files
+  int passes = 0;                ///< that the picture holds; this and the next two are 0 by OpenGL
+  std::uint64_t paths = 0, rays = 0;
+  std::optional<MethodFigures> method;   ///< of a method that was made for the picture
+  std::optional<farm::FarmReport> farm;  ///< of a farm that made the picture
+  std::optional<GlFigures> gl;           ///< where OpenGL drew the picture
+  std::uint64_t geometry_builds = 0;     ///< acceleration structures that were built
+};
+
+/// Makes the picture and writes the files. When asked to stop after the first pass it leaves OUTPUT.state for
+/// the next call with `resume`, says so in the log and throws Cancelled. Warns in the log about a scene
+/// without lights. Throws Error for options that exclude each other (before anything else), for files that
+/// cannot be read or written, for unknown names of methods, parameters, cameras and places, for probes of
+/// another scene, for an OUTPUT.state of another picture, for a farm that cannot be reached and where OpenGL
+/// fails.
+RenderResult run_render(const RenderOptions& options, const Control& control = {});
+
+json::Value to_json(const RenderResult& result, const RenderOptions& options);
+std::string to_text(const RenderResult& result, const RenderOptions& options);
+
+}  // namespace ssphh::app

@@ -1,0 +1,43 @@
+#include "results/pictures.h"
+
+#include <ssphh/image/io.h>
+
+namespace ssphh::app {
+namespace {
+
+bool is_display_format(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+}
+
+}  // namespace
+
+void write_display(const std::filesystem::path& path, const image::Image& linear, const image::ToneMap& map) {
+  image::write_image(path, image::tone_map(linear, map));
+}
+
+void write_picture(const std::filesystem::path& path, const image::Image& linear, const image::ToneMap& map) {
+  if (is_display_format(path)) {
+    write_display(path, linear, map);
+  } else {
+    image::write_image(path, linear);
+  }
+}
+
+std::filesystem::path beside(const std::filesystem::path& picture, const std::string& ending) {
+  return (picture.parent_path() / picture.stem()).string() + "." + ending;
+}
+
+std::array<double, 3> mean_radiance(const image::Image& picture) {
+  std::array<double, 3> mean{};
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      for (int c = 0; c < 3; ++c)
+        mean[static_cast<std::size_t>(c)] += static_cast<double>(picture.rgb(x, y)[c]);
+    }
+  }
+  for (double& m : mean) m /= static_cast<double>(picture.width) * picture.height;
+  return mean;
+}
+
+}  // namespace ssphh::app
