@@ -81,7 +81,10 @@ TEST_F(ChildProcess, ATimeLimitEndsItWithItsChildren) {
 TEST_F(ChildProcess, CtrlCEndsIt) {
   CancelToken cancel;
   cancel.request();
-  EXPECT_THROW(run_program(shell("sleep 5"), log_, 20s, {nullptr, &cancel}), Cancelled);
+  const std::string still = dir_ / "still";
+  EXPECT_THROW(run_program(shell("sleep 0.05; touch " + still), log_, 20s, {nullptr, &cancel}), Cancelled);
+  std::this_thread::sleep_for(100ms);
+  EXPECT_FALSE(std::filesystem::exists(still)) << "it does not go on";
 }
 
 TEST_F(ChildProcess, ALogThatCannotBeWrittenIsAnError) {

@@ -76,6 +76,27 @@ TEST(Progress, ALastLineTellsHowManyInThousandsAndMillions) {
   EXPECT_THAT(line(5000000000000000), HasSubstr("baking: 5000.0T rays in")) << "no unit is larger";
 }
 
+TEST(Progress, ARateIsByTheSecondMinuteOrHourThatMakesItAtLeastOne) {
+  const auto text = [](double per_second) { return rate_text(per_second, "frames"); };
+  EXPECT_EQ(text(1500), "1.5k frames/s");
+  EXPECT_EQ(text(1), "1 frames/s");
+  EXPECT_EQ(text(0.99), "59.4 frames/min");
+  EXPECT_EQ(text(1. / 60), "1.0 frames/min");
+  EXPECT_EQ(text(0.01), "36.0 frames/h");
+  EXPECT_EQ(text(1e-4), "0.4 frames/h") << "no unit is longer";
+  EXPECT_EQ(text(0), "0 frames/s");
+}
+
+TEST(Progress, ATimeIsInMinutesUntilItIsAnHour) {
+  EXPECT_EQ(clock_text(0.49), "0:00");
+  EXPECT_EQ(clock_text(59.4), "0:59");
+  EXPECT_EQ(clock_text(59.5), "1:00") << "rounded";
+  EXPECT_EQ(clock_text(754), "12:34");
+  EXPECT_EQ(clock_text(3599.4), "59:59");
+  EXPECT_EQ(clock_text(3600), "1:00:00");
+  EXPECT_EQ(clock_text(7325), "2:02:05");
+}
+
 TEST(Progress, ABarFillsWithTheShareThatIsDone) {
   const auto bar = [](std::uint64_t done) { return told(ProgressStyle::bar, 48, done); };
   EXPECT_THAT(bar(0), testing::StartsWith("\r[" + std::string(24, '.') + "] baking: 0 rays in"));

@@ -9,6 +9,7 @@
 
 #include <ssphh/core/file.h>
 
+#include "expected_text.h"
 #include "json_text.h"
 #include "temp_dir.h"
 
@@ -181,6 +182,22 @@ TEST(RelightReport, ACurveOfSmallErrorsIsNotBlownUp) {
   EXPECT_THAT(svg, HasSubstr(">0.055</text>"));
   EXPECT_THAT(svg, HasSubstr("points='60.0,115.0 '"));
   EXPECT_THAT(svg, HasSubstr("points='60.0,400.0 ' fill='none' stroke='#7d3c98'")) << "below 0 by chance: 0";
+}
+
+/// Every line, every curve and every name where it stands, of errors at three times.
+TEST(RelightReport, TheCurveIsDrawnAsItWas) {
+  RelightRun run = five_frames();
+  const auto error = [](int frame, double ratio, double relative, double noise, double relmse) {
+    FrameError e;
+    e.frame = frame;
+    e.error.ratio = ratio, e.error.mean_relative = relative, e.error.noise = noise, e.error.relmse = relmse;
+    return e;
+  };
+  run.errors = {error(0, 0.9, 0.2, 0.05, 0.04), error(2, 1.2, 0.3, 0.06, 0.25),
+                error(4, 1.05, 0.1, 0.02, -1)};
+  const test::TempDir dir;
+  write_error_curve(dir / "error.svg", run);
+  test::expect_text_of("tests/cli/expected/error_curve.svg", read_text_file(dir / "error.svg"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// Contracts of what libs/gi does with sets of probes.
+/// Contracts of what is done with sets of probes.
 
 #include <ssphh/bake/bake.h>
 #include <ssphh/geometry/nearest.h>

@@ -1,4 +1,4 @@
-/// Contracts of libs/gi with implementations of rays::RadianceSource and bake::BakeCrew.
+/// Contracts with implementations of rays::RadianceSource and bake::BakeCrew.
 
 #include <ssphh/bake/bake.h>
 #include <ssphh/bake/gen.h>

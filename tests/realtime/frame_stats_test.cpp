@@ -92,7 +92,7 @@ TEST_F(FrameStatsTest, DrawsAndTrianglesAreCounted) {
   EXPECT_EQ(second.shadow_maps_waiting, 0);
   EXPECT_EQ(second.draw_calls, 2u);
   EXPECT_EQ(second.triangles, 2u);
-  EXPECT_EQ(second.bytes_uploaded, 14u * 16) << "what shaders ask of a frame";
+  EXPECT_EQ(second.bytes_uploaded, 12u * 16) << "what shaders ask of a frame";
   renderer.set_probes(one_probe());
   frame(renderer);
   EXPECT_EQ(frame(renderer).draw_calls, 3u) << "and the probe's light";

@@ -174,9 +174,9 @@ TEST_P(MethodPicture, OfConesThroughVoxelsIsTheCpus) {
                         {"resolution=32", "bounces=2", dense ? "storage=dense" : "storage=sparse"},
                         view.time);
   const Difference d = difference(draw(subject, view.camera), looked_up(subject, view.camera));
-  EXPECT_LT(d.relmse, 1e-4);
-  EXPECT_LT(d.largest, 1.0 / 32);
-  EXPECT_NEAR(d.ratio, 1, 1e-3);
+  EXPECT_LT(d.relmse, 4e-5);
+  EXPECT_LT(d.largest, 1.0 / 50) << "not all of a block's pixels do";
+  EXPECT_NEAR(d.ratio, 1, 5e-4);
 }
 
 /// Edges of shadows move by up to 1.5 texels: with 126 on 2 d at distance d, 0.024 d, which is 0.4 of a block
@@ -191,8 +191,8 @@ TEST_P(MethodPicture, OfVirtualLightsIsTheCpusUpToTexelsOfTheirMaps) {
     const Difference fine =
         difference(draw(subject, view.camera, {.virtual_light_map_bytes = std::size_t{64} << 20}), truth);
     EXPECT_LT(fine.relmse, 0.01) << kind;
-    EXPECT_LT(fine.largest, 0.1) << kind;
-    EXPECT_NEAR(fine.ratio, 1, 0.003) << kind;
+    EXPECT_LT(fine.largest, 0.08) << kind;
+    EXPECT_NEAR(fine.ratio, 1, 0.002) << kind;
     // A quarter of the texel, at most a quarter of the moved area
     EXPECT_LT(fine.relmse, 0.5 * coarse.relmse) << kind;
   }
@@ -218,12 +218,12 @@ TEST_F(MethodLight, IsReflectedByGlossySurfacesAsTheTracerDoes) {
     const shading::BsdfParams bsdf{vec3(0.25f), vec3(0.27f), 0, roughness};
     const Subject cones(scene, "vct", {"resolution=16", "bounces=1"});
     const Difference by_cones = difference(draw(cones, ""), looked_up(cones, "", &bsdf));
-    EXPECT_LT(by_cones.largest, 0.02) << roughness;
-    EXPECT_NEAR(by_cones.ratio, 1, 0.005) << roughness;
+    EXPECT_LT(by_cones.largest, 0.01) << roughness;
+    EXPECT_NEAR(by_cones.ratio, 1, 0.002) << roughness;
     const Subject lights(scene, "vpl", {"photons=32", "check_points=0"});
     const Difference by_lights = difference(draw(lights, ""), looked_up(lights, "", &bsdf));
     EXPECT_LT(by_lights.largest, 0.06) << roughness;
-    EXPECT_NEAR(by_lights.ratio, 1, 0.01) << roughness;
+    EXPECT_NEAR(by_lights.ratio, 1, 0.002) << roughness;
   }
 }
 
@@ -305,6 +305,7 @@ TEST_F(MethodLight, FollowsLampsAndKeepsMapsThatHold) {
   renderer.set_method_light(cones.method->light_data());
   for (int again = 0; again < 2; ++again) {
     EXPECT_LT(difference(draw(renderer, cones, "room-a"), looked_up(cones, "room-a")).relmse, 1e-4);
+    EXPECT_EQ(stats_.shadow_maps_drawn, 0) << "voxels have none";
     cones.method->update(state, {});
     renderer.set_method_light(cones.method->light_data());
   }

@@ -18,8 +18,8 @@ using probes::WeightMethod;
 constexpr PictureSize size{80, 45};
 
 /// As tests/realtime/lookup_pixels_test.cpp derives it: interpolation in tiles, 0.55 % of the mean, and
-/// colours of few bits. Where weights of both signs leave next to nothing, the same of a mean of 0.2 remains.
-constexpr float tile = 0.01f, least = 1e-3f;
+/// colours of few bits. Where weights of both signs leave next to nothing, the same of a mean of 0.1 remains.
+constexpr float tile = 0.01f, least = 5e-4f;
 
 class SightPixels : public WithGl {
  protected:

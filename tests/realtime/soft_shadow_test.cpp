@@ -98,18 +98,18 @@ TEST_F(SoftShadow, OfAStraightEdgeIsTheCoveredShareOfTheDisc) {
   // whose places turn with the sample, 18 x 16 of them in a column: the spread of one (0.03, of 32 places) by
   // their root, 0.002; the G-buffer's colour, 0.002; where the edge lies in its texel, 2 / 1022 of twice the
   // picture or less, as that is 6 radii wide 0.02 radii: 0.5 * 0.02 * 2 / pi = 0.006, of maps of 300 texels
-  // 0.02. A sharp shadow errs by 0.5
+  // 0.02 at most: seen to be half of that and less, all together. A sharp shadow errs by 0.5
   struct Case {
     float radius;
     double most;
     int map_size;
   };
-  for (const Case& c : {Case{0.00465f, 0.01, 1024},
-                        {0.03f, 0.01, 1024},
-                        {0.03f, 0.025, 300},
-                        {0.05f, 0.048, 1024},
-                        {0.1f, 0.029, 1024},
-                        {0.2f, 0.029, 1024}}) {
+  for (const Case& c : {Case{0.00465f, 0.005, 1024},
+                        {0.03f, 0.005, 1024},
+                        {0.03f, 0.006, 300},
+                        {0.05f, 0.041, 1024},
+                        {0.1f, 0.021, 1024},
+                        {0.2f, 0.021, 1024}}) {
     SCOPED_TRACE(testing::Message() << "radius " << c.radius << ", maps of " << c.map_size);
     const float reach = std::tan(c.radius), width = 6 * reach;
     const std::vector<double> seen =
@@ -148,8 +148,8 @@ TEST_F(SoftShadow, OfTwoSheetsAtDifferentHeightsIsWhatBothLeave) {
       mean += off / static_cast<double>(seen.size());
     }
     const bool parts = radius > 0.04f;
-    EXPECT_LT(worst, parts ? 0.1 : 0.35);
-    EXPECT_LT(mean, parts ? 0.013 : 0.065);
+    EXPECT_LT(worst, parts ? 0.085 : 0.3);
+    EXPECT_LT(mean, parts ? 0.011 : 0.056);
     EXPECT_GT(sharp_mean, 0.14);
   }
 }
@@ -192,13 +192,13 @@ TEST_F(SoftShadow, IsThatOfPathTracingAndDoesNotLeak) {
       }
     }
     // Edges of things and of narrow shadows, mixed by 16 samples here and 128 there, give 0.003
-    EXPECT_LT(soft_off, 0.0045);
+    EXPECT_LT(soft_off, 0.0041);
     if (radius > 0.01f) {
       EXPECT_GT(sharp_off, 0.005);
     } else {
       EXPECT_LE(soft_off, sharp_off) << "the sun's own extent";
     }
-    EXPECT_LT(leak, 0.01);
+    EXPECT_LT(leak, 1e-3);
     EXPECT_NEAR(test::mean_luminance(soft) / mean, 1, 0.005);
   }
 }

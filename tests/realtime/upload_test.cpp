@@ -19,7 +19,7 @@ using realtime::Renderer;
 using realtime::RendererParams;
 
 /// Of blocks as shaders read them.
-constexpr std::uint64_t frame_block = 14 * 16, material_block = 12 * 16, instance_block = 8 * 16,
+constexpr std::uint64_t frame_block = 12 * 16, material_block = 12 * 16, instance_block = 8 * 16,
                         emitter_block = (6 + 64 * 3 + 121) * 16;
 const RendererParams small{.light_map_size = 16, .area_map_size = 16, .sun_map_size = 16};
 
@@ -144,6 +144,33 @@ TEST_F(Uploads, MapsAreThoseThatEveryKindOfLampNeeds) {
   EXPECT_EQ(maps(sky, fewer), 1);
   fewer.area_samples = fewer.environment_samples = 999;
   EXPECT_EQ(maps(sky, fewer), 64) << "and 64 the most";
+}
+
+TEST_F(Uploads, FacesThatALampDoesNotReachAreNotDrawn) {
+  const auto maps = [&](scene::Scene s) {
+    scene::validate(s);
+    Renderer renderer(gl(), s, {.light_map_size = 16, .area_map_size = 16, .area_samples = 1});
+    return frame(renderer, s).shadow_maps_drawn;
+  };
+  // Of a cone along a cube's diagonal: three faces' axes are 54.74 degrees, 0.9553, away, the others 2.1863;
+  // a face reaches as far as its corners, 0.9553
+  for (const auto& [cone, faces] : {std::pair(0.1f, 3), std::pair(1.22f, 3), std::pair(1.24f, 6)}) {
+    scene::Scene s = stage(matte(vec3(0.5f)));
+    scene::Light spot;
+    spot.type = scene::LightType::spot, spot.outer_cone = cone;
+    add_stage_lamp(s, spot);
+    s.nodes.back().local.rotation = glm::quatLookAt(glm::normalize(vec3(1, -1, -1)), vec3(0, 1, 0));
+    EXPECT_EQ(maps(s), faces) << cone;
+  }
+  // Of a panel turned by an angle, the face behind it: wholly so while that is below 35.26 degrees, 0.6155
+  for (const auto& [angle, faces] : {std::pair(0.59f, 5), std::pair(0.63f, 6)}) {
+    scene::Scene s = stage(matte(vec3(0.5f)));
+    s.materials.push_back(matte(vec3(0)));
+    s.materials.back().emission = vec3(3);
+    add_mesh(s, scene::make_quad({-0.5f, 0, -0.3f}, {1, 0, 0}, {0, 0, 0.8f}), 4, {0, 3, 0});
+    s.nodes.back().local.rotation = glm::angleAxis(angle, vec3(1, 0, 0));
+    EXPECT_EQ(maps(s), faces) << angle;
+  }
 }
 
 TEST_F(Uploads, SunsMapsAreKeptWhileTheViewMovesLittle) {

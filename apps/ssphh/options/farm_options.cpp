@@ -53,11 +53,16 @@ FarmSession::FarmSession(const FarmChoice& choice) {
   } else {
     options_.broker = broker_address(choice.broker);
   }
-  if (choice.cache == "none") return;
-  results_ = std::make_unique<farm::DiskCache>(
-      choice.cache.empty() ? farm::default_cache_dir("results") : std::filesystem::path(choice.cache),
-      choice.cache_mb << 20);
-  options_.results = results_.get();
+  if (const std::optional<ResultCache> cache = result_cache(choice)) {
+    results_ = std::make_unique<farm::DiskCache>(cache->folder, cache->bytes);
+    options_.results = results_.get();
+  }
+}
+
+std::optional<ResultCache> result_cache(const FarmChoice& choice) {
+  if (choice.cache == "none") return std::nullopt;
+  const std::filesystem::path chosen = choice.cache;
+  return ResultCache{chosen.empty() ? farm::default_cache_dir("results") : chosen, choice.cache_mb << 20};
 }
 
 std::optional<FarmSession> farm_session(const FarmChoice& choice) {

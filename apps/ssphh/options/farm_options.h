@@ -1,6 +1,7 @@
 #pragma once
 /// The options of every command that may have its work done by a farm.
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +33,14 @@ struct FarmChoice {
   bool any() const { return local > 0 || !broker.endpoint.empty(); }
 };
 void add_farm_options(Command command, FarmChoice& choice);
+
+/// Where results are kept and how much of them.
+struct ResultCache {
+  std::filesystem::path folder;
+  std::uint64_t bytes;
+};
+/// None if none was asked for.
+std::optional<ResultCache> result_cache(const FarmChoice& choice);
 
 /// A farm to work with, for as long as it lives.
 class FarmSession {

@@ -18,7 +18,8 @@ std::string scaled(double value) {
   return fmt::format("{:.{}f}{}", value, i == 0 ? 0 : 1, suffixes[i]);
 }
 
-/// By the second, minute or hour: the first that makes it more than one.
+}  // namespace
+
 std::string rate_text(double per_second, const std::string& unit) {
   if (per_second >= 1 || per_second <= 0) return fmt::format("{} {}/s", scaled(per_second), unit);
   const double per_minute = 60 * per_second;
@@ -31,8 +32,6 @@ std::string clock_text(double seconds) {
   return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60)
                    : fmt::format("{}:{:02}", s / 60, s % 60);
 }
-
-}  // namespace
 
 ProgressStyle progress_style(const std::string& name) {
   if (name == "none") return ProgressStyle::none;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <mutex>
+#include <string>
 
 #include <ssphh/core/control.h>
 
@@ -11,6 +12,11 @@ enum class ProgressStyle { none, bar, plain, json };
 
 /// "auto" is a bar on a terminal and plain lines otherwise.
 ProgressStyle progress_style(const std::string& name);
+
+/// By the second, minute or hour: the first that makes it at least one.
+std::string rate_text(double per_second, const std::string& unit);
+/// "M:SS", from an hour on "H:MM:SS".
+std::string clock_text(double seconds);
 
 /// Progress with rate and estimated time on stderr: a redrawn bar, or a line at most every few seconds.
 class StderrProgress final : public Progress {

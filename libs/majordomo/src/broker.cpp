@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
-#include <span>
 
 #include <poll.h>
 
@@ -25,22 +24,10 @@ constexpr Millis outbox_pause = 5;  // between two tries for slow peers
 constexpr Millis linger = 1000;
 constexpr Millis look_at_allow_list = 1000;
 
-/// Random numbers from the system, fetched many at a time.
-class SystemRandom {
- public:
-  std::array<std::uint64_t, 2> operator()() {
-    if (next_ == pool_.size()) {
-      fill_random(std::as_writable_bytes(std::span(pool_)));
-      next_ = 0;
-    }
-    return pool_[next_++];
-  }
-
- private:
-  // The system gives up to 256 bytes whole.
-  std::array<std::array<std::uint64_t, 2>, 16> pool_;
-  std::size_t next_ = 16;
-};
+std::array<std::uint64_t, 2> system_random() {
+  const RequestId id = RequestId::random();
+  return {id.high, id.low};
+}
 
 }  // namespace
 
@@ -48,7 +35,7 @@ struct Broker::Impl {
   explicit Impl(BrokerOptions&& o)
       : options(std::move(o)),
         store(options.store.empty() ? nullptr : std::make_unique<Store>(options.store)),
-        core(options.limits, options.timers, SystemRandom(), store != nullptr),
+        core(options.limits, options.timers, system_random, store != nullptr),
         outbox(options.limits.outbox_bytes) {
     core.set_least_event(options.least_event);
     require_keys(options.bind, options.security.has_value(), "--bind");
@@ -59,6 +46,7 @@ struct Broker::Impl {
     open();
     if (!options.metrics_bind.empty())
       metrics = std::make_unique<MetricsServer>(context, options.metrics_bind);
+    core.tick(steady_now());  // its time begins here
     if (store)
       for (StoredRequest& request : store->load()) core.restore(steady_now(), std::move(request));
   }
@@ -75,7 +63,6 @@ struct Broker::Impl {
     const std::string name = "inproc://monitor-" + random_name();
     zmq_socket_monitor(router.handle(), name.c_str(), ZMQ_EVENT_DISCONNECTED);
     monitor = zmq::socket_t(context, zmq::socket_type::pair);
-    monitor.set(zmq::sockopt::linger, 0);
     monitor.set(zmq::sockopt::rcvhwm, 0);
     monitor.connect(name);
     try {
@@ -155,10 +142,7 @@ struct Broker::Impl {
       for (Outgoing& message : out.messages) outbox.send(router, std::move(message), lost);
       if (retry) outbox.flush(router, lost);
       retry = false;
-      for (const std::string& peer : lost) {
-        outbox.forget(peer);
-        core.peer_gone(steady_now(), peer);
-      }
+      for (const std::string& peer : lost) core.peer_gone(steady_now(), peer);
       if (out.messages.empty() && lost.empty()) return;
     }
   }
@@ -180,7 +164,7 @@ struct Broker::Impl {
       wait(0);
     }
     const Millis now = steady_now();
-    if (core.next_deadline() <= now) core.tick(now);
+    core.tick(now);
     if (gate) follow_allow_list(now);
     const bool retry = !outbox.empty() && now >= retry_at;
     if (retry) retry_at = now + outbox_pause;
@@ -203,10 +187,9 @@ struct Broker::Impl {
   }
 
   void run() {
-    core.tick(steady_now());
-    flush(false);
     while (stops == 0) step(60'000);
     core.drain(steady_now());
+    flush(false);  // nothing else may come for a long time
     const Millis end = steady_now() + options.drain;
     while (stops < 2 && !core.drained() && steady_now() < end) step(end - steady_now());
     core.disconnect_workers(steady_now());

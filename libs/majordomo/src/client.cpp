@@ -10,8 +10,6 @@
 namespace ssphh::majordomo {
 namespace {
 
-constexpr std::size_t reply_frame_bytes = std::size_t{1} << 30;
-constexpr Millis cancel_linger = 500;
 constexpr Millis look = 100;          // how often `call` looks whether it is cancelled
 constexpr Millis knock_again = 2000;  // ZeroMQ gives a connection up whose key was refused; lists change
 
@@ -46,14 +44,11 @@ struct Client::Impl {
       socket.close();
     }
     unsent.clear();
-    socket = zmq::socket_t(context, zmq::socket_type::dealer);
-    set_common_options(socket, reply_frame_bytes, cancel_linger);
+    socket = peer_socket(context, Side::client, options.security);
     socket.set(zmq::sockopt::rcvhwm, 0);  // what we asked for is bounded by the window
-    set_peer_security(socket, options.security);
     const std::string name = "inproc://monitor-" + random_name();
     zmq_socket_monitor(socket.handle(), name.c_str(), watched);
     monitor = zmq::socket_t(context, zmq::socket_type::pair);
-    monitor.set(zmq::sockopt::linger, 0);
     monitor.connect(name);
     up = false;
     knock_at = Timers::never;

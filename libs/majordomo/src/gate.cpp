@@ -21,11 +21,7 @@ const Rights* Gate::rights(const std::string& key) const {
 
 Gate::Stamp Gate::stamp() const {
   std::error_code ignored;
-  Stamp stamp;
-  if (file_.empty()) return stamp;
-  stamp.time = std::filesystem::last_write_time(file_, ignored);
-  stamp.size = std::filesystem::file_size(file_, ignored);
-  return stamp;
+  return {std::filesystem::last_write_time(file_, ignored), std::filesystem::file_size(file_, ignored)};
 }
 
 bool Gate::file_changed() const {

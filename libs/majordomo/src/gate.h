@@ -26,8 +26,8 @@ class Gate {
 
  private:
   struct Stamp {
-    std::filesystem::file_time_type time = {};
-    std::uintmax_t size = 0;
+    std::filesystem::file_time_type time;
+    std::uintmax_t size;
     friend bool operator==(const Stamp&, const Stamp&) = default;
   };
   Stamp stamp() const;

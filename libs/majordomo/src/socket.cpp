@@ -14,6 +14,8 @@ namespace {
 constexpr int heartbeat_interval = 1000;
 constexpr std::size_t copy_below = 64 << 10;
 constexpr std::size_t usual_frames = 8;
+constexpr std::size_t peer_frame_bytes = std::size_t{1} << 30;
+constexpr Millis cancel_linger = 500, leave_linger = 2000;
 
 void release(void*, void* hint) {
   happens_after(hint);
@@ -41,11 +43,15 @@ void set_common_options(zmq::socket_t& socket, std::size_t frame_bytes, Millis l
   socket.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(frame_bytes));
 }
 
-void set_peer_security(zmq::socket_t& socket, const std::optional<PeerSecurity>& security) {
-  if (!security) return;
-  socket.set(zmq::sockopt::curve_serverkey, security->broker_key);
-  socket.set(zmq::sockopt::curve_publickey, security->keys.public_key);
-  socket.set(zmq::sockopt::curve_secretkey, security->keys.secret_key);
+zmq::socket_t peer_socket(zmq::context_t& context, Side side, const std::optional<PeerSecurity>& security) {
+  zmq::socket_t socket(context, zmq::socket_type::dealer);
+  set_common_options(socket, peer_frame_bytes, side == Side::client ? cancel_linger : leave_linger);
+  if (security) {
+    socket.set(zmq::sockopt::curve_serverkey, security->broker_key);
+    socket.set(zmq::sockopt::curve_publickey, security->keys.public_key);
+    socket.set(zmq::sockopt::curve_secretkey, security->keys.secret_key);
+  }
+  return socket;
 }
 
 void connect(zmq::socket_t& socket, const std::string& endpoint, bool secure) {

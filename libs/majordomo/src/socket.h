@@ -7,6 +7,7 @@
 #include <zmq.hpp>
 
 #include <ssphh/majordomo/frames.h>
+#include <ssphh/majordomo/mdp.h>
 #include <ssphh/majordomo/security.h>
 
 namespace ssphh::majordomo {
@@ -17,7 +18,9 @@ Millis steady_now();
 /// Options of every socket: ZMTP heartbeats every second, so that the connection of a dead or frozen peer
 /// ends after `timeout` whatever its MDP does, a limit on frames, and no waiting at the end but `linger`.
 void set_common_options(zmq::socket_t& socket, std::size_t frame_bytes, Millis linger, Millis timeout = 6000);
-void set_peer_security(zmq::socket_t& socket, const std::optional<PeerSecurity>& security);
+/// A client's or a worker's socket, to be connected: for frames of up to 1 GiB, and at the end a client waits
+/// for half a second until its cancellations are out, a worker two for its result.
+zmq::socket_t peer_socket(zmq::context_t& context, Side side, const std::optional<PeerSecurity>& security);
 
 /// Connects. Throws Error for what is no endpoint, and for plain ones beyond this machine.
 void connect(zmq::socket_t& socket, const std::string& endpoint, bool secure);

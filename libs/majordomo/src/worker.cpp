@@ -15,9 +15,6 @@
 namespace ssphh::majordomo {
 namespace {
 
-constexpr std::size_t job_frame_bytes = std::size_t{1} << 30;
-constexpr Millis leave_linger = 2000;
-
 std::string default_name() {
   char host[64] = "worker";
   ::gethostname(host, sizeof host - 1);
@@ -64,11 +61,9 @@ struct Worker::Impl {
 };
 
 void Worker::Impl::open() {
-  socket = zmq::socket_t(context, zmq::socket_type::dealer);
-  set_common_options(socket, job_frame_bytes, leave_linger);
+  socket = peer_socket(context, Side::worker, options.security);
   if (options.dialect == Dialect::own)
     socket.set(zmq::sockopt::routing_id, std::string(own_worker_prefix) + options.name + "#" + random_name());
-  set_peer_security(socket, options.security);
   connect(socket, options.endpoint, options.security.has_value());
   core.connected(steady_now());
 }

@@ -21,8 +21,8 @@ class RunningBroker {
  public:
   explicit RunningBroker(BrokerOptions options = {}) {
     if (options.bind == BrokerOptions{}.bind) options.bind = "tcp://127.0.0.1:0";
-    options.on_event = [](const BrokerEvent&) {};
-    options.drain = 2000;
+    if (!options.on_event) options.on_event = [](const BrokerEvent&) {};
+    if (options.drain == BrokerOptions{}.drain) options.drain = 2000;
     broker_ = std::make_unique<Broker>(std::move(options));
     thread_ = std::thread([this] { broker_->run(); });
   }

@@ -322,5 +322,23 @@ TEST(DroppedMessages, AreLoggedTenTimesASecond) {
   EXPECT_EQ(h.core.stats().dropped, 35u) << "and counted always";
 }
 
+// The broker looks for them four times within the time that they have, every 50 ms to every minute.
+TEST(ExpiredRequests, AreFoundByTheNextLook) {
+  struct Case {
+    Millis expiry, found;
+  };
+  for (const auto& [expiry, found] : {Case{400, 1500}, Case{100, 1150}, Case{480'000, 541'000}}) {
+    BrokerTimers timers;
+    timers.request_expiry = expiry;
+    Harness h({}, timers);  // looks for the first time at 1000
+    h.pass(10);
+    h.send("c", client01("nobody", {"x"}));
+    h.pass(found - 1 - h.now);
+    EXPECT_EQ(h.core.stats().outstanding, 1u) << expiry;
+    h.pass(1);
+    EXPECT_EQ(h.core.stats().outstanding, 0u) << expiry;
+  }
+}
+
 }  // namespace
 }  // namespace ssphh::majordomo::test

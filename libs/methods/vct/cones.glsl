@@ -78,7 +78,7 @@ vec3 gather_hemisphere(vec3 origin, vec3 n) {
 }
 
 float lobe_cosine(float roughness) {
-  float place = clamp(roughness, 0.0, 1.0) * float(LOBE_STEPS);
+  float place = roughness * float(LOBE_STEPS);
   int low = min(int(place), LOBE_STEPS - 1), high = low + 1;
   return mix(cones.lobe_cosines[low >> 2][low & 3], cones.lobe_cosines[high >> 2][high & 3], place - float(low));
 }

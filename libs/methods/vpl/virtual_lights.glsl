@@ -27,7 +27,7 @@ float response(Receiver at, vec3 wi) {
   return cosine > 0 && lobe > 0 ? (at.exponent + 1) / (2 * PI) * pow(lobe, at.exponent) : 0;
 }
 
-// Mean over directions to the sphere of `light`; 0 for no rings.
+// Mean over directions to the sphere of `light`; no rings: none.
 float sphere_transfer(Receiver at, VirtualLight light, vec3 way, float distance2, int rings) {
   const int spokes = 8;
   float radius = light.place.w;
@@ -44,7 +44,7 @@ float sphere_transfer(Receiver at, VirtualLight light, vec3 way, float distance2
       sum += response(at, wi) * max(-dot(light.normal.xyz, wi), 0.0);
     }
   }
-  return hidden ? 0 : sum / float(max(rings, 1) * spokes) * 2 * one_minus / (radius * radius);
+  return hidden ? 0 : sum / float(rings * spokes) * 2 * one_minus / (radius * radius);
 }
 
 // Irradiance per unit of power over pi; of a lobe, the radiance that it reflects.
@@ -53,8 +53,8 @@ float transfer(Receiver at, VirtualLight light) {
   float distance2 = dot(way, way);
   vec3 wi = way * inversesqrt(max(distance2, 1e-30));
   float open = response(at, wi) * max(-dot(light.normal.xyz, wi), 0.0) / max(distance2, 1e-30);
-  bool near = spheres != 0 && distance2 < 64 * light.place.w * light.place.w;
   if (spheres == 0) return min(open, most_transfer);
+  bool near = distance2 < 64 * light.place.w * light.place.w;
   // Software renderers run both sides of every branch but leave loops early
   float spread = sphere_transfer(at, light, way, distance2, near ? 4 : 0);
   return near ? spread : open;

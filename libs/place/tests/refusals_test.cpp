@@ -1,5 +1,6 @@
 /// What entries of the module refuse, word by word; tests/contracts asks that nothing is left half done.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <ssphh/place/init.h>

@@ -14,12 +14,12 @@ struct Bsdf {
 };
 
 vec4 albedo_entry(bool phong, float mu, float roughness) {
-  vec2 place = (clamp(vec2(mu, roughness), 0.0, 1.0) * 31 + 0.5) / 32;
+  vec2 place = (vec2(mu, roughness) * 31 + 0.5) / 32;
   return texture(albedo_table, vec3(place, phong ? 1 : 0));
 }
 
 float schlick_weight(float c) {
-  float m = clamp(1 - c, 0.0, 1.0), m2 = m * m;
+  float m = 1 - c, m2 = m * m;
   return m2 * m2 * m;
 }
 
@@ -66,8 +66,8 @@ Bsdf bsdf_from(vec3 diffuse, vec3 f0, float diffuse_roughness, float specular_ro
   b.diffuse = diffuse, b.f0 = f0;
   b.diffuse_roughness = diffuse_roughness;
   b.phong = specular_roughness < 0;
-  b.roughness = min(abs(specular_roughness), 1.0);
-  b.alpha = clamp(b.roughness * b.roughness, 1e-3, 1.0);
+  b.roughness = abs(specular_roughness);
+  b.alpha = max(b.roughness * b.roughness, 1e-3);
   b.f90 = min(1.0, 50 * max_component(f0));
   b.specular = max_component(f0) > 0;
   b.albedo = vec3(0);
@@ -82,10 +82,10 @@ Bsdf bsdf_from(vec3 diffuse, vec3 f0, float diffuse_roughness, float specular_ro
 
 // The diffuse layer under the lobe.
 vec3 eval_diffuse(Bsdf b, vec3 wo, vec3 wi) {
-  if (wo.z <= 0 || wi.z <= 0) return vec3(0);
+  if (wo.z <= 0 || wi.z <= 0) return vec3(0);  // formulas for directions above the surface, NaN on its plane
   float d = b.diffuse_roughness == 0 ? wi.z / PI
-            : b.diffuse_roughness < 0 ? oren_nayar(min(-b.diffuse_roughness, 1.0), wo, wi)
-                                      : disney_diffuse(min(b.diffuse_roughness, 1.0), wo, wi);
+            : b.diffuse_roughness < 0 ? oren_nayar(-b.diffuse_roughness, wo, wi)
+                                      : disney_diffuse(b.diffuse_roughness, wo, wi);
   if (!b.specular) return b.diffuse * d;
   vec4 table = albedo_entry(b.phong, wi.z, b.roughness);
   vec3 share = 1 - min(b.f0 * table.x + b.f90 * table.y, vec3(1));

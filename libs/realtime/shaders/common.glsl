@@ -4,12 +4,10 @@ layout(std140, binding = 0) uniform FrameBlock {
   vec4 camera_right;     // times half the width that is seen at distance 1; w: width in pixels
   vec4 camera_up;        // w: height in pixels
   vec4 camera_forward;   // w: distance of the near plane; far plane if orthographic
-  ivec4 counts;          // emitters that shine, probes, candidates per cell
-  ivec4 switches;        // direct, indirect, lookup, view
-  ivec4 grid_size;       // cells of the probe grid
+  ivec4 grid_size;       // cells of the probe grid; w: candidates per cell
   vec4 grid_origin;      // w: cell size
   vec4 tone;             // exposure factor, curve, 1/gamma or 0, probe spacing
-  vec4 environment;      // cos, sin of its rotation
+  vec4 environment;      // cos, sin of its rotation; w: view
   ivec4 maps;            // texels of a face: lights, areas, probes; of a sun map
   ivec4 map_tiles;       // log2 of tiles in a row, likewise
   vec4 map_near;         // near plane of the cube maps, likewise

@@ -65,7 +65,6 @@ void main() {
   float v = cube_visibility(light_maps, frame.maps.x, frame.map_tiles.x, frame.map_near.x, emitter.items.y,
                             emitter.place.xyz, s.position, s.geometric_normal);
 #endif
-  v = cosine > 0 ? v : 0;
   store(v * e * reflected(s, wi), luminance(e), luminance(e) * v);
 }
 #endif
@@ -79,12 +78,9 @@ void main() {
   // The finest cascade that holds the point
   int map = emitter.items.y, last = map + SUN_CASCADES - 1;
   for (; map < last; ++map) {
-    vec3 d = s.position - sun_maps[map].origin.xyz;
-    vec2 plane = vec2(dot(d, sun_maps[map].right.xyz) * sun_maps[map].right.w,
-                      dot(d, sun_maps[map].up.xyz) * sun_maps[map].up.w);
-    if (all(lessThan(abs(plane), vec2(0.98)))) break;
+    if (all(lessThan(abs(place_on(sun_maps[map], s.position)), vec2(0.98)))) break;
   }
-  float v = cosine > 0 ? parallel_visibility(sun_maps[map], s.position, s.geometric_normal) : 0;
+  float v = parallel_visibility(sun_maps[map], s.position, s.geometric_normal);
   vec3 e = emitter.light.rgb * cosine;
   store(v * e * reflected(s, wi), luminance(e), luminance(e) * v);
 }
@@ -158,7 +154,7 @@ void main() {
     float v = cube_visibility(area_maps, frame.maps.y, frame.map_tiles.y, frame.map_near.y, int(q.normal.w), q.place.xyz,
                               s.position, s.geometric_normal);
     lit += weight * v;
-    sum += weight > 0 ? weight * v * reflected(s, wi) : vec3(0);
+    sum += weight * v * reflected(s, wi);
   }
   float scale = closed < 0 ? 1 : total > 0 ? closed / total : 0;
   store(emitter.light.rgb * sum * scale, luminance(emitter.light.rgb) * total * scale,
@@ -185,7 +181,7 @@ vec3 through_lobe(vec3 d, float roughness) {
   float low = environment_roughness[level], high = environment_roughness[level + 1];
   vec2 texel = 1 + (0.5 + 0.5 * oct_encode(to_environment(d))) * float(environment_layout.x);
   return mix(environment_tile(level, texel), environment_tile(level + 1, texel),
-             clamp((roughness - low) / (high - low), 0.0, 1.0));
+             (roughness - low) / (high - low));
 }
 vec3 diffusely(Surface s, vec3 wi) {
   vec3 local = wi * basis;
@@ -221,7 +217,7 @@ void main() {
     if (!above) weight = vec3(0);
     float v = parallel_visibility(sun_maps[int(q.normal.w)], s.position, s.geometric_normal);
     lit += weight * v;
-    sum += max_component(weight) > 0 ? weight * v * diffusely(s, wi) : vec3(0);
+    sum += weight * v * diffusely(s, wi);
 #ifdef FULL_BSDF
     float near = above ? luminance(q.light.rgb) * exp(narrow * (dot(mirror, wi) - 1)) : 0;
     around += near;

@@ -33,7 +33,7 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
   uint above = 0;
   vec4 nearest = vec4(0), chosen = vec4(0);
   float least = 1e30, best = 1e30;
-  for (int i = 0; i < frame.counts.z; ++i) {
+  for (int i = 0; i < frame.grid_size.w; ++i) {
     vec4 near = candidate(base + i);
     if (near.w < 0) break;
     vec3 d = near.xyz - s.position;
@@ -109,7 +109,7 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
   uint listed = 0, pending = 0, beyond = 0, seen = 0;
   int within = 0;
   float far2 = 0, d2_of[MAX_LISTED];
-  for (int i = 0; i < frame.counts.z; ++i) {
+  for (int i = 0; i < frame.grid_size.w; ++i) {
     vec4 near = candidate(base + i);
     if (near.w < 0 || !wanted) break;
     vec3 d = near.xyz - s.position;
@@ -172,7 +172,6 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
 #endif
   Found found;
   found.count = bitCount(seen);
-  found.chosen = 0;
   found.irradiance = found.glossy = vec3(0);
   float sum = 0, most = -1;
   while (used != 0) {
@@ -207,7 +206,7 @@ void main() {
   ivec2 at = lit_pixel();
   if (at.x < 0) return;
   Surface s = read_surface(at);
-  float roughness = min(abs(s.specular_roughness), 1.0);
+  float roughness = abs(s.specular_roughness);
 #ifdef FITTED
   vec3 fitted;
   bool is_fitted = fitted_irradiance(s, fitted);

@@ -52,10 +52,15 @@ float falloff(vec3 wi, float distance2) {
   return f;
 }
 
-float parallel_visibility(SunMap map, vec3 x, vec3 n) {
+// Between -1 and 1 across the map.
+vec2 place_on(SunMap map, vec3 x) {
   vec3 d = x - map.origin.xyz;
-  vec2 plane = vec2(dot(d, map.right.xyz) * map.right.w, dot(d, map.up.xyz) * map.up.w);
-  float here = 1 - dot(d, map.forward.xyz) * map.origin.w;
+  return vec2(dot(d, map.right.xyz) * map.right.w, dot(d, map.up.xyz) * map.up.w);
+}
+
+float parallel_visibility(SunMap map, vec3 x, vec3 n) {
+  vec2 plane = place_on(map, x);
+  float here = 1 - dot(x - map.origin.xyz, map.forward.xyz) * map.origin.w;
   if (any(greaterThan(abs(plane), vec2(1)))) return 1;
   float size = float(frame.maps.w);
   float inner = size - 2;

@@ -2,7 +2,7 @@
 
 struct TextureUse {
   vec4 matrix;  // rows of the 2 x 2 part
-  vec4 offset;  // xy; z: texture coordinate set; w: 1 if there is a texture
+  vec4 offset;  // xy; z: texture coordinate set
 };
 // What is drawn now: blocks of their own, so that all of a draw's pixels load the same.
 layout(std140, binding = 3) uniform MaterialBlock {
@@ -24,7 +24,7 @@ layout(binding = 10) uniform sampler2D emission_texture;
 layout(binding = 11) uniform sampler2D normal_texture;
 
 vec2 texture_place(TextureUse use, vec2 uv0, vec2 uv1) {
-  vec2 uv = use.offset.z > 0.5 ? uv1 : uv0;
+  vec2 uv = use.offset.z != 0 ? uv1 : uv0;
   return vec2(dot(use.matrix.xy, uv), dot(use.matrix.zw, uv)) + use.offset.xy;
 }
 

@@ -15,6 +15,6 @@ void main() {
   if (at.x < 0) return;
   Surface s = read_surface(at);
   vec3 irradiance, glossy;
-  look_up(s, reflect(-s.wo, s.normal), min(abs(s.specular_roughness), 1.0), irradiance, glossy);
+  look_up(s, reflect(-s.wo, s.normal), abs(s.specular_roughness), irradiance, glossy);
   put_light(at, s, irradiance, glossy);
 }

@@ -17,11 +17,11 @@ uniform ivec4 radiance_layout;    // likewise; z: tiles of a probe
 const int RADIANCE_LEVELS = 6;
 uniform float level_roughness[RADIANCE_LEVELS];
 
-// First entry of the list of candidates around x, nearest to the cell's middle first; frame.counts.z entries.
+// First entry of the list of candidates around x, nearest to the cell's middle first; frame.grid_size.w entries.
 int candidates_at(vec3 x) {
   ivec3 cell = ivec3(floor((x - frame.grid_origin.xyz) / frame.grid_origin.w));
   cell = clamp(cell, ivec3(0), frame.grid_size.xyz - 1);
-  return ((cell.z * frame.grid_size.y + cell.y) * frame.grid_size.x + cell.x) * frame.counts.z;
+  return ((cell.z * frame.grid_size.y + cell.y) * frame.grid_size.x + cell.x) * frame.grid_size.w;
 }
 vec4 candidate(int entry) {
   return texelFetch(probe_cells, ivec2(entry & (1 << CELLS_WIDTH_LOG2) - 1, entry >> CELLS_WIDTH_LOG2), 0);
@@ -49,7 +49,7 @@ RadiancePlace radiance_at(vec3 d, float roughness) {
   int level = 0;
   for (int i = 1; i + 1 < RADIANCE_LEVELS; ++i) level = roughness >= level_roughness[i] ? i : level;
   float low = level_roughness[level], high = level_roughness[level + 1];
-  float share = clamp((roughness - low) / (high - low), 0.0, 1.0);
+  float share = (roughness - low) / (high - low);
   ivec2 levels = level + ivec2(share == 1 ? 1 : 0, share == 0 ? 0 : 1);
   levels = min(levels, radiance_layout.z - 1);
   return RadiancePlace(in_tile(d, radiance_layout.x), levels.x, levels.y, levels.x == levels.y ? 0 : share);

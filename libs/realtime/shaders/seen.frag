@@ -27,7 +27,7 @@ void main() {
   float half2 = r * r - dot(miss, miss);
   float depth = depth_at(ivec2(pixel));
   float distance = depth > 0 ? length(position_at(pixel, depth) - o) : 1e30;
-  float t = dot(c, c) < r * r ? along + sqrt(max(half2, 0.0)) : along - sqrt(max(half2, 0.0));
+  float t = dot(c, c) < r * r ? along + sqrt(half2) : along - sqrt(half2);
   if (half2 >= 0 && t >= 0 && t < distance) color.rgb = emitter.light.rgb;
 #endif
 }

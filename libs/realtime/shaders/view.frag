@@ -10,7 +10,7 @@ const int ALBEDO = 3, NORMAL = 4, DEPTH = 5, SHADOW = 6;
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   Surface s = read_surface(at);
-  int view = frame.switches.w;
+  int view = int(frame.environment.w);
   color = vec4(0, 0, 0, 1);
   if (view == ALBEDO) {
     Bsdf bsdf = bsdf_from(s.diffuse, s.f0, s.diffuse_roughness, s.specular_roughness, dot(s.normal, s.wo));

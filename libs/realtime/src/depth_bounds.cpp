@@ -26,17 +26,13 @@ DepthBounds::DepthBounds(int size, int tiles)
 
 void DepthBounds::update(const MapAtlas& maps, Shaders& shaders, const gl::VertexArray& no_vertices,
                          FrameCounters& counters) {
-  bool any = false;
+  if (maps.drawn().empty()) return;
+  maps.texture().bind(unit::parallel_maps);
+  bind();
+  no_vertices.bind();
+  gl::apply({});
   for (const int tile : maps.drawn()) {
-    if (tile >= tiles_) break;
-    if (!any) {
-      any = true;
-      maps.texture().bind(unit::parallel_maps);
-      bind();
-      no_vertices.bind();
-      gl::apply({});
-    }
-    update_tile(tile, maps, shaders, counters);
+    if (tile < tiles_) update_tile(tile, maps, shaders, counters);
   }
 }
 
@@ -66,11 +62,11 @@ void DepthBounds::update_tile(int tile, const MapAtlas& maps, Shaders& shaders, 
 }
 
 void DepthBounds::bind() const {
-  if (texture_.id()) texture_.bind(unit::depth_bounds);
+  texture_.bind(unit::depth_bounds);
 }
 
 std::size_t DepthBounds::bytes() const {
-  return texture_.id() ? texture_.bytes() * 4 / 3 : 0;
+  return texture_.bytes() * 4 / 3;
 }
 
 }  // namespace ssphh::realtime

@@ -11,7 +11,6 @@ namespace ssphh::realtime {
 
 class DepthBounds {
  public:
-  DepthBounds() = default;
   /// For the first `tiles` tiles of maps of `size` texels.
   DepthBounds(int size, int tiles);
 
@@ -27,7 +26,7 @@ class DepthBounds {
  private:
   void update_tile(int tile, const MapAtlas& maps, Shaders& shaders, FrameCounters& counters);
 
-  int tiles_ = 0, levels_ = 0;
+  int tiles_, levels_;
   TileLayout layout_;
   gl::Texture texture_;  ///< level l - 1 holds squares of 2^l texels: x the greatest, y the least depth
   std::vector<gl::Framebuffer> targets_;  ///< of layer 0, level by level, then of layer 1, …

@@ -16,6 +16,12 @@ namespace {
 
 struct Place {
   vec3 world, normal;
+
+  /// Squared; unit normals that face opposite ways count as twice the root of `turn`.
+  float distance2(const Place& other, float turn) const {
+    const vec3 d = world - other.world, n = normal - other.normal;
+    return glm::dot(d, d) + turn * glm::dot(n, n);
+  }
 };
 
 std::vector<Place> points_by_area(const scene::Mesh& mesh, const mat4& to_world, int count) {
@@ -61,10 +67,6 @@ std::vector<AreaPoint> spread_points(const scene::Mesh& mesh, const mat4& to_wor
   for (const Place& p : places) box.add(p.world);
   // Points that face different ways are as far apart as half the light
   const float turn = 0.25f * box.radius() * box.radius();
-  const auto distance2 = [&](const Place& a, const Place& b) {
-    const vec3 d = a.world - b.world, n = a.normal - b.normal;
-    return glm::dot(d, d) + turn * glm::dot(n, n);
-  };
 
   std::vector<Place> centers;
   const std::size_t step = std::max<std::size_t>(1, places.size() / static_cast<std::size_t>(count));
@@ -78,7 +80,7 @@ std::vector<AreaPoint> spread_points(const scene::Mesh& mesh, const mat4& to_wor
     for (const Place& p : places) {
       std::size_t best = 0;
       for (std::size_t c = 1; c < centers.size(); ++c) {
-        if (distance2(p, centers[c]) < distance2(p, centers[best])) best = c;
+        if (p.distance2(centers[c], turn) < p.distance2(centers[best], turn)) best = c;
       }
       sums[best].world += p.world, sums[best].normal += p.normal;
       ++members[best];
@@ -95,9 +97,10 @@ std::vector<AreaPoint> spread_points(const scene::Mesh& mesh, const mat4& to_wor
   std::vector<AreaPoint> points;
   for (std::size_t c = 0; c < centers.size(); ++c) {
     if (members[c] == 0) continue;
-    const Place& nearest = *std::min_element(
-        places.begin(), places.end(),
-        [&](const Place& a, const Place& b) { return distance2(a, centers[c]) < distance2(b, centers[c]); });
+    const Place& nearest =
+        *std::min_element(places.begin(), places.end(), [&](const Place& a, const Place& b) {
+          return a.distance2(centers[c], turn) < b.distance2(centers[c], turn);
+        });
     const vec3 normal = glm::normalize(glm::transpose(mat3(to_world)) * nearest.normal);
     points.push_back({vec3(back * vec4(nearest.world, 1)), normal,
                       static_cast<float>(members[c]) / static_cast<float>(places.size())});
@@ -184,11 +187,15 @@ std::vector<EnvironmentSample> environment_directions(const scene::Environment& 
 }
 
 sh::IrradianceSh environment_irradiance(const scene::Environment& environment) {
-  constexpr int degree = 4, steps = 64;
+  constexpr int degree = 4;
   std::array<float, 25> basis;
   sh::RadianceSh light(degree);
   const image::Image& image = environment.equirect;
-  const int width = image.empty() ? 2 * steps : image.width, height = image.empty() ? steps : image.height;
+  if (image.empty()) {
+    light[0] = environment.color * std::sqrt(4 * pi);
+    return sh::irradiance_from_radiance(light);
+  }
+  const int width = image.width, height = image.height;
   const float c = std::cos(environment.rotation), s = std::sin(environment.rotation);
   for (int y = 0; y < height; ++y) {
     const auto solid_angle = static_cast<float>(image::equirect_solid_angle(y, width, height));
@@ -196,7 +203,7 @@ sh::IrradianceSh environment_irradiance(const scene::Environment& environment) {
       const vec3 d = image::equirect_direction((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
                                                (static_cast<float>(y) + 0.5f) / static_cast<float>(height));
       sh::eval_basis(degree, vec3(c * d.x + s * d.z, d.y, c * d.z - s * d.x), basis);
-      const vec3 radiance = environment.color * (image.empty() ? vec3(1) : image.rgb(x, y)) * solid_angle;
+      const vec3 radiance = environment.color * image.rgb(x, y) * solid_angle;
       for (int k = 0; k < 25; ++k) light[k] += radiance * basis[static_cast<std::size_t>(k)];
     }
   }

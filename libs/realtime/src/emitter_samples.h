@@ -12,9 +12,9 @@ namespace ssphh::realtime {
 double radical_inverse(unsigned i, unsigned base);
 
 struct AreaPoint {
-  vec3 position{0};
-  vec3 normal{0};   ///< unit; zero: shines everywhere
-  float share = 0;  ///< of the light's area; all together 1
+  vec3 position;
+  vec3 normal;  ///< unit; zero: shines everywhere
+  float share;  ///< of the light's area; all together 1
 };
 
 /// Points on a mesh that lie apart, each with the share of the area nearest to it: Lloyd's algorithm on
@@ -31,8 +31,8 @@ std::vector<AreaPoint> ball_points(float radius, int count);
 std::vector<vec3> disc_parts(float radius, int most);
 
 struct EnvironmentSample {
-  vec3 direction{0, 1, 0};
-  vec3 weight{0};  ///< radiance × solid angle
+  vec3 direction;
+  vec3 weight;  ///< radiance × solid angle
 };
 
 /// Directions by importance, `count` or fewer, environment.color included.

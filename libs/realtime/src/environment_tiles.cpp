@@ -7,12 +7,12 @@
 #include <ssphh/image/sphere_map.h>
 
 #include "emitter_samples.h"
+#include "gpu_types.h"
 
 namespace ssphh::realtime {
 namespace {
 
 constexpr int tile_size = 96, lobe_samples = 64;
-constexpr float largest_half = 65504;
 
 /// An image and its halves: a sample of a lobe reads the one whose pixels are as large as what it stands for,
 /// so that few samples have no noise (Křivánek & Colbert, Real-time Shading with Filtered Importance

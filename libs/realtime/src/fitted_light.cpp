@@ -92,12 +92,12 @@ void FittedLight::evaluate(std::size_t point, std::span<const vec3> irradiance, 
   std::copy_n(sum.begin(), low_bands, kept.begin());
   kept[low_bands] = vec3(0);
   for (std::size_t k = low_bands; k < count; ++k) kept[low_bands] += basis[k] * sum[k];
-  constexpr float largest = 65504;  // of a half
   for (int c = 0; c < 3; ++c) {
     for (std::size_t pair = 0; pair < functions / 2; ++pair) {
       const std::size_t word = static_cast<std::size_t>(c) * (functions / 2) + pair;
       const vec2 two(kept[2 * pair][c], kept[2 * pair + 1][c]);
-      texels[word / 4][static_cast<int>(word % 4)] = glm::packHalf2x16(glm::clamp(two, -largest, largest));
+      texels[word / 4][static_cast<int>(word % 4)] =
+          glm::packHalf2x16(glm::clamp(two, -largest_half, largest_half));
     }
   }
 }
@@ -129,7 +129,7 @@ void FittedLight::bind(gl::Program& program) const {
 }
 
 std::size_t FittedLight::bytes() const {
-  return empty() ? 0 : ranges_.bytes() + lists_.bytes() + light_.bytes();
+  return ranges_.bytes() + lists_.bytes() + light_.bytes();
 }
 
 }  // namespace ssphh::realtime

@@ -15,11 +15,9 @@ namespace ssphh::realtime {
 
 class FittedLight {
  public:
-  FittedLight() = default;
   /// Uploads the lists. Throws Error for points that name a probe which there is not.
   FittedLight(const FittedSurfaces& surfaces, int probe_count, FrameCounters& counters);
 
-  bool empty() const { return points_.points.empty(); }
   /// New irradiance of some probes: evaluates the points that any of them lights. `irradiance` holds `count`
   /// coefficients, 25 at most, for each probe of the set, those changed or not.
   void update(std::span<const int> probes, std::span<const vec3> irradiance, std::size_t count,
@@ -33,9 +31,9 @@ class FittedLight {
   void upload_changed(FrameCounters& counters);
 
   probes::FittedPoints points_;
-  float spacing_ = 0, cell_size_ = 1;
-  vec3 origin_{0};
-  ivec3 cells_{0};
+  float spacing_, cell_size_;
+  vec3 origin_;
+  ivec3 cells_;
   std::vector<std::size_t> first_of_probe_;  ///< in lit_by_: points that each probe lights
   std::vector<std::uint32_t> lit_by_;
   std::vector<unsigned char> marked_;  ///< points, while an update gathers them

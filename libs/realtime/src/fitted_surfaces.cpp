@@ -97,7 +97,7 @@ class Preparation {
     for (const StillTriangle& t : triangles_) bounds.add(t.a), bounds.add(t.b), bounds.add(t.c);
     out_.cell_size = out_.spacing;
     // Surfaces of a wall in a cell's plane must not fall into either of two
-    const vec3 extent = glm::max(bounds.max - bounds.min, vec3(1e-6f)) + 0.5f * out_.spacing;
+    const vec3 extent = bounds.max - bounds.min + 0.5f * out_.spacing;
     out_.origin = bounds.min - 0.25f * out_.spacing;
     const auto number = [&] { return glm::ceil(extent / out_.cell_size); };
     while (number().x * number().y * number().z > most_cells) out_.cell_size *= 1.26f;

@@ -39,7 +39,7 @@ const FrameStats& Renderer::draw(const scene::CameraPose& camera, const FrameSet
   const auto start = Clock::now();
   d.reload_changed_shaders();
   d.stats.passes.clear();
-  d.stats.shadow_maps_drawn = d.stats.shadow_maps_waiting = 0;
+  d.stats.shadow_maps_waiting = 0;
   gl::apply_conventions();
   for (unsigned i = 0; i < unit::count; ++i) gl::Sampler::unbind(i);
 

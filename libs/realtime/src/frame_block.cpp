@@ -30,17 +30,13 @@ FrameBlock frame_block(const scene::CameraPose& camera, const FrameSettings& set
   b.camera_up = vec4(half_height * up, height);
   b.camera_forward = vec4(forward, lens.orthographic ? far : near);
   const ProbeGrid& grid = probes.grid();
-  b.counts = ivec4(static_cast<int>(lights.lit().size()), probes.count(), grid.length, 0);
-  b.switches = ivec4(settings.direct, settings.indirect && probes.count() > 0,
-                     static_cast<int>(settings.lookup == probes::LookupMethod::light),
-                     static_cast<int>(settings.view));
-  b.grid_size = ivec4(grid.cells, 0);
+  b.grid_size = ivec4(grid.cells, grid.length);
   b.grid_origin = vec4(grid.origin, grid.cell_size);
   b.tone = vec4(std::exp2(settings.tone.exposure), settings.tone.curve == image::ToneCurve::filmic ? 1 : 0,
                 settings.tone.gamma > 0 ? 1 / settings.tone.gamma : 0,
                 std::isfinite(probes.spacing()) ? probes.spacing() : 1e30f);
   const float turn = lights.environment_rotation();
-  b.environment = vec4(std::cos(turn), std::sin(turn), 0, 0);
+  b.environment = vec4(std::cos(turn), std::sin(turn), 0, static_cast<float>(settings.view));
   b.maps = ivec4(lights.lamp_maps().size(), lights.area_maps().size(), probes.maps().size(),
                  lights.parallel_maps().size());
   b.map_tiles = ivec4(lights.lamp_maps().layout().columns_log2, lights.area_maps().layout().columns_log2,

@@ -13,8 +13,7 @@ const scene::Material plain_material;
 
 GpuTextureUse gpu_use(const scene::TextureUse& use) {
   const float c = std::cos(use.rotation), s = std::sin(use.rotation);
-  return {{c * use.scale.x, s * use.scale.y, -s * use.scale.x, c * use.scale.y},
-          {use.offset.x, use.offset.y, use.uv_set == 1 ? 1.0f : 0.0f, use.texture >= 0 ? 1.0f : 0.0f}};
+  return {{c * use.scale.x, s * use.scale.y, -s * use.scale.x, c * use.scale.y}, {use.offset, use.uv_set, 0}};
 }
 
 GpuMaterial gpu_material(const scene::Material& m) {
@@ -224,8 +223,7 @@ void GpuScene::set_group_scale(int group, const vec3& scale, FrameCounters& coun
 
 void GpuScene::begin(bool positions_only) const {
   (positions_only ? position_only_ : all_).bind();
-  bound_material_ = -2;
-  bound_instance_ = -1;
+  bound_material_ = bound_instance_ = -1;
 }
 
 void GpuScene::draw(const DrawItem& item, bool textures, FrameCounters& counters) const {

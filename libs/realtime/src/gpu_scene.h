@@ -78,7 +78,7 @@ class GpuScene {
   float anisotropy_;
   std::size_t bytes_ = 0;
   bool any_full_ = false;
-  mutable int bound_material_ = -2, bound_instance_ = -1;
+  mutable int bound_material_, bound_instance_;  ///< since begin(); below 0: none
 };
 
 }  // namespace ssphh::realtime

@@ -13,13 +13,13 @@ using glm::uvec4;
 /// FrameBlock of common.glsl.
 struct FrameBlock {
   vec4 camera_position, camera_right, camera_up, camera_forward;
-  ivec4 counts, switches, grid_size;
+  ivec4 grid_size;
   vec4 grid_origin, tone, environment;
   ivec4 maps, map_tiles;
   vec4 map_near, extra;
 };
-static_assert(sizeof(FrameBlock) == 14 * 16);
-static_assert(offsetof(FrameBlock, grid_origin) == 7 * 16 && offsetof(FrameBlock, extra) == 13 * 16);
+static_assert(sizeof(FrameBlock) == 12 * 16);
+static_assert(offsetof(FrameBlock, grid_origin) == 5 * 16 && offsetof(FrameBlock, extra) == 11 * 16);
 
 /// TextureUse, MaterialBlock, InstanceBlock of material.glsl; each stands where a uniform block may begin.
 struct GpuTextureUse {
@@ -84,6 +84,9 @@ struct GpuVertex {
   vec4 color{1};
 };
 static_assert(sizeof(GpuVertex) == 60);
+
+/// Of what OpenGL keeps as halves.
+inline constexpr float largest_half = 65504;
 
 /// Where shaders expect what.
 namespace binding {

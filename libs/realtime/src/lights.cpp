@@ -35,7 +35,7 @@ const mat4& world_of(const std::vector<mat4>& world, int node) {
 
 Lights::Lights(const scene::Scene& scene, const std::vector<mat4>& world, const scene::Bounds& bounds,
                const RendererParams& params)
-    : near_(std::max(5e-4f * bounds.radius(), 1e-6f)) {
+    : near_(cube_near(bounds)) {
   const std::vector<std::string> groups = scene::light_groups(scene);
   scales_.assign(groups.size(), vec3(1));
   add_lights(scene, world, groups, most_sun_parts(scene, params));
@@ -51,8 +51,8 @@ Lights::Lights(const scene::Scene& scene, const std::vector<mat4>& world, const 
   for (const GpuEmitter& e : emitters_) {
     if (e.items.x == static_cast<int>(EmitterKind::disc)) bounded = e.items.y + sun_cascades * e.items.z;
   }
-  if (bounded > 0) bounds_ = DepthBounds(params.sun_map_size, bounded);
-  parallel_key_.assign(static_cast<std::size_t>(parallel_slots_), vec3(-1e30f));
+  if (bounded > 0) bounds_.emplace(params.sun_map_size, bounded);
+  parallel_key_.resize(static_cast<std::size_t>(parallel_slots_));
   scene_emitters_ = static_cast<int>(emitters_.size());
   distant_buffer_ = gl::Buffer(sizeof(DistantBlock));
   for (Source& source : sources_) {
@@ -223,18 +223,16 @@ void Lights::place(Source& source, const mat4& world) {
   for (int face = 0; face < 6; ++face) {
     const MapView view = cube_view(vec3(world[3]), face, near_);
     // A face reaches 54.7 degrees from its axis
-    const float angle = std::acos(std::clamp(glm::dot(view.forward, -axis), -1.0f, 1.0f));
-    lamps_.set_view(6 * source.first_map + face, view, !spot || angle < light.outer_cone + 0.956f);
+    const bool lit = glm::dot(view.forward, -axis) > std::cos(std::min(light.outer_cone + 0.956f, pi));
+    lamps_.set_view(6 * source.first_map + face, view, !spot || lit);
   }
 }
 
 void Lights::place_samples(Source& source, const mat4& world) {
   GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
   const mat3 to_normal = glm::transpose(glm::inverse(mat3(world)));
-  scene::Bounds extent;
-  for (const AreaPoint& p : source.points) extent.add(vec3(world * vec4(p.position, 1)));
   // Off the surface, or its own triangles would stand in the way
-  const float lift = std::max(2 * near_, 1e-3f * extent.radius());
+  const float lift = 2 * near_;
   for (std::size_t i = 0; i < source.points.size(); ++i) {
     const AreaPoint& p = source.points[i];
     const bool directed = p.normal != vec3(0);
@@ -282,8 +280,8 @@ void Lights::prepare(const scene::CameraPose& camera, float aspect, const scene:
     set_colors();
     list_lit();
     const std::size_t bytes = emitters_.size() * emitter_stride;
-    if (emitter_buffer_.size() < std::max<std::size_t>(bytes, 1)) {
-      emitter_buffer_.reserve(std::max(bytes, emitter_stride));
+    if (emitter_buffer_.size() < bytes) {
+      emitter_buffer_.reserve(bytes);
       uploaded_.clear();
     }
     upload_emitters(counters);
@@ -325,7 +323,7 @@ int Lights::update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program&
   int drawn = lamps_.update(scene, opaque, alpha, most, waiting, counters);
   drawn += areas_.update(scene, opaque, alpha, most - drawn, waiting, counters);
   // The sun's maps follow the view: they cannot wait
-  drawn += parallel_.update(scene, opaque, alpha, 1 << 30, waiting, counters);
+  drawn += parallel_.update(scene, opaque, alpha, parallel_.count(), waiting, counters);
   return drawn;
 }
 
@@ -334,12 +332,12 @@ void Lights::bind() const {
   lamps_.texture().bind(unit::light_maps);
   areas_.texture().bind(unit::area_maps);
   parallel_.texture().bind(unit::parallel_maps);
-  bounds_.bind();
+  if (bounds_) bounds_->bind();
 }
 
 std::size_t Lights::bytes() const {
-  return lamps_.bytes() + areas_.bytes() + parallel_.bytes() + emitter_buffer_.size() + bounds_.bytes() +
-         distant_buffer_.size();
+  return lamps_.bytes() + areas_.bytes() + parallel_.bytes() + emitter_buffer_.size() +
+         (bounds_ ? bounds_->bytes() : 0) + distant_buffer_.size();
 }
 
 }  // namespace ssphh::realtime

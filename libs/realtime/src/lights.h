@@ -1,6 +1,7 @@
 #pragma once
 /// All emitters of a scene as shaders see them, and the shadow maps they need.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,7 +35,7 @@ class Lights {
                   FrameCounters& counters);
   /// Call it after update_maps.
   void update_bounds(Shaders& shaders, const gl::VertexArray& no_vertices, FrameCounters& counters) {
-    bounds_.update(parallel_, shaders, no_vertices, counters);
+    if (bounds_) bounds_->update(parallel_, shaders, no_vertices, counters);
   }
   /// Everything but the emitter itself.
   void bind() const;
@@ -67,7 +68,7 @@ class Lights {
     std::vector<vec3> parts;        ///< of a sun: directions toward them, its middle at +z
     std::vector<vec3> corners;      ///< of triangles with a closed form, likewise
     mat4 placed{0};                 ///< pose of what is in the buffers
-    int first_map = 0;
+    int first_map;
   };
   static int most_sun_parts(const scene::Scene& scene, const RendererParams& params);
   void add_lights(const scene::Scene& scene, const std::vector<mat4>& world,
@@ -100,11 +101,17 @@ class Lights {
   std::vector<GpuEmitter> uploaded_;  ///< as they stand in the buffer
   std::vector<Lit> lit_;
   DistantBlock distant_{};
-  std::vector<vec3> parallel_key_;  ///< what each parallel map was last drawn for
+  /// What each parallel map was last drawn for.
+  struct ParallelKey {
+    vec3 forward, center;
+    float radius;
+    friend bool operator==(const ParallelKey&, const ParallelKey&) = default;
+  };
+  std::vector<std::optional<ParallelKey>> parallel_key_;
   int lamp_slots_ = 0, area_slots_ = 0, parallel_slots_ = 0, scene_emitters_ = 0;
   float near_;
   MapAtlas lamps_, areas_, parallel_;
-  DepthBounds bounds_;  ///< of maps of suns with an extent
+  std::optional<DepthBounds> bounds_;  ///< of maps of suns with an extent
   gl::Buffer emitter_buffer_, distant_buffer_;
   bool emitters_changed_ = true, distant_changed_ = true;
   scene::Bounds sun_bounds_, environment_bounds_;

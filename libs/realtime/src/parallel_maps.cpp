@@ -34,8 +34,7 @@ int Lights::most_sun_parts(const scene::Scene& scene, const RendererParams& para
 void Lights::point_sun(const Source& source, const vec3& axis, float radius) {
   GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
   e.place = vec4(axis, radius);
-  e.items.w = bounds_.layout().columns_log2;
-  e.count.x = bounds_.levels();
+  if (bounds_) e.items.w = bounds_->layout().columns_log2, e.count.x = bounds_->levels();
   e.more.x = std::sin(radius) / std::sqrt(static_cast<float>(source.parts.size()));
   const Frame frame = Frame::around(axis);
   float along = 0;
@@ -90,8 +89,8 @@ void Lights::place_sun(const Source& source, const scene::CameraPose& camera, fl
       }
     }
     const int map = source.first_map + i;
-    const vec3 key = center + 17.0f * forward + vec3(radius);
-    vec3& last = parallel_key_[static_cast<std::size_t>(map)];
+    const ParallelKey key{forward, center, radius};
+    std::optional<ParallelKey>& last = parallel_key_[static_cast<std::size_t>(map)];
     if (key == last && !stretched) continue;
     last = key;
     set_parallel(map, forward, center, radius, bounds);

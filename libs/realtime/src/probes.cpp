@@ -61,7 +61,7 @@ Probes::Probes(const probes::ProbeSet& set, const probes::LookupParams& params,
     : irradiance_degree_(probes::irradiance_degree(params, set.degree)),
       radiance_degree_(set.degree),
       dering_(params.dering),
-      near_(std::max(5e-4f * bounds.radius(), 1e-6f)),
+      near_(cube_near(bounds)),
       light_(probes::surface_light(set, params)) {
   scene::Bounds all = bounds;
   for (const probes::Probe& probe : set.probes) {
@@ -113,12 +113,13 @@ void Probes::set_light(std::span<const int> probes, std::span<const sh::Radiance
   }
   for (std::size_t i = 0; i < probes.size(); ++i) light_[static_cast<std::size_t>(probes[i])] = light[i];
   make_tiles(probes, true, has_radiance_, counters);
-  if (has_fitted()) fitted_.update(probes, irradiance_functions_, irradiance_count(), counters);
+  if (fitted_) fitted_->update(probes, irradiance_functions_, irradiance_count(), counters);
 }
 
 void Probes::set_fitted(const FittedSurfaces& fitted, FrameCounters& counters) {
-  fitted_ = fitted.empty() ? FittedLight() : FittedLight(fitted, count(), counters);
-  if (has_fitted()) fitted_.update(all_probes(), irradiance_functions_, irradiance_count(), counters);
+  if (fitted.empty()) return fitted_.reset();
+  fitted_ = FittedLight(fitted, count(), counters);
+  fitted_->update(all_probes(), irradiance_functions_, irradiance_count(), counters);
 }
 
 std::vector<int> Probes::all_probes() const {
@@ -196,11 +197,12 @@ void Probes::bind_lookup(gl::Program& program) const {
   program.set("irradiance_layout", irradiance_.size(), irradiance_.layout().columns_log2);
   program.set("radiance_layout", radiance_.size(), radiance_.layout().columns_log2, levels_);
   program.set("level_roughness", std::span<const float>(level_roughness));
-  if (has_fitted()) fitted_.bind(program);
+  if (fitted_) fitted_->bind(program);
 }
 
 std::size_t Probes::bytes() const {
-  return maps_.bytes() + irradiance_.bytes() + radiance_.bytes() + cells_.bytes() + fitted_.bytes();
+  return maps_.bytes() + irradiance_.bytes() + radiance_.bytes() + cells_.bytes() +
+         (fitted_ ? fitted_->bytes() : 0);
 }
 
 }  // namespace ssphh::realtime

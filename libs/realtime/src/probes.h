@@ -2,6 +2,7 @@
 /// SPHLs in OpenGL's memory: places, light, the cells that tell which stand around a point, and their shadow
 /// maps.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,7 +37,7 @@ class Probes {
   /// Points with weights of their own; empty: none. Throws Error for points that name a probe which there is
   /// not.
   void set_fitted(const FittedSurfaces& fitted, FrameCounters& counters);
-  bool has_fitted() const { return !fitted_.empty(); }
+  bool has_fitted() const { return fitted_.has_value(); }
   /// Makes the tiles of radiance, which only glossy surfaces and SPHLs as lights need, unless they are there.
   void want_radiance(FrameCounters& counters);
   /// The probe's shadow map shall hold what is beyond those that look it up, too: it is a light.
@@ -67,7 +68,7 @@ class Probes {
   void make_tiles(std::span<const int> probes, bool irradiance, bool radiance, FrameCounters& counters);
 
   std::vector<vec3> irradiance_functions_;  ///< coefficients, probe after probe
-  FittedLight fitted_;
+  std::optional<FittedLight> fitted_;
   int levels_ = 1;                       ///< roughnesses of which radiance is kept
   bool has_radiance_ = false;            ///< its tiles are there
   std::vector<unsigned char> sees_all_;  ///< of each probe; empty: none does

@@ -2,6 +2,7 @@
 /// Shadow maps as tiles of depth arrays: six tiles per cube map, one per parallel map. Tiles are drawn when
 /// they are out of date and kept otherwise.
 
+#include <algorithm>
 #include <limits>
 #include <span>
 #include <vector>
@@ -26,6 +27,10 @@ struct MapView {
 /// Face 0..5 in the order and with the axes of shadow.glsl.
 MapView cube_view(const vec3& origin, int face, float near_plane,
                   float reach = std::numeric_limits<float>::infinity());
+/// Near plane of cube maps in a scene within `bounds`.
+inline float cube_near(const scene::Bounds& bounds) {
+  return std::max(5e-4f * bounds.radius(), 1e-6f);
+}
 /// Whether the view can see anything of the box within its reach.
 bool sees_box(const MapView& view, const scene::Bounds& box);
 

@@ -25,7 +25,7 @@ void visit_parts(const StillTriangle& whole, const vec3& min, const vec3& max, f
     if (glm::any(glm::greaterThan(low, max)) || glm::any(glm::lessThan(high, min))) return;
     const vec3 ab = t.b - t.a, bc = t.c - t.b, ca = t.a - t.c;
     const float l0 = glm::dot(ab, ab), l1 = glm::dot(bc, bc), l2 = glm::dot(ca, ca);
-    if (!(std::max({l0, l1, l2}) > edge * edge)) return visit(t);
+    if (!(std::max(l0, std::max(l1, l2)) > edge * edge)) return visit(t);
     // Halves its longest edge
     const StillTriangle r = l0 >= l1 && l0 >= l2 ? t
                             : l1 >= l2           ? StillTriangle{t.b, t.c, t.a}

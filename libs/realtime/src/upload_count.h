@@ -12,8 +12,8 @@ struct FrameCounters {
 };
 
 template <class T>
-void upload(FrameCounters& counters, gl::Buffer& buffer, std::span<const T> data, std::size_t first = 0) {
-  buffer.update(data, first);
+void upload(FrameCounters& counters, gl::Buffer& buffer, std::span<const T> data) {
+  buffer.update(data);
   counters.bytes_uploaded += data.size_bytes();
 }
 

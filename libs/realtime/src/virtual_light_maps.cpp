@@ -48,7 +48,7 @@ VirtualMapPlan plan_virtual_maps(std::size_t lights, std::size_t most_bytes) {
 
 VirtualLightMaps::VirtualLightMaps(const methods::VirtualLights& data, std::size_t most_bytes,
                                    const scene::Bounds& bounds, FrameCounters& counters)
-    : most_bytes_(most_bytes), near_(std::max(5e-4f * bounds.radius(), 1e-6f)) {
+    : most_bytes_(most_bytes), near_(cube_near(bounds)) {
   take(data, counters);
 }
 

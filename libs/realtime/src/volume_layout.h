@@ -20,7 +20,7 @@ struct VolumeLayout {
   explicit VolumeLayout(const methods::vct::VoxelGrid& grid);
   ivec3 size() const { return {3 * part.x, 2 * part.y, part.z}; }
   std::size_t bytes() const;
-  /// First texel of a side's part; sides as gi::vct counts them.
+  /// First texel of a side's part; sides as methods::vct counts them.
   ivec3 corner(int side) const { return {side / 2 * part.x, side % 2 * part.y, 0}; }
 };
 

@@ -89,6 +89,7 @@ class PlanReader {
     o.members({"name", "scene"}, {"title", "exposure", "variables", "insets", "optional"});
     PlanScene scene;
     scene.name = o["name"].text();
+    if (scene.name.empty()) o["name"].fail("is empty");
     scene.title = o.text_or("title", scene.name);
     scene.words = split_words(o["scene"].text(), o["scene"].place());
     if (scene.words.empty()) o["scene"].fail("is empty", "give a file or builtin:NAME");
@@ -226,7 +227,7 @@ class PlanReader {
   void check_names() const {
     std::set<std::string> scenes, methods;
     for (const PlanScene& scene : plan_.scenes) {
-      if (scene.name.empty() || !scenes.insert(scene.name).second)
+      if (!scenes.insert(scene.name).second)
         throw Error(name_ + ": scenes", fmt::format("two scenes are called \"{}\"", scene.name));
     }
     const std::vector<std::string> scene_names(scenes.begin(), scenes.end());

@@ -206,15 +206,16 @@ void BrokerCore::Impl::fail_attempt(QueuedJob& job, Attempt& attempt, const std:
     put_in_choosy(job);
     return dispatch(service);
   }
-  const auto doublings = std::min<std::size_t>(job.failures.size() - 1, 20);
+  Millis pause = times.retry_backoff;
+  for (std::size_t i = 1; i < job.failures.size() && pause < times.retry_backoff_max; ++i) pause *= 2;
   job.place = Place::backoff;
-  job.backoff = timers.set(now + std::min(times.retry_backoff << doublings, times.retry_backoff_max),
-                           [this, number = job.number](Millis) {
-                             QueuedJob& again = jobs.at(number);
-                             again.backoff = {};
-                             put_in_choosy(again);
-                             dispatch(*again.service);
-                           });
+  job.backoff =
+      timers.set(now + std::min(pause, times.retry_backoff_max), [this, number = job.number](Millis) {
+        QueuedJob& again = jobs.at(number);
+        again.backoff = {};
+        put_in_choosy(again);
+        dispatch(*again.service);
+      });
 }
 
 }  // namespace ssphh::majordomo

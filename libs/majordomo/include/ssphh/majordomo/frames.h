@@ -47,6 +47,6 @@ struct RequestId {
 template <>
 struct std::hash<ssphh::majordomo::RequestId> {
   std::size_t operator()(const ssphh::majordomo::RequestId& id) const noexcept {
-    return static_cast<std::size_t>(id.low ^ (id.high * 0x9e3779b97f4a7c15ull));
+    return static_cast<std::size_t>(id.low);  // random as the other half
   }
 };

@@ -1,0 +1,97 @@
+/// Where OpenGL's memory and numbers end: what halves hold, what a pass may take, what things are counted to
+/// take.
+
+#include <epoxy/gl.h>
+#include <gmock/gmock.h>
+
+#include <ssphh/scene/primitives.h>
+
+#include "fitted_light.h"
+#include "octahedral.h"
+#include "shader_table.h"
+#include "shaders.h"
+#include "straight_view.h"
+#include "virtual_light_maps.h"
+
+namespace ssphh::realtime {
+namespace {
+
+using Limits = test::WithGl;
+
+TEST_F(Limits, TilesAreCountedByTheBytesOfTheirHalves) {
+  // 5 tiles of 10 + 2 texels: four columns and two rows, of four halves
+  EXPECT_EQ(TileAtlas(10, 5).bytes(), std::size_t{4 * 2} * 12 * 12 * 8);
+  EXPECT_EQ(TileAtlas().bytes(), 0u);
+}
+
+TEST_F(Limits, ProbesTakeTheirMapsTilesAndLists) {
+  const scene::Scene scene = coloured(scene::make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}));
+  Renderer renderer(gl(), scene, {.probe_map_bytes = std::size_t{1} << 20});
+  const auto bytes = [&](int count) {
+    MadeUpProbes probes;
+    for (int i = 0; i < count; ++i) probes.add({0.3f * static_cast<float>(i), 0, 1});
+    renderer.set_probes(probes.set);
+    return renderer.memory_bytes();
+  };
+  renderer.clear_probes();
+  const std::size_t none = renderer.memory_bytes();
+  // Without probes one tile each of irradiance and radiance, a face of a map, a texel of a list. Of three:
+  // faces of 128 texels are 18 * 64 KiB, more than the megabyte; of 64, 8 columns and 3 rows; tiles 2 columns
+  // and rows; 20 * 20 * 10 cells of three
+  const std::size_t least = 26 * 26 * 8 + 32 * 32 * 8 + 32 * 32 * 4 + 16;
+  EXPECT_EQ(bytes(3) - none + least,
+            8u * 3 * 64 * 64 * 4 + 2 * 2 * 26 * 26 * 8 + 32 * 32 * 8 + std::size_t{6 * 2048} * 16);
+  // Of two, 12 faces of 128 texels are 768 KiB: 4 columns and 3 rows
+  EXPECT_EQ(bytes(2) - none + least,
+            4u * 3 * 128 * 128 * 4 + 2 * 1 * 26 * 26 * 8 + 32 * 32 * 8 + std::size_t{4 * 2048} * 16);
+}
+
+TEST_F(Limits, FittedPointsBrighterThanHalvesShineAsBrightAsHalvesDo) {
+  const scene::Scene scene = coloured(scene::make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}));
+  probes::FittedPoints fitted;
+  for (int i = 0; i < 4; ++i) {
+    fitted.points.push_back(
+        {{static_cast<float>(i % 2) - 0.5f, static_cast<float>(i / 2) - 0.5f, 0}, {0, 0, 1}});
+    fitted.weights.emplace_back().add(0, 1);
+  }
+  FrameCounters counters;
+  FittedLight light(prepare_fitted(scene, 0, fitted, everything_sees), 1, counters);
+  const std::array<vec3, 9> irradiance = {vec3(1e6f), vec3(-1e6f)};
+  light.update(std::array{0}, irradiance, irradiance.size(), counters);
+  const std::uint64_t before = counters.bytes_uploaded;
+  light.update(std::array{0}, irradiance, irradiance.size(), counters);
+  EXPECT_EQ(counters.bytes_uploaded - before, 4u * 64) << "each point once, whenever its probe changes";
+  // 7bff and fbff are the halves of 65504 and of -65504
+  std::array<std::uint32_t, 2048 * 4> texels{};
+  GLint texture = 0;
+  const gl::ShaderFiles files(shader_table());
+  Shaders shaders(files);
+  light.bind(shaders.indirect(IndirectLookup::fitted, false, IndirectOutput::radiance));
+  glGetIntegeri_v(GL_TEXTURE_BINDING_2D, unit::fitted_light, &texture);
+  glGetTextureImage(static_cast<GLuint>(texture), 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, sizeof(texels),
+                    texels.data());
+  for (std::size_t point = 0; point < 4; ++point) {
+    for (const std::size_t colour : {0u, 5u, 10u})
+      EXPECT_EQ(texels[16 * point + colour], 0xfbff7bffu) << point;
+  }
+}
+
+TEST_F(Limits, APassTakes256VirtualLights) {
+  std::vector<methods::vpl::Vpl> all;
+  FrameCounters counters;
+  for (const auto& [lights, passes] : {std::pair(0, 0), std::pair(1, 1), std::pair(256, 1), std::pair(257, 2),
+                                       std::pair(512, 2), std::pair(513, 3)}) {
+    all.assign(static_cast<std::size_t>(lights), {vec3(0), vec3(0, 1, 0), vec3(1), 0});
+    const VirtualLightMaps maps({all, {}}, std::size_t{64} << 20, {vec3(-1), vec3(1)}, counters);
+    EXPECT_EQ(maps.passes(), passes) << lights;
+  }
+}
+
+TEST(CubeNear, IsATwoThousandthOfTheScenesRadius) {
+  const scene::Bounds bounds{vec3(-2, -1, -2), vec3(2, 1, 2)};  // 3 to a corner
+  EXPECT_FLOAT_EQ(cube_near(bounds), 0.0015f);
+  EXPECT_EQ(cube_near({vec3(1), vec3(1)}), 1e-6f) << "of a point";
+}
+
+}  // namespace
+}  // namespace ssphh::realtime

@@ -1,0 +1,41 @@
+// What the options of a farm mean in its own units.
+
+#include "options/farm_options.h"
+
+#include <gtest/gtest.h>
+
+namespace ssphh::app {
+namespace {
+
+TEST(FarmOptions, ResultsAreKeptInAFolderUpToSoManyMegabytes) {
+  FarmChoice choice;
+  choice.cache = "/tmp/x", choice.cache_mb = 3;
+  const std::optional<ResultCache> cache = result_cache(choice);
+  ASSERT_TRUE(cache);
+  EXPECT_EQ(cache->folder, "/tmp/x");
+  EXPECT_EQ(cache->bytes, 3145728u);
+  choice.cache.clear();
+  EXPECT_EQ(result_cache(choice).value().folder, farm::default_cache_dir("results"));
+  choice.cache = "none";
+  EXPECT_FALSE(result_cache(choice));
+  EXPECT_EQ(result_cache({}).value().bytes, 4294967296u) << "4 GB";
+}
+
+TEST(FarmOptions, AFarmIsAskedForByABrokerOrByWorkersHere) {
+  FarmChoice none, one, broker;
+  one.local = 1, broker.broker.endpoint = "ipc://x";
+  EXPECT_FALSE(none.any());
+  EXPECT_TRUE(one.any());
+  EXPECT_TRUE(broker.any());
+}
+
+TEST(FarmOptions, AFarmElsewhereIsThatOfItsBroker) {
+  FarmChoice choice;
+  choice.broker.endpoint = "ipc:///nowhere", choice.cache = "none";
+  const FarmSession session(choice);
+  EXPECT_EQ(session.options().broker.endpoint, "ipc:///nowhere");
+  EXPECT_EQ(session.options().results, nullptr);
+}
+
+}  // namespace
+}  // namespace ssphh::app
