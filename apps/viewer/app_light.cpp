@@ -178,8 +178,8 @@ void App::prepare_fitted(const probes::FittedPoints& fitted) {
     const probes::SeesProbe sees = [&](const vec3& a, const vec3& b) {
       return std::all_of(poses.begin(), poses.end(), [&](const auto& pose) { return pose->visible(a, b); });
     };
-    auto prepared = std::make_shared<realtime::FittedSurfaces>(
-        realtime::prepare_fitted(*scene, time, fitted, sees, control));
+    auto prepared =
+        std::make_shared<probes::FittedSurfaces>(probes::prepare_fitted(*scene, time, fitted, sees, control));
     return [this, prepared] { light.take_fitted(std::move(*prepared)); };
   });
 }

@@ -49,7 +49,7 @@ void ProbeLight::take(probes::ProbeSet set, const std::string& origin) {
   places_new_ = light_new_ = true;
 }
 
-void ProbeLight::take_fitted(realtime::FittedSurfaces fitted) {
+void ProbeLight::take_fitted(probes::FittedSurfaces fitted) {
   fitted_ = std::move(fitted);
   fitted_new_ = true;
 }

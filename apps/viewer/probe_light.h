@@ -21,7 +21,7 @@ class ProbeLight {
   /// Fixed light, of a file or a bake. Only its light groups can still be scaled.
   void take(probes::ProbeSet set, const std::string& origin);
   /// Fitted weights of the set that was taken last, made ready.
-  void take_fitted(realtime::FittedSurfaces fitted);
+  void take_fitted(probes::FittedSurfaces fitted);
   void clear();
   /// Light of one probe of a bake that is under way: `set` was taken at its start.
   void take_probe(std::size_t i, const probes::Probe& probe);
@@ -55,7 +55,7 @@ class ProbeLight {
   std::optional<probes::ProbeSet> set_;
   std::string origin_;
   transport::RelightReport report_;
-  realtime::FittedSurfaces fitted_;
+  probes::FittedSurfaces fitted_;
 
   // What was last brought to the set and the renderer.
   bool places_new_ = false, light_new_ = false, fitted_new_ = false;

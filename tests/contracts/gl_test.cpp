@@ -169,7 +169,7 @@ std::vector<GlContract> of_renderer() {
       refuses_frame("ReadBackBeforeAFrame", [](Renderer& r) { r.read_back(); }, {"no frame"}),
       refuses_frame("FittedPointsOfNoProbe",
                     [](Renderer& r) {
-                      realtime::FittedSurfaces fitted;
+                      probes::FittedSurfaces fitted;
                       fitted.points.points.resize(1);
                       fitted.points.weights.resize(1);
                       fitted.points.weights[0].add(3, 1);

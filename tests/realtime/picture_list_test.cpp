@@ -131,7 +131,7 @@ TEST_F(PictureList, OfOtherMethodsIsWhatItWas) {
     const methods::MethodEntry& entry = methods::find_method(name);
     const auto method =
         entry.make({scene_, source}, methods::MethodParameters(name, entry.parameters, settings), {});
-    method->update(scene::lighting_at(source), {});
+    method->update(rays::lighting_at(source), {});
     renderer_->set_method_light(method->light_data());
     draw(settings.back(), {.view = View::indirect});
     list_state(settings.back(), 4, 5);

@@ -88,10 +88,10 @@ inline mat4 light_world(const scene::Scene& scene, std::size_t light) {
   return node < 0 ? mat4(1) : scene::world_matrices(scene, 0)[static_cast<std::size_t>(node)];
 }
 
-inline realtime::FittedSurfaces prepared(const scene::Scene& scene, const probes::FittedPoints& fitted,
-                                         const trace::PathTracer& tracer) {
-  return realtime::prepare_fitted(scene, 0, fitted,
-                                  [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); });
+inline probes::FittedSurfaces prepared(const scene::Scene& scene, const probes::FittedPoints& fitted,
+                                       const trace::PathTracer& tracer) {
+  return probes::prepare_fitted(scene, 0, fitted,
+                                [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); });
 }
 
 /// Direct light traced, indirect light looked up (none: max_depth 1).

@@ -188,7 +188,7 @@ TEST_F(RendererTest, NewLightOfAProbeCostsThePointsThatItLightsAlone) {
   const std::array<sh::RadianceSh, 1> light{set.probes[1].self};
   renderer.update_probes(std::array{0}, light);
   const std::uint64_t without = frame(renderer).bytes_uploaded;
-  realtime::FittedSurfaces prepared = test::prepared(scene_, fitted, tracer);
+  probes::FittedSurfaces prepared = test::prepared(scene_, fitted, tracer);
   renderer.set_fitted(prepared);
   frame(renderer);
   renderer.update_probes(std::array{0}, light);

@@ -323,11 +323,11 @@ TEST(TransportNetworkPose, ContractionBoundsTheFirstAndTheLastPose) {
     const trace::TransportScene source(rooms);
     transport::TransportNetwork network(source, test::positions_of(test::places_of(rooms)),
                                         test::small_network(), 0.3f);
-    const transport::Contraction bounds = network.contraction();
+    const Contraction bounds = network.contraction();
     network.set_time(0);
-    const transport::Contraction first = transport::contraction(network.links(), network.albedo());
+    const Contraction first = transport::contraction(network.links(), network.albedo());
     network.set_time(source.duration());
-    const transport::Contraction last = transport::contraction(network.links(), network.albedo());
+    const Contraction last = transport::contraction(network.links(), network.albedo());
     EXPECT_NE(first.upper, last.upper);
     EXPECT_EQ(bounds.lower, std::min(first.lower, last.lower));
     EXPECT_EQ(bounds.upper, std::max(first.upper, last.upper));

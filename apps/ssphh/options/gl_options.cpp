@@ -17,7 +17,7 @@ void set_probes(realtime::Renderer& renderer, const GlLookup& options, const sce
       params.weights.chosen(set.fitted.has_value()) != probes::WeightMethod::fitted)
     return;
   const trace::PathTracer tracer(scene, time);
-  renderer.set_fitted(realtime::prepare_fitted(
+  renderer.set_fitted(probes::prepare_fitted(
       scene, time, *set.fitted, [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); }));
 }
 

@@ -23,7 +23,8 @@ class Even final : public Method {
     float flux = 0;
     for (std::size_t g = 0; g < state.group_scales.size(); ++g)
       flux += luminance(state.group_scales[g]) * lights->flux(static_cast<int>(g));
-    const vec3 size = rays::PosedWorld(scene_.source, state.time).bounds().size();
+    const scene::Bounds bounds = rays::PosedWorld(scene_.source, state.time).bounds();
+    const vec3 size = bounds.max - bounds.min;
     light_.value = share_ * flux / (2 * (size.x * size.y + size.y * size.z + size.z * size.x));
   }
 

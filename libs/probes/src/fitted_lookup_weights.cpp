@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/probes/lookup_constants.h>
 #include <ssphh/probes/probe_limits.h>
 
 namespace ssphh::probes {
@@ -79,15 +80,13 @@ void FittedLookupWeights::fit_linearly(std::span<Share> shares) {
     for (int c = 0; c < 3; ++c) gram[c] += s.weight * s.place[c] * s.place;
     total += s.weight;
   }
-  constexpr float ridge = 0.05f;
-  gram[1][1] += ridge * total;
-  gram[2][2] += ridge * total;
+  gram[1][1] += fitted_ridge * total;
+  gram[2][2] += fitted_ridge * total;
   const vec3 row = glm::inverse(gram)[0];
-  constexpr float lowest = -0.25f;
   float most = 1;  // of the way from the mean to the fit
   for (const Share& s : shares) {
     const float relative = total * glm::dot(row, s.place);  // 1: as in the mean
-    if (relative < lowest) most = std::min(most, (1 - lowest) / (1 - relative));
+    if (relative < fitted_lowest) most = std::min(most, (1 - fitted_lowest) / (1 - relative));
   }
   float sum = 0;
   for (Share& s : shares) {
@@ -151,7 +150,8 @@ ProbeWeights FittedLookupWeights::at(const rays::SurfacePoint& point) const {
     const vec3 other = points_.position[p], other_normal = vec3(points_.normal[p]) / 32767.0f;
     const float cosine = glm::dot(other_normal, n);
     const vec3 local = frame.to_local(other - x);
-    if (cosine < 0.7f || std::abs(local.z) > 0.5f * spacing_ + 0.1f * std::sqrt(found.distance2)) continue;
+    const float off_plane = fitted_off_plane * spacing_ + fitted_off_plane_slope * std::sqrt(found.distance2);
+    if (cosine < fitted_cosine || std::abs(local.z) > off_plane) continue;
     if (found.distance2 > 1e-6f * spacing_ * spacing_ && !sees_(x + lift * n, other + lift * other_normal))
       continue;
     const float t = 1 - found.distance2 / (reach * reach);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <ssphh/core/error.h>
+#include <ssphh/probes/lookup_constants.h>
 #include <ssphh/probes/lookup_weights.h>
 
 #include "fitted_lookup_weights.h"
@@ -57,7 +58,7 @@ class VisibleWeights : public LookupWeights {
  private:
   /// What a hidden probe that stands in for visible ones keeps of its weight: nothing below the tangent
   /// plane, for on the far side of a roof or wall there is another room's light.
-  static float hidden_share(float cosine) { return std::clamp(4 * cosine, 0.0f, 1.0f); }
+  static float hidden_share(float cosine) { return std::clamp(hidden_slope * cosine, 0.0f, 1.0f); }
 
   /// Inverse squared distance, relative to the nearest so that nothing overflows, times a wrapped cosine
   /// (Majercik et al., Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields, JCGT 2019): a
@@ -65,8 +66,7 @@ class VisibleWeights : public LookupWeights {
   float distance_weight(const geometry::Near& probe, float nearest2, const vec3& x, const vec3& n) const {
     if (!(probe.distance2 > 0)) return 1;
     const float wrapped = 0.5f * (1 + sight_.cosine(probe.index, x, n));
-    constexpr float floor = 0.05f;
-    return nearest2 / probe.distance2 * (wrapped * wrapped + floor);
+    return nearest2 / probe.distance2 * (wrapped * wrapped + wrapped_floor);
   }
 };
 
@@ -91,7 +91,7 @@ class TrilinearWeights final : public VisibleWeights {
     for (int i = 0; i < count && out.count < max_weights; ++i) {
       const geometry::Near& probe = near[static_cast<std::size_t>(i)];
       const vec3 tent = 1.0f - glm::abs(sight_.position(probe.index) - x) / spacing;
-      if (!(std::min({tent.x, tent.y, tent.z}) > 1e-4f) || !sight_.sees(probe, x, n)) continue;
+      if (!(std::min({tent.x, tent.y, tent.z}) > least_tent) || !sight_.sees(probe, x, n)) continue;
       out.add(probe.index, tent.x * tent.y * tent.z);
     }
     if (out.count == 0) return by_distance(x, n);
@@ -106,7 +106,7 @@ class MlsWeights final : public VisibleWeights {
   ProbeWeights at(const rays::SurfacePoint& point) const override {
     const vec3 &x = point.position, &n = point.normal;
     NearList near;
-    const float radius = 2 * sight_.spacing();
+    const float radius = mls_reach * sight_.spacing();
     const int count = sight_.nearest(x, near, radius);
     const int visible = sight_.visible_first(near, count, count, x, n);
     if (visible == 0) return by_distance(x, n);
@@ -121,12 +121,11 @@ class MlsWeights final : public VisibleWeights {
       const auto k = static_cast<std::size_t>(i);
       place[k] = vec4(1, (sight_.position(near[k].index) - x) / sight_.spacing());
       const float t = std::max(0.0f, 1 - near[k].distance2 / (radius * radius));
-      bump[k] = t * t + 1e-6f;
+      bump[k] = t * t + mls_least_bump;
       total += bump[k];
       for (int c = 0; c < 4; ++c) normal_matrix[c] += bump[k] * place[k][c] * place[k];
     }
-    constexpr float ridge = 0.05f;
-    for (int c = 1; c < 4; ++c) normal_matrix[c][c] += ridge * total;
+    for (int c = 1; c < 4; ++c) normal_matrix[c][c] += mls_ridge * total;
     const vec4 first_row = glm::inverse(normal_matrix)[0];
     ProbeWeights out;
     for (int i = 0; i < visible; ++i) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include <ssphh/geometry/nearest.h>
-#include <ssphh/probes/lookup_weights.h>
+#include <ssphh/probes/lookup_constants.h>
 
 namespace ssphh::probes {
 
@@ -37,9 +37,7 @@ class ProbeSight {
   }
 
   bool sees(const geometry::Near& near, const vec3& x, const vec3& n) const {
-    constexpr float relative_offset = 0.01f;
-    const float offset =
-        offset_ > 0 ? offset_ : relative_offset * std::min(std::sqrt(near.distance2), spacing_);
+    const float offset = offset_ > 0 ? offset_ : sight_lift * std::min(std::sqrt(near.distance2), spacing_);
     return sees_(x + offset * n, position(near.index));
   }
 

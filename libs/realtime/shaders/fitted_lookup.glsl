@@ -1,5 +1,5 @@
 // Irradiance from fitted points, as probes::FittedLookupWeights finds it: a linear fit to the points around on the same
-// surface that the pixel sees. Lists, sight and light are made by FittedSurfaces and FittedLight.
+// surface that the pixel sees. Lists, sight and light are made by probes::FittedSurfaces and FittedLight.
 layout(binding = 8) uniform usampler2D fitted_ranges;  // of each cell: first entry of its list, number of points
 layout(binding = 9) uniform usampler2D fitted_lists;   // a header, then points (fitted_entry.h)
 layout(binding = 10) uniform usampler2D fitted_light;  // of each point, four texels: ten halves for each colour
@@ -71,8 +71,8 @@ bool fitted_irradiance(Surface s, out vec3 irradiance) {
     FittedPoint p = fitted_point(first + 1 + i, squares);
     vec3 d = (p.place - f) * fitted_origin.w;
     float d2 = dot(d, d);
-    bool near = d2 < reach * reach && dot(p.normal, s.normal) >= 0.7 &&
-                abs(dot(d, s.normal)) <= 0.5 * fitted_spacing + 0.1 * sqrt(d2);
+    bool near = d2 < reach * reach && dot(p.normal, s.normal) >= FITTED_COSINE &&
+                abs(dot(d, s.normal)) <= FITTED_OFF_PLANE * fitted_spacing + FITTED_OFF_PLANE_SLOPE * sqrt(d2);
     uint bit = near && p.seen ? 1u << (i & 31) : 0u;
     serve |= i < 32 ? uvec2(bit, 0) : uvec2(0, bit);
   }
@@ -98,10 +98,9 @@ bool fitted_irradiance(Surface s, out vec3 irradiance) {
   float total = gram[0].x;
   bool any = total > 0;
   mat3 m = any ? gram / total : mat3(1);
-  m[1].y += 0.05;
-  m[2].z += 0.05;
+  m[1].y += FITTED_RIDGE;
+  m[2].z += FITTED_RIDGE;
   vec3 row = inverse(m)[0];
-  // No point counts less than -1/4 of its share of the mean
   float most = 1;
   left = serve;
   while ((left.x | left.y) != 0) {
@@ -109,7 +108,7 @@ bool fitted_irradiance(Surface s, out vec3 irradiance) {
     left = left.x != 0 ? uvec2(left.x & (left.x - 1), left.y) : uvec2(0, left.y & (left.y - 1));
     vec3 d = (fitted_point(first + 1 + i, squares).place - f) * fitted_origin.w;
     float relative = dot(row, vec3(1, (d * basis).xy / fitted_spacing));
-    most = relative < -0.25 ? min(most, 1.25 / (1 - relative)) : most;
+    most = relative < FITTED_LOWEST ? min(most, (1 - FITTED_LOWEST) / (1 - relative)) : most;
   }
   vec3 share = mix(vec3(1, 0, 0), row, most);
   irradiance = max(light * share / max(dot(gram[0], share), 1e-20), 0.0);

@@ -54,7 +54,7 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
   found.count = best < 1e30 ? 1 : 0;
   found.chosen = int(found.count > 0 ? chosen.w : nearest.w);
   vec3 w = normalize(chosen.xyz - s.position);
-  vec3 as_lamp = radiance_of(found.chosen, radiance_at(w, 0)) / max(dot(s.normal, w), 0.05);
+  vec3 as_lamp = radiance_of(found.chosen, radiance_at(w, 0)) / max(dot(s.normal, w), SMALLEST_COSINE);
   found.irradiance = found.count > 0 ? as_lamp : irradiance_of(found.chosen, irradiance_at(s.normal));
   found.glossy = radiance_of(found.chosen, radiance_at(mirror, roughness));
   return found;
@@ -68,13 +68,13 @@ bool maybe_above(vec3 d, float d2, vec3 n) {
 }
 
 float bump_of(float d2) {
-  float spacing = frame.tone.w, falloff = max(0.0, 1 - d2 / (4 * spacing * spacing));
-  return falloff * falloff + 1e-6;
+  float spacing = frame.tone.w, reach = MLS_REACH * spacing, falloff = max(0.0, 1 - d2 / (reach * reach));
+  return falloff * falloff + MLS_LEAST_BUMP;
 }
 
 float tent_of(vec3 d) {
   vec3 t = max(1 - abs(d) / frame.tone.w, 0.0);
-  return min(t.x, min(t.y, t.z)) > 1e-4 ? t.x * t.y * t.z : 0;
+  return min(t.x, min(t.y, t.z)) > LEAST_TENT ? t.x * t.y * t.z : 0;
 }
 
 // Those of the candidates, of squared distances d2_of, that are the MAX_NEAR nearest; `within` of them are no farther
@@ -103,7 +103,7 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
   int base = candidates_at(s.position);
   float spacing = frame.tone.w;
 #ifdef MLS
-  float reach2 = 4 * spacing * spacing;
+  float reach2 = MLS_REACH * MLS_REACH * spacing * spacing;
   mat4 matrix = mat4(0);
 #endif
   uint listed = 0, pending = 0, beyond = 0, seen = 0;
@@ -160,9 +160,8 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
     if (!fits && bitCount(seen) == MAX_BLEND) pending = 0;
   }
 #ifdef MLS
-  const float ridge = 0.05;  // keeps the fit flat where the probes do not differ
   mat4 m = matrix / max(matrix[0].x, 1e-30);
-  for (int c = 0; c < 4; ++c) m[c][c] += c == 0 ? (fits ? 0 : 1) : ridge;
+  for (int c = 0; c < 4; ++c) m[c][c] += c == 0 ? (fits ? 0 : 1) : MLS_RIDGE;
   vec4 row = inverse(m)[0];
 #endif
   uint used = seen != 0 ? seen : listed & uint((1 << MAX_BLEND) - 1);
@@ -181,7 +180,7 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
     float d2 = max(dot(d, d), 1e-12);
     float cosine = dot(s.normal, d) * inversesqrt(d2);
     float wrapped = 0.5 + 0.5 * cosine;
-    float weight = (wrapped * wrapped + 0.05) / d2;
+    float weight = (wrapped * wrapped + WRAPPED_FLOOR) / d2;
     found.chosen = weight > most ? probe : found.chosen;
     most = max(most, weight);
 #ifdef MLS
@@ -190,7 +189,7 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
     weight = fits ? tent_of(d) : weight;
 #endif
     sum += weight;
-    weight *= seen != 0 ? 1 : clamp(4 * cosine, 0.0, 1.0);  // as probes::LookupWeights
+    weight *= seen != 0 ? 1 : clamp(HIDDEN_SLOPE * cosine, 0.0, 1.0);
     found.irradiance += weight * irradiance_of(probe, e_place);
 #ifdef FULL_BSDF
     found.glossy += weight * radiance_of(probe, l_place);

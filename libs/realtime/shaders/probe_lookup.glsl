@@ -1,12 +1,10 @@
-// SPHLs as surfaces look them up: which stand around a point, which of them it sees, and their light.
+// SPHLs as surfaces look them up: which stand around a point, which of them it sees, and their light. Constants in capitals
+// that stand in no shader are those of probes/lookup_constants.h.
 #include "probe_data.glsl"
 
-// ProbeGrid's lists, CELLS_WIDTH entries in a row: position; w: probe, -1 where a list ends.
+// CandidateGrid's lists, CELLS_WIDTH entries in a row: position; w: probe, -1 where a list ends.
 layout(binding = 14) uniform sampler2D probe_cells;
 const int CELLS_WIDTH_LOG2 = 11;
-const int MAX_LISTED = 32;  // ProbeGrid::longest
-const int MAX_NEAR = 16;  // probes among which a point chooses
-const int MAX_BLEND = 8;  // probes that light a point by distance
 
 // Octahedral tiles: irradiance of a probe by normal; radiance by mirror direction, one tile per roughness.
 layout(binding = 12) uniform sampler2DArray irradiance_tiles;
@@ -63,8 +61,8 @@ vec3 radiance_of(int probe, RadiancePlace at) {
   return sum;
 }
 
-// From off the surface by 1 % of the distance, as probes::ProbeSight starts its rays; one texel decides.
+// From off the surface as probes::ProbeSight starts its rays; one texel decides.
 bool sees_probe(vec3 probe_place, int probe, vec3 x, vec3 n, vec3 geometric, float distance) {
-  vec3 lift = 0.01 * min(distance, frame.tone.w) * n;
+  vec3 lift = SIGHT_LIFT * min(distance, frame.tone.w) * n;
   return cube_sight(probe_maps, frame.maps.z, frame.map_tiles.z, frame.map_near.z, probe, probe_place, x, lift, geometric);
 }

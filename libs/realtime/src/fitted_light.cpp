@@ -31,7 +31,7 @@ gl::Texture list_texture(gl::Format format, std::vector<T> texels, FrameCounters
 
 }  // namespace
 
-FittedLight::FittedLight(const FittedSurfaces& surfaces, int probe_count, FrameCounters& counters)
+FittedLight::FittedLight(const probes::FittedSurfaces& surfaces, int probe_count, FrameCounters& counters)
     : points_(surfaces.points),
       spacing_(surfaces.spacing),
       cell_size_(surfaces.cell_size),

@@ -7,7 +7,7 @@
 
 #include <ssphh/gl/program.h>
 #include <ssphh/gl/texture.h>
-#include <ssphh/realtime/fitted_surfaces.h>
+#include <ssphh/probes/fitted_surfaces.h>
 
 #include "upload_count.h"
 
@@ -16,7 +16,7 @@ namespace ssphh::realtime {
 class FittedLight {
  public:
   /// Uploads the lists. Throws Error for points that name a probe which there is not.
-  FittedLight(const FittedSurfaces& surfaces, int probe_count, FrameCounters& counters);
+  FittedLight(const probes::FittedSurfaces& surfaces, int probe_count, FrameCounters& counters);
 
   /// New irradiance of some probes: evaluates the points that any of them lights. `irradiance` holds `count`
   /// coefficients, 25 at most, for each probe of the set, those changed or not.
@@ -27,18 +27,18 @@ class FittedLight {
 
  private:
   void evaluate(std::size_t point, std::span<const vec3> irradiance, std::size_t count,
-                std::span<uvec4> texels) const;
+                std::span<glm::uvec4> texels) const;
   void upload_changed(FrameCounters& counters);
 
   probes::FittedPoints points_;
   float spacing_, cell_size_;
   vec3 origin_;
-  ivec3 cells_;
+  glm::ivec3 cells_;
   std::vector<std::size_t> first_of_probe_;  ///< in lit_by_: points that each probe lights
   std::vector<std::uint32_t> lit_by_;
   std::vector<unsigned char> marked_;  ///< points, while an update gathers them
   std::vector<std::uint32_t> changed_;
-  std::vector<uvec4> texels_;
+  std::vector<glm::uvec4> texels_;
   gl::Texture ranges_, lists_, light_;
 };
 

@@ -29,7 +29,7 @@ FrameBlock frame_block(const scene::CameraPose& camera, const FrameSettings& set
   b.camera_right = vec4(half_width * right, width);
   b.camera_up = vec4(half_height * up, height);
   b.camera_forward = vec4(forward, lens.orthographic ? far : near);
-  const ProbeGrid& grid = probes.grid();
+  const probes::CandidateGrid& grid = probes.grid();
   b.grid_size = ivec4(grid.cells, grid.length);
   b.grid_origin = vec4(grid.origin, grid.cell_size);
   b.tone = vec4(std::exp2(settings.tone.exposure), settings.tone.curve == image::ToneCurve::filmic ? 1 : 0,

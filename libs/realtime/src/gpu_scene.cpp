@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include <ssphh/rays/posed_world.h>
+
 #include "mesh_pieces.h"
 
 namespace ssphh::realtime {
@@ -189,7 +191,7 @@ void GpuScene::pose(const std::vector<mat4>& world, std::vector<scene::Bounds>& 
     add_boxes(static_cast<int>(i));
     set_world(instances_[i], now);
     for (DrawItem& item : items_) {
-      if (item.instance == static_cast<int>(i)) item.world = transformed(item.local, now);
+      if (item.instance == static_cast<int>(i)) item.world = rays::transformed(item.local, now);
     }
     add_boxes(static_cast<int>(i));
     upload_block(counters, instance_buffer_, instances_[i], i);

@@ -53,14 +53,4 @@ std::vector<MeshPiece> split_mesh(const scene::Mesh& mesh, std::vector<unsigned>
   return pieces;
 }
 
-scene::Bounds transformed(const scene::Bounds& box, const mat4& world) {
-  scene::Bounds out;
-  for (int i = 0; i < 8; ++i) {
-    const vec3 corner(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
-                      i & 4 ? box.max.z : box.min.z);
-    out.add(vec3(world * vec4(corner, 1)));
-  }
-  return out;
-}
-
 }  // namespace ssphh::realtime

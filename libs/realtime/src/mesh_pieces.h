@@ -16,7 +16,4 @@ struct MeshPiece {
 /// Appends the mesh's triangles to `indices`, ordered so that each piece's stand together.
 std::vector<MeshPiece> split_mesh(const scene::Mesh& mesh, std::vector<unsigned>& indices);
 
-/// Box around a box that `world` turned.
-scene::Bounds transformed(const scene::Bounds& box, const mat4& world);
-
 }  // namespace ssphh::realtime

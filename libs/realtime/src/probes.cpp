@@ -34,7 +34,7 @@ int face_size(std::size_t probes, std::size_t bytes) {
 }
 
 /// The grid's lists as probe_lookup.glsl reads them: places, and probes' numbers, which floats hold exactly.
-gl::Texture cell_texture(const ProbeGrid& grid, std::span<const vec3> places) {
+gl::Texture cell_texture(const probes::CandidateGrid& grid, std::span<const vec3> places) {
   constexpr std::size_t width = 2048;
   std::vector<vec4> texels((grid.lists.size() + width - 1) / width * width, vec4(0, 0, 0, -1));
   for (std::size_t i = 0; i < grid.lists.size(); ++i) {
@@ -70,7 +70,7 @@ Probes::Probes(const probes::ProbeSet& set, const probes::LookupParams& params,
     all.add(probe.position);
   }
   spacing_ = params.weights.spacing > 0 ? params.weights.spacing : probes::median_spacing(places_);
-  grid_ = make_probe_grid(places_, all, spacing_);
+  grid_ = probes::make_candidate_grid(places_, all, spacing_);
   cells_ = cell_texture(grid_, places_);
   irradiance_basis_ = TileBasis(irradiance_tile, irradiance_degree_);
   irradiance_ = TileAtlas(irradiance_tile, count());
@@ -82,7 +82,7 @@ Probes::Probes(const probes::ProbeSet& set, const probes::LookupParams& params,
   make_tiles(all_probes(), true, false, counters);
 
   maps_ = MapAtlas(face_size(places_.size(), renderer.probe_map_bytes), 6 * count());
-  const std::vector<float> reach = probe_reach(grid_, places_);
+  const std::vector<float> reach = probes::probe_reach(grid_, places_);
   for (int i = 0; i < count(); ++i) place_maps(i, reach[static_cast<std::size_t>(i)]);
 }
 
@@ -116,7 +116,7 @@ void Probes::set_light(std::span<const int> probes, std::span<const sh::Radiance
   if (fitted_) fitted_->update(probes, irradiance_functions_, irradiance_count(), counters);
 }
 
-void Probes::set_fitted(const FittedSurfaces& fitted, FrameCounters& counters) {
+void Probes::set_fitted(const probes::FittedSurfaces& fitted, FrameCounters& counters) {
   if (fitted.empty()) return fitted_.reset();
   fitted_ = FittedLight(fitted, count(), counters);
   fitted_->update(all_probes(), irradiance_functions_, irradiance_count(), counters);

@@ -6,13 +6,13 @@
 #include <span>
 #include <vector>
 
+#include <ssphh/probes/candidate_grid.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/probes/probe_set.h>
 #include <ssphh/realtime/renderer.h>
 
 #include "fitted_light.h"
 #include "octahedral.h"
-#include "probe_grid.h"
 #include "shadow_maps.h"
 
 namespace ssphh::realtime {
@@ -29,14 +29,14 @@ class Probes {
   const vec3& position(int probe) const { return places_[static_cast<std::size_t>(probe)]; }
   float radius(int probe) const { return radii_[static_cast<std::size_t>(probe)]; }
   float spacing() const { return spacing_; }
-  const ProbeGrid& grid() const { return grid_; }
+  const probes::CandidateGrid& grid() const { return grid_; }
   const MapAtlas& maps() const { return maps_; }
   float near_plane() const { return near_; }
 
   void set_light(std::span<const int> probes, std::span<const sh::RadianceSh> light, FrameCounters& counters);
   /// Points with weights of their own; empty: none. Throws Error for points that name a probe which there is
   /// not.
-  void set_fitted(const FittedSurfaces& fitted, FrameCounters& counters);
+  void set_fitted(const probes::FittedSurfaces& fitted, FrameCounters& counters);
   bool has_fitted() const { return fitted_.has_value(); }
   /// Makes the tiles of radiance, which only glossy surfaces and SPHLs as lights need, unless they are there.
   void want_radiance(FrameCounters& counters);
@@ -58,7 +58,7 @@ class Probes {
   bool dering_ = true;
   float spacing_ = 1, near_ = 1e-3f;
   std::vector<sh::RadianceSh> light_;
-  ProbeGrid grid_;
+  probes::CandidateGrid grid_;
   MapAtlas maps_;
   TileBasis irradiance_basis_, radiance_basis_;
   TileAtlas irradiance_, radiance_;

@@ -126,7 +126,7 @@ void Renderer::set_probes(const probes::ProbeSet& set, const probes::LookupParam
   d.context.throw_on_error("uploading probes");
 }
 
-void Renderer::set_fitted(const FittedSurfaces& fitted) {
+void Renderer::set_fitted(const probes::FittedSurfaces& fitted) {
   Data& d = *data_;
   d.probes.set_fitted(fitted, d.counters);
   d.context.throw_on_error("uploading fitted weights");

@@ -1,5 +1,9 @@
 #include "shaders.h"
 
+#include <fmt/format.h>
+
+#include <ssphh/probes/lookup_constants.h>
+
 namespace ssphh::realtime {
 namespace {
 
@@ -8,6 +12,15 @@ constexpr const char* kind_names[emitter_kinds] = {"POINT",  "SPHL", "SUN",     
 
 std::string define(const char* name, bool on = true) {
   return on ? std::string("#define ") + name + "\n" : std::string();
+}
+
+/// The numbers that these lookups share with those of the CPU.
+std::string lookup_constants() {
+  std::string lines;
+  for (const probes::ShaderConstant& c : probes::constants_of_shaders)
+    lines += c.whole ? fmt::format("#define {} {:.0f}\n", c.name, c.value)
+                     : fmt::format("#define {} {:#}\n", c.name, c.value);
+  return lines;
 }
 
 }  // namespace
@@ -64,7 +77,7 @@ gl::Program& Shaders::indirect(IndirectLookup lookup, bool full, IndirectOutput 
   if (slot) return *slot;
   return indirect_pass(
       slot, "indirect.glsl", full, output,
-      define("LOOKUP_LIGHT", lookup == IndirectLookup::light) +
+      lookup_constants() + define("LOOKUP_LIGHT", lookup == IndirectLookup::light) +
           define("TRILINEAR", lookup == IndirectLookup::trilinear) +
           define("MLS", lookup == IndirectLookup::mls || lookup == IndirectLookup::fitted) +
           define("FITTED", lookup == IndirectLookup::fitted && output != IndirectOutput::chosen));

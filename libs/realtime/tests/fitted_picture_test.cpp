@@ -40,7 +40,7 @@ class FittedPicture : public test::WithGl {
     const probes::FittedPoints& fitted = *probes_.set.fitted;
     Renderer renderer(gl(), scene);
     renderer.set_probes(probes_.set);
-    renderer.set_fitted(prepare_fitted(scene, 0, fitted, everything_sees));
+    renderer.set_fitted(probes::prepare_fitted(scene, 0, fitted, everything_sees));
     const image::Image drawn = view_.draw(renderer);
     const probes::IrradianceLookup lookup(
         probes_.set, probes::make_weights(probes_.positions(), everything_sees, {}, &fitted));

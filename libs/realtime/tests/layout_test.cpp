@@ -6,11 +6,9 @@
 
 #include <ssphh/scene/primitives.h>
 
-#include "fitted_entry.h"
 #include "lights.h"
 #include "mesh_pieces.h"
 #include "shadow_maps.h"
-#include "still_surface.h"
 #include "tile_layout.h"
 
 namespace ssphh::realtime {
@@ -128,93 +126,6 @@ TEST(MeshPieces, AreSmallAndLieApart) {
   std::vector<unsigned> few;
   EXPECT_EQ(split_mesh(scene::make_sphere(1, 30, 26), few).size(), 1u) << "1500";
   EXPECT_TRUE(split_mesh(scene::Mesh(), few).empty());
-}
-
-TEST(MeshPieces, BoxAroundATurnedBoxTouchesItsCorners) {
-  const scene::Bounds box{{-1, 2, 3}, {1, 4, 8}};
-  // x, y, z become z + 1, -x, 2 y
-  const mat4 world(vec4(0, -1, 0, 0), vec4(0, 0, 2, 0), vec4(1, 0, 0, 0), vec4(1, 0, 0, 1));
-  const scene::Bounds turned = transformed(box, world);
-  EXPECT_EQ(turned.min, vec3(4, -1, 4));
-  EXPECT_EQ(turned.max, vec3(9, 1, 8));
-}
-
-TEST(FittedEntry, SquaresAreCountedAcrossTheAxis) {
-  const vec3 place(0.2f, 0.55f, 0.9f);  // squares 1, 4, 7
-  EXPECT_EQ(fitted_square(place, 0), 4 + 8 * 7);
-  EXPECT_EQ(fitted_square(place, 1), 1 + 8 * 7);
-  EXPECT_EQ(fitted_square(place, 2), 1 + 8 * 4);
-  EXPECT_EQ(fitted_square({-1, 0.5f, 2}, 1), 0 + 8 * 7) << "the nearest square";
-}
-
-TEST(FittedEntry, AxisIsThatOfTheLargestComponent) {
-  EXPECT_EQ(CoarseNormal::of({0.9f, 0.1f, -0.3f}).axis(), 0);
-  EXPECT_EQ(CoarseNormal::of({0.3f, -0.9f, 0.1f}).axis(), 1);
-  EXPECT_EQ(CoarseNormal::of({0.1f, 0.3f, -0.9f}).axis(), 2);
-  EXPECT_EQ((CoarseNormal{0, 0}.axis()), 2);
-}
-
-/// As fitted_lookup.glsl takes an entry apart.
-TEST(FittedEntry, HoldsAllOfAPointInItsBits) {
-  const std::uint64_t squares = 0x123456789abcdef0ull;
-  for (const CoarseNormal& normal : {CoarseNormal{-31, 0}, {31, -5}, {-7, 30}, {0, -1}}) {
-    const uvec4 e = pack_fitted_entry(0x3abcde, {-4, 0.5f, 5}, normal, squares);
-    EXPECT_EQ(e.x >> 10, 0x3abcdeu);
-    EXPECT_EQ(static_cast<int>((e.x >> 5 & 31u) | (e.y >> 30 & 1u) << 5) - 32, normal.u);
-    EXPECT_EQ(static_cast<int>((e.x & 31u) | (e.y >> 31) << 5) - 32, normal.v);
-    EXPECT_EQ(e.y & 1023u, 0u);
-    EXPECT_NEAR(static_cast<double>(e.y >> 10 & 1023u) * 9 / 1023 - 4, 0.5, 4.51 / 1023);
-    EXPECT_EQ(e.y >> 20 & 1023u, 1023u);
-    EXPECT_EQ((static_cast<std::uint64_t>(e.w) << 32 | e.z), squares);
-  }
-  const uvec4 far = pack_fitted_entry(0, {-9, 2, 99}, {}, 0);
-  EXPECT_EQ(far.y & 1023u, 0u) << "as near as there is room for";
-  EXPECT_EQ(far.y >> 20 & 1023u, 1023u);
-}
-
-TEST(StillSurface, LeavesOutWhatMovesShinesAloneOrHasNoArea) {
-  scene::Scene s;
-  s.materials.resize(2);
-  s.materials[1].unlit = true;
-  s.meshes = {scene::make_quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
-              scene::make_quad({0, 0, 0}, {1, 0, 0}, {2, 0, 0})};
-  s.nodes.resize(2);
-  s.nodes[0].local.translation = {5, 0, 0};
-  s.nodes[1].movable = true;
-  s.instances.resize(6);
-  s.instances[0].mesh = 0, s.instances[0].node = 0;
-  s.instances[1].mesh = 0, s.instances[1].node = 1;
-  s.instances[2].mesh = 0, s.instances[2].material = 1;
-  s.instances[3].mesh = 1;
-  s.instances[4].mesh = -1;
-  s.instances[5].mesh = 0, s.instances[5].material = 0;
-  const std::vector<StillTriangle> found = still_triangles(s, 0);
-  ASSERT_EQ(found.size(), 4u);
-  EXPECT_EQ(found[0].a, vec3(5, 0, 0));
-  EXPECT_EQ(found[0].b, vec3(6, 0, 0));
-  EXPECT_EQ(found[0].c, vec3(6, 1, 0));
-  EXPECT_EQ(found[2].a, vec3(0)) << "at no node";
-}
-
-TEST(StillSurface, CellsListTheTrianglesThatPassThem) {
-  // A long triangle along x at z 0.5, a small one in the last cell of y
-  const std::vector<StillTriangle> triangles = {{{0.1f, 0.1f, 0.5f}, {2.9f, 0.1f, 0.5f}, {2.9f, 0.3f, 0.5f}},
-                                                {{1.2f, 1.2f, 0.2f}, {1.4f, 1.2f, 0.2f}, {1.2f, 1.4f, 0.2f}}};
-  const TriangleCells cells = triangle_cells(triangles, {0, 0, 0}, 1, {3, 2, 1});
-  ASSERT_EQ(cells.first.size(), 7u);
-  const auto list = [&](std::size_t cell) {
-    return std::vector<std::uint32_t>(
-        cells.triangles.begin() + static_cast<std::ptrdiff_t>(cells.first[cell]),
-        cells.triangles.begin() + static_cast<std::ptrdiff_t>(cells.first[cell + 1]));
-  };
-  for (std::size_t x = 0; x < 3; ++x) EXPECT_THAT(list(x), testing::ElementsAre(0u)) << x;
-  EXPECT_THAT(list(3), testing::IsEmpty());
-  EXPECT_THAT(list(4), testing::ElementsAre(1u));
-  EXPECT_THAT(list(5), testing::IsEmpty());
-  // What lies beyond the grid belongs to its edge
-  const TriangleCells moved = triangle_cells(triangles, {5, 5, 5}, 1, {2, 2, 2});
-  EXPECT_EQ(moved.first[1] - moved.first[0], 2u);
-  EXPECT_EQ(moved.first.back(), 2u);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST_F(Limits, FittedPointsBrighterThanHalvesShineAsBrightAsHalvesDo) {
     fitted.weights.emplace_back().add(0, 1);
   }
   FrameCounters counters;
-  FittedLight light(prepare_fitted(scene, 0, fitted, everything_sees), 1, counters);
+  FittedLight light(probes::prepare_fitted(scene, 0, fitted, everything_sees), 1, counters);
   const std::array<vec3, 9> irradiance = {vec3(1e6f), vec3(-1e6f)};
   light.update(std::array{0}, irradiance, irradiance.size(), counters);
   const std::uint64_t before = counters.bytes_uploaded;

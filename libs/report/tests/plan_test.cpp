@@ -304,7 +304,7 @@ TEST(Plan, WrongKindsAndDoublesAreNamed) {
   expect("unknown scene \"t\"", [](auto& j) { j["published"]["rows"][0]["scene"] = "t"; });
   expect("methods[0]: unknown scene \"t\" (known: s)", [](auto& j) { j["methods"][0]["scenes"] = {"t"}; });
   expect("two scenes are called \"s\"", [](auto& j) { j["scenes"].push_back(j["scenes"][0]); });
-  expect("two scenes are called \"\"", [](auto& j) { j["scenes"][0]["name"] = ""; });
+  expect("scenes[0].name: is empty", [](auto& j) { j["scenes"][0]["name"] = ""; });
   expect("methods[1]: two methods are called \"m, depth 1, n a\"",
          [](auto& j) { j["methods"].push_back(j["methods"][0]); });
   expect("parameters.depth: must be a list of values",

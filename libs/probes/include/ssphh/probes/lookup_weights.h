@@ -59,6 +59,8 @@ struct WeightList {
 /// Probes among which one point chooses.
 inline constexpr int max_weights = 16;
 using PointWeights = WeightList<max_weights>;
+/// Probes that light one point by the method `distance`, unless said otherwise.
+inline constexpr int blended_probes = 8;
 /// What a lookup returns: `fitted` joins the weights of several points.
 using ProbeWeights = WeightList<48>;
 
@@ -71,8 +73,8 @@ struct WeightParams {
   std::optional<WeightMethod> method;
   /// Of `fitted`, for what moves and where no fitted point is near.
   WeightMethod fallback = WeightMethod::mls;
-  int nearest = 8;          ///< distance: so many visible probes, 1..16
-  float spacing = 0;        ///< metres between probes; 0: the median distance to the nearest neighbour
+  int nearest = blended_probes;  ///< distance: so many visible probes, 1..16
+  float spacing = 0;             ///< metres between probes; 0: the median distance to the nearest neighbour
   float normal_offset = 0;  ///< metres that visibility rays start off the surface; 0: 1 % of the distance to
                             ///< the probe, at most 1 % of the spacing
 

@@ -59,6 +59,7 @@ struct IrradianceEstimate {
   vec3 indirect_variance{0};  ///< of the estimate `indirect`, from independent batches
 };
 
+/// Implemented by trace::PathTracer.
 class RadianceSource {
  public:
   virtual ~RadianceSource() = default;
@@ -98,7 +99,8 @@ class RadianceSource {
   virtual std::uint64_t rays_traced() const = 0;
 };
 
-/// Indirect light at surface points, as looked up from probes.
+/// Indirect light at surface points. Implemented by probes::IrradianceLookup, probes::LightLookup and the light
+/// of every method in libs/methods.
 class IndirectLight {
  public:
   virtual ~IndirectLight() = default;

@@ -18,8 +18,8 @@
 #include <ssphh/gl/texture.h>
 #include <ssphh/image/image.h>
 #include <ssphh/methods/method.h>
+#include <ssphh/probes/fitted_surfaces.h>
 #include <ssphh/probes/probe_set.h>
-#include <ssphh/realtime/fitted_surfaces.h>
 #include <ssphh/realtime/frame_stats.h>
 #include <ssphh/realtime/settings.h>
 #include <ssphh/scene/lighting_state.h>
@@ -75,7 +75,7 @@ class Renderer {
   void set_probes(const probes::ProbeSet& set, const probes::LookupParams& params = {});
   /// Fitted weights of the last set_probes' probes, for FrameSettings::weights `fitted`; set_probes forgets
   /// them. Empty: none. Throws Error for points that name a probe which there is not.
-  void set_fitted(const FittedSurfaces& fitted);
+  void set_fitted(const probes::FittedSurfaces& fitted);
   /// New light for some probes of the last set_probes, one function each: what surfaces look up. Cost and
   /// upload are proportional to their number. Throws Error for an index out of range and for functions that
   /// are not finite or not of the set's degree; all probes stay as they were then.

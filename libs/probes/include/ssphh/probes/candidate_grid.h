@@ -7,9 +7,9 @@
 
 #include <ssphh/scene/query.h>
 
-namespace ssphh::realtime {
+namespace ssphh::probes {
 
-struct ProbeGrid {
+struct CandidateGrid {
   /// A point chooses among so many nearest probes, as gi's lookups do.
   static constexpr int wanted = 16;
   static constexpr int longest = 32;
@@ -26,10 +26,10 @@ struct ProbeGrid {
 
 /// How far from each probe the points may be that choose among it [m]: the farthest corner of a cell that
 /// lists it.
-std::vector<float> probe_reach(const ProbeGrid& grid, std::span<const vec3> probes);
+std::vector<float> probe_reach(const CandidateGrid& grid, std::span<const vec3> probes);
 
 /// Cells of a third of the probes' spacing or larger, at most `most_cells`, over `bounds`.
-ProbeGrid make_probe_grid(std::span<const vec3> probes, const scene::Bounds& bounds, float spacing,
-                          std::size_t most_cells = 1 << 17);
+CandidateGrid make_candidate_grid(std::span<const vec3> probes, const scene::Bounds& bounds, float spacing,
+                                  std::size_t most_cells = 1 << 17);
 
-}  // namespace ssphh::realtime
+}  // namespace ssphh::probes

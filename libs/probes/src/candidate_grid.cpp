@@ -1,13 +1,12 @@
-#include "probe_grid.h"
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/geometry/nearest.h>
+#include <ssphh/probes/candidate_grid.h>
 
-namespace ssphh::realtime {
+namespace ssphh::probes {
 namespace {
 
 /// The part of `near`, sorted by distance from the middle of a cube of half side `half`, that may be among
@@ -19,21 +18,21 @@ std::size_t keep_possible(std::span<geometry::Near> near, std::span<const vec3> 
     // |x − a|² − |x − b|² is linear in x: it is below 0 all over the cube if it is at its worst corner
     int nearer = 0;
     const vec3 b = probes[static_cast<std::size_t>(near[i].index)] - middle;
-    for (std::size_t j = 0; j < i && nearer < ProbeGrid::wanted; ++j) {
+    for (std::size_t j = 0; j < i && nearer < CandidateGrid::wanted; ++j) {
       const vec3 a = probes[static_cast<std::size_t>(near[j].index)] - middle;
       const vec3 apart = glm::abs(a - b);
       nearer += glm::dot(a, a) - glm::dot(b, b) + 2 * half * (apart.x + apart.y + apart.z) < 0;
     }
-    if (nearer < ProbeGrid::wanted) near[kept++] = near[i];
+    if (nearer < CandidateGrid::wanted) near[kept++] = near[i];
   }
   return kept;
 }
 
 }  // namespace
 
-ProbeGrid make_probe_grid(std::span<const vec3> probes, const scene::Bounds& bounds, float spacing,
-                          std::size_t most_cells) {
-  ProbeGrid grid;
+CandidateGrid make_candidate_grid(std::span<const vec3> probes, const scene::Bounds& bounds, float spacing,
+                                  std::size_t most_cells) {
+  CandidateGrid grid;
   const vec3 extent = glm::max(bounds.max - bounds.min, vec3(1e-6f));
   grid.origin = bounds.min;
   grid.cell_size = std::isfinite(spacing) ? spacing / 3 : max_component(extent);
@@ -48,7 +47,7 @@ ProbeGrid make_probe_grid(std::span<const vec3> probes, const scene::Bounds& bou
 
   const auto count = static_cast<std::size_t>(grid.cells.x) * static_cast<std::size_t>(grid.cells.y) *
                      static_cast<std::size_t>(grid.cells.z);
-  constexpr auto stride = static_cast<std::size_t>(ProbeGrid::longest);
+  constexpr auto stride = static_cast<std::size_t>(CandidateGrid::longest);
   std::vector<int> lists(count * stride, -1);
   std::atomic<int> longest = 1;
   const geometry::NearestPoints nearest(probes);
@@ -59,7 +58,7 @@ ProbeGrid make_probe_grid(std::span<const vec3> probes, const scene::Bounds& bou
       const auto c = static_cast<int>(cell);
       const vec3 place(c % grid.cells.x, c / grid.cells.x % grid.cells.y, c / (grid.cells.x * grid.cells.y));
       const vec3 middle = grid.origin + grid.cell_size * (place + 0.5f);
-      const int wanted = nearest.find(middle, std::span(near).first(ProbeGrid::wanted));
+      const int wanted = nearest.find(middle, std::span(near).first(CandidateGrid::wanted));
       const float farthest = std::sqrt(near[static_cast<std::size_t>(wanted - 1)].distance2);
       const int found = nearest.find(middle, near, farthest + diagonal);
       const std::size_t possible =
@@ -82,7 +81,7 @@ ProbeGrid make_probe_grid(std::span<const vec3> probes, const scene::Bounds& bou
   return grid;
 }
 
-std::vector<float> probe_reach(const ProbeGrid& grid, std::span<const vec3> probes) {
+std::vector<float> probe_reach(const CandidateGrid& grid, std::span<const vec3> probes) {
   std::vector<float> reach(probes.size(), 0);
   std::size_t entry = 0;
   for (int z = 0; z < grid.cells.z; ++z) {
@@ -101,4 +100,4 @@ std::vector<float> probe_reach(const ProbeGrid& grid, std::span<const vec3> prob
   return reach;
 }
 
-}  // namespace ssphh::realtime
+}  // namespace ssphh::probes

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include <ssphh/realtime/fitted_surfaces.h>
+#include <ssphh/probes/fitted_surfaces.h>
 
-namespace ssphh::realtime {
+namespace ssphh::probes {
 
 /// A unit vector on the octahedral map's 63² grid: integers, so that all agree on its largest component.
 struct CoarseNormal {
@@ -56,4 +56,4 @@ inline uvec4 pack_fitted_entry(std::uint32_t point, const vec3& place, const Coa
           static_cast<std::uint32_t>(squares), static_cast<std::uint32_t>(squares >> 32)};
 }
 
-}  // namespace ssphh::realtime
+}  // namespace ssphh::probes

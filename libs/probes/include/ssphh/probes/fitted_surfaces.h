@@ -1,5 +1,5 @@
 #pragma once
-/// Fitted weights (probes::FittedPoints) made ready to be looked up without rays: which fitted points light
+/// Fitted weights (FittedPoints) made ready to be looked up without rays: which fitted points light
 /// which part of the surfaces that stand still. Made once for a scene and its points; light that changes
 /// costs nothing here.
 
@@ -9,21 +9,21 @@
 #include <ssphh/probes/fitted_points.h>
 #include <ssphh/scene/scene.h>
 
-namespace ssphh::realtime {
+namespace ssphh::probes {
 
 using glm::ivec3;
 using glm::uvec2;
 using glm::uvec4;
 
 /// A grid of cells over the surfaces. A cell that holds surface lists the fitted points that may light it, as
-/// probes::FittedLookupWeights finds them, and for each which of 8 × 8 squares of the cell see it: squares of
+/// FittedLookupWeights finds them, and for each which of 8 × 8 squares of the cell see it: squares of
 /// the plane across the axis that the point's normal is nearest to.
 struct FittedSurfaces {
   static constexpr int longest = 64;  ///< points of a list; the nearest to the cell's middle
   static constexpr std::size_t most_points = std::size_t{1} << 22;
 
-  probes::FittedPoints points;  ///< those that have weights
-  float spacing = 0;            ///< median distance between neighbours [m]
+  FittedPoints points;  ///< those that have weights
+  float spacing = 0;    ///< median distance between neighbours [m]
   vec3 origin{0};
   float cell_size = 1;  ///< metres: `spacing`, or more in a scene of too many cells
   ivec3 cells{0};
@@ -40,7 +40,7 @@ struct FittedSurfaces {
 /// points just above surfaces: of that pose, or of several at once, where what moves may come between. It is
 /// called from several threads. Empty for fewer than two points with weights. Throws Error for more points
 /// than `most_points`, and Cancelled.
-FittedSurfaces prepare_fitted(const scene::Scene& scene, float time, const probes::FittedPoints& fitted,
-                              const probes::SeesProbe& sees, const Control& control = {});
+FittedSurfaces prepare_fitted(const scene::Scene& scene, float time, const FittedPoints& fitted,
+                              const SeesProbe& sees, const Control& control = {});
 
-}  // namespace ssphh::realtime
+}  // namespace ssphh::probes

@@ -6,13 +6,13 @@
 #include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>
 
-#include <ssphh/realtime/fitted_surfaces.h>
+#include <ssphh/probes/fitted_surfaces.h>
 #include <ssphh/scene/primitives.h>
 
 #include "expected_text.h"
 #include "fitted_entry.h"
 
-namespace ssphh::realtime {
+namespace ssphh::probes {
 namespace {
 
 const vec3 low(-0.6f, 0.1f, -0.6f), high(0.6f, 1.2f, 0.6f);  // of the body
@@ -45,8 +45,8 @@ scene::Scene body_on_a_floor() {
 }
 
 /// On the floor, half a metre apart, and one in the middle of the body's lower side.
-probes::FittedPoints points() {
-  probes::FittedPoints fitted;
+FittedPoints points() {
+  FittedPoints fitted;
   const auto add = [&](const vec3& place, const vec3& normal) {
     fitted.points.push_back({place, normal});
     fitted.weights.emplace_back().add(0, 1);
@@ -85,7 +85,7 @@ TEST(FittedSurfaces, TheFloorUnderABodySeesItsNeighboursOnTheFloor) {
 }
 
 TEST(FittedSurfaces, TheFloorBesideABodySeesNothingThroughIt) {
-  probes::FittedPoints fitted = points();
+  FittedPoints fitted = points();
   const auto walled = [](const vec3& a, const vec3& b) { return (a.x < 0) == (b.x < 0); };
   const FittedSurfaces surfaces = prepare_fitted(body_on_a_floor(), 0, fitted, walled);
   for (const float x : {-0.4f, -0.2f, 0.2f, 0.4f}) {
@@ -126,7 +126,7 @@ std::string row_text(const FittedSurfaces& surfaces, int y, int z) {
 
 TEST(FittedSurfaces, ListsAreWhatTheyWere) {
   // Uneven points, a few without weights, on a floor that is turned, and on the body
-  probes::FittedPoints fitted = points();
+  FittedPoints fitted = points();
   for (std::size_t i = 0; i < 100; ++i) {
     fitted.points[i].position +=
         vec3(0.03f * static_cast<float>(i % 7), 0, 0.05f * static_cast<float>(i % 3));
@@ -149,9 +149,9 @@ TEST(FittedSurfaces, ListsAreWhatTheyWere) {
   for (int z = 0; z < surfaces.cells.z; ++z)
     for (int y = 0; y < surfaces.cells.y; ++y) text += row_text(surfaces, y, z);
 #ifndef __clang__  // fuses other products: what lies in the middle between two parts falls into the other one
-  test::expect_text_of("libs/realtime/tests/expected/fitted.txt", text);
+  test::expect_text_of("libs/probes/tests/expected/fitted.txt", text);
 #endif
 }
 
 }  // namespace
-}  // namespace ssphh::realtime
+}  // namespace ssphh::probes

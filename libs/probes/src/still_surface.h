@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include <ssphh/realtime/fitted_surfaces.h>
+#include <ssphh/probes/fitted_surfaces.h>
 #include <ssphh/scene/query.h>
 
-namespace ssphh::realtime {
+namespace ssphh::probes {
 
 struct StillTriangle {
   vec3 a, b, c;  ///< world
@@ -46,4 +46,4 @@ struct TriangleCells {
 TriangleCells triangle_cells(const std::vector<StillTriangle>& triangles, const vec3& origin, float size,
                              const ivec3& cells);
 
-}  // namespace ssphh::realtime
+}  // namespace ssphh::probes

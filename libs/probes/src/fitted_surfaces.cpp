@@ -8,21 +8,21 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/geometry/nearest.h>
-#include <ssphh/realtime/fitted_surfaces.h>
+#include <ssphh/probes/fitted_surfaces.h>
 
 #include "fitted_entry.h"
 #include "still_surface.h"
 
-namespace ssphh::realtime {
+namespace ssphh::probes {
 namespace {
 
-// By how much less than probes::FittedLookupWeights takes a point's normal may agree with the surface's:
+// By how much less than FittedLookupWeights takes a point's normal may agree with the surface's:
 // shading normals are not those.
 constexpr float least_cosine = 0.2f;
 
-probes::FittedPoints with_weights(const probes::FittedPoints& fitted) {
-  probes::require_whole(fitted, std::numeric_limits<std::size_t>::max());
-  probes::FittedPoints kept;
+FittedPoints with_weights(const FittedPoints& fitted) {
+  require_whole(fitted, std::numeric_limits<std::size_t>::max());
+  FittedPoints kept;
   for (std::size_t i = 0; i < fitted.points.size(); ++i) {
     if (fitted.weights[i].count == 0) continue;
     kept.points.push_back(fitted.points[i]);
@@ -31,7 +31,7 @@ probes::FittedPoints with_weights(const probes::FittedPoints& fitted) {
   return kept;
 }
 
-std::vector<vec3> positions_of(const probes::FittedPoints& fitted) {
+std::vector<vec3> positions_of(const FittedPoints& fitted) {
   std::vector<vec3> positions;
   for (const rays::SurfacePoint& point : fitted.points) positions.push_back(point.position);
   return positions;
@@ -60,7 +60,7 @@ struct Work {
 
 class Preparation {
  public:
-  Preparation(FittedSurfaces& out, std::vector<StillTriangle> triangles, const probes::SeesProbe& sees)
+  Preparation(FittedSurfaces& out, std::vector<StillTriangle> triangles, const SeesProbe& sees)
       : out_(out),
         triangles_(std::move(triangles)),
         sees_(sees),
@@ -107,10 +107,10 @@ class Preparation {
   /// How far a lookup at x looks [m].
   float reach(const vec3& x) const {
     const float radius = 4 * out_.spacing;
-    std::array<geometry::Near, probes::most_fitted_points> near;
+    std::array<geometry::Near, most_fitted_points> near;
     const int count = near_.find(x, near, radius);
-    return count == static_cast<int>(probes::most_fitted_points)
-               ? std::sqrt(near[probes::most_fitted_points - 1].distance2) * 1.0001f
+    return count == static_cast<int>(most_fitted_points)
+               ? std::sqrt(near[most_fitted_points - 1].distance2) * 1.0001f
                : radius;
   }
 
@@ -260,7 +260,7 @@ class Preparation {
 
   FittedSurfaces& out_;
   std::vector<StillTriangle> triangles_;
-  const probes::SeesProbe& sees_;
+  const SeesProbe& sees_;
   std::vector<vec3> positions_;
   geometry::NearestPoints near_;
   TriangleCells in_cells_;
@@ -268,18 +268,18 @@ class Preparation {
 
 }  // namespace
 
-FittedSurfaces prepare_fitted(const scene::Scene& scene, float time, const probes::FittedPoints& fitted,
-                              const probes::SeesProbe& sees, const Control& control) {
+FittedSurfaces prepare_fitted(const scene::Scene& scene, float time, const FittedPoints& fitted,
+                              const SeesProbe& sees, const Control& control) {
   FittedSurfaces out;
   out.points = with_weights(fitted);
   if (out.points.points.size() > FittedSurfaces::most_points)
     throw Error("fitted weights", fmt::format("{} points, at most {} can be drawn", out.points.points.size(),
                                               FittedSurfaces::most_points));
-  out.spacing = probes::median_spacing(positions_of(out.points));
+  out.spacing = median_spacing(positions_of(out.points));
   std::vector<StillTriangle> triangles = still_triangles(scene, time);
   if (!std::isfinite(out.spacing) || triangles.empty()) return out;
   Preparation(out, std::move(triangles), sees).run(control);
   return out;
 }
 
-}  // namespace ssphh::realtime
+}  // namespace ssphh::probes

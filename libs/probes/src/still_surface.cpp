@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace ssphh::realtime {
+namespace ssphh::probes {
 
 std::vector<StillTriangle> still_triangles(const scene::Scene& scene, float time) {
   const std::vector<mat4> world = scene::world_matrices(scene, time);
@@ -60,4 +60,4 @@ TriangleCells triangle_cells(const std::vector<StillTriangle>& triangles, const 
   return out;
 }
 
-}  // namespace ssphh::realtime
+}  // namespace ssphh::probes

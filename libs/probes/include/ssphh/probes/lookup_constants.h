@@ -1,0 +1,64 @@
+#pragma once
+/// Numbers that the lookups of the CPU and those of shaders share. They stand here alone: shaders get them by
+/// the names of `constants_of_shaders`.
+
+#include <array>
+
+#include <ssphh/probes/candidate_grid.h>
+#include <ssphh/probes/lookup.h>
+
+namespace ssphh::probes {
+
+/// Rays toward probes start so far off the surface, in shares of the distance or of the spacing of probes,
+/// whichever is less.
+inline constexpr float sight_lift = 0.01f;
+/// What a probe right behind the surface keeps of its weight by distance, beside the wrapped cosine.
+inline constexpr float wrapped_floor = 0.05f;
+/// A hidden probe that stands in for visible ones counts so much per cosine above the tangent plane, at
+/// most 1.
+inline constexpr float hidden_slope = 4;
+/// Moving least squares look so far [spacings] …
+inline constexpr float mls_reach = 2;
+/// … give what stands that far this weight, so that the fit never lacks points …
+inline constexpr float mls_least_bump = 1e-6f;
+/// … and keep the fit flat where the probes do not differ.
+inline constexpr float mls_ridge = 0.05f;
+/// A tent of trilinear weights that is lower counts for nothing.
+inline constexpr float least_tent = 1e-4f;
+
+/// A fitted point lights surfaces whose normal agrees with its own to this cosine …
+inline constexpr float fitted_cosine = 0.7f;
+/// … and from whose plane it is no farther than so many spacings of points and …
+inline constexpr float fitted_off_plane = 0.5f;
+/// … this share of the distance.
+inline constexpr float fitted_off_plane_slope = 0.1f;
+inline constexpr float fitted_ridge = 0.05f;
+/// No fitted point counts for less, in shares of what it has in the mean.
+inline constexpr float fitted_lowest = -0.25f;
+
+struct ShaderConstant {
+  const char* name;
+  float value;
+  bool whole = false;  ///< an integer
+};
+
+inline constexpr std::array constants_of_shaders = {
+    ShaderConstant{"MAX_LISTED", CandidateGrid::longest, true},
+    ShaderConstant{"MAX_NEAR", max_weights, true},
+    ShaderConstant{"MAX_BLEND", blended_probes, true},
+    ShaderConstant{"SIGHT_LIFT", sight_lift},
+    ShaderConstant{"WRAPPED_FLOOR", wrapped_floor},
+    ShaderConstant{"HIDDEN_SLOPE", hidden_slope},
+    ShaderConstant{"MLS_REACH", mls_reach},
+    ShaderConstant{"MLS_LEAST_BUMP", mls_least_bump},
+    ShaderConstant{"MLS_RIDGE", mls_ridge},
+    ShaderConstant{"LEAST_TENT", least_tent},
+    ShaderConstant{"SMALLEST_COSINE", LightLookup::smallest_cosine},
+    ShaderConstant{"FITTED_COSINE", fitted_cosine},
+    ShaderConstant{"FITTED_OFF_PLANE", fitted_off_plane},
+    ShaderConstant{"FITTED_OFF_PLANE_SLOPE", fitted_off_plane_slope},
+    ShaderConstant{"FITTED_RIDGE", fitted_ridge},
+    ShaderConstant{"FITTED_LOWEST", fitted_lowest},
+};
+
+}  // namespace ssphh::probes
