@@ -1,6 +1,6 @@
 /// Light looked up from probes, at the middle of every pixel: what OpenGL draws against the CPU's lookups of
-/// the same probes, whose colours differ strongly from probe to probe and by direction. libs/probes/tests hold
-/// these lookups against formulas.
+/// the same probes, whose colours differ strongly from probe to probe and by direction. libs/probes/tests
+/// hold these lookups against formulas.
 
 #include <gmock/gmock.h>
 

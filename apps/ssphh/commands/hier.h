@@ -21,9 +21,9 @@ struct HierOptions {
 };
 
 struct HierResult {
-  probes::ProbeSet set;                               ///< as it was written
-  std::size_t edges = 0;                              ///< that HIER used
-  double seconds = 0;                                 ///< HIER alone takes so long: the median of seven runs
+  probes::ProbeSet set;                    ///< as it was written
+  std::size_t edges = 0;                   ///< that HIER used
+  double seconds = 0;                      ///< HIER alone takes so long: the median of seven runs
   std::optional<Contraction> contraction;  ///< of operator mean
 };
 

@@ -3,9 +3,9 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
+#include <ssphh/methods/table.h>
 #include <ssphh/rays/posed_world.h>
 
-#include <ssphh/methods/table.h>
 #include "points.h"
 
 namespace ssphh::methods::ambient {

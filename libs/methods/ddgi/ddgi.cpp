@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/methods/table.h>
 
 #include "blend.h"
-#include <ssphh/methods/table.h>
 #include "reach.h"
 #include "relocate.h"
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <optional>
 
+#include <ssphh/methods/table.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/transport/session_sets.h>
 
-#include <ssphh/methods/table.h>
 #include "kept_weights.h"
 #include "probe_volume/probe_volume.h"
 

@@ -5,11 +5,11 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/methods/table.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/sh/rotate.h>
 #include <ssphh/transport/session_sets.h>
 
-#include <ssphh/methods/table.h>
 #include "kept_weights.h"
 #include "probe_volume/probe_volume.h"
 #include "sky_transfer.h"

@@ -3,8 +3,6 @@
 #include <ssphh/core/error.h>
 #include <ssphh/methods/table.h>
 
-#include <ssphh/methods/table.h>
-
 namespace ssphh::methods {
 
 std::span<const MethodEntry> method_table() {

@@ -148,7 +148,7 @@ TEST(MethodFields, TetrahedraGiveALinearFieldOfColouredDirections) {
   for (int i = 0; i < 8; ++i) places.push_back(4.0f * vec3(i % 2, i / 2 % 2, i / 4));
   for (int i = 0; i < 60; ++i) places.push_back(4.0f * random.uniform3());
   const probes::IrradianceLookup lookup(test::varied_set(places, 4, test::light_at),
-                                std::make_unique<probe_volume::VolumeWeights>(places), {});
+                                        std::make_unique<probe_volume::VolumeWeights>(places), {});
   for (int i = 0; i < 60; ++i) {
     const rays::SurfacePoint p{0.02f + 3.96f * random.uniform3(), sample_uniform_sphere(random.uniform2())};
     // Flat cells at the hull lose a thousandth of an edge (tetrahedra_test.cpp); π and a slope of 0.9 on top

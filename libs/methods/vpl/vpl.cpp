@@ -1,6 +1,7 @@
 #include <optional>
 
 #include <ssphh/methods/table.h>
+
 #include "field.h"
 #include "points.h"
 

@@ -132,8 +132,8 @@ std::optional<Contraction> hier_contraction(const ProbeSet& set, const HierParam
   for (std::size_t i = 0; i < set.probes.size(); ++i) {
     for (const int e : select_neighbors(set.probes[i], params)) {
       const Edge& edge = set.probes[i].edges[static_cast<std::size_t>(e)];
-      factors.push_back({i, static_cast<std::size_t>(edge.from),
-                         double(std::max(0.0f, max_component(sh::mean(edge.h))))});
+      factors.push_back(
+          {i, static_cast<std::size_t>(edge.from), double(std::max(0.0f, max_component(sh::mean(edge.h))))});
     }
   }
   return contraction(set.probes.size(), [&](std::span<const double> x, std::span<double> y) {

@@ -1,7 +1,7 @@
 #pragma once
 /// Lighting surface points from probes: the paper's `light` and the field's `irradiance`, as
-/// rays::IndirectLight for a renderer that computes direct light itself. libs/methods/ssphh/README.md says what
-/// each is worth.
+/// rays::IndirectLight for a renderer that computes direct light itself. libs/methods/ssphh/README.md says
+/// what each is worth.
 
 #include <memory>
 

@@ -99,8 +99,8 @@ class RadianceSource {
   virtual std::uint64_t rays_traced() const = 0;
 };
 
-/// Indirect light at surface points. Implemented by probes::IrradianceLookup, probes::LightLookup and the light
-/// of every method in libs/methods.
+/// Indirect light at surface points. Implemented by probes::IrradianceLookup, probes::LightLookup and the
+/// light of every method in libs/methods.
 class IndirectLight {
  public:
   virtual ~IndirectLight() = default;

@@ -70,8 +70,8 @@ struct PhotonNumbers {
   vec2 place{0}, direction{0};
 };
 
-/// Light that comes straight from emitters, for one state of the lights and one pose of the parts. Implemented
-/// by what trace::TransportScene::direct_light returns.
+/// Light that comes straight from emitters, for one state of the lights and one pose of the parts.
+/// Implemented by what trace::TransportScene::direct_light returns.
 class DirectLight {
  public:
   virtual ~DirectLight() = default;
