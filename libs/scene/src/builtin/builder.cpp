@@ -32,21 +32,17 @@ int Builder::matte(const std::string& name, const vec3& albedo, const vec3& emis
   return add_material(std::move(m));
 }
 
-int Builder::glossy(const std::string& name, const vec3& albedo, float roughness) {
+int Builder::glossy(const std::string& name, const vec3& albedo, float roughness, float metallic) {
   Material m;
   m.name = name;
   m.base_color = albedo;
+  m.metallic = metallic;
   m.specular_roughness = roughness;
   return add_material(std::move(m));
 }
 
 int Builder::metal(const std::string& name, const vec3& f0, float roughness) {
-  Material m;
-  m.name = name;
-  m.base_color = f0;
-  m.metallic = 1;
-  m.specular_roughness = roughness;
-  return add_material(std::move(m));
+  return glossy(name, f0, roughness, 1);
 }
 
 int Builder::node(const std::string& name, const Transform& local, int parent) {

@@ -15,7 +15,7 @@ class Builder {
   /// Diffuse only (specular = 0). Returns the material's index.
   int matte(const std::string& name, const vec3& albedo, const vec3& emission = vec3(0));
   /// Dielectric with a specular lobe of the given GGX roughness.
-  int glossy(const std::string& name, const vec3& albedo, float roughness);
+  int glossy(const std::string& name, const vec3& albedo, float roughness, float metallic = 0);
   int metal(const std::string& name, const vec3& f0, float roughness);
 
   int node(const std::string& name, const Transform& local = {}, int parent = -1);
