@@ -12,7 +12,7 @@ namespace {
 std::vector<std::byte> with_header(std::span<const std::byte> payload) {
   std::vector<std::byte> file(36);
   std::memcpy(file.data(), "SPHL\r\n\x1a\n", 8);
-  const std::uint32_t version = probe_file_version;
+  const std::uint32_t version = ssphh::probes::probe_file_version;
   const std::uint64_t size = payload.size();
   const ssphh::Hash128 sum = ssphh::Hasher().bytes(payload).finish();
   std::memcpy(file.data() + 8, &version, 4);
@@ -26,7 +26,7 @@ std::vector<std::byte> with_header(std::span<const std::byte> payload) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace ssphh::gi;
+  using namespace ssphh::probes;
   if (size == 0) return 0;
   const std::span bytes(reinterpret_cast<const std::byte*>(data + 1), size - 1);
   try {
