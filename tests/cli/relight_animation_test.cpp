@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include <ssphh/scene/builtin.h>
+#include <ssphh/scene/turn_surroundings.h>
 #include <ssphh/trace/transport_scene.h>
 
 #include "error_message.h"
@@ -71,8 +72,14 @@ TEST_F(Animation, EachTrackSetsItsPropertyOfItsLightAlone) {
   EXPECT_EQ(frame("spot.intensity=2:4", 0.5f), wanted);
   wanted = still_, wanted.lights[3].color = {0.5f, 0.25f, 1};
   EXPECT_EQ(frame("globe.color=1,0.5,0:0,0,2", 0.5f), wanted);
-  wanted = still_, wanted.environment_rotation = pi / 2;
+  wanted = still_, scene::turn_surroundings(wanted, scene_, pi / 2);
   EXPECT_EQ(frame("environment.rotation=-90:90", 1), wanted) << "degrees";
+}
+
+TEST_F(Animation, ASunWithADirectionOfItsOwnDoesNotTurnWithTheSky) {
+  const scene::LightingState state = read({"environment.rotation=90", "sun.direction=0,-1,0"}).frame(0.5f);
+  EXPECT_FLOAT_EQ(state.environment_rotation, pi / 2);
+  EXPECT_LT(glm::distance(vec3(state.lights[2].world[2]), vec3(0, 1, 0)), 1e-6f);
 }
 
 TEST_F(Animation, AGroupTakesOneFactorOrOneForEachChannel) {
@@ -130,7 +137,7 @@ TEST_F(Animation, ChangesWhatMovesAndNothingElse) {
   const auto& groups = source_.light_groups();
   by_hand.group_scales[static_cast<std::size_t>(std::ranges::find(groups, "cold") - groups.begin())] =
       vec3(0.5f);
-  by_hand.environment_rotation = pi / 2;
+  scene::turn_surroundings(by_hand, scene_, pi / 2);
   EXPECT_EQ(animation.frame(0.5f), by_hand);
 }
 

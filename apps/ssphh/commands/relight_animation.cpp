@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <ssphh/scene/turn_surroundings.h>
+
 namespace ssphh::app {
 namespace {
 
@@ -151,7 +153,7 @@ vec3 Track::at(float u) const {
 
 RelightAnimation::RelightAnimation(const rays::TransportSource& source, const scene::Scene& scene, float time,
                                    const std::vector<std::string>& specs)
-    : source_(source), time_(time) {
+    : source_(source), scene_(scene), time_(time) {
   std::set<std::pair<TrackProperty, int>> seen;
   for (const std::string& spec : specs) {
     tracks_.push_back(read_track(spec, source, scene));
@@ -175,17 +177,20 @@ bool RelightAnimation::moves_time() const {
 }
 
 scene::LightingState RelightAnimation::frame(float u) const {
-  float time = time_;
+  float time = time_, turn = 0;
   for (const Track& track : tracks_) {
     if (track.property == TrackProperty::time) time = track.at(u).x;
+    if (track.property == TrackProperty::turn) turn = track.at(u).x;
   }
   scene::LightingState state = rays::lighting_at(source_, time);
+  scene::turn_surroundings(state, scene_, turn);
   for (const Track& track : tracks_) {
     const vec3 value = track.at(u);
     const auto target = static_cast<std::size_t>(std::max(track.target, 0));
     switch (track.property) {
       case TrackProperty::time:
-        break;
+      case TrackProperty::turn:
+        break;  // as above: a light with a direction of its own keeps it
       case TrackProperty::position:
         state.lights[target].world[3] = vec4(value, 1);
         break;
@@ -200,9 +205,6 @@ scene::LightingState RelightAnimation::frame(float u) const {
         break;
       case TrackProperty::scale:
         state.group_scales[target] = value;
-        break;
-      case TrackProperty::turn:
-        state.environment_rotation = value.x;
         break;
     }
   }

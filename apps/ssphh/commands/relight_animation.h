@@ -15,7 +15,7 @@ enum class TrackProperty {
   intensity,  ///< of a light, units as scene::Light
   color,      ///< of a light, linear RGB
   scale,      ///< factor on a light group, one number or linear RGB
-  turn        ///< of the environment about +y beyond the scene's own rotation, radians
+  turn        ///< of environment and directional lights about +y, radians
 };
 
 /// Values at evenly spaced times, linear between them.
@@ -33,6 +33,7 @@ class RelightAnimation {
   /// Reads "time=0:1", "LIGHT.position=x,y,z:x,y,z", "GROUP.scale=1:0" … Throws Error that lists the scene's
   /// lights or groups for an unknown name, and for values that are no numbers, of a wrong count or out of
   /// range.
+  /// Keeps references to source and scene.
   RelightAnimation(const rays::TransportSource& source, const scene::Scene& scene, float time,
                    const std::vector<std::string>& specs);
 
@@ -42,6 +43,7 @@ class RelightAnimation {
 
  private:
   const rays::TransportSource& source_;
+  const scene::Scene& scene_;
   float time_;
   std::vector<Track> tracks_;
 };

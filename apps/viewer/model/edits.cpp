@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/scene/turn_surroundings.h>
+
 namespace ssphh::viewer {
 namespace {
 
@@ -54,6 +56,7 @@ bool same_surface(const scene::Material& a, const scene::Material& b) {
 
 scene::LightingState edited_lighting(const scene::Scene& scene, const Edits& edits, float time) {
   scene::LightingState state = scene::lighting_at(scene, time);
+  scene::turn_surroundings(state, scene, edits.environment_rotation);
   for (std::size_t i = 0; i < state.lights.size(); ++i) {
     const LightEdit& edit = edits.lights[i];
     if (edit.world) state.lights[i].world = *edit.world;
@@ -65,7 +68,6 @@ scene::LightingState edited_lighting(const scene::Scene& scene, const Edits& edi
     const auto found = edits.groups.find(groups[g]);
     if (found != edits.groups.end()) state.group_scales[g] = found->second;
   }
-  state.environment_rotation = edits.environment_rotation;
   return state;
 }
 

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 
 #include <ssphh/scene/builtin.h>
+#include <ssphh/scene/sun_sky.h>
+#include <ssphh/scene/turn_surroundings.h>
 #include <ssphh/scene_io/load.h>
 
 #include "model/document.h"
@@ -144,6 +146,21 @@ TEST(Edits, LightsAreAsTheyWereSet) {
   EXPECT_EQ(edited_lighting(*document.scene, edits, 0).lights[0].world, there);
   EXPECT_EQ(there[0], own[0]);
   EXPECT_EQ(there[3], vec4(7, 8, 9, 1));
+}
+
+TEST(Edits, ATurnedSkyTakesItsSunAlongUnlessThatWasSetByHand) {
+  scene::Scene scene = scene::make_builtin("box");
+  scene::add_sun_sky(scene);
+  const std::size_t sun = scene.lights.size() - 1;
+  Edits edits = edits_of(scene);
+  const scene::LightingState still = edited_lighting(scene, edits, 0);
+  edits.environment_rotation = 0.5f;
+  scene::LightingState turned = still;
+  scene::turn_surroundings(turned, scene, 0.5f);
+  EXPECT_EQ(edited_lighting(scene, edits, 0), turned);
+  EXPECT_NE(turned.lights[sun], still.lights[sun]);
+  edits.lights[sun].world = still.lights[sun].world;
+  EXPECT_EQ(edited_lighting(scene, edits, 0).lights[sun], still.lights[sun]);
 }
 
 TEST(Edits, GroupsWithoutAFactorHaveOne) {
