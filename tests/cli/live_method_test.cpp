@@ -7,6 +7,8 @@
 
 #include <ssphh/scene/builtin.h>
 
+#include "commands/measure.h"
+#include "error_message.h"
 #include "here.h"
 
 namespace ssphh::app {
@@ -25,6 +27,18 @@ TEST(LiveMethod, TextAndJsonTellTheSame) {
   EXPECT_THAT(live.text(),
               HasSubstr(fmt::format("bake {:.2f} s, update {:.3g} ms, {} B to look up, ", live.bake_seconds(),
                                     1e3 * live.update_seconds(), live.method().memory().lookup)));
+}
+
+TEST(LiveMethod, MeasureRefusesAMethodOrParameterBeforeItReadsTheScene) {
+  const auto said = [](const char* method) {
+    MeasureOptions options;
+    options.scene.source = "there is no such scene.glb";
+    options.methods = {"direct", method};
+    return test::message_of([&] { run_measure(options, {}); });
+  };
+  EXPECT_THAT(said("nobody"), HasSubstr("method nobody: there is no such method"));
+  EXPECT_THAT(said("ambient,points=0"), HasSubstr("points"));
+  EXPECT_THAT(said("ambient,points=64"), HasSubstr("there is no such scene.glb"));
 }
 
 TEST(LiveMethod, MeasureReadsEveryParameterOfItsName) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -276,6 +277,14 @@ TEST_F(ShTool, CubemapConvertRearrangesAndResamples) {
   EXPECT_THAT(
       problem_here({"cubemap", "convert", "none.exr", "-o", "x.txt", "--from", "cross-h", "--to", "strip-h"}),
       HasSubstr("x.txt"));
+}
+
+TEST(ShFile, CoefficientsBeyondAFloatAreTold) {
+  for (const float bad : {std::numeric_limits<float>::infinity(), std::nanf("")})
+    EXPECT_EQ(test::message_of([&] {
+                app::rgb_to_json({1, bad, 0});
+              }),
+              "coefficients: one is beyond what a float holds, 3.4e38 (scale them down first)");
 }
 
 }  // namespace

@@ -62,18 +62,30 @@ std::vector<Candidate> probe_candidates(const MeasureOptions& o, const std::vect
   return candidates;
 }
 
-/// "NAME,PARAMETER=VALUE,...": the method stays alive as long as its light.
-Candidate method_candidate(const std::string& spec, const trace::SharedGeometry& geometry,
-                           const scene::Scene& scene, float time, const Control& control) {
+struct MethodSpec {
+  std::string name;
+  std::vector<std::string> settings;
+};
+
+/// "NAME,PARAMETER=VALUE,...", of a method and parameters that there are.
+MethodSpec read_method(const std::string& spec) {
   std::vector<std::string> words;
   for (std::size_t at = 0; at <= spec.size();) {
     const std::size_t comma = std::min(spec.find(',', at), spec.size());
     words.push_back(spec.substr(at, comma - at));
     at = comma + 1;
   }
-  const std::string name = words.front();
-  words.erase(words.begin());
-  auto live = std::make_shared<LiveMethod>(name, words, geometry, scene, control);
+  const MethodSpec method{words.front(), {words.begin() + 1, words.end()}};
+  const methods::MethodEntry& entry = methods::find_method(method.name);
+  methods::MethodParameters(method.name, entry.parameters, method.settings);
+  return method;
+}
+
+/// The method stays alive as long as its light.
+Candidate method_candidate(const std::string& spec, const trace::SharedGeometry& geometry,
+                           const scene::Scene& scene, float time, const Control& control) {
+  const auto [name, settings] = read_method(spec);
+  auto live = std::make_shared<LiveMethod>(name, settings, geometry, scene, control);
   live->update(rays::lighting_at(live->source(), time), control);
   Candidate candidate;
   candidate.known.name = spec;
@@ -157,6 +169,7 @@ MeasureResult run_measure(const MeasureOptions& o, const Control& control) {
   const GeometryBuilds builds;
   if (o.probes.empty() && o.methods.empty())
     throw Error("measure", "there is nothing to compare", "give --probes FILE or --method NAME");
+  for (const std::string& spec : o.methods) read_method(spec);  // fails before the work
   const scene::Scene scene = load_scene(o.scene);
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   const trace::PathTracer tracer(geometry, scene, o.scene.time);

@@ -1,5 +1,6 @@
 #include "commands/sh_file.h"
 
+#include <cmath>
 #include <iostream>
 
 #include <fmt/format.h>
@@ -17,6 +18,8 @@ constexpr std::uint64_t coefficient_file_limit = std::uint64_t{16} << 20;
 // ---------------------------------------------------------------------------
 
 json::Value number(float value) {
+  if (!std::isfinite(value))
+    throw Error("coefficients", "one is beyond what a float holds, 3.4e38", "scale them down first");
   // The shortest decimal that reads back to the same float.
   return json::parse(fmt::format("{}", value), "number");
 }
