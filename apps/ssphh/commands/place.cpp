@@ -9,6 +9,7 @@
 #include <ssphh/scene_io/overlay.h>
 
 #include "commands/command.h"
+#include "results/vector_json.h"
 
 namespace ssphh::app {
 namespace {
@@ -69,9 +70,8 @@ PlaceResult run_place(const PlaceOverlayOptions& options, const Control& control
   json::Value overlay = base_overlay(options.scene, options.output);
   for (const place::PlacedProbe& probe : result->placement.probes) {
     if (probe.kind == place::PlaceKind::manual) continue;
-    overlay["sphls"].push_back({{"name", probe.name},
-                                {"position", {probe.position.x, probe.position.y, probe.position.z}},
-                                {"radius", probe.radius}});
+    overlay["sphls"].push_back(
+        {{"name", probe.name}, {"position", to_json(probe.position)}, {"radius", probe.radius}});
   }
   write_file(options.output, json::print(overlay, 1) + "\n");
   return std::move(*result);

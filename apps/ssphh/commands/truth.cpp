@@ -16,6 +16,7 @@
 #include "commands/command.h"
 #include "results/pictures.h"
 #include "results/stopwatch.h"
+#include "results/vector_json.h"
 
 namespace ssphh::app {
 namespace {
@@ -118,10 +119,6 @@ void find_mean(TruthResult& result) {
   result.standard_error = glm::sqrt(squared) / pixels;
 }
 
-json::Value array(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
-
 }  // namespace
 
 TruthResult run_truth(const TruthOptions& o, const Control& control) {
@@ -159,8 +156,8 @@ json::Value to_json(const TruthResult& r, const TruthOptions& o) {
           {"spp", o.picture.spp / 2 * 2},
           {"max_depth", o.picture.max_depth},
           {"seconds", r.seconds},
-          {"mean", array(r.mean)},
-          {"standard_error", array(r.standard_error)},
+          {"mean", to_json(r.mean)},
+          {"standard_error", to_json(r.standard_error)},
           {"noise", {{"mse", r.noise.mse}, {"rmse", r.noise.rmse}, {"relmse", r.noise.relmse}}},
           {"differences", r.differences}};
 }

@@ -10,6 +10,7 @@
 #include <ssphh/trace/transport_scene.h>
 
 #include "results/stopwatch.h"
+#include "results/vector_json.h"
 
 namespace ssphh::app {
 namespace {
@@ -106,7 +107,7 @@ json::Value place_json(const PlaceResult& result) {
           {"passages", count_of(p, place::PlaceKind::passage)},
           {"spacing", p.spacing},
           {"clearance", p.clearance},
-          {"origin", {p.origin.x, p.origin.y, p.origin.z}},
+          {"origin", to_json(p.origin)},
           {"candidates", c.candidates},
           {"removed",
            {{"total", c.removed()},
