@@ -1,30 +1,16 @@
+#include "commands/scene.h"
+
 #include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <ssphh/core/error.h>
-#include <ssphh/core/file.h>
-#include <ssphh/scene/builtin.h>
-#include <ssphh/scene/query.h>
-
 #include "commands/command.h"
-#include "options/scene_options.h"
+#include "results/vector_json.h"
 
 namespace ssphh::app {
 namespace {
-
-void list_scenes(const Context& context) {
-  json::Value scenes = json::Value::array();
-  std::string text;
-  for (const scene::BuiltinScene& scene : scene::builtin_scenes()) {
-    const std::string name = "builtin:" + scene.name;
-    scenes.push_back({{"name", name}, {"description", scene.description}});
-    text += fmt::format("{}{:<20} {}", text.empty() ? "" : "\n", name, scene.description);
-  }
-  context.result({{"scenes", std::move(scenes)}}, text);
-}
 
 template <class T>
 std::vector<std::string> names_of(const std::vector<T>& items) {
@@ -33,88 +19,119 @@ std::vector<std::string> names_of(const std::vector<T>& items) {
   return names;
 }
 
-json::Value to_json(const vec3& v) {
-  return {v.x, v.y, v.z};
-}
-
-void show_scene(const Context& context, const SceneOptions& options) {
-  const scene::Scene scene = load_scene(options);
-  const scene::Bounds bounds = scene::world_bounds(scene, scene::world_matrices(scene, options.time));
-  const auto movable =
-      std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const auto& n) { return n.movable; });
-  const auto emitters =
-      std::count_if(scene.instances.begin(), scene.instances.end(), [&](const auto& instance) {
-        const int material = scene::instance_material(scene, instance);
-        return material >= 0 && scene.materials[static_cast<std::size_t>(material)].emissive();
-      });
-  const std::vector<std::string> groups = scene::light_groups(scene);
-  const float duration = scene::animation_duration(scene);
-  json::Value sphls = json::Value::array();
-  for (const scene::SphlPlace& place : scene::sphl_places(scene, options.time)) {
-    sphls.push_back({{"name", place.name}, {"position", to_json(place.position)}, {"radius", place.radius}});
-  }
-
-  const json::Value object = {
-      {"scene", options.source},
-      {"name", scene.name},
-      {"triangles", scene::triangle_count(scene)},
-      {"meshes", scene.meshes.size()},
-      {"instances", scene.instances.size()},
-      {"materials", scene.materials.size()},
-      {"textures", scene.textures.size()},
-      {"lights", scene.lights.size()},
-      {"emissive_instances", emitters},
-      {"environment", scene.environment.has_value()},
-      {"light_groups", groups},
-      {"cameras", scene.cameras.size()},
-      {"camera_names", names_of(scene.cameras)},
-      {"sphls", scene.sphls.size()},
-      {"sphl_places", std::move(sphls)},
-      {"movable", movable},
-      {"animations", scene.animations.size()},
-      {"animation_seconds", duration},
-      {"bounds", bounds.empty() ? json::Value(nullptr)
-                                : json::Value{{"min", to_json(bounds.min)}, {"max", to_json(bounds.max)}}},
-      {"hash", scene::scene_hash(scene).hex()},
-      {"ignored", scene.ignored}};
-
-  std::string text = fmt::format("{}{}\n", options.source, scene.name.empty() ? "" : " (" + scene.name + ")");
-  const auto line = [&](const char* what, const std::string& value) {
-    text += fmt::format("{:<13}{}\n", what, value);
-  };
-  line("triangles", fmt::format("{} in {} instances of {} meshes", scene::triangle_count(scene),
-                                scene.instances.size(), scene.meshes.size()));
-  line("materials", fmt::format("{}, {} textures", scene.materials.size(), scene.textures.size()));
-  line("lights", fmt::format("{}, {} emissive instances, {}", scene.lights.size(), emitters,
-                             scene.environment ? "environment" : "no environment"));
-  line("light groups", groups.empty() ? "none" : fmt::format("{}", fmt::join(groups, ", ")));
-  line("cameras",
-       scene.cameras.empty() ? "none" : fmt::format("{}", fmt::join(names_of(scene.cameras), ", ")));
-  line("SPHLs", scene.sphls.empty()
-                    ? "none"
-                    : fmt::format("{}: {}", scene.sphls.size(), fmt::join(names_of(scene.sphls), ", ")));
-  line("movable", fmt::format("{} nodes; animations last {:g} s", movable, duration));
-  line("bounds", bounds.empty()
-                     ? "empty"
-                     : fmt::format("{:.3f} {:.3f} {:.3f} to {:.3f} {:.3f} {:.3f} m", bounds.min.x,
-                                   bounds.min.y, bounds.min.z, bounds.max.x, bounds.max.y, bounds.max.z));
-  line("ignored",
-       scene.ignored.empty() ? "nothing" : fmt::format("{}", fmt::join(scene.ignored, "\n             ")));
-  text.pop_back();
-  context.result(object, text);
+std::string list(const std::vector<std::string>& items) {
+  return items.empty() ? "none" : fmt::format("{}", fmt::join(items, ", "));
 }
 
 }  // namespace
 
+SceneListResult run_scene_list(const SceneListOptions&, const Control&) {
+  return {scene::builtin_scenes()};
+}
+
+json::Value to_json(const SceneListResult& result, const SceneListOptions&) {
+  json::Value scenes = json::Value::array();
+  for (const scene::BuiltinScene& scene : result.scenes)
+    scenes.push_back({{"name", "builtin:" + scene.name}, {"description", scene.description}});
+  return {{"scenes", std::move(scenes)}};
+}
+
+std::string to_text(const SceneListResult& result, const SceneListOptions&) {
+  std::string text;
+  for (const scene::BuiltinScene& scene : result.scenes)
+    text += fmt::format("{}{:<20} {}", text.empty() ? "" : "\n", "builtin:" + scene.name, scene.description);
+  return text;
+}
+
+SceneInfo run_scene_info(const SceneOptions& options, const Control&) {
+  const scene::Scene scene = load_scene(options);
+  const auto emits = [&](const scene::Instance& instance) {
+    const int material = scene::instance_material(scene, instance);
+    return material >= 0 && scene.materials[static_cast<std::size_t>(material)].emissive();
+  };
+  SceneInfo info;
+  info.name = scene.name;
+  info.triangles = scene::triangle_count(scene);
+  info.meshes = scene.meshes.size();
+  info.instances = scene.instances.size();
+  info.materials = scene.materials.size();
+  info.textures = scene.textures.size();
+  info.lights = scene.lights.size();
+  info.animations = scene.animations.size();
+  info.emissive_instances = static_cast<std::size_t>(std::ranges::count_if(scene.instances, emits));
+  info.movable = static_cast<std::size_t>(std::ranges::count(scene.nodes, true, &scene::Node::movable));
+  info.environment = scene.environment.has_value();
+  info.light_groups = scene::light_groups(scene);
+  info.cameras = names_of(scene.cameras);
+  info.sphls = names_of(scene.sphls);
+  info.places = scene::sphl_places(scene, options.time);
+  info.animation_seconds = scene::animation_duration(scene);
+  info.bounds = scene::world_bounds(scene, scene::world_matrices(scene, options.time));
+  info.hash = scene::scene_hash(scene);
+  info.ignored = scene.ignored;
+  return info;
+}
+
+json::Value to_json(const SceneInfo& info, const SceneOptions& options) {
+  json::Value places = json::Value::array(), bounds;
+  for (const scene::SphlPlace& place : info.places)
+    places.push_back({{"name", place.name}, {"position", to_json(place.position)}, {"radius", place.radius}});
+  if (!info.bounds.empty()) bounds = {{"min", to_json(info.bounds.min)}, {"max", to_json(info.bounds.max)}};
+  return {{"scene", options.source},
+          {"name", info.name},
+          {"triangles", info.triangles},
+          {"meshes", info.meshes},
+          {"instances", info.instances},
+          {"materials", info.materials},
+          {"textures", info.textures},
+          {"lights", info.lights},
+          {"emissive_instances", info.emissive_instances},
+          {"environment", info.environment},
+          {"light_groups", info.light_groups},
+          {"cameras", info.cameras.size()},
+          {"camera_names", info.cameras},
+          {"sphls", info.sphls.size()},
+          {"sphl_places", std::move(places)},
+          {"movable", info.movable},
+          {"animations", info.animations},
+          {"animation_seconds", info.animation_seconds},
+          {"bounds", std::move(bounds)},
+          {"hash", info.hash.hex()},
+          {"ignored", info.ignored}};
+}
+
+std::string to_text(const SceneInfo& info, const SceneOptions& options) {
+  std::string text = options.source + (info.name.empty() ? "" : " (" + info.name + ")");
+  const auto line = [&](const char* what, const std::string& value) {
+    text += fmt::format("\n{:<13}{}", what, value);
+  };
+  const vec3 &min = info.bounds.min, &max = info.bounds.max;
+  line("triangles",
+       fmt::format("{} in {} instances of {} meshes", info.triangles, info.instances, info.meshes));
+  line("materials", fmt::format("{}, {} textures", info.materials, info.textures));
+  line("lights", fmt::format("{}, {} emissive instances, {}", info.lights, info.emissive_instances,
+                             info.environment ? "environment" : "no environment"));
+  line("light groups", list(info.light_groups));
+  line("cameras", list(info.cameras));
+  line("SPHLs", (info.sphls.empty() ? "" : fmt::format("{}: ", info.sphls.size())) + list(info.sphls));
+  line("movable", fmt::format("{} nodes; animations last {:g} s", info.movable, info.animation_seconds));
+  line("bounds", info.bounds.empty() ? "empty"
+                                     : fmt::format("{:.3f} {:.3f} {:.3f} to {:.3f} {:.3f} {:.3f} m", min.x,
+                                                   min.y, min.z, max.x, max.y, max.z));
+  line("ignored",
+       info.ignored.empty() ? "nothing" : fmt::format("{}", fmt::join(info.ignored, "\n             ")));
+  return text;
+}
+
 void add_scene_commands(Command app, Context& context) {
   Command group = add_group(app, "scene", "List the built-in scenes, look into a scene");
-  add_command(group, context, "list", "The built-in scenes", [&context] { list_scenes(context); });
+  add_command(group, context, "list", "The built-in scenes", std::make_shared<SceneListOptions>(),
+              run_scene_list);
 
-  auto info = std::make_shared<SceneOptions>();
-  Command info_command =
-      add_command(group, context, "info", "What a scene holds, and what of its file is ignored",
-                  [&context, info] { show_scene(context, *info); });
-  add_scene_options(info_command, *info);
+  const auto options = std::make_shared<SceneOptions>();
+  Command info = add_command(group, context, "info", "What a scene holds, and what of its file is ignored",
+                             options, run_scene_info);
+  add_scene_options(info, *options);
 }
 
 }  // namespace ssphh::app
