@@ -1,7 +1,9 @@
+#include "commands/methods.h"
+
+#include <memory>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <ssphh/methods/table.h>
 
 #include "commands/command.h"
 
@@ -18,38 +20,49 @@ std::string range_text(const methods::MethodParameter& p) {
   return fmt::format("{:g}..{:g}", p.least, p.most);
 }
 
-void list(const std::string& wanted, const Context& context) {
-  if (!wanted.empty()) methods::find_method(wanted);
-  json::Value all = json::Value::array();
-  std::string text;
-  for (const methods::MethodEntry& entry : methods::method_table()) {
-    if (!wanted.empty() && wanted != entry.name) continue;
-    json::Value parameters = json::Value::array();
-    text += fmt::format("{}{}\n    {}\n", text.empty() ? "" : "\n", entry.name, entry.about);
-    for (const methods::MethodParameter& p : entry.parameters) {
-      text += fmt::format("    {:<16} {:<10} {} ({})\n", p.name, default_text(p), p.about, range_text(p));
-      json::Value item = {{"name", p.name}, {"default", default_text(p)}, {"about", p.about}};
-      if (p.choices.empty()) {
-        item["default"] = p.value, item["least"] = p.least, item["most"] = p.most, item["whole"] = p.whole;
-      } else {
-        item["choices"] = p.choices;
-      }
-      parameters.push_back(std::move(item));
-    }
-    all.push_back({{"name", entry.name}, {"about", entry.about}, {"parameters", std::move(parameters)}});
+json::Value to_json(const methods::MethodParameter& p) {
+  json::Value item = {{"name", p.name}, {"default", default_text(p)}, {"about", p.about}};
+  if (p.choices.empty()) {
+    item["default"] = p.value, item["least"] = p.least, item["most"] = p.most, item["whole"] = p.whole;
+  } else {
+    item["choices"] = p.choices;
   }
-  text.pop_back();
-  context.result({{"methods", std::move(all)}}, text);
+  return item;
 }
 
 }  // namespace
 
+MethodsResult run_methods(const MethodsOptions& options, const Control&) {
+  if (options.name.empty()) return {methods::method_table()};
+  return {{&methods::find_method(options.name), 1}};
+}
+
+json::Value to_json(const MethodsResult& result, const MethodsOptions&) {
+  json::Value all = json::Value::array();
+  for (const methods::MethodEntry& entry : result.methods) {
+    json::Value parameters = json::Value::array();
+    for (const methods::MethodParameter& p : entry.parameters) parameters.push_back(to_json(p));
+    all.push_back({{"name", entry.name}, {"about", entry.about}, {"parameters", std::move(parameters)}});
+  }
+  return {{"methods", std::move(all)}};
+}
+
+std::string to_text(const MethodsResult& result, const MethodsOptions&) {
+  std::string text;
+  for (const methods::MethodEntry& entry : result.methods) {
+    text += fmt::format("{}{}\n    {}", text.empty() ? "" : "\n\n", entry.name, entry.about);
+    for (const methods::MethodParameter& p : entry.parameters)
+      text += fmt::format("\n    {:<16} {:<10} {} ({})", p.name, default_text(p), p.about, range_text(p));
+  }
+  return text;
+}
+
 void add_methods_command(Command app, Context& context) {
-  auto wanted = std::make_shared<std::string>();
+  const auto options = std::make_shared<MethodsOptions>();
   Command command =
-      add_command(app, context, "methods", "List the methods of indirect light and their parameters",
-                  [wanted, &context] { list(*wanted, context); });
-  command.option("name", *wanted, "This one alone");
+      add_command(app, context, "methods", "List the methods of indirect light and their parameters", options,
+                  run_methods);
+  command.option("name", options->name, "This one alone");
 }
 
 }  // namespace ssphh::app
