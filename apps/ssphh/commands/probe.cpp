@@ -1,4 +1,7 @@
+#include "commands/probe.h"
+
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
@@ -8,14 +11,11 @@
 
 #include "commands/command.h"
 #include "options/probe_options.h"
-#include "results/probe_sheet.h"
+#include "results/vector_json.h"
 
 namespace ssphh::app {
 namespace {
 
-json::Value rgb(const vec3& v) {
-  return {v.x, v.y, v.z};
-}
 std::string rgb_text(const vec3& v) {
   return fmt::format("{:9.4g} {:9.4g} {:9.4g}", v.x, v.y, v.z);
 }
@@ -43,36 +43,38 @@ json::Value generator_json(const probes::GeneratorInfo& g) {
           {"time", g.time}};
 }
 
-json::Value probe_json(const probes::ProbeSet& set, std::size_t i) {
+json::Value probe_json(const ProbeInfo& info, std::size_t i) {
+  const probes::ProbeSet& set = info.set;
   const probes::Probe& probe = set.probes[i];
   json::Value groups = json::Value::array(), edges = json::Value::array();
   for (const probes::GroupLight& group : probe.groups) {
     groups.push_back(
-        {{"emitted", rgb(sh::mean(group.emitted))}, {"reflected", rgb(sh::mean(group.reflected))}});
+        {{"emitted", to_json(sh::mean(group.emitted))}, {"reflected", to_json(sh::mean(group.reflected))}});
   }
   for (const probes::Edge& edge : probe.edges) {
     edges.push_back(
         {{"from", edge.from}, {"transfer", edge.transfer}, {"matrix", !edge.matrix.values.empty()}});
   }
   json::Value object = {{"name", probe.name},
-                        {"position", rgb(probe.position)},
+                        {"position", to_json(probe.position)},
                         {"radius", probe.radius},
-                        {"mean", rgb(sh::mean(probe.self))},
-                        {"reflected_mean", rgb(sh::mean(probe.reflected))},
-                        {"min_irradiance", lowest_irradiance(probe.self)},
+                        {"mean", to_json(sh::mean(probe.self))},
+                        {"reflected_mean", to_json(sh::mean(probe.reflected))},
+                        {"min_irradiance", info.lowest_irradiance[i]},
                         {"groups", groups},
                         {"edges", edges}};
-  if (set.hierarchy) object["neighbor_mean"] = rgb(sh::mean(set.hierarchy->neighbor[i]));
+  if (set.hierarchy) object["neighbor_mean"] = to_json(sh::mean(set.hierarchy->neighbor[i]));
   return object;
 }
 
-std::string probe_text(const probes::ProbeSet& set, std::size_t i) {
+std::string probe_text(const ProbeInfo& info, std::size_t i) {
+  const probes::ProbeSet& set = info.set;
   const probes::Probe& probe = set.probes[i];
   std::string text =
       fmt::format("\n{:3}  {}  at ({:.4g}, {:.4g}, {:.4g}) m, radius {:.3g} m\n", i, probe.name,
                   probe.position.x, probe.position.y, probe.position.z, probe.radius);
   text += fmt::format("     self       {}   lowest irradiance {:.4g}\n", rgb_text(sh::mean(probe.self)),
-                      lowest_irradiance(probe.self));
+                      info.lowest_irradiance[i]);
   for (std::size_t g = 0; g < probe.groups.size(); ++g) {
     const probes::GroupLight& group = probe.groups[g];
     text += fmt::format("     reflected  {}   {}\n", rgb_text(sh::mean(group.reflected)),
@@ -89,12 +91,41 @@ std::string probe_text(const probes::ProbeSet& set, std::size_t i) {
   return text + (probe.edges.empty() ? "  no edges" : "");
 }
 
-void info(Context& context, const std::string& path) {
-  const probes::ProbeSet set = probes::read_probe_file(path);
-  const probes::GeneratorInfo& g = set.generator;
+}  // namespace
+
+ProbeInfo run_probe_info(const ProbeInfoOptions& options, const Control&) {
+  ProbeInfo info{probes::read_probe_file(options.input), {}};
+  for (const probes::Probe& probe : info.set.probes)
+    info.lowest_irradiance.push_back(lowest_irradiance(probe.self));
+  return info;
+}
+
+json::Value to_json(const ProbeInfo& info, const ProbeInfoOptions& options) {
+  const probes::ProbeSet& set = info.set;
   json::Value groups = json::Value::array(), probes = json::Value::array();
+  for (const probes::LightGroup& group : set.light_groups)
+    groups.push_back({{"name", group.name}, {"scale", to_json(group.scale)}});
+  for (std::size_t i = 0; i < set.probes.size(); ++i) probes.push_back(probe_json(info, i));
+  json::Value object = {{"file", options.input},
+                        {"degree", set.degree},
+                        {"generator", generator_json(set.generator)},
+                        {"light_groups", std::move(groups)},
+                        {"edges", probes::edge_count(set)},
+                        {"fitted", set.fitted ? set.fitted->points.size() : 0}};
+  if (set.hierarchy) {
+    const probes::Hierarchy& h = *set.hierarchy;
+    object["hierarchy"] = {
+        {"operator", name_of(h.op)}, {"neighbors", h.neighbors}, {"threshold", h.threshold}};
+  }
+  object["probes"] = std::move(probes);
+  return object;
+}
+
+std::string to_text(const ProbeInfo& info, const ProbeInfoOptions& options) {
+  const probes::ProbeSet& set = info.set;
+  const probes::GeneratorInfo& g = set.generator;
   std::string text = fmt::format(
-      "{}: {} probes of degree {}, {} edges\nscene {} at {} s; light by {}, edges by {}\n", path,
+      "{}: {} probes of degree {}, {} edges\nscene {} at {} s; light by {}, edges by {}\n", options.input,
       set.probes.size(), set.degree, probes::edge_count(set), g.scene, g.time, name_of(g.op), name_of(g.viz));
   if (g.op == probes::LightOperator::path || g.viz == probes::VizMethod::path) {
     text += fmt::format("paths: GEN {}, depth {}, {} x {} samples, {}x{}x6 texels, seed {}\n", name_of(g.gen),
@@ -106,86 +137,75 @@ void info(Context& context, const std::string& path) {
   }
   if (set.fitted) text += fmt::format("weights fitted at {} surface points\n", set.fitted->points.size());
   for (const probes::LightGroup& group : set.light_groups) {
-    groups.push_back({{"name", group.name}, {"scale", rgb(group.scale)}});
     text += fmt::format("light group {}, scale {:g} {:g} {:g}\n", group.name, group.scale.x, group.scale.y,
                         group.scale.z);
   }
-  json::Value object = {{"file", path},
-                        {"degree", set.degree},
-                        {"generator", generator_json(g)},
-                        {"light_groups", groups},
-                        {"edges", probes::edge_count(set)},
-                        {"fitted", set.fitted ? set.fitted->points.size() : 0}};
   if (set.hierarchy) {
     const probes::Hierarchy& h = *set.hierarchy;
-    object["hierarchy"] = {
-        {"operator", name_of(h.op)}, {"neighbors", h.neighbors}, {"threshold", h.threshold}};
     text += fmt::format("HIER {}, neighbors {}, threshold {:g}\n", name_of(h.op),
                         h.neighbors < 0 ? "all" : std::to_string(h.neighbors), h.threshold);
   }
   text += "mean radiance R, G, B [W/sr/m2] over all directions:";
-  for (std::size_t i = 0; i < set.probes.size(); ++i) {
-    probes.push_back(probe_json(set, i));
-    text += probe_text(set, i);
-  }
-  object["probes"] = probes;
-  context.result(object, text);
+  for (std::size_t i = 0; i < set.probes.size(); ++i) text += probe_text(info, i);
+  return text;
 }
 
-struct PreviewOptions {
-  std::string input, output;
-  int width = 256;
-  float exposure = 0;
-};
+ProbePreviewResult run_probe_preview(const ProbePreviewOptions& options, const Control&) {
+  ProbePreviewResult result{probes::read_probe_file(options.input), {}};
+  result.sheet = probe_sheet(result.set, options.width, options.exposure);
+  image::write_image(options.output, result.sheet.image);
+  return result;
+}
 
-void preview(Context& context, const PreviewOptions& options) {
-  const probes::ProbeSet set = probes::read_probe_file(options.input);
-  const ProbeSheet sheet = probe_sheet(set, options.width, options.exposure);
-  image::write_image(options.output, sheet.image);
+json::Value to_json(const ProbePreviewResult& result, const ProbePreviewOptions& options) {
+  json::Value columns = json::Value::array(), rows = json::Value::array();
+  for (const ProbeSheet::Column& column : result.sheet.columns)
+    columns.push_back({{"layer", column.name}, {"exposure", column.exposure}});
+  for (const probes::Probe& probe : result.set.probes) rows.push_back(probe.name);
+  return {{"output", options.output},
+          {"width", result.sheet.image.width},
+          {"height", result.sheet.image.height},
+          {"columns", std::move(columns)},
+          {"rows", std::move(rows)}};
+}
+
+std::string to_text(const ProbePreviewResult& result, const ProbePreviewOptions& options) {
+  const ProbeSheet& sheet = result.sheet;
   std::string text =
       fmt::format("{}: {} x {} pixels, one row per probe, columns from the left:", options.output,
                   sheet.image.width, sheet.image.height);
-  json::Value columns = json::Value::array(), rows = json::Value::array();
-  for (const ProbeSheet::Column& column : sheet.columns) {
-    columns.push_back({{"layer", column.name}, {"exposure", column.exposure}});
+  for (const ProbeSheet::Column& column : sheet.columns)
     text += fmt::format(" {} (exposure {:+.2f} EV)", column.name, column.exposure);
-  }
-  for (const probes::Probe& probe : set.probes) rows.push_back(probe.name);
-  if (!set.hierarchy) text += "\nrun `ssphh hier` on the file for the neighbours' part and the sum";
-  context.result({{"output", options.output},
-                  {"width", sheet.image.width},
-                  {"height", sheet.image.height},
-                  {"columns", columns},
-                  {"rows", rows}},
-                 text);
+  if (!result.set.hierarchy) text += "\nrun `ssphh hier` on the file for the neighbours' part and the sum";
+  return text;
 }
 
-struct ConvertOptions {
-  std::string input, output;
-};
-
-void convert(Context& context, const ConvertOptions& options) {
+ProbeConvertResult run_probe_convert(const ProbeConvertOptions& options, const Control&) {
   const probes::ProbeSet set = probes::read_probe_file(options.input);
   probes::write_probe_file(set, options.output);
-  const auto bytes = std::filesystem::file_size(options.output);
-  context.result({{"output", options.output}, {"probes", set.probes.size()}, {"bytes", bytes}},
-                 fmt::format("{}: {} probes, {} bytes", options.output, set.probes.size(), bytes));
+  return {set.probes.size(), std::filesystem::file_size(options.output)};
 }
 
-}  // namespace
+json::Value to_json(const ProbeConvertResult& result, const ProbeConvertOptions& options) {
+  return {{"output", options.output}, {"probes", result.probes}, {"bytes", result.bytes}};
+}
+
+std::string to_text(const ProbeConvertResult& result, const ProbeConvertOptions& options) {
+  return fmt::format("{}: {} probes, {} bytes", options.output, result.probes, result.bytes);
+}
 
 void add_probe_commands(Command app, Context& context) {
   Command group = add_group(app, "probe", "Look at probe files, check and convert them");
 
-  auto input = std::make_shared<std::string>();
+  auto info = std::make_shared<ProbeInfoOptions>();
   Command info_command = add_command(group, context, "info", "List probes, light groups and the hierarchy",
-                                     [&context, input] { info(context, *input); });
-  add_probe_file(info_command, "FILE", *input, "Probe file").required();
+                                     info, run_probe_info);
+  add_probe_file(info_command, "FILE", info->input, "Probe file").required();
 
-  auto look = std::make_shared<PreviewOptions>();
+  auto look = std::make_shared<ProbePreviewOptions>();
   Command preview_command = add_command(group, context, "preview",
                                         "Draw what each probe sees: itself, its neighbours' part, the sum",
-                                        [&context, look] { preview(context, *look); });
+                                        look, run_probe_preview);
   add_probe_file(preview_command, "FILE", look->input, "Probe file").required();
   preview_command.option("-o,--output", look->output, "Picture to write: .png .jpg .exr .hdr").required();
   preview_command.option("--width", look->width, "Pixels of one equirectangular picture, twice its height")
@@ -197,10 +217,9 @@ void add_probe_commands(Command app, Context& context) {
       "exposure). Each picture\n"
       "is equirectangular: +y on top, +x in the middle. Negative lobes are black.");
 
-  auto files = std::make_shared<ConvertOptions>();
-  Command convert_command =
-      add_command(group, context, "convert", "Convert between .sphl (binary) and .sphl.json",
-                  [&context, files] { convert(context, *files); });
+  auto files = std::make_shared<ProbeConvertOptions>();
+  Command convert_command = add_command(
+      group, context, "convert", "Convert between .sphl (binary) and .sphl.json", files, run_probe_convert);
   add_probe_file(convert_command, "FILE", files->input, "Probe file to read").required();
   add_probe_file(convert_command, "-o,--output", files->output, "Probe file to write").required();
   add_probe_lint_command(group, context);

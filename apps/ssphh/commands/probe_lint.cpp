@@ -4,61 +4,67 @@
 
 #include <ssphh/place/place.h>
 #include <ssphh/probes/probe_file.h>
-#include <ssphh/study/lint.h>
 #include <ssphh/trace/transport_scene.h>
 
 #include "commands/command.h"
+#include "commands/probe.h"
 #include "options/probe_options.h"
-#include "options/scene_options.h"
+#include "results/vector_json.h"
 
 namespace ssphh::app {
 namespace {
 
-struct LintOptions {
-  SceneOptions scene;
-  std::string input;
-  study::LintParams params;
-  bool force = false;
-};
-
-void lint(Context& context, LintOptions& options) {
-  const probes::ProbeSet set = probes::read_probe_file(options.input);
-  const scene::Scene scene = load_scene(options.scene);
-  options.params.interest = place::place_params(scene, set.generator.time).interest;
-  const trace::TransportScene source(scene);
-  require_same_scene(options.input, set, scene, source.light_groups(), {}, options.force);
-  const std::vector<study::LintProblem> problems =
-      study::lint_probes(set, source, options.params, context.control);
-
-  json::Value list = json::Value::array();
-  std::string text;
-  for (const study::LintProblem& problem : problems) {
-    const std::string name =
-        problem.probe < 0 ? "" : set.probes[static_cast<std::size_t>(problem.probe)].name;
-    const vec3& p = problem.position;
-    json::Value entry = {{"kind", name_of(problem.kind)},
-                         {"probe", nullptr},
-                         {"position", {p.x, p.y, p.z}},
-                         {"message", problem.message}};
-    if (problem.probe >= 0) entry["probe"] = name;
-    list.push_back(std::move(entry));
-    text += fmt::format("{}: {}at ({:.6g}, {:.6g}, {:.6g}) m: {}\n", name_of(problem.kind),
-                        problem.probe < 0 ? "" : fmt::format("probe \"{}\" ", name), p.x, p.y, p.z,
-                        problem.message);
-  }
-  text += fmt::format("{}: {} probes, {}", options.input, set.probes.size(),
-                      problems.empty() ? "no problems" : fmt::format("{} problems", problems.size()));
-  context.result({{"probes", set.probes.size()}, {"problems", std::move(list)}}, text);
-  if (!problems.empty()) context.exit_code = 1;
+const std::string& probe_name(const ProbeLintResult& result, const study::LintProblem& problem) {
+  return result.set.probes[static_cast<std::size_t>(problem.probe)].name;
 }
 
 }  // namespace
 
+ProbeLintResult run_probe_lint(const ProbeLintOptions& options, const Control& control) {
+  ProbeLintResult result{probes::read_probe_file(options.input), {}};
+  const probes::ProbeSet& set = result.set;
+  const scene::Scene scene = load_scene(options.scene);
+  study::LintParams params = options.params;
+  params.interest = place::place_params(scene, set.generator.time).interest;
+  const trace::TransportScene source(scene);
+  require_same_scene(options.input, set, scene, source.light_groups(), {}, options.force);
+  result.problems = study::lint_probes(set, source, params, control);
+  return result;
+}
+
+bool has_failed(const ProbeLintResult& result, const ProbeLintOptions&) {
+  return !result.problems.empty();
+}
+
+json::Value to_json(const ProbeLintResult& result, const ProbeLintOptions&) {
+  json::Value list = json::Value::array();
+  for (const study::LintProblem& problem : result.problems) {
+    list.push_back({{"kind", name_of(problem.kind)},
+                    {"probe", problem.probe < 0 ? json::Value() : json::Value(probe_name(result, problem))},
+                    {"position", to_json(problem.position)},
+                    {"message", problem.message}});
+  }
+  return {{"probes", result.set.probes.size()}, {"problems", std::move(list)}};
+}
+
+std::string to_text(const ProbeLintResult& result, const ProbeLintOptions& options) {
+  std::string text;
+  for (const study::LintProblem& problem : result.problems) {
+    const vec3& p = problem.position;
+    text += fmt::format("{}: {}at ({:.6g}, {:.6g}, {:.6g}) m: {}\n", name_of(problem.kind),
+                        problem.probe < 0 ? "" : fmt::format("probe \"{}\" ", probe_name(result, problem)),
+                        p.x, p.y, p.z, problem.message);
+  }
+  const std::size_t count = result.problems.size();
+  return text + fmt::format("{}: {} probes, {}", options.input, result.set.probes.size(),
+                            count == 0 ? "no problems" : fmt::format("{} problems", count));
+}
+
 void add_probe_lint_command(Command group, Context& context) {
-  auto options = std::make_shared<LintOptions>();
+  auto options = std::make_shared<ProbeLintOptions>();
   Command command =
-      add_command(group, context, "lint", "Look for probes that light nothing or light it wrongly",
-                  [&context, options] { lint(context, *options); });
+      add_command(group, context, "lint", "Look for probes that light nothing or light it wrongly", options,
+                  run_probe_lint);
   add_probe_file(command, "FILE", options->input, "Probe file").required();
   add_scene_options(command, options->scene, false, "--scene");
   command
