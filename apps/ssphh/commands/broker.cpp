@@ -1,3 +1,5 @@
+#include "commands/broker.h"
+
 #include <csignal>
 #include <iostream>
 #include <memory>
@@ -5,7 +7,6 @@
 #include <ssphh/core/log.h>
 
 #include "commands/command.h"
-#include "options/broker_settings.h"
 
 namespace ssphh::app {
 namespace {
@@ -20,33 +21,46 @@ extern "C" void reload_broker(int) {
   running->reload();
 }
 
-void serve(const Context& context, const BrokerSettings& settings) {
-  majordomo::BrokerOptions options = broker_options(settings);
-  const bool json = context.json;
-  set_log_level(options.least_event);
-  options.on_event = [json](const majordomo::BrokerEvent& event) {
-    if (json) {
-      std::cout << event.json() << std::endl;
-    } else {
-      log(event.level, event.text());
-    }
-  };
-  majordomo::Broker broker(std::move(options));
+void stop_at_signals(majordomo::Broker& broker) {
   running = &broker;
   std::signal(SIGINT, stop_broker);
   std::signal(SIGTERM, stop_broker);
   std::signal(SIGHUP, reload_broker);
-  const majordomo::BrokerEvent ready = ready_event(broker.endpoint(), broker.metrics_endpoint());
-  // The one line on stdout that scripts wait for.
-  std::cout << (json ? ready.json() : broker.endpoint()) << std::endl;
-  if (!json) log_info("{}", ready.text());
-  broker.run();
-  std::signal(SIGINT, SIG_IGN);
-  std::signal(SIGTERM, SIG_IGN);
-  std::signal(SIGHUP, SIG_IGN);
+}
+
+void ignore_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
+}
+
+/// The endpoint is the one line on stdout that scripts wait for; with JSON all events stand there.
+void serve(const Context& context, BrokerSettings& settings) {
+  const auto print = [](const std::string& line) { std::cout << line << std::endl; };
+  if (context.json) {
+    settings.broker.on_event = [print](const majordomo::BrokerEvent& event) { print(event.json()); };
+  }
+  set_log_level(settings.verbose ? LogLevel::debug : LogLevel::info);
+  const auto ready = [&](majordomo::Broker& broker) {
+    stop_at_signals(broker);
+    const majordomo::BrokerEvent event = ready_event(broker.endpoint(), broker.metrics_endpoint());
+    print(context.json ? event.json() : broker.endpoint());
+    if (!context.json) log_info("{}", event.text());
+  };
+  run_broker(settings, {ready, ignore_signals});
 }
 
 }  // namespace
+
+void run_broker(const BrokerSettings& settings, const BrokerCalls& calls) {
+  majordomo::Broker broker(broker_options(settings));
+  const struct Last {
+    ~Last() {
+      if (ended) ended();
+    }
+    const std::function<void()>& ended;
+  } last{calls.ended};
+  if (calls.ready) calls.ready(broker);
+  broker.run();
+}
 
 void add_broker_command(Command app, Context& context) {
   auto options = std::make_shared<BrokerSettings>();
