@@ -1,3 +1,5 @@
+#include "commands/worker.h"
+
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
@@ -5,7 +7,6 @@
 #include <ssphh/farm/engine.h>
 
 #include "commands/command.h"
-#include "options/worker_settings.h"
 
 namespace ssphh::app {
 namespace {
@@ -13,16 +14,9 @@ namespace {
 /// For schedulers: this worker would fail again in the same way.
 constexpr int never_retry = 42;
 
-void work(Context& context, const WorkerSettings& settings) {
+void work(Context& context, WorkerSettings& settings) {
   try {
-    const farm::WorkerPoolOptions options = pool_options(settings);
-    set_thread_count(shared_threads(thread_count(), options.slots));
-    log_info("worker-ready broker={} service={} slots={} cache={}", options.broker.endpoint,
-             farm::job_service(), options.slots, options.cache.string());
-    const farm::WorkerPoolReport report = farm::run_workers(options, context.control);
-    context.result(
-        {{"jobs", report.jobs}, {"busy_seconds", report.busy_seconds}, {"seconds", report.seconds}},
-        fmt::format("{} jobs, busy {:.1f} s of {:.1f} s", report.jobs, report.busy_seconds, report.seconds));
+    run_and_print(context, settings, run_worker);
   } catch (const Error& e) {
     log(LogLevel::error, e.what());
     if (context.json) context.result({{"error", e.what()}}, "");
@@ -31,6 +25,23 @@ void work(Context& context, const WorkerSettings& settings) {
 }
 
 }  // namespace
+
+farm::WorkerPoolReport run_worker(const WorkerSettings& settings, const Control& control) {
+  const farm::WorkerPoolOptions options = pool_options(settings);
+  set_thread_count(settings.threads);
+  set_thread_count(shared_threads(thread_count(), options.slots));
+  log_info("worker-ready broker={} service={} slots={} cache={}", options.broker.endpoint,
+           farm::job_service(), options.slots, options.cache.string());
+  return farm::run_workers(options, control);
+}
+
+json::Value to_json(const farm::WorkerPoolReport& report, const WorkerSettings&) {
+  return {{"jobs", report.jobs}, {"busy_seconds", report.busy_seconds}, {"seconds", report.seconds}};
+}
+
+std::string to_text(const farm::WorkerPoolReport& report, const WorkerSettings&) {
+  return fmt::format("{} jobs, busy {:.1f} s of {:.1f} s", report.jobs, report.busy_seconds, report.seconds);
+}
 
 void add_worker_command(Command app, Context& context) {
   auto options = std::make_shared<WorkerSettings>();

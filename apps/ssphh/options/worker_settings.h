@@ -14,6 +14,7 @@ struct WorkerSettings {
   farm::WorkerPoolOptions pool;    ///< those that need no conversion
   std::string cache;               ///< folder; empty: the user's own
   std::uint64_t cache_mb = 20480;  ///< of the folder
+  int threads = 0;                 ///< of all jobs together; 0: all
 };
 
 /// The pool's own options. Throws Error as broker_address() does.
