@@ -1,57 +1,19 @@
+#include "commands/view.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "commands/command.h"
 #include "model/settings.h"
-#include "options/scene_options.h"
-#include "viewer.h"
 
 namespace ssphh::app {
 namespace {
-
-struct ViewOptions {
-  SceneOptions scene;
-  viewer::ViewerOptions viewer;
-  std::vector<std::string> values;  ///< of viewer::setting_names(), empty ones were not given
-  std::string size = "1440x810";
-  bool no_panels = false;
-};
 
 void parse_size(const std::string& text, int& width, int& height) {
   char end = 0;
   if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width < 64 || height < 64 ||
       width > 16384 || height > 16384)
     throw Error("--size", fmt::format("\"{}\" is no size", text), "WIDTHxHEIGHT, 64 to 16384 pixels each");
-}
-
-void view(Context& context, ViewOptions& o) {
-  viewer::ViewerOptions& v = o.viewer;
-  v.source = o.scene.source;
-  v.time = o.scene.time;
-  v.panels = !o.no_panels;
-  parse_size(o.size, v.width, v.height);
-  v.load = [&o](const std::string& source) {
-    SceneOptions scene = o.scene;
-    // The overlay was named for the first scene; one that is dropped later has its own.
-    if (source != o.scene.source) scene.overlay.clear();
-    scene.source = source;
-    return load_scene(scene);
-  };
-  for (std::size_t i = 0; i < o.values.size(); ++i) {
-    if (!o.values[i].empty()) v.settings.emplace_back(viewer::setting_names()[i].name, o.values[i]);
-  }
-  const viewer::ViewerReport r = viewer::run_viewer(v, context.control);
-  std::string text =
-      fmt::format("{} frames on {}, {} probes; a drawn frame took {:.1f} ms (median), {:.1f} ms (p99)",
-                  r.frames, r.renderer, r.probes, r.median_ms, r.p99_ms);
-  for (const std::string& file : r.written) text += "\nwrote " + file;
-  context.result({{"frames", r.frames},
-                  {"renderer", r.renderer},
-                  {"probes", r.probes},
-                  {"median_ms", r.median_ms},
-                  {"p99_ms", r.p99_ms},
-                  {"written", r.written}},
-                 text);
 }
 
 void add_setting_options(Command command, ViewOptions& o) {
@@ -78,11 +40,43 @@ void add_setting_options(Command command, ViewOptions& o) {
 
 }  // namespace
 
+viewer::ViewerReport run_view(const ViewOptions& o, const Control& control) {
+  viewer::ViewerOptions v = o.viewer;
+  v.source = o.scene.source;
+  v.time = o.scene.time;
+  v.panels = !o.no_panels;
+  parse_size(o.size, v.width, v.height);
+  v.load = [&o](const std::string& source) {
+    SceneOptions scene = o.scene;
+    // The overlay was named for the first scene; one that is dropped later has its own.
+    if (source != o.scene.source) scene.overlay.clear();
+    scene.source = source;
+    return load_scene(scene);
+  };
+  for (std::size_t i = 0; i < o.values.size(); ++i) {
+    if (!o.values[i].empty()) v.settings.emplace_back(viewer::setting_names()[i].name, o.values[i]);
+  }
+  return viewer::run_viewer(v, control);
+}
+
+json::Value to_json(const viewer::ViewerReport& r, const ViewOptions&) {
+  return {{"frames", r.frames},       {"renderer", r.renderer}, {"probes", r.probes},
+          {"median_ms", r.median_ms}, {"p99_ms", r.p99_ms},     {"written", r.written}};
+}
+
+std::string to_text(const viewer::ViewerReport& r, const ViewOptions&) {
+  std::string text =
+      fmt::format("{} frames on {}, {} probes; a drawn frame took {:.1f} ms (median), {:.1f} ms (p99)",
+                  r.frames, r.renderer, r.probes, r.median_ms, r.p99_ms);
+  for (const std::string& file : r.written) text += "\nwrote " + file;
+  return text;
+}
+
 void add_view_command(Command app, Context& context) {
   auto options = std::make_shared<ViewOptions>();
   ViewOptions& o = *options;
-  Command command = add_command(app, context, "view", "Look at a scene lit by probes, in a window",
-                                [&context, options] { view(context, *options); });
+  Command command =
+      add_command(app, context, "view", "Look at a scene lit by probes, in a window", options, run_view);
   add_scene_options(command, o.scene);
   command["SCENE"].required(false);
   command.option("--camera", o.viewer.camera, "Camera by name; default: the scene's first");
