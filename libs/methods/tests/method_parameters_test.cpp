@@ -28,6 +28,7 @@ TEST(MethodParameters, DefaultsAndSettings) {
 
 TEST(MethodParameters, BadOnesAreNamed) {
   EXPECT_THAT([] { read({"photon=3"}); }, ThrowsMessage<Error>(HasSubstr("did you mean \"photons\"")));
+  EXPECT_THAT([] { read({"photons=x"}); }, ThrowsMessage<Error>(HasSubstr("photons of method vpl: \"x\"")));
   EXPECT_THAT([] { read({"photons=1.5"}); }, ThrowsMessage<Error>(HasSubstr("whole")));
   EXPECT_THAT([] { read({"photons=1001"}); }, ThrowsMessage<Error>(HasSubstr("1 to 1000")));
   EXPECT_THAT([] { read({"clamp=nan"}); }, ThrowsMessage<Error>(HasSubstr("no number")));

@@ -111,6 +111,7 @@ TEST(ProbeFile, NumbersHaveFiveDigitsAndAreShort) {
   EXPECT_EQ(number_text(3.14159265f), "3.1416");
   EXPECT_EQ(number_text(31415.9265f), "31416");
   EXPECT_EQ(number_text(1234567), "1234600");
+  EXPECT_EQ(number_text(12345678), "1.2346e7");
   EXPECT_EQ(number_text(0.012345f), "0.012345");
   EXPECT_EQ(number_text(0.0012345f), "1.2345e-3");
   EXPECT_EQ(number_text(2e10f), "2e10");

@@ -57,6 +57,10 @@ TEST(ShMessages, OfDegrees) {
 
 TEST(ShMessages, OfFunctionsThatDoNotFit) {
   RadianceSh one(1), two(2), none;
+  const std::string tensor = "triple product: the factors' degrees are not those of the tensor";
+  EXPECT_EQ(message_of([&] { TripleProductTensor(1, 2, 2).product(two, two); }), tensor);
+  EXPECT_EQ(message_of([&] { TripleProductTensor(1, 2, 2).product(one, one); }), tensor);
+  EXPECT_EQ(message_of([&] { TripleProductTensor(1, 2, 2).product(one, two); }), "no error");
   EXPECT_EQ(message_of([&] { one += two; }), "sum of spherical functions: their degrees differ");
   EXPECT_EQ(message_of([&] { add_coefficient_product(one, two, one); }),
             "coefficient product: sum, response and source must have one degree");
