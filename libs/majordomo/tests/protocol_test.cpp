@@ -386,5 +386,11 @@ TEST(Codec, WhatIsEncodedIsDecoded) {
       }
 }
 
+TEST(Decode, FramesWithoutAHeaderAreToldAsSuch) {
+  EXPECT_STREQ(decode({}, Direction::to_broker).problem, "no frames");
+  EXPECT_STREQ(decode({""}, Direction::to_broker).problem, "no header");
+  EXPECT_STREQ(decode({"", "MDPX01"}, Direction::to_broker).problem, "unknown header");
+}
+
 }  // namespace
 }  // namespace ssphh::majordomo::test

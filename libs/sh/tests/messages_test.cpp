@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ssphh/sh/convert.h>
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/sh/irradiance.h>
 #include <ssphh/sh/operators.h>
@@ -83,6 +84,18 @@ TEST(ShMessages, OfFunctionsThatDoNotFit) {
   matrix.values.pop_back();
   EXPECT_EQ(message_of([&] { add_path(matrix, vec3(1), vec3(0, 0, 1), vec3(0, 0, 1)); }),
             "path into a transfer matrix: its degrees and its size do not agree");
+}
+
+TEST(ShMessages, OfStoredCoefficients) {
+  const auto said = [](std::size_t count, Convention convention) {
+    return message_of([&] { from_convention(std::vector<vec3>(count), convention); });
+  };
+  EXPECT_EQ(said(5, Convention::ssphh),
+            "coefficients: 5 values are not those of a whole degree up to 10 (give (degree+1)² values: 1, 4, "
+            "9 … 121)");
+  EXPECT_EQ(
+      said(16, Convention::unity),
+      "coefficients: 16 values are not those of a whole degree up to 2 (give (degree+1)² values: 1, 4, 9)");
 }
 
 TEST(ShMessages, OfSamples) {

@@ -134,6 +134,17 @@ TEST(LookupError, OfPointsByHand) {
   EXPECT_NEAR(e.relmse, 0.5 * ((0.04 - 0.01) / (1.02 * 1.02) + (0.09 - 0.04) / (3.02 * 3.02)), 1e-6);
 }
 
+TEST(LookupError, MedianAndNinetyFifthPercentileAreRanksOfThePoints) {
+  // Points that are 1, 2, … 1000 thousandths too bright, in no order; ε = 1 %.
+  std::vector<vec3> looked_up;
+  for (int i = 0; i < 1000; ++i) looked_up.emplace_back(1 + 1e-3f * static_cast<float>(i * 7 % 1000 + 1));
+  std::vector<rays::IrradianceEstimate> truth(1000);
+  for (rays::IrradianceEstimate& t : truth) t.indirect = vec3(1);
+  const LookupError e = lookup_error(looked_up, truth);
+  EXPECT_NEAR(e.median_relative, 0.500 / 1.01, 1e-4);
+  EXPECT_NEAR(e.p95_relative, 0.950 / 1.01, 1e-4);
+}
+
 TEST(LookupError, NoiseAloneSubtractsToNothing) {
   // Lookups without error, truths with normal noise of a known variance: relMSE must vanish and mean_relative
   // equal `noise`, both within four standard errors of 20,000 points.
