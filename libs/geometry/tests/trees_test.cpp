@@ -69,5 +69,21 @@ TEST(TriangleTree, HasFoundNothingAtFirst) {
   EXPECT_EQ(TriangleTree::Found().triangle, -1);
 }
 
+TEST(NearestOnTriangle, IsWithinOnEachEdgeAndAtEachCorner) {
+  const Corners triangle{vec3(0, 0, 0), vec3(2, 0, 0), vec3(0, 4, 0)};
+  const auto expect = [&](const vec3& p, const vec3& weight, float distance2) {
+    const OnTriangle found = nearest_on_triangle(triangle, p);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(found.weight[c], weight[c], 1e-6f) << p.x << " " << p.y;
+    EXPECT_NEAR(found.distance2, distance2, 1e-5f);
+  };
+  expect({0.5f, 1, 3}, {0.5f, 0.25f, 0.25f}, 9);
+  expect({1, -2, 0}, {0.5f, 0.5f, 0}, 4);
+  expect({3, 3, 0}, {0, 0.5f, 0.5f}, 5);
+  expect({-1, 1, 1}, {0.75f, 0, 0.25f}, 2);
+  expect({-1, -1, 0}, {1, 0, 0}, 2);
+  expect({4, -1, 0}, {0, 1, 0}, 5);
+  expect({-1, 6, 0}, {0, 0, 1}, 5);
+}
+
 }  // namespace
 }  // namespace ssphh::geometry

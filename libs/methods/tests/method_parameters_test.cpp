@@ -50,7 +50,9 @@ TEST(MethodTable, NamesAreUniqueAndDefaultsValid) {
       EXPECT_EQ(static_cast<double>(p.choices.size()), p.most + 1) << entry.name << " " << p.name;
     }
   }
-  EXPECT_THAT([] { find_method("radiosity"); }, ThrowsMessage<Error>(HasSubstr("ssphh")));
+  EXPECT_THAT([] { find_method("radiosity"); },
+              ThrowsMessage<Error>("method radiosity: there is no such method (choose one of ambient, ddgi, "
+                                   "direct, irradiance-volume, prt, ssphh, vct, vpl)"));
 }
 
 }  // namespace

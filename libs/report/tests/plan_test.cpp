@@ -270,6 +270,11 @@ TEST(Plan, AnInsetLiesWithinThePicture) {
             "accepted");
 }
 
+TEST(Plan, AsksAnHourOfACommandAndBlocksOf16PixelsUnlessItSaysOtherwise) {
+  EXPECT_EQ(Plan().time_limit, 3600);
+  EXPECT_EQ(Plan().block, 16);
+}
+
 TEST(Plan, WrongKindsAndDoublesAreNamed) {
   using testing::HasSubstr;
   const auto expect = [](const char* message, const std::function<void(json::Value&)>& change) {
