@@ -7,17 +7,12 @@
 
 #include <ssphh/probes/candidate_grid.h>
 
+#include "random_points.h"
+
 namespace ssphh::probes {
 namespace {
 
-std::vector<vec3> random_points(std::size_t count, float extent) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<float> uniform(-extent, extent);
-  std::vector<vec3> points;
-  for (std::size_t i = 0; i < count; ++i)
-    points.emplace_back(uniform(random), uniform(random), uniform(random));
-  return points;
-}
+using test::random_points;
 
 TEST(CandidateGrid, ListsHoldTheNearestOfEveryPointInOrderFromTheMiddle) {
   const std::vector<vec3> probes = random_points(300, 4);

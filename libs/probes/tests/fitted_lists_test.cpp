@@ -1,26 +1,19 @@
 /// What lists of fitted points are made of: their bits, and the surfaces that stand still.
 
 #include <algorithm>
-#include <random>
 
 #include <gmock/gmock.h>
 
 #include <ssphh/scene/primitives.h>
 
 #include "fitted_entry.h"
+#include "random_points.h"
 #include "still_surface.h"
 
 namespace ssphh::probes {
 namespace {
 
-std::vector<vec3> random_points(std::size_t count, float extent) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<float> uniform(-extent, extent);
-  std::vector<vec3> points;
-  for (std::size_t i = 0; i < count; ++i)
-    points.emplace_back(uniform(random), uniform(random), uniform(random));
-  return points;
-}
+using test::random_points;
 
 TEST(FittedEntry, NormalsKeepTheirDirectionAndAxesExactly) {
   for (const vec3& n : {vec3(1, 0, 0), vec3(0, -1, 0), vec3(0, 0, -1)})

@@ -12,19 +12,13 @@
 #include "emitter_samples.h"
 #include "mesh_pieces.h"
 #include "octahedral.h"
+#include "random_points.h"
 #include "shadow_maps.h"
 
 namespace ssphh::realtime {
 namespace {
 
-std::vector<vec3> random_points(std::size_t count, float extent) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<float> uniform(-extent, extent);
-  std::vector<vec3> points;
-  for (std::size_t i = 0; i < count; ++i)
-    points.emplace_back(uniform(random), uniform(random), uniform(random));
-  return points;
-}
+using test::random_points;
 
 /// Reads a tile as the shader does.
 vec3 sample_tile(const std::vector<vec4>& tile, int size, const vec3& d) {
