@@ -48,6 +48,10 @@ TEST(JsonCursor, WholeNumbersLieBetweenTheirLimits) {
   const auto index = [](const Cursor& v) { EXPECT_EQ(v.index(3, "things"), 2); };
   EXPECT_EQ(said_of("2", index), "no error");
   EXPECT_EQ(said_of("3", index), "f: v: index 3 out of range, the file has 3 things");
+  const auto far = [](const Cursor& v) { EXPECT_EQ(v.index(std::size_t{1} << 40, "things"), INT32_MAX); };
+  EXPECT_EQ(said_of("2147483647", far), "no error");
+  EXPECT_EQ(said_of("2147483648", far),
+            "f: v: index 2147483648 out of range, the file has 1099511627776 things");
 }
 
 TEST(JsonCursor, NumbersFitAFloat) {
@@ -64,6 +68,8 @@ TEST(JsonCursor, NumbersFitAFloat) {
     EXPECT_EQ(said_of(bad, between), "f: v: " + std::string(bad) + " must be from 1 to 2");
   const auto least = [](const Cursor& v) { v.number(1, std::numeric_limits<float>::infinity()); };
   EXPECT_EQ(said_of("0.5", least), "f: v: 0.5 must be at least 1");
+  const auto any = [](const Cursor& v) { v.number(1, std::numeric_limits<float>::max()); };
+  EXPECT_EQ(said_of("0.5", any), "f: v: 0.5 must be at least 1") << "a limit that says nothing is not told";
 }
 
 TEST(JsonCursor, ValuesAreOfTheKindThatIsRead) {

@@ -113,6 +113,8 @@ TEST_F(GlResources, MipmapsGoDownToOneTexelOfTheLongerSide) {
 }
 
 TEST_F(GlResources, VolumeIsZeroAndItsBoxesAreUploadedWhereTheyAreTold) {
+  EXPECT_EQ(Volume().size(), ivec3(0));
+  EXPECT_EQ(Volume().bytes(), 0u);
   Volume volume({3, 4, 2});
   EXPECT_EQ(volume.bytes(), 3u * 4 * 2 * 8);
   std::vector<std::uint64_t> box;

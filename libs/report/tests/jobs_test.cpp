@@ -230,10 +230,11 @@ TEST(Jobs, AnOptionOfThePlanIsNotGivenTwice) {
 TEST(Jobs, AnEarlierFileIsNamedByItsKeyOf32Digits) {
   Job job;
   const std::string key(32, 'a');
-  job.words = {"hier", "@" + key + "/p", "@" + key, "@short/p", "@" + key + "x/p", "x" + key + "/p"};
+  job.words = {"hier",     "@" + key + "/p",  "@" + key + "/", "@" + key,
+               "@short/p", "@" + key + "x/p", "x" + key + "/p"};
   EXPECT_THAT(command_line(job, "/cache", "/work"),
-              testing::ElementsAre("hier", "/cache/" + key + "/p", "@" + key, "@short/p", "@" + key + "x/p",
-                                   "x" + key + "/p"));
+              testing::ElementsAre("hier", "/cache/" + key + "/p", "@" + key + "/", "@" + key, "@short/p",
+                                   "@" + key + "x/p", "x" + key + "/p"));
 }
 
 TEST(Jobs, AFileInThePlansFolderComesBeforeOneInTheCurrent) {

@@ -12,24 +12,54 @@
 namespace ssphh::test {
 namespace {
 
+/// A mesh on a part that moves, of which half is seen through.
+scene::Scene veil(const scene::Mesh& mesh, float alpha) {
+  scene::Scene scene;
+  const int door = add_node(scene, "door");
+  scene.animations.push_back({"a",
+                              {{door,
+                                scene::AnimationPath::translation,
+                                scene::Interpolation::linear,
+                                {0, 1},
+                                {vec4(0), vec4(1)}}}});
+  scene::Material veil = lambertian(vec3(0.5f));
+  veil.alpha_mode = scene::AlphaMode::blend, veil.alpha = alpha;
+  add_object(scene, mesh, veil, "veil", door);
+  return scene;
+}
+
 TEST(SamplePart, LeavesOutWhatIsMoreThanHalfTransparent) {
   for (const float alpha : {0.49f, 0.51f}) {
-    scene::Scene scene;
-    const int door = add_node(scene, "door");
-    scene.animations.push_back({"a",
-                                {{door,
-                                  scene::AnimationPath::translation,
-                                  scene::Interpolation::linear,
-                                  {0, 1},
-                                  {vec4(0), vec4(1)}}}});
-    scene::Material veil = lambertian(vec3(0.5f));
-    veil.alpha_mode = scene::AlphaMode::blend, veil.alpha = alpha;
-    add_object(scene, scene::make_quad(vec3(-1, 0, 1), vec3(2, 0, 0), vec3(0, 0, -2)), veil, "veil", door);
+    const scene::Scene scene = veil(scene::make_quad(vec3(-1, 0, 1), vec3(2, 0, 0), vec3(0, 0, -2)), alpha);
     const trace::TransportScene source(scene);
     EXPECT_EQ(source.sample_part(1, 10).empty(), alpha < 0.5f) << alpha;
     EXPECT_EQ(message_of([&] { source.sample_part(1, 1e9); }),
               "points on a part: more than 100 million (ask for fewer per square metre)");
   }
+}
+
+// Corners on a line, and so far apart that the area is no number.
+TEST(SamplePart, LeavesOutTrianglesWithoutAnArea) {
+  scene::Mesh mesh = scene::make_quad(vec3(-1, 0, 1), vec3(2, 0, 0), vec3(0, 0, -2));
+  const auto points = [&](const vec3& second, const vec3& third) {
+    mesh.positions.resize(4), mesh.triangles.resize(2);
+    mesh.normals.clear(), mesh.tangents.clear(), mesh.uvs[0].clear();
+    mesh.positions.insert(mesh.positions.end(), {vec3(0), second, third});
+    mesh.triangles.push_back({4, 5, 6});
+    const scene::Scene scene = veil(mesh, 1);
+    return trace::TransportScene(scene).sample_part(1, 0).size();
+  };
+  EXPECT_EQ(points({1, 0, 0}, {0, 0, -1}), 3u) << "one a triangle";
+  EXPECT_EQ(points({1, 0, 0}, {2, 0, 0}), 2u);
+  EXPECT_EQ(points({0, 0, 0}, {2, 0, 0}), 2u);
+  EXPECT_EQ(points({1e25f, 0, 0}, {0, 0, -1e25f}), 2u);
+}
+
+// Of a veil none is kept, so that a limit that does not hold would cost time alone.
+TEST(SamplePart, AHundredMillionPointsAreTooMany) {
+  const scene::Scene scene = veil(scene::make_quad(vec3(-1, 0, 1), vec3(2, 0, 0), vec3(0, 0, -2)), 0.4f);
+  EXPECT_EQ(message_of([&] { trace::TransportScene(scene).sample_part(1, 5e7); }),
+            "points on a part: more than 100 million (ask for fewer per square metre)");
 }
 
 TEST(RayCounts, AFractionOfBackFacesTakes128) {
