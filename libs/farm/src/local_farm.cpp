@@ -80,7 +80,7 @@ struct LocalFarm::Impl {
 
   void watch() {
     while (!stopping) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      std::this_thread::sleep_for(options.look);
       const std::lock_guard lock(mutex);
       if (broker > 0 && ended(broker)) {
         log(LogLevel::error, fmt::format("the local broker has ended; its log: {}", tail("broker.log")));

@@ -57,6 +57,7 @@ TEST(FarmDefaults, OfThoseWhoWork) {
   EXPECT_EQ(local.workers, 2);
   EXPECT_EQ(local.threads, 0);
   EXPECT_EQ(local.cache_bytes, 20 * gibibyte);
+  EXPECT_EQ(local.look, std::chrono::milliseconds(100));
 }
 
 TEST(FarmDefaults, ReportsBeginAtNothing) {

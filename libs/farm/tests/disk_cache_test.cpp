@@ -1,5 +1,4 @@
 #include <fstream>
-#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -60,13 +59,24 @@ TEST(DiskCache, DamageIsSeenAndRemoved) {
   set_log_sink({});
 }
 
+/// Puts values that take `size` bytes with their hashes, begin..end−1, each used a second after the one
+/// before.
+void put_some(DiskCache& cache, const TempDir& dir, std::uint64_t begin, std::uint64_t end,
+              std::size_t size) {
+  const auto now = std::filesystem::file_time_type::clock::now();
+  for (std::uint64_t i = begin; i < end; ++i) {
+    cache.put(key(i), value(size - sizeof(Hash128), static_cast<int>(i)));
+    const auto age = std::chrono::seconds(1000 - static_cast<int>(i));
+    std::filesystem::last_write_time(file_of(dir, key(i)), now - age);
+  }
+}
+
 TEST(DiskCache, StaysBelowItsBoundAndDropsWhatWasUnusedLongest) {
-  const TempDir dir;
+  const TempDir dir(memory_dir());
   DiskCache cache(dir.path(), 100'000);
   cache.put(key(1000), value(5000, 0));
   for (std::uint64_t i = 0; i < 60; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    cache.put(key(i), value(5000, static_cast<int>(i)));
+    put_some(cache, dir, i, i + 1, 5016);
     ASSERT_TRUE(cache.get(key(1000))) << "in use all the time, after " << i;
     std::uint64_t bytes = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(dir.path()))
@@ -92,18 +102,6 @@ TEST(DiskCache, CountsWhatWasFoundMissedAndDropped) {
   EXPECT_EQ(cache.counts().evicted, 1u);
   EXPECT_TRUE(cache.get(key(2))) << "as large as the bound";
   EXPECT_THROW(cache.put(key(3), value(101, 1)), Error);
-}
-
-/// Puts values that take `size` bytes with their hashes, begin..end−1, each used a second after the one
-/// before.
-void put_some(DiskCache& cache, const TempDir& dir, std::uint64_t begin, std::uint64_t end,
-              std::size_t size) {
-  const auto now = std::filesystem::file_time_type::clock::now();
-  for (std::uint64_t i = begin; i < end; ++i) {
-    cache.put(key(i), value(size - sizeof(Hash128), static_cast<int>(i)));
-    const auto age = std::chrono::seconds(1000 - static_cast<int>(i));
-    std::filesystem::last_write_time(file_of(dir, key(i)), now - age);
-  }
 }
 
 TEST(DiskCache, MakesRoomForATenthOrForWhatIsLarger) {
@@ -133,6 +131,30 @@ TEST(DiskCache, SeesWhatOtherProcessesHavePut) {
   EXPECT_EQ(cache.counts().evicted, 0u) << "thinks that it is alone";
   put_some(cache, dir, 181, 182, 50);
   EXPECT_EQ(cache.counts().evicted, 37u) << "of 181 so many that 144 are left: nine tenths of the bound";
+}
+
+// 900 of 1000 bytes lie there when it begins; a look would find another's 50.
+TEST(DiskCache, LooksAgainOnlyWhenItThinksThatItIsFull) {
+  const TempDir dir(memory_dir());
+  DiskCache other(dir.path(), 1000);
+  put_some(other, dir, 0, 18, 50);
+  DiskCache cache(dir.path(), 1000);
+  put_some(other, dir, 18, 19, 50);
+  put_some(cache, dir, 19, 20, 100);
+  EXPECT_EQ(cache.counts().evicted, 0u) << "just full, as far as it knows";
+  put_some(cache, dir, 20, 21, 50);
+  EXPECT_EQ(cache.counts().evicted, 3u) << "of 1050, for a tenth";
+}
+
+TEST(DiskCache, CountsAnEighthAnewAfterALook) {
+  const TempDir dir(memory_dir());
+  DiskCache cache(dir.path(), 8000), other(dir.path(), 8000);
+  put_some(cache, dir, 0, 22, 50);  // it has looked, before the last of them
+  put_some(other, dir, 22, 142, 50);
+  put_some(cache, dir, 142, 161, 50);
+  EXPECT_EQ(cache.counts().evicted, 0u) << "an eighth has been put since";
+  put_some(cache, dir, 161, 163, 50);
+  EXPECT_EQ(cache.counts().evicted, 18u) << "of 162 so many that 144 are left";
 }
 
 TEST(DiskCache, FolderThatCannotBeMadeIsAnError) {
@@ -230,6 +252,20 @@ TEST(FetchBlob, WhatIsLongerThanTheBlobIsBegunAgain) {
   };
   EXPECT_EQ(fetch_blob(cache, {}, hash, bytes.size(), fetch, {}), bytes);
   EXPECT_FALSE(std::filesystem::exists(dir / (hash.hex() + ".part")));
+}
+
+TEST(FetchBlob, WhatHasArrivedWholeIsNotFetchedAgain) {
+  const TempDir dir;
+  DiskCache cache(dir.path(), 1000);
+  const auto bytes = value(1000, 9);  // as large as the cache
+  const Hash128 hash = content_hash(bytes);
+  write_file(dir / (hash.hex() + ".part"), bytes);
+  const FetchChunk none = [](const Hash128&, const Hash128&, std::uint64_t,
+                             std::uint64_t) -> std::vector<std::byte> {
+    throw BlobUnavailable("was asked for");
+  };
+  EXPECT_EQ(fetch_blob(cache, {}, hash, bytes.size(), none, {}), bytes);
+  EXPECT_TRUE(cache.contains(hash));
 }
 
 TEST(FetchBlob, WhatArrivesDamagedIsRefusedAndFetchedAgain) {

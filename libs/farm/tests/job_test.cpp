@@ -120,6 +120,22 @@ TEST(Job, TilesLitByProbesGiveTheBitsOfALocalRender) {
   }
 }
 
+TEST(Job, RaysAreCountedOfThisJobAlone) {
+  const PackedScene packed("gallery1");
+  const TempDir dir;
+  DiskCache cache(dir.path(), 1 << 28);
+  SceneStore scenes(cache);
+  for (int i = 0; i < 2; ++i) {
+    const JobResult result = run_job(test::gen_job(packed), scenes, packed.fetch());
+    std::uint64_t rays = 0;
+    for (const bake::ProbeStageResult& probe : std::get<ProbeJobResult>(result.data).probes)
+      rays += probe.rays;
+    EXPECT_GT(rays, 0u);
+    EXPECT_EQ(result.stats.rays, rays);
+    EXPECT_GT(result.stats.seconds, 0);
+  }
+}
+
 TEST(Job, AnotherSceneThanTheJobNamesIsRefused) {
   const PackedScene packed("cornell");
   ProbeJob job = test::gen_job(PackedScene("gallery1"));

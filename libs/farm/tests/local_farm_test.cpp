@@ -62,6 +62,7 @@ class LocalFarmTest : public testing::Test {
   void SetUp() override {
     options_.tool = dir_ / "tool";
     options_.cache = "/some/where";
+    options_.look = std::chrono::milliseconds(4);
     set_log_sink([this](LogLevel level, const std::string& message) {
       const std::lock_guard lock(mutex_);
       (level == LogLevel::error ? errors_ : warnings_).push_back(message);
@@ -117,6 +118,36 @@ TEST_F(LocalFarmTest, WorkersHaveThreadsAndCacheAsTheyAreAskedFor) {
   }
 }
 
+TEST_F(LocalFarmTest, ThreadsAreTheMachinesSharedOutOneAtLeastOrThoseAskedFor) {
+  write_tool("exec sleep 100");
+  const auto expect_threads = [&](int workers, int asked, int threads) {
+    options_.workers = workers, options_.threads = asked;
+    const LocalFarm farm(options_);
+    EXPECT_EQ(started_with(farm, "worker-0.log"), of_worker(farm, threads, 0, 20 << 10)) << workers;
+  };
+  expect_threads(thread_count() + 1, 0, 1);
+  expect_threads(1, 0, thread_count());
+  expect_threads(1, 1, 1);
+}
+
+TEST_F(LocalFarmTest, AWorkerThatLivesOutlivesOneThatIsGivenUp) {
+  const fs::path end = dir_ / "end";
+  write_tool("[ $1 = worker ] || exec sleep 100\ncase \"$*\" in *local:0*) until [ -e " + end.string() +
+             " ]; do sleep 0.01; done;; esac");
+  const LocalFarm farm(options_);
+  const int first = farm.worker_pids().at(0);
+  ASSERT_TRUE(comes_true([&] { return farm.worker_pids().at(1) == -1; }));
+  EXPECT_EQ(farm.worker_pids().at(0), first);
+  const auto warned = [&] {
+    const std::lock_guard lock(mutex_);
+    return std::ranges::count(warnings_, "local worker 0 has ended");
+  };
+  EXPECT_EQ(warned(), 0);
+  std::ofstream(end) << "now";
+  EXPECT_TRUE(comes_true([&] { return farm.worker_pids() == std::vector<int>{-1, -1}; }));
+  EXPECT_EQ(warned(), 1) << "it is not started again: the other has used up their restarts";
+}
+
 TEST_F(LocalFarmTest, WorkersThatDieAreStartedAgainEightTimesEach) {
   write_tool("[ $1 = worker ] || exec sleep 100");
   const LocalFarm farm(options_);
@@ -140,13 +171,16 @@ TEST_F(LocalFarmTest, WorkersThatDieAreStartedAgainEightTimesEach) {
 TEST_F(LocalFarmTest, ABrokerThatEndsIsToldOnceWithTheEndOfItsLog) {
   write_tool("[ $1 = broker ] || exec sleep 100\nprintf 'begin%01500dend' 7");
   const LocalFarm farm(options_);
+  const std::vector<int> workers = farm.worker_pids();
   const auto count = [this] {
     const std::lock_guard lock(mutex_);
     return errors_.size();
   };
   ASSERT_TRUE(comes_true([&] { return count() > 0; }));
-  std::this_thread::sleep_for(std::chrono::milliseconds(150));  // it looks ten times a second
+  std::this_thread::sleep_for(5 * options_.look);
+  EXPECT_EQ(farm.worker_pids(), workers) << "those that live are left alone";
   const std::lock_guard lock(mutex_);
+  EXPECT_TRUE(warnings_.empty());
   ASSERT_EQ(errors_.size(), 1u);
   EXPECT_EQ(errors_[0], "the local broker has ended; its log: " + std::string(996, '0') + "7end");
 }

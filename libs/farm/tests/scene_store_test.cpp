@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "error_message.h"
 #include "farm_fixtures.h"
 
 namespace ssphh::farm {
@@ -24,6 +25,24 @@ TEST(SceneStore, KeepsTheScenesThatWereUsedLast) {
   at_time(2);
   EXPECT_EQ(at_time(0), first) << "used after the second, which made room";
   EXPECT_NE(at_time(1), second);
+}
+
+TEST(SceneStore, AsksForNoManifestThatIsLargerThanOneMayBe) {
+  const PackedScene packed("cornell");
+  const TempDir dir;
+  DiskCache cache(dir.path(), max_package_bytes);
+  SceneStore scenes(cache);
+  const auto said_of_size = [&](std::uint64_t bytes) {
+    SceneRef ref = packed.ref();
+    ref.manifest_bytes = bytes;
+    const FetchChunk none = [](const Hash128&, const Hash128&, std::uint64_t,
+                               std::uint64_t) -> std::vector<std::byte> {
+      throw Error("manifest", "was asked for");
+    };
+    return ssphh::test::message_of([&] { scenes.get(ref, none, {}); });
+  };
+  EXPECT_EQ(said_of_size(max_manifest_bytes), "manifest: was asked for");
+  EXPECT_EQ(said_of_size(max_manifest_bytes + 1), "scene manifest: is too large");
 }
 
 // The door of the two rooms opens from time 0 to 1.

@@ -73,6 +73,31 @@ TEST_F(Units, JobsGrowToTheTimeAskedForAndShrinkTowardTheEnd) {
   EXPECT_GT(report.seconds, 0);
 }
 
+// Two for each worker, so that none waits for the next one; four where workers are few.
+TEST_F(Units, AreUnderWayTwoForEachWorker) {
+  std::atomic<std::size_t> made{0};
+  const auto handler = [&](const majordomo::Job&) {
+    for (int i = 0; i < 2000 && made < 6; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return majordomo::Frames{answer(10)};
+  };
+  const ServiceThread first = worker(handler), second = worker(handler), third = worker(handler);
+  majordomo::ClientOptions client_options;
+  client_options.endpoint = options.broker.endpoint;
+  majordomo::Client client(client_options);
+  while (client.call("mmi.stats", {""}).at(1).find("\"workers\":3") == std::string::npos)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  std::size_t most = 0;
+  UnitGroup group = numbered(0, 12, done);
+  group.body = [&, name = group.body](std::span<const std::size_t> units) {
+    most = std::max(most, ++made - done.size());
+    return name(units);
+  };
+  run({group});
+  EXPECT_EQ(most, 6u);
+  EXPECT_EQ(report.jobs, 12u);
+  EXPECT_EQ(report.workers, 3);
+}
+
 TEST_F(Units, TheFirstGroupComesFirst) {
   const ServiceThread serving = worker([&](const majordomo::Job&) { return majordomo::Frames{answer(10)}; });
   run({numbered(0, 3, done), numbered(1, 0, done), numbered(2, 3, done)});

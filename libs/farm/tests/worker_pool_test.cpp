@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <ssphh/farm/engine.h>
 #include <ssphh/farm/job_codec.h>
@@ -104,6 +104,63 @@ std::string name_in_result(const std::string& name, int slots) {
   pool.join();
   EXPECT_EQ(content_type(reply.at(0)), ContentType::json) << "answers as it was asked";
   return decode_result(reply.at(0)).stats.worker;
+}
+
+/// Jobs for a pool of one slot called "w".
+class PoolWithAClient {
+ public:
+  explicit PoolWithAClient(const PackedScene& packed)
+      : server_(broker_.address(), packed.package), pool_([this] {
+          WorkerPoolOptions options = pool_options(broker_.address(), dir_);
+          options.name = "w";
+          run_workers(options, {nullptr, &stop_});
+        }) {}
+  ~PoolWithAClient() {
+    stop_.request();
+    pool_.join();
+  }
+  void call(const std::string& body) {
+    majordomo::ClientOptions options;
+    options.endpoint = broker_.address().endpoint;
+    majordomo::Client(options).call(job_service(), {body});
+  }
+
+ private:
+  TempDir dir_;
+  BrokerThread broker_;
+  BlobServer server_;
+  CancelToken stop_;
+  std::thread pool_;
+};
+
+TEST(WorkerPool, LogsOfEachJobWhoDidItAndWhatItTook) {
+  std::mutex mutex;
+  std::vector<std::string> lines;
+  set_log_sink([&](LogLevel level, const std::string& line) {
+    const std::lock_guard lock(mutex);
+    if (line.starts_with("job=")) lines.push_back(std::string(name_of(level)) + " " + line);
+  });
+  const PackedScene packed("gallery1");
+  {
+    PoolWithAClient pool(packed);
+    pool.call(encode_job(test::gen_job(packed), ContentType::json));
+    ProbeJob viz = test::viz_job(packed);
+    viz.probes = {0};
+    pool.call(encode_job(viz, ContentType::binary));
+    TileJob tiles = test::tile_job(packed);
+    tiles.tiles.push_back({0, 8, 8, 8});
+    pool.call(encode_job(tiles, ContentType::binary));
+    EXPECT_THROW(pool.call("what?"), Error);
+  }
+  set_log_sink({});
+  const std::string rest = "seconds=[0-9]+\\.[0-9]{3} rays=[1-9][0-9]*";
+  EXPECT_THAT(
+      lines,
+      testing::ElementsAre(
+          testing::MatchesRegex("info job=[0-9]+ attempt=1 slot=w kind=gen units=2 " + rest),
+          testing::MatchesRegex("info job=[0-9]+ attempt=1 slot=w kind=viz units=1 " + rest),
+          testing::MatchesRegex("info job=[0-9]+ attempt=1 slot=w kind=ref units=3 " + rest),
+          testing::MatchesRegex("warning job=[0-9]+ attempt=1 slot=w failed: job: is not valid JSON: .*")));
 }
 
 TEST(WorkerPool, TellsWhichSlotDidAJob) {

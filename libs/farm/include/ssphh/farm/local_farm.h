@@ -1,6 +1,7 @@
 #pragma once
 /// A farm of this machine alone, for one command: a broker and workers as child processes.
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -15,6 +16,7 @@ struct LocalFarmOptions {
   int threads = 0;  ///< of each worker; 0: the machine's, divided
   std::filesystem::path cache;
   std::uint64_t cache_bytes = std::uint64_t{20} << 30;
+  std::chrono::milliseconds look{100};  ///< after which it looks again for processes that have ended
 };
 
 /// Children talk through a socket in a private temporary folder, which also holds their logs. A worker that
