@@ -10,6 +10,7 @@
 
 #include <ssphh/image/io.h>
 
+#include "gl_context.h"
 #include "temp_dir.h"
 #include "tool_checks.h"
 
@@ -19,17 +20,10 @@ namespace {
 using test::expect_failure;
 using test::expect_keys;
 using test::run_json;
-using test::run_tool;
 using test::TempDir;
 
-class GlTool : public testing::Test {
- protected:
-  void SetUp() override {
-    const test::ToolResult drawn =
-        run_tool({"bench-frame", "builtin:furnace", "--frames", "1", "--width", "8", "--height", "8"});
-    if (drawn.err.find("OpenGL") != std::string::npos) GTEST_SKIP() << drawn.err;
-  }
-};
+/// The tool makes a context of its own; this one tells whether it can.
+class GlTool : public test::WithGl {};
 
 const std::vector<std::string> tiny = {"--width", "48", "--height", "27"};
 

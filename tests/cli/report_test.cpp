@@ -93,14 +93,14 @@ TEST(Report, AFailureIsACellWithItsLogAndIsTriedAgain) {
   plan["methods"].push_back(
       {{"name", "after bad"},
        {"steps", {"bake {scene} --probes nonsense -o p.sphl", "hier p.sphl -o h.sphl"}}});
-  plan["time_limit"] = 2;
+  plan["time_limit"] = 1;
   write_json(dir / "plan.json", plan);
   const json::Value result = run_json({"report", dir / "plan.json", "-o", dir / "out"}, 1);
   EXPECT_EQ(result["failed"], 3);
   const json::Value report = test::parse_json(slurp(dir / "out/report.json"));
   EXPECT_TRUE(cell(report, "good")["failure"].is_null());
   EXPECT_THAT(cell(report, "bad")["failure"].string(), HasSubstr("nowhere"));
-  EXPECT_THAT(cell(report, "slow")["failure"].string(), HasSubstr("not done after 2 s"));
+  EXPECT_THAT(cell(report, "slow")["failure"].string(), HasSubstr("not done after 1 s"));
   EXPECT_THAT(cell(report, "after bad")["failure"].string(), HasSubstr("nonsense"));
   EXPECT_THAT(slurp(dir / "out/report.md"), HasSubstr("Failed: box, slow"));
 

@@ -62,7 +62,7 @@ TEST(FarmNetwork, SlowLinkCostsNothingButTime) {
   const TempDir dir;
   const SmallBake bake(dir, "4");
   FarAwayWorker far(0);
-  far.relay.slow(std::chrono::milliseconds(60), 200e3);
+  far.relay.slow(std::chrono::milliseconds(20), 1e6);
   const auto file = dir / "out.sphl";
   ToolProcess process(bake.on(far.farm.endpoint(), file));
   expect_wanted(process, file, bake);

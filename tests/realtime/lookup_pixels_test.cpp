@@ -203,6 +203,44 @@ TEST_P(EveryWeight, InAnEmptyRoomEveryPixelIsTheCpus) {
 INSTANTIATE_TEST_SUITE_P(Lookups, EveryWeight, testing::ValuesIn(all_weights),
                          [](const auto& given) { return given.param.name; });
 
+// Cells with fewer probes around them have shorter lists than others. Behind their end stands the origin of
+// the world, which is nearer to this floor than any probe.
+TEST_F(LookupPixels, WhatStandsBehindTheEndOfAListIsNoProbe) {
+  scene::Scene scene;
+  scene.materials = {matte(vec3(0.8f))};
+  add_mesh(scene, scene::make_quad({-1.5f, -1, 1.5f}, {3, 0, 0}, {0, 0, -3}), 0);
+  scene::Node& eye = scene.nodes.emplace_back();
+  eye.local.translation = {0.1f, 4, 0.2f};
+  eye.local.rotation = glm::quatLookAt(vec3(0, -1, 0), vec3(0, 0, -1));
+  scene.cameras.emplace_back().node = static_cast<int>(scene.nodes.size()) - 1;
+  scene.cameras.back().yfov = 0.5f;
+  scene::validate(scene);
+  std::vector<vec3> places;
+  for (int i = 0; i < 48; ++i) {
+    const auto column = static_cast<float>(i % 8), row = static_cast<float>(i / 8);
+    places.push_back(
+        {-1.4f + 0.39f * column, 0.9f + 0.1f * static_cast<float>(i * 5 % 7), -1.3f + 0.5f * row});
+  }
+  const probes::ProbeSet probes = coloured(smooth_probes(places));
+  const trace::PathTracer tracer(scene);
+  const trace::TransportScene source(scene);
+  const PixelPoints points(source, pose_of(scene, ""), size);
+  realtime::Renderer renderer(gl(), scene);
+  renderer.set_probes(probes);
+  const auto light = lookup(probes, tracer, LookupMethod::light, WeightMethod::distance);
+  std::vector<std::size_t> nearest;
+  for (const PixelPoint& p : points.pixels) {
+    const auto far = [&](const vec3& place) { return glm::distance(place, p.point.position); };
+    nearest.push_back(static_cast<std::size_t>(std::ranges::min_element(places, {}, far) - places.begin()));
+  }
+  PictureBounds bounds = PictureBounds::around(looked_up(points, *light), 1.5f * tile, 3e-4f);
+  const std::vector<bool> edges =
+      points.edges([&](std::size_t a, std::size_t b) { return nearest[a] != nearest[b]; });
+  EXPECT_LT(bounds.widen([&](int x, int y) { return edges[static_cast<std::size_t>(y * size.width + x)]; }),
+            0.35);
+  EXPECT_TRUE(picture_is(draw(renderer, scene, "", LookupMethod::light, WeightMethod::distance), bounds));
+}
+
 /// Of radiance in tiles of 30 texels, up to 1.6 π / 30 rad apart: h² / 8 = 0.0035 of l (l + 1) of each band,
 /// whose root mean squares behind these lobes are 0.07, 0.09, 0.10, 0.10, together 0.0136 of a mean of 0.7;
 /// 0.4 % of rounding.

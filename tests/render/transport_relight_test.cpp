@@ -9,6 +9,7 @@
 #include <ssphh/transport/relight_session.h>
 
 #include "transport_fixtures.h"
+#include "unruly_source.h"
 
 namespace ssphh::test {
 namespace {
@@ -317,6 +318,23 @@ TEST(RelightSession, WhatIsCancelledIsDoneByTheNextUpdate) {
   EXPECT_TRUE(session.reflected() == before);
   session.update();
   other.update();
+  EXPECT_TRUE(session.reflected() == other.reflected());
+}
+
+// The first time it fails when the door has been posed, but not lit: the next one finds the door where it is
+// to be.
+TEST(RelightSession, LightsADoorAnewThatWasMovedInVain) {
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  const std::vector<transport::ProbePlace> places = places_of(scene);
+  UnrulySource source(scene);
+  LitSession session(source, places, small_session(false)), other(source, places, small_session(false));
+  session.update(), other.update();
+  session.state.time = other.state.time = 0.6f;
+  source.gives_direct_light = false;
+  EXPECT_THROW(session.update(), Error);
+  source.gives_direct_light = true;
+  session.update(), other.update();
+  EXPECT_TRUE(session.surfel_direct() == other.surfel_direct());
   EXPECT_TRUE(session.reflected() == other.reflected());
 }
 

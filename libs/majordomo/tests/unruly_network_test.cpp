@@ -105,7 +105,7 @@ TEST(UnrulyNetwork, EveryRequestIsAnsweredOnceWithItsOwnResult) {
   RunningBroker broker;
   UnrulyNetwork network(broker.endpoint(), 30, 0.2f);
   std::vector<std::unique_ptr<RunningWorker>> workers;
-  for (int i = 0; i < 3; ++i)
+  for (int i = 0; i < 8; ++i)
     workers.push_back(std::make_unique<RunningWorker>(
         WorkerOptions{.endpoint = network.endpoint(), .service = "double"},
         [](const Job& job) -> Frames { return {job.body.at(0) + job.body.at(0)}; }));

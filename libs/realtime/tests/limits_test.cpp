@@ -6,6 +6,7 @@
 
 #include <ssphh/scene/primitives.h>
 
+#include "depth_bounds.h"
 #include "fitted_light.h"
 #include "octahedral.h"
 #include "shader_table.h"
@@ -22,6 +23,20 @@ TEST_F(Limits, TilesAreCountedByTheBytesOfTheirHalves) {
   // 5 tiles of 10 + 2 texels: four columns and two rows, of four halves
   EXPECT_EQ(TileAtlas(10, 5).bytes(), std::size_t{4 * 2} * 12 * 12 * 8);
   EXPECT_EQ(TileAtlas().bytes(), 0u);
+}
+
+// Squares of 2, 4, 8, … texels, until one holds the map; 4096 texels are a layer.
+TEST_F(Limits, DepthBoundsAreHalvedToOneSquareAMap) {
+  for (const auto& [size, levels] : {std::pair(1, 1), std::pair(2, 1), std::pair(3, 2), std::pair(4, 2),
+                                     std::pair(5, 3), std::pair(96, 7), std::pair(128, 7), std::pair(129, 8)})
+    EXPECT_EQ(DepthBounds(size, 1).levels(), levels) << size;
+  const DepthBounds four(4, 3);  // of 2 × 2 squares, 2 columns and rows
+  EXPECT_EQ(four.layout().columns(), 2);
+  EXPECT_EQ(four.layout().rows, 2);
+  EXPECT_EQ(four.bytes(), 4u * 4 * 8 * 4 / 3);
+  const DepthBounds large(2000, 9);
+  EXPECT_EQ(large.layout().columns(), 2);
+  EXPECT_EQ(large.layout().layers, 3);
 }
 
 TEST_F(Limits, ProbesTakeTheirMapsTilesAndLists) {
