@@ -13,7 +13,7 @@ void expect_done(ToolProcess& process, const std::filesystem::path& file, const 
 
 TEST(FarmBake, AnyNumberOfWorkersGivesTheBitsOfALocalBake) {
   const TempDir dir;
-  const SmallBake bake(dir);
+  const SmallBake bake(dir, "8");
   FarmProcesses farm(1);
   for (int workers = 1; workers <= 3; ++workers) {
     if (workers > 1) farm.start_worker();
@@ -58,14 +58,14 @@ TEST(FarmBake, LocalOptionAndJsonSayWhatWasDone) {
 
 TEST(FarmBake, KilledWorkersCostNothingButTime) {
   const TempDir dir;
-  const SmallBake bake(dir, "60");
+  const SmallBake bake(dir, "24");
   FarmProcesses farm(3, {"--attempts", "20"});  // or a job that is struck three times is set aside
   const auto file = dir / "out.sphl";
   ToolProcess process(bake.on(farm.endpoint(), file));
   ASSERT_TRUE(farm.worker(0).wait_for_stderr("worker-ready"));
   std::minstd_rand random(7);
   for (int i = 0; i < 4; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(150 + random() % 200));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50 + random() % 60));
     farm.replace_worker(random() % 3);
   }
   expect_done(process, file, bake);
@@ -73,24 +73,22 @@ TEST(FarmBake, KilledWorkersCostNothingButTime) {
 
 TEST(FarmBake, FrozenWorkerCostsNothingButTime) {
   const TempDir dir;
-  const SmallBake bake(dir, "40");
+  const SmallBake bake(dir, "16");
   FarmProcesses farm(2);
   const auto file = dir / "out.sphl";
   ToolProcess process(bake.on(farm.endpoint(), file));
-  ASSERT_TRUE(farm.worker(0).wait_for_stderr("worker-ready"));
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  ASSERT_TRUE(farm.worker(0).wait_for_stderr("kind=gen"));
   farm.worker(0).signal(SIGSTOP);
   expect_done(process, file, bake);
 }
 
 TEST(FarmBake, BrokerThatIsKilledAndComesBackLosesNothing) {
   const TempDir dir;
-  const SmallBake bake(dir, "40");
+  const SmallBake bake(dir, "16");
   FarmProcesses farm(2, {"--store", (dir / "store").string()});
   const auto file = dir / "out.sphl";
   ToolProcess process(bake.on(farm.endpoint(), file));
-  ASSERT_TRUE(farm.worker(0).wait_for_stderr("worker-ready"));
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  ASSERT_TRUE(farm.worker(0).wait_for_stderr("kind=gen"));
   farm.kill_broker();
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   farm.start_broker();
@@ -99,13 +97,13 @@ TEST(FarmBake, BrokerThatIsKilledAndComesBackLosesNothing) {
 
 TEST(FarmBake, CancelledBakeGoesOnWhereItStopped) {
   const TempDir dir;
-  const SmallBake bake(dir, "40");
+  const SmallBake bake(dir, "24");
   FarmProcesses farm(1);
   const auto file = dir / "out.sphl";
   const std::string cache = (dir / "results").string();
   ToolProcess process(bake.on(farm.endpoint(), file, cache));
   ASSERT_TRUE(farm.worker(0).wait_for_stderr("kind=gen"));
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
   process.signal(SIGINT);
   const ToolResult cancelled = process.wait();
   if (cancelled.exit_code == 0) GTEST_SKIP() << "it was done before the signal came";

@@ -28,12 +28,12 @@ void expect_wanted(ToolProcess& process, const std::filesystem::path& file, cons
 
 TEST(FarmNetwork, LinkThatIsCutAgainAndAgainCostsNothingButTime) {
   const TempDir dir;
-  const SmallBake bake(dir, "30");
+  const SmallBake bake(dir, "24");
   FarAwayWorker far(1);
   const auto file = dir / "out.sphl";
   ToolProcess process(bake.on(far.farm.endpoint(), file));
   for (int i = 0; i < 5; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(250));
+    std::this_thread::sleep_for(std::chrono::milliseconds(90));
     far.relay.cut();
   }
   expect_wanted(process, file, bake);
@@ -42,7 +42,7 @@ TEST(FarmNetwork, LinkThatIsCutAgainAndAgainCostsNothingButTime) {
 // Nobody is told that the cable is out: heartbeats find it, and after it is in again the worker is back.
 TEST(FarmNetwork, SilentLinkCostsARetryAndTheWorkerComesBack) {
   const TempDir dir;
-  const SmallBake bake(dir, "30");
+  const SmallBake bake(dir, "16");
   FarAwayWorker far(1);
   const auto file = dir / "out.sphl";
   ToolProcess process(bake.on(far.farm.endpoint(), file));
