@@ -23,7 +23,11 @@ class Dispatcher {
  public:
   Dispatcher(const FarmOptions& options, const std::vector<UnitGroup>& groups, FarmReport& report,
              const std::function<void(std::size_t, const FarmReport&)>& finished)
-      : groups_(groups), report_(report), finished_(finished), client_(client_options(options.broker)) {
+      : groups_(groups),
+        report_(report),
+        finished_(finished),
+        patience_(options.patience),
+        client_(client_options(options.broker)) {
     for (const UnitGroup& group : groups) {
       next_.push_back(0);
       cutters_.emplace_back(options.job_seconds);
@@ -125,7 +129,7 @@ class Dispatcher {
 
   /// Says once what it waits for.
   void complain(Clock::time_point start) {
-    if (complained_ || heard_ || Clock::now() - start < std::chrono::seconds(5)) return;
+    if (complained_ || heard_ || Clock::now() - start < patience_) return;
     if (!client_.connected()) {
       log_warning("the broker does not answer yet; still trying");
     } else if (known_ && workers_ == 0) {
@@ -139,6 +143,7 @@ class Dispatcher {
   const std::vector<UnitGroup>& groups_;
   FarmReport& report_;
   const std::function<void(std::size_t, const FarmReport&)>& finished_;
+  std::chrono::duration<double> patience_;
   majordomo::Client client_;
   std::vector<std::size_t> next_;  ///< first unit of each group that no job has
   std::vector<JobCutter> cutters_;

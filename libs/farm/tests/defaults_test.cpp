@@ -47,6 +47,7 @@ TEST(FarmDefaults, OfThoseWhoWork) {
   EXPECT_EQ(farm.content, ContentType::binary);
   EXPECT_EQ(farm.job_seconds, 1.5);
   EXPECT_EQ(farm.results, nullptr);
+  EXPECT_EQ(farm.patience, 5);
   EXPECT_FALSE(farm.broker.security);
   const WorkerPoolOptions pool;
   EXPECT_EQ(pool.slots, 1);

@@ -116,6 +116,28 @@ TEST_F(Units, ReportsAddUp) {
   EXPECT_GT(report.seconds, first);
 }
 
+TEST_F(Units, WhatIsWaitedForIsSaidOnce) {
+  std::atomic<bool> said{false}, ended{false};
+  std::vector<std::string> lines;
+  set_log_level(LogLevel::warning);
+  const LogSink before = set_log_sink([&](LogLevel, const std::string& line) {
+    lines.push_back(line);
+    said = true;
+  });
+  options.patience = 0.1;
+  std::thread late([&] {
+    for (int i = 0; i < 2000 && !said; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    const ServiceThread serving = worker([&](const majordomo::Job&) { return majordomo::Frames{answer(1)}; });
+    while (!ended) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  });
+  run({numbered(0, 2, done)});
+  ended = true;
+  late.join();
+  set_log_sink(before);
+  EXPECT_EQ(lines, std::vector<std::string>{"the broker has no worker of this build (engine " + engine_id() +
+                                            "); jobs wait for one"});
+}
+
 TEST_F(Units, WhatAWorkerCouldNotDoIsTriedAgainAndCounted) {
   int calls = 0;
   const ServiceThread serving = worker([&](const majordomo::Job&) {

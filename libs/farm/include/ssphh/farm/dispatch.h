@@ -18,6 +18,7 @@ struct FarmOptions {
   ContentType content = ContentType::binary;
   double job_seconds = 1.5;      ///< aimed at for one job
   DiskCache* results = nullptr;  ///< finished units are kept and found here; must outlive the work
+  double patience = 5;           ///< seconds without a result after which it says once what it waits for
 };
 
 /// What spread work took.
