@@ -11,6 +11,7 @@
 #include <ssphh/image/io.h>
 
 #include "gl_context.h"
+#include "here.h"
 #include "temp_dir.h"
 #include "tool_checks.h"
 
@@ -113,6 +114,18 @@ TEST_F(GlTool, EveryKindOfWeightsIsDrawnAsTheCpuDoes) {
   expect_failure({"render", "builtin:box", "--method", "ssphh", "--backend", "gl", "--probes", file,
                   "--weights", "fitted", "-o", dir / "x.exr"},
                  {"has no fitted weights", "--fit"});
+}
+
+TEST_F(GlTool, TakesASquareOfSamplesForThePathsAskedForSixteenAtMost) {
+  const TempDir dir;
+  const auto samples = [&](const char* spp, const char* passes) {
+    return test::json_here({"render", "builtin:furnace", "--method", "direct", "--backend", "gl", "--width",
+                            "8", "--height", "8", "--spp", spp, "--passes", passes, "-o",
+                            dir / "a.exr"})["samples"];
+  };
+  EXPECT_EQ(samples("1", "1"), 1);
+  EXPECT_EQ(samples("2", "2"), 4);
+  EXPECT_EQ(samples("3", "30"), 16);
 }
 
 TEST_F(GlTool, TurntableWritesPicturesFromAllAround) {
