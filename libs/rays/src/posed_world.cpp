@@ -31,7 +31,7 @@ PosedWorld::PosedWorld(const TransportSource& source, std::span<const mat4> pose
 void PosedWorld::place(int part, const mat4& pose) {
   const scene::Bounds box = transformed(source_.part_bounds(part), pose);
   const float det = glm::determinant(mat3(pose));
-  if (box.empty() || !(std::abs(det) > 0) || !std::isfinite(1 / det)) return;
+  if (box.empty() || !std::isfinite(1 / det)) return;
   moving_.push_back({part, glm::inverse(pose)});
   bounds_.add(box.min), bounds_.add(box.max);
 }

@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <ssphh/rays/radiance_source.h>
+#include "dark_space.h"
+#include "error_message.h"
 
 namespace ssphh::rays {
 namespace {
@@ -47,9 +48,17 @@ TEST(RayDefaults, OfQuestionsAndAnswers) {
   const PhotonNumbers numbers;
   EXPECT_EQ(numbers.emitter, 0);
   EXPECT_EQ(numbers.place + numbers.direction, vec2(0));
+  EXPECT_FLOAT_EQ(photon.range_share(0.5f), 255.0f / 256);
   const PartPoint part;
   EXPECT_EQ(part.albedo, vec3(0));
   EXPECT_FALSE(part.double_sided);
+}
+
+TEST(RayDefaults, OfASourceThatCanDoNoMoreThanItMust) {
+  const test::DarkSpace source;
+  EXPECT_EQ(source.backface_fraction(vec3(1)), 0);
+  EXPECT_EQ(test::message_of([&] { source.surface_irradiance({}, {}, {}); }),
+            "radiance source: it cannot trace irradiance at surface points");
 }
 
 }  // namespace

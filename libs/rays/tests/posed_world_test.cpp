@@ -199,9 +199,13 @@ TEST(PosedWorld, WhatIsScaledToNothingIsNotThere) {
   EXPECT_EQ(world.bounds().max.y, 41);
   EXPECT_TRUE(world.occluded({{0, 60, 0}, {0, -1, 0}, 30}));
   EXPECT_FALSE(world.occluded({{0, 100, 0}, {0, -1, 0}, 30}));
-  // So small that its inverse is no float.
-  const std::vector<mat4> tiny = {mat4(1), poses[1], glm::scale(mat4(1), vec3(1e-13f))};
-  EXPECT_FALSE(PosedWorld(source, tiny).occluded({{0, 5, 0}, {0, -1, 0}, 4.9999f}));
+  // So small that its inverse is no float, or no place at all.
+  const mat4 at = glm::translate(mat4(1), vec3(0, 80, 0));
+  for (const float scale : {1e-13f, std::nanf("")}) {
+    const std::vector<mat4> tiny = {mat4(1), poses[1], glm::scale(at, vec3(scale))};
+    EXPECT_EQ(PosedWorld(source, tiny).bounds().max.y, 41);
+    EXPECT_FALSE(PosedWorld(source, tiny).occluded({{0, 82, 0}, {0, -1, 0}, 4}));
+  }
   // Small, but there.
   const std::vector<mat4> small = {mat4(1), poses[1],
                                    glm::scale(glm::translate(mat4(1), vec3(0, 80, 0)), vec3(0.01f))};
