@@ -6,6 +6,8 @@
 #include <ssphh/core/random.h>
 #include <ssphh/geometry/delaunay.h>
 
+#include "number_list.h"
+
 namespace ssphh::geometry {
 namespace {
 
@@ -144,6 +146,41 @@ TEST(Delaunay, LargestCoordinatesDoNotOverflow) {
   expect_delaunay(points, 48.0 * m * m * m);
   EXPECT_EQ(in_sphere(points[0], points[1], points[2], points[4], points[7]), 0);
   EXPECT_EQ(in_sphere(points[0], points[1], points[2], points[4], points[8]), 1);
+}
+
+TEST(Delaunay, CellsAreWhatTheyWere) {
+  ssphh::test::NumberList list;
+  // In general position, and a lattice, where ties decide; integers, so to the last of them.
+  for (const std::vector<LatticePoint>& points : {random_points(14, 1000, 9), random_points(30, 4, 2)}) {
+    list.add("points", points.size(), spanning_points(points));
+    for (const Tetrahedron& cell : delaunay(points)) list.add("cell", cell.vertex, cell.neighbor);
+  }
+  // In one place, on a line, in a plane.
+  for (const std::vector<LatticePoint>& flat : {std::vector<LatticePoint>(3, {1, 2, 3}),
+                                                {{1, 2, 3}, {1, 2, 3}, {3, 3, 5}, {5, 4, 7}},
+                                                {{0, 0, 0}, {2, 0, 1}, {4, 0, 2}, {1, 3, 1}, {3, 3, 2}}})
+    list.add("flat", spanning_points(flat));
+  list.expect("libs/geometry/tests/expected/delaunay.txt");
+}
+
+TEST(ExactPredicates, HaveTheSignOfTheirSide) {
+  const LatticePoint a(0, 0, 0), b(4, 0, 0), c(0, 4, 0), d(0, 0, 4);
+  EXPECT_EQ(orientation(a, b, c, d), 1);
+  EXPECT_EQ(orientation(a, c, b, d), -1);
+  EXPECT_EQ(orientation(a, b, c, {1, 2, 0}), 0);
+  EXPECT_EQ(in_sphere(a, b, c, d, {1, 1, 1}), 1);
+  EXPECT_EQ(in_sphere(a, b, c, d, {5, 5, 5}), -1);
+  EXPECT_EQ(in_sphere(a, b, c, d, {4, 4, 4}), 0);
+  // The last corner of the cube lies outside if it is the one that is raised, and otherwise by who is.
+  const std::array<LatticePoint, 5> cube{a, b, c, d, LatticePoint(4, 4, 4)};
+  EXPECT_EQ(in_sphere_perturbed(cube, {0, 1, 2, 3, 4}), -1);
+  EXPECT_EQ(in_sphere_perturbed(cube, {4, 1, 2, 3, 0}), orientation(cube[4], b, c, d));
+  EXPECT_EQ(in_sphere_perturbed(cube, {0, 4, 2, 3, 1}), orientation(a, cube[4], c, d));
+  EXPECT_EQ(in_sphere_perturbed(cube, {0, 1, 4, 3, 2}), orientation(a, b, cube[4], d));
+  EXPECT_EQ(in_sphere_perturbed(cube, {0, 1, 2, 4, 3}), orientation(a, b, c, cube[4]));
+  // Where it lies in the plane of the others' three corners, the next one decides.
+  const std::array<LatticePoint, 5> square{a, b, c, d, LatticePoint(4, 4, 0)};
+  EXPECT_EQ(in_sphere_perturbed(square, {0, 1, 2, 4, 3}), -1);
 }
 
 }  // namespace

@@ -50,6 +50,31 @@ TEST(TriangleTree, NearestIsThatOfAllTriangles) {
   }
 }
 
+TEST(TriangleTree, OfEquallyNearOnesTheFirstAndOneAtItsReach) {
+  // Five times the same on either side, those with the lower indices where boxes are opened last.
+  std::vector<Corners> triangles(10, {vec3(1, 0, 0), vec3(1, 1, 0), vec3(1, 0, 1)});
+  for (std::size_t i = 5; i < 10; ++i)
+    for (vec3& corner : triangles[i]) corner.x = -1;
+  const TriangleTree tree(triangles);
+  const vec3 p(0, 0.25f, 0.25f);
+  const auto all = [](std::int32_t) { return true; };
+  EXPECT_EQ(tree.nearest(p).triangle, 0);
+  EXPECT_EQ(tree.nearest(p, 1, all).triangle, 0) << "within its reach, itself included";
+  EXPECT_EQ(tree.nearest(p, 0.999f, all).triangle, -1);
+  EXPECT_EQ(tree.nearest(p, 9, [](std::int32_t i) { return i > 3; }).triangle, 4);
+  EXPECT_EQ(tree.nearest(p - vec3(0.5f, 0, 0), 9, all).triangle, 5);
+  EXPECT_EQ(TriangleTree().nearest(p).triangle, -1);
+}
+
+TEST(TriangleTree, TakesAsMuchAsItsTrianglesAndBoxes) {
+  const Corners one{vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)};
+  // Corners and an index each; of four one box with its range, of five that and two below it.
+  EXPECT_EQ(TriangleTree(std::vector<Corners>(4, one)).bytes(), 4u * (36 + 4) + 32);
+  EXPECT_EQ(TriangleTree(std::vector<Corners>(5, one)).bytes(), 5u * (36 + 4) + 3 * 32);
+  EXPECT_EQ(TriangleTree().bytes(), 0u);
+  EXPECT_EQ(TriangleTree(std::vector<Corners>(5, one)).triangles().size(), 5u);
+}
+
 TEST(NearestPoints, TakeAsMuchAsTheirPlacesAndTree) {
   const std::vector<vec3> five{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 2, 2}};
   // A place and its index, and the axis of a split.
@@ -83,6 +108,25 @@ TEST(NearestOnTriangle, IsWithinOnEachEdgeAndAtEachCorner) {
   expect({-1, -1, 0}, {1, 0, 0}, 2);
   expect({4, -1, 0}, {0, 1, 0}, 5);
   expect({-1, 6, 0}, {0, 0, 1}, 5);
+}
+
+TEST(NearestOnTriangle, OfASegmentOrAPointIsThatOfTheSegmentOrPoint) {
+  const vec3 a(1, 2, 3), b(1, 4, 3), p(0, 3, 3);
+  for (const Corners& segment : {Corners{a, a, b}, {a, b, b}, {a, b, a}, {a, 0.5f * (a + b), b}}) {
+    const OnTriangle found = nearest_on_triangle(segment, p);
+    EXPECT_EQ(found.distance2, 1);
+    EXPECT_EQ(found.weight.x * segment[0] + found.weight.y * segment[1] + found.weight.z * segment[2],
+              vec3(1, 3, 3));
+  }
+  EXPECT_EQ(nearest_on_triangle({a, a, a}, p).distance2, 2);
+}
+
+TEST(NearGrid, LooksIntoAllCellsAround) {
+  NearGrid grid(1);
+  for (int i = 0; i < 27; ++i) grid.add(0.5f + vec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+  EXPECT_EQ(grid.near(vec3(0.5f), 1).size(), 1u) << "nearer than a metre is one alone";
+  EXPECT_EQ(grid.near(vec3(0.999f), 1), (std::vector<std::uint32_t>{13, 14, 16, 17, 22, 23, 25, 26}));
+  EXPECT_EQ(grid.near(vec3(0.001f), 1), (std::vector<std::uint32_t>{0, 1, 3, 4, 9, 10, 12, 13}));
 }
 
 }  // namespace
