@@ -158,5 +158,17 @@ TEST(FittedShare, SightStartsAndEndsAFiftiethOfASpacingOffTheSurfaces) {
   EXPECT_EQ(asked, 1);
 }
 
+TEST(FittedShare, WithinAThousandthOfASpacingNothingIsBetween) {
+  for (const float far : {0.0005f, 0.0009f, 0.0011f, 0.002f}) {
+    Around points;
+    points.add({0, 0.5f, 0}, 0);
+    points.add({far, 0, 0}, 1);
+    // Only the first is seen.
+    const float share =
+        points.share([](const vec3&, const vec3& to) { return std::hypot(to.x, to.z) > 0.3f; });
+    EXPECT_EQ(share > 0, far < 0.001f) << far;
+  }
+}
+
 }  // namespace
 }  // namespace ssphh::probes
