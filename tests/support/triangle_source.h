@@ -1,6 +1,6 @@
 #pragma once
 /// A TransportSource that tests every triangle of a Scene: slow, and independent of Embree. Animated nodes
-/// are parts. Knows no light but emission.
+/// are parts, base colours albedos. Knows no light but emission.
 
 #include <atomic>
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace ssphh::test {
 
-class TriangleSource final : public UnlitSource {
+class TriangleSource : public UnlitSource {
  public:
   explicit TriangleSource(const scene::Scene& scene) : scene_(scene), parts_(1) {
     parts_[0].name = "static";
@@ -28,7 +28,7 @@ class TriangleSource final : public UnlitSource {
       const scene::Material look =
           material < 0 ? scene::Material{} : scene.materials[static_cast<std::size_t>(material)];
       for (const uvec3& t : mesh.triangles) {
-        Triangle triangle{{}, look.emission, look.double_sided};
+        Triangle triangle{{}, look.emission, look.base_color, look.double_sided};
         for (int k = 0; k < 3; ++k) {
           const vec3 p = mesh.positions[t[k]];
           triangle.corner[k] = index == 0 ? vec3(world[node] * vec4(p, 1)) : p;
@@ -64,6 +64,7 @@ class TriangleSource final : public UnlitSource {
         hits[i].distance = t;
         hits[i].normal = behind ? -n : n;
         hits[i].back = behind && !triangle.double_sided;
+        hits[i].albedo = triangle.albedo;
         hits[i].emission = hits[i].back ? vec3(0) : triangle.emission;
       }
     }
@@ -88,7 +89,7 @@ class TriangleSource final : public UnlitSource {
  private:
   struct Triangle {
     vec3 corner[3];
-    vec3 emission;
+    vec3 emission, albedo;
     bool double_sided;
   };
   struct Part {
