@@ -7,6 +7,7 @@
 #include <ssphh/scene/primitives.h>
 
 #include "draft.h"
+#include "error_message.h"
 #include "ray_source.h"
 #include "triangle_source.h"
 
@@ -115,6 +116,12 @@ TEST(Lattice, OfABareFloorStandsAboveIt) {
   EXPECT_EQ(box.min, vec3(0, 1, -0.75f));
   EXPECT_EQ(box.max, vec3(5, 3, 1.25f));
   EXPECT_NEAR(lattice_places(box, 2), 3.5 * 2 * 2, 1e-9);
+}
+
+TEST(Lattice, OfNothingThatStandsStillIsRefused) {
+  EXPECT_EQ(test::message_of([] { lattice_box(TriangleSource(scene::Scene{}), 1); }),
+            "probe placement: the scene has no surface that stands still, so there is no place to look for "
+            "(give the scene SPHLs and use --probes scene)");
 }
 
 TEST(Lattice, PlacesFillTheBoxFromAnOffset) {

@@ -1,10 +1,13 @@
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <ssphh/core/error.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene/sun_sky.h>
+
+#include "error_message.h"
 
 namespace ssphh::scene {
 namespace {
@@ -106,6 +109,22 @@ TEST(SunSky, ParametersOutOfRangeAreErrors) {
   EXPECT_THROW(add_sun_sky(scene, {.turbidity = std::nanf("")}), Error);
   EXPECT_THROW(add_sun_sky(scene, {.width = 0}), Error);
   EXPECT_FALSE(scene.environment.has_value());
+}
+
+TEST(SunSky, ParametersAreTakenUpToTheirLimits) {
+  const auto said = [](const SunSkyParams& params) {
+    return test::message_of([&] { sky_radiance(params, {0, 1, 0}); });
+  };
+  for (const float good : {0.0f, pi / 2}) EXPECT_EQ(said({.elevation = good}), "no error") << good;
+  for (const float bad : {-1e-6f, pi / 2 + 1e-4f})
+    EXPECT_TRUE(said({.elevation = bad}).starts_with("sun and sky: elevation: ")) << bad;
+  for (const float good : {1.7f, 10.0f}) EXPECT_EQ(said({.turbidity = good}), "no error") << good;
+  for (const float bad : {1.6999f, 10.001f})
+    EXPECT_TRUE(said({.turbidity = bad}).starts_with("sun and sky: turbidity: ")) << bad;
+  for (const int good : {4, 16384}) EXPECT_EQ(said({.width = good}), "no error") << good;
+  for (const int bad : {3, 16385})
+    EXPECT_EQ(said({.width = bad}),
+              fmt::format("sun and sky: width: {} is out of range (4 to 16384 pixels)", bad));
 }
 
 }  // namespace
