@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::int32_t infinite = -1, none = -1;
 
-/// Face opposite of vertex k, counter-clockwise as seen from that vertex.
-constexpr int face_of[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+/// Two corners of the face opposite of vertex k.
+constexpr int face_of[4][2] = {{1, 2}, {0, 3}, {0, 1}, {0, 2}};
 
 struct Cell {
   std::array<std::int32_t, 4> vertex;
