@@ -171,7 +171,7 @@ Value::~Value() = default;
 Value::Value(Array elements) noexcept : data_(std::move(elements)) {}
 
 Value::Value(std::initializer_list<Value> list) {
-  const bool pairs = std::all_of(list.begin(), list.end(), [](const Value& element) {
+  const bool pairs = std::ranges::all_of(list, [](const Value& element) {
     return element.is_array() && element.size() == 2 && element[0].is_string();
   });
   if (!pairs) {

@@ -74,7 +74,7 @@ const Cursor& Cursor::members(std::initializer_list<std::string_view> required,
     if (!value_->contains(name)) fail(fmt::format("\"{}\" is missing", name));
   }
   const auto among = [](std::initializer_list<std::string_view> names, std::string_view name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
+    return std::ranges::find(names, name) != names.end();
   };
   for (const auto& [name, unused] : there) {
     if (among(required, name) || among(optional, name)) continue;

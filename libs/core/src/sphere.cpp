@@ -1,4 +1,3 @@
-#include <cmath>
 
 #include <ssphh/core/require.h>
 #include <ssphh/core/sphere.h>

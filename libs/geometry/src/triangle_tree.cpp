@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <numeric>
+
 #include <ssphh/geometry/triangle_tree.h>
 
 namespace ssphh::geometry {

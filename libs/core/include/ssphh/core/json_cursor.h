@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <ssphh/core/enum_names.h>
 #include <ssphh/core/hash.h>
@@ -102,5 +103,14 @@ class Cursor {
   const std::string* file_;
   std::string path_;
 };
+
+/// All elements of an array; fails when that is no array, or has fewer or more than asked for.
+template <class At>
+std::vector<At> elements(const At& array, std::size_t least = 0,
+                         std::size_t most = std::numeric_limits<std::size_t>::max()) {
+  std::vector<At> all;
+  for (std::size_t i = 0, count = array.size(least, most); i < count; ++i) all.push_back(array[i]);
+  return all;
+}
 
 }  // namespace ssphh::json

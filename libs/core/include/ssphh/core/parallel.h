@@ -2,6 +2,7 @@
 /// Data-parallel loops. Results must not depend on the number of threads: let each range write its own
 /// outputs and reduce them afterwards in index order.
 
+#include <concepts>
 #include <cstddef>
 #include <functional>
 
@@ -18,5 +19,14 @@ int thread_count();
 /// the loop is done (ranges that have begun are finished).
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body, const Control& control = {});
+
+/// The same for a body that takes one index.
+template <std::invocable<std::size_t> Body>
+void parallel_for(std::size_t count, std::size_t grain, const Body& body, const Control& control = {}) {
+  const auto range = [&body](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  };
+  parallel_for(count, grain, range, control);
+}
 
 }  // namespace ssphh

@@ -2,7 +2,6 @@
 /// Signs of determinants of integer coordinates, without rounding: what a triangulation decides by.
 
 #include <array>
-#include <cstdint>
 
 #include <ssphh/core/math.h>
 

@@ -2,7 +2,6 @@
 /// Points by cubic cells, to find those near a place.
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>

@@ -1,11 +1,9 @@
 #pragma once
 /// A tree of boxes around triangles, for the triangle nearest to a point.
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <vector>
 
