@@ -8,7 +8,6 @@
 #include <ssphh/sh/operators.h>
 #include <ssphh/sh/project.h>
 #include <ssphh/sh/reconstruct.h>
-#include <ssphh/sh/reference.h>
 #include <ssphh/sh/rotate.h>
 #include <ssphh/sh/triple_product.h>
 #include <ssphh/sh/window.h>
@@ -149,7 +148,6 @@ std::vector<Contract> of_directions() {
       refuses("Rotation", "AboutNoAxis", [] { sh::Rotation::about_axis(2, vec3(0), 1); }, {"rotation"}),
       refuses("Rotation", "OfAFunctionOfHigherDegree",
               [] { sh::Rotation(2, glm::dmat3(1)).apply(RadianceSh(3)); }, {"degree"}),
-      refuses("ReferenceLegendre", "OfMOverL", [] { sh::reference_legendre(2, 3, 0.5); }, {"m must be 0..l"}),
   };
 }
 

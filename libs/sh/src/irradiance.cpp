@@ -1,5 +1,4 @@
 #include <array>
-#include <cmath>
 
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/sh/irradiance.h>

@@ -59,8 +59,8 @@ GlossyTable make_glossy_table() {
   for (int i = 1; i <= roughness_steps; ++i) {
     const double roughness = static_cast<double>(i) / roughness_steps;
     const auto scales = ggx_band_scales(roughness * roughness);
-    std::transform(scales.begin(), scales.end(), table[static_cast<std::size_t>(i)].begin(),
-                   [](double scale) { return static_cast<float>(scale); });
+    std::ranges::transform(scales, table[static_cast<std::size_t>(i)].begin(),
+                           [](double scale) { return static_cast<float>(scale); });
   }
   return table;
 }

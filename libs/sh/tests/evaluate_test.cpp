@@ -3,9 +3,9 @@
 
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/sh/quadrature.h>
-#include <ssphh/sh/reference.h>
 
 #include "random_sh.h"
+#include "reference.h"
 
 namespace ssphh::sh {
 namespace {

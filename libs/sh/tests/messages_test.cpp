@@ -11,7 +11,6 @@
 #include <ssphh/sh/operators.h>
 #include <ssphh/sh/project.h>
 #include <ssphh/sh/reconstruct.h>
-#include <ssphh/sh/reference.h>
 #include <ssphh/sh/rotate.h>
 #include <ssphh/sh/triple_product.h>
 #include <ssphh/sh/window.h>
@@ -160,8 +159,6 @@ TEST(ShMessages, OfTurnsLobesAndWindows) {
     EXPECT_EQ(message_of([&] { hanning_window(width); }), "window: its width must be over 0");
     EXPECT_EQ(message_of([&] { lanczos_window(width); }), "window: its width must be over 0");
   }
-  for (const int m : {2, -1})
-    EXPECT_EQ(message_of([&] { reference_legendre(1, m, 0.5); }), "Legendre function: m must be 0..l");
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 /// Matrices for Real Spherical Harmonics, J. Phys. Chem. 1996, with the corrected Table 2 of the 1998
 /// additions and corrections).
 
-#include <span>
 #include <vector>
 
 #include <ssphh/sh/coefficients.h>

@@ -1,13 +1,17 @@
+#pragma once
+/// Slow, literal definitions of the spherical harmonics, to test the fast ones against.
+
 #include <cmath>
 #include <cstdlib>
 
-#include <ssphh/core/require.h>
-#include <ssphh/sh/reference.h>
+#include <ssphh/core/math.h>
 
 namespace ssphh::sh {
 
-double reference_legendre(int l, int m, double x) {
-  require(0 <= m && m <= l, "Legendre function", "m must be 0..l");
+/// Associated Legendre function P_l^m(x), 0 ≤ m ≤ l, |x| ≤ 1, **without** the Condon–Shortley sign, by the
+/// explicit sum P_l^m(x) = 2^−l (1 − x²)^{m/2} Σ_j (−1)^j (2l−2j)! / (j! (l−j)! (l−m−2j)!) x^{l−m−2j} (m-fold
+/// derivative of Rodrigues' formula; Abramowitz & Stegun 8.6.6 and 22.3.8 with the sign (−1)^m left out).
+inline double reference_legendre(int l, int m, double x) {
   const auto factorial = [](int n) { return std::tgamma(n + 1.0); };
   double sum = 0;
   for (int j = 0; 2 * j <= l - m; ++j) {
@@ -18,7 +22,9 @@ double reference_legendre(int l, int m, double x) {
   return std::ldexp(sum, -l) * std::pow(1 - x * x, 0.5 * m);
 }
 
-double reference_basis(int l, int m, double theta, double phi) {
+/// Y_lm at polar angle θ from +z and azimuth φ from +x, −l ≤ m ≤ l: √2 K cos mφ P, K P or √2 K sin |m|φ P
+/// (Green, Spherical Harmonic Lighting: The Gritty Details, 2003, eq. 6).
+inline double reference_basis(int l, int m, double theta, double phi) {
   const int order = std::abs(m);
   const double k =
       std::sqrt((2 * l + 1) / (4 * pi_d) * std::tgamma(l - order + 1.0) / std::tgamma(l + order + 1.0));
