@@ -117,13 +117,10 @@ std::string text_of(GLenum name) {
 }
 
 void read_info(ContextInfo& info) {
-  info.vendor = text_of(GL_VENDOR);
   info.renderer = text_of(GL_RENDERER);
   info.version = text_of(GL_VERSION);
   for (const char* name : {"llvmpipe", "softpipe", "SWR", "swrast", "SwiftShader"})
     info.software |= info.renderer.find(name) != std::string::npos;
-  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &info.max_texture_size);
-  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &info.max_array_layers);
 }
 
 template <class Data>

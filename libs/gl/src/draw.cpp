@@ -49,10 +49,6 @@ void draw_triangles(int vertex_count) {
   glDrawArrays(GL_TRIANGLES, 0, vertex_count);
 }
 
-void draw_lines(int vertex_count) {
-  glDrawArrays(GL_LINES, 0, vertex_count);
-}
-
 void draw_indexed(int count, std::size_t first_index, int base_vertex) {
   const void* offset = reinterpret_cast<const void*>(first_index * sizeof(unsigned));  // as GL wants it
   glDrawElementsBaseVertex(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset, base_vertex);

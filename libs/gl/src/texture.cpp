@@ -15,44 +15,30 @@ struct FormatInfo {
   std::size_t bytes;  ///< of a texel in memory, as uploaded
 };
 
-FormatInfo info_of(Format format) {
-  switch (format) {
-    case Format::rgba8:
-      return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
-    case Format::srgb8_alpha8:
-      return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
-    case Format::r16f:
-      return {GL_R16F, GL_RED, GL_FLOAT, 4};
-    case Format::rgba16f:
-      return {GL_RGBA16F, GL_RGBA, GL_FLOAT, 16};
-    case Format::r32f:
-      return {GL_R32F, GL_RED, GL_FLOAT, 4};
-    case Format::rg32f:
-      return {GL_RG32F, GL_RG, GL_FLOAT, 8};
-    case Format::rgba32f:
-      return {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16};
-    case Format::rg32ui:
-      return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8};
-    case Format::rgba32ui:
-      return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16};
-    case Format::depth32f:
-      return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4};
-    case Format::depth32f_stencil8:
-      return {GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 8};
-  }
-  refuse("texture format", "there is none of that number");
+/// In the order of Format.
+constexpr FormatInfo formats[] = {
+    {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
+    {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
+    {GL_R16F, GL_RED, GL_FLOAT, 4},
+    {GL_RGBA16F, GL_RGBA, GL_FLOAT, 16},
+    {GL_R32F, GL_RED, GL_FLOAT, 4},
+    {GL_RG32F, GL_RG, GL_FLOAT, 8},
+    {GL_RGBA32F, GL_RGBA, GL_FLOAT, 16},
+    {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8},
+    {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16},
+    {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4},
+    {GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 8}};
+
+const FormatInfo& info_of(Format format) {
+  const auto i = static_cast<std::size_t>(format);
+  require(i < std::size(formats), "texture format", "there is none of that number");
+  return formats[i];
 }
 
 GLenum wrap_of(Address address) {
-  switch (address) {
-    case Address::repeat:
-      return GL_REPEAT;
-    case Address::mirror:
-      return GL_MIRRORED_REPEAT;
-    case Address::clamp:
-      break;
-  }
-  return GL_CLAMP_TO_EDGE;
+  return address == Address::repeat   ? GL_REPEAT
+         : address == Address::mirror ? GL_MIRRORED_REPEAT
+                                      : GL_CLAMP_TO_EDGE;
 }
 
 }  // namespace

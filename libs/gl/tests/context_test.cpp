@@ -69,17 +69,12 @@ int integer(GLenum name) {
 }
 
 TEST_F(GlContext, SaysWhatTheDriverSays) {
-  const auto& [vendor, renderer, version, software, max_texture_size, max_array_layers] = gl().info();
-  EXPECT_EQ(vendor, text(GL_VENDOR));
+  const auto& [renderer, version, software] = gl().info();
   EXPECT_EQ(renderer, text(GL_RENDERER));
   EXPECT_EQ(version, text(GL_VERSION));
   EXPECT_EQ(software,
             renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos);
-  EXPECT_EQ(max_texture_size, integer(GL_MAX_TEXTURE_SIZE));
-  EXPECT_EQ(max_array_layers, integer(GL_MAX_ARRAY_TEXTURE_LAYERS));
   EXPECT_FALSE(ContextInfo().software);
-  EXPECT_EQ(ContextInfo().max_texture_size, 0);
-  EXPECT_EQ(ContextInfo().max_array_layers, 0);
 }
 
 TEST_F(GlContext, OfOurOwnIsACoreOneThatReportsItsErrors) {

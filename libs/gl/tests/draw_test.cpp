@@ -222,7 +222,7 @@ class GlDrawCalls : public GlDraw {
 };
 
 // Triangle k covers column k of four: it is as high as 4 pictures, to be as wide as a column within one.
-TEST_F(GlDrawCalls, TrianglesAndLinesTakeAsManyVerticesAsTheyAreTold) {
+TEST_F(GlDrawCalls, TrianglesTakeAsManyVerticesAsTheyAreTold) {
   const Texture picture(Format::rgba32f, 4, 1);
   const Framebuffer into(std::array<const Texture*, 1>{&picture}, nullptr);
   Program columns = paint_program(
@@ -231,13 +231,6 @@ TEST_F(GlDrawCalls, TrianglesAndLinesTakeAsManyVerticesAsTheyAreTold) {
   paint(columns, into, 4, 1);
   draw_triangles(6);
   EXPECT_THAT(red_of(picture), ElementsAre(1, 1, 0, 0));
-
-  const Texture rows(Format::rgba32f, 1, 4);
-  const Framebuffer into_rows(std::array<const Texture*, 1>{&rows}, nullptr);
-  Program lines = paint_program("vec2(gl_VertexID % 2 == 0 ? -3 : 3, -0.75 + 0.5 * (gl_VertexID / 2))");
-  paint(lines, into_rows, 1, 4);
-  draw_lines(4);
-  EXPECT_THAT(red_of(rows), ElementsAre(1, 1, 0, 0));
 }
 
 // Vertices of 16 bytes: an unused number, x, y, and the column to be drawn into.

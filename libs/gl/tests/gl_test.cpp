@@ -39,7 +39,6 @@ class Gl : public test::WithGl {
 
 TEST_F(Gl, SaysWhatItRunsOn) {
   EXPECT_THAT(gl().info().renderer, Not(IsEmpty()));
-  EXPECT_GE(gl().info().max_texture_size, 16384 / 2);
 }
 
 TEST_F(Gl, ProgramDrawsWhatItsIncludesSay) {

@@ -8,7 +8,6 @@
 
 #include <ssphh/gl/draw.h>
 #include <ssphh/gl/framebuffer.h>
-#include <ssphh/gl/read_pixels.h>
 #include <ssphh/gl/texture.h>
 #include <ssphh/gl/volume.h>
 

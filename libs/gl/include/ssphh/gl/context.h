@@ -8,10 +8,8 @@
 namespace ssphh::gl {
 
 struct ContextInfo {
-  std::string vendor, renderer, version;
+  std::string renderer, version;
   bool software = false;  ///< llvmpipe and its like: timer queries lie, so times are taken after glFinish
-  int max_texture_size = 0;
-  int max_array_layers = 0;
 };
 
 /// All objects of this module belong to the context that was current when they were made, and must be used

@@ -29,7 +29,6 @@ void apply(const DrawState& state);
 void apply_conventions();
 
 void draw_triangles(int vertex_count);
-void draw_lines(int vertex_count);
 /// 32-bit indices [first_index, first_index + count).
 void draw_indexed(int count, std::size_t first_index, int base_vertex);
 /// Runs the program in use, a compute shader, on as many groups as the buffer's first three integers say.

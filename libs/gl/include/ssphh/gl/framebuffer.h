@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include <ssphh/gl/texture.h>
 
@@ -35,7 +37,8 @@ void clear_color(int attachment, float r, float g, float b, float a);
 void clear_color_uint(int attachment, unsigned r, unsigned g, unsigned b, unsigned a);
 /// What was drawn into a texture may be read by what is drawn into other texels of it next.
 void texture_barrier();
-/// The framebuffer that is bound for drawing now.
-unsigned current_framebuffer();
+/// Colours of a part of a framebuffer (0: the window's own, before it is shown) as RGBA bytes with alpha 255,
+/// the uppermost row first. Waits for what is being drawn.
+std::vector<std::uint8_t> read_pixels(unsigned framebuffer, const Rect& part);
 
 }  // namespace ssphh::gl
