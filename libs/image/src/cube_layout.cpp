@@ -26,18 +26,10 @@ const CubeLayout& cube_layout(Layout layout) {
   static constexpr CubeLayout strip_v{1, 6, {{{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}}}};
   static constexpr CubeLayout cross_h{4, 3, {{{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {3, 1}}}};
   static constexpr CubeLayout cross_v{3, 4, {{{2, 1}, {0, 1}, {1, 0}, {1, 2}, {1, 1}, {1, 3, true}}}};
-  switch (layout) {
-    case Layout::strip_h:
-      return strip_h;
-    case Layout::strip_v:
-      return strip_v;
-    case Layout::cross_h:
-      return cross_h;
-    case Layout::cross_v:
-      return cross_v;
-    default:
-      break;
-  }
+  if (layout == Layout::strip_h) return strip_h;
+  if (layout == Layout::strip_v) return strip_v;
+  if (layout == Layout::cross_h) return cross_h;
+  if (layout == Layout::cross_v) return cross_v;
   refuse("layout", "there is none of that number");
 }
 

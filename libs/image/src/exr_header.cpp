@@ -1,8 +1,6 @@
 #include "exr_header.h"
 
-#include <algorithm>
 #include <array>
-#include <cstring>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <limits>
 #include <stdexcept>
 
 #include <ImfChannelList.h>
@@ -49,8 +47,8 @@ class MemoryInput final : public Imf::IStream {
 // Names of the channels that make the image, in the image's order; empty when none fit.
 std::vector<std::string> choose_channels(const Source& source, const ExrHeader& header) {
   const auto has = [&](const std::string& name) {
-    return std::any_of(header.channels.begin(), header.channels.end(),
-                       [&](const ExrChannel& c) { return c.name == name && !c.subsampled; });
+    return std::ranges::any_of(header.channels,
+                               [&](const ExrChannel& c) { return c.name == name && !c.subsampled; });
   };
   const auto rgb = [&](const std::string& prefix) -> std::vector<std::string> {
     if (!has(prefix + "R") || !has(prefix + "G") || !has(prefix + "B")) return {};
@@ -73,8 +71,8 @@ std::vector<std::string> choose_channels(const Source& source, const ExrHeader& 
 }
 
 bool has_chroma(const ExrHeader& header) {
-  return std::any_of(header.channels.begin(), header.channels.end(),
-                     [](const ExrChannel& c) { return c.name == "RY" || c.name == "BY"; });
+  return std::ranges::any_of(header.channels,
+                             [](const ExrChannel& c) { return c.name == "RY" || c.name == "BY"; });
 }
 
 void warn_about_primaries(const Source& source, const Imf::Header& header) {
@@ -153,7 +151,7 @@ Image crop_to_display(const Source& source, const ExrHeader& header, Image&& dat
 
 // The first part with flat pixels.
 std::size_t choose_part(const Source& source, const std::vector<ExrHeader>& headers) {
-  const auto flat = std::find_if(headers.begin(), headers.end(), [](const ExrHeader& h) { return !h.deep; });
+  const auto flat = std::ranges::find_if(headers, [](const ExrHeader& h) { return !h.deep; });
   if (flat == headers.end()) source.fail("holds only deep pixels", "flatten the image first");
   const auto part = static_cast<std::size_t>(flat - headers.begin());
   if (headers.size() > 1) log_warning("{}: has {} parts; part {} is used", source.name, headers.size(), part);

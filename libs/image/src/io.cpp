@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -64,8 +63,8 @@ std::optional<FileFormat> format_of_content(std::span<const std::byte> data) {
 
 FileFormat format_of_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  std::ranges::transform(extension, extension.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   if (extension == ".exr") return FileFormat::exr;
   if (extension == ".hdr" || extension == ".pic") return FileFormat::hdr;
   if (extension == ".png") return FileFormat::png;
@@ -107,16 +106,10 @@ void write_image(const std::filesystem::path& path, const Image& image) {
       log_warning("{}: {} pixels are infinite or NaN, which this format cannot hold", path.string(), count);
     }
   }
-  switch (format) {
-    case FileFormat::exr:
-      return write_file(path, encode_exr(image));
-    case FileFormat::hdr:
-      return write_file(path, encode_hdr(image));
-    case FileFormat::png:
-      return write_file(path, encode_png(image));
-    case FileFormat::jpeg:
-      return write_file(path, encode_jpeg(image));
-  }
+  write_file(path, format == FileFormat::exr   ? encode_exr(image)
+                   : format == FileFormat::hdr ? encode_hdr(image)
+                   : format == FileFormat::png ? encode_png(image)
+                                               : encode_jpeg(image));
 }
 
 }  // namespace ssphh::image

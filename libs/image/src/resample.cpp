@@ -15,19 +15,7 @@ double sinc(double x) {
   return std::abs(x) < 1e-9 ? 1 : std::sin(pi_d * x) / (pi_d * x);
 }
 
-double radius(Filter filter) {
-  switch (filter) {
-    case Filter::box:
-      return 0.5;
-    case Filter::bilinear:
-      return 1;
-    case Filter::mitchell:
-      return 2;
-    case Filter::lanczos:
-      return 3;
-  }
-  return 0;
-}
+constexpr double radii[] = {0.5, 1, 2, 3};  // of the filters in their order
 
 // Weight at distance x in pixels of the coarser image; not for box.
 double kernel(Filter filter, double x) {
@@ -47,7 +35,7 @@ struct Taps {
 Taps taps_of(int i, int from, int to, Filter filter) {
   const double ratio = static_cast<double>(from) / to;
   const double scale = filter == Filter::box ? ratio : std::max(1.0, ratio);
-  const double centre = (i + 0.5) * ratio, reach = radius(filter) * scale;
+  const double centre = (i + 0.5) * ratio, reach = radii[static_cast<std::size_t>(filter)] * scale;
   const double low = centre - reach, high = centre + reach;
   const int begin = static_cast<int>(std::floor(low)), end = static_cast<int>(std::ceil(high));
   Taps taps;

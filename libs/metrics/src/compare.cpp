@@ -55,11 +55,9 @@ struct Sums {
 // Sums of each row, then of the rows in order.
 Sums sum_rows(const Image& reference, const Image& test, int channels) {
   std::vector<Sums> rows(static_cast<std::size_t>(reference.height));
-  parallel_for(rows.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      const auto y = static_cast<int>(row);
-      for (int x = 0; x < reference.width; ++x) rows[row].add(reference.rgb(x, y), test.rgb(x, y), channels);
-    }
+  parallel_for(rows.size(), 16, [&](std::size_t row) {
+    const auto y = static_cast<int>(row);
+    for (int x = 0; x < reference.width; ++x) rows[row].add(reference.rgb(x, y), test.rgb(x, y), channels);
   });
   Sums total;
   for (const Sums& row : rows) total.add(row);
@@ -147,8 +145,7 @@ Image pixelated_error_map(const Image& reference, const Image& test, int block) 
           }
         }
       }
-      std::transform(sums.begin(), sums.end(), map.at(0, row),
-                     [](double s) { return static_cast<float>(s); });
+      std::ranges::transform(sums, map.at(0, row), [](double s) { return static_cast<float>(s); });
     }
   });
   return map;

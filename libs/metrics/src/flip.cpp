@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -309,7 +308,7 @@ std::pair<double, double> exposure_range(const std::vector<vec3>& reference) {
     std::nth_element(values.begin(), middle, values.end());
     return double{*middle};
   };
-  const double brightest = double{*std::max_element(luminance.begin(), luminance.end())};
+  const double brightest = double{*std::ranges::max_element(luminance)};
   if (!(brightest > 0)) return {0, 0};
   double median = median_of(luminance);
   if (!(median > 0)) {

@@ -66,7 +66,7 @@ float automatic_scale(const Image& map) {
   const auto rank = magnitudes.begin() + static_cast<std::ptrdiff_t>((magnitudes.size() - 1) * 99 / 100);
   std::nth_element(magnitudes.begin(), rank, magnitudes.end());
   if (*rank > 0) return *rank;
-  const float largest = *std::max_element(magnitudes.begin(), magnitudes.end());
+  const float largest = *std::ranges::max_element(magnitudes);
   return largest > 0 ? largest : 1;
 }
 

@@ -63,15 +63,13 @@ double mean_similarity(const Luma& luma) {
   const auto columns = static_cast<std::size_t>(luma.width) - wx.size() + 1;
   const auto rows = static_cast<std::size_t>(luma.height) - wy.size() + 1;
   std::vector<Moments> blurred(columns * static_cast<std::size_t>(luma.height));
-  parallel_for(static_cast<std::size_t>(luma.height), 8, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y) {
-      for (std::size_t x = 0; x < columns; ++x) {
-        Moments& sum = blurred[y * columns + x];
-        for (std::size_t i = 0; i < wx.size(); ++i) {
-          const std::size_t p = y * static_cast<std::size_t>(luma.width) + x + i;
-          const Moments m = moments(luma.reference[p], luma.test[p]);
-          for (std::size_t k = 0; k < m.size(); ++k) sum[k] += wx[i] * m[k];
-        }
+  parallel_for(static_cast<std::size_t>(luma.height), 8, [&](std::size_t y) {
+    for (std::size_t x = 0; x < columns; ++x) {
+      Moments& sum = blurred[y * columns + x];
+      for (std::size_t i = 0; i < wx.size(); ++i) {
+        const std::size_t p = y * static_cast<std::size_t>(luma.width) + x + i;
+        const Moments m = moments(luma.reference[p], luma.test[p]);
+        for (std::size_t k = 0; k < m.size(); ++k) sum[k] += wx[i] * m[k];
       }
     }
   });
@@ -80,17 +78,15 @@ double mean_similarity(const Luma& luma) {
     std::size_t windows = 0;
   };
   std::vector<Row> totals(rows);
-  parallel_for(rows, 8, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y) {
-      for (std::size_t x = 0; x < columns; ++x) {
-        Moments sum{};
-        for (std::size_t i = 0; i < wy.size(); ++i) {
-          const Moments& m = blurred[(y + i) * columns + x];
-          for (std::size_t k = 0; k < m.size(); ++k) sum[k] += wy[i] * m[k];
-        }
-        const double s = similarity(sum);
-        if (!std::isnan(s)) totals[y].sum += s, ++totals[y].windows;
+  parallel_for(rows, 8, [&](std::size_t y) {
+    for (std::size_t x = 0; x < columns; ++x) {
+      Moments sum{};
+      for (std::size_t i = 0; i < wy.size(); ++i) {
+        const Moments& m = blurred[(y + i) * columns + x];
+        for (std::size_t k = 0; k < m.size(); ++k) sum[k] += wy[i] * m[k];
       }
+      const double s = similarity(sum);
+      if (!std::isnan(s)) totals[y].sum += s, ++totals[y].windows;
     }
   });
   Row all;

@@ -16,13 +16,11 @@ void clear_sweeps(const PlaceContext& context, std::vector<Draft>& drafts, Place
   std::vector<std::uint8_t> swept(drafts.size(), 0);
   parallel_for(
       drafts.size(), 8,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          if (drafts[i].kind == PlaceKind::manual || !sweep.passes(drafts[i].position, clearance)) continue;
-          swept[i] = 1;
-          moved[i] = sidestep(context.source, drafts[i].position, context.rules, 0.5f * drafts[i].spacing,
-                              [&](const vec3& p) { return !sweep.passes(p, clearance); });
-        }
+      [&](std::size_t i) {
+        if (drafts[i].kind == PlaceKind::manual || !sweep.passes(drafts[i].position, clearance)) return;
+        swept[i] = 1;
+        moved[i] = sidestep(context.source, drafts[i].position, context.rules, 0.5f * drafts[i].spacing,
+                            [&](const vec3& p) { return !sweep.passes(p, clearance); });
       },
       context.control);
 

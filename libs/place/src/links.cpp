@@ -64,7 +64,7 @@ std::vector<bool> reachable(const PlaceContext& context, const std::vector<Draft
     for (std::size_t i = 0; i < drafts.size(); ++i) {
       by_distance.emplace_back(glm::distance(drafts[i].position, place), i);
     }
-    std::sort(by_distance.begin(), by_distance.end());
+    std::ranges::sort(by_distance);
     bool found = false;
     for (const auto& [distance, i] : by_distance) {
       if (found && distance > link_distance * context.spacing) break;
@@ -78,7 +78,7 @@ std::vector<bool> reachable(const PlaceContext& context, const std::vector<Draft
     if (drafts[i].site.emitter || drafts[i].kind == PlaceKind::manual) mark(i);
   }
   if (!any) {
-    const std::size_t largest = *std::max_element(size.begin(), size.end());
+    const std::size_t largest = *std::ranges::max_element(size);
     for (std::size_t i = 0; i < drafts.size(); ++i) seen[i] = 10 * size[i] >= largest;
   }
   std::vector<bool> keep(drafts.size());

@@ -74,14 +74,11 @@ void add_passages(const PlaceContext& context, std::vector<Draft>& drafts,
   std::vector<Site> sites(edges.size());
   parallel_for(
       edges.size(), 16,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          const Draft &a = drafts[edges[i].a], &b = drafts[edges[i].b];
-          if (a.position == b.position) continue;
-          found[i] =
-              narrowest(context.source, a.position, b.position, narrow * 0.5f * (a.spacing + b.spacing));
-          if (found[i]) sites[i] = look_around(context.source, found[i]->position);
-        }
+      [&](std::size_t i) {
+        const Draft &a = drafts[edges[i].a], &b = drafts[edges[i].b];
+        if (a.position == b.position) return;
+        found[i] = narrowest(context.source, a.position, b.position, narrow * 0.5f * (a.spacing + b.spacing));
+        if (found[i]) sites[i] = look_around(context.source, found[i]->position);
       },
       context.control);
 
@@ -92,8 +89,8 @@ void add_passages(const PlaceContext& context, std::vector<Draft>& drafts,
       order.push_back(i);
     }
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t j) { return found[i]->width < found[j]->width; });
+  std::ranges::stable_sort(order,
+                           [&](std::size_t i, std::size_t j) { return found[i]->width < found[j]->width; });
   geometry::NearGrid grid(context.spacing);
   for (const Draft& draft : drafts) grid.add(draft.position);
   for (const std::size_t i : order) {

@@ -81,7 +81,7 @@ std::optional<Attempt> attempt(const rays::TransportSource& source, const PlaceP
   a.edges = link(context, a.drafts);
   if (a.drafts.empty()) return a;
   const std::vector<bool> keep = reachable(context, a.drafts, a.edges);
-  a.counts.unreachable = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), false));
+  a.counts.unreachable = static_cast<std::size_t>(std::ranges::count(keep, false));
   filter(a.drafts, a.edges, keep);
   if (a.drafts.size() > static_cast<std::size_t>(params.max_probes) && params.count == 0) return std::nullopt;
   return a;

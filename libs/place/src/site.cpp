@@ -54,10 +54,7 @@ std::vector<Site> look_around(const rays::TransportSource& source, std::span<con
                               const Control& control) {
   std::vector<Site> sites(positions.size());
   parallel_for(
-      positions.size(), 16,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) sites[i] = look_around(source, positions[i], rays);
-      },
+      positions.size(), 16, [&](std::size_t i) { sites[i] = look_around(source, positions[i], rays); },
       control);
   return sites;
 }

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -44,7 +43,7 @@ vec4 interpolate(const AnimationChannel& channel, std::size_t k, float s) {
 
 vec4 evaluate(const AnimationChannel& channel, float time) {
   const std::vector<float>& times = channel.times;
-  const auto next = std::upper_bound(times.begin(), times.end(), time);
+  const auto next = std::ranges::upper_bound(times, time);
   if (next == times.begin()) return key_value(channel, 0);
   if (next == times.end()) return key_value(channel, times.size() - 1);
   const auto k = static_cast<std::size_t>(next - times.begin()) - 1;
@@ -53,18 +52,12 @@ vec4 evaluate(const AnimationChannel& channel, float time) {
 
 void apply(const AnimationChannel& channel, float time, Transform& local) {
   const vec4 value = evaluate(channel, time);
-  switch (channel.path) {
-    case AnimationPath::translation:
-      local.translation = vec3(value);
-      break;
-    case AnimationPath::scale:
-      local.scale = vec3(value);
-      break;
-    case AnimationPath::rotation: {
-      const quat q = to_quat(value);
-      const float length = glm::length(q);
-      local.rotation = length > 0 ? q / length : quat(1, 0, 0, 0);
-    }
+  if (channel.path == AnimationPath::translation) local.translation = vec3(value);
+  if (channel.path == AnimationPath::scale) local.scale = vec3(value);
+  if (channel.path == AnimationPath::rotation) {
+    const quat q = to_quat(value);
+    const float length = glm::length(q);
+    local.rotation = length > 0 ? q / length : quat(1, 0, 0, 0);
   }
 }
 

@@ -98,7 +98,7 @@ std::vector<std::string> light_groups(const Scene& scene) {
 
 int light_group_index(const std::vector<std::string>& groups, const std::string& name) {
   require(!groups.empty(), "light groups", "there are none");
-  const auto found = std::find(groups.begin(), groups.end(), name);
+  const auto found = std::ranges::find(groups, name);
   // A name that is not there was merged into the last group.
   return static_cast<int>(found == groups.end() ? groups.size() - 1
                                                 : static_cast<std::size_t>(found - groups.begin()));

@@ -73,20 +73,9 @@ void add(Hasher& h, const Camera& c) {
 
 void add(Hasher& h, const Light& l) {
   add(h.text(light_group(l)).value(l.node).value(l.type), l.color).value(l.intensity);
-  switch (l.type) {
-    case LightType::point:
-      h.value(l.range);
-      break;
-    case LightType::spot:
-      h.value(l.range).value(l.inner_cone).value(l.outer_cone);
-      break;
-    case LightType::directional:
-      h.value(l.angular_radius);
-      break;
-    case LightType::sphere:
-      h.value(l.range).value(l.radius);
-      break;
-  }
+  h.value(l.type == LightType::directional ? l.angular_radius : l.range);
+  if (l.type == LightType::spot) h.value(l.inner_cone).value(l.outer_cone);
+  if (l.type == LightType::sphere) h.value(l.radius);
 }
 
 void add(Hasher& h, const Sphl& s) {

@@ -32,7 +32,7 @@ std::vector<std::size_t> nearest_probes(const LintContext& context, const vec3& 
 
 bool sees_a_probe(const LintContext& context, const vec3& place) {
   const std::vector<std::size_t> asked = nearest_probes(context, place, context.set.probes.size());
-  return std::any_of(asked.begin(), asked.end(), [&](std::size_t i) {
+  return std::ranges::any_of(asked, [&](std::size_t i) {
     return place::sees(context.source, place, context.set.probes[i].position);
   });
 }
@@ -61,12 +61,10 @@ std::vector<int> find_rooms(const LintContext& context, std::vector<LintProblem>
   std::vector<std::vector<std::size_t>> seen(count);
   parallel_for(
       count, 4,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          if (!is_finite(probes[i].position)) continue;
-          for (const std::size_t j : nearest_probes(context, probes[i].position, i)) {
-            if (place::sees(context.source, probes[i].position, probes[j].position)) seen[i].push_back(j);
-          }
+      [&](std::size_t i) {
+        if (!is_finite(probes[i].position)) return;
+        for (const std::size_t j : nearest_probes(context, probes[i].position, i)) {
+          if (place::sees(context.source, probes[i].position, probes[j].position)) seen[i].push_back(j);
         }
       },
       context.control);
@@ -102,12 +100,7 @@ void check_coverage(const LintContext& context, std::vector<LintProblem>& proble
   const std::size_t count = free.probes.size();
   std::vector<std::uint8_t> unseen(count, 0);
   parallel_for(
-      count, 4,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          unseen[i] = sees_a_probe(context, free.probes[i].position) ? 0 : 1;
-        }
-      },
+      count, 4, [&](std::size_t i) { unseen[i] = sees_a_probe(context, free.probes[i].position) ? 0 : 1; },
       context.control);
 
   // Unseen neighbours are one place; one in a nook is none.

@@ -14,7 +14,7 @@ namespace {
 
 /// All lamps switched on as they were baked: a lamp that is dimmed to 0 is no fault of the probe.
 bool unlit(const probes::Probe& probe) {
-  return std::all_of(probe.groups.begin(), probe.groups.end(), [](const probes::GroupLight& light) {
+  return std::ranges::all_of(probe.groups, [](const probes::GroupLight& light) {
     const bool dark_emitters = light.emitted.empty() || sh::mean(light.emitted) == vec3(0);
     return dark_emitters && (light.reflected.empty() || sh::mean(light.reflected) == vec3(0));
   });
@@ -32,8 +32,7 @@ float lowest_share(const sh::RadianceSh& light) {
 }
 
 bool usable(const probes::Probe& probe) {
-  return !probe.reflected.empty() &&
-         std::all_of(probe.reflected.values.begin(), probe.reflected.values.end(), is_finite);
+  return !probe.reflected.empty() && std::ranges::all_of(probe.reflected.values, is_finite);
 }
 
 }  // namespace
@@ -46,8 +45,7 @@ void check_light(const LintContext& context, const std::vector<int>& rooms,
   std::map<int, std::vector<std::size_t>> by_room;
   for (std::size_t i = 0; i < probes.size(); ++i) by_room[rooms[i]].push_back(i);
   for (const auto& [room, members] : by_room) {
-    const bool dark =
-        std::all_of(members.begin(), members.end(), [&](std::size_t i) { return unlit(probes[i]); });
+    const bool dark = std::ranges::all_of(members, [&](std::size_t i) { return unlit(probes[i]); });
     if (dark && members.size() > 1) {
       problems.push_back(
           {ProbeProblem::unlit_room, -1, probes[members[0]].position,
@@ -68,10 +66,8 @@ void check_light(const LintContext& context, const std::vector<int>& rooms,
   std::vector<float> share(probes.size(), 0);
   parallel_for(
       probes.size(), 1,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          if (usable(probes[i])) share[i] = lowest_share(probes[i].reflected);
-        }
+      [&](std::size_t i) {
+        if (usable(probes[i])) share[i] = lowest_share(probes[i].reflected);
       },
       context.control);
   for (std::size_t i = 0; i < probes.size(); ++i) {

@@ -10,7 +10,7 @@ namespace ssphh::study {
 namespace {
 
 bool finite(const sh::RadianceSh& function) {
-  return std::all_of(function.values.begin(), function.values.end(), is_finite);
+  return std::ranges::all_of(function.values, is_finite);
 }
 
 bool finite(const probes::Probe& probe) {

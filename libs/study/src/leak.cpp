@@ -74,11 +74,7 @@ std::vector<vec3> look_up(const rays::IndirectLight& lookup, std::span<const ray
                           const Control& control) {
   std::vector<vec3> looked_up(points.size());
   parallel_for(
-      points.size(), 64,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) looked_up[i] = lookup.irradiance(points[i]);
-      },
-      control);
+      points.size(), 64, [&](std::size_t i) { looked_up[i] = lookup.irradiance(points[i]); }, control);
   return looked_up;
 }
 

@@ -53,7 +53,7 @@ std::vector<LintProblem> lint_probes(const probes::ProbeSet& set, const rays::Tr
   const std::vector<int> rooms = find_rooms(context, problems);
   check_light(context, rooms, problems);
   check_coverage(context, problems);
-  std::stable_sort(problems.begin(), problems.end(), [](const LintProblem& a, const LintProblem& b) {
+  std::ranges::stable_sort(problems, [](const LintProblem& a, const LintProblem& b) {
     return std::pair(a.kind, a.probe) < std::pair(b.kind, b.probe);
   });
   return problems;

@@ -142,8 +142,7 @@ std::vector<rays::SurfacePoint> cross(const rays::PosedWorld& surfaces, std::uin
     rays.resize(kept);
     line.resize(kept);
   }
-  std::stable_sort(crossings.begin(), crossings.end(),
-                   [](const Crossing& a, const Crossing& b) { return a.line < b.line; });
+  std::ranges::stable_sort(crossings, [](const Crossing& a, const Crossing& b) { return a.line < b.line; });
   std::vector<rays::SurfacePoint> points;
   for (const Crossing& crossing : crossings) points.push_back(crossing.point);
   return points;

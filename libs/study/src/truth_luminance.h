@@ -1,8 +1,6 @@
 #pragma once
 /// Path-traced indirect irradiance as one number, Rec.709 luminance [W/m²].
 
-#include <cmath>
-
 #include <ssphh/rays/radiance_source.h>
 
 namespace ssphh::study {

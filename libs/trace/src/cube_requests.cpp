@@ -25,7 +25,7 @@ class TexelSums {
   TexelSums(std::size_t groups, bool split, RayTask& task)
       : sums_(split ? 2 * groups : groups), reflected_offset_(split ? groups : 0), task_(task) {}
 
-  void clear() { std::fill(sums_.begin(), sums_.end(), vec3(0)); }
+  void clear() { std::ranges::fill(sums_, vec3(0)); }
   void add(int depth, int group, const vec3& value, const vec3& emission) {
     if (!is_finite(value)) {
       ++task_.invalid;

@@ -2,8 +2,6 @@
 /// The glowing balls of VIZ (docs/conventions.md, theory: every ray that meets ball j before a surface sees
 /// radiance 1 of it and goes on), as trace_path asks for them. Group j is ball j.
 
-#include <span>
-
 #include <ssphh/rays/radiance_source.h>
 
 #include "path.h"

@@ -22,7 +22,7 @@ class PixelSums {
         task_(task) {}
 
   void clear() {
-    std::fill(groups_.begin(), groups_.end(), vec3(0));
+    std::ranges::fill(groups_, vec3(0));
     direct_ = indirect_ = looked_up_ = albedo_ = normal_ = vec3(0);
     depth_ = hits_ = 0;
   }
@@ -120,7 +120,7 @@ void add_image(image::Image& sum, const image::Image& pass) {
 
 /// Sum of the groups in their order, so that it is exact.
 void sum_groups(image::Image& color, const std::vector<image::Image>& groups) {
-  std::fill(color.pixels.begin(), color.pixels.end(), 0.0f);
+  std::ranges::fill(color.pixels, 0.0f);
   for (const image::Image& group : groups) add_image(color, group);
 }
 
@@ -198,10 +198,7 @@ void run_passes(const TracerData& data, const rays::IndirectLight* indirect, con
       stage.advance(row_paths);
     };
     parallel_for(
-        static_cast<std::size_t>(height), 1,
-        [&](std::size_t begin, std::size_t end) {
-          for (std::size_t row = begin; row < end; ++row) render_row(static_cast<int>(row));
-        },
+        static_cast<std::size_t>(height), 1, [&](std::size_t row) { render_row(static_cast<int>(row)); },
         control);
     add_pass(state, pass, indirect == nullptr);
     state.paths += row_paths * height;

@@ -31,12 +31,6 @@ void for_each_image(State& state, const Visit& visit) {
   for (auto& group : state.groups) visit(group, 3);
 }
 
-Hash128 hash_of(std::span<const std::byte> data) {
-  Hasher hasher;
-  hasher.bytes(data);
-  return hasher.finish();
-}
-
 }  // namespace
 
 Hash128 render_key(const Hash128& scene_hash, float time, const RenderParams& params) {
@@ -122,7 +116,7 @@ void save_state(const RenderState& state, const std::filesystem::path& path) {
     if (bytes) std::memcpy(data.data() + at, i.pixels.data(), bytes);
     at += bytes;
   });
-  const Hash128 hash = hash_of(std::span(data).first(at));
+  const Hash128 hash = Hasher().bytes(std::span(data).first(at)).finish();
   std::memcpy(data.data() + at, &hash, sizeof(hash));
   write_file(path, data);
 }
@@ -140,7 +134,7 @@ RenderState load_state(const std::filesystem::path& path, const Hash128& key) {
     throw damaged("its version " + std::to_string(header.version) + " is unknown");
   Hash128 stored;
   std::memcpy(&stored, data.data() + data.size() - sizeof(Hash128), sizeof(Hash128));
-  if (hash_of(std::span(data).first(data.size() - sizeof(Hash128))) != stored)
+  if (Hasher().bytes(std::span(data).first(data.size() - sizeof(Hash128))).finish() != stored)
     throw damaged("its checksum is wrong");
 
   // Sizes are checked against the file's before any image is made.

@@ -1,7 +1,5 @@
 /// Path traced irradiance at points that the caller gives: the truth for lookups.
 
-#include <cmath>
-
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/sphere.h>
 

@@ -1,7 +1,5 @@
 #include "triangle_records.h"
 
-#include "rays.h"
-
 namespace ssphh::trace {
 
 TriangleRecords::TriangleRecords(const scene::Mesh& mesh, const std::vector<vec3>& vertices,

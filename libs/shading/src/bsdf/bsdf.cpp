@@ -1,4 +1,3 @@
-#include <ssphh/core/sphere.h>
 #include <ssphh/shading/bsdf.h>
 
 #include "albedo_table.h"

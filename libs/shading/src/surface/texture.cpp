@@ -28,17 +28,13 @@ const CodeTable& code_table(bool srgb) {
 
 /// Brings a texture coordinate into [0, 1]; NaN and infinity to 0.
 float wrap_coordinate(float x, scene::Wrap wrap) {
-  switch (wrap) {
-    case scene::Wrap::repeat:
-      x -= std::floor(x);
-      break;
-    case scene::Wrap::mirror:
-      x -= 2 * std::floor(0.5f * x);
-      x = x > 1 ? 2 - x : x;
-      break;
-    case scene::Wrap::clamp:
-      x = glm::clamp(x, 0.0f, 1.0f);
-      break;
+  if (wrap == scene::Wrap::repeat) {
+    x -= std::floor(x);
+  } else if (wrap == scene::Wrap::mirror) {
+    x -= 2 * std::floor(0.5f * x);
+    x = x > 1 ? 2 - x : x;
+  } else {
+    x = glm::clamp(x, 0.0f, 1.0f);
   }
   return x >= 0 && x <= 1 ? x : 0.0f;
 }

@@ -1,8 +1,6 @@
 #pragma once
 /// Float images: scene-linear Rec.709, row 0 on top.
 
-#include <span>
-#include <string>
 #include <vector>
 
 #include <ssphh/core/math.h>

@@ -1,8 +1,6 @@
 #pragma once
 /// Colours for errors.
 
-#include <string_view>
-
 #include <ssphh/image/io.h>
 
 namespace ssphh::metrics {

@@ -1,7 +1,6 @@
 #pragma once
 /// All emitters of a posed scene as one sampling distribution, with the group each belongs to.
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
