@@ -21,16 +21,8 @@ ComponentType component_type(const json::Cursor& object) {
 }
 
 std::uint64_t component_size(ComponentType type) {
-  switch (type) {
-    case ComponentType::i8:
-    case ComponentType::u8:
-      return 1;
-    case ComponentType::i16:
-    case ComponentType::u16:
-      return 2;
-    default:
-      return 4;
-  }
+  if (type == ComponentType::i8 || type == ComponentType::u8) return 1;
+  return type == ComponentType::i16 || type == ComponentType::u16 ? 2 : 4;
 }
 
 int component_count(const json::Cursor& accessor) {
@@ -74,14 +66,8 @@ float to_float(const std::byte* p, ComponentType type, bool normalized) {
 }
 
 std::uint32_t to_index(const std::byte* p, ComponentType type) {
-  switch (type) {
-    case ComponentType::u8:
-      return load<std::uint8_t>(p);
-    case ComponentType::u16:
-      return load<std::uint16_t>(p);
-    default:
-      return load<std::uint32_t>(p);
-  }
+  if (type == ComponentType::u8) return load<std::uint8_t>(p);
+  return type == ComponentType::u16 ? load<std::uint16_t>(p) : load<std::uint32_t>(p);
 }
 
 bool is_index_type(ComponentType type) {

@@ -1,8 +1,6 @@
 #pragma once
 /// glTF accessors decoded to floats and indices: strides, normalised integers, sparse values, bounds.
 
-#include <span>
-
 #include "gltf_document.h"
 
 namespace ssphh::scene_io {

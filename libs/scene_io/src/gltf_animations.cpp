@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "gltf_names.h"
@@ -79,14 +77,12 @@ std::optional<AnimationChannel> import_channel(GltfImport& import, const json::C
 }  // namespace
 
 void import_animations(GltfImport& import) {
-  const std::size_t count = import.document.count("animations");
-  for (std::size_t i = 0; i < count; ++i) {
-    const json::Cursor animation = import.document.item("animations", static_cast<int>(i));
+  std::size_t count = 0;
+  for (const json::Cursor& animation : import.document.items("animations")) {
     scene::Animation out;
-    out.name = animation.text_or("name", fmt::format("animation {}", i));
-    const json::Cursor channels = animation["channels"];
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-      auto channel = import_channel(import, animation, channels[c]);
+    out.name = animation.text_or("name", fmt::format("animation {}", count++));
+    for (const json::Cursor& place : json::elements(animation["channels"])) {
+      auto channel = import_channel(import, animation, place);
       if (!channel) continue;
       import.scene.nodes[static_cast<std::size_t>(channel->node)].movable = true;
       out.channels.push_back(*std::move(channel));

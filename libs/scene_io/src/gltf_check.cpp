@@ -1,8 +1,6 @@
 /// References and sizes of a whole glTF file, also of the parts that its scene does not use: from the JSON
 /// alone, before anything is decoded.
 
-#include <array>
-
 #include <fmt/format.h>
 
 #include "gltf_parts.h"
@@ -45,17 +43,15 @@ class Checker {
     each("cameras", [&](const json::Cursor& v) { import_camera(v); });
     for (const char* collection : {"samplers", "materials", "animations"}) each(collection, [](auto&) {});
     if (const auto lights = extension(document_.root(), "KHR_lights_punctual")) {
-      const auto list = lights->find("lights");
-      for (std::size_t i = 0; list && i < list->size(); ++i) import_light((*list)[i]);
+      if (const auto list = lights->find("lights"))
+        for (const json::Cursor& light : json::elements(*list)) import_light(light);
     }
   }
 
  private:
   template <class Check>
   void each(const char* collection, const Check& check) const {
-    const std::size_t count = document_.count(collection);
-    for (std::size_t i = 0; i < count; ++i) {
-      const json::Cursor item = document_.item(collection, static_cast<int>(i));
+    for (const json::Cursor& item : document_.items(collection)) {
       if (!item.is_object()) item.fail(fmt::format("must be an object, not {}", item.value().type_name()));
       check(item);
     }
@@ -67,8 +63,9 @@ class Checker {
 
   void references(const json::Cursor& object, const char* key, const char* collection) const {
     const auto list = object.find(key);
-    for (std::size_t i = 0; list && i < list->size(); ++i)
-      (*list)[i].index(document_.count(collection), collection);
+    if (!list) return;
+    for (const json::Cursor& item : json::elements(*list))
+      item.index(document_.count(collection), collection);
   }
 
   static std::uint64_t integer_or_zero(const json::Cursor& object, const char* key) {
@@ -104,14 +101,12 @@ class Checker {
   }
 
   void mesh(const json::Cursor& mesh) const {
-    const json::Cursor primitives = mesh["primitives"];
-    for (std::size_t i = 0; i < primitives.size(); ++i) {
-      const json::Cursor primitive = primitives[i];
+    for (const json::Cursor& primitive : json::elements(mesh["primitives"])) {
       reference(primitive, "indices", "accessors");
       reference(primitive, "material", "materials");
       attributes(primitive["attributes"]);
-      const auto targets = primitive.find("targets");
-      for (std::size_t t = 0; targets && t < targets->size(); ++t) attributes((*targets)[t]);
+      if (const auto targets = primitive.find("targets"))
+        for (const json::Cursor& target : json::elements(*targets)) attributes(target);
     }
   }
 

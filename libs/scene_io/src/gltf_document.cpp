@@ -53,8 +53,8 @@ constexpr std::array known_extensions = {
 };
 
 bool supported(std::string_view name) {
-  return std::any_of(known_extensions.begin(), known_extensions.end(),
-                     [&](const KnownExtension& e) { return e.name == name && e.hint.empty(); });
+  return std::ranges::any_of(known_extensions,
+                             [&](const KnownExtension& e) { return e.name == name && e.hint.empty(); });
 }
 
 // Counts the members of every "extensions" object; json::parse limits the depth.
@@ -136,8 +136,8 @@ void GltfDocument::check_version_and_extensions() const {
     const std::string& name = (*required)[i].text();
     // A material extension only adds to the look: it is ignored and listed like one that is not required.
     if (supported(name) || name.starts_with("KHR_materials_")) continue;
-    const auto* known = std::find_if(known_extensions.begin(), known_extensions.end(),
-                                     [&](const KnownExtension& e) { return e.name == name; });
+    const auto* known =
+        std::ranges::find_if(known_extensions, [&](const KnownExtension& e) { return e.name == name; });
     (*required)[i].fail(fmt::format("the file requires the extension {}, which is not supported", name),
                         known == known_extensions.end() ? std::string{} : std::string(known->hint));
   }
@@ -145,6 +145,11 @@ void GltfDocument::check_version_and_extensions() const {
 
 json::Cursor GltfDocument::item(const char* collection, int index) const {
   return root()[collection][static_cast<std::size_t>(index)];
+}
+
+std::vector<json::Cursor> GltfDocument::items(const char* collection) const {
+  const auto array = root().find(collection);
+  return array ? json::elements(*array) : std::vector<json::Cursor>{};
 }
 
 std::optional<int> GltfDocument::reference(const json::Cursor& object, const char* key,

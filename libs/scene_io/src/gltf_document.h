@@ -27,6 +27,8 @@ class GltfDocument {
   std::size_t count(const char* collection) const { return root().size_of(collection); }
   /// Element of a top-level array; `index` must be in range.
   json::Cursor item(const char* collection, int index) const;
+  /// All elements of a top-level array; none when it is absent.
+  std::vector<json::Cursor> items(const char* collection) const;
   /// Reads object.key as an index into a top-level array; nullopt when absent.
   std::optional<int> reference(const json::Cursor& object, const char* key, const char* collection) const;
 

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <ssphh/core/error.h>
 #include <ssphh/image/io.h>
 
 #include "gltf_parts.h"

@@ -1,5 +1,3 @@
-#include <cstring>
-
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
 #include <ssphh/scene/query.h>

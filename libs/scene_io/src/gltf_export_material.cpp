@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <ssphh/image/io.h>
@@ -25,20 +26,12 @@ int export_image(GltfExport& out, int texture) {
   return out.images_by_texture[texture] = push(out.images, std::move(image));
 }
 
-int wrap_code(Wrap wrap) {
-  switch (wrap) {
-    case Wrap::repeat:
-      return 10497;
-    case Wrap::mirror:
-      return 33648;
-    case Wrap::clamp:
-      return 33071;
-  }
-  return 10497;
+unsigned wrap_code(Wrap wrap) {
+  return std::ranges::find(gltf_wraps, wrap, &std::pair<Wrap, unsigned>::first)->second;
 }
 
 int export_sampler(GltfExport& out, const TextureUse& use) {
-  const std::tuple key(wrap_code(use.wrap_u), wrap_code(use.wrap_v), use.nearest ? 1 : 0);
+  const std::tuple key(wrap_code(use.wrap_u), wrap_code(use.wrap_v), use.nearest);
   const auto known = out.samplers_by_wrap.find(key);
   if (known != out.samplers_by_wrap.end()) return known->second;
   json::Value sampler = {{"magFilter", use.nearest ? 9728 : 9729},

@@ -28,7 +28,7 @@ struct GltfExport {
   std::vector<std::byte> binary;
 
   std::map<int, int> images_by_texture;
-  std::map<std::tuple<int, int, int>, int> samplers_by_wrap;
+  std::map<std::tuple<unsigned, unsigned, bool>, int> samplers_by_wrap;
   std::map<std::pair<int, int>, int> textures_by_parts;
   int default_material = -1;
 };

@@ -43,9 +43,8 @@ int import_image(GltfImport& import, int index) {
 Wrap import_wrap(const json::Cursor& sampler, const char* key) {
   const auto member = sampler.find(key);
   const auto code = member ? member->unsigned_integer() : 10497;
-  if (code == 10497) return Wrap::repeat;
-  if (code == 33648) return Wrap::mirror;
-  if (code == 33071) return Wrap::clamp;
+  for (const auto& [wrap, number] : gltf_wraps)
+    if (code == number) return wrap;
   member->fail(fmt::format("{} is no wrap mode", code));
 }
 
@@ -174,11 +173,8 @@ std::span<const std::byte> image_bytes(GltfDocument& document, const json::Curso
 
 void import_materials(GltfImport& import) {
   import.texture_of_image.assign(import.document.count("images"), -2);
-  const std::size_t count = import.document.count("materials");
-  for (std::size_t i = 0; i < count; ++i) {
-    const json::Cursor material = import.document.item("materials", static_cast<int>(i));
+  for (const json::Cursor& material : import.document.items("materials"))
     import.scene.materials.push_back(import_material(import, material));
-  }
 }
 
 }  // namespace ssphh::scene_io

@@ -24,6 +24,9 @@ inline constexpr auto gltf_interpolations =
                                                    {scene::Interpolation::step, "STEP"},
                                                    {scene::Interpolation::cubic_spline, "CUBICSPLINE"}});
 
+inline constexpr std::pair<scene::Wrap, unsigned> gltf_wraps[] = {
+    {scene::Wrap::repeat, 10497}, {scene::Wrap::mirror, 33648}, {scene::Wrap::clamp, 33071}};
+
 /// The value of the word that stands there; fails with the words there are.
 template <class E, std::size_t N>
 E read_word(const std::array<EnumName<E>, N>& words, const json::Cursor& at) {

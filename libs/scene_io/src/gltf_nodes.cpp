@@ -154,9 +154,8 @@ std::vector<Visit> roots(GltfImport& import) {
   GltfDocument& document = import.document;
   std::vector<Visit> out;
   const auto add = [&](const json::Cursor& list) {
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      out.push_back({list[i].index(document.count("nodes"), "nodes"), -1, list[i].path()});
-    }
+    for (const json::Cursor& node : json::elements(list))
+      out.push_back({node.index(document.count("nodes"), "nodes"), -1, node.path()});
   };
   if (document.count("scenes") > 0) {
     const int shown = document.reference(document.root(), "scene", "scenes").value_or(0);
@@ -170,12 +169,11 @@ std::vector<Visit> roots(GltfImport& import) {
     return out;
   }
   std::vector<bool> is_child(document.count("nodes"), false);
-  for (std::size_t n = 0; n < is_child.size(); ++n) {
-    const json::Cursor node = document.item("nodes", static_cast<int>(n));
+  for (const json::Cursor& node : document.items("nodes")) {
     const auto children = node.find("children");
-    for (std::size_t i = 0; children && i < children->size(); ++i) {
-      is_child[static_cast<std::size_t>((*children)[i].index(is_child.size(), "nodes"))] = true;
-    }
+    if (!children) continue;
+    for (const json::Cursor& child : json::elements(*children))
+      is_child[static_cast<std::size_t>(child.index(is_child.size(), "nodes"))] = true;
   }
   for (std::size_t n = 0; n < is_child.size(); ++n) {
     if (!is_child[n]) out.push_back({static_cast<int>(n), -1, "nodes"});
@@ -193,7 +191,7 @@ void import_nodes(GltfImport& import) {
 
   // Walk depth first, parents before children, each node once: a second visit is a cycle or a second parent
   std::vector<Visit> stack = roots(import);
-  std::reverse(stack.begin(), stack.end());
+  std::ranges::reverse(stack);
   while (!stack.empty()) {
     const Visit visit = std::move(stack.back());
     stack.pop_back();

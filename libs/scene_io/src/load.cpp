@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <ssphh/core/file.h>
-#include <ssphh/core/json_cursor.h>
+#include <ssphh/core/json.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/require.h>
 #include <ssphh/image/io.h>
@@ -34,8 +34,7 @@ std::string_view as_text(std::span<const std::byte> data) {
 
 std::string lower_extension(const fs::path& path) {
   std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return extension;
 }
 
@@ -55,10 +54,6 @@ Format format_of(std::span<const std::byte> data, const fs::path& path) {
               "known are glTF 2.0 (.gltf, .glb), Wavefront OBJ (.obj) and overlays (.ssphh.json)");
 }
 
-std::string overlay_text(const fs::path& path) {
-  return read_text_file(path, max_overlay_bytes);
-}
-
 // A builtin scene or a scene file, not an overlay.
 Scene load_plain(const std::string& source, const std::vector<std::byte>* data) {
   if (source.starts_with(builtin_prefix)) return scene::make_builtin(source.substr(builtin_prefix.size()));
@@ -67,14 +62,9 @@ Scene load_plain(const std::string& source, const std::vector<std::byte>* data) 
     own = read_file(source, max_scene_bytes);
     data = &own;
   }
-  switch (format_of(*data, source)) {
-    case Format::gltf:
-      return load_gltf(*data, source);
-    case Format::obj:
-      return load_obj(as_text(*data), source);
-    case Format::overlay:
-      break;
-  }
+  const Format format = format_of(*data, source);
+  if (format == Format::gltf) return load_gltf(*data, source);
+  if (format == Format::obj) return load_obj(as_text(*data), source);
   throw Error(source, "is an overlay; one cannot stand on another");
 }
 
@@ -118,7 +108,7 @@ Scene load_scene(const std::string& source, const LoadOptions& options) {
       if (overlay.empty() && fs::exists(beside, unreadable)) overlay = beside;
     }
   }
-  if (!overlay.empty()) apply_overlay(scene, overlay_text(overlay), overlay);
+  if (!overlay.empty()) apply_overlay(scene, read_text_file(overlay, max_overlay_bytes), overlay);
 
   if (!options.environment.empty()) {
     scene::Environment environment;

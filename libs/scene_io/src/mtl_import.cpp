@@ -30,7 +30,7 @@ float roughness_of_exponent(float n) {
 
 // File name as written on Windows or Unix; nullopt for absolute ones.
 std::optional<std::filesystem::path> relative_path(std::string name) {
-  std::replace(name.begin(), name.end(), '\\', '/');
+  std::ranges::replace(name, '\\', '/');
   const bool drive = name.size() > 1 && name[1] == ':';
   const std::filesystem::path path(name);
   if (drive || path.empty() || path.is_absolute() || name.find('\0') != name.npos) return std::nullopt;

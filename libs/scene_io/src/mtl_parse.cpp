@@ -121,18 +121,13 @@ bool parse_scalar(Statement& s, MtlMaterial& m) {
 
 bool parse_texture(Statement& s, MtlMaterial& m) {
   const std::string_view k = s.keyword();
-  if (k == "map_Kd") {
-    m.map_kd = s.texture();
-  } else if (k == "map_Ke") {
-    m.map_ke = s.texture();
-  } else if (k == "map_d") {
-    m.map_d = s.texture();
-  } else if (k == "norm") {
-    m.normal = s.texture();
-  } else {
-    return false;
-  }
-  return true;
+  MtlTexture* const map = k == "map_Kd"   ? &m.map_kd
+                          : k == "map_Ke" ? &m.map_ke
+                          : k == "map_d"  ? &m.map_d
+                          : k == "norm"   ? &m.normal
+                                          : nullptr;
+  if (map) *map = s.texture();
+  return map;
 }
 
 }  // namespace

@@ -89,8 +89,7 @@ class ObjReader {
     } else if (keyword == "s") {
       smoothing_groups_ += trimmed(rest) != "off" && trimmed(rest) != "0";
     } else {
-      const bool known =
-          std::find(known_statements.begin(), known_statements.end(), keyword) != known_statements.end();
+      const bool known = std::ranges::find(known_statements, keyword) != known_statements.end();
       ignored_.add(known ? fmt::format("OBJ statement {}", keyword) : "unknown OBJ statement");
     }
   }
@@ -170,13 +169,13 @@ class ObjReader {
   // One file name with blanks, or several names.
   void library(std::string_view names) {
     std::string all(names);
-    std::replace(all.begin(), all.end(), '\\', '/');
+    std::ranges::replace(all, '\\', '/');
     const auto folder = path_.parent_path();
     const auto add = [&](const std::string& name) {
       const std::filesystem::path file(name);
       if (name.empty() || file.is_absolute() || name.find('\0') != name.npos)
         fail("mtllib must name a relative file");
-      if (std::find(libraries_.begin(), libraries_.end(), name) != libraries_.end()) return;
+      if (std::ranges::find(libraries_, name) != libraries_.end()) return;
       libraries_.push_back(name);
       materials_.add_library(folder / file);
     };
@@ -193,8 +192,7 @@ class ObjReader {
     mesh.name = part.name;
     mesh.material = part.material;
     const auto any = [&](int Corner::*member) {
-      return std::any_of(part.corners.begin(), part.corners.end(),
-                         [&](const Corner& c) { return c.*member >= 0; });
+      return std::ranges::any_of(part.corners, [&](const Corner& c) { return c.*member >= 0; });
     };
     const bool has_uv = any(&Corner::uv), has_normal = any(&Corner::normal);
     std::unordered_map<Corner, std::uint32_t, CornerHash> vertices;

@@ -55,8 +55,8 @@ int add_node(Scene& scene, const json::Cursor& entry, const std::string& name) {
   if (look_at) node.local.rotation = looking_along(*look_at, look_at->vector3() - node.local.translation, up);
   if (direction) node.local.rotation = looking_along(*direction, direction->vector3(), up);
   if (const auto parent = entry.find("node")) {
-    const auto found = std::find_if(scene.nodes.begin(), scene.nodes.end(),
-                                    [&](const scene::Node& n) { return n.name == parent->text(); });
+    const auto found =
+        std::ranges::find_if(scene.nodes, [&](const scene::Node& n) { return n.name == parent->text(); });
     if (found == scene.nodes.end()) parent->fail(fmt::format("the scene has no node \"{}\"", parent->text()));
     node.parent = static_cast<int>(found - scene.nodes.begin());
     node.movable = found->movable;

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>
-#include <ssphh/core/json_cursor.h>
 #include <ssphh/scene_io/overlay.h>
 
 #include "printable.h"

@@ -1,6 +1,5 @@
 #include "triangulate.h"
 
-#include <cmath>
 #include <numeric>
 
 namespace ssphh::scene_io {

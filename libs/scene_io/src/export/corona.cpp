@@ -10,8 +10,7 @@
 #include <ssphh/scene/primitives.h>
 #include <ssphh/scene_io/renderer_export.h>
 
-#include "begin_export.h"
-#include "flat_scene.h"
+#include "export_steps.h"
 #include "surface_model.h"
 #include "xml_writer.h"
 
@@ -82,8 +81,7 @@ void map(XmlWriter& xml, const std::string& file, const scene::TextureUse& use) 
   xml.text("mode", "uvw");
   xml.text("wrapModeU", wrap);
   xml.text("wrapModeV", wrap);
-  xml.close();
-  xml.close();
+  xml.close(2);
 }
 
 void color(Export& e, const char* element, const vec3& factor, const scene::TextureUse& use) {
@@ -145,8 +143,7 @@ void write_material(Export& e, const std::string& id, const scene::Material& m) 
     e.mtl.close();
     e.differences.add("which side of a surface glows is Corona's choice", m.name);
   }
-  e.mtl.close();
-  e.mtl.close();
+  e.mtl.close(2);
 
   note_material(m, {}, e.differences);
   if (kind == SurfaceKind::mixture)
@@ -174,15 +171,18 @@ void write_mesh(Export& e, const std::string& name, const std::string& material,
   e.scn.close();
 }
 
-void write_emitter(Export& e, const std::string& id, const vec3& radiance) {
+// Of a material that reflects nothing; its colour and three ends are still to come.
+void open_emission(Export& e, const std::string& id) {
   e.mtl.open("materialDefinition", {{"name", id}});
   e.mtl.open("material", {{"class", "Native"}});
   e.mtl.text("diffuse", "0 0 0");
   e.mtl.open("emission");
+}
+
+void write_emitter(Export& e, const std::string& id, const vec3& radiance) {
+  open_emission(e, id);
   e.mtl.text("color", numbers(radiance));
-  e.mtl.close();
-  e.mtl.close();
-  e.mtl.close();
+  e.mtl.close(3);
 }
 
 // Scaled so that its mean projected area is the sphere's: a quarter of the surface (Cauchy).
@@ -310,16 +310,10 @@ void write_sky(Export& e, const scene::Environment& environment, const scene::Bo
   for (int y = 0; y < radiance.height; ++y)
     for (int x = 0; x < radiance.width; ++x)
       radiance.set_rgb(x, y, environment.color * environment.equirect.rgb(x, y));
-  e.mtl.open("materialDefinition", {{"name", "sky"}});
-  e.mtl.open("material", {{"class", "Native"}});
-  e.mtl.text("diffuse", "0 0 0");
-  e.mtl.open("emission");
+  open_emission(e, "sky");
   e.mtl.open("color");
   map(e.mtl, e.textures.image("environment.exr", radiance), {});
-  e.mtl.close();
-  e.mtl.close();
-  e.mtl.close();
-  e.mtl.close();
+  e.mtl.close(4);
   write_mesh(e, environment.name, "sky", mesh, std::move(uv));
   e.differences.add("environment images glow on a sphere of 1000 radii of the scene", environment.name);
 }
@@ -346,11 +340,6 @@ std::string configuration(const ExportSettings& settings) {
       "Int image.width = {}\nInt image.height = {}\nFloat colorMap.simpleExposure = 0\n"
       "Int shading.maxRayDepth = {}\nInt progressive.passLimit = {}\n",
       settings.width, settings.height, settings.max_depth, settings.spp);
-}
-
-std::string material_id(const scene::Scene& scene, const FlatMesh& mesh) {
-  if (mesh.material < 0) return "standard";
-  return identifier("material", static_cast<std::size_t>(mesh.material), material_of(scene, mesh).name);
 }
 
 }  // namespace
@@ -386,14 +375,9 @@ ExportReport export_corona(const scene::Scene& scene, const ExportSettings& sett
   write_file(directory / "scene.conf", configuration(settings));
   write_file(file, e.scn.str());
 
-  ExportReport report;
-  report.files = std::move(e.files);
-  report.files.push_back(directory / "scene.mtl");
-  report.files.push_back(directory / "scene.conf");
-  report.files.insert(report.files.end(), e.textures.written().begin(), e.textures.written().end());
-  report.command = fmt::format("Corona.exe {} -silent -oR picture.exr", file.string());
-  report.differences = e.differences.lines();
-  return report;
+  e.files.insert(e.files.end(), {directory / "scene.mtl", directory / "scene.conf"});
+  return end_export(std::move(e.files), e.textures, e.differences,
+                    fmt::format("Corona.exe {} -silent -oR picture.exr", file.string()));
 }
 
 }  // namespace ssphh::scene_io

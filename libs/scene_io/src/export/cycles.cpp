@@ -1,4 +1,3 @@
-#include <cstring>
 #include <set>
 
 #include <fmt/format.h>
@@ -8,9 +7,9 @@
 #include <ssphh/image/io.h>
 #include <ssphh/scene_io/renderer_export.h>
 
-#include "begin_export.h"
 #include "cycles_scripts.h"
 #include "differences.h"
+#include "export_steps.h"
 #include "flat_scene.h"
 
 namespace ssphh::scene_io {

@@ -38,11 +38,9 @@ image::Image equal_area_image(const scene::Environment& environment) {
     }
     return environment.color * sum / static_cast<float>(places * places);
   };
-  parallel_for(static_cast<std::size_t>(size), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      const int y = static_cast<int>(row);
-      for (int x = 0; x < size; ++x) result.set_rgb(x, y, mean_radiance(x, y));
-    }
+  parallel_for(static_cast<std::size_t>(size), 1, [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < size; ++x) result.set_rgb(x, y, mean_radiance(x, y));
   });
   return result;
 }

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
@@ -8,19 +7,17 @@
 #include <ssphh/image/sphere_map.h>
 #include <ssphh/scene_io/renderer_export.h>
 
-#include "flat_scene.h"
+#include "export_steps.h"
 #include "mitsuba_parts.h"
 #include "ply.h"
+#include "surface_model.h"
 
 namespace ssphh::scene_io {
 namespace mitsuba {
 namespace {
 
 std::string bsdf_id(const scene::Scene& scene, const FlatMesh& mesh) {
-  const std::string id = mesh.material < 0 ? "standard"
-                                           : identifier("material", static_cast<std::size_t>(mesh.material),
-                                                        material_of(scene, mesh).name);
-  return mesh.mesh.colors.empty() ? id : "colored_" + id;
+  return (mesh.mesh.colors.empty() ? "" : "colored_") + material_id(scene, mesh);
 }
 
 void area_light(Export& e, const scene::Material& m) {
@@ -168,8 +165,7 @@ void write_camera(Export& e) {
   string(e.xml, "pixel_format", "rgb");
   string(e.xml, "component_format", "float32");
   e.xml.empty("rfilter", {{"type", "box"}});
-  e.xml.close();
-  e.xml.close();
+  e.xml.close(2);
 }
 
 bool cut_out(const Export& e, const FlatScene& flat) {
@@ -206,12 +202,8 @@ ExportReport export_mitsuba(const scene::Scene& scene, const ExportSettings& set
   e.xml.close();
   write_file(file, e.xml.str());
 
-  ExportReport report;
-  report.files = std::move(e.files);
-  report.files.insert(report.files.end(), e.textures.written().begin(), e.textures.written().end());
-  report.command = fmt::format("mitsuba -m scalar_rgb -o picture.exr {}", file.string());
-  report.differences = e.differences.lines();
-  return report;
+  return end_export(std::move(e.files), e.textures, e.differences,
+                    fmt::format("mitsuba -m scalar_rgb -o picture.exr {}", file.string()));
 }
 
 }  // namespace ssphh::scene_io

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "mitsuba_parts.h"
+#include "surface_model.h"
 
 namespace ssphh::scene_io::mitsuba {
 namespace {
@@ -150,9 +151,7 @@ void write_bsdf(Export& e, const std::string& id, const scene::Material& m, bool
     if (m.normal_scale != 1) e.differences.add("normal maps at full strength", m.name);
   }
   reflection(e, m, vertex_colors);
-  if (bumped) e.xml.close();
-  e.xml.close();
-  if (!cover.full()) e.xml.close();
+  e.xml.close(1 + int{bumped} + int{!cover.full()});
   note_material(m, {.own_transform = true, .mirror = true, .nearest = true}, e.differences);
   note_reflection(m, e.differences);
 }

@@ -9,9 +9,7 @@
 
 #include <ssphh/scene_io/renderer_export.h>
 
-#include "begin_export.h"
 #include "differences.h"
-#include "surface_model.h"
 #include "texture_files.h"
 #include "xml_writer.h"
 

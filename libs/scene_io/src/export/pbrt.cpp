@@ -6,9 +6,8 @@
 #include <ssphh/core/file.h>
 #include <ssphh/scene_io/renderer_export.h>
 
-#include "begin_export.h"
 #include "equal_area.h"
-#include "flat_scene.h"
+#include "export_steps.h"
 #include "ply.h"
 #include "printable.h"
 #include "surface_model.h"
@@ -150,11 +149,6 @@ void note_reflection(const scene::Material& m, Differences& differences) {
   const bool gray = m.base_color.x == m.base_color.y && m.base_color.y == m.base_color.z;
   if (kind != SurfaceKind::black && (!gray || m.base_color_texture.texture >= 0))
     differences.add("colours are spectra: products of colours after several bounces are not RGB's", m.name);
-}
-
-std::string material_id(const scene::Scene& scene, const FlatMesh& mesh) {
-  if (mesh.material < 0) return "standard";
-  return identifier("material", static_cast<std::size_t>(mesh.material), material_of(scene, mesh).name);
 }
 
 void define_material(Export& e, const std::string& name, const scene::Material& m) {
@@ -302,12 +296,8 @@ ExportReport export_pbrt(const scene::Scene& scene, const ExportSettings& settin
   for (std::size_t i = 0; i < flat.meshes.size(); ++i) write_mesh(e, i, flat.meshes[i]);
   write_file(file, e.text);
 
-  ExportReport report;
-  report.files = std::move(e.files);
-  report.files.insert(report.files.end(), e.textures.written().begin(), e.textures.written().end());
-  report.command = fmt::format("pbrt --outfile picture.exr {}", file.string());
-  report.differences = e.differences.lines();
-  return report;
+  return end_export(std::move(e.files), e.textures, e.differences,
+                    fmt::format("pbrt --outfile picture.exr {}", file.string()));
 }
 
 }  // namespace ssphh::scene_io

@@ -103,6 +103,11 @@ std::string identifier(const char* kind, std::size_t index, const std::string& n
   return result;
 }
 
+std::string material_id(const scene::Scene& scene, const FlatMesh& mesh) {
+  if (mesh.material < 0) return "standard";
+  return identifier("material", static_cast<std::size_t>(mesh.material), material_of(scene, mesh).name);
+}
+
 void note_material(const scene::Material& m, const TextureAbilities& abilities, Differences& differences) {
   if (m.unlit) {
     differences.add("unlit surfaces light others", m.name);

@@ -7,6 +7,7 @@
 #include <ssphh/scene/scene.h>
 
 #include "differences.h"
+#include "flat_scene.h"
 #include "texture_files.h"
 
 namespace ssphh::scene_io {
@@ -49,6 +50,9 @@ std::vector<vec2> texture_coordinates(const scene::Mesh& mesh, const scene::Text
 
 /// An identifier in all formats: `kind` and index, then what letters and digits the name has.
 std::string identifier(const char* kind, std::size_t index, const std::string& name);
+
+/// The identifier of the material that a mesh is drawn with; "standard": the default one.
+std::string material_id(const scene::Scene& scene, const FlatMesh& mesh);
 
 /// What the format can do with textures; what it cannot is reported.
 struct TextureAbilities {

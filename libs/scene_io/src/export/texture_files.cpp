@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <ssphh/core/file.h>
 #include <ssphh/image/io.h>
 #include <ssphh/image/transfer.h>
 

@@ -10,22 +10,12 @@ namespace {
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : printable(text, text.size() * 2)) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
+    const char* entity = c == '&'   ? "&amp;"
+                         : c == '<' ? "&lt;"
+                         : c == '>' ? "&gt;"
+                         : c == '"' ? "&quot;"
+                                    : nullptr;
+    entity ? out += entity : out += c;
   }
   return out;
 }
@@ -49,11 +39,13 @@ void XmlWriter::open(std::string_view element, Attributes attributes) {
   open_.emplace_back(element);
 }
 
-void XmlWriter::close() {
-  SSPHH_CHECK(!open_.empty());
-  const std::string element = open_.back();
-  open_.pop_back();
-  out_.append(2 * open_.size(), ' ').append("</").append(element).append(">\n");
+void XmlWriter::close(int count) {
+  for (; count > 0; --count) {
+    SSPHH_CHECK(!open_.empty());
+    const std::string element = open_.back();
+    open_.pop_back();
+    out_.append(2 * open_.size(), ' ').append("</").append(element).append(">\n");
+  }
 }
 
 void XmlWriter::empty(std::string_view element, Attributes attributes) {

@@ -18,8 +18,8 @@ class XmlWriter {
 
   /// Begins an element that holds others.
   void open(std::string_view element, Attributes attributes = {});
-  /// Ends the element that was opened last.
-  void close();
+  /// Ends the elements that were opened last, so many.
+  void close(int count = 1);
   /// An element that holds nothing.
   void empty(std::string_view element, Attributes attributes = {});
   /// An element that holds a text.

@@ -1,4 +1,4 @@
-#include "begin_export.h"
+#include "export_steps.h"
 
 #include <cmath>
 
@@ -16,6 +16,12 @@ void begin_export(const scene::Scene& scene, const ExportSettings& settings,
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error) throw Error(directory.string(), "the folder cannot be made: " + error.message());
+}
+
+ExportReport end_export(std::vector<std::filesystem::path> files, const TextureFiles& textures,
+                        const Differences& differences, const std::string& command) {
+  files.insert(files.end(), textures.written().begin(), textures.written().end());
+  return {std::move(files), command, differences.lines()};
 }
 
 }  // namespace ssphh::scene_io
