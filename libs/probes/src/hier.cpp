@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -14,8 +13,8 @@ bool stronger(const Edge& a, const Edge& b) {
   return a.transfer != b.transfer ? a.transfer > b.transfer : a.from < b.from;
 }
 
-/// Puts the chosen edges' indices first in `order`, sorted; returns their number.
-std::size_t select(const Probe& probe, const HierParams& params, std::vector<int>& order) {
+/// Puts the chosen edges' indices into `order`, strongest first.
+void select(const Probe& probe, const HierParams& params, std::vector<int>& order) {
   order.clear();
   for (std::size_t e = 0; e < probe.edges.size(); ++e) {
     if (probe.edges[e].transfer > params.threshold) order.push_back(static_cast<int>(e));
@@ -28,35 +27,24 @@ std::size_t select(const Probe& probe, const HierParams& params, std::vector<int
         return stronger(probe.edges[static_cast<std::size_t>(a)], probe.edges[static_cast<std::size_t>(b)]);
       });
   order.resize(count);
-  return count;
 }
 
-/// Sum over the chosen neighbours, strongest first.
-std::size_t gather(const ProbeSet& set, const HierParams& params, std::size_t i, sh::RadianceSh& neighbor,
-                   sh::RadianceSh& sum) {
-  thread_local std::vector<int> order;
+/// Sum over the chosen neighbours, strongest first: these are left in `order`.
+void gather(const ProbeSet& set, const HierParams& params, std::size_t i, std::vector<int>& order,
+            sh::RadianceSh& neighbor, sh::RadianceSh& sum) {
   const Probe& probe = set.probes[i];
-  const std::size_t count = select(probe, params, order);
+  select(probe, params, order);
   const auto k = static_cast<std::size_t>(sh::coefficient_count(set.degree));
   neighbor.values.assign(k, vec3(0));
   for (const int e : order) {
     const Edge& edge = probe.edges[static_cast<std::size_t>(e)];
     const sh::RadianceSh& source = set.probes[static_cast<std::size_t>(edge.from)].self;
-    switch (params.op) {
-      case HierOperator::coefficient:
-        sh::add_coefficient_product(neighbor, edge.h, source);
-        break;
-      case HierOperator::mean:
-        sh::add_mean_product(neighbor, edge.h, source);
-        break;
-      case HierOperator::matrix:
-        sh::add_matrix_product(neighbor, edge.matrix, source);
-        break;
-    }
+    if (params.op == HierOperator::coefficient) sh::add_coefficient_product(neighbor, edge.h, source);
+    if (params.op == HierOperator::mean) sh::add_mean_product(neighbor, edge.h, source);
+    if (params.op == HierOperator::matrix) sh::add_matrix_product(neighbor, edge.matrix, source);
   }
   sum.values.assign(probe.self.values.begin(), probe.self.values.end());
   sum += neighbor;
-  return count;
 }
 
 void check(const ProbeSet& set, const HierParams& params) {
@@ -105,9 +93,11 @@ std::size_t hier(ProbeSet& set, const HierParams& params) {
 
   std::atomic<std::size_t> used = 0;
   const auto range = [&](std::size_t begin, std::size_t end) {
+    std::vector<int> order;
     std::size_t count = 0;
     for (std::size_t i = begin; i < end; ++i) {
-      count += gather(set, params, i, hierarchy.neighbor[i], hierarchy.sum[i]);
+      gather(set, params, i, order, hierarchy.neighbor[i], hierarchy.sum[i]);
+      count += order.size();
     }
     used += count;
   };

@@ -21,8 +21,7 @@ class Writer {
     const GeneratorInfo& g = set_.generator;
     put("{{\"format\":\"ssphh-probes\",\"version\":{},\n\"degree\":{},\n", probe_file_version, set_.degree);
     put("\"generator\":{{\"operator\":\"{}\",\"viz\":\"{}\",\"gen\":\"{}\",\"max_depth\":{},\"passes\":{},"
-        "\"spp\":{},"
-        "\"face_size\":{},\"seed\":\"{:x}\",\n",
+        "\"spp\":{},\"face_size\":{},\"seed\":\"{:x}\",\n",
         name_of(g.op), name_of(g.viz), name_of(g.gen), g.max_depth, g.passes, g.spp, g.face_size, g.seed);
     put("\"directions\":{},\"surfel_size\":{},\"link_rays\":{},\n", g.directions, exact(g.surfel_size),
         g.link_rays);

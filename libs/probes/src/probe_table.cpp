@@ -1,8 +1,6 @@
 #include "probe_table.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/sh/evaluate.h>
@@ -24,14 +22,12 @@ ProbeTable::ProbeTable(const ProbeSet& set, std::vector<sh::RadianceSh> lights, 
       irradiance_(set.probes.size(), irradiance_degree(params, set.degree)) {
   const auto irradiance_count = static_cast<std::size_t>(sh::coefficient_count(irradiance_.degree));
   for (const Probe& probe : set.probes) positions_.push_back(probe.position);
-  parallel_for(set.probes.size(), 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      sh::RadianceSh light = std::move(lights[i]);
-      radiance_.set(i, light.values);
-      light.values.resize(irradiance_count);
-      if (params.dering) light = sh::dering(light, sh::NonNegative::irradiance);
-      irradiance_.set(i, sh::irradiance_from_radiance(light).values);
-    }
+  parallel_for(set.probes.size(), 4, [&](std::size_t i) {
+    sh::RadianceSh light = std::move(lights[i]);
+    radiance_.set(i, light.values);
+    light.values.resize(irradiance_count);
+    if (params.dering) light = sh::dering(light, sh::NonNegative::irradiance);
+    irradiance_.set(i, sh::irradiance_from_radiance(light).values);
   });
 }
 

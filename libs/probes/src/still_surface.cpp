@@ -47,7 +47,7 @@ TriangleCells triangle_cells(const std::vector<StillTriangle>& triangles, const 
     std::sort(from, pairs.end());
     pairs.erase(std::unique(from, pairs.end()), pairs.end());
   }
-  std::sort(pairs.begin(), pairs.end());
+  std::ranges::sort(pairs);
   TriangleCells out;
   const auto count = static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y) *
                      static_cast<std::size_t>(cells.z);

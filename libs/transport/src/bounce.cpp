@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include <ssphh/core/parallel.h>
@@ -65,8 +64,8 @@ struct BounceOperator::Data {
   }
 
   bool crosses_swept(const rays::RayQuery& segment) const {
-    return std::any_of(swept.begin(), swept.end(),
-                       [&](const scene::Bounds& box) { return !box.empty() && meets(segment, box); });
+    return std::ranges::any_of(swept,
+                               [&](const scene::Bounds& box) { return !box.empty() && meets(segment, box); });
   }
 
   int part_of(std::int32_t surfel) const {
@@ -109,9 +108,7 @@ struct BounceOperator::Data {
     if (which.empty()) return;
     std::vector<probes::ProbeWeights> found(which.size());
     try {
-      parallel_for(which.size(), 256, [&](std::size_t first, std::size_t end) {
-        for (std::size_t i = first; i < end; ++i) look_up_anew(which[i], found[i]);
-      });
+      parallel_for(which.size(), 256, [&](std::size_t i) { look_up_anew(which[i], found[i]); });
     } catch (...) {
       for (const std::uint32_t ray : which) known[ray].surfel = unknown;
       throw;
@@ -123,7 +120,7 @@ struct BounceOperator::Data {
     std::vector<std::uint8_t> coupled(network.gbuffer().positions.size());
     std::size_t next = 0, old_begin = 0;
     for (std::size_t ray = 0; ray < known.size(); ++ray) {
-      if (ray % directions == 0) std::fill(coupled.begin(), coupled.end(), std::uint8_t{0});
+      if (ray % directions == 0) std::ranges::fill(coupled, std::uint8_t{0});
       const std::size_t old_end = begin[ray + 1], start = row.size();
       if (next < which.size() && which[next] == ray) {
         const auto used = found[next++].used();

@@ -32,8 +32,7 @@ std::size_t DirectField::update_moved(int group, const rays::DirectLight& light,
   parallel_for(touched.size(), 2048, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!network_.sample_exists(i)) continue;
-      touched[i] = surfels[i / samples].part > 0 ||
-                   std::any_of(moved.begin(), moved.end(), [&](const scene::Bounds& box) {
+      touched[i] = surfels[i / samples].part > 0 || std::ranges::any_of(moved, [&](const scene::Bounds& box) {
                      return light.may_shadow(group, network_.samples()[i], box);
                    });
     }

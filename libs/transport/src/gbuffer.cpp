@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ssphh/core/parallel.h>
 #include <ssphh/core/sphere.h>
 #include <ssphh/transport/gbuffer.h>
 

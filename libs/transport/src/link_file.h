@@ -7,7 +7,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
 #include <ssphh/transport/solve.h>
 

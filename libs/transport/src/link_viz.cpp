@@ -35,8 +35,7 @@ class StrongestEdges {
     std::push_heap(edges_.begin(), edges_.end(), stronger);
   }
   std::vector<probes::Edge> by_neighbor() && {
-    std::sort(edges_.begin(), edges_.end(),
-              [](const probes::Edge& a, const probes::Edge& b) { return a.from < b.from; });
+    std::ranges::sort(edges_, [](const probes::Edge& a, const probes::Edge& b) { return a.from < b.from; });
     return std::move(edges_);
   }
 
@@ -57,7 +56,7 @@ class StrongestEdges {
 std::vector<std::size_t> scattered(std::size_t count) {
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [](std::size_t a, std::size_t b) { return mix64(a) < mix64(b); });
+  std::ranges::sort(order, [](std::size_t a, std::size_t b) { return mix64(a) < mix64(b); });
   return order;
 }
 
@@ -112,10 +111,8 @@ class LinkViz {
   void read_off(std::size_t j) {
     // Upper bounds of P first: the sphere takes rays and H a projection, and most pairs need neither.
     std::vector<std::uint8_t> wanted(probes_.size());
-    parallel_for(probes_.size(), 8, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        wanted[i] =
-            i != j && kept_[i].wants(seen_on_surfaces(i) + sphere_share(probes_[i].position, sphere_));
+    parallel_for(probes_.size(), 8, [&](std::size_t i) {
+      wanted[i] = i != j && kept_[i].wants(seen_on_surfaces(i) + sphere_share(probes_[i].position, sphere_));
     });
     std::vector<std::size_t> at;
     std::vector<vec3> positions;
@@ -124,21 +121,19 @@ class LinkViz {
     }
     const std::vector<float> visible = visible_shares(network_, source_, positions, sphere_);
 
-    parallel_for(at.size(), 4, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) {
-        probes::Edge edge;
-        edge.from = static_cast<int>(j);
-        edge.h = sh::RadianceSh(projector_.degree());
-        project_reflected(network_, projector_, direct_, at[k], edge.h);
-        if (visible[k] > 0) {
-          sh::RadianceSh seen(projector_.degree());
-          add_seen_emission(positions[k], sphere_, seen);
-          seen *= vec3(visible[k]);
-          edge.h += seen;
-        }
-        edge.transfer = std::min(probes::transfer_coefficient(edge.h), 1.0f);
-        if (kept_[at[k]].wants(edge.transfer)) kept_[at[k]].add(std::move(edge));
+    parallel_for(at.size(), 4, [&](std::size_t k) {
+      probes::Edge edge;
+      edge.from = static_cast<int>(j);
+      edge.h = sh::RadianceSh(projector_.degree());
+      project_reflected(network_, projector_, direct_, at[k], edge.h);
+      if (visible[k] > 0) {
+        sh::RadianceSh seen(projector_.degree());
+        add_seen_emission(positions[k], sphere_, seen);
+        seen *= vec3(visible[k]);
+        edge.h += seen;
       }
+      edge.transfer = std::min(probes::transfer_coefficient(edge.h), 1.0f);
+      if (kept_[at[k]].wants(edge.transfer)) kept_[at[k]].add(std::move(edge));
     });
   }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>
-#include <ssphh/core/parallel.h>
 
 #include "network_data.h"
 
@@ -24,8 +23,8 @@ vec3 just_before(const rays::RayQuery& ray, float distance) {
 }
 
 bool meets_any(const rays::RayQuery& ray, const std::vector<scene::Bounds>& boxes) {
-  return std::any_of(boxes.begin(), boxes.end(),
-                     [&](const scene::Bounds& box) { return !box.empty() && meets(ray, box); });
+  return std::ranges::any_of(boxes,
+                             [&](const scene::Bounds& box) { return !box.empty() && meets(ray, box); });
 }
 
 /// Fills a network's data step by step.
@@ -132,55 +131,51 @@ class NetworkBuilder {
     return fan_ray(from, link_lift * d_.surfels.size(), index, surfel);
   }
 
-  /// Lets surfels look around with few rays until no new ones are found.
-  void discover() {
+  /// Traces the rays of each surfel, and of those that are found on the way, block by block; returns how many
+  /// surfels had their turn. `add_rays(s, links)` appends a surfel's rays; `traced(links, b)` takes a block
+  /// from b.
+  template <typename AddRays, typename Traced>
+  std::size_t in_rounds(const char* stage, std::size_t block, AddRays&& add_rays, Traced&& traced) {
     std::size_t begin = 0;
     for (int round = 0; round < most_rounds && begin < d_.surfels.count(); ++round) {
       const std::size_t end = d_.surfels.count();
-      ProgressStage progress(control_, "finding surfels", end - begin, "surfels");
-      constexpr std::size_t block = 8192;
-      for (std::size_t b = begin; b < end; b += block) {
-        control_.check();
-        std::vector<RawLink> links;
-        for (std::size_t s = b; s < std::min(b + block, end); ++s) {
-          const auto members = d_.surfels.members(static_cast<int>(s));
-          for (int r = 0; r < discovery_rays; ++r) {
-            const auto index = static_cast<std::uint32_t>(r);
-            links.push_back({link_ray(members[index % members.size()], index, s), vec3(0), no_surfel});
-          }
-        }
-        trace_and_add(links);
-        progress.advance(std::min(b + block, end) - b);
-      }
-      begin = end;
-    }
-  }
-
-  /// Chooses every surfel's samples and traces its links; those that are found on the way follow.
-  void link_static_surfels() {
-    std::size_t begin = 0;
-    for (int round = 0; round < most_rounds && begin < d_.surfels.count(); ++round) {
-      const std::size_t end = d_.surfels.count();
-      ProgressStage progress(control_, "linking surfels", end - begin, "surfels");
-      constexpr std::size_t block = 4096;
+      ProgressStage progress(control_, stage, end - begin, "surfels");
       for (std::size_t b = begin; b < end; b += block) {
         control_.check();
         const std::size_t stop = std::min(b + block, end);
         std::vector<RawLink> links;
-        for (std::size_t s = b; s < stop; ++s) {
-          const std::size_t used = choose_samples(s);
-          for (int r = 0; r < d_.params.link_rays; ++r) {
-            const auto index = static_cast<std::uint32_t>(r);
-            links.push_back(
-                {link_ray(d_.local_samples[s * m() + index % used], index, s), vec3(0), no_surfel});
-          }
-        }
+        for (std::size_t s = b; s < stop; ++s) add_rays(s, links);
         trace_and_add(links);
-        keep(links, b);
+        traced(links, b);
         progress.advance(stop - b);
       }
       begin = end;
     }
+    return begin;
+  }
+
+  /// Lets surfels look around with few rays until no new ones are found.
+  void discover() {
+    const auto add_rays = [&](std::size_t s, std::vector<RawLink>& links) {
+      const auto members = d_.surfels.members(static_cast<int>(s));
+      for (std::uint32_t r = 0; r < discovery_rays; ++r) {
+        links.push_back({link_ray(members[r % members.size()], r, s), vec3(0), no_surfel});
+      }
+    };
+    in_rounds("finding surfels", 8192, add_rays, [](const std::vector<RawLink>&, std::size_t) {});
+  }
+
+  /// Chooses every surfel's samples and traces its links; those that are found on the way follow.
+  void link_static_surfels() {
+    const auto add_rays = [&](std::size_t s, std::vector<RawLink>& links) {
+      const std::size_t used = choose_samples(s);
+      for (std::uint32_t r = 0; r < rays_per_surfel(); ++r) {
+        links.push_back({link_ray(d_.local_samples[s * m() + r % used], r, s), vec3(0), no_surfel});
+      }
+    };
+    const std::size_t begin =
+        in_rounds("linking surfels", 4096, add_rays,
+                  [&](const std::vector<RawLink>& links, std::size_t b) { keep(links, b); });
     // What the last round found has no links: dark, but of no weight.
     for (std::size_t s = begin; s < d_.surfels.count(); ++s) {
       choose_samples(s);
@@ -330,7 +325,7 @@ class NetworkBuilder {
     std::vector<std::pair<std::size_t, std::size_t>> ranges;
     for (SurfelLinks& row : links_of_) {
       const std::size_t first = d_.fixed.size();
-      std::sort(row.fixed.begin(), row.fixed.end());
+      std::ranges::sort(row.fixed);
       for (std::size_t i = 0; i < row.fixed.size();) {
         std::size_t end = i;
         while (end < row.fixed.size() && row.fixed[end] == row.fixed[i]) ++end;

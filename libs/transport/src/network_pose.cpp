@@ -187,20 +187,18 @@ void TransportNetwork::Data::see(
     const std::function<void(std::size_t, const rays::RayHit&, int)>& visit) const {
   std::vector<rays::RayHit> hits(rays.size());
   source.intersect(0, rays, hits);
-  parallel_for(rays.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      rays::RayQuery ray = rays[i];
-      ray.t_max = std::min(ray.t_max, hits[i].distance);
-      rays::RayHit hit = hits[i];
-      int part = 0;
-      if (!meet_part(ray, hit, part) && hit.escaped()) {
-        visit(i, hit, no_surfel);
-        continue;
-      }
-      vec3 position = ray.origin + ray.t_max * ray.direction;
-      if (part > 0) position = vec3(placed[static_cast<std::size_t>(part - 1)].to_part * vec4(position, 1));
-      visit(i, hit, find(part, {position, hit.normal}));
+  parallel_for(rays.size(), 64, [&](std::size_t i) {
+    rays::RayQuery ray = rays[i];
+    ray.t_max = std::min(ray.t_max, hits[i].distance);
+    rays::RayHit hit = hits[i];
+    int part = 0;
+    if (!meet_part(ray, hit, part) && hit.escaped()) {
+      visit(i, hit, no_surfel);
+      return;
     }
+    vec3 position = ray.origin + ray.t_max * ray.direction;
+    if (part > 0) position = vec3(placed[static_cast<std::size_t>(part - 1)].to_part * vec4(position, 1));
+    visit(i, hit, find(part, {position, hit.normal}));
   });
 }
 
@@ -245,28 +243,23 @@ void TransportNetwork::Data::pose_samples() {
                          (i == s * m || !blocked(surfels.segment(samples[s * m], samples[i])));
     }
   });
-  parallel_for(hidden_samples.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::size_t i = hidden_samples[k];
-      sample_used[i] =
-          !covered(0, samples[i]) && !parts_block(surfels.segment(samples[i / m * m], samples[i]));
-    }
+  parallel_for(hidden_samples.size(), 256, [&](std::size_t k) {
+    const std::size_t i = hidden_samples[k];
+    sample_used[i] = !covered(0, samples[i]) && !parts_block(surfels.segment(samples[i / m * m], samples[i]));
   });
 }
 
 void TransportNetwork::Data::pose_hits(PoseReport& report) {
   mixed_hits.clear();
   std::vector<std::uint8_t> changed(moving_hits.size());
-  parallel_for(moving_hits.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const MovingRay& moving_ray = moving_hits[i];
-      const Resolved found = resolve(moving_ray);
-      const SeenPatch patch{found.surfel, found.albedo};
-      changed[i] = patch != seen[moving_ray.owner];
-      set_hit(moving_ray.owner, found);
-    }
+  parallel_for(moving_hits.size(), 256, [&](std::size_t i) {
+    const MovingRay& moving_ray = moving_hits[i];
+    const Resolved found = resolve(moving_ray);
+    const SeenPatch patch{found.surfel, found.albedo};
+    changed[i] = patch != seen[moving_ray.owner];
+    set_hit(moving_ray.owner, found);
   });
-  report.hits_changed += static_cast<std::size_t>(std::count(changed.begin(), changed.end(), 1));
+  report.hits_changed += static_cast<std::size_t>(std::ranges::count(changed, 1));
   report.rays_near_parts += moving_hits.size();
 }
 
@@ -290,13 +283,11 @@ void TransportNetwork::Data::pose_links(PoseReport& report) {
   std::vector<std::uint8_t> counted(target.size(), 1), lost(target.size(), 0);
 
   // Links of static surfels that a part may touch.
-  parallel_for(moving_links.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      counted[i] = sample_used[moving_links[i].sample];
-      if (!counted[i]) continue;
-      target[i] = resolve(moving_links[i]).surfel;
-      lost[i] = target[i] == no_surfel && std::isfinite(moving_links[i].ray.t_max);
-    }
+  parallel_for(moving_links.size(), 256, [&](std::size_t i) {
+    counted[i] = sample_used[moving_links[i].sample];
+    if (!counted[i]) return;
+    target[i] = resolve(moving_links[i]).surfel;
+    lost[i] = target[i] == no_surfel && std::isfinite(moving_links[i].ray.t_max);
   });
 
   // Links of the parts' own surfels: everything that they see may have changed.
@@ -343,7 +334,7 @@ void TransportNetwork::Data::pose_links(PoseReport& report) {
   report.hits_changed += std::max(links.size(), moving.size()) - same;
   report.rays_near_parts += target.size();
   set_moving(std::move(links), ranges);
-  lost_links = static_cast<std::size_t>(std::count(lost.begin(), lost.end(), 1));
+  lost_links = static_cast<std::size_t>(std::ranges::count(lost, 1));
 }
 
 }  // namespace ssphh::transport

@@ -16,8 +16,7 @@ void project_one(const TransportNetwork& network, const DirectionProjector& proj
                  sh::RadianceSh& out) {
   const std::size_t directions = network.gbuffer().directions.size(), stride = projector.stride();
   const std::vector<MixedHit>& mixed = network.mixed_hits();
-  auto mix = std::lower_bound(mixed.begin(), mixed.end(), probe * directions,
-                              [](const MixedHit& hit, std::size_t owner) { return hit.owner < owner; });
+  auto mix = std::ranges::lower_bound(mixed, probe * directions, {}, &MixedHit::owner);
   for (std::size_t q = 0; q < directions; ++q) {
     const std::size_t ray = probe * directions + q;
     vec3 value = radiance_of(network.seen()[ray], irradiance);

@@ -2,7 +2,6 @@
 /// What a RelightSession keeps, and the stages of an update.
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <span>
@@ -11,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/require.h>
+#include <ssphh/core/stopwatch.h>
 #include <ssphh/transport/direct_field.h>
 #include <ssphh/transport/relight_session.h>
 
@@ -28,11 +28,11 @@ inline std::vector<vec3> positions_of(const std::vector<ProbePlace>& places) {
 /// Runs `body`, adds its time and rays.
 template <class Body>
 void measure(const rays::TransportSource& source, double& ms, std::uint64_t* rays, const Body& body) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const std::uint64_t before = source.rays_traced();
   body();
   if (rays) *rays += source.rays_traced() - before;
-  ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  ms += watch.milliseconds();
 }
 
 inline bool differs(const sh::RadianceSh& a, const sh::RadianceSh& b, float tolerance) {

@@ -24,12 +24,6 @@ bool is_dark(const sh::RadianceSh& light) {
 
 }  // namespace
 
-std::vector<ProbePlace> places_of(const probes::ProbeSet& set) {
-  std::vector<ProbePlace> places;
-  for (const probes::Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
-  return places;
-}
-
 probes::ProbeSet lookup_set(const std::vector<ProbePlace>& places,
                             const std::vector<sh::RadianceSh>& reflected) {
   require(!places.empty(), "lookup set", "there are no probes");

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/require.h>
@@ -50,9 +49,8 @@ std::size_t LinkRows::link_count() const {
 void bounce_once(const LinkRows& links, std::span<const Irradiance4> radiosity, std::span<Irradiance4> out) {
   require(radiosity.size() == links.rows.size() && out.size() == links.rows.size(), "bounce",
           "sizes differ from the number of rows");
-  parallel_for(links.rows.size(), rows_per_block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) out[i] = gather(links.rows[i], radiosity.data());
-  });
+  parallel_for(links.rows.size(), rows_per_block,
+               [&](std::size_t i) { out[i] = gather(links.rows[i], radiosity.data()); });
 }
 
 Contraction contraction(const LinkRows& links, std::span<const vec3> albedo, int steps) {
@@ -81,7 +79,7 @@ SolveReport Solver::solve(const LinkRows& links, std::span<const vec3> albedo,
   block_residual_.assign(blocks, 0);
   block_largest_.assign(blocks, 0);
   const auto largest_of = [](const std::vector<float>& values) {
-    return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
+    return values.empty() ? 0 : *std::ranges::max_element(values);
   };
 
   // Start from what `indirect` holds: the right answer already where all that changed is the lamps' power.

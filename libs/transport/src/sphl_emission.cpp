@@ -55,16 +55,14 @@ std::size_t add_emission(const TransportNetwork& network, const rays::TransportS
   }
   std::vector<std::uint8_t> blocked(segments.size());
   rays::PosedWorld(source, network.poses()).occluded(segments, blocked);
-  parallel_for(which.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      if (blocked[k]) continue;
-      const rays::SurfacePoint& p = network.samples()[which[k]];
-      const vec3 to_light = emitter.position - p.position;
-      const float distance = glm::length(to_light);
-      const vec3 wi = to_light / distance;
-      const float ratio = emitter.radius / std::max(distance, emitter.radius);
-      samples[which[k]] += pi * ratio * ratio * glm::dot(wi, p.normal) * evaluate(emitter.leaving, -wi);
-    }
+  parallel_for(which.size(), 256, [&](std::size_t k) {
+    if (blocked[k]) return;
+    const rays::SurfacePoint& p = network.samples()[which[k]];
+    const vec3 to_light = emitter.position - p.position;
+    const float distance = glm::length(to_light);
+    const vec3 wi = to_light / distance;
+    const float ratio = emitter.radius / std::max(distance, emitter.radius);
+    samples[which[k]] += pi * ratio * ratio * glm::dot(wi, p.normal) * evaluate(emitter.leaving, -wi);
   });
   return segments.size();
 }

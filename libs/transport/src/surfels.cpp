@@ -89,8 +89,8 @@ std::vector<int> SurfelSet::candidates(int part, const rays::SurfacePoint& point
     };
     return std::pair(distance2(a), a) < std::pair(distance2(b), b);
   };
-  std::sort(own.begin(), own.end(), nearer);
-  std::sort(around.begin(), around.end(), nearer);
+  std::ranges::sort(own, nearer);
+  std::ranges::sort(around, nearer);
   own.insert(own.end(), around.begin(), around.end());
   return own;
 }
@@ -102,7 +102,7 @@ std::vector<int> SurfelSet::add(int part, std::span<const ClusterPoint> points) 
     const rays::SurfacePoint& p = points[i].point;
     order[i] = {key(part, voxel(part, p.position), direction_bin(p.normal)), i};
   }
-  std::sort(order.begin(), order.end());
+  std::ranges::sort(order);
   std::vector<std::size_t> runs;
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i == 0 || order[i].first != order[i - 1].first) runs.push_back(i);

@@ -25,10 +25,10 @@ struct HierParams {
 std::vector<int> select_neighbors(const Probe& probe, const HierParams& params);
 
 /// Adds the neighbours' light to every probe: fills set.hierarchy. Memory of an existing hierarchy is used
-/// again, so that a call per frame does not allocate. S_j is `self`: emitters seen directly and reflected
-/// light. Returns the number of edges used. Throws Error, and leaves the set as it was, for
-/// parameters out of range, for `matrix` on a set baked without matrices, for groups that were not merged,
-/// and for edges that name no probe or are not of the set's degree.
+/// again, so that a call per frame takes little more than lists of edges. S_j is `self`: emitters seen
+/// directly and reflected light. Returns the number of edges used. Throws Error, and leaves the set as it
+/// was, for parameters out of range, for `matrix` on a set baked without matrices, for groups that were not
+/// merged, and for edges that name no probe or are not of the set's degree.
 std::size_t hier(ProbeSet& set, const HierParams& params);
 
 /// Bounds of the spectral radius of HIER by `mean`: the factor by which one more application would shrink the

@@ -10,7 +10,6 @@
 /// it in results of the farm. `vectors` and `size` look at what is there before they take memory.
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 

@@ -3,7 +3,6 @@
 /// moving part changes only the rays that meet it (docs/methods/transport.md).
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 

@@ -28,6 +28,14 @@ struct ProbePlace {
   float radius = 0.1f;  ///< of the sphere that emits LightingState::emission
 };
 
+/// Those of whatever has a name, a position and a radius: probes, SPHLs, what place_probes() finds.
+template <class Probes>
+std::vector<ProbePlace> places_of(const Probes& probes) {
+  std::vector<ProbePlace> places;
+  for (const auto& probe : probes) places.push_back({probe.name, probe.position, probe.radius});
+  return places;
+}
+
 struct RelightParams {
   TransportParams transport;
   SolveParams solve;

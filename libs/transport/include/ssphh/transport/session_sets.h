@@ -10,8 +10,6 @@
 
 namespace ssphh::transport {
 
-std::vector<ProbePlace> places_of(const probes::ProbeSet& set);
-
 /// The places with their reflected light as one group, as lookups want it. Throws Error when there is not one
 /// function of one degree for each place, as before a session's first update().
 probes::ProbeSet lookup_set(const std::vector<ProbePlace>& places,
