@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 
 #include <fmt/format.h>
 
@@ -7,6 +6,7 @@
 #include <ssphh/bake/gen.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/random.h>
+#include <ssphh/core/stopwatch.h>
 #include <ssphh/probes/byte_parts.h>
 #include <ssphh/probes/probe_file.h>
 
@@ -167,10 +167,9 @@ class CrewCheck {
 
 void check_probes(const rays::RadianceSource& source, const probes::ProbeSet& set, BakeReport& report) {
   for (const probes::Probe& probe : set.probes) {
-    const bool dark =
-        std::all_of(probe.groups.begin(), probe.groups.end(), [](const probes::GroupLight& light) {
-          return light.emitted.empty() && sh::mean(light.reflected) == vec3(0);
-        });
+    const bool dark = std::ranges::all_of(probe.groups, [](const probes::GroupLight& light) {
+      return light.emitted.empty() && sh::mean(light.reflected) == vec3(0);
+    });
     for (const probes::Edge& edge : probe.edges) {
       const float transfer = probes::transfer_coefficient(edge.h);
       if (transfer <= 1.001f) continue;  // more than rounding
@@ -195,7 +194,7 @@ void check_probes(const rays::RadianceSource& source, const probes::ProbeSet& se
 ProbeStageResult bake_stage(const rays::RadianceSource& source, const probes::ProbeSet& set,
                             const VizParams& viz_params, const ProbeStage& stage, const Control& control) {
   require(stage.probe < set.probes.size(), "bake", "there is no probe of that index");
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const std::uint64_t rays_before = source.rays_traced();
   const rays::CubeRequest request = request_of(set, stage);
   ProbeStageResult result{stage, 0, 0, {}, {}};
@@ -205,7 +204,7 @@ ProbeStageResult bake_stage(const rays::RadianceSource& source, const probes::Pr
     result.edges = viz(source, set, stage.probe, request, viz_params, control);
   }
   result.rays = source.rays_traced() - rays_before;
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.seconds = watch.seconds();
   return result;
 }
 

@@ -10,14 +10,12 @@ namespace ssphh::bake {
 namespace {
 
 bool is_zero(const sh::RadianceSh& function) {
-  return std::all_of(function.values.begin(), function.values.end(),
-                     [](const vec3& v) { return v == vec3(0); });
+  return std::ranges::all_of(function.values, [](const vec3& v) { return v == vec3(0); });
 }
 
 void check_finite(const sh::RadianceSh& function, const rays::CubeRequest& request,
                   const std::string& group) {
-  if (std::all_of(function.values.begin(), function.values.end(), [](const vec3& v) { return is_finite(v); }))
-    return;
+  if (std::ranges::all_of(function.values, [](const vec3& v) { return is_finite(v); })) return;
   throw Error(fmt::format("probe at ({:g}, {:g}, {:g}), light group \"{}\"", request.position.x,
                           request.position.y, request.position.z, group),
               "the traced radiance is not finite");

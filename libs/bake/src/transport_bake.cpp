@@ -1,22 +1,16 @@
 #include <algorithm>
-#include <chrono>
 
 #include <fmt/format.h>
 
 #include <ssphh/bake/transport_bake.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/require.h>
+#include <ssphh/core/stopwatch.h>
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/transport/session_sets.h>
 
 namespace ssphh::bake {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 void describe_network(const transport::TransportNetwork& network, probes::ProbeSet& set,
                       TransportBakeReport& report) {
@@ -82,22 +76,22 @@ void check_light(const transport::TransportNetwork& network, const probes::Probe
 /// At the surfels, in the session's pose, to its lights and to training lights.
 void fit(const transport::RelightSession& session, const rays::TransportSource& source, probes::ProbeSet& set,
          const transport::FitParams& params, TransportBakeReport& report, const Control& control) {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   const transport::TransportNetwork& network = session.network();
   set.fitted = transport::fit_weights(network, source, transport::surfel_points(network), params,
                                       session.direct_by_group(), control);
-  report.fit_seconds += seconds_since(start);
+  report.fit_seconds += watch.seconds();
 }
 
 void find_edges(const transport::TransportNetwork& network, const rays::TransportSource& source,
                 probes::ProbeSet& set, const transport::LinkVizParams& params, TransportBakeReport& report,
                 const Control& control) {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   std::vector<std::vector<probes::Edge>> edges =
       transport::viz_from_links(network, source, set.probes, set.degree, params, control);
   for (std::size_t i = 0; i < edges.size(); ++i) set.probes[i].edges = std::move(edges[i]);
   set.generator.viz = probes::VizMethod::links;
-  report.viz_seconds = seconds_since(start);
+  report.viz_seconds = watch.seconds();
 }
 
 /// Each group's light with the probes as the only unknowns.
@@ -139,13 +133,13 @@ probes::ProbeSet bake_transport(const rays::TransportSource& source, probes::Pro
           "path tracing is no transport between probes");
   report = {};
   const std::uint64_t rays_before = source.rays_traced();
-  const auto start = Clock::now();
+  const Stopwatch watch;
 
   // Light everything once, then each group alone.
   transport::RelightParams relight_params{bake_resolution(source, params.transport), params.solve};
   relight_params.degree = set.degree;
-  transport::RelightSession session(source, transport::places_of(set), relight_params, set.generator.time,
-                                    control);
+  transport::RelightSession session(source, transport::places_of(set.probes), relight_params,
+                                    set.generator.time, control);
   session.update(session.lighting(), control);
   const transport::TransportNetwork& network = session.network();
   describe_network(network, set, report);
@@ -171,7 +165,7 @@ probes::ProbeSet bake_transport(const rays::TransportSource& source, probes::Pro
   for (probes::Probe& probe : set.probes) probe.edges.clear();
   transport::store_groups(set, std::move(reflected), session.emitted_by_group());
 
-  report.seconds = seconds_since(start);
+  report.seconds = watch.seconds();
   if (params.viz) find_edges(network, source, set, params.viz_params, report, control);
   if (params.fit) fit(session, source, set, params.fit_params, report, control);
   report.rays = source.rays_traced() - rays_before;
@@ -186,7 +180,7 @@ void add_transport(const rays::TransportSource& source, probes::ProbeSet& set,
   require_probes(set);
   report = {};
   const std::uint64_t rays_before = source.rays_traced();
-  transport::RelightSession session(source, transport::places_of(set),
+  transport::RelightSession session(source, transport::places_of(set.probes),
                                     {bake_resolution(source, params.transport), params.solve},
                                     set.generator.time, control);
   const transport::TransportNetwork& network = session.network();

@@ -91,8 +91,8 @@ std::vector<probes::Edge> viz(const rays::RadianceSource& source, const probes::
   }
   // Keep the strongest, by neighbour.
   if (params.neighbors >= 0 && edges.size() > static_cast<std::size_t>(params.neighbors)) {
-    std::stable_sort(edges.begin(), edges.end(),
-                     [](const probes::Edge& a, const probes::Edge& b) { return a.transfer > b.transfer; });
+    std::ranges::stable_sort(
+        edges, [](const probes::Edge& a, const probes::Edge& b) { return a.transfer > b.transfer; });
     edges.resize(static_cast<std::size_t>(params.neighbors));
     std::ranges::sort(edges, {}, &probes::Edge::from);
   }

@@ -1,12 +1,9 @@
-#include <cmath>
-
-#include <ssphh/core/error.h>
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
 #include <ssphh/methods/table.h>
 #include <ssphh/rays/posed_world.h>
 
-#include "points.h"
+#include "points_in_reach.h"
 
 namespace ssphh::methods::ambient {
 namespace {

@@ -1,7 +1,5 @@
 #include "blend.h"
 
-#include <cmath>
-
 #include <ssphh/core/parallel.h>
 
 #include "octahedral.h"

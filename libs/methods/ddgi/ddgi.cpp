@@ -84,9 +84,7 @@ class Ddgi final : public Method {
   }
 
  private:
-  std::size_t active() const {
-    return static_cast<std::size_t>(std::count(field_.active.begin(), field_.active.end(), 1));
-  }
+  std::size_t active() const { return static_cast<std::size_t>(std::ranges::count(field_.active, 1)); }
 
   void frame(const rays::DirectLight& lights, std::span<const vec3> group_scales, const DdgiBlend& blend,
              const Control& control) {

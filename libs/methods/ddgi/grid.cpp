@@ -1,7 +1,5 @@
 #include "grid.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>

@@ -4,7 +4,7 @@
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
 
-#include "points.h"
+#include "points_in_reach.h"
 
 namespace ssphh::methods::ddgi {
 namespace {
@@ -60,12 +60,10 @@ std::vector<ProbeRay> trace_probes(const DdgiField& field, const rays::PosedWorl
       met.ray.push_back(begin + i);
     }
     const std::vector<vec3> direct = scaled_direct(lights, group_scales, met.point);
-    parallel_for(met.point.size(), lookup_grain, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        const rays::SurfacePoint& at = met.point[i];
-        const vec3 indirect = field.irradiance(at.position, at.normal, met.wo[i], at.normal);
-        result[met.ray[i]].radiance = met.albedo[i] / pi * (direct[i] + indirect);
-      }
+    parallel_for(met.point.size(), lookup_grain, [&](std::size_t i) {
+      const rays::SurfacePoint& at = met.point[i];
+      const vec3 indirect = field.irradiance(at.position, at.normal, met.wo[i], at.normal);
+      result[met.ray[i]].radiance = met.albedo[i] / pi * (direct[i] + indirect);
     });
   }
   return result;

@@ -4,7 +4,7 @@
 
 #include <ssphh/rays/posed_world.h>
 
-#include "points.h"
+#include "points_in_reach.h"
 
 namespace ssphh::methods::ddgi {
 namespace {

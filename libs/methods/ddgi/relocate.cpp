@@ -1,6 +1,5 @@
 #include "relocate.h"
 
-#include <cmath>
 #include <limits>
 
 #include <ssphh/core/sphere.h>

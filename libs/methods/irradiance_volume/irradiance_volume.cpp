@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <optional>
 
 #include <ssphh/methods/table.h>

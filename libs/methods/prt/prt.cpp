@@ -107,9 +107,8 @@ class Prt final : public Method {
       sky *= state.group_scales[static_cast<std::size_t>(group)];
     }
     light_.irradiance_of.resize(probes_->begin.size() - 1);
-    parallel_for(light_.irradiance_of.size(), 256, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) light_.irradiance_of[v] = at_vertex(v, sky);
-    });
+    parallel_for(light_.irradiance_of.size(), 256,
+                 [&](std::size_t v) { light_.irradiance_of[v] = at_vertex(v, sky); });
     for (std::size_t i = 0; i < around.size() && !sky.empty(); ++i)
       around[i] += sky_to_probes_.radiance(i, sky);
     probes::LookupParams params;
@@ -189,13 +188,8 @@ MethodEntry entry() {
       {"interreflect", 3, 0, 64, "bounces within the transfer vectors; 0: shadowed only", true},
       {"self_shadow", 0.25, 0, 1e6,
        "nearer than this share of the probes' spacing, surfaces hide and reflect their light; 0: none do"},
-      {"environment",
-       0,
-       0,
-       1,
-       "by transfer vectors from infinity, or in the probes as all other light",
-       true,
-       {"transfer", "probes"}},
+      word_parameter("environment", {"transfer", "probes"},
+                     "by transfer vectors from infinity, or in the probes as all other light"),
       {"rays", 256, 16, 65536, "per vertex", true},
       {"edge", 0, 0, 1e4, "longest of the mesh [m]; 0: a 14th of the scene's radius"},
       {"vertices", 1 << 18, 3, 1 << 26, "more are refused", true}};

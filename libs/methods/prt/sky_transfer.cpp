@@ -63,7 +63,7 @@ PlaceTransfer find_place_transfer(std::span<const vec3> places, const TransferMe
                 index.find({places[p] + hits[r].distance * queries[r].direction, hits[r].normal});
             if (at.triangle < 0) continue;
             const uvec3& t = mesh.triangles[static_cast<std::size_t>(at.triangle)];
-            std::fill(leaving.begin(), leaving.end(), vec3(0));
+            std::ranges::fill(leaving, vec3(0));
             for (int c = 0; c < 3; ++c) {
               const vec3 factor = solid_angle / pi * at.weight[c] * hits[r].albedo;
               for (std::size_t k = 0; k < n; ++k) {

@@ -144,11 +144,7 @@ TransferVectors find_transfer(const TransferMesh& mesh, const VertexRings& rings
                          "bounces");
   const auto for_vertices = [&](const auto& body) {
     parallel_for(
-        count, vertices_at_once,
-        [&](std::size_t begin, std::size_t end) {
-          for (std::size_t v = begin; v < end; ++v) body(v);
-        },
-        control);
+        count, vertices_at_once, [&](std::size_t v) { body(v); }, control);
     progress.advance(1);
   };
   for_vertices([&](std::size_t v) { finder.shadow(v, &result.direct[v * stride]); });

@@ -4,7 +4,6 @@
 /// Lighting Environments, SIGGRAPH 2002, §4 and §5).
 
 #include <limits>
-#include <span>
 #include <vector>
 
 #include <ssphh/core/control.h>

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <optional>
 
 #include <ssphh/methods/table.h>
@@ -17,19 +16,14 @@ namespace {
 std::vector<transport::ProbePlace> find_places(const MethodScene& scene, const MethodParameters& p,
                                                const Control& control) {
   place::PlaceParams params = place::place_params(scene.scene);
-  std::vector<transport::ProbePlace> places;
   if (p.choice("places") == "scene") {
-    for (const scene::SphlPlace& place : params.manual)
-      places.push_back({place.name, place.position, place.radius});
-    if (places.empty())
+    if (params.manual.empty())
       throw Error("method ssphh", "the scene has no SPHLs of its own", "let places=auto find some");
-    return places;
+    return transport::places_of(params.manual);
   }
   params.spacing = static_cast<float>(p.number("spacing"));
   params.count = p.integer("probes");
-  for (const place::PlacedProbe& probe : place::place_probes(scene.source, params, control).probes)
-    places.push_back({probe.name, probe.position, probe.radius});
-  return places;
+  return transport::places_of(place::place_probes(scene.source, params, control).probes);
 }
 
 transport::RelightParams relight_params(const MethodParameters& p) {
@@ -115,7 +109,7 @@ class Ssphh final : public Method {
 MethodEntry entry() {
   return {"ssphh",
           "SPHLs lit by transport between surfels",
-          {{"places", 0, 0, 1, "of the probes: found, or the scene's own SPHLs", true, {"auto", "scene"}},
+          {word_parameter("places", {"auto", "scene"}, "of the probes: found, or the scene's own SPHLs"),
            {"spacing", 0, 0, 1e4, "between probes that are placed [m]; 0: some 100 to 200 probes"},
            {"probes", 0, 0, 4096, "so many are placed; 0: as the spacing gives", true},
            {"degree", 4, 0, 10, "highest band kept of a probe's light", true},

@@ -66,17 +66,15 @@ void Pyramid::filter_dense(int level) {
   Level& at = levels_[static_cast<std::size_t>(level)];
   const auto row = static_cast<std::size_t>(at.size.x);
   const auto rows = static_cast<std::size_t>(at.size.y) * static_cast<std::size_t>(at.size.z);
-  parallel_for(rows, 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t r = begin; r < end; ++r) {
-      const int y = static_cast<int>(r) % at.size.y, z = static_cast<int>(r) / at.size.y;
-      for (int x = 0; x < at.size.x; ++x) {
-        std::array<const Voxel*, 8> children;
-        for (int c = 0; c < 8; ++c) {
-          children[static_cast<std::size_t>(c)] = static_cast<const Pyramid*>(this)->find(
-              level - 1, {2 * x + (c & 1), 2 * y + (c >> 1 & 1), 2 * z + (c >> 2)});
-        }
-        at.voxels[r * row + static_cast<std::size_t>(x)] = join_voxels(children);
+  parallel_for(rows, 16, [&](std::size_t r) {
+    const int y = static_cast<int>(r) % at.size.y, z = static_cast<int>(r) / at.size.y;
+    for (int x = 0; x < at.size.x; ++x) {
+      std::array<const Voxel*, 8> children;
+      for (int c = 0; c < 8; ++c) {
+        children[static_cast<std::size_t>(c)] = static_cast<const Pyramid*>(this)->find(
+            level - 1, {2 * x + (c & 1), 2 * y + (c >> 1 & 1), 2 * z + (c >> 2)});
       }
+      at.voxels[r * row + static_cast<std::size_t>(x)] = join_voxels(children);
     }
   });
 }

@@ -17,13 +17,11 @@ std::size_t PatchLight::update(int group, const PatchSet& set, const rays::Direc
     return std::span(set.samples).subspan(patch.first_sample, patch.samples);
   };
   if (moved) {
-    parallel_for(wanted.size(), 1024, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        wanted[i] = std::ranges::any_of(samples_of(set.patches[i]), [&](const rays::SurfacePoint& point) {
-          return std::ranges::any_of(
-              *moved, [&](const scene::Bounds& box) { return light.may_shadow(group, point, box); });
-        });
-      }
+    parallel_for(wanted.size(), 1024, [&](std::size_t i) {
+      wanted[i] = std::ranges::any_of(samples_of(set.patches[i]), [&](const rays::SurfacePoint& point) {
+        return std::ranges::any_of(
+            *moved, [&](const scene::Bounds& box) { return light.may_shadow(group, point, box); });
+      });
     });
   }
   std::vector<rays::SurfacePoint> points;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ssphh/core/parallel.h>
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
 

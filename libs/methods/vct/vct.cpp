@@ -1,9 +1,7 @@
-#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
 
-#include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/methods/table.h>
 #include <ssphh/methods/vct/cone_light.h>
@@ -184,10 +182,7 @@ class Vct final : public Method {
     std::vector<vec3> still, moving;
     for (int b = 1; b < params_.bounces; ++b) {
       parallel_for(
-          gathered.size(), 32,
-          [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) gathered[i] = gather.irradiance(gather_.points[i]);
-          },
+          gathered.size(), 32, [&](std::size_t i) { gathered[i] = gather.irradiance(gather_.points[i]); },
           control);
       add(still_, gather_.of_still, still), add(moving_, gather_.of_moving, moving);
       fill(still, moving);
@@ -227,13 +222,8 @@ VctParams vct_params(const MethodParameters& p) {
 MethodEntry entry() {
   return {"vct",
           "voxel cone tracing: direct light on voxels, gathered by cones",
-          {{"resolution",
-            4,
-            0,
-            6,
-            "voxels along the scene's longest edge",
-            true,
-            {"8", "16", "32", "64", "128", "256", "512"}},
+          {word_parameter("resolution", {"8", "16", "32", "64", "128", "256", "512"},
+                          "voxels along the scene's longest edge", 4),
            choice_parameter("storage", Storage::sparse, "of the voxels: octree of bricks, or whole arrays"),
            {"bounces", 6, 1, 32, "of indirect light; 1: what directly lit surfaces scatter", true},
            {"cones", 16, 3, 4096, "over the hemisphere of a point that is lit", true},

@@ -87,17 +87,15 @@ void cut_mesh(const scene::Mesh& mesh, const mat4& to_world, const VoxelGrid& gr
   std::vector<std::vector<Fragment>> chunks((mesh.triangles.size() + grain - 1) / grain);
   parallel_for(
       chunks.size(), 1,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) {
-          for (std::size_t t = c * grain; t < std::min((c + 1) * grain, mesh.triangles.size()); ++t) {
-            std::array<vec3, 3> corners;
-            for (glm::length_t k = 0; k < 3; ++k) {
-              const vec3& p = mesh.positions[mesh.triangles[t][k]];
-              corners[static_cast<std::size_t>(k)] = grid.to_grid(vec3(to_world * vec4(p, 1)));
-            }
-            if (mirrored) std::swap(corners[1], corners[2]);
-            cut_triangle(grid, corners, chunks[c]);
+      [&](std::size_t c) {
+        for (std::size_t t = c * grain; t < std::min((c + 1) * grain, mesh.triangles.size()); ++t) {
+          std::array<vec3, 3> corners;
+          for (glm::length_t k = 0; k < 3; ++k) {
+            const vec3& p = mesh.positions[mesh.triangles[t][k]];
+            corners[static_cast<std::size_t>(k)] = grid.to_grid(vec3(to_world * vec4(p, 1)));
           }
+          if (mirrored) std::swap(corners[1], corners[2]);
+          cut_triangle(grid, corners, chunks[c]);
         }
       },
       control);

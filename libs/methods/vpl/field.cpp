@@ -74,14 +74,12 @@ vec3 VplField::glossy(const rays::SurfacePoint& at, const vec3& r, float roughne
 
 double VplField::lost_energy(std::span<const rays::SurfacePoint> points) const {
   std::vector<double> open(points.size()), kept(points.size());
-  parallel_for(points.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Receiver at{points[i].position, points[i].normal};
-      open[i] = static_cast<double>(
-          luminance(gather(points[i], [&](const Vpl& l) { return unbounded_transfer(at, l); })));
-      kept[i] = static_cast<double>(
-          luminance(gather(points[i], [&](const Vpl& l) { return transfer(at, l, params_); })));
-    }
+  parallel_for(points.size(), 1, [&](std::size_t i) {
+    const Receiver at{points[i].position, points[i].normal};
+    open[i] = static_cast<double>(
+        luminance(gather(points[i], [&](const Vpl& l) { return unbounded_transfer(at, l); })));
+    kept[i] = static_cast<double>(
+        luminance(gather(points[i], [&](const Vpl& l) { return transfer(at, l, params_); })));
   });
   double all = 0, left = 0;
   for (std::size_t i = 0; i < points.size(); ++i) all += open[i], left += kept[i];
@@ -91,13 +89,10 @@ double VplField::lost_energy(std::span<const rays::SurfacePoint> points) const {
 double VplField::mean_cut(std::span<const rays::SurfacePoint> points) const {
   if (tree_.empty()) return static_cast<double>(lights_.size());
   std::vector<int> lights(points.size());
-  parallel_for(points.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      lights[i] =
-          gather_cut(tree_, lights_, {points[i].position, points[i].normal},
-                     points[i].position + lift_ * points[i].normal, surfaces_, params_, cluster_error_)
-              .lights;
-    }
+  parallel_for(points.size(), 1, [&](std::size_t i) {
+    lights[i] = gather_cut(tree_, lights_, {points[i].position, points[i].normal},
+                           points[i].position + lift_ * points[i].normal, surfaces_, params_, cluster_error_)
+                    .lights;
   });
   double sum = 0;
   for (const int n : lights) sum += n;

@@ -3,7 +3,7 @@
 #include <ssphh/methods/table.h>
 
 #include "field.h"
-#include "points.h"
+#include "points_in_reach.h"
 
 namespace ssphh::methods::vpl {
 namespace {

@@ -13,10 +13,7 @@ namespace {
 std::vector<transport::ProbePlace> manual_places(const place::PlaceParams& params) {
   if (params.manual.empty())
     throw Error("light probes", "the scene has no SPHLs of its own", "let places=auto find some");
-  std::vector<transport::ProbePlace> places;
-  for (const scene::SphlPlace& place : params.manual)
-    places.push_back({place.name, place.position, place.radius});
-  return places;
+  return transport::places_of(params.manual);
 }
 
 std::vector<transport::ProbePlace> grid_places(const ProbeGrid& grid) {
@@ -40,10 +37,7 @@ std::vector<transport::ProbePlace> found_places(const MethodScene& scene, place:
                                                 const MethodParameters& p, const Control& control) {
   params.spacing = static_cast<float>(p.number("spacing"));
   params.count = p.integer("probes");
-  std::vector<transport::ProbePlace> places;
-  for (const place::PlacedProbe& probe : place::place_probes(scene.source, params, control).probes)
-    places.push_back({probe.name, probe.position, probe.radius});
-  return places;
+  return transport::places_of(place::place_probes(scene.source, params, control).probes);
 }
 
 std::vector<vec3> positions_of(const std::vector<transport::ProbePlace>& places) {
@@ -124,22 +118,12 @@ MethodNumbers ProbeVolume::numbers() const {
 
 std::vector<MethodParameter> probe_volume_parameters() {
   return {
-      {"places",
-       0,
-       0,
-       2,
-       "of the probes: found, the scene's own SPHLs, or a regular grid",
-       true,
-       {"auto", "scene", "grid"}},
+      word_parameter("places", {"auto", "scene", "grid"},
+                     "of the probes: found, the scene's own SPHLs, or a regular grid"),
       {"spacing", 0, 0, 1e4, "between probes that are placed [m]; 0: some 100 to 200 probes"},
       {"probes", 0, 0, 4096, "so many are placed, places of a grid counted; 0: as the spacing gives", true},
-      {"interpolation",
-       0,
-       0,
-       1,
-       "between the probes; trilinear on a grid only",
-       true,
-       {"tetrahedra", "trilinear"}},
+      word_parameter("interpolation", {"tetrahedra", "trilinear"},
+                     "between the probes; trilinear on a grid only"),
       {"surfel_size", 0, 0, 1e3, "edge of a surfel [m]; 0: a twentieth of the scene's radius"},
       {"directions", 384, 16, 65536, "rays of a probe", true}};
 }

@@ -4,7 +4,6 @@
 /// doors frame by frame.
 
 #include <cstddef>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>

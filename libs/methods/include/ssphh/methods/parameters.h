@@ -21,14 +21,19 @@ struct MethodParameter {
   std::vector<std::string> choices = {};  ///< the words, in place of numbers
 };
 
+/// The choice of one of some words, by default the one of this index.
+inline MethodParameter word_parameter(const char* name, std::vector<std::string> words, const char* about,
+                                      std::size_t index = 0) {
+  const auto most = static_cast<double>(words.size() - 1);
+  return {name, static_cast<double>(index), 0, most, about, true, std::move(words)};
+}
+
 /// The choice of an enum's value by its name.
 template <class E>
 MethodParameter choice_parameter(const char* name, E value, const char* about) {
-  MethodParameter parameter{name, 0, 0, 0, about, true, names_of<E>()};
-  const auto index = std::ranges::find(parameter.choices, name_of(value)) - parameter.choices.begin();
-  parameter.value = static_cast<double>(index);
-  parameter.most = static_cast<double>(parameter.choices.size() - 1);
-  return parameter;
+  const std::vector<std::string> names = names_of<E>();
+  return word_parameter(name, names, about,
+                        static_cast<std::size_t>(std::ranges::find(names, name_of(value)) - names.begin()));
 }
 
 class MethodParameters {

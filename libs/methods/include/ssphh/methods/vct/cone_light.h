@@ -1,8 +1,6 @@
 #pragma once
 /// Indirect light by tracing cones through voxels.
 
-#include <memory>
-
 #include <ssphh/methods/vct/cones.h>
 #include <ssphh/methods/vct/pyramid.h>
 #include <ssphh/rays/radiance_source.h>

@@ -1,7 +1,6 @@
 #pragma once
 /// Voxels of all levels: a sparse octree of bricks, or whole arrays.
 
-#include <memory>
 #include <span>
 #include <vector>
 

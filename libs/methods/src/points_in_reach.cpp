@@ -1,4 +1,4 @@
-#include "points.h"
+#include "points_in_reach.h"
 
 #include <ssphh/place/place.h>
 #include <ssphh/rays/posed_world.h>
