@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 
 #include <ssphh/gl/framebuffer.h>
-#include <ssphh/gl/read_pixels.h>
 
 #include "change_lighting.h"
 #include "gl_context.h"

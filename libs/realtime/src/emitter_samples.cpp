@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <ssphh/image/sphere_map.h>
 #include <ssphh/image/transfer.h>
@@ -36,7 +35,7 @@ std::vector<Place> points_by_area(const scene::Mesh& mesh, const mat4& to_world,
   if (!(total > 0)) return places;
   for (int i = 0; i < count; ++i) {
     const double at = total * (i + 0.5) / count;
-    const auto found = std::lower_bound(sum.begin(), sum.end(), at);
+    const auto found = std::ranges::lower_bound(sum, at);
     const auto t = static_cast<std::size_t>(
         std::min<std::ptrdiff_t>(found - sum.begin(), static_cast<std::ptrdiff_t>(sum.size()) - 1));
     const uvec3& triangle = mesh.triangles[t];
@@ -76,7 +75,7 @@ std::vector<AreaPoint> spread_points(const scene::Mesh& mesh, const mat4& to_wor
   std::vector<int> members(centers.size());
   for (int round = 0; round < rounds; ++round) {
     std::vector<Place> sums(centers.size(), {vec3(0), vec3(0)});
-    std::fill(members.begin(), members.end(), 0);
+    std::ranges::fill(members, 0);
     for (const Place& p : places) {
       std::size_t best = 0;
       for (std::size_t c = 1; c < centers.size(); ++c) {
@@ -97,10 +96,9 @@ std::vector<AreaPoint> spread_points(const scene::Mesh& mesh, const mat4& to_wor
   std::vector<AreaPoint> points;
   for (std::size_t c = 0; c < centers.size(); ++c) {
     if (members[c] == 0) continue;
-    const Place& nearest =
-        *std::min_element(places.begin(), places.end(), [&](const Place& a, const Place& b) {
-          return a.distance2(centers[c], turn) < b.distance2(centers[c], turn);
-        });
+    const Place& nearest = *std::ranges::min_element(places, [&](const Place& a, const Place& b) {
+      return a.distance2(centers[c], turn) < b.distance2(centers[c], turn);
+    });
     const vec3 normal = glm::normalize(glm::transpose(mat3(to_world)) * nearest.normal);
     points.push_back({vec3(back * vec4(nearest.world, 1)), normal,
                       static_cast<float>(members[c]) / static_cast<float>(places.size())});

@@ -93,15 +93,13 @@ TileAtlas environment_tiles(const scene::Environment& environment) {
   constexpr float own = 4 * pi / (tile_size * tile_size);
   std::vector<vec4> texels(static_cast<std::size_t>(side) * side);
   for (std::size_t level = 0; level < environment_roughness.size(); ++level) {
-    parallel_for(side, 8, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t row = begin; row < end; ++row) {
-        for (std::size_t column = 0; column < side; ++column) {
-          const vec2 place(2 * static_cast<float>(column) - 1, 2 * static_cast<float>(row) - 1);
-          const vec3 d = octahedral_direction(place / static_cast<float>(tile_size) - 1.0f);
-          const vec3 radiance = level == 0 ? pyramid.radiance(d, own)
-                                           : seen_through_lobe(pyramid, d, environment_roughness[level]);
-          texels[row * side + column] = vec4(glm::min(radiance, vec3(largest_half)), 0);
-        }
+    parallel_for(side, 8, [&](std::size_t row) {
+      for (std::size_t column = 0; column < side; ++column) {
+        const vec2 place(2 * static_cast<float>(column) - 1, 2 * static_cast<float>(row) - 1);
+        const vec3 d = octahedral_direction(place / static_cast<float>(tile_size) - 1.0f);
+        const vec3 radiance = level == 0 ? pyramid.radiance(d, own)
+                                         : seen_through_lobe(pyramid, d, environment_roughness[level]);
+        texels[row * side + column] = vec4(glm::min(radiance, vec3(largest_half)), 0);
       }
     });
     atlas.upload(static_cast<int>(level), texels);

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <glm/gtc/packing.hpp>
 
-#include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/sh/evaluate.h>
 

@@ -1,22 +1,12 @@
 #include <algorithm>
-#include <chrono>
 
 #include <ssphh/core/log.h>
+#include <ssphh/core/stopwatch.h>
 
 #include "frame_block.h"
 #include "renderer_data.h"
 
 namespace ssphh::realtime {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-}  // namespace
-
 void Renderer::Data::reload_changed_shaders() {
   if (!files.on_disk()) return;
   const auto newest = files.newest_change();
@@ -36,7 +26,7 @@ const FrameStats& Renderer::draw(const scene::CameraPose& camera, const FrameSet
                                  const Target& target) {
   Data& d = *data_;
   if (target.width < 1 || target.height < 1) throw Error("frame size", "width and height must be positive");
-  const auto start = Clock::now();
+  const Stopwatch watch;
   d.reload_changed_shaders();
   d.stats.passes.clear();
   d.stats.shadow_maps_waiting = 0;
@@ -94,7 +84,7 @@ const FrameStats& Renderer::draw(const scene::CameraPose& camera, const FrameSet
   d.stats.triangles = d.counters.triangles;
   d.stats.bytes_uploaded = d.counters.bytes_uploaded;
   d.counters = {};
-  d.stats.cpu_ms = ms_since(start);
+  d.stats.cpu_ms = watch.milliseconds();
   d.context.throw_on_error("drawing a frame");
   return d.stats;
 }

@@ -172,7 +172,7 @@ void GpuScene::classify(const std::vector<scene::Material>& materials) {
     item.surface_class = classes_[static_cast<std::size_t>(item.material)];
     any_full_ |= item.surface_class == surface_class::full;
   }
-  std::stable_sort(items_.begin(), items_.end(), [](const DrawItem& a, const DrawItem& b) {
+  std::ranges::stable_sort(items_, [](const DrawItem& a, const DrawItem& b) {
     return std::tuple(a.partial, a.textures, a.surface_class, a.material) <
            std::tuple(b.partial, b.textures, b.surface_class, b.material);
   });

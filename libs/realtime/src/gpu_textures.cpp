@@ -4,15 +4,9 @@ namespace ssphh::realtime {
 namespace {
 
 gl::Address address(scene::Wrap wrap) {
-  switch (wrap) {
-    case scene::Wrap::repeat:
-      return gl::Address::repeat;
-    case scene::Wrap::mirror:
-      return gl::Address::mirror;
-    case scene::Wrap::clamp:
-      break;
-  }
-  return gl::Address::clamp;
+  return wrap == scene::Wrap::repeat   ? gl::Address::repeat
+         : wrap == scene::Wrap::mirror ? gl::Address::mirror
+                                       : gl::Address::clamp;
 }
 
 }  // namespace

@@ -7,6 +7,10 @@
 
 namespace ssphh::realtime {
 
+/// Of a method's light: variants of method.glsl.
+enum class MethodKind : int { cones, virtual_lights };
+inline constexpr int method_kinds = 2;
+
 using glm::ivec4;
 using glm::uvec4;
 

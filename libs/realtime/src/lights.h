@@ -2,7 +2,6 @@
 /// All emitters of a scene as shaders see them, and the shadow maps they need.
 
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 

@@ -6,7 +6,6 @@
 #include <ssphh/methods/method.h>
 #include <ssphh/realtime/renderer.h>
 
-#include "method_kind.h"
 #include "shadow_maps.h"
 
 namespace ssphh::realtime {

@@ -42,7 +42,7 @@ void TileBasis::evaluate(std::span<const vec3> coefficients, std::span<const flo
                          std::span<vec4> out) const {
   const std::size_t n = texels();
   SSPHH_CHECK(out.size() == n && band_factors.size() > static_cast<std::size_t>(degree_));
-  std::fill(out.begin(), out.end(), vec4(0));
+  std::ranges::fill(out, vec4(0));
   for (int l = 0; l <= degree_; ++l) {
     const float factor = band_factors[static_cast<std::size_t>(l)];
     for (int k = l * l; k < (l + 1) * (l + 1); ++k) {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <ssphh/core/math.h>
 #include <ssphh/gl/texture.h>
-#include <ssphh/sh/coefficients.h>
 
 #include "tile_layout.h"
 

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -6,9 +5,9 @@
 #include <ssphh/core/require.h>
 #include <ssphh/realtime/renderer.h>
 
+#include "albedo_texture.h"
 #include "renderer_data.h"
 #include "shader_table.h"
-#include "tables.h"
 
 namespace ssphh::realtime {
 namespace {

@@ -25,39 +25,33 @@ std::string lookup_constants() {
 
 }  // namespace
 
-gl::Program& Shaders::get(Slot& slot, const char* vertex, const char* fragment, const std::string& defines) {
-  if (!slot) {
-    slot.emplace(*files_, vertex, fragment, defines);
-    warnings_ += slot->warnings();
-  }
+gl::Program& Shaders::compiled(Slot& slot, gl::Program program) {
+  slot = std::move(program);
+  warnings_ += slot->warnings();
   return *slot;
 }
 
 gl::Program& Shaders::geometry(int textures) {
-  Slot& slot = geometry_[textures];
-  if (slot) return *slot;
-  std::string defines;
-  for (int i = 0; i < 4; ++i) defines += define(texture_names[i], (textures >> i & 1) != 0);
-  return get(slot, "gbuffer.vert", "gbuffer.frag", defines);
+  return get(geometry_[textures], "gbuffer.vert", "gbuffer.frag", [&] {
+    std::string defines;
+    for (int i = 0; i < 4; ++i) defines += define(texture_names[i], (textures >> i & 1) != 0);
+    return defines;
+  });
 }
 
 gl::Program& Shaders::shadow(bool alpha) {
-  return shadow_[alpha] ? *shadow_[alpha]
-                        : get(shadow_[alpha], "shadow.vert", "shadow.frag", define("ALPHA", alpha));
+  return get(shadow_[alpha], "shadow.vert", "shadow.frag", [&] { return define("ALPHA", alpha); });
 }
 
 gl::Program& Shaders::depth_bounds(bool first) {
-  return depth_bounds_[first]
-             ? *depth_bounds_[first]
-             : get(depth_bounds_[first], fullscreen, "depth_bounds.frag", define("FIRST", first));
+  return get(depth_bounds_[first], fullscreen, "depth_bounds.frag", [&] { return define("FIRST", first); });
 }
 
 gl::Program& Shaders::direct(EmitterKind kind, bool full, bool shadow_view) {
   const auto k = static_cast<int>(kind);
-  Slot& slot = direct_[k][full][shadow_view];
-  if (slot) return *slot;
-  return get(slot, fullscreen, "direct.frag",
-             define(kind_names[k]) + define("FULL_BSDF", full) + define("SHADOW_VIEW", shadow_view));
+  return get(direct_[k][full][shadow_view], fullscreen, "direct.frag", [&] {
+    return define(kind_names[k]) + define("FULL_BSDF", full) + define("SHADOW_VIEW", shadow_view);
+  });
 }
 
 gl::Program& Shaders::indirect_pass(Slot& slot, const char* file, bool full, IndirectOutput output,
@@ -66,10 +60,8 @@ gl::Program& Shaders::indirect_pass(Slot& slot, const char* file, bool full, Ind
                           define("TO_IMAGES", output == IndirectOutput::images) +
                           define("LISTED", output == IndirectOutput::listed) +
                           define("CHOSEN_VIEW", output == IndirectOutput::chosen);
-  if (output != IndirectOutput::listed) return get(slot, fullscreen, file, all);
-  slot = gl::Program::compute(*files_, file, all);
-  warnings_ += slot->warnings();
-  return *slot;
+  return compiled(slot, output == IndirectOutput::listed ? gl::Program::compute(*files_, file, all)
+                                                         : gl::Program(*files_, fullscreen, file, all));
 }
 
 gl::Program& Shaders::indirect(IndirectLookup lookup, bool full, IndirectOutput output) {
@@ -84,13 +76,11 @@ gl::Program& Shaders::indirect(IndirectLookup lookup, bool full, IndirectOutput 
 }
 
 gl::Program& Shaders::agree(bool full) {
-  return agree_[full] ? *agree_[full]
-                      : get(agree_[full], fullscreen, "agree.frag", define("FULL_BSDF", full));
+  return get(agree_[full], fullscreen, "agree.frag", [&] { return define("FULL_BSDF", full); });
 }
 
 gl::Program& Shaders::interpolate(bool full) {
-  Slot& slot = interpolate_[full];
-  return slot ? *slot : get(slot, fullscreen, "interpolate.frag", define("FULL_BSDF", full));
+  return get(interpolate_[full], fullscreen, "interpolate.frag", [&] { return define("FULL_BSDF", full); });
 }
 
 gl::Program& Shaders::method(MethodKind kind, bool full, IndirectOutput output) {
@@ -101,7 +91,7 @@ gl::Program& Shaders::method(MethodKind kind, bool full, IndirectOutput output) 
 
 gl::Program& Shaders::seen(EmitterKind kind) {
   const auto k = static_cast<int>(kind);
-  return seen_[k] ? *seen_[k] : get(seen_[k], fullscreen, "seen.frag", define(kind_names[k]));
+  return get(seen_[k], fullscreen, "seen.frag", [&] { return define(kind_names[k]); });
 }
 
 std::string Shaders::compile_all() {

@@ -2,14 +2,12 @@
 /// All programs of the renderer. Variants are compiled when first wanted, for there are many and a scene
 /// needs few.
 
-#include <array>
 #include <optional>
 
 #include <ssphh/gl/program.h>
 #include <ssphh/probes/lookup.h>
 
 #include "gpu_types.h"
-#include "method_kind.h"
 
 namespace ssphh::realtime {
 
@@ -37,16 +35,16 @@ class Shaders {
   gl::Program& indirect(IndirectLookup lookup, bool full, IndirectOutput output);
   /// Whether pixels of images agree, which pixels between may be interpolated, and the light of those.
   gl::Program& agree(bool full);
-  gl::Program& mark() { return get(mark_, fullscreen, "mark.frag"); }
+  gl::Program& mark() { return get(mark_, "mark.frag"); }
   gl::Program& interpolate(bool full);
   /// Light of a method that keeps none in SPHLs.
   gl::Program& method(MethodKind kind, bool full, IndirectOutput output);
-  gl::Program& occlusion() { return get(occlusion_, fullscreen, "occlusion.frag"); }
+  gl::Program& occlusion() { return get(occlusion_, "occlusion.frag"); }
   /// An emitter that is no surface, as the eye sees it.
   gl::Program& seen(EmitterKind kind);
-  gl::Program& view() { return get(view_, fullscreen, "view.frag"); }
-  gl::Program& resolve() { return get(resolve_, fullscreen, "resolve.frag"); }
-  gl::Program& display() { return get(display_, fullscreen, "display.frag"); }
+  gl::Program& view() { return get(view_, "view.frag"); }
+  gl::Program& resolve() { return get(resolve_, "resolve.frag"); }
+  gl::Program& display() { return get(display_, "display.frag"); }
 
   /// Compiles whatever is not yet; what compilers said beside errors.
   std::string compile_all();
@@ -54,7 +52,14 @@ class Shaders {
  private:
   using Slot = std::optional<gl::Program>;
   static constexpr const char* fullscreen = "fullscreen.vert";
-  gl::Program& get(Slot& slot, const char* vertex, const char* fragment, const std::string& defines = {});
+  gl::Program& compiled(Slot& slot, gl::Program program);
+  template <class Defines>
+  gl::Program& get(Slot& slot, const char* vertex, const char* fragment, const Defines& defines) {
+    return slot ? *slot : compiled(slot, gl::Program(*files_, vertex, fragment, defines()));
+  }
+  gl::Program& get(Slot& slot, const char* fragment) {
+    return get(slot, fullscreen, fragment, [] { return std::string(); });
+  }
 
   gl::Program& indirect_pass(Slot& slot, const char* file, bool full, IndirectOutput output,
                              const std::string& defines);

@@ -1,8 +1,5 @@
 #include "shadow_maps.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <ssphh/gl/draw.h>
 
 namespace ssphh::realtime {
@@ -68,8 +65,7 @@ void MapAtlas::set_view(int tile, const MapView& view, bool used) {
 void MapAtlas::invalidate(const std::vector<scene::Bounds>& moved) {
   for (std::size_t t = 0; t < fresh_.size(); ++t) {
     if (fresh_[t] != fresh) continue;
-    const bool seen =
-        std::any_of(moved.begin(), moved.end(), [&](const auto& box) { return sees_box(views_[t], box); });
+    const bool seen = std::ranges::any_of(moved, [&](const auto& box) { return sees_box(views_[t], box); });
     if (seen) fresh_[t] = stale, ++stale_;
   }
 }

@@ -9,7 +9,6 @@
 ///   const image::Image picture = renderer.read_back();
 
 #include <filesystem>
-#include <memory>
 #include <span>
 #include <string>
 

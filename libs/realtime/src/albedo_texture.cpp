@@ -1,4 +1,4 @@
-#include "tables.h"
+#include "albedo_texture.h"
 
 #include <vector>
 

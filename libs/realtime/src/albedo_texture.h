@@ -1,5 +1,5 @@
 #pragma once
-/// Small lookup tables that shaders share with the CPU's shading.
+/// The directional albedo of the specular lobes as a texture, so that shaders and the CPU's shading share it.
 
 #include <ssphh/gl/texture.h>
 
