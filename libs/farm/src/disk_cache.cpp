@@ -36,10 +36,6 @@ std::vector<Entry> list(const fs::path& dir) {
   return entries;
 }
 
-Hash128 hash_of(std::span<const std::byte> value) {
-  return Hasher().bytes(value).finish();
-}
-
 }  // namespace
 
 DiskCache::DiskCache(fs::path dir, std::uint64_t max_bytes) : dir_(std::move(dir)), max_bytes_(max_bytes) {
@@ -78,7 +74,7 @@ std::optional<std::vector<std::byte>> DiskCache::get(const Hash128& key) {
   const bool whole = data.size() >= sizeof(Hash128);
   if (whole) std::memcpy(&stored, data.data() + data.size() - sizeof(Hash128), sizeof(Hash128));
   const std::lock_guard lock(mutex_);
-  if (!whole || hash_of(std::span(data).first(data.size() - sizeof(Hash128))) != stored) {
+  if (!whole || Hasher().bytes(std::span(data).first(data.size() - sizeof(Hash128))).finish() != stored) {
     std::error_code ignored;
     fs::remove(file, ignored);
     ++counts_.damaged;
@@ -99,7 +95,7 @@ void DiskCache::put(const Hash128& key, std::span<const std::byte> value) {
   }
   std::vector<std::byte> data(value.size() + sizeof(Hash128));
   if (!value.empty()) std::memcpy(data.data(), value.data(), value.size());
-  const Hash128 hash = hash_of(value);
+  const Hash128 hash = Hasher().bytes(value).finish();
   std::memcpy(data.data() + value.size(), &hash, sizeof(hash));
   {
     const std::lock_guard lock(mutex_);

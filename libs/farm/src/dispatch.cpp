@@ -1,4 +1,3 @@
-#include <chrono>
 #include <numeric>
 #include <unordered_map>
 
@@ -6,6 +5,7 @@
 
 #include <ssphh/core/json.h>
 #include <ssphh/core/log.h>
+#include <ssphh/core/stopwatch.h>
 #include <ssphh/farm/dispatch.h>
 #include <ssphh/farm/engine.h>
 #include <ssphh/farm/job_cutter.h>
@@ -13,7 +13,6 @@
 namespace ssphh::farm {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using majordomo::ClientEvent;
 using majordomo::RequestId;
 
@@ -36,19 +35,18 @@ class Dispatcher {
   }
 
   void run(const Control& control) {
-    const auto start = Clock::now();
-    auto asked = start - std::chrono::hours(1);
+    std::optional<Stopwatch> asked;
     while (left_ > 0) {
       control.check();
-      if (Clock::now() - asked > std::chrono::seconds(1) && !asking_) {
+      if ((!asked || asked->seconds() > 1) && !asking_) {
         majordomo::RequestOptions request;
         request.deadline = 5000;
         asking_ = client_.submit("mmi.stats", {""}, request);
-        asked = Clock::now();
+        asked.emplace();
       }
       submit_more();
       if (auto event = client_.poll(look)) take(std::move(*event));
-      complain(start);
+      complain();
     }
   }
 
@@ -128,8 +126,8 @@ class Dispatcher {
   }
 
   /// Says once what it waits for.
-  void complain(Clock::time_point start) {
-    if (complained_ || heard_ || Clock::now() - start < patience_) return;
+  void complain() {
+    if (complained_ || heard_ || watch_.seconds() < patience_) return;
     if (!client_.connected()) {
       log_warning("the broker does not answer yet; still trying");
     } else if (known_ && workers_ == 0) {
@@ -143,12 +141,13 @@ class Dispatcher {
   const std::vector<UnitGroup>& groups_;
   FarmReport& report_;
   const std::function<void(std::size_t, const FarmReport&)>& finished_;
-  std::chrono::duration<double> patience_;
+  double patience_;
   majordomo::Client client_;
   std::vector<std::size_t> next_;  ///< first unit of each group that no job has
   std::vector<JobCutter> cutters_;
   std::unordered_map<RequestId, Sent> sent_;
   std::optional<RequestId> asking_;
+  Stopwatch watch_;
   std::size_t left_ = 0;
   int workers_ = 0;
   bool known_ = false, heard_ = false, complained_ = false;
@@ -158,9 +157,9 @@ class Dispatcher {
 
 void dispatch(const FarmOptions& options, const std::vector<UnitGroup>& groups, FarmReport& report,
               const std::function<void(std::size_t, const FarmReport&)>& finished, const Control& control) {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   Dispatcher(options, groups, report, finished).run(control);
-  report.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+  report.seconds += watch.seconds();
 }
 
 }  // namespace ssphh::farm

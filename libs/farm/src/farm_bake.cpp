@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <ssphh/core/log.h>
 #include <ssphh/farm/farm_bake.h>
 #include <ssphh/scene/query.h>
 

@@ -69,10 +69,8 @@ ProbeJob get_probe_job(const Field& f, bake::BakeStage stage) {
   const Field viz = f["viz"];
   job.viz_params = {viz["matrix"].boolean(), static_cast<int>(viz["neighbors"].integer(-1, INT32_MAX)),
                     viz["threshold"].number()};
-  const Field probes = f["probes"];
-  const std::size_t count = probes.size(0, job_limits::units);
-  for (std::size_t i = 0; i < count; ++i)
-    job.probes.push_back(static_cast<std::uint32_t>(probes[i].integer(0, job_limits::places - 1)));
+  for (const Field& probe : json::elements(f["probes"], 0, job_limits::units))
+    job.probes.push_back(static_cast<std::uint32_t>(probe.integer(0, job_limits::places - 1)));
   const Field places = f["places"];
   const std::size_t floats = places.float_count();
   if (floats % 4 != 0 || floats > 4 * job_limits::places)
@@ -119,9 +117,8 @@ bake::ProbeStageResult get_probe(const Field& f, bake::BakeStage stage, int degr
     result.edges = probes::read_edges(FieldParts(f["edges"]), degree, result.done.probe, job_limits::places);
     return result;
   }
-  const Field groups = f["groups"];
-  for (std::size_t g = 0, count = groups.size(0, 256); g < count; ++g)
-    result.groups.push_back(probes::read_light(FieldParts(groups[g]), degree));
+  for (const Field& group : json::elements(f["groups"], 0, 256))
+    result.groups.push_back(probes::read_light(FieldParts(group), degree));
   return result;
 }
 
@@ -186,13 +183,11 @@ TileJob get_tile_job(const Field& f) {
   p.camera.camera.yheight = camera["yheight"].number();
   p.projection = f["projection"].named<trace::Projection>();
   p.path = get_path(f["path"]);
-  const Field layers = f["layers"];
-  for (std::size_t i = 0, n = layers.size(0, layer_names().size()); i < n; ++i)
-    job.layers.push_back(layers[i].text(32));
+  for (const Field& layer : json::elements(f["layers"], 0, layer_names().size()))
+    job.layers.push_back(layer.text(32));
   p.per_group = !job.layers.empty() && job.layers.back() == "groups";
-  const Field tiles = f["tiles"];
-  for (std::size_t i = 0, n = tiles.size(0, job_limits::units); i < n; ++i)
-    job.tiles.push_back(get_tile(tiles[i]));
+  for (const Field& tile : json::elements(f["tiles"], 0, job_limits::units))
+    job.tiles.push_back(get_tile(tile));
   if (const auto l = f.find("lighting")) {
     job.lighting = {(*l)["probes"].hash(),
                     static_cast<std::uint64_t>((*l)["bytes"].integer(1, std::int64_t{1} << 40)),
@@ -245,10 +240,8 @@ TileResult get_tile_result(const Field& f) {
   take("color", state.color, 3), take("direct", state.direct, 3), take("indirect", state.indirect, 3);
   take("albedo", state.albedo, 3), take("normal", state.normal, 3), take("depth", state.depth, 1);
   take("coverage", state.coverage, 1);
-  if (const auto groups = layers.find("groups")) {
-    for (std::size_t g = 0, n = groups->size(0, 256); g < n; ++g)
-      state.groups.push_back(read((*groups)[g], 3));
-  }
+  if (const auto groups = layers.find("groups"))
+    for (const Field& group : json::elements(*groups, 0, 256)) state.groups.push_back(read(group, 3));
   return result;
 }
 
@@ -309,16 +302,14 @@ JobResult decode_result(std::string_view body) {
   const auto kind = root["kind"].named<JobKind>();
   if (kind == JobKind::ref) {
     auto& tiles = result.data.emplace<TileJobResult>().tiles;
-    const Field list = root["tiles"];
-    for (std::size_t i = 0, n = list.size(0, job_limits::units); i < n; ++i)
-      tiles.push_back(get_tile_result(list[i]));
+    for (const Field& tile : json::elements(root["tiles"], 0, job_limits::units))
+      tiles.push_back(get_tile_result(tile));
   } else {
     auto& probes = result.data.emplace<ProbeJobResult>();
     probes.stage = stage_of(kind);
     probes.degree = static_cast<int>(root["degree"].integer(0, sh::max_degree));
-    const Field list = root["probes"];
-    for (std::size_t i = 0, n = list.size(0, job_limits::units); i < n; ++i)
-      probes.probes.push_back(get_probe(list[i], probes.stage, probes.degree));
+    for (const Field& probe : json::elements(root["probes"], 0, job_limits::units))
+      probes.probes.push_back(get_probe(probe, probes.stage, probes.degree));
   }
   const Field stats = root["stats"];
   result.stats = {stats["seconds"].precise_number(),

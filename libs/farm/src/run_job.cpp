@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <chrono>
 
+#include <ssphh/core/stopwatch.h>
 #include <ssphh/farm/run_job.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/probes/probe_file.h>
@@ -77,7 +77,7 @@ JobResult run_job(const Job& job, SceneStore& scenes, const FetchChunk& fetch, c
   const SceneRef& ref = std::visit([](const auto& j) -> const SceneRef& { return j.scene; }, job);
   const std::shared_ptr<const PreparedScene> scene = scenes.get(ref, fetch, control);
   const std::uint64_t rays_before = scene->tracer->rays_traced();
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   JobResult result;
   if (const auto* probes = std::get_if<ProbeJob>(&job)) {
     result.data = run(*probes, *scene, control);
@@ -92,7 +92,7 @@ JobResult run_job(const Job& job, SceneStore& scenes, const FetchChunk& fetch, c
     }
     result.data = run(tiles, *scene, lookup.get(), control);
   }
-  result.stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.stats.seconds = watch.seconds();
   result.stats.rays = scene->tracer->rays_traced() - rays_before;
   return result;
 }

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <ssphh/core/log.h>
+#include <ssphh/core/stopwatch.h>
 #include <ssphh/farm/engine.h>
 #include <ssphh/farm/job_codec.h>
 #include <ssphh/farm/run_job.h>
@@ -13,12 +14,6 @@
 
 namespace ssphh::farm {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::string host_and_pid() {
   char host[256] = "host";
@@ -47,9 +42,9 @@ class Pool {
   }
 
   WorkerPoolReport run(const Control& control) {
-    const auto start = Clock::now();
+    const Stopwatch watch;
     for (const auto& slot : slots_) slot->thread = std::thread([this, s = slot.get()] { serve(*s); });
-    while (!control.cancelled() && !idle_for_long(start) && !failed_ && left_ < options_.slots)
+    while (!control.cancelled() && !idle_for_long() && !failed_ && left_ < options_.slots)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     for (const auto& slot : slots_) slot->worker.stop();
     WorkerPoolReport report;
@@ -58,7 +53,7 @@ class Pool {
       report.jobs += slot->worker.served();
       report.busy_seconds += slot->busy;
     }
-    report.seconds = seconds_since(start);
+    report.seconds = watch.seconds();
     if (failed_) throw Error(options_.broker.endpoint, failure_);
     return report;
   }
@@ -84,18 +79,17 @@ class Pool {
   }
 
   majordomo::Frames run_one(Slot& slot, const majordomo::Job& request) {
-    const auto start = Clock::now();
     running_ += 1;
     struct Done {
       Pool& pool;
       Slot& slot;
-      Clock::time_point start;
+      Stopwatch watch = {};
       ~Done() {
-        slot.busy += seconds_since(start);
-        pool.last_job_ = Clock::now().time_since_epoch().count();
+        slot.busy += watch.seconds();
+        pool.last_job_ = pool.watch_.seconds();
         pool.running_ -= 1;
       }
-    } done{*this, slot, start};
+    } done{*this, slot};
     const std::string& body = request.body.at(0);
     try {
       const Job job = decode_job(body);
@@ -116,10 +110,8 @@ class Pool {
     }
   }
 
-  bool idle_for_long(Clock::time_point start) const {
-    if (options_.idle_exit <= 0 || running_ > 0) return false;
-    const Clock::time_point last{Clock::duration(last_job_.load())};
-    return seconds_since(std::max(last, start)) > options_.idle_exit;
+  bool idle_for_long() const {
+    return options_.idle_exit > 0 && running_ == 0 && watch_.seconds() - last_job_ > options_.idle_exit;
   }
 
   const WorkerPoolOptions& options_;
@@ -127,7 +119,8 @@ class Pool {
   SceneStore scenes_;
   std::vector<std::unique_ptr<Slot>> slots_;
   std::atomic<int> running_{0};
-  std::atomic<Clock::rep> last_job_{0};
+  Stopwatch watch_;
+  std::atomic<double> last_job_{0};  ///< by watch_, when it ended
   std::atomic<bool> failed_{false};
   std::atomic<int> left_{0};
   std::mutex failure_mutex_;

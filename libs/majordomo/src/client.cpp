@@ -158,8 +158,7 @@ std::optional<ClientEvent> Client::poll(Millis timeout) {
 }
 
 std::size_t Client::outstanding() const {
-  const auto kept =
-      std::count_if(impl_->kept.begin(), impl_->kept.end(), [](const ClientEvent& e) { return e.final; });
+  const auto kept = std::ranges::count_if(impl_->kept, [](const ClientEvent& e) { return e.final; });
   return impl_->core.outstanding() + static_cast<std::size_t>(kept);
 }
 

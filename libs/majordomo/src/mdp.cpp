@@ -10,40 +10,14 @@ constexpr std::string_view headers[2][2] = {{"MDPC01", "MDPW01"}, {"MDPC02", "MD
 
 // 0 is no command byte in any version; the client's side of 0.1 has none at all.
 constexpr char no_code = 0;
-char code_of(Version version, Side side, Command command) {
-  if (side == Side::client) {
-    if (version == Version::v01) return no_code;
-    switch (command) {
-      case Command::request:
-        return 1;
-      case Command::partial:
-        return 2;
-      case Command::reply:
-        return 3;
-      default:
-        return no_code;
-    }
-  }
-  const bool old = version == Version::v01;
-  switch (command) {
-    case Command::ready:
-      return 1;
-    case Command::request:
-      return 2;
-    case Command::partial:
-      return old ? no_code : 3;
-    case Command::reply:
-      return old ? 3 : 4;
-    case Command::heartbeat:
-      return old ? 4 : 5;
-    case Command::disconnect:
-      return old ? 5 : 6;
-  }
-  return no_code;
-}
-
 constexpr std::array commands = {Command::ready, Command::request,   Command::partial,
                                  Command::reply, Command::heartbeat, Command::disconnect};
+constexpr char codes[2][2][commands.size()] = {{{}, {1, 2, no_code, 3, 4, 5}},  // [version][side][command]
+                                               {{no_code, 1, 2, 3, no_code, no_code}, {1, 2, 3, 4, 5, 6}}};
+
+char code_of(Version version, Side side, Command command) {
+  return codes[static_cast<int>(version)][static_cast<int>(side)][static_cast<int>(command)];
+}
 
 std::optional<Command> command_of(Version version, Side side, const Frame& frame) {
   if (frame.size() != 1 || frame[0] == no_code) return std::nullopt;
@@ -54,16 +28,8 @@ std::optional<Command> command_of(Version version, Side side, const Frame& frame
 
 bool may_send(Side side, Command command, Direction direction) {
   if (side == Side::client) return (command == Command::request) == (direction == Direction::to_broker);
-  switch (command) {
-    case Command::request:
-      return direction == Direction::to_peer;
-    case Command::ready:
-    case Command::partial:
-    case Command::reply:
-      return direction == Direction::to_broker;
-    default:
-      return true;
-  }
+  if (command == Command::heartbeat || command == Command::disconnect) return true;
+  return (command == Command::request) == (direction == Direction::to_peer);
 }
 
 void move_body(Frames& frames, std::size_t from, Frames& body) {

@@ -18,7 +18,7 @@ constexpr std::uint64_t key_file_bytes = 4096;
 constexpr std::uint64_t allow_list_bytes = 16 << 20;
 
 bool is_name(std::string_view name) {
-  return !name.empty() && name.size() <= 100 && std::all_of(name.begin(), name.end(), [](char c) {
+  return !name.empty() && name.size() <= 100 && std::ranges::all_of(name, [](char c) {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' ||
            c == '_' || c == '-';
   });
@@ -97,7 +97,7 @@ std::string read_public_key(const fs::path& path) {
 }
 
 bool Rights::may_serve(std::string_view service) const {
-  return std::any_of(services.begin(), services.end(), [&](const std::string& pattern) {
+  return std::ranges::any_of(services, [&](const std::string& pattern) {
     return pattern.ends_with('*')
                ? service.starts_with(std::string_view(pattern).substr(0, pattern.size() - 1))
                : service == pattern;
@@ -156,7 +156,7 @@ bool is_local_endpoint(std::string_view endpoint) {
   host = host.substr(0, host.rfind(':'));
   if (host == "localhost" || host == "[::1]" || host == "::1") return true;
   if (!host.starts_with("127.")) return false;
-  return std::all_of(host.begin(), host.end(), [](char c) { return c == '.' || (c >= '0' && c <= '9'); });
+  return std::ranges::all_of(host, [](char c) { return c == '.' || (c >= '0' && c <= '9'); });
 }
 
 void require_keys(std::string_view endpoint, bool have_keys, const std::string& option) {

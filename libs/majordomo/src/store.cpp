@@ -108,10 +108,9 @@ Store::Store(const std::filesystem::path& dir) : path_(dir / "requests.sqlite") 
     if (const auto found = version.integer(0); found == 0) {
       execute(
           "CREATE TABLE request (sequence INTEGER PRIMARY KEY, id TEXT UNIQUE NOT NULL, service TEXT NOT "
-          "NULL,"
-          " body BLOB NOT NULL, attempt_timeout INTEGER NOT NULL, finished INTEGER NOT NULL DEFAULT 0,"
-          " outcome INTEGER NOT NULL DEFAULT 0, reason TEXT NOT NULL DEFAULT '', attempts INTEGER NOT NULL"
-          " DEFAULT 0, reply BLOB); PRAGMA user_version = 1;");
+          "NULL, body BLOB NOT NULL, attempt_timeout INTEGER NOT NULL, finished INTEGER NOT NULL DEFAULT 0, "
+          "outcome INTEGER NOT NULL DEFAULT 0, reason TEXT NOT NULL DEFAULT '', attempts INTEGER NOT NULL "
+          "DEFAULT 0, reply BLOB); PRAGMA user_version = 1;");
     } else if (found != schema_version) {
       throw Error(path_.string(), "is a store of version " + std::to_string(found),
                   "use the ssphh that made it");

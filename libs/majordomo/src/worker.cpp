@@ -3,10 +3,10 @@
 #include <mutex>
 #include <thread>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <ssphh/core/error.h>
-#include <ssphh/core/log.h>
 #include <ssphh/majordomo/worker.h>
 
 #include "socket.h"

@@ -20,8 +20,7 @@ Millis median(const Service& service) {
 }  // namespace
 
 std::size_t QueuedJob::live() const {
-  return static_cast<std::size_t>(
-      std::count_if(attempts.begin(), attempts.end(), [](const Attempt& a) { return a.live; }));
+  return static_cast<std::size_t>(std::ranges::count_if(attempts, [](const Attempt& a) { return a.live; }));
 }
 
 void BrokerCore::Impl::put_in_lane(QueuedJob& job) {
@@ -76,8 +75,7 @@ std::optional<std::string> BrokerCore::Impl::pick_worker(const Service& service,
   if (avoided >= service.workers) return service.idle.front();  // there is nobody else
   int left = scan;
   for (const std::string& id : service.idle) {
-    if (std::find(job.avoid.begin(), job.avoid.end(), peers.at(id).worker->name) == job.avoid.end())
-      return id;
+    if (std::ranges::find(job.avoid, peers.at(id).worker->name) == job.avoid.end()) return id;
     if (--left == 0) break;
   }
   return std::nullopt;

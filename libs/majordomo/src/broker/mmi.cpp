@@ -52,7 +52,7 @@ Frames BrokerCore::Impl::mmi(const Message& message, const Frames& body, const R
       if (!peer.user.empty()) entry["key"] = peer.user;
       list.push_back(std::move(entry));
     }
-    std::sort(list.begin(), list.end(), [](const json::Value& a, const json::Value& b) {
+    std::ranges::sort(list, [](const json::Value& a, const json::Value& b) {
       return a["name"].string() < b["name"].string();
     });
     return {"200", text({{"format", "ssphh-broker-workers"}, {"version", 1}, {"workers", std::move(list)}})};
@@ -68,7 +68,7 @@ Frames BrokerCore::Impl::mmi(const Message& message, const Frames& body, const R
                       {"requests", service.requests},
                       {"finished", service.finished}});
     }
-    std::sort(list.begin(), list.end(), [](const json::Value& a, const json::Value& b) {
+    std::ranges::sort(list, [](const json::Value& a, const json::Value& b) {
       return a["name"].string() < b["name"].string();
     });
     const BrokerStats s = stats();

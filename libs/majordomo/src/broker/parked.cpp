@@ -1,5 +1,4 @@
 /// Jobs that were set aside, and what an administrator does with them.
-#include <algorithm>
 #include <charconv>
 
 #include <ssphh/core/hash.h>

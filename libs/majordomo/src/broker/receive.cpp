@@ -15,8 +15,7 @@ std::string peer_text(std::string_view id) {
     id.remove_prefix(own_worker_prefix.size());
     return std::string(id.substr(0, id.rfind('#')));
   }
-  const bool printable =
-      !id.empty() && std::all_of(id.begin(), id.end(), [](char c) { return c > ' ' && c <= '~'; });
+  const bool printable = !id.empty() && std::ranges::all_of(id, [](char c) { return c > ' ' && c <= '~'; });
   if (printable) return std::string(id);
   std::string text;
   for (const char c : id) text += fmt::format("{:02x}", static_cast<unsigned char>(c));

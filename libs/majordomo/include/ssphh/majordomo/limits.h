@@ -2,7 +2,6 @@
 /// What a broker accepts from peers, and its clocks. Defaults suit a farm of some thousand workers.
 
 #include <cstddef>
-#include <cstdint>
 
 #include <ssphh/majordomo/frames.h>
 

@@ -5,7 +5,6 @@
 /// in only the public keys that its allow-list names. Keys are Z85 text of 40 characters (ZeroMQ RFC 32).
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
