@@ -3,7 +3,7 @@
 #include <ssphh/core/json_cursor.h>
 #include <ssphh/report/cache.h>
 
-#include "words.h"
+#include "command_words.h"
 
 namespace ssphh::report {
 namespace {

@@ -7,7 +7,7 @@
 #include <ssphh/core/hash.h>
 #include <ssphh/report/jobs.h>
 
-#include "words.h"
+#include "command_words.h"
 
 namespace ssphh::report {
 namespace {
@@ -27,7 +27,7 @@ std::string stem_of(const std::string& name) {
 
 // OUT.exr also stands for OUT.albedo.exr and OUT.a.exr: files that a command writes beside its output.
 bool is_written_by(const Job& job, const std::string& name) {
-  return std::any_of(job.outputs.begin(), job.outputs.end(), [&](const std::string& output) {
+  return std::ranges::any_of(job.outputs, [&](const std::string& output) {
     return name == output || (name.find('.') != std::string::npos && stem_of(name) == stem_of(output) &&
                               fs::path(name).extension() == fs::path(output).extension());
   });
@@ -53,11 +53,7 @@ std::string resolve(const std::string& word, const fs::path& folder) {
 std::string file_hash(const std::string& path) {
   static thread_local std::map<std::string, std::string> known;
   std::string& hash = known[path];
-  if (hash.empty()) {
-    Hasher hasher;
-    hasher.bytes(read_file(path));
-    hash = hasher.finish().hex();
-  }
+  if (hash.empty()) hash = Hasher().bytes(read_file(path)).finish().hex();
   return hash;
 }
 
@@ -72,8 +68,7 @@ class Expander {
       if (plan_.has_reference) add_cell(s, -1, plan_.reference, {});
       for (std::size_t m = 0; m < plan_.methods.size(); ++m) {
         const PlanMethod& method = plan_.methods[m];
-        if (!method.scenes.empty() &&
-            std::find(method.scenes.begin(), method.scenes.end(), scene) == method.scenes.end())
+        if (!method.scenes.empty() && std::ranges::find(method.scenes, scene) == method.scenes.end())
           continue;
         for (const Parameters& parameters : method.variants)
           add_cell(s, static_cast<int>(m), method, parameters);
@@ -149,7 +144,7 @@ class Expander {
       }
     }
     const auto option = [&](const std::string& name, int value) {
-      if (std::find(job.words.begin(), job.words.end(), name) != job.words.end()) return;
+      if (std::ranges::find(job.words, name) != job.words.end()) return;
       add(name, name), add(std::to_string(value), std::to_string(value));
     };
     if (repetition > 0) option("--seed", repetition);

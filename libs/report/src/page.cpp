@@ -1,7 +1,12 @@
-#include "page_files.h"
+#include <string_view>
+
 #include "report_data.h"
 
 namespace ssphh::report {
+
+// The files of libs/report/page, kept in the library at build time.
+extern const std::string_view page_html, page_style, page_script;
+
 namespace {
 
 // Inside a script element only "</script" and "<!--" have a meaning.

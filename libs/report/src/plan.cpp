@@ -6,8 +6,8 @@
 #include <ssphh/core/nearest_word.h>
 #include <ssphh/report/plan.h>
 
+#include "command_words.h"
 #include "parameters.h"
-#include "words.h"
 #include "yaml_reader.h"
 
 namespace ssphh::report {
@@ -47,7 +47,7 @@ auto items(const Cursor& object, const char* name, const Read& read) {
 }
 
 bool among(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+  return std::ranges::find(names, name) != names.end();
 }
 
 class PlanReader {
@@ -214,7 +214,7 @@ class PlanReader {
     for (const Step& step : method.steps) {
       for (const std::string& word : step.words) {
         for (const std::string& name : names_in(word, where)) {
-          if (std::find(known.begin(), known.end(), name) == known.end())
+          if (std::ranges::find(known, name) == known.end())
             throw Error(where, fmt::format("unknown name {{{}}} in \"{}\"", name, join_words(step.words)),
                         nearest_hint(name, known));
           if (name == "scene" && word != "{scene}")

@@ -45,7 +45,7 @@ Value value_of(std::vector<double> numbers) {
     value.median = value.mean;
     return value;
   }
-  std::sort(numbers.begin(), numbers.end());
+  std::ranges::sort(numbers);
   const std::size_t middle = numbers.size() / 2;
   value.median = numbers.size() % 2 != 0 ? numbers[middle] : 0.5 * (numbers[middle - 1] + numbers[middle]);
   return value;

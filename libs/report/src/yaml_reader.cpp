@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <ssphh/core/error.h>
+
 namespace ssphh::report {
 namespace {
 

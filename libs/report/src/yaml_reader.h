@@ -4,7 +4,6 @@
 #include <string>
 #include <string_view>
 
-#include <ssphh/core/error.h>
 #include <ssphh/core/json.h>
 
 namespace ssphh::report {

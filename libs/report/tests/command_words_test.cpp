@@ -1,4 +1,4 @@
-#include "words.h"
+#include "command_words.h"
 
 #include <gmock/gmock.h>
 
