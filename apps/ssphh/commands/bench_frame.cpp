@@ -164,10 +164,8 @@ std::string to_text(const BenchFrameResult& r, const BenchFrameOptions& o) {
 }
 
 void add_bench_frame_command(Command app, Context& context) {
-  auto options = std::make_shared<BenchFrameOptions>();
-  BenchFrameOptions& o = *options;
-  Command command = add_command(app, context, "bench-frame", "Time frames of the OpenGL renderer", options,
-                                run_bench_frame);
+  auto [command, o] =
+      add_command(app, context, "bench-frame", "Time frames of the OpenGL renderer", run_bench_frame);
   add_scene_options(command, o.scene);
   command.option("--probes", o.lookup.probes, "Probe file; without one: direct light alone");
   std::vector<std::string> methods = {"ssphh"};

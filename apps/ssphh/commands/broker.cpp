@@ -2,7 +2,6 @@
 
 #include <csignal>
 #include <iostream>
-#include <memory>
 
 #include <ssphh/core/log.h>
 
@@ -63,31 +62,27 @@ void run_broker(const BrokerSettings& settings, const BrokerCalls& calls) {
 }
 
 void add_broker_command(Command app, Context& context) {
-  auto options = std::make_shared<BrokerSettings>();
-  Command command =
-      add_command(app, context, "broker", "Pass requests of clients to workers (Majordomo protocol)",
-                  [&context, options] { serve(context, *options); });
-  command.option("--bind", options->broker.bind, "Endpoint to listen on; port 0 finds a free one");
-  command.option("--store", options->broker.store, "Folder in which persistent requests survive a restart");
-  command.option("--keys", options->keys,
-                 "Folder with broker.key and allow.txt; wanted beyond loopback and ipc");
-  command.option("--metrics", options->broker.metrics_bind,
+  auto [command, o] = add_command<BrokerSettings>(
+      app, context, "broker", "Pass requests of clients to workers (Majordomo protocol)",
+      [&context](BrokerSettings& settings) { serve(context, settings); });
+  command.option("--bind", o.broker.bind, "Endpoint to listen on; port 0 finds a free one");
+  command.option("--store", o.broker.store, "Folder in which persistent requests survive a restart");
+  command.option("--keys", o.keys, "Folder with broker.key and allow.txt; wanted beyond loopback and ipc");
+  command.option("--metrics", o.broker.metrics_bind,
                  "Endpoint of GET /metrics for Prometheus, e.g. tcp://127.0.0.1:9464");
-  command.option("--worker-expiry", options->worker_expiry, "Seconds of silence after which a worker is dead")
+  command.option("--worker-expiry", o.worker_expiry, "Seconds of silence after which a worker is dead")
       .range(7.5, 86400.0);
   command
-      .option("--attempt-timeout", options->attempt_timeout,
+      .option("--attempt-timeout", o.attempt_timeout,
               "Seconds after which a computation counts as hung, unless the request says otherwise")
       .range(0.001, 1e6);
-  command
-      .option("--attempts", options->broker.limits.attempts, "Workers a job may fail on before it is parked")
+  command.option("--attempts", o.broker.limits.attempts, "Workers a job may fail on before it is parked")
       .range(1, 100);
-  command.option("--drain", options->drain, "Seconds to wait for running requests at the end")
-      .range(0.0, 86400.0);
-  command.option("--max-frame-mb", options->frame_mb, "Largest frame, MB").range(1, 1024);
-  command.option("--max-client-mb", options->client_mb, "Request bytes of one client at one time, MB")
+  command.option("--drain", o.drain, "Seconds to wait for running requests at the end").range(0.0, 86400.0);
+  command.option("--max-frame-mb", o.frame_mb, "Largest frame, MB").range(1, 1024);
+  command.option("--max-client-mb", o.client_mb, "Request bytes of one client at one time, MB")
       .range(1, 65536);
-  command.flag("--verbose", options->verbose, "Log every job");
+  command.flag("--verbose", o.verbose, "Log every job");
   command.footer(
       "Prints the endpoint on stdout and events on stderr (with --json: all as JSON lines on stdout).\n"
       "SIGTERM or Ctrl-C: running requests finish, then it ends; a second one ends it at once.\n"

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/core/stopwatch.h>
 
 namespace ssphh::app {
 namespace {
@@ -78,9 +79,8 @@ pid_t start(const std::vector<std::string>& command, const std::filesystem::path
 ProgramUsage run_program(const std::vector<std::string>& command, const std::filesystem::path& log,
                          std::chrono::seconds limit, const Control& control,
                          const std::filesystem::path& result) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const pid_t pid = start(command, log, result);
-  const auto deadline = begin + limit;
   int status = 0;
   rusage usage{};
   const auto end_it = [&] {
@@ -92,7 +92,7 @@ ProgramUsage run_program(const std::vector<std::string>& command, const std::fil
       end_it();
       throw Cancelled();
     }
-    if (std::chrono::steady_clock::now() > deadline) {
+    if (watch.seconds() > static_cast<double>(limit.count())) {
       end_it();
       throw Error(command[0],
                   fmt::format("not done after {} s and ended; {} says:{}", limit.count(), log.string(),
@@ -112,8 +112,7 @@ ProgramUsage run_program(const std::vector<std::string>& command, const std::fil
   const auto seconds = [](const timeval& t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
-  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-          seconds(usage.ru_utime) + seconds(usage.ru_stime),
+  return {watch.seconds(), seconds(usage.ru_utime) + seconds(usage.ru_stime),
           static_cast<std::uint64_t>(usage.ru_maxrss) * 1024};
 }
 

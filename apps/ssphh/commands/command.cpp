@@ -16,16 +16,13 @@ void Context::result(const json::Value& object, const std::string& text) const {
 Command add_command(Command parent, Context& context, const std::string& name, const std::string& description,
                     std::function<void()> action) {
   Command command = parent.command(name, description);
-  const std::string group = "Common";
-  command.flag("--json", context.json, "Print one JSON object on stdout and nothing else there").group(group);
-  command.option("--seed", context.seed, "Seed of all random numbers; the same seed gives the same bits")
-      .group(group);
-  command.option("--threads", context.threads, "Worker threads; 0: all. Does not change results")
-      .range(0, 4096)
-      .group(group);
-  command.option("--progress", context.progress, "Progress on stderr: auto, bar, plain, json or none")
-      .one_of({"auto", "bar", "plain", "json", "none"})
-      .group(group);
+  const Command common = command.under("Common");
+  common.flag("--json", context.json, "Print one JSON object on stdout and nothing else there");
+  common.option("--seed", context.seed, "Seed of all random numbers; the same seed gives the same bits");
+  common.option("--threads", context.threads, "Worker threads; 0: all. Does not change results")
+      .range(0, 4096);
+  common.option("--progress", context.progress, "Progress on stderr: auto, bar, plain, json or none")
+      .one_of({"auto", "bar", "plain", "json", "none"});
   command.when_chosen([&context, action = std::move(action)] { context.run = action; });
   return command;
 }
@@ -37,29 +34,14 @@ Command add_group(Command parent, const std::string& name, const std::string& de
 }
 
 void add_commands(Command app, Context& context) {
-  add_respond_command(app, context);
-  add_scene_commands(app, context);
-  add_render_command(app, context);
-  add_bake_command(app, context);
-  add_place_command(app, context);
-  add_hier_command(app, context);
-  add_probe_commands(app, context);
-  add_sh_commands(app, context);
-  add_cubemap_commands(app, context);
-  add_compare_command(app, context);
-  add_truth_command(app, context);
-  add_export_command(app, context);
-  add_leak_command(app, context);
-  add_measure_command(app, context);
-  add_methods_command(app, context);
-  add_relight_command(app, context);
-  add_broker_command(app, context);
-  add_bench_frame_command(app, context);
-  add_turntable_command(app, context);
-  add_view_command(app, context);
-  add_worker_command(app, context);
-  add_farm_commands(app, context);
-  add_report_command(app, context);
+  for (AddCommand* add :
+       {add_respond_command,  add_scene_commands,      add_render_command,    add_bake_command,
+        add_place_command,    add_hier_command,        add_probe_commands,    add_sh_commands,
+        add_cubemap_commands, add_compare_command,     add_truth_command,     add_export_command,
+        add_leak_command,     add_measure_command,     add_methods_command,   add_relight_command,
+        add_broker_command,   add_bench_frame_command, add_turntable_command, add_view_command,
+        add_worker_command,   add_farm_commands,       add_report_command})
+    add(app, context);
 }
 
 }  // namespace ssphh::app

@@ -45,14 +45,28 @@ void run_and_print(Context& context, Options& options, const Run& run) {
 Command add_command(Command parent, Context& context, const std::string& name, const std::string& description,
                     std::function<void()> action);
 
+/// A command and the options that it runs with, which live as long as it does.
+template <class Options>
+struct Added {
+  Command command;
+  Options& options;
+};
+
+template <class Options>
+Added<Options> add_command(Command parent, Context& context, const std::string& name,
+                           const std::string& description, std::function<void(Options&)> action) {
+  const auto options = std::make_shared<Options>();
+  return {add_command(parent, context, name, description, [options, action] { action(*options); }), *options};
+}
+
 /// One that runs a function of options, `run(options, control)`, and prints its result. --seed and --threads
 /// go into the options' members of these names, where they have such; a result of which has_failed() is true
 /// is printed and gives exit code 1.
-template <class Options, class Run>
-Command add_command(Command parent, Context& context, const std::string& name, const std::string& description,
-                    const std::shared_ptr<Options>& options, Run run) {
-  return add_command(parent, context, name, description,
-                     [&context, options, run] { run_and_print(context, *options, run); });
+template <class Options, class Result>
+Added<Options> add_command(Command parent, Context& context, const std::string& name,
+                           const std::string& description, Result (*run)(const Options&, const Control&)) {
+  return add_command<Options>(parent, context, name, description,
+                              [&context, run](Options& options) { run_and_print(context, options, run); });
 }
 
 /// A command that only groups subcommands ("sh project", "probe info").
@@ -61,29 +75,12 @@ Command add_group(Command parent, const std::string& name, const std::string& de
 /// All of them.
 void add_commands(Command app, Context& context);
 
-void add_respond_command(Command app, Context& context);
-void add_scene_commands(Command app, Context& context);
-void add_render_command(Command app, Context& context);
-void add_bake_command(Command app, Context& context);
-void add_place_command(Command app, Context& context);
-void add_hier_command(Command app, Context& context);
-void add_probe_commands(Command app, Context& context);
-void add_probe_lint_command(Command group, Context& context);
-void add_sh_commands(Command app, Context& context);
-void add_cubemap_commands(Command app, Context& context);
-void add_broker_command(Command app, Context& context);
-void add_compare_command(Command app, Context& context);
-void add_export_command(Command app, Context& context);
-void add_truth_command(Command app, Context& context);
-void add_report_command(Command app, Context& context);
-void add_leak_command(Command app, Context& context);
-void add_measure_command(Command app, Context& context);
-void add_methods_command(Command app, Context& context);
-void add_relight_command(Command app, Context& context);
-void add_bench_frame_command(Command app, Context& context);
-void add_turntable_command(Command app, Context& context);
-void add_view_command(Command app, Context& context);
-void add_worker_command(Command app, Context& context);
-void add_farm_commands(Command app, Context& context);
+/// Adds a command, or a group with its commands.
+using AddCommand = void(Command parent, Context& context);
+AddCommand add_respond_command, add_scene_commands, add_render_command, add_bake_command, add_place_command,
+    add_hier_command, add_probe_commands, add_probe_lint_command, add_sh_commands, add_cubemap_commands,
+    add_broker_command, add_compare_command, add_export_command, add_truth_command, add_report_command,
+    add_leak_command, add_measure_command, add_methods_command, add_relight_command, add_bench_frame_command,
+    add_turntable_command, add_view_command, add_worker_command, add_farm_commands;
 
 }  // namespace ssphh::app

@@ -1,7 +1,6 @@
 #include "commands/compare.h"
 
 #include <cmath>
-#include <memory>
 
 #include <fmt/format.h>
 
@@ -11,6 +10,7 @@
 #include <ssphh/metrics/mask.h>
 
 #include "commands/command.h"
+#include "results/json_values.h"
 
 namespace ssphh::app {
 namespace {
@@ -71,11 +71,6 @@ float write_map(const CompareOptions& options, const Image& reference, const Ima
       options.map == ErrorMap::with_sign ? metrics::ColorRamp::diverging : metrics::ColorRamp::inferno;
   write_file(options.output, image::encode_png(metrics::heat_map(map, ramp, scale)));
   return scale;
-}
-
-// JSON knows no infinity: null says that the images are equal.
-json::Value finite_or_null(double x) {
-  return std::isfinite(x) ? json::Value(x) : json::Value(nullptr);
 }
 
 }  // namespace
@@ -183,26 +178,24 @@ std::string to_text(const CompareResult& result, const CompareOptions& options) 
 }
 
 void add_compare_command(Command app, Context& context) {
-  auto options = std::make_shared<CompareOptions>();
-  Command command = add_command(app, context, "compare", "Measure the error of an image against a reference",
-                                options, run_compare);
-  command.option("REF", options->reference, "Reference image: .exr .hdr .png .jpg").required();
-  command.option("TEST", options->test, "Image of the same size").required();
-  command.option("--mask", options->mask,
+  auto [command, o] =
+      add_command(app, context, "compare", "Measure the error of an image against a reference", run_compare);
+  command.option("REF", o.reference, "Reference image: .exr .hdr .png .jpg").required();
+  command.option("TEST", o.test, "Image of the same size").required();
+  command.option("--mask", o.mask,
                  "Picture of any size that is white where to measure; everything else is left out");
-  command.option("--block", options->block, "Side of the blocks of the pixelated map, in pixels")
-      .range(1, 65536);
-  command.option("-o,--output", options->output, "Error map to write: .png (colours) or .exr (numbers)");
-  command.choice("--map", options->map,
+  command.option("--block", o.block, "Side of the blocks of the pixelated map, in pixels").range(1, 65536);
+  command.option("-o,--output", o.output, "Error map to write: .png (colours) or .exr (numbers)");
+  command.choice("--map", o.map,
                  "Which map: absolute |d|, signed d, pixelated (sum of |d| in each block), relmse, flip");
   command
-      .option("--scale", options->scale,
+      .option("--scale", o.scale,
               "Error shown in the last colour of a .png map; 0: the 99th percentile, for flip 1")
       .non_negative();
-  command.option("--exposure", options->exposure, "Multiply both images by 2^EV first").range(-60.0, 60.0);
-  command.option("--ppd", options->pixels_per_degree, "Pixels in one degree of the viewer's sight, for FLIP")
+  command.option("--exposure", o.exposure, "Multiply both images by 2^EV first").range(-60.0, 60.0);
+  command.option("--ppd", o.pixels_per_degree, "Pixels in one degree of the viewer's sight, for FLIP")
       .range(1.0, 500.0);
-  command.flag("--allow-nonfinite", options->allow_nonfinite,
+  command.flag("--allow-nonfinite", o.allow_nonfinite,
                "Do not fail when pixels are infinite or NaN (they are left out and counted)");
   command.footer(
       "d = TEST - REF in scene-linear RGB: PNG and JPEG are decoded from sRGB first; alpha is not compared.\n"
@@ -211,8 +204,7 @@ void add_compare_command(Command app, Context& context) {
       "as fractions, all over pixels and channels; mean ratio: mean TEST / mean REF per channel; bias: mean "
       "d. Block sums add the\n"
       "channels. FLIP: of two PNG or JPEG files as displayed, else HDR-FLIP over the exposures of REF. SSIM "
-      "(of "
-      "luma) and PSNR:\n"
+      "(of luma) and PSNR:\n"
       "sRGB-encoded and clipped to [0, 1] after --exposure; JSON says null for the PSNR of equal images.");
 }
 

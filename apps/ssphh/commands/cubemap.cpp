@@ -1,7 +1,5 @@
 #include "commands/cubemap.h"
 
-#include <memory>
-
 #include <fmt/format.h>
 
 #include <ssphh/image/io.h>
@@ -38,17 +36,15 @@ std::string to_text(const CubemapResult& result, const CubemapOptions& options) 
 
 void add_cubemap_commands(Command app, Context& context) {
   Command group = add_group(app, "cubemap", "Images of the whole sphere: cube maps and other layouts");
-  auto options = std::make_shared<CubemapOptions>();
-  Command command = add_command(group, context, "convert", "Convert between layouts of the sphere", options,
-                                run_cubemap_convert);
-  command.option("IN", options->input, "Image: .exr .hdr .png .jpg (8-bit and 16-bit are decoded from sRGB)")
+  auto [command, o] =
+      add_command(group, context, "convert", "Convert between layouts of the sphere", run_cubemap_convert);
+  command.option("IN", o.input, "Image: .exr .hdr .png .jpg (8-bit and 16-bit are decoded from sRGB)")
       .required();
-  command.option("-o,--output", options->output, "Image to write, by extension: .exr .hdr .png .jpg")
-      .required();
-  command.choice("--from", options->from, "Layout of IN").required();
-  command.choice("--to", options->to, "Layout of the output").required();
+  command.option("-o,--output", o.output, "Image to write, by extension: .exr .hdr .png .jpg").required();
+  command.choice("--from", o.from, "Layout of IN").required();
+  command.choice("--to", o.to, "Layout of the output").required();
   command
-      .option("--size", options->size,
+      .option("--size", o.size,
               "Pixels: side of a face (strips, crosses), height (equirect), diameter (angular); "
               "default: the resolution of IN")
       .range(1, 8192);

@@ -1,7 +1,6 @@
 #include "commands/export.h"
 
 #include <algorithm>
-#include <memory>
 
 #include <fmt/format.h>
 
@@ -66,20 +65,18 @@ std::string to_text(const ExportResult& result, const ExportOptions&) {
 }
 
 void add_export_command(Command app, Context& context) {
-  auto options = std::make_shared<ExportOptions>();
-  Command command =
-      add_command(app, context, "export", "Write a scene for another renderer", options, run_export);
-  add_picture_options(command, options->picture);
+  auto [command, o] = add_command(app, context, "export", "Write a scene for another renderer", run_export);
+  add_picture_options(command, o.picture);
   std::string description = "Which:";
   for (const scene_io::RendererFormat& format : scene_io::renderer_formats())
     description += fmt::format(" {} ({});", format.name, format.description);
   command
       .option(
-          "--to", options->to,
+          "--to", o.to,
           description + " gltf (one GLB file with all that a scene holds, docs/gltf.md; loads back the same)")
       .required()
       .one_of(export_formats());
-  command.option("-o,--output", options->output, "Folder to write into; for gltf also FILE.glb").required();
+  command.option("-o,--output", o.output, "Folder to write into; for gltf also FILE.glb").required();
 }
 
 }  // namespace ssphh::app

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/stopwatch.h>
 #include <ssphh/majordomo/security.h>
 
 #include "commands/command.h"
 #include "commands/farm_ask.h"
-#include "results/stopwatch.h"
 
 namespace ssphh::app {
 namespace {
@@ -132,49 +132,43 @@ std::string to_text(const FarmKeygenResult&, const FarmKeygenOptions& o) {
 
 void add_farm_commands(Command app, Context& context) {
   Command group = add_group(app, "farm", "Look after a farm: status, top, drain, parked jobs, keys");
-  const auto with_broker = [](Command command, BrokerChoice& broker, const std::string& key) {
-    add_broker_options(command, broker, key, "Broker").required();
-    return command;
+  const auto with_broker = [](const Command& command, BrokerChoice& broker, const std::string& key) {
+    add_broker_options(command.under("Broker"), broker, key).required();
   };
-  const auto broker = std::make_shared<BrokerChoice>();
-  with_broker(add_command(group, context, "status", "Workers, queues and counts of a broker", broker,
-                          run_farm_status),
-              *broker, "client");
+  auto [status, broker] =
+      add_command(group, context, "status", "Workers, queues and counts of a broker", run_farm_status);
+  with_broker(status, broker, "client");
 
-  const auto top = std::make_shared<FarmTopOptions>();
-  Command top_command =
-      with_broker(add_command(group, context, "top", "status, again and again, with rate and remaining time",
-                              [top, &context] {
-                                run_farm_top(
-                                    *top,
-                                    [&](const FarmStatus& look) {
-                                      if (!context.json && top->count != 1) fmt::print("\x1b[H\x1b[2J");
-                                      context.result(to_json(look, top->broker), to_text(look, top->broker));
-                                    },
-                                    context.control);
-                              }),
-                  top->broker, "client");
-  top_command.option("--interval", top->interval, "Seconds").range(0.1, 3600.0);
-  top_command.option("--count", top->count, "End after so many; 0: never");
+  auto [top, looks] = add_command<FarmTopOptions>(
+      group, context, "top", "status, again and again, with rate and remaining time",
+      [&context](FarmTopOptions& o) {
+        run_farm_top(
+            o,
+            [&](const FarmStatus& look) {
+              if (!context.json && o.count != 1) fmt::print("\x1b[H\x1b[2J");
+              context.result(to_json(look, o.broker), to_text(look, o.broker));
+            },
+            context.control);
+      });
+  with_broker(top, looks.broker, "client");
+  top.option("--interval", looks.interval, "Seconds").range(0.1, 3600.0);
+  top.option("--count", looks.count, "End after so many; 0: never");
 
-  const auto leaving = std::make_shared<FarmDrainOptions>();
-  Command drain =
-      with_broker(add_command(group, context, "drain", "Let workers finish the jobs in hand and leave",
-                              leaving, run_farm_drain),
-                  leaving->broker, "admin");
-  drain.option("--workers", leaving->workers, "Only those whose name begins so");
+  auto [drain, leaving] =
+      add_command(group, context, "drain", "Let workers finish the jobs in hand and leave", run_farm_drain);
+  with_broker(drain, leaving.broker, "admin");
+  drain.option("--workers", leaving.workers, "Only those whose name begins so");
 
   add_farm_parked_commands(group, context);
 
-  const auto key = std::make_shared<FarmKeygenOptions>();
-  Command keys = add_command(group, context, "keygen",
-                             "Make a key for a user or machine, and the broker's when there is none", key,
-                             run_farm_keygen);
-  keys.option("NAME", key->name, "Of the key").required();
-  keys.choice("--role", key->role, "client (bakes, renders), worker (serves), admin (may drain)")
+  auto [keygen, key] =
+      add_command(group, context, "keygen",
+                  "Make a key for a user or machine, and the broker's when there is none", run_farm_keygen);
+  keygen.option("NAME", key.name, "Of the key").required();
+  keygen.choice("--role", key.role, "client (bakes, renders), worker (serves), admin (may drain)")
       .shown_default("")
       .required();
-  keys.option("--keys", key->folder, "Folder of the keys");
+  keygen.option("--keys", key.folder, "Folder of the keys");
 }
 
 }  // namespace ssphh::app

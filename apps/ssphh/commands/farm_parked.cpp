@@ -24,7 +24,7 @@ std::string jobs_text(int count) {
 }
 
 void add_choice(Command command, FarmJobsOptions& choice) {
-  add_broker_options(command, choice.broker, "admin", "Broker").required();
+  add_broker_options(command.under("Broker"), choice.broker, "admin").required();
   Option jobs = command.option("JOB", choice.jobs, "Numbers, as `ssphh farm parked` shows them");
   command.flag("--all", choice.all, "All that are set aside").excludes(jobs);
 }
@@ -80,22 +80,19 @@ std::string to_text(const FarmDropResult& result, const FarmJobsOptions&) {
 }
 
 void add_farm_parked_commands(Command group, Context& context) {
-  const auto broker = std::make_shared<BrokerChoice>();
-  add_broker_options(add_command(group, context, "parked",
-                                 "Jobs that were set aside because workers failed on them, and why", broker,
-                                 run_farm_parked),
-                     *broker, "client", "Broker")
-      .required();
+  auto [parked, broker] =
+      add_command(group, context, "parked",
+                  "Jobs that were set aside because workers failed on them, and why", run_farm_parked);
+  add_broker_options(parked.under("Broker"), broker, "client").required();
 
-  const auto again = std::make_shared<FarmJobsOptions>(), gone = std::make_shared<FarmJobsOptions>();
-  Command release = add_command(group, context, "release", "Put jobs that were set aside back into the queue",
-                                again, run_farm_release);
-  add_choice(release, *again);
+  auto [release, again] = add_command(group, context, "release",
+                                      "Put jobs that were set aside back into the queue", run_farm_release);
+  add_choice(release, again);
   release.footer(
       "A result goes to whoever left the request on the broker's disk; without such a one it is kept for ten "
       "minutes\nfor a client that sends the same job.");
-  add_choice(add_command(group, context, "drop", "Forget jobs that were set aside", gone, run_farm_drop),
-             *gone);
+  auto [drop, gone] = add_command(group, context, "drop", "Forget jobs that were set aside", run_farm_drop);
+  add_choice(drop, gone);
 }
 
 }  // namespace ssphh::app

@@ -1,17 +1,16 @@
 #include "commands/hier.h"
 
 #include <cstdlib>
-#include <memory>
 
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
+#include <ssphh/core/stopwatch.h>
 #include <ssphh/probes/probe_file.h>
 
 #include "commands/command.h"
 #include "options/probe_options.h"
 #include "results/percentile.h"
-#include "results/stopwatch.h"
 
 namespace ssphh::app {
 namespace {
@@ -98,24 +97,21 @@ std::string to_text(const HierResult& result, const HierOptions& options) {
 }
 
 void add_hier_command(Command app, Context& context) {
-  auto options = std::make_shared<HierOptions>();
-  Command command =
-      add_command(app, context, "hier", "Add each probe's neighbours to its light (HIER)", options, run_hier);
-  add_probe_file(command, "FILE", options->input, "Probe file of `ssphh bake`").required();
-  add_probe_file(command, "-o,--output", options->output, "Probe file to write: .sphl or .sphl.json")
-      .required();
-  command.choice("--operator", options->params.op,
+  auto [command, o] =
+      add_command(app, context, "hier", "Add each probe's neighbours to its light (HIER)", run_hier);
+  add_probe_file(command, "FILE", o.input, "Probe file of `ssphh bake`").required();
+  add_probe_file(command, "-o,--output", o.output, "Probe file to write: .sphl or .sphl.json").required();
+  command.choice("--operator", o.params.op,
                  "What H (x) S means: coefficient (the paper's, coefficient by coefficient), mean (H times "
-                 "the mean of "
-                 "S), matrix (exact for SPHLs that are lights; bake with --viz-transfer)");
+                 "the mean of S), matrix (exact for SPHLs that are lights; bake with --viz-transfer)");
   command
-      .option("--neighbors", options->params.neighbors,
+      .option("--neighbors", o.params.neighbors,
               "At most so many neighbours per probe, strongest P first; -1: all")
       .range(-1, 65536);
-  command.option("--threshold", options->params.threshold, "Only neighbours with P above this, 0..1")
+  command.option("--threshold", o.params.threshold, "Only neighbours with P above this, 0..1")
       .range(0.0, 1.0);
   command
-      .option("--scale", options->scales,
+      .option("--scale", o.scales,
               "Switch, dim or recolour a light group first: GROUP=R,G,B or GROUP=X, relative to the "
               "bake; repeatable")
       .repeatable();

@@ -6,7 +6,6 @@
 
 #include <ssphh/core/log.h>
 #include <ssphh/image/io.h>
-#include <ssphh/probes/lookup.h>
 #include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
@@ -14,7 +13,6 @@
 #include "commands/command.h"
 #include "options/picture_options.h"
 #include "options/probe_options.h"
-#include "options/scene_options.h"
 #include "results/geometry_builds.h"
 #include "results/leak_map.h"
 
@@ -98,40 +96,32 @@ std::string to_text(const LeakResult& result, const LeakOptions& o) {
 }
 
 void add_leak_command(Command app, Context& context) {
-  auto options = std::make_shared<LeakOptions>();
-  LeakOptions& o = *options;
-  Command command = add_command(app, context, "leak", "Measure the light that probes put where there is none",
-                                options, run_leak);
+  auto [command, o] =
+      add_command(app, context, "leak", "Measure the light that probes put where there is none", run_leak);
   add_scene_options(command, o.scene, false);
-  command.option("--time", o.time, "Pose the scene's animations at this time [s]")
-      .shown_default("that of the probe file")
-      .group("Scene");
+  command.under("Scene")
+      .option("--time", o.time, "Pose the scene's animations at this time [s]")
+      .shown_default("that of the probe file");
   add_probe_file(command, "--probes", o.probes, "Probe file").required();
   command.option("--points", o.points, "Surface points to measure at").range(1, 1 << 24);
   add_weights_option(command, o.lookup.weights);
   add_force_option(command, o.force);
   add_layer_option(command, o.lookup.layer);
 
-  const std::string truth = "Truth";
-  command.option("--truth-spp", o.params.path.spp, "Paths per point").range(2, 1 << 22).group(truth);
-  command.option("--max-depth", o.params.path.max_depth, "Scattering events of a path")
-      .range(2, 1000)
-      .group(truth);
-  command
+  const Command truth = command.under("Truth");
+  add_truth_path_options(truth, o.params.path.spp, o.params.path.max_depth);
+  truth
       .option("--dark", o.params.dark_share,
               "A point is dark below this share of the mean indirect irradiance")
-      .range(1e-12f, 0.5f)
-      .group(truth);
+      .range(1e-12f, 0.5f);
 
-  const std::string map = "Map";
-  command
-      .option("-o,--output", o.output,
-              "Picture of the dark places that probes light: .png (colours over the grey scene) or .exr "
-              "(shares of the mean irradiance)")
-      .group(map);
-  add_camera_option(command, o.camera, map);
-  add_size_options(command, o.width, o.height, 16384, map);
-  command.option("--map-spp", o.map_spp, "Paths per pixel").range(2, 1 << 22).group(map);
+  const Command map = command.under("Map");
+  map.option("-o,--output", o.output,
+             "Picture of the dark places that probes light: .png (colours over the grey scene) or .exr "
+             "(shares of the mean irradiance)");
+  add_camera_option(map, o.camera);
+  add_size_options(map, o.width, o.height, 16384);
+  map.option("--map-spp", o.map_spp, "Paths per pixel").range(2, 1 << 22);
   command.footer(
       "Points are uniform by area over what cameras and probes can reach. Leaked: the sum of looked-up "
       "indirect\n"

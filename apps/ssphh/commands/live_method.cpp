@@ -1,6 +1,6 @@
 #include "commands/live_method.h"
 
-#include "results/stopwatch.h"
+#include <ssphh/core/stopwatch.h>
 
 namespace ssphh::app {
 

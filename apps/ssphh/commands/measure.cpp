@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/stopwatch.h>
 #include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
@@ -14,10 +15,9 @@
 #include "commands/command.h"
 #include "commands/live_method.h"
 #include "options/probe_options.h"
-#include "options/scene_options.h"
 #include "results/geometry_builds.h"
+#include "results/json_values.h"
 #include "results/percentile.h"
-#include "results/stopwatch.h"
 
 namespace ssphh::app {
 namespace {
@@ -151,7 +151,7 @@ json::Value light_json(const MeasuredLight& light) {
   if (light.weights) object["weights"] = name_of(*light.weights);
   if (light.method) object.update(to_json(*light.method));
   const study::LookupError& e = light.error;
-  object.update({{"ratio", std::isfinite(e.ratio) ? json::Value(e.ratio) : json::Value(nullptr)},
+  object.update({{"ratio", finite_or_null(e.ratio)},
                  {"mean_error", e.mean_error},
                  {"mean_relative", e.mean_relative},
                  {"median_relative", e.median_relative},
@@ -223,19 +223,17 @@ void add_measure_command(Command app, Context& context) {
     std::vector<std::string> weights;
     std::vector<float> box;
   };
-  auto words = std::make_shared<Words>();
-  auto options = std::make_shared<MeasureOptions>();
-  MeasureOptions& o = *options;
-  Command command =
-      add_command(app, context, "measure",
-                  "Compare light looked up from probes, or found by any method, with path tracing", options,
-                  [words](MeasureOptions& given, const Control& control) {
-                    for (const std::string& name : words->weights)
-                      given.weights.push_back(*parse_enum<probes::WeightMethod>(name));
-                    if (const std::vector<float>& b = words->box; !b.empty())
-                      given.box = {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
-                    return run_measure(given, control);
-                  });
+  const auto words = std::make_shared<Words>();
+  auto [command, o] = add_command<MeasureOptions>(
+      app, context, "measure",
+      "Compare light looked up from probes, or found by any method, with path tracing",
+      [&context, words](MeasureOptions& given) {
+        for (const std::string& name : words->weights)
+          given.weights.push_back(*parse_enum<probes::WeightMethod>(name));
+        if (const std::vector<float>& b = words->box; !b.empty())
+          given.box = {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
+        run_and_print(context, given, run_measure);
+      });
   add_scene_options(command, o.scene);
   add_probe_files(command, "--probes", o.probes, "Probe files; all are compared with the same truth");
   command
@@ -262,11 +260,7 @@ void add_measure_command(Command app, Context& context) {
                "In the open instead of on surfaces, facing anywhere: where things that move would be");
   add_force_option(command, o.force);
 
-  const std::string truth = "Truth";
-  command.option("--truth-spp", o.params.path.spp, "Paths per point").range(2, 1 << 22).group(truth);
-  command.option("--max-depth", o.params.path.max_depth, "Scattering events of a path")
-      .range(2, 1000)
-      .group(truth);
+  add_truth_path_options(command.under("Truth"), o.params.path.spp, o.params.path.max_depth);
   command.footer(
       "Indirect irradiance as Rec.709 luminance. Mean error: mean of |looked up - true| / true, the truth's\n"
       "own noise taken off; docs/methods/relight.md says how, and what dark and leak mean.");

@@ -1,7 +1,5 @@
 #include "commands/methods.h"
 
-#include <memory>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -58,11 +56,9 @@ std::string to_text(const MethodsResult& result, const MethodsOptions&) {
 }
 
 void add_methods_command(Command app, Context& context) {
-  const auto options = std::make_shared<MethodsOptions>();
-  Command command =
-      add_command(app, context, "methods", "List the methods of indirect light and their parameters", options,
-                  run_methods);
-  command.option("name", options->name, "This one alone");
+  auto [command, o] = add_command(app, context, "methods",
+                                  "List the methods of indirect light and their parameters", run_methods);
+  command.option("name", o.name, "This one alone");
 }
 
 }  // namespace ssphh::app

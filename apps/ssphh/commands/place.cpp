@@ -9,7 +9,7 @@
 #include <ssphh/scene_io/overlay.h>
 
 #include "commands/command.h"
-#include "results/vector_json.h"
+#include "results/json_values.h"
 
 namespace ssphh::app {
 namespace {
@@ -88,12 +88,11 @@ std::string to_text(const PlaceResult& result, const PlaceOverlayOptions& option
 }
 
 void add_place_command(Command app, Context& context) {
-  auto options = std::make_shared<PlaceOverlayOptions>();
-  Command command = add_command(app, context, "place", "Find places for SPHLs and write them as an overlay",
-                                options, run_place);
-  add_scene_options(command, options->scene);
-  add_place_options(command, options->place);
-  command.option("-o,--output", options->output, "Overlay to write: a scene of its own, to look at and edit")
+  auto [command, o] =
+      add_command(app, context, "place", "Find places for SPHLs and write them as an overlay", run_place);
+  add_scene_options(command, o.scene);
+  add_place_options(command, o.place);
+  command.option("-o,--output", o.output, "Overlay to write: a scene of its own, to look at and edit")
       .check(
           [](const std::string& name) {
             return is_overlay_name(name) ? std::string() : "the name must end with .ssphh.json";

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 
 #include <fmt/format.h>
 
+#include <ssphh/image/io.h>
 #include <ssphh/sh/irradiance.h>
 #include <ssphh/sh/window.h>
 
 #include "commands/command.h"
 #include "options/probe_options.h"
-#include "results/vector_json.h"
+#include "results/json_values.h"
 
 namespace ssphh::app {
 namespace {
@@ -197,31 +197,27 @@ std::string to_text(const ProbeConvertResult& result, const ProbeConvertOptions&
 void add_probe_commands(Command app, Context& context) {
   Command group = add_group(app, "probe", "Look at probe files, check and convert them");
 
-  auto info = std::make_shared<ProbeInfoOptions>();
-  Command info_command = add_command(group, context, "info", "List probes, light groups and the hierarchy",
-                                     info, run_probe_info);
-  add_probe_file(info_command, "FILE", info->input, "Probe file").required();
+  auto [info, listed] =
+      add_command(group, context, "info", "List probes, light groups and the hierarchy", run_probe_info);
+  add_probe_file(info, "FILE", listed.input, "Probe file").required();
 
-  auto look = std::make_shared<ProbePreviewOptions>();
-  Command preview_command = add_command(group, context, "preview",
-                                        "Draw what each probe sees: itself, its neighbours' part, the sum",
-                                        look, run_probe_preview);
-  add_probe_file(preview_command, "FILE", look->input, "Probe file").required();
-  preview_command.option("-o,--output", look->output, "Picture to write: .png .jpg .exr .hdr").required();
-  preview_command.option("--width", look->width, "Pixels of one equirectangular picture, twice its height")
+  auto [preview, look] =
+      add_command(group, context, "preview",
+                  "Draw what each probe sees: itself, its neighbours' part, the sum", run_probe_preview);
+  add_probe_file(preview, "FILE", look.input, "Probe file").required();
+  preview.option("-o,--output", look.output, "Picture to write: .png .jpg .exr .hdr").required();
+  preview.option("--width", look.width, "Pixels of one equirectangular picture, twice its height")
       .range(8, 2048);
-  preview_command.option("--exposure", look->exposure, "EV added to the automatic exposure")
-      .range(-60.0, 60.0);
-  preview_command.footer(
+  preview.option("--exposure", look.exposure, "EV added to the automatic exposure").range(-60.0, 60.0);
+  preview.footer(
       "One row per probe in the file's order. Columns: self, neighbour, sum (self and sum share an "
       "exposure). Each picture\n"
       "is equirectangular: +y on top, +x in the middle. Negative lobes are black.");
 
-  auto files = std::make_shared<ProbeConvertOptions>();
-  Command convert_command = add_command(
-      group, context, "convert", "Convert between .sphl (binary) and .sphl.json", files, run_probe_convert);
-  add_probe_file(convert_command, "FILE", files->input, "Probe file to read").required();
-  add_probe_file(convert_command, "-o,--output", files->output, "Probe file to write").required();
+  auto [convert, files] = add_command(group, context, "convert",
+                                      "Convert between .sphl (binary) and .sphl.json", run_probe_convert);
+  add_probe_file(convert, "FILE", files.input, "Probe file to read").required();
+  add_probe_file(convert, "-o,--output", files.output, "Probe file to write").required();
   add_probe_lint_command(group, context);
 }
 

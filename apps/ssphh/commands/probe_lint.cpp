@@ -1,4 +1,3 @@
-#include <memory>
 
 #include <fmt/format.h>
 
@@ -9,7 +8,7 @@
 #include "commands/command.h"
 #include "commands/probe.h"
 #include "options/probe_options.h"
-#include "results/vector_json.h"
+#include "results/json_values.h"
 
 namespace ssphh::app {
 namespace {
@@ -61,26 +60,24 @@ std::string to_text(const ProbeLintResult& result, const ProbeLintOptions& optio
 }
 
 void add_probe_lint_command(Command group, Context& context) {
-  auto options = std::make_shared<ProbeLintOptions>();
-  Command command =
-      add_command(group, context, "lint", "Look for probes that light nothing or light it wrongly", options,
-                  run_probe_lint);
-  add_probe_file(command, "FILE", options->input, "Probe file").required();
-  add_scene_options(command, options->scene, false, "--scene");
+  auto [command, o] = add_command(group, context, "lint",
+                                  "Look for probes that light nothing or light it wrongly", run_probe_lint);
+  add_probe_file(command, "FILE", o.input, "Probe file").required();
+  add_scene_options(command, o.scene, false, "--scene");
   command
-      .option("--clearance", options->params.clearance,
+      .option("--clearance", o.params.clearance,
               "Least distance from a surface [m]; default: 0.04, or a twentieth of the median distance "
               "of neighbours where that is less")
       .positive();
   command
-      .option("--negative", options->params.negative_tolerance,
+      .option("--negative", o.params.negative_tolerance,
               "How far the irradiance may fall under 0, in shares of its mean")
       .non_negative();
   command
-      .option("--spacing", options->params.spacing,
+      .option("--spacing", o.params.spacing,
               "Distance of the places that must see a probe [m]; default: some 100 to 200 places")
       .positive();
-  add_force_option(command, options->force);
+  add_force_option(command, o.force);
   command.footer(
       "Reports probes that hold no number, lie inside a body, are too close to a surface, stand in the way "
       "of a\n"

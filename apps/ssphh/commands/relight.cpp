@@ -1,7 +1,5 @@
 #include "commands/relight.h"
 
-#include <memory>
-
 #include "commands/command.h"
 #include "commands/relight_animation.h"
 #include "options/picture_options.h"
@@ -10,84 +8,58 @@
 namespace ssphh::app {
 namespace {
 
-void add_transport_options(Command command, RelightOptions& o) {
-  const std::string group = "Transport";
-  command
-      .choice("--operator", o.params.op,
-              "surfel: light goes from surface patch to patch until it settles; bounce: from probe to "
-              "probe, each surface looking up the probes around it",
-              {"surfel", "bounce"})
-      .group(group);
-  command.option("--degree", o.params.degree, "Highest band of the probes' functions")
-      .range(0, sh::max_degree)
-      .group(group);
-  command.option("--directions", o.params.transport.directions, "Rays of a probe")
-      .range(16, 65536)
-      .group(group);
-  command
+void add_transport_options(const Command& transport, RelightOptions& o) {
+  transport.choice("--operator", o.params.op,
+                   "surfel: light goes from surface patch to patch until it settles; bounce: from probe to "
+                   "probe, each surface looking up the probes around it",
+                   {"surfel", "bounce"});
+  transport.option("--degree", o.params.degree, "Highest band of the probes' functions")
+      .range(0, sh::max_degree);
+  transport.option("--directions", o.params.transport.directions, "Rays of a probe").range(16, 65536);
+  transport
       .option("--surfel-size", o.params.transport.surfel_size,
               "Edge of a surface patch [m]; 0: a twentieth of the scene's radius, 0.05 to 0.5")
-      .non_negative()
-      .group(group);
-  command
+      .non_negative();
+  transport
       .option("--poses", o.params.poses,
               "Blend doors and the like between so many poses found beforehand, 2 or more; 0: pose exactly")
-      .range(0, 1 << 16)
-      .group(group);
-  command.option("--link-rays", o.params.transport.link_rays, "Rays of a surface patch")
-      .range(8, 65536)
-      .group(group);
+      .range(0, 1 << 16);
+  transport.option("--link-rays", o.params.transport.link_rays, "Rays of a surface patch").range(8, 65536);
 }
 
-void add_truth_options(Command command, RelightOptions& o) {
-  const std::string group = "Truth";
-  command
+void add_truth_options(const Command& truth, RelightOptions& o) {
+  truth
       .option("--truth", o.truth, "Path trace every so-many-th frame and report the lookup's error; 0: never")
-      .range(0, 1 << 20)
-      .group(group);
-  command.option("--points", o.points, "Surface points at which the error is measured")
-      .range(1, 1 << 24)
-      .group(group);
-  command.option("--truth-spp", o.truth_spp, "Paths per point").range(2, 1 << 22).group(group);
-  command.option("--max-depth", o.max_depth, "Scattering events of a path").range(2, 1000).group(group);
-  command
-      .choice("--weights", o.weights,
-              "How probes are blended: distance, trilinear, mls; fitted to the light transport, once for "
-              "the run, at --fit-frames of its frames")
-      .group(group);
-  command
+      .range(0, 1 << 20);
+  truth.option("--points", o.points, "Surface points at which the error is measured").range(1, 1 << 24);
+  add_truth_path_options(truth, o.truth_spp, o.max_depth);
+  truth.choice("--weights", o.weights,
+               "How probes are blended: distance, trilinear, mls; fitted to the light transport, once for "
+               "the run, at --fit-frames of its frames");
+  truth
       .option("--fit-frames", o.fit_frames,
               "With --weights fitted: frames, evenly spaced over the run, whose light and poses they fit")
-      .range(1, 256)
-      .group(group);
+      .range(1, 256);
 }
 
-void add_output_options(Command command, RelightOptions& o) {
-  const std::string group = "Output";
-  command
-      .option("-o,--output", o.output, "Folder for frame-0000.png and so on, and for error.svg with --truth")
-      .group(group);
-  command.option("--pictures", o.pictures, "Draw every so-many-th frame; 0: none")
-      .range(0, 1 << 20)
-      .group(group);
-  command.option("--format", o.format, "Of the frames: png (tone mapped) or exr (linear)")
-      .one_of({"png", "exr"})
-      .group(group);
-  add_camera_option(command, o.camera, group);
-  add_size_options(command, o.width, o.height, 16384, group);
-  command.option("--spp", o.spp, "Samples per pixel").range(1, 65536).group(group);
-  command.option("--exposure", o.exposure, "Of .png frames, in stops").group(group);
-  add_probe_file(command, "--save", o.save, "Write the probes of the last frame here").group(group);
+void add_output_options(const Command& output, RelightOptions& o) {
+  output.option("-o,--output", o.output,
+                "Folder for frame-0000.png and so on, and for error.svg with --truth");
+  output.option("--pictures", o.pictures, "Draw every so-many-th frame; 0: none").range(0, 1 << 20);
+  output.option("--format", o.format, "Of the frames: png (tone mapped) or exr (linear)")
+      .one_of({"png", "exr"});
+  add_camera_option(output, o.camera);
+  add_size_options(output, o.width, o.height, 16384);
+  output.option("--spp", o.spp, "Samples per pixel").range(1, 65536);
+  output.option("--exposure", o.exposure, "Of .png frames, in stops");
+  add_probe_file(output, "--save", o.save, "Write the probes of the last frame here");
 }
 
 }  // namespace
 
 void add_relight_command(Command app, Context& context) {
-  auto options = std::make_shared<RelightOptions>();
-  RelightOptions& o = *options;
-  Command command =
-      add_command(app, context, "relight", "Move lamps and doors and keep the probes lit, frame by frame",
-                  options, run_relight);
+  auto [command, o] = add_command(
+      app, context, "relight", "Move lamps and doors and keep the probes lit, frame by frame", run_relight);
   add_scene_options(command, o.scene);
   add_place_options(command, o.place, true);
   add_force_option(command, o.force);
@@ -95,9 +67,9 @@ void add_relight_command(Command app, Context& context) {
   command.option("--frames", o.frames, "Frames; their keys go from the first to the last").range(1, 1 << 20);
   command.option("--fps", o.fps, "Frames a second: the curve's time axis, and the time a frame may take")
       .range(0.001, 10000.0);
-  add_transport_options(command, o);
-  add_truth_options(command, o);
-  add_output_options(command, o);
+  add_transport_options(command.under("Transport"), o);
+  add_truth_options(command.under("Truth"), o);
+  add_output_options(command.under("Output"), o);
   command.footer("Frames are timed first, one after the other; truth, pictures and --save come after.");
 }
 

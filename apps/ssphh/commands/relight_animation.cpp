@@ -64,28 +64,14 @@ vec3 read_key(const std::string& where, std::string_view text, TrackProperty pro
   return key;
 }
 
-int find_light(const std::string& where, const std::string& name, const rays::TransportSource& source) {
-  const std::vector<std::string>& names = source.light_names();
-  const auto found = std::find(names.begin(), names.end(), name);
+/// The index of a name among those of the scene's lights or light groups.
+int find(const std::string& where, const char* kind, const char* kinds, const std::string& name,
+         const std::vector<std::string>& names) {
+  const auto found = std::ranges::find(names, name);
   if (found == names.end()) {
-    throw Error(
-        where, fmt::format("there is no light \"{}\"", name),
-        names.empty() ? "the scene has no lights" : fmt::format("its lights: {}", fmt::join(names, ", ")));
-  }
-  if (std::count(names.begin(), names.end(), name) > 1) {
-    throw Error(where, fmt::format("several lights are named \"{}\"", name),
-                "give them names of their own, or scale their group");
-  }
-  return static_cast<int>(found - names.begin());
-}
-
-int find_group(const std::string& where, const std::string& name, const rays::TransportSource& source) {
-  const std::vector<std::string>& names = source.light_groups();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    throw Error(
-        where, fmt::format("there is no light group \"{}\"", name),
-        names.empty() ? "the scene has no light" : fmt::format("its groups: {}", fmt::join(names, ", ")));
+    throw Error(where, fmt::format("there is no {} \"{}\"", kind, name),
+                names.empty() ? fmt::format("the scene has no {}", kinds)
+                              : fmt::format("its {}: {}", kinds, fmt::join(names, ", ")));
   }
   return static_cast<int>(found - names.begin());
 }
@@ -102,8 +88,7 @@ Track read_track(const std::string& spec, const rays::TransportSource& source, c
   } else if (what != "time") {
     const std::size_t dot = what.rfind('.');
     const std::string property = dot == std::string::npos ? "" : what.substr(dot + 1);
-    const auto* known = std::find_if(std::begin(properties), std::end(properties),
-                                     [&](const auto& p) { return property == p.name; });
+    const auto* known = std::ranges::find_if(properties, [&](const auto& p) { return property == p.name; });
     if (known == std::end(properties)) {
       throw Error(where, fmt::format("\"{}\" cannot be animated", what),
                   "time, environment.rotation, LIGHT.position, LIGHT.direction, LIGHT.intensity, LIGHT.color "
@@ -112,9 +97,13 @@ Track read_track(const std::string& spec, const rays::TransportSource& source, c
     track.property = known->property;
     const std::string name = what.substr(0, dot);
     if (track.property == TrackProperty::scale) {
-      track.target = find_group(where, name, source);
+      track.target = find(where, "light group", "groups", name, source.light_groups());
     } else {
-      track.target = find_light(where, name, source);
+      const std::vector<std::string>& names = source.light_names();
+      track.target = find(where, "light", "lights", name, names);
+      if (std::ranges::count(names, name) > 1)
+        throw Error(where, fmt::format("several lights are named \"{}\"", name),
+                    "give them names of their own, or scale their group");
       const scene::LightType type = scene.lights[static_cast<std::size_t>(track.target)].type;
       if (track.property == TrackProperty::position && type == scene::LightType::directional)
         throw Error(where, "a directional light has no position", "animate its direction");
@@ -172,8 +161,8 @@ RelightAnimation::RelightAnimation(const rays::TransportSource& source, const sc
 }
 
 bool RelightAnimation::moves_time() const {
-  return std::any_of(tracks_.begin(), tracks_.end(),
-                     [](const Track& track) { return track.property == TrackProperty::time; });
+  return std::ranges::any_of(tracks_,
+                             [](const Track& track) { return track.property == TrackProperty::time; });
 }
 
 scene::LightingState RelightAnimation::frame(float u) const {
@@ -186,27 +175,17 @@ scene::LightingState RelightAnimation::frame(float u) const {
   scene::turn_surroundings(state, scene_, turn);
   for (const Track& track : tracks_) {
     const vec3 value = track.at(u);
-    const auto target = static_cast<std::size_t>(std::max(track.target, 0));
-    switch (track.property) {
-      case TrackProperty::time:
-      case TrackProperty::turn:
-        break;  // as above: a light with a direction of its own keeps it
-      case TrackProperty::position:
-        state.lights[target].world[3] = vec4(value, 1);
-        break;
-      case TrackProperty::direction:
-        state.lights[target].world = turned(state.lights[target].world, value);
-        break;
-      case TrackProperty::intensity:
-        state.lights[target].intensity = value.x;
-        break;
-      case TrackProperty::color:
-        state.lights[target].color = value;
-        break;
-      case TrackProperty::scale:
-        state.group_scales[target] = value;
-        break;
+    if (track.target < 0) continue;  // as above: a light with a direction of its own keeps it
+    const auto target = static_cast<std::size_t>(track.target);
+    if (track.property == TrackProperty::scale) {
+      state.group_scales[target] = value;
+      continue;
     }
+    scene::LightState& light = state.lights[target];
+    if (track.property == TrackProperty::position) light.world[3] = vec4(value, 1);
+    if (track.property == TrackProperty::direction) light.world = turned(light.world, value);
+    if (track.property == TrackProperty::intensity) light.intensity = value.x;
+    if (track.property == TrackProperty::color) light.color = value;
   }
   return state;
 }

@@ -1,12 +1,15 @@
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
+#include <ssphh/core/stopwatch.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/scene/with_lighting.h>
+#include <ssphh/study/lint.h>
 #include <ssphh/study/lookup_error.h>
 #include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
@@ -16,17 +19,47 @@
 
 #include "commands/relight.h"
 #include "commands/relight_animation.h"
-#include "commands/relight_check.h"
 #include "options/picture_options.h"
 #include "options/probe_options.h"
 #include "results/geometry_builds.h"
 #include "results/pictures.h"
-#include "results/stopwatch.h"
 
 namespace ssphh::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Warns of places inside bodies, and of those that a moving part passes if parts are to move.
+void warn_about_places(const std::vector<transport::ProbePlace>& places, const rays::TransportSource& source,
+                       const std::vector<vec3>& interest, bool parts_move, const Control& control) {
+  probes::ProbeSet set;
+  for (const transport::ProbePlace& place : places) {
+    probes::Probe& probe = set.probes.emplace_back();
+    probe.name = place.name;
+    probe.position = place.position;
+    probe.radius = place.radius;
+  }
+  study::LintParams params;
+  params.interest = interest;
+  for (const study::LintProblem& problem : study::lint_places(set, source, params, control)) {
+    const bool swept = problem.kind == study::ProbeProblem::swept;
+    if (problem.kind != study::ProbeProblem::inside && !(swept && parts_move)) continue;
+    log_warning("probe \"{}\" {}", set.probes[static_cast<std::size_t>(problem.probe)].name, problem.message);
+  }
+}
+
+/// Warns of probes that see nothing, and of a network in which no surface sees another.
+void warn_about_network(const transport::RelightSession& session) {
+  const transport::TransportNetwork& network = session.network();
+  const auto directions = static_cast<std::ptrdiff_t>(network.gbuffer().directions.size());
+  for (std::size_t i = 0; i < session.places().size(); ++i) {
+    const auto begin = network.seen().begin() + static_cast<std::ptrdiff_t>(i) * directions;
+    if (std::all_of(begin, begin + directions, [](const auto& patch) { return patch.surfel < 0; }))
+      log_warning("probe \"{}\" sees no surface: it holds no light", session.places()[i].name);
+  }
+  if (network.links().link_count() == 0)
+    log_warning("no surface sees another: there is no light from surface to surface, only to the probes");
+}
 
 /// A frame whose light is kept for what comes after the timed run.
 struct KeptFrame {
@@ -83,15 +116,11 @@ class Relighting {
   std::vector<transport::ProbePlace> find_places() {
     std::vector<transport::ProbePlace> places;
     if (is_probe_file(o_.place)) {
-      const probes::ProbeSet set = read_probes_of(scene_, o_.place.probes, {}, o_.force);
-      for (const probes::Probe& probe : set.probes)
-        places.push_back({probe.name, probe.position, probe.radius});
+      places = transport::places_of(read_probes_of(scene_, o_.place.probes, {}, o_.force).probes);
     } else if (const auto placed = place_for(geometry_, scene_, o_.scene.time, o_.place, "", control_)) {
-      for (const place::PlacedProbe& probe : placed->placement.probes)
-        places.push_back({probe.name, probe.position, probe.radius});
+      places = transport::places_of(placed->placement.probes);
     } else {
-      for (const scene::SphlPlace& sphl : scene::sphl_places(scene_, o_.scene.time))
-        places.push_back({sphl.name, sphl.position, sphl.radius});
+      places = transport::places_of(scene::sphl_places(scene_, o_.scene.time));
     }
     if (places.empty()) throw Error("--probes", "there are no probes", "let --probes auto find places");
     return places;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -10,6 +9,7 @@
 
 #include <ssphh/core/file.h>
 #include <ssphh/core/log.h>
+#include <ssphh/core/stopwatch.h>
 #include <ssphh/farm/farm_render.h>
 #include <ssphh/image/io.h>
 #include <ssphh/probes/lookup.h>
@@ -17,11 +17,9 @@
 
 #include "commands/command.h"
 #include "commands/live_method.h"
-#include "commands/render_gl.h"
 #include "options/probe_options.h"
 #include "results/geometry_builds.h"
 #include "results/pictures.h"
-#include "results/stopwatch.h"
 
 namespace ssphh::app {
 namespace {
@@ -281,8 +279,8 @@ std::string to_text(const RenderResult& r, const RenderOptions& o) {
 }
 
 void add_render_command(Command app, Context& context) {
-  auto options = std::make_shared<RenderOptions>();
-  add_render_options(add_command(app, context, "render", "Render a picture", options, run_render), *options);
+  auto [command, options] = add_command(app, context, "render", "Render a picture", run_render);
+  add_render_options(command, options);
 }
 
 }  // namespace ssphh::app

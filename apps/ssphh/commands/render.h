@@ -41,6 +41,13 @@ struct RenderResult {
 /// fails.
 RenderResult run_render(const RenderOptions& options, const Control& control = {});
 
+/// `render --backend gl`: one frame of the real-time renderer, samples on a square grid. Throws Error for
+/// options that it has no answer to.
+RenderResult render_gl(const RenderOptions& options, const Control& control);
+
+/// What both backends end with: writes the picture as the options say, and finds its mean.
+void write_rendered(RenderResult& result, const RenderOptions& options);
+
 json::Value to_json(const RenderResult& result, const RenderOptions& options);
 std::string to_text(const RenderResult& result, const RenderOptions& options);
 

@@ -1,18 +1,17 @@
-#include "commands/render_gl.h"
-
 #include <optional>
 
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
+#include <ssphh/core/stopwatch.h>
 #include <ssphh/image/io.h>
 #include <ssphh/realtime/renderer.h>
 
 #include "commands/live_method.h"
+#include "commands/render.h"
 #include "options/gl_options.h"
 #include "results/geometry_builds.h"
 #include "results/pictures.h"
-#include "results/stopwatch.h"
 
 namespace ssphh::app {
 namespace {

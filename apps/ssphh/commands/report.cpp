@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <ctime>
 #include <fstream>
-#include <memory>
 #include <set>
 #include <span>
 #include <thread>
@@ -17,14 +15,13 @@
 #include <ssphh/core/hash.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/nearest_word.h>
-#include <ssphh/core/parallel.h>
+#include <ssphh/core/stopwatch.h>
 #include <ssphh/scene/query.h>
 
 #include "commands/child_process.h"
 #include "commands/command.h"
 #include "commands/report_run.h"
 #include "options/scene_options.h"
-#include "results/stopwatch.h"
 
 namespace ssphh::app {
 namespace {
@@ -48,8 +45,7 @@ scene::Scene load_plan_scene(const report::PlanScene& scene, const fs::path& fol
   } catch (const ParsingEnded& e) {
     throw Error("scene " + scene.name, e.what(),
                 "a scene is a file or builtin:NAME with --overlay, --time and the like; cameras, sizes and "
-                "samples belong "
-                "to steps");
+                "samples belong to steps");
   }
   return load_scene(options);
 }
@@ -77,12 +73,6 @@ std::string processor() {
     if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
   }
   return "unknown processor";
-}
-
-std::string file_hash(const fs::path& path) {
-  Hasher hasher;
-  hasher.bytes(read_file(path));
-  return hasher.finish().hex();
 }
 
 // Of the work tree in which the tool was built, if it lies in one.
@@ -156,7 +146,7 @@ RunPlace run_place(const ReportOptions& o) {
       fs::absolute(o.cache.empty() ? fs::absolute(o.output).lexically_normal().parent_path() / "cache"
                                    : fs::path(o.cache));
   fs::create_directories(place.cache);
-  place.build = file_hash(place.tool);
+  place.build = Hasher().bytes(read_file(place.tool)).finish().hex();
   place.machine =
       fmt::format("{}, {} threads", processor(),
                   o.threads > 0 ? o.threads : static_cast<int>(std::thread::hardware_concurrency()));
@@ -257,14 +247,12 @@ std::string to_text(const ReportResult& r, const ReportOptions& o) {
 }
 
 void add_report_command(Command app, Context& context) {
-  auto options = std::make_shared<ReportOptions>();
-  ReportOptions& o = *options;
-  Command command =
-      add_command(app, context, "report", "Run a plan of scenes and methods and show what it gave", options,
-                  [app](ReportOptions& given, const Control& control) {
-                    given.commands = step_commands(app);
-                    return run_report(given, control);
-                  });
+  auto [command, o] = add_command<ReportOptions>(app, context, "report",
+                                                 "Run a plan of scenes and methods and show what it gave",
+                                                 [&context, app](ReportOptions& given) {
+                                                   given.commands = step_commands(app);
+                                                   run_and_print(context, given, run_report);
+                                                 });
   command.option("PLAN", o.plan, "Plan (JSON or YAML; docs/report.md)").required().existing_file();
   command.option("-o,--output", o.output, "Folder for report.html, report.json, report.csv and report.md")
       .required();
@@ -273,26 +261,23 @@ void add_report_command(Command app, Context& context) {
   command.option("--cache", o.cache, "Folder of finished runs; default: cache beside the output folder");
   command.option("--time-limit", o.time_limit, "Seconds that a command may take; default: what the plan says")
       .range(1, 1000000);
-  add_broker_options(command, o.farm.broker, "client", "Farm")
-      .excludes(
-          command
-              .option("--local", o.farm.local,
-                      "Start a broker and so many workers on this machine for the plan's bakes and renders")
-              .range(1, 1024)
-              .group("Farm"));
+  const Command shared = command.under("Farm");
+  const Option broker = add_broker_options(shared, o.farm.broker, "client");
+  shared
+      .option("--local", o.farm.local,
+              "Start a broker and so many workers on this machine for the plan's bakes and renders")
+      .range(1, 1024)
+      .excludes(broker);
   command.flag("--any-build", o.any_build,
                "Also take finished runs of other builds of this version of the tool");
   command.footer(
       "Every command line of the plan runs once and is kept by a hash of all that decides its result, so a "
       "report that\n"
       "was interrupted continues, and one with a method more runs that method alone. A command that fails is "
-      "a "
-      "failed cell\n"
+      "a failed cell\n"
       "of the page, with its log, and is tried again next time; exit code 1.\n"
       "With --broker or --local a farm does path-traced bakes, renders and truths, to the same bits; other "
-      "commands "
-      "run "
-      "here.");
+      "commands run here.");
 }
 
 }  // namespace ssphh::app

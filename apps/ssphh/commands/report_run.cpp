@@ -57,7 +57,7 @@ std::string failure_text(const Error& error, const fs::path& log) {
     text.replace(at, where.size(), "it said");
   std::error_code ignored;
   const std::string all = fs::exists(log, ignored) ? read_text_file(log) : "";
-  if (std::count(all.begin(), all.end(), '\n') > 8)
+  if (std::ranges::count(all, '\n') > 8)
     text += "\nAll of it:\n" + (all.size() > most ? "…" + all.substr(all.size() - most) : all);
   return text;
 }
@@ -207,12 +207,10 @@ class CellMeasurer {
 
 bool runs_on_farm(const std::vector<std::string>& words) {
   const auto value_of = [&](const char* option) -> std::string {
-    const auto found = std::find(words.begin(), words.end(), option);
+    const auto found = std::ranges::find(words, option);
     return found == words.end() || std::next(found) == words.end() ? "" : *std::next(found);
   };
-  const auto has = [&](const char* option) {
-    return std::find(words.begin(), words.end(), option) != words.end();
-  };
+  const auto has = [&](const char* option) { return std::ranges::find(words, option) != words.end(); };
   if (words.front() == "bake") return value_of("--operator").empty() || value_of("--operator") == "path";
   if (words.front() == "truth") return value_of("--renderer") != "cycles";
   const std::string method = value_of("--method");
@@ -260,11 +258,9 @@ std::vector<ReportCell> measure_cells(const report::Plan& plan, const report::Ex
   ProgressStage stage(control, "Measuring", cells.size(), "pictures");
   parallel_for(
       cells.size(), 1,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          cells[i] = measurer.measure(expansion.cells[i]);
-          stage.advance(1);
-        }
+      [&](std::size_t i) {
+        cells[i] = measurer.measure(expansion.cells[i]);
+        stage.advance(1);
       },
       control);
   return cells;

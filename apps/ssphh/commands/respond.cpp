@@ -120,11 +120,9 @@ std::string to_text(const RespondResult& result, const RespondOptions& o) {
 }
 
 void add_respond_command(Command app, Context& context) {
-  auto options = std::make_shared<RespondOptions>();
-  RespondOptions& o = *options;
-  Command command =
+  auto [command, o] =
       add_command(app, context, "respond", "Change lamps or doors at once and see how fast a method follows",
-                  options, run_respond);
+                  run_respond);
   add_scene_options(command, o.scene);
   std::vector<std::string> names;
   for (const methods::MethodEntry& entry : methods::method_table()) names.emplace_back(entry.name);

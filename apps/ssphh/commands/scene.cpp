@@ -1,13 +1,12 @@
 #include "commands/scene.h"
 
 #include <algorithm>
-#include <memory>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "commands/command.h"
-#include "results/vector_json.h"
+#include "results/json_values.h"
 
 namespace ssphh::app {
 namespace {
@@ -125,13 +124,10 @@ std::string to_text(const SceneInfo& info, const SceneOptions& options) {
 
 void add_scene_commands(Command app, Context& context) {
   Command group = add_group(app, "scene", "List the built-in scenes, look into a scene");
-  add_command(group, context, "list", "The built-in scenes", std::make_shared<SceneListOptions>(),
-              run_scene_list);
-
-  const auto options = std::make_shared<SceneOptions>();
-  Command info = add_command(group, context, "info", "What a scene holds, and what of its file is ignored",
-                             options, run_scene_info);
-  add_scene_options(info, *options);
+  add_command(group, context, "list", "The built-in scenes", run_scene_list);
+  auto [info, options] = add_command(group, context, "info",
+                                     "What a scene holds, and what of its file is ignored", run_scene_info);
+  add_scene_options(info, options);
 }
 
 }  // namespace ssphh::app

@@ -21,58 +21,53 @@ Option direction_option(Command command, const std::string& name, std::vector<do
 }
 
 void add_eval(Command group, Context& context) {
-  auto o = std::make_shared<ShEvalOptions>();
-  Command command = add_command(group, context, "eval", "Values of all Y_lm in a direction", o, run_sh_eval);
-  command.option("--degree", o->degree, "Highest band l, 0..10").range(0, sh::max_degree);
-  direction_option(command, "--direction", o->direction, "Any length but 0; y is up").required();
+  auto [command, o] = add_command(group, context, "eval", "Values of all Y_lm in a direction", run_sh_eval);
+  command.option("--degree", o.degree, "Highest band l, 0..10").range(0, sh::max_degree);
+  direction_option(command, "--direction", o.direction, "Any length but 0; y is up").required();
 }
 
 void add_project(Command group, Context& context) {
-  auto o = std::make_shared<ShProjectOptions>();
-  Command command =
-      add_command(group, context, "project", "Coefficients of the radiance in an image", o, run_sh_project);
-  command.option("image", o->image, "EXR, HDR, PNG or JPEG of the whole sphere").required();
-  command.choice("--layout", o->layout, "How it lays the sphere out").required();
-  command.option("--degree", o->degree, "Highest band l, 0..10").range(0, sh::max_degree);
-  add_output(command, o->output);
+  auto [command, o] =
+      add_command(group, context, "project", "Coefficients of the radiance in an image", run_sh_project);
+  command.option("image", o.image, "EXR, HDR, PNG or JPEG of the whole sphere").required();
+  command.choice("--layout", o.layout, "How it lays the sphere out").required();
+  command.option("--degree", o.degree, "Highest band l, 0..10").range(0, sh::max_degree);
+  add_output(command, o.output);
 }
 
 void add_irradiance(Command group, Context& context) {
-  auto o = std::make_shared<ShIrradianceOptions>();
-  Command command =
+  auto [command, o] =
       add_command(group, context, "irradiance",
-                  "Irradiance E(n) [W/m²] on a surface with a normal; no hidden 1/π", o, run_sh_irradiance);
-  command.option("file", o->file, file_help).required();
-  direction_option(command, "--normal", o->normal, "Any length but 0; y is up").required();
+                  "Irradiance E(n) [W/m²] on a surface with a normal; no hidden 1/π", run_sh_irradiance);
+  command.option("file", o.file, file_help).required();
+  direction_option(command, "--normal", o.normal, "Any length but 0; y is up").required();
 }
 
 void add_reconstruct(Command group, Context& context) {
-  auto o = std::make_shared<ShReconstructOptions>();
-  Command command = add_command(group, context, "reconstruct", "The radiance (or irradiance) as an image", o,
-                                run_sh_reconstruct);
-  command.option("file", o->file, file_help).required();
-  command.option("-o,--output", o->output, ".exr, .hdr, .png or .jpg (EXR keeps negative values)").required();
-  command.choice("--layout", o->layout, "How it lays the sphere out");
-  command.option("--size", o->size, "Height [pixels] of a face, or of the whole equirect or angular image")
+  auto [command, o] = add_command(group, context, "reconstruct", "The radiance (or irradiance) as an image",
+                                  run_sh_reconstruct);
+  command.option("file", o.file, file_help).required();
+  command.option("-o,--output", o.output, ".exr, .hdr, .png or .jpg (EXR keeps negative values)").required();
+  command.choice("--layout", o.layout, "How it lays the sphere out");
+  command.option("--size", o.size, "Height [pixels] of a face, or of the whole equirect or angular image")
       .range(1, 8192);
-  command.flag("--irradiance", o->irradiance, "Show irradiance E(n) instead of radiance");
+  command.flag("--irradiance", o.irradiance, "Show irradiance E(n) instead of radiance");
 }
 
 void add_rotate(Command group, Context& context) {
-  auto o = std::make_shared<ShRotateOptions>();
-  Command command = add_command(group, context, "rotate",
-                                "Turns the light: what came from d then comes from R d", o, run_sh_rotate);
-  command.option("file", o->file, file_help).required();
-  Option axis = direction_option(command, "--axis", o->axis, "Rotation axis");
+  auto [command, o] = add_command(group, context, "rotate",
+                                  "Turns the light: what came from d then comes from R d", run_sh_rotate);
+  command.option("file", o.file, file_help).required();
+  Option axis = direction_option(command, "--axis", o.axis, "Rotation axis");
   Option angle =
-      command.option("--angle", o->angle, "Counter-clockwise about the axis [degrees]").shown_default("");
+      command.option("--angle", o.angle, "Counter-clockwise about the axis [degrees]").shown_default("");
   axis.needs(angle);
   angle.needs(axis);
-  command.option("--quaternion", o->quaternion, "Instead of axis and angle; any length but 0")
+  command.option("--quaternion", o.quaternion, "Instead of axis and angle; any length but 0")
       .values(4)
       .kind("X Y Z W")
       .excludes(axis);
-  add_output(command, o->output);
+  add_output(command, o.output);
 }
 
 sh::Convention convention_option(const char* option, const std::string& name) {
@@ -88,20 +83,19 @@ void add_convert(Command group, Context& context) {
   struct Words {
     std::string from = "ssphh", to;
   };
-  auto words = std::make_shared<Words>();
-  auto o = std::make_shared<ShConvertOptions>();
-  Command command = add_command(group, context, "convert",
-                                "Coefficients for and from other programs (scale and sign; not the axes)", o,
-                                [words](ShConvertOptions& options, const Control& control) {
-                                  options.from = convention_option("--from", words->from);
-                                  options.to = convention_option("--to", words->to);
-                                  return run_sh_convert(options, control);
-                                });
-  command.option("file", o->file, file_help).required();
+  const auto words = std::make_shared<Words>();
+  auto [command, o] = add_command<ShConvertOptions>(
+      group, context, "convert", "Coefficients for and from other programs (scale and sign; not the axes)",
+      [&context, words](ShConvertOptions& given) {
+        given.from = convention_option("--from", words->from);
+        given.to = convention_option("--to", words->to);
+        run_and_print(context, given, run_sh_convert);
+      });
+  command.option("file", o.file, file_help).required();
   const char* names = "ssphh, d3dx (unreal), unity, three (godot), filament or filament-mirrored";
   command.option("--from", words->from, names);
   command.option("--to", words->to, names).required();
-  add_output(command, o->output);
+  add_output(command, o.output);
   command.footer(
       "three, godot and filament use this project's axes (right-handed, y up). unity is left-handed, unreal "
       "also has z\n"
@@ -109,18 +103,17 @@ void add_convert(Command group, Context& context) {
 }
 
 void add_window(Command group, Context& context) {
-  auto o = std::make_shared<ShWindowOptions>();
-  Command command =
-      add_command(group, context, "window", "Damps high bands against ringing", o, run_sh_window);
-  command.option("file", o->file, file_help).required();
+  auto [command, o] =
+      add_command(group, context, "window", "Damps high bands against ringing", run_sh_window);
+  command.option("file", o.file, file_help).required();
   Option automatic = command.flag(
-      "--auto", o->automatic, "The mildest Lanczos window without negative values; none if there are none");
-  Option lanczos = command.option("--lanczos", o->lanczos, "Lanczos window of this width [bands]");
-  Option hanning = command.option("--hanning", o->hanning, "Hanning window of this width [bands]");
+      "--auto", o.automatic, "The mildest Lanczos window without negative values; none if there are none");
+  Option lanczos = command.option("--lanczos", o.lanczos, "Lanczos window of this width [bands]");
+  Option hanning = command.option("--hanning", o.hanning, "Hanning window of this width [bands]");
   automatic.excludes(lanczos).excludes(hanning);
   lanczos.excludes(hanning);
-  command.choice("--goal", o->goal, "What --auto keeps from being negative: irradiance or radiance");
-  add_output(command, o->output);
+  command.choice("--goal", o.goal, "What --auto keeps from being negative: irradiance or radiance");
+  add_output(command, o.output);
 }
 
 }  // namespace

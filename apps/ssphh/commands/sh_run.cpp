@@ -110,14 +110,12 @@ ShReconstructResult run_sh_reconstruct(const ShReconstructOptions& o, const Cont
   image::CubeMap cube(face);
   parallel_for(
       static_cast<std::size_t>(6 * face), 8,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t row = begin; row < end; ++row) {
-          const int f = static_cast<int>(row) / face, y = static_cast<int>(row) % face;
-          for (int x = 0; x < face; ++x) {
-            const vec3 d = texel_direction(f, x, y, face);
-            cube.faces[static_cast<std::size_t>(f)].set_rgb(
-                x, y, o.irradiance ? sh::eval(irradiance, d) : sh::eval(radiance, d));
-          }
+      [&](std::size_t row) {
+        const int f = static_cast<int>(row) / face, y = static_cast<int>(row) % face;
+        for (int x = 0; x < face; ++x) {
+          const vec3 d = texel_direction(f, x, y, face);
+          cube.faces[static_cast<std::size_t>(f)].set_rgb(
+              x, y, o.irradiance ? sh::eval(irradiance, d) : sh::eval(radiance, d));
         }
       },
       control);

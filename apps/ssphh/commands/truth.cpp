@@ -3,20 +3,19 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <memory>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include <ssphh/core/stopwatch.h>
 #include <ssphh/farm/farm_render.h>
 #include <ssphh/image/io.h>
 #include <ssphh/trace/path_tracer.h>
 
 #include "commands/child_process.h"
 #include "commands/command.h"
+#include "results/json_values.h"
 #include "results/pictures.h"
-#include "results/stopwatch.h"
-#include "results/vector_json.h"
 
 namespace ssphh::app {
 namespace {
@@ -176,10 +175,8 @@ std::string to_text(const TruthResult& r, const TruthOptions& o) {
 }
 
 void add_truth_command(Command app, Context& context) {
-  auto options = std::make_shared<TruthOptions>();
-  TruthOptions& o = *options;
-  Command command = add_command(app, context, "truth", "Render a reference picture and tell its own noise",
-                                options, run_truth);
+  auto [command, o] =
+      add_command(app, context, "truth", "Render a reference picture and tell its own noise", run_truth);
   add_picture_options(command, o.picture);
   add_farm_options(command, o.farm);
   command.choice("--renderer", o.renderer, "path: our path tracer; cycles: Blender, which must be installed");

@@ -1,7 +1,6 @@
 #include "commands/turntable.h"
 
 #include <filesystem>
-#include <memory>
 
 #include <fmt/format.h>
 
@@ -60,11 +59,8 @@ std::string to_text(const TurntableResult& result, const TurntableOptions& o) {
 }
 
 void add_turntable_command(Command app, Context& context) {
-  auto options = std::make_shared<TurntableOptions>();
-  TurntableOptions& o = *options;
-  Command command =
-      add_command(app, context, "turntable", "Pictures of a model from all around, drawn with OpenGL",
-                  options, run_turntable);
+  auto [command, o] = add_command(app, context, "turntable",
+                                  "Pictures of a model from all around, drawn with OpenGL", run_turntable);
   add_scene_options(command, o.scene, true, "MODEL");
   command.option("-o,--output", o.directory, "Directory for 0000.png, 0001.png, …").required();
   command.option("--frames", o.frames, "Pictures of one turn").range(1, 100000);

@@ -20,9 +20,9 @@ void add_setting_options(Command command, ViewOptions& o) {
   o.values.resize(viewer::setting_names().size());
   for (std::size_t i = 0; i < o.values.size(); ++i) {
     const viewer::SettingName& setting = viewer::setting_names()[i];
-    Option option = command.option("--" + setting.name, o.values[i], setting.help)
-                        .group(setting.group)
-                        .shown_default(setting.get(viewer::Settings{}));
+    const Option option = command.under(setting.group)
+                              .option("--" + setting.name, o.values[i], setting.help)
+                              .shown_default(setting.get(viewer::Settings{}));
     option.check(
         [&setting](const std::string& text) -> std::string {
           try {
@@ -73,42 +73,32 @@ std::string to_text(const viewer::ViewerReport& r, const ViewOptions&) {
 }
 
 void add_view_command(Command app, Context& context) {
-  auto options = std::make_shared<ViewOptions>();
-  ViewOptions& o = *options;
-  Command command =
-      add_command(app, context, "view", "Look at a scene lit by probes, in a window", options, run_view);
+  auto [command, o] =
+      add_command(app, context, "view", "Look at a scene lit by probes, in a window", run_view);
   add_scene_options(command, o.scene);
   command["SCENE"].required(false);
   command.option("--camera", o.viewer.camera, "Camera by name; default: the scene's first");
   command.option("--size", o.size, "Of the window, WIDTHxHEIGHT");
   command.flag("--no-panels", o.no_panels, "The picture alone (Tab brings the panels)");
 
-  const std::string probes = "Probes";
-  command
-      .option("--probes", o.viewer.probes,
-              "A probe file, shown as it was baked; scene: the scene's SPHLs, kept lit while lamps and "
-              "doors move; auto, auto:METRES: find places first; off. Default: scene, if it has SPHLs")
-      .group(probes);
-  command.flag("--live", o.viewer.live, "Light the probes of a file anew and keep them lit").group(probes);
-  command.flag("--force", o.viewer.force, "Take a probe file of another scene, with a warning").group(probes);
+  const Command probes = command.under("Probes");
+  probes.option("--probes", o.viewer.probes,
+                "A probe file, shown as it was baked; scene: the scene's SPHLs, kept lit while lamps and "
+                "doors move; auto, auto:METRES: find places first; off. Default: scene, if it has SPHLs");
+  probes.flag("--live", o.viewer.live, "Light the probes of a file anew and keep them lit");
+  probes.flag("--force", o.viewer.force, "Take a probe file of another scene, with a warning");
   add_setting_options(command, o);
 
-  const std::string output = "Without hands";
-  command.option("--path", o.viewer.path, "Camera path (schemas/camera-path.schema.json): the bookmarks")
-      .group(output);
-  command.option("--export", o.viewer.export_dir, "Draw the path as DIR/frame-0000.png and so on, and end")
-      .group(output);
-  command.option("--fps", o.viewer.fps, "Of the exported frames").range(0.001, 10000.0).group(output);
-  command
-      .option("--screenshot", o.viewer.screenshot,
-              "Write the window (or with --no-panels the picture) to this PNG once all is lit, and end")
-      .group(output);
-  command.option("--script", o.viewer.script, "Do what this file says (docs/viewer.md)").group(output);
-  command.option("--stats", o.viewer.stats, "Write the frames' times at the end: .json, or .csv")
-      .group(output);
-  command.option("--frames", o.viewer.frames, "End after so many frames; 0: when the window is closed")
-      .range(0, 1 << 30)
-      .group(output);
+  const Command output = command.under("Without hands");
+  output.option("--path", o.viewer.path, "Camera path (schemas/camera-path.schema.json): the bookmarks");
+  output.option("--export", o.viewer.export_dir, "Draw the path as DIR/frame-0000.png and so on, and end");
+  output.option("--fps", o.viewer.fps, "Of the exported frames").range(0.001, 10000.0);
+  output.option("--screenshot", o.viewer.screenshot,
+                "Write the window (or with --no-panels the picture) to this PNG once all is lit, and end");
+  output.option("--script", o.viewer.script, "Do what this file says (docs/viewer.md)");
+  output.option("--stats", o.viewer.stats, "Write the frames' times at the end: .json, or .csv");
+  output.option("--frames", o.viewer.frames, "End after so many frames; 0: when the window is closed")
+      .range(0, 1 << 30);
   command.footer(
       "F1 in the window lists mouse and keys. Needs a display with OpenGL 4.5: a software renderer will do.");
 }

@@ -44,25 +44,19 @@ std::string to_text(const farm::WorkerPoolReport& report, const WorkerSettings&)
 }
 
 void add_worker_command(Command app, Context& context) {
-  auto options = std::make_shared<WorkerSettings>();
-  Command command = add_command(app, context, "worker", "Do jobs of a farm: GEN, VIZ and tiles of pictures",
-                                [&context, options] { work(context, *options); });
-  const std::string group = "Worker";
-  add_broker_options(command, options->broker, "worker", group).required();
-  command.option("--slots", options->pool.slots, "Jobs at a time; they share the scene and --threads")
-      .range(1, 1024)
-      .group(group);
-  command.option("--name", options->pool.name, "In logs and `farm status`; default: HOST:PID").group(group);
-  command
-      .option("--cache", options->cache,
-              "Folder of scenes, shared by workers of one machine; default: " +
-                  farm::default_cache_dir("scenes").string())
-      .group(group);
-  command.option("--cache-size", options->cache_mb, "Of --cache, MB").range(1, 1 << 30).group(group);
-  command
-      .option("--idle-exit", options->pool.idle_exit, "Leave after so many seconds without a job; 0: never")
-      .non_negative()
-      .group(group);
+  auto [command, o] =
+      add_command<WorkerSettings>(app, context, "worker", "Do jobs of a farm: GEN, VIZ and tiles of pictures",
+                                  [&context](WorkerSettings& settings) { work(context, settings); });
+  const Command worker = command.under("Worker");
+  add_broker_options(worker, o.broker, "worker").required();
+  worker.option("--slots", o.pool.slots, "Jobs at a time; they share the scene and --threads").range(1, 1024);
+  worker.option("--name", o.pool.name, "In logs and `farm status`; default: HOST:PID");
+  worker.option("--cache", o.cache,
+                "Folder of scenes, shared by workers of one machine; default: " +
+                    farm::default_cache_dir("scenes").string());
+  worker.option("--cache-size", o.cache_mb, "Of --cache, MB").range(1, 1 << 30);
+  worker.option("--idle-exit", o.pool.idle_exit, "Leave after so many seconds without a job; 0: never")
+      .non_negative();
   command.footer(
       "SIGTERM or Ctrl-C: finishes the jobs in hand, answers them and leaves with 0; a second one ends it at "
       "once.\nExit code 42: the same command would fail again (options, keys, cache). docs/farm.md");

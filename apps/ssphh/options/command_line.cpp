@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
-#include <optional>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
@@ -28,11 +27,6 @@ void forget_default_outside(CLI::Option& option, double least, double most) {
 }
 
 }  // namespace
-
-Option Option::group(const std::string& heading) const {
-  option_->group(heading);
-  return *this;
-}
 
 Option Option::required(bool needed) const {
   option_->required(needed);
@@ -122,11 +116,16 @@ std::string Option::name() const {
   return option_->get_name();
 }
 
+Option Command::headed(CLI::Option* option) const {
+  if (!heading_.empty()) option->group(heading_);
+  return Option(option);
+}
+
 template <class T>
 Option Command::option(const std::string& names, T& target, const std::string& help) const {
   CLI::Option* option = app_->add_option(names, target, help);
   if constexpr (has_default<T>) option->capture_default_str();
-  return Option(option);
+  return headed(option);
 }
 
 template Option Command::option(const std::string&, std::string&, const std::string&) const;
@@ -149,11 +148,11 @@ Option Command::choice(const std::string& names, const std::vector<std::string>&
                        const std::string& shown, const std::string& help,
                        std::function<void(const std::string&)> choose) const {
   CLI::Option* option = app_->add_option_function<std::string>(names, choose, help);
-  return Option(option->check(CLI::IsMember(among))->default_str(shown));
+  return headed(option->check(CLI::IsMember(among))->default_str(shown));
 }
 
 Option Command::flag(const std::string& names, bool& target, const std::string& help) const {
-  return Option(app_->add_flag(names, target, help));
+  return headed(app_->add_flag(names, target, help));
 }
 
 Option Command::operator[](const std::string& name) const {

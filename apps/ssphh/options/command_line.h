@@ -24,8 +24,6 @@ class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
 
-  /// The heading of --help under which it stands.
-  Option group(const std::string& heading) const;
   Option required(bool needed = true) const;
   /// Refuses values outside [least, most]. A default outside stands for "not given" and is not shown.
   Option range(int least, int most) const;
@@ -55,7 +53,10 @@ class Option {
 /// A command or a group of commands, valid as long as its CommandLine.
 class Command {
  public:
-  explicit Command(CLI::App* app) : app_(app) {}
+  explicit Command(CLI::App* app, std::string heading = "") : app_(app), heading_(std::move(heading)) {}
+
+  /// The same command: options that are added through this stand under a heading of their own in --help.
+  Command under(const std::string& heading) const { return Command(app_, heading); }
 
   /// `names` as "-o,--output", or "FILE" for a positional argument. The value that `target` has is the
   /// default and is shown. T is std::string, a path, int, std::uint64_t, float, double, or a std::optional or
@@ -92,8 +93,10 @@ class Command {
  private:
   Option choice(const std::string& names, const std::vector<std::string>& among, const std::string& shown,
                 const std::string& help, std::function<void(const std::string&)> choose) const;
+  Option headed(CLI::Option* option) const;
 
   CLI::App* app_;
+  std::string heading_;  ///< empty: the one that CLI11 gives
 };
 
 /// Thrown where a line names no command that could run: wrong usage, or help or the version was asked for.

@@ -6,16 +6,12 @@
 
 namespace ssphh::app {
 
-Option add_broker_options(Command command, BrokerChoice& choice, const std::string& key,
-                          const std::string& group) {
+Option add_broker_options(Command command, BrokerChoice& choice, const std::string& key) {
   choice.key = key;
-  Option broker = command.option("--broker", choice.endpoint, "The farm's broker, e.g. tcp://127.0.0.1:5555")
-                      .group(group);
-  command
-      .option("--keys", choice.keys,
-              "Folder with broker.pub and NAME.key (`ssphh farm keygen`); wanted beyond loopback and ipc")
-      .group(group);
-  command.option("--key", choice.key, "Name of the own key in --keys").group(group);
+  Option broker = command.option("--broker", choice.endpoint, "The farm's broker, e.g. tcp://127.0.0.1:5555");
+  command.option("--keys", choice.keys,
+                 "Folder with broker.pub and NAME.key (`ssphh farm keygen`); wanted beyond loopback and ipc");
+  command.option("--key", choice.key, "Name of the own key in --keys");
   return broker;
 }
 
@@ -27,19 +23,16 @@ farm::BrokerAddress broker_address(const BrokerChoice& choice) {
 }
 
 void add_farm_options(Command command, FarmChoice& choice) {
-  const std::string group = "Farm: the same file, bit by bit, made by many machines";
-  Option broker = add_broker_options(command, choice.broker, "client", group);
-  command
+  const Command shared = command.under("Farm: the same file, bit by bit, made by many machines");
+  Option broker = add_broker_options(shared, choice.broker, "client");
+  shared
       .option("--local", choice.local, "Start a broker and so many workers on this machine for this command")
       .range(1, 1024)
-      .excludes(broker)
-      .group(group);
-  command
-      .option("--cache", choice.cache,
-              "Folder of finished results, which need not be computed again; none: keep none; default: " +
-                  farm::default_cache_dir("results").string())
-      .group(group);
-  command.option("--cache-size", choice.cache_mb, "Of --cache, MB").range(1, 1 << 30).group(group);
+      .excludes(broker);
+  shared.option("--cache", choice.cache,
+                "Folder of finished results, which need not be computed again; none: keep none; default: " +
+                    farm::default_cache_dir("results").string());
+  shared.option("--cache-size", choice.cache_mb, "Of --cache, MB").range(1, 1 << 30);
 }
 
 FarmSession::FarmSession(const FarmChoice& choice) {

@@ -19,8 +19,7 @@ struct BrokerChoice {
   std::string endpoint, keys, key;
 };
 /// --broker, --keys and --key; `key` is the default name of one's own key.
-Option add_broker_options(Command command, BrokerChoice& choice, const std::string& key,
-                          const std::string& group);
+Option add_broker_options(Command command, BrokerChoice& choice, const std::string& key);
 farm::BrokerAddress broker_address(const BrokerChoice& choice);
 
 struct FarmChoice {

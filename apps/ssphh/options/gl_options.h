@@ -1,10 +1,8 @@
 #pragma once
 /// What the commands that draw with OpenGL share.
 
-#include <optional>
 #include <string>
 
-#include <ssphh/probes/probe_set.h>
 #include <ssphh/realtime/renderer.h>
 #include <ssphh/scene/scene.h>
 

@@ -9,6 +9,10 @@
 namespace ssphh::app {
 
 /// --param NAME=VALUE, repeated.
-Option add_method_parameters(Command command, std::vector<std::string>& settings);
+inline Option add_method_parameters(Command command, std::vector<std::string>& settings) {
+  return command
+      .option("--param", settings, "Parameter of the method, NAME=VALUE; `ssphh methods` lists them")
+      .repeatable();
+}
 
 }  // namespace ssphh::app

@@ -9,17 +9,13 @@ trace::Projection projection_of(PictureProjection projection, const scene::Camer
   return camera.orthographic ? orthographic : pinhole;
 }
 
-void add_camera_option(Command command, std::string& camera, const std::string& group) {
-  const Option option = command.option("--camera", camera, "Camera by name; default: the scene's first");
-  if (!group.empty()) option.group(group);
+void add_camera_option(Command command, std::string& camera) {
+  command.option("--camera", camera, "Camera by name; default: the scene's first");
 }
 
-void add_size_options(Command command, int& width, int& height, int most, const std::string& group) {
-  for (const Option& option :
-       {command.option("--width", width, "Pixels"), command.option("--height", height, "Pixels")}) {
-    option.range(1, most);
-    if (!group.empty()) option.group(group);
-  }
+void add_size_options(Command command, int& width, int& height, int most) {
+  command.option("--width", width, "Pixels").range(1, most);
+  command.option("--height", height, "Pixels").range(1, most);
 }
 
 Option add_max_depth_option(Command command, int& max_depth) {

@@ -21,10 +21,9 @@ constexpr auto enum_table(PictureProjection) {
 }
 trace::Projection projection_of(PictureProjection projection, const scene::Camera& camera);
 
-void add_camera_option(Command command, std::string& camera, const std::string& group = "");
+void add_camera_option(Command command, std::string& camera);
 /// --width and --height in pixels, each at most `most`.
-void add_size_options(Command command, int& width, int& height, int most = 16384,
-                      const std::string& group = "");
+void add_size_options(Command command, int& width, int& height, int most = 16384);
 Option add_max_depth_option(Command command, int& max_depth);
 
 struct PictureOptions {

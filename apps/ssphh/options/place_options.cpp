@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
+#include <ssphh/core/stopwatch.h>
 #include <ssphh/trace/transport_scene.h>
 
-#include "results/stopwatch.h"
-#include "results/vector_json.h"
+#include "results/json_values.h"
 
 namespace ssphh::app {
 namespace {
@@ -35,8 +35,8 @@ std::string parse(const std::string& text, place::PlaceParams& params) {
 }
 
 std::size_t count_of(const place::Placement& placement, place::PlaceKind kind) {
-  return static_cast<std::size_t>(std::count_if(placement.probes.begin(), placement.probes.end(),
-                                                [&](const auto& probe) { return probe.kind == kind; }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(placement.probes, [&](const auto& probe) { return probe.kind == kind; }));
 }
 
 }  // namespace
@@ -46,8 +46,8 @@ bool is_probe_file(const PlaceOptions& options) {
 }
 
 void add_place_options(Command command, PlaceOptions& options, bool files) {
-  const std::string group = "Placement";
-  command
+  const Command placement = command.under("Placement");
+  placement
       .option("--probes", options.probes,
               std::string(files ? "A probe file, for its places; or " : "") +
                   "scene: the scene's SPHLs; auto: find places, some 100 to 200; auto:METRES: with this "
@@ -59,17 +59,12 @@ void add_place_options(Command command, PlaceOptions& options, bool files) {
             place::PlaceParams ignored;
             return parse(text, ignored);
           },
-          files ? "FILE|scene|auto|auto:METRES|N" : "scene|auto|auto:METRES|N")
-      .group(group);
-  command.option("--clearance", options.clearance, "Least distance of a placed probe from surfaces [m]")
-      .positive()
-      .group(group);
-  command.option("--refine", options.levels, "Times that the spacing may be halved near surfaces, 0..3")
-      .range(0, 3)
-      .group(group);
-  command.option("--max-probes", options.max_probes, "Most probes that may be placed")
-      .range(1, 65536)
-      .group(group);
+          files ? "FILE|scene|auto|auto:METRES|N" : "scene|auto|auto:METRES|N");
+  placement.option("--clearance", options.clearance, "Least distance of a placed probe from surfaces [m]")
+      .positive();
+  placement.option("--refine", options.levels, "Times that the spacing may be halved near surfaces, 0..3")
+      .range(0, 3);
+  placement.option("--max-probes", options.max_probes, "Most probes that may be placed").range(1, 65536);
 }
 
 std::optional<PlaceResult> place_for(const trace::SharedGeometry& geometry, const scene::Scene& scene,
@@ -99,8 +94,7 @@ std::optional<PlaceResult> place_for(const trace::SharedGeometry& geometry, cons
 json::Value place_json(const PlaceResult& result) {
   const place::Placement& p = result.placement;
   const place::PlaceCounts& c = p.counts;
-  const auto moving =
-      std::count_if(p.edges.begin(), p.edges.end(), [](const auto& edge) { return edge.moving; });
+  const auto moving = std::ranges::count_if(p.edges, [](const auto& edge) { return edge.moving; });
   return {{"probes", p.probes.size()},
           {"manual", count_of(p, place::PlaceKind::manual)},
           {"refined", count_of(p, place::PlaceKind::refined)},

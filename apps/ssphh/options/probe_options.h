@@ -1,7 +1,6 @@
 #pragma once
 /// Options that the commands around probe files share.
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,6 +43,9 @@ std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const probes::
 Option add_lookup_option(Command command, probes::LookupMethod& method);
 Option add_weights_option(Command command, std::optional<probes::WeightMethod>& weights);
 Option add_layer_option(Command command, probes::ProbeLayer& layer);
+
+/// --truth-spp and --max-depth of paths that tell what light there really is.
+void add_truth_path_options(const Command& command, int& spp, int& max_depth);
 
 /// What the choice means for the set in `file`. Throws Error for `fitted` with a set that has none.
 probes::LookupParams lookup_params(const std::string& file, const probes::ProbeSet& set,

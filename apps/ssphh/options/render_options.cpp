@@ -40,51 +40,41 @@ void add_render_options(Command command, RenderOptions& o) {
       "--at", o.at,
       "Place of the sphere, its axes the world's: a SPHL by name, or X,Y,Z; default: the camera's");
 
-  const std::string paths = "Light paths";
-  add_max_depth_option(command, o.max_depth).group(paths);
-  command.option("--passes", o.passes, "Progressive passes; Ctrl-C keeps the finished ones")
-      .range(1, 1000000)
-      .group(paths);
-  command.option("--spp", o.spp, "Samples per pixel and pass").range(1, 65536).group(paths);
-  command.flag("--resume", o.resume, "Continue from OUT.state, left by a cancelled run of the same command")
-      .group(paths);
+  const Command paths = command.under("Light paths");
+  add_max_depth_option(paths, o.max_depth);
+  paths.option("--passes", o.passes, "Progressive passes; Ctrl-C keeps the finished ones").range(1, 1000000);
+  paths.option("--spp", o.spp, "Samples per pixel and pass").range(1, 65536);
+  paths.flag("--resume", o.resume, "Continue from OUT.state, left by a cancelled run of the same command");
 
-  const std::string probes = "Method ssphh";
-  command
-      .option("--probes", o.probes,
-              "Probe file (.sphl or .sphl.json); none: probes are placed and lit for this picture")
-      .group(probes);
-  add_lookup_option(command, o.lookup.method).group(probes);
-  command
-      .choice("--backend", o.backend,
-              "cpu: traced, any number of samples; gl: a frame of the real-time renderer (methods ssphh, "
-              "vct, vpl, direct), up to 4×4 samples per pixel (docs/methods/realtime.md)")
-      .group(probes);
-  command
+  const Command probes = command.under("Method ssphh");
+  probes.option("--probes", o.probes,
+                "Probe file (.sphl or .sphl.json); none: probes are placed and lit for this picture");
+  add_lookup_option(probes, o.lookup.method);
+  probes.choice("--backend", o.backend,
+                "cpu: traced, any number of samples; gl: a frame of the real-time renderer (methods ssphh, "
+                "vct, vpl, direct), up to 4×4 samples per pixel (docs/methods/realtime.md)");
+  probes
       .option("--occlusion", o.occlusion,
               "With --backend gl: dim SPHLs' light in corners by what stands within so many metres; 0: off")
-      .range(0.0f, 100.0f)
-      .group(probes);
-  command
+      .range(0.0f, 100.0f);
+  probes
       .option("--indirect-scale", o.indirect_scale,
               "With --backend gl: look indirect light up at every n-th pixel each way, and interpolate where "
               "that shows no difference (docs/methods/realtime.md)")
-      .range(1, 8)
-      .group(probes);
-  add_weights_option(command, o.lookup.weights).group(probes);
-  add_layer_option(command, o.lookup.layer).group(probes);
+      .range(1, 8);
+  add_weights_option(probes, o.lookup.weights);
+  add_layer_option(probes, o.lookup.layer);
 
-  add_force_option(command, o.force).group(probes);
+  add_force_option(probes, o.force);
 
-  const std::string output = "Output";
-  command
+  const Command output = command.under("Output");
+  output
       .option("--aov", o.aovs,
               "Extra float images beside the output: direct indirect albedo normal depth groups")
       .separated_by(',')
-      .one_of(aov_names())
-      .group(output);
-  command.option("--exposure", o.exposure, "Exposure of tone-mapped output in stops").group(output);
-  command.choice("--tonemap", o.tonemap, "clip at white, or filmic").group(output);
+      .one_of(aov_names());
+  output.option("--exposure", o.exposure, "Exposure of tone-mapped output in stops");
+  output.choice("--tonemap", o.tonemap, "clip at white, or filmic");
 }
 
 }  // namespace ssphh::app

@@ -10,42 +10,29 @@ namespace ssphh::app {
 void add_scene_options(Command command, SceneOptions& options, bool posed, const std::string& source) {
   command.option(source, options.source, "File (.glb .gltf .obj, or an overlay .ssphh.json) or builtin:NAME")
       .required();
-  const std::string group = "Scene";
+  const Command scene = command.under("Scene");
   if (posed) {
-    command.option("--time", options.time, "Pose the scene's animations at this time [s]").group(group);
+    scene.option("--time", options.time, "Pose the scene's animations at this time [s]");
   }
-  command
-      .option("--overlay", options.overlay,
-              "Side file that adds lights, cameras, SPHLs (docs/scenes.md); default: SCENE.ssphh.json if "
-              "there is one")
-      .group(group);
-  command
-      .flag("--lambert", options.lambert,
-            "All surfaces Lambertian of their base colour: what every renderer computes alike")
-      .group(group);
-  const Option environment = command
-                                 .option("--environment", options.environment,
-                                         "Equirectangular .hdr or .exr around the scene, in place of its own")
-                                 .group(group);
-  command
+  scene.option("--overlay", options.overlay,
+               "Side file that adds lights, cameras, SPHLs (docs/scenes.md); default: SCENE.ssphh.json if "
+               "there is one");
+  scene.flag("--lambert", options.lambert,
+             "All surfaces Lambertian of their base colour: what every renderer computes alike");
+  const Option environment =
+      scene.option("--environment", options.environment,
+                   "Equirectangular .hdr or .exr around the scene, in place of its own");
+  scene
       .option("--environment-intensity", options.environment_intensity,
               "Factor on the environment's radiance")
-      .non_negative()
-      .group(group);
-  command
-      .option("--environment-rotation", options.environment_rotation,
-              "Degrees about +y, counter-clockwise seen from above; also turns a scene's own")
-      .group(group);
-  command.flag("--sun-sky", options.sun_sky, "Analytic sun and sky (Preetham) in place of the environment")
-      .excludes(environment)
-      .group(group);
-  command.option("--sun-elevation", options.sun_elevation, "Degrees above the horizon")
-      .range(0.0f, 90.0f)
-      .group(group);
-  command.option("--sun-azimuth", options.sun_azimuth, "Degrees by compass: 0 is −z, 90 is +x").group(group);
-  command.option("--turbidity", options.turbidity, "Haze: 2 very clear, 10 hazy")
-      .range(1.7f, 10.0f)
-      .group(group);
+      .non_negative();
+  scene.option("--environment-rotation", options.environment_rotation,
+               "Degrees about +y, counter-clockwise seen from above; also turns a scene's own");
+  scene.flag("--sun-sky", options.sun_sky, "Analytic sun and sky (Preetham) in place of the environment")
+      .excludes(environment);
+  scene.option("--sun-elevation", options.sun_elevation, "Degrees above the horizon").range(0.0f, 90.0f);
+  scene.option("--sun-azimuth", options.sun_azimuth, "Degrees by compass: 0 is −z, 90 is +x");
+  scene.option("--turbidity", options.turbidity, "Haze: 2 very clear, 10 hazy").range(1.7f, 10.0f);
 }
 
 scene::Scene load_scene(const SceneOptions& options) {

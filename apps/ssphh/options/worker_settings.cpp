@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <ssphh/farm/engine.h>
-
 namespace ssphh::app {
 
 farm::WorkerPoolOptions pool_options(const WorkerSettings& settings) {

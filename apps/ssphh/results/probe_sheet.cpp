@@ -51,15 +51,13 @@ ProbeSheet probe_sheet(const probes::ProbeSet& set, int width, float exposure) {
   const std::vector<vec3> directions = pixel_directions(width, height);
   std::vector<std::vector<std::vector<vec3>>> pictures(static_cast<std::size_t>(column_count));
   for (auto& column : pictures) column.resize(set.probes.size());
-  parallel_for(set.probes.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      for (std::size_t c = 0; c < pictures.size(); ++c) {
-        const sh::RadianceSh& light = c == 0   ? set.probes[i].self
-                                      : c == 1 ? set.hierarchy->neighbor[i]
-                                               : set.hierarchy->sum[i];
-        pictures[c][i].resize(directions.size());
-        sh::eval(light, directions, pictures[c][i]);
-      }
+  parallel_for(set.probes.size(), 1, [&](std::size_t i) {
+    for (std::size_t c = 0; c < pictures.size(); ++c) {
+      const sh::RadianceSh& light = c == 0   ? set.probes[i].self
+                                    : c == 1 ? set.hierarchy->neighbor[i]
+                                             : set.hierarchy->sum[i];
+      pictures[c][i].resize(directions.size());
+      sh::eval(light, directions, pictures[c][i]);
     }
   });
 
@@ -72,7 +70,7 @@ ProbeSheet probe_sheet(const probes::ProbeSet& set, int width, float exposure) {
     sheet.columns.push_back({"sum", own});
   }
   sheet.image = image::Image(column_count * (width + gap) - gap, rows * (height + gap) - gap);
-  std::fill(sheet.image.pixels.begin(), sheet.image.pixels.end(), 0.5f);
+  std::ranges::fill(sheet.image.pixels, 0.5f);
   for (int c = 0; c < column_count; ++c) {
     const float factor = std::exp2(sheet.columns[static_cast<std::size_t>(c)].exposure);
     for (int row = 0; row < rows; ++row) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <ssphh/image/io.h>
+#include <ssphh/image/image.h>
 #include <ssphh/probes/probe_set.h>
 
 namespace ssphh::app {

@@ -8,20 +8,20 @@
 
 #include <ssphh/core/file.h>
 
+#include "results/json_values.h"
 #include "results/percentile.h"
 
 namespace ssphh::app {
 namespace {
 
-using Value = std::function<double(const transport::RelightReport&)>;
+using transport::RelightReport;
+using Value = std::function<double(const RelightReport&)>;
 
-const struct {
-  const char* name;
-  double (*ms)(const transport::RelightReport&);
-} stages[] = {{"pose", [](const transport::RelightReport& r) { return r.pose_ms; }},
-              {"direct", [](const transport::RelightReport& r) { return r.direct_ms; }},
-              {"solve", [](const transport::RelightReport& r) { return r.solve_ms; }},
-              {"project", [](const transport::RelightReport& r) { return r.project_ms; }}};
+constexpr std::pair<const char*, double RelightReport::*> stages[] = {
+    {"pose", &RelightReport::pose_ms},
+    {"direct", &RelightReport::direct_ms},
+    {"solve", &RelightReport::solve_ms},
+    {"project", &RelightReport::project_ms}};
 
 /// Of all frames but the first, which lights everything; of that one if there is no other.
 std::vector<double> of_frames(const RelightRun& run, const Value& value) {
@@ -38,36 +38,22 @@ double mean(const RelightRun& run, const Value& value) {
   return values.empty() ? 0 : sum / static_cast<double>(values.size());
 }
 
-double total(const transport::RelightReport& r) {
-  return r.total_ms();
-}
-double pose_rays(const transport::RelightReport& r) {
-  return static_cast<double>(r.pose_rays);
-}
-double direct_rays(const transport::RelightReport& r) {
-  return static_cast<double>(r.direct_rays);
-}
-
 std::size_t over_budget(const RelightRun& run) {
-  const std::vector<double> times = of_frames(run, total);
+  const std::vector<double> times = of_frames(run, &RelightReport::total_ms);
   return static_cast<std::size_t>(
-      std::count_if(times.begin(), times.end(), [&](double ms) { return ms > 1000 / run.fps; }));
-}
-
-json::Value number(double value) {
-  return std::isfinite(value) ? json::Value(value) : json::Value(nullptr);
+      std::ranges::count_if(times, [&](double ms) { return ms > 1000 / run.fps; }));
 }
 
 }  // namespace
 
 json::Value relight_json(const RelightRun& run) {
   json::Value stage_times = json::Value::object();
-  for (const auto& stage : stages) {
-    const std::vector<double> times = of_frames(run, stage.ms);
-    stage_times[stage.name] = {{"median_ms", percentile(times, 0.5)}, {"p99_ms", percentile(times, 0.99)}};
+  for (const auto& [name, ms] : stages) {
+    const std::vector<double> times = of_frames(run, ms);
+    stage_times[name] = {{"median_ms", percentile(times, 0.5)}, {"p99_ms", percentile(times, 0.99)}};
   }
-  stage_times["pose"]["rays"] = mean(run, pose_rays);
-  stage_times["direct"]["rays"] = mean(run, direct_rays);
+  stage_times["pose"]["rays"] = mean(run, &RelightReport::pose_rays);
+  stage_times["direct"]["rays"] = mean(run, &RelightReport::direct_rays);
   stage_times["solve"]["iterations"] =
       mean(run, [](const transport::RelightReport& r) { return static_cast<double>(r.solve.iterations); });
 
@@ -75,7 +61,7 @@ json::Value relight_json(const RelightRun& run) {
   for (const FrameError& e : run.errors) {
     errors.push_back({{"frame", e.frame},
                       {"seconds", e.frame / run.fps},
-                      {"ratio", number(e.error.ratio)},
+                      {"ratio", finite_or_null(e.error.ratio)},
                       {"mean_relative", e.error.mean_relative},
                       {"median_relative", e.error.median_relative},
                       {"p95_relative", e.error.p95_relative},
@@ -86,10 +72,9 @@ json::Value relight_json(const RelightRun& run) {
   }
   json::Value frame_ms = json::Value::array();
   for (const transport::RelightReport& r : run.updates) frame_ms.push_back(r.total_ms());
-  const std::vector<double> times = of_frames(run, total);
-  const auto unconverged =
-      std::count_if(run.updates.begin(), run.updates.end(),
-                    [](const transport::RelightReport& r) { return !r.solve.converged; });
+  const std::vector<double> times = of_frames(run, &RelightReport::total_ms);
+  const auto unconverged = std::ranges::count_if(
+      run.updates, [](const transport::RelightReport& r) { return !r.solve.converged; });
   return {{"frames", run.updates.size()},
           {"frames_asked", run.frames_asked},
           {"cancelled", run.cancelled},
@@ -101,7 +86,7 @@ json::Value relight_json(const RelightRun& run) {
           {"over_budget", over_budget(run)},
           {"unconverged", unconverged},
           {"stages", std::move(stage_times)},
-          {"rays_per_frame", mean(run, pose_rays) + mean(run, direct_rays)},
+          {"rays_per_frame", mean(run, &RelightReport::pose_rays) + mean(run, &RelightReport::direct_rays)},
           {"frame_ms", std::move(frame_ms)},
           {"error", std::move(errors)}};
 }
@@ -110,16 +95,19 @@ std::string relight_text(const RelightRun& run) {
   std::string text = fmt::format("network built in {:.0f} ms, first frame {:.1f} ms\n", run.build_ms,
                                  run.updates.empty() ? 0 : run.updates.front().total_ms());
   text += fmt::format("{:<10}{:>12}{:>12}{:>14}", "stage", "median ms", "p99 ms", "rays a frame");
-  for (const auto& stage : stages) {
-    const std::vector<double> times = of_frames(run, stage.ms);
-    const std::string name = stage.name;
-    const double rays = name == "pose" ? mean(run, pose_rays) : name == "direct" ? mean(run, direct_rays) : 0;
+  for (const auto& [stage, ms] : stages) {
+    const std::vector<double> times = of_frames(run, ms);
+    const std::string name = stage;
+    const double rays = name == "pose"     ? mean(run, &RelightReport::pose_rays)
+                        : name == "direct" ? mean(run, &RelightReport::direct_rays)
+                                           : 0;
     text += fmt::format("\n{:<10}{:>12.2f}{:>12.2f}", name, percentile(times, 0.5), percentile(times, 0.99));
     if (rays > 0) text += fmt::format("{:>14.0f}", rays);
   }
-  const std::vector<double> times = of_frames(run, total);
+  const std::vector<double> times = of_frames(run, &RelightReport::total_ms);
   text += fmt::format("\n{:<10}{:>12.2f}{:>12.2f}{:>14.0f}", "frame", percentile(times, 0.5),
-                      percentile(times, 0.99), mean(run, pose_rays) + mean(run, direct_rays));
+                      percentile(times, 0.99),
+                      mean(run, &RelightReport::pose_rays) + mean(run, &RelightReport::direct_rays));
   text += fmt::format("\n{} of {} frames took longer than 1/{:g} s", over_budget(run), times.size(), run.fps);
   if (!run.errors.empty()) {
     text += fmt::format("\n\n{:>5}{:>9}{:>9}{:>11}{:>9}{:>9}{:>9}{:>10}", "frame", "seconds", "ratio",
