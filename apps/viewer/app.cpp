@@ -81,8 +81,7 @@ void App::finish_frame() {
     const std::string file = std::exchange(window_shot_, {});
     try {
       write_file(file, image::encode_png(window.read_frame()));
-      report.written.push_back(file);
-      say("wrote " + file);
+      written("wrote", file);
     } catch (const std::exception& e) {
       complain(e.what());
     }
@@ -105,10 +104,7 @@ void App::update_time(double seconds) {
   if (path_plays && !bookmarks.empty()) {
     path_time += static_cast<float>(seconds);
     if (path_time > bookmarks.keys.back().time) path_plays = false;
-    const CameraKey key = at(bookmarks, path_time);
-    view = key.view;
-    if (key.scene_time) document.time = *key.scene_time;
-    redraw();
+    go_to(at(bookmarks, path_time));
   }
 }
 

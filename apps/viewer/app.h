@@ -2,7 +2,6 @@
 /// The viewer's state, and what can be done with it. Panels, keys, scripts and the command line all call the
 /// same functions.
 
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -66,6 +65,9 @@ class App {
   /// Of the picture alone, now, or of the window with its panels at the end of the next turn. PNG.
   void screenshot(const std::string& file, bool panels);
   void go_to_camera(const std::string& name);
+  /// The view of a bookmark, and its pose of the scene.
+  void go_to(const CameraKey& key);
+  void add_bookmark();
   void frame_selection();
   void undo();
   void redo();
@@ -126,6 +128,11 @@ class App {
 
  private:
   void take_scene(std::string source, scene::Scene scene);
+  /// Notes a file that was written and says so.
+  void written(const std::string& verb, const std::string& file);
+  /// SPHLs at these places of probes, which light has been or will be found for, in place of all there were.
+  template <class Places>
+  void take_places(const std::string& what, const Places& places);
   void update_time(double seconds);
   void apply_edits();
   void update_light();

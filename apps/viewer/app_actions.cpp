@@ -16,8 +16,7 @@ constexpr std::string_view probe_endings[] = {".sphl", ".sphl.json"};
 }  // namespace
 
 bool is_probe_file(const std::string& name) {
-  return std::any_of(std::begin(probe_endings), std::end(probe_endings),
-                     [&](std::string_view ending) { return name.ends_with(ending); });
+  return std::ranges::any_of(probe_endings, [&](std::string_view ending) { return name.ends_with(ending); });
 }
 
 void App::say(const std::string& text) {
@@ -31,6 +30,11 @@ void App::complain(const std::string& text) {
   say(text);
   message_is_error = true;
   log(LogLevel::error, text);
+}
+
+void App::written(const std::string& verb, const std::string& file) {
+  report.written.push_back(file);
+  say(verb + " " + file);
 }
 
 void App::open(const std::string& source) {
@@ -79,8 +83,7 @@ void App::take_document(Document next) {
 
 void App::save_scene(const std::string& file) {
   save_document(document, file);
-  report.written.push_back(file);
-  say("saved " + file);
+  written("saved", file);
 }
 
 void App::save_probes(const std::string& file) {
@@ -91,23 +94,20 @@ void App::save_probes(const std::string& file) {
     for (std::size_t i = 0; i < set.probes.size(); ++i) {
       // Edges are of another degree where VIZ ran with one of its own.
       const std::vector<probes::Edge>& edges = light.set().probes[i].edges;
-      if (std::all_of(edges.begin(), edges.end(),
-                      [&](const probes::Edge& edge) { return edge.h.degree() == set.degree; }))
+      if (std::ranges::all_of(edges, [&](const probes::Edge& edge) { return edge.h.degree() == set.degree; }))
         set.probes[i].edges = edges;
     }
     probes::write_probe_file(set, file);
   } else {
     probes::write_probe_file(light.set(), file);
   }
-  report.written.push_back(file);
-  say("saved " + file);
+  written("saved", file);
 }
 
 void App::save_path(const std::string& file) {
   if (bookmarks.empty()) throw Error(file, "there are no bookmarks to save", "add some with B");
   write_camera_path(file, bookmarks);
-  report.written.push_back(file);
-  say("saved " + file);
+  written("saved", file);
 }
 
 void App::load_path(const std::string& file) {
@@ -126,8 +126,7 @@ void App::save_stats(const std::string& file) {
                           {"picture", fmt::format("{}x{}", picture.width(), picture.height())},
                           {"probes", fmt::format("{}", light.empty() ? 0 : light.set().probes.size())}})));
   }
-  report.written.push_back(file);
-  say("saved " + file);
+  written("saved", file);
 }
 
 void App::screenshot(const std::string& file, bool with_panels) {
@@ -151,8 +150,7 @@ void App::screenshot(const std::string& file, bool with_panels) {
     }
   }
   write_file(file, image::encode_png(pixels));
-  report.written.push_back(file);
-  say("wrote " + file);
+  written("wrote", file);
 }
 
 std::vector<std::string> App::camera_names() const {
@@ -164,6 +162,16 @@ std::vector<std::string> App::camera_names() const {
 void App::go_to_camera(const std::string& name) {
   view = start_view(document, name);
   redraw();
+}
+
+void App::go_to(const CameraKey& key) {
+  view = key.view;
+  if (key.scene_time) document.time = *key.scene_time;
+  redraw();
+}
+
+void App::add_bookmark() {
+  append(bookmarks, {fmt::format("view {}", bookmarks.keys.size() + 1), 0, document.time, view});
 }
 
 std::optional<vec3> App::selected_position() const {
@@ -215,19 +223,15 @@ void App::redo() {
 void App::delete_selection() {
   if (!selection.is(Kind::sphl)) return;
   const auto i = selection.index;
-  document.history.seal();
-  document.edit("delete SPHL", [&](Edits& edits) { edits.sphls.erase(edits.sphls.begin() + i); });
-  document.history.seal();
+  document.edit_at_once("delete SPHL", [&](Edits& edits) { edits.sphls.erase(edits.sphls.begin() + i); });
   selection = {};
   redraw();
 }
 
 void App::add_sphl(const vec3& position) {
-  document.history.seal();
-  document.edit("place SPHL", [&](Edits& edits) {
+  document.edit_at_once("place SPHL", [&](Edits& edits) {
     edits.sphls.push_back({-1, position, new_sphl_name(edits), 0.1f, true});
   });
-  document.history.seal();
   selection = {Kind::sphl, static_cast<int>(document.edits().sphls.size()) - 1};
   redraw();
 }

@@ -21,7 +21,25 @@ std::vector<transport::ProbePlace> places_of(const Document& document) {
   return places;
 }
 
+/// Every probe is dark in every group, where light is still to come or only edges count.
+void add_dark_groups(probes::ProbeSet& set, const std::vector<std::string>& groups) {
+  for (const std::string& group : groups) set.light_groups.push_back({group, vec3(1)});
+  for (probes::Probe& probe : set.probes)
+    probe.groups.assign(set.light_groups.size(), {{}, sh::RadianceSh(set.degree)});
+}
+
 }  // namespace
+
+template <class Places>
+void App::take_places(const std::string& what, const Places& places) {
+  document.edit_at_once(what, [&](Edits& edits) {
+    edits.sphls.clear();
+    for (const auto& place : places)
+      edits.sphls.push_back({-1, place.position, place.name, place.radius, true});
+  });
+  applied_sphls_ = document.edits().sphls;
+  selection = {};
+}
 
 void App::light_scene_probes() {
   if (places_of(document).empty())
@@ -75,15 +93,7 @@ void App::place_probes(float spacing) {
   job.start("placing probes", [this, scene, params, time = document.time](const Control& control) {
     auto live = std::make_shared<LiveLight>(scene, params, time, control);
     return [this, live] {
-      document.history.seal();
-      document.edit("place probes", [&](Edits& edits) {
-        edits.sphls.clear();
-        for (const transport::ProbePlace& place : live->session().places())
-          edits.sphls.push_back({-1, place.position, place.name, place.radius, true});
-      });
-      document.history.seal();
-      selection = {};
-      applied_sphls_ = document.edits().sphls;
+      take_places("place probes", live->session().places());
       light.take(live);
       say(fmt::format("{} probes", live->session().places().size()));
     };
@@ -113,21 +123,13 @@ void App::start_gen(bool viz_only) {
       job.hand_over([this, i, probe] { light.take_probe(i, probe); });
     };
     probes::ProbeSet dark = set;
-    for (const std::string& group : scene::light_groups(*scene))
-      dark.light_groups.push_back({group, vec3(1)});
-    for (probes::Probe& probe : dark.probes)
-      probe.groups.assign(dark.light_groups.size(), {{}, sh::RadianceSh(degree)});
+    add_dark_groups(dark, scene::light_groups(*scene));
     light.take(std::move(dark), "GEN");
   }
   job.start(viz_only ? "VIZ" : "GEN",
             [this, geometry = geometry_, scene, set, params, on_probe, time](const Control& control) mutable {
               const trace::PathTracer tracer(geometry, *scene, time);
-              if (params.keep_light) {
-                for (const std::string& group : tracer.light_groups())
-                  set.light_groups.push_back({group, vec3(1)});
-                for (probes::Probe& probe : set.probes)
-                  probe.groups.assign(set.light_groups.size(), {{}, sh::RadianceSh(set.degree)});
-              }
+              if (params.keep_light) add_dark_groups(set, tracer.light_groups());
               bake::BakeReport bake_report;
               auto baked = std::make_shared<probes::ProbeSet>(
                   bake::bake(tracer, std::move(set), params, {}, bake_report, control, nullptr, on_probe));
@@ -151,15 +153,7 @@ void App::take_probe_file(const std::string& file) {
     if (!options.force) throw Error(file, problem, "open that scene, or go on with --force");
     log_warning("{}: {}", file, problem);
   }
-  document.history.seal();
-  document.edit("probes of a file", [&](Edits& edits) {
-    edits.sphls.clear();
-    for (const probes::Probe& probe : set.probes)
-      edits.sphls.push_back({-1, probe.position, probe.name, probe.radius, true});
-  });
-  document.history.seal();
-  applied_sphls_ = document.edits().sphls;
-  selection = {};
+  take_places("probes of a file", set.probes);
   say(fmt::format("{}: {} probes", file, set.probes.size()));
   const std::optional<probes::FittedPoints> fitted = set.fitted;
   light.take(std::move(set), file);
@@ -176,7 +170,7 @@ void App::prepare_fitted(const probes::FittedPoints& fitted) {
         poses.push_back(std::make_unique<trace::PathTracer>(geometry, *scene, t));
     }
     const probes::SeesProbe sees = [&](const vec3& a, const vec3& b) {
-      return std::all_of(poses.begin(), poses.end(), [&](const auto& pose) { return pose->visible(a, b); });
+      return std::ranges::all_of(poses, [&](const auto& pose) { return pose->visible(a, b); });
     };
     auto prepared =
         std::make_shared<probes::FittedSurfaces>(probes::prepare_fitted(*scene, time, fitted, sees, control));

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include <ssphh/gl/texture.h>
-#include <ssphh/scene/query.h>
 
 #include "model/balls.h"
 #include "model/view_camera.h"

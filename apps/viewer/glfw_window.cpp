@@ -13,7 +13,6 @@
 #include <ssphh/core/error.h>
 #include <ssphh/gl/context.h>
 #include <ssphh/gl/framebuffer.h>
-#include <ssphh/gl/read_pixels.h>
 
 #include "style.h"
 

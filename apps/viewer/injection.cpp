@@ -26,8 +26,8 @@ void Injection::apply(const InjectedInput& injected) {
 
 std::optional<int> key_by_name(const std::string& name) {
   std::string lower = name;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(lower, lower.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   static const std::pair<const char*, int> named[] = {{"escape", GLFW_KEY_ESCAPE}, {"space", GLFW_KEY_SPACE},
                                                       {"tab", GLFW_KEY_TAB},       {"enter", GLFW_KEY_ENTER},
                                                       {"delete", GLFW_KEY_DELETE}, {"left", GLFW_KEY_LEFT},

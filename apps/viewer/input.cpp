@@ -88,8 +88,7 @@ void handle_keys(App& app) {
   if (pressed(GLFW_KEY_F)) app.frame_selection();
   if (pressed(GLFW_KEY_HOME)) app.go_to_camera("");
   if (pressed(GLFW_KEY_B)) {
-    append(app.bookmarks,
-           {fmt::format("view {}", app.bookmarks.keys.size() + 1), 0, app.document.time, app.view});
+    app.add_bookmark();
     app.say("bookmark added");
   }
   if (pressed(GLFW_KEY_N)) toggle(app, app.place_mode);
@@ -187,27 +186,17 @@ void continue_drag(App& app) {
   const auto drag_view = [&](ViewDrag drag) {
     app.view = dragged(app.view, drag, {delta.x, delta.y}, app.viewport.height);
   };
-  switch (app.drag.what) {
-    case Drag::What::none:
-      return;
-    case Drag::What::view:
-      drag_view(ViewDrag::orbit);
-      break;
-    case Drag::What::look:
-      drag_view(ViewDrag::look);
-      break;
-    case Drag::What::pan:
-      drag_view(ViewDrag::pan);
-      break;
-    case Drag::What::object:
-    case Drag::What::axis:
-      if (const auto place = pulled(app.drag.grip, mouse_ray(app), app.view.forward()))
-        app.move_selected(*place);
-      break;
-    case Drag::What::wipe:
-      app.settings.wipe = std::clamp(picture_point(app, ImGui::GetIO().MousePos).x, 0.0f, 1.0f);
-      break;
+  using What = Drag::What;
+  const What what = app.drag.what;
+  if (what == What::view) drag_view(ViewDrag::orbit);
+  if (what == What::look) drag_view(ViewDrag::look);
+  if (what == What::pan) drag_view(ViewDrag::pan);
+  if (what == What::object || what == What::axis) {
+    const auto place = pulled(app.drag.grip, mouse_ray(app), app.view.forward());
+    if (place) app.move_selected(*place);
   }
+  if (what == What::wipe)
+    app.settings.wipe = std::clamp(picture_point(app, ImGui::GetIO().MousePos).x, 0.0f, 1.0f);
   app.path_plays = false;
   app.redraw();
 }

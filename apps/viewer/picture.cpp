@@ -71,29 +71,9 @@ realtime::FrameSettings frame_settings(const Settings& settings) {
   out.weights = settings.weights;
   out.tone = {settings.exposure, settings.curve, 0};
   out.indirect_scale = needs_truth(settings) ? 1 : settings.indirect_scale;
-  switch (settings.debug) {
-    case DebugView::none:
-      break;
-    case DebugView::direct:
-      out.view = realtime::View::direct;
-      break;
-    case DebugView::indirect:
-    case DebugView::leak:
-      out.view = realtime::View::indirect;
-      break;
-    case DebugView::albedo:
-      out.view = realtime::View::albedo;
-      break;
-    case DebugView::normal:
-      out.view = realtime::View::normal;
-      break;
-    case DebugView::shadow:
-      out.view = realtime::View::shadow;
-      break;
-    case DebugView::sphl:
-      out.view = realtime::View::chosen_sphl;
-      break;
-  }
+  using enum realtime::View;
+  constexpr realtime::View views[] = {lit, direct, indirect, albedo, normal, shadow, chosen_sphl, indirect};
+  out.view = views[static_cast<std::size_t>(settings.debug)];  // in the order of DebugView
   return out;
 }
 

@@ -1,14 +1,12 @@
 #pragma once
 /// What stands behind the panels: the real-time picture, the ground truth, or their difference, as textures.
 
-#include <memory>
 #include <optional>
 
 #include <ssphh/gl/framebuffer.h>
 #include <ssphh/gl/texture.h>
 #include <ssphh/realtime/renderer.h>
 
-#include "balls_gl.h"
 #include "model/comparison.h"
 #include "model/reference.h"
 

@@ -1,23 +1,11 @@
 #include "probe_light.h"
 
-#include <chrono>
 #include <numeric>
 
 #include <ssphh/core/log.h>
+#include <ssphh/core/stopwatch.h>
 
 namespace ssphh::viewer {
-namespace {
-
-double ms_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
-bool has_edges(const probes::ProbeSet& set) {
-  return probes::edge_count(set) > 0;
-}
-
-}  // namespace
-
 void ProbeLight::take(std::shared_ptr<LiveLight> live) {
   std::vector<std::vector<probes::Edge>> edges;
   const std::size_t count = live->session().places().size();
@@ -91,7 +79,7 @@ bool ProbeLight::relight(const Document& document) {
 }
 
 bool ProbeLight::rebuild_hierarchy(const Settings& settings) {
-  const bool wanted = settings.hier && has_edges(*set_);
+  const bool wanted = settings.hier && probes::edge_count(*set_) > 0;
   if (!wanted) {
     const bool had = set_->hierarchy.has_value();
     set_->hierarchy.reset();
@@ -124,27 +112,27 @@ ProbeLight::Update ProbeLight::update(const Document& document, const Settings& 
     places_new_ = false;
     return out;
   }
-  auto start = std::chrono::steady_clock::now();
+  Stopwatch watch;
   const bool relit = relight(document) || light_new_;
-  out.relight_ms = ms_since(start);
+  out.relight_ms = watch.milliseconds();
 
   const bool hier_changed =
       !settings_ || settings_->hier != settings.hier || !(settings_->hier_params == settings.hier_params);
   bool hierarchy_new = false;
   if (relit || hier_changed) {
-    start = std::chrono::steady_clock::now();
+    watch = {};
     try {
       hierarchy_new = rebuild_hierarchy(settings);
     } catch (const Error& e) {
       log_warning("{}", e.what());
       set_->hierarchy.reset();
     }
-    out.hier_ms = ms_since(start);
+    out.hier_ms = watch.milliseconds();
   }
   const bool lookup_changed =
       !settings_ || settings_->layer != settings.layer || settings_->degree != settings.degree;
 
-  start = std::chrono::steady_clock::now();
+  watch = {};
   if (places_new_ || lookup_changed) {
     renderer.set_probes(*set_, lookup_params(settings));
     renderer.set_fitted(fitted_);
@@ -167,7 +155,7 @@ ProbeLight::Update ProbeLight::update(const Document& document, const Settings& 
     renderer.set_fitted(fitted_);
     out.relit = true;
   }
-  out.upload_ms = ms_since(start);
+  out.upload_ms = watch.milliseconds();
   places_new_ = light_new_ = fitted_new_ = false;
   settings_ = settings;
   return out;

@@ -30,8 +30,7 @@ vec3 vector(const ScriptLine& line, std::size_t word) {
 template <class Items, class Name>
 std::size_t find_named(const ScriptLine& line, const Items& items, const std::string& name,
                        const Name& name_of) {
-  const auto found =
-      std::find_if(items.begin(), items.end(), [&](const auto& i) { return name_of(i) == name; });
+  const auto found = std::ranges::find_if(items, [&](const auto& i) { return name_of(i) == name; });
   if (found == items.end()) {
     std::string known;
     for (const auto& item : items) known += (known.empty() ? "" : ", ") + name_of(item);
@@ -72,23 +71,18 @@ void edit_light(App& app, const ScriptLine& line) {
 void select(App& app, const ScriptLine& line) {
   expect_words(line, 2, "select light|sphl|material NAME");
   const std::string &kind = line.words[1], &name = line.words[2];
-  if (kind == "light") {
-    app.selection = {Kind::light,
-                     static_cast<int>(find_named(line, app.document.scene->lights, name, by_name))};
-  } else if (kind == "sphl") {
-    app.selection = {Kind::sphl,
-                     static_cast<int>(find_named(line, app.document.edits().sphls, name, by_name))};
-  } else if (kind == "material") {
-    app.selection = {Kind::material,
-                     static_cast<int>(find_named(line, app.document.edits().materials, name, by_name))};
-  } else {
-    throw Error(line.where, fmt::format("\"{}\" is none of: light, sphl, material", kind));
-  }
+  const auto take = [&](Kind k, const auto& items) {
+    app.selection = {k, static_cast<int>(find_named(line, items, name, by_name))};
+  };
+  if (kind == "light") return take(Kind::light, app.document.scene->lights);
+  if (kind == "sphl") return take(Kind::sphl, app.document.edits().sphls);
+  if (kind == "material") return take(Kind::material, app.document.edits().materials);
+  throw Error(line.where, fmt::format("\"{}\" is none of: light, sphl, material", kind));
 }
 
 void save(App& app, const std::string& file) {
   if (file.ends_with(".glb")) return app.save_scene(file);
-  if (file.ends_with(".sphl") || file.ends_with(".sphl.json")) return app.save_probes(file);
+  if (is_probe_file(file)) return app.save_probes(file);
   if (file.ends_with(".csv") || file.ends_with(".stats.json")) return app.save_stats(file);
   app.save_path(file);
 }
@@ -98,8 +92,8 @@ void save(App& app, const std::string& file) {
 void ScriptPlayer::press(const ScriptLine& line) {
   expect_words(line, 1, "key NAME");
   std::string name = line.words[1];
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(name, name.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   InjectedInput input;
   for (const auto& [prefix, flag] : {std::pair{"ctrl+", &input.ctrl}, {"shift+", &input.shift}}) {
     if (name.starts_with(prefix)) name.erase(0, std::string_view(prefix).size()), *flag = true;
@@ -182,8 +176,7 @@ void ScriptPlayer::run(App& app, const ScriptLine& line) {
     expect(0, "gen");
     app.start_gen(verb == "viz");
   } else if (verb == "bookmark") {
-    append(app.bookmarks,
-           {fmt::format("view {}", app.bookmarks.keys.size() + 1), 0, app.document.time, app.view});
+    app.add_bookmark();
   } else if (verb == "undo") {
     app.undo();
   } else if (verb == "redo") {

@@ -59,9 +59,7 @@ void export_path(App& app, Session& session, const ViewerOptions& options, const
   const int frames = 1 + static_cast<int>(path.duration() * options.fps);
   ProgressStage progress(control, "drawing", static_cast<std::uint64_t>(frames), "frames");
   for (int f = 0; f < frames; ++f) {
-    const CameraKey key = at(path, path.keys.front().time + static_cast<float>(f / options.fps));
-    app.view = key.view;
-    if (key.scene_time) app.document.time = *key.scene_time;
+    app.go_to(at(path, path.keys.front().time + static_cast<float>(f / options.fps)));
     if (!session.settle()) throw Cancelled();
     app.screenshot((std::filesystem::path(options.export_dir) / fmt::format("frame-{:04}.png", f)).string(),
                    false);

@@ -1,7 +1,6 @@
 #include "balls.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include <ssphh/probes/lookup_weights.h>
@@ -67,12 +66,12 @@ void BallShader::shade(const probes::ProbeSet& set, std::size_t i, Ball ball, st
   constexpr auto stride = static_cast<std::size_t>(sh::max_coefficient_count);
   const sh::RadianceSh* function = function_of(set, i, ball);
   if (!function || function->empty()) {
-    std::fill(out.begin(), out.end(), vec3(0));
+    std::ranges::fill(out, vec3(0));
     return;
   }
   std::array<vec3, stride> coefficients;
   const std::size_t count = function->values.size();
-  std::copy(function->values.begin(), function->values.end(), coefficients.begin());
+  std::ranges::copy(function->values, coefficients.begin());
   if (ball == Ball::irradiance) {
     for (int l = 0; l <= function->degree(); ++l) {
       const auto factor = static_cast<float>(sh::cosine_band_factor(l) / pi_d);

@@ -32,8 +32,7 @@ std::optional<float> mix(const std::optional<float>& a, const std::optional<floa
 
 CameraKey at(const CameraPath& path, float time) {
   SSPHH_CHECK(!path.keys.empty());
-  const auto next = std::upper_bound(path.keys.begin(), path.keys.end(), time,
-                                     [](float t, const CameraKey& key) { return t < key.time; });
+  const auto next = std::ranges::upper_bound(path.keys, time, {}, &CameraKey::time);
   if (next == path.keys.begin()) return path.keys.front();
   if (next == path.keys.end()) return path.keys.back();
   const auto i = static_cast<std::size_t>(next - path.keys.begin()) - 1;

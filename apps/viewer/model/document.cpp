@@ -27,8 +27,8 @@ View start_view(const Document& document, const std::string& camera) {
 scene::Scene scene_to_save(const Document& document) {
   scene::Scene scene = edited_scene(*document.scene, document.edits(), document.time);
   const auto by_node = [](const auto& a, const auto& b) { return a.node < b.node; };
-  std::stable_sort(scene.lights.begin(), scene.lights.end(), by_node);
-  std::stable_sort(scene.sphls.begin(), scene.sphls.end(), by_node);
+  std::ranges::stable_sort(scene.lights, by_node);
+  std::ranges::stable_sort(scene.sphls, by_node);
   scene::validate(scene);
   return scene;
 }

@@ -28,6 +28,13 @@ struct Document {
     change(next);
     history.change(std::move(next), what);
   }
+  /// The same as a step of its own.
+  template <class Change>
+  void edit_at_once(const std::string& what, const Change& change) {
+    history.seal();
+    edit(what, change);
+    history.seal();
+  }
 };
 
 Document make_document(std::string source, scene::Scene scene, float time);

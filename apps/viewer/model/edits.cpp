@@ -98,8 +98,7 @@ vec3 sphl_position(const scene::Scene& scene, const std::vector<mat4>& world, co
 std::string new_sphl_name(const Edits& edits) {
   for (std::size_t n = edits.sphls.size() + 1;; ++n) {
     std::string name = fmt::format("SPHL {}", n);
-    if (std::none_of(edits.sphls.begin(), edits.sphls.end(),
-                     [&](const SphlEdit& sphl) { return sphl.name == name; }))
+    if (std::ranges::none_of(edits.sphls, [&](const SphlEdit& sphl) { return sphl.name == name; }))
       return name;
   }
 }

@@ -28,7 +28,7 @@ float History1d::quantile(double q) const {
 }
 
 void FrameTimes::add(const std::string& stage, double ms) {
-  auto found = std::find_if(stages_.begin(), stages_.end(), [&](const Stage& s) { return s.name == stage; });
+  auto found = std::ranges::find_if(stages_, [&](const Stage& s) { return s.name == stage; });
   if (found == stages_.end()) found = stages_.insert(stages_.end(), {stage, {}});
   found->ms.add(static_cast<float>(ms));
 }

@@ -11,10 +11,7 @@ std::vector<transport::ProbePlace> find_places(const scene::Scene& scene, const 
   if (!params.places.empty()) return params.places;
   place::PlaceParams place = place::place_params(scene, time);
   place.spacing = params.spacing;
-  std::vector<transport::ProbePlace> places;
-  for (const place::PlacedProbe& probe : place::place_probes(source, place, control).probes)
-    places.push_back({probe.name, probe.position, probe.radius});
-  return places;
+  return transport::places_of(place::place_probes(source, place, control).probes);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace ssphh::viewer {
 namespace {
 
-/// `member` gives a reference into Settings.
+/// `member` is a member of Settings, or gives a reference to one of its members' members.
 template <class Member>
 using Of = std::decay_t<std::invoke_result_t<Member, Settings&>>;
 
@@ -21,12 +21,9 @@ SettingName choice(const char* name, const char* group, const char* help, Member
   using E = Of<Member>;
   SettingName setting{name, group, help, names_of<E>(), {}, {}};
   setting.set = [member, name](Settings& s, const std::string& text) {
-    member(s) = enum_named<E>(name, text);
+    std::invoke(member, s) = enum_named<E>(name, text);
   };
-  setting.get = [member](const Settings& s) {
-    Settings copy = s;
-    return std::string(name_of(member(copy)));
-  };
+  setting.get = [member](const Settings& s) { return std::string(name_of(std::invoke(member, s))); };
   return setting;
 }
 
@@ -37,12 +34,9 @@ SettingName word(const char* name, const char* group, const char* help, std::vec
   SettingName setting{name, group, help, std::move(words), {}, {}};
   setting.set = [member, name, words = setting.choices](Settings& s, const std::string& text) {
     if (std::ranges::find(words, text) == words.end()) throw Error(name, none_of(text, words));
-    member(s) = text;
+    std::invoke(member, s) = text;
   };
-  setting.get = [member](const Settings& s) {
-    Settings copy = s;
-    return member(copy);
-  };
+  setting.get = [member](const Settings& s) { return std::invoke(member, s); };
   return setting;
 }
 
@@ -57,12 +51,9 @@ SettingName toggle(const char* name, const char* group, const char* help, Member
   SettingName setting{name, group, help, {"off", "on"}, {}, {}};
   setting.set = [member, name, words = setting.choices](Settings& s, const std::string& text) {
     if (text != "off" && text != "on") throw Error(name, none_of(text, words));
-    member(s) = text == "on";
+    std::invoke(member, s) = text == "on";
   };
-  setting.get = [member](const Settings& s) {
-    Settings copy = s;
-    return std::string(member(copy) ? "on" : "off");
-  };
+  setting.get = [member](const Settings& s) { return std::string(std::invoke(member, s) ? "on" : "off"); };
   return setting;
 }
 
@@ -74,15 +65,13 @@ SettingName number(const char* name, const char* group, const char* help, float 
     const float value = parse_number(name, text);
     if (!(value >= low && value <= high))
       throw Error(name, fmt::format("{} is not within {:g} to {:g}", text, low, high));
-    auto& target = member(s);
     using T = Of<Member>;
     if (std::is_integral_v<T> && value != std::round(value))
       throw Error(name, fmt::format("{} is not a whole number", text));
-    target = static_cast<T>(value);
+    std::invoke(member, s) = static_cast<T>(value);
   };
   setting.get = [member](const Settings& s) {
-    Settings copy = s;
-    return fmt::format("{:g}", static_cast<double>(member(copy)));
+    return fmt::format("{:g}", static_cast<double>(std::invoke(member, s)));
   };
   return setting;
 }
@@ -91,74 +80,64 @@ SettingName number(const char* name, const char* group, const char* help, float 
 
 const std::vector<SettingName>& setting_names() {
   static const std::vector<SettingName> names = {
-      number("exposure", "Picture", "Stops", -20, 20, [](Settings& s) -> float& { return s.exposure; }),
-      choice("tonemap", "Picture", "Curve: clip at white, or filmic",
-             [](Settings& s) -> image::ToneCurve& { return s.curve; }),
+      number("exposure", "Picture", "Stops", -20, 20, &Settings::exposure),
+      choice("tonemap", "Picture", "Curve: clip at white, or filmic", &Settings::curve),
       choice("debug", "Picture",
              "What the real-time picture holds: none (all), direct or indirect light only, albedo, normal, "
              "shadow, sphl (which one lights a place), leak (looked-up light that no path brings)",
-             [](Settings& s) -> DebugView& { return s.debug; }),
+             &Settings::debug),
       number("scale", "Picture", "Pixels drawn per pixel of the window, along each axis", 0.1f, 2,
-             [](Settings& s) -> float& { return s.scale; }),
+             &Settings::scale),
       number("indirect-scale", "Picture",
              "Look indirect light up at every n-th pixel each way, interpolate where that hardly differs; 1 "
-             "where "
-             "a truth is shown beside",
-             1, 8, [](Settings& s) -> int& { return s.indirect_scale; }),
+             "where a truth is shown beside",
+             1, 8, &Settings::indirect_scale),
       choice(
           "show", "Ground truth",
           "realtime; truth (path traced); wipe (one beside the other); their difference: absolute, signed, "
           "pixelated (summed in blocks)",
-          [](Settings& s) -> Show& { return s.show; }),
-      number("wipe", "Ground truth", "Place of the wipe's line, 0 left, 1 right", 0, 1,
-             [](Settings& s) -> float& { return s.wipe; }),
+          &Settings::show),
+      number("wipe", "Ground truth", "Place of the wipe's line, 0 left, 1 right", 0, 1, &Settings::wipe),
       number("block", "Ground truth", "Pixels along a block of the pixelated difference", 1, 1024,
-             [](Settings& s) -> int& { return s.block; }),
+             &Settings::block),
       word("against", "Ground truth",
            "What is traced beside the real-time picture: path (the truth), or direct light with another "
            "method's indirect light; `ssphh methods` tells of each",
-           truth_names(), [](Settings& s) -> std::string& { return s.against; }),
-      number("truth-depth", "Ground truth", "Scattering events of a path", 0, 1000,
-             [](Settings& s) -> int& { return s.truth_depth; }),
+           truth_names(), &Settings::against),
+      number("truth-depth", "Ground truth", "Scattering events of a path", 0, 1000, &Settings::truth_depth),
       number("truth-spp", "Ground truth", "Samples per pixel, one a pass", 1, 1000000,
-             [](Settings& s) -> int& { return s.truth_passes; }),
+             &Settings::truth_passes),
       choice("lookup", "Probes",
              "irradiance: blend of visible SPHLs; light: nearest visible SPHL, as the paper",
-             [](Settings& s) -> probes::LookupMethod& { return s.lookup; }),
+             &Settings::lookup),
       choice("weights", "Probes",
              "How the lookup irradiance blends probes: fitted where a file has such weights, else as mls, "
-             "which fits; distance "
-             "averages",
-             [](Settings& s) -> probes::WeightMethod& { return s.weights; }),
+             "which fits; distance averages",
+             &Settings::weights),
       choice("layer", "Probes", "Light of the probes that surfaces get: sum, self or neighbor",
-             [](Settings& s) -> probes::ProbeLayer& { return s.layer; }),
+             &Settings::layer),
       number("degree", "Probes", "Bands that the lookup keeps", 0, probes::max_irradiance_degree,
-             [](Settings& s) -> int& { return s.degree; }),
-      toggle("hier", "Probes", "Add the neighbours' light over the edges that the set has",
-             [](Settings& s) -> bool& { return s.hier; }),
-      choice("operator", "Probes", "What HIER multiplies with",
-             [](Settings& s) -> probes::HierOperator& { return s.hier_params.op; }),
-      number("neighbors", "Probes", "At most so many neighbours a probe; -1: all", -1, 65536,
-             [](Settings& s) -> int& { return s.hier_params.neighbors; }),
-      number("threshold", "Probes", "Only edges with P above this", 0, 1,
-             [](Settings& s) -> float& { return s.hier_params.threshold; }),
-      toggle("balls", "Probes on the screen", "A ball where each probe stands",
-             [](Settings& s) -> bool& { return s.balls; }),
-      choice("ball", "Probes on the screen", "What colours the balls",
-             [](Settings& s) -> Ball& { return s.ball; }),
+             &Settings::degree),
+      toggle("hier", "Probes", "Add the neighbours' light over the edges that the set has", &Settings::hier),
+      choice(
+          "operator", "Probes", "What HIER multiplies with",
+          [](auto& s) -> auto& { return s.hier_params.op; }),
+      number(
+          "neighbors", "Probes", "At most so many neighbours a probe; -1: all", -1, 65536,
+          [](auto& s) -> auto& { return s.hier_params.neighbors; }),
+      number(
+          "threshold", "Probes", "Only edges with P above this", 0, 1,
+          [](auto& s) -> auto& { return s.hier_params.threshold; }),
+      toggle("balls", "Probes on the screen", "A ball where each probe stands", &Settings::balls),
+      choice("ball", "Probes on the screen", "What colours the balls", &Settings::ball),
       number("ball-size", "Probes on the screen", "Radius of the balls [m]; 0: by the probes' distance", 0,
-             1000, [](Settings& s) -> float& { return s.ball_size; }),
-      toggle("lobes", "Probes on the screen", "Balls bulge where light comes from",
-             [](Settings& s) -> bool& { return s.lobes; }),
+             1000, &Settings::ball_size),
+      toggle("lobes", "Probes on the screen", "Balls bulge where light comes from", &Settings::lobes),
       toggle("graph", "Probes on the screen",
-             "Edges of the hierarchy, strong ones bright (the paper's Figure 9)",
-             [](Settings& s) -> bool& { return s.graph; }),
-      toggle("names", "Probes on the screen", "Names of the probes",
-             [](Settings& s) -> bool& { return s.names; }),
-      toggle("play", "Time", "Play the scene's animations over and over",
-             [](Settings& s) -> bool& { return s.play; }),
-      number("speed", "Time", "Seconds of the scene per second", -100, 100,
-             [](Settings& s) -> float& { return s.speed; }),
+             "Edges of the hierarchy, strong ones bright (the paper's Figure 9)", &Settings::graph),
+      toggle("names", "Probes on the screen", "Names of the probes", &Settings::names),
+      toggle("play", "Time", "Play the scene's animations over and over", &Settings::play),
+      number("speed", "Time", "Seconds of the scene per second", -100, 100, &Settings::speed),
   };
   return names;
 }

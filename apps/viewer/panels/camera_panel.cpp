@@ -1,5 +1,3 @@
-#include <cstdio>
-
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
 #include <imgui.h>
@@ -47,10 +45,8 @@ void draw_bookmarks(App& app) {
     const CameraKey& key = path.keys[i];
     if (ImGui::Selectable(fmt::format("{:5.1f} s  {}", key.time, key.name).c_str(), false, 0,
                           {ImGui::GetContentRegionAvail().x - 30, 0})) {
-      app.view = key.view;
-      if (key.scene_time) app.document.time = *key.scene_time;
       app.path_time = key.time;
-      app.redraw();
+      app.go_to(key);
     }
     ImGui::SameLine();
     if (ImGui::SmallButton("×")) remove = static_cast<int>(i);
@@ -58,8 +54,7 @@ void draw_bookmarks(App& app) {
     ImGui::PopID();
   }
   if (remove >= 0) path.keys.erase(path.keys.begin() + remove);
-  if (wide_button("Add this view (B)"))
-    append(path, {fmt::format("view {}", path.keys.size() + 1), 0, app.document.time, app.view});
+  if (wide_button("Add this view (B)")) app.add_bookmark();
   if (path.keys.size() > 1) {
     if (ImGui::Button(app.path_plays ? "Stop" : "Play")) {
       if (!app.path_plays && app.path_time >= path.keys.back().time) app.path_time = path.keys.front().time;
@@ -67,16 +62,11 @@ void draw_bookmarks(App& app) {
     }
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
-    if (ImGui::SliderFloat("##at", &app.path_time, path.keys.front().time, path.keys.back().time, "%.2f s")) {
-      const CameraKey key = at(path, app.path_time);
-      app.view = key.view;
-      if (key.scene_time) app.document.time = *key.scene_time;
-      app.redraw();
-    }
+    if (ImGui::SliderFloat("##at", &app.path_time, path.keys.front().time, path.keys.back().time, "%.2f s"))
+      app.go_to(at(path, app.path_time));
   }
   static char file[256] = "path.json";
-  row("file");
-  ImGui::InputText("##file", file, sizeof file);
+  file_row("file", file);
   if (ImGui::Button("Save")) attempt(app, [&] { app.save_path(file); });
   ImGui::SameLine();
   if (ImGui::Button("Open")) attempt(app, [&] { app.load_path(file); });

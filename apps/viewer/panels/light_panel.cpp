@@ -11,29 +11,14 @@
 namespace ssphh::viewer {
 namespace {
 
-const char* type_name(scene::LightType type) {
-  switch (type) {
-    case scene::LightType::point:
-      return "point, W/sr";
-    case scene::LightType::spot:
-      return "spot, W/sr";
-    case scene::LightType::directional:
-      return "directional, W/m²";
-    case scene::LightType::sphere:
-      return "sphere, W/(sr m²)";
-  }
-  return "";
-}
+/// Of the types of lamps, in their order.
+constexpr const char* type_names[] = {"point, W/sr", "spot, W/sr", "directional, W/m²", "sphere, W/(sr m²)"};
 
 /// One undo step per drag of a widget.
 template <class Change>
 void edit(App& app, const std::string& what, const Change& change) {
   app.document.edit(what, change);
   app.redraw();
-}
-
-void seal_after_edit(App& app) {
-  if (ImGui::IsItemDeactivatedAfterEdit()) app.document.history.seal();
 }
 
 void draw_lamp_list(App& app) {
@@ -60,7 +45,7 @@ void draw_lamp(App& app, std::size_t i) {
   const LightEdit& now = app.document.edits().lights[i];
   const mat4 world = app.document.lighting().lights[i].world;
   heading(light.name.c_str());
-  note(type_name(light.type));
+  note(type_names[static_cast<std::size_t>(light.type)]);
 
   row("intensity");
   float intensity = now.intensity;

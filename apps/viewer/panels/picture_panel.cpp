@@ -48,12 +48,10 @@ void draw_picture_panel(App& app) {
   draw_truth(app);
   heading("Files");
   static char file[256] = "picture.png";
-  row("screenshot");
-  ImGui::InputText("##shot", file, sizeof file);
+  file_row("screenshot", file);
   if (wide_button("Write picture")) attempt(app, [&] { app.screenshot(file, false); });
   static char scene_file[256] = "scene.glb";
-  row("scene");
-  ImGui::InputText("##scene", scene_file, sizeof scene_file);
+  file_row("scene", scene_file);
   if (wide_button("Save scene")) attempt(app, [&] { app.save_scene(scene_file); });
 }
 

@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -132,12 +131,12 @@ void draw_selected(App& app) {
   vec3 position = *app.selected_position();
   if (ImGui::DragFloat3("##position", glm::value_ptr(position), 0.01f, 0, 0, "%.2f"))
     app.move_selected(position);
-  if (ImGui::IsItemDeactivatedAfterEdit()) app.document.history.seal();
+  seal_after_edit(app);
   row("VIZ radius");
   float radius = sphl.radius;
   if (ImGui::DragFloat("##radius", &radius, 0.005f, 0.001f, 10, "%.3f m"))
     app.document.edit("radius of " + sphl.name, [&](Edits& e) { e.sphls[i].radius = radius; });
-  if (ImGui::IsItemDeactivatedAfterEdit()) app.document.history.seal();
+  seal_after_edit(app);
   if (ImGui::Button("Delete")) return app.delete_selection();
   const int probe = probe_of_sphl(app, app.selection.index);
   if (probe < 0) return;
@@ -163,12 +162,9 @@ void draw_list(App& app) {
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
       ImGui::PushID(i);
       bool enabled = sphls[static_cast<std::size_t>(i)].enabled;
-      if (ImGui::Checkbox("##enabled", &enabled)) {
-        app.document.history.seal();
-        app.document.edit("switch SPHL",
-                          [&](Edits& e) { e.sphls[static_cast<std::size_t>(i)].enabled = enabled; });
-        app.document.history.seal();
-      }
+      if (ImGui::Checkbox("##enabled", &enabled))
+        app.document.edit_at_once("switch SPHL",
+                                  [&](Edits& e) { e.sphls[static_cast<std::size_t>(i)].enabled = enabled; });
       ImGui::SameLine();
       if (ImGui::Selectable(sphls[static_cast<std::size_t>(i)].name.c_str(),
                             app.selection == Selection{Kind::sphl, i})) {
@@ -185,8 +181,7 @@ void draw_list(App& app) {
 void draw_files(App& app) {
   heading("File");
   static char file[256] = "probes.sphl";
-  row("probes");
-  ImGui::InputText("##file", file, sizeof file);
+  file_row("probes", file);
   if (ImGui::Button("Save")) attempt(app, [&] { app.save_probes(file); });
   ImGui::SameLine();
   if (ImGui::Button("Open")) attempt(app, [&] { app.take_probe_file(file); });

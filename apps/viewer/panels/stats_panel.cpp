@@ -46,8 +46,7 @@ void draw_stats_panel(App& app) {
   heading("Times [ms], last 240 frames drawn");
   for (const FrameTimes::Stage& stage : app.times.stages()) draw_graph(stage);
   static char file[256] = "times.csv";
-  row("file");
-  ImGui::InputText("##file", file, sizeof file);
+  file_row("file", file);
   if (ImGui::Button("Save .csv or .json")) attempt(app, [&] { app.save_stats(file); });
   ImGui::SameLine();
   if (ImGui::Button("Begin anew")) app.times.clear();

@@ -23,7 +23,7 @@ void slider(App& app, std::size_t i, const char* label, float scene::Material::*
   ImGui::PushID(label);
   if (ImGui::SliderFloat("##value", &value, low, high, "%.2f"))
     edit(app, i, [&](scene::Material& m) { m.*member = value; });
-  if (ImGui::IsItemDeactivatedAfterEdit()) app.document.history.seal();
+  seal_after_edit(app);
   tip(help);
   ImGui::PopID();
 }
@@ -36,7 +36,7 @@ void draw_material(App& app, std::size_t i) {
   if (ImGui::ColorEdit3("##base", glm::value_ptr(color),
                         ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoOptions))
     edit(app, i, [&](scene::Material& m) { m.base_color = color; });
-  if (ImGui::IsItemDeactivatedAfterEdit()) app.document.history.seal();
+  seal_after_edit(app);
   slider(app, i, "metallic", &scene::Material::metallic, 0, 1, "0: dielectric, 1: metal");
   slider(app, i, "specular", &scene::Material::specular, 0, 1, "weight of a dielectric's specular lobe");
   slider(app, i, "specular rough.", &scene::Material::specular_roughness, -1, 1,
@@ -48,7 +48,7 @@ void draw_material(App& app, std::size_t i) {
   vec3 emission = material.emission;
   if (ImGui::DragFloat3("##emission", glm::value_ptr(emission), 0.05f, 0, 1e6f, "%.2f"))
     edit(app, i, [&](scene::Material& m) { m.emission = glm::max(emission, vec3(0)); });
-  if (ImGui::IsItemDeactivatedAfterEdit()) app.document.history.seal();
+  seal_after_edit(app);
   tip("radiance, W/(sr m²); an emitter stays one: at least a little of it is kept");
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 const SettingName& setting(const char* name) {
   const std::vector<SettingName>& names = setting_names();
-  const auto found = std::find_if(names.begin(), names.end(), [&](const auto& s) { return s.name == name; });
+  const auto found = std::ranges::find_if(names, [&](const auto& s) { return s.name == name; });
   SSPHH_CHECK(found != names.end());
   return *found;
 }
@@ -58,6 +58,17 @@ void tip(const char* text) {
   ImGui::TextUnformatted(text);
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+}
+
+void seal_after_edit(App& app) {
+  if (ImGui::IsItemDeactivatedAfterEdit()) app.document.history.seal();
+}
+
+void file_row(const char* label, char (&file)[256]) {
+  row(label);
+  ImGui::PushID(label);
+  ImGui::InputText("##file", file, sizeof file);
+  ImGui::PopID();
 }
 
 void complain(App& app, const char* what) {

@@ -30,6 +30,12 @@ bool wide_button(const char* label);
 /// Explains the item before when the mouse rests on it.
 void tip(const char* text);
 
+/// Ends the undo step of a gesture once the item before is let go.
+void seal_after_edit(App& app);
+
+/// A row with a file's name to type.
+void file_row(const char* label, char (&file)[256]);
+
 void complain(App& app, const char* what);
 
 /// Runs an action; what it throws becomes a message.

@@ -7,7 +7,6 @@
 
 #include <ssphh/gl/draw.h>
 #include <ssphh/gl/framebuffer.h>
-#include <ssphh/gl/read_pixels.h>
 #include <ssphh/sh/reconstruct.h>
 
 #include "gl_context.h"
