@@ -80,8 +80,8 @@ class App {
   void rebuild_light();
   void start_gen(bool viz_only);
   void take_probe_file(const std::string& file);
-  /// Makes fitted weights of the probes ready, in the background.
-  void prepare_fitted(const probes::FittedPoints& fitted);
+  /// Makes the surface records or fitted weights of the probes ready, in the background.
+  void prepare_surfaces();
   void delete_selection();
   void add_sphl(const vec3& position);
   void say(const std::string& message);

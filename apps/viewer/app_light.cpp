@@ -81,7 +81,10 @@ void App::rebuild_light() {
   auto scene = std::make_shared<const scene::Scene>(with_materials(*document.scene, document.edits()));
   job.start("lighting probes", [this, scene, params, time = document.time](const Control& control) {
     auto live = std::make_shared<LiveLight>(scene, params, time, control);
-    return [this, live] { light.take(live); };
+    return [this, live] {
+      light.take(live);
+      prepare_surfaces();
+    };
   });
 }
 
@@ -95,6 +98,7 @@ void App::place_probes(float spacing) {
     return [this, live] {
       take_places("place probes", live->session().places());
       light.take(live);
+      prepare_surfaces();
       say(fmt::format("{} probes", live->session().places().size()));
     };
   });
@@ -155,27 +159,42 @@ void App::take_probe_file(const std::string& file) {
   }
   take_places("probes of a file", set.probes);
   say(fmt::format("{}: {} probes", file, set.probes.size()));
-  const std::optional<probes::FittedPoints> fitted = set.fitted;
   light.take(std::move(set), file);
-  if (fitted) prepare_fitted(*fitted);
+  prepare_surfaces();
 }
 
-void App::prepare_fitted(const probes::FittedPoints& fitted) {
-  job.start("fitted weights", [this, fitted, geometry = geometry_, scene = document.scene,
-                               time = document.time](const Control& control) {
-    // What a door hides at any of these times lights nothing behind it at any other
+void App::prepare_surfaces() {
+  const probes::ProbeSet& set = light.set();
+  if (!set.surface && !set.fitted) return;
+  // What a door hides at any of these times lights nothing behind it at any other
+  const auto prepare = [geometry = geometry_, scene = document.scene,
+                        time = document.time](const auto& with_sight) {
     std::vector<std::unique_ptr<trace::PathTracer>> poses;
     for (const float t : {time, 0.0f, scene::animation_duration(*scene)}) {
       if (poses.empty() || t != time)
         poses.push_back(std::make_unique<trace::PathTracer>(geometry, *scene, t));
     }
-    const probes::SeesProbe sees = [&](const vec3& a, const vec3& b) {
+    return with_sight(*scene, time, probes::SeesProbe([&](const vec3& a, const vec3& b) {
       return std::ranges::all_of(poses, [&](const auto& pose) { return pose->visible(a, b); });
-    };
-    auto prepared =
-        std::make_shared<probes::FittedSurfaces>(probes::prepare_fitted(*scene, time, fitted, sees, control));
-    return [this, prepared] { light.take_fitted(std::move(*prepared)); };
-  });
+    }));
+  };
+  if (set.surface) {
+    job.start("surface records", [this, prepare, points = set.surface->points](const Control& control) {
+      auto prepared = std::make_shared<probes::SurfaceLists>(
+          prepare([&](const scene::Scene& scene, float time, const probes::SeesProbe& sees) {
+            return probes::prepare_surfaces(scene, time, points, sees, control);
+          }));
+      return [this, prepared] { light.take_records(std::move(*prepared)); };
+    });
+  } else {
+    job.start("fitted weights", [this, prepare, fitted = *set.fitted](const Control& control) {
+      auto prepared = std::make_shared<probes::FittedSurfaces>(
+          prepare([&](const scene::Scene& scene, float time, const probes::SeesProbe& sees) {
+            return probes::prepare_fitted(scene, time, fitted, sees, control);
+          }));
+      return [this, prepared] { light.take_fitted(std::move(*prepared)); };
+    });
+  }
 }
 
 }  // namespace ssphh::viewer

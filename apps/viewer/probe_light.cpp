@@ -23,6 +23,7 @@ void ProbeLight::take(std::shared_ptr<LiveLight> live) {
   for (std::size_t i = 0; i < edges.size(); ++i) set_->probes[i].edges = std::move(edges[i]);
   origin_ = "live";
   fitted_ = {};
+  records_ = {};
   lighting_.reset();
   places_new_ = light_new_ = true;
 }
@@ -33,13 +34,19 @@ void ProbeLight::take(probes::ProbeSet set, const std::string& origin) {
   probes::merge_groups(*set_);
   origin_ = origin;
   fitted_ = {};
+  records_ = {};
   lighting_.reset();
   places_new_ = light_new_ = true;
 }
 
 void ProbeLight::take_fitted(probes::FittedSurfaces fitted) {
   fitted_ = std::move(fitted);
-  fitted_new_ = true;
+  surfaces_new_ = true;
+}
+
+void ProbeLight::take_records(probes::SurfaceLists records) {
+  records_ = std::move(records);
+  surfaces_new_ = true;
 }
 
 void ProbeLight::clear() {
@@ -135,7 +142,7 @@ ProbeLight::Update ProbeLight::update(const Document& document, const Settings& 
   watch = {};
   if (places_new_ || lookup_changed) {
     renderer.set_probes(*set_, lookup_params(settings));
-    renderer.set_fitted(fitted_);
+    surfaces_new_ = true;
     out.replaced = places_new_;
     out.relit = true;
   } else if (relit || hierarchy_new) {
@@ -151,12 +158,19 @@ ProbeLight::Update ProbeLight::update(const Document& document, const Settings& 
     renderer.update_probes(changed, light);
     out.relit = true;
   }
-  if (fitted_new_) {
-    renderer.set_fitted(fitted_);
-    out.relit = true;
+  const bool by_records = !records_.empty() && probes::has_records(*set_, lookup_params(settings));
+  if (surfaces_new_ || by_records != by_records_) {
+    if (by_records) {
+      renderer.set_records(records_);
+    } else {
+      renderer.set_fitted(fitted_);
+    }
+    by_records_ = by_records;
+    surfaces_new_ = out.relit = true;
   }
+  if (by_records && (relit || surfaces_new_)) renderer.set_record_light(set_->surface->light);
   out.upload_ms = watch.milliseconds();
-  places_new_ = light_new_ = fitted_new_ = false;
+  places_new_ = light_new_ = surfaces_new_ = false;
   settings_ = settings;
   return out;
 }

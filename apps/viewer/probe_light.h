@@ -22,6 +22,8 @@ class ProbeLight {
   void take(probes::ProbeSet set, const std::string& origin);
   /// Fitted weights of the set that was taken last, made ready.
   void take_fitted(probes::FittedSurfaces fitted);
+  /// Surfaces of its records, likewise.
+  void take_records(probes::SurfaceLists records);
   void clear();
   /// Light of one probe of a bake that is under way: `set` was taken at its start.
   void take_probe(std::size_t i, const probes::Probe& probe);
@@ -56,9 +58,10 @@ class ProbeLight {
   std::string origin_;
   transport::RelightReport report_;
   probes::FittedSurfaces fitted_;
+  probes::SurfaceLists records_;
 
   // What was last brought to the set and the renderer.
-  bool places_new_ = false, light_new_ = false, fitted_new_ = false;
+  bool places_new_ = false, light_new_ = false, surfaces_new_ = false, by_records_ = false;
   std::optional<scene::LightingState> lighting_;
   std::optional<Settings> settings_;
 };

@@ -130,7 +130,7 @@ TEST(BadInput, UnwritableOutputAndFullDisk) {
 TEST(BadInput, CtrlCLeavesTheOldOutputAndResumeGivesTheSameBits) {
   const TempDir dir;
   const std::string cut = dir / "cut.exr", whole = dir / "whole.exr";
-  const std::vector<std::string> effort = {"--width", "64", "--height", "64", "--spp", "4", "--passes", "24"};
+  const std::vector<std::string> effort = {"--width", "64", "--height", "64", "--spp", "4", "--passes", "60"};
   write(cut, "the old file");
   ToolProcess process(with({"render", "builtin:cornell", "-o", cut, "--progress", "json"}, effort));
   ASSERT_TRUE(process.wait_for_stderr("\"done\"")) << process.stderr_so_far();
@@ -149,7 +149,7 @@ TEST(BadInput, CtrlCLeavesTheOldOutputAndResumeGivesTheSameBits) {
 TEST(BadInput, AKilledBakeResumesToTheSameBits) {
   const TempDir dir;
   const std::string cut = dir / "cut.sphl", whole = dir / "whole.sphl";
-  const std::vector<std::string> effort = {"--face",      "16", "--spp",    "24",
+  const std::vector<std::string> effort = {"--face",      "16", "--spp",    "64",
                                            "--max-depth", "8",  "--degree", "3"};
   ToolProcess process(with({"bake", "builtin:cornell", "-o", cut, "--progress", "json"}, effort));
   ASSERT_TRUE(process.wait_for_stderr("\"done\"")) << process.stderr_so_far();

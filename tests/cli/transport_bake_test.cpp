@@ -88,6 +88,33 @@ TEST(TransportBakeCli, RenderTakesFittedWeightsWhereTheFileHasThem) {
                  "has no fitted weights");
 }
 
+TEST(TransportBakeCli, RecordsAreTakenWhereTheFileHasThemOnCpuAndGpu) {
+  const TempDir dir;
+  const std::string kept = dir / "k.sphl", plain = dir / "p.sphl", picture = dir / "x.exr";
+  const json::Value bake =
+      run_json(small_bake("builtin:box", kept, {"--surfel-size", "0.25", "--records", "300", "--fit"}));
+  EXPECT_LE(bake["records"].number(), 300);
+  EXPECT_GT(bake["records"].number(), 100);
+  EXPECT_GE(bake["record_seconds"].number(), 0);
+  EXPECT_EQ(run_json({"probe", "info", kept})["records"], bake["records"]);
+  const json::Value without = run_json(small_bake("builtin:box", plain, {"--surfel-size", "0.25"}));
+  EXPECT_EQ(without["records"], 0);
+  EXPECT_TRUE(without["record_seconds"].is_null());
+  const auto mean = [&](const std::vector<std::string>& more) {
+    return run_json(small_render("builtin:box", kept, picture, more))["mean"];
+  };
+  EXPECT_EQ(mean({}), mean({"--weights", "surface"}));
+  EXPECT_NE(mean({}), mean({"--weights", "fitted"}));
+  EXPECT_EQ(mean({"--backend", "gl"}), mean({"--backend", "gl", "--weights", "surface"}));
+  EXPECT_NE(mean({"--backend", "gl"}), mean({"--backend", "gl", "--weights", "fitted"}));
+  expect_failure(small_render("builtin:box", plain, picture, {"--weights", "surface"}),
+                 "has no surface records");
+  // With light of paths, records still hold every bounce
+  const json::Value paths = run_json({"bake", "builtin:box", "-o", plain, "--face", "4", "--spp", "1",
+                                      "--surfel-size", "0.25", "--records", "200", "--viz", "off"});
+  EXPECT_GT(paths["records"].number(), 50);
+}
+
 TEST(TransportBakeCli, PathTracedProbesHaveNoNumbersOfTransport) {
   const TempDir dir;
   const json::Value bake =

@@ -170,13 +170,16 @@ std::vector<GlContract> of_renderer() {
       refuses_frame("FittedPointsOfNoProbe",
                     [](Renderer& r) {
                       probes::FittedSurfaces fitted;
-                      fitted.points.points.resize(1);
-                      fitted.points.weights.resize(1);
-                      fitted.points.weights[0].add(3, 1);
-                      fitted.ranges.resize(1), fitted.lists.resize(1);
+                      fitted.surfaces.points.resize(1);
+                      fitted.weights.resize(1);
+                      fitted.weights[0].add(3, 1);
+                      fitted.surfaces.ranges.resize(1), fitted.surfaces.lists.resize(1);
                       r.set_fitted(fitted);
                     },
                     {"fitted point 0", "probe 3"}),
+      refuses_frame("LightOfRecordsThatAreNotThere",
+                    [](Renderer& r) { r.set_record_light(std::vector(2, probes::RecordLight(0))); },
+                    {"2 lights", "0 records"}),
       {"Renderer", "ThatWasMoved",
        [](gl::Context& context) {
          Renderer first(context, sound_scene());

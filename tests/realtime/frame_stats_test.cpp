@@ -184,7 +184,7 @@ TEST_F(FrameStatsTest, FrameWithoutAWordShowsAllLightAtEveryPixel) {
                tone, wireframe] = FrameSettings{};
   EXPECT_TRUE(direct && indirect);
   EXPECT_EQ(lookup, probes::LookupMethod::irradiance);
-  EXPECT_EQ(weights, probes::WeightMethod::fitted);
+  EXPECT_EQ(weights, probes::WeightMethod::surface);
   EXPECT_EQ(scale, 1);
   EXPECT_EQ(tolerance, 0.1f);
   EXPECT_EQ(supersample, 1);

@@ -156,6 +156,7 @@ const Weights all_weights[] = {{LookupMethod::irradiance, WeightMethod::distance
                                {LookupMethod::irradiance, WeightMethod::trilinear, "trilinear"},
                                {LookupMethod::irradiance, WeightMethod::mls, "mls"},
                                {LookupMethod::irradiance, WeightMethod::fitted, "fitted"},
+                               {LookupMethod::irradiance, WeightMethod::surface, "surface"},
                                {LookupMethod::light, WeightMethod::distance, "light"}};
 
 class EveryWeight : public LookupPixels, public testing::WithParamInterface<Weights> {};
@@ -168,17 +169,23 @@ TEST_P(EveryWeight, InAnEmptyRoomEveryPixelIsTheCpus) {
                             : w.weights == WeightMethod::distance ? coloured(made_up_probes(eight()))
                                                                   : made_up_probes(grid());
   if (w.weights == WeightMethod::fitted) probes.fitted = made_up_fit(scene, probes, 800);
+  if (w.weights == WeightMethod::surface)
+    probes.surface = made_up_records(made_up_fit(scene, probes, 800).points, probes.light_groups);
   const trace::TransportScene source(scene);
   const PixelPoints points(source, pose_of(scene, ""), size);
   realtime::Renderer renderer(gl(), scene);
   renderer.set_probes(probes);
+  if (probes.surface) set_records(renderer, scene, *probes.surface, tracer);
   if (probes.fitted) renderer.set_fitted(prepared(scene, *probes.fitted, tracer));
   const image::Image truth = looked_up(points, *lookup(probes, tracer, w.method, w.weights));
   const image::Image picture = draw(renderer, scene, "", w.method, w.weights);
   if (w.method == LookupMethod::irradiance) {
-    // Lists of fitted points hold places, normals and sight of few bits: seen to differ by 3.5 % at a few
-    // pixels
-    EXPECT_TRUE(picture_is(picture, bounds_of(points, truth, probes.fitted ? 0.04f : tile)));
+    // Records differ by place and normal more than probes do. Lists of points hold places, normals and sight
+    // of few bits: seen to differ by 3.5 % at a few pixels
+    EXPECT_TRUE(picture_is(picture, bounds_of(points, truth,
+                                              probes.surface  ? 0.06f
+                                              : probes.fitted ? 0.04f
+                                                              : tile)));
     return;
   }
   // The nearest above the horizon changes from pixel to pixel. Radiance bends more than irradiance: band 1 by

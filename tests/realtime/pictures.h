@@ -83,6 +83,35 @@ inline probes::FittedPoints made_up_fit(const scene::Scene& scene, const probes:
   return fitted;
 }
 
+/// Records at such points: light that varies with the place and as the surface turns.
+inline probes::SurfaceRecords made_up_records(const std::vector<rays::SurfacePoint>& points,
+                                              const std::vector<probes::LightGroup>& groups) {
+  probes::SurfaceRecords records;
+  records.points = points;
+  std::vector<vec3> scales;
+  for (const probes::LightGroup& group : groups) {
+    scales.push_back(group.scale);
+    const float phase = static_cast<float>(scales.size());
+    std::vector<probes::PackedRecordLight>& kept = records.groups.emplace_back();
+    for (const rays::SurfacePoint& p : points) {
+      probes::RecordLight light(0);
+      light[3] = vec3(1.5f) + glm::sin(phase + 0.7f * p.position + 0.4f * p.normal);
+      for (glm::length_t c = 0; c < 3; ++c)
+        light[c] = 0.5f * glm::sin(vec3(phase + float(c), 2, 3) + p.position);
+      kept.push_back(probes::pack(light, p.normal));
+    }
+  }
+  probes::merge_groups(records, scales);
+  return records;
+}
+
+inline void set_records(realtime::Renderer& renderer, const scene::Scene& scene,
+                        const probes::SurfaceRecords& records, const trace::PathTracer& tracer) {
+  renderer.set_records(probes::prepare_surfaces(
+      scene, 0, records.points, [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); }));
+  renderer.set_record_light(records.light);
+}
+
 inline mat4 light_world(const scene::Scene& scene, std::size_t light) {
   const int node = scene.lights[light].node;
   return node < 0 ? mat4(1) : scene::world_matrices(scene, 0)[static_cast<std::size_t>(node)];

@@ -204,8 +204,61 @@ TEST_F(RendererTest, NewLightOfAProbeCostsThePointsThatItLightsAlone) {
   frame(renderer);
   EXPECT_EQ(renderer.read_back().pixels, updated.pixels);
 
-  prepared.points.weights[0].entries[0].probe = 99;
+  prepared.weights[0].entries[0].probe = 99;
   EXPECT_THROW(renderer.set_fitted(prepared), Error);
+}
+
+TEST_F(RendererTest, RecordsLightSurfacesUntilFittedPointsTakeTheirPlace) {
+  probes::ProbeSet set = test::made_up_probes(scene_);
+  const trace::PathTracer tracer(scene_);
+  const probes::FittedPoints fitted = test::made_up_fit(scene_, set, 400);
+  const probes::SurfaceRecords records = test::made_up_records(fitted.points, set.light_groups);
+  Renderer renderer(gl(), scene_);
+  const auto picture = [&](probes::WeightMethod weights) {
+    FrameSettings settings;
+    settings.view = View::indirect;
+    settings.weights = weights;
+    frame(renderer, settings);
+    return renderer.read_back().pixels;
+  };
+  renderer.set_probes(set);
+  const auto by_probes = picture(probes::WeightMethod::mls);
+  EXPECT_EQ(picture(probes::WeightMethod::surface), by_probes) << "there are none";
+  test::set_records(renderer, scene_, records, tracer);
+  const auto by_records = picture(probes::WeightMethod::surface);
+  EXPECT_NE(by_records, by_probes);
+  EXPECT_EQ(picture(probes::WeightMethod::mls), by_probes) << "asked for";
+  EXPECT_EQ(picture(probes::WeightMethod::fitted), by_probes) << "records are no fitted points";
+
+  // New light of the probes changes what moves and no record is near; new light of the records the rest, at
+  // its price
+  const std::array<sh::RadianceSh, 1> light{set.probes[1].self};
+  renderer.update_probes(std::array{0}, light);
+  const auto share = [&](const auto& changed) {
+    const auto now = picture(probes::WeightMethod::surface);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < now.size(); ++i) count += changed(now[i], by_records[i]);
+    return static_cast<double>(count) / static_cast<double>(now.size());
+  };
+  EXPECT_LT(share([](float now, float before) { return now != before; }), 0.2);
+  frame(renderer);
+  const std::uint64_t still = frame(renderer).bytes_uploaded;
+  renderer.set_record_light(std::vector(records.points.size(), probes::RecordLight(0)));
+  EXPECT_EQ(frame(renderer).bytes_uploaded - still, 64 * records.points.size());
+  EXPECT_GT(share([](float now, float) { return now == 0; }), 0.7);
+  EXPECT_THROW(renderer.set_record_light(std::span(records.light).first(3)), Error);
+
+  const probes::FittedSurfaces prepared = test::prepared(scene_, fitted, tracer);
+  renderer.set_fitted(prepared);
+  const auto by_weights = picture(probes::WeightMethod::fitted);
+  EXPECT_EQ(picture(probes::WeightMethod::surface), by_weights) << "the best there is";
+  EXPECT_NE(by_weights, by_probes);
+  EXPECT_THROW(renderer.set_record_light(records.light), Error);
+  renderer.set_probes(set);
+  test::set_records(renderer, scene_, records, tracer);
+  EXPECT_EQ(picture(probes::WeightMethod::surface), by_records);
+  renderer.set_records({});
+  EXPECT_EQ(picture(probes::WeightMethod::surface), picture(probes::WeightMethod::mls));
 }
 
 TEST_F(RendererTest, OcclusionDarkensCornersAndNothingBrightens) {

@@ -66,7 +66,8 @@ std::vector<std::string> with(std::vector<std::string> settings, const std::vect
 TEST(MethodNumbers, OfSsphhAreItsProbesSurfelsAndFittedPoints) {
   const Network network{trace::TransportScene(room())};
   const Framed mls("ssphh", with(own_places, {"weights=mls", "degree=3"}));
-  EXPECT_EQ(mls.numbers(), (Numbers{{"probes", 4}, {"surfels", network.surfels()}, {"fitted_points", 0}}));
+  EXPECT_EQ(mls.numbers(),
+            (Numbers{{"probes", 4}, {"surfels", network.surfels()}, {"fitted_points", 0}, {"records", 0}}));
   // Weights by place; 16 coefficients of radiance and as many of irradiance.
   EXPECT_EQ(mls.method->memory().lookup, 4u * (12 + 17) + 4 * 12 * (16 + 16));
   EXPECT_EQ(mls.method->memory().update, network.bytes());
@@ -77,6 +78,14 @@ TEST(MethodNumbers, OfSsphhAreItsProbesSurfelsAndFittedPoints) {
   const double few = Framed("ssphh", with(own_places, {"fit_points=20"})).numbers()["fitted_points"];
   EXPECT_LE(few, 20);
   EXPECT_GT(few, 5);
+  const Framed surface("ssphh", with(own_places, {"weights=surface", "records=60", "degree=3"}));
+  const double records = surface.numbers()["records"];
+  EXPECT_LE(records, 60);
+  EXPECT_GT(records, 15);
+  // Each a place, a normal, its share of the tree, and 12 floats of light
+  EXPECT_EQ(double(surface.method->memory().lookup) - double(mls.method->memory().lookup),
+            records * (12 + 6 + 17 + 48));
+  EXPECT_GT(surface.method->memory().update, network.bytes());
   EXPECT_EQ(Framed("ssphh", {"probes=7", "directions=64", "surfel_size=0.5"}).numbers()["probes"], 7);
 }
 

@@ -24,6 +24,22 @@ inline probes::FittedPoints random_fitted(std::uint64_t seed, int point_count, i
   return fitted;
 }
 
+inline probes::SurfaceRecords random_records(std::uint64_t seed, int point_count, int group_count) {
+  Pcg32 rng(seed);
+  probes::SurfaceRecords records;
+  records.groups.resize(static_cast<std::size_t>(group_count));
+  for (int i = 0; i < point_count; ++i) {
+    const vec3 normal = glm::normalize(2.0f * rng.uniform3() - 1.0f);
+    records.points.push_back({10.0f * rng.uniform3(), normal});
+    for (std::vector<probes::PackedRecordLight>& group : records.groups) {
+      probes::RecordLight light;
+      for (glm::length_t c = 0; c < 4; ++c) light[c] = rng.uniform3();
+      group.push_back(probes::pack(light, normal));
+    }
+  }
+  return records;
+}
+
 /// A valid set with random light; every probe is a neighbour of every other.
 inline probes::ProbeSet random_set(std::uint64_t seed, int probe_count, int degree, int group_count = 2,
                                    bool matrices = false) {

@@ -72,6 +72,10 @@ void add_transport_options(const Command& surfels, BakeOptions& options, BakeUse
           .option("--link-rays", params.link_rays,
                   "Rays by which each surfel finds what lights it: fewer are faster and noisier")
           .range(4, 1 << 16)};
+  surfels
+      .option("--records", options.transport.records.points,
+              "Also keep the light of so many surface points, for --weights surface; 8000 are much")
+      .range(0, 1 << 16);
   surfels.flag("--fit", options.transport.fit,
                "Also fit lookup weights at the surfels and store them with the probes");
 }
@@ -103,7 +107,8 @@ void add_bake_command(Command app, Context& context) {
                  "diffusely), bounce (the same with the probes as the only unknowns)");
   add_path_options(command.under("GEN and VIZ: path tracing"), o, *uses);
   add_viz_options(command.under("VIZ: light between the SPHLs, which HIER needs"), o, *uses);
-  add_transport_options(command.under("Transport: --operator surfel|bounce, --viz links, --fit"), o, *uses);
+  add_transport_options(command.under("Transport: --operator surfel|bounce, --viz links, --records, --fit"),
+                        o, *uses);
   add_farm_options(command, o.farm);
   command.footer(
       "An interrupted bake leaves OUTPUT.checkpoint; the same command continues there and gives the same "

@@ -48,9 +48,10 @@ probes::VizMethod resolve(BakeOptions& o, std::size_t probes) {
   o.transport.viz = o.viz == VizMethod::links;
   o.transport.viz_params.neighbors = o.neighbors.value_or(default_link_neighbors);
   o.transport.viz_params.threshold = o.threshold;
+  const bool transport = o.transport.fit || o.transport.viz || o.transport.records.points > 0;
   if (!path && !params.viz) refuse(o.of_paths, "is of path tracing: use --operator path or --viz path");
-  if (path && !o.transport.fit && !o.transport.viz)
-    refuse(o.of_transport, "is of transport: use --operator surfel, bounce, --viz links or --fit");
+  if (path && !transport)
+    refuse(o.of_transport, "is of transport: use --operator surfel, bounce, --viz links, --records or --fit");
   if (o.viz == VizMethod::none) refuse(o.of_viz, "is of VIZ: use --viz links or path");
   if (o.farm.any() && !path && !params.viz)
     throw Error(fmt::format("--operator {}", name_of(o.op)),
@@ -64,7 +65,7 @@ void fill(BakeResult& result, const BakeOptions& o, const trace::SharedGeometry&
           const scene::Scene& scene, const std::filesystem::path& checkpoint, const FarmSession* session,
           const Control& control) {
   const bool path = o.op == probes::LightOperator::path;
-  if (!path || o.transport.fit || o.transport.viz) {
+  if (!path || o.transport.fit || o.transport.viz || o.transport.records.points > 0) {
     const trace::TransportScene source(geometry, scene);
     if (path) {
       bake::add_transport(source, result.set, o.transport, result.transport, control);
@@ -137,6 +138,8 @@ json::Value to_json(const BakeResult& r, const BakeOptions& o) {
                         {"contraction", if_any(network, t.contraction)},
                         {"fitted", r.set.fitted ? r.set.fitted->points.size() : 0},
                         {"fit_seconds", if_any(r.set.fitted.has_value(), t.fit_seconds)},
+                        {"records", r.set.surface ? r.set.surface->points.size() : 0},
+                        {"record_seconds", if_any(r.set.surface.has_value(), t.record_seconds)},
                         {"rays", r.paths.rays + t.rays},
                         {"resumed", r.paths.resumed},
                         {"viz", r.viz == VizMethod::none ? "off" : name_of(r.viz)},
@@ -160,6 +163,9 @@ std::string to_text(const BakeResult& r, const BakeOptions& o) {
                           t.iterations, t.contraction, t.seconds);
     }
   }
+  if (r.set.surface)
+    text += fmt::format("\nlight kept at {} surface points in {:.2f} s", r.set.surface->points.size(),
+                        t.record_seconds);
   if (r.set.fitted)
     text +=
         fmt::format("\nweights fitted at {} points in {:.2f} s", r.set.fitted->points.size(), t.fit_seconds);

@@ -42,7 +42,7 @@ LeakResult run_leak(const LeakOptions& o, const Control& control) {
   const trace::TransportScene surfaces(geometry, scene);
   const probes::LookupParams params_of_lookup = lookup_params(o.probes, set, o.lookup);
   const probes::IrradianceLookup lookup(set, tracer, params_of_lookup);
-  result.weights = params_of_lookup.weights.chosen(set.fitted.has_value());
+  result.weights = probes::chosen_weights(set, params_of_lookup);
 
   study::LeakParams params = o.params;
   params.path.seed = o.seed;

@@ -55,7 +55,7 @@ std::vector<Candidate> probe_candidates(const MeasureOptions& o, const std::vect
       const probes::LookupParams params = lookup_params(o.probes[i], sets[i], {.weights = method});
       Candidate& candidate = candidates.emplace_back();
       candidate.known.name = o.probes[i];
-      candidate.known.weights = params.weights.chosen(sets[i].fitted.has_value());
+      candidate.known.weights = probes::chosen_weights(sets[i], params);
       candidate.light = std::make_shared<probes::IrradianceLookup>(sets[i], tracer, params);
     }
   }
@@ -242,9 +242,10 @@ void add_measure_command(Command app, Context& context) {
               "`ssphh methods` lists them")
       .repeatable();
   command
-      .option("--weights", words->weights,
-              "How probes are blended, one or several: distance, trilinear, mls, fitted; by default what "
-              "`render` would take")
+      .option(
+          "--weights", words->weights,
+          "How light is found, one or several: distance, trilinear, mls, fitted, surface; by default what "
+          "`render` would take")
       .separated_by(',')
       .one_of(names_of<probes::WeightMethod>());
   command.option("--points", o.points, "Points to compare at, uniform by area over what can be reached")

@@ -111,7 +111,8 @@ json::Value to_json(const ProbeInfo& info, const ProbeInfoOptions& options) {
                         {"generator", generator_json(set.generator)},
                         {"light_groups", std::move(groups)},
                         {"edges", probes::edge_count(set)},
-                        {"fitted", set.fitted ? set.fitted->points.size() : 0}};
+                        {"fitted", set.fitted ? set.fitted->points.size() : 0},
+                        {"records", set.surface ? set.surface->points.size() : 0}};
   if (set.hierarchy) {
     const probes::Hierarchy& h = *set.hierarchy;
     object["hierarchy"] = {
@@ -135,6 +136,7 @@ std::string to_text(const ProbeInfo& info, const ProbeInfoOptions& options) {
     text += fmt::format("transport: {} directions a probe, surfels of {:.3g} m, {} link rays\n", g.directions,
                         g.surfel_size, g.link_rays);
   }
+  if (set.surface) text += fmt::format("light kept at {} surface points\n", set.surface->points.size());
   if (set.fitted) text += fmt::format("weights fitted at {} surface points\n", set.fitted->points.size());
   for (const probes::LightGroup& group : set.light_groups) {
     text += fmt::format("light group {}, scale {:g} {:g} {:g}\n", group.name, group.scale.x, group.scale.y,

@@ -33,9 +33,11 @@ void add_truth_options(const Command& truth, RelightOptions& o) {
       .range(0, 1 << 20);
   truth.option("--points", o.points, "Surface points at which the error is measured").range(1, 1 << 24);
   add_truth_path_options(truth, o.truth_spp, o.max_depth);
-  truth.choice("--weights", o.weights,
-               "How probes are blended: distance, trilinear, mls; fitted to the light transport, once for "
-               "the run, at --fit-frames of its frames");
+  truth.choice(
+      "--weights", o.weights,
+      "How light is found: surface (records of surfaces that follow lamps and doors, and probes for what "
+      "moves), or by probes alone: distance, trilinear, mls; fitted to the light transport, once for the "
+      "run, at --fit-frames of its frames");
   truth
       .option("--fit-frames", o.fit_frames,
               "With --weights fitted: frames, evenly spaced over the run, whose light and poses they fit")

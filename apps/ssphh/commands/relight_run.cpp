@@ -65,7 +65,7 @@ void warn_about_network(const transport::RelightSession& session) {
 struct KeptFrame {
   int frame;
   scene::LightingState state;
-  std::vector<sh::RadianceSh> reflected;
+  probes::ProbeSet light;
 };
 
 class Relighting {
@@ -87,8 +87,11 @@ class Relighting {
     warn_about_places(places, source_, place::place_params(scene_, o_.scene.time).interest,
                       animation_.moves_time(), control_);
     const Stopwatch watch;
-    transport::RelightSession session(source_, std::move(places), o_.params, animation_.frame(0).time,
-                                      control_);
+    transport::RelightParams params = o_.params;
+    if (o_.weights == probes::WeightMethod::surface &&
+        (o_.truth > 0 || !o_.output.empty() || !o_.save.empty()))
+      params.records.points = 8192;
+    transport::RelightSession session(source_, std::move(places), params, animation_.frame(0).time, control_);
     run_.build_ms = 1e3 * watch.seconds();
     warn_about_network(session);
     try {
@@ -139,7 +142,7 @@ class Relighting {
       scene::LightingState state = animation_.frame(share(f));
       run_.updates.push_back(session.update(state));
       if (is_due(f, o_.truth) || (!o_.output.empty() && is_due(f, o_.pictures)))
-        kept_.push_back({f, std::move(state), session.reflected()});
+        kept_.push_back({f, std::move(state), transport::lookup_set(session)});
       progress.advance(1);
     }
   }
@@ -166,12 +169,11 @@ class Relighting {
     params.weights.method = o_.weights;
     std::optional<probes::FittedPoints> fitted;
     if (params.weights.method == probes::WeightMethod::fitted) fitted = fit(session, quiet);
-    for (const KeptFrame& kept : kept_) {
+    for (KeptFrame& kept : kept_) {
       const scene::Scene lit = scene::with_lighting(scene_, kept.state);
       const trace::PathTracer tracer(geometry_, lit, kept.state.time);
-      probes::ProbeSet set = transport::lookup_set(session.places(), kept.reflected);
-      set.fitted = fitted;
-      const probes::IrradianceLookup lookup(set, tracer, params);
+      kept.light.fitted = fitted;
+      const probes::IrradianceLookup lookup(kept.light, tracer, params);
       if (is_due(kept.frame, o_.truth)) measure(session, kept, tracer, lookup, quiet);
       if (!o_.output.empty() && is_due(kept.frame, o_.pictures)) draw(kept, lit, tracer, lookup, quiet);
       progress.advance(1);

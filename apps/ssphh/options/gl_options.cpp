@@ -13,18 +13,21 @@ void set_probes(realtime::Renderer& renderer, const GlLookup& options, const sce
   const probes::ProbeSet set = read_probes_of(scene, options.probes, time, options.force);
   const probes::LookupParams params = lookup_params(options.probes, set, options.spec);
   renderer.set_probes(set, params);
-  if (options.spec.method != probes::LookupMethod::irradiance ||
-      params.weights.chosen(set.fitted.has_value()) != probes::WeightMethod::fitted)
-    return;
+  if (options.spec.method != probes::LookupMethod::irradiance) return;
+  const probes::WeightMethod chosen = probes::chosen_weights(set, params);
+  if (chosen != probes::WeightMethod::surface && chosen != probes::WeightMethod::fitted) return;
   const trace::PathTracer tracer(scene, time);
-  renderer.set_fitted(probes::prepare_fitted(
-      scene, time, *set.fitted, [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); }));
+  const auto sees = [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); };
+  if (chosen == probes::WeightMethod::fitted)
+    return renderer.set_fitted(probes::prepare_fitted(scene, time, *set.fitted, sees));
+  renderer.set_records(probes::prepare_surfaces(scene, time, set.surface->points, sees));
+  renderer.set_record_light(set.surface->light);
 }
 
 realtime::FrameSettings still_settings(const GlLookup& options, int samples) {
   realtime::FrameSettings settings;
   settings.lookup = options.spec.method;
-  settings.weights = options.spec.weights.value_or(probes::WeightMethod::fitted);
+  settings.weights = options.spec.weights.value_or(probes::WeightMethod::surface);
   settings.supersample = samples;
   return settings;
 }

@@ -105,9 +105,10 @@ Option add_lookup_option(Command command, probes::LookupMethod& method) {
 Option add_weights_option(Command command, std::optional<probes::WeightMethod>& weights) {
   return command.choice(
       "--weights", weights,
-      "How --lookup irradiance blends SPHLs: fitted (to transport, for a file of `bake --fit`: the "
-      "default there, with mls for what moves), mls (moving least squares; else the default), trilinear "
-      "(probes on a grid), distance (nearest visible ones)");
+      "How --lookup irradiance finds light: surface (records of `bake --records`, with SPHLs for what moves; "
+      "the default where a file has any), fitted (SPHLs by weights of `bake --fit`, with mls for what moves; "
+      "else the default), mls (moving least squares over SPHLs; else the default), trilinear (SPHLs on a "
+      "grid), distance (nearest visible ones)");
 }
 
 Option add_layer_option(Command command, probes::ProbeLayer& layer) {
@@ -125,7 +126,11 @@ probes::LookupParams lookup_params(const std::string& file, const probes::ProbeS
                                    const probes::LookupSpec& spec) {
   if (spec.weights == probes::WeightMethod::fitted && !set.fitted)
     throw Error(file, "has no fitted weights", "bake it with --fit, or choose other --weights");
-  return probes::lookup_params(spec, set);
+  const probes::LookupParams params = probes::lookup_params(spec, set);
+  if (spec.weights == probes::WeightMethod::surface && !probes::has_records(set, params))
+    throw Error(file, "has no surface records of this light",
+                "bake it with --records, or choose other --weights");
+  return params;
 }
 
 }  // namespace ssphh::app

@@ -47,7 +47,8 @@ Option add_layer_option(Command command, probes::ProbeLayer& layer);
 /// --truth-spp and --max-depth of paths that tell what light there really is.
 void add_truth_path_options(const Command& command, int& spp, int& max_depth);
 
-/// What the choice means for the set in `file`. Throws Error for `fitted` with a set that has none.
+/// What the choice means for the set in `file`. Throws Error for `fitted` and `surface` with a set that
+/// has none.
 probes::LookupParams lookup_params(const std::string& file, const probes::ProbeSet& set,
                                    const probes::LookupSpec& spec);
 

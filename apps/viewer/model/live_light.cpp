@@ -27,19 +27,13 @@ LiveLight::LiveLight(std::shared_ptr<const scene::Scene> scene, const LiveLightP
 }
 
 probes::ProbeSet LiveLight::probes() const {
-  probes::ProbeSet set = transport::lookup_set(session_->places(), session_->reflected());
+  probes::ProbeSet set = transport::lookup_set(*session_);
   set.generator.op = probes::LightOperator::surfel;
   return set;
 }
 
 void LiveLight::refresh(probes::ProbeSet& set) const {
-  const std::vector<sh::RadianceSh>& reflected = session_->reflected();
-  for (std::size_t i = 0; i < reflected.size(); ++i) {
-    probes::Probe& probe = set.probes[i];
-    probe.groups[0].reflected = reflected[i];
-    probe.reflected = reflected[i];
-    probe.self = reflected[i];
-  }
+  transport::refresh(set, *session_);
 }
 
 probes::ProbeSet LiveLight::bake(const scene::Scene& scene, const Control& control) const {

@@ -111,8 +111,8 @@ const std::vector<SettingName>& setting_names() {
              "irradiance: blend of visible SPHLs; light: nearest visible SPHL, as the paper",
              &Settings::lookup),
       choice("weights", "Probes",
-             "How the lookup irradiance blends probes: fitted where a file has such weights, else as mls, "
-             "which fits; distance averages",
+             "How the lookup irradiance finds light: surface by records of surfaces where there are any; "
+             "fitted by such weights of a file; else as mls, which fits to probes; distance averages",
              &Settings::weights),
       choice("layer", "Probes", "Light of the probes that surfaces get: sum, self or neighbor",
              &Settings::layer),

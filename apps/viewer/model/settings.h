@@ -80,10 +80,10 @@ struct Settings {
 
   // Probes' light
   probes::LookupMethod lookup = probes::LookupMethod::irradiance;
-  probes::WeightMethod weights = probes::WeightMethod::fitted;  ///< of lookup `irradiance`
-  probes::ProbeLayer layer = probes::ProbeLayer::sum;           ///< self where there is no hierarchy
-  int degree = 4;                                               ///< bands kept by the lookup
-  bool hier = false;                                            ///< HIER over the edges that the set has
+  probes::WeightMethod weights = probes::WeightMethod::surface;  ///< of lookup `irradiance`
+  probes::ProbeLayer layer = probes::ProbeLayer::sum;            ///< self where there is no hierarchy
+  int degree = 4;                                                ///< bands kept by the lookup
+  bool hier = false;                                             ///< HIER over the edges that the set has
   probes::HierParams hier_params{.op = probes::HierOperator::mean};
 
   // Probes on the screen

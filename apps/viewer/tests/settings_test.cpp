@@ -55,7 +55,7 @@ TEST(Settings, StartAtTheirDefaults) {
       {"exposure", "0"},    {"tonemap", "clip"},      {"debug", "none"},    {"scale", "1"},
       {"wipe", "0.5"},      {"indirect-scale", "3"},  {"show", "realtime"}, {"block", "16"},
       {"against", "path"},  {"truth-depth", "8"},     {"degree", "4"},      {"truth-spp", "256"},
-      {"hier", "off"},      {"lookup", "irradiance"}, {"layer", "sum"},     {"weights", "fitted"},
+      {"hier", "off"},      {"lookup", "irradiance"}, {"layer", "sum"},     {"weights", "surface"},
       {"operator", "mean"}, {"neighbors", "-1"},      {"threshold", "0"},   {"balls", "off"},
       {"ball", "radiance"}, {"ball-size", "0"},       {"lobes", "off"},     {"graph", "off"},
       {"names", "off"},     {"play", "off"},          {"speed", "0.5"}};

@@ -83,6 +83,15 @@ void fit(const transport::RelightSession& session, const rays::TransportSource& 
   report.fit_seconds += watch.seconds();
 }
 
+void keep_records(transport::RelightSession& session, probes::ProbeSet& set,
+                  const transport::GatherParams& params, TransportBakeReport& report,
+                  const Control& control) {
+  const Stopwatch watch;
+  session.keep_records(params, control);
+  set.surface = session.records_by_group(control);
+  report.record_seconds = watch.seconds();
+}
+
 void find_edges(const transport::TransportNetwork& network, const rays::TransportSource& source,
                 probes::ProbeSet& set, const transport::LinkVizParams& params, TransportBakeReport& report,
                 const Control& control) {
@@ -160,12 +169,14 @@ probes::ProbeSet bake_transport(const rays::TransportSource& source, probes::Pro
   set.generator.gen = probes::GenMode::full;
   set.hierarchy.reset();
   set.fitted.reset();
+  set.surface.reset();
   set.light_groups.clear();
   for (const std::string& group : source.light_groups()) set.light_groups.push_back({group, vec3(1)});
   for (probes::Probe& probe : set.probes) probe.edges.clear();
   transport::store_groups(set, std::move(reflected), session.emitted_by_group());
 
   report.seconds = watch.seconds();
+  if (params.records.points > 0) keep_records(session, set, params.records, report, control);
   if (params.viz) find_edges(network, source, set, params.viz_params, report, control);
   if (params.fit) fit(session, source, set, params.fit_params, report, control);
   report.rays = source.rays_traced() - rays_before;
@@ -186,10 +197,9 @@ void add_transport(const rays::TransportSource& source, probes::ProbeSet& set,
   const transport::TransportNetwork& network = session.network();
   describe_network(network, set, report);
   if (params.viz) find_edges(network, source, set, params.viz_params, report, control);
-  if (params.fit) {
-    session.update(session.lighting(), control);
-    fit(session, source, set, params.fit_params, report, control);
-  }
+  if (params.fit || params.records.points > 0) session.update(session.lighting(), control);
+  if (params.fit) fit(session, source, set, params.fit_params, report, control);
+  if (params.records.points > 0) keep_records(session, set, params.records, report, control);
   report.rays = source.rays_traced() - rays_before;
 }
 

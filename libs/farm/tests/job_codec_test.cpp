@@ -76,7 +76,7 @@ TEST(JobCodec, WordsOfATileJobAreTheTables) {
   EXPECT_EQ(problem(R"("lookup":"irradiance")", R"("lookup":"")"),
             "job: lighting.lookup: \"\" is none of: light, irradiance");
   EXPECT_EQ(problem(R"("weights":"")", R"("weights":"idw")"),
-            "job: lighting.weights: \"idw\" is none of: distance, trilinear, mls, fitted");
+            "job: lighting.weights: \"idw\" is none of: distance, trilinear, mls, fitted, surface");
   EXPECT_EQ(problem(R"("layer":"sum")", R"("layer":"all")"),
             "job: lighting.layer: \"all\" is none of: self, neighbor, sum");
   EXPECT_EQ(problem(R"("projection":"cube_strip")", R"("projection":"cube")"),

@@ -32,10 +32,12 @@ transport::RelightParams relight_params(const MethodParameters& p) {
   params.transport.surfel_size = static_cast<float>(p.number("surfel_size"));
   params.transport.directions = p.integer("directions");
   params.warm_start = p.flag("warm_start");
+  params.records.points =
+      p.choice<probes::WeightMethod>("weights") == probes::WeightMethod::surface ? p.integer("records") : 0;
   return params;
 }
 
-/// SPHLs lit by `surfel` transport, blended by visible or fitted weights.
+/// SPHLs lit by `surfel` transport, with records of surfaces or blended by visible or fitted weights.
 class Ssphh final : public Method {
  public:
   Ssphh(const MethodScene& scene, const MethodParameters& p, const Control& control)
@@ -53,13 +55,18 @@ class Ssphh final : public Method {
         positions, [this](const vec3& a, const vec3& b) { return surfaces_->visible(a, b); }, weights,
         fitted ? &*fitted : nullptr);
     fitted_points_ = fitted ? fitted->points.size() : 0;
+    if (session_.gather()) {
+      records_ = std::make_shared<const probes::SurfaceInterpolation>(
+          session_.gather()->points(),
+          [this](const vec3& a, const vec3& b) { return surfaces_->visible(a, b); });
+    }
   }
 
   void update(const scene::LightingState& state, const Control& control) override {
     session_.update(state, control);
     surfaces_.emplace(source_, state.time);
-    lookup_.emplace(transport::lookup_set(session_.places(), session_.reflected()),
-                    std::make_unique<KeptWeights>(*weights_));
+    lookup_.emplace(transport::lookup_set(session_), std::make_unique<KeptWeights>(*weights_),
+                    probes::LookupParams{}, records_);
   }
 
   const rays::IndirectLight& light() const override { return *lookup_; }
@@ -72,13 +79,18 @@ class Ssphh final : public Method {
                                            (session_.reflected().front().values.size() +
                                             static_cast<std::size_t>(sh::coefficient_count(kept)));
     bytes.update = network_bytes(session_.network());
+    if (records_) {
+      bytes.lookup += records_->bytes() + records_->count() * sizeof(probes::RecordLight);
+      bytes.update += session_.gather()->bytes();
+    }
     return bytes;
   }
 
   MethodNumbers numbers() const override {
     return {{"probes", static_cast<double>(session_.places().size())},
             {"surfels", static_cast<double>(session_.network().surfel_count())},
-            {"fitted_points", static_cast<double>(fitted_points_)}};
+            {"fitted_points", static_cast<double>(fitted_points_)},
+            {"records", records_ ? static_cast<double>(records_->count()) : 0}};
   }
 
  private:
@@ -101,6 +113,7 @@ class Ssphh final : public Method {
   std::optional<rays::PosedWorld> surfaces_;
   std::size_t fitted_points_ = 0;
   std::unique_ptr<probes::LookupWeights> weights_;
+  std::shared_ptr<const probes::SurfaceInterpolation> records_;  ///< places of the session's; or null
   std::optional<probes::IrradianceLookup> lookup_;
 };
 
@@ -113,7 +126,9 @@ MethodEntry entry() {
            {"spacing", 0, 0, 1e4, "between probes that are placed [m]; 0: some 100 to 200 probes"},
            {"probes", 0, 0, 4096, "so many are placed; 0: as the spacing gives", true},
            {"degree", 4, 0, 10, "highest band kept of a probe's light", true},
-           choice_parameter("weights", probes::WeightMethod::fitted, "of the probes at a point"),
+           choice_parameter("weights", probes::WeightMethod::fitted,
+                            "of the probes at a point, or records of surfaces"),
+           {"records", 8192, 1, 65536, "at most so many points keep light; with weights surface", true},
            {"fit_poses", 3, 1, 64, "of the doors, to which weights are fitted", true},
            {"fit_points", 0, 0, 262144, "at most so many have weights; 0: one for each surfel", true},
            {"surfel_size", 0, 0, 1e3, "edge of a surfel [m]; 0: a twentieth of the scene's radius"},

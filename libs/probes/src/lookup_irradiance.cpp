@@ -7,6 +7,8 @@ namespace ssphh::probes {
 struct IrradianceLookup::Data {
   ProbeTable table;
   std::unique_ptr<LookupWeights> weights;
+  std::shared_ptr<const SurfaceInterpolation> places;  ///< of the records; none: weights alone
+  std::vector<RecordLight> light;                      ///< of each place
 
   /// Σ_j v_j value(j), not negative.
   template <class Value>
@@ -20,25 +22,52 @@ struct IrradianceLookup::Data {
     }
     return glm::max(sum, vec3(0));
   }
+
+  void take(const SurfaceRecords& records, std::shared_ptr<const SurfaceInterpolation> points) {
+    require(records.light.size() == points->count(), "probe lookup",
+            "the records' groups were not merged: call merge_groups");
+    places = std::move(points);
+    light = records.light;
+  }
 };
+
+bool has_records(const ProbeSet& set, const LookupParams& params) {
+  const ProbeLayer layer = params.layer.value_or(set.hierarchy ? ProbeLayer::sum : ProbeLayer::self);
+  return set.surface && !set.surface->points.empty() && layer == ProbeLayer::self &&
+         params.light == ProbeLight::reflected;
+}
+
+WeightMethod chosen_weights(const ProbeSet& set, const LookupParams& params) {
+  return params.weights.chosen(set.fitted.has_value(), has_records(set, params));
+}
 
 IrradianceLookup::IrradianceLookup(const ProbeSet& set, const rays::RadianceSource& source,
                                    const LookupParams& params)
-    : data_(std::unique_ptr<Data>(new Data{ProbeTable(set, params), nullptr})) {
-  data_->weights = make_weights(
-      data_->table.positions(), [&source](const vec3& a, const vec3& b) { return source.visible(a, b); },
-      params.weights, set.fitted ? &*set.fitted : nullptr);
+    : data_(std::unique_ptr<Data>(new Data{ProbeTable(set, params), nullptr, nullptr, {}})) {
+  const auto sees = [&source](const vec3& a, const vec3& b) { return source.visible(a, b); };
+  data_->weights =
+      make_weights(data_->table.positions(), sees, params.weights, set.fitted ? &*set.fitted : nullptr);
+  if (chosen_weights(set, params) != WeightMethod::surface) return;
+  if (!has_records(set, params))
+    throw Error("probe lookup", "there are no surface records of that light",
+                "bake some, leave out the hierarchy, or choose other weights");
+  data_->take(*set.surface, std::make_shared<const SurfaceInterpolation>(set.surface->points, sees));
 }
 IrradianceLookup::IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWeights> weights,
-                                   const LookupParams& params)
-    : data_(std::unique_ptr<Data>(new Data{ProbeTable(set, params), std::move(weights)})) {
+                                   const LookupParams& params,
+                                   std::shared_ptr<const SurfaceInterpolation> places)
+    : data_(std::unique_ptr<Data>(new Data{ProbeTable(set, params), std::move(weights), nullptr, {}})) {
   require(data_->weights != nullptr, "probe lookup", "there are no weights");
+  if (!places) return;
+  require(has_records(set, params), "probe lookup", "there are no surface records of that light");
+  data_->take(*set.surface, std::move(places));
 }
 IrradianceLookup::~IrradianceLookup() = default;
 IrradianceLookup::IrradianceLookup(IrradianceLookup&&) noexcept = default;
 IrradianceLookup& IrradianceLookup::operator=(IrradianceLookup&&) noexcept = default;
 
 vec3 IrradianceLookup::irradiance(const rays::SurfacePoint& at) const {
+  if (vec3 found; data_->places && data_->places->irradiance(at, data_->light, found)) return found;
   ProbeTable::Basis basis;
   data_->table.irradiance_basis(at.normal, basis);
   return data_->blend(at, [&](int probe) { return data_->table.irradiance(probe, basis.data()); });

@@ -142,6 +142,12 @@ bool has_spacing(std::span<const vec3> positions, const WeightParams& params) {
   return params.spacing > 0 || std::isfinite(median_spacing(positions));
 }
 
+/// That needs nothing but probes.
+WeightMethod own_fallback(const WeightParams& params) {
+  const WeightMethod f = params.fallback;
+  return f == WeightMethod::fitted || f == WeightMethod::surface ? WeightMethod::mls : f;
+}
+
 }  // namespace
 
 WeightParams weights_named(const std::string& name) {
@@ -179,10 +185,15 @@ std::unique_ptr<LookupWeights> make_weights(std::span<const vec3> positions, See
               std::isfinite(params.normal_offset),
           "probe lookup", "spacing and normal offset must be lengths");
   switch (params.chosen(fitted != nullptr)) {
+    case WeightMethod::surface: {
+      WeightParams beside = params;
+      beside.method = fitted ? WeightMethod::fitted : own_fallback(params);
+      return make_weights(positions, std::move(sees), beside, fitted);
+    }
     case WeightMethod::fitted: {
       if (!fitted) throw Error("probe lookup", "there are no fitted weights", "fit some, or choose others");
       WeightParams elsewhere = params;
-      elsewhere.method = params.fallback == WeightMethod::fitted ? WeightMethod::mls : params.fallback;
+      elsewhere.method = own_fallback(params);
       return std::make_unique<FittedLookupWeights>(*fitted, positions.size(), sees,
                                                    make_weights(positions, sees, elsewhere));
     }

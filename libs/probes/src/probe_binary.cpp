@@ -88,6 +88,37 @@ FittedPoints read_fitted(ByteReader& in, std::size_t probe_count) {
   return fitted;
 }
 
+void write_surface(ByteWriter& out, const SurfaceRecords& surface) {
+  out.value(static_cast<std::uint32_t>(surface.points.size()));
+  for (std::size_t i = 0; i < surface.points.size(); ++i) {
+    out.vector3(surface.points[i].position);
+    out.vector3(surface.points[i].normal);
+    for (const std::vector<PackedRecordLight>& group : surface.groups) {
+      out.value(group[i].scale);
+      out.array(std::span<const std::int16_t>(group[i].values));
+    }
+  }
+}
+
+SurfaceRecords read_surface(ByteReader& in, std::size_t group_count) {
+  constexpr std::size_t light_bytes = sizeof(float) + sizeof(PackedRecordLight::values);
+  const std::size_t count =
+      in.count("surface record count", limits::surface_records, 2 * sizeof(vec3) + group_count * light_bytes);
+  SurfaceRecords surface;
+  surface.points.resize(count);
+  surface.groups.assign(group_count, std::vector<PackedRecordLight>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    surface.points[i].position = in.vector3("surface record");
+    surface.points[i].normal = in.vector3("surface record's normal");
+    for (std::vector<PackedRecordLight>& group : surface.groups) {
+      group[i].scale = in.value_in<float>("surface record's scale", 0, limits::coefficient);
+      for (std::int16_t& v : group[i].values)
+        v = in.value_in<std::int16_t>("surface record's light", -32767, 32767);
+    }
+  }
+  return surface;
+}
+
 ProbeSet read_payload(ByteReader& in) {
   ProbeSet set;
   set.degree = read_int(in, "degree", 0, sh::max_degree);
@@ -121,6 +152,8 @@ ProbeSet read_payload(ByteReader& in) {
       neighbor.values = ByteReaderParts(in).vectors("neighbour part", coefficients, Missing::never);
   }
   if (in.value_in<std::uint8_t>("fitted flag", 0, 1)) set.fitted = read_fitted(in, probe_count);
+  if (in.value_in<std::uint8_t>("surface flag", 0, 1))
+    set.surface = read_surface(in, set.light_groups.size());
   in.expect_end();
   return set;
 }
@@ -159,6 +192,8 @@ std::vector<std::byte> probes_to_binary(const ProbeSet& set) {
   }
   payload.value(static_cast<std::uint8_t>(set.fitted.has_value()));
   if (set.fitted) write_fitted(payload, *set.fitted);
+  payload.value(static_cast<std::uint8_t>(set.surface.has_value()));
+  if (set.surface) write_surface(payload, *set.surface);
 
   ByteWriter file;
   file.array(std::span<const char>(magic));
@@ -179,8 +214,10 @@ ProbeSet probes_from_binary(std::span<const std::byte> data, const std::string& 
   for (std::size_t i = 0; i < magic.size(); ++i) header.value<char>("magic");
   const auto version = header.value<std::uint32_t>("version");
   if (version != probe_file_version) {
-    throw Error(where, "has version " + std::to_string(version) + "; this program reads version " +
-                           std::to_string(probe_file_version));
+    throw Error(where,
+                "has version " + std::to_string(version) + "; this program reads version " +
+                    std::to_string(probe_file_version),
+                "bake it anew: ssphh bake SCENE -o FILE");
   }
   const auto size = header.value<std::uint64_t>("payload size");
   Hash128 sum;

@@ -30,6 +30,7 @@ class Validator {
     for (std::size_t i = 0; i < set_.probes.size(); ++i) probe(i);
     if (set_.hierarchy) hierarchy(*set_.hierarchy);
     if (set_.fitted) fitted(*set_.fitted);
+    if (set_.surface) surface(*set_.surface);
   }
 
  private:
@@ -117,16 +118,36 @@ class Validator {
       function(h.neighbor[i], fmt::format("/probes/{}/neighbor", i));
   }
 
+  void place(const rays::SurfacePoint& point, const std::string& at) const {
+    for (int c = 0; c < 3; ++c)
+      number(point.position[c], -limits::coordinate, limits::coordinate, at + "/position");
+    const float length = glm::length(point.normal);
+    require(std::abs(length - 1) <= 1e-3f, at + "/normal", fmt::format("its length is {}, not 1", length));
+  }
+
+  void surface(const SurfaceRecords& s) const {
+    require(s.points.size() <= limits::surface_records, "/surface",
+            fmt::format("there are more than {}", limits::surface_records));
+    require(
+        s.groups.size() == set_.light_groups.size(), "/surface",
+        fmt::format("has the light of {} groups; the set has {}", s.groups.size(), set_.light_groups.size()));
+    for (const std::vector<PackedRecordLight>& group : s.groups)
+      require(group.size() == s.points.size(), "/surface", "needs the light of every point");
+    for (std::size_t i = 0; i < s.points.size(); ++i) {
+      const std::string at = fmt::format("/surface/{}", i);
+      place(s.points[i], at);
+      for (const std::vector<PackedRecordLight>& group : s.groups)
+        number(group[i].scale, 0, limits::coefficient, at + "/groups");
+    }
+  }
+
   void fitted(const FittedPoints& f) const {
     require(f.points.size() <= limits::fitted_points, "/fitted",
             fmt::format("there are more than {}", limits::fitted_points));
     require(f.weights.size() == f.points.size(), "/fitted", "needs the weights of every point");
     for (std::size_t i = 0; i < f.points.size(); ++i) {
       const std::string at = fmt::format("/fitted/{}", i);
-      for (int c = 0; c < 3; ++c)
-        number(f.points[i].position[c], -limits::coordinate, limits::coordinate, at + "/position");
-      const float length = glm::length(f.points[i].normal);
-      require(std::abs(length - 1) <= 1e-3f, at + "/normal", fmt::format("its length is {}, not 1", length));
+      place(f.points[i], at);
       const int count = f.weights[i].count;
       require(count >= 0 && count <= max_weights, at + "/weights",
               fmt::format("there are {}, not 0..{}", count, max_weights));

@@ -104,10 +104,32 @@ FittedPoints read_fitted(const Cursor& at, std::size_t probe_count) {
   return fitted;
 }
 
+SurfaceRecords read_surface(const Cursor& at, std::size_t group_count) {
+  const std::size_t count = at.size(0, limits::surface_records);
+  SurfaceRecords surface;
+  surface.points.resize(count);
+  surface.groups.assign(group_count, std::vector<PackedRecordLight>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const Cursor point = at[i].members({"position", "normal", "groups"});
+    surface.points[i] = {vector3(point["position"], -limits::coordinate, limits::coordinate),
+                         vector3(point["normal"], -2, 2)};
+    const Cursor groups = point["groups"];
+    groups.size(group_count, group_count);
+    for (std::size_t g = 0; g < group_count; ++g) {
+      PackedRecordLight& light = surface.groups[g][i];
+      groups[g].size(1 + light.values.size(), 1 + light.values.size());
+      light.scale = groups[g][0].number(0, limits::coefficient);
+      for (std::size_t k = 0; k < light.values.size(); ++k)
+        light.values[k] = static_cast<std::int16_t>(integer(groups[g][1 + k], -32767, 32767));
+    }
+  }
+  return surface;
+}
+
 ProbeSet read_set(const Cursor& root) {
   if (root.has("version")) root["version"].expect_version(probe_file_version);
   root.members({"format", "version", "degree", "generator", "light_groups", "probes"},
-               {"hierarchy", "fitted"});
+               {"hierarchy", "fitted", "surface"});
   if (root["format"].text(limits::text) != "ssphh-probes") root["format"].fail("must be \"ssphh-probes\"");
   ProbeSet set;
   set.degree = integer(root["degree"], 0, sh::max_degree);
@@ -135,6 +157,7 @@ ProbeSet read_set(const Cursor& root) {
         FileParts(probes[i]).vectors("neighbor", coefficients, Missing::never);
   }
   if (root.has("fitted")) set.fitted = read_fitted(root["fitted"], probe_count);
+  if (root.has("surface")) set.surface = read_surface(root["surface"], group_count);
   return set;
 }
 

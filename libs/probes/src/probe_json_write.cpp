@@ -41,6 +41,7 @@ class Writer {
           h.neighbors, exact(h.threshold));
     }
     if (set_.fitted) fitted(*set_.fitted);
+    if (set_.surface) surface(*set_.surface);
     put("}}\n");
     return std::move(out_);
   }
@@ -96,6 +97,22 @@ class Writer {
       for (std::size_t k = 0; k < weights.size(); ++k) {
         put("{}", comma(k));
         append_five_digits(out_, weights[k].weight);
+      }
+      put("]}}");
+    }
+    put("]");
+  }
+
+  void surface(const SurfaceRecords& s) {
+    put(",\n\"surface\":[");
+    for (std::size_t i = 0; i < s.points.size(); ++i) {
+      put("{}\n{{\"position\":{},\"normal\":{},\"groups\":[", comma(i), exact(s.points[i].position),
+          exact(s.points[i].normal));
+      for (std::size_t g = 0; g < s.groups.size(); ++g) {
+        const PackedRecordLight& light = s.groups[g][i];
+        put("{}[{}", comma(g), exact(light.scale));
+        for (const std::int16_t v : light.values) put(",{}", v);
+        put("]");
       }
       put("]}}");
     }

@@ -27,12 +27,18 @@ void check_groups(const ProbeSet& set) {
       }
     }
   }
+  if (set.surface) require_whole(*set.surface, set.light_groups.size());
 }
 
 }  // namespace
 
 void merge_groups(ProbeSet& set) {
   check_groups(set);
+  if (set.surface) {
+    std::vector<vec3> scales;
+    for (const LightGroup& group : set.light_groups) scales.push_back(group.scale);
+    merge_groups(*set.surface, scales);
+  }
   for (Probe& probe : set.probes) {
     probe.reflected = sh::RadianceSh(set.degree);
     probe.self = sh::RadianceSh(set.degree);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include <ssphh/probes/fitted_surfaces.h>
+#include <ssphh/probes/surface_lists.h>
 #include <ssphh/scene/query.h>
 
 namespace ssphh::probes {

@@ -6,9 +6,9 @@
 
 #include <ssphh/scene/primitives.h>
 
-#include "fitted_entry.h"
 #include "random_points.h"
 #include "still_surface.h"
+#include "surface_entry.h"
 
 namespace ssphh::probes {
 namespace {
@@ -45,10 +45,10 @@ TEST(StillSurface, PartsCoverTheirTriangleWithinTheBox) {
 
 TEST(FittedEntry, SquaresAreCountedAcrossTheAxis) {
   const vec3 place(0.2f, 0.55f, 0.9f);  // squares 1, 4, 7
-  EXPECT_EQ(fitted_square(place, 0), 4 + 8 * 7);
-  EXPECT_EQ(fitted_square(place, 1), 1 + 8 * 7);
-  EXPECT_EQ(fitted_square(place, 2), 1 + 8 * 4);
-  EXPECT_EQ(fitted_square({-1, 0.5f, 2}, 1), 0 + 8 * 7) << "the nearest square";
+  EXPECT_EQ(surface_square(place, 0), 4 + 8 * 7);
+  EXPECT_EQ(surface_square(place, 1), 1 + 8 * 7);
+  EXPECT_EQ(surface_square(place, 2), 1 + 8 * 4);
+  EXPECT_EQ(surface_square({-1, 0.5f, 2}, 1), 0 + 8 * 7) << "the nearest square";
 }
 
 TEST(FittedEntry, AxisIsThatOfTheLargestComponent) {
@@ -62,7 +62,7 @@ TEST(FittedEntry, AxisIsThatOfTheLargestComponent) {
 TEST(FittedEntry, HoldsAllOfAPointInItsBits) {
   const std::uint64_t squares = 0x123456789abcdef0ull;
   for (const CoarseNormal& normal : {CoarseNormal{-31, 0}, {31, -5}, {-7, 30}, {0, -1}}) {
-    const uvec4 e = pack_fitted_entry(0x3abcde, {-4, 0.5f, 5}, normal, squares);
+    const uvec4 e = pack_surface_entry(0x3abcde, {-4, 0.5f, 5}, normal, squares);
     EXPECT_EQ(e.x >> 10, 0x3abcdeu);
     EXPECT_EQ(static_cast<int>((e.x >> 5 & 31u) | (e.y >> 30 & 1u) << 5) - 32, normal.u);
     EXPECT_EQ(static_cast<int>((e.x & 31u) | (e.y >> 31) << 5) - 32, normal.v);
@@ -71,7 +71,7 @@ TEST(FittedEntry, HoldsAllOfAPointInItsBits) {
     EXPECT_EQ(e.y >> 20 & 1023u, 1023u);
     EXPECT_EQ((static_cast<std::uint64_t>(e.w) << 32 | e.z), squares);
   }
-  const uvec4 far = pack_fitted_entry(0, {-9, 2, 99}, {}, 0);
+  const uvec4 far = pack_surface_entry(0, {-9, 2, 99}, {}, 0);
   EXPECT_EQ(far.y & 1023u, 0u) << "as near as there is room for";
   EXPECT_EQ(far.y >> 20 & 1023u, 1023u);
 }

@@ -25,7 +25,7 @@ TEST(Names, OfOperatorsAndMethodsAreThoseOfFiles) {
   expect_names<VizMethod>({"none", "path", "links"});
   expect_names<GenMode>({"full", "local"});
   expect_names<HierOperator>({"coefficient", "mean", "matrix"});
-  expect_names<WeightMethod>({"distance", "trilinear", "mls", "fitted"});
+  expect_names<WeightMethod>({"distance", "trilinear", "mls", "fitted", "surface"});
   expect_names<LookupMethod>({"light", "irradiance"});
   expect_names<ProbeLayer>({"self", "neighbor", "sum"});
 }
@@ -33,8 +33,9 @@ TEST(Names, OfOperatorsAndMethodsAreThoseOfFiles) {
 TEST(Names, OfWeightsChooseTheMethodAndNothingElse) {
   EXPECT_EQ(weights_named("trilinear").method, WeightMethod::trilinear);
   EXPECT_FALSE(weights_named("").method.has_value());
-  EXPECT_NE(test::message_of([] { weights_named("linear"); }).find("distance, trilinear, mls, fitted"),
-            std::string::npos);
+  EXPECT_NE(
+      test::message_of([] { weights_named("linear"); }).find("distance, trilinear, mls, fitted, surface"),
+      std::string::npos);
   EXPECT_EQ(weights_named("").chosen(true), WeightMethod::fitted);
   EXPECT_EQ(weights_named("").chosen(false), WeightMethod::mls);
   EXPECT_EQ(weights_named("distance").chosen(true), WeightMethod::distance);

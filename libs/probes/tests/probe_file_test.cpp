@@ -27,6 +27,8 @@ ProbeSet full_set(int degree = 2) {
   set.probes[2].edges[0].matrix = {};
   hier(set, {HierOperator::mean, 2, 0.1f});
   set.fitted = test::random_fitted(7, 9, 3);
+  set.surface = test::random_records(8, 5, 2);
+  merge_groups(set);
   return set;
 }
 
@@ -297,6 +299,12 @@ TEST(ProbeFile, ASetThatBreaksTheRulesIsNotWritten) {
   expect_rejected("/fitted/2/position", [&](ProbeSet& s) { s.fitted->points[2].position.y = nan; });
   expect_rejected("/fitted/2/normal", [](ProbeSet& s) { s.fitted->points[2].normal *= 1.1f; });
   expect_rejected("/fitted", [](ProbeSet& s) { s.fitted->weights.pop_back(); });
+  expect_rejected("/surface/3/position", [&](ProbeSet& s) { s.surface->points[3].position.z = nan; });
+  expect_rejected("/surface/1/normal", [](ProbeSet& s) { s.surface->points[1].normal *= 0.9f; });
+  expect_rejected("/surface/4/groups", [&](ProbeSet& s) { s.surface->groups[1][4].scale = nan; });
+  expect_rejected("/surface/2/groups", [](ProbeSet& s) { s.surface->groups[0][2].scale = -1; });
+  expect_rejected("/surface", [](ProbeSet& s) { s.surface->groups[1].pop_back(); });
+  expect_rejected("/surface", [](ProbeSet& s) { s.surface->groups.pop_back(); });
   expect_rejected("/generator/spp", [](ProbeSet& s) { s.generator.spp = 0; });
 }
 

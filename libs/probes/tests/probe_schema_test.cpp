@@ -32,6 +32,7 @@ const json::Value valid_document() {
   ProbeSet set = random_set(42, 2, 1, 2, true);
   hier(set, {HierOperator::mean, 2, 0.1f});
   set.fitted = test::random_fitted(7, 3, 2);
+  set.surface = test::random_records(8, 2, 2);
   std::swap(set.fitted->weights[0], set.fitted->weights[2]);  // the first point has two probes
   return test::parse_json(probes_to_json(set));
 }
@@ -65,8 +66,8 @@ TEST(ProbeSchema, SchemaAndReaderRejectTheSameMutations) {
   const std::vector<Mutation> mutations = {
       {"/format", "probes"},
       {"/version", 1},
-      {"/version", 4},
-      {"/version", "3"},
+      {"/version", 5},
+      {"/version", "4"},
       {"/degree", 11},
       {"/degree", -1},
       {"/degree", 1.5},
@@ -139,6 +140,18 @@ TEST(ProbeSchema, SchemaAndReaderRejectTheSameMutations) {
       {"/fitted/0/weights/0", -0.1},
       {"/fitted/0/weights/0", 1e7},
       {"/fitted/0/weights/0", "1"},
+      {"/surface", nullptr},
+      {"/surface/0", 3},
+      {"/surface/0/extra", 1},
+      {"/surface/1/position/1", 1e10},
+      {"/surface/1/normal/0", 3},
+      {"/surface/0/groups/0/0", -0.1},
+      {"/surface/0/groups/0/0", 1e31},
+      {"/surface/0/groups/1/3", 0.5},
+      {"/surface/0/groups/1/9", 32768},
+      {"/surface/0/groups/1/9", -32768},
+      {"/surface/0/groups/0", json::Value(std::vector<int>(9, 0))},
+      {"/surface/0/groups/0", json::Value(std::vector<int>(11, 0))},
       {"/hierarchy", nullptr},
       {"/hierarchy/operator", "tensor"},
       {"/hierarchy/neighbors", -2},
@@ -178,8 +191,8 @@ TEST(ProbeSchema, SchemaAndReaderAgreeOnEveryMissingKey) {
     EXPECT_EQ(conforms, reader_accepts(print(without))) << key;
     optional += conforms;
   }
-  EXPECT_EQ(optional, 2) << "only an edge's matrix and fitted points may be missing; a hierarchy needs the "
-                            "neighbours' parts and they it";
+  EXPECT_EQ(optional, 3) << "only an edge's matrix, fitted points and records may be missing; a hierarchy "
+                            "needs the neighbours' parts and they it";
 }
 
 TEST(ProbeSchema, SchemaAndReaderAcceptOtherSpellingsOfTheSame) {
@@ -200,6 +213,8 @@ TEST(ProbeSchema, RulesBeyondTheSchemaAreTheReadersAlone) {
       {"/fitted/0/probes/0", 2},                      // no such probe
       {"/fitted/0/probes", json::Value::array({0})},  // two weights
       {"/fitted/0/normal", json::Value::array({1, 1, 0})},
+      {"/surface/0/groups", json::Value::array()},  // of no light group
+      {"/surface/0/normal", json::Value::array({1, 1, 0})},
       {"/probes/0/name", std::string(1024, 'x') + "\u00fc"},
   };
   for (const Mutation& mutation : mutations) {

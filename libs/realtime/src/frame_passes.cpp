@@ -82,7 +82,9 @@ void Renderer::Data::draw_direct(bool shadow_view) {
 
 IndirectLookup Renderer::Data::lookup_of(const FrameSettings& settings) const {
   if (settings.lookup == probes::LookupMethod::light) return IndirectLookup::light;
-  if (settings.weights == probes::WeightMethod::fitted && probes.has_fitted()) return IndirectLookup::fitted;
+  const bool surface = settings.weights == probes::WeightMethod::surface,
+             fitted = surface || settings.weights == probes::WeightMethod::fitted;
+  if ((surface && probes.has_records()) || (fitted && probes.has_fitted())) return IndirectLookup::surface;
   // One probe has no spacing, nor anything to fit
   if (settings.weights == probes::WeightMethod::distance || probes.count() < 2)
     return IndirectLookup::distance;

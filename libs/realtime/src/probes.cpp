@@ -112,13 +112,44 @@ void Probes::set_light(std::span<const int> probes, std::span<const sh::Radiance
   }
   for (std::size_t i = 0; i < probes.size(); ++i) light_[static_cast<std::size_t>(probes[i])] = light[i];
   make_tiles(probes, true, has_radiance_, counters);
-  if (fitted_) fitted_->update(probes, irradiance_functions_, irradiance_count(), counters);
+  if (fitted_) fitted_->update(probes, irradiance_functions_, irradiance_count(), *surface_, counters);
 }
 
 void Probes::set_fitted(const probes::FittedSurfaces& fitted, FrameCounters& counters) {
-  if (fitted.empty()) return fitted_.reset();
-  fitted_ = FittedLight(fitted, count(), counters);
-  fitted_->update(all_probes(), irradiance_functions_, irradiance_count(), counters);
+  fitted_.reset();
+  surface_.reset();
+  if (fitted.empty()) return;
+  FittedLight light(fitted, count());
+  surface_.emplace(fitted.surfaces, counters);
+  fitted_ = std::move(light);
+  fitted_->update(all_probes(), irradiance_functions_, irradiance_count(), *surface_, counters);
+}
+
+void Probes::set_records(const probes::SurfaceLists& lists, FrameCounters& counters) {
+  fitted_.reset();
+  surface_.reset();
+  if (lists.empty()) return;
+  surface_.emplace(lists, counters);
+  set_record_light(std::vector(lists.points.size(), probes::RecordLight(0)), counters);
+}
+
+void Probes::set_record_light(std::span<const probes::RecordLight> light, FrameCounters& counters) {
+  const std::size_t records = has_records() ? surface_->count() : 0;
+  if (light.size() != records)
+    throw Error("surface records", fmt::format("{} lights for {} records", light.size(), records));
+  std::vector<std::uint32_t> all(records);
+  std::iota(all.begin(), all.end(), 0u);
+  if (records == 0) return;
+  // E(n) = light · (n, 1) as bands 0 and 1.
+  surface_->update(
+      all,
+      [&](std::uint32_t i) {
+        SurfaceLight::Coefficients c{};
+        c[0] = light[i][3] / 0.28209479f;
+        for (const int k : {1, 2, 3}) c[static_cast<std::size_t>(k)] = light[i][k % 3] / 0.48860251f;
+        return c;
+      },
+      counters);
 }
 
 std::vector<int> Probes::all_probes() const {
@@ -196,12 +227,12 @@ void Probes::bind_lookup(gl::Program& program) const {
   program.set("irradiance_layout", irradiance_.size(), irradiance_.layout().columns_log2);
   program.set("radiance_layout", radiance_.size(), radiance_.layout().columns_log2, levels_);
   program.set("level_roughness", std::span<const float>(level_roughness));
-  if (fitted_) fitted_->bind(program);
+  if (surface_) surface_->bind(program);
 }
 
 std::size_t Probes::bytes() const {
   return maps_.bytes() + irradiance_.bytes() + radiance_.bytes() + cells_.bytes() +
-         (fitted_ ? fitted_->bytes() : 0);
+         (surface_ ? surface_->bytes() : 0);
 }
 
 }  // namespace ssphh::realtime

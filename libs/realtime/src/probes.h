@@ -37,7 +37,13 @@ class Probes {
   /// Points with weights of their own; empty: none. Throws Error for points that name a probe which there is
   /// not.
   void set_fitted(const probes::FittedSurfaces& fitted, FrameCounters& counters);
+  /// Records of surfaces, dark until set_record_light; empty: none. They and fitted points replace each
+  /// other.
+  void set_records(const probes::SurfaceLists& lists, FrameCounters& counters);
+  /// Throws Error unless there is one light for each record.
+  void set_record_light(std::span<const probes::RecordLight> light, FrameCounters& counters);
   bool has_fitted() const { return fitted_.has_value(); }
+  bool has_records() const { return surface_ && !fitted_; }
   /// Makes the tiles of radiance, which only glossy surfaces and SPHLs as lights need, unless they are there.
   void want_radiance(FrameCounters& counters);
   /// The probe's shadow map shall hold what is beyond those that look it up, too: it is a light.
@@ -68,6 +74,7 @@ class Probes {
   void make_tiles(std::span<const int> probes, bool irradiance, bool radiance, FrameCounters& counters);
 
   std::vector<vec3> irradiance_functions_;  ///< coefficients, probe after probe
+  std::optional<SurfaceLight> surface_;     ///< of fitted points or records
   std::optional<FittedLight> fitted_;
   int levels_ = 1;                       ///< roughnesses of which radiance is kept
   bool has_radiance_ = false;            ///< its tiles are there

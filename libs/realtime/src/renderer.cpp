@@ -131,6 +131,16 @@ void Renderer::set_fitted(const probes::FittedSurfaces& fitted) {
   d.context.throw_on_error("uploading fitted weights");
 }
 
+void Renderer::set_records(const probes::SurfaceLists& lists) {
+  Data& d = *data_;
+  d.probes.set_records(lists, d.counters);
+  d.context.throw_on_error("uploading surface records");
+}
+
+void Renderer::set_record_light(std::span<const probes::RecordLight> light) {
+  data_->probes.set_record_light(light, data_->counters);
+}
+
 void Renderer::update_probes(std::span<const int> probes, std::span<const sh::RadianceSh> light) {
   require(probes.size() == light.size(), "probes", "there is not one function for each");
   data_->probes.set_light(probes, light, data_->counters);

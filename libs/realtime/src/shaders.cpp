@@ -71,8 +71,8 @@ gl::Program& Shaders::indirect(IndirectLookup lookup, bool full, IndirectOutput 
       slot, "indirect.glsl", full, output,
       lookup_constants() + define("LOOKUP_LIGHT", lookup == IndirectLookup::light) +
           define("TRILINEAR", lookup == IndirectLookup::trilinear) +
-          define("MLS", lookup == IndirectLookup::mls || lookup == IndirectLookup::fitted) +
-          define("FITTED", lookup == IndirectLookup::fitted && output != IndirectOutput::chosen));
+          define("MLS", lookup == IndirectLookup::mls || lookup == IndirectLookup::surface) +
+          define("FITTED", lookup == IndirectLookup::surface && output != IndirectOutput::chosen));
 }
 
 gl::Program& Shaders::agree(bool full) {

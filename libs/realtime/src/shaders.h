@@ -12,7 +12,7 @@
 namespace ssphh::realtime {
 
 /// How indirect.glsl finds light.
-enum class IndirectLookup : int { light, distance, trilinear, mls, fitted };
+enum class IndirectLookup : int { light, distance, trilinear, mls, surface };
 inline constexpr int indirect_lookups = 5;
 /// What passes of indirect light give: radiance, images of some pixels, radiance of listed pixels (compute
 /// shaders), or a view of the choice.

@@ -43,7 +43,7 @@ TEST(RealtimeDefaults, OfFrames) {
   const FrameSettings settings;
   EXPECT_TRUE(settings.direct && settings.indirect);
   EXPECT_EQ(settings.lookup, probes::LookupMethod::irradiance);
-  EXPECT_EQ(settings.weights, probes::WeightMethod::fitted);
+  EXPECT_EQ(settings.weights, probes::WeightMethod::surface);
   EXPECT_EQ(settings.indirect_scale, 1);
   EXPECT_EQ(settings.indirect_tolerance, 0.1f);
   EXPECT_EQ(settings.supersample, 1);

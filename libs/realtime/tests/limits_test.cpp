@@ -70,18 +70,20 @@ TEST_F(Limits, FittedPointsBrighterThanHalvesShineAsBrightAsHalvesDo) {
     fitted.weights.emplace_back().add(0, 1);
   }
   FrameCounters counters;
-  FittedLight light(probes::prepare_fitted(scene, 0, fitted, everything_sees), 1, counters);
+  const probes::FittedSurfaces surfaces = probes::prepare_fitted(scene, 0, fitted, everything_sees);
+  SurfaceLight light(surfaces.surfaces, counters);
+  FittedLight points(surfaces, 1);
   const std::array<vec3, 9> irradiance = {vec3(1e6f), vec3(-1e6f)};
-  light.update(std::array{0}, irradiance, irradiance.size(), counters);
+  points.update(std::array{0}, irradiance, irradiance.size(), light, counters);
   const std::uint64_t before = counters.bytes_uploaded;
-  light.update(std::array{0}, irradiance, irradiance.size(), counters);
+  points.update(std::array{0}, irradiance, irradiance.size(), light, counters);
   EXPECT_EQ(counters.bytes_uploaded - before, 4u * 64) << "each point once, whenever its probe changes";
   // 7bff and fbff are the halves of 65504 and of -65504
   std::array<std::uint32_t, 2048 * 4> texels{};
   GLint texture = 0;
   const gl::ShaderFiles files(shader_table());
   Shaders shaders(files);
-  light.bind(shaders.indirect(IndirectLookup::fitted, false, IndirectOutput::radiance));
+  light.bind(shaders.indirect(IndirectLookup::surface, false, IndirectOutput::radiance));
   glGetIntegeri_v(GL_TEXTURE_BINDING_2D, unit::fitted_light, &texture);
   glGetTextureImage(static_cast<GLuint>(texture), 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, sizeof(texels),
                     texels.data());

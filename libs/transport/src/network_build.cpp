@@ -22,11 +22,6 @@ vec3 just_before(const rays::RayQuery& ray, float distance) {
   return ray.origin + (1 - 2e-5f) * distance * ray.direction;
 }
 
-bool meets_any(const rays::RayQuery& ray, const std::vector<scene::Bounds>& boxes) {
-  return std::ranges::any_of(boxes,
-                             [&](const scene::Bounds& box) { return !box.empty() && meets(ray, box); });
-}
-
 /// Fills a network's data step by step.
 class NetworkBuilder {
  public:
@@ -207,7 +202,7 @@ class NetworkBuilder {
       }
       const RawLink& link = links[i];
       SurfelLinks& row = links_of_.back();
-      if (row.all_moving || near_parts(link.ray, link.normal, link.surfel)) {
+      if (row.all_moving || d_.near_parts(link.ray, link.normal, link.surfel)) {
         MovingRay moving{link.ray,
                          link.normal,
                          link.surfel,
@@ -220,16 +215,6 @@ class NetworkBuilder {
         row.fixed.push_back(static_cast<std::uint32_t>(link.surfel));
       }
     }
-  }
-
-  /// Whether some part may come into the ray's way, or between its hit and the hit's surfel.
-  bool near_parts(const rays::RayQuery& ray, const vec3& normal, int surfel) const {
-    if (d_.swept.size() < 2) return false;
-    if (meets_any(ray, d_.swept)) return true;
-    if (surfel == no_surfel) return false;
-    const rays::SurfacePoint point{ray.origin + ray.t_max * ray.direction, normal};
-    return meets_any(d_.surfels.segment(point, d_.surfels.surfels()[static_cast<std::size_t>(surfel)].point),
-                     d_.swept);
   }
 
   /// Whether some part may come between a surfel and one of its samples.
@@ -298,7 +283,7 @@ class NetworkBuilder {
       const rays::RayQuery ray{g.positions[i / g.directions.size()], g.directions[i % g.directions.size()],
                                hit.distance};
       const vec3 normal = std::isinf(hit.distance) ? vec3(0) : unpack_normal(hit);
-      if (!near_parts(ray, normal, d_.seen[i].surfel)) continue;
+      if (!d_.near_parts(ray, normal, d_.seen[i].surfel)) continue;
       d_.moving_hits.push_back({ray, normal, d_.seen[i].surfel, d_.seen[i].albedo,
                                 static_cast<std::uint32_t>(i), 0, hit.emission});
     }

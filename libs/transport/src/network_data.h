@@ -94,7 +94,11 @@ struct TransportNetwork::Data {
   /// Whether another body touches a part's surface there, or lies over it: nothing lights the point, and rays
   /// from it would start within that body.
   bool covered(int part, const rays::SurfacePoint& world_point) const;
+  /// Of a point of part 0: as find(0, point) with no part in the way.
+  int find_static(const rays::SurfacePoint& point) const;
   int find(int part, const rays::SurfacePoint& point) const;
+  /// Whether some part may come into the ray's way, or between its hit and the hit's surfel.
+  bool near_parts(const rays::RayQuery& ray, const vec3& normal, int surfel) const;
   /// The first part that the ray meets before t_max; shortens t_max.
   bool meet_part(rays::RayQuery& ray, rays::RayHit& hit, int& part) const;
   /// The surfel that each world-space ray meets, as posed; `escaped` tells empty space from lost light.
@@ -104,6 +108,8 @@ struct TransportNetwork::Data {
   void see(std::span<const rays::RayQuery> rays,
            const std::function<void(std::size_t, const rays::RayHit&, int surfel)>& visit) const;
   Resolved resolve(const MovingRay& unobstructed) const;
+  template <class Sees>
+  int find_nearest(int part, const rays::SurfacePoint& point, const Sees& sees) const;
 
   void build(std::span<const vec3> positions, float start_time, const Control& control);
   void place_parts(float time);
@@ -121,6 +127,7 @@ rays::RayQuery fan_ray(const rays::SurfacePoint& from, float lift, std::uint32_t
 
 /// Whether the ray meets the box before t_max.
 bool meets(const rays::RayQuery& ray, const scene::Bounds& box);
+bool meets_any(const rays::RayQuery& ray, const std::vector<scene::Bounds>& boxes);
 
 /// Sweeps the parts over the animation.
 std::vector<scene::Bounds> swept_bounds(const rays::TransportSource& source);

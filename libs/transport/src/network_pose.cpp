@@ -51,6 +51,11 @@ bool meets(const rays::RayQuery& ray, const scene::Bounds& box) {
   return near <= far;
 }
 
+bool meets_any(const rays::RayQuery& ray, const std::vector<scene::Bounds>& boxes) {
+  return std::any_of(boxes.begin(), boxes.end(),
+                     [&](const scene::Bounds& box) { return !box.empty() && meets(ray, box); });
+}
+
 std::vector<scene::Bounds> swept_bounds(const rays::TransportSource& source) {
   std::vector<scene::Bounds> swept(static_cast<std::size_t>(source.part_count()));
   for (int part = 1; part < source.part_count(); ++part) {
@@ -123,10 +128,31 @@ int TransportNetwork::Data::find(int part, const rays::SurfacePoint& point) cons
     if (inside) return no_surfel;
   }
   const rays::SurfacePoint world = to_world(part, point);
-  const auto sees = [&](int s) {
+  return find_nearest(part, point, [&](int s) {
     const Surfel& surfel = surfels.surfels()[static_cast<std::size_t>(s)];
     return !blocked(surfels.segment(world, to_world(part, surfel.point)));
-  };
+  });
+}
+
+int TransportNetwork::Data::find_static(const rays::SurfacePoint& point) const {
+  return find_nearest(0, point, [&](int s) {
+    const rays::RayQuery way = surfels.segment(point, surfels.surfels()[static_cast<std::size_t>(s)].point);
+    std::uint8_t hit = 0;
+    source.occluded(0, {&way, 1}, {&hit, 1});
+    return !hit;
+  });
+}
+
+bool TransportNetwork::Data::near_parts(const rays::RayQuery& ray, const vec3& normal, int surfel) const {
+  if (swept.size() < 2) return false;
+  if (meets_any(ray, swept)) return true;
+  if (surfel == no_surfel) return false;
+  const rays::SurfacePoint point{ray.origin + ray.t_max * ray.direction, normal};
+  return meets_any(surfels.segment(point, surfels.surfels()[static_cast<std::size_t>(surfel)].point), swept);
+}
+
+template <class Sees>
+int TransportNetwork::Data::find_nearest(int part, const rays::SurfacePoint& point, const Sees& sees) const {
   for (const int s : surfels.cell(part, point)) {
     if (sees(s)) return s;
   }

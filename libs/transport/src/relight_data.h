@@ -96,6 +96,7 @@ struct RelightSession::Data {
       bounce = std::make_unique<BounceOperator>(network, source, params.degree, params.bounce);
     }
     if (params.poses != 0) network.prepare_poses(params.poses, control);
+    keep_records(control);
     emitters.resize(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) emitters[i] = {places[i].position, places[i].radius, {}};
   }
@@ -110,6 +111,7 @@ struct RelightSession::Data {
   DirectField field;
   Solver solver;
   std::unique_ptr<BounceOperator> bounce;  ///< of that operator alone
+  std::unique_ptr<SurfaceGather> gather;   ///< where records are kept
 
   scene::LightingState state;  ///< that the last update() was asked for
   std::vector<bool> group_dirty;
@@ -121,6 +123,17 @@ struct RelightSession::Data {
   std::unique_ptr<rays::DirectLight> direct_light;
   std::vector<Irradiance4> direct, indirect;
   std::vector<sh::RadianceSh> reflected, before;
+  std::vector<probes::RecordLight> record_light;
+
+  void keep_records(const Control& control) {
+    gather.reset();
+    record_light.clear();
+    if (params.records.points == 0) return;
+    if (params.records.points < 0)
+      throw Error("surface records", fmt::format("{} is no number of points", params.records.points));
+    gather = std::make_unique<SurfaceGather>(network, record_points(network, params.records.points),
+                                             params.records.rays, control);
+  }
 
   void check_probe(int probe) const {
     if (probe < 0 || static_cast<std::size_t>(probe) >= places.size())
@@ -161,6 +174,7 @@ struct RelightSession::Data {
     const PoseReport pose =
         params.poses == 0 ? network.set_time(state.time) : network.set_time_between(state.time);
     if (bounce) bounce->update_pose();
+    if (gather) gather->update_pose();
     report.hits_changed = pose.hits_changed;
     for (int p = 1; p < source.part_count(); ++p) {
       const auto index = static_cast<std::size_t>(p);
@@ -207,13 +221,19 @@ struct RelightSession::Data {
     scale_dirty = false;
   }
 
-  /// Lets the direct light bounce: `indirect`, or with bounce the probes themselves.
+  /// Lets the direct light bounce: `indirect`, or with bounce the probes themselves; records need both.
   SolveReport solve(bool first) {
+    SolveReport report;
     if (bounce) {
       before = reflected;
-      return summary(
+      report = summary(
           bounce->solve(direct, reflected, params.warm_start && !first && params.bounce.applications == 0));
+      if (!gather) return report;
     }
+    const SolveReport solved = solve_surfels();
+    return bounce ? report : solved;
+  }
+  SolveReport solve_surfels() {
     if (!params.warm_start) indirect.clear();
     return solver.solve(network.links(), network.albedo(), direct, network.contraction().upper, params.solve,
                         indirect);
@@ -229,11 +249,16 @@ struct RelightSession::Data {
       report = summary(bounce->solve(other, result));
       return result;
     }
+    project_reflected(network, projector, lit_under(other, report), result);
+    return result;
+  }
+
+  /// E at every surfel, direct and reflected, under another direct light, from darkness.
+  std::vector<Irradiance4> lit_under(std::span<const Irradiance4> other, SolveReport& report) const {
     std::vector<Irradiance4> bounced;
     report = Solver().solve(network.links(), network.albedo(), other, network.contraction().upper,
                             params.solve, bounced);
-    project_reflected(network, projector, total(other, bounced), result);
-    return result;
+    return total(other, bounced);
   }
 };
 

@@ -34,6 +34,7 @@ RelightReport RelightSession::update(const scene::LightingState& state, const Co
       d.before.swap(d.reflected);
       project_reflected(d.network, d.projector, total(d.direct, d.indirect), d.reflected);
     }
+    if (d.gather) d.gather->light(total(d.direct, d.indirect), d.record_light);
     for (std::size_t i = 0; i < d.reflected.size(); ++i) {
       if (first || differs(d.reflected[i], d.before[i], d.params.changed))
         report.changed_probes.push_back(static_cast<int>(i));
@@ -112,6 +113,40 @@ std::vector<std::vector<sh::RadianceSh>> RelightSession::emitted_by_group() cons
     for (std::size_t g = 0; g < groups.size(); ++g) result[g].push_back(groups[g]);
   }
   return result;
+}
+
+void RelightSession::keep_records(const GatherParams& params, const Control& control) {
+  Data& d = *data_;
+  d.params.records = params;
+  d.keep_records(control);
+  if (!d.gather || d.reflected.empty()) return;
+  if (d.bounce) d.solve_surfels();
+  d.gather->light(total(d.direct, d.indirect), d.record_light);
+}
+
+const SurfaceGather* RelightSession::gather() const {
+  return data_->gather.get();
+}
+const std::vector<probes::RecordLight>& RelightSession::record_light() const {
+  return data_->record_light;
+}
+
+probes::SurfaceRecords RelightSession::records_by_group(const Control& control) const {
+  const Data& d = *data_;
+  require(d.gather != nullptr, "surface records", "the session keeps none");
+  probes::SurfaceRecords records;
+  records.points = d.gather->points();
+  std::vector<probes::RecordLight> light;
+  for (const std::vector<Irradiance4>& direct : direct_by_group()) {
+    control.check();
+    SolveReport report;
+    d.gather->light(d.lit_under(direct, report), light);
+    std::vector<probes::PackedRecordLight>& group = records.groups.emplace_back();
+    for (std::size_t i = 0; i < light.size(); ++i)
+      group.push_back(probes::pack(light[i], records.points[i].normal));
+  }
+  probes::merge_groups(records, d.state.group_scales);
+  return records;
 }
 
 const std::vector<Irradiance4>& RelightSession::surfel_irradiance() const {

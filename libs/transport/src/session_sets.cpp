@@ -24,6 +24,36 @@ bool is_dark(const sh::RadianceSh& light) {
 
 }  // namespace
 
+probes::ProbeSet lookup_set(const RelightSession& session) {
+  probes::ProbeSet set = lookup_set(session.places(), session.reflected());
+  if (!session.gather()) return set;
+  const std::size_t count = session.gather()->points().size();
+  set.surface = {session.gather()->points(), {std::vector<probes::PackedRecordLight>(count)}, {}};
+  set.surface->light.resize(count);
+  refresh(set, session);
+  return set;
+}
+
+void refresh(probes::ProbeSet& set, const RelightSession& session) {
+  const std::vector<sh::RadianceSh>& reflected = session.reflected();
+  require(reflected.size() == set.probes.size(), "lookup set", "it is not of this session");
+  for (std::size_t i = 0; i < reflected.size(); ++i) {
+    probes::Probe& probe = set.probes[i];
+    probe.groups[0].reflected = reflected[i];
+    probe.reflected = reflected[i];
+    probe.self = reflected[i];
+  }
+  if (!set.surface) return;
+  probes::SurfaceRecords& records = *set.surface;
+  require(records.groups.size() == 1 && records.light.size() == session.record_light().size(), "lookup set",
+          "its records are not of this session");
+  for (std::size_t i = 0; i < records.light.size(); ++i) {
+    const vec3& normal = records.points[i].normal;
+    records.groups[0][i] = probes::pack(session.record_light()[i], normal);
+    records.light[i] = probes::unpack(records.groups[0][i], normal);
+  }
+}
+
 probes::ProbeSet lookup_set(const std::vector<ProbePlace>& places,
                             const std::vector<sh::RadianceSh>& reflected) {
   require(!places.empty(), "lookup set", "there are no probes");
@@ -69,6 +99,7 @@ probes::ProbeSet baked_set(const RelightSession& session, const std::vector<std:
   set.degree = session.reflected().front().degree();
   for (std::size_t g = 0; g < groups.size(); ++g) set.light_groups.push_back({groups[g], scales[g]});
   set.probes = dark_probes(session.places());
+  if (session.gather()) set.surface = session.records_by_group(control);
   store_groups(set, std::move(reflected), session.emitted_by_group());
   return set;
 }

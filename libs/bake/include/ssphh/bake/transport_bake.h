@@ -18,7 +18,8 @@ struct TransportBakeParams {
   transport::SolveParams solve;
   bool viz = false;  ///< also find the edges between the probes
   transport::LinkVizParams viz_params;
-  bool fit = false;  ///< also fit lookup weights at the surfels
+  transport::GatherParams records;  ///< of light kept at surfaces
+  bool fit = false;                 ///< also fit lookup weights at the surfels
   transport::FitParams fit_params;
 };
 
@@ -29,24 +30,25 @@ struct TransportBakeReport {
   double contraction = 0;  ///< surfel: upper bound of the factor by which one bounce shrinks light; bounce:
                            ///< an estimate of it for the probes' operator
   double lost = 0;         ///< share of the surfels' rays that end where no surfel is
-  double seconds = 0;      ///< all but VIZ and the fit
+  double seconds = 0;      ///< all but VIZ, the fit and the records
   double viz_seconds = 0;
   double fit_seconds = 0;
+  double record_seconds = 0;
   std::uint64_t rays = 0;
   std::vector<std::string> warnings;
 };
 
 /// Fills the set that INIT made with `surfel` or `bounce` transport, per light group, in the pose of its
-/// time; degree and places are the set's. What the set held of light, edges, hierarchy and fitted points is
-/// replaced. Warns about probes inside a body or without light, about more than 1 % of light lost and about a
-/// solution that did not converge. Throws Error without probes and for parameters out of range.
+/// time; degree and places are the set's. What the set held of light, edges, hierarchy, fitted points and
+/// records is replaced. Warns about probes inside a body or without light, about more than 1 % of light lost
+/// and about a solution that did not converge. Throws Error without probes and for parameters out of range.
 probes::ProbeSet bake_transport(const rays::TransportSource& source, probes::ProbeSet set,
                                 const TransportBakeParams& params, TransportBakeReport& report,
                                 const Control& control = {});
 
-/// What the parameters ask for beside light (edges, lookup weights), for a set whose light something else
-/// finds: builds a network in the pose of the set's time and notes its parameters in the set. Fills the
-/// report's surfels, links, contraction, lost, viz_seconds, fit_seconds and rays.
+/// What the parameters ask for beside light (edges, lookup weights, records), for a set whose light something
+/// else finds: builds a network in the pose of the set's time and notes its parameters in the set. Fills the
+/// report's surfels, links, contraction, lost, viz_seconds, fit_seconds, record_seconds and rays.
 void add_transport(const rays::TransportSource& source, probes::ProbeSet& set,
                    const TransportBakeParams& params, TransportBakeReport& report,
                    const Control& control = {});

@@ -10,9 +10,6 @@
 
 namespace ssphh::probes {
 
-/// So many of the nearest points a lookup between them takes. Twice as many give the same errors.
-inline constexpr std::size_t most_fitted_points = 12;
-
 /// Points with their weights, none of them negative. `weights[i].count` is 0 where no probe sees point i.
 struct FittedPoints {
   std::vector<rays::SurfacePoint> points;

@@ -1,45 +1,19 @@
 #pragma once
-/// Fitted weights (FittedPoints) made ready to be looked up without rays: which fitted points light
-/// which part of the surfaces that stand still. Made once for a scene and its points; light that changes
-/// costs nothing here.
+/// Fitted weights (FittedPoints) made ready to be looked up without rays.
 
-#include <vector>
-
-#include <ssphh/core/control.h>
 #include <ssphh/probes/fitted_points.h>
-#include <ssphh/scene/scene.h>
+#include <ssphh/probes/surface_lists.h>
 
 namespace ssphh::probes {
 
-using glm::ivec3;
-using glm::uvec2;
-using glm::uvec4;
-
-/// A grid of cells over the surfaces. A cell that holds surface lists the fitted points that may light it, as
-/// FittedLookupWeights finds them, and for each which of 8 × 8 squares of the cell see it: squares of
-/// the plane across the axis that the point's normal is nearest to.
 struct FittedSurfaces {
-  static constexpr int longest = 64;  ///< points of a list; the nearest to the cell's middle
-  static constexpr std::size_t most_points = std::size_t{1} << 22;
+  SurfaceLists surfaces;  ///< of the points that have weights
+  std::vector<PointWeights> weights;
 
-  FittedPoints points;  ///< those that have weights
-  float spacing = 0;    ///< median distance between neighbours [m]
-  vec3 origin{0};
-  float cell_size = 1;  ///< metres: `spacing`, or more in a scene of too many cells
-  ivec3 cells{0};
-  std::vector<uvec2>
-      ranges;  ///< of each cell, x fastest: first entry of `lists`, number of points; 0: no surface
-  /// For each range a header, halves of how far its eight corners look [m], x fastest; then its points as
-  /// pack_fitted_entry makes them.
-  std::vector<uvec4> lists;
-
-  bool empty() const { return lists.empty(); }
+  bool empty() const { return surfaces.empty(); }
 };
 
-/// Finds the lists for the scene posed at `time`. `sees` tells whether nothing blocks the way between two
-/// points just above surfaces: of that pose, or of several at once, where what moves may come between. It is
-/// called from several threads. Empty for fewer than two points with weights. Throws Error for more points
-/// than `most_points`, and Cancelled.
+/// As prepare_surfaces, for the points that have weights.
 FittedSurfaces prepare_fitted(const scene::Scene& scene, float time, const FittedPoints& fitted,
                               const SeesProbe& sees, const Control& control = {});
 

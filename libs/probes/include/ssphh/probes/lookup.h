@@ -9,6 +9,7 @@
 #include <ssphh/core/held.h>
 #include <ssphh/probes/lookup_weights.h>
 #include <ssphh/probes/probe_set.h>
+#include <ssphh/probes/surface_interpolation.h>
 #include <ssphh/rays/radiance_source.h>
 
 namespace ssphh::probes {
@@ -68,14 +69,24 @@ class LightLookup final : public rays::IndirectLight {
   Held<Data> data_;
 };
 
+/// Whether surfaces that stand still are lit by the set's records: where these are, and hold the light that
+/// `params` ask for, every bounce without HIER's.
+bool has_records(const ProbeSet& set, const LookupParams& params);
+/// What a lookup of the set takes for surfaces that stand still.
+WeightMethod chosen_weights(const ProbeSet& set, const LookupParams& params);
+
 /// Irradiance volume: Σ_j v_j E_j(n), the weights by params.weights (and the set's fitted points) or as
-/// given, which may name no other probes than the set's.
+/// given, which may name no other probes than the set's. Where the set has records that lie near, they give
+/// E instead; glossy light is always the probes'. Throws Error for weights `surface` without records of the
+/// light asked for.
 class IrradianceLookup final : public rays::IndirectLight {
  public:
   IrradianceLookup(const ProbeSet& set, const rays::RadianceSource& source, const LookupParams& params = {});
   IrradianceLookup(const ProbeSet&, const rays::RadianceSource&&, const LookupParams& = {}) = delete;
+  /// `places` are the points of the set's records, in their order; none: the records are not looked up.
   IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWeights> weights,
-                   const LookupParams& params = {});
+                   const LookupParams& params = {},
+                   std::shared_ptr<const SurfaceInterpolation> places = nullptr);
   ~IrradianceLookup() override;
   IrradianceLookup(IrradianceLookup&&) noexcept;
   IrradianceLookup& operator=(IrradianceLookup&&) noexcept;

@@ -23,13 +23,17 @@ enum class WeightMethod {
   distance,   ///< inverse squared distance and wrapped cosine, 8 nearest visible of 16
   trilinear,  ///< tent of one spacing along each axis: trilinear interpolation where probes stand on a grid
   mls,        ///< moving least squares: the value at x of a linear fit to the visible probes around
-  fitted      ///< fitted to light transport beforehand, at points of surfaces that stand still
+  fitted,     ///< fitted to light transport beforehand, at points of surfaces that stand still
+  surface     ///< none: surfaces that stand still have records of their own light (SurfaceRecords)
 };
 
 constexpr auto enum_table(WeightMethod) {
   using enum WeightMethod;
-  return std::to_array<EnumName<WeightMethod>>(
-      {{distance, "distance"}, {trilinear, "trilinear"}, {mls, "mls"}, {fitted, "fitted"}});
+  return std::to_array<EnumName<WeightMethod>>({{distance, "distance"},
+                                                {trilinear, "trilinear"},
+                                                {mls, "mls"},
+                                                {fitted, "fitted"},
+                                                {surface, "surface"}});
 }
 
 struct ProbeWeight {
@@ -68,10 +72,10 @@ using ProbeWeights = WeightList<48>;
 using SeesProbe = std::function<bool(const vec3& from, const vec3& probe)>;
 
 struct WeightParams {
-  /// None: the best by measurement (docs/methods/transport-results.md): `fitted` where points are given, and
-  /// `fallback` elsewhere.
+  /// None: the best by measurement (docs/methods/transport-results.md) of what is given: `surface` where
+  /// there are records, `fitted` where points have weights, else `fallback`.
   std::optional<WeightMethod> method;
-  /// Of `fitted`, for what moves and where no fitted point is near.
+  /// Of `fitted` and `surface`, for what moves and where no point is near.
   WeightMethod fallback = WeightMethod::mls;
   int nearest = blended_probes;  ///< distance: so many visible probes, 1..16
   float spacing = 0;             ///< metres between probes; 0: the median distance to the nearest neighbour
@@ -79,8 +83,10 @@ struct WeightParams {
                             ///< the probe, at most 1 % of the spacing
 
   /// What a lookup takes for surfaces that stand still.
-  WeightMethod chosen(bool has_fitted) const {
-    return method.value_or(has_fitted ? WeightMethod::fitted : fallback);
+  WeightMethod chosen(bool has_fitted, bool has_records = false) const {
+    return method.value_or(has_records  ? WeightMethod::surface
+                           : has_fitted ? WeightMethod::fitted
+                                        : fallback);
   }
 };
 
@@ -98,9 +104,10 @@ class LookupWeights {
   virtual std::size_t bytes() const = 0;
 };
 
-/// `fitted` is needed by the method of that name alone and is copied. Throws Error without positions or
-/// `sees`, for positions and parameters that are not finite, for the method `fitted` without points, and for
-/// points that name a probe which there is not. `nearest` is clamped.
+/// `fitted` is copied; the method of that name needs it, and with `surface` it serves what the records do
+/// not, as `fallback` does without it. Throws Error without positions or `sees`, for positions and parameters
+/// that are not finite, for the method `fitted` without points, and for points that name a probe which there
+/// is not. `nearest` is clamped.
 std::unique_ptr<LookupWeights> make_weights(std::span<const vec3> positions, SeesProbe sees,
                                             const WeightParams& params = {},
                                             const FittedPoints* fitted = nullptr);

@@ -11,7 +11,7 @@
 
 namespace ssphh::probes {
 
-inline constexpr int probe_file_version = 3;
+inline constexpr int probe_file_version = 4;
 
 enum class ProbeFileFormat { json, binary };
 

@@ -11,6 +11,7 @@
 #include <ssphh/core/hash.h>
 #include <ssphh/core/math.h>
 #include <ssphh/probes/fitted_points.h>
+#include <ssphh/probes/surface_records.h>
 #include <ssphh/sh/operators.h>
 
 namespace ssphh::probes {
@@ -129,14 +130,15 @@ struct ProbeSet {
   std::vector<LightGroup> light_groups;
   std::vector<Probe> probes;
   std::optional<Hierarchy> hierarchy;
-  std::optional<FittedPoints> fitted;  ///< of surface points that stand still in the pose of the bake
+  std::optional<FittedPoints> fitted;     ///< of surface points that stand still in the pose of the bake
+  std::optional<SurfaceRecords> surface;  ///< light at such points, every bounce, whatever the probes hold
 
   friend bool operator==(const ProbeSet&, const ProbeSet&) = default;
 };
 
-/// Recomputes `reflected` and `self` of every probe from its groups and the scales. Throws Error, and leaves
-/// the set as it was, for a degree outside 0..10, for functions of another, and for more groups than the
-/// set's.
+/// Recomputes `reflected` and `self` of every probe, and the light of surface records, from their groups and
+/// the scales. Throws Error, and leaves the set as it was, for a degree outside 0..10, for functions of
+/// another, for more groups than the set's, and for records that are not whole.
 void merge_groups(ProbeSet& set);
 
 /// Switches, dims or recolours a lamp without a bake: sets the group's scale, merges again and drops the

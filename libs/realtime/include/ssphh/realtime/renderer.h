@@ -75,6 +75,11 @@ class Renderer {
   /// Fitted weights of the last set_probes' probes, for FrameSettings::weights `fitted`; set_probes forgets
   /// them. Empty: none. Throws Error for points that name a probe which there is not.
   void set_fitted(const probes::FittedSurfaces& fitted);
+  /// Surface records for FrameSettings::weights `surface`, dark at first; they and fitted weights replace
+  /// each other, and set_probes forgets them. Empty: none.
+  void set_records(const probes::SurfaceLists& lists);
+  /// New light of all records, in the order of their points. Throws Error for another number of them.
+  void set_record_light(std::span<const probes::RecordLight> light);
   /// New light for some probes of the last set_probes, one function each: what surfaces look up. Cost and
   /// upload are proportional to their number. Throws Error for an index out of range and for functions that
   /// are not finite or not of the set's degree; all probes stay as they were then.

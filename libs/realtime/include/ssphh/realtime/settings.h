@@ -25,9 +25,9 @@ struct FrameSettings {
   bool direct = true;
   bool indirect = true;
   probes::LookupMethod lookup = probes::LookupMethod::irradiance;
-  /// Of lookup `irradiance`. `fitted` holds where Renderer::set_fitted prepared points and surfaces stand
-  /// still; elsewhere it is mls, as by default on the CPU.
-  probes::WeightMethod weights = probes::WeightMethod::fitted;
+  /// Of lookup `irradiance`. `surface` takes the records that Renderer::set_records prepared, else what
+  /// set_fitted did; `fitted` the latter alone. Where there are none, and for what moves, both are mls.
+  probes::WeightMethod weights = probes::WeightMethod::surface;
   /// n: indirect light is looked up at every n-th pixel each way, and at those between where the four around
   /// them differ by more than `indirect_tolerance` of the brightest or lie on another surface; interpolated
   /// elsewhere.

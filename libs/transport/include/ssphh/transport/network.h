@@ -129,6 +129,7 @@ class TransportNetwork {
   struct Data;
 
  private:
+  friend class SurfaceGather;
   Held<Data> data_;
 };
 

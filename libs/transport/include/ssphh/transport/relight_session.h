@@ -19,6 +19,7 @@
 #include <ssphh/sh/coefficients.h>
 #include <ssphh/transport/bounce.h>
 #include <ssphh/transport/network.h>
+#include <ssphh/transport/surface_gather.h>
 
 namespace ssphh::transport {
 
@@ -45,6 +46,7 @@ struct RelightParams {
   bool warm_start = true;  ///< false: every update starts from darkness, so its bits tell nothing of the past
   probes::LightOperator op = probes::LightOperator::surfel;  ///< surfel or bounce
   BounceParams bounce = {};
+  GatherParams records = {};  ///< of the light kept at surfaces
 };
 
 /// One update. Times in milliseconds, rays as traced.
@@ -101,7 +103,17 @@ class RelightSession {
   /// with bounce, which does not light surfels.
   sh::RadianceSh emission_profile(const vec3& center, float radius, int degree, int rays = 256) const;
 
-  /// Indirect irradiance at each surfel; empty with bounce.
+  /// Keeps records of light as asked for, from now on and of the last update(); 0 points: none. Throws Error
+  /// as SurfaceGather does, and Cancelled.
+  void keep_records(const GatherParams& params, const Control& control = {});
+  /// Where the light of surfaces that stand still is kept; null: nowhere.
+  const SurfaceGather* gather() const;
+  /// Of each of the gather's points: reflected light after the last update().
+  const std::vector<probes::RecordLight>& record_light() const;
+  /// The records as a bake stores them: per group, unscaled, and merged by the state's factors.
+  probes::SurfaceRecords records_by_group(const Control& control = {}) const;
+
+  /// Indirect irradiance at each surfel; with bounce empty unless records are kept.
   const std::vector<Irradiance4>& surfel_irradiance() const;
   const std::vector<Irradiance4>& surfel_direct() const;
   const TransportNetwork& network() const;

@@ -15,6 +15,13 @@ namespace ssphh::transport {
 probes::ProbeSet lookup_set(const std::vector<ProbePlace>& places,
                             const std::vector<sh::RadianceSh>& reflected);
 
+/// The same of a session, with its records where it keeps any.
+probes::ProbeSet lookup_set(const RelightSession& session);
+
+/// Brings a set that lookup_set made of this session up to date with the last update(). Does not allocate.
+/// Throws Error for other sets.
+void refresh(probes::ProbeSet& set, const RelightSession& session);
+
 /// Gives every probe the light of each of the set's groups, [group][probe], as a bake stores it: emitted
 /// light that is dark is left out.
 void store_groups(probes::ProbeSet& set, std::vector<std::vector<sh::RadianceSh>> reflected,

@@ -1,11 +1,11 @@
 #pragma once
-/// One fitted point in the list of a cell, in 128 bits: fitted_lookup.glsl reads them in one fetch.
+/// One point in the list of a cell, in 128 bits: fitted_lookup.glsl reads them in one fetch.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include <ssphh/probes/fitted_surfaces.h>
+#include <ssphh/probes/surface_lists.h>
 
 namespace ssphh::probes {
 
@@ -39,14 +39,14 @@ struct CoarseNormal {
 };
 
 /// Of a cell's 8 × 8 squares across an axis, the one that `place` in [0, 1]³ falls into.
-inline int fitted_square(const vec3& place, int axis) {
+inline int surface_square(const vec3& place, int axis) {
   const auto at = [&](int c) { return std::clamp(static_cast<int>(place[c] * 8), 0, 7); };
   return axis == 0 ? at(1) + 8 * at(2) : axis == 1 ? at(0) + 8 * at(2) : at(0) + 8 * at(1);
 }
 
 /// `place`: the point in cells' sides from the cell's corner, −4..5; `squares`: a bit for each that sees it.
-inline uvec4 pack_fitted_entry(std::uint32_t point, const vec3& place, const CoarseNormal& normal,
-                               std::uint64_t squares) {
+inline uvec4 pack_surface_entry(std::uint32_t point, const vec3& place, const CoarseNormal& normal,
+                                std::uint64_t squares) {
   const auto step = [](float x) {
     return static_cast<std::uint32_t>(std::lround(std::clamp((x + 4) / 9, 0.0f, 1.0f) * 1023));
   };

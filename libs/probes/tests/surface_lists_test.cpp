@@ -10,7 +10,7 @@
 #include <ssphh/scene/primitives.h>
 
 #include "expected_text.h"
-#include "fitted_entry.h"
+#include "surface_entry.h"
 
 namespace ssphh::probes {
 namespace {
@@ -58,16 +58,16 @@ FittedPoints points() {
 }
 
 /// Places of the floor points that may light the floor at x and are well within a lookup's reach, about 1 m.
-std::vector<vec3> lighting(const FittedSurfaces& surfaces, const vec3& x) {
+std::vector<vec3> lighting(const SurfaceLists& surfaces, const vec3& x) {
   const vec3 u = (x - surfaces.origin) / surfaces.cell_size;
   const ivec3 cell(glm::floor(u));
   const int index = (cell.z * surfaces.cells.y + cell.y) * surfaces.cells.x + cell.x;
   const uvec2 range = surfaces.ranges[static_cast<std::size_t>(index)];
-  const int square = fitted_square(u - vec3(cell), 1);
+  const int square = surface_square(u - vec3(cell), 1);
   std::vector<vec3> places;
   for (unsigned i = 1; i <= range.y; ++i) {
     const uvec4 entry = surfaces.lists[range.x + i];
-    const rays::SurfacePoint& point = surfaces.points.points[entry.x >> 10];
+    const rays::SurfacePoint& point = surfaces.points[entry.x >> 10];
     if (point.normal.y > 0 && glm::distance(point.position, x) < 0.8f &&
         ((square < 32 ? entry.z : entry.w) >> (square & 31) & 1u))
       places.push_back(point.position);
@@ -75,19 +75,19 @@ std::vector<vec3> lighting(const FittedSurfaces& surfaces, const vec3& x) {
   return places;
 }
 
-TEST(FittedSurfaces, TheFloorUnderABodySeesItsNeighboursOnTheFloor) {
+TEST(SurfaceLists, TheFloorUnderABodySeesItsNeighboursOnTheFloor) {
   // The body's lower side lies in the same squares, faces the other way, and sees the one point on it.
-  const FittedSurfaces surfaces = prepare_fitted(body_on_a_floor(), 0, points(), free_way);
+  const SurfaceLists surfaces = prepare_fitted(body_on_a_floor(), 0, points(), free_way).surfaces;
   for (const vec3& x :
        {vec3(0.45f, 0, 0.1f), vec3(-0.3f, 0, -0.35f), vec3(0.1f, 0, 0.1f), vec3(1.5f, 0, 0.2f)}) {
     EXPECT_GE(lighting(surfaces, x).size(), 4u) << x.x << " " << x.z;
   }
 }
 
-TEST(FittedSurfaces, TheFloorBesideABodySeesNothingThroughIt) {
+TEST(SurfaceLists, TheFloorBesideABodySeesNothingThroughIt) {
   FittedPoints fitted = points();
   const auto walled = [](const vec3& a, const vec3& b) { return (a.x < 0) == (b.x < 0); };
-  const FittedSurfaces surfaces = prepare_fitted(body_on_a_floor(), 0, fitted, walled);
+  const SurfaceLists surfaces = prepare_fitted(body_on_a_floor(), 0, fitted, walled).surfaces;
   for (const float x : {-0.4f, -0.2f, 0.2f, 0.4f}) {
     const std::vector<vec3> places = lighting(surfaces, {x, 0, 0.1f});
     EXPECT_FALSE(places.empty());
@@ -96,7 +96,7 @@ TEST(FittedSurfaces, TheFloorBesideABodySeesNothingThroughIt) {
 }
 
 /// Of the cells along x: what their lists hold, each cell with a weight of its own.
-std::string row_text(const FittedSurfaces& surfaces, int y, int z) {
+std::string row_text(const SurfaceLists& surfaces, int y, int z) {
   double points = 0, indices = 0, squares = 0, reach = 0;
   glm::dvec3 place(0), normal(0);
   for (int x = 0; x < surfaces.cells.x; ++x) {
@@ -124,7 +124,7 @@ std::string row_text(const FittedSurfaces& surfaces, int y, int z) {
       y, z, points, indices, squares, place.x, place.y, place.z, normal.x, normal.y, normal.z, reach);
 }
 
-TEST(FittedSurfaces, ListsAreWhatTheyWere) {
+TEST(SurfaceLists, ListsAreWhatTheyWere) {
   // Uneven points, a few without weights, on a floor that is turned, and on the body
   FittedPoints fitted = points();
   for (std::size_t i = 0; i < 100; ++i) {
@@ -141,8 +141,8 @@ TEST(FittedSurfaces, ListsAreWhatTheyWere) {
   scene::Scene scene = body_on_a_floor();
   scene.nodes[0].local.rotation = glm::angleAxis(0.05f, vec3(0, 0, 1));
   scene.instances[1].node = -1;
-  const FittedSurfaces surfaces = prepare_fitted(scene, 0, fitted, free_way);
-  EXPECT_EQ(surfaces.points.points.size(), 98u) << "of 110, twelve have no weight";
+  const SurfaceLists surfaces = prepare_fitted(scene, 0, fitted, free_way).surfaces;
+  EXPECT_EQ(surfaces.points.size(), 98u) << "of 110, twelve have no weight";
   std::string text = fmt::format("{} apart, cells of {} from {} {} {}: {} {} {}\n", surfaces.spacing,
                                  surfaces.cell_size, surfaces.origin.x, surfaces.origin.y, surfaces.origin.z,
                                  surfaces.cells.x, surfaces.cells.y, surfaces.cells.z);

@@ -1,0 +1,51 @@
+#pragma once
+/// How much each of many points on surfaces that stand still counts at a place near them: what fitted weights
+/// and surface records are looked up by.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <glm/gtc/type_precision.hpp>
+
+#include <ssphh/geometry/nearest.h>
+#include <ssphh/probes/lookup_weights.h>
+#include <ssphh/probes/surface_records.h>
+
+namespace ssphh::probes {
+
+/// So many of the nearest points a lookup between them takes. Twice as many give the same errors.
+inline constexpr std::size_t most_surface_points = 12;
+
+struct SurfaceShare {
+  std::uint32_t point;
+  float weight;  ///< may be negative
+};
+using SurfaceShares = std::array<SurfaceShare, most_surface_points>;
+
+/// A linear fit in the tangent plane over the points near x that face about its way and that x sees, taken at
+/// x; as far from their weighted mean as no point counts less than −¼ of what it counts in the mean:
+/// extrapolation toward a corner is wanted, but no overshoot. Safe to call from several threads.
+class SurfaceInterpolation {
+ public:
+  /// Copies the points. Throws Error without `sees`.
+  SurfaceInterpolation(std::span<const rays::SurfacePoint> points, SeesProbe sees);
+
+  /// The points that count at `at`, with a sum of 1, in `shares`; none for what moves, and where no point is
+  /// near.
+  std::span<const SurfaceShare> at(const rays::SurfacePoint& at, SurfaceShares& shares) const;
+  /// Whether any record lights `at`; then E of its normal, not negative. `light` is of each point.
+  bool irradiance(const rays::SurfacePoint& at, std::span<const RecordLight> light, vec3& out) const;
+
+  std::size_t count() const { return position_.size(); }
+  std::size_t bytes() const;
+
+ private:
+  std::vector<vec3> position_;
+  std::vector<glm::i16vec3> normal_;  ///< times 32767
+  geometry::NearestPoints near_;
+  float spacing_;
+  SeesProbe sees_;
+};
+
+}  // namespace ssphh::probes

@@ -1,0 +1,47 @@
+#pragma once
+/// Points on surfaces that stand still (fitted weights, surface records) made ready to be looked up without
+/// rays: which of them light which part of the surfaces. Made once for a scene and its points; light that
+/// changes costs nothing here.
+
+#include <span>
+#include <vector>
+
+#include <ssphh/core/control.h>
+#include <ssphh/probes/lookup_weights.h>
+#include <ssphh/scene/scene.h>
+
+namespace ssphh::probes {
+
+using glm::ivec3;
+using glm::uvec2;
+using glm::uvec4;
+
+/// A grid of cells over the surfaces. A cell that holds surface lists the points that may light it, as
+/// SurfaceInterpolation finds them, and for each which of 8 × 8 squares of the cell see it: squares of
+/// the plane across the axis that the point's normal is nearest to.
+struct SurfaceLists {
+  static constexpr int longest = 64;  ///< points of a list; the nearest to the cell's middle
+  static constexpr std::size_t most_points = std::size_t{1} << 22;
+
+  std::vector<rays::SurfacePoint> points;
+  float spacing = 0;  ///< median distance between neighbours [m]
+  vec3 origin{0};
+  float cell_size = 1;  ///< metres: `spacing`, or more in a scene of too many cells
+  ivec3 cells{0};
+  std::vector<uvec2>
+      ranges;  ///< of each cell, x fastest: first entry of `lists`, number of points; 0: no surface
+  /// For each range a header, halves of how far its eight corners look [m], x fastest; then its points as
+  /// pack_surface_entry makes them.
+  std::vector<uvec4> lists;
+
+  bool empty() const { return lists.empty(); }
+};
+
+/// Finds the lists for the scene posed at `time`. `sees` tells whether nothing blocks the way between two
+/// points just above surfaces: of that pose, or of several at once, where what moves may come between. It is
+/// called from several threads. Empty for fewer than two points. Throws Error for more than `most_points`,
+/// and Cancelled.
+SurfaceLists prepare_surfaces(const scene::Scene& scene, float time, std::vector<rays::SurfacePoint> points,
+                              const SeesProbe& sees, const Control& control = {});
+
+}  // namespace ssphh::probes

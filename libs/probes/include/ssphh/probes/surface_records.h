@@ -1,0 +1,50 @@
+#pragma once
+/// Irradiance kept at points of surfaces that stand still (an irradiance cache: Ward, Rubinstein & Clear, A
+/// Ray Tracing Solution for Diffuse Interreflection, SIGGRAPH 1988): plain data, filled by
+/// transport::SurfaceGather, stored in probe files.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <ssphh/core/math.h>
+#include <ssphh/rays/transport_source.h>
+
+namespace ssphh::probes {
+
+/// RGB irradiance [W/m²] around a record, by the surface's unit normal: E(n) = light · (n, 1). The part that
+/// is linear in n is the derivative as the surface turns (Ward & Heckbert, Irradiance Gradients, 1992); it
+/// lies in the record's tangent plane, so the last column is E of the record's own normal. It holds to about
+/// 45°.
+using RecordLight = glm::mat4x3;
+
+/// A RecordLight in 22 bytes: RGB of E and of its derivatives along both tangents of Frame::around(normal),
+/// in 32767ths of `scale`.
+struct PackedRecordLight {
+  float scale = 0;  ///< the largest of the nine, not negative
+  std::array<std::int16_t, 9> values{};
+
+  friend bool operator==(const PackedRecordLight&, const PackedRecordLight&) = default;
+};
+PackedRecordLight pack(const RecordLight& light, const vec3& normal);
+RecordLight unpack(const PackedRecordLight& packed, const vec3& normal);
+
+/// Records with the light that surfaces reflect toward them, every bounce; what emitters send straight to
+/// them is not in it. Per light group, unscaled.
+struct SurfaceRecords {
+  std::vector<rays::SurfacePoint> points;
+  std::vector<std::vector<PackedRecordLight>> groups;  ///< [light group][point]
+  std::vector<RecordLight> light;  ///< Σ_g c_g groups: derived by merge_groups, not stored in files
+
+  friend bool operator==(const SurfaceRecords&, const SurfaceRecords&);
+};
+
+/// Throws Error unless every point stands at a finite place, and every one of `group_count` groups has a
+/// light for each.
+void require_whole(const SurfaceRecords& records, std::size_t group_count);
+
+/// Sets `light` from the groups, each times its scale. Throws Error as require_whole does.
+void merge_groups(SurfaceRecords& records, std::span<const vec3> scales);
+
+}  // namespace ssphh::probes

@@ -1,0 +1,78 @@
+#include "surface_light.h"
+
+#include <glm/gtc/packing.hpp>
+
+#include "gpu_types.h"
+
+namespace ssphh::realtime {
+namespace {
+
+constexpr std::size_t width = 2048;  // CELLS_WIDTH_LOG2 of probe_lookup.glsl
+
+/// Rows of `width` texels.
+template <class T>
+gl::Texture list_texture(gl::Format format, std::vector<T> texels, FrameCounters& counters) {
+  texels.resize(std::max<std::size_t>((texels.size() + width - 1) / width, 1) * width, T(0));
+  gl::Texture texture(format, static_cast<int>(width), static_cast<int>(texels.size() / width));
+  texture.upload(std::as_bytes(std::span<const T>(texels)));
+  counters.bytes_uploaded += texels.size() * sizeof(T);
+  return texture;
+}
+
+}  // namespace
+
+SurfaceLight::SurfaceLight(const probes::SurfaceLists& lists, FrameCounters& counters)
+    : count_(lists.points.size()),
+      spacing_(lists.spacing),
+      cell_size_(lists.cell_size),
+      origin_(lists.origin),
+      cells_(lists.cells),
+      ranges_(list_texture(gl::Format::rg32ui, lists.ranges, counters)),
+      lists_(list_texture(gl::Format::rgba32ui, lists.lists, counters)) {
+  const std::size_t rows = (count_ * point_texels + width - 1) / width;
+  light_ = gl::Texture(gl::Format::rgba32ui, static_cast<int>(width), static_cast<int>(rows));
+}
+
+void SurfaceLight::pack(const Coefficients& light, std::span<glm::uvec4> texels) {
+  constexpr std::size_t pairs = std::tuple_size_v<Coefficients> / 2;
+  for (int c = 0; c < 3; ++c) {
+    for (std::size_t pair = 0; pair < pairs; ++pair) {
+      const std::size_t word = static_cast<std::size_t>(c) * pairs + pair;
+      const vec2 two(light[2 * pair][c], light[2 * pair + 1][c]);
+      texels[word / 4][static_cast<int>(word % 4)] =
+          glm::packHalf2x16(glm::clamp(two, -largest_half, largest_half));
+    }
+  }
+}
+
+void SurfaceLight::upload(std::span<const std::uint32_t> points, FrameCounters& counters) {
+  constexpr std::size_t row_points = width / point_texels;
+  for (std::size_t begin = 0, end; begin < points.size(); begin = end) {
+    // Neighbours in a row go together
+    end = begin + 1;
+    const std::size_t first = points[begin];
+    while (end < points.size() && points[end] == first + (end - begin) &&
+           points[end] / row_points == first / row_points)
+      ++end;
+    const auto run =
+        std::span<const glm::uvec4>(texels_).subspan(begin * point_texels, (end - begin) * point_texels);
+    light_.upload_rect(std::as_bytes(run), static_cast<int>(first % row_points * point_texels),
+                       static_cast<int>(first / row_points), static_cast<int>(run.size()), 1);
+    counters.bytes_uploaded += run.size_bytes();
+  }
+}
+
+void SurfaceLight::bind(gl::Program& program) const {
+  ranges_.bind(unit::fitted_ranges);
+  lists_.bind(unit::fitted_lists);
+  light_.bind(unit::fitted_light);
+  program.set("fitted_origin", vec4(origin_, cell_size_));
+  program.set("fitted_cells", cells_.x, cells_.y, cells_.z);
+  program.set("fitted_spacing", spacing_);
+}
+
+std::size_t SurfaceLight::bytes() const {
+  return ranges_.bytes() + lists_.bytes() + light_.bytes();
+}
+
+}  // namespace ssphh::realtime

@@ -1,0 +1,68 @@
+#pragma once
+/// What points of still surfaces see of the surfels: a sparse row for each, by which surface records follow
+/// lamps and doors (docs/methods/transport.md#records).
+
+#include <span>
+#include <vector>
+
+#include <ssphh/probes/surface_records.h>
+#include <ssphh/transport/network.h>
+
+namespace ssphh::transport {
+
+struct GatherParams {
+  int points = 0;  ///< at most, to 65536; of the surfels' points, spread evenly; 0: none
+  int rays = 256;  ///< cosine rays per point, 4..65536
+
+  friend bool operator==(const GatherParams&, const GatherParams&) = default;
+};
+
+class SurfaceGather {
+ public:
+  /// Traces the rays. The points stand still in every pose; the network must outlive the gather. Throws Error
+  /// for more than 65536 points, for a number of rays out of range, and Cancelled. Takes up to 16 bytes a
+  /// ray, 80 where moving parts come near it.
+  SurfaceGather(const TransportNetwork& network, std::vector<rays::SurfacePoint> points, int rays,
+                const Control& control = {});
+  SurfaceGather(const TransportNetwork&&, std::vector<rays::SurfacePoint>, int, const Control& = {}) = delete;
+
+  /// Looks again along the rays that moving parts come near, in the network's pose. The result equals a
+  /// gather made in this pose, to the bit.
+  void update_pose();
+
+  const std::vector<rays::SurfacePoint>& points() const { return points_; }
+  /// Light of each point, when each surfel gets `irradiance`, direct and reflected.
+  void light(std::span<const Irradiance4> irradiance, std::vector<probes::RecordLight>& out) const;
+  std::size_t bytes() const;
+
+ private:
+  /// Rays of one point that meet one surfel: their share, and the sum of their slopes against the normal
+  /// along both tangents.
+  struct Link {
+    std::uint32_t surfel;
+    float weight;
+    vec2 slope;
+  };
+  /// A ray that some part comes near at some time.
+  struct Moving {
+    rays::RayQuery ray;  ///< t_max: distance of what stands still
+    vec3 normal;         ///< of that
+    std::int32_t surfel;
+    Link link;  ///< as posed; of no weight where the ray escapes
+    std::uint32_t point;
+  };
+  void trace(std::size_t begin, std::size_t end, const Control& control);
+
+  const TransportNetwork* network_;
+  std::vector<rays::SurfacePoint> points_;
+  std::uint32_t rays_;
+  std::vector<Link> links_;
+  std::vector<std::size_t> first_;         ///< of each point's links, and the end
+  std::vector<Moving> moving_;             ///< by point
+  std::vector<std::size_t> first_moving_;  ///< likewise
+};
+
+/// Places for records in the network's scene: the static surfels' points, at most so many, spread evenly.
+std::vector<rays::SurfacePoint> record_points(const TransportNetwork& network, int most);
+
+}  // namespace ssphh::transport

@@ -1,0 +1,202 @@
+/// Light kept at surfaces over Embree, where the answer is known.
+
+#include <gtest/gtest.h>
+
+#include <ssphh/bake/transport_bake.h>
+#include <ssphh/place/init.h>
+#include <ssphh/probes/lookup.h>
+#include <ssphh/rays/posed_world.h>
+#include <ssphh/study/lookup_error.h>
+#include <ssphh/study/surface_points.h>
+#include <ssphh/trace/path_tracer.h>
+#include <ssphh/transport/session_sets.h>
+
+#include "transport_fixtures.h"
+
+namespace ssphh::test {
+namespace {
+
+using transport::SurfaceGather;
+
+TEST(SurfaceRecords, AreAllAlikeWhereAllWallsAreAsBright) {
+  // E = π ρ/(1 − ρ), whichever way a surface faces.
+  constexpr float rho = 0.5f;
+  GlowingBox box(rho);
+  box.session.keep_records({.points = 500, .rays = 64});
+  ASSERT_GT(box.session.record_light().size(), 100u);
+  ASSERT_LE(box.session.record_light().size(), 500u);
+  for (const probes::RecordLight& light : box.session.record_light()) {
+    EXPECT_NEAR(light[3].y / (pi * rho / (1 - rho)), 1, 5e-3f);
+    for (glm::length_t c = 0; c < 3; ++c) EXPECT_LT(std::abs(light[c].y), 2e-3f * light[3].y);
+  }
+}
+
+/// A room whose walls differ, lit by its ceiling.
+struct Room {
+  Room() : scene(coloured_room({3, 2.5f, 2})), source(scene), session(source, places_of(scene), params()) {
+    session.update();
+  }
+  static transport::RelightParams params() {
+    transport::RelightParams params;
+    params.transport = small_network();
+    return params;
+  }
+  scene::Scene scene;
+  trace::TransportScene source;
+  LitSession session;
+};
+
+TEST(SurfaceRecords, HoldWhatCosineRaysMeetOfTheSurfels) {
+  Room room;
+  const transport::TransportNetwork& network = room.session.network();
+  const std::vector<rays::SurfacePoint> points = transport::record_points(network, 60);
+  constexpr int rays = 512;
+  const SurfaceGather gather(network, points, rays);
+  std::vector<transport::Irradiance4> total = room.session.surfel_direct();
+  for (std::size_t s = 0; s < total.size(); ++s) total[s] += room.session.surfel_irradiance()[s];
+  std::vector<probes::RecordLight> light;
+  gather.light(total, light);
+  const std::vector<std::int32_t> seen = network.gather(points, rays);
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    vec3 sum(0);
+    for (std::size_t r = p * rays; r < (p + 1) * rays; ++r) {
+      if (seen[r] == transport::no_surfel) continue;
+      const auto s = static_cast<std::size_t>(seen[r]);
+      sum += network.albedo()[s] * vec3(total[s]) / float{rays};
+    }
+    EXPECT_LT(glm::distance(light[p][3], sum), 1e-4f * glm::length(sum)) << p;
+  }
+}
+
+TEST(SurfaceRecords, TurnAsTheLightAroundThemSays) {
+  // The record's derivative against gathers at normals that are turned a little.
+  Room room;
+  const transport::TransportNetwork& network = room.session.network();
+  const std::vector<rays::SurfacePoint> all = transport::record_points(network, 400);
+  // In the middle of the walls nothing but the other walls is near
+  std::vector<rays::SurfacePoint> points, turned[2];
+  for (const rays::SurfacePoint& p : all) {
+    const vec3 along = glm::abs(p.position) * (1.0f - glm::abs(p.normal));
+    if (max_component(along) < 0.4f) points.push_back({p.position + 0.02f * p.normal, p.normal});
+  }
+  ASSERT_GE(points.size(), 12u);
+  constexpr float angle = 0.15f;
+  for (const rays::SurfacePoint& p : points) {
+    const vec3 tangent = Frame::around(p.normal).x;
+    for (const int k : {0, 1}) {
+      const float a = k == 0 ? angle : -angle;
+      turned[k].push_back({p.position, std::cos(a) * p.normal + std::sin(a) * tangent});
+    }
+  }
+  std::vector<transport::Irradiance4> total = room.session.surfel_direct();
+  for (std::size_t s = 0; s < total.size(); ++s) total[s] += room.session.surfel_irradiance()[s];
+  const auto light_at = [&](const std::vector<rays::SurfacePoint>& places) {
+    std::vector<probes::RecordLight> light;
+    SurfaceGather(network, places, 4096).light(total, light);
+    return light;
+  };
+  const std::vector<probes::RecordLight> light = light_at(points), plus = light_at(turned[0]),
+                                         minus = light_at(turned[1]);
+  double error = 0, size = 0;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const vec3 measured = plus[p][3] - minus[p][3];
+    const vec3 told = light[p] * vec4(turned[0][p].normal - turned[1][p].normal, 0);
+    error += double(glm::dot(measured - told, measured - told)), size += double(glm::dot(measured, measured));
+  }
+  EXPECT_LT(std::sqrt(error / size), 0.1) << "of what E changes by";
+}
+
+TEST(SurfaceRecords, FollowADoorToTheBitsOfAGatherMadeThere) {
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  const trace::TransportScene source(scene);
+  const std::vector<vec3> places = positions_of(places_of(scene));
+  transport::TransportNetwork network(source, places, small_network());
+  const std::vector<rays::SurfacePoint> points = transport::record_points(network, 200);
+  const float time = 0.7f * source.duration();
+  SurfaceGather moved(network, points, 48);
+  std::vector<transport::Irradiance4> irradiance(network.surfel_count());
+  for (std::size_t s = 0; s < irradiance.size(); ++s)
+    irradiance[s] = vec4(1 + s % 7, 1 + s % 5, 1 + s % 3, 0);
+  std::vector<probes::RecordLight> before, after, anew;
+  moved.light(irradiance, before);
+  network.set_time(time);
+  moved.update_pose();
+  moved.light(irradiance, after);
+  SurfaceGather(network, points, 48).light(irradiance, anew);
+  EXPECT_NE(before, after);
+  EXPECT_EQ(after, anew);
+  network.set_time(0);
+  moved.update_pose();
+  moved.light(irradiance, after);
+  EXPECT_EQ(before, after);
+}
+
+TEST(SurfaceRecords, OfASessionFollowLampsAndDoors) {
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  const trace::TransportScene source(scene);
+  transport::RelightParams params;
+  params.transport = small_network();
+  params.warm_start = false;
+  params.records = {.points = 150, .rays = 32};
+  LitSession session(source, places_of(scene), params);
+  session.state.time = 0.6f * source.duration();
+  session.state.lights[0].intensity *= 3;
+  session.update();
+  LitSession other(source, places_of(scene), params, session.state.time);
+  other.state = session.state;
+  other.update();
+  EXPECT_EQ(session.record_light(), other.record_light());
+  // Groups apart add up to the whole
+  const probes::SurfaceRecords records = session.records_by_group();
+  ASSERT_EQ(records.groups.size(), source.light_groups().size());
+  for (std::size_t i = 0; i < records.light.size(); ++i) {
+    EXPECT_LT(glm::distance(records.light[i][3], session.record_light()[i][3]),
+              5e-3f * glm::length(records.light[i][3]) + 1e-5f);
+  }
+  // Those of a set for lookups are those of the session
+  probes::ProbeSet set = transport::lookup_set(session);
+  EXPECT_TRUE(probes::has_records(set, {}));
+  session.state.lights[0].intensity = 0;
+  session.update();
+  transport::refresh(set, session);
+  EXPECT_EQ(set.surface->light, transport::lookup_set(session).surface->light);
+  EXPECT_THROW(session.keep_records({.points = -1}), Error);
+  EXPECT_THROW(session.keep_records({.points = 10, .rays = 2}), Error);
+  const std::vector<rays::SurfacePoint> many(70000);
+  EXPECT_THROW(SurfaceGather(session.network(), many, 4), Error);
+  session.keep_records({.points = 0});
+  EXPECT_EQ(session.gather(), nullptr);
+}
+
+TEST(SurfaceRecords, OfABakeAreNearerToPathTracingThanProbesAre) {
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  const trace::TransportScene source(scene);
+  bake::TransportBakeParams params;
+  params.transport = small_network();
+  params.transport.surfel_size = 0.15f;
+  params.records.points = 3000;
+  bake::TransportBakeReport report;
+  probes::ProbeSet set = bake::bake_transport(source, place::init_from_scene(scene, 4), params, report);
+  ASSERT_TRUE(set.surface);
+  EXPECT_GT(set.surface->points.size(), 1500u);
+  const trace::PathTracer tracer(scene);
+  const std::vector<rays::SurfacePoint> points =
+      study::reachable_points(source, positions_of(places_of(scene)), 0, {200, 5});
+  const auto truth =
+      tracer.surface_irradiance(points, {.max_depth = 12, .passes = 1, .spp = 512, .seed = 2}, {});
+  const auto error = [&] {
+    const probes::IrradianceLookup lookup(set, tracer);
+    std::vector<vec3> found;
+    for (const rays::SurfacePoint& point : points) found.push_back(lookup.irradiance(point));
+    return study::lookup_error(found, truth);
+  };
+  const study::LookupError records = error();
+  set.surface.reset();
+  const study::LookupError probes = error();
+  EXPECT_NEAR(records.ratio, 1, 0.05);
+  EXPECT_LT(records.mean_error, 0.1);
+  EXPECT_LT(records.mean_error, 0.7 * probes.mean_error);
+}
+
+}  // namespace
+}  // namespace ssphh::test
