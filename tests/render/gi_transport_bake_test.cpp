@@ -231,9 +231,11 @@ TEST(GiTransportBake, SurfelsAreAThirtySecondOfTheRadiusWithinFourCentimetresAnd
     bake::add_transport(source, set, params, report);
     return set.generator.surfel_size;
   };
-  EXPECT_EQ(size_of(0.5f), 0.04f);
+  EXPECT_EQ(size_of(0.5f), 0.05f);
+  EXPECT_FLOAT_EQ(size_of(0.01f), 0.01f * std::sqrt(3.0f) / 12);
   EXPECT_FLOAT_EQ(size_of(1), std::sqrt(3.0f) / 32);
   EXPECT_EQ(size_of(9.5f), 0.5f);
+  EXPECT_FLOAT_EQ(size_of(1000), 1000 * std::sqrt(3.0f) / 1000);
   // A session's own are a twentieth.
   const auto session_size = [](float scale) {
     scene::Scene room = test::coloured_room(vec3(1));

@@ -150,14 +150,19 @@ json::Value to_json(const BakeResult& r, const BakeOptions& o) {
   return object;
 }
 
+std::string sizes_text(float finest, float coarsest) {
+  if (finest == coarsest) return fmt::format("{:.3g} m", finest);
+  return fmt::format("{:.3g} to {:.3g} m", finest, coarsest);
+}
+
 std::string to_text(const BakeResult& r, const BakeOptions& o) {
   std::string text =
       fmt::format("{}: {} probes of degree {}, {} light groups, {} edges", o.output, r.set.probes.size(),
                   r.set.degree, r.set.light_groups.size(), probes::edge_count(r.set));
   const bake::TransportBakeReport& t = r.transport;
   if (t.surfels > 0) {
-    text +=
-        fmt::format("\n{} surfels of {:.3g} m, {} links", t.surfels, r.set.generator.surfel_size, t.links);
+    text += fmt::format("\n{} surfels of {}, {} links", t.surfels,
+                        sizes_text(t.finest_surfel, t.coarsest_surfel), t.links);
     if (o.op != probes::LightOperator::path) {
       text += fmt::format("; {} iterations, a bounce keeps at most {:.3g} of the light; {:.2f} s",
                           t.iterations, t.contraction, t.seconds);

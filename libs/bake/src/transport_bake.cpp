@@ -18,6 +18,8 @@ void describe_network(const transport::TransportNetwork& network, probes::ProbeS
   set.generator.surfel_size = network.params().surfel_size;
   set.generator.link_rays = network.params().link_rays;
   report.surfels = network.surfel_count();
+  report.finest_surfel = network.surfels().size();
+  report.coarsest_surfel = network.surfels().coarsest();
   report.links = network.links().link_count();
   report.contraction = network.contraction().upper;
   report.lost = static_cast<double>(network.lost_links()) /
@@ -119,14 +121,6 @@ std::vector<std::vector<sh::RadianceSh>> bounce_by_group(const transport::Religh
   return reflected;
 }
 
-/// Finer than a session's: nobody waits for a frame.
-transport::TransportParams bake_resolution(const rays::TransportSource& source,
-                                           transport::TransportParams params) {
-  if (params.surfel_size == 0)
-    params.surfel_size = glm::clamp(source.part_bounds(0).radius() / 32, 0.04f, 0.5f);
-  return params;
-}
-
 void require_probes(const probes::ProbeSet& set) {
   if (set.probes.empty())
     throw Error("bake", "there are no probes to bake", "run INIT on a scene with SPHLs");
@@ -145,7 +139,7 @@ probes::ProbeSet bake_transport(const rays::TransportSource& source, probes::Pro
   const Stopwatch watch;
 
   // Light everything once, then each group alone.
-  transport::RelightParams relight_params{bake_resolution(source, params.transport), params.solve};
+  transport::RelightParams relight_params{params.transport, params.solve};
   relight_params.degree = set.degree;
   transport::RelightSession session(source, transport::places_of(set.probes), relight_params,
                                     set.generator.time, control);
@@ -192,8 +186,7 @@ void add_transport(const rays::TransportSource& source, probes::ProbeSet& set,
   report = {};
   const std::uint64_t rays_before = source.rays_traced();
   transport::RelightSession session(source, transport::places_of(set.probes),
-                                    {bake_resolution(source, params.transport), params.solve},
-                                    set.generator.time, control);
+                                    {params.transport, params.solve}, set.generator.time, control);
   const transport::TransportNetwork& network = session.network();
   describe_network(network, set, report);
   if (params.viz) find_edges(network, source, set, params.viz_params, report, control);

@@ -68,7 +68,8 @@ Lesson solve_light(const TransportNetwork& network, const DirectionProjector& pr
                    double weight) {
   std::vector<Irradiance4> all;
   Solver solver;
-  solver.solve(network.links(), network.albedo(), direct, network.contraction().upper, {1e-4f, 300}, all);
+  solver.solve(network.links(), network.albedo(), direct, chebyshev_bound(network.contraction()),
+               {1e-4f, 300}, all);
   for (std::size_t s = 0; s < all.size(); ++s) all[s] += direct[s];
   std::vector<sh::RadianceSh> radiance;
   project_reflected(network, projector, all, radiance);

@@ -94,8 +94,8 @@ class LinkViz {
     add_emission(network_, source_, sphere_, at_samples_);
     field_.sum({}, at_samples_, direct_);
     indirect_.clear();
-    Solver().solve(network_.links(), network_.albedo(), direct_, network_.contraction().upper, params_.solve,
-                   indirect_);
+    Solver().solve(network_.links(), network_.albedo(), direct_, chebyshev_bound(network_.contraction()),
+                   params_.solve, indirect_);
     for (std::size_t s = 0; s < direct_.size(); ++s) direct_[s] += indirect_[s];
   }
 

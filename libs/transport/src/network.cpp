@@ -26,8 +26,14 @@ TransportParams checked(const rays::TransportSource& source, std::span<const vec
   within("samples", params.samples, 1, 32);
   if (!(params.surfel_size >= 0) || !std::isfinite(params.surfel_size))
     throw Error("surfel size", fmt::format("{} is no length", params.surfel_size));
-  if (params.surfel_size == 0)
-    params.surfel_size = glm::clamp(source.part_bounds(0).radius() / 20, 0.05f, 0.5f);
+  within("surfels", params.most_surfels, 1000, 1 << 24);
+  require(params.surfels_per_radius > 0 && std::isfinite(params.surfels_per_radius), "surfels per radius",
+          "it must be a number over 0");
+  if (params.surfel_size == 0) {
+    const float radius = source.part_bounds(0).radius();
+    params.surfel_size = glm::clamp(radius / params.surfels_per_radius, std::min(0.05f, radius / 12),
+                                    std::max(0.5f, radius / 1000));
+  }
   return params;
 }
 

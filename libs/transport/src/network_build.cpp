@@ -30,6 +30,7 @@ class NetworkBuilder {
   void build(std::span<const vec3> positions, float time) {
     d_.swept = swept_bounds(d_.source);
     d_.gbuffer = trace_gbuffer(d_.source, positions, d_.params.directions, control_);
+    choose_sizes();
     add_probe_hits();
     discover();
     link_static_surfels();
@@ -75,6 +76,15 @@ class NetworkBuilder {
 
   std::size_t rays_per_surfel() const { return static_cast<std::size_t>(d_.params.link_rays); }
   std::size_t m() const { return d_.sample_count(); }
+
+  /// Larger surfels far from probes, where one size for all would make too many.
+  void choose_sizes() {
+    const std::size_t most = static_cast<std::size_t>(d_.params.most_surfels);
+    SurfelSizes sizes = sizes_within(d_.gbuffer, d_.surfels.size(), most);
+    std::vector<int> part_levels;
+    for (const scene::Bounds& swept : d_.swept) part_levels.push_back(sizes.level(swept));
+    d_.surfels = SurfelSet(d_.source, std::move(sizes), std::move(part_levels));
+  }
 
   void add_probe_hits() {
     const ProbeGBuffer& g = d_.gbuffer;
@@ -221,16 +231,16 @@ class NetworkBuilder {
   bool near_parts_surfel(std::size_t s) const {
     if (d_.swept.size() < 2) return false;
     for (std::size_t i = s * m(); i < (s + 1) * m(); ++i) {
-      if (meets_any(d_.surfels.segment(d_.local_samples[s * m()], d_.local_samples[i]), d_.swept))
-        return true;
+      if (meets_any(d_.sample_segment(i), d_.swept)) return true;
     }
     return false;
   }
 
   /// Both faces of every part; a face that only sees its own part from inside lights nothing.
   void add_part_surfels() {
-    const double density = part_samples_per_surfel / double(d_.surfels.size() * d_.surfels.size());
     for (int part = 1; part < d_.source.part_count(); ++part) {
+      const double size = double{d_.surfels.size(d_.surfels.level(part, vec3(0)))};
+      const double density = part_samples_per_surfel / (size * size);
       std::vector<ClusterPoint> points;
       for (const rays::PartPoint& p : d_.source.sample_part(part, density)) {
         points.push_back({p.point, p.albedo});
@@ -269,8 +279,7 @@ class NetworkBuilder {
     d_.sample_used = d_.sample_exists;
     if (d_.swept.size() < 2) return;
     for (std::size_t i = 0; i < d_.static_count * m(); ++i) {
-      if (d_.sample_exists[i] &&
-          meets_any(d_.surfels.segment(d_.local_samples[i / m() * m()], d_.local_samples[i]), d_.swept))
+      if (d_.sample_exists[i] && meets_any(d_.sample_segment(i), d_.swept))
         d_.hidden_samples.push_back(static_cast<std::uint32_t>(i));
     }
   }

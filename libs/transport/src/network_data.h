@@ -89,6 +89,8 @@ struct TransportNetwork::Data {
   /// Samples of a surfel that are no padding.
   std::size_t used_samples(std::size_t surfel) const;
   rays::SurfacePoint to_world(int part, const rays::SurfacePoint& point) const;
+  /// From a static surfel to one of its samples.
+  rays::RayQuery sample_segment(std::size_t sample) const;
   bool parts_block(const rays::RayQuery& world_segment) const;
   bool blocked(const rays::RayQuery& world_segment) const;
   /// Whether another body touches a part's surface there, or lies over it: nothing lights the point, and rays

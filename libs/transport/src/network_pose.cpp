@@ -86,6 +86,12 @@ rays::SurfacePoint TransportNetwork::Data::to_world(int part, const rays::Surfac
   return part == 0 ? point : transformed(point, poses[static_cast<std::size_t>(part)]);
 }
 
+rays::RayQuery TransportNetwork::Data::sample_segment(std::size_t sample) const {
+  const std::size_t s = sample / sample_count();
+  return surfels.segment(local_samples[s * sample_count()], local_samples[sample],
+                         surfels.surfels()[s].level);
+}
+
 bool TransportNetwork::Data::parts_block(const rays::RayQuery& segment) const {
   for (const PlacedPart& p : placed) {
     const rays::RayQuery local = transformed(segment, p.to_part);
@@ -121,8 +127,8 @@ int TransportNetwork::Data::find(int part, const rays::SurfacePoint& point) cons
     // A ray that starts within a body, where another touches it, meets its inside: nothing lights that, and
     // within a body thinner than the lift sight would start on its far side.
     const float start = link_lift * surfels.size();
-    const rays::RayQuery lift{point.position + start * point.normal, 1.05f * surfels.lift() * point.normal,
-                              1};
+    const rays::RayQuery lift{point.position + start * point.normal,
+                              1.05f * surfels.lift(surfels.level(part, point.position)) * point.normal, 1};
     std::uint8_t inside = 0;
     source.occluded(part, {&lift, 1}, {&inside, 1});
     if (inside) return no_surfel;
@@ -130,13 +136,14 @@ int TransportNetwork::Data::find(int part, const rays::SurfacePoint& point) cons
   const rays::SurfacePoint world = to_world(part, point);
   return find_nearest(part, point, [&](int s) {
     const Surfel& surfel = surfels.surfels()[static_cast<std::size_t>(s)];
-    return !blocked(surfels.segment(world, to_world(part, surfel.point)));
+    return !blocked(surfels.segment(world, to_world(part, surfel.point), surfel.level));
   });
 }
 
 int TransportNetwork::Data::find_static(const rays::SurfacePoint& point) const {
   return find_nearest(0, point, [&](int s) {
-    const rays::RayQuery way = surfels.segment(point, surfels.surfels()[static_cast<std::size_t>(s)].point);
+    const Surfel& surfel = surfels.surfels()[static_cast<std::size_t>(s)];
+    const rays::RayQuery way = surfels.segment(point, surfel.point, surfel.level);
     std::uint8_t hit = 0;
     source.occluded(0, {&way, 1}, {&hit, 1});
     return !hit;
@@ -148,7 +155,8 @@ bool TransportNetwork::Data::near_parts(const rays::RayQuery& ray, const vec3& n
   if (meets_any(ray, swept)) return true;
   if (surfel == no_surfel) return false;
   const rays::SurfacePoint point{ray.origin + ray.t_max * ray.direction, normal};
-  return meets_any(surfels.segment(point, surfels.surfels()[static_cast<std::size_t>(surfel)].point), swept);
+  const Surfel& met = surfels.surfels()[static_cast<std::size_t>(surfel)];
+  return meets_any(surfels.segment(point, met.point, met.level), swept);
 }
 
 template <class Sees>
@@ -195,7 +203,7 @@ Resolved TransportNetwork::Data::resolve(const MovingRay& unobstructed) const {
     return {no_surfel, unobstructed.albedo, unobstructed.emission, ray.t_max};
   const rays::SurfacePoint point{ray.origin + ray.t_max * ray.direction, unobstructed.normal};
   const Surfel& surfel = surfels.surfels()[static_cast<std::size_t>(unobstructed.surfel)];
-  const bool hidden = parts_block(surfels.segment(point, surfel.point));
+  const bool hidden = parts_block(surfels.segment(point, surfel.point, surfel.level));
   return {hidden ? find(0, point) : unobstructed.surfel, unobstructed.albedo, unobstructed.emission,
           ray.t_max};
 }
@@ -266,12 +274,12 @@ void TransportNetwork::Data::pose_samples() {
       for (std::size_t i = s * m; i < (s + 1) * m; ++i) samples[i] = to_world(surfel.part, local_samples[i]);
       for (std::size_t i = s * m; i < (s + 1) * m; ++i)
         sample_used[i] = sample_exists[i] && !covered(surfel.part, samples[i]) &&
-                         (i == s * m || !blocked(surfels.segment(samples[s * m], samples[i])));
+                         (i == s * m || !blocked(surfels.segment(samples[s * m], samples[i], surfel.level)));
     }
   });
   parallel_for(hidden_samples.size(), 256, [&](std::size_t k) {
     const std::size_t i = hidden_samples[k];
-    sample_used[i] = !covered(0, samples[i]) && !parts_block(surfels.segment(samples[i / m * m], samples[i]));
+    sample_used[i] = !covered(0, samples[i]) && !parts_block(sample_segment(i));
   });
 }
 

@@ -235,8 +235,8 @@ struct RelightSession::Data {
   }
   SolveReport solve_surfels() {
     if (!params.warm_start) indirect.clear();
-    return solver.solve(network.links(), network.albedo(), direct, network.contraction().upper, params.solve,
-                        indirect);
+    return solver.solve(network.links(), network.albedo(), direct, chebyshev_bound(network.contraction()),
+                        params.solve, indirect);
   }
   static SolveReport summary(const BounceReport& report) {
     return {.iterations = report.iterations, .residual = 0, .converged = report.converged};
@@ -256,7 +256,7 @@ struct RelightSession::Data {
   /// E at every surfel, direct and reflected, under another direct light, from darkness.
   std::vector<Irradiance4> lit_under(std::span<const Irradiance4> other, SolveReport& report) const {
     std::vector<Irradiance4> bounced;
-    report = Solver().solve(network.links(), network.albedo(), other, network.contraction().upper,
+    report = Solver().solve(network.links(), network.albedo(), other, chebyshev_bound(network.contraction()),
                             params.solve, bounced);
     return total(other, bounced);
   }

@@ -66,6 +66,11 @@ Contraction contraction(const LinkRows& links, std::span<const vec3> albedo, int
   return ssphh::contraction(links.rows.size(), apply, steps);
 }
 
+double chebyshev_bound(const Contraction& contraction) {
+  constexpr double most = 0.98;
+  return std::min(contraction.upper, most);
+}
+
 SolveReport Solver::solve(const LinkRows& links, std::span<const vec3> albedo,
                           std::span<const Irradiance4> direct, double contraction_bound,
                           const SolveParams& params, std::vector<Irradiance4>& indirect) {

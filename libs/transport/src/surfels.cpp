@@ -5,6 +5,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/random.h>
 #include <ssphh/transport/surfels.h>
 
 namespace ssphh::transport {
@@ -28,14 +29,17 @@ struct CellResult {
 
 }  // namespace
 
-SurfelSet::SurfelSet(const rays::TransportSource& source, float size) : source_(source), size_(size) {
+SurfelSet::SurfelSet(const rays::TransportSource& source, SurfelSizes sizes, std::vector<int> part_levels)
+    : source_(&source), sizes_(std::move(sizes)), part_levels_(std::move(part_levels)) {
+  const float size = sizes_.finest();
   if (!(size > 0) || !std::isfinite(size))
     throw Error("surfel size", fmt::format("{} m is no size", size), "give a positive number of metres");
+  part_levels_.resize(static_cast<std::size_t>(source.part_count()), 0);
   for (int part = 0; part < source.part_count(); ++part) {
     const scene::Bounds bounds = source.part_bounds(part);
     // A quarter of a voxel off, or walls at the bounds would lie on the border of two voxels and rounding
     // would make two surfels of each.
-    origin_.push_back(bounds.empty() ? vec3(0) : bounds.min - 2.25f * size);
+    origin_.push_back(bounds.empty() ? vec3(0) : bounds.min);
     if (bounds.empty()) continue;
     const float extent = max_component(bounds.max - bounds.min);
     if (extent / size > static_cast<float>((1 << axis_bits) - 8)) {
@@ -45,40 +49,70 @@ SurfelSet::SurfelSet(const rays::TransportSource& source, float size) : source_(
   }
 }
 
-SurfelSet::Voxel SurfelSet::voxel(int part, const vec3& position) const {
-  const vec3 v = glm::floor((position - origin_[static_cast<std::size_t>(part)]) / size_);
+int SurfelSet::level(int part, const vec3& position) const {
+  return part == 0 ? sizes_.level(position) : part_levels_[static_cast<std::size_t>(part)];
+}
+
+float SurfelSet::coarsest() const {
+  int level = SurfelSizes::most_level;
+  while (level > 0 && !has_level_[static_cast<std::size_t>(level)]) --level;
+  return size(level);
+}
+
+SurfelSet::Voxel SurfelSet::voxel(int part, int level, const vec3& position) const {
+  const float size = sizes_.size(level);
+  const vec3 origin = origin_[static_cast<std::size_t>(part)] - 2.25f * size;
+  const vec3 v = glm::floor((position - origin) / size);
   const vec3 c = glm::clamp(v, 1.0f, static_cast<float>((1 << axis_bits) - 2));
-  return {static_cast<int>(c.x), static_cast<int>(c.y), static_cast<int>(c.z)};
+  return {level, static_cast<int>(c.x), static_cast<int>(c.y), static_cast<int>(c.z)};
 }
 
-std::uint64_t SurfelSet::key(int part, const Voxel& v, int bin) {
-  std::uint64_t k = static_cast<std::uint64_t>(part);
+SurfelSet::Key SurfelSet::key(int part, const Voxel& v, int bin) {
+  std::uint64_t k = 0;
   for (const int c : {v.x, v.y, v.z}) k = k << axis_bits | static_cast<std::uint64_t>(c);
-  return k << 3 | static_cast<std::uint64_t>(bin);
+  return {static_cast<std::uint32_t>(part) << 8 | static_cast<std::uint32_t>(v.level),
+          k << 3 | static_cast<std::uint64_t>(bin)};
 }
 
-rays::RayQuery SurfelSet::segment(const rays::SurfacePoint& a, const rays::SurfacePoint& b) const {
-  const vec3 from = a.position + lift() * a.normal, to = b.position + lift() * b.normal;
+SurfelSet::Key SurfelSet::key(int part, const rays::SurfacePoint& point) const {
+  return key(part, voxel(part, level(part, point.position), point.position), direction_bin(point.normal));
+}
+
+std::size_t SurfelSet::KeyHash::operator()(const Key& key) const {
+  return static_cast<std::size_t>(hash_combine(key.part_and_level, key.place_and_bin));
+}
+
+const std::vector<int>* SurfelSet::find_cell(const Key& key) const {
+  const auto found = cells_.find(key);
+  return found == cells_.end() ? nullptr : &found->second;
+}
+
+rays::RayQuery SurfelSet::segment(const rays::SurfacePoint& a, const rays::SurfacePoint& b, int level) const {
+  const vec3 from = a.position + lift(level) * a.normal, to = b.position + lift(level) * b.normal;
   return {from, to - from, 1};
 }
 
 std::span<const int> SurfelSet::cell(int part, const rays::SurfacePoint& point) const {
-  const auto found = cells_.find(key(part, voxel(part, point.position), direction_bin(point.normal)));
-  if (found == cells_.end()) return {};
-  return found->second;
+  const std::vector<int>* found = find_cell(key(part, point));
+  return found ? std::span<const int>(*found) : std::span<const int>();
 }
 
 std::vector<int> SurfelSet::candidates(int part, const rays::SurfacePoint& point) const {
-  const Voxel centre = voxel(part, point.position);
-  const int bin = direction_bin(point.normal);
+  const int own_level = level(part, point.position), bin = direction_bin(point.normal);
+  const Key own_key = key(part, point);
   std::vector<int> own, around;
-  for (int z = -1; z <= 1; ++z) {
-    for (int y = -1; y <= 1; ++y) {
-      for (int x = -1; x <= 1; ++x) {
-        const auto found = cells_.find(key(part, {centre.x + x, centre.y + y, centre.z + z}, bin));
-        if (found == cells_.end()) continue;
-        std::vector<int>& list = x == 0 && y == 0 && z == 0 ? own : around;
-        list.insert(list.end(), found->second.begin(), found->second.end());
+  for (int l = std::max(own_level - 1, 0); l <= std::min(own_level + 1, SurfelSizes::most_level); ++l) {
+    if (l != own_level && !has_level_[static_cast<std::size_t>(l)]) continue;
+    const Voxel centre = voxel(part, l, point.position);
+    for (int z = -1; z <= 1; ++z) {
+      for (int y = -1; y <= 1; ++y) {
+        for (int x = -1; x <= 1; ++x) {
+          const Key k = key(part, {l, centre.x + x, centre.y + y, centre.z + z}, bin);
+          const std::vector<int>* found = find_cell(k);
+          if (!found) continue;
+          std::vector<int>& list = k == own_key ? own : around;
+          list.insert(list.end(), found->begin(), found->end());
+        }
       }
     }
   }
@@ -97,11 +131,8 @@ std::vector<int> SurfelSet::candidates(int part, const rays::SurfacePoint& point
 
 std::vector<int> SurfelSet::add(int part, std::span<const ClusterPoint> points) {
   // Bring the points of each cell together, in their order.
-  std::vector<std::pair<std::uint64_t, std::size_t>> order(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const rays::SurfacePoint& p = points[i].point;
-    order[i] = {key(part, voxel(part, p.position), direction_bin(p.normal)), i};
-  }
+  std::vector<std::pair<Key, std::size_t>> order(points.size());
+  parallel_for(points.size(), 1024, [&](std::size_t i) { order[i] = {key(part, points[i].point), i}; });
   std::ranges::sort(order);
   std::vector<std::size_t> runs;
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -119,6 +150,7 @@ std::vector<int> SurfelSet::add(int part, std::span<const ClusterPoint> points) 
     for (std::size_t c = begin; c < end; ++c) {
       const std::size_t first = runs[c], size = runs[c + 1] - first;
       CellResult& result = results[c];
+      const int level = level_of(order[first].first);
       result.owner.assign(size, no_surfel);
       const auto point = [&](std::size_t local) -> const rays::SurfacePoint& {
         return points[order[first + local].second].point;
@@ -127,9 +159,9 @@ std::vector<int> SurfelSet::add(int part, std::span<const ClusterPoint> points) 
       for (std::size_t i = 0; i < size; ++i) left.push_back(i);
       const auto claim = [&](const rays::SurfacePoint& representative, int owner) {
         segments.clear();
-        for (const std::size_t i : left) segments.push_back(segment(representative, point(i)));
+        for (const std::size_t i : left) segments.push_back(segment(representative, point(i), level));
         blocked.resize(segments.size());
-        source_.occluded(part, segments, blocked);
+        source_->occluded(part, segments, blocked);
         still_left.clear();
         for (std::size_t i = 0; i < left.size(); ++i) {
           if (blocked[i])
@@ -161,10 +193,12 @@ std::vector<int> SurfelSet::add(int part, std::span<const ClusterPoint> points) 
   // Number the new surfels by cell and book the members.
   std::vector<int> surfel_of(points.size(), no_surfel);
   for (std::size_t c = 0; c < cell_count; ++c) {
-    std::vector<int>& list = cells_[order[runs[c]].first];
+    const Key& cell = order[runs[c]].first;
+    std::vector<int>& list = cells_[cell];
+    has_level_[static_cast<std::size_t>(level_of(cell))] = true;
     for (const std::size_t founder : results[c].founders) {
       list.push_back(static_cast<int>(surfels_.size()));
-      surfels_.push_back({points[founder].point, vec3(0), part});
+      surfels_.push_back({points[founder].point, vec3(0), part, level_of(cell)});
       albedo_sum_.emplace_back(0);
       member_count_.push_back(0);
       members_.emplace_back();

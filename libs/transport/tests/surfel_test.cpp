@@ -148,7 +148,7 @@ TEST(SurfelSet, EveryMemberSeesItsRepresentative) {
   std::set<int> left, right;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const rays::RayQuery sight =
-        set.segment(set.surfels()[static_cast<std::size_t>(surfel[i])].point, points[i].point);
+        set.segment(set.surfels()[static_cast<std::size_t>(surfel[i])].point, points[i].point, 0);
     std::uint8_t blocked = 1;
     source.occluded(0, {&sight, 1}, {&blocked, 1});
     EXPECT_FALSE(blocked);

@@ -13,8 +13,7 @@ namespace ssphh::bake {
 struct TransportBakeParams {
   probes::LightOperator op = probes::LightOperator::surfel;  ///< surfel or bounce
   transport::BounceParams bounce;
-  transport::TransportParams
-      transport;  ///< surfel_size 0: a thirty-second of the scene's radius, within 0.04..0.5 m
+  transport::TransportParams transport{.surfels_per_radius = 32};  ///< finer: nobody waits for a frame
   transport::SolveParams solve;
   bool viz = false;  ///< also find the edges between the probes
   transport::LinkVizParams viz_params;
@@ -26,7 +25,8 @@ struct TransportBakeParams {
 /// What a bake took: not part of the set.
 struct TransportBakeReport {
   std::size_t surfels = 0, links = 0;
-  int iterations = 0;      ///< of the light group that took most
+  float finest_surfel = 0, coarsest_surfel = 0;  ///< edges [m]
+  int iterations = 0;                            ///< of the light group that took most
   double contraction = 0;  ///< surfel: upper bound of the factor by which one bounce shrinks light; bounce:
                            ///< an estimate of it for the probes' operator
   double lost = 0;         ///< share of the surfels' rays that end where no surfel is

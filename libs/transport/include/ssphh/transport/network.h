@@ -15,10 +15,16 @@
 namespace ssphh::transport {
 
 struct TransportParams {
-  int directions = 384;   ///< rays per probe
-  float surfel_size = 0;  ///< metres; 0: a twentieth of the scene's radius, within 0.05..0.5
-  int link_rays = 128;    ///< cosine rays per surfel
-  int samples = 8;        ///< points per surfel at which direct light is found, 1..32
+  int directions = 384;  ///< rays per probe
+  /// Edge [m]; 0: of the scene's radius, one in `surfels_per_radius`, which counts for no more than 0.05 m or
+  /// a twelfth of it, nor less than 0.5 m or a thousandth of it.
+  float surfel_size = 0;
+  float surfels_per_radius = 20;
+  /// Where one size for all would make more surfels than about this, they grow with their distance to the
+  /// probes until they are fewer (surfel_sizes.h).
+  int most_surfels = 100000;
+  int link_rays = 128;  ///< cosine rays per surfel
+  int samples = 8;      ///< points per surfel at which direct light is found, 1..32
 
   friend bool operator==(const TransportParams&, const TransportParams&) = default;
 };

@@ -3,12 +3,14 @@
 /// direction of the normal, and a cluster is split where two of its members do not see each other: a patch
 /// never reaches through a wall. Surfels of moving parts live in the part's frame.
 
+#include <array>
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
-#include <ssphh/rays/transport_source.h>
+#include <ssphh/transport/surfel_sizes.h>
 
 namespace ssphh::transport {
 
@@ -22,18 +24,28 @@ struct Surfel {
   rays::SurfacePoint point;  ///< its representative: a member that all others see
   vec3 albedo{0};            ///< mean of the members
   int part = 0;
+  int level = 0;  ///< of its voxel: doublings of the finest size
 };
 
 inline constexpr int no_surfel = -1;
 
 class SurfelSet {
  public:
-  /// `size` [m] is the voxels' edge. Keeps a reference to `source`. Throws Error for a size that makes more
-  /// than 2^15 voxels along an axis of a part.
-  SurfelSet(const rays::TransportSource& source, float size);
-  SurfelSet(const rays::TransportSource&&, float) = delete;  // it would be gone
+  /// `sizes` are the voxels' edges; a moving part has one, `part_levels[part]` (the finest where the list
+  /// ends). Keeps a reference to `source`. Throws Error for a finest size that makes more than 2^15 voxels
+  /// along an axis of a part.
+  SurfelSet(const rays::TransportSource& source, SurfelSizes sizes, std::vector<int> part_levels = {});
+  SurfelSet(const rays::TransportSource& source, float size) : SurfelSet(source, SurfelSizes(size)) {}
+  SurfelSet(const rays::TransportSource&&, SurfelSizes, std::vector<int> = {}) = delete;  // it would be gone
+  SurfelSet(const rays::TransportSource&&, float) = delete;
 
-  float size() const { return size_; }
+  /// Of the finest voxels [m].
+  float size() const { return sizes_.finest(); }
+  /// Of the largest voxels that hold a surfel [m].
+  float coarsest() const;
+  /// Of a part's point: doublings of the finest voxels' edge.
+  int level(int part, const vec3& position) const;
+  float size(int level) const { return sizes_.size(level); }
   const std::vector<Surfel>& surfels() const { return surfels_; }
   std::size_t count() const { return surfels_.size(); }
 
@@ -52,31 +64,44 @@ class SurfelSet {
     return members_[static_cast<std::size_t>(surfel)];
   }
 
-  /// Surfels of the point's own cell, then of the 26 around it, nearest representative first. In the part's
-  /// frame.
+  /// Surfels of the point's own cell, then of those around it (of the next finer and coarser voxels, too),
+  /// nearest representative first. In the part's frame.
   std::vector<int> candidates(int part, const rays::SurfacePoint& point) const;
   /// Those of its own cell alone, in the order they were founded.
   std::span<const int> cell(int part, const rays::SurfacePoint& point) const;
 
-  /// Segment between two surface points, lifted off the surface by `lift`.
-  rays::RayQuery segment(const rays::SurfacePoint& a, const rays::SurfacePoint& b) const;
-  float lift() const { return 0.08f * size_; }
+  /// Segment between two surface points, lifted off the surface as voxels of this level need.
+  rays::RayQuery segment(const rays::SurfacePoint& a, const rays::SurfacePoint& b, int level) const;
+  float lift(int level = 0) const { return 0.08f * size(level); }
 
  private:
   struct Voxel {
-    int x, y, z;
+    int level, x, y, z;
   };
-  Voxel voxel(int part, const vec3& position) const;
-  static std::uint64_t key(int part, const Voxel& voxel, int bin);
+  struct Key {
+    std::uint32_t part_and_level;
+    std::uint64_t place_and_bin;
+    auto operator<=>(const Key&) const = default;
+  };
+  struct KeyHash {
+    std::size_t operator()(const Key& key) const;
+  };
+  Voxel voxel(int part, int level, const vec3& position) const;
+  static Key key(int part, const Voxel& voxel, int bin);
+  Key key(int part, const rays::SurfacePoint& point) const;
+  static int level_of(const Key& key) { return static_cast<int>(key.part_and_level & 0xff); }
+  const std::vector<int>* find_cell(const Key& key) const;
 
-  const rays::TransportSource& source_;
-  float size_;
-  std::vector<vec3> origin_;  ///< per part
+  const rays::TransportSource* source_;
+  SurfelSizes sizes_;
+  std::vector<int> part_levels_;
+  std::array<bool, SurfelSizes::most_level + 1> has_level_{};  ///< where any surfel is
+  std::vector<vec3> origin_;                                   ///< per part
   std::vector<Surfel> surfels_;
   std::vector<glm::dvec3> albedo_sum_;
   std::vector<double> member_count_;
   std::vector<std::vector<rays::SurfacePoint>> members_;
-  std::unordered_map<std::uint64_t, std::vector<int>> cells_;
+  std::unordered_map<Key, std::vector<int>, KeyHash> cells_;
 };
 
 }  // namespace ssphh::transport

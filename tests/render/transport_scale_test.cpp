@@ -1,0 +1,77 @@
+/// A scene of a millimetre or of ten kilometres is baked as that of a few metres: radiance does not know how
+/// long a metre is.
+
+#include <gtest/gtest.h>
+
+#include <ssphh/bake/transport_bake.h>
+#include <ssphh/core/log.h>
+#include <ssphh/place/init.h>
+#include <ssphh/probes/probe_set.h>
+
+#include "transport_fixtures.h"
+
+namespace ssphh {
+namespace {
+
+/// Every node below a new one that scales by `factor`.
+scene::Scene scaled(scene::Scene scene, float factor) {
+  const int root = static_cast<int>(scene.nodes.size());
+  for (scene::Node& node : scene.nodes) {
+    if (node.parent < 0) node.parent = root;
+  }
+  scene.nodes.emplace_back().local.scale = vec3(factor);
+  for (scene::Sphl& sphl : scene.sphls) sphl.radius *= factor;
+  return scene;
+}
+
+struct Baked {
+  probes::ProbeSet set;
+  bake::TransportBakeReport report;
+};
+
+Baked bake(const scene::Scene& scene, const bake::TransportBakeParams& params = {}) {
+  const trace::TransportScene source(scene);
+  Baked baked;
+  baked.set = bake::bake_transport(source, place::init_from_scene(scene, 3), params, baked.report);
+  return baked;
+}
+
+/// Largest difference of the probes' mean radiance in any channel, as a share of the mean.
+double difference(const probes::ProbeSet& a, const probes::ProbeSet& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.probes.size(); ++i) {
+    const vec3 x = sh::mean(a.probes[i].self), y = sh::mean(b.probes[i].self);
+    for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(double(x[c]) / double(y[c]) - 1));
+  }
+  return largest;
+}
+
+TEST(TransportScale, LightIsThatOfMetresInMillimetresAndInKilometres) {
+  set_log_level(LogLevel::error);
+  const scene::Scene cornell = scene::make_builtin("cornell");
+  const Baked metres = bake(cornell);
+  for (const float factor : {1e-3f, 1e-2f, 100.0f, 1e4f}) {
+    const Baked other = bake(scaled(cornell, factor));
+    ASSERT_EQ(other.set.probes.size(), metres.set.probes.size());
+    // Other voxels, other rays: the noise of a hundred link rays stays.
+    EXPECT_LT(difference(other.set, metres.set), 0.02) << "times " << factor;
+    EXPECT_LT(other.report.surfels, 8 * metres.report.surfels) << "times " << factor;
+    EXPECT_GT(other.report.surfels, metres.report.surfels / 4) << "times " << factor;
+  }
+}
+
+TEST(TransportScale, FewerSurfelsThanOneSizeWouldMakeHoldTheSameLight) {
+  set_log_level(LogLevel::error);
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  bake::TransportBakeParams params;
+  params.transport.surfel_size = 0.05f;
+  params.transport.most_surfels = 1 << 20;
+  const Baked fine = bake(scene, params);
+  params.transport.most_surfels = 16000;
+  const Baked coarse = bake(scene, params);
+  EXPECT_LT(coarse.report.surfels, fine.report.surfels / 4);
+  EXPECT_LT(difference(coarse.set, fine.set), 0.05);
+}
+
+}  // namespace
+}  // namespace ssphh
