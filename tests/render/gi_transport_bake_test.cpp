@@ -231,8 +231,7 @@ TEST(GiTransportBake, SurfelsAreAThirtySecondOfTheRadiusWithinFourCentimetresAnd
     bake::add_transport(source, set, params, report);
     return set.generator.surfel_size;
   };
-  EXPECT_EQ(size_of(0.5f), 0.05f);
-  EXPECT_FLOAT_EQ(size_of(0.01f), 0.01f * std::sqrt(3.0f) / 12);
+  EXPECT_FLOAT_EQ(size_of(0.01f), 0.01f * std::sqrt(3.0f) / 32);
   EXPECT_FLOAT_EQ(size_of(1), std::sqrt(3.0f) / 32);
   EXPECT_EQ(size_of(9.5f), 0.5f);
   EXPECT_FLOAT_EQ(size_of(1000), 1000 * std::sqrt(3.0f) / 1000);
@@ -246,7 +245,7 @@ TEST(GiTransportBake, SurfelsAreAThirtySecondOfTheRadiusWithinFourCentimetresAnd
     params.directions = 16, params.link_rays = 4, params.samples = 1;
     return transport::TransportNetwork(source, std::vector<vec3>{vec3(0)}, params).params().surfel_size;
   };
-  EXPECT_EQ(session_size(0.5f), 0.05f);
+  EXPECT_FLOAT_EQ(session_size(0.01f), 0.01f * std::sqrt(3.0f) / 20);
   EXPECT_FLOAT_EQ(session_size(1), std::sqrt(3.0f) / 20);
   EXPECT_EQ(session_size(6), 0.5f);
 }

@@ -13,13 +13,13 @@
 namespace ssphh {
 namespace {
 
-/// Every node below a new one that scales by `factor`.
+/// All of the scene times `factor`, about the origin.
 scene::Scene scaled(scene::Scene scene, float factor) {
-  const int root = static_cast<int>(scene.nodes.size());
   for (scene::Node& node : scene.nodes) {
-    if (node.parent < 0) node.parent = root;
+    if (node.parent >= 0) continue;
+    node.local.scale *= factor;
+    node.local.translation *= factor;
   }
-  scene.nodes.emplace_back().local.scale = vec3(factor);
   for (scene::Sphl& sphl : scene.sphls) sphl.radius *= factor;
   return scene;
 }
@@ -64,10 +64,10 @@ TEST(TransportScale, FewerSurfelsThanOneSizeWouldMakeHoldTheSameLight) {
   set_log_level(LogLevel::error);
   const scene::Scene scene = scene::make_builtin("two-rooms");
   bake::TransportBakeParams params;
-  params.transport.surfel_size = 0.05f;
+  params.transport.surfel_size = 0.1f;
   params.transport.most_surfels = 1 << 20;
   const Baked fine = bake(scene, params);
-  params.transport.most_surfels = 16000;
+  params.transport.most_surfels = 4000;
   const Baked coarse = bake(scene, params);
   EXPECT_LT(coarse.report.surfels, fine.report.surfels / 4);
   EXPECT_LT(difference(coarse.set, fine.set), 0.05);

@@ -66,9 +66,9 @@ void add_transport_options(const Command& surfels, BakeOptions& options, BakeUse
           .range(8, 1 << 16),
       surfels
           .option("--surfel-size", params.surfel_size,
-                  "Edge of a surfel [m]; 0: a thirty-second of the scene's radius, 0.05..0.5 where that is "
-                  "no extreme, and more far from probes where that "
-                  "would make too many")
+                  "Edge of a surfel [m]; 0: a thirty-second of the scene's radius, at most 0.5 (or a "
+                  "thousandth of it), and more far from "
+                  "probes where that would make too many")
           .non_negative(),
       surfels
           .option("--link-rays", params.link_rays,

@@ -30,7 +30,7 @@ TEST(Defaults, OfBakesByTransport) {
   EXPECT_EQ(params.op, probes::LightOperator::surfel);
   EXPECT_FALSE(params.viz);
   EXPECT_FALSE(params.fit);
-  EXPECT_EQ(params.transport, (transport::TransportParams{384, 0, 128, 8}));
+  EXPECT_EQ(params.transport, (transport::TransportParams{384, 0, 128, 8, 32, 100000}));
   EXPECT_EQ(params.solve.tolerance, 1e-3f);
   EXPECT_EQ(params.solve.max_iterations, 300);
   EXPECT_EQ(params.bounce.weights.method, probes::WeightMethod::trilinear);

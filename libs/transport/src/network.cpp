@@ -31,8 +31,7 @@ TransportParams checked(const rays::TransportSource& source, std::span<const vec
           "it must be a number over 0");
   if (params.surfel_size == 0) {
     const float radius = source.part_bounds(0).radius();
-    params.surfel_size = glm::clamp(radius / params.surfels_per_radius, std::min(0.05f, radius / 12),
-                                    std::max(0.5f, radius / 1000));
+    params.surfel_size = std::min(radius / params.surfels_per_radius, std::max(0.5f, radius / 1000));
   }
   return params;
 }

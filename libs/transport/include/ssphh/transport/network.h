@@ -16,15 +16,15 @@ namespace ssphh::transport {
 
 struct TransportParams {
   int directions = 384;  ///< rays per probe
-  /// Edge [m]; 0: of the scene's radius, one in `surfels_per_radius`, which counts for no more than 0.05 m or
-  /// a twelfth of it, nor less than 0.5 m or a thousandth of it.
+  /// Edge of a surfel [m]; 0: the scene's radius over `surfels_per_radius`, but at most 0.5 m or a thousandth
+  /// of the radius, whichever is more.
   float surfel_size = 0;
-  float surfels_per_radius = 20;
-  /// Where one size for all would make more surfels than about this, they grow with their distance to the
-  /// probes until they are fewer (surfel_sizes.h).
-  int most_surfels = 100000;
   int link_rays = 128;  ///< cosine rays per surfel
   int samples = 8;      ///< points per surfel at which direct light is found, 1..32
+  float surfels_per_radius = 20;
+  /// Where one size for all would make more surfels than about this, they grow with the distance of probes
+  /// (surfel_sizes.h).
+  int most_surfels = 100000;
 
   friend bool operator==(const TransportParams&, const TransportParams&) = default;
 };
