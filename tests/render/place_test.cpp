@@ -6,6 +6,7 @@
 
 #include <ssphh/place/place.h>
 #include <ssphh/scene/builtin.h>
+#include <ssphh/scene/primitives.h>
 #include <ssphh/scene_io/load.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -49,6 +50,61 @@ TEST(Placement, EveryCandidateBecomesAProbeOrIsCounted) {
       EXPECT_EQ(c.surplus > 0, count > 0) << name;
     }
   }
+}
+
+/// The built-in house with `factor` times as much ground around.
+scene::Scene house_on_a_plain(float factor) {
+  scene::Scene scene = scene::make_builtin("house");
+  for (scene::Node& node : scene.nodes)
+    if (node.name == "ground") node.local.scale = vec3(factor, 1, factor);
+  return scene;
+}
+
+TEST(Placement, AHouseGetsItsProbesHoweverFarItsGroundReaches) {
+  for (const float factor : {1.0f, 10.0f, 80.0f}) {
+    const scene::Scene scene = house_on_a_plain(factor);
+    const trace::TransportScene source(scene);
+    const place::Placement placement = place::place_probes(source, place::place_params(scene));
+    int rooms[3] = {}, corridor = 0, outside = 0, far = 0;
+    for (const place::PlacedProbe& probe : placement.probes) {
+      const vec3& p = probe.position;
+      if (p.x > 0.2f && p.x < 12 && p.z > 0.2f && p.z < 8 && p.y < 2.7f) {
+        if (p.z > 5.7f)
+          ++corridor;
+        else if (p.z < 5.5f)
+          ++rooms[p.x < 4 ? 0 : (p.x < 8 ? 1 : 2)];
+      } else {
+        ++outside;
+        far += glm::length(p) > 40 * factor;
+      }
+    }
+    for (const int room : rooms) EXPECT_GE(room, 8) << "ground times " << factor;
+    EXPECT_GE(corridor, 8) << "ground times " << factor;
+    EXPECT_GE(outside, 20) << "ground times " << factor;
+    EXPECT_GE(far, 4) << "ground times " << factor;
+    EXPECT_LE(placement.probes.size(), 300u);
+    const place::PlaceCounts& c = placement.counts;
+    EXPECT_EQ(c.candidates, placement.probes.size() + c.removed() - c.swept);
+  }
+}
+
+TEST(Placement, SomethingSmallAndFineDoesNotTakeARoomsProbes) {
+  scene::Scene scene = scene::make_builtin("cornell");
+  const auto spacing = [&] {
+    const trace::TransportScene source(scene);
+    place::PlaceParams params = place::place_params(scene);
+    params.manual.clear();
+    return place::place_probes(source, params).spacing;
+  };
+  const float before = spacing();
+  scene::Mesh knot = scene::make_torus_knot(2, 3, 0.04f, 0.02f, 0.01f, 160, 14);
+  knot.material = 0;
+  scene.meshes.push_back(std::move(knot));
+  scene.nodes.emplace_back().local.translation = vec3(0.1f, 0.2f, 0.7f);
+  scene::Instance& instance = scene.instances.emplace_back();
+  instance.mesh = static_cast<int>(scene.meshes.size()) - 1;
+  instance.node = static_cast<int>(scene.nodes.size()) - 1;
+  EXPECT_NEAR(spacing(), before, 0.3f * before);
 }
 
 TEST(Placement, TheGalleriesHallIsFilled) {

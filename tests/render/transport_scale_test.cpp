@@ -50,7 +50,7 @@ TEST(TransportScale, LightIsThatOfMetresInMillimetresAndInKilometres) {
   set_log_level(LogLevel::error);
   const scene::Scene cornell = scene::make_builtin("cornell");
   const Baked metres = bake(cornell);
-  for (const float factor : {1e-3f, 1e-2f, 100.0f, 1e4f}) {
+  for (const float factor : {1e-3f, 1e4f}) {
     const Baked other = bake(scaled(cornell, factor));
     ASSERT_EQ(other.set.probes.size(), metres.set.probes.size());
     // Other voxels, other rays: the noise of a hundred link rays stays.

@@ -18,8 +18,8 @@ void add_transport_options(const Command& transport, RelightOptions& o) {
   transport.option("--directions", o.params.transport.directions, "Rays of a probe").range(16, 65536);
   transport
       .option("--surfel-size", o.params.transport.surfel_size,
-              "Edge of a surface patch [m]; 0: a twentieth of the scene's radius, at most 0.5 (or a "
-              "thousandth of it), and more far from "
+              "Edge of a surface patch [m]; 0: a twentieth of the scene's radius, at most 0.5 where probes "
+              "are near each other, and more far from "
               "probes where that would make too many")
       .non_negative();
   transport

@@ -29,6 +29,10 @@ struct PlaceContext {
   float spacing;
 };
 
+inline bool inside(const scene::Bounds& box, const vec3& p) {
+  return glm::all(glm::greaterThan(p, box.min)) && glm::all(glm::lessThan(p, box.max));
+}
+
 /// The manual probes, then the valid places of the grid, relocated where that helps, then those of halved
 /// cells. A cell is halved where the harmonic mean distance that a corner sees is under half of its size, or
 /// where some corners are no valid places; of the places that this makes only those stay that see so near

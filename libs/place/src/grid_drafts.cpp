@@ -12,10 +12,6 @@ constexpr float refine_below = 0.5f;     ///< harmonic mean distance, in sizes o
 constexpr float open_air_reach = 2.0f;   ///< spacings without a surface
 constexpr float redundant_below = 0.5f;  ///< spacings to another probe that is in sight
 
-bool inside(const scene::Bounds& box, const vec3& p) {
-  return glm::all(glm::greaterThan(p, box.min)) && glm::all(glm::lessThan(p, box.max));
-}
-
 /// Places of all levels by their index in the finest lattice.
 class Tree {
  public:

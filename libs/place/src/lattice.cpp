@@ -34,13 +34,7 @@ double score(const std::vector<Site>& sites, float spacing, const SiteRules& rul
 
 }  // namespace
 
-scene::Bounds lattice_box(const rays::TransportSource& source, float spacing) {
-  scene::Bounds box = source.part_bounds(0);
-  if (box.empty()) {
-    throw Error("probe placement",
-                "the scene has no surface that stands still, so there is no place to look for",
-                "give the scene SPHLs and use --probes scene");
-  }
+scene::Bounds widened(scene::Bounds box, float spacing) {
   for (int axis = 0; axis < 3; ++axis) {
     const float missing = spacing - (box.max[axis] - box.min[axis]);
     if (missing <= 0) continue;
@@ -48,6 +42,16 @@ scene::Bounds lattice_box(const rays::TransportSource& source, float spacing) {
     if (axis != 1) box.min[axis] -= 0.5f * missing;
   }
   return box;
+}
+
+scene::Bounds lattice_box(const rays::TransportSource& source, float spacing) {
+  const scene::Bounds box = source.part_bounds(0);
+  if (box.empty()) {
+    throw Error("probe placement",
+                "the scene has no surface that stands still, so there is no place to look for",
+                "give the scene SPHLs and use --probes scene");
+  }
+  return widened(box, spacing);
 }
 
 double lattice_places(const scene::Bounds& box, float spacing) {

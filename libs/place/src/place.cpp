@@ -9,6 +9,7 @@
 #include <ssphh/probes/probe_limits.h>
 
 #include "draft.h"
+#include "regions.h"
 #include "spacing_search.h"
 
 namespace ssphh::place {
@@ -17,6 +18,10 @@ namespace {
 constexpr float relative_clearance = 0.1f;
 constexpr double places_per_probe = 64;  ///< candidates that are looked at before a spacing is refused
 constexpr int search_steps = 14;
+constexpr std::size_t sparse_places = 48;  ///< for what lies around the regions
+constexpr double region_share =
+    0.1;  ///< of the largest one's volume makes a region count for the number of probes
+constexpr std::size_t most_shares = 20;
 
 [[noreturn]] void fail(const std::string& problem, const std::string& hint = {}) {
   throw Error("probe placement", problem, hint);
@@ -64,16 +69,57 @@ struct Attempt {
   PlaceCounts counts;
 };
 
+/// How many regions are no mere lamp posts beside the largest.
+std::size_t region_shares(const Regions& regions) {
+  const double least = region_share * volume_of(regions.boxes[0]);
+  const auto large =
+      std::ranges::count_if(regions.boxes, [&](const scene::Bounds& box) { return volume_of(box) >= least; });
+  return std::clamp<std::size_t>(static_cast<std::size_t>(large), 1, most_shares);
+}
+
+/// A few probes for the open rest around the regions: its light hardly differs from place to place.
+std::vector<Draft> sparse_drafts(const rays::TransportSource& source, const PlaceParams& params,
+                                 const Regions& regions, const SiteRules& rules, PlaceCounts& counts,
+                                 const Control& control) {
+  const scene::Bounds bounds = source.part_bounds(0);
+  float spacing = max_component(bounds.max - bounds.min);
+  const auto places = [&](float s) { return lattice_places(widened(bounds, s), s); };
+  while (places(0.9f * spacing) <= double{sparse_places}) spacing *= 0.9f;
+  PlaceParams sparse = params;
+  sparse.manual.clear();
+  sparse.levels = 0;
+  const PlaceContext context{source, sparse, control, rules, spacing};
+  const Lattice lattice = choose_lattice(source, widened(bounds, spacing), spacing, rules, control);
+  std::vector<Draft> drafts = grid_drafts(context, lattice, counts);
+  counts.redundant += std::erase_if(drafts, [&](const Draft& draft) {
+    return std::ranges::any_of(regions.boxes, [&](const auto& box) { return inside(box, draft.position); });
+  });
+  return drafts;
+}
+
 /// None when that would be more candidates or probes than the limits allow.
-std::optional<Attempt> attempt(const rays::TransportSource& source, const PlaceParams& params, float spacing,
-                               float back_limit, const Control& control) {
-  const scene::Bounds box = lattice_box(source, spacing);
-  if (lattice_places(box, spacing) > places_per_probe * params.max_probes) return std::nullopt;
+std::optional<Attempt> attempt(const rays::TransportSource& source, const PlaceParams& params,
+                               const Regions& regions, float spacing, float back_limit,
+                               const Control& control) {
+  double places = 0;
+  for (const scene::Bounds& box : regions.boxes) places += lattice_places(widened(box, spacing), spacing);
+  if (places > places_per_probe * params.max_probes) return std::nullopt;
   Attempt a;
   a.rules = {std::min(params.clearance, relative_clearance * spacing), back_limit};
   const PlaceContext context{source, params, control, a.rules, spacing};
-  a.lattice = choose_lattice(source, box, spacing, a.rules, control);
-  a.drafts = grid_drafts(context, a.lattice, a.counts);
+  PlaceParams others = params;
+  others.manual.clear();
+  for (const scene::Bounds& region : regions.boxes) {
+    const bool first = &region == &regions.boxes[0];
+    const Lattice lattice = choose_lattice(source, widened(region, spacing), spacing, a.rules, control);
+    const PlaceContext own{source, first ? params : others, control, a.rules, spacing};
+    std::vector<Draft> drafts = grid_drafts(own, lattice, a.counts);
+    if (first) a.lattice = lattice;
+    std::ranges::move(drafts, std::back_inserter(a.drafts));
+  }
+  if (regions.open_rest && params.count == 0)
+    std::ranges::move(sparse_drafts(source, params, regions, a.rules, a.counts, control),
+                      std::back_inserter(a.drafts));
   // Memory and time for edges are taken only for what may become a placement.
   if (a.drafts.size() > 8 * static_cast<std::size_t>(params.max_probes)) return std::nullopt;
   add_passages(context, a.drafts, link(context, a.drafts), a.counts);
@@ -89,17 +135,21 @@ std::optional<Attempt> attempt(const rays::TransportSource& source, const PlaceP
 
 /// Looks for a spacing that gives low..high probes; else the smallest number over `low`, else the largest
 /// there is.
-Attempt search(const rays::TransportSource& source, const PlaceParams& params, std::size_t low,
-               std::size_t high, float back_limit, const Control& control) {
-  const scene::Bounds box = source.part_bounds(0);
-  const vec3 extent = box.empty() ? vec3(1) : box.max - box.min;
+Attempt search(const rays::TransportSource& source, const PlaceParams& params, const Regions& regions,
+               std::size_t low, std::size_t high, float back_limit, const Control& control) {
+  // Of a box as large as all regions together.
+  double volume = 0;
+  for (const scene::Bounds& box : regions.boxes) volume += volume_of(box);
+  const scene::Bounds& largest = regions.boxes[0];
+  const double grown = volume_of(largest) > 0 ? std::cbrt(volume / volume_of(largest)) : 1;
+  const vec3 extent = static_cast<float>(grown) * (largest.max - largest.min);
   if (!(max_component(extent) > 0)) fail("the scene's surfaces are a single point");
   const double most_places =
       places_per_probe * std::min(static_cast<double>(high), static_cast<double>(params.max_probes));
   SpacingSearch spacings(extent, low, high, most_places);
   std::optional<Attempt> best;
   for (int step = 0; step < search_steps; ++step) {
-    std::optional<Attempt> now = attempt(source, params, spacings.spacing(), back_limit, control);
+    std::optional<Attempt> now = attempt(source, params, regions, spacings.spacing(), back_limit, control);
     const std::size_t count = now ? now->drafts.size() : high + 1;
     if (now && (!best || spacings.prefers(count, best->drafts.size()))) best = std::move(now);
     if (!spacings.go_on(count)) break;
@@ -163,18 +213,25 @@ PlaceParams place_params(const scene::Scene& scene, float time) {
 Placement place_probes(const rays::TransportSource& source, const PlaceParams& params,
                        const Control& control) {
   check(params);
+  lattice_box(source, 0);  // throws where nothing stands still
+  const Regions regions = detail_regions(source, control);
   const float back_limit = calibrated_back_limit(source, params.interest);
   std::optional<Attempt> chosen;
   if (params.spacing > 0) {
-    chosen = attempt(source, params, params.spacing, back_limit, control);
+    chosen = attempt(source, params, regions, params.spacing, back_limit, control);
     if (!chosen) {
       fail(fmt::format("a spacing of {:g} m gives more than {} probes", params.spacing, params.max_probes),
            "use a larger spacing, or --probes N for a number of probes");
     }
   } else {
-    const auto count = static_cast<std::size_t>(params.count);
-    chosen = count > 0 ? search(source, params, count, count + count / 5, back_limit, control)
-                       : search(source, params, 100, 200, back_limit, control);
+    std::size_t low = static_cast<std::size_t>(params.count), high = low + low / 5;
+    if (params.count == 0) {
+      const std::size_t shares = region_shares(regions), rest = regions.open_rest ? sparse_places : 0;
+      const auto most = static_cast<std::size_t>(params.max_probes);
+      low = std::min(100 * shares + rest, most);
+      high = std::min(200 * shares + rest, most);
+    }
+    chosen = search(source, params, regions, low, high, back_limit, control);
   }
   if (chosen->drafts.empty()) {
     fail("no place is left that is neither inside a body nor too close to a surface",

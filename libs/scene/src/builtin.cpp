@@ -21,6 +21,7 @@ const std::vector<BuiltinScene>& builtin_scenes() {
        make_gallery1},
       {"gallery2", "gallery lit by hidden lamps: spheres, boxes, tori and columns on plinths", make_gallery2},
       {"gallery3", "gallery lit by hidden lamps: torus knots and spirals", make_gallery3},
+      {"house", "three furnished rooms and a corridor under sun and sky, on a plain of 250 m", make_house},
   };
   return table;
 }

@@ -119,7 +119,6 @@ void TransportScene::occluded(int part, std::span<const rays::RayQuery> rays,
 std::vector<rays::PartPoint> TransportScene::sample_part(int part_index,
                                                          double points_per_square_metre) const {
   if (!(points_per_square_metre >= 0)) throw Error("points per square metre", "they must not be negative");
-  require(part_index > 0, "part", "part 0 cannot be sampled");
   const ScenePart& part = data_->part(part_index);
   std::vector<rays::PartPoint> points;
   for (const int i : part.instances) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/require.h>
+#include <ssphh/probes/lookup_weights.h>
 #include <ssphh/rays/posed_world.h>
 
 #include "network_data.h"
@@ -30,8 +31,12 @@ TransportParams checked(const rays::TransportSource& source, std::span<const vec
   require(params.surfels_per_radius > 0 && std::isfinite(params.surfels_per_radius), "surfels per radius",
           "it must be a number over 0");
   if (params.surfel_size == 0) {
-    const float radius = source.part_bounds(0).radius();
-    params.surfel_size = std::min(radius / params.surfels_per_radius, std::max(0.5f, radius / 1000));
+    // No finer than the probes could tell, nor than SurfelSet can number.
+    const scene::Bounds bounds = source.part_bounds(0);
+    const float apart =
+        positions.size() > 1 ? probes::median_spacing({positions.begin(), positions.end()}) : 0;
+    const float most = std::max({0.5f, apart / 16, max_component(bounds.max - bounds.min) / 30000});
+    params.surfel_size = std::min(bounds.radius() / params.surfels_per_radius, most);
   }
   return params;
 }

@@ -13,5 +13,6 @@ Scene make_court();
 Scene make_gallery1();
 Scene make_gallery2();
 Scene make_gallery3();
+Scene make_house();
 
 }  // namespace ssphh::scene

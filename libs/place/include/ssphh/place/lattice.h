@@ -14,8 +14,10 @@ struct Lattice {
   glm::ivec3 size{0};  ///< number of places along each axis
 };
 
-/// Bounds of part 0; an axis along which these are thinner than `spacing` (a bare floor) is widened to it,
-/// upward for y. Throws Error when part 0 has no surface.
+/// The box; an axis along which it is thinner than `spacing` (a bare floor) is widened to it, upward for y.
+scene::Bounds widened(scene::Bounds box, float spacing);
+
+/// The bounds of part 0, widened. Throws Error when part 0 has no surface.
 scene::Bounds lattice_box(const rays::TransportSource& source, float spacing);
 
 /// Number of places that a lattice of this spacing has, about; infinite where it overflows.

@@ -43,7 +43,7 @@ struct RayHit {
   bool escaped() const { return !(distance < std::numeric_limits<float>::infinity()); }
 };
 
-/// A place on a moving part that sample_part chose.
+/// A place on a part that sample_part chose.
 struct PartPoint {
   SurfacePoint point;  ///< in the part's frame, front side
   vec3 albedo{0};
@@ -109,7 +109,7 @@ class TransportSource {
   virtual float duration() const = 0;
   /// Part to world at `time` seconds; the identity for part 0.
   virtual mat4 part_pose(int part, float time) const = 0;
-  /// Points uniform by area, at least one per triangle; the same at every call. Not for part 0.
+  /// Points uniform by area, at least one per triangle; the same at every call.
   virtual std::vector<PartPoint> sample_part(int part, double points_per_square_metre) const = 0;
 
   /// Nearest hit of each ray with one part alone, rays and hits in the part's frame.

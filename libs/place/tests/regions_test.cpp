@@ -1,0 +1,124 @@
+/// Where detail is found, on scenes of a few triangles whose sky is told by brute force.
+
+#include <gtest/gtest.h>
+
+#include <ssphh/scene/primitives.h>
+
+#include "../src/regions.h"
+#include "triangle_source.h"
+
+namespace ssphh::place {
+namespace {
+
+/// Says where the triangles of part 0 are: a point in the middle of each.
+class Source : public test::TriangleSource {
+ public:
+  explicit Source(const scene::Scene& scene) : TriangleSource(scene), scene_(scene) {}
+  std::vector<rays::PartPoint> sample_part(int part, double) const override {
+    EXPECT_EQ(part, 0);
+    std::vector<rays::PartPoint> points;
+    for (const scene::Mesh& mesh : scene_.meshes) {
+      for (const uvec3& t : mesh.triangles) {
+        const vec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
+        points.push_back({{(a + b + c) / 3.0f, glm::normalize(glm::cross(b - a, c - a))}, vec3(0.5f)});
+      }
+    }
+    return points;
+  }
+
+ private:
+  const scene::Scene& scene_;
+};
+
+void add(scene::Scene& scene, scene::Mesh mesh) {
+  scene.nodes.emplace_back();
+  scene.meshes.push_back(std::move(mesh));
+  scene::Instance& instance = scene.instances.emplace_back();
+  instance.mesh = static_cast<int>(scene.meshes.size()) - 1;
+  instance.node = static_cast<int>(scene.nodes.size()) - 1;
+}
+
+scene::Scene plain(float half) {
+  scene::Scene scene;
+  add(scene, scene::make_quad({-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half}));
+  return scene;
+}
+
+/// Blocks of a metre side by side, 6 m by 6, from `corner` on.
+void add_blocks(scene::Scene& scene, const vec3& corner) {
+  for (int i = 0; i < 9; ++i) {
+    const vec3 at = corner + vec3(2.0f * static_cast<float>(i % 3), 0, 2.0f * static_cast<float>(i / 3));
+    add(scene, scene::make_box(at, at + vec3(2, 1, 2)));
+  }
+}
+
+bool holds(const scene::Bounds& box, const vec3& low, const vec3& high) {
+  return glm::all(glm::lessThanEqual(box.min, low)) && glm::all(glm::greaterThanEqual(box.max, high));
+}
+
+TEST(Regions, AGroupOfBlocksOnAPlainIsOneHoweverFarThePlainReaches) {
+  for (const float half : {100.0f, 1000.0f, 20000.0f}) {
+    scene::Scene scene = plain(half);
+    add_blocks(scene, {30, 0, -20});
+    const Regions regions = detail_regions(Source(scene), {});
+    ASSERT_EQ(regions.boxes.size(), 1u) << half;
+    EXPECT_TRUE(regions.open_rest);
+    EXPECT_TRUE(holds(regions.boxes[0], {31, 0, -19}, {35, 1, -15})) << half << " m";
+    EXPECT_LT(max_component(regions.boxes[0].max - regions.boxes[0].min), 80) << half << " m";
+  }
+}
+
+TEST(Regions, TwoGroupsAreTwoTheLargerFirst) {
+  scene::Scene scene = plain(500);
+  add_blocks(scene, {-300, 0, 0});
+  for (int i = 0; i < 8; ++i) add_blocks(scene, {200.0f + 6 * static_cast<float>(i), 0, 50});
+  const Regions regions = detail_regions(Source(scene), {});
+  ASSERT_EQ(regions.boxes.size(), 2u);
+  EXPECT_TRUE(holds(regions.boxes[0], {201, 0, 51}, {245, 1, 55}));
+  EXPECT_TRUE(holds(regions.boxes[1], {-299, 0, 1}, {-295, 1, 5}));
+  EXPECT_GT(volume_of(regions.boxes[0]), volume_of(regions.boxes[1]));
+}
+
+TEST(Regions, WithoutDetailOrWithDetailEverywhereItIsTheWholeScene) {
+  const scene::Scene bare = plain(10);
+  const Source source(bare);
+  const Regions regions = detail_regions(source, {});
+  ASSERT_EQ(regions.boxes.size(), 1u);
+  EXPECT_EQ(regions.boxes[0].min, source.part_bounds(0).min);
+  EXPECT_EQ(regions.boxes[0].max, source.part_bounds(0).max);
+  EXPECT_FALSE(regions.open_rest);
+
+  scene::Scene full = plain(10);
+  for (int i = 0; i < 9; ++i)
+    add_blocks(full, {-9 + 6 * static_cast<float>(i % 3), 0, -9 + 6 * static_cast<float>(i / 3)});
+  EXPECT_FALSE(detail_regions(Source(full), {}).open_rest);
+  EXPECT_TRUE(detail_regions(Source(scene::Scene{}), {}).boxes.empty());
+}
+
+TEST(Regions, DetailInAClosedHallTakesNothingFromTheHall) {
+  // The same blocks within walls, and a low roof: the rest is a room, not the open.
+  scene::Scene scene = plain(100);
+  add_blocks(scene, {30, 0, -20});
+  add(scene, scene::make_box({-100, -1, -100}, {100, 12, 100}));
+  const Source source(scene);
+  const Regions regions = detail_regions(source, {});
+  ASSERT_EQ(regions.boxes.size(), 1u);
+  EXPECT_FALSE(regions.open_rest);
+  EXPECT_EQ(regions.boxes[0].max, source.part_bounds(0).max);
+}
+
+TEST(Regions, ADividedPlainHasNoDetail) {
+  // Thirty by thirty quads of the same direction beside the blocks.
+  scene::Scene scene;
+  for (int i = 0; i < 900; ++i)
+    add(scene, scene::make_quad(
+                   {static_cast<float>(i % 30) * 14 - 210, 0, static_cast<float>(i / 30) * 14 - 196},
+                   {14, 0, 0}, {0, 0, -14}));
+  add_blocks(scene, {30, 0, -20});
+  const Regions regions = detail_regions(Source(scene), {});
+  EXPECT_TRUE(regions.open_rest);
+  EXPECT_LT(max_component(regions.boxes[0].max - regions.boxes[0].min), 80);
+}
+
+}  // namespace
+}  // namespace ssphh::place
