@@ -4,20 +4,27 @@
 #include <map>
 #include <tuple>
 
+#include <ssphh/core/sphere.h>
+
 #include "draft.h"
 
 namespace ssphh::place {
 namespace {
 
 constexpr float most_voxels = 32, least_voxels = 8;  ///< along the longest side
-constexpr double alike_length = 0.9;  ///< of the mean of normals that are alike, at least
+constexpr double alike_length = 0.9;                 ///< of the mean of normals that are alike, at least
 constexpr double points_per_voxel = 4;
+constexpr double few_points = 0.1;     ///< of those in detail: the walls of a hall, a sign on a plain
 constexpr double least_saving = 0.25;  ///< of a box's volume, at most, is worth to be found in it
 constexpr std::size_t most_regions = 64;
 constexpr int most_rounds = 4;  ///< each finds what is a thirty-second as large
 constexpr int rest_places = 256;
-constexpr float sky_share = 0.4f;   ///< of the rays of a place in the open, at least
-constexpr double open_share = 0.95;  ///< of places in the open
+constexpr float sky_share = 0.4f;    ///< of the rays of a place in the open, at least
+constexpr double open_share = 0.95;  ///< of the places around regions in the open
+constexpr float hall_size =
+    4;  ///< median of the harmonic mean distances in a wide hall, in sides of the largest box
+constexpr int inside_places = 256;
+constexpr float walled_share = 0.8f, room_share = 0.03f;  ///< of a place's rays; of a box's places
 
 using Voxel = std::tuple<int, int, int>;
 
@@ -34,7 +41,7 @@ struct Normals {
 };
 
 /// Voxels of `size` from `origin` on in which normals differ; none where the points are too few to tell, or
-/// where those in all other voxels differ from each other.
+/// where those in all other voxels differ from each other and are no few.
 std::vector<Voxel> detailed_voxels(const std::vector<rays::PartPoint>& points, const vec3& origin,
                                    float size) {
   std::map<Voxel, Normals> voxels;
@@ -49,7 +56,7 @@ std::vector<Voxel> detailed_voxels(const std::vector<rays::PartPoint>& points, c
     (normals.alike() ? rest : in_detail).add(normals);
   }
   const bool dense = in_detail.count >= points_per_voxel * static_cast<double>(detailed.size());
-  if (!dense || !rest.alike()) return {};
+  if (!dense || (!rest.alike() && rest.count > few_points * in_detail.count)) return {};
   return detailed;
 }
 
@@ -89,27 +96,65 @@ std::vector<scene::Bounds> boxes_of(std::vector<Voxel> left, const vec3& origin,
   return boxes;
 }
 
-/// Whether nearly all places in `bounds` but in none of the boxes see the sky.
-bool rest_is_open(const rays::TransportSource& source, const scene::Bounds& bounds,
-                  const std::vector<scene::Bounds>& boxes, const Control& control) {
+/// Places spread over a box (Roberts' R3 sequence), `count` of those that `wanted` takes, or fewer.
+template <class Wanted>
+std::vector<vec3> places_in(const scene::Bounds& box, int count, const Wanted& wanted) {
   std::vector<vec3> places;
-  for (int i = 0; i < 8 * rest_places && static_cast<int>(places.size()) < rest_places; ++i) {
-    // Roberts' R3 sequence.
+  for (int i = 0; i < 8 * count && static_cast<int>(places.size()) < count; ++i) {
     const vec3 u(glm::fract(glm::dvec3(0.5) + double(i) * glm::dvec3(0.8191725133961645, 0.6710436067037893,
                                                                      0.5497004779019703)));
-    const vec3 place = bounds.min + u * (bounds.max - bounds.min);
-    if (std::ranges::none_of(boxes, [&](const scene::Bounds& box) { return inside(box, place); }))
-      places.push_back(place);
+    const vec3 place = box.min + u * (box.max - box.min);
+    if (wanted(place)) places.push_back(place);
   }
-  const std::vector<Site> sites = look_around(source, places, coarse_fan_size, control);
-  const auto open = std::ranges::count_if(sites, [](const Site& site) { return site.escaped > sky_share; });
-  return !sites.empty() && static_cast<double>(open) >= open_share * static_cast<double>(sites.size());
+  return places;
 }
 
-/// Boxes around the detail in `bounds`; none where they are not worth it.
+/// Whether a good share of the places in a box is walled in by what is in the box: rooms, not a body.
+bool has_rooms(const rays::TransportSource& source, const scene::Bounds& box) {
+  const std::vector<vec3> places = places_in(box, inside_places, [](const vec3&) { return true; });
+  std::vector<rays::RayQuery> rays;
+  for (const vec3& place : places) {
+    for (int i = 0; i < coarse_fan_size; ++i)
+      rays.push_back({place, spherical_fibonacci(i, coarse_fan_size), glm::distance(box.min, box.max)});
+  }
+  std::vector<rays::RayHit> hits(rays.size());
+  source.intersect(0, rays, hits);
+  int walled = 0;
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const auto first = hits.begin() + static_cast<std::ptrdiff_t>(p * coarse_fan_size);
+    walled += std::count_if(first, first + coarse_fan_size, [](const rays::RayHit& hit) {
+                return !hit.escaped() && !hit.back;
+              }) > walled_share * coarse_fan_size;
+  }
+  return walled > room_share * static_cast<float>(places.size());
+}
+
+enum class Around { narrow, hall, open };
+
+/// What the places in `bounds` but in none of the boxes see: most of them nothing near, or nearly all the
+/// sky.
+Around look_outside(const rays::TransportSource& source, const scene::Bounds& bounds,
+                    const std::vector<scene::Bounds>& boxes, const Control& control) {
+  const std::vector<vec3> places = places_in(bounds, rest_places, [&](const vec3& place) {
+    return std::ranges::none_of(boxes, [&](const scene::Bounds& box) { return inside(box, place); });
+  });
+  if (places.empty()) return Around::narrow;
+  const std::vector<Site> sites = look_around(source, places, coarse_fan_size, control);
+  const auto share = [&](const auto& is_so) {
+    return static_cast<double>(std::ranges::count_if(sites, is_so)) / static_cast<double>(sites.size());
+  };
+  if (share([](const Site& site) { return site.escaped > sky_share; }) >= open_share) return Around::open;
+  float largest = 0;
+  for (const scene::Bounds& box : boxes) largest = std::max(largest, max_component(box.max - box.min));
+  const bool wide = share([&](const Site& site) { return site.harmonic > hall_size * largest; }) >= 0.5;
+  return wide ? Around::hall : Around::narrow;
+}
+
+/// Boxes around the detail in `bounds`; none where they are not worth it. Sets `in_hall` where it is no sky
+/// that the rest sees.
 std::vector<scene::Bounds> divide(const rays::TransportSource& source,
                                   const std::vector<rays::PartPoint>& points, const scene::Bounds& bounds,
-                                  const Control& control) {
+                                  bool& in_hall, const Control& control) {
   const float extent = max_component(bounds.max - bounds.min);
   if (!(extent > 0)) return {};
   std::vector<rays::PartPoint> here;
@@ -130,7 +175,10 @@ std::vector<scene::Bounds> divide(const rays::TransportSource& source,
     box.max = glm::min(box.max + 0.25f * size, bounds.max);
     sum += volume_of(box);
   }
-  if (sum > least_saving * volume_of(bounds) || !rest_is_open(source, bounds, boxes, control)) return {};
+  if (sum > least_saving * volume_of(bounds)) return {};
+  const Around around = look_outside(source, bounds, boxes, control);
+  if (around == Around::narrow) return {};
+  in_hall = in_hall || around == Around::hall;
   return boxes;
 }
 
@@ -143,21 +191,24 @@ Regions detail_regions(const rays::TransportSource& source, const Control& contr
   const vec3 margin(1e-3f * max_component(bounds.max - bounds.min));
   const std::vector<rays::PartPoint> points = source.sample_part(0, 0);
   Regions regions;
+  bool in_hall = false;
   std::vector<scene::Bounds> left{{bounds.min - margin, bounds.max + margin}};
   for (int round = 0; round < most_rounds && !left.empty(); ++round) {
     std::vector<scene::Bounds> next;
     for (const scene::Bounds& box : left) {
-      const std::vector<scene::Bounds> parts = divide(source, points, box, control);
+      const std::vector<scene::Bounds> parts = divide(source, points, box, in_hall, control);
       if (parts.empty()) regions.boxes.push_back(box);
       std::ranges::copy(parts, std::back_inserter(next));
     }
     left = std::move(next);
   }
   std::ranges::copy(left, std::back_inserter(regions.boxes));
-  if (regions.boxes.size() > most_regions || regions.boxes.size() == 1) {
-    const bool whole = regions.boxes.size() > most_regions || regions.boxes[0].min == bounds.min - margin;
-    if (whole) return {{bounds}, false};
-  }
+  const bool undivided = regions.boxes.size() == 1 && regions.boxes[0].min == bounds.min - margin;
+  // In a hall something fine may be a body: it takes no probes from the hall.
+  const bool bodies = in_hall && !std::ranges::all_of(regions.boxes, [&](const scene::Bounds& box) {
+                        return has_rooms(source, box);
+                      });
+  if (undivided || bodies || regions.boxes.size() > most_regions) return {{bounds}, false};
   std::ranges::stable_sort(regions.boxes, std::greater<>(), volume_of);
   regions.open_rest = true;
   return regions;

@@ -18,8 +18,9 @@ inline double volume_of(const scene::Bounds& box) {
   return side.x * side.y * side.z;
 }
 
-/// Boxes around what has detail, in which triangles of different directions lie side by side; the whole bounds
-/// where that is not much less, or where the rest is not open: nearly all of its places see the sky.
+/// Boxes around what has detail, in which triangles of different directions lie side by side; the whole
+/// bounds where that is not much less, or where the rest is not wide: nearly all of its places see the sky,
+/// or, where the boxes are rooms, nothing within four times their size.
 Regions detail_regions(const rays::TransportSource& source, const Control& control);
 
 }  // namespace ssphh::place

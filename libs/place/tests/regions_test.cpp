@@ -1,10 +1,11 @@
 /// Where detail is found, on scenes of a few triangles whose sky is told by brute force.
 
+#include "../src/regions.h"
+
 #include <gtest/gtest.h>
 
 #include <ssphh/scene/primitives.h>
 
-#include "../src/regions.h"
 #include "triangle_source.h"
 
 namespace ssphh::place {
@@ -107,13 +108,46 @@ TEST(Regions, DetailInAClosedHallTakesNothingFromTheHall) {
   EXPECT_EQ(regions.boxes[0].max, source.part_bounds(0).max);
 }
 
+TEST(Regions, RoomsInAHallAreARegionAndABodyThereIsNone) {
+  // Rooms of 6 m by 6 by 2.5, walls of 0.2 m with a doorway, in a hall of a kilometre.
+  scene::Scene scene;
+  const auto hall = [&] {
+    scene = {};
+    for (const float side : {-500.0f, 500.0f}) {
+      add(scene, scene::make_quad({side, -500, -500}, {0, 1000, 0}, {0, 0, 1000}));
+      add(scene, scene::make_quad({-500, side, -500}, {1000, 0, 0}, {0, 0, 1000}));
+      add(scene, scene::make_quad({-500, -500, side}, {1000, 0, 0}, {0, 1000, 0}));
+    }
+  };
+  hall();
+  for (const float x : {0.0f, 6.2f}) {
+    add(scene, scene::make_box({x, -0.2f, 0}, {x + 6, 0, 6}));
+    add(scene, scene::make_box({x, 2.5f, 0}, {x + 6, 2.7f, 6}));
+    for (const float z : {0.0f, 5.8f}) add(scene, scene::make_box({x, 0, z}, {x + 6, 2.5f, z + 0.2f}));
+    add(scene, scene::make_box({x, 0, 0}, {x + 0.2f, 2.5f, 6}));
+    add(scene, scene::make_box({x + 5.8f, 0, 0}, {x + 6, 2.5f, 2.5f}));
+    add(scene, scene::make_box({x + 5.8f, 0, 3.5f}, {x + 6, 2.5f, 6}));
+  }
+  const Regions rooms = detail_regions(Source(scene), {});
+  ASSERT_EQ(rooms.boxes.size(), 1u);
+  EXPECT_TRUE(rooms.open_rest);
+  EXPECT_TRUE(holds(rooms.boxes[0], {1, 0.2f, 1}, {11, 2.3f, 5}));
+  EXPECT_LT(max_component(rooms.boxes[0].max - rooms.boxes[0].min), 40);
+
+  hall();
+  add_blocks(scene, {0, 0, 0});
+  const Regions body = detail_regions(Source(scene), {});
+  EXPECT_FALSE(body.open_rest);
+  EXPECT_GT(max_component(body.boxes[0].max - body.boxes[0].min), 999);
+}
+
 TEST(Regions, ADividedPlainHasNoDetail) {
   // Thirty by thirty quads of the same direction beside the blocks.
   scene::Scene scene;
   for (int i = 0; i < 900; ++i)
-    add(scene, scene::make_quad(
-                   {static_cast<float>(i % 30) * 14 - 210, 0, static_cast<float>(i / 30) * 14 - 196},
-                   {14, 0, 0}, {0, 0, -14}));
+    add(scene,
+        scene::make_quad({static_cast<float>(i % 30) * 14 - 210, 0, static_cast<float>(i / 30) * 14 - 196},
+                         {14, 0, 0}, {0, 0, -14}));
   add_blocks(scene, {30, 0, -20});
   const Regions regions = detail_regions(Source(scene), {});
   EXPECT_TRUE(regions.open_rest);

@@ -17,8 +17,8 @@ constexpr float sill = 0.9f, lintel = 2.2f, door = 2.1f;
 struct Walls {
   Builder& b;
 
-  /// From `begin` to `end` along x or z (`axis`), `across` the lesser coordinate of its faces, with openings in
-  /// ascending order.
+  /// From `begin` to `end` along x or z (`axis`), `across` the lesser coordinate of its faces, with openings
+  /// in ascending order.
   void add(const std::string& name, int axis, float across, float begin, float end,
            const std::vector<Opening>& openings, int material) {
     const auto piece = [&](float from, float to, float low, float high) {
@@ -40,10 +40,12 @@ struct Walls {
 
 void add_table(Builder& b, const vec3& corner, const vec2& size, float top, int material) {
   const float leg = 0.07f;
-  b.add("table top", make_box(corner + vec3(0, top - 0.05f, 0), corner + vec3(size.x, top, size.y)), material);
+  b.add("table top", make_box(corner + vec3(0, top - 0.05f, 0), corner + vec3(size.x, top, size.y)),
+        material);
   for (const float x : {0.0f, size.x - leg}) {
     for (const float z : {0.0f, size.y - leg})
-      b.add("table leg", make_box(corner + vec3(x, 0, z), corner + vec3(x + leg, top - 0.05f, z + leg)), material);
+      b.add("table leg", make_box(corner + vec3(x, 0, z), corner + vec3(x + leg, top - 0.05f, z + leg)),
+            material);
   }
 }
 
@@ -71,7 +73,8 @@ Scene make_house() {
 
   b.add("ground", make_quad({-125, 0, 125}, {250, 0, 0}, {0, 0, -250}), ground);
   Walls walls{b};
-  walls.add("front", 0, 0, 0, 12.2f, {{1, 3, sill, lintel}, {5, 7, sill, lintel}, {9, 11, sill, lintel}}, outer);
+  walls.add("front", 0, 0, 0, 12.2f, {{1, 3, sill, lintel}, {5, 7, sill, lintel}, {9, 11, sill, lintel}},
+            outer);
   walls.add("rear", 0, 8, 0, 12.2f, {{5.6f, 6.6f, 0, door}}, outer);
   walls.add("west", 2, 0, thick, 8, {{1.5f, 3.5f, sill, lintel}}, outer);
   walls.add("east", 2, 12, thick, 8, {{1.5f, 3.5f, sill, lintel}}, outer);
