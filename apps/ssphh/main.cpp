@@ -45,7 +45,8 @@ int run(int argc, char** argv) {
 
   add_commands(app, context);
 
-  const std::vector<std::string> words(argv + 1, argv + argc);
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.empty()) words.emplace_back("--help");
   if (!words.empty() && !words[0].starts_with('-') && std::ranges::count(app.commands(), words[0]) == 0) {
     log(LogLevel::error, fmt::format("no command '{}'; see ssphh --help", words[0]));
     return usage;

@@ -98,7 +98,7 @@ TEST(EmptyValues, OfWhatCommandsGive) {
 TEST(EmptyValues, OfOptions) {
   const RenderOptions render;
   EXPECT_EQ(render.occlusion, 0);
-  EXPECT_EQ(render.exposure, 0);
+  EXPECT_EQ(render.exposure, std::nullopt) << "what suits the picture";
   EXPECT_EQ(render.indirect_scale, 1);
   EXPECT_FALSE(render.resume);
   EXPECT_FALSE(render.force);

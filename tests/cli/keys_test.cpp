@@ -51,6 +51,13 @@ TEST(Keys, EveryCommandHasHelp) {
   }
 }
 
+TEST(Keys, WithoutAWordTheToolPrintsItsHelp) {
+  const ToolResult bare = run_tool({}), asked = run_tool({"--help"});
+  EXPECT_EQ(bare.exit_code, 0);
+  EXPECT_EQ(bare.out, asked.out);
+  EXPECT_THAT(bare.out, testing::HasSubstr("Usage"));
+}
+
 TEST(Keys, SceneInfo) {
   const json::Value info = run_json({"scene", "info", "builtin:two-rooms"});
   expect_keys(info, {"triangles", "instances", "materials", "textures", "lights", "cameras", "sphls",

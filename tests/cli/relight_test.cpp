@@ -68,6 +68,7 @@ TEST(Relight, ReportsStagesRaysAndErrors) {
   for (const char* file : {"frame-0000.png", "frame-0003.png", "error.svg"})
     EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(frames) / file)) << file;
   EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(frames) / "frame-0001.png"));
+  EXPECT_LT(std::abs(run["exposure"].number()), 8) << "of the first frame, not of the dark last one";
   EXPECT_EQ(run_json({"probe", "info", saved})["probes"].size(), 6u);
 }
 

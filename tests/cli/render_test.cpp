@@ -4,6 +4,9 @@
 #include <cmath>
 #include <fstream>
 
+#include <fmt/format.h>
+
+#include <ssphh/image/exposure.h>
 #include <ssphh/image/io.h>
 #include <ssphh/image/tonemap.h>
 #include <ssphh/metrics/compare.h>
@@ -131,12 +134,27 @@ TEST_F(Render, PicturesForScreensAreToneMapped) {
     EXPECT_EQ(image::read_image(dir_ / "o.png").pixels, image::read_image(dir_ / "wanted.png").pixels);
     EXPECT_EQ(image::read_image(out_).pixels, picture().pixels) << "linear radiance stays";
   };
-  expect({}, {});
+  const float suits = image::automatic_exposure(picture());
+  EXPECT_NE(suits, 0);
+  expect({}, {.exposure = suits});
+  expect({"--exposure", "auto"}, {.exposure = suits});
+  expect({"--exposure", "0"}, {});
   expect({"--exposure", "2.5"}, {.exposure = 2.5f});
+  expect({"--exposure", "-1.5"}, {.exposure = -1.5f});
   expect({"--tonemap", "filmic", "--exposure", "1"}, {.exposure = 1, .curve = image::ToneCurve::filmic});
   json_here(command({"-o", dir_ / "direct.png", "--exposure", "1"}));
   image::write_image(dir_ / "wanted.png", image::tone_map(picture(), {.exposure = 1}));
   EXPECT_EQ(image::read_image(dir_ / "direct.png").pixels, image::read_image(dir_ / "wanted.png").pixels);
+}
+
+TEST_F(Render, TheExposureIsToldWhereAPictureIsToneMapped) {
+  const float suits = image::automatic_exposure(picture());
+  const std::string png = dir_ / "o.png";
+  EXPECT_EQ(json_here(command({"--png", png}))["exposure"], suits);
+  EXPECT_EQ(json_here(command({"--png", png, "--exposure", "+3"}))["exposure"], 3);
+  EXPECT_FALSE(json_here(command({})).contains("exposure")) << "EXR stays linear";
+  EXPECT_THAT(text_here(command({"--png", png})),
+              testing::EndsWith(fmt::format(", exposure {:+.2f} EV", suits)));
 }
 
 TEST_F(Render, OptionsOfTheSceneChangeIt) {

@@ -263,6 +263,10 @@ TEST_F(Cells, HoldTheNumbersOfTheirRuns) {
   expect_value("mean_ratio@left", 2, 2);
   expect_value("block_max", 24, 2);
   EXPECT_EQ(cells[0].values.count("mae"), 0u) << "the reference against itself";
+  EXPECT_EQ(cells[0].exposure, -2.75)
+      << "2 to a grey of 0.18, and three quarters brighter without highlights";
+  EXPECT_EQ(cells[1].exposure, -3.25) << "of the first run";
+  EXPECT_EQ(cells[2].exposure, 0);
 }
 
 TEST_F(Cells, HoldThePicturesOfTheFirstRun) {

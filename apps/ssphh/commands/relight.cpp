@@ -55,7 +55,8 @@ void add_output_options(const Command& output, RelightOptions& o) {
   add_camera_option(output, o.camera);
   add_size_options(output, o.width, o.height, 16384);
   output.option("--spp", o.spp, "Samples per pixel").range(1, 65536);
-  output.option("--exposure", o.exposure, "Of .png frames, in stops");
+  add_exposure_option(output, o.exposure,
+                      "Of .png frames, in stops; auto: what suits the first that is not black");
   add_probe_file(output, "--save", o.save, "Write the probes of the last frame here");
 }
 

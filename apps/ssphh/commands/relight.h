@@ -1,6 +1,7 @@
 #pragma once
 /// `ssphh relight`: lamps and doors move, and the probes are kept lit frame by frame.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,7 @@ struct RelightOptions {
   std::string camera;             ///< by name; empty: the scene's first
   int width = 640, height = 360;  ///< pixels
   int spp = 8;                    ///< samples per pixel
-  float exposure = 0;             ///< of png, in stops
+  std::optional<float> exposure;  ///< of png, in stops; none: what suits the first frame that is not black
   std::string save;               ///< probe file to write of the last frame; empty: none
 };
 
@@ -47,6 +48,7 @@ struct RelightResult {
   std::vector<transport::ProbePlace> places;  ///< of the probes
   std::size_t surfels = 0, links = 0;         ///< of the network
   float surfel_size = 0;                      ///< edge of a surfel [m]
+  std::optional<float> exposure;              ///< EV of all frames; none: they are not tone mapped
   bool saved = false;                         ///< whether the probe file was written
   std::uint64_t geometry_builds = 0;          ///< acceleration structures that were built
 };

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -76,7 +77,8 @@ class Relighting {
         scene_(load_scene(options.scene)),
         geometry_(std::make_shared<const trace::SceneGeometry>(scene_)),
         source_(geometry_, scene_),
-        animation_(source_, scene_, options.scene.time, options.animate) {}
+        animation_(source_, scene_, options.scene.time, options.animate),
+        exposure_(options.exposure) {}
 
   RelightResult run() {
     run_.frames_asked = o_.frames;
@@ -111,6 +113,7 @@ class Relighting {
             network.surfel_count(),
             network.links().link_count(),
             network.params().surfel_size,
+            shown_at_,
             saved_,
             builds_.count()};
   }
@@ -210,7 +213,7 @@ class Relighting {
   }
 
   void draw(const KeptFrame& kept, const scene::Scene& lit, const trace::PathTracer& tracer,
-            const rays::IndirectLight& lookup, const Control& control) const {
+            const rays::IndirectLight& lookup, const Control& control) {
     trace::RenderParams params;
     params.width = o_.width;
     params.height = o_.height;
@@ -221,7 +224,8 @@ class Relighting {
     tracer.render_with(lookup, params, state, control);
     const image::Image picture = trace::resolve(state.color, state.passes_done);
     const fs::path path = fs::path(o_.output) / fmt::format("frame-{:04}.{}", kept.frame, o_.format);
-    write_picture(path, picture, {.exposure = o_.exposure});
+    if (is_display_format(path)) shown_at_ = exposure_.of(picture);
+    write_picture(path, picture, {.exposure = shown_at_.value_or(0)});
   }
 
   const Control& control_;
@@ -233,6 +237,8 @@ class Relighting {
   RelightAnimation animation_;
   RelightRun run_;
   std::vector<KeptFrame> kept_;
+  SharedExposure exposure_;
+  std::optional<float> shown_at_;  ///< EV of the frames that were written
   bool saved_ = false;
 };
 
@@ -264,13 +270,16 @@ json::Value to_json(const RelightResult& result, const RelightOptions& options) 
   object["surfel_size"] = result.surfel_size;
   object["links"] = result.links;
   object["geometry_builds"] = result.geometry_builds;
+  if (result.exposure) object["exposure"] = *result.exposure;
   if (result.saved) object["saved"] = options.save;
   return object;
 }
 
 std::string to_text(const RelightResult& result, const RelightOptions&) {
-  return fmt::format("{} probes, {} surfels of {:.3g} m, {} links\n{}", result.places.size(), result.surfels,
-                     result.surfel_size, result.links, relight_text(result.run));
+  std::string text = fmt::format("{} probes, {} surfels of {:.3g} m, {} links\n{}", result.places.size(),
+                                 result.surfels, result.surfel_size, result.links, relight_text(result.run));
+  if (result.exposure) text += "\nframes at " + exposure_text(*result.exposure);
+  return text;
 }
 
 }  // namespace ssphh::app

@@ -241,7 +241,9 @@ RenderResult run_render(const RenderOptions& o, const Control& control) {
 }
 
 void write_rendered(RenderResult& result, const RenderOptions& o) {
-  const image::ToneMap map{.exposure = o.exposure, .curve = o.tonemap};
+  if (is_display_format(o.output) || !o.png.empty())
+    result.exposure = SharedExposure(o.exposure).of(result.picture);
+  const image::ToneMap map{.exposure = result.exposure.value_or(0), .curve = o.tonemap};
   write_picture(o.output, result.picture, map);
   if (!o.png.empty()) write_display(o.png, result.picture, map);
   result.mean = mean_radiance(result.picture);
@@ -256,6 +258,7 @@ json::Value to_json(const RenderResult& r, const RenderOptions& o) {
   } else {
     object.update({{"passes", r.passes}, {"seconds", r.seconds}, {"rays", r.rays}, {"paths", r.paths}});
   }
+  if (r.exposure) object["exposure"] = *r.exposure;
   object.update({{"mean", r.mean}, {"geometry_builds", r.geometry_builds}});
   if (r.method) object.update(to_json(*r.method));
   if (r.gl) {
@@ -271,6 +274,7 @@ std::string to_text(const RenderResult& r, const RenderOptions& o) {
            : fmt::format("{} paths, {} rays in {:.2f} s", r.paths, r.rays, r.seconds);
   std::string text = fmt::format("{}: {}×{}, {}, mean radiance {:.4g} {:.4g} {:.4g}", o.output,
                                  r.picture.width, r.picture.height, work, r.mean[0], r.mean[1], r.mean[2]);
+  if (r.exposure) text += ", " + exposure_text(*r.exposure);
   if (r.gl) {
     for (const auto& [name, value] : r.gl->numbers) text += fmt::format(", {} {:.6g}", name, value);
   }

@@ -22,10 +22,11 @@ struct GlFigures {
 };
 
 struct RenderResult {
-  image::Image picture;          ///< linear radiance
-  std::array<double, 3> mean{};  ///< of the picture, per channel
-  double seconds = 0;            ///< of the picture, without reading the scene and writing files
-  int passes = 0;                ///< that the picture holds; this and the next two are 0 by OpenGL
+  image::Image picture;           ///< linear radiance
+  std::array<double, 3> mean{};   ///< of the picture, per channel
+  std::optional<float> exposure;  ///< EV of what was tone mapped; none: nothing was
+  double seconds = 0;             ///< of the picture, without reading the scene and writing files
+  int passes = 0;                 ///< that the picture holds; this and the next two are 0 by OpenGL
   std::uint64_t paths = 0, rays = 0;
   std::optional<MethodFigures> method;   ///< of a method that was made for the picture
   std::optional<farm::FarmReport> farm;  ///< of a farm that made the picture
@@ -45,7 +46,7 @@ RenderResult run_render(const RenderOptions& options, const Control& control = {
 /// options that it has no answer to.
 RenderResult render_gl(const RenderOptions& options, const Control& control);
 
-/// What both backends end with: writes the picture as the options say, and finds its mean.
+/// What both backends end with: writes the picture as the options say, and finds its exposure and mean.
 void write_rendered(RenderResult& result, const RenderOptions& options);
 
 json::Value to_json(const RenderResult& result, const RenderOptions& options);

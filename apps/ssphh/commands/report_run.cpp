@@ -11,6 +11,7 @@
 #include <ssphh/core/file.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/image/exposure.h>
 #include <ssphh/report/measure.h>
 
 #include "commands/child_process.h"
@@ -159,7 +160,7 @@ class CellMeasurer {
       : plan_(plan), expansion_(expansion), runs_(runs), cache_(cache) {}
 
   ReportCell measure(const Cell& cell) const {
-    ReportCell out{cell.scene, cell.method, cell.label, cell.parameters, {}, {}, {}, {}};
+    ReportCell out{cell.scene, cell.method, cell.label, cell.parameters, {}, {}, {}, {}, 0};
     std::map<std::string, std::vector<double>> values;
     add_steps(plan_, expansion_, cell, runs_, out, values);
     out.failure = failure_of(cell, expansion_, runs_);
@@ -188,6 +189,7 @@ class CellMeasurer {
                  std::map<std::string, std::vector<double>>& values) const {
     const std::vector<report::LayerPicture> runs = load_runs(cell, cache_, layer);
     out.pictures.push_back({layer, "", report::pack_half(runs.front().picture)});
+    if (layer.empty()) out.exposure = static_cast<double>(image::automatic_exposure(runs.front().picture));
     const Cell* reference = reference_of(cell);
     if (!reference || reference == &cell || !failure_of(*reference, expansion_, runs_).empty()) return;
     const std::string prefix = layer.empty() ? "" : layer + ":";

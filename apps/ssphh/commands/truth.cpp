@@ -134,11 +134,13 @@ TruthResult run_truth(const TruthOptions& o, const Control& control) {
   result.first = std::move(halves.first), result.second = std::move(halves.second);
   result.differences = std::move(halves.differences);
   result.picture = mean_of(result.first, result.second);
-  image::write_image(o.output, result.picture);
+  if (is_display_format(o.output)) result.exposure = SharedExposure(o.exposure).of(result.picture);
+  const image::ToneMap map{.exposure = result.exposure.value_or(0)};
+  write_picture(o.output, result.picture, map);
   if (o.halves) {
     const std::string extension = std::filesystem::path(o.output).extension().string();
-    image::write_image(beside(o.output, "a" + extension), result.first);
-    image::write_image(beside(o.output, "b" + extension), result.second);
+    write_picture(beside(o.output, "a" + extension), result.first, map);
+    write_picture(beside(o.output, "b" + extension), result.second, map);
   }
   find_mean(result);
   // Half the halves' difference is as large as the error of their mean.
@@ -147,18 +149,20 @@ TruthResult run_truth(const TruthOptions& o, const Control& control) {
 }
 
 json::Value to_json(const TruthResult& r, const TruthOptions& o) {
-  return {{"output", o.output},
-          {"renderer", name_of(o.renderer)},
-          {"projection", name_of(o.projection)},
-          {"width", r.picture.width},
-          {"height", r.picture.height},
-          {"spp", o.picture.spp / 2 * 2},
-          {"max_depth", o.picture.max_depth},
-          {"seconds", r.seconds},
-          {"mean", to_json(r.mean)},
-          {"standard_error", to_json(r.standard_error)},
-          {"noise", {{"mse", r.noise.mse}, {"rmse", r.noise.rmse}, {"relmse", r.noise.relmse}}},
-          {"differences", r.differences}};
+  json::Value object = {{"output", o.output},
+                        {"renderer", name_of(o.renderer)},
+                        {"projection", name_of(o.projection)},
+                        {"width", r.picture.width},
+                        {"height", r.picture.height},
+                        {"spp", o.picture.spp / 2 * 2},
+                        {"max_depth", o.picture.max_depth},
+                        {"seconds", r.seconds},
+                        {"mean", to_json(r.mean)},
+                        {"standard_error", to_json(r.standard_error)},
+                        {"noise", {{"mse", r.noise.mse}, {"rmse", r.noise.rmse}, {"relmse", r.noise.relmse}}},
+                        {"differences", r.differences}};
+  if (r.exposure) object["exposure"] = *r.exposure;
+  return object;
 }
 
 std::string to_text(const TruthResult& r, const TruthOptions& o) {
@@ -170,6 +174,7 @@ std::string to_text(const TruthResult& r, const TruthOptions& o) {
       o.output, r.picture.width, r.picture.height, o.picture.spp / 2 * 2, o.picture.max_depth,
       name_of(o.renderer), r.seconds, mean.x, mean.y, mean.z, error.x, error.y, error.z, r.noise.rmse,
       r.noise.relmse);
+  if (r.exposure) text += "\n" + exposure_text(*r.exposure);
   for (const std::string& line : r.differences) text += "\ndiffers: " + line;
   return text;
 }
@@ -183,7 +188,10 @@ void add_truth_command(Command app, Context& context) {
   command.choice("--projection", o.projection,
                  "camera; or equirect, the whole sphere around it (`ssphh cubemap convert` makes it a cube)",
                  {"camera", "equirect"});
-  command.option("-o,--output", o.output, "Picture: .exr or .hdr (linear radiance)").required();
+  command
+      .option("-o,--output", o.output, "Picture: .exr or .hdr (linear radiance), .png or .jpg (tone mapped)")
+      .required();
+  add_exposure_option(command, o.exposure, "Of a .png or .jpg, in stops; auto: what suits the picture");
   command.flag("--halves", o.halves, "Also write the two independent halves, OUT.a.exr and OUT.b.exr");
   command.option("--work", o.work, "Folder for the other renderer's files and log; default: OUT.cycles");
   command.option("--time-limit", o.time_limit, "Seconds that each half may take").range(1, 1000000);

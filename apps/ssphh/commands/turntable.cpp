@@ -30,6 +30,7 @@ TurntableResult run_turntable(const TurntableOptions& o, const Control& control)
   const scene::Bounds box = scene::world_bounds(scene, scene::world_matrices(scene, o.scene.time));
   const float aspect = static_cast<float>(o.width) / static_cast<float>(o.height);
   const realtime::FrameSettings settings = still_settings(o.lookup, o.samples);
+  SharedExposure exposure(o.exposure);
   ProgressStage stage(control, "turntable", static_cast<std::uint64_t>(o.frames), "frames");
   for (int i = 0; i < o.frames; ++i) {
     control.check();
@@ -38,10 +39,11 @@ TurntableResult run_turntable(const TurntableOptions& o, const Control& control)
         orbit(box, glm::radians(o.yfov), aspect, glm::radians(o.elevation), turn);
     renderer.draw(camera, settings, {.width = o.width, .height = o.height});
     const std::filesystem::path file = std::filesystem::path(o.directory) / fmt::format("{:04}.png", i);
-    write_display(file, renderer.read_back(), {.exposure = o.exposure});
+    const image::Image picture = renderer.read_back();
+    write_display(file, picture, {.exposure = exposure.of(picture)});
     stage.advance(1);
   }
-  return {gl.info().renderer, dark};
+  return {exposure.chosen().value_or(0), gl.info().renderer, dark};
 }
 
 json::Value to_json(const TurntableResult& result, const TurntableOptions& o) {
@@ -49,13 +51,15 @@ json::Value to_json(const TurntableResult& result, const TurntableOptions& o) {
           {"frames", o.frames},
           {"width", o.width},
           {"height", o.height},
+          {"exposure", result.exposure},
           {"renderer", result.renderer},
           {"sun_and_sky_added", result.sun_and_sky_added}};
 }
 
 std::string to_text(const TurntableResult& result, const TurntableOptions& o) {
-  return fmt::format("{}: {} frames of {}×{}{} on {}", o.directory, o.frames, o.width, o.height,
-                     result.sun_and_sky_added ? ", lit by sun and sky" : "", result.renderer);
+  return fmt::format("{}: {} frames of {}×{}{} on {}, {}", o.directory, o.frames, o.width, o.height,
+                     result.sun_and_sky_added ? ", lit by sun and sky" : "", result.renderer,
+                     exposure_text(result.exposure));
 }
 
 void add_turntable_command(Command app, Context& context) {
@@ -67,7 +71,7 @@ void add_turntable_command(Command app, Context& context) {
   add_size_options(command, o.width, o.height);
   command.option("--elevation", o.elevation, "Degrees of the camera above the middle").range(-89.0f, 89.0f);
   command.option("--samples", o.samples, "Samples per pixel along each side").range(1, 4);
-  command.option("--exposure", o.exposure, "Stops");
+  add_exposure_option(command, o.exposure, "Stops; auto: what suits the first picture that is not black");
   command.option("--probes", o.lookup.probes, "Probe file; without one: direct light alone");
   add_force_option(command, o.lookup.force);
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// `ssphh turntable`: pictures of a model from all around.
 
+#include <optional>
 #include <string>
 
 #include <ssphh/core/control.h>
@@ -20,10 +21,11 @@ struct TurntableOptions {
   int samples = 2;                ///< per pixel along each side, 1..4
   float elevation = 20;           ///< of the camera above the middle, in degrees
   float yfov = 40;                ///< of the camera, in degrees
-  float exposure = 0;             ///< stops
+  std::optional<float> exposure;  ///< stops; none: what suits the first picture that is not black
 };
 
 struct TurntableResult {
+  float exposure = 0;              ///< EV of all pictures
   std::string renderer;            ///< as OpenGL calls itself
   bool sun_and_sky_added = false;  ///< since the scene has no lights
 };

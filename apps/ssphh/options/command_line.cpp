@@ -144,6 +144,13 @@ template Option Command::option(const std::string&, std::vector<float>&, const s
 template Option Command::option(const std::string&, std::vector<double>&, const std::string&) const;
 template Option Command::option(const std::string&, std::vector<std::size_t>&, const std::string&) const;
 
+Option Command::value(const std::string& names, const std::string& shown, const std::string& help,
+                      const std::function<std::string(const std::string&)>& take) const {
+  CLI::Option* option = app_->add_option_function<std::string>(
+      names, [take](const auto& text) { take(text); }, help);
+  return headed(option->default_str(shown)).check(take, "");
+}
+
 Option Command::choice(const std::string& names, const std::vector<std::string>& among,
                        const std::string& shown, const std::string& help,
                        std::function<void(const std::string&)> choose) const {

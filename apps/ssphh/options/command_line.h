@@ -63,6 +63,9 @@ class Command {
   /// a vector of one.
   template <class T>
   Option option(const std::string& names, T& target, const std::string& help) const;
+  /// A value that `take` takes from its text; what it returns is wrong with that, or empty.
+  Option value(const std::string& names, const std::string& shown, const std::string& help,
+               const std::function<std::string(const std::string&)>& take) const;
   /// One of an enum's values, by the names of its table; `among`: only these.
   template <class E>
   Option choice(const std::string& names, E& target, const std::string& help,

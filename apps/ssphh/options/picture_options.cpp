@@ -1,5 +1,10 @@
 #include "options/picture_options.h"
 
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
 namespace ssphh::app {
 
 trace::Projection projection_of(PictureProjection projection, const scene::Camera& camera) {
@@ -22,6 +27,21 @@ Option add_max_depth_option(Command command, int& max_depth) {
   return command
       .option("--max-depth", max_depth, "Scattering events: 0 emitters only, 1 direct light, 2 one bounce …")
       .range(0, 1000);
+}
+
+void add_exposure_option(Command command, std::optional<float>& exposure, const std::string& help) {
+  const auto take = [&exposure](const std::string& text) -> std::string {
+    if (text == "auto") return exposure.reset(), "";
+    float value = 0;
+    const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
+    const char* const end = text.data() + text.size();
+    const auto [read, error] = std::from_chars(begin, end, value);
+    if (error != std::errc() || read != end || !(std::abs(value) <= 60))
+      return fmt::format("{} is neither auto nor a number from -60 to 60", text);
+    exposure = value;
+    return "";
+  };
+  command.value("--exposure", "auto", help, take).kind("auto|EV");
 }
 
 void add_picture_options(Command command, PictureOptions& o) {

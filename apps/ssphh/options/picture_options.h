@@ -1,6 +1,7 @@
 #pragma once
 /// The options of the commands that make pictures; PictureOptions of those that hand one to another renderer.
 
+#include <optional>
 #include <string>
 
 #include <ssphh/core/enum_names.h>
@@ -25,6 +26,8 @@ void add_camera_option(Command command, std::string& camera);
 /// --width and --height in pixels, each at most `most`.
 void add_size_options(Command command, int& width, int& height, int most = 16384);
 Option add_max_depth_option(Command command, int& max_depth);
+/// --exposure auto|EV; none stands for auto.
+void add_exposure_option(Command command, std::optional<float>& exposure, const std::string& help);
 
 struct PictureOptions {
   SceneOptions scene;

@@ -73,7 +73,8 @@ void add_render_options(Command command, RenderOptions& o) {
               "Extra float images beside the output: direct indirect albedo normal depth groups")
       .separated_by(',')
       .one_of(aov_names());
-  output.option("--exposure", o.exposure, "Exposure of tone-mapped output in stops");
+  add_exposure_option(output, o.exposure,
+                      "Exposure of tone-mapped output in stops; auto: what suits the picture");
   output.choice("--tonemap", o.tonemap, "clip at white, or filmic");
 }
 

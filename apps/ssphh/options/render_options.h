@@ -1,6 +1,7 @@
 #pragma once
 /// What `ssphh render` may be told, whoever makes the picture.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,7 @@ struct RenderOptions {
   std::string png;     ///< tone-mapped PNG to write as well; empty: none
   /// Of aov_names(): float images to write beside the output, as OUT.NAME.exr. OpenGL draws the first four.
   std::vector<std::string> aovs;
-  float exposure = 0;  ///< of tone-mapped pictures, in stops
+  std::optional<float> exposure;  ///< of tone-mapped pictures, in stops; none: what suits the picture
   image::ToneCurve tonemap = image::ToneCurve::clip;
 
   int width = 1280, height = 720;  ///< pixels, over 0

@@ -1,16 +1,30 @@
 #include "results/pictures.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <ssphh/image/exposure.h>
 #include <ssphh/image/io.h>
 
 namespace ssphh::app {
-namespace {
 
-bool is_display_format(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+float SharedExposure::of(const image::Image& linear) {
+  if (chosen_) return *chosen_;
+  const auto is_light = [](float x) { return x > 0 && std::isfinite(x); };
+  if (std::ranges::any_of(linear.pixels, is_light)) chosen_ = image::automatic_exposure(linear);
+  return chosen_.value_or(0);
 }
 
-}  // namespace
+bool is_display_format(const std::filesystem::path& path) {
+  const image::FileFormat format = image::format_of_extension(path);
+  return format == image::FileFormat::png || format == image::FileFormat::jpeg;
+}
+
+std::string exposure_text(float exposure) {
+  return fmt::format("exposure {:+.2f} EV", exposure);
+}
 
 void write_display(const std::filesystem::path& path, const image::Image& linear, const image::ToneMap& map) {
   image::write_image(path, image::tone_map(linear, map));

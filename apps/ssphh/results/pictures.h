@@ -3,12 +3,34 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <ssphh/image/image.h>
 #include <ssphh/image/tonemap.h>
 
 namespace ssphh::app {
+
+/// The exposure of pictures that belong together: as asked for, else as suits the first of them that is not
+/// black.
+class SharedExposure {
+ public:
+  explicit SharedExposure(std::optional<float> asked) : chosen_(asked) {}
+
+  /// EV for this picture and, if it is not black, for all that follow.
+  float of(const image::Image& linear);
+  /// What was asked for or chosen; none before there was light.
+  std::optional<float> chosen() const { return chosen_; }
+
+ private:
+  std::optional<float> chosen_;
+};
+
+/// Whether a file of that name holds 8 bits that are shown as they are: PNG or JPEG.
+bool is_display_format(const std::filesystem::path& path);
+
+/// "exposure -7.25 EV"
+std::string exposure_text(float exposure);
 
 /// Tone mapped, whatever the format.
 void write_display(const std::filesystem::path& path, const image::Image& linear, const image::ToneMap& map);

@@ -67,7 +67,7 @@ function update() {
   options(byId("layer"), ["", ...report.layers].map((l) => [l, l || "all"]), state.layer);
   byId("layer-box").hidden = !report.layers.length;
   byId("exposure").value = state.exposure;
-  byId("exposure-text").textContent = (state.exposure > 0 ? "+" : "") + Number(state.exposure).toFixed(1) + " EV";
+  byId("exposure-text").textContent = (state.exposure > 0 ? "+" : "") + Number(state.exposure).toFixed(2) + " EV";
   byId("curve").value = state.curve;
   byId("scale").value = -state.mapStops;
   byId("scale-box").hidden = state.map === "picture";

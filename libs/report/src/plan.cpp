@@ -17,11 +17,6 @@ const std::vector<std::string> picture_layers = {"direct", "indirect", "irradian
 
 using json::Cursor;
 
-double number(const Cursor& object, const char* name, double otherwise, double least, double most) {
-  const auto member = object.find(name);
-  return member ? member->precise_number(least, most) : otherwise;
-}
-
 int integer(const Cursor& object, const char* name, int otherwise, int least, int most) {
   const auto member = object.find(name);
   return member ? static_cast<int>(member->integer(least, most)) : otherwise;
@@ -93,7 +88,8 @@ class PlanReader {
     scene.title = o.text_or("title", scene.name);
     scene.words = split_words(o["scene"].text(), o["scene"].place());
     if (scene.words.empty()) o["scene"].fail("is empty", "give a file or builtin:NAME");
-    scene.exposure = number(o, "exposure", 0, -30, 30);
+    if (const auto ev = o.find("exposure"); ev && !(ev->is_string() && ev->text() == "auto"))
+      scene.exposure = ev->precise_number(-30, 30);
     scene.optional = o.boolean_or("optional", false);
     if (const auto variables = o.find("variables")) scene.variables = read_parameters(*variables);
     std::vector<std::string> known;

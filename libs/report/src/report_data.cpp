@@ -14,7 +14,8 @@ json::Value finite(double x) {
 
 json::Value scenes_data(const Report& report) {
   json::Value scenes = json::Value::array();
-  for (const PlanScene& scene : report.plan.scenes) {
+  for (std::size_t s = 0; s < report.plan.scenes.size(); ++s) {
+    const PlanScene& scene = report.plan.scenes[s];
     json::Value insets = json::Value::array();
     for (const Inset& i : scene.insets)
       insets.push_back({{"name", i.name}, {"at", {i.x0, i.y0, i.x1, i.y1}}});
@@ -22,7 +23,7 @@ json::Value scenes_data(const Report& report) {
     scenes.push_back(
         {{"name", scene.name},
          {"title", scene.title},
-         {"exposure", scene.exposure},
+         {"exposure", exposure_of(report, s)},
          {"insets", std::move(insets)},
          {"hash", hash == report.provenance.scene_hashes.end() ? json::Value() : json::Value(hash->second)}});
   }
@@ -69,6 +70,17 @@ json::Value cell_data(const Report& report, const ReportCell& cell) {
 std::string number_text(double value) {
   if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
   return std::isnan(value) ? "" : fmt::format("{:.4g}", value);
+}
+
+double exposure_of(const Report& report, std::size_t scene) {
+  if (report.plan.scenes[scene].exposure) return *report.plan.scenes[scene].exposure;
+  const ReportCell* chosen = nullptr;
+  for (const ReportCell& cell : report.cells) {
+    if (cell.scene == scene && !cell.pictures.empty() &&
+        (!chosen || (cell.method < 0 && chosen->method >= 0)))
+      chosen = &cell;
+  }
+  return chosen ? chosen->exposure : 0;
 }
 
 double published_value(const Report& report, const ReportCell& cell, const std::string& column) {

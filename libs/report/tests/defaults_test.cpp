@@ -15,7 +15,7 @@ TEST(ReportDefaults, OfPlans) {
   EXPECT_EQ(inset.y0, 0);
   EXPECT_EQ(inset.x1, 1);
   EXPECT_EQ(inset.y1, 1);
-  EXPECT_EQ(PlanScene().exposure, 0);
+  EXPECT_EQ(PlanScene().exposure, std::nullopt);
   EXPECT_FALSE(PlanScene().optional);
   EXPECT_EQ(PlanMethod().repetitions, 1);
   EXPECT_EQ(Column().better, 0);

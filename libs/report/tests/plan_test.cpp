@@ -138,7 +138,7 @@ TEST(Plan, WhatIsLeftOutHasItsDefault) {
   EXPECT_TRUE(plan.variables.empty() && plan.layers.empty() && plan.published.empty());
   const PlanScene& scene = plan.scenes[0];
   EXPECT_EQ(scene.title, "s");
-  EXPECT_EQ(scene.exposure, 0);
+  EXPECT_EQ(scene.exposure, std::nullopt) << "what suits the picture";
   EXPECT_FALSE(scene.optional);
   EXPECT_TRUE(scene.variables.empty() && scene.insets.empty());
   EXPECT_EQ(plan.reference.name, "reference");
@@ -244,6 +244,13 @@ TEST(Plan, NumbersHaveLimits) {
   expect_range([](auto& j) -> json::Value& { return j["time_limit"]; }, 1, 1000000, 1);
   expect_range([](auto& j) -> json::Value& { return j["methods"][0]["repetitions"]; }, 1, 1000, 1);
   expect_range([](auto& j) -> json::Value& { return j["scenes"][0]["exposure"]; }, -30, 30, 0.25);
+}
+
+TEST(Plan, AnExposureMayBeLeftToThePicture) {
+  const Plan plan = parse_plan(R"({"scenes": [{"name": "s", "scene": "x", "exposure": "auto"}],
+    "methods": [{"name": "m", "steps": ["render {scene} -o o.exr"], "picture": "o.exr"}]})",
+                               "p", {"render"});
+  EXPECT_EQ(plan.scenes[0].exposure, std::nullopt);
 }
 
 TEST(Plan, AnInsetLiesWithinThePicture) {

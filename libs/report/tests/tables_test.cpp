@@ -115,6 +115,22 @@ Report whole_report() {
   return report;
 }
 
+TEST(Tables, ASceneIsShownAsSuitsItsReferenceUnlessThePlanSays) {
+  Report report = whole_report();
+  const CellPicture picture{"", "", {}};
+  report.cells[0].exposure = -7.5, report.cells[1].exposure = -6;
+  EXPECT_EQ(exposure_of(report, 0), 1.5) << "the plan's";
+  report.plan.scenes[0].exposure.reset();
+  EXPECT_EQ(exposure_of(report, 0), 0) << "no cell has a picture";
+  report.cells[1].pictures = {picture};
+  EXPECT_EQ(exposure_of(report, 0), -6);
+  report.cells[0].pictures = {picture};
+  EXPECT_EQ(exposure_of(report, 0), -7.5);
+  std::swap(report.cells[0], report.cells[1]);
+  EXPECT_EQ(exposure_of(report, 0), -7.5) << "wherever the reference stands";
+  EXPECT_EQ(exposure_of(report, 1), 0);
+}
+
 TEST(Tables, MarkdownAsAWhole) {
   EXPECT_EQ(
       report_markdown(whole_report()),
@@ -154,6 +170,7 @@ TEST(Tables, JsonAsAWhole) {
   EXPECT_EQ(data["layers"], json::Value::array({"direct"}));
   EXPECT_EQ(data["scenes"][0], parse_json(R"({"name": "s", "title": "Scene S", "exposure": 1.5,
       "insets": [{"name": "corner", "at": [0, 0.25, 0.5, 1]}], "hash": "hash of s"})"));
+  EXPECT_EQ(data["scenes"][1]["exposure"], 0) << "no picture";
   EXPECT_EQ(data["scenes"][1]["hash"], json::Value());
   EXPECT_EQ(data["columns"], parse_json(R"([{"value": "mae", "title": "MAE | abs", "unit": "", "better": -1},
       {"value": "a.seconds", "title": "time", "unit": "s", "better": 0}])"));

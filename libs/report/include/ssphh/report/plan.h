@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,7 +29,7 @@ using Parameters = std::vector<std::pair<std::string, std::string>>;
 struct PlanScene {
   std::string name, title;
   std::vector<std::string> words;  ///< what {scene} stands for: a file or builtin:NAME, then options
-  double exposure = 0;             ///< EV at which the page opens
+  std::optional<double> exposure;  ///< EV at which the page opens; none: what suits the reference
   Parameters variables;            ///< in place of the plan's
   std::vector<Inset> insets;
   bool optional = false;  ///< left out, with a note, where it cannot be loaded

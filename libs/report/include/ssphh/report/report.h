@@ -41,6 +41,7 @@ struct ReportCell {
   std::map<std::string, Value> values;
   std::vector<StepRun> steps;
   std::vector<CellPicture> pictures;
+  double exposure = 0;  ///< EV that suits its picture
 };
 
 struct Provenance {
@@ -59,6 +60,10 @@ struct Report {
 /// The number that a table shows: a parameter, or of a value its median for times and its mean otherwise.
 /// NaN: none.
 double shown(const ReportCell& cell, const std::string& name);
+
+/// EV at which a scene's pictures are shown: the plan's, else what suits the reference, or the first cell
+/// that has a picture. 0 without pictures.
+double exposure_of(const Report& report, std::size_t scene);
 
 /// Columns of the plan, or when it names none: the usual errors if there is a reference, and the run time.
 std::vector<Column> columns_of(const Report& report);

@@ -1,0 +1,46 @@
+// The exposure of pictures that belong together.
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <ssphh/image/exposure.h>
+
+#include "results/pictures.h"
+
+namespace ssphh::app {
+namespace {
+
+image::Image grey(float light) {
+  image::Image picture(4, 3);
+  for (float& x : picture.pixels) x = light;
+  return picture;
+}
+
+TEST(SharedExposure, IsThatOfTheFirstPictureThatIsNotBlack) {
+  SharedExposure exposure(std::nullopt);
+  const float nan = std::numeric_limits<float>::quiet_NaN(),
+              infinite = std::numeric_limits<float>::infinity();
+  for (const float dark : {0.0f, -1.0f, nan, infinite}) EXPECT_EQ(exposure.of(grey(dark)), 0);
+  EXPECT_EQ(exposure.chosen(), std::nullopt);
+  const float suits = image::automatic_exposure(grey(7));
+  for (const float light : {7.0f, 0.01f, 0.0f, 900.0f}) EXPECT_EQ(exposure.of(grey(light)), suits);
+  EXPECT_EQ(exposure.chosen(), suits);
+}
+
+TEST(SharedExposure, IsWhatWasAskedFor) {
+  SharedExposure exposure(-3.1f);
+  EXPECT_EQ(exposure.of(grey(0)), -3.1f);
+  EXPECT_EQ(exposure.of(grey(100)), -3.1f);
+  EXPECT_EQ(exposure.chosen(), -3.1f);
+}
+
+TEST(DisplayFormat, IsWhatHoldsEightBits) {
+  for (const char* shown : {"a.png", "a.jpg", "b/a.JPEG", "a.exr.PNG"})
+    EXPECT_TRUE(is_display_format(shown)) << shown;
+  for (const char* linear : {"a.exr", "a.hdr", "a.png.exr"})
+    EXPECT_FALSE(is_display_format(linear)) << linear;
+}
+
+}  // namespace
+}  // namespace ssphh::app
