@@ -38,7 +38,7 @@ std::vector<std::string> with(std::vector<std::string> arguments,
 }
 
 TEST(BadInput, WrongUsageIsExitCode2) {
-  expect_failure({}, "subcommand", 2);
+  expect_failure({"probe"}, "subcommand", 2);
   expect_failure({"nonsense"}, "nonsense", 2);
   expect_failure({"render", "builtin:box"}, "--output", 2);
   expect_failure({"render", "builtin:box", "-o", "x.exr", "--spp", "0"}, "--spp", 2);
@@ -78,7 +78,25 @@ TEST(BadInput, WarningsDoNotStopTheWork) {
   write(dir / "plain.obj", "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 1 2 4\n");
   const ToolResult no_lights = run_tool(with({"render", dir / "plain.obj", "-o", dir / "x.exr"}));
   EXPECT_EQ(no_lights.exit_code, 0) << no_lights.err;
-  EXPECT_THAT(no_lights.err, AllOf(HasSubstr("warning"), HasSubstr("no lights"), HasSubstr("gone.mtl")));
+  EXPECT_THAT(no_lights.err, AllOf(HasSubstr("warning"), HasSubstr("no lights"), HasSubstr("gone.mtl"),
+                                   HasSubstr("--sun-sky or --environment FILE")));
+}
+
+TEST(BadInput, ASceneWithoutLightsStandsInAStudioUnlessItIsMeantToBeDark) {
+  const TempDir dir;
+  write(dir / "plain.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
+  write(dir / "off.json",
+        R"({"lights": [{"name": "lamp", "type": "point", "position": [0, 0, 2], "intensity": 0}]})");
+  const std::vector<std::string> render = with({"render", dir / "plain.obj", "-o", dir / "x.exr"});
+  const json::Value mean = test::run_json(render)["mean"];
+  EXPECT_GT(mean[0].number(), 0.1);
+  EXPECT_EQ(mean[0], mean[2]) << "neutral";
+  const ToolResult off =
+      run_tool(with({"render", dir / "plain.obj", "--overlay", dir / "off.json", "-o", dir / "x.exr"}));
+  EXPECT_THAT(off.out, HasSubstr("mean radiance 0 0 0"));
+  EXPECT_THAT(off.err, Not(HasSubstr("studio")));
+  EXPECT_THAT(run_tool({"scene", "info", dir / "plain.obj"}).out, HasSubstr("no environment"))
+      << "as the file is";
 }
 
 TEST(BadInput, AProbeInsideABodyIsWarnedAbout) {

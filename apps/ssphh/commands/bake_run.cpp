@@ -94,7 +94,7 @@ BakeResult run_bake(const BakeOptions& options, const Control& control) {
   const GeometryBuilds builds;
   BakeOptions o = options;
   const std::optional<FarmSession> session = farm_session(o.farm);
-  const scene::Scene scene = load_scene(o.scene);
+  const scene::Scene scene = load_lit_scene(o.scene);
   o.params.path.seed = o.seed;
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   BakeResult result;

@@ -61,7 +61,7 @@ BenchFrameResult run_bench_frame(const BenchFrameOptions& o, const Control& cont
     throw Error("--move", "is for SPHLs: the light of method " + o.method + " would stay behind");
   if (probes && !o.parameters.empty()) throw Error("--param", "is of methods that have no probe file");
   if (o.frames < 1) throw Error("bench-frame", "needs a frame");
-  const scene::Scene scene = load_scene(o.scene);
+  const scene::Scene scene = load_lit_scene(o.scene);
   gl::Context gl = gl::Context::headless();
   realtime::Renderer renderer(gl, scene, {}, o.scene.time);
   if (probes)

@@ -40,7 +40,8 @@ std::vector<std::string> export_formats() {
 ExportResult run_export(const ExportOptions& o, const Control&) {
   if (std::ranges::count(export_formats(), o.to) == 0)
     throw Error("--to " + o.to, "is no format that there is");
-  const scene::Scene scene = load_scene(o.picture.scene);
+  const scene::Scene scene =  // a copy as glTF is no picture, and stays as it was
+      o.to == "gltf" ? load_scene(o.picture.scene) : load_lit_scene(o.picture.scene);
   return {write(o, scene), scene::triangle_count(scene), scene::scene_hash(scene)};
 }
 

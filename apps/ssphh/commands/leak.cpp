@@ -26,7 +26,7 @@ LeakResult run_leak(const LeakOptions& o, const Control& control) {
       throw Error(o.output, "a leak map is written as .png (colours) or .exr (numbers)");
   }
   const probes::ProbeSet set = probes::read_probe_file(o.probes);
-  const scene::Scene scene = load_scene(o.scene);
+  const scene::Scene scene = load_lit_scene(o.scene);
   LeakResult result;
   const float time = result.time = o.time.value_or(set.generator.time);
   if (time != set.generator.time) {

@@ -170,7 +170,7 @@ MeasureResult run_measure(const MeasureOptions& o, const Control& control) {
   if (o.probes.empty() && o.methods.empty())
     throw Error("measure", "there is nothing to compare", "give --probes FILE or --method NAME");
   for (const std::string& spec : o.methods) read_method(spec);  // fails before the work
-  const scene::Scene scene = load_scene(o.scene);
+  const scene::Scene scene = load_lit_scene(o.scene);
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   const trace::PathTracer tracer(geometry, scene, o.scene.time);
   std::vector<probes::ProbeSet> sets;

@@ -22,7 +22,7 @@ const std::string& probe_name(const ProbeLintResult& result, const study::LintPr
 ProbeLintResult run_probe_lint(const ProbeLintOptions& options, const Control& control) {
   ProbeLintResult result{probes::read_probe_file(options.input), {}};
   const probes::ProbeSet& set = result.set;
-  const scene::Scene scene = load_scene(options.scene);
+  const scene::Scene scene = load_lit_scene(options.scene);
   study::LintParams params = options.params;
   params.interest = place::place_params(scene, set.generator.time).interest;
   const trace::TransportScene source(scene);

@@ -74,7 +74,7 @@ class Relighting {
   Relighting(const RelightOptions& options, const Control& control)
       : control_(control),
         o_(options),
-        scene_(load_scene(options.scene)),
+        scene_(load_lit_scene(options.scene)),
         geometry_(std::make_shared<const trace::SceneGeometry>(scene_)),
         source_(geometry_, scene_),
         animation_(source_, scene_, options.scene.time, options.animate),

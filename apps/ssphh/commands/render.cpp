@@ -207,15 +207,9 @@ RenderResult run_render(const RenderOptions& o, const Control& control) {
   const std::optional<FarmSession> session = farm_session(o.farm);
   if (o.lookup.weights && o.lookup.method == probes::LookupMethod::light)
     throw Error("--weights", "blends probes, but --lookup light takes one alone", "leave out one of them");
-  const scene::Scene scene = load_scene(o.scene);
+  const scene::Scene scene = load_lit_scene(o.scene);
   const trace::RenderParams params = render_params(o, scene);
   const std::vector<std::string> groups = scene::light_groups(scene);
-  if (groups.empty()) {
-    log_warning(
-        "{}: no lights: the picture will be black (add lights to the file, --overlay, --environment or "
-        "--sun-sky)",
-        o.scene.source);
-  }
   trace::RenderState state;
   state.key = trace::render_key(content_hash(o, scene), o.scene.time, params);
   if (o.resume && std::filesystem::exists(checkpoint_path(o))) {

@@ -36,10 +36,10 @@ struct RenderResult {
 
 /// Makes the picture and writes the files. When asked to stop after the first pass it leaves OUTPUT.state for
 /// the next call with `resume`, says so in the log and throws Cancelled. Warns in the log about a scene
-/// without lights. Throws Error for options that exclude each other (before anything else), for files that
-/// cannot be read or written, for unknown names of methods, parameters, cameras and places, for probes of
-/// another scene, for an OUTPUT.state of another picture, for a farm that cannot be reached and where OpenGL
-/// fails.
+/// without lights, which a studio lights. Throws Error for options that exclude each other (before anything
+/// else), for files that cannot be read or written, for unknown names of methods, parameters, cameras and
+/// places, for probes of another scene, for an OUTPUT.state of another picture, for a farm that cannot be
+/// reached and where OpenGL fails.
 RenderResult run_render(const RenderOptions& options, const Control& control = {});
 
 /// `render --backend gl`: one frame of the real-time renderer, samples on a square grid. Throws Error for

@@ -49,7 +49,7 @@ void refuse_with_gl(const RenderOptions& o) {
 RenderResult render_gl(const RenderOptions& o, const Control& control) {
   refuse_with_gl(o);
   const GeometryBuilds builds;
-  const scene::Scene scene = load_scene(o.scene);
+  const scene::Scene scene = load_lit_scene(o.scene);
   const Stopwatch watch;
   std::optional<LiveMethod> live;
   if (o.method != "ssphh") {

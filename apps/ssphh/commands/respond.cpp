@@ -49,7 +49,7 @@ int frames_to_settle(const std::vector<RespondFrame>& frames) {
 
 RespondResult run_respond(const RespondOptions& o, const Control& control) {
   if (o.frames < 1 || o.before < 1) throw Error("respond", "needs a frame before and one after the event");
-  const scene::Scene scene = load_scene(o.scene);
+  const scene::Scene scene = load_lit_scene(o.scene);
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   const trace::TransportScene surfaces(geometry, scene);
   const RelightAnimation event(surfaces, scene, o.scene.time, o.events);

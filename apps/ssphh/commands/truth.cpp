@@ -125,7 +125,7 @@ TruthResult run_truth(const TruthOptions& o, const Control& control) {
     throw Error(fmt::format("--renderer {}", name_of(o.renderer)), "is not for a farm",
                 "leave out --broker and --local");
   const std::optional<FarmSession> session = farm_session(o.farm);
-  const scene::Scene scene = load_scene(o.picture.scene);
+  const scene::Scene scene = load_lit_scene(o.picture.scene);
   const Stopwatch watch;
   Halves halves = o.renderer == TruthRenderer::cycles ? render_cycles(o, scene, control)
                                                       : render_path(o, scene, session, control);

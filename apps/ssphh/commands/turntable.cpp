@@ -6,7 +6,6 @@
 
 #include <ssphh/realtime/renderer.h>
 #include <ssphh/scene/query.h>
-#include <ssphh/scene/sun_sky.h>
 
 #include "commands/command.h"
 #include "options/picture_options.h"
@@ -17,9 +16,7 @@
 namespace ssphh::app {
 
 TurntableResult run_turntable(const TurntableOptions& o, const Control& control) {
-  scene::Scene scene = load_scene(o.scene);
-  const bool dark = scene::light_groups(scene).empty();
-  if (dark) scene::add_sun_sky(scene);
+  const scene::Scene scene = load_lit_scene(o.scene);
   std::error_code problem;
   std::filesystem::create_directories(o.directory, problem);
   if (!std::filesystem::is_directory(o.directory))
@@ -43,23 +40,17 @@ TurntableResult run_turntable(const TurntableOptions& o, const Control& control)
     write_display(file, picture, {.exposure = exposure.of(picture)});
     stage.advance(1);
   }
-  return {exposure.chosen().value_or(0), gl.info().renderer, dark};
+  return {exposure.chosen().value_or(0), gl.info().renderer};
 }
 
 json::Value to_json(const TurntableResult& result, const TurntableOptions& o) {
-  return {{"output", o.directory},
-          {"frames", o.frames},
-          {"width", o.width},
-          {"height", o.height},
-          {"exposure", result.exposure},
-          {"renderer", result.renderer},
-          {"sun_and_sky_added", result.sun_and_sky_added}};
+  return {{"output", o.directory}, {"frames", o.frames},          {"width", o.width},
+          {"height", o.height},    {"exposure", result.exposure}, {"renderer", result.renderer}};
 }
 
 std::string to_text(const TurntableResult& result, const TurntableOptions& o) {
-  return fmt::format("{}: {} frames of {}×{}{} on {}, {}", o.directory, o.frames, o.width, o.height,
-                     result.sun_and_sky_added ? ", lit by sun and sky" : "", result.renderer,
-                     exposure_text(result.exposure));
+  return fmt::format("{}: {} frames of {}×{} on {}, {}", o.directory, o.frames, o.width, o.height,
+                     result.renderer, exposure_text(result.exposure));
 }
 
 void add_turntable_command(Command app, Context& context) {

@@ -25,9 +25,8 @@ struct TurntableOptions {
 };
 
 struct TurntableResult {
-  float exposure = 0;              ///< EV of all pictures
-  std::string renderer;            ///< as OpenGL calls itself
-  bool sun_and_sky_added = false;  ///< since the scene has no lights
+  float exposure = 0;    ///< EV of all pictures
+  std::string renderer;  ///< as OpenGL calls itself
 };
 
 /// Draws and writes the pictures. Throws Error for files that cannot be read or written, for probes of

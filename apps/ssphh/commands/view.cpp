@@ -51,7 +51,7 @@ viewer::ViewerReport run_view(const ViewOptions& o, const Control& control) {
     // The overlay was named for the first scene; one that is dropped later has its own.
     if (source != o.scene.source) scene.overlay.clear();
     scene.source = source;
-    return load_scene(scene);
+    return load_lit_scene(scene);
   };
   for (std::size_t i = 0; i < o.values.size(); ++i) {
     if (!o.values[i].empty()) v.settings.emplace_back(viewer::setting_names()[i].name, o.values[i]);

@@ -2,7 +2,10 @@
 
 #include <utility>
 
+#include <ssphh/core/log.h>
 #include <ssphh/scene/lambertian.h>
+#include <ssphh/scene/query.h>
+#include <ssphh/scene/studio.h>
 #include <ssphh/scene_io/load.h>
 
 namespace ssphh::app {
@@ -49,6 +52,18 @@ scene::Scene load_scene(const SceneOptions& options) {
   }
   scene::Scene scene = scene_io::load_scene(options.source, load);
   return options.lambert ? scene::lambertian(std::move(scene)) : scene;
+}
+
+scene::Scene load_lit_scene(const SceneOptions& options) {
+  scene::Scene scene = load_scene(options);
+  if (scene::light_groups(scene).empty()) {
+    log_warning(
+        "{}: no lights: a neutral studio lights it (add lights to the file or by --overlay, or give "
+        "--sun-sky or --environment FILE)",
+        options.source);
+    scene::add_studio(scene);
+  }
+  return scene;
 }
 
 }  // namespace ssphh::app

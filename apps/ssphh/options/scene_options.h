@@ -28,4 +28,7 @@ void add_scene_options(Command command, SceneOptions& options, bool posed = true
 
 scene::Scene load_scene(const SceneOptions& options);
 
+/// For commands that look at light: a scene without any gets a neutral studio around it, and a warning.
+scene::Scene load_lit_scene(const SceneOptions& options);
+
 }  // namespace ssphh::app
