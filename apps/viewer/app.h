@@ -128,6 +128,8 @@ class App {
 
  private:
   void take_scene(std::string source, scene::Scene scene);
+  /// start_view(), or of a scene without cameras study::default_view().
+  View view_from(const std::string& camera) const;
   /// Notes a file that was written and says so.
   void written(const std::string& verb, const std::string& file);
   /// SPHLs at these places of probes, which light has been or will be found for, in place of all there were.

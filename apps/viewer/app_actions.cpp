@@ -5,6 +5,7 @@
 #include <ssphh/core/file.h>
 #include <ssphh/core/log.h>
 #include <ssphh/image/io.h>
+#include <ssphh/study/default_view.h>
 
 #include "app.h"
 
@@ -69,7 +70,7 @@ void App::take_document(Document next) {
   document = std::move(next);
   light.clear();
   selection = {};
-  view = start_view(document, "");
+  view = view_from("");
   applied_materials_ = document.edits().materials;
   applied_sphls_ = document.edits().sphls;
   drawn_.reset();
@@ -159,8 +160,15 @@ std::vector<std::string> App::camera_names() const {
   return names;
 }
 
+View App::view_from(const std::string& camera) const {
+  if (!camera.empty() || !document.scene->cameras.empty()) return start_view(document, camera);
+  const scene::CameraPose pose = study::default_view(*document.scene, *picking_, document.time);
+  const float distance = glm::distance(vec3(pose.world[3]), document.bounds.center());
+  return view_of(pose, document.bounds.empty() ? 3 : std::max(distance, 0.1f));
+}
+
 void App::go_to_camera(const std::string& name) {
-  view = start_view(document, name);
+  view = view_from(name);
   redraw();
 }
 

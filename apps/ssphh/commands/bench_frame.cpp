@@ -73,7 +73,7 @@ BenchFrameResult run_bench_frame(const BenchFrameOptions& o, const Control& cont
   realtime::FrameSettings direct_only = settings;
   direct_only.indirect = false;
   const realtime::Target target{.width = o.width, .height = o.height};
-  const scene::CameraPose camera = scene::camera_pose(scene, o.camera, o.scene.time);
+  const scene::CameraPose camera = camera_of(scene, o.camera, o.scene.time);
   const scene::LightingState start = renderer.lighting();
 
   // Room for all times is taken before they start, so that memory shows what frames take.

@@ -33,10 +33,9 @@ LeakResult run_leak(const LeakOptions& o, const Control& control) {
     log_warning("{}: was baked at {} s, not at {} s: what moved since counts as leaking", o.probes,
                 set.generator.time, time);
   }
-  scene::CameraPose camera;
-  if (!o.output.empty()) camera = scene::camera_pose(scene, o.camera, time);
-
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
+  scene::CameraPose camera;
+  if (!o.output.empty()) camera = camera_of(scene, o.camera, time, geometry);
   const trace::PathTracer tracer(geometry, scene, time);
   require_same_scene(o.probes, set, scene, tracer.light_groups(), {}, o.force);
   const trace::TransportScene surfaces(geometry, scene);

@@ -84,7 +84,7 @@ class Relighting {
     run_.frames_asked = o_.frames;
     run_.fps = o_.fps;
     if (!o_.output.empty() && o_.pictures > 0)  // Fails before the work rather than after it.
-      scene::camera_pose(scene_, o_.camera, o_.scene.time);
+      start_ = camera_of(scene_, o_.camera, o_.scene.time, geometry_);
     std::vector<transport::ProbePlace> places = find_places();
     warn_about_places(places, source_, place::place_params(scene_, o_.scene.time).interest,
                       animation_.moves_time(), control_);
@@ -217,7 +217,7 @@ class Relighting {
     trace::RenderParams params;
     params.width = o_.width;
     params.height = o_.height;
-    params.camera = scene::camera_pose(lit, o_.camera, kept.state.time);
+    params.camera = scene_.cameras.empty() ? start_ : scene::camera_pose(lit, o_.camera, kept.state.time);
     params.projection = projection_of(PictureProjection::camera, params.camera.camera);
     params.path = {.max_depth = 3, .passes = 1, .spp = o_.spp, .seed = o_.seed};
     trace::RenderState state;
@@ -236,6 +236,7 @@ class Relighting {
   trace::TransportScene source_;
   RelightAnimation animation_;
   RelightRun run_;
+  scene::CameraPose start_;  ///< where pictures are taken from a camera that the scene lacks
   std::vector<KeptFrame> kept_;
   SharedExposure exposure_;
   std::optional<float> shown_at_;  ///< EV of the frames that were written

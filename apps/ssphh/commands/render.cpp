@@ -44,11 +44,12 @@ vec3 place_of(const scene::Scene& scene, const std::string& text, float time) {
               names.empty() ? "the scene has no SPHLs" : "its SPHLs: " + names);
 }
 
-trace::RenderParams render_params(const RenderOptions& o, const scene::Scene& scene) {
+trace::RenderParams render_params(const RenderOptions& o, const scene::Scene& scene,
+                                  const trace::SharedGeometry& geometry) {
   trace::RenderParams params;
   params.width = o.width;
   params.height = o.height;
-  params.camera = scene::camera_pose(scene, o.camera, o.scene.time);
+  params.camera = camera_of(scene, o.camera, o.scene.time, geometry);
   params.path = {o.max_depth, o.passes, o.spp, o.seed};
   for (const std::string& aov : o.aovs) params.per_group |= aov == "groups";
   params.projection = projection_of(o.projection, params.camera.camera);
@@ -208,7 +209,9 @@ RenderResult run_render(const RenderOptions& o, const Control& control) {
   if (o.lookup.weights && o.lookup.method == probes::LookupMethod::light)
     throw Error("--weights", "blends probes, but --lookup light takes one alone", "leave out one of them");
   const scene::Scene scene = load_lit_scene(o.scene);
-  const trace::RenderParams params = render_params(o, scene);
+  trace::SharedGeometry geometry;  // on a farm, the workers build theirs
+  if (!session) geometry = std::make_shared<const trace::SceneGeometry>(scene);
+  const trace::RenderParams params = render_params(o, scene, geometry);
   const std::vector<std::string> groups = scene::light_groups(scene);
   trace::RenderState state;
   state.key = trace::render_key(content_hash(o, scene), o.scene.time, params);
@@ -216,8 +219,6 @@ RenderResult run_render(const RenderOptions& o, const Control& control) {
     state = trace::load_state(checkpoint_path(o), state.key);
     log_info("resuming after {} passes", state.passes_done);
   }
-  trace::SharedGeometry geometry;  // on a farm, the workers build theirs
-  if (!session) geometry = std::make_shared<const trace::SceneGeometry>(scene);
   const Stopwatch watch;
   RenderResult result;
   if (session) {

@@ -52,8 +52,10 @@ RenderResult render_gl(const RenderOptions& o, const Control& control) {
   const scene::Scene scene = load_lit_scene(o.scene);
   const Stopwatch watch;
   std::optional<LiveMethod> live;
+  trace::SharedGeometry geometry;
   if (o.method != "ssphh") {
-    live.emplace(o.method, o.parameters, std::make_shared<const trace::SceneGeometry>(scene), scene, control);
+    geometry = std::make_shared<const trace::SceneGeometry>(scene);
+    live.emplace(o.method, o.parameters, geometry, scene, control);
     live->update(rays::lighting_at(live->source(), o.scene.time), control);
     log_info("{}: {}", o.method, live->text());
   }
@@ -69,7 +71,7 @@ RenderResult render_gl(const RenderOptions& o, const Control& control) {
   settings.indirect_scale = o.indirect_scale;
   settings.ambient_occlusion = o.occlusion > 0;
   if (o.occlusion > 0) settings.occlusion_radius = o.occlusion;
-  const scene::CameraPose camera = scene::camera_pose(scene, o.camera, o.scene.time);
+  const scene::CameraPose camera = camera_of(scene, o.camera, o.scene.time, geometry);
   const auto draw = [&](realtime::View view) {
     settings.view = view;
     renderer.draw(camera, settings, {.width = o.width, .height = o.height});

@@ -30,12 +30,15 @@ struct Halves {
 
 Halves render_path(const TruthOptions& o, const scene::Scene& scene,
                    const std::optional<FarmSession>& session, const Control& control) {
+  trace::SharedGeometry geometry;
+  if (!session) geometry = std::make_shared<const trace::SceneGeometry>(scene);
   std::optional<trace::PathTracer> tracer;
-  if (!session) tracer.emplace(scene, o.picture.scene.time);
+  if (!session) tracer.emplace(geometry, scene, o.picture.scene.time);
+  const scene::CameraPose camera = camera_of(scene, o.picture.camera, o.picture.scene.time, geometry);
   const auto half = [&](std::uint64_t seed) {
     trace::RenderParams params;
     params.width = o.picture.width, params.height = o.picture.height;
-    params.camera = scene::camera_pose(scene, o.picture.camera, o.picture.scene.time);
+    params.camera = camera;
     params.projection = projection_of(o.projection, params.camera.camera);
     params.path = {o.picture.max_depth, 1, o.picture.spp / 2, seed};
     trace::RenderState state;

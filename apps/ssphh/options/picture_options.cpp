@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/study/default_view.h>
+#include <ssphh/trace/transport_scene.h>
+
 namespace ssphh::app {
 
 trace::Projection projection_of(PictureProjection projection, const scene::Camera& camera) {
@@ -15,7 +18,14 @@ trace::Projection projection_of(PictureProjection projection, const scene::Camer
 }
 
 void add_camera_option(Command command, std::string& camera) {
-  command.option("--camera", camera, "Camera by name; default: the scene's first");
+  command.option("--camera", camera, "Camera by name; default: the scene's first, or a view of what matters");
+}
+
+scene::CameraPose camera_of(const scene::Scene& scene, const std::string& name, float time,
+                            trace::SharedGeometry geometry) {
+  if (!name.empty() || !scene.cameras.empty()) return scene::camera_pose(scene, name, time);
+  if (!geometry) geometry = std::make_shared<const trace::SceneGeometry>(scene);
+  return study::default_view(scene, trace::TransportScene(geometry, scene), time);
 }
 
 void add_size_options(Command command, int& width, int& height, int most) {
@@ -53,8 +63,7 @@ void add_picture_options(Command command, PictureOptions& o) {
 }
 
 scene_io::ExportSettings export_settings(const PictureOptions& o, const scene::Scene& scene) {
-  return {
-      scene::camera_pose(scene, o.camera, o.scene.time), o.scene.time, o.width, o.height, o.max_depth, o.spp};
+  return {camera_of(scene, o.camera, o.scene.time), o.scene.time, o.width, o.height, o.max_depth, o.spp};
 }
 
 }  // namespace ssphh::app

@@ -7,6 +7,7 @@
 #include <ssphh/core/enum_names.h>
 #include <ssphh/scene_io/renderer_export.h>
 #include <ssphh/trace/render_state.h>
+#include <ssphh/trace/scene_geometry.h>
 
 #include "options/command_line.h"
 #include "options/scene_options.h"
@@ -23,6 +24,10 @@ constexpr auto enum_table(PictureProjection) {
 trace::Projection projection_of(PictureProjection projection, const scene::Camera& camera);
 
 void add_camera_option(Command command, std::string& camera);
+/// The camera of that name, or the scene's first; study::default_view() of a scene that has none, by its
+/// geometry where that has been built already.
+scene::CameraPose camera_of(const scene::Scene& scene, const std::string& name, float time,
+                            trace::SharedGeometry geometry = {});
 /// --width and --height in pixels, each at most `most`.
 void add_size_options(Command command, int& width, int& height, int most = 16384);
 Option add_max_depth_option(Command command, int& max_depth);

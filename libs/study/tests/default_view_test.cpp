@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include <ssphh/scene/primitives.h>
+#include <ssphh/study/default_view.h>
+
+#include "stage.h"
+#include "triangle_source.h"
+
+namespace ssphh::study {
+namespace {
+
+using scene::CameraPose;
+using scene::Scene;
+
+const vec3 half(3, 1.3f, 2);
+
+/// A room of 6 by 2.6 by 4 m, seen from inside, with a table; its lamp is a part of the ceiling.
+Scene room(float size = 1, bool lit = true) {
+  Scene s;
+  s.materials = {test::matte(vec3(0.8f)), test::matte(vec3(0.5f)), test::matte(vec3(0))};
+  if (lit) s.materials[2].emission = vec3(5);
+  test::add_mesh(s, scene::flipped(scene::make_box(-size * half, size * half)), 0);
+  test::add_mesh(s, scene::make_box(size * vec3(1, -1.3f, 0), size * vec3(2, -0.5f, 1)), 1);
+  test::add_mesh(s, scene::make_quad(size * vec3(-2, 1.29f, -1), size * vec3(3, 0, 0), size * vec3(0, 0, 2)),
+                 2);
+  return s;
+}
+
+CameraPose view_of(const Scene& scene) {
+  return default_view(scene, test::TriangleSource(scene));
+}
+vec3 eye_of(const CameraPose& pose) {
+  return vec3(pose.world[3]);
+}
+bool is_within(const vec3& p, const vec3& most) {
+  return glm::all(glm::lessThan(glm::abs(p), most));
+}
+
+/// Whether a picture as wide as high shows the point.
+bool shows(const CameraPose& pose, const vec3& point) {
+  const vec3 p(glm::inverse(pose.world) * vec4(point, 1));
+  const float reach = -p.z * std::tan(0.5f * pose.camera.yfov);
+  return p.z < 0 && std::abs(p.x) <= reach && std::abs(p.y) <= reach;
+}
+bool shows_box(const CameraPose& pose, const vec3& most) {
+  for (int corner = 0; corner < 8; ++corner) {
+    if (!shows(pose, most * vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1)))
+      return false;
+  }
+  return true;
+}
+
+TEST(DefaultView, StandsInARoomAndLooksAcrossIt) {
+  const CameraPose pose = view_of(room());
+  const vec3 eye = eye_of(pose), forward(-pose.world[2]);
+  EXPECT_TRUE(is_within(eye, half));
+  EXPECT_NEAR(eye.y, -1.3f + 1.56f, 0.01f) << "six tenths of the height, which is less than 1.6 m";
+  EXPECT_LT(std::abs(forward.y), 0.2f);
+  const vec3 ahead = eye + 2.5f * forward;
+  EXPECT_TRUE(is_within(vec3(ahead.x, 0, ahead.z), half)) << "no wall before the camera";
+  EXPECT_TRUE(shows(pose, {1.5f, -0.5f, 0.5f})) << "the table";
+}
+
+TEST(DefaultView, DoesNotStandWhereNoLightGets) {
+  EXPECT_TRUE(shows_box(view_of(room(1, false)), half));
+}
+
+TEST(DefaultView, StandsBeforeThings) {
+  Scene thing = room();
+  thing.meshes[0] = scene::make_box(-half, half);
+  thing.meshes[0].material = 0;
+  const CameraPose pose = view_of(thing);
+  EXPECT_TRUE(shows_box(pose, half));
+  EXPECT_GT(eye_of(pose).y, half.y) << "from above";
+  EXPECT_GT(eye_of(pose).z, half.z) << "from in front";
+  EXPECT_FALSE(shows_box(pose, 1.2f * half)) << "no farther than needed";
+  EXPECT_TRUE(shows_box(view_of(room(0.1f)), 0.1f * half)) << "a box may be hollow: it is no room";
+}
+
+TEST(DefaultView, AWideGroundChangesNothingMuch) {
+  Scene s = room();
+  test::add_mesh(s, scene::make_quad({-120, -1.31f, 120}, {240, 0, 0}, {0, 0, -240}), 1);
+  EXPECT_TRUE(is_within(eye_of(view_of(s)), half));
+}
+
+TEST(DefaultView, IsTheSameForTheSameScene) {
+  EXPECT_EQ(view_of(room()).world, view_of(room()).world);
+}
+
+TEST(DefaultView, WhatHasNoTrianglesIsLookedAtFromTheOrigin) {
+  EXPECT_EQ(view_of(Scene()).world, mat4(1));
+}
+
+}  // namespace
+}  // namespace ssphh::study
