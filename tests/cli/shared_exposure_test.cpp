@@ -28,6 +28,20 @@ TEST(SharedExposure, IsThatOfTheFirstPictureThatIsNotBlack) {
   EXPECT_EQ(exposure.chosen(), suits);
 }
 
+TEST(SharedExposure, IsNotDeceivedByNoise) {
+  // One pixel in four got all the light.
+  image::Image smooth(320, 240), noisy(320, 240);
+  for (int y = 0; y < 240; ++y) {
+    for (int x = 0; x < 320; ++x) {
+      const vec3 light(0.01f * static_cast<float>(1 + x / 8));
+      smooth.set_rgb(x, y, light);
+      if (x % 2 == 0 && y % 2 == 0) noisy.set_rgb(x, y, 4.0f * light);
+    }
+  }
+  EXPECT_EQ(suitable_exposure(noisy), suitable_exposure(smooth));
+  EXPECT_LT(image::automatic_exposure(noisy), suitable_exposure(noisy) - 1);
+}
+
 TEST(SharedExposure, IsWhatWasAskedFor) {
   SharedExposure exposure(-3.1f);
   EXPECT_EQ(exposure.of(grey(0)), -3.1f);

@@ -11,10 +11,10 @@
 #include <ssphh/core/file.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/parallel.h>
-#include <ssphh/image/exposure.h>
 #include <ssphh/report/measure.h>
 
 #include "commands/child_process.h"
+#include "results/pictures.h"
 
 namespace ssphh::app {
 namespace {
@@ -189,7 +189,7 @@ class CellMeasurer {
                  std::map<std::string, std::vector<double>>& values) const {
     const std::vector<report::LayerPicture> runs = load_runs(cell, cache_, layer);
     out.pictures.push_back({layer, "", report::pack_half(runs.front().picture)});
-    if (layer.empty()) out.exposure = static_cast<double>(image::automatic_exposure(runs.front().picture));
+    if (layer.empty()) out.exposure = static_cast<double>(suitable_exposure(runs.front().picture));
     const Cell* reference = reference_of(cell);
     if (!reference || reference == &cell || !failure_of(*reference, expansion_, runs_).empty()) return;
     const std::string prefix = layer.empty() ? "" : layer + ":";

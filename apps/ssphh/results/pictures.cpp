@@ -7,13 +7,22 @@
 
 #include <ssphh/image/exposure.h>
 #include <ssphh/image/io.h>
+#include <ssphh/image/resample.h>
 
 namespace ssphh::app {
+
+float suitable_exposure(const image::Image& linear) {
+  constexpr int enough = 160;  // pixels
+  const int shrink = std::max(1, std::max(linear.width, linear.height) / enough);
+  if (shrink == 1) return image::automatic_exposure(linear);
+  return image::automatic_exposure(
+      image::resize(linear, std::max(1, linear.width / shrink), std::max(1, linear.height / shrink)));
+}
 
 float SharedExposure::of(const image::Image& linear) {
   if (chosen_) return *chosen_;
   const auto is_light = [](float x) { return x > 0 && std::isfinite(x); };
-  if (std::ranges::any_of(linear.pixels, is_light)) chosen_ = image::automatic_exposure(linear);
+  if (std::ranges::any_of(linear.pixels, is_light)) chosen_ = suitable_exposure(linear);
   return chosen_.value_or(0);
 }
 

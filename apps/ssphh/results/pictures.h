@@ -11,6 +11,10 @@
 
 namespace ssphh::app {
 
+/// image::automatic_exposure() of the picture made small: noise of few samples would count as darkness and
+/// lamps.
+float suitable_exposure(const image::Image& linear);
+
 /// The exposure of pictures that belong together: as asked for, else as suits the first of them that is not
 /// black.
 class SharedExposure {
