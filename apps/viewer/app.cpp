@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include <ssphh/core/file.h>
+#include <ssphh/image/exposure.h>
 #include <ssphh/image/io.h>
 #include <ssphh/rays/posed_world.h>
 
@@ -183,7 +184,7 @@ void App::draw_scene() {
     look.view = view;
     look.radius = settings.ball_size > 0 ? settings.ball_size : default_ball_size(light.set());
     look.lobes = settings.lobes;
-    look.tone = {settings.exposure, settings.curve, 0};
+    look.tone = {shown_exposure(settings), settings.curve, 0};
     look.selected = selection.is(Kind::sphl) ? probe_of_sphl(*this, selection.index) : -1;
     balls_->draw(light.set(), look, {renderer_->depth_texture(), renderer_->view_projection()},
                  picture.framebuffer(), picture.width(), picture.height());
@@ -191,7 +192,30 @@ void App::draw_scene() {
   drawn_ = {view, settings, selection, picture.width(), picture.height()};
   scene_dirty_ = false;
   truth_dirty_ = true;
+  if (follows_exposure) follow_exposure();
   redraw();
+}
+
+std::optional<float> App::suitable_exposure() const {
+  // Of all the light: views of its parts are compared with it.
+  if (!settings.auto_exposure || settings.debug != DebugView::none || !drawn_) return {};
+  const image::Image some = renderer_->read_some(160, 90);
+  if (std::ranges::none_of(some.pixels, [](float x) { return x > 0; })) return {};
+  return image::automatic_exposure(some);
+}
+
+bool App::show_exposure(float ev) {
+  return std::exchange(settings.exposure, ev) != ev;
+}
+
+bool App::follow_exposure() {
+  const auto suits = suitable_exposure();
+  return suits && show_exposure(exposure_.follow(*suits));
+}
+
+bool App::take_exposure() {
+  const auto suits = suitable_exposure();
+  return suits && show_exposure(exposure_.take(*suits));
 }
 
 /// Which probes the eye sees: their names are shown, the others' are not.

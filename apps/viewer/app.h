@@ -10,6 +10,7 @@
 
 #include "model/camera_path.h"
 #include "model/document.h"
+#include "model/exposure_follower.h"
 #include "model/frame_times.h"
 #include "model/gestures.h"
 #include "model/reference.h"
@@ -88,6 +89,11 @@ class App {
   /// As say(), for what went wrong.
   void complain(const std::string& message);
 
+  /// One frame's way of an automatic exposure toward what suits the picture on the screen, or at once to it;
+  /// whether that changed it.
+  bool follow_exposure();
+  bool take_exposure();
+
   /// No background work, light and picture up to date, and ground truth complete where it is shown.
   bool settled() const;
   bool scene_open() const { return document.scene != nullptr; }
@@ -116,7 +122,8 @@ class App {
   float path_time = 0;
   bool path_plays = false;
   bool panels = true, help = false, place_mode = false;
-  std::string open_tab;  ///< tab of the sidebar to bring to the front once; empty: none
+  bool follows_exposure = true;  ///< with every frame; else only where follow_exposure() is called
+  std::string open_tab;          ///< tab of the sidebar to bring to the front once; empty: none
   Rect2 viewport;
   Drag drag;
   std::string message;
@@ -135,6 +142,8 @@ class App {
   /// SPHLs at these places of probes, which light has been or will be found for, in place of all there were.
   template <class Places>
   void take_places(const std::string& what, const Places& places);
+  std::optional<float> suitable_exposure() const;
+  bool show_exposure(float ev);
   void update_time(double seconds);
   void apply_edits();
   void update_light();
@@ -148,6 +157,7 @@ class App {
   std::unique_ptr<BallsGl> balls_;
   trace::SharedGeometry geometry_;  ///< of document.scene
   std::unique_ptr<trace::TransportScene> picking_;
+  ExposureFollower exposure_;
   std::vector<unsigned char> visible_;  ///< per probe, from the eye
 
   // What the picture on the screen was drawn with.

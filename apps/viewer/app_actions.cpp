@@ -74,6 +74,7 @@ void App::take_document(Document next) {
   applied_materials_ = document.edits().materials;
   applied_sphls_ = document.edits().sphls;
   drawn_.reset();
+  exposure_.forget();
   visible_seen_.reset();
   scene_dirty_ = true;
   light_stale_ = false;

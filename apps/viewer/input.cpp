@@ -33,7 +33,7 @@ constexpr Shortcut all_shortcuts[] = {
     {"Delete", "delete the selected SPHL"},
     {"T", "ground truth: off, beside the picture, alone, difference"},
     {"1 … 8", "all, direct, indirect, albedo, normal, shadow, SPHL, leak"},
-    {"[ ]", "darker, brighter"},
+    {"[ ] \\", "darker, brighter, as suits the picture"},
     {"Ctrl+Z, Ctrl+Y", "undo, redo"},
     {"Ctrl+S", "save the scene as a new GLB file"},
     {"F12", "screenshot"},

@@ -218,7 +218,7 @@ InjectedInput ScriptPlayer::next(App& app) {
     --wait_frames_;
     return {};
   }
-  if (settling_ && !app.settled()) return {};
+  if (settling_ && (!app.settled() || app.take_exposure())) return {};
   settling_ = false;
   if (at_ < lines_.size()) {
     const ScriptLine& line = lines_[at_++];

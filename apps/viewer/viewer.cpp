@@ -35,12 +35,15 @@ class Session {
     return true;
   }
 
-  bool settle() {
+  /// With the exposure that suits what is shown then; or the one it has.
+  bool settle(bool take_exposure = true) {
     do {
-      if (!app_.job.running() && !app_.reference.status().running) app_.redraw();
-      if (!turn()) return false;
-      if (app_.message_is_error) throw Error("view", app_.message);
-    } while (!app_.settled());
+      do {
+        if (!app_.job.running() && !app_.reference.status().running) app_.redraw();
+        if (!turn()) return false;
+        if (app_.message_is_error) throw Error("view", app_.message);
+      } while (!app_.settled());
+    } while (take_exposure && app_.take_exposure());
     return true;
   }
 
@@ -58,9 +61,12 @@ void export_path(App& app, Session& session, const ViewerOptions& options, const
   const CameraPath path = app.bookmarks;
   const int frames = 1 + static_cast<int>(path.duration() * options.fps);
   ProgressStage progress(control, "drawing", static_cast<std::uint64_t>(frames), "frames");
+  // Turns of the window are as many as light in the background takes: the frames count.
+  app.follows_exposure = false;
   for (int f = 0; f < frames; ++f) {
     app.go_to(at(path, path.keys.front().time + static_cast<float>(f / options.fps)));
-    if (!session.settle()) throw Cancelled();
+    if (!session.settle(f == 0)) throw Cancelled();
+    if (app.follow_exposure() && !session.settle(false)) throw Cancelled();
     app.screenshot((std::filesystem::path(options.export_dir) / fmt::format("frame-{:04}.png", f)).string(),
                    false);
     progress.advance(1);

@@ -55,7 +55,8 @@ class View : public testing::Test {
   TempDir dir_;
 };
 
-const std::vector<std::string> two_rooms = {"view", "builtin:two-rooms", "--size", "320x200", "--no-panels"};
+const std::vector<std::string> two_rooms = {"view",        "builtin:two-rooms", "--size", "320x200",
+                                            "--no-panels", "--exposure",        "0"};
 
 std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
   arguments.insert(arguments.end(), more.begin(), more.end());

@@ -34,7 +34,9 @@ void add_setting_options(Command command, ViewOptions& o) {
           }
         },
         "");
-    option.kind(setting.choices.empty() ? "NUMBER" : fmt::format("{{{}}}", fmt::join(setting.choices, ",")));
+    option.kind(setting.or_auto           ? "auto|NUMBER"
+                : setting.choices.empty() ? "NUMBER"
+                                          : fmt::format("{{{}}}", fmt::join(setting.choices, ",")));
   }
 }
 

@@ -48,8 +48,9 @@ Settings after_key(Settings s, char key, bool animated) {
   if (key == 'G') s.graph = !s.graph;
   if (key == 'T') s.show = next_comparison(s.show);
   if (key >= '1' && key <= '8') s.debug = static_cast<DebugView>(key - '1');
-  if (key == '[') s.exposure -= 0.5f;
-  if (key == ']') s.exposure += 0.5f;
+  if (key == '[') s.exposure -= 0.5f, s.auto_exposure = false;
+  if (key == ']') s.exposure += 0.5f, s.auto_exposure = false;
+  if (key == '\\') s.auto_exposure = !s.auto_exposure;
   return s;
 }
 

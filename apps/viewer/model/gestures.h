@@ -26,10 +26,11 @@ View dragged(const View& view, ViewDrag drag, const vec2& pixels, float height);
 View wheeled(const View& view, float notches);
 
 /// The keys that change settings.
-inline constexpr std::string_view setting_keys = " PLGT12345678[]";
+inline constexpr std::string_view setting_keys = " PLGT12345678[]\\";
 
 /// The settings once one of `setting_keys` was pressed: P balls, L lobes (with balls), G graph, T the next
-/// comparison with the truth, 1 to 8 debug views, [ and ] half a stop darker and brighter; the space bar
+/// comparison with the truth, 1 to 8 debug views, [ and ] half a stop darker and brighter, \ the
+/// exposure that suits the picture or stays; the space bar
 /// plays what is `animated`.
 Settings after_key(Settings settings, char key, bool animated);
 

@@ -19,7 +19,7 @@ using Of = std::decay_t<std::invoke_result_t<Member, Settings&>>;
 template <class Member>
 SettingName choice(const char* name, const char* group, const char* help, Member member) {
   using E = Of<Member>;
-  SettingName setting{name, group, help, names_of<E>(), {}, {}};
+  SettingName setting{name, group, help, names_of<E>(), false, {}, {}};
   setting.set = [member, name](Settings& s, const std::string& text) {
     std::invoke(member, s) = enum_named<E>(name, text);
   };
@@ -31,7 +31,7 @@ SettingName choice(const char* name, const char* group, const char* help, Member
 template <class Member>
 SettingName word(const char* name, const char* group, const char* help, std::vector<std::string> words,
                  Member member) {
-  SettingName setting{name, group, help, std::move(words), {}, {}};
+  SettingName setting{name, group, help, std::move(words), false, {}, {}};
   setting.set = [member, name, words = setting.choices](Settings& s, const std::string& text) {
     if (std::ranges::find(words, text) == words.end()) throw Error(name, none_of(text, words));
     std::invoke(member, s) = text;
@@ -48,7 +48,7 @@ std::vector<std::string> truth_names() {
 
 template <class Member>
 SettingName toggle(const char* name, const char* group, const char* help, Member member) {
-  SettingName setting{name, group, help, {"off", "on"}, {}, {}};
+  SettingName setting{name, group, help, {"off", "on"}, false, {}, {}};
   setting.set = [member, name, words = setting.choices](Settings& s, const std::string& text) {
     if (text != "off" && text != "on") throw Error(name, none_of(text, words));
     std::invoke(member, s) = text == "on";
@@ -60,7 +60,7 @@ SettingName toggle(const char* name, const char* group, const char* help, Member
 template <class Member>
 SettingName number(const char* name, const char* group, const char* help, float low, float high,
                    Member member) {
-  SettingName setting{name, group, help, {}, {}, {}};
+  SettingName setting{name, group, help, {}, false, {}, {}};
   setting.set = [member, name, low, high](Settings& s, const std::string& text) {
     const float value = parse_number(name, text);
     if (!(value >= low && value <= high))
@@ -76,11 +76,25 @@ SettingName number(const char* name, const char* group, const char* help, float 
   return setting;
 }
 
+SettingName exposure_setting() {
+  SettingName setting = number("exposure", "Picture", "Stops; auto: follows what suits the picture", -20, 20,
+                               &Settings::exposure);
+  setting.or_auto = true;
+  setting.set = [set_number = setting.set](Settings& s, const std::string& text) {
+    if (text != "auto") set_number(s, text);
+    s.auto_exposure = text == "auto";
+  };
+  setting.get = [get_number = setting.get](const Settings& s) {
+    return s.auto_exposure ? "auto" : get_number(s);
+  };
+  return setting;
+}
+
 }  // namespace
 
 const std::vector<SettingName>& setting_names() {
   static const std::vector<SettingName> names = {
-      number("exposure", "Picture", "Stops", -20, 20, &Settings::exposure),
+      exposure_setting(),
       choice("tonemap", "Picture", "Curve: clip at white, or filmic", &Settings::curve),
       choice("debug", "Picture",
              "What the real-time picture holds: none (all), direct or indirect light only, albedo, normal, "

@@ -65,7 +65,8 @@ constexpr auto enum_table(Ball) {
 
 struct Settings {
   // Picture
-  float exposure = 0;  ///< EV
+  bool auto_exposure = true;  ///< `exposure` follows the picture
+  float exposure = 0;         ///< EV
   image::ToneCurve curve = image::ToneCurve::clip;
   Show show = Show::realtime;
   DebugView debug = DebugView::none;
@@ -104,6 +105,7 @@ struct SettingName {
   std::string group;  ///< "Picture"
   std::string help;
   std::vector<std::string> choices;  ///< empty: a number
+  bool or_auto = false;              ///< beside a number the word auto
   /// Throws Error that says what would be right.
   std::function<void(Settings&, const std::string&)> set;
   std::function<std::string(const Settings&)> get;

@@ -38,7 +38,10 @@ void draw_truth(App& app) {
 
 void draw_picture_panel(App& app) {
   heading("Picture");
-  setting_slider(app, "exposure", "exposure", -8, 8, "%+.1f EV");
+  row("automatic");
+  if (ImGui::Checkbox("##automatic", &app.settings.auto_exposure)) app.redraw();
+  tip("The exposure follows what suits the picture; key \\");
+  setting_slider(app, "exposure", "exposure", -12, 8, "%+.2f EV");
   setting_widget(app, "tone curve", "tonemap");
   setting_widget(app, "debug view", "debug");
   if (app.settings.debug == DebugView::leak)

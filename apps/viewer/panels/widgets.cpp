@@ -104,7 +104,8 @@ void setting_widget(App& app, const char* label, const char* name) {
 void setting_slider(App& app, const char* label, const char* name, float low, float high,
                     const char* format) {
   const SettingName& s = setting(name);
-  auto value = static_cast<float>(std::atof(s.get(app.settings).c_str()));
+  const std::string text = s.get(app.settings);
+  auto value = text == "auto" ? app.settings.exposure : static_cast<float>(std::atof(text.c_str()));
   ImGui::PushID(name);
   row(label);
   if (ImGui::SliderFloat("##value", &value, low, high, format)) set(app, s, fmt::format("{}", value));

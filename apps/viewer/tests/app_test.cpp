@@ -149,6 +149,7 @@ TEST_F(AppTest, BeginsAsItsOptionsSay) {
   start(40, 30);
   EXPECT_FALSE(app().panels);
   EXPECT_EQ(app().settings.exposure, 2);
+  EXPECT_FALSE(app().settings.auto_exposure);
   EXPECT_TRUE(app().settings.balls);
 }
 

@@ -80,8 +80,9 @@ TEST(Gestures, KeysChangeWhatTheyName) {
   expect_key('G', s, [](Settings& e) { e.graph = true; });
   expect_key('L', s, [](Settings& e) { e.lobes = e.balls = true; });
   expect_key(' ', s, [](Settings& e) { e.play = true; });
-  expect_key('[', s, [](Settings& e) { e.exposure = -0.5f; });
-  expect_key(']', s, [](Settings& e) { e.exposure = 0.5f; });
+  expect_key('[', s, [](Settings& e) { e.exposure = -0.5f, e.auto_exposure = false; });
+  expect_key(']', s, [](Settings& e) { e.exposure = 0.5f, e.auto_exposure = false; });
+  expect_key('\\', s, [](Settings& e) { e.auto_exposure = false; });
   Settings on;
   on.balls = on.graph = on.lobes = on.play = true;
   expect_key('P', on, [](Settings& e) { e.balls = false; });

@@ -14,7 +14,8 @@ TEST_F(Panels, SlidersReachFromEndToEndOfTheirRange) {
   take_probes();
   open("Picture");
   expect_ends(
-      "exposure", [&] { return s.exposure; }, -8, 8);
+      "exposure", [&] { return s.exposure; }, -12, 8);
+  EXPECT_FALSE(s.auto_exposure) << "the slider turns it off";
   expect_ends(
       "pixels", [&] { return s.scale; }, 0.25f, 2);
   expect_ends(

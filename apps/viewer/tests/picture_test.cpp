@@ -71,6 +71,7 @@ class PictureTest : public AppStage {
     }
     options_.panels = false;
     options_.time = 0.25f;
+    options_.settings = {{"exposure", "0"}};
     start(64, 48);
     window_->tick = 1.0 / 1024;
   }
@@ -112,6 +113,29 @@ class PictureTest : public AppStage {
     return a.size() == b.size() ? most : 999;
   }
   image::Rgba8 file(const std::string& name) { return image::decode_rgba8(read_file(name), name); }
+
+  /// What suits the picture, at once when all has settled; by hand it stays.
+  void exposure_follows_the_light() {
+    play("view -1 1.5 1.9 -2.4 1 0\nset exposure auto");
+    const float full = app().settings.exposure;
+    const double look = mean(shot());
+    EXPECT_GT(look, 60);
+    EXPECT_LT(look, 200);
+    play("group lamp 0.125");
+    EXPECT_NEAR(app().settings.exposure, full + 3, 0.26f);
+    EXPECT_NEAR(mean(shot()), look, 12);
+    play("set debug albedo");
+    EXPECT_EQ(frame_settings(app().settings).tone.exposure, 0) << "no light is shown";
+    play("set debug indirect");
+    EXPECT_NEAR(frame_settings(app().settings).tone.exposure, full + 3, 0.26f) << "beside all light";
+    play("set debug none\nset exposure -1\ngroup lamp 0.5");
+    EXPECT_EQ(app().settings.exposure, -1);
+    play("set exposure auto");
+    const float lit = app().settings.exposure;
+    play("group lamp 0");
+    EXPECT_EQ(app().settings.exposure, lit) << "darkness suits any";
+    play("undo\nundo\nundo\nset exposure 0");
+  }
 
   /// Edits reach the picture, and taken back leave it as it was.
   void edits_and_undo() {
@@ -350,6 +374,7 @@ TEST_F(PictureTest, FollowsTheSession) {
     SCOPED_TRACE(name);
     if (!HasFatalFailure()) check();
   };
+  part("exposure", [&] { exposure_follows_the_light(); });
   part("edits", [&] { edits_and_undo(); });
   part("truth", [&] { truth_beside(); });
   part("files", [&] { probes_of_files(); });

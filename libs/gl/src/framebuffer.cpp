@@ -83,6 +83,13 @@ void clear_color_uint(int attachment, unsigned r, unsigned g, unsigned b, unsign
   glClearBufferuiv(GL_COLOR, attachment, color);
 }
 
+void copy_colors(const Framebuffer& from, const Rect& part, const Framebuffer& to, const Rect& over) {
+  glDisable(GL_SCISSOR_TEST);
+  glBlitNamedFramebuffer(from.id(), to.id(), part.x, part.y, part.x + part.width, part.y + part.height,
+                         over.x, over.y, over.x + over.width, over.y + over.height, GL_COLOR_BUFFER_BIT,
+                         GL_NEAREST);
+}
+
 void texture_barrier() {
   glTextureBarrier();
 }

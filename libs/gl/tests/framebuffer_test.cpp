@@ -161,6 +161,24 @@ TEST_F(GlFramebuffer, DrawingGoesIntoTheViewportOfTheBoundOne) {
 }
 
 // Rows of one pixel are the ones that a packing of 8 bytes would move.
+TEST_F(GlFramebuffer, ColoursAreCopiedIntoASmallerOneUnfiltered) {
+  const Texture large(Format::rgba32f, 6, 4), small(Format::rgba32f, 2, 2);
+  std::vector<vec4> texels;
+  for (int i = 0; i < 24; ++i) texels.emplace_back(i, i % 6, 2, 1);
+  large.upload(std::as_bytes(std::span(texels)));
+  const Texture *const from[] = {&large}, *const to[] = {&small};
+  const Framebuffer source(from, nullptr), target(to, nullptr);
+  copy_colors(source, {0, 0, 6, 4}, target, {0, 0, 2, 2});
+  std::vector<float> copied(16);
+  small.read(copied, 4);
+  // The middles of its texels are at x 1.5 and 4.5; y 1 and 3 lie between two rows each.
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(copied[4 * i + 1], i % 2 ? 4 : 1);
+    EXPECT_EQ(std::floor(copied[4 * i] / 12), static_cast<float>(i / 2));
+    EXPECT_EQ(copied[4 * i + 2], 2);
+  }
+}
+
 TEST_F(GlFramebuffer, OddNumberOfRowsIsReadWhateverThePacking) {
   Texture image(Format::rgba8, 3, 3);
   std::vector<std::uint8_t> texels;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -172,20 +173,41 @@ methods::MethodNumbers Renderer::method_numbers() const {
   return data_->method ? data_->method->numbers() : methods::MethodNumbers();
 }
 
-image::Image Renderer::read_back() const {
-  const FrameImages& f = data_->images;
-  if (!data_->drawn) throw Error("real-time renderer", "no frame was drawn yet");
-  std::vector<float> texels(static_cast<std::size_t>(f.width) * static_cast<std::size_t>(f.height) * 4);
-  f.result().read(texels, 4);
-  image::Image out(f.width, f.height, 3);
-  for (int y = 0; y < f.height; ++y) {
-    for (int x = 0; x < f.width; ++x) {
-      const auto row = static_cast<std::size_t>(f.height - 1 - y);
-      const float* p = &texels[4 * (row * static_cast<std::size_t>(f.width) + static_cast<std::size_t>(x))];
+namespace {
+
+image::Image image_of(const gl::Texture& texture) {
+  const int width = texture.width(), height = texture.height();
+  std::vector<float> texels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+  texture.read(texels, 4);
+  image::Image out(width, height, 3);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto row = static_cast<std::size_t>(height - 1 - y);
+      const float* p = &texels[4 * (row * static_cast<std::size_t>(width) + static_cast<std::size_t>(x))];
       out.set_rgb(x, y, {p[0], p[1], p[2]});
     }
   }
   return out;
+}
+
+}  // namespace
+
+image::Image Renderer::read_back() const {
+  if (!data_->drawn) throw Error("real-time renderer", "no frame was drawn yet");
+  return image_of(data_->images.result());
+}
+
+image::Image Renderer::read_some(int width, int height) const {
+  const FrameImages& f = data_->images;
+  if (width >= f.width && height >= f.height) return read_back();
+  if (!data_->drawn) throw Error("real-time renderer", "no frame was drawn yet");
+  if (width < 1 || height < 1) throw Error("real-time renderer", "there is no picture without pixels");
+  const gl::Texture& all = f.result();
+  const gl::Texture some(all.format(), std::min(width, f.width), std::min(height, f.height));
+  const gl::Texture *const from[] = {&all}, *const to[] = {&some};
+  gl::copy_colors(gl::Framebuffer(from, nullptr), f.picture(), gl::Framebuffer(to, nullptr),
+                  {0, 0, some.width(), some.height()});
+  return image_of(some);
 }
 
 const gl::Texture& Renderer::depth_texture() const {

@@ -35,6 +35,9 @@ void clear_depth(const Rect& rect, float value);
 void clear_stencil(int value);
 void clear_color(int attachment, float r, float g, float b, float a);
 void clear_color_uint(int attachment, unsigned r, unsigned g, unsigned b, unsigned a);
+/// Colours of `part` of one into `over` of another, which may be smaller: of each of its texels one,
+/// unfiltered.
+void copy_colors(const Framebuffer& from, const Rect& part, const Framebuffer& to, const Rect& over);
 /// What was drawn into a texture may be read by what is drawn into other texels of it next.
 void texture_barrier();
 /// Colours of a part of a framebuffer (0: the window's own, before it is shown) as RGBA bytes with alpha 255,

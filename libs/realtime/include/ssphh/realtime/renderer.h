@@ -101,6 +101,9 @@ class Renderer {
                          const Target& target);
   /// The last frame as scene-linear radiance, before exposure and tone curve; row 0 on top.
   image::Image read_back() const;
+  /// So many of its pixels, spread evenly, or all of a smaller one: little to read, and enough to tell how
+  /// bright it is.
+  image::Image read_some(int width, int height) const;
 
   /// What drew the last frame's surfaces, for those who draw more into it: the depth at every sample
   /// (the target's size times supersample; 32-bit float with stencil, 1 near, 0 far away; row 0
