@@ -162,7 +162,7 @@ TEST_F(GlFramebuffer, DrawingGoesIntoTheViewportOfTheBoundOne) {
 
 // Rows of one pixel are the ones that a packing of 8 bytes would move.
 TEST_F(GlFramebuffer, ColoursAreCopiedIntoASmallerOneUnfiltered) {
-  const Texture large(Format::rgba32f, 6, 4), small(Format::rgba32f, 2, 2);
+  Texture large(Format::rgba32f, 6, 4), small(Format::rgba32f, 2, 2);
   std::vector<vec4> texels;
   for (int i = 0; i < 24; ++i) texels.emplace_back(i, i % 6, 2, 1);
   large.upload(std::as_bytes(std::span(texels)));
