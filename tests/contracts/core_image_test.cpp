@@ -6,6 +6,7 @@
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/sphere.h>
 #include <ssphh/image/cube_layout.h>
+#include <ssphh/image/exposure.h>
 #include <ssphh/image/io.h>
 #include <ssphh/image/resample.h>
 #include <ssphh/image/sphere_map.h>
@@ -144,6 +145,8 @@ std::vector<Contract> of_images() {
       refuses("EnumNamed", "OfNoLayout", [] { enum_named<image::Layout>("layout", "dome"); },
               {"dome", "equirect"}),
       refuses("ToneMap", "OfATornImage", [] { image::tone_map(torn(), {}); }, {"number of pixels"}),
+      refuses("AutomaticExposure", "OfATornImage", [] { image::automatic_exposure(torn()); },
+              {"automatic exposure", "number of pixels"}),
       gives("ToneMap", "OfNoNumber", [] { EXPECT_EQ(image::tone_map(vec3(nan), {}), vec3(0)); }),
       refuses("ToDisplay", "OfTwoChannels", [] { image::to_display(two_channels(), {}); }, {"1, 3 or 4"}),
   };

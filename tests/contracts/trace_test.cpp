@@ -4,6 +4,7 @@
 #include <ssphh/scene/builtin.h>
 #include <ssphh/shading/lights.h>
 #include <ssphh/shading/mesh_view.h>
+#include <ssphh/study/default_view.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -187,6 +188,13 @@ std::vector<Contract> of_tracers() {
           [] { trace::TransportScene(trace::geometry_of(std::make_shared<scene::Scene>()), the_scene()); },
           {"scene geometry", "other surfaces"}),
       refuses("GeometryOf", "NoScene", [] { trace::geometry_of(nullptr); }, {"scene geometry", "no scene"}),
+      refuses_tracing("DefaultView", "OfAMeshThatIsNotThere",
+                      [](Traced& t) {
+                        scene::Scene scene = sound_scene();
+                        scene.instances[0].mesh = 9;
+                        study::default_view(scene, t.transport);
+                      },
+                      {"instance 0", "mesh 9"}),
       refuses_tracing("PosedWorld", "OfTooFewPoses",
                       [](Traced& t) { rays::PosedWorld(t.transport, std::vector<mat4>{}); },
                       {"posed world", "each part"}),

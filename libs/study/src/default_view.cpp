@@ -257,6 +257,7 @@ scene::CameraPose outside_view(const scene::Bounds& box) {
 }  // namespace
 
 scene::CameraPose default_view(const scene::Scene& scene, const rays::TransportSource& source, float time) {
+  scene::check_indices(scene);
   const std::vector<vec3> vertices = some_vertices(scene, time);
   if (vertices.empty()) return pose_of(vec3(0), {0, 0, -1}, outside_yfov);
   const scene::Bounds core = core_box(vertices);
