@@ -14,7 +14,9 @@
 #include <ssphh/scene/lambertian.h>
 #include <ssphh/scene_io/gltf_export.h>
 #include <ssphh/scene_io/load.h>
+#include <ssphh/study/default_view.h>
 #include <ssphh/trace/path_tracer.h>
+#include <ssphh/trace/transport_scene.h>
 
 #include "here.h"
 #include "temp_dir.h"
@@ -124,6 +126,22 @@ TEST_F(Render, AnOrthographicCameraSeesParallelRays) {
   std::vector<std::string> arguments = command({"--camera", name});
   arguments[1] = file;
   json_here(arguments);
+  EXPECT_EQ(image::read_image(out_).pixels, picture().pixels);
+}
+
+TEST_F(Render, ASceneWithoutCamerasIsSeenFromWhereItsViewIsFound) {
+  scene_.cameras.clear();
+  const std::string file = dir_ / "blind.glb";
+  scene_io::write_glb(file, scene_);
+  scene_ = scene_io::load_scene(file);
+  params_.camera = study::default_view(
+      scene_, trace::TransportScene(std::make_shared<const trace::SceneGeometry>(scene_), scene_), 0.5f);
+  EXPECT_LT(std::abs(params_.camera.world[3].x), 5) << "within the rooms";
+  std::vector<std::string> arguments = {"render", file, "--time", "0.5", "-o", out_};
+  for (const char* word :
+       {"--width", "12", "--height", "8", "--max-depth", "2", "--passes", "3", "--spp", "2", "--seed", "5"})
+    arguments.push_back(word);
+  EXPECT_EQ(json_here(arguments)["geometry_builds"], 1) << "one for the view and the picture";
   EXPECT_EQ(image::read_image(out_).pixels, picture().pixels);
 }
 

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <thread>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -124,6 +125,27 @@ TEST_F(View, SavesWhatWasEdited) {
       run_json(with(two_rooms, {"--path", path("path.json"), "--export", path("frames"), "--fps", "1"}));
   EXPECT_EQ(frames["written"].size(), 3u);
   EXPECT_TRUE(exists("frames/frame-0002.png"));
+}
+
+TEST_F(View, FramesOfAPathGlideToWhatSuitsThemAlike) {
+  const auto view = [](float time, float x) {
+    return fmt::format(
+        R"({{"time": {}, "position": [{}, 1.6, 0.5], "look_at": [6, 1.2, 0.5], "yfov_degrees": 50}})", time,
+        x);
+  };
+  std::ofstream(dir_ / "walk.json") << R"({"keys": [)" << view(0, -3) << ", " << view(1, 3) << "]}";
+  const auto drawn = [&](const std::string& folder, const std::string& exposure) {
+    run_json({"view", "builtin:two-rooms", "--time", "1", "--size", "64x64", "--no-panels", "--exposure",
+              exposure, "--path", path("walk.json"), "--export", path(folder), "--fps", "6"});
+    std::vector<double> light;
+    for (int i = 0; i < 7; ++i) light.push_back(brightness(fmt::format("{}/frame-{:04}.png", folder, i)));
+    return light;
+  };
+  const std::vector<double> followed = drawn("a", "auto"), fixed = drawn("b", "0");
+  EXPECT_EQ(drawn("c", "auto"), followed) << "however many turns the light took";
+  EXPECT_GT(followed[6], 2 * fixed[6]) << "on the way to what the dark room needs";
+  EXPECT_GT(followed[0] / fixed[0], 0.7);
+  EXPECT_LT(followed[0] / fixed[0], 4) << "the bright one";
 }
 
 /// Runs an xdotool command until `file` exists: the window may not be ready for input at once.

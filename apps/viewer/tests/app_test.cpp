@@ -153,6 +153,20 @@ TEST_F(AppTest, BeginsAsItsOptionsSay) {
   EXPECT_TRUE(app().settings.balls);
 }
 
+TEST_F(AppTest, WithoutCamerasTheViewIsFound) {
+  start(40, 30);
+  scene::Scene scene = scene::make_builtin("two-rooms");
+  scene.cameras.clear();
+  app().take_document(make_document("rooms", std::move(scene), 0));
+  const View view = app().view;
+  const scene::Bounds& box = app().document.bounds;
+  EXPECT_TRUE(glm::all(glm::lessThan(box.min, view.eye)) && glm::all(glm::lessThan(view.eye, box.max)));
+  EXPECT_NEAR(view.focus, glm::distance(view.eye, box.center()), 1e-4f);
+  app().view.eye = vec3(9);
+  app().go_to_camera("");
+  EXPECT_EQ(app().view, view);
+}
+
 TEST_F(AppTest, ADocumentIsTakenInPlaceOfTheOneBefore) {
   app().selection = {Kind::light, 0};
   probes::ProbeSet set;
