@@ -103,11 +103,16 @@ std::vector<vec3> fan(int count) {
   return directions;
 }
 
+/// About how far one sees in a room of that extent, which may be a tunnel.
+float size_of(const vec3& extent) {
+  return std::max(std::min(glm::length(extent), 6 * extent.y), 1e-6f);
+}
+
 /// Looks for views of an inside.
 class Inside {
  public:
   Inside(const rays::TransportSource& source, const PosedWorld& world, const scene::Bounds& core, float time)
-      : source_(source), world_(world), core_(core), size_(glm::length(core.max - core.min)) {
+      : source_(source), world_(world), core_(core), size_(size_of(core.max - core.min)) {
     std::vector<mat4> poses;
     for (int part = 0; part < source.part_count(); ++part) poses.push_back(source.part_pose(part, time));
     light_ = source.direct_light(source.lights(time), poses);
@@ -122,8 +127,8 @@ class Inside {
     const float down = distance(place, {0, -1, 0}), up = distance(place, {0, 1, 0});
     if (!std::isfinite(down)) return std::nullopt;
     const float floor = place.y - down, height = std::min(place.y + up, core_.max.y) - floor;
-    // Nobody knows the unit of what is larger than a street.
-    const bool metres = max_component(core_.max - core_.min) < 500;
+    // Nobody knows the unit of what is higher than a tower.
+    const bool metres = core_.max.y - core_.min.y < 500;
     const vec3 eye(place.x, floor + (metres ? std::min(1.6f, 0.6f * height) : 0.6f * height), place.z);
     const Surroundings seen(world_, eye, fan_);
     const float met = seen.share([](const RayHit& hit) { return !hit.escaped(); });
@@ -199,7 +204,7 @@ class Inside {
   const rays::TransportSource& source_;
   const PosedWorld& world_;
   scene::Bounds core_;
-  float size_;  ///< diagonal of the core [m]
+  float size_;  ///< of the core [m]
   std::unique_ptr<rays::DirectLight> light_;
   std::vector<vec3> fan_ = fan(place::fan_size);
 };

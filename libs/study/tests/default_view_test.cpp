@@ -83,6 +83,19 @@ TEST(DefaultView, AWideGroundChangesNothingMuch) {
   EXPECT_TRUE(is_within(eye_of(view_of(s)), half));
 }
 
+TEST(DefaultView, StandsInATunnelToo) {
+  const vec3 long_half(435, 2.5f, 3);
+  Scene s;
+  s.materials = {test::matte(vec3(0.8f)), test::matte(vec3(0))};
+  s.materials[1].emission = vec3(5);
+  test::add_mesh(s, scene::flipped(scene::make_box(-long_half, long_half)), 0);
+  test::add_mesh(s, scene::make_quad({-430, 2.4f, -1}, {860, 0, 0}, {0, 0, 2}), 1);
+  const CameraPose pose = view_of(s);
+  EXPECT_TRUE(is_within(eye_of(pose), long_half));
+  EXPECT_NEAR(eye_of(pose).y, -2.5f + 1.6f, 0.01f);
+  EXPECT_GT(std::abs(pose.world[2].x), 0.8f) << "along it";
+}
+
 TEST(DefaultView, IsTheSameForTheSameScene) {
   EXPECT_EQ(view_of(room()).world, view_of(room()).world);
 }
