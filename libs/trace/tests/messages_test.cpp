@@ -266,7 +266,6 @@ TEST(TraceMessages, OfTransport) {
     EXPECT_EQ(message_of([&] { source.part_bounds(part); }), "part: there is none of that index");
   for (const int light : {-1, 1})
     EXPECT_EQ(message_of([&] { source.light_group_of(light); }), "light: there is none of that index");
-  EXPECT_EQ(message_of([&] { source.sample_part(0, 1); }), "part: part 0 cannot be sampled");
   EXPECT_EQ(message_of([&] { source.sample_part(0, -1); }),
             "points per square metre: they must not be negative");
   EXPECT_EQ(message_of([&] { source.sample_part(1, 1); }), "part: there is none of that index");
