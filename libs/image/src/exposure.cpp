@@ -53,7 +53,7 @@ float automatic_exposure(const Image& image) {
   constexpr double middle_grey = 0.18, white = 0.9;
   const double grey = std::log2(middle_grey) - mean;
   const double unburnt = std::log2(white) - std::log2(static_cast<double>(highlights));
-  const double ev = std::clamp(unburnt, grey - 0.75, grey + 0.75);
+  const double ev = std::clamp(unburnt, grey - 0.5, grey + 0.75);
   return static_cast<float>(std::round(4 * ev) / 4 - unit);
 }
 

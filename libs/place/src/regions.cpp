@@ -1,8 +1,9 @@
 #include "regions.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
-#include <tuple>
+#include <set>
 
 #include <ssphh/core/sphere.h>
 
@@ -26,7 +27,7 @@ constexpr float hall_size =
 constexpr int inside_places = 256;
 constexpr float walled_share = 0.8f, room_share = 0.03f;  ///< of a place's rays; of a box's places
 
-using Voxel = std::tuple<int, int, int>;
+using Voxel = std::array<int, 3>;
 
 bool overlap(const scene::Bounds& a, const scene::Bounds& b) {
   return glm::all(glm::lessThan(a.min, b.max)) && glm::all(glm::lessThan(b.min, a.max));
@@ -42,17 +43,16 @@ struct Normals {
 
 /// Voxels of `size` from `origin` on in which normals differ; none where the points are too few to tell, or
 /// where those in all other voxels differ from each other and are no few.
-std::vector<Voxel> detailed_voxels(const std::vector<rays::PartPoint>& points, const vec3& origin,
-                                   float size) {
+std::set<Voxel> detailed_voxels(const std::vector<rays::PartPoint>& points, const vec3& origin, float size) {
   std::map<Voxel, Normals> voxels;
   for (const rays::PartPoint& p : points) {
     const glm::ivec3 at(glm::floor((p.point.position - origin) / size));
     voxels[{at.x, at.y, at.z}].add({glm::dvec3(p.point.normal), 1});
   }
-  std::vector<Voxel> detailed;
+  std::set<Voxel> detailed;
   Normals in_detail, rest;
   for (const auto& [voxel, normals] : voxels) {
-    if (!normals.alike()) detailed.push_back(voxel);
+    if (!normals.alike()) detailed.insert(voxel);
     (normals.alike() ? rest : in_detail).add(normals);
   }
   const bool dense = in_detail.count >= points_per_voxel * static_cast<double>(detailed.size());
@@ -61,22 +61,21 @@ std::vector<Voxel> detailed_voxels(const std::vector<rays::PartPoint>& points, c
 }
 
 /// Boxes of voxels that touch each other, grown together where these overlap.
-std::vector<scene::Bounds> boxes_of(std::vector<Voxel> left, const vec3& origin, float size) {
+std::vector<scene::Bounds> boxes_of(std::set<Voxel> left, const vec3& origin, float size) {
   std::vector<scene::Bounds> boxes;
   while (!left.empty()) {
-    std::vector<Voxel> component{left.back()};
-    left.pop_back();
+    std::vector<Voxel> component{*left.begin()};
+    left.erase(left.begin());
     scene::Bounds box;
     for (std::size_t i = 0; i < component.size(); ++i) {
-      const auto [x, y, z] = component[i];
-      box.add(origin + size * vec3(x, y, z));
-      box.add(origin + size * vec3(x + 1, y + 1, z + 1));
-      std::erase_if(left, [&](const Voxel& other) {
-        const auto [ox, oy, oz] = other;
-        const bool touches = std::abs(ox - x) <= 1 && std::abs(oy - y) <= 1 && std::abs(oz - z) <= 1;
-        if (touches) component.push_back(other);
-        return touches;
-      });
+      const Voxel v = component[i];
+      const vec3 corner = origin + size * vec3(v[0], v[1], v[2]);
+      box.add(corner);
+      box.add(corner + size);
+      for (int n = 0; n < 27; ++n) {
+        const auto neighbour = left.find({v[0] + n % 3 - 1, v[1] + n / 3 % 3 - 1, v[2] + n / 9 - 1});
+        if (neighbour != left.end()) component.push_back(left.extract(neighbour).value());
+      }
     }
     boxes.push_back(box);
   }

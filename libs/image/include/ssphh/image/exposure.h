@@ -6,11 +6,11 @@
 namespace ssphh::image {
 
 /// EV at which a scene-linear picture shows well, in steps of a quarter: the geometric mean of what is lit
-/// comes to a middle grey, or up to three quarters of a stop darker where highlights would burn out and
-/// brighter where nothing is near white. Pixels that are black or not finite do not count, and the darkest
-/// and the brightest twentieth only as their bounds: a firefly or a lamp changes nothing. What counts is how
-/// often each luminance occurs, not where, nor how many pixels there are; light times 2^k gives k less. A
-/// picture without light gives 0. Throws Error for an image that require_whole() refuses.
+/// comes to a middle grey, or up to half a stop darker where highlights would burn out, or three
+/// quarters brighter where nothing is near white. Pixels that are black or not finite do not count, and the
+/// darkest and the brightest twentieth only as their bounds: a firefly or a lamp changes nothing. What counts
+/// is how often each luminance occurs, not where, nor how many pixels there are; light times 2^k gives k
+/// less. A picture without light gives 0. Throws Error for an image that require_whole() refuses.
 float automatic_exposure(const Image& image);
 
 }  // namespace ssphh::image
