@@ -124,6 +124,21 @@ TEST(Lattice, OfNothingThatStandsStillIsRefused) {
             "(give the scene SPHLs and use --probes scene)");
 }
 
+TEST(Lattice, WhereNothingIsNearItIsCentredInItsBoxWhereverThatStands) {
+  // A speck far below: all places are as good, and no offset has more than the middle's four along an axis.
+  const TriangleSource speck([] {
+    scene::Scene scene;
+    scene.nodes.emplace_back();
+    scene.meshes = {scene::make_quad({0, -900, 0}, {0, 0, 0.1f}, {0.1f, 0, 0})};
+    scene.instances = {{0, 0, -1, ""}};
+    return scene;
+  }());
+  const vec3 low(5, 20, -40);
+  const Lattice lattice = choose_lattice(speck, {low, low + 3.6f}, 1, {}, {});
+  EXPECT_EQ(lattice.size, glm::ivec3(4));
+  EXPECT_LT(glm::distance(lattice.origin, low + 0.3f), 1e-4f);
+}
+
 TEST(Lattice, PlacesFillTheBoxFromAnOffset) {
   const Lattice lattice = make_lattice({vec3(1, 2, 3), vec3(4, 4, 9)}, 2, {0.25f, 0.5f, 0.9f});
   EXPECT_EQ(lattice.size, glm::ivec3(2, 1, 3));

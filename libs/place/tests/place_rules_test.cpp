@@ -141,8 +141,10 @@ TEST(PlaceRules, LimitsAreNamedWithWhatWasGiven) {
   EXPECT_THAT(said([](PlaceParams& p) { p.count = -2; }), HasSubstr("must be positive, not -2"));
   EXPECT_THAT(said([](PlaceParams& p) { p.spacing = 2e9f; }), HasSubstr("not 2e+09"));
   EXPECT_THAT(said([](PlaceParams& p) { p.clearance = INFINITY; }), HasSubstr("the clearance must be"));
-  EXPECT_THAT(said([](PlaceParams& p) { p.spacing = 0.01f; }),
-              HasSubstr("a spacing of 0.01 m gives more than 4096 probes"));
+  EXPECT_THAT(
+      said([](PlaceParams& p) { p.spacing = 0.01f; }),
+      HasSubstr("a spacing of 0.01 m gives more than 4096 probes (use a larger spacing, or --probes N for a "
+                "number of probes)"));
   EXPECT_THAT(said([](PlaceParams& p) { p.count = 100; }), HasSubstr("probes of 100 find a place"));
   EXPECT_THAT(said([](PlaceParams& p) {
                 p.manual = {{"one", vec3(1), 0.1f}, {"two", vec3(1.5f), 0.1f}};

@@ -16,23 +16,25 @@ std::vector<vec3> positions_of(std::span<const rays::SurfacePoint> points) {
   return positions;
 }
 
-/// Turns the weights into those of a linear fit's value at x.
+/// Turns the weights, of sum `total`, into those of a linear fit's value at x. Only their ratios count: a
+/// lone point at the border of those that are looked at has next to no weight.
 void fit_linearly(std::span<SurfaceShare> shares, const Places& places, float total) {
   mat3 gram(0);
   for (std::size_t i = 0; i < shares.size(); ++i) {
+    shares[i].weight /= total;
     for (int c = 0; c < 3; ++c) gram[c] += shares[i].weight * places[i][c] * places[i];
   }
-  gram[1][1] += fitted_ridge * total;
-  gram[2][2] += fitted_ridge * total;
+  gram[1][1] += fitted_ridge;
+  gram[2][2] += fitted_ridge;
   const vec3 row = glm::inverse(gram)[0];
   float most = 1;  // of the way from the mean to the fit
   for (std::size_t i = 0; i < shares.size(); ++i) {
-    const float relative = total * glm::dot(row, places[i]);  // 1: as in the mean
+    const float relative = glm::dot(row, places[i]);  // 1: as in the mean
     if (relative < fitted_lowest) most = std::min(most, (1 - fitted_lowest) / (1 - relative));
   }
   float sum = 0;
   for (std::size_t i = 0; i < shares.size(); ++i) {
-    shares[i].weight *= (1 - most) / total + most * glm::dot(row, places[i]);
+    shares[i].weight *= 1 - most + most * glm::dot(row, places[i]);
     sum += shares[i].weight;
   }
   for (SurfaceShare& s : shares) s.weight /= sum;  // the ridge leaves it at 1 but for rounding

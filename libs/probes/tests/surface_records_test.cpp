@@ -1,5 +1,7 @@
 /// Light kept at surfaces: what is packed, merged and looked up.
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -99,6 +101,18 @@ TEST(SurfaceInterpolation, GivesTheRecordsLightBetweenThem) {
   EXPECT_LT(glm::distance(floor.at({{3.5f, 0, 3.5f}, {0, 1, 0}}), vec3(4.5f, 3.75f, 3)), 1e-4f);
   // Toward the floor's edge only one side is left; the ridge holds the slope back a little
   EXPECT_NEAR(floor.at({{0, 0, 3.5f}, {0, 1, 0}}).x, 1, 0.2f);
+}
+
+TEST(SurfaceInterpolation, ALoneRecordAtTheBorderOfItsReachGivesItsLight) {
+  // Four spacings away a record is looked at no more; just before, its weight is as good as none.
+  const std::vector<rays::SurfacePoint> points{{vec3(0), {0, 1, 0}}, {{1, 0, 0}, {0, 1, 0}}};
+  const std::vector<RecordLight> light{light_of({1, 2, 3}), light_of({4, 5, 6})};
+  const SurfaceInterpolation records(points, everything);
+  for (float x = -4; x < -3.99f; x = std::nextafter(x, 0.0f) + 1e-6f) {
+    vec3 found(-1);
+    if (!records.irradiance({{x, 0, 0}, {0, 1, 0}}, light, found)) continue;
+    ASSERT_LT(glm::distance(found, vec3(1, 2, 3)), 1e-4f) << x;
+  }
 }
 
 TEST(SurfaceInterpolation, TurnsWithTheSurface) {
