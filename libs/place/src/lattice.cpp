@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ssphh/place/lattice.h>
+#include "draft.h"
 
 namespace ssphh::place {
 namespace {
@@ -17,11 +17,6 @@ vec3 centred(const scene::Bounds& box, float spacing) {
     offset[axis] = 0.5f * (cells - (places - 1));
   }
   return offset;
-}
-
-/// Roberts' R₃ sequence: powers of the plastic constant's sibling for three dimensions.
-vec3 spread_offset(int i) {
-  return glm::fract(static_cast<float>(i) * vec3(0.8191725f, 0.6710436f, 0.5497005f) + 0.5f);
 }
 
 double score(const std::vector<Site>& sites, float spacing, const SiteRules& rules) {
@@ -84,7 +79,7 @@ Lattice choose_lattice(const rays::TransportSource& source, const scene::Bounds&
   Lattice best;
   double best_score = -1;
   for (int i = 0; i <= offset_count; ++i) {
-    const Lattice lattice = make_lattice(box, spacing, i == 0 ? centred(box, spacing) : spread_offset(i));
+    const Lattice lattice = make_lattice(box, spacing, i == 0 ? centred(box, spacing) : spread_in_cube(i));
     const double s =
         score(look_around(source, lattice_points(lattice), coarse_fan_size, control), spacing, rules);
     if (s > best_score) best = lattice, best_score = s;

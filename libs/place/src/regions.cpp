@@ -95,14 +95,12 @@ std::vector<scene::Bounds> boxes_of(std::set<Voxel> left, const vec3& origin, fl
   return boxes;
 }
 
-/// Places spread over a box (Roberts' R3 sequence), `count` of those that `wanted` takes, or fewer.
+/// Places spread over a box, `count` of those that `wanted` takes, or fewer.
 template <class Wanted>
 std::vector<vec3> places_in(const scene::Bounds& box, int count, const Wanted& wanted) {
   std::vector<vec3> places;
   for (int i = 0; i < 8 * count && static_cast<int>(places.size()) < count; ++i) {
-    const vec3 u(glm::fract(glm::dvec3(0.5) + double(i) * glm::dvec3(0.8191725133961645, 0.6710436067037893,
-                                                                     0.5497004779019703)));
-    const vec3 place = box.min + u * (box.max - box.min);
+    const vec3 place = box.min + spread_in_cube(i) * (box.max - box.min);
     if (wanted(place)) places.push_back(place);
   }
   return places;
