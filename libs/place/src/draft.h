@@ -29,12 +29,6 @@ struct PlaceContext {
   float spacing;
 };
 
-/// Places that fill the unit cube evenly (Roberts 2018, R3: powers of the plastic constant's sibling for
-/// three dimensions).
-inline vec3 spread_in_cube(int i) {
-  return glm::fract(static_cast<float>(i) * vec3(0.8191725f, 0.6710436f, 0.5497005f) + 0.5f);
-}
-
 inline bool inside(const scene::Bounds& box, const vec3& p) {
   return glm::all(glm::greaterThan(p, box.min)) && glm::all(glm::lessThan(p, box.max));
 }

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "draft.h"
+#include <ssphh/place/lattice.h>
 
 namespace ssphh::place {
 namespace {

@@ -8,6 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include <ssphh/core/sphere.h>
+#include <ssphh/place/lattice.h>
 #include <ssphh/place/site.h>
 #include <ssphh/rays/posed_world.h>
 #include <ssphh/study/default_view.h>
@@ -62,11 +63,6 @@ scene::Bounds core_box(const std::vector<vec3>& vertices) {
   return box;
 }
 
-/// Roberts' R₃ sequence: spread evenly over the unit cube.
-vec3 spread(int i) {
-  return glm::fract(static_cast<float>(i) * vec3(0.8191725f, 0.6710436f, 0.5497005f) + 0.5f);
-}
-
 /// Places in the box, and between things.
 std::vector<vec3> candidates(const scene::Bounds& box, const std::vector<vec3>& vertices) {
   constexpr int count = 128;
@@ -75,7 +71,7 @@ std::vector<vec3> candidates(const scene::Bounds& box, const std::vector<vec3>& 
     return vertices[static_cast<std::size_t>(share * static_cast<float>(vertices.size() - 1))];
   };
   for (int i = 0; i < count; ++i) {
-    const vec3 share = spread(i);
+    const vec3 share = place::spread_in_cube(i);
     places.push_back(glm::mix(box.min, box.max, 0.04f + 0.92f * share));
     places.push_back(0.5f * (vertex(share.x) + vertex(share.y)));
   }

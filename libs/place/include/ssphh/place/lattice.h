@@ -20,6 +20,12 @@ scene::Bounds widened(scene::Bounds box, float spacing);
 /// The bounds of part 0, widened. Throws Error when part 0 has no surface.
 scene::Bounds lattice_box(const rays::TransportSource& source, float spacing);
 
+/// Place `i` of those that fill the unit cube evenly (Roberts 2018, R3: powers of the plastic constant's
+/// sibling for three dimensions).
+inline vec3 spread_in_cube(int i) {
+  return glm::fract(static_cast<float>(i) * vec3(0.8191725f, 0.6710436f, 0.5497005f) + 0.5f);
+}
+
 /// Number of places that a lattice of this spacing has, about; infinite where it overflows.
 double lattice_places(const scene::Bounds& box, float spacing);
 
