@@ -30,15 +30,24 @@ SceneListResult run_scene_list(const SceneListOptions&, const Control&) {
 
 json::Value to_json(const SceneListResult& result, const SceneListOptions&) {
   json::Value scenes = json::Value::array();
-  for (const scene::BuiltinScene& scene : result.scenes)
-    scenes.push_back({{"name", "builtin:" + scene.name}, {"description", scene.description}});
+  for (const scene::BuiltinScene& scene : result.scenes) {
+    json::Value entry = {{"name", "builtin:" + scene.name}, {"description", scene.description}};
+    if (const auto& number = scene.number) {
+      entry["number"] = {
+          {"key", number->key}, {"least", number->least}, {"most", number->most}, {"usual", number->usual}};
+    }
+    scenes.push_back(std::move(entry));
+  }
   return {{"scenes", std::move(scenes)}};
 }
 
 std::string to_text(const SceneListResult& result, const SceneListOptions&) {
   std::string text;
-  for (const scene::BuiltinScene& scene : result.scenes)
-    text += fmt::format("{}{:<20} {}", text.empty() ? "" : "\n", "builtin:" + scene.name, scene.description);
+  for (const scene::BuiltinScene& scene : result.scenes) {
+    const std::string name =
+        "builtin:" + scene.name + (scene.number ? "?" + scene.number->key + "=N" : std::string());
+    text += fmt::format("{}{:<22} {}", text.empty() ? "" : "\n", name, scene.description);
+  }
   return text;
 }
 

@@ -1,3 +1,5 @@
+#include <charconv>
+
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>
@@ -6,6 +8,27 @@
 #include "builtin/scenes.h"
 
 namespace ssphh::scene {
+namespace {
+
+/// `setting` is "KEY=NUMBER".
+Scene make_numbered(const BuiltinScene& scene, std::string_view setting) {
+  const std::string whole = fmt::format("builtin:{}?{}", scene.name, setting);
+  if (!scene.number) throw Error(whole, "this scene takes no number", "write builtin:" + scene.name);
+  const BuiltinNumber& number = *scene.number;
+  const auto equals = setting.find('=');
+  const std::string_view digits = equals == setting.npos ? "" : setting.substr(equals + 1);
+  int value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool read = !digits.empty() && error == std::errc() && end == digits.data() + digits.size();
+  if (setting.substr(0, equals) != number.key || !read || value < number.least || value > number.most) {
+    throw Error(whole, "is not understood",
+                fmt::format("write builtin:{}?{}=N with N from {} to {}", scene.name, number.key,
+                            number.least, number.most));
+  }
+  return number.make(value);
+}
+
+}  // namespace
 
 const std::vector<BuiltinScene>& builtin_scenes() {
   static const std::vector<BuiltinScene> table = {
@@ -22,14 +45,24 @@ const std::vector<BuiltinScene>& builtin_scenes() {
       {"gallery2", "gallery lit by hidden lamps: spheres, boxes, tori and columns on plinths", make_gallery2},
       {"gallery3", "gallery lit by hidden lamps: torus knots and spirals", make_gallery3},
       {"house", "three furnished rooms and a corridor under sun and sky, on a plain of 250 m", make_house},
+      {"ajar", "room lit past a red door: from a corridor, and by a lamp between the door and the wall",
+       make_ajar},
+      {"tunnel", "road tunnel of 870 m with a lamp every 30 m, open at both ends", make_tunnel},
+      {"town", "that house again and again on a plain", [] { return make_town(8); },
+       BuiltinNumber{"houses", 1, 4096, 8, make_town}},
+      {"random", "flat, hall, street or table drawn by a seed, of 1 mm to 10 km, under light of any kind",
+       [] { return make_random(0); }, BuiltinNumber{"seed", 0, 1'000'000'000, 0, make_random}},
   };
   return table;
 }
 
 Scene make_builtin(std::string_view name) {
+  const auto mark = name.find('?');
+  const std::string_view base = name.substr(0, mark);
   std::string names;
   for (const BuiltinScene& scene : builtin_scenes()) {
-    if (scene.name == name) return scene.make();
+    if (scene.name == base)
+      return mark == name.npos ? scene.make() : make_numbered(scene, name.substr(mark + 1));
     names += (names.empty() ? "" : ", ") + scene.name;
   }
   throw Error(fmt::format("builtin:{}", name), "no such built-in scene", "there are: " + names);

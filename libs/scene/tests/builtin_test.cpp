@@ -38,8 +38,8 @@ TEST_P(Builtin, NeedsNoRepairAndBearsItsName) {
   EXPECT_FALSE(GetParam().description.empty());
 }
 
-TEST_P(Builtin, HasFourToSixSphlsWithNamesOfTheirOwn) {
-  if (scene_.name == "house") return;  // INIT finds its places
+TEST_P(Builtin, HasFourToSixSphlsWithNamesOfTheirOwnOrLeavesThemToPlacement) {
+  if (scene_.sphls.empty()) return;
   EXPECT_GE(scene_.sphls.size(), 4u);
   EXPECT_LE(scene_.sphls.size(), 6u);
   std::set<std::string> names;

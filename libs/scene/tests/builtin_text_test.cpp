@@ -14,9 +14,10 @@ namespace {
 TEST(BuiltinText, EveryNumberIsThatOfTheList) {
   std::string table;
   for (const BuiltinScene& builtin : builtin_scenes()) {
+    table += builtin.name + ": " + builtin.description + "\n";
+    if (builtin.number) continue;  // builtin_number_test.cpp
     test::expect_text_of("libs/scene/tests/expected/" + builtin.name + ".txt",
                          test::scene_text(make_builtin(builtin.name)));
-    table += builtin.name + ": " + builtin.description + "\n";
   }
   test::expect_text_of("libs/scene/tests/expected/builtin.txt", table);
 }

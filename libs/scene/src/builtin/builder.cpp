@@ -48,7 +48,7 @@ int Builder::metal(const std::string& name, const vec3& f0, float roughness) {
 int Builder::node(const std::string& name, const Transform& local, int parent) {
   Node n;
   n.name = name;
-  n.parent = parent;
+  n.parent = parent >= 0 ? parent : parent_;
   n.local = local;
   scene_.nodes.push_back(std::move(n));
   return static_cast<int>(scene_.nodes.size()) - 1;

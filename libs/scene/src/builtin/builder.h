@@ -18,7 +18,10 @@ class Builder {
   int glossy(const std::string& name, const vec3& albedo, float roughness, float metallic = 0);
   int metal(const std::string& name, const vec3& f0, float roughness);
 
+  /// On `parent`, or on what `stand_on` named.
   int node(const std::string& name, const Transform& local = {}, int parent = -1);
+  /// Nodes made from now on stand on this one; −1: on the world.
+  void stand_on(int node) { parent_ = node; }
   /// A mesh at a new node. Returns the mesh's index.
   int add(const std::string& name, Mesh mesh, int material, const Transform& local = {});
   /// Another instance of a mesh, with its own material.
@@ -50,6 +53,7 @@ class Builder {
                float intensity, const std::string& group);
 
   Scene scene_;
+  int parent_ = -1;
 };
 
 inline Transform at(const vec3& translation) {

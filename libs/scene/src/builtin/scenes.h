@@ -14,5 +14,9 @@ Scene make_gallery1();
 Scene make_gallery2();
 Scene make_gallery3();
 Scene make_house();
+Scene make_ajar();
+Scene make_tunnel();
+Scene make_town(int houses);
+Scene make_random(int seed);
 
 }  // namespace ssphh::scene
