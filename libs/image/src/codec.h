@@ -34,4 +34,8 @@ Rgba8 decode_png_rgba8(const Source& source);
 Image decode_jpeg(const Source& source);
 Rgba8 decode_jpeg_rgba8(const Source& source);
 
+/// Through libwebp; one picture, no animation.
+Image decode_webp(const Source& source);
+Rgba8 decode_webp_rgba8(const Source& source);
+
 }  // namespace ssphh::image

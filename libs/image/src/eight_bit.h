@@ -1,5 +1,5 @@
 #pragma once
-/// What PNG and JPEG share: codes of 8 bits in the sRGB transfer curve, with linear alpha.
+/// What PNG, JPEG and WebP share: codes of 8 bits in the sRGB transfer curve, with linear alpha.
 
 #include <cstdint>
 #include <vector>

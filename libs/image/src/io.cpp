@@ -29,7 +29,7 @@ std::size_t count_nonfinite_pixels(const Image& image) {
 FileFormat require_format(const Source& source) {
   if (source.data.empty()) source.fail("is empty");
   const auto format = format_of_content(source.data);
-  if (!format) source.fail("is no image that can be read", "OpenEXR, Radiance HDR, PNG and JPEG are");
+  if (!format) source.fail("is no image that can be read", "OpenEXR, Radiance HDR, PNG, JPEG and WebP are");
   return *format;
 }
 
@@ -58,6 +58,8 @@ std::optional<FileFormat> format_of_content(std::span<const std::byte> data) {
   if (starts_with(data, "#?")) return FileFormat::hdr;
   if (starts_with(data, "\x89PNG\r\n\x1a\n")) return FileFormat::png;
   if (starts_with(data, "\xff\xd8\xff")) return FileFormat::jpeg;
+  if (starts_with(data, "RIFF") && data.size() >= 12 && starts_with(data.subspan(8), "WEBP"))
+    return FileFormat::webp;
   return std::nullopt;
 }
 
@@ -76,10 +78,11 @@ FileFormat format_of_extension(const std::filesystem::path& path) {
 Image decode_image(std::span<const std::byte> data, const std::string& name, const DecodeLimits& limits) {
   const Source source{data, name, limits};
   const FileFormat format = require_format(source);
-  Image image = format == FileFormat::exr   ? decode_exr(source)
-                : format == FileFormat::hdr ? decode_hdr(source)
-                : format == FileFormat::png ? decode_png(source)
-                                            : decode_jpeg(source);
+  Image image = format == FileFormat::exr    ? decode_exr(source)
+                : format == FileFormat::hdr  ? decode_hdr(source)
+                : format == FileFormat::png  ? decode_png(source)
+                : format == FileFormat::jpeg ? decode_jpeg(source)
+                                             : decode_webp(source);
   if (const std::size_t count = count_nonfinite_pixels(image)) {
     log_warning("{}: {} of {} pixels are infinite or NaN", name, count,
                 image.pixels.size() / static_cast<std::size_t>(image.channels));
@@ -94,9 +97,18 @@ Image read_image(const std::filesystem::path& path, const DecodeLimits& limits) 
 Rgba8 decode_rgba8(std::span<const std::byte> data, const std::string& name, const DecodeLimits& limits) {
   const Source source{data, name, limits};
   const FileFormat format = require_format(source);
-  if (format != FileFormat::png && format != FileFormat::jpeg)
-    source.fail("is not an 8-bit image", "use PNG or JPEG");
-  return format == FileFormat::png ? decode_png_rgba8(source) : decode_jpeg_rgba8(source);
+  switch (format) {
+    case FileFormat::png:
+      return decode_png_rgba8(source);
+    case FileFormat::jpeg:
+      return decode_jpeg_rgba8(source);
+    case FileFormat::webp:
+      return decode_webp_rgba8(source);
+    case FileFormat::exr:
+    case FileFormat::hdr:
+      break;
+  }
+  source.fail("is not an 8-bit image", "use PNG, JPEG or WebP");
 }
 
 void write_image(const std::filesystem::path& path, const Image& image) {

@@ -57,8 +57,9 @@ TEST(ImageFormats, AreToldByExtensionAndContent) {
   EXPECT_EQ(format_of("#?"), FileFormat::hdr);
   EXPECT_EQ(format_of("\x89PNG\r\n\x1a\n"), FileFormat::png);
   EXPECT_EQ(format_of("\xff\xd8\xff"), FileFormat::jpeg);
-  for (const char* other :
-       {"", "#", "\x76\x2f\x31\x02", "\x76\x2f\x31", "\x89PNG\r\n\x1a\r", "\xff\xd8\xfe", "\xff\xd8"})
+  EXPECT_EQ(format_of("RIFFsizeWEBP"), FileFormat::webp);
+  for (const char* other : {"", "#", "\x76\x2f\x31\x02", "\x76\x2f\x31", "\x89PNG\r\n\x1a\r", "\xff\xd8\xfe",
+                            "\xff\xd8", "RIFFsizeWEB", "RIFFsizeWAVE"})
     EXPECT_FALSE(format_of(other)) << other;
 }
 
@@ -67,11 +68,11 @@ TEST(ImageMessages, OfFilesThatAreNoImages) {
     return message_of([&] { decode_image(std::as_bytes(std::span(text)), "f"); });
   };
   EXPECT_EQ(read(""), "f: is empty");
-  EXPECT_EQ(read("hello"), "f: is no image that can be read (OpenEXR, Radiance HDR, PNG and JPEG are)");
+  EXPECT_EQ(read("hello"), "f: is no image that can be read (OpenEXR, Radiance HDR, PNG, JPEG and WebP are)");
   EXPECT_EQ(message_of([] { decode_rgba8(encode_hdr(Image(1, 1)), "f"); }),
-            "f: is not an 8-bit image (use PNG or JPEG)");
+            "f: is not an 8-bit image (use PNG, JPEG or WebP)");
   EXPECT_EQ(message_of([] { decode_rgba8(encode_exr(Image(1, 1)), "f"); }),
-            "f: is not an 8-bit image (use PNG or JPEG)");
+            "f: is not an 8-bit image (use PNG, JPEG or WebP)");
 }
 
 TEST(ImageMessages, OfImagesThatAreNotWhole) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "gltf_meshopt.h"
 #include "gltf_parts.h"
 
 namespace ssphh::scene_io {
@@ -25,6 +26,7 @@ class Checker {
     each("images", [&](const json::Cursor& v) { reference(v, "bufferView", "bufferViews"); });
     each("textures", [&](const json::Cursor& v) {
       reference(v, "source", "images");
+      if (const auto webp = extension(v, "EXT_texture_webp")) reference(*webp, "source", "images");
       reference(v, "sampler", "samplers");
     });
     each("meshes", [&](const json::Cursor& v) { mesh(v); });
@@ -82,6 +84,7 @@ class Checker {
       view.fail(
           fmt::format("bytes {} to {} are out of range, the buffer has {}", begin, begin + length, size));
     }
+    packed_view(document_, view);
   }
 
   void accessor(const json::Cursor& accessor) const {
@@ -104,6 +107,8 @@ class Checker {
     for (const json::Cursor& primitive : json::elements(mesh["primitives"])) {
       reference(primitive, "indices", "accessors");
       reference(primitive, "material", "materials");
+      if (const auto draco = extension(primitive, "KHR_draco_mesh_compression"))
+        reference(*draco, "bufferView", "bufferViews");
       attributes(primitive["attributes"]);
       if (const auto targets = primitive.find("targets"))
         for (const json::Cursor& target : json::elements(*targets)) attributes(target);

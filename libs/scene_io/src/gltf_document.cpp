@@ -9,6 +9,7 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
 
+#include "gltf_meshopt.h"
 #include "uri.h"
 
 namespace ssphh::scene_io {
@@ -29,26 +30,20 @@ struct KnownExtension {
   std::string_view hint;  // empty: supported
 };
 
-constexpr std::string_view decompress =
-    "decompress it first, for example with: gltf-transform copy IN.glb OUT.glb, which writes plain accessors";
 constexpr std::string_view recode =
-    "convert its textures to PNG or JPEG first, for example with gltf-transform";
+    "convert its textures to PNG, JPEG or WebP first, for example with gltf-transform";
+constexpr std::string_view transcode =
+    "export it with PNG, JPEG or WebP textures, or convert each of them with: ktx extract --transcode rgba8 "
+    "IN.ktx2 OUT.png";
 
 constexpr std::array known_extensions = {
-    KnownExtension{"EXT_mesh_gpu_instancing", {}},
-    KnownExtension{"KHR_lights_punctual", {}},
-    KnownExtension{"KHR_materials_emissive_strength", {}},
-    KnownExtension{"KHR_materials_ior", {}},
-    KnownExtension{"KHR_materials_specular", {}},
-    KnownExtension{"KHR_materials_unlit", {}},
-    KnownExtension{"KHR_mesh_quantization", {}},
-    KnownExtension{"KHR_texture_transform", {}},
-    KnownExtension{"KHR_draco_mesh_compression", decompress},
-    KnownExtension{"EXT_meshopt_compression", decompress},
-    KnownExtension{"KHR_meshopt_compression", decompress},
-    KnownExtension{"KHR_texture_basisu", recode},
-    KnownExtension{"EXT_texture_webp", recode},
-    KnownExtension{"EXT_texture_avif", recode},
+    KnownExtension{"EXT_mesh_gpu_instancing", {}},   KnownExtension{"EXT_meshopt_compression", {}},
+    KnownExtension{"EXT_texture_webp", {}},          KnownExtension{"KHR_draco_mesh_compression", {}},
+    KnownExtension{"KHR_lights_punctual", {}},       KnownExtension{"KHR_materials_emissive_strength", {}},
+    KnownExtension{"KHR_materials_ior", {}},         KnownExtension{"KHR_materials_specular", {}},
+    KnownExtension{"KHR_materials_unlit", {}},       KnownExtension{"KHR_mesh_quantization", {}},
+    KnownExtension{"KHR_meshopt_compression", {}},   KnownExtension{"KHR_texture_transform", {}},
+    KnownExtension{"KHR_texture_basisu", transcode}, KnownExtension{"EXT_texture_avif", recode},
     KnownExtension{"MSFT_texture_dds", recode},
 };
 
@@ -73,6 +68,12 @@ void count_extensions(const json::Value& value, std::map<std::string, std::uint6
 }
 
 }  // namespace
+
+std::string_view advice_on(std::string_view extension) {
+  const auto* known =
+      std::ranges::find_if(known_extensions, [&](const KnownExtension& e) { return e.name == extension; });
+  return known == known_extensions.end() ? std::string_view{} : known->hint;
+}
 
 GltfDocument::GltfDocument(std::span<const std::byte> data, std::filesystem::path path)
     : path_(std::move(path)), file_(path_.string()), input_bytes_(data.size()) {
@@ -136,10 +137,8 @@ void GltfDocument::check_version_and_extensions() const {
     const std::string& name = (*required)[i].text();
     // A material extension only adds to the look: it is ignored and listed like one that is not required.
     if (supported(name) || name.starts_with("KHR_materials_")) continue;
-    const auto* known =
-        std::ranges::find_if(known_extensions, [&](const KnownExtension& e) { return e.name == name; });
     (*required)[i].fail(fmt::format("the file requires the extension {}, which is not supported", name),
-                        known == known_extensions.end() ? std::string{} : std::string(known->hint));
+                        std::string(advice_on(name)));
   }
 }
 
@@ -198,16 +197,40 @@ std::span<const std::byte> GltfDocument::buffer(int index) {
 
 GltfDocument::BufferView GltfDocument::buffer_view(int index) {
   const json::Cursor view = item("bufferViews", index);
-  const auto bytes = buffer(view["buffer"].index(count("buffers"), "buffers"));
-  const auto offset = view.find("byteOffset");
-  const std::uint64_t begin = offset ? offset->unsigned_integer() : 0,
-                      length = view["byteLength"].unsigned_integer();
-  if (begin > bytes.size() || length > bytes.size() - begin) {
-    view.fail(fmt::format("bytes {} to {} are out of range, the buffer has {}", begin, begin + length,
-                          bytes.size()));
+  const auto stride_member = view.find("byteStride");
+  const std::uint64_t stride = stride_member ? stride_member->unsigned_integer(252) : 0;
+  if (const auto packed = packed_view(*this, view)) {
+    Bytes& bytes = unpacked_[index];
+    if (!bytes) {
+      const auto data = part_of_buffer(packed->buffer, packed->begin, packed->length, view);
+      count_packed(index);
+      charge(packed->count * packed->stride, view);
+      bytes = std::make_shared<const std::vector<std::byte>>(unpack(*packed, data, view));
+    }
+    return {*bytes, stride};
   }
-  const auto stride = view.find("byteStride");
-  return {bytes.subspan(begin, length), stride ? stride->unsigned_integer(252) : 0};
+  const auto offset = view.find("byteOffset");
+  return {
+      part_of_buffer(view["buffer"].index(count("buffers"), "buffers"),
+                     offset ? offset->unsigned_integer() : 0, view["byteLength"].unsigned_integer(), view),
+      stride};
+}
+
+std::span<const std::byte> GltfDocument::part_of_buffer(int index, std::uint64_t begin, std::uint64_t length,
+                                                        const json::Cursor& place) {
+  const auto bytes = buffer(index);
+  if (begin > bytes.size() || length > bytes.size() - begin) {
+    place.fail(fmt::format("bytes {} to {} are out of range, the buffer has {}", begin, begin + length,
+                           bytes.size()));
+  }
+  return bytes.subspan(begin, length);
+}
+
+void GltfDocument::count_packed(int view) {
+  if (!packed_views_.insert(view).second) return;
+  const json::Cursor place = item("bufferViews", view);
+  const auto packed = packed_view(*this, place);
+  input_bytes_ += 15 * (packed ? packed->length : place["byteLength"].unsigned_integer());
 }
 
 void GltfDocument::charge(std::uint64_t bytes, const json::Cursor& place) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,13 @@
 #include "ignored.h"
 
 namespace ssphh::scene_io {
+
+/// What to do about packed data that cannot be read.
+inline constexpr std::string_view unpack_first =
+    "unpack it first, for example with: gltf-transform copy IN.glb OUT.glb, which writes plain accessors";
+
+/// What to do about an extension that is not supported; "" where nothing is known.
+std::string_view advice_on(std::string_view extension);
 
 class GltfDocument {
  public:
@@ -39,6 +47,7 @@ class GltfDocument {
     std::span<const std::byte> bytes;
     std::uint64_t stride;  ///< 0: tightly packed
   };
+  /// What meshoptimizer has packed is unpacked on first use.
   BufferView buffer_view(int index);
   /// Bytes of a buffer; files and data URIs are read on first use.
   std::span<const std::byte> buffer(int index);
@@ -46,12 +55,16 @@ class GltfDocument {
   /// Counts memory about to be taken for decoded data; throws at 64 MiB + 64 × the bytes of the input, which
   /// no honest file comes near, so that a small file cannot ask for all memory.
   void charge(std::uint64_t bytes, const json::Cursor& place);
+  /// From now on the bytes of that view count 16 times as input, since they are packed.
+  void count_packed(int view);
 
   Ignored ignored;
 
  private:
   void parse_glb(std::span<const std::byte> data);
   void check_version_and_extensions() const;
+  std::span<const std::byte> part_of_buffer(int buffer, std::uint64_t begin, std::uint64_t length,
+                                            const json::Cursor& place);
 
   using Bytes = std::shared_ptr<const std::vector<std::byte>>;
   std::filesystem::path path_;
@@ -60,6 +73,8 @@ class GltfDocument {
   std::optional<std::span<const std::byte>> binary_chunk_;
   std::map<int, Bytes> buffers_;
   std::map<std::filesystem::path, Bytes> files_;
+  std::map<int, Bytes> unpacked_;  // by view
+  std::set<int> packed_views_;
   std::uint64_t input_bytes_ = 0, charged_ = 0;
 };
 

@@ -48,6 +48,21 @@ Wrap import_wrap(const json::Cursor& sampler, const char* key) {
   member->fail(fmt::format("{} is no wrap mode", code));
 }
 
+// What EXT_texture_webp names is meant; beside it a PNG or JPEG may stand for readers that know no WebP.
+std::optional<int> texture_source(const GltfDocument& document, const json::Cursor& texture) {
+  const auto webp = extension(texture, "EXT_texture_webp");
+  const auto source = webp ? document.reference(*webp, "source", "images") : std::nullopt;
+  return source ? source : document.reference(texture, "source", "images");
+}
+
+std::string advice_on_texture(const json::Cursor& texture) {
+  if (const auto extensions = texture.find("extensions")) {
+    for (const auto& [name, unused] : extensions->entries())
+      if (const auto advice = advice_on(name); !advice.empty()) return fmt::format(" ({})", advice);
+  }
+  return {};
+}
+
 // textureInfo: index, texCoord, KHR_texture_transform; image and sampler of the texture.
 TextureUse import_texture(GltfImport& import, const json::Cursor& material, const char* key) {
   TextureUse use;
@@ -56,10 +71,11 @@ TextureUse import_texture(GltfImport& import, const json::Cursor& material, cons
   const GltfDocument& document = import.document;
   const json::Cursor texture =
       document.item("textures", (*info)["index"].index(document.count("textures"), "textures"));
-  const auto source = document.reference(texture, "source", "images");
+  const auto source = texture_source(document, texture);
   if (!source) {
-    log_warning("{}: {} has no PNG or JPEG image; the texture is left out", texture.file(), texture.path());
-    import.document.ignored.add("texture without a PNG or JPEG image");
+    log_warning("{}: {} has no PNG, JPEG or WebP image; the texture is left out{}", texture.file(),
+                texture.path(), advice_on_texture(texture));
+    import.document.ignored.add("texture without a PNG, JPEG or WebP image");
     return use;
   }
   const auto coordinates = [](const json::Cursor& object, int fallback) {

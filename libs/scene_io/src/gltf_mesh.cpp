@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "gltf_accessor.h"
+#include "gltf_draco.h"
 #include "gltf_parts.h"
 #include "printable.h"
 
@@ -79,25 +80,41 @@ const FloatArray& vertex_array(GltfImport& import, int accessor, int min_compone
   return *array;
 }
 
-// Attribute as one T per vertex in `used`; empty when absent. Components that the file lacks (alpha) are 1.
-template <class T>
-std::vector<T> read_attribute(GltfImport& import, const json::Cursor& attributes, const char* name,
-                              int min_components, std::size_t vertex_count,
-                              const std::vector<std::uint32_t>& used) {
-  const auto accessor = import.document.reference(attributes, name, "accessors");
-  if (!accessor) return {};
-  const FloatArray& array = vertex_array(import, *accessor, min_components, T::length());
-  if (array.count != vertex_count) {
-    attributes[name].fail(fmt::format("has {} elements, POSITION has {}", array.count, vertex_count));
+/// The vertices of a primitive, plain or packed.
+struct Vertices {
+  GltfImport& import;
+  json::Cursor attributes;
+  const DracoPrimitive* packed = nullptr;
+
+  // nullptr: the primitive has no such attribute.
+  const FloatArray* find(const char* name, int min_components, int max_components) const {
+    const auto accessor = import.document.reference(attributes, name, "accessors");
+    if (!accessor) return nullptr;
+    const FloatArray* unpacked = packed ? packed->find(name) : nullptr;
+    if (!unpacked) return &vertex_array(import, *accessor, min_components, max_components);
+    if (unpacked->components < min_components || unpacked->components > max_components)
+      attributes[name].fail(fmt::format("has {} components, which it cannot have", unpacked->components));
+    return unpacked;
   }
-  import.document.charge(used.size() * sizeof(T), attributes);
-  std::vector<T> out(used.size(), T(1));
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    const float* value = array[used[i]];
-    for (int c = 0; c < array.components; ++c) out[i][c] = value[c];
+
+  // One T per vertex in `used`; empty when absent. Components that the file lacks (alpha) are 1.
+  template <class T>
+  std::vector<T> read(const char* name, int min_components, std::size_t vertex_count,
+                      const std::vector<std::uint32_t>& used) const {
+    const FloatArray* array = find(name, min_components, T::length());
+    if (!array) return {};
+    if (array->count != vertex_count) {
+      attributes[name].fail(fmt::format("has {} elements, POSITION has {}", array->count, vertex_count));
+    }
+    import.document.charge(used.size() * sizeof(T), attributes);
+    std::vector<T> out(used.size(), T(1));
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      const float* value = (*array)[used[i]];
+      for (int c = 0; c < array->components; ++c) out[i][c] = value[c];
+    }
+    return out;
   }
-  return out;
-}
+};
 
 // The material of primitives that name none has glTF's default values.
 int default_material(GltfImport& import) {
@@ -132,29 +149,32 @@ std::optional<Mesh> import_primitive(GltfImport& import, const json::Cursor& pri
   list_ignored(document, primitive);
   const json::Cursor attributes = primitive["attributes"];
   const auto material = document.reference(primitive, "material", "materials");
-  const auto position_accessor = document.reference(attributes, "POSITION", "accessors");
-  if (!position_accessor) {
+  const auto packed = read_draco(document, primitive);
+  const Vertices vertices{import, attributes, packed ? &*packed : nullptr};
+  const FloatArray* positions = vertices.find("POSITION", 3, 3);
+  if (!positions) {
     document.ignored.add("mesh without positions");
     return std::nullopt;
   }
 
   // Assemble triangles
-  const std::size_t vertex_count = vertex_array(import, *position_accessor, 3, 3).count;
+  const std::size_t vertex_count = positions->count;
   std::vector<std::uint32_t> indices;
   std::size_t corners = vertex_count;
-  if (const auto index_accessor = document.reference(primitive, "indices", "accessors")) {
-    indices = read_indices(document, *index_accessor);
+  const auto index_accessor = document.reference(primitive, "indices", "accessors");
+  if (packed || index_accessor) {
+    indices = packed ? packed->indices : read_indices(document, *index_accessor);
     corners = indices.size();
     for (std::size_t i = 0; i < indices.size(); ++i) {
       if (indices[i] >= vertex_count) {
-        primitive["indices"].fail(
-            fmt::format("element {} is {}, the mesh has {} vertices", i, indices[i], vertex_count));
+        (index_accessor ? primitive["indices"] : primitive)
+            .fail(fmt::format("element {} is {}, the mesh has {} vertices", i, indices[i], vertex_count));
       }
     }
   }
   document.charge(corners * sizeof(uvec3), primitive);
   Mesh mesh;
-  mesh.triangles = triangles_of(mode, corners, indices);
+  mesh.triangles = triangles_of(packed ? 4 : mode, corners, indices);
   if (mesh.triangles.empty()) {
     document.ignored.add("mesh without triangles");
     return std::nullopt;
@@ -162,12 +182,12 @@ std::optional<Mesh> import_primitive(GltfImport& import, const json::Cursor& pri
 
   // Read the attributes of the vertices that are used
   const auto used = compact_vertices(mesh.triangles, vertex_count);
-  mesh.positions = read_attribute<vec3>(import, attributes, "POSITION", 3, vertex_count, used);
-  mesh.normals = read_attribute<vec3>(import, attributes, "NORMAL", 3, vertex_count, used);
-  mesh.tangents = read_attribute<vec4>(import, attributes, "TANGENT", 4, vertex_count, used);
-  mesh.uvs[0] = read_attribute<vec2>(import, attributes, "TEXCOORD_0", 2, vertex_count, used);
-  mesh.uvs[1] = read_attribute<vec2>(import, attributes, "TEXCOORD_1", 2, vertex_count, used);
-  mesh.colors = read_attribute<vec4>(import, attributes, "COLOR_0", 3, vertex_count, used);
+  mesh.positions = vertices.read<vec3>("POSITION", 3, vertex_count, used);
+  mesh.normals = vertices.read<vec3>("NORMAL", 3, vertex_count, used);
+  mesh.tangents = vertices.read<vec4>("TANGENT", 4, vertex_count, used);
+  mesh.uvs[0] = vertices.read<vec2>("TEXCOORD_0", 2, vertex_count, used);
+  mesh.uvs[1] = vertices.read<vec2>("TEXCOORD_1", 2, vertex_count, used);
+  mesh.colors = vertices.read<vec4>("COLOR_0", 3, vertex_count, used);
   mesh.material = material ? *material : default_material(import);
   return mesh;
 }

@@ -25,6 +25,18 @@ class GlbBuilder {
     return next_view_++;
   }
 
+  /// A view whose bytes come from `extension` of EXT_meshopt_compression; its index.
+  int packed_view(std::size_t size, std::size_t stride, const std::string& extension) {
+    views_ += fmt::format(
+        "{}{{\"buffer\":0,\"byteLength\":{},\"byteStride\":{},\"extensions\":{{\"EXT_meshopt_compression\":{}"
+        "}}}}",
+        separator(views_), size, stride, extension);
+    return next_view_++;
+  }
+
+  /// Bytes of the buffer so far.
+  std::size_t size() const { return binary_.size(); }
+
   /// An accessor of these members; its index.
   int accessor(const std::string& members) {
     accessors_ += fmt::format("{}{{{}}}", separator(accessors_), members);

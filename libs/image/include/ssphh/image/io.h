@@ -1,5 +1,5 @@
 #pragma once
-/// Image files: OpenEXR, Radiance HDR, PNG and JPEG, from and to memory and disk.
+/// Image files: OpenEXR, Radiance HDR, PNG and JPEG, from and to memory and disk; WebP from them.
 ///
 /// Float images are scene-linear. 8- and 16-bit files are decoded from the sRGB transfer curve when they are
 /// read into an Image and encoded with it (clamped to [0, 1], rounded to nearest) when written; alpha is
@@ -18,7 +18,7 @@
 
 namespace ssphh::image {
 
-enum class FileFormat { exr, hdr, png, jpeg };
+enum class FileFormat { exr, hdr, png, jpeg, webp };
 
 /// What a file may ask for before any memory is taken.
 struct DecodeLimits {
@@ -36,7 +36,7 @@ struct Rgba8 {
 std::optional<FileFormat> format_of_content(std::span<const std::byte> data);
 
 /// The format that an output's extension asks for (.exr .hdr .pic .png .jpg .jpeg, any case); throws Error
-/// otherwise.
+/// otherwise, for .webp too, which is not written.
 FileFormat format_of_extension(const std::filesystem::path& path);
 
 /// Reads a file of any format, recognised by its content. Grey files give 1 channel, others 3 or 4.
@@ -51,7 +51,7 @@ Image read_image(const std::filesystem::path& path, const DecodeLimits& limits =
 /// As read_image; `name` stands for the file in messages.
 Image decode_image(std::span<const std::byte> data, const std::string& name, const DecodeLimits& limits = {});
 
-/// PNG and JPEG to 8-bit RGBA, for textures; other formats are an Error. 16-bit PNG loses its low byte.
+/// PNG, JPEG and WebP to 8-bit RGBA, for textures; other formats are an Error. 16-bit PNG loses its low byte.
 Rgba8 decode_rgba8(std::span<const std::byte> data, const std::string& name, const DecodeLimits& limits = {});
 
 /// One more float channel for encode_exr, named as OpenEXR does ("Z", "albedo.R"), width·height values.
