@@ -44,6 +44,8 @@ TEST(BadInput, WrongUsageIsExitCode2) {
   expect_failure({"render", "builtin:box", "-o", "x.exr", "--spp", "0"}, "--spp", 2);
   expect_failure({"sh", "eval", "--degree", "11", "--direction", "0", "0", "1"}, "11", 2);
   expect_failure({"bake", "builtin:box", "-o", "x.sphl", "--degree", "11"}, "11", 2);
+  expect_failure({"scene", "info", "builtin:box", "--unit", "yard"},
+                 "\"yard\" is no unit of length: mm, cm, m, inch, auto", 2);
 }
 
 TEST(BadInput, UnknownNamesListTheKnownOnes) {

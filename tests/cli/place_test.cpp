@@ -72,6 +72,18 @@ TEST(PlaceTool, WhatPlaceWritesIsAScene) {
   EXPECT_LE(test::count_of(again["probes"]), test::count_of(place["probes"]) + 8);
 }
 
+// The places are in metres: without its unit the scene would be another.
+TEST(PlaceTool, WhatPlaceWritesKeepsTheUnit) {
+  const TempDir dir;
+  const std::string overlay = dir / "placed.ssphh.json";
+  const json::Value place =
+      run_json({"place", "builtin:two-rooms", "--unit", "2", "--probes", "auto:3", "-o", overlay});
+  const json::Value twice = run_json({"scene", "info", "builtin:two-rooms", "--unit", "2"});
+  EXPECT_EQ(run_json({"scene", "info", overlay})["bounds"], twice["bounds"]);
+  EXPECT_NE(run_json({"scene", "info", "builtin:two-rooms"})["bounds"], twice["bounds"]);
+  EXPECT_GT(place["probes"].number(), 0);
+}
+
 TEST(PlaceTool, SaysWhatIsWrong) {
   const TempDir dir;
   const auto bake = [&](const std::string& probes, const std::vector<std::string>& more = {}) {

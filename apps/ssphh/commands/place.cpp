@@ -68,6 +68,7 @@ PlaceResult run_place(const PlaceOverlayOptions& options, const Control& control
     throw Error("--probes scene", "there is nothing to place", "use auto, auto:METRES or a number");
 
   json::Value overlay = base_overlay(options.scene, options.output);
+  if (!options.scene.unit.empty()) overlay["unit"] = options.scene.unit;
   for (const place::PlacedProbe& probe : result->placement.probes) {
     if (probe.kind == place::PlaceKind::manual) continue;
     overlay["sphls"].push_back(

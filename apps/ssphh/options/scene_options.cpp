@@ -7,6 +7,7 @@
 #include <ssphh/scene/query.h>
 #include <ssphh/scene/studio.h>
 #include <ssphh/scene_io/load.h>
+#include <ssphh/scene_io/unit.h>
 
 namespace ssphh::app {
 
@@ -20,6 +21,11 @@ void add_scene_options(Command command, SceneOptions& options, bool posed, const
   scene.option("--overlay", options.overlay,
                "Side file that adds lights, cameras, SPHLs (docs/scenes.md); default: SCENE.ssphh.json if "
                "there is one");
+  scene
+      .option("--unit", options.unit,
+              "Unit of the file's lengths: mm, cm, m, inch, metres per unit, or auto to guess it; default: "
+              "metres")
+      .check(scene_io::unit_problem, "UNIT");
   scene.flag("--lambert", options.lambert,
              "All surfaces Lambertian of their base colour: what every renderer computes alike");
   const Option environment =
@@ -41,6 +47,7 @@ void add_scene_options(Command command, SceneOptions& options, bool posed, const
 scene::Scene load_scene(const SceneOptions& options) {
   scene_io::LoadOptions load;
   load.overlay = options.overlay;
+  load.unit = options.unit;
   load.environment = options.environment;
   load.environment_intensity = options.environment_intensity;
   load.environment_rotation = glm::radians(options.environment_rotation);

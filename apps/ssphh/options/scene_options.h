@@ -12,6 +12,7 @@ namespace ssphh::app {
 struct SceneOptions {
   std::string source;  ///< file or builtin:NAME
   std::string overlay, environment;
+  std::string unit;  ///< of the file's lengths (scene_io/unit.h); empty: what overlays say, else metres
   float environment_intensity = 1;
   float environment_rotation = 0;  ///< degrees
   bool lambert = false;
@@ -21,7 +22,8 @@ struct SceneOptions {
   float time = 0;  ///< seconds
 };
 
-/// Adds the positional SCENE (or the option that `source` names) and --overlay, --lambert, --environment,
+/// Adds the positional SCENE (or the option that `source` names) and --overlay, --unit, --lambert,
+/// --environment,
 /// --sun-sky and so on; --time where a pose matters.
 void add_scene_options(Command command, SceneOptions& options, bool posed = true,
                        const std::string& source = "SCENE");

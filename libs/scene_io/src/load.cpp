@@ -15,6 +15,7 @@
 #include <ssphh/scene_io/load.h>
 #include <ssphh/scene_io/obj.h>
 #include <ssphh/scene_io/overlay.h>
+#include <ssphh/scene_io/unit.h>
 
 namespace ssphh::scene_io {
 namespace {
@@ -73,8 +74,11 @@ void check_size(const Scene& scene, const std::string& source) {
   if (bounds.empty()) return;
   const float size = 2 * bounds.radius();
   if (size > 2000) {
-    log_warning("{}: is {:.0f} m across; if its unit is no metre, say so in an overlay: {{\"unit\": 0.001}}",
-                source, size);
+    log_warning(
+        "{}: is {:.0f} m across; if its unit is no metre, say so: --unit mm, cm, inch or auto, or in an "
+        "overlay: "
+        "{{\"unit\": 0.001}}",
+        source, size);
   }
   if (size > 0 && glm::length(bounds.center()) > 100 * size) {
     log_warning(
@@ -90,9 +94,16 @@ Scene load_scene(const std::string& source, const LoadOptions& options) {
   require(std::isfinite(options.environment_intensity) && options.environment_intensity >= 0 &&
               std::isfinite(options.environment_rotation),
           "environment", "its intensity and rotation must be finite, the first not negative");
+  if (const auto problem = unit_problem(options.unit); !options.unit.empty() && !problem.empty())
+    throw Error("unit", problem);
   // Read the scene, through the overlay that names it if SOURCE is one
   fs::path overlay = options.overlay;
+  bool in_metres = options.unit.empty();  // or in what overlays say
   Scene scene;
+  const auto overlay_with = [&](std::string_view text, const fs::path& path) {
+    apply_overlay(scene, text, path, in_metres && !options.unit.empty() ? "m" : options.unit);
+    in_metres = true;
+  };
   if (source.starts_with(builtin_prefix)) {
     scene = load_plain(source, nullptr);
   } else {
@@ -100,7 +111,7 @@ Scene load_scene(const std::string& source, const LoadOptions& options) {
     if (format_of(data, source) == Format::overlay) {
       const std::string named = overlay_scene(as_text(data), source);
       scene = load_plain(named, nullptr);
-      apply_overlay(scene, as_text(data), source);
+      overlay_with(as_text(data), source);
     } else {
       scene = load_plain(source, &data);
       const fs::path beside = fs::path(source).replace_extension(".ssphh.json");
@@ -108,7 +119,10 @@ Scene load_scene(const std::string& source, const LoadOptions& options) {
       if (overlay.empty() && fs::exists(beside, unreadable)) overlay = beside;
     }
   }
-  if (!overlay.empty()) apply_overlay(scene, read_text_file(overlay, max_overlay_bytes), overlay);
+  if (!overlay.empty()) {
+    overlay_with(read_text_file(overlay, max_overlay_bytes), overlay);
+  }
+  if (!in_metres) set_unit(scene, metres_per_unit(options.unit, scene, source));
 
   if (!options.environment.empty()) {
     scene::Environment environment;

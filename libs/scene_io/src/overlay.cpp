@@ -9,6 +9,7 @@
 #include <ssphh/image/io.h>
 #include <ssphh/scene/sun_sky.h>
 #include <ssphh/scene_io/overlay.h>
+#include <ssphh/scene_io/unit.h>
 
 #include "overlay_paths.h"
 
@@ -179,22 +180,11 @@ void set_sun_sky(Scene& scene, const json::Cursor& entry) {
   }
 }
 
-// Puts a node above all others that scales the file's unit to metres and moves its origin.
-void set_unit(Scene& scene, float unit, const vec3& origin) {
-  scene::Node root;
-  root.name = "unit";
-  root.local.scale = vec3(unit);
-  root.local.translation = vec3(-glm::dvec3(origin) * double{unit});
-  scene.nodes.insert(scene.nodes.begin(), root);
-  for (std::size_t i = 1; i < scene.nodes.size(); ++i) ++scene.nodes[i].parent;
-  const auto shift = [](auto& items) {
-    for (auto& item : items) ++item.node;
-  };
-  shift(scene.instances);
-  shift(scene.cameras);
-  shift(scene.lights);
-  shift(scene.sphls);
-  for (auto& animation : scene.animations) shift(animation.channels);
+// A number, or a word that unit.h knows.
+std::string read_unit(const json::Cursor& member) {
+  if (member.is_number()) return fmt::format("{}", positive(member));
+  if (const auto problem = unit_problem(member.text()); !problem.empty()) member.fail(problem);
+  return member.text();
 }
 
 template <class Function>
@@ -207,7 +197,8 @@ void for_each_entry(Scene& scene, const json::Cursor& root, const char* key, con
 
 }  // namespace
 
-void apply_overlay(Scene& scene, std::string_view text, const std::filesystem::path& path) {
+void apply_overlay(Scene& scene, std::string_view text, const std::filesystem::path& path,
+                   const std::string& unit_in_place) {
   const std::string file = path.string();
   const json::Value json = json::parse(text, file);
   const json::Cursor root(json, file);
@@ -215,7 +206,11 @@ void apply_overlay(Scene& scene, std::string_view text, const std::filesystem::p
              "environment", "sun_sky", "materials"});
   scene.name = root.text_or("name", scene.name);
   const auto unit = root.find("unit"), origin = root.find("origin");
-  if (unit || origin) set_unit(scene, unit ? positive(*unit) : 1, origin ? origin->vector3() : vec3(0));
+  const std::string own_unit = unit ? read_unit(*unit) : "m";
+  if (unit || origin || !unit_in_place.empty()) {
+    set_unit(scene, metres_per_unit(unit_in_place.empty() ? own_unit : unit_in_place, scene, file),
+             origin ? origin->vector3() : vec3(0));
+  }
   for_each_entry(scene, root, "materials", override_material);
   for_each_entry(scene, root, "cameras", add_camera);
   for_each_entry(scene, root, "lights", add_light);

@@ -55,9 +55,10 @@ using Lines = std::vector<std::string>;
 // The sphere around the box of a right triangle of legs a has the diameter a√2.
 TEST_F(Loading, WarnsOfScenesThatAreLargeOrFarAway) {
   EXPECT_EQ(warnings_of(triangle(1414)), Lines{}) << "1999.7 m";
-  EXPECT_EQ(warnings_of(triangle(1415)),
-            Lines{": is 2001 m across; if its unit is no metre, say so in an overlay: "
-                  "{\"unit\": 0.001}"});
+  EXPECT_EQ(
+      warnings_of(triangle(1415)),
+      Lines{": is 2001 m across; if its unit is no metre, say so: --unit mm, cm, inch or auto, or in an "
+            "overlay: {\"unit\": 0.001}"});
   EXPECT_EQ(warnings_of(triangle(1, 140)), Lines{}) << "140.5 m, the size is 1.414 m";
   EXPECT_EQ(warnings_of(triangle(1, 142)), Lines{": lies 143 m from the origin and is 1.41 m across, which "
                                                  "costs precision; move it with \"origin\" in an "

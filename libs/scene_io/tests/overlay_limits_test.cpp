@@ -124,6 +124,12 @@ TEST(OverlayLimits, OfTheSky) {
 TEST(OverlayLimits, OfTheWhole) {
   EXPECT_EQ(said_of(R"({"unit": 0.001})"), "no error");
   EXPECT_EQ(said_of(R"({"unit": 0})"), "o: unit: must be greater than 0");
+  EXPECT_EQ(said_of(R"({"unit": "cm"})"), "no error");
+  EXPECT_EQ(said_of(R"({"unit": "auto"})"), "no error");
+  EXPECT_EQ(
+      said_of(R"({"unit": "foot"})"),
+      "o: unit: \"foot\" is no unit of length: mm, cm, m, inch, auto, or metres per unit as a number above "
+      "0");
   std::string sphls;
   for (int i = 0; i < 100'001; ++i) sphls += i ? ",0" : "0";
   EXPECT_EQ(said_of(R"({"sphls": [)" + sphls + "]}"), "o: sphls: has more than 100000 entries");

@@ -8,6 +8,7 @@
 #include <ssphh/core/log.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene_io/load.h>
+#include <ssphh/scene_io/unit.h>
 
 #include "places.h"
 #include "shared_scenes.h"
@@ -177,6 +178,21 @@ TEST_F(RealScenes, HotelRoomIsInMillimetresAndTheLoaderSaysSo) {
   const Scene scene = load_scene(path.string());
   EXPECT_EQ(scene::triangle_count(scene), 99029u);  // 112,805 counts 20,664 lines by threes
   EXPECT_THAT(messages, testing::Contains(testing::HasSubstr("\"unit\": 0.001")));
+  messages.clear();
+  LoadOptions options;
+  options.unit = "auto";
+  const Scene guessed = load_scene(path.string(), options);
+  EXPECT_THAT(messages, testing::Contains(testing::HasSubstr("its unit is taken for the millimetre")));
+  const auto bounds = scene::world_bounds(guessed, scene::world_matrices(guessed));
+  EXPECT_LT(2 * bounds.radius(), 50);
+}
+
+TEST_F(RealScenes, InMetresAreNotTakenForOthers) {
+  for (const char* name :
+       {"sponza/sponza.glb", "living-room/living-room.obj", "cornell-mcguire/CornellBox-Original.obj"}) {
+    SSPHH_SHARED_SCENE(path, name);
+    EXPECT_EQ(guess_unit(load_scene(path.string())), 1) << name;
+  }
 }
 
 TEST_F(RealScenes, LivingRoomIsComplete) {

@@ -13,6 +13,8 @@ struct LoadOptions {
   /// Side file that adds cameras, lights, SPHLs and more. Empty: SCENE.ssphh.json beside SCENE.glb (.gltf,
   /// .obj), if there is one.
   std::string overlay;
+  /// Unit of length of the scene file (unit.h), in place of what overlays say. Empty: theirs, else metres.
+  std::string unit;
   /// Equirectangular .hdr or .exr (or any image); replaces the scene's own environment. Empty: none.
   std::string environment;
   float environment_intensity = 1;  ///< factor on the image

@@ -11,8 +11,10 @@
 namespace ssphh::scene_io {
 
 /// Applies the overlay in `text` to a scene. `path` names it in messages and is the base of its relative
-/// paths. Throws Error naming file and place for unknown members, wrong types and values out of range.
-void apply_overlay(scene::Scene& scene, std::string_view text, const std::filesystem::path& path);
+/// paths. `unit`, as unit.h has it, takes the place of the overlay's own; empty: that stands. Throws Error
+/// naming file and place for unknown members, wrong types and values out of range.
+void apply_overlay(scene::Scene& scene, std::string_view text, const std::filesystem::path& path,
+                   const std::string& unit = {});
 
 /// The "scene" member of an overlay: a path relative to the overlay, made absolute or relative to the working
 /// directory, or "builtin:NAME". Throws Error when it is missing.
