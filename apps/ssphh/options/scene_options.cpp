@@ -48,6 +48,7 @@ scene::Scene load_scene(const SceneOptions& options) {
   scene_io::LoadOptions load;
   load.overlay = options.overlay;
   load.unit = options.unit;
+  load.time = options.time;
   load.environment = options.environment;
   load.environment_intensity = options.environment_intensity;
   load.environment_rotation = glm::radians(options.environment_rotation);

@@ -19,7 +19,7 @@ std::string light_group_extra(const json::Cursor& object) {
   return group ? group->text() : std::string{};
 }
 
-scene::Scene load_gltf(std::span<const std::byte> data, const std::filesystem::path& path) {
+scene::Scene load_gltf(std::span<const std::byte> data, const std::filesystem::path& path, float time) {
   GltfDocument document(data, path);
   scene::Scene scene;
   GltfImport import{.document = document,
@@ -28,11 +28,15 @@ scene::Scene load_gltf(std::span<const std::byte> data, const std::filesystem::p
                     .meshes_of_mesh = {},
                     .mesh_read = {},
                     .vertex_arrays = {},
-                    .node_of_node = {}};
+                    .node_of_node = {},
+                    .shapes = {},
+                    .bent = {},
+                    .weight_keys = {}};
   check_structure(document);
   import_materials(import);
   import_nodes(import);
   import_animations(import);
+  pose_meshes(import, time);
   if (scene.name.empty()) scene.name = path.stem().string();
   scene.ignored = document.ignored.lines();
   return scene;

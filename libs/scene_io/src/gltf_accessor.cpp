@@ -25,11 +25,12 @@ std::uint64_t component_size(ComponentType type) {
   return type == ComponentType::i16 || type == ComponentType::u16 ? 2 : 4;
 }
 
-int component_count(const json::Cursor& accessor) {
+int component_count(const json::Cursor& accessor, bool matrices = false) {
   const json::Cursor type = accessor["type"];
   const std::string& name = type.text();
   if (name == "SCALAR") return 1;
   if (name.size() == 4 && name.starts_with("VEC") && name[3] >= '2' && name[3] <= '4') return name[3] - '0';
+  if (matrices && name == "MAT4") return 16;
   if (name == "MAT2" || name == "MAT3" || name == "MAT4") type.fail("a matrix is not expected here");
   type.fail(fmt::format("\"{}\" is no accessor type", printable(name, 40)));
 }
@@ -143,7 +144,7 @@ std::uint64_t accessor_element_bytes(const json::Cursor& accessor) {
 FloatArray read_floats(GltfDocument& document, int index, int min_components, int max_components) {
   const json::Cursor accessor = document.item("accessors", index);
   FloatArray out;
-  out.components = component_count(accessor);
+  out.components = component_count(accessor, max_components == 16);
   if (out.components < min_components || out.components > max_components) {
     accessor.fail(fmt::format("has {} components where {} are expected", out.components,
                               min_components == max_components

@@ -20,7 +20,7 @@ struct FloatArray {
 std::uint64_t accessor_element_bytes(const json::Cursor& accessor);
 
 /// Decodes an accessor whose number of components lies in [min_components, max_components]. Throws Error for
-/// anything out of bounds and for NaN or infinite values.
+/// anything out of bounds and for NaN or infinite values. 16 components: a 4 × 4 matrix, column by column.
 FloatArray read_floats(GltfDocument& document, int accessor, int min_components, int max_components);
 
 /// Decodes an accessor of unsigned scalars.

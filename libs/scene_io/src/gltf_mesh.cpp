@@ -129,16 +129,38 @@ int default_material(GltfImport& import) {
 }
 
 void list_ignored(GltfDocument& document, const json::Cursor& primitive) {
-  if (const auto targets = primitive.find("targets")) document.ignored.add("morph target", targets->size());
   const json::Cursor attributes = primitive["attributes"];
   for (const auto& [name, unused] : attributes.value().members()) {
     const bool known = name == "POSITION" || name == "NORMAL" || name == "TANGENT" || name == "TEXCOORD_0" ||
-                       name == "TEXCOORD_1" || name == "COLOR_0";
+                       name == "TEXCOORD_1" || name == "COLOR_0" || name.starts_with("JOINTS_") ||
+                       name.starts_with("WEIGHTS_");
     if (!known) document.ignored.add(fmt::format("vertex attribute {}", printable(name, 40)));
   }
 }
 
-std::optional<Mesh> import_primitive(GltfImport& import, const json::Cursor& primitive) {
+// What bends the vertices in `used`.
+MeshShape read_shape(const Vertices& vertices, const json::Cursor& primitive, std::size_t vertex_count,
+                     const std::vector<std::uint32_t>& used) {
+  MeshShape shape;
+  if (const auto targets = primitive.find("targets")) {
+    for (const json::Cursor& target : json::elements(*targets)) {
+      const Vertices differences{vertices.import, target};
+      vertices.import.document.charge(sizeof(MeshShape::Target), target);
+      shape.targets.push_back({differences.read<vec3>("POSITION", 3, vertex_count, used),
+                               differences.read<vec3>("NORMAL", 3, vertex_count, used),
+                               differences.read<vec3>("TANGENT", 3, vertex_count, used)});
+    }
+  }
+  for (int set = 0;; ++set) {
+    const std::string joints = fmt::format("JOINTS_{}", set), weights = fmt::format("WEIGHTS_{}", set);
+    if (!vertices.attributes.has(joints.c_str()) || !vertices.attributes.has(weights.c_str())) break;
+    shape.influences.push_back({vertices.read<vec4>(joints.c_str(), 4, vertex_count, used),
+                                vertices.read<vec4>(weights.c_str(), 4, vertex_count, used)});
+  }
+  return shape;
+}
+
+std::optional<Mesh> import_primitive(GltfImport& import, const json::Cursor& primitive, MeshShape& shape) {
   GltfDocument& document = import.document;
   const auto mode_member = primitive.find("mode");
   const std::uint64_t mode = mode_member ? mode_member->unsigned_integer(6) : 4;
@@ -189,6 +211,7 @@ std::optional<Mesh> import_primitive(GltfImport& import, const json::Cursor& pri
   mesh.uvs[1] = vertices.read<vec2>("TEXCOORD_1", 2, vertex_count, used);
   mesh.colors = vertices.read<vec4>("COLOR_0", 3, vertex_count, used);
   mesh.material = material ? *material : default_material(import);
+  shape = read_shape(vertices, primitive, vertex_count, used);
   return mesh;
 }
 
@@ -202,11 +225,13 @@ const std::vector<int>& import_mesh(GltfImport& import, int index) {
   const std::string name = mesh.text_or("name", fmt::format("mesh {}", index));
   const json::Cursor primitives = mesh["primitives"];
   for (std::size_t i = 0; i < primitives.size(); ++i) {
-    auto primitive = import_primitive(import, primitives[i]);
+    MeshShape shape;
+    auto primitive = import_primitive(import, primitives[i], shape);
     if (!primitive) continue;
     import.document.charge(sizeof(Mesh) + name.size(), mesh);
     primitive->name = primitives.size() == 1 ? name : fmt::format("{}.{}", name, i);
     out.push_back(static_cast<int>(import.scene.meshes.size()));
+    if (!shape.empty()) import.shapes[out.back()] = std::move(shape);
     import.scene.meshes.push_back(*std::move(primitive));
   }
   return out;

@@ -54,6 +54,7 @@ void add_instances(GltfImport& import, const json::Cursor& file_node, int mesh, 
     instance.node = node;
     instance.light_group = node_group;
     import.document.charge(sizeof instance + instance.light_group.size(), file_node);
+    if (import.shapes.contains(m)) import.bent.push_back({import.scene.instances.size(), file_node});
     import.scene.instances.push_back(std::move(instance));
   }
 }
@@ -130,6 +131,7 @@ void add_sphl(GltfImport& import, const json::Cursor& file_node, int node) {
 
 void add_contents(GltfImport& import, const json::Cursor& file_node, int node) {
   GltfDocument& document = import.document;
+  const std::size_t bent = import.bent.size();
   if (const auto mesh = document.reference(file_node, "mesh", "meshes")) {
     const auto instancing = extension(file_node, "EXT_mesh_gpu_instancing");
     if (instancing) {
@@ -138,13 +140,14 @@ void add_contents(GltfImport& import, const json::Cursor& file_node, int node) {
       add_instances(import, file_node, *mesh, node);
     }
   }
+  if (import.bent.size() == bent && file_node.has("skin"))
+    document.ignored.add("skin of no mesh with joints");
   if (const auto camera = document.reference(file_node, "camera", "cameras")) {
     auto out = import_camera(document.item("cameras", *camera));
     out.node = node;
     if (out.name.empty()) out.name = import.scene.nodes[static_cast<std::size_t>(node)].name;
     import.scene.cameras.push_back(std::move(out));
   }
-  if (document.reference(file_node, "skin", "skins")) document.ignored.add("skin");
   add_light(import, file_node, node);
   add_sphl(import, file_node, node);
 }
@@ -219,7 +222,7 @@ void import_nodes(GltfImport& import) {
   const std::size_t shown = import.scene.meshes.size();
   for (std::size_t m = 0; m < import.mesh_read.size(); ++m) {
     if (import.mesh_read[m]) continue;
-    import_mesh(import, static_cast<int>(m));
+    for (const int unseen : import_mesh(import, static_cast<int>(m))) import.shapes.erase(unseen);
     import.scene.meshes.resize(shown);
     document.ignored.add("mesh outside the scene");
   }

@@ -7,8 +7,15 @@
 #include <ssphh/scene/scene.h>
 
 #include "gltf_accessor.h"
+#include "gltf_deform.h"
 
 namespace ssphh::scene_io {
+
+/// An instance whose node or mesh bends it.
+struct BentInstance {
+  std::size_t instance;
+  json::Cursor file_node;
+};
 
 /// What the parts hand to each other: indices of the file on the left, of the scene on the right.
 struct GltfImport {
@@ -19,6 +26,11 @@ struct GltfImport {
   std::vector<bool> mesh_read;
   std::map<int, std::shared_ptr<const FloatArray>> vertex_arrays;  ///< decoded once, shared by primitives
   std::vector<int> node_of_node;                                   ///< −1: not in the scene that is shown
+  std::map<int, MeshShape> shapes;                                 ///< of the scene's meshes that can bend
+  std::vector<BentInstance> bent;
+  /// Of the scene's nodes whose morph targets are animated: channel k moves node k along x by target k's
+  /// weight.
+  std::map<int, std::vector<scene::AnimationChannel>> weight_keys;
 };
 
 /// Types, references and sizes of everything in the file, used or not, before anything is decoded.
@@ -42,6 +54,10 @@ void import_environment(GltfImport& import, const json::Cursor& gltf_scene);
 
 /// Keyframes; marks animated nodes and what is below them as movable.
 void import_animations(GltfImport& import);
+
+/// Gives meshes with morph targets or skins their shape at `time` [s], each instance its own. Those whose
+/// shape is animated count as movable, and keep this one; a warning says so.
+void pose_meshes(GltfImport& import, float time);
 
 /// object.extensions.NAME
 std::optional<json::Cursor> extension(const json::Cursor& object, const char* name);

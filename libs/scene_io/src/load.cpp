@@ -56,7 +56,7 @@ Format format_of(std::span<const std::byte> data, const fs::path& path) {
 }
 
 // A builtin scene or a scene file, not an overlay.
-Scene load_plain(const std::string& source, const std::vector<std::byte>* data) {
+Scene load_plain(const std::string& source, const std::vector<std::byte>* data, float time) {
   if (source.starts_with(builtin_prefix)) return scene::make_builtin(source.substr(builtin_prefix.size()));
   std::vector<std::byte> own;
   if (!data) {
@@ -64,7 +64,7 @@ Scene load_plain(const std::string& source, const std::vector<std::byte>* data) 
     data = &own;
   }
   const Format format = format_of(*data, source);
-  if (format == Format::gltf) return load_gltf(*data, source);
+  if (format == Format::gltf) return load_gltf(*data, source, time);
   if (format == Format::obj) return load_obj(as_text(*data), source);
   throw Error(source, "is an overlay; one cannot stand on another");
 }
@@ -105,15 +105,15 @@ Scene load_scene(const std::string& source, const LoadOptions& options) {
     in_metres = true;
   };
   if (source.starts_with(builtin_prefix)) {
-    scene = load_plain(source, nullptr);
+    scene = load_plain(source, nullptr, options.time);
   } else {
     const auto data = read_file(source, max_scene_bytes);
     if (format_of(data, source) == Format::overlay) {
       const std::string named = overlay_scene(as_text(data), source);
-      scene = load_plain(named, nullptr);
+      scene = load_plain(named, nullptr, options.time);
       overlay_with(as_text(data), source);
     } else {
-      scene = load_plain(source, &data);
+      scene = load_plain(source, &data, options.time);
       const fs::path beside = fs::path(source).replace_extension(".ssphh.json");
       std::error_code unreadable;
       if (overlay.empty() && fs::exists(beside, unreadable)) overlay = beside;

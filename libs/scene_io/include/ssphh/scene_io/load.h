@@ -15,6 +15,8 @@ struct LoadOptions {
   std::string overlay;
   /// Unit of length of the scene file (unit.h), in place of what overlays say. Empty: theirs, else metres.
   std::string unit;
+  /// Seconds at which skins and morph targets give meshes their shape (gltf.h).
+  float time = 0;
   /// Equirectangular .hdr or .exr (or any image); replaces the scene's own environment. Empty: none.
   std::string environment;
   float environment_intensity = 1;  ///< factor on the image
