@@ -45,6 +45,13 @@ struct Packing {
   int bits = 0;  ///< 0: floats as they are
 };
 
+Bytes encoded(const draco::Mesh& mesh, draco::Encoder& encoder) {
+  draco::EncoderBuffer buffer;
+  EXPECT_TRUE(encoder.EncodeMeshToBuffer(mesh, &buffer).ok());
+  const auto* begin = reinterpret_cast<const std::byte*>(buffer.data());
+  return {begin, begin + buffer.size()};
+}
+
 /// Packs a mesh; the attributes by name go to `ids`.
 Bytes packed(const scene::Mesh& mesh, const Packing& how, json::Value& ids) {
   draco::Mesh out;
@@ -60,10 +67,7 @@ Bytes packed(const scene::Mesh& mesh, const Packing& how, json::Value& ids) {
     for (const auto type : {Attribute::POSITION, Attribute::NORMAL, Attribute::TEX_COORD})
       encoder.SetAttributeQuantization(type, how.bits);
   }
-  draco::EncoderBuffer buffer;
-  EXPECT_TRUE(encoder.EncodeMeshToBuffer(out, &buffer).ok());
-  const auto* begin = reinterpret_cast<const std::byte*>(buffer.data());
-  return {begin, begin + buffer.size()};
+  return encoded(out, encoder);
 }
 
 /// The file with all of its primitives packed; what Draco holds is in no other view.
@@ -166,6 +170,41 @@ TEST(Draco, EdgebreakerKeepsEveryTriangle) {
           << "mesh " << m;
     }
   }
+}
+
+// Draco has a flag of its own, which need not be right.
+TEST(Draco, IntegersAreNormalizedAsTheirAccessorSays) {
+  draco::Mesh mesh;
+  mesh.set_num_points(3);
+  mesh.AddFace({draco::PointIndex(0), draco::PointIndex(1), draco::PointIndex(2)});
+  const int position = add(mesh, Attribute::POSITION, std::vector<vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  Attribute attribute;
+  attribute.Init(Attribute::TEX_COORD, nullptr, 2, draco::DT_UINT16, false, 4, 0);
+  const int uv = mesh.AddAttribute(attribute, true, 3);
+  const std::array<std::array<std::uint16_t, 2>, 3> codes = {{{0, 65535}, {13107, 1}, {2, 3}}};
+  for (std::uint32_t i = 0; i < 3; ++i)
+    mesh.attribute(uv)->SetAttributeValue(draco::AttributeValueIndex(i), &codes[i]);
+  draco::Encoder encoder;
+  encoder.SetEncodingMethod(draco::MESH_SEQUENTIAL_ENCODING);
+  const Bytes data = encoded(mesh, encoder);
+  const auto uvs_of = [&](const char* normalized) {
+    test::GlbBuilder b;
+    const int view = b.view(data);
+    b.accessor("\"componentType\":5126,\"type\":\"VEC3\",\"count\":3");
+    b.accessor(std::string("\"componentType\":5123,\"type\":\"VEC2\",\"count\":3") + normalized);
+    return load(b.glb(fmt::format(
+                    "\"nodes\":[{{\"mesh\":0}}],\"meshes\":[{{\"primitives\":[{{\"attributes\":{{"
+                    "\"POSITION\":0,"
+                    "\"TEXCOORD_0\":1}},\"extensions\":{{\"KHR_draco_mesh_compression\":{{\"bufferView\":{},"
+                    "\"attributes\":{{\"POSITION\":{},\"TEXCOORD_0\":{}}}}}}}}}]}}]",
+                    view, position, mesh.attribute(uv)->unique_id())))
+        .meshes.at(0)
+        .uvs[0];
+  };
+  EXPECT_EQ(uvs_of(""), (std::vector<vec2>{{0, 65535}, {13107, 1}, {2, 3}}));
+  const std::vector<vec2> unit = uvs_of(",\"normalized\":true");
+  EXPECT_EQ(unit.at(0), vec2(0, 1));
+  EXPECT_FLOAT_EQ(unit.at(1).x, 0.2f);
 }
 
 TEST(Draco, TheKhronosBoxIsABox) {

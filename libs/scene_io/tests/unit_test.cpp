@@ -91,6 +91,21 @@ TEST(Units, AreMetresWhereThatCanBe) {
   EXPECT_EQ(guess_unit(box({0, 0, 0})), 1);
 }
 
+// A dome of few vertices around a room of many.
+TEST(Units, AreNotGuessedFromWhatLiesFarAround) {
+  Scene scene = box({10'000, 10'000, 10'000});
+  EXPECT_EQ(guess_unit(scene), 0.001f);
+  scene.meshes.push_back(box({5, 3, 4}).meshes[0]);
+  auto& vertices = scene.meshes[1].positions;
+  for (int doubled = 0; doubled < 7; ++doubled) {
+    const auto copy = vertices;
+    vertices.insert(vertices.end(), copy.begin(), copy.end());
+  }
+  scene.instances.push_back(scene.instances[0]);
+  scene.instances[1].mesh = 1;
+  EXPECT_EQ(guess_unit(scene), 1);
+}
+
 TEST(Units, ScalePositionsAndTheLengthsOutsideOfNodes) {
   Scene scene = scene::make_builtin("cornell");
   const vec3 size = size_of(scene);
