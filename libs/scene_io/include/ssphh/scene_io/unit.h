@@ -17,7 +17,8 @@ float metres_per_unit(const std::string& unit, const scene::Scene& scene, const 
 
 /// Metres per unit that suit the size of a place for people: 0.001 or 0.01 where a scene is more than 100
 /// units wide and width and height are much more like those of rooms and houses in that unit, else 1. Of
-/// every axis the outermost 1 % of vertices on either side do not count, so that ground planes do not.
+/// every axis the outermost 1 % of vertices on either side do not count, so that ground planes and
+/// skies do not.
 float guess_unit(const scene::Scene& scene);
 
 /// Makes metres of a file's units: a node above all others scales by `unit` [m] after it has moved `origin`,
