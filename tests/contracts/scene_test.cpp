@@ -11,6 +11,7 @@
 #include <ssphh/scene_io/obj.h>
 #include <ssphh/scene_io/overlay.h>
 #include <ssphh/scene_io/renderer_export.h>
+#include <ssphh/scene_io/unit.h>
 
 #include "contract.h"
 #include "spoilt_scenes.h"
@@ -129,6 +130,9 @@ std::vector<Contract> of_scenes() {
 }
 
 std::vector<Contract> of_files() {
+  const auto unchanged = [](const Scene& scene) {
+    EXPECT_EQ(scene::scene_hash(scene), scene::scene_hash(sound_scene()));
+  };
   std::vector<Contract> rows = {
       refuses("LoadScene", "ThatIsNotThere", [] { scene_io::load_scene("/nowhere/scene.glb"); },
               {"/nowhere/scene.glb"}),
@@ -141,7 +145,31 @@ std::vector<Contract> of_files() {
                 scene_io::load_scene("builtin:box", options);
               },
               {"environment", "finite"}),
+      refuses("LoadScene", "InAUnitThatIsNone",
+              [] {
+                scene_io::LoadOptions options;
+                options.unit = "yard";
+                scene_io::load_scene("builtin:box", options);
+              },
+              {"unit", "yard", "inch"}),
       refuses("LoadGltf", "OfNoBytes", [] { scene_io::load_gltf({}, "x.gltf"); }, {"x.gltf"}),
+      refuses("LoadGltf", "AtATimeThatIsNoNumber", [] { scene_io::load_gltf({}, "x.gltf", nan); },
+              {"time", "finite"}),
+      refuses("MetresPerUnit", "OfAUnitThatIsNone", [] { scene_io::metres_per_unit("yard", {}, "x.obj"); },
+              {"x.obj", "yard", "inch"}),
+      refuses("GuessUnit", "OfAMeshThatIsNotThere",
+              [] {
+                Scene scene = sound_scene();
+                scene.instances[0].mesh = 9;
+                scene_io::guess_unit(scene);
+              },
+              {"instance 0", "mesh 9"}),
+      refuses(
+          "SetUnit", "OfNoMetres", [] { return std::make_unique<Scene>(sound_scene()); },
+          [](Scene& scene) { scene_io::set_unit(scene, 0); }, {"unit", "greater than 0"}, unchanged),
+      refuses(
+          "SetUnit", "WithAnOriginThatIsNoNumber", [] { return std::make_unique<Scene>(sound_scene()); },
+          [](Scene& scene) { scene_io::set_unit(scene, 1, vec3(nan)); }, {"origin", "finite"}, unchanged),
       refuses("LoadObj", "OfNoText", [] { scene_io::load_obj("", "x.obj"); }, {"x.obj", "no faces"}),
       refuses("ApplyOverlay", "OfNoText",
               [] {

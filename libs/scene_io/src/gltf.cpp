@@ -1,3 +1,6 @@
+#include <cmath>
+
+#include <ssphh/core/require.h>
 #include <ssphh/scene_io/gltf.h>
 
 #include "gltf_parts.h"
@@ -20,6 +23,7 @@ std::string light_group_extra(const json::Cursor& object) {
 }
 
 scene::Scene load_gltf(std::span<const std::byte> data, const std::filesystem::path& path, float time) {
+  require(std::isfinite(time), "time", "must be finite");
   GltfDocument document(data, path);
   scene::Scene scene;
   GltfImport import{.document = document,

@@ -9,6 +9,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/log.h>
+#include <ssphh/core/require.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/scene_io/unit.h>
 
@@ -44,6 +45,7 @@ struct Extent {
 /// From the first to the last percent of the vertices that are seen.
 Extent extent_of(const Scene& scene) {
   constexpr std::size_t enough = 200'000;
+  scene::check_indices(scene);
   std::size_t count = 0;
   for (const auto& instance : scene.instances)
     count += scene.meshes[static_cast<std::size_t>(instance.mesh)].positions.size();
@@ -53,8 +55,9 @@ Extent extent_of(const Scene& scene) {
   std::size_t next = 0, begin = 0;
   for (const auto& instance : scene.instances) {
     const auto& positions = scene.meshes[static_cast<std::size_t>(instance.mesh)].positions;
+    const mat4 m = instance.node < 0 ? mat4(1) : world[static_cast<std::size_t>(instance.node)];
     for (; next < begin + positions.size(); next += step) {
-      const vec3 p(world[static_cast<std::size_t>(instance.node)] * vec4(positions[next - begin], 1));
+      const vec3 p(m * vec4(positions[next - begin], 1));
       for (int axis = 0; axis < 3; ++axis) along[static_cast<std::size_t>(axis)].push_back(p[axis]);
     }
     begin += positions.size();
@@ -121,6 +124,8 @@ float metres_per_unit(const std::string& unit, const Scene& scene, const std::st
 }
 
 void set_unit(Scene& scene, float unit, const vec3& origin) {
+  require(std::isfinite(unit) && unit > 0, "unit", "must be finite and greater than 0");
+  require(is_finite(origin), "origin", "must be finite");
   scene::Node root;
   root.name = "unit";
   root.local.scale = vec3(unit);
