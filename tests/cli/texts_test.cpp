@@ -46,9 +46,11 @@ TEST(Texts, OfScenes) {
   ASSERT_EQ(list.size(), scene::builtin_scenes().size());
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    EXPECT_EQ(list[i]["name"], "builtin:" + scene::builtin_scenes()[i].name);
-    EXPECT_EQ(list[i]["description"], scene::builtin_scenes()[i].description);
-    lines.push_back(fmt::format("{:<20} {}", list[i]["name"].string(), list[i]["description"].string()));
+    const scene::BuiltinScene& scene = scene::builtin_scenes()[i];
+    EXPECT_EQ(list[i]["name"], "builtin:" + scene.name);
+    EXPECT_EQ(list[i]["description"], scene.description);
+    const std::string drawn = scene.number ? "?" + scene.number->key + "=N" : std::string();
+    lines.push_back(fmt::format("{:<22} {}", list[i]["name"].string() + drawn, scene.description));
   }
   EXPECT_EQ(text_here({"scene", "list"}), fmt::format("{}", fmt::join(lines, "\n")));
 
