@@ -158,13 +158,14 @@ TEST_F(BakedRooms, LeakAndMeasureAgreeWithTheLibraryPointByPoint) {
   const MeasuredLight& mls = measured.lights[1];
   const std::vector<vec3> found = study::look_up(lookup, within);
   EXPECT_EQ(mls.weights, probes::WeightMethod::mls);
-  EXPECT_EQ(mls.error.mean_error, study::lookup_error(found, truth.estimates).mean_error);
+  EXPECT_EQ(mls.error.channels[0].mean_error,
+            study::lookup_error(found, truth.estimates).channels[0].mean_error);
   EXPECT_EQ(mls.leak_ratio, study::leak_ratio(found, truth));
   EXPECT_GT(mls.leak_ratio, 0);
   EXPECT_FALSE(mls.frame_ms);
   const MeasuredLight& direct = measured.lights[2];
   EXPECT_EQ(direct.name, "direct");
-  EXPECT_EQ(direct.error.ratio, 0) << "it has no indirect light";
+  EXPECT_EQ(direct.error.luminance.ratio, 0) << "it has no indirect light";
   EXPECT_TRUE(direct.method && direct.frame_ms);
   EXPECT_FALSE(direct.weights);
 }
@@ -255,7 +256,7 @@ TEST(Commands, RelightHandsBackTheFramesBeforeACancel) {
 TEST(Commands, RespondTellsWhenTheErrorHasSettled) {
   const auto frames = [](const std::vector<double>& errors) {
     std::vector<RespondFrame> list;
-    for (const double error : errors) list.emplace_back().error.mean_error = error;
+    for (const double error : errors) list.emplace_back().error.channels[1].mean_error = error;
     return list;
   };
   EXPECT_EQ(frames_to_settle(frames({0.5})), 1);

@@ -102,6 +102,16 @@ TEST_F(Rooms, LeakIsThatOfTheLibraryAtTheTimeOfTheProbes) {
               HasSubstr("a leak map is written as .png"));
 }
 
+constexpr std::pair<const char*, double study::RelativeError::*> figures[] = {
+    {"mean_truth", &study::RelativeError::mean_truth},
+    {"ratio", &study::RelativeError::ratio},
+    {"mean_error", &study::RelativeError::mean_error},
+    {"mean_relative", &study::RelativeError::mean_relative},
+    {"median_relative", &study::RelativeError::median_relative},
+    {"p95_relative", &study::RelativeError::p95_relative},
+    {"noise", &study::RelativeError::noise},
+    {"relmse", &study::RelativeError::relmse}};
+
 TEST_F(Rooms, MeasureIsThatOfTheLibrary) {
   study::LeakParams params{.path = {.max_depth = 3, .passes = 1, .spp = 8, .seed = 3}};
   const std::vector<std::string> command = {
@@ -118,16 +128,25 @@ TEST_F(Rooms, MeasureIsThatOfTheLibrary) {
       lookup.weights = probes::weights_named(one["weights"].string());
       const std::vector<vec3> found = study::look_up(probes::IrradianceLookup(set_, tracer_, lookup), at);
       const study::LookupError e = study::lookup_error(found, truth.estimates);
-      EXPECT_NEAR(all["noise"].number(), e.noise, 1e-9);
-      const std::map<std::string, double> wanted = {{"ratio", e.ratio},
-                                                    {"mean_error", e.mean_error},
-                                                    {"mean_relative", e.mean_relative},
-                                                    {"median_relative", e.median_relative},
-                                                    {"p95_relative", e.p95_relative},
-                                                    {"relmse", e.relmse},
-                                                    {"leak_ratio", study::leak_ratio(found, truth)}};
-      for (const auto& [name, value] : wanted)
-        EXPECT_NEAR(one[name.c_str()].number(), value, 1e-9 * (1 + std::abs(value))) << name;
+      const study::RelativeError worst = study::worst_channel(e);
+      EXPECT_NEAR(all["noise"].number(), worst.noise, 1e-9);
+      const auto near = [](const json::Value& said, double value) {
+        EXPECT_NEAR(said.number(), value, 1e-9 * (1 + std::abs(value)));
+      };
+      for (const auto& [name, figure] : figures) {
+        SCOPED_TRACE(name);
+        ASSERT_EQ(one[name].size(), 3u);
+        for (std::size_t c = 0; c < 3; ++c) near(one[name][c], e.channels[c].*figure);
+        near(one["luminance"][name], e.luminance.*figure);
+        near(one["worst"][name], worst.*figure);
+      }
+      const json::Value& colour = one["chromaticity"];
+      near(colour["mean"], e.chromaticity.mean);
+      near(colour["mean_error"], e.chromaticity.mean_error);
+      near(colour["p95"], e.chromaticity.p95);
+      near(colour["noise"], e.chromaticity.noise);
+      EXPECT_GT(e.chromaticity.mean, 0.01);
+      near(one["leak_ratio"], study::leak_ratio(found, truth));
       EXPECT_GT(one["lookup_us"].number(), 0);
       EXPECT_EQ(one["probes"], file_);
     }
@@ -140,12 +159,15 @@ TEST_F(Rooms, MeasureIsThatOfTheLibrary) {
   const std::string text = text_here(joined(command, {"--weights", "mls,distance"}));
   double leaks = 0;
   for (const json::Value& one : all["results"].elements()) {
-    const auto number = [&](const char* key) { return one[key].number(); };
-    leaks += number("leak_ratio");
-    EXPECT_THAT(text, HasSubstr(fmt::format("\n{:<24}{:<11}{:>8.3f}{:>9.1f} %{:>7.1f} %{:>10.4f}{:>7.2f} %",
-                                            file_, one["weights"].string(), number("ratio"),
-                                            100 * number("mean_error"), 100 * number("p95_relative"),
-                                            number("relmse"), 100 * number("leak_ratio"))));
+    leaks += one["leak_ratio"].number();
+    const json::Value &ratio = one["ratio"], &worst = one["worst"];
+    EXPECT_THAT(text,
+                HasSubstr(fmt::format(
+                    "\n{:<24}{:<11}{:>7.3f}{:>7.3f}{:>7.3f}{:>7.1f} %{:>7.1f} %{:>10.4f}{:>7.2f} %{:>7.2f} %",
+                    file_, one["weights"].string(), ratio[0].number(), ratio[1].number(), ratio[2].number(),
+                    100 * worst["mean_error"].number(), 100 * worst["p95_relative"].number(),
+                    worst["relmse"].number(), 100 * one["chromaticity"]["mean_error"].number(),
+                    100 * one["leak_ratio"].number())));
   }
   EXPECT_GT(leaks, 0.01);
   expect(json_here(joined(command, {"--open", "--clearance", "0.5"})),
@@ -169,9 +191,9 @@ TEST_F(Rooms, RespondTellsTheSameInItsListAndItsTable) {
   EXPECT_EQ(run["method"], "direct");
   EXPECT_EQ(run["points"], 16);
   ASSERT_EQ(run["frames"].size(), 4u);
-  EXPECT_EQ(run["first_error"], run["frames"][0]["mean_error"]);
-  EXPECT_EQ(run["last_error"], run["frames"][3]["mean_error"]);
-  EXPECT_EQ(run["last_ratio"], 0) << "direct light has no indirect";
+  EXPECT_EQ(run["first_error"], run["frames"][0]["worst"]["mean_error"]);
+  EXPECT_EQ(run["last_error"], run["frames"][3]["worst"]["mean_error"]);
+  EXPECT_EQ(run["frames"][3]["ratio"], json::Value({0, 0, 0})) << "direct light has no indirect";
   EXPECT_EQ(run["before_error"], run["last_error"]);
   EXPECT_EQ(run["frames_to_settle"], 1);
   EXPECT_EQ(run["first_ms"], run["frames"][0]["ms"]);
@@ -182,12 +204,12 @@ TEST_F(Rooms, RespondTellsTheSameInItsListAndItsTable) {
   std::istringstream lines(read_text_file(csv));
   std::string line;
   std::getline(lines, line);
-  EXPECT_EQ(line, "frame,ms,ratio,mean_error,p95_relative,relmse");
+  EXPECT_EQ(line, "frame,ms,ratio_r,ratio_g,ratio_b,mean_error,p95_relative,relmse,chromaticity");
   for (std::size_t f = 0; f < 4; ++f) {
     std::getline(lines, line);
-    EXPECT_THAT(line,
-                testing::StartsWith(fmt::format("{},{:.4f},0,{:.6g},", f + 1, run["frames"][f]["ms"].number(),
-                                                run["frames"][f]["mean_error"].number())));
+    EXPECT_THAT(line, testing::StartsWith(fmt::format("{},{:.4f},0,0,0,{:.6g},", f + 1,
+                                                      run["frames"][f]["ms"].number(),
+                                                      run["frames"][f]["worst"]["mean_error"].number())));
   }
   EXPECT_FALSE(std::getline(lines, line));
 }

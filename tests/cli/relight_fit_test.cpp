@@ -20,7 +20,7 @@ std::vector<double> errors(int fit_frames) {
   options.params.transport.surfel_size = 1;
   options.weights = probes::WeightMethod::fitted, options.fit_frames = fit_frames;
   std::vector<double> all;
-  for (const FrameError& e : run_relight(options).run.errors) all.push_back(e.error.mean_relative);
+  for (const FrameError& e : run_relight(options).run.errors) all.push_back(e.error.luminance.mean_relative);
   return all;
 }
 

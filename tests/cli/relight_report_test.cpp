@@ -84,12 +84,22 @@ TEST(RelightReport, AOneFrameRunIsThatOfItsFirst) {
   EXPECT_THAT(relight_text(run), HasSubstr("first frame 0.0 ms"));
 }
 
+/// The same in all channels.
+void fill(study::LookupError& error, double ratio, double mean_relative, double noise, double relmse) {
+  for (study::RelativeError* e :
+       {error.channels.data(), &error.channels[1], &error.channels[2], &error.luminance}) {
+    e->ratio = ratio, e->mean_relative = mean_relative, e->noise = noise, e->relmse = relmse;
+    e->mean_truth = 7, e->median_relative = 0.25, e->p95_relative = 0.75;
+  }
+}
+
 FrameError error_at(int frame, double ratio, double mean_relative) {
   FrameError e;
   e.frame = frame;
-  e.error.ratio = ratio, e.error.mean_relative = mean_relative;
-  e.error.median_relative = 0.25, e.error.p95_relative = 0.75, e.error.noise = 0.125, e.error.relmse = 0.04;
-  e.error.mean_truth = 7, e.error.points = 99;
+  fill(e.error, ratio, mean_relative, 0.125, 0.04);
+  e.error.channels[0].ratio += 0.0625;
+  e.error.chromaticity.mean_error = 0.015625;
+  e.error.points = 99;
   return e;
 }
 
@@ -98,18 +108,25 @@ TEST(RelightReport, ErrorsStandBesideTheirTime) {
   run.errors = {error_at(0, 1.5, 0.5), error_at(4, std::numeric_limits<double>::quiet_NaN(), 0.375)};
   const json::Value json = relight_json(run);
   ASSERT_EQ(json["error"].size(), 2u);
-  EXPECT_EQ(json["error"][0], json::Value({{"frame", 0},
-                                           {"seconds", 0},
-                                           {"ratio", 1.5},
-                                           {"mean_relative", 0.5},
-                                           {"median_relative", 0.25},
-                                           {"p95_relative", 0.75},
-                                           {"noise", 0.125},
-                                           {"relmse", 0.04},
-                                           {"mean_truth", 7},
-                                           {"points", 99}}));
+  const json::Value& first = json["error"][0];
+  EXPECT_EQ(first["frame"], 0);
+  EXPECT_EQ(first["seconds"], 0);
+  EXPECT_EQ(first["points"], 99);
+  EXPECT_EQ(first["ratio"], json::Value({1.5625, 1.5, 1.5}));
+  EXPECT_EQ(first["mean_relative"], json::Value({0.5, 0.5, 0.5}));
+  EXPECT_EQ(first["worst"]["ratio"], 1.5625);
+  EXPECT_EQ(first["luminance"], json::Value({{"mean_truth", 7},
+                                             {"ratio", 1.5},
+                                             {"mean_error", 0},
+                                             {"mean_relative", 0.5},
+                                             {"median_relative", 0.25},
+                                             {"p95_relative", 0.75},
+                                             {"noise", 0.125},
+                                             {"relmse", 0.04}}));
+  EXPECT_EQ(first["chromaticity"]["mean_error"], 0.015625);
   EXPECT_EQ(json["error"][1]["seconds"], 4 / 25.0);
-  EXPECT_TRUE(json["error"][1]["ratio"].is_null());
+  EXPECT_TRUE(json["error"][1]["ratio"][2].is_null());
+  EXPECT_TRUE(json["error"][1]["luminance"]["ratio"].is_null());
 }
 
 TEST(RelightReport, TheTextHoldsTheSameNumbers) {
@@ -125,9 +142,9 @@ TEST(RelightReport, TheTextHoldsTheSameNumbers) {
             "frame            30.00       60.00           300\n"
             "2 of 4 frames took longer than 1/25 s\n"
             "\n"
-            "frame  seconds    ratio  mean rel.   median     95 %    noise    relMSE\n"
-            "    0     0.00    1.500      0.500    0.250    0.750    0.125    0.0400\n"
-            "    4     0.16    0.875      0.375    0.250    0.750    0.125    0.0400");
+            "frame  seconds  ratio R      G      B  mean rel.   median     95 %    noise    relMSE   colour\n"
+            "    0     0.00    1.562  1.500  1.500      0.500    0.250    0.750    0.125    0.0400    0.016\n"
+            "    4     0.16    0.938  0.875  0.875      0.375    0.250    0.750    0.125    0.0400    0.016");
   run.cancelled = true, run.frames_asked = 8;
   EXPECT_THAT(relight_text(run), testing::EndsWith("\ncancelled: 5 of 8 frames and 2 errors were done"));
   EXPECT_EQ(relight_json(run)["cancelled"], true);
@@ -140,6 +157,7 @@ TEST(RelightReport, TheCurveShowsRatioAndErrorsOverSeconds) {
   // Off by 0.5 at most: the axis reaches 0.55 to both sides. Errors up to 0.5: up to 0.55.
   run.errors = {error_at(0, 1.5, 0.5), error_at(1, std::numeric_limits<double>::infinity(), 0.1),
                 error_at(4, 0.725, 0.275)};
+  for (FrameError& e : run.errors) e.error.channels[0].ratio -= 0.0625;
   const test::TempDir dir;
   write_error_curve(dir / "error.svg", run);
   const std::string svg = read_text_file(dir / "error.svg");
@@ -164,7 +182,7 @@ TEST(RelightReport, TheCurveShowsRatioAndErrorsOverSeconds) {
   EXPECT_THAT(svg, HasSubstr("<line x1='60.0' y1='325.0' x2='680.0' y2='325.0' stroke='#ddd'/>"
                              "<text x='54.0' y='329.0' text-anchor='end'>0.275</text>\n"
                              "<text x='370.0' y='416.0' text-anchor='middle'>0.08 s</text>\n"));
-  EXPECT_THAT(svg, HasSubstr("<text x='60.0' y='32.0' fill='#1b6ca8'>mean looked up / path traced</text>"));
+  EXPECT_THAT(svg, HasSubstr("<text x='60.0' y='32.0' fill='#b03a2e'>looked up / path traced: red</text>"));
   EXPECT_THAT(svg, HasSubstr("<text x='280.0' y='242.0' fill='#999999'>of which the truth's noise</text>"));
   EXPECT_THAT(svg, HasSubstr("<text x='500.0' y='242.0' fill='#7d3c98'>root of relMSE</text>"));
 }
@@ -172,7 +190,7 @@ TEST(RelightReport, TheCurveShowsRatioAndErrorsOverSeconds) {
 TEST(RelightReport, ACurveOfSmallErrorsIsNotBlownUp) {
   RelightRun run = five_frames();
   FrameError e = error_at(2, 1, 0);
-  e.error.noise = 0, e.error.relmse = -0.01;
+  fill(e.error, 1, 0, 0, -0.01);
   run.errors = {e};
   const test::TempDir dir;
   write_error_curve(dir / "error.svg", run);
@@ -190,7 +208,7 @@ TEST(RelightReport, TheCurveIsDrawnAsItWas) {
   const auto error = [](int frame, double ratio, double relative, double noise, double relmse) {
     FrameError e;
     e.frame = frame;
-    e.error.ratio = ratio, e.error.mean_relative = relative, e.error.noise = noise, e.error.relmse = relmse;
+    fill(e.error, ratio, relative, noise, relmse);
     return e;
   };
   run.errors = {error(0, 0.9, 0.2, 0.05, 0.04), error(2, 1.2, 0.3, 0.06, 0.25),

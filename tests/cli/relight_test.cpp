@@ -63,8 +63,9 @@ TEST(Relight, ReportsStagesRaysAndErrors) {
   ASSERT_EQ(run["error"].size(), 2u);
   expect_keys(run["error"][0], {"frame", "seconds", "ratio", "mean_relative", "noise", "relmse"});
   EXPECT_EQ(run["error"][1]["frame"], 3);
-  EXPECT_TRUE(run["error"][1]["ratio"].is_null()) << "the lamp is off: there is no truth to divide by";
-  EXPECT_NEAR(run["error"][0]["ratio"].number(), 1, 0.5);
+  EXPECT_TRUE(run["error"][1]["worst"]["ratio"].is_null())
+      << "the lamp is off: there is no truth to divide by";
+  EXPECT_NEAR(run["error"][0]["worst"]["ratio"].number(), 1, 0.5);
   for (const char* file : {"frame-0000.png", "frame-0003.png", "error.svg"})
     EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(frames) / file)) << file;
   EXPECT_FALSE(std::filesystem::exists(std::filesystem::path(frames) / "frame-0001.png"));
@@ -104,7 +105,7 @@ TEST(Relight, TakesThePlacesOfAProbeFileAndSavesWhatLeakReads) {
   for (const json::Value& one : all["results"].elements()) {
     expect_keys(one, {"probes", "weights", "ratio", "mean_error", "mean_relative", "median_relative",
                       "p95_relative", "relmse", "leak_ratio"});
-    EXPECT_NEAR(one["ratio"].number(), 1, 0.3);
+    for (const json::Value& ratio : one["ratio"].elements()) EXPECT_NEAR(ratio.number(), 1, 0.3);
   }
   EXPECT_EQ(all["results"][0]["ratio"], all["results"][2]["ratio"]) << "the same light";
   EXPECT_NE(all["results"][0]["ratio"], all["results"][1]["ratio"]);

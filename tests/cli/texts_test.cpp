@@ -119,18 +119,24 @@ TEST(Texts, OfMeasure) {
   EXPECT_EQ(all["geometry_builds"], 1);
   std::string text = fmt::format(
       "16 points of 4 paths, {} of them dark; mean {:.5g} W/m2\n"
-      "light                   weights       ratio mean error     95 %    relMSE     leak   lookup",
+      "light                   weights    ratio R      G      B    error     95 %    relMSE   colour     "
+      "leak   lookup",
       print(all["dark_points"]), number(all, "mean_truth"));
   for (const json::Value& one : all["results"].elements()) {
-    text += fmt::format("\n{:<24}{:<11}{:>8.3f}{:>9.1f} %{:>7.1f} %{:>10.4f}{:>7.2f} % *@ us",
-                        one["method"].string(), "", number(one, "ratio"), 100 * number(one, "mean_error"),
-                        100 * number(one, "p95_relative"), number(one, "relmse"),
-                        100 * number(one, "leak_ratio"));
+    const json::Value &ratio = one["ratio"], &worst = one["worst"];
+    text += fmt::format(
+        "\n{:<24}{:<11}{:>7.3f}{:>7.3f}{:>7.3f}{:>7.1f} %{:>7.1f} %{:>10.4f}{:>7.2f} %{:>7.2f} % *@ us",
+        one["method"].string(), "", ratio[0].number(), ratio[1].number(), ratio[2].number(),
+        100 * number(worst, "mean_error"), 100 * number(worst, "p95_relative"), number(worst, "relmse"),
+        100 * number(one["chromaticity"], "mean_error"), 100 * number(one, "leak_ratio"));
     EXPECT_GT(number(one, "frame_ms"), 0);
     EXPECT_LT(number(one, "frame_ms"), 2000);
   }
-  text += fmt::format("\nnoise of the truth: {:.2g} % of a point, taken off the mean error and relMSE",
-                      100 * number(all, "noise"));
+  text += fmt::format(
+      "\nerror, 95 % and relMSE of the worst channel; the truth's noise, {:.2g} % of a point, is taken off "
+      "error, "
+      "relMSE and colour",
+      100 * number(all, "noise"));
   std::string wanted = pattern(text);
   for (std::size_t at; (at = wanted.find(" \\*")) != std::string::npos;) wanted.replace(at, 3, " *");
   EXPECT_THAT(text_here(command), MatchesRegex(wanted));
@@ -148,14 +154,17 @@ TEST(Texts, OfRespond) {
   const json::Value run = json_here(command);
   EXPECT_EQ(run["frames_to_settle"], 1);
   EXPECT_NE(run["before_error"], run["first_error"]);
+  const json::Value& ratio = run["frames"][1]["ratio"];
   const std::string text = text_here(command);
   EXPECT_THAT(text, testing::StartsWith("vpl: bake 0.0"));
-  EXPECT_THAT(text.substr(text.find('\n') + 1),
-              MatchesRegex(pattern(fmt::format(
-                  "mean error at 9 points: {:.1f} % with the light of before, {:.1f} % after one frame, "
-                  "{:.1f} % after 2 (ratio {:.3f})\nsettled after 1 frame, @ ms a frame (the first @)",
-                  100 * number(run, "before_error"), 100 * number(run, "first_error"),
-                  100 * number(run, "last_error"), number(run, "last_ratio")))));
+  EXPECT_THAT(
+      text.substr(text.find('\n') + 1),
+      MatchesRegex(pattern(fmt::format(
+          "mean error at 9 points: {:.1f} % with the light of before, {:.1f} % after one frame, "
+          "{:.1f} % after 2 (ratio{:>7.3f}{:>7.3f}{:>7.3f})\nsettled after 1 frame, @ ms a frame (the first "
+          "@)",
+          100 * number(run, "before_error"), 100 * number(run, "first_error"),
+          100 * number(run, "last_error"), ratio[0].number(), ratio[1].number(), ratio[2].number()))));
 }
 
 TEST(Texts, OfBakes) {

@@ -42,7 +42,7 @@ std::vector<rays::SurfacePoint> points_of(const scene::Scene& scene, const trace
 
 double error_of(const methods::Method& method, const std::vector<rays::SurfacePoint>& points,
                 const std::vector<rays::IrradianceEstimate>& truth) {
-  return study::lookup_error(study::look_up(method.light(), points), truth).mean_error;
+  return study::lookup_error(study::look_up(method.light(), points), truth).luminance.mean_error;
 }
 
 /// The glowing box, Le = 1: direct irradiance is π everywhere, so that a field E gives radiance ρ (π + E)/π.

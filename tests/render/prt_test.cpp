@@ -23,12 +23,13 @@ TEST(Prt, RotatingEnvironmentIsThatOfPathTracing) {
     const std::vector<rays::IrradianceEstimate> truth =
         test::truth_at(test::scene_in(scene, state), 0, points, 5, 256);
     const study::LookupError error = study::lookup_error(made.irradiance(state, points), truth);
-    EXPECT_NEAR(error.ratio, 1, 0.03) << turn;
-    EXPECT_LT(error.mean_error, 0.08) << turn;
+    EXPECT_NEAR(error.luminance.ratio, 1, 0.03) << turn;
+    EXPECT_LT(error.luminance.mean_error, 0.08) << turn;
     // The light of the other rotation is not this one.
     state.environment_rotation = -turn;
     if (turn == 0) continue;
-    EXPECT_GT(study::lookup_error(made.irradiance(state, points), truth).mean_error, 2 * error.mean_error);
+    EXPECT_GT(study::lookup_error(made.irradiance(state, points), truth).luminance.mean_error,
+              2 * error.luminance.mean_error);
   }
 }
 
@@ -74,9 +75,9 @@ TEST(Prt, MovingThingsAreLitFromTheProbes) {
   const std::vector<rays::IrradianceEstimate> truth = test::truth_at(scene, 0, still, 5, 128);
   const scene::LightingState state = rays::lighting_at(made.source, 0);
   // Six probes for a court: coarse, but the energy is there.
-  EXPECT_NEAR(study::lookup_error(made.irradiance(state, moving), truth).ratio, 1, 0.35);
-  EXPECT_LT(study::lookup_error(made.irradiance(state, still), truth).mean_error,
-            study::lookup_error(made.irradiance(state, moving), truth).mean_error);
+  EXPECT_NEAR(study::lookup_error(made.irradiance(state, moving), truth).luminance.ratio, 1, 0.35);
+  EXPECT_LT(study::lookup_error(made.irradiance(state, still), truth).luminance.mean_error,
+            study::lookup_error(made.irradiance(state, moving), truth).luminance.mean_error);
 }
 
 TEST(Prt, LampsByProbesAndErrorsFallWithMoreOfThem) {

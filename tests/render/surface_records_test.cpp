@@ -193,9 +193,9 @@ TEST(SurfaceRecords, OfABakeAreNearerToPathTracingThanProbesAre) {
   const study::LookupError records = error();
   set.surface.reset();
   const study::LookupError probes = error();
-  EXPECT_NEAR(records.ratio, 1, 0.05);
-  EXPECT_LT(records.mean_error, 0.1);
-  EXPECT_LT(records.mean_error, 0.7 * probes.mean_error);
+  EXPECT_NEAR(records.luminance.ratio, 1, 0.05);
+  EXPECT_LT(records.luminance.mean_error, 0.1);
+  EXPECT_LT(records.luminance.mean_error, 0.7 * probes.luminance.mean_error);
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ TEST(Vpl, ErrorFallsWithTheCount) {
   double last = 10;
   for (const char* photons : {"photons=16", "photons=256", "photons=4096"}) {
     const Vpls vpl(scene, source, {photons, "clamp=0"});
-    const double error = study::lookup_error(vpl.at(points), truth).mean_error;
+    const double error = study::lookup_error(vpl.at(points), truth).luminance.mean_error;
     RecordProperty(photons, std::to_string(error));
     EXPECT_LT(error, 0.7 * last) << photons;
     last = error;

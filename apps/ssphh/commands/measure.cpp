@@ -17,6 +17,7 @@
 #include "options/probe_options.h"
 #include "results/geometry_builds.h"
 #include "results/json_values.h"
+#include "results/lookup_figures.h"
 #include "results/percentile.h"
 
 namespace ssphh::app {
@@ -141,26 +142,27 @@ MeasuredLight measured(const Candidate& candidate, std::span<const rays::Surface
   return result;
 }
 
-/// The noise of the truth, which is the same whatever is compared with it.
+/// The noise of the truth in its worst channel, which is the same whatever is compared with it.
 double noise_of(const MeasureResult& result) {
-  return result.lights.empty() ? 0 : result.lights.back().error.noise;
+  return result.lights.empty() ? 0 : study::worst_channel(result.lights.front().error).noise;
 }
 
 json::Value light_json(const MeasuredLight& light) {
   json::Value object = {{light.method ? "method" : "probes", light.name}};
   if (light.weights) object["weights"] = name_of(*light.weights);
   if (light.method) object.update(to_json(*light.method));
-  const study::LookupError& e = light.error;
-  object.update({{"ratio", finite_or_null(e.ratio)},
-                 {"mean_error", e.mean_error},
-                 {"mean_relative", e.mean_relative},
-                 {"median_relative", e.median_relative},
-                 {"p95_relative", e.p95_relative},
-                 {"relmse", e.relmse},
-                 {"leak_ratio", light.leak_ratio},
-                 {"lookup_us", light.lookup_us}});
+  object.update(to_json(light.error));
+  object.update({{"leak_ratio", light.leak_ratio}, {"lookup_us", light.lookup_us}});
   if (light.frame_ms) object["frame_ms"] = *light.frame_ms;
   return object;
+}
+
+/// The columns of an error: ratios, then what is worst of the channels.
+std::string error_columns(const study::LookupError& error) {
+  const study::RelativeError worst = study::worst_channel(error);
+  return fmt::format("{}{:>7.1f} %{:>7.1f} %{:>10.4f}{:>7.2f} %", ratio_columns(error),
+                     100 * worst.mean_error, 100 * worst.p95_relative, worst.relmse,
+                     100 * error.chromaticity.mean_error);
 }
 
 }  // namespace
@@ -204,18 +206,20 @@ json::Value to_json(const MeasureResult& result, const MeasureOptions& options) 
 
 std::string to_text(const MeasureResult& result, const MeasureOptions& options) {
   std::string text = fmt::format(
-      "{} points of {} paths, {} of them dark; mean {:.5g} "
-      "W/m2\n{:<24}{:<11}{:>8}{:>11}{:>9}{:>10}{:>9}{:>9}",
+      "{} points of {} paths, {} of them dark; mean {:.5g} W/m2\n"
+      "{:<24}{:<11}{:>7}{:>7}{:>7}{:>9}{:>9}{:>10}{:>9}{:>9}{:>9}",
       result.points.size(), options.params.path.spp, result.truth.dark, result.truth.mean, "light", "weights",
-      "ratio", "mean error", "95 %", "relMSE", "leak", "lookup");
+      "ratio R", "G", "B", "error", "95 %", "relMSE", "colour", "leak", "lookup");
   for (const MeasuredLight& light : result.lights) {
-    const study::LookupError& e = light.error;
-    text += fmt::format("\n{:<24}{:<11}{:>8.3f}{:>9.1f} %{:>7.1f} %{:>10.4f}{:>7.2f} %{:>6.3g} us",
-                        light.name, light.weights ? name_of(*light.weights) : "", e.ratio, 100 * e.mean_error,
-                        100 * e.p95_relative, e.relmse, 100 * light.leak_ratio, light.lookup_us);
+    text += fmt::format("\n{:<24}{:<11}{}{:>7.2f} %{:>6.3g} us", light.name,
+                        light.weights ? name_of(*light.weights) : "", error_columns(light.error),
+                        100 * light.leak_ratio, light.lookup_us);
   }
-  return text + fmt::format("\nnoise of the truth: {:.2g} % of a point, taken off the mean error and relMSE",
-                            100 * noise_of(result));
+  return text + fmt::format(
+                    "\nerror, 95 % and relMSE of the worst channel; the truth's noise, {:.2g} % of a point, "
+                    "is taken "
+                    "off error, relMSE and colour",
+                    100 * noise_of(result));
 }
 
 void add_measure_command(Command app, Context& context) {
@@ -263,8 +267,11 @@ void add_measure_command(Command app, Context& context) {
 
   add_truth_path_options(command.under("Truth"), o.params.path.spp, o.params.path.max_depth);
   command.footer(
-      "Indirect irradiance as Rec.709 luminance. Mean error: mean of |looked up - true| / true, the truth's\n"
-      "own noise taken off; docs/methods/relight.md says how, and what dark and leak mean.");
+      "Indirect irradiance per channel. Error: mean of |looked up - true| / true, the truth's own noise "
+      "taken off;\n"
+      "colour: mean |difference| of r/(r+g+b), g/.., b/.., summed over the three. docs/methods/relight.md "
+      "says how,\n"
+      "and what dark and leak mean.");
 }
 
 }  // namespace ssphh::app

@@ -16,19 +16,27 @@
 #include "commands/relight_animation.h"
 #include "options/method_options.h"
 #include "options/probe_options.h"
+#include "results/lookup_figures.h"
 #include "results/percentile.h"
 
 namespace ssphh::app {
 namespace {
 
 std::string csv_text(const std::vector<RespondFrame>& frames) {
-  std::string text = "frame,ms,ratio,mean_error,p95_relative,relmse\n";
+  std::string text = "frame,ms,ratio_r,ratio_g,ratio_b,mean_error,p95_relative,relmse,chromaticity\n";
   for (std::size_t f = 0; f < frames.size(); ++f) {
     const study::LookupError& e = frames[f].error;
-    text += fmt::format("{},{:.4f},{:.6g},{:.6g},{:.6g},{:.6g}\n", f + 1, frames[f].ms, e.ratio, e.mean_error,
-                        e.p95_relative, e.relmse);
+    const study::RelativeError worst = study::worst_channel(e);
+    text += fmt::format("{},{:.4f},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", f + 1, frames[f].ms,
+                        e.channels[0].ratio, e.channels[1].ratio, e.channels[2].ratio, worst.mean_error,
+                        worst.p95_relative, worst.relmse, e.chromaticity.mean_error);
   }
   return text;
+}
+
+/// Of the worst channel.
+double mean_error(const study::LookupError& error) {
+  return study::worst_channel(error).mean_error;
 }
 
 double median_ms(const std::vector<RespondFrame>& frames) {
@@ -40,10 +48,10 @@ double median_ms(const std::vector<RespondFrame>& frames) {
 }  // namespace
 
 int frames_to_settle(const std::vector<RespondFrame>& frames) {
-  const double last = frames.back().error.mean_error;
+  const double last = mean_error(frames.back().error);
   const double bound = std::max(1.1 * last, last + 0.005);
   int settled = static_cast<int>(frames.size());
-  while (settled > 1 && frames[static_cast<std::size_t>(settled) - 2].error.mean_error <= bound) --settled;
+  while (settled > 1 && mean_error(frames[static_cast<std::size_t>(settled) - 2].error) <= bound) --settled;
   return settled;
 }
 
@@ -91,19 +99,20 @@ json::Value to_json(const RespondResult& result, const RespondOptions& o) {
   const RespondFrame &first = result.frames.front(), &last = result.frames.back();
   json::Value object = {{"method", o.method},
                         {"points", result.points.size()},
-                        {"noise", last.error.noise},
-                        {"before_error", result.stale.mean_error},
-                        {"first_error", first.error.mean_error},
-                        {"last_error", last.error.mean_error},
-                        {"last_ratio", last.error.ratio},
+                        {"before_error", mean_error(result.stale)},
+                        {"first_error", mean_error(first.error)},
+                        {"last_error", mean_error(last.error)},
                         {"frames_to_settle", frames_to_settle(result.frames)},
                         {"first_ms", first.ms},
                         {"median_ms", median_ms(result.frames)},
                         {"before_ms", result.before_ms}};
   object.update(to_json(result.method));
   json::Value& list = object["frames"] = json::Value::array();
-  for (const RespondFrame& frame : result.frames)
-    list.push_back({{"ms", frame.ms}, {"ratio", frame.error.ratio}, {"mean_error", frame.error.mean_error}});
+  for (const RespondFrame& frame : result.frames) {
+    json::Value one = {{"ms", frame.ms}};
+    one.update(to_json(frame.error));
+    list.push_back(std::move(one));
+  }
   return object;
 }
 
@@ -112,11 +121,11 @@ std::string to_text(const RespondResult& result, const RespondOptions& o) {
   const int settled = frames_to_settle(result.frames);
   return fmt::format(
       "{}: {}\nmean error at {} points: {:.1f} % with the light of before, {:.1f} % after one "
-      "frame, {:.1f} % after {} (ratio {:.3f})\nsettled after {} frame{}, {:.3g} ms a frame "
+      "frame, {:.1f} % after {} (ratio{})\nsettled after {} frame{}, {:.3g} ms a frame "
       "(the first {:.3g})",
-      o.method, to_text(result.method), result.points.size(), 100 * result.stale.mean_error,
-      100 * first.error.mean_error, 100 * last.error.mean_error, o.frames, last.error.ratio, settled,
-      settled == 1 ? "" : "s", median_ms(result.frames), first.ms);
+      o.method, to_text(result.method), result.points.size(), 100 * mean_error(result.stale),
+      100 * mean_error(first.error), 100 * mean_error(last.error), o.frames, ratio_columns(last.error),
+      settled, settled == 1 ? "" : "s", median_ms(result.frames), first.ms);
 }
 
 void add_respond_command(Command app, Context& context) {
@@ -142,7 +151,9 @@ void add_respond_command(Command app, Context& context) {
   command.option("--max-depth", o.truth.path.max_depth, "Scattering events of the truth's paths")
       .range(2, 1000);
   command.option("-o,--output", o.output, "Also write every frame here, as CSV");
-  command.footer("Errors as of `ssphh measure`, against path tracing of the scene after the event.");
+  command.footer(
+      "Errors as of `ssphh measure`, of the worst channel, against path tracing of the scene after the "
+      "event.");
 }
 
 }  // namespace ssphh::app

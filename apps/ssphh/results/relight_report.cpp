@@ -8,7 +8,7 @@
 
 #include <ssphh/core/file.h>
 
-#include "results/json_values.h"
+#include "results/lookup_figures.h"
 #include "results/percentile.h"
 
 namespace ssphh::app {
@@ -59,16 +59,9 @@ json::Value relight_json(const RelightRun& run) {
 
   json::Value errors = json::Value::array();
   for (const FrameError& e : run.errors) {
-    errors.push_back({{"frame", e.frame},
-                      {"seconds", e.frame / run.fps},
-                      {"ratio", finite_or_null(e.error.ratio)},
-                      {"mean_relative", e.error.mean_relative},
-                      {"median_relative", e.error.median_relative},
-                      {"p95_relative", e.error.p95_relative},
-                      {"noise", e.error.noise},
-                      {"relmse", e.error.relmse},
-                      {"mean_truth", e.error.mean_truth},
-                      {"points", e.error.points}});
+    json::Value one = {{"frame", e.frame}, {"seconds", e.frame / run.fps}};
+    one.update(to_json(e.error));
+    errors.push_back(std::move(one));
   }
   json::Value frame_ms = json::Value::array();
   for (const transport::RelightReport& r : run.updates) frame_ms.push_back(r.total_ms());
@@ -110,12 +103,14 @@ std::string relight_text(const RelightRun& run) {
                       mean(run, &RelightReport::pose_rays) + mean(run, &RelightReport::direct_rays));
   text += fmt::format("\n{} of {} frames took longer than 1/{:g} s", over_budget(run), times.size(), run.fps);
   if (!run.errors.empty()) {
-    text += fmt::format("\n\n{:>5}{:>9}{:>9}{:>11}{:>9}{:>9}{:>9}{:>10}", "frame", "seconds", "ratio",
-                        "mean rel.", "median", "95 %", "noise", "relMSE");
+    text += fmt::format("\n\n{:>5}{:>9}{:>9}{:>7}{:>7}{:>11}{:>9}{:>9}{:>9}{:>10}{:>9}", "frame", "seconds",
+                        "ratio R", "G", "B", "mean rel.", "median", "95 %", "noise", "relMSE", "colour");
     for (const FrameError& e : run.errors) {
-      text += fmt::format("\n{:>5}{:>9.2f}{:>9.3f}{:>11.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>10.4f}", e.frame,
-                          e.frame / run.fps, e.error.ratio, e.error.mean_relative, e.error.median_relative,
-                          e.error.p95_relative, e.error.noise, e.error.relmse);
+      const study::RelativeError worst = study::worst_channel(e.error);
+      text +=
+          fmt::format("\n{:>5}{:>9.2f}  {}{:>11.3f}{:>9.3f}{:>9.3f}{:>9.3f}{:>10.4f}{:>9.3f}", e.frame,
+                      e.frame / run.fps, ratio_columns(e.error), worst.mean_relative, worst.median_relative,
+                      worst.p95_relative, worst.noise, worst.relmse, e.error.chromaticity.mean_error);
     }
   }
   if (run.cancelled) {
@@ -127,10 +122,12 @@ std::string relight_text(const RelightRun& run) {
 
 namespace {
 
+using study::LookupError;
+
 struct Curve {
   const char* name;
   const char* color;
-  double (*value)(const study::LookupError&);
+  double (*value)(const LookupError&);
 };
 
 /// A panel of a plot: axes, curves and their names.
@@ -177,15 +174,20 @@ std::string panel(const RelightRun& run, double top, double low, double high,
 
 void write_error_curve(const std::filesystem::path& path, const RelightRun& run) {
   const std::vector<Curve> ratios = {
-      {"mean looked up / path traced", "#1b6ca8", [](const study::LookupError& e) { return e.ratio; }}};
+      {"looked up / path traced: red", "#b03a2e", [](const LookupError& e) { return e.channels[0].ratio; }},
+      {"green", "#1e8449", [](const LookupError& e) { return e.channels[1].ratio; }},
+      {"blue", "#1b6ca8", [](const LookupError& e) { return e.channels[2].ratio; }}};
   const std::vector<Curve> errors = {
-      {"mean relative error", "#b03a2e", [](const study::LookupError& e) { return e.mean_relative; }},
-      {"of which the truth's noise", "#999999", [](const study::LookupError& e) { return e.noise; }},
+      {"mean relative error, worst channel", "#b03a2e",
+       [](const LookupError& e) { return study::worst_channel(e).mean_relative; }},
+      {"of which the truth's noise", "#999999",
+       [](const LookupError& e) { return study::worst_channel(e).noise; }},
       {"root of relMSE", "#7d3c98",
-       [](const study::LookupError& e) { return std::sqrt(std::max(e.relmse, 0.0)); }}};
+       [](const LookupError& e) { return std::sqrt(std::max(study::worst_channel(e).relmse, 0.0)); }}};
   double off = 0.05, most = 0.05;
   for (const FrameError& e : run.errors) {
-    if (std::isfinite(e.error.ratio)) off = std::max(off, std::abs(e.error.ratio - 1));
+    const double ratio = study::worst_channel(e.error).ratio;
+    if (std::isfinite(ratio)) off = std::max(off, std::abs(ratio - 1));
     for (const Curve& curve : errors) most = std::max(most, curve.value(e.error));
   }
   write_file(path,

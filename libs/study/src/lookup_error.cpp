@@ -8,42 +8,126 @@
 #include "truth_luminance.h"
 
 namespace ssphh::study {
+namespace {
+
+/// One quantity at all points.
+struct Quantity {
+  std::vector<double> looked_up, truth, deviation;
+
+  double mean_truth() const {
+    double sum = 0;
+    for (const double t : truth) sum += t;
+    return truth.empty() ? 0 : sum / static_cast<double>(truth.size());
+  }
+};
+
+/// The smallest value that a share of them does not exceed; sorts them.
+double rank(std::vector<double>& values, double share) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size()))) - 1];
+}
+
+double without_noise(double mean, double noise) {
+  return std::sqrt(std::max(0.0, mean * mean - noise * noise));
+}
+
+/// Mean of |x| for a normal x of deviation 1.
+const double mean_of_normal = std::sqrt(2 / pi_d);
+
+RelativeError relative_error(const Quantity& q, double floor) {
+  RelativeError error;
+  error.mean_truth = q.mean_truth();
+  error.ratio = std::numeric_limits<double>::quiet_NaN();
+  if (!(floor > 0)) return error;
+  const auto count = static_cast<double>(q.truth.size());
+  double sum = 0;
+  std::vector<double> relative;
+  for (std::size_t i = 0; i < q.truth.size(); ++i) {
+    const double d = q.looked_up[i] - q.truth[i], deviation = q.deviation[i], by = q.truth[i] + floor;
+    sum += q.looked_up[i];
+    relative.push_back(std::abs(d) / by);
+    error.mean_relative += relative.back() / count;
+    error.noise += mean_of_normal * deviation / by / count;
+    error.relmse += (d * d - deviation * deviation) / (by * by) / count;
+  }
+  if (error.mean_truth > 0) error.ratio = sum / (count * error.mean_truth);
+  error.mean_error = without_noise(error.mean_relative, error.noise);
+  error.median_relative = rank(relative, 0.5);
+  error.p95_relative = rank(relative, 0.95);
+  return error;
+}
+
+ChromaticityError chromaticity_error(const std::array<Quantity, 3>& rgb, double floor) {
+  ChromaticityError error;
+  if (!(floor > 0)) return error;
+  const std::size_t count = rgb[0].truth.size();
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < count; ++i) {
+    double truth = 0, looked_up = 0, deviation = 0;
+    for (const Quantity& q : rgb) {
+      truth += q.truth[i];
+      looked_up += std::max(q.looked_up[i], 0.0);
+      deviation += q.deviation[i];
+    }
+    double difference = 0, noise = 0;
+    for (const Quantity& q : rgb) {
+      if (!(truth > 0)) break;
+      const double c = q.truth[i] / truth;
+      const double found = looked_up > 0 ? std::max(q.looked_up[i], 0.0) / looked_up : 1.0 / 3;
+      difference += std::abs(found - c);
+      noise += mean_of_normal * std::abs(q.deviation[i] - c * deviation) / truth;
+    }
+    const double weight = truth / (truth + 3 * floor);
+    differences.push_back(weight * difference);
+    error.mean += weight * difference / static_cast<double>(count);
+    error.noise += weight * noise / static_cast<double>(count);
+  }
+  error.p95 = rank(differences, 0.95);
+  error.mean_error = without_noise(error.mean, error.noise);
+  return error;
+}
+
+}  // namespace
 
 LookupError lookup_error(std::span<const vec3> looked_up, std::span<const rays::IrradianceEstimate> truth) {
   require(looked_up.size() == truth.size(), "lookup error", "there is not one lookup for each truth");
+  std::array<Quantity, 3> rgb;
+  Quantity grey;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const vec3 deviation = glm::sqrt(glm::max(truth[i].indirect_variance, vec3(0)));
+    for (int c = 0; c < 3; ++c) {
+      Quantity& q = rgb[static_cast<std::size_t>(c)];
+      q.looked_up.push_back(static_cast<double>(looked_up[i][c]));
+      q.truth.push_back(static_cast<double>(truth[i].indirect[c]));
+      q.deviation.push_back(static_cast<double>(deviation[c]));
+    }
+    grey.looked_up.push_back(static_cast<double>(luminance(looked_up[i])));
+    grey.truth.push_back(true_luminance(truth[i]));
+    grey.deviation.push_back(true_deviation(truth[i]));
+  }
+  const double floor = relative_floor * (rgb[0].mean_truth() + rgb[1].mean_truth() + rgb[2].mean_truth()) / 3;
   LookupError error;
   error.points = truth.size();
-  double truth_sum = 0, sum = 0;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    truth_sum += true_luminance(truth[i]);
-    sum += static_cast<double>(luminance(looked_up[i]));
-  }
-  const auto count = static_cast<double>(truth.size());
-  if (!(truth_sum > 0)) {
-    error.ratio = std::numeric_limits<double>::quiet_NaN();
-    return error;
-  }
-  error.mean_truth = truth_sum / count;
-  error.ratio = sum / truth_sum;
-  const double floor = relative_floor * error.mean_truth;
-  std::vector<double> relative;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    const double t = true_luminance(truth[i]), d = static_cast<double>(luminance(looked_up[i])) - t;
-    const double deviation = true_deviation(truth[i]), by = t + floor;
-    relative.push_back(std::abs(d) / by);
-    error.mean_relative += relative.back() / count;
-    error.noise += std::sqrt(2 / pi_d) * deviation / by / count;
-    error.relmse += (d * d - deviation * deviation) / (by * by) / count;
-  }
-  error.mean_error =
-      std::sqrt(std::max(0.0, error.mean_relative * error.mean_relative - error.noise * error.noise));
-  std::sort(relative.begin(), relative.end());
-  const auto rank = [&](double share) {
-    return relative[static_cast<std::size_t>(std::ceil(share * count)) - 1];
-  };
-  error.median_relative = rank(0.5);
-  error.p95_relative = rank(0.95);
+  for (std::size_t c = 0; c < 3; ++c) error.channels[c] = relative_error(rgb[c], floor);
+  error.luminance = relative_error(grey, relative_floor * grey.mean_truth());
+  error.chromaticity = chromaticity_error(rgb, floor);
   return error;
+}
+
+RelativeError worst_channel(const LookupError& error) {
+  RelativeError worst;
+  worst.ratio = std::numeric_limits<double>::quiet_NaN();
+  worst.relmse = -std::numeric_limits<double>::infinity();
+  for (const RelativeError& channel : error.channels) {
+    if (!std::isnan(channel.ratio) && !(std::abs(channel.ratio - 1) <= std::abs(worst.ratio - 1)))
+      worst.ratio = channel.ratio;
+    for (double RelativeError::*figure :
+         {&RelativeError::mean_truth, &RelativeError::mean_relative, &RelativeError::median_relative,
+          &RelativeError::p95_relative, &RelativeError::noise, &RelativeError::mean_error,
+          &RelativeError::relmse})
+      worst.*figure = std::max(worst.*figure, channel.*figure);
+  }
+  return worst;
 }
 
 }  // namespace ssphh::study

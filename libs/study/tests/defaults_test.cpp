@@ -43,8 +43,12 @@ TEST(StudyValues, OfMeasurements) {
   EXPECT_EQ(truth.noise, 0);
   const LookupError error;
   EXPECT_EQ(error.points, 0u);
-  for (const double value : {error.mean_truth, error.ratio, error.mean_relative, error.median_relative,
-                             error.p95_relative, error.noise, error.mean_error, error.relmse})
+  for (const RelativeError& e : {error.channels[0], error.channels[1], error.channels[2], error.luminance})
+    for (const double value : {e.mean_truth, e.ratio, e.mean_relative, e.median_relative, e.p95_relative,
+                               e.noise, e.mean_error, e.relmse})
+      EXPECT_EQ(value, 0);
+  for (const double value : {error.chromaticity.mean, error.chromaticity.p95, error.chromaticity.noise,
+                             error.chromaticity.mean_error})
     EXPECT_EQ(value, 0);
   EXPECT_EQ(relative_floor, 0.01);
   const LintProblem problem;
