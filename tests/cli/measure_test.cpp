@@ -50,9 +50,10 @@ class Rooms : public testing::Test {
     probes::merge_groups(set_);
     probes::write_probe_file(set_, file_);
   }
-  std::vector<rays::SurfacePoint> points(float clearance, int count, std::uint64_t seed) const {
-    return study::reachable_points(source_, app::viewpoints(scene_, {&set_, 1}, 0.25f), 0.25f,
-                                   {count, seed, clearance});
+  std::vector<rays::SurfacePoint> points(float clearance, int count, std::uint64_t seed,
+                                         const std::optional<scene::Bounds>& box = {}) const {
+    return study::reachable_points(source_, app::viewpoints(scene_, source_, {&set_, 1}, 0.25f), 0.25f,
+                                   {count, seed, clearance, box});
   }
 
   const test::TempDir dir_;
@@ -172,13 +173,11 @@ TEST_F(Rooms, MeasureIsThatOfTheLibrary) {
   EXPECT_GT(leaks, 0.01);
   expect(json_here(joined(command, {"--open", "--clearance", "0.5"})),
          study::points_in_the_open(source_, points(0.5f, 24, 3), 0.25f, 3));
-  std::vector<rays::SurfacePoint> within = points(0.05f, 24, 3);
-  const vec3 low(-3, 0, -1), high(0, 2.5f, 1.5f);
-  std::erase_if(within, [&](const auto& p) {
-    return glm::any(glm::lessThan(p.position, low)) || glm::any(glm::greaterThan(p.position, high));
-  });
-  ASSERT_FALSE(within.empty());
+  const scene::Bounds box{{-3, 0, -1}, {0, 2.5f, 1.5f}};
+  const std::vector<rays::SurfacePoint> within = points(0.05f, 24, 3, box);
   expect(json_here(joined(command, {"--box", "-3,0,-1,0,2.5,1.5"})), within);
+  expect(json_here(joined(command, {"--box", "-3,0,-1,0,2.5,1.5", "--open"})),
+         study::points_in_the_open(source_, within, 0.25f, 3, box));
   EXPECT_THAT(problem_here({"measure", "builtin:two-rooms"}),
               HasSubstr("give --probes FILE or --method NAME"));
 }
@@ -293,13 +292,25 @@ TEST_F(Rooms, DifferencesOfScenesAreNamed) {
 
 TEST_F(Rooms, ViewpointsAreCamerasAndProbesOrWhatTheSceneHas) {
   const auto cameras = scene_.cameras.size();
-  EXPECT_EQ(app::viewpoints(scene_, {&set_, 1}, 0).size(), cameras + set_.probes.size());
+  EXPECT_EQ(app::viewpoints(scene_, source_, {&set_, 1}, 0).size(), cameras + set_.probes.size());
   const place::PlaceParams own = place::place_params(scene_, 0);
-  const std::vector<vec3> none = app::viewpoints(scene_, {}, 0);
+  const std::vector<vec3> none = app::viewpoints(scene_, source_, {}, 0);
   ASSERT_EQ(none.size(), cameras + own.interest.size() + own.manual.size());
   EXPECT_EQ(none[cameras], own.interest[0]);
   EXPECT_EQ(none.back(), own.manual.back().position);
-  EXPECT_EQ(app::viewpoints(scene_, {&set_, 1}, 0).back(), set_.probes.back().position);
+  EXPECT_EQ(app::viewpoints(scene_, source_, {&set_, 1}, 0).back(), set_.probes.back().position);
+}
+
+TEST(Measure, OfASceneWithoutCamerasLampsAndSphls) {
+  const test::TempDir dir;
+  const std::string obj = dir / "sheets.obj";  // two sheets that face each other
+  write_file(obj,
+             "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv -1 1 -1\nv 1 1 -1\nv 1 1 1\nv -1 1 1\nf 1 2 3 4\nf 5 "
+             "6 7 8\n");
+  const json::Value all = json_here({"measure", obj, "--sun-sky", "--method", "direct", "--points", "9",
+                                     "--truth-spp", "4", "--max-depth", "2"});
+  EXPECT_EQ(all["points"], 9);
+  EXPECT_GT(all["mean_truth"].number(), 0);
 }
 
 /// A bake of as little as can be.

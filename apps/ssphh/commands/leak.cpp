@@ -45,7 +45,7 @@ LeakResult run_leak(const LeakOptions& o, const Control& control) {
 
   study::LeakParams params = o.params;
   params.path.seed = o.seed;
-  result.points = study::reachable_points(surfaces, viewpoints(scene, {&set, 1}, time), time,
+  result.points = study::reachable_points(surfaces, viewpoints(scene, surfaces, {&set, 1}, time), time,
                                           {o.points, o.seed}, control);
   result.report = study::measure_leak(tracer, lookup, result.points, params, control);
   const double mean = result.report.mean_truth;

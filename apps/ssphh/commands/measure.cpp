@@ -26,16 +26,9 @@ namespace {
 /// Points on surfaces, or in the open near them; within the box, if one is given.
 std::vector<rays::SurfacePoint> find_points(const MeasureOptions& o, const rays::TransportSource& surfaces,
                                             std::span<const vec3> origins, const Control& control) {
-  std::vector<rays::SurfacePoint> points =
-      study::reachable_points(surfaces, origins, o.scene.time, {o.points, o.seed, o.clearance}, control);
-  if (o.open) points = study::points_in_the_open(surfaces, points, o.scene.time, o.seed);
-  if (o.box) {
-    std::erase_if(points, [&](const rays::SurfacePoint& p) {
-      return !glm::all(glm::lessThanEqual(o.box->min, p.position)) ||
-             !glm::all(glm::lessThanEqual(p.position, o.box->max));
-    });
-    if (points.empty()) throw Error("--box", "no point that can be reached lies in it");
-  }
+  std::vector<rays::SurfacePoint> points = study::reachable_points(
+      surfaces, origins, o.scene.time, {o.points, o.seed, o.clearance, o.box}, control);
+  if (o.open) points = study::points_in_the_open(surfaces, points, o.scene.time, o.seed, o.box);
   return points;
 }
 
@@ -180,7 +173,7 @@ MeasureResult run_measure(const MeasureOptions& o, const Control& control) {
   const std::vector<Candidate> candidates = probe_candidates(o, sets, tracer);  // fails before the work
   const trace::TransportScene surfaces(geometry, scene);
   MeasureResult result;
-  result.points = find_points(o, surfaces, viewpoints(scene, sets, o.scene.time), control);
+  result.points = find_points(o, surfaces, viewpoints(scene, surfaces, sets, o.scene.time), control);
   study::LeakParams params = o.params;
   params.path.seed = o.seed;
   result.truth = study::trace_truth(tracer, result.points, params, control);
@@ -258,9 +251,7 @@ void add_measure_command(Command app, Context& context) {
       .option("--clearance", o.clearance,
               "Only points with so much free space before them [m]: slits are nobody's view")
       .non_negative();
-  command.option("--box", words->box, "x0,y0,z0,x1,y1,z1: only points within [m]; so many fewer")
-      .separated_by(',')
-      .values(6);
+  command.option("--box", words->box, "x0,y0,z0,x1,y1,z1: all points within [m]").separated_by(',').values(6);
   command.flag("--open", o.open,
                "In the open instead of on surfaces, facing anywhere: where things that move would be");
   add_force_option(command, o.force);

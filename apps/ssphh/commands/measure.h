@@ -23,7 +23,7 @@ struct MeasureOptions {
   std::vector<probes::WeightMethod>
       weights;                       ///< each file is looked up with each; none: as the file would have it
   std::vector<std::string> methods;  ///< each as "NAME" or "NAME,PARAMETER=VALUE,..."
-  std::optional<scene::Bounds> box;  ///< only points within [m], so many fewer
+  std::optional<scene::Bounds> box;  ///< all points within [m]
   float clearance = 0.05f;           ///< only points with so much free space before them [m]
   bool open = false;                 ///< points in the open instead of on surfaces, facing anywhere
   bool force = false;                ///< go on, with a warning, where probes are of another scene or pose

@@ -70,7 +70,7 @@ RespondResult run_respond(const RespondOptions& o, const Control& control) {
   study::LeakParams params = o.truth;
   params.path.seed = o.seed;
   RespondResult result;
-  result.points = study::reachable_points(surfaces, viewpoints(scene, {}, after.time), after.time,
+  result.points = study::reachable_points(surfaces, viewpoints(scene, surfaces, {}, after.time), after.time,
                                           {o.points, o.seed, o.clearance}, control);
   const study::TruthAtPoints truth = study::trace_truth(tracer, result.points, params, control);
   const auto error_now = [&] {

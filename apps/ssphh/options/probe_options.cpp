@@ -8,6 +8,7 @@
 #include <ssphh/core/log.h>
 #include <ssphh/place/place.h>
 #include <ssphh/scene/query.h>
+#include <ssphh/study/default_view.h>
 
 namespace ssphh::app {
 namespace {
@@ -81,7 +82,8 @@ probes::ProbeSet read_probes_of(const scene::Scene& scene, const std::string& fi
   return set;
 }
 
-std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const probes::ProbeSet> sets, float time) {
+std::vector<vec3> viewpoints(const scene::Scene& scene, const rays::TransportSource& source,
+                             std::span<const probes::ProbeSet> sets, float time) {
   std::vector<vec3> places;
   const std::vector<mat4> world = scene::world_matrices(scene, time);
   for (const scene::Camera& camera : scene.cameras)
@@ -94,6 +96,7 @@ std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const probes::
     places.insert(places.end(), own.interest.begin(), own.interest.end());
     for (const scene::SphlPlace& place : own.manual) places.push_back(place.position);
   }
+  if (places.empty()) places.emplace_back(study::default_view(scene, source, time).world[3]);
   return places;
 }
 

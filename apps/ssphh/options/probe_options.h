@@ -35,9 +35,10 @@ void require_same_scene(const std::string& file, const probes::ProbeSet& set, co
 probes::ProbeSet read_probes_of(const scene::Scene& scene, const std::string& file, std::optional<float> time,
                                 bool force);
 
-/// Places of the cameras and probes (without any: also of lamps and SPHLs): what they can reach is what
-/// counts.
-std::vector<vec3> viewpoints(const scene::Scene& scene, std::span<const probes::ProbeSet> sets, float time);
+/// Places of the cameras and probes (without probes: also of lamps and SPHLs; without any of these: where
+/// study::default_view() looks from): what they can reach is what counts. `source` is of the scene.
+std::vector<vec3> viewpoints(const scene::Scene& scene, const rays::TransportSource& source,
+                             std::span<const probes::ProbeSet> sets, float time);
 
 /// --lookup, --weights of the lookup `irradiance` (none: the library chooses) and --light.
 Option add_lookup_option(Command command, probes::LookupMethod& method);

@@ -100,11 +100,35 @@ class Reach {
   float lift_;
 };
 
-/// All that a batch of isotropic random lines through the bounding sphere meets, line after line.
-std::vector<rays::SurfacePoint> cross(const rays::PosedWorld& surfaces, std::uint64_t seed,
-                                      std::size_t first_line) {
-  const vec3 center = surfaces.bounds().center();
-  const float radius = 1.001f * surfaces.bounds().radius();
+/// What of the box holds surfaces.
+scene::Bounds part_within(const scene::Bounds& scene, const scene::Bounds& box) {
+  const scene::Bounds part{glm::max(scene.min, box.min), glm::min(scene.max, box.max)};
+  if (!glm::all(glm::lessThan(box.min, box.max)))
+    throw Error("box", "it is none", "give the lower corner first, x0,y0,z0,x1,y1,z1");
+  if (!glm::all(glm::lessThanEqual(part.min, part.max)))
+    throw Error(
+        "box", fmt::format("it lies outside of the scene, which reaches from {:g}, {:g}, {:g} to {:g}, {:g}, "
+                           "{:g}",
+                           scene.min.x, scene.min.y, scene.min.z, scene.max.x, scene.max.y, scene.max.z));
+  return part;
+}
+
+/// Where a ray from within the box leaves it, in units of its direction.
+float way_out(const scene::Bounds& box, const rays::RayQuery& ray) {
+  float way = ray.t_max;
+  for (glm::length_t c = 0; c < 3; ++c) {
+    if (ray.direction[c] == 0) continue;
+    const float side = ray.direction[c] > 0 ? box.max[c] : box.min[c];
+    way = std::min(way, std::max((side - ray.origin[c]) / ray.direction[c], 0.0f));
+  }
+  return way;
+}
+
+/// All that a batch of isotropic random lines through the sphere around `part` meets in it, line after line.
+std::vector<rays::SurfacePoint> cross(const rays::PosedWorld& surfaces, const scene::Bounds& part,
+                                      std::uint64_t seed, std::size_t first_line) {
+  const vec3 center = part.center();
+  const float radius = 1.001f * part.radius(), step = 1e-5f * (1.001f * surfaces.bounds().radius());
   std::vector<rays::RayQuery> rays;
   for (std::size_t i = 0; i < lines_per_batch; ++i) {
     Pcg32 random(seed, first_line + i);
@@ -114,7 +138,7 @@ std::vector<rays::SurfacePoint> cross(const rays::PosedWorld& surfaces, std::uin
     const Frame frame = Frame::around(direction);
     rays.push_back(
         {center - radius * direction + frame.x * (r * std::cos(angle)) + frame.y * (r * std::sin(angle)),
-         direction});
+         direction, 2 * radius});
   }
 
   // Go from one crossing to the next.
@@ -127,7 +151,7 @@ std::vector<rays::SurfacePoint> cross(const rays::PosedWorld& surfaces, std::uin
   std::iota(line.begin(), line.end(), 0);
   std::vector<rays::RayHit> hits;
   std::vector<std::uint8_t> moves;
-  for (int step = 0; step < most_crossings && !rays.empty(); ++step) {
+  for (int crossed = 0; crossed < most_crossings && !rays.empty(); ++crossed) {
     hits.resize(rays.size());
     moves.resize(rays.size());
     surfaces.intersect(rays, hits, moves);
@@ -136,7 +160,8 @@ std::vector<rays::SurfacePoint> cross(const rays::PosedWorld& surfaces, std::uin
       if (hits[i].escaped()) continue;
       const vec3 position = rays[i].origin + hits[i].distance * rays[i].direction;
       crossings.push_back({line[i], {position, hits[i].normal, moves[i] != 0}});
-      rays[kept] = {position + 1e-5f * radius * rays[i].direction, rays[i].direction};
+      rays[kept] = {position + step * rays[i].direction, rays[i].direction,
+                    rays[i].t_max - hits[i].distance - step};
       line[kept++] = line[i];
     }
     rays.resize(kept);
@@ -144,7 +169,8 @@ std::vector<rays::SurfacePoint> cross(const rays::PosedWorld& surfaces, std::uin
   }
   std::ranges::stable_sort(crossings, [](const Crossing& a, const Crossing& b) { return a.line < b.line; });
   std::vector<rays::SurfacePoint> points;
-  for (const Crossing& crossing : crossings) points.push_back(crossing.point);
+  for (const Crossing& crossing : crossings)
+    if (within(part, crossing.point.position)) points.push_back(crossing.point);
   return points;
 }
 
@@ -158,6 +184,8 @@ std::vector<rays::SurfacePoint> reachable_points(const rays::TransportSource& so
   const rays::PosedWorld surfaces(source, time);
   if (surfaces.bounds().empty()) throw Error("surface points", "the scene has no surfaces");
 
+  const scene::Bounds part = params.box ? part_within(surfaces.bounds(), *params.box) : surfaces.bounds();
+
   const Reach reach(surfaces, origins);
   const auto wanted = static_cast<std::size_t>(params.count);
   std::vector<rays::SurfacePoint> points;
@@ -165,12 +193,12 @@ std::vector<rays::SurfacePoint> reachable_points(const rays::TransportSource& so
   for (std::size_t line = 0; points.size() < wanted; line += lines_per_batch) {
     control.check();
     if (line > most_lines * wanted + 100 * lines_per_batch) {
-      throw Error(
-          "surface points",
-          fmt::format("only {} of {} points can be reached from cameras and probes", points.size(), wanted),
-          "place probes inside of what is to be lit");
+      throw Error("surface points",
+                  fmt::format("only {} of {} points{} can be reached from cameras and probes", points.size(),
+                              wanted, params.box ? " in the box" : ""),
+                  "place probes inside of what is to be lit");
     }
-    const std::vector<rays::SurfacePoint> candidates = cross(surfaces, params.seed, line);
+    const std::vector<rays::SurfacePoint> candidates = cross(surfaces, part, params.seed, line);
     std::vector<std::uint8_t> reached(candidates.size(), 0);
     reach.sight(candidates, reached);
     reach.scattered(candidates, reached);
@@ -186,7 +214,8 @@ std::vector<rays::SurfacePoint> reachable_points(const rays::TransportSource& so
 
 std::vector<rays::SurfacePoint> points_in_the_open(const rays::TransportSource& source,
                                                    std::span<const rays::SurfacePoint> surfaces, float time,
-                                                   std::uint64_t seed) {
+                                                   std::uint64_t seed,
+                                                   const std::optional<scene::Bounds>& box) {
   const rays::PosedWorld posed(source, time);
   const float lift = 1e-4f * posed.bounds().radius();
   std::vector<rays::RayQuery> rays;
@@ -202,7 +231,8 @@ std::vector<rays::SurfacePoint> points_in_the_open(const rays::TransportSource& 
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits[i].escaped()) continue;
     Pcg32 random(seed + 1, i);
-    const float way = (0.05f + 0.9f * random.uniform()) * hits[i].distance;
+    const float most = box ? std::min(hits[i].distance, way_out(*box, rays[i])) : hits[i].distance;
+    const float way = (0.05f + 0.9f * random.uniform()) * most;
     points.push_back(
         {rays[i].origin + way * rays[i].direction, sample_uniform_sphere(random.uniform2()), true});
   }

@@ -5,6 +5,7 @@
 #include <ssphh/scene/primitives.h>
 #include <ssphh/study/surface_points.h>
 
+#include "error_message.h"
 #include "ray_source.h"
 #include "triangle_source.h"
 
@@ -164,12 +165,65 @@ TEST(SurfacePoints, InTheOpenStandAfterATwentiethOfTheWayAndAsMuchBeforeItsEnd) 
   EXPECT_NEAR(direction.y, 2.0f / 3, 5 * std::sqrt(1.0f / 18 / 4000)) << "cosine-distributed";
 }
 
+TEST(SurfacePoints, InABoxAreAllThereAndUniformByArea) {
+  // A quarter of the room's floor, a piece of a wall and one side of the pillar; on a plain of 200 m, of
+  // which hardly any point would fall into it by chance.
+  std::vector<scene::Bounds> all = room;
+  all.push_back({{-100, -0.3f, -100}, {100, -0.2f, 100}});
+  const test::TriangleSource source(boxes(all));
+  const std::vector<vec3> eyes = {{0.5f, 1, 1.5f}, {50, 3, 50}};
+  const scene::Bounds box{{1, -0.05f, 0.5f}, {2.1f, 1, 3.05f}};
+  constexpr int count = 1500;
+  const auto points = reachable_points(source, eyes, 0, {count, 1, 0, box});
+  ASSERT_EQ(points.size(), static_cast<std::size_t>(count));
+  const double areas[] = {1.1 * 2.5 - 0.1 * 0.5, 1.1, 0.5 * 0.99, 2 * 0.1 * 0.99 + 0.1 * 0.5};
+  double total = 0, counts[4] = {};
+  for (const double a : areas) total += a;
+  for (const rays::SurfacePoint& p : points) {
+    EXPECT_TRUE(within(box, p.position));
+    const bool pillar = p.position.x > 1.999f && p.position.y > 0.005f;
+    ++counts[pillar ? (p.normal.x < -0.5f ? 2 : 3) : p.normal.y > 0.5f ? 0 : 1];
+  }
+  double chi2 = 0;
+  for (int i = 0; i < 4; ++i) {
+    const double expected = count * areas[i] / total;
+    chi2 += (counts[i] - expected) * (counts[i] - expected) / expected;
+  }
+  EXPECT_LT(chi2, 2 * 21.1) << "three degrees of freedom: passed once in 10⁴; twice for points of one line";
+}
+
+TEST(SurfacePoints, InTheOpenStayInTheirBox) {
+  const test::TriangleSource source(boxes(room));
+  const std::vector<vec3> eyes = {{0.5f, 1, 1.5f}};
+  const scene::Bounds box{{-1, -1, -1}, {1, 0.5f, 4}};
+  const auto surfaces = reachable_points(source, eyes, 0, {500, 3, 0, box});
+  const auto points = points_in_the_open(source, surfaces, 0, 5, box);
+  ASSERT_EQ(points.size(), surfaces.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_TRUE(within(box, points[i].position));
+    EXPECT_GT(glm::dot(points[i].position - surfaces[i].position, surfaces[i].normal), 0);
+  }
+}
+
 TEST(SurfacePoints, ErrorsSayWhatIsMissing) {
   const test::TriangleSource source(boxes(room));
   EXPECT_THROW(reachable_points(source, {}, 0), Error);
   const std::vector<vec3> inside_the_wall = {{-0.05f, 1, 1}};
   EXPECT_THROW(reachable_points(source, std::vector<vec3>{{0, 0, 0}}, 0, {0, 0}), Error);
   EXPECT_THROW(reachable_points(test::TriangleSource(scene::Scene{}), inside_the_wall, 0), Error);
+  const auto in_box = [&](const scene::Bounds& box) {
+    return test::message_of([&] {
+      reachable_points(source, std::vector<vec3>{{0.5f, 1, 1.5f}}, 0, {8, 0, 0, box});
+    });
+  };
+  EXPECT_EQ(in_box({{1, 1, 1}, {0, 2, 2}}),
+            "box: it is none (give the lower corner first, x0,y0,z0,x1,y1,z1)");
+  EXPECT_EQ(in_box({{50, 0, 0}, {51, 1, 1}}),
+            "box: it lies outside of the scene, which reaches from -0.1, -0.1, -0.1 to 4.1, 2.1, 3.1");
+  EXPECT_EQ(in_box({{1, 1, 1}, {1.5f, 1.5f, 1.5f}}),
+            "surface points: only 0 of 8 points in the box can be reached from cameras and probes (place "
+            "probes inside of "
+            "what is to be lit)");
 }
 
 }  // namespace
