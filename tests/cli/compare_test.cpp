@@ -1,12 +1,16 @@
 // What `ssphh compare` counts, and when it fails.
 
+#include <cmath>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <ssphh/image/io.h>
+#include <ssphh/metrics/false_edges.h>
 
 #include "temp_dir.h"
 #include "tool_checks.h"
@@ -109,6 +113,103 @@ TEST_F(Compare, ExposureMultipliesBothPictures) {
   const json::Value errors = run_json(command({"--exposure", "2"}));
   EXPECT_NEAR(errors["mae"].number(), 4 * 1.75 / 3, 1e-12);
   EXPECT_NEAR(errors["mean_ratio"][0].number(), 1.25, 1e-12);
+}
+
+/// A wall in even light with noise as truth, and a test that is 10 % brighter in its right half; REF and TEST
+/// as `render
+/// --aov` writes them.
+class CompareEdges : public testing::Test {
+ protected:
+  CompareEdges() {
+    truth_.indirect = truth_.albedo = truth_.normal = Image(width, height),
+    truth_.depth = Image(width, height, 1);
+    test_.indirect = Image(width, height);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        truth_.indirect.set_rgb(x, y,
+                                vec3(0.5f * (1 + 0.01f * static_cast<float>((x * 7 + y * 13) % 5 - 2))));
+        truth_.albedo.set_rgb(x, y, vec3(0.5f));
+        truth_.normal.set_rgb(x, y, vec3(0, 0, 1));
+        *truth_.depth.at(x, y) = 3;
+        test_.indirect.set_rgb(x, y, vec3(x > 30 ? 0.55f : 0.5f));
+      }
+    }
+    image::write_image(dir_ / "ref.exr", truth_.indirect);
+    image::write_image(dir_ / "test.exr", test_.indirect);
+    image::write_image(dir_ / "ref.indirect.exr", truth_.indirect);
+    image::write_image(dir_ / "ref.albedo.exr", truth_.albedo);
+    image::write_image(dir_ / "ref.normal.exr", truth_.normal);
+    image::write_image(dir_ / "ref.depth.exr", truth_.depth);
+    image::write_image(dir_ / "test.indirect.exr", test_.indirect);
+  }
+  std::vector<std::string> command(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = {"compare", dir_ / "ref.exr", dir_ / "test.exr"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+
+  static constexpr int width = 64, height = 40;
+  const TempDir dir_;
+  metrics::SurfacePicture truth_, test_;
+};
+
+TEST_F(CompareEdges, AreThoseOfTheLibrary) {
+  test_.albedo = truth_.albedo;  // for want of its own
+  const metrics::FalseEdges wanted = metrics::false_edges(truth_, test_);
+  EXPECT_GT(wanted.edges, 30u);
+  const json::Value edges = run_json(command({"--edges"}))["edges"];
+  EXPECT_EQ(edges["share"], wanted.share);
+  EXPECT_EQ(edges["pixels"], wanted.edges);
+  EXPECT_EQ(edges["tested"], wanted.tested);
+  EXPECT_EQ(edges["tested_share"], static_cast<double>(wanted.tested) / (width * height));
+  EXPECT_EQ(edges["least_step"], wanted.least_step);
+  EXPECT_FALSE(run_json(command({})).contains("edges"));
+  EXPECT_THAT(run_tool(command({"--edges"})).out,
+              HasSubstr(fmt::format(
+                  "\nedges      {:.3g} % of the pixels tested lie on a false edge: {} of {}; {:.3g} % "
+                  "could be tested, for steps of 3 %",
+                  100 * wanted.share, wanted.edges, wanted.tested,
+                  100 * static_cast<double>(wanted.tested) / (width * height))));
+}
+
+TEST_F(CompareEdges, OfTheTestsOwnAlbedoAndOutsideOfAMaskAreLeftOut) {
+  // A test that says that its right half is whiter has even irradiance.
+  Image albedo = truth_.albedo, mask(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (x > 30) albedo.set_rgb(x, y, vec3(0.55f));
+      mask.set_rgb(x, y, vec3(x > 34 ? 1.0f : 0.0f));
+    }
+  }
+  image::write_image(dir_ / "test.albedo.exr", albedo);
+  EXPECT_EQ(run_json(command({"--edges"}))["edges"]["pixels"], 0);
+  std::filesystem::remove(dir_ / "test.albedo.exr");
+  image::write_image(dir_ / "mask.exr", mask);
+  const json::Value masked = run_json(command({"--edges", "--mask", dir_ / "mask.exr"}))["edges"];
+  EXPECT_EQ(masked["pixels"], 0);
+  EXPECT_LT(masked["tested"].number(), 30 * height);
+}
+
+TEST_F(CompareEdges, AMapShowsThemOrHoldsTheirSteps) {
+  const json::Value map = run_json(command({"--map", "edges", "-o", dir_ / "map.exr"}));
+  EXPECT_TRUE(map.contains("edges")) << "a map asks for them";
+  EXPECT_EQ(map["map"]["kind"], "edges");
+  const Image steps = image::read_image(dir_ / "map.exr");
+  EXPECT_NEAR(*steps.at(30, 20), std::log(0.55f / 0.5f), 0.01f);
+  EXPECT_EQ(*steps.at(10, 20), 0);
+  EXPECT_NEAR(run_json(command({"--map", "edges", "-o", dir_ / "map.png"}))["map"]["scale"].number(), 0.2,
+              1e-6);
+  const Image shown = image::read_image(dir_ / "map.png");
+  EXPECT_GT(shown.rgb(30, 20).x, 2 * shown.rgb(30, 20).z) << "red to yellow";
+  EXPECT_EQ(shown.rgb(10, 20).x, shown.rgb(10, 20).z) << "grey";
+}
+
+TEST_F(CompareEdges, NameThePictureThatIsMissing) {
+  std::filesystem::remove(dir_ / "ref.normal.exr");
+  const ToolResult result = run_tool(command({"--edges"}));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, testing::AllOf(HasSubstr("ref.normal.exr: is not there"),
+                                         HasSubstr("--aov indirect,albedo,normal,depth")));
 }
 
 }  // namespace

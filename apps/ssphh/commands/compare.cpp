@@ -1,6 +1,7 @@
 #include "commands/compare.h"
 
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 
 #include "commands/command.h"
 #include "results/json_values.h"
+#include "results/pictures.h"
 
 namespace ssphh::app {
 namespace {
@@ -43,9 +45,35 @@ CompareResult measure(const CompareOptions& options, const Image& reference, con
   return e;
 }
 
+/// The picture NAME of `render --aov` that stands beside another; an optional one is empty where there is
+/// none.
+Image aov_beside(const std::string& picture, const std::string& name, bool optional = false) {
+  const std::filesystem::path path = beside(picture, name + ".exr");
+  if (std::filesystem::exists(path)) return image::read_image(path);
+  if (optional) return {};
+  throw Error(path.string(), "is not there, and false edges are looked for in it",
+              "write REF with `ssphh render --aov indirect,albedo,normal,depth` and TEST with `--aov "
+              "indirect,albedo`");
+}
+
+/// Of the indirect light alone; `test` becomes that of the test.
+metrics::FalseEdges edges_between(const CompareOptions& options, const Image& mask, Image& test) {
+  metrics::SurfacePicture truth{
+      aov_beside(options.reference, "indirect"), aov_beside(options.reference, "albedo"),
+      aov_beside(options.reference, "normal"), aov_beside(options.reference, "depth")};
+  metrics::SurfacePicture found{
+      aov_beside(options.test, "indirect"), aov_beside(options.test, "albedo", true), {}, {}};
+  if (found.albedo.empty()) found.albedo = truth.albedo;
+  if (!mask.empty()) truth.indirect = metrics::masked(truth.indirect, mask);
+  metrics::FalseEdges edges = metrics::false_edges(truth, found);
+  test = std::move(found.indirect);
+  return edges;
+}
+
 Image error_map(const CompareOptions& options, const Image& reference, const Image& test,
                 const CompareResult& errors) {
   if (options.map == ErrorMap::flip) return errors.flip.map;
+  if (options.map == ErrorMap::edges) return errors.edges->map;
   if (options.map == ErrorMap::with_sign) return metrics::signed_error_map(reference, test);
   if (options.map == ErrorMap::relmse) return metrics::relative_squared_error_map(reference, test);
   if (options.map == ErrorMap::pixelated) return metrics::pixelated_error_map(reference, test, options.block);
@@ -55,12 +83,17 @@ Image error_map(const CompareOptions& options, const Image& reference, const Ima
 // Writes the map and returns the error that has the ramp's last colour; 0 when the numbers themselves are
 // written.
 float write_map(const CompareOptions& options, const Image& reference, const Image& test,
-                const CompareResult& errors) {
+                const CompareResult& errors, const Image& indirect) {
   const image::FileFormat format = image::format_of_extension(options.output);
   Image map = error_map(options, reference, test, errors);
   if (format == image::FileFormat::exr) {
     image::write_image(options.output, map);
     return 0;
+  }
+  if (options.map == ErrorMap::edges) {
+    const float scale = options.scale > 0 ? options.scale : 0.2f;
+    write_file(options.output, image::encode_png(metrics::edge_picture(*errors.edges, indirect, scale)));
+    return scale;
   }
   const float automatic = options.map == ErrorMap::flip ? 1 : metrics::automatic_scale(map);
   const float scale = options.scale > 0 ? options.scale : automatic;
@@ -89,14 +122,17 @@ CompareResult run_compare(const CompareOptions& options, const Control&) {
                                           options.reference, reference.width, reference.height));
   }
   std::uint64_t outside = 0;
+  Image mask, indirect;
   if (!options.mask.empty()) {
-    const Image mask = image::read_image(options.mask);
+    mask = image::read_image(options.mask);
     outside = metrics::pixels_outside(mask, reference.width, reference.height);
     reference = metrics::masked(reference, mask);
   }
   CompareResult result = measure(options, reference, test);
   result.linear.nonfinite_pixels -= outside;
-  if (!options.output.empty()) result.map_scale = write_map(options, reference, test, result);
+  const bool map_of_edges = !options.output.empty() && options.map == ErrorMap::edges;
+  if (options.edges || map_of_edges) result.edges = edges_between(options, mask, indirect);
+  if (!options.output.empty()) result.map_scale = write_map(options, reference, test, result, indirect);
   return result;
 }
 
@@ -137,6 +173,14 @@ json::Value to_json(const CompareResult& result, const CompareOptions& options) 
                           {"mean", blocks.mean},
                           {"max", blocks.max},
                           {"max_block", {blocks.max_column, blocks.max_row}}}}};
+  if (const auto& edges = result.edges) {
+    object["edges"] = {
+        {"share", edges->share},
+        {"pixels", edges->edges},
+        {"tested", edges->tested},
+        {"tested_share", static_cast<double>(edges->tested) / static_cast<double>(edges->pixels)},
+        {"least_step", edges->least_step}};
+  }
   if (result.map_scale)
     object["map"] = {
         {"output", options.output}, {"kind", name_of(options.map)}, {"scale", *result.map_scale}};
@@ -166,6 +210,14 @@ std::string to_text(const CompareResult& result, const CompareOptions& options) 
       e.mean_ratio[0], e.mean_ratio[1], e.mean_ratio[2], result.flip.mean, flip, result.display.ssim,
       result.display.psnr, blocks.columns, blocks.rows, blocks.block, blocks.mean, blocks.max,
       blocks.max_column, blocks.max_row);
+  if (const auto& edges = result.edges) {
+    text += fmt::format(
+        "\nedges      {:.3g} % of the pixels tested lie on a false edge: {} of {}; {:.3g} % could be tested, "
+        "for steps of {:.2g} %",
+        100 * edges->share, edges->edges, edges->tested,
+        100 * static_cast<double>(edges->tested) / static_cast<double>(edges->pixels),
+        100 * edges->least_step);
+  }
   if (result.map_scale) {
     text += fmt::format("\nmap        {} ({}", options.output, name_of(options.map));
     text += *result.map_scale > 0 ? fmt::format(", last colour at {:.6g})", *result.map_scale) : ")";
@@ -186,15 +238,21 @@ void add_compare_command(Command app, Context& context) {
                  "Picture of any size that is white where to measure; everything else is left out");
   command.option("--block", o.block, "Side of the blocks of the pixelated map, in pixels").range(1, 65536);
   command.option("-o,--output", o.output, "Error map to write: .png (colours) or .exr (numbers)");
-  command.choice("--map", o.map,
-                 "Which map: absolute |d|, signed d, pixelated (sum of |d| in each block), relmse, flip");
+  command.choice(
+      "--map", o.map,
+      "Which map: absolute |d|, signed d, pixelated (sum of |d| in each block), relmse, flip, edges");
   command
-      .option("--scale", o.scale,
-              "Error shown in the last colour of a .png map; 0: the 99th percentile, for flip 1")
+      .option(
+          "--scale", o.scale,
+          "Error shown in the last colour of a .png map; 0: the 99th percentile, for flip 1, for edges 0.2")
       .non_negative();
   command.option("--exposure", o.exposure, "Multiply both images by 2^EV first").range(-60.0, 60.0);
   command.option("--ppd", o.pixels_per_degree, "Pixels in one degree of the viewer's sight, for FLIP")
       .range(1.0, 500.0);
+  command.flag("--edges", o.edges,
+               "Also find false edges: steps in the indirect light that the truth has not; of "
+               "REF.indirect.exr, .albedo, "
+               ".normal, .depth and TEST.indirect.exr beside the pictures (`render --aov`)");
   command.flag("--allow-nonfinite", o.allow_nonfinite,
                "Do not fail when pixels are infinite or NaN (they are left out and counted)");
   command.footer(
@@ -205,7 +263,9 @@ void add_compare_command(Command app, Context& context) {
       "d. Block sums add the\n"
       "channels. FLIP: of two PNG or JPEG files as displayed, else HDR-FLIP over the exposures of REF. SSIM "
       "(of luma) and PSNR:\n"
-      "sRGB-encoded and clipped to [0, 1] after --exposure; JSON says null for the PSNR of equal images.");
+      "sRGB-encoded and clipped to [0, 1] after --exposure; JSON says null for the PSNR of equal images.\n"
+      "False edges: steps of log(TEST/REF) of irradiance by over 3 % of luminance or 6 % of colour, and 4 "
+      "standard errors.");
 }
 
 }  // namespace ssphh::app

@@ -8,20 +8,22 @@
 #include <ssphh/core/enum_names.h>
 #include <ssphh/core/json.h>
 #include <ssphh/metrics/compare.h>
+#include <ssphh/metrics/false_edges.h>
 #include <ssphh/metrics/flip.h>
 #include <ssphh/metrics/perceptual.h>
 
 namespace ssphh::app {
 
-/// |d|, d with its sign, the sum of |d| in each block, d² over the reference's, FLIP.
-enum class ErrorMap { absolute, with_sign, pixelated, relmse, flip };
+/// |d|, d with its sign, the sum of |d| in each block, d² over the reference's, FLIP, false edges.
+enum class ErrorMap { absolute, with_sign, pixelated, relmse, flip, edges };
 constexpr auto enum_table(ErrorMap) {
   using enum ErrorMap;
   return std::to_array<EnumName<ErrorMap>>({{absolute, "absolute"},
                                             {with_sign, "signed"},
                                             {pixelated, "pixelated"},
                                             {relmse, "relmse"},
-                                            {flip, "flip"}});
+                                            {flip, "flip"},
+                                            {edges, "edges"}});
 }
 
 struct CompareOptions {
@@ -30,6 +32,9 @@ struct CompareOptions {
   int block = 16;               ///< side of the blocks of the pixelated map, in pixels
   float exposure = 0;           ///< both images are multiplied by 2^EV first
   double pixels_per_degree = metrics::FlipParams{}.pixels_per_degree;  ///< of the viewer's sight, for FLIP
+  /// Also look for false edges, in `REF.indirect.exr` and so on that stand beside the pictures; a map of them
+  /// asks for it as well.
+  bool edges = false;
   bool allow_nonfinite = false;  ///< infinite pixels and NaN are no failure
 
   std::string output;  ///< error map to write: .png (colours) or .exr (numbers); empty: none
@@ -43,6 +48,7 @@ struct CompareResult {
   metrics::BlockError blocks;
   metrics::DisplayError display;
   metrics::FlipError flip;
+  std::optional<metrics::FalseEdges> edges;
   bool hdr = false;                ///< which FLIP: HDR-FLIP, or that of two display images
   std::optional<float> map_scale;  ///< of the map written: error shown in its last colour, 0 for numbers
 };
