@@ -56,6 +56,13 @@ class Rooms : public testing::Test {
                                    {count, seed, clearance, box});
   }
 
+  double unseen_share(const std::vector<rays::SurfacePoint>& at) const {
+    std::vector<vec3> probes;
+    for (const probes::Probe& probe : set_.probes) probes.push_back(probe.position);
+    const auto seen = study::sees_any(source_, at, probes, 0.25f);
+    return static_cast<double>(std::ranges::count(seen, 0)) / static_cast<double>(at.size());
+  }
+
   const test::TempDir dir_;
   const std::string file_ = dir_ / "a.sphl";
   const scene::Scene scene_ = scene::make_builtin("two-rooms");
@@ -148,6 +155,7 @@ TEST_F(Rooms, MeasureIsThatOfTheLibrary) {
       near(colour["noise"], e.chromaticity.noise);
       EXPECT_GT(e.chromaticity.mean, 0.01);
       near(one["leak_ratio"], study::leak_ratio(found, truth));
+      near(one["unseen"], unseen_share(at));
       EXPECT_GT(one["lookup_us"].number(), 0);
       EXPECT_EQ(one["probes"], file_);
     }
@@ -163,12 +171,13 @@ TEST_F(Rooms, MeasureIsThatOfTheLibrary) {
     leaks += one["leak_ratio"].number();
     const json::Value &ratio = one["ratio"], &worst = one["worst"];
     EXPECT_THAT(text,
-                HasSubstr(fmt::format(
-                    "\n{:<24}{:<11}{:>7.3f}{:>7.3f}{:>7.3f}{:>7.1f} %{:>7.1f} %{:>10.4f}{:>7.2f} %{:>7.2f} %",
-                    file_, one["weights"].string(), ratio[0].number(), ratio[1].number(), ratio[2].number(),
-                    100 * worst["mean_error"].number(), 100 * worst["p95_relative"].number(),
-                    worst["relmse"].number(), 100 * one["chromaticity"]["mean_error"].number(),
-                    100 * one["leak_ratio"].number())));
+                HasSubstr(fmt::format("\n{:<24}{:<11}{:>7.3f}{:>7.3f}{:>7.3f}{:>7.1f} %{:>7.1f} "
+                                      "%{:>10.4f}{:>7.2f} %{:>7.2f} %{:>7.1f} %",
+                                      file_, one["weights"].string(), ratio[0].number(), ratio[1].number(),
+                                      ratio[2].number(), 100 * worst["mean_error"].number(),
+                                      100 * worst["p95_relative"].number(), worst["relmse"].number(),
+                                      100 * one["chromaticity"]["mean_error"].number(),
+                                      100 * one["leak_ratio"].number(), 100 * one["unseen"].number())));
   }
   EXPECT_GT(leaks, 0.01);
   expect(json_here(joined(command, {"--open", "--clearance", "0.5"})),
@@ -299,6 +308,56 @@ TEST_F(Rooms, ViewpointsAreCamerasAndProbesOrWhatTheSceneHas) {
   EXPECT_EQ(none[cameras], own.interest[0]);
   EXPECT_EQ(none.back(), own.manual.back().position);
   EXPECT_EQ(app::viewpoints(scene_, source_, {&set_, 1}, 0).back(), set_.probes.back().position);
+}
+
+TEST_F(Rooms, RegionsHaveTheirOwnPoints) {
+  const study::LeakParams params{.path = {.max_depth = 3, .passes = 1, .spp = 8, .seed = 3}};
+  const std::vector<std::string> command = {"measure",     "builtin:two-rooms",
+                                            "--time",      "0.25",
+                                            "--probes",    file_,
+                                            "--points",    "24",
+                                            "--truth-spp", "8",
+                                            "--max-depth", "3",
+                                            "--seed",      "3",
+                                            "--weights",   "mls",
+                                            "--region",    "far=-3,0,-1,0,2.5,1.5"};
+  const json::Value all = json_here(command);
+  const json::Value& regions = all["results"][0]["regions"];
+  ASSERT_TRUE(regions.contains("inside")) << "both rooms are closed";
+  EXPECT_FALSE(regions.contains("outside"));
+  EXPECT_EQ(regions["inside"]["points"], 24);
+  EXPECT_EQ(regions["inside"]["ratio"], all["results"][0]["ratio"]);
+  const auto within = points(0.05f, 24, 3, scene::Bounds{{-3, 0, -1}, {0, 2.5f, 1.5f}});
+  probes::LookupParams lookup;
+  lookup.weights = probes::weights_named("mls");
+  const study::LookupError e =
+      study::lookup_error(study::look_up(probes::IrradianceLookup(set_, tracer_, lookup), within),
+                          tracer_.surface_irradiance(within, params.path, {}));
+  const json::Value& far = regions["far"];
+  EXPECT_EQ(far["points"], 24);
+  for (const auto& [name, figure] : figures)
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(far[name][c].number(), e.channels[c].*figure, 1e-9 * (1 + std::abs(e.channels[c].*figure)))
+          << name;
+  EXPECT_EQ(far["unseen"], unseen_share(within));
+  EXPECT_THAT(text_here(command),
+              AllOf(HasSubstr("\n  inside, 24 points   "), HasSubstr("\n  far, 24 points   ")));
+}
+
+TEST(Measure, RegionsHaveNamesAndCorners) {
+  const auto problem = [](const std::string& region, const std::string& second = "a=0,0,0,1,1,1") {
+    return problem_here(
+        {"measure", "builtin:box", "--method", "direct", "--region", region, "--region", second});
+  };
+  EXPECT_THAT(problem("kitchen"),
+              HasSubstr("--region kitchen: there is no name (it is NAME=x0,y0,z0,x1,y1,z1"));
+  EXPECT_THAT(problem("=0,0,0,1,1,1"), HasSubstr("there is no name"));
+  EXPECT_THAT(problem("b=0,0,0,1,1"), HasSubstr("its six numbers cannot be read"));
+  EXPECT_THAT(problem("b=0,0,0,1,1,1,1"), HasSubstr("its six numbers cannot be read"));
+  EXPECT_THAT(problem("b=0,0,nan,1,1,1"), HasSubstr("its six numbers cannot be read"));
+  EXPECT_THAT(problem("b=0,0,0,1,0,1"), HasSubstr("it is no box"));
+  EXPECT_THAT(problem("inside=0,0,0,1,1,1"), HasSubstr("every scene has a region of this name"));
+  EXPECT_THAT(problem("a=0,0,0,1,1,1"), HasSubstr("--region a: there are two of this name"));
 }
 
 TEST(Measure, OfASceneWithoutCamerasLampsAndSphls) {

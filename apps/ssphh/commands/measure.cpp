@@ -24,11 +24,12 @@ namespace ssphh::app {
 namespace {
 
 /// Points on surfaces, or in the open near them; within the box, if one is given.
-std::vector<rays::SurfacePoint> find_points(const MeasureOptions& o, const rays::TransportSource& surfaces,
+std::vector<rays::SurfacePoint> find_points(const MeasureOptions& o, const std::optional<scene::Bounds>& box,
+                                            const rays::TransportSource& surfaces,
                                             std::span<const vec3> origins, const Control& control) {
-  std::vector<rays::SurfacePoint> points = study::reachable_points(
-      surfaces, origins, o.scene.time, {o.points, o.seed, o.clearance, o.box}, control);
-  if (o.open) points = study::points_in_the_open(surfaces, points, o.scene.time, o.seed, o.box);
+  std::vector<rays::SurfacePoint> points =
+      study::reachable_points(surfaces, origins, o.scene.time, {o.points, o.seed, o.clearance, box}, control);
+  if (o.open) points = study::points_in_the_open(surfaces, points, o.scene.time, o.seed, box);
   return points;
 }
 
@@ -37,6 +38,7 @@ struct Candidate {
   MeasuredLight known;
   std::shared_ptr<const rays::IndirectLight> light;
   std::shared_ptr<LiveMethod> live = nullptr;  ///< null for probe files
+  const probes::ProbeSet* probes = nullptr;    ///< of a probe file
 };
 
 std::vector<Candidate> probe_candidates(const MeasureOptions& o, const std::vector<probes::ProbeSet>& sets,
@@ -51,6 +53,7 @@ std::vector<Candidate> probe_candidates(const MeasureOptions& o, const std::vect
       candidate.known.name = o.probes[i];
       candidate.known.weights = probes::chosen_weights(sets[i], params);
       candidate.light = std::make_shared<probes::IrradianceLookup>(sets[i], tracer, params);
+      candidate.probes = &sets[i];
     }
   }
   return candidates;
@@ -124,13 +127,29 @@ double frame_milliseconds(LiveMethod& live, float time, const Control& control) 
   return percentile(std::move(ms), 0.5);
 }
 
-MeasuredLight measured(const Candidate& candidate, std::span<const rays::SurfacePoint> points,
-                       const study::TruthAtPoints& truth, float time, const Control& control) {
+/// Share of the points that see none of the probes near them; none for what is no probe file.
+std::optional<double> unseen_by(const Candidate& candidate, const rays::TransportSource& surfaces,
+                                std::span<const rays::SurfacePoint> points, float time) {
+  if (!candidate.probes) return {};
+  std::vector<vec3> probes;
+  for (const probes::Probe& probe : candidate.probes->probes) probes.push_back(probe.position);
+  const std::vector<std::uint8_t> seen = study::sees_any(surfaces, points, probes, time);
+  return static_cast<double>(std::ranges::count(seen, 0)) / static_cast<double>(seen.size());
+}
+
+MeasuredLight measured(const Candidate& candidate, const MeasureResult& at,
+                       const rays::TransportSource& surfaces, float time, const Control& control) {
   MeasuredLight result = candidate.known;
-  const std::vector<vec3> looked_up = study::look_up(*candidate.light, points, control);
-  result.lookup_us = lookup_microseconds(*candidate.light, points, control);
-  result.error = study::lookup_error(looked_up, truth.estimates);
-  result.leak_ratio = study::leak_ratio(looked_up, truth);
+  const std::vector<vec3> looked_up = study::look_up(*candidate.light, at.points, control);
+  result.lookup_us = lookup_microseconds(*candidate.light, at.points, control);
+  result.error = study::lookup_error(looked_up, at.truth.estimates);
+  result.unseen = unseen_by(candidate, surfaces, at.points, time);
+  result.leak_ratio = study::leak_ratio(looked_up, at.truth);
+  for (const MeasuredRegion& region : at.regions) {
+    const std::vector<vec3> there = study::look_up(*candidate.light, region.points, control);
+    result.regions.push_back({region.name, study::lookup_error(there, region.truth),
+                              unseen_by(candidate, surfaces, region.points, time)});
+  }
   if (candidate.live) result.frame_ms = frame_milliseconds(*candidate.live, time, control);
   return result;
 }
@@ -147,6 +166,12 @@ json::Value light_json(const MeasuredLight& light) {
   object.update(to_json(light.error));
   object.update({{"leak_ratio", light.leak_ratio}, {"lookup_us", light.lookup_us}});
   if (light.frame_ms) object["frame_ms"] = *light.frame_ms;
+  if (light.unseen) object["unseen"] = *light.unseen;
+  json::Value& regions = object["regions"] = json::Value::object();
+  for (const RegionError& region : light.regions) {
+    json::Value& part = regions[region.name] = to_json(region.error);
+    if (region.unseen) part["unseen"] = *region.unseen;
+  }
   return object;
 }
 
@@ -158,6 +183,10 @@ std::string error_columns(const study::LookupError& error) {
                      100 * error.chromaticity.mean_error);
 }
 
+std::string unseen_column(const std::optional<double>& share) {
+  return share ? fmt::format("{:>7.1f} %", 100 * *share) : std::string(9, ' ');
+}
+
 }  // namespace
 
 MeasureResult run_measure(const MeasureOptions& o, const Control& control) {
@@ -165,6 +194,7 @@ MeasureResult run_measure(const MeasureOptions& o, const Control& control) {
   if (o.probes.empty() && o.methods.empty())
     throw Error("measure", "there is nothing to compare", "give --probes FILE or --method NAME");
   for (const std::string& spec : o.methods) read_method(spec);  // fails before the work
+  require_different_names(o.regions);
   const scene::Scene scene = load_lit_scene(o.scene);
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   const trace::PathTracer tracer(geometry, scene, o.scene.time);
@@ -173,13 +203,22 @@ MeasureResult run_measure(const MeasureOptions& o, const Control& control) {
   const std::vector<Candidate> candidates = probe_candidates(o, sets, tracer);  // fails before the work
   const trace::TransportScene surfaces(geometry, scene);
   MeasureResult result;
-  result.points = find_points(o, surfaces, viewpoints(scene, surfaces, sets, o.scene.time), control);
+  const std::vector<vec3> origins = viewpoints(scene, surfaces, sets, o.scene.time);
+  result.points = find_points(o, o.box, surfaces, origins, control);
+  std::vector<MeasuredRegion> boxes;
+  for (const NamedBox& named : o.regions)
+    boxes.push_back({named.name, find_points(o, named.box, surfaces, origins, control), {}});
   study::LeakParams params = o.params;
   params.path.seed = o.seed;
   result.truth = study::trace_truth(tracer, result.points, params, control);
+  result.regions = inside_and_outside(surfaces, result.points, result.truth.estimates, o.scene.time);
+  for (MeasuredRegion& region : boxes) {
+    region.truth = tracer.surface_irradiance(region.points, params.path, control);
+    result.regions.push_back(std::move(region));
+  }
 
   const auto measure = [&](const Candidate& candidate) {
-    result.lights.push_back(measured(candidate, result.points, result.truth, o.scene.time, control));
+    result.lights.push_back(measured(candidate, result, surfaces, o.scene.time, control));
   };
   for (const Candidate& candidate : candidates) measure(candidate);
   for (const std::string& spec : o.methods)
@@ -200,18 +239,23 @@ json::Value to_json(const MeasureResult& result, const MeasureOptions& options) 
 std::string to_text(const MeasureResult& result, const MeasureOptions& options) {
   std::string text = fmt::format(
       "{} points of {} paths, {} of them dark; mean {:.5g} W/m2\n"
-      "{:<24}{:<11}{:>7}{:>7}{:>7}{:>9}{:>9}{:>10}{:>9}{:>9}{:>9}",
+      "{:<24}{:<11}{:>7}{:>7}{:>7}{:>9}{:>9}{:>10}{:>9}{:>9}{:>9}{:>9}",
       result.points.size(), options.params.path.spp, result.truth.dark, result.truth.mean, "light", "weights",
-      "ratio R", "G", "B", "error", "95 %", "relMSE", "colour", "leak", "lookup");
+      "ratio R", "G", "B", "error", "95 %", "relMSE", "colour", "leak", "unseen", "lookup");
   for (const MeasuredLight& light : result.lights) {
-    text += fmt::format("\n{:<24}{:<11}{}{:>7.2f} %{:>6.3g} us", light.name,
+    text += fmt::format("\n{:<24}{:<11}{}{:>7.2f} %{}{:>6.3g} us", light.name,
                         light.weights ? name_of(*light.weights) : "", error_columns(light.error),
-                        100 * light.leak_ratio, light.lookup_us);
+                        100 * light.leak_ratio, unseen_column(light.unseen), light.lookup_us);
+    if (light.regions.size() < 2) continue;
+    for (const RegionError& region : light.regions) {
+      const std::string name = fmt::format("{}, {} points", region.name, region.error.points);
+      text += fmt::format("\n  {:<33}{}", name, error_columns(region.error));
+      if (region.unseen) text += fmt::format("{:>9}{}", "", unseen_column(region.unseen));
+    }
   }
   return text + fmt::format(
                     "\nerror, 95 % and relMSE of the worst channel; the truth's noise, {:.2g} % of a point, "
-                    "is taken "
-                    "off error, relMSE and colour",
+                    "is taken off error, relMSE and colour",
                     100 * noise_of(result));
 }
 
@@ -219,6 +263,7 @@ void add_measure_command(Command app, Context& context) {
   struct Words {
     std::vector<std::string> weights;
     std::vector<float> box;
+    std::vector<std::string> regions;
   };
   const auto words = std::make_shared<Words>();
   auto [command, o] = add_command<MeasureOptions>(
@@ -229,6 +274,7 @@ void add_measure_command(Command app, Context& context) {
           given.weights.push_back(*parse_enum<probes::WeightMethod>(name));
         if (const std::vector<float>& b = words->box; !b.empty())
           given.box = {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}};
+        for (const std::string& region : words->regions) given.regions.push_back(read_named_box(region));
         run_and_print(context, given, run_measure);
       });
   add_scene_options(command, o.scene);
@@ -252,6 +298,11 @@ void add_measure_command(Command app, Context& context) {
               "Only points with so much free space before them [m]: slits are nobody's view")
       .non_negative();
   command.option("--box", words->box, "x0,y0,z0,x1,y1,z1: all points within [m]").separated_by(',').values(6);
+  command
+      .option("--region", words->regions,
+              "NAME=x0,y0,z0,x1,y1,z1: also tell the errors at as many points within [m]; may be repeated. "
+              "Those inside and outside of rooms are told anyway")
+      .repeatable();
   command.flag("--open", o.open,
                "In the open instead of on surfaces, facing anywhere: where things that move would be");
   add_force_option(command, o.force);
@@ -262,7 +313,7 @@ void add_measure_command(Command app, Context& context) {
       "taken off;\n"
       "colour: mean |difference| of r/(r+g+b), g/.., b/.., summed over the three. docs/methods/relight.md "
       "says how,\n"
-      "and what dark and leak mean.");
+      "what dark, leak, inside and outside mean. Unseen: points that see none of the probes near them.");
 }
 
 }  // namespace ssphh::app

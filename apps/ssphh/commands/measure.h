@@ -12,6 +12,7 @@
 #include <ssphh/study/leak.h>
 #include <ssphh/study/lookup_error.h>
 
+#include "commands/measure_regions.h"
 #include "options/scene_options.h"
 #include "results/method_figures.h"
 
@@ -24,6 +25,7 @@ struct MeasureOptions {
       weights;                       ///< each file is looked up with each; none: as the file would have it
   std::vector<std::string> methods;  ///< each as "NAME" or "NAME,PARAMETER=VALUE,..."
   std::optional<scene::Bounds> box;  ///< all points within [m]
+  std::vector<NamedBox> regions;     ///< whose errors, at as many points, are told as well
   float clearance = 0.05f;           ///< only points with so much free space before them [m]
   bool open = false;                 ///< points in the open instead of on surfaces, facing anywhere
   bool force = false;                ///< go on, with a warning, where probes are of another scene or pose
@@ -33,28 +35,39 @@ struct MeasureOptions {
   study::LeakParams params{.path = {.max_depth = 25, .passes = 1, .spp = 1024, .seed = 0}};
 };
 
+/// The error at the points of one region.
+struct RegionError {
+  std::string name;
+  study::LookupError error;
+  std::optional<double>
+      unseen;  ///< share of the points that see none of the probes near them; of a probe file
+};
+
 /// One way to look light up.
 struct MeasuredLight {
   std::string name;                             ///< probe file or method, as the options have it
   std::optional<probes::WeightMethod> weights;  ///< of a probe file
   std::optional<MethodFigures> method;          ///< of a method, after its first update
-  study::LookupError error;
-  double leak_ratio = 0;           ///< share of its light that stands on dark points
-  double lookup_us = 0;            ///< microseconds of all threads together for one lookup
-  std::optional<double> frame_ms;  ///< milliseconds of a method's update after a small change
+  study::LookupError error;                     ///< at all points
+  std::optional<double> unseen;                 ///< as of a region
+  std::vector<RegionError> regions;             ///< one for each of the result's
+  double leak_ratio = 0;                        ///< share of its light that stands on dark points
+  double lookup_us = 0;                         ///< microseconds of all threads together for one lookup
+  std::optional<double> frame_ms;               ///< milliseconds of a method's update after a small change
 };
 
 struct MeasureResult {
   std::vector<rays::SurfacePoint> points;
-  study::TruthAtPoints truth;         ///< at these
-  std::vector<MeasuredLight> lights;  ///< probe files first; none is missing
-  std::uint64_t geometry_builds = 0;  ///< acceleration structures that were built
+  study::TruthAtPoints truth;           ///< at these
+  std::vector<MeasuredRegion> regions;  ///< inside and outside, where there are such points; those asked for
+  std::vector<MeasuredLight> lights;    ///< probe files first; none is missing
+  std::uint64_t geometry_builds = 0;    ///< acceleration structures that were built
 };
 
 /// Measures all probe files and methods at the same points. Throws Error where there is nothing to measure,
 /// for files that cannot be read, for probes of another scene or pose, for weights that a file does not
-/// have, for unknown methods and parameters, where no point lies in the box, and as study::reachable_points
-/// and study::trace_truth do; Cancelled when asked to stop.
+/// have, for unknown methods and parameters, for two regions of one name, and as
+/// study::reachable_points and study::trace_truth do; Cancelled when asked to stop.
 MeasureResult run_measure(const MeasureOptions& options, const Control& control = {});
 
 json::Value to_json(const MeasureResult& result, const MeasureOptions& options);

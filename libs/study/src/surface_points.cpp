@@ -212,6 +212,15 @@ std::vector<rays::SurfacePoint> reachable_points(const rays::TransportSource& so
   return points;
 }
 
+std::vector<std::uint8_t> sees_any(const rays::TransportSource& source,
+                                   std::span<const rays::SurfacePoint> points, std::span<const vec3> places,
+                                   float time) {
+  const rays::PosedWorld surfaces(source, time);
+  std::vector<std::uint8_t> seen(points.size(), 0);
+  Reach(surfaces, places).sight(points, seen);
+  return seen;
+}
+
 std::vector<rays::SurfacePoint> points_in_the_open(const rays::TransportSource& source,
                                                    std::span<const rays::SurfacePoint> surfaces, float time,
                                                    std::uint64_t seed,

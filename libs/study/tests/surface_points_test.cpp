@@ -205,6 +205,16 @@ TEST(SurfacePoints, InTheOpenStayInTheirBox) {
   }
 }
 
+TEST(SurfacePoints, SeePlacesBeforeThemThatNothingHides) {
+  const test::TriangleSource source(boxes(room));
+  const std::vector<rays::SurfacePoint> points = {
+      {{0, 1, 1.25f}, {1, 0, 0}}, {{4, 1, 1.25f}, {-1, 0, 0}}, {{1, 0, 1}, {0, -1, 0}}};
+  const std::vector<vec3> places = {{1, 1, 1.25f}};
+  EXPECT_EQ(sees_any(source, points, places, 0), (std::vector<std::uint8_t>{1, 0, 0}))
+      << "straight before it; behind the pillar; behind its surface";
+  EXPECT_EQ(sees_any(source, points, {}, 0), (std::vector<std::uint8_t>{0, 0, 0}));
+}
+
 TEST(SurfacePoints, ErrorsSayWhatIsMissing) {
   const test::TriangleSource source(boxes(room));
   EXPECT_THROW(reachable_points(source, {}, 0), Error);

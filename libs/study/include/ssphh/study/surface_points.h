@@ -37,6 +37,12 @@ std::vector<rays::SurfacePoint> reachable_points(const rays::TransportSource& so
                                                  const SurfacePointParams& params = {},
                                                  const Control& control = {});
 
+/// 1 for points that see one of the 16 places nearest to them that are before their surface, 0 for those that
+/// see none.
+std::vector<std::uint8_t> sees_any(const rays::TransportSource& source,
+                                   std::span<const rays::SurfacePoint> points, std::span<const vec3> places,
+                                   float time);
+
 /// Points in the open, as something that moves may come there: on a cosine-distributed ray from each surface
 /// point, 5 to 95 % of the way to what it meets, the normal uniform over the sphere. None for rays that
 /// escape. With a box, in which the surface points must lie, the way ends where it leaves the box. The same
