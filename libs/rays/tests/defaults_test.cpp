@@ -21,7 +21,8 @@ TEST(RayDefaults, OfQuestionsAndAnswers) {
   EXPECT_EQ(request.face_size, 64);
   EXPECT_EQ(RadianceSource::ghost_chunk_count, 48);
   const IrradianceEstimate estimate;
-  EXPECT_EQ(estimate.direct + estimate.indirect + estimate.indirect_variance, vec3(0));
+  EXPECT_EQ(estimate.direct + estimate.indirect + estimate.indirect_variance + estimate.indirect_covariance,
+            vec3(0));
   const SurfacePoint point;
   EXPECT_EQ(point.position, vec3(0));
   EXPECT_EQ(point.normal, vec3(0, 1, 0));

@@ -10,6 +10,8 @@
 namespace ssphh::study {
 namespace {
 
+using glm::dvec3;
+
 /// One quantity at all points.
 struct Quantity {
   std::vector<double> looked_up, truth, deviation;
@@ -57,31 +59,35 @@ RelativeError relative_error(const Quantity& q, double floor) {
   return error;
 }
 
-ChromaticityError chromaticity_error(const std::array<Quantity, 3>& rgb, double floor) {
+/// Σ over the channels of the standard deviations of t / Σt. With c = t / Σt, dc_k = (dt_k − c_k Σ dt) / Σt.
+double chromaticity_deviation(const rays::IrradianceEstimate& truth, const dvec3& c, double sum) {
+  const dvec3 variance(truth.indirect_variance), beside(truth.indirect_covariance);
+  // Covariance of each channel with the sum of all three.
+  const dvec3 with_sum = variance + beside + dvec3(beside.z, beside.x, beside.y);
+  const double of_sum = with_sum.x + with_sum.y + with_sum.z;
+  double deviation = 0;
+  for (int k = 0; k < 3; ++k)
+    deviation += std::sqrt(std::max(0.0, variance[k] - 2 * c[k] * with_sum[k] + c[k] * c[k] * of_sum)) / sum;
+  return deviation;
+}
+
+ChromaticityError chromaticity_error(std::span<const vec3> looked_up,
+                                     std::span<const rays::IrradianceEstimate> truth, double floor) {
   ChromaticityError error;
   if (!(floor > 0)) return error;
-  const std::size_t count = rgb[0].truth.size();
+  const auto total = [](const dvec3& rgb) { return rgb.x + rgb.y + rgb.z; };
   std::vector<double> differences;
-  for (std::size_t i = 0; i < count; ++i) {
-    double truth = 0, looked_up = 0, deviation = 0;
-    for (const Quantity& q : rgb) {
-      truth += q.truth[i];
-      looked_up += std::max(q.looked_up[i], 0.0);
-      deviation += q.deviation[i];
-    }
-    double difference = 0, noise = 0;
-    for (const Quantity& q : rgb) {
-      if (!(truth > 0)) break;
-      const double c = q.truth[i] / truth;
-      const double found = looked_up > 0 ? std::max(q.looked_up[i], 0.0) / looked_up : 1.0 / 3;
-      difference += std::abs(found - c);
-      noise += mean_of_normal * std::abs(q.deviation[i] - c * deviation) / truth;
-    }
-    const double weight = truth / (truth + 3 * floor);
-    differences.push_back(weight * difference);
-    error.mean += weight * difference / static_cast<double>(count);
-    error.noise += weight * noise / static_cast<double>(count);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const dvec3 t(truth[i].indirect), e = glm::max(dvec3(looked_up[i]), dvec3(0));
+    differences.push_back(0);
+    if (!(total(t) > 0)) continue;
+    const dvec3 c = t / total(t), found = total(e) > 0 ? e / total(e) : dvec3(1.0 / 3);
+    const double weight = total(t) / (total(t) + 3 * floor);
+    differences.back() = weight * total(glm::abs(found - c));
+    error.mean += differences.back();
+    error.noise += mean_of_normal * weight * chromaticity_deviation(truth[i], c, total(t));
   }
+  error.mean /= static_cast<double>(truth.size()), error.noise /= static_cast<double>(truth.size());
   error.p95 = rank(differences, 0.95);
   error.mean_error = without_noise(error.mean, error.noise);
   return error;
@@ -110,7 +116,7 @@ LookupError lookup_error(std::span<const vec3> looked_up, std::span<const rays::
   error.points = truth.size();
   for (std::size_t c = 0; c < 3; ++c) error.channels[c] = relative_error(rgb[c], floor);
   error.luminance = relative_error(grey, relative_floor * grey.mean_truth());
-  error.chromaticity = chromaticity_error(rgb, floor);
+  error.chromaticity = chromaticity_error(looked_up, truth, floor);
   return error;
 }
 

@@ -83,6 +83,8 @@ rays::IrradianceEstimate combine(std::span<const BatchMean> means, std::span<con
   for (std::size_t b = 0; b < means.size(); ++b) {
     const vec3 deviation = weights[b] * (means[b].indirect - estimate.indirect);
     estimate.indirect_variance += count / (count - 1) * deviation * deviation;
+    estimate.indirect_covariance +=
+        count / (count - 1) * deviation * vec3(deviation.y, deviation.z, deviation.x);
   }
   return estimate;
 }

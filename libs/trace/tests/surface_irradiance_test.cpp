@@ -138,6 +138,38 @@ TEST(SurfaceIrradiance, VarianceIsHonest) {
   EXPECT_LT(squares.mean(), 1.4);
 }
 
+TEST(SurfaceIrradiance, CovariancesTellTheNoiseBetweenChannels) {
+  // Between a red and a green wall, two channels' difference of two seeds, in units of what variances and
+  // covariances make of it.
+  const scene::Scene scene = scene::make_builtin("cornell");
+  const trace::PathTracer tracer(scene);
+  std::vector<rays::SurfacePoint> points;
+  for (int i = 0; i < 600; ++i)
+    points.push_back(
+        {{-0.95f + 0.1f * static_cast<float>(i % 20), 0, -0.95f + 0.06f * static_cast<float>(i / 20)},
+         {0, 1, 0}});
+  const auto a = tracer.surface_irradiance(points, {5, 1, 256, 1}, {});
+  const auto b = tracer.surface_irradiance(points, {5, 1, 256, 2}, {});
+  for (int c = 0; c < 3; ++c) {
+    const int next = (c + 1) % 3;
+    Samples squares;
+    double together = 0, apart = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (a[i].indirect == vec3(0) || b[i].indirect == vec3(0)) continue;  // under the boxes
+      const vec3 variance = a[i].indirect_variance + b[i].indirect_variance;
+      const vec3 covariance = a[i].indirect_covariance + b[i].indirect_covariance;
+      const vec3 d = a[i].indirect - b[i].indirect;
+      const auto expected = static_cast<double>(variance[c] + variance[next] - 2 * covariance[c]);
+      const auto difference = static_cast<double>(d[c] - d[next]);
+      squares.add(difference * difference / expected);
+      together += expected, apart += static_cast<double>(variance[c] + variance[next]);
+    }
+    EXPECT_GT(squares.mean(), 0.8) << c;
+    EXPECT_LT(squares.mean(), 1.6) << c << ": variances from 16 batches are too small as often as too large";
+    EXPECT_LT(together, 0.9 * apart) << "channels share their paths";
+  }
+}
+
 TEST(SurfaceIrradiance, BatchesNeedNotDivideThePaths) {
   const scene::Scene scene = scene::make_builtin("box");
   const trace::PathTracer tracer(scene);
@@ -211,6 +243,7 @@ TEST(SurfaceIrradiance, SameBitsForAnyThreadCountAndCancellable) {
     EXPECT_EQ(all[i].direct, one[i].direct);
     EXPECT_EQ(all[i].indirect, one[i].indirect);
     EXPECT_EQ(all[i].indirect_variance, one[i].indirect_variance);
+    EXPECT_EQ(all[i].indirect_covariance, one[i].indirect_covariance);
   }
   CancelToken cancel;
   cancel.request();

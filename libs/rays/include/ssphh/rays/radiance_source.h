@@ -54,9 +54,10 @@ struct GroupRadiance {
 
 /// Path-traced light at a surface point: the truth that lookups are measured against.
 struct IrradianceEstimate {
-  vec3 direct{0};             ///< irradiance [W/m²] straight from emitters
-  vec3 indirect{0};           ///< irradiance by light that other surfaces scattered
-  vec3 indirect_variance{0};  ///< of the estimate `indirect`, from independent batches
+  vec3 direct{0};               ///< irradiance [W/m²] straight from emitters
+  vec3 indirect{0};             ///< irradiance by light that other surfaces scattered
+  vec3 indirect_variance{0};    ///< of the estimate `indirect`, from independent batches
+  vec3 indirect_covariance{0};  ///< of the same: red with green, green with blue, blue with red
 };
 
 /// Implemented by trace::PathTracer.

@@ -25,10 +25,10 @@ struct RelativeError {
 /// with w = Σt / (Σt + 3ε); about 0 for the same colour and 2 for red instead of blue. Where nothing was
 /// looked up, c(e) is grey.
 struct ChromaticityError {
-  double mean = 0;   ///< of d; holds the truth's own noise
-  double p95 = 0;    ///< of d: 95 % of the points are better
-  double noise = 0;  ///< what `mean` would be for c(e) without error, at least: as if the channels' noise
-                     ///< went the same way everywhere, as it does where paths are shared and surfaces grey
+  double mean = 0;  ///< of d; holds the truth's own noise
+  double p95 = 0;   ///< of d: 95 % of the points are better
+  double noise = 0;  ///< what `mean` would be for c(e) without error: √(2/π) mean of w Σ √variance of c(t),
+                     ///< to first order from the truth's variances and covariances
   double mean_error = 0;  ///< √(mean² − noise²), at least 0
 };
 
