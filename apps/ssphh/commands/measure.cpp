@@ -14,6 +14,7 @@
 
 #include "commands/command.h"
 #include "commands/live_method.h"
+#include "options/picture_options.h"
 #include "options/probe_options.h"
 #include "results/geometry_builds.h"
 #include "results/json_values.h"
@@ -31,6 +32,24 @@ std::vector<rays::SurfacePoint> find_points(const MeasureOptions& o, const std::
       study::reachable_points(surfaces, origins, o.scene.time, {o.points, o.seed, o.clearance, box}, control);
   if (o.open) points = study::points_in_the_open(surfaces, points, o.scene.time, o.seed, box);
   return points;
+}
+
+/// What each camera sees, or who looks at a scene without one.
+std::vector<MeasuredRegion> views_of(const MeasureOptions& o, const scene::Scene& scene,
+                                     const trace::SharedGeometry& geometry,
+                                     const rays::TransportSource& surfaces) {
+  std::vector<std::string> names;
+  for (const scene::Camera& camera : scene.cameras) names.push_back(camera.name);
+  if (names.empty()) names.emplace_back();
+  std::vector<MeasuredRegion> views;
+  for (const std::string& name : names) {
+    const scene::CameraPose camera = camera_of(scene, name, o.scene.time, geometry);
+    const float aspect = camera.camera.aspect.value_or(16.0f / 9);
+    std::vector<rays::SurfacePoint> points =
+        study::points_in_view(surfaces, camera, aspect, o.scene.time, o.points, o.seed);
+    if (!points.empty()) views.push_back({"view " + camera.camera.name, std::move(points), {}});
+  }
+  return views;
 }
 
 /// A way to look light up, and what is known of it before it is measured.
@@ -208,6 +227,9 @@ MeasureResult run_measure(const MeasureOptions& o, const Control& control) {
   std::vector<MeasuredRegion> boxes;
   for (const NamedBox& named : o.regions)
     boxes.push_back({named.name, find_points(o, named.box, surfaces, origins, control), {}});
+  if (o.views) {
+    for (MeasuredRegion& view : views_of(o, scene, geometry, surfaces)) boxes.push_back(std::move(view));
+  }
   study::LeakParams params = o.params;
   params.path.seed = o.seed;
   result.truth = study::trace_truth(tracer, result.points, params, control);
@@ -303,6 +325,7 @@ void add_measure_command(Command app, Context& context) {
               "NAME=x0,y0,z0,x1,y1,z1: also tell the errors at as many points within [m]; may be repeated. "
               "Those inside and outside of rooms are told anyway")
       .repeatable();
+  command.flag("--views", o.views, "Also tell the errors at as many points that each camera sees");
   command.flag("--open", o.open,
                "In the open instead of on surfaces, facing anywhere: where things that move would be");
   add_force_option(command, o.force);

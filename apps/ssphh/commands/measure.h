@@ -26,6 +26,7 @@ struct MeasureOptions {
   std::vector<std::string> methods;  ///< each as "NAME" or "NAME,PARAMETER=VALUE,..."
   std::optional<scene::Bounds> box;  ///< all points within [m]
   std::vector<NamedBox> regions;     ///< whose errors, at as many points, are told as well
+  bool views = false;                ///< the error at as many points that each camera sees is told as well
   float clearance = 0.05f;           ///< only points with so much free space before them [m]
   bool open = false;                 ///< points in the open instead of on surfaces, facing anywhere
   bool force = false;                ///< go on, with a warning, where probes are of another scene or pose

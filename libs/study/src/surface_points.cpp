@@ -168,9 +168,11 @@ std::vector<rays::SurfacePoint> cross(const rays::PosedWorld& surfaces, const sc
     line.resize(kept);
   }
   std::ranges::stable_sort(crossings, [](const Crossing& a, const Crossing& b) { return a.line < b.line; });
+  // What lies in a side of the box lies in it, however the crossing was rounded.
+  const scene::Bounds grown{part.min - step, part.max + step};
   std::vector<rays::SurfacePoint> points;
   for (const Crossing& crossing : crossings)
-    if (within(part, crossing.point.position)) points.push_back(crossing.point);
+    if (within(grown, crossing.point.position)) points.push_back(crossing.point);
   return points;
 }
 
@@ -208,6 +210,35 @@ std::vector<rays::SurfacePoint> reachable_points(const rays::TransportSource& so
       if (reached[i]) points.push_back(candidates[i]);
     }
     progress.advance(points.size() - before);
+  }
+  return points;
+}
+
+std::vector<rays::SurfacePoint> points_in_view(const rays::TransportSource& source,
+                                               const scene::CameraPose& camera, float aspect, float time,
+                                               int count, std::uint64_t seed) {
+  if (count < 1) throw Error("surface points", fmt::format("{} is no number of points", count));
+  const rays::PosedWorld surfaces(source, time);
+  const vec3 eye(camera.world[3]), right = glm::normalize(vec3(camera.world[0]));
+  const vec3 up = glm::normalize(vec3(camera.world[1])), forward = -glm::normalize(vec3(camera.world[2]));
+  const bool parallel = camera.camera.orthographic;
+  const float half = parallel ? camera.camera.yheight / 2 : std::tan(camera.camera.yfov / 2);
+  std::vector<rays::RayQuery> rays;
+  for (int i = 0; i < 8 * count; ++i) {
+    Pcg32 random(seed + 2, static_cast<std::uint64_t>(i));
+    const vec2 at = half * vec2(aspect, 1) * (2.0f * random.uniform2() - 1.0f);
+    const vec3 aside = at.x * right + at.y * up;
+    rays.push_back(parallel ? rays::RayQuery{eye + aside, forward}
+                            : rays::RayQuery{eye, glm::normalize(forward + aside)});
+  }
+  std::vector<rays::RayHit> hits(rays.size());
+  std::vector<std::uint8_t> moves(rays.size());
+  surfaces.intersect(rays, hits, moves);
+  std::vector<rays::SurfacePoint> points;
+  for (std::size_t i = 0; i < rays.size() && points.size() < static_cast<std::size_t>(count); ++i) {
+    if (!hits[i].escaped())
+      points.push_back(
+          {rays[i].origin + hits[i].distance * rays[i].direction, hits[i].normal, moves[i] != 0});
   }
   return points;
 }

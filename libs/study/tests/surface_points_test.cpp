@@ -165,6 +165,63 @@ TEST(SurfacePoints, InTheOpenStandAfterATwentiethOfTheWayAndAsMuchBeforeItsEnd) 
   EXPECT_NEAR(direction.y, 2.0f / 3, 5 * std::sqrt(1.0f / 18 / 4000)) << "cosine-distributed";
 }
 
+TEST(SurfacePoints, LieOnWallsThatAreTheScenesBoundsHoweverTheyAreRounded) {
+  const vec3 size(3.3f, 2.1f, 4.7f), low(0.1f, -0.7f, 1.3f);
+  const test::TriangleSource source(boxes({{low, low + size}}));
+  const std::vector<vec3> eyes = {low + 0.5f * size};
+  constexpr int count = 4000;
+  for (const bool boxed : {false, true}) {
+    SurfacePointParams params{count, 4};
+    if (boxed) params.box = scene::Bounds{low, low + size};
+    double counts[6] = {};
+    for (const rays::SurfacePoint& p : reachable_points(source, eyes, 0, params)) {
+      const vec3 n = glm::abs(p.normal);
+      const int axis = n.x > 0.5f ? 0 : n.y > 0.5f ? 1 : 2;
+      ++counts[2 * axis + (p.normal[axis] < 0)];
+    }
+    const double areas[] = {double(size.y * size.z), double(size.x * size.z), double(size.x * size.y)};
+    const double total = 2 * (areas[0] + areas[1] + areas[2]);
+    double chi2 = 0;
+    for (int i = 0; i < 6; ++i) {
+      const double expected = count * areas[i / 2] / total;
+      chi2 += (counts[i] - expected) * (counts[i] - expected) / expected;
+    }
+    EXPECT_LT(chi2, 2 * 25.7) << "five degrees of freedom: passed once in 10⁴; twice for points of one line";
+  }
+}
+
+TEST(SurfacePoints, InAViewAreWhatTheCameraSeesAsMuchAsItSeesOfIt) {
+  // From the room's middle toward +x, a quarter of the view's width ends at the pillar's edge
+  const test::TriangleSource source(boxes(room));
+  scene::CameraPose camera{mat4(1), {}};
+  camera.world[0] = vec4(0, 0, 1, 0), camera.world[2] = vec4(-1, 0, 0, 0),
+  camera.world[3] = vec4(0.5f, 1, 1.25f, 1);
+  camera.camera.yfov = 2 * std::atan(0.5f);
+  constexpr int count = 4000;
+  const auto points = points_in_view(source, camera, 1, 0, count, 3);
+  ASSERT_EQ(points.size(), static_cast<std::size_t>(count));
+  double pillar = 0;
+  for (const rays::SurfacePoint& p : points) {
+    EXPECT_LT(glm::dot(p.normal, p.position - vec3(camera.world[3])), 0);
+    const vec3 way = p.position - vec3(camera.world[3]);
+    EXPECT_LE(std::max(std::abs(way.y), std::abs(way.z)), 0.5001f * way.x);
+    pillar += std::abs(p.position.x - 2) < 1e-3f;
+  }
+  // Its face is 0.5 m wide at 1.5 m, and fills the view's height but for what is above 0.75 m: a third of it.
+  EXPECT_NEAR(pillar / count, 1.0 / 3, 4 * std::sqrt(2.0 / 9 / count));
+  // Parallel: 2 m high and wide
+  camera.camera.orthographic = true;
+  camera.camera.yheight = 1.6f;
+  pillar = 0;
+  for (const rays::SurfacePoint& p : points_in_view(source, camera, 1, 0, count, 3))
+    pillar += std::abs(p.position.x - 2) < 1e-3f;
+  EXPECT_NEAR(pillar / count, 0.5 / 1.6, 4 * std::sqrt(0.22 / count));
+  // Away from all there is
+  camera.world[3].x = 50;
+  EXPECT_TRUE(points_in_view(source, camera, 1, 0, 10).empty());
+  EXPECT_THROW(points_in_view(source, camera, 1, 0, 0), Error);
+}
+
 TEST(SurfacePoints, InABoxAreAllThereAndUniformByArea) {
   // A quarter of the room's floor, a piece of a wall and one side of the pillar; on a plain of 200 m, of
   // which hardly any point would fall into it by chance.
@@ -180,7 +237,7 @@ TEST(SurfacePoints, InABoxAreAllThereAndUniformByArea) {
   double total = 0, counts[4] = {};
   for (const double a : areas) total += a;
   for (const rays::SurfacePoint& p : points) {
-    EXPECT_TRUE(within(box, p.position));
+    EXPECT_TRUE(within({box.min - 2e-3f, box.max + 2e-3f}, p.position)) << "within rounding of 200 m";
     const bool pillar = p.position.x > 1.999f && p.position.y > 0.005f;
     ++counts[pillar ? (p.normal.x < -0.5f ? 2 : 3) : p.normal.y > 0.5f ? 0 : 1];
   }

@@ -37,6 +37,13 @@ std::vector<rays::SurfacePoint> reachable_points(const rays::TransportSource& so
                                                  const SurfacePointParams& params = {},
                                                  const Control& control = {});
 
+/// What a camera sees at random places of its picture: what a viewer judges. `aspect` is the picture's width
+/// over its height. Fewer points, or none, where most of the picture shows no surface. Throws Error for a
+/// count under 1.
+std::vector<rays::SurfacePoint> points_in_view(const rays::TransportSource& source,
+                                               const scene::CameraPose& camera, float aspect, float time,
+                                               int count, std::uint64_t seed = 0);
+
 /// 1 for points that see one of the 16 places nearest to them that are before their surface, 0 for those that
 /// see none.
 std::vector<std::uint8_t> sees_any(const rays::TransportSource& source,
