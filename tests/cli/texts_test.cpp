@@ -183,9 +183,11 @@ TEST(Texts, OfBakes) {
       text_here(transport),
       MatchesRegex(pattern(fmt::format(
           "{}\n{} surfels of 0.5 m, {} links; {} iterations, a bounce keeps at most {:.3g} of the light; "
-          "@ s\nweights fitted at {} points in @ s\nVIZ from links @ s\n{} rays",
+          "@ s\nlight kept at {} surface points in @ s\nweights fitted at {} points in @ s\nVIZ from links @ "
+          "s\n{} rays",
           head, print(solved["surfels"]), print(solved["links"]), print(solved["iterations"]),
-          number(solved, "contraction"), print(solved["fitted"]), print(solved["rays"])))));
+          number(solved, "contraction"), print(solved["records"]), print(solved["fitted"]),
+          print(solved["rays"])))));
 }
 
 TEST(Texts, OfPictures) {

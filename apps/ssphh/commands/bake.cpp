@@ -75,8 +75,10 @@ void add_transport_options(const Command& surfels, BakeOptions& options, BakeUse
                   "Rays by which each surfel finds what lights it: fewer are faster and noisier")
           .range(4, 1 << 16)};
   surfels
-      .option("--records", options.transport.records.points,
-              "Also keep the light of so many surface points, for --weights surface; 8000 are much")
+      .option("--records", options.records,
+              "Also keep the light of so many surface points, spread evenly, and of as many again where "
+              "those are "
+              "not seen, for --weights surface; 0: none. Default: 8192 with --operator surfel, else none")
       .range(0, 1 << 16);
   surfels.flag("--fit", options.transport.fit,
                "Also fit lookup weights at the surfels and store them with the probes");

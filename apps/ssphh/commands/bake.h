@@ -42,11 +42,13 @@ struct BakeOptions {
   /// GEN and VIZ by paths. Its seed, keep_light and viz are not read, nor are the neighbours and the
   /// threshold of VIZ: they follow from the other options.
   bake::BakeParams params;
-  /// Of transport; its operator and viz are not read either, nor the same of its VIZ.
+  /// Of transport; its operator, viz and number of records are not read either, nor the same of its VIZ.
   bake::TransportBakeParams transport = unhurried_transport();
   std::optional<int> neighbors;  ///< most edges of a probe, strongest first; -1: all
-  float threshold = 0;           ///< only edges with P above it, 0..1
-  bool resume = true;            ///< go on where OUTPUT.checkpoint of an interrupted bake ends
+  /// Surface points that keep light; none given: usual_records with operator surfel, else 0.
+  std::optional<int> records;
+  float threshold = 0;  ///< only edges with P above it, 0..1
+  bool resume = true;   ///< go on where OUTPUT.checkpoint of an interrupted bake ends
   /// Names of options that were given and stand only with path tracing, transport or VIZ: they are refused
   /// where these have nothing to do.
   std::vector<std::string> of_paths, of_transport, of_viz;

@@ -45,6 +45,8 @@ probes::VizMethod resolve(BakeOptions& o, std::size_t probes) {
   params.viz = o.viz == VizMethod::path;
   params.viz_params.neighbors = o.neighbors.value_or(-1);
   params.viz_params.threshold = o.threshold;
+  const bool surfel = o.op == probes::LightOperator::surfel;
+  o.transport.records.points = o.records.value_or(surfel ? transport::usual_records : 0);
   o.transport.viz = o.viz == VizMethod::links;
   o.transport.viz_params.neighbors = o.neighbors.value_or(default_link_neighbors);
   o.transport.viz_params.threshold = o.threshold;

@@ -30,7 +30,7 @@ struct RelightOptions {
   int points = 256;      ///< surface points of the truth, over 0
   int truth_spp = 1024;  ///< paths per point
   int max_depth = 25;    ///< scattering events of a path
-  probes::WeightMethod weights = probes::WeightMethod::mls;  ///< of lookups for truth and pictures
+  probes::WeightMethod weights = probes::WeightMethod::surface;  ///< of lookups for truth and pictures
   int fit_frames = 3;  ///< frames that `fitted` weights are fitted to, evenly spaced over the run, over 0
 
   std::string output;             ///< folder for pictures and error.svg; empty: neither is written

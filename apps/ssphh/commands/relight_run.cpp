@@ -92,7 +92,7 @@ class Relighting {
     transport::RelightParams params = o_.params;
     if (o_.weights == probes::WeightMethod::surface &&
         (o_.truth > 0 || !o_.output.empty() || !o_.save.empty()))
-      params.records.points = 8192;
+      params.records.points = transport::usual_records;
     transport::RelightSession session(source_, std::move(places), params, animation_.frame(0).time, control_);
     run_.build_ms = 1e3 * watch.seconds();
     warn_about_network(session);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include <ssphh/methods/table.h>
@@ -5,6 +6,7 @@
 #include <ssphh/probes/lookup.h>
 #include <ssphh/rays/posed_world.h>
 #include <ssphh/transport/fitted_weights.h>
+#include <ssphh/transport/gather_light.h>
 #include <ssphh/transport/session_sets.h>
 
 #include "kept_weights.h"
@@ -26,14 +28,32 @@ std::vector<transport::ProbePlace> find_places(const MethodScene& scene, const M
   return transport::places_of(place::place_probes(scene.source, params, control).probes);
 }
 
+/// What lookups blend or ask beside weights of probes.
+constexpr const char* gather = "gather";
+constexpr int gather_rays = 512;
+
+/// Of what is not gathered.
+probes::WeightMethod weight_method(const MethodParameters& p) {
+  return p.choice("weights") == gather ? probes::WeightMethod::mls
+                                       : p.choice<probes::WeightMethod>("weights");
+}
+
+MethodParameter weights_parameter() {
+  std::vector<std::string> words = names_of<probes::WeightMethod>();
+  const auto surface = std::ranges::find(words, name_of(probes::WeightMethod::surface)) - words.begin();
+  words.emplace_back(gather);
+  return word_parameter("weights", std::move(words),
+                        "of the probes at a point, or records of surfaces, or gather: rays at every lookup",
+                        static_cast<std::size_t>(surface));
+}
+
 transport::RelightParams relight_params(const MethodParameters& p) {
   transport::RelightParams params;
   params.degree = p.integer("degree");
   params.transport.surfel_size = static_cast<float>(p.number("surfel_size"));
   params.transport.directions = p.integer("directions");
   params.warm_start = p.flag("warm_start");
-  params.records.points =
-      p.choice<probes::WeightMethod>("weights") == probes::WeightMethod::surface ? p.integer("records") : 0;
+  params.records.points = weight_method(p) == probes::WeightMethod::surface ? p.integer("records") : 0;
   return params;
 }
 
@@ -43,9 +63,10 @@ class Ssphh final : public Method {
   Ssphh(const MethodScene& scene, const MethodParameters& p, const Control& control)
       : source_(scene.source),
         session_(scene.source, find_places(scene, p, control), relight_params(p), 0, control),
-        surfaces_(std::in_place, scene.source, 0.0f) {
+        surfaces_(std::in_place, scene.source, 0.0f),
+        gathers_(p.choice("weights") == gather) {
     probes::WeightParams weights;
-    weights.method = p.choice<probes::WeightMethod>("weights");
+    weights.method = weight_method(p);
     std::optional<probes::FittedPoints> fitted;
     if (weights.method == probes::WeightMethod::fitted)
       fitted = fit(p.integer("fit_poses"), p.integer("fit_points"), control);
@@ -65,11 +86,16 @@ class Ssphh final : public Method {
   void update(const scene::LightingState& state, const Control& control) override {
     session_.update(state, control);
     surfaces_.emplace(source_, state.time);
-    lookup_.emplace(transport::lookup_set(session_), std::make_unique<KeptWeights>(*weights_),
-                    probes::LookupParams{}, records_);
+    lookup_ = std::make_shared<const probes::IrradianceLookup>(transport::lookup_set(session_),
+                                                               std::make_unique<KeptWeights>(*weights_),
+                                                               probes::LookupParams{}, records_);
+    if (gathers_) gathered_.emplace(session_, gather_rays, lookup_);
   }
 
-  const rays::IndirectLight& light() const override { return *lookup_; }
+  const rays::IndirectLight& light() const override {
+    if (gathered_) return *gathered_;
+    return *lookup_;
+  }
 
   MethodMemory memory() const override {
     // Of each probe radiance for glossy lookups, and irradiance without negative values
@@ -114,7 +140,9 @@ class Ssphh final : public Method {
   std::size_t fitted_points_ = 0;
   std::unique_ptr<probes::LookupWeights> weights_;
   std::shared_ptr<const probes::SurfaceInterpolation> records_;  ///< places of the session's; or null
-  std::optional<probes::IrradianceLookup> lookup_;
+  std::shared_ptr<const probes::IrradianceLookup> lookup_;
+  bool gathers_ = false;
+  std::optional<transport::GatherLight> gathered_;
 };
 
 }  // namespace
@@ -126,9 +154,9 @@ MethodEntry entry() {
            {"spacing", 0, 0, 1e4, "between probes that are placed [m]; 0: some 100 to 200 probes"},
            {"probes", 0, 0, 4096, "so many are placed; 0: as the spacing gives", true},
            {"degree", 4, 0, 10, "highest band kept of a probe's light", true},
-           choice_parameter("weights", probes::WeightMethod::fitted,
-                            "of the probes at a point, or records of surfaces"),
-           {"records", 8192, 1, 65536, "at most so many points keep light; with weights surface", true},
+           weights_parameter(),
+           {"records", transport::usual_records, 1, 65536,
+            "points that keep light, and as many again where those are not seen; with weights surface", true},
            {"fit_poses", 3, 1, 64, "of the doors, to which weights are fitted", true},
            {"fit_points", 0, 0, 262144, "at most so many have weights; 0: one for each surfel", true},
            {"surfel_size", 0, 0, 1e3, "edge of a surfel [m]; 0: a twentieth of the scene's radius"},

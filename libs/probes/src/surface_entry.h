@@ -44,14 +44,15 @@ inline int surface_square(const vec3& place, int axis) {
   return axis == 0 ? at(1) + 8 * at(2) : axis == 1 ? at(0) + 8 * at(2) : at(0) + 8 * at(1);
 }
 
-/// `place`: the point in cells' sides from the cell's corner, −4..5; `squares`: a bit for each that sees it.
-inline uvec4 pack_surface_entry(std::uint32_t point, const vec3& place, const CoarseNormal& normal,
+/// `place`: the point in cells' sides from the cell's corner, −6..7; `squares`: a bit for each that sees it;
+/// `cover`: of surface_cover, 0..7.
+inline uvec4 pack_surface_entry(std::uint32_t point, int cover, const vec3& place, const CoarseNormal& normal,
                                 std::uint64_t squares) {
   const auto step = [](float x) {
-    return static_cast<std::uint32_t>(std::lround(std::clamp((x + 4) / 9, 0.0f, 1.0f) * 1023));
+    return static_cast<std::uint32_t>(std::lround(std::clamp((x + 6) / 13, 0.0f, 1.0f) * 1023));
   };
   const auto nu = static_cast<std::uint32_t>(normal.u + 32), nv = static_cast<std::uint32_t>(normal.v + 32);
-  return {point << 10 | (nu & 31u) << 5 | (nv & 31u),
+  return {static_cast<std::uint32_t>(cover) << 29 | point << 10 | (nu & 31u) << 5 | (nv & 31u),
           step(place.x) | step(place.y) << 10 | step(place.z) << 20 | (nu >> 5) << 30 | (nv >> 5) << 31,
           static_cast<std::uint32_t>(squares), static_cast<std::uint32_t>(squares >> 32)};
 }

@@ -57,6 +57,9 @@ class Preparation {
         positions_(positions_of(out.points)),
         near_(positions_) {
     place_grid();
+    cover_.resize(out_.points.size());
+    parallel_for(cover_.size(), 64,
+                 [&](std::size_t i) { cover_[i] = surface_cover(out_.points[i], out_.spacing, sees_); });
     in_cells_ = triangle_cells(triangles_, out_.origin, out_.cell_size, out_.cells);
   }
 
@@ -85,7 +88,7 @@ class Preparation {
     constexpr float most_cells = 1 << 21;
     scene::Bounds bounds;
     for (const StillTriangle& t : triangles_) bounds.add(t.a), bounds.add(t.b), bounds.add(t.c);
-    out_.cell_size = out_.spacing;
+    out_.cell_size = 2 * out_.spacing / 3;  // so that a lookup's reach, four spacings, is six cells
     // Surfaces of a wall in a cell's plane must not fall into either of two
     const vec3 extent = bounds.max - bounds.min + 0.5f * out_.spacing;
     out_.origin = bounds.min - 0.25f * out_.spacing;
@@ -138,8 +141,8 @@ class Preparation {
       const CoarseNormal normal = CoarseNormal::of(point.normal);
       const std::uint64_t squares = squares_of(candidate, normal.axis(), corner, work);
       if (squares == 0) continue;
-      work.list.push_back(
-          pack_surface_entry(candidate.point, (point.position - corner) / out_.cell_size, normal, squares));
+      work.list.push_back(pack_surface_entry(candidate.point, cover_[candidate.point],
+                                             (point.position - corner) / out_.cell_size, normal, squares));
     }
     return work.list;
   }
@@ -199,9 +202,8 @@ class Preparation {
 
   bool sees(const Sample& sample, std::uint32_t p) const {
     const rays::SurfacePoint& point = out_.points[p];
-    const float lift = 0.02f * out_.spacing;
     const vec3 n = side(sample, p) ? -sample.normal : sample.normal;
-    return sees_(sample.position + lift * n, point.position + lift * point.normal);
+    return see_along_surface({sample.position, n}, point, out_.spacing, sees_);
   }
 
   /// Asks a few samples first, then all where those disagree.
@@ -252,6 +254,7 @@ class Preparation {
   std::vector<StillTriangle> triangles_;
   const SeesProbe& sees_;
   std::vector<vec3> positions_;
+  std::vector<int> cover_;
   geometry::NearestPoints near_;
   TriangleCells in_cells_;
 };
@@ -265,7 +268,7 @@ SurfaceLists prepare_surfaces(const scene::Scene& scene, float time, std::vector
   if (out.points.size() > SurfaceLists::most_points)
     throw Error("surface points", fmt::format("there are {}, at most {} can be drawn", out.points.size(),
                                               SurfaceLists::most_points));
-  out.spacing = median_spacing(positions_of(out.points));
+  out.spacing = surface_spacing(out.points);
   std::vector<StillTriangle> triangles = still_triangles(scene, time);
   if (!std::isfinite(out.spacing) || triangles.empty()) return out;
   Preparation(out, std::move(triangles), sees).run(control);

@@ -62,16 +62,17 @@ TEST(FittedEntry, AxisIsThatOfTheLargestComponent) {
 TEST(FittedEntry, HoldsAllOfAPointInItsBits) {
   const std::uint64_t squares = 0x123456789abcdef0ull;
   for (const CoarseNormal& normal : {CoarseNormal{-31, 0}, {31, -5}, {-7, 30}, {0, -1}}) {
-    const uvec4 e = pack_surface_entry(0x3abcde, {-4, 0.5f, 5}, normal, squares);
-    EXPECT_EQ(e.x >> 10, 0x3abcdeu);
+    const uvec4 e = pack_surface_entry(0x5bcde, 5, {-6, 0.5f, 7}, normal, squares);
+    EXPECT_EQ(e.x >> 10 & 0x7ffffu, 0x5bcdeu);
+    EXPECT_EQ(e.x >> 29, 5u);
     EXPECT_EQ(static_cast<int>((e.x >> 5 & 31u) | (e.y >> 30 & 1u) << 5) - 32, normal.u);
     EXPECT_EQ(static_cast<int>((e.x & 31u) | (e.y >> 31) << 5) - 32, normal.v);
     EXPECT_EQ(e.y & 1023u, 0u);
-    EXPECT_NEAR(static_cast<double>(e.y >> 10 & 1023u) * 9 / 1023 - 4, 0.5, 4.51 / 1023);
+    EXPECT_NEAR(static_cast<double>(e.y >> 10 & 1023u) * 13 / 1023 - 6, 0.5, 6.51 / 1023);
     EXPECT_EQ(e.y >> 20 & 1023u, 1023u);
     EXPECT_EQ((static_cast<std::uint64_t>(e.w) << 32 | e.z), squares);
   }
-  const uvec4 far = pack_surface_entry(0, {-9, 2, 99}, {}, 0);
+  const uvec4 far = pack_surface_entry(0, 0, {-9, 2, 99}, {}, 0);
   EXPECT_EQ(far.y & 1023u, 0u) << "as near as there is room for";
   EXPECT_EQ(far.y >> 20 & 1023u, 1023u);
 }

@@ -67,7 +67,7 @@ std::vector<vec3> lighting(const SurfaceLists& surfaces, const vec3& x) {
   std::vector<vec3> places;
   for (unsigned i = 1; i <= range.y; ++i) {
     const uvec4 entry = surfaces.lists[range.x + i];
-    const rays::SurfacePoint& point = surfaces.points[entry.x >> 10];
+    const rays::SurfacePoint& point = surfaces.points[entry.x >> 10 & 0x7ffffu];
     if (point.normal.y > 0 && glm::distance(point.position, x) < 0.8f &&
         ((square < 32 ? entry.z : entry.w) >> (square & 31) & 1u))
       places.push_back(point.position);
@@ -111,7 +111,7 @@ std::string row_text(const SurfaceLists& surfaces, int y, int z) {
     }
     for (unsigned i = 1; i <= range.y; ++i) {
       const uvec4 e = surfaces.lists[range.x + i];
-      indices += weight * (e.x >> 10) * (1 + 0.01 * i);
+      indices += weight * (e.x >> 10 & 0x7ffffu) * (1 + 0.01 * i);
       squares += weight * (std::popcount(e.z) + 1.3 * std::popcount(e.w) + 1e-9 * e.z);
       place += weight * glm::dvec3(e.y & 1023u, e.y >> 10 & 1023u, e.y >> 20 & 1023u);
       normal += weight * glm::dvec3(e.x & 31u, e.x >> 5 & 31u, e.y >> 30);

@@ -15,14 +15,16 @@ struct FittedPoint {
   vec3 place;  // in cells' sides from the cell's corner
   vec3 normal;
   bool seen;
+  int cover;  // probes::surface_cover
 };
 
 // `squares`: the pixel's square across each axis.
 FittedPoint fitted_point(int entry, ivec3 squares) {
   uvec4 e = texelFetch(fitted_lists, fitted_place(entry), 0);
   FittedPoint p;
-  p.index = int(e.x >> 10);
-  p.place = vec3(e.y & 1023u, e.y >> 10 & 1023u, e.y >> 20 & 1023u) * (9.0 / 1023) - 4;
+  p.index = int(e.x >> 10 & 0x7ffffu);
+  p.cover = int(e.x >> 29);
+  p.place = vec3(e.y & 1023u, e.y >> 10 & 1023u, e.y >> 20 & 1023u) * (13.0 / 1023) - 6;
   int u = int(e.x >> 5 & 31u | (e.y >> 30 & 1u) << 5) - 32, v = int(e.x & 31u | (e.y >> 31) << 5) - 32;
   int z = 31 - abs(u) - abs(v);
   ivec3 d = z >= 0 ? ivec3(u, v, z) : ivec3((31 - abs(v)) * (u >= 0 ? 1 : -1), (31 - abs(u)) * (v >= 0 ? 1 : -1), z);
@@ -90,7 +92,9 @@ bool fitted_irradiance(Surface s, out vec3 irradiance) {
     left = left.x != 0 ? uvec2(left.x & (left.x - 1), left.y) : uvec2(0, left.y & (left.y - 1));
     FittedPoint p = fitted_point(first + 1 + i, squares);
     vec3 d = (p.place - f) * fitted_origin.w;
-    float t = max(1 - dot(d, d) / (reach * reach), 1e-6), weight = t * t * dot(p.normal, n);
+    float d2 = dot(d, d), t = max(1 - d2 / (reach * reach), 1e-6);
+    float open = fitted_spacing / float(1 << p.cover), q = d2 / (open * open);
+    float weight = t * t * dot(p.normal, n) * (p.cover == 0 ? 1 : 1 / (1 + q * q));
     vec3 place = vec3(1, (d * basis).xy / fitted_spacing);
     gram += weight * outerProduct(place, place);
     light += outerProduct(weight * fitted_irradiance_of(p.index, y), place);

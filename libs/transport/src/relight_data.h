@@ -96,9 +96,11 @@ struct RelightSession::Data {
       bounce = std::make_unique<BounceOperator>(network, source, params.degree, params.bounce);
     }
     if (params.poses != 0) network.prepare_poses(params.poses, control);
-    keep_records(control);
     emitters.resize(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) emitters[i] = {places[i].position, places[i].radius, {}};
+    keep_records(control);
+    direct_light.reset();  // all is dark before the first update
+    direct.clear();
   }
 
   const rays::TransportSource& source;
@@ -131,8 +133,20 @@ struct RelightSession::Data {
     if (params.records.points == 0) return;
     if (params.records.points < 0)
       throw Error("surface records", fmt::format("{} is no number of points", params.records.points));
+    update_direct({});
     gather = std::make_unique<SurfaceGather>(network, record_points(network, params.records.points),
-                                             params.records.rays, control);
+                                             params.records.rays, direct_by_group(), control);
+  }
+
+  /// Direct irradiance at each surfel per group, unscaled.
+  std::vector<std::vector<Irradiance4>> direct_by_group() const {
+    std::vector<std::vector<Irradiance4>> result(state.group_scales.size());
+    for (std::size_t g = 0; g < result.size(); ++g) {
+      std::vector<vec3> scales(result.size(), vec3(0));
+      scales[g] = vec3(1);
+      field.sum(scales, {}, result[g]);
+    }
+    return result;
   }
 
   void check_probe(int probe) const {

@@ -74,14 +74,7 @@ sh::RadianceSh RelightSession::emitted(int probe) const {
 }
 
 std::vector<std::vector<Irradiance4>> RelightSession::direct_by_group() const {
-  const Data& d = *data_;
-  std::vector<std::vector<Irradiance4>> result(d.state.group_scales.size());
-  for (std::size_t g = 0; g < result.size(); ++g) {
-    std::vector<vec3> scales(result.size(), vec3(0));
-    scales[g] = vec3(1);
-    d.field.sum(scales, {}, result[g]);
-  }
-  return result;
+  return data_->direct_by_group();
 }
 
 std::vector<std::vector<sh::RadianceSh>> RelightSession::reflected_by_group(const Control& control,

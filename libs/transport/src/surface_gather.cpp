@@ -1,19 +1,22 @@
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/probes/surface_interpolation.h>
 #include <ssphh/transport/fitted_weights.h>
 #include <ssphh/transport/surface_gather.h>
 
-#include "network_data.h"
+#include "gather_guide.h"
 
 namespace ssphh::transport {
 namespace {
 
 /// Slopes of rays that graze are taken as of this cosine: the few that do would rule the derivative's noise.
 constexpr float least_slope_cosine = 0.1f;
+constexpr std::size_t most_records = std::size_t{1} << 16;
 
 vec2 slope_of(const rays::RayQuery& ray, const vec3& normal) {
   const vec3 local = Frame::around(normal).to_local(ray.direction);
@@ -23,86 +26,106 @@ vec2 slope_of(const rays::RayQuery& ray, const vec3& normal) {
 }  // namespace
 
 SurfaceGather::SurfaceGather(const TransportNetwork& network, std::vector<rays::SurfacePoint> points,
-                             int rays, const Control& control)
-    : network_(&network), points_(std::move(points)), rays_(static_cast<std::uint32_t>(rays)) {
+                             int rays, std::span<const std::vector<Irradiance4>> direct,
+                             const Control& control)
+    : network_(&network), points_(std::move(points)) {
   if (rays < 4 || rays > 1 << 16) throw Error("gather rays", fmt::format("{} is outside 4..65536", rays));
-  constexpr std::size_t most_points = std::size_t{1} << 16;
-  if (points_.size() > most_points)
+  if (points_.size() > most_records)
     throw Error("surface records",
-                fmt::format("{} points, at most {} can be kept", points_.size(), most_points));
+                fmt::format("{} points, at most {} can be kept", points_.size(), most_records));
+  for (const std::vector<Irradiance4>& group : direct)
+    require(group.size() == network.surfel_count(), "surface gather",
+            "there is not one irradiance for each surfel");
+  Rows rows(points_.size());
+  trace(static_cast<std::uint32_t>(rays), direct, rows, control);
   first_.push_back(0);
   first_moving_.push_back(0);
-  ProgressStage progress(control, "gathering at surfaces", points_.size(), "points");
-  constexpr std::size_t block = 1024;
-  for (std::size_t begin = 0; begin < points_.size(); begin += block) {
-    control.check();
-    const std::size_t end = std::min(begin + block, points_.size());
-    trace(begin, end, control);
-    progress.advance(end - begin);
+  for (Row& row : rows) {
+    links_.insert(links_.end(), row.links.begin(), row.links.end());
+    moving_.insert(moving_.end(), row.moving.begin(), row.moving.end());
+    first_.push_back(links_.size());
+    first_moving_.push_back(moving_.size());
+    row = {};
   }
   update_pose();
 }
 
-void SurfaceGather::trace(std::size_t begin, std::size_t end, const Control& control) {
+void SurfaceGather::trace(std::uint32_t rays, std::span<const std::vector<Irradiance4>> direct, Rows& rows,
+                          const Control& control) {
   const TransportNetwork::Data& d = *network_->data_;
+  const HemisphereParts parts(rays);
+  const std::vector<float> flux = surfel_flux(d, direct);
+  const std::vector<std::uint32_t> order = spatial_order(points_);
+  constexpr std::size_t together = 64;  // are guided by the same list of what is bright
+  ProgressStage progress(control, "gathering at surfaces", points_.size(), "points");
+  parallel_for((order.size() + together - 1) / together, 1,
+               [&](std::size_t group) {
+                 const std::size_t begin = group * together, end = std::min(begin + together, order.size());
+                 const std::span which(order.data() + begin, end - begin);
+                 std::vector<rays::SurfacePoint> here;
+                 for (const std::uint32_t p : which) here.push_back(points_[p]);
+                 const std::vector<BrightPoint> bright = bright_points(d, flux, here);
+                 for (const std::uint32_t p : which) rows[p] = trace_point(p, parts, rays, bright);
+                 progress.advance(end - begin);
+               },
+               control);
+}
+
+SurfaceGather::Row SurfaceGather::trace_point(std::uint32_t p, const HemisphereParts& parts,
+                                              std::uint32_t count, std::span<const BrightPoint> bright) {
+  const TransportNetwork::Data& d = *network_->data_;
+  const rays::SurfacePoint& point = points_[p];
+  const Frame frame = Frame::around(point.normal);
+  const vec3 origin = point.position + link_lift * d.surfels.size() * point.normal;
   std::vector<rays::RayQuery> rays;
-  for (std::size_t p = begin; p < end; ++p) {
-    for (std::uint32_t r = 0; r < rays_; ++r)
-      rays.push_back(fan_ray(points_[p], link_lift * d.surfels.size(), r, p));
+  std::vector<float> weights;
+  const std::vector<std::uint32_t> of_parts = rays_of_parts(parts, count, point, bright);
+  for (std::size_t part = 0; part < of_parts.size(); ++part) {
+    for (std::uint32_t i = 0; i < of_parts[part]; ++i) {
+      rays.push_back({origin, frame.to_world(parts.direction(part, i, p))});
+      weights.push_back(1 / static_cast<float>(parts.count() * of_parts[part]));
+    }
   }
   std::vector<rays::RayHit> hits(rays.size());
   d.source.intersect(0, rays, hits);
-  std::vector<std::int32_t> surfel(rays.size(), no_surfel);
-  parallel_for(
-      rays.size(), 256,
-      [&](std::size_t i) {
-        rays[i].t_max = hits[i].distance;
-        if (hits[i].escaped()) return;
-        surfel[i] = d.find_static({rays[i].origin + hits[i].distance * rays[i].direction, hits[i].normal});
-      },
-      control);
 
-  const float weight = 1 / static_cast<float>(rays_);
-  std::vector<Link> row;
-  for (std::size_t p = begin; p < end; ++p) {
-    row.clear();
-    const std::size_t first_ray = (p - begin) * rays_;
-    // Against their mean, slopes find nothing where all around is as bright, however the rays lie.
-    vec2 mean(0);
-    for (std::size_t i = first_ray; i < first_ray + rays_; ++i)
-      mean += weight * slope_of(rays[i], points_[p].normal);
-    for (std::size_t i = first_ray; i < first_ray + rays_; ++i) {
-      const Link link{static_cast<std::uint32_t>(std::max(surfel[i], 0)), weight,
-                      weight * (slope_of(rays[i], points_[p].normal) - mean)};
-      if (d.near_parts(rays[i], hits[i].normal, surfel[i])) {
-        moving_.push_back({rays[i], hits[i].normal, surfel[i], link, static_cast<std::uint32_t>(p)});
-      } else if (surfel[i] != no_surfel) {
-        row.push_back(link);
-      }
+  // Against their mean, slopes find nothing where all around is as bright, however the rays lie.
+  vec2 mean(0);
+  for (std::size_t i = 0; i < rays.size(); ++i) mean += weights[i] * slope_of(rays[i], point.normal);
+  Row row;
+  std::vector<Link> all;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    rays[i].t_max = hits[i].distance;
+    std::int32_t surfel = no_surfel;
+    if (!hits[i].escaped())
+      surfel = d.find_static({rays[i].origin + hits[i].distance * rays[i].direction, hits[i].normal});
+    const Link link{static_cast<std::uint32_t>(std::max(surfel, 0)), weights[i],
+                    weights[i] * (slope_of(rays[i], point.normal) - mean)};
+    if (d.near_parts(rays[i], hits[i].normal, surfel)) {
+      row.moving.push_back({rays[i], hits[i].normal, surfel, link, weights[i], p});
+    } else if (surfel != no_surfel) {
+      all.push_back(link);
     }
-    // One link for each surfel; the stable order makes sums the same on every machine.
-    std::ranges::stable_sort(row, {}, &Link::surfel);
-    const std::size_t first = links_.size();
-    for (const Link& link : row) {
-      if (links_.size() > first && links_.back().surfel == link.surfel) {
-        links_.back().weight += link.weight;
-        links_.back().slope += link.slope;
-      } else {
-        links_.push_back(link);
-      }
-    }
-    first_.push_back(links_.size());
-    first_moving_.push_back(moving_.size());
   }
+  // One link for each surfel; the stable order makes sums the same on every machine.
+  std::ranges::stable_sort(all, {}, &Link::surfel);
+  for (const Link& link : all) {
+    if (!row.links.empty() && row.links.back().surfel == link.surfel) {
+      row.links.back().weight += link.weight;
+      row.links.back().slope += link.slope;
+    } else {
+      row.links.push_back(link);
+    }
+  }
+  return row;
 }
 
 void SurfaceGather::update_pose() {
   const TransportNetwork::Data& d = *network_->data_;
-  const float weight = 1 / static_cast<float>(rays_);
   parallel_for(moving_.size(), 256, [&](std::size_t i) {
     Moving& m = moving_[i];
     const Resolved found = d.resolve({m.ray, m.normal, m.surfel, 0, 0, 0, 0});
-    m.link.weight = found.surfel == no_surfel ? 0 : weight;
+    m.link.weight = found.surfel == no_surfel ? 0 : m.weight;
     m.link.surfel = static_cast<std::uint32_t>(std::max(found.surfel, 0));
   });
 }
@@ -141,8 +164,31 @@ std::size_t SurfaceGather::bytes() const {
 }
 
 std::vector<rays::SurfacePoint> record_points(const TransportNetwork& network, int most) {
-  const std::vector<rays::SurfacePoint> points = surfel_points(network);
-  return points.empty() ? points : spread_points(points, most);
+  const std::vector<rays::SurfacePoint> all = surfel_points(network);
+  if (all.empty()) return all;
+  std::vector<rays::SurfacePoint> points = spread_points(all, most);
+  if (points.size() == all.size()) return points;
+  const rays::TransportSource& source = network.data_->source;
+  const probes::SurfaceInterpolation known(points, [&](const vec3& a, const vec3& b) {
+    const rays::RayQuery way{a, b - a, 1};
+    std::uint8_t hit = 0;
+    source.occluded(0, {&way, 1}, {&hit, 1});
+    return !hit;
+  });
+  std::vector<std::uint8_t> lit(all.size());
+  parallel_for(all.size(), 64, [&](std::size_t i) {
+    probes::SurfaceShares shares;
+    lit[i] = !known.at(all[i], shares).empty();
+  });
+  std::vector<rays::SurfacePoint> unlit;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!lit[i]) unlit.push_back(all[i]);
+  }
+  if (unlit.empty()) return points;
+  const int left = static_cast<int>(std::min(points.size(), most_records - points.size()));
+  if (left < 1) return points;
+  std::ranges::copy(spread_points(unlit, left), std::back_inserter(points));
+  return points;
 }
 
 }  // namespace ssphh::transport

@@ -32,6 +32,11 @@ inline constexpr float fitted_cosine = 0.7f;
 inline constexpr float fitted_off_plane = 0.5f;
 /// … this share of the distance.
 inline constexpr float fitted_off_plane_slope = 0.1f;
+/// Rays between such points start so many spacings above the surface, and this share higher of what it bulges
+/// by their normals.
+inline constexpr float fitted_lift = 0.02f, fitted_lift_over_bulges = 0.2f;
+/// Classes of what lies close before a point (surface_cover).
+inline constexpr int most_cover = 4;
 inline constexpr float fitted_ridge = 0.05f;
 /// No fitted point counts for less, in shares of what it has in the mean.
 inline constexpr float fitted_lowest = -0.25f;

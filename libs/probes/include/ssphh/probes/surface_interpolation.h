@@ -17,6 +17,22 @@ namespace ssphh::probes {
 /// So many of the nearest points a lookup between them takes. Twice as many give the same errors.
 inline constexpr std::size_t most_surface_points = 12;
 
+/// Median distance of points from the nearest one that lights the same surface [m]; infinite where there is
+/// none: what lookups between them measure distances in.
+float surface_spacing(std::span<const rays::SurfacePoint> points);
+
+/// Whether two points of one surface see each other: above bulges of that surface, but not above what stands
+/// on it.
+bool see_along_surface(const rays::SurfacePoint& a, const rays::SurfacePoint& b, float spacing,
+                       const SeesProbe& sees);
+
+/// How narrow it is before a point: 0 where at most three quarters of its light come from nearer than half a
+/// spacing, else one more for each halving of that distance, 4 at most. What lies behind a picture's frame
+/// says little of the wall beside it.
+int surface_cover(const rays::SurfacePoint& point, float spacing, const SeesProbe& sees);
+/// What such a point keeps of its weight at this distance.
+float cover_factor(int cover, float distance2, float spacing);
+
 struct SurfaceShare {
   std::uint32_t point;
   float weight;  ///< may be negative
@@ -43,6 +59,7 @@ class SurfaceInterpolation {
  private:
   std::vector<vec3> position_;
   std::vector<glm::i16vec3> normal_;  ///< times 32767
+  std::vector<std::uint8_t> cover_;
   geometry::NearestPoints near_;
   float spacing_;
   SeesProbe sees_;

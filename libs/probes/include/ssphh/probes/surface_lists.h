@@ -21,12 +21,12 @@ using glm::uvec4;
 /// the plane across the axis that the point's normal is nearest to.
 struct SurfaceLists {
   static constexpr int longest = 64;  ///< points of a list; the nearest to the cell's middle
-  static constexpr std::size_t most_points = std::size_t{1} << 22;
+  static constexpr std::size_t most_points = std::size_t{1} << 19;
 
   std::vector<rays::SurfacePoint> points;
   float spacing = 0;  ///< median distance between neighbours [m]
   vec3 origin{0};
-  float cell_size = 1;  ///< metres: `spacing`, or more in a scene of too many cells
+  float cell_size = 1;  ///< metres: ⅔ `spacing`, or more in a scene of too many cells
   ivec3 cells{0};
   std::vector<uvec2>
       ranges;  ///< of each cell, x fastest: first entry of `lists`, number of points; 0: no surface

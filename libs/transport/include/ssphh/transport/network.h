@@ -135,7 +135,9 @@ class TransportNetwork {
   struct Data;
 
  private:
+  friend class GatherLight;
   friend class SurfaceGather;
+  friend std::vector<rays::SurfacePoint> record_points(const TransportNetwork&, int);
   Held<Data> data_;
 };
 

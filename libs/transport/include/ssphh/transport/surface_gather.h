@@ -10,21 +10,30 @@
 
 namespace ssphh::transport {
 
+/// What a room or a flat needs.
+inline constexpr int usual_records = 8192;
+
 struct GatherParams {
-  int points = 0;  ///< at most, to 65536; of the surfels' points, spread evenly; 0: none
-  int rays = 256;  ///< cosine rays per point, 4..65536
+  int points = 0;   ///< record_points(): 1..65536; 0: none
+  int rays = 1024;  ///< per point, 4..65536
 
   friend bool operator==(const GatherParams&, const GatherParams&) = default;
 };
 
+class HemisphereParts;
+struct BrightPoint;
+
 class SurfaceGather {
  public:
-  /// Traces the rays. The points stand still in every pose; the network must outlive the gather. Throws Error
+  /// Traces the rays: some into every part of a point's hemisphere, more to where surfels may be seen that
+  /// `direct`, [light group][surfel], makes bright; none: evenly. It decides on noise alone: any light can be
+  /// asked for later. The points stand still in every pose; the network must outlive the gather. Throws Error
   /// for more than 65536 points, for a number of rays out of range, and Cancelled. Takes up to 16 bytes a
   /// ray, 80 where moving parts come near it.
   SurfaceGather(const TransportNetwork& network, std::vector<rays::SurfacePoint> points, int rays,
-                const Control& control = {});
-  SurfaceGather(const TransportNetwork&&, std::vector<rays::SurfacePoint>, int, const Control& = {}) = delete;
+                std::span<const std::vector<Irradiance4>> direct = {}, const Control& control = {});
+  SurfaceGather(const TransportNetwork&&, std::vector<rays::SurfacePoint>, int,
+                std::span<const std::vector<Irradiance4>> = {}, const Control& = {}) = delete;
 
   /// Looks again along the rays that moving parts come near, in the network's pose. The result equals a
   /// gather made in this pose, to the bit.
@@ -48,21 +57,30 @@ class SurfaceGather {
     rays::RayQuery ray;  ///< t_max: distance of what stands still
     vec3 normal;         ///< of that
     std::int32_t surfel;
-    Link link;  ///< as posed; of no weight where the ray escapes
+    Link link;     ///< as posed; of no weight where the ray escapes
+    float weight;  ///< where it does not
     std::uint32_t point;
   };
-  void trace(std::size_t begin, std::size_t end, const Control& control);
+  struct Row {
+    std::vector<Link> links;
+    std::vector<Moving> moving;
+  };
+  using Rows = std::vector<Row>;
+  void trace(std::uint32_t rays, std::span<const std::vector<Irradiance4>> direct, Rows& rows,
+             const Control& control);
+  Row trace_point(std::uint32_t p, const HemisphereParts& parts, std::uint32_t count,
+                  std::span<const BrightPoint> bright);
 
   const TransportNetwork* network_;
   std::vector<rays::SurfacePoint> points_;
-  std::uint32_t rays_;
   std::vector<Link> links_;
   std::vector<std::size_t> first_;         ///< of each point's links, and the end
   std::vector<Moving> moving_;             ///< by point
   std::vector<std::size_t> first_moving_;  ///< likewise
 };
 
-/// Places for records in the network's scene: the static surfels' points, at most so many, spread evenly.
+/// Places for records in the network's scene: the static surfels' points, at most so many, spread evenly;
+/// then as many again, where there are points that see none of those.
 std::vector<rays::SurfacePoint> record_points(const TransportNetwork& network, int most);
 
 }  // namespace ssphh::transport

@@ -1,0 +1,124 @@
+// What counts as one surface: spacing, sight over bulges, and what stands close before a point.
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <ssphh/probes/lookup_constants.h>
+#include <ssphh/probes/surface_interpolation.h>
+
+namespace ssphh::probes {
+namespace {
+
+std::vector<rays::SurfacePoint> floor_grid(int side, float step, float height = 0, float up = 1) {
+  std::vector<rays::SurfacePoint> points;
+  for (int i = 0; i < side; ++i) {
+    for (int j = 0; j < side; ++j)
+      points.push_back(
+          {vec3(step * static_cast<float>(i), height, step * static_cast<float>(j)), {0, up, 0}});
+  }
+  return points;
+}
+
+TEST(SurfaceSpacing, IsThatAlongASurfaceWhateverIsNearIt) {
+  std::vector<rays::SurfacePoint> points = floor_grid(9, 0.5f);
+  EXPECT_FLOAT_EQ(surface_spacing(points), 0.5f);
+  // A board's other side, a shelf above it, and walls that cross it are nearer
+  for (const rays::SurfacePoint& p : floor_grid(9, 0.5f, -0.02f, -1)) points.push_back(p);
+  for (const rays::SurfacePoint& p : floor_grid(9, 0.5f, 0.3f)) points.push_back(p);
+  for (rays::SurfacePoint p : floor_grid(9, 0.5f, 0.05f)) points.push_back({p.position, {1, 0, 0}});
+  EXPECT_FLOAT_EQ(surface_spacing(points), 0.5f);
+  EXPECT_TRUE(std::isinf(surface_spacing({})));
+  EXPECT_TRUE(std::isinf(surface_spacing(floor_grid(1, 1))));
+}
+
+/// Whether the segment meets the ball.
+bool meets_ball(const vec3& a, const vec3& b, float radius) {
+  const vec3 d = b - a;
+  const float t = glm::clamp(-glm::dot(a, d) / glm::dot(d, d), 0.0f, 1.0f);
+  return glm::length(a + t * d) < radius;
+}
+
+TEST(SightAlongSurface, PassesOverABallBetweenItsOwnPoints) {
+  for (const float radius : {0.1f, 1.0f, 30.0f}) {
+    const auto sees = [&](const vec3& a, const vec3& b) { return !meets_ball(a, b, radius); };
+    const rays::SurfacePoint a{{0, radius, 0}, {0, 1, 0}};
+    for (float degrees = 1; degrees <= 45; degrees += 4) {
+      const vec3 n(std::sin(glm::radians(degrees)), std::cos(glm::radians(degrees)), 0);
+      EXPECT_TRUE(see_along_surface(a, {radius * n, n}, 1e-3f * radius, sees))
+          << degrees << "° of " << radius;
+    }
+  }
+}
+
+TEST(SightAlongSurface, StaysCloseOverWhatIsFlatOrHollow) {
+  const rays::SurfacePoint a{{0, 0, 0}, {0, 1, 0}};
+  for (const vec3& n : {vec3(0, 1, 0), glm::normalize(vec3(-0.4f, 1, 0))}) {
+    int asked = 0;
+    const auto sees = [&](const vec3& from, const vec3& to) {
+      ++asked;
+      EXPECT_NEAR(glm::distance(from, a.position), fitted_lift * 0.5f, 1e-6f);
+      EXPECT_NEAR(glm::distance(to, vec3(0.8f, 0, 0)), fitted_lift * 0.5f, 1e-6f);
+      return true;
+    };
+    EXPECT_TRUE(see_along_surface(a, {{0.8f, 0, 0}, n}, 0.5f, sees));
+    EXPECT_EQ(asked, 1);
+  }
+}
+
+TEST(SightAlongSurface, GoesThroughNothingOnItsWayUp) {
+  // Two points of a ridge below a ceiling that is nearer than the way over the ridge is high
+  const vec3 left = glm::normalize(vec3(-1, 1.2f, 0)), right = glm::normalize(vec3(1, 1.2f, 0));
+  const rays::SurfacePoint a{{-0.5f, 0, 0}, left}, b{{0.5f, 0, 0}, right};
+  const auto below = [](float ceiling) {
+    return [ceiling](const vec3& from, const vec3& to) { return (from.y < ceiling) == (to.y < ceiling); };
+  };
+  EXPECT_TRUE(see_along_surface(a, b, 0.5f, below(0.5f)));
+  EXPECT_FALSE(see_along_surface(a, b, 0.5f, below(0.05f)));
+}
+
+TEST(SurfaceCover, TellsHowNarrowItIsBeforeAPoint) {
+  // A plate at a height h above all of the floor
+  // Of cosine-distributed light three quarters come from within 60° of the normal.
+  for (const auto& [height, cover] :
+       {std::pair(0.6f, 0), {0.29f, 0}, {0.2f, 1}, {0.13f, 2}, {0.07f, 3}, {0.035f, 4}}) {
+    const auto sees = [h = height](const vec3& a, const vec3& b) { return (a.y < h) == (b.y < h); };
+    EXPECT_EQ(surface_cover({{3, 0, 4}, {0, 1, 0}}, 1, sees), cover) << height;
+  }
+  // Beside a wall half of the light comes from near by: that is no cover
+  const auto wall = [](const vec3& a, const vec3& b) { return (a.x < 0) == (b.x < 0); };
+  EXPECT_EQ(surface_cover({{0.001f, 0, 0}, {0, 1, 0}}, 1, wall), 0);
+}
+
+TEST(CoverFactor, FallsBeyondTheOpenDistance) {
+  EXPECT_EQ(cover_factor(0, 100, 1), 1);
+  for (int cover = 1; cover <= most_cover; ++cover) {
+    const float open = 3.0f / static_cast<float>(1 << cover);
+    EXPECT_EQ(cover_factor(cover, 0, 3), 1);
+    EXPECT_NEAR(cover_factor(cover, open * open, 3), 0.5f, 1e-6f);
+    EXPECT_NEAR(cover_factor(cover, 4 * open * open, 3), 1.0f / 17, 1e-6f);
+  }
+}
+
+TEST(SurfaceInterpolation, WhatLiesBehindAPictureDarkensNothingBesideIt) {
+  // Records on a wall, those of x > 1 behind a plate a twentieth of a spacing before it
+  const std::vector<rays::SurfacePoint> wall = floor_grid(9, 0.25f);
+  const auto sees = [](const vec3& a, const vec3& b) {
+    const float plate = 0.0125f;
+    if ((a.y < plate) == (b.y < plate)) return true;
+    const float t = (plate - a.y) / (b.y - a.y);
+    return a.x + t * (b.x - a.x) < 1.05f;
+  };
+  std::vector<RecordLight> light(wall.size(), RecordLight(0));
+  for (std::size_t i = 0; i < wall.size(); ++i) light[i][3] = vec3(wall[i].position.x < 1.05f ? 1.0f : 0.01f);
+  const SurfaceInterpolation records(wall, sees);
+  for (const float x : {0.85f, 0.95f, 1.04f}) {
+    vec3 found;
+    ASSERT_TRUE(records.irradiance({{x, 0, 1.1f}, {0, 1, 0}}, light, found));
+    EXPECT_NEAR(found.y, 1, 0.03f) << x;
+  }
+}
+
+}  // namespace
+}  // namespace ssphh::probes

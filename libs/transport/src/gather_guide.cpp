@@ -1,0 +1,186 @@
+#include "gather_guide.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <ssphh/core/random.h>
+#include <ssphh/core/sphere.h>
+
+namespace ssphh::transport {
+namespace {
+
+/// Bright surfels that a place is guided by, and before those that nothing sees are left out.
+constexpr std::size_t most_bright = 256, most_asked = 1024;
+/// Points that a bright surfel stands for.
+constexpr std::size_t places_of_surfel = 4;
+/// Of the rays that are guided, the share that is not.
+constexpr float even_share = 0.25f;
+
+}  // namespace
+
+HemisphereParts::HemisphereParts(std::uint32_t rays) {
+  rings_ = std::max(1u, static_cast<std::uint32_t>(std::sqrt(static_cast<float>(rays) / 8)));
+  sectors_ = 4 * rings_;
+}
+
+std::size_t HemisphereParts::part_of(const vec3& local) const {
+  const float u = local.x * local.x + local.y * local.y;
+  const float turn = std::atan2(local.y, local.x) / (2 * pi), v = turn < 0 ? turn + 1 : turn;
+  const auto at = [](float x, std::uint32_t count) {
+    return std::min(static_cast<std::uint32_t>(x * static_cast<float>(count)), count - 1);
+  };
+  return std::size_t{at(u, rings_)} * sectors_ + at(v, sectors_);
+}
+
+vec3 HemisphereParts::direction(std::size_t part, std::uint32_t index, std::uint64_t salt) const {
+  const std::uint64_t h = hash_combine(salt, part);
+  const double u = 0.7548776662466927 * (index + 1) + static_cast<double>(h >> 32) * 0x1p-32;
+  const double v = 0.5698402909980532 * (index + 1) + static_cast<double>(h & 0xffffffffu) * 0x1p-32;
+  const vec2 within(static_cast<float>(u - std::floor(u)), static_cast<float>(v - std::floor(v)));
+  const vec2 corner(static_cast<float>(part / sectors_), static_cast<float>(part % sectors_));
+  const vec2 p = (corner + within) / vec2(static_cast<float>(rings_), static_cast<float>(sectors_));
+  return sample_cosine_hemisphere(glm::min(p, vec2(0x1.fffffep-1f)));
+}
+
+void HemisphereParts::spread(std::vector<float>& weights) const {
+  const std::vector<float> before = weights;
+  const auto rings = static_cast<int>(rings_), sectors = static_cast<int>(sectors_);
+  for (int ring = 0; ring < rings; ++ring) {
+    for (int sector = 0; sector < sectors; ++sector) {
+      float around = 0;
+      for (int i = -1; i <= 1; ++i) {
+        for (int j = -1; j <= 1; ++j) {
+          const int from = std::clamp(ring + i, 0, rings - 1), at = (sector + j + sectors) % sectors;
+          around += before[static_cast<std::size_t>(from * sectors + at)];
+        }
+      }
+      float& weight = weights[static_cast<std::size_t>(ring * sectors + sector)];
+      weight = 0.5f * weight + around / 18;
+    }
+  }
+}
+
+std::vector<float> surfel_flux(const TransportNetwork::Data& d,
+                               std::span<const std::vector<Irradiance4>> direct) {
+  const std::vector<Surfel>& surfels = d.surfels.surfels();
+  std::vector<float> flux(surfels.size(), 0), of_group(surfels.size());
+  for (const std::vector<Irradiance4>& group : direct) {
+    double total = 0;
+    for (std::size_t s = 0; s < surfels.size(); ++s) {
+      const float size = d.surfels.size(surfels[s].level);
+      of_group[s] = luminance(d.albedo[s] * vec3(group[s])) * size * size;
+      total += of_group[s];
+    }
+    if (!(total > 0)) continue;
+    for (std::size_t s = 0; s < surfels.size(); ++s) flux[s] += static_cast<float>(of_group[s] / total);
+  }
+  return flux;
+}
+
+std::vector<std::uint32_t> spatial_order(std::span<const rays::SurfacePoint> points) {
+  vec3 low(std::numeric_limits<float>::infinity()), high = -low;
+  for (const rays::SurfacePoint& p : points)
+    low = glm::min(low, p.position), high = glm::max(high, p.position);
+  const float extent = std::max(max_component(high - low), 1e-20f);
+  // Bits of the three coordinates in turns (Morton 1966)
+  const auto code = [&](const vec3& x) {
+    const vec3 at = glm::clamp((x - low) / extent, 0.0f, 1.0f) * 1023.0f;
+    std::uint32_t bits = 0;
+    for (unsigned b = 0; b < 10; ++b) {
+      for (glm::length_t c = 0; c < 3; ++c)
+        bits |= (static_cast<std::uint32_t>(at[c]) >> b & 1u) << (3 * b + static_cast<unsigned>(c));
+    }
+    return bits;
+  };
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> keys;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    keys.emplace_back(code(points[i].position), static_cast<std::uint32_t>(i));
+  std::ranges::sort(keys);
+  std::vector<std::uint32_t> order;
+  for (const auto& [key, index] : keys) order.push_back(index);
+  return order;
+}
+
+std::vector<BrightPoint> bright_points(const TransportNetwork::Data& d, std::span<const float> flux,
+                                       std::span<const rays::SurfacePoint> together) {
+  vec3 middle(0);
+  for (const rays::SurfacePoint& p : together) middle += p.position / static_cast<float>(together.size());
+  float radius2 = 0;
+  for (const rays::SurfacePoint& p : together) {
+    const vec3 away = p.position - middle;
+    radius2 = std::max(radius2, glm::dot(away, away));
+  }
+  const std::vector<Surfel>& surfels = d.surfels.surfels();
+  std::vector<std::pair<float, std::uint32_t>> found;
+  for (std::size_t s = 0; s < d.static_count; ++s) {
+    const vec3 away = surfels[s].point.position - middle;
+    const float size = d.surfels.size(surfels[s].level);
+    const float there = flux[s] / (glm::dot(away, away) + radius2 + size * size);
+    if (there > 0) found.emplace_back(-there, static_cast<std::uint32_t>(s));
+  }
+  const std::size_t asked = std::min(most_asked, found.size());
+  std::ranges::partial_sort(found, found.begin() + static_cast<std::ptrdiff_t>(asked));
+  found.resize(asked);
+
+  std::vector<BrightPoint> bright;
+  std::size_t taken = 0;
+  for (std::size_t i = 0; i < found.size() && taken < most_bright; ++i) {
+    const std::size_t s = found[i].second;
+    const rays::SurfacePoint& there = surfels[s].point;
+    bool seen = false;
+    for (std::size_t k = 0; k < 4 && !seen; ++k) {
+      const rays::SurfacePoint& here = together[(i + k * together.size() / 4) % together.size()];
+      if (glm::dot(there.position - here.position, here.normal) <= 0 ||
+          glm::dot(here.position - there.position, there.normal) <= 0)
+        continue;
+      seen = !d.blocked(d.surfels.segment(here, there, 0));
+    }
+    if (!seen) continue;
+    ++taken;
+    const std::span<const rays::SurfacePoint> members = d.surfels.members(static_cast<int>(s));
+    const std::size_t count = std::min(places_of_surfel, members.size());
+    for (std::size_t k = 0; k < count; ++k)
+      bright.push_back({members[k * members.size() / count], flux[s] / static_cast<float>(count)});
+  }
+  return bright;
+}
+
+std::vector<std::uint32_t> rays_of_parts(const HemisphereParts& parts, std::uint32_t rays,
+                                         const rays::SurfacePoint& point,
+                                         std::span<const BrightPoint> bright) {
+  std::vector<float> weights(parts.count(), 0);
+  const Frame frame = Frame::around(point.normal);
+  double total = 0;
+  for (const BrightPoint& b : bright) {
+    const vec3 away = b.point.position - point.position;
+    const float distance2 = glm::dot(away, away);
+    if (!(distance2 > 0)) continue;
+    const vec3 local = frame.to_local(away / std::sqrt(distance2));
+    const float facing = -glm::dot(away, b.point.normal) / std::sqrt(distance2);
+    if (local.z <= 0 || facing <= 0) continue;
+    const float light = b.flux * local.z * facing / distance2;
+    weights[parts.part_of(local)] += light;
+    total += light;
+  }
+  const auto even = 1 / static_cast<float>(parts.count());
+  if (total > 0) {
+    parts.spread(weights);
+    for (float& w : weights) w = even_share * even + (1 - even_share) * w / static_cast<float>(total);
+  } else {
+    std::ranges::fill(weights, even);
+  }
+  const auto extra = static_cast<double>(rays) - static_cast<double>(parts.count());
+  std::vector<std::uint32_t> count(parts.count());
+  double sum = 0;
+  std::uint32_t given = 0;
+  for (std::size_t p = 0; p < parts.count(); ++p) {
+    sum += weights[p];
+    const auto until = p + 1 == parts.count() ? static_cast<std::uint32_t>(extra)
+                                              : static_cast<std::uint32_t>(std::min(sum, 1.0) * extra + 0.5);
+    count[p] = 1 + until - std::min(given, until);
+    given = std::max(given, until);
+  }
+  return count;
+}
+
+}  // namespace ssphh::transport

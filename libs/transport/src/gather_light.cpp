@@ -1,0 +1,48 @@
+#include <bit>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/error.h>
+#include <ssphh/core/random.h>
+#include <ssphh/transport/gather_light.h>
+
+#include "network_data.h"
+
+namespace ssphh::transport {
+
+GatherLight::GatherLight(const RelightSession& session, int rays,
+                         std::shared_ptr<const rays::IndirectLight> glossy)
+    : network_(&session.network()), rays_(static_cast<std::uint32_t>(rays)), glossy_(std::move(glossy)) {
+  if (rays < 4 || rays > 1 << 16) throw Error("gather rays", fmt::format("{} is outside 4..65536", rays));
+  require(glossy_ != nullptr, "gathered light", "nothing answers for glossy light");
+  const std::vector<vec3>& albedo = network_->albedo();
+  require(
+      session.surfel_direct().size() == albedo.size() && session.surfel_irradiance().size() == albedo.size(),
+      "gathered light", "the session has lit no surfels: update it first, with operator surfel");
+  for (std::size_t s = 0; s < albedo.size(); ++s)
+    radiosity_.push_back(albedo[s] * vec3(session.surfel_direct()[s] + session.surfel_irradiance()[s]));
+}
+
+vec3 GatherLight::irradiance(const rays::SurfacePoint& at) const {
+  const TransportNetwork::Data& d = *network_->data_;
+  // Neighbours take other rays, so that the error is grain and no pattern.
+  const auto bits = [&](int c) { return std::uint64_t{std::bit_cast<std::uint32_t>(at.position[c])}; };
+  const std::uint64_t salt = hash_combine(hash_combine(bits(0), bits(1)), bits(2));
+  std::vector<rays::RayQuery> rays;
+  for (std::uint32_t r = 0; r < rays_; ++r)
+    rays.push_back(fan_ray(at, link_lift * d.surfels.size(), r, salt));
+  std::vector<std::int32_t> surfel(rays.size());
+  std::vector<std::uint8_t> escaped(rays.size());
+  d.see(rays, surfel, escaped);
+  vec3 sum(0);
+  for (const std::int32_t s : surfel) {
+    if (s != no_surfel) sum += radiosity_[static_cast<std::size_t>(s)];
+  }
+  return sum / static_cast<float>(rays_);
+}
+
+vec3 GatherLight::glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const {
+  return glossy_->glossy(at, r, roughness);
+}
+
+}  // namespace ssphh::transport
