@@ -36,7 +36,8 @@ class SurfaceGather {
                 std::span<const std::vector<Irradiance4>> = {}, const Control& = {}) = delete;
 
   /// Looks again along the rays that moving parts come near, in the network's pose. The result equals a
-  /// gather made in this pose, to the bit.
+  /// gather made in this pose: to the bit without `direct`, else within noise, for doors decide what is seen
+  /// of what is bright.
   void update_pose();
 
   const std::vector<rays::SurfacePoint>& points() const { return points_; }
