@@ -73,7 +73,8 @@ std::vector<vec3> candidates(const scene::Bounds& box, const std::vector<vec3>& 
   for (int i = 0; i < count; ++i) {
     const vec3 share = place::spread_in_cube(i);
     places.push_back(glm::mix(box.min, box.max, 0.04f + 0.92f * share));
-    places.push_back(0.5f * (vertex(share.x) + vertex(share.y)));
+    // Two vertices of one wall have their middle in its plane, which rays from there would not meet.
+    places.push_back(glm::mix(box.center(), 0.5f * (vertex(share.x) + vertex(share.y)), 0.999f));
   }
   return places;
 }
@@ -101,7 +102,7 @@ std::vector<vec3> fan(int count) {
 
 /// About how far one sees in a room of that extent, which may be a tunnel.
 float size_of(const vec3& extent) {
-  return std::max(std::min(glm::length(extent), 6 * extent.y), 1e-6f);
+  return std::min(glm::length(extent), 6 * extent.y);
 }
 
 /// Looks for views of an inside.
@@ -125,11 +126,12 @@ class Inside {
     const float floor = place.y - down, height = std::min(place.y + up, core_.max.y) - floor;
     // Nobody knows the unit of what is higher than a tower.
     const bool metres = core_.max.y - core_.min.y < 500;
-    const vec3 eye(place.x, floor + (metres ? std::min(1.6f, 0.6f * height) : 0.6f * height), place.z);
+    const float stature = metres ? std::min(1.6f, 0.6f * height) : 0.6f * height;
+    const vec3 eye(place.x, floor + stature, place.z);
     const Surroundings seen(world_, eye, fan_);
     const float met = seen.share([](const RayHit& hit) { return !hit.escaped(); });
     const float back = seen.share([](const RayHit& hit) { return !hit.escaped() && hit.back; });
-    const float clearance = 0.02f * size_;
+    const float clearance = std::min(0.02f * size_, 0.8f * stature);  // of the floor, too
     const bool closed = met >= closed_share;
     if (!(closed || (met >= 0.5f && std::isfinite(up))) || back > 0.25f ||
         std::ranges::any_of(seen.hits, [&](const RayHit& hit) { return hit.distance < clearance; }))

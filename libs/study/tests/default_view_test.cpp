@@ -83,17 +83,41 @@ TEST(DefaultView, AWideGroundChangesNothingMuch) {
   EXPECT_TRUE(is_within(eye_of(view_of(s)), half));
 }
 
-TEST(DefaultView, StandsInATunnelToo) {
-  const vec3 long_half(435, 2.5f, 3);
+/// A closed hall with a strip of light along its ceiling.
+Scene hall(const vec3& reach) {
   Scene s;
   s.materials = {test::matte(vec3(0.8f)), test::matte(vec3(0))};
   s.materials[1].emission = vec3(5);
-  test::add_mesh(s, scene::flipped(scene::make_box(-long_half, long_half)), 0);
-  test::add_mesh(s, scene::make_quad({-430, 2.4f, -1}, {860, 0, 0}, {0, 0, 2}), 1);
-  const CameraPose pose = view_of(s);
+  test::add_mesh(s, scene::flipped(scene::make_box(-reach, reach)), 0);
+  const vec3 strip = reach * vec3(0.98f, 0.96f, 0.4f);
+  test::add_mesh(s, scene::make_quad({-strip.x, strip.y, -strip.z}, {2 * strip.x, 0, 0}, {0, 0, 2 * strip.z}),
+                 1);
+  return s;
+}
+
+TEST(DefaultView, StandsInATunnelToo) {
+  const vec3 long_half(435, 2.5f, 3);
+  const CameraPose pose = view_of(hall(long_half));
   EXPECT_TRUE(is_within(eye_of(pose), long_half));
   EXPECT_NEAR(eye_of(pose).y, -2.5f + 1.6f, 0.01f);
   EXPECT_GT(std::abs(pose.world[2].x), 0.8f) << "along it";
+}
+
+TEST(DefaultView, KeepsAFiftiethOfWhatItSeesAwayFromWalls) {
+  // One sees six times the height far, 30 m: 0.6 m from either wall, in a fifth of the places at least.
+  for (const float width : {1.7f, 2.5f, 4.0f}) {
+    const vec3 eye = eye_of(view_of(hall({20, 2.5f, 0.5f * width})));
+    EXPECT_LT(std::abs(eye.z), 0.5f * width - 0.58f) << width;
+    EXPECT_LT(std::abs(eye.x), 20 - 0.58f) << width;
+  }
+  EXPECT_GT(eye_of(view_of(hall({20, 2.5f, 0.65f}))).z, 1) << "there is no such place";
+}
+
+TEST(DefaultView, StandsAsHighAsAPersonInALargeHallToo) {
+  for (const float size : {30.0f, 190.0f})
+    EXPECT_NEAR(eye_of(view_of(hall(size * half))).y, size * -1.3f + 1.6f, 0.1f);
+  // Of 2.6 times 195 = 507 m nobody knows the unit: six tenths of the height.
+  EXPECT_NEAR(eye_of(view_of(hall(195.0f * half))).y, 195 * (-1.3f + 1.56f), 0.2f);
 }
 
 TEST(DefaultView, IsTheSameForTheSameScene) {
