@@ -1,9 +1,8 @@
 #include "commands/measure_regions.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
+#include <ssphh/core/parse_number.h>
 #include <ssphh/study/inside.h>
 
 namespace ssphh::app {
@@ -17,16 +16,10 @@ NamedBox read_named_box(const std::string& text) {
   NamedBox result{text.substr(0, equals), {}};
   if (result.name == "inside" || result.name == "outside" || result.name == "all")
     throw wrong("every scene has a region of this name");
-  float corners[6];
-  const char *at = text.data() + equals + 1, *const end = text.data() + text.size();
-  for (float& corner : corners) {
-    const auto [stop, error] = std::from_chars(at, end, corner);
-    const bool last = &corner == corners + 5;
-    if (error != std::errc{} || !std::isfinite(corner) || (last ? stop != end : stop == end || *stop != ','))
-      throw wrong("its six numbers cannot be read");
-    at = stop + 1;
-  }
-  result.box = {{corners[0], corners[1], corners[2]}, {corners[3], corners[4], corners[5]}};
+  const auto numbers = parse_numbers(std::string_view(text).substr(equals + 1));
+  if (!numbers || numbers->size() != 6) throw wrong("its six numbers cannot be read");
+  const std::vector<float>& n = *numbers;
+  result.box = {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
   if (!glm::all(glm::lessThan(result.box.min, result.box.max))) throw wrong("it is no box");
   return result;
 }

@@ -1,13 +1,12 @@
 #include "commands/relight_animation.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <ssphh/core/parse_number.h>
 #include <ssphh/scene/turn_surroundings.h>
 
 namespace ssphh::app {
@@ -27,35 +26,15 @@ bool is_vector(TrackProperty property) {
          property == TrackProperty::color;
 }
 
-std::vector<std::string_view> split(std::string_view text, char by) {
-  std::vector<std::string_view> parts;
-  for (;;) {
-    const std::size_t end = text.find(by);
-    parts.push_back(text.substr(0, end));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
-}
-
 vec3 read_key(const std::string& where, std::string_view text, TrackProperty property) {
-  const std::vector<std::string_view> parts = split(text, ',');
+  const std::vector<float> n = parse_numbers(text).value_or(std::vector<float>());
   const bool vector = is_vector(property);
-  const bool count_fits = vector
-                              ? parts.size() == 3
-                              : parts.size() == 1 || (property == TrackProperty::scale && parts.size() == 3);
-  vec3 key(0);
-  bool numbers = count_fits;
-  for (std::size_t i = 0; i < 3 && numbers; ++i) {
-    const std::string_view part = parts[std::min(i, parts.size() - 1)];
-    float value = 0;
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
-    numbers = error == std::errc() && end == part.data() + part.size() && std::isfinite(value);
-    key[static_cast<int>(i)] = value;
-  }
-  if (!numbers) {
+  const bool three = n.size() == 3 && (vector || property == TrackProperty::scale);
+  if (!three && (vector || n.size() != 1)) {
     throw Error(where, fmt::format("\"{}\" is not {}", text, vector ? "three numbers x,y,z" : "a number"),
                 "keys are parted by ':', as in lamp.position=0,2,0:1,2,0 or lamp.intensity=0:4");
   }
+  const vec3 key = three ? vec3(n[0], n[1], n[2]) : vec3(n[0]);
   const bool signed_value = property == TrackProperty::time || property == TrackProperty::turn ||
                             property == TrackProperty::position || property == TrackProperty::direction;
   if (!signed_value && glm::any(glm::lessThan(key, vec3(0)))) throw Error(where, "light cannot be negative");
@@ -112,8 +91,11 @@ Track read_track(const std::string& spec, const rays::TransportSource& source, c
         throw Error(where, "it shines into all directions alike", "animate its position");
     }
   }
-  for (const std::string_view key : split(std::string_view(spec).substr(equals + 1), ':'))
-    track.keys.push_back(read_key(where, key, track.property));
+  for (std::size_t begin = equals; begin != std::string::npos;) {
+    const std::size_t end = spec.find(':', ++begin);
+    track.keys.push_back(read_key(where, std::string_view(spec).substr(begin, end - begin), track.property));
+    begin = end;
+  }
   if (track.property == TrackProperty::turn)
     for (vec3& key : track.keys) key = glm::radians(key);
   return track;

@@ -1,10 +1,10 @@
 #include "options/picture_options.h"
 
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include <ssphh/core/parse_number.h>
 #include <ssphh/study/default_view.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -42,11 +42,8 @@ Option add_max_depth_option(Command command, int& max_depth) {
 void add_exposure_option(Command command, std::optional<float>& exposure, const std::string& help) {
   const auto take = [&exposure](const std::string& text) -> std::string {
     if (text == "auto") return exposure.reset(), "";
-    float value = 0;
-    const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
-    const char* const end = text.data() + text.size();
-    const auto [read, error] = std::from_chars(begin, end, value);
-    if (error != std::errc() || read != end || !(std::abs(value) <= 60))
+    const auto value = parse_number<float>(std::string_view(text).substr(text.starts_with('+') ? 1 : 0));
+    if (!value || std::abs(*value) > 60)
       return fmt::format("{} is neither auto nor a number from -60 to 60", text);
     exposure = value;
     return "";

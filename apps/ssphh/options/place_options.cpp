@@ -1,12 +1,11 @@
 #include "options/place_options.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
+#include <ssphh/core/parse_number.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/trace/transport_scene.h>
 
@@ -15,22 +14,18 @@
 namespace ssphh::app {
 namespace {
 
-template <class T>
-bool read_number(std::string_view text, T& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size();
-}
-
 /// Sets spacing or count. Returns what is wrong with the text; empty: nothing.
 std::string parse(const std::string& text, place::PlaceParams& params) {
   constexpr std::string_view prefix = "auto:";
   if (text == "scene" || text == "auto") return {};
   if (text.starts_with(prefix)) {
     const std::string_view metres = std::string_view(text).substr(prefix.size());
-    if (read_number(metres, params.spacing) && std::isfinite(params.spacing) && params.spacing > 0) return {};
+    params.spacing = parse_number<float>(metres).value_or(0);
+    if (params.spacing > 0) return {};
     return fmt::format("\"{}\" is no spacing: give metres over 0, as in auto:0.7", metres);
   }
-  if (read_number(text, params.count) && params.count > 0) return {};
+  params.count = parse_number<int>(text).value_or(0);
+  if (params.count > 0) return {};
   return fmt::format("\"{}\" is none of: scene, auto, auto:METRES, a number of probes over 0", text);
 }
 

@@ -1,12 +1,11 @@
 #include "settings.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <ssphh/core/parse_number.h>
 #include <ssphh/methods/table.h>
 
 namespace ssphh::viewer {
@@ -166,11 +165,8 @@ void set_setting(Settings& settings, const std::string& name, const std::string&
 }
 
 float parse_number(const std::string& where, const std::string& text) {
-  float value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    throw Error(where, fmt::format("\"{}\" is not a number", text));
-  return value;
+  if (const auto number = ssphh::parse_number<float>(text)) return *number;
+  throw Error(where, fmt::format("\"{}\" is not a number", text));
 }
 
 }  // namespace ssphh::viewer

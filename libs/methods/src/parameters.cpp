@@ -1,10 +1,10 @@
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/nearest_word.h>
+#include <ssphh/core/parse_number.h>
 #include <ssphh/methods/parameters.h>
 
 namespace ssphh::methods {
@@ -27,15 +27,13 @@ double read(const std::string& where, const MethodParameter& parameter, const st
     if (found != parameter.choices.end()) return static_cast<double>(found - parameter.choices.begin());
     throw Error(where, none_of(text, parameter.choices));
   }
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    throw Error(where, fmt::format("\"{}\" is no number", text));
-  if (parameter.whole && value != std::floor(value))
+  const auto value = parse_number<double>(text);
+  if (!value) throw Error(where, fmt::format("\"{}\" is no number", text));
+  if (parameter.whole && *value != std::floor(*value))
     throw Error(where, fmt::format("{} is no whole number", text));
-  if (value < parameter.least || value > parameter.most)
+  if (*value < parameter.least || *value > parameter.most)
     throw Error(where, fmt::format("{} is not within {:g} to {:g}", text, parameter.least, parameter.most));
-  return value;
+  return *value;
 }
 
 }  // namespace

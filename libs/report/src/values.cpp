@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include <ssphh/core/json.h>
+#include <ssphh/core/parse_number.h>
 #include <ssphh/report/report.h>
 
 namespace ssphh::report {
@@ -55,9 +55,8 @@ double shown(const ReportCell& cell, const std::string& name) {
   if (const auto it = cell.values.find(name); it != cell.values.end())
     return is_time(name) ? it->second.median : it->second.mean;
   for (const auto& [key, text] : cell.parameters) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (key == name && error == std::errc() && end == text.data() + text.size()) return number;
+    if (key != name) continue;
+    if (const auto number = parse_number<double>(text)) return *number;
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

@@ -1,13 +1,12 @@
 #include "yaml_reader.h"
 
-#include <charconv>
-#include <cmath>
 #include <regex>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/core/parse_number.h>
 
 namespace ssphh::report {
 namespace {
@@ -24,13 +23,8 @@ json::Value plain_scalar(const std::string& text) {
   if (text == "true" || text == "True" || text == "TRUE") return true;
   if (text == "false" || text == "False" || text == "FALSE") return false;
   const std::string_view digits = text[0] == '+' ? std::string_view(text).substr(1) : text;
-  const char *const begin = digits.data(), *const end = begin + digits.size();
-  std::int64_t whole = 0;
-  if (const auto read = std::from_chars(begin, end, whole); read.ec == std::errc() && read.ptr == end)
-    return whole;
-  double number = 0;
-  const auto read = std::from_chars(begin, end, number);
-  if (read.ec == std::errc() && read.ptr == end && std::isfinite(number)) return number;
+  if (const auto whole = parse_number<std::int64_t>(digits)) return *whole;
+  if (const auto number = parse_number<double>(digits)) return *number;
   return text;
 }
 

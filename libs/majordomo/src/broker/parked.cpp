@@ -1,7 +1,7 @@
 /// Jobs that were set aside, and what an administrator does with them.
-#include <charconv>
 
 #include <ssphh/core/hash.h>
+#include <ssphh/core/parse_number.h>
 
 #include "state.h"
 
@@ -69,10 +69,8 @@ void BrokerCore::Impl::release(const Parked& entry) {
 }
 
 Frames BrokerCore::Impl::unpark(const std::string& which, bool run_again) {
-  JobNumber number = 0;
-  const char* const end = which.data() + which.size();
-  const auto parsed = std::from_chars(which.data(), end, number);
-  if (which != "all" && (parsed.ec != std::errc() || parsed.ptr != end)) return {"400"};
+  const auto number = parse_number<JobNumber>(which);
+  if (which != "all" && !number) return {"400"};
   std::deque<Parked> taken;
   for (auto it = parked.begin(); it != parked.end();) {
     const bool chosen = which == "all" || it->job == number;
