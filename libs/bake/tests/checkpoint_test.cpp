@@ -84,6 +84,7 @@ class CheckpointFile : public testing::Test {
 
 TEST_F(CheckpointFile, BeginsWithItsFormatsName) {
   EXPECT_EQ(std::string(reinterpret_cast<const char*>(whole.data()), 8), "SPHLCKP1");
+  EXPECT_EQ(ends[0], 8u + 16) << "and its key";
 }
 
 TEST_F(CheckpointFile, GivesBackWhatWasAppended) {

@@ -4,6 +4,7 @@
 
 #include <ssphh/bake/viz.h>
 
+#include "error_message.h"
 #include "fake_source.h"
 
 namespace ssphh::bake {
@@ -60,6 +61,26 @@ TEST_F(VizEdges, OfASphereAroundTheProbeHaveAPOfOne) {
   kept({});
   EXPECT_NEAR(edges_[4].transfer, 1, 1e-5f);
   EXPECT_LE(edges_[4].transfer, 1);
+}
+
+TEST(VizMatrices, AreRefusedBeforeTheyTakeMoreThan4GiB) {
+  // 48 chunks of 121² colours each of each neighbour: 4 GiB / 8433216 B = 509.3 of them.
+  test::FakeSource source;
+  source.free = [](const vec3&, const vec3&) { return false; };
+  const rays::CubeRequest request{.face_size = 1, .path = {.spp = 1}};
+  probes::ProbeSet set;
+  set.degree = 10;
+  for (int i = 0; i < 510; ++i) set.probes.push_back({"", vec3(static_cast<float>(i)), 0.1f, {}, {}, {}, {}});
+  const auto said = [&](bool matrix) {
+    return test::message_of([&] { viz(source, set, 0, request, {.matrix = matrix}); });
+  };
+  EXPECT_EQ(said(true), "no error");
+  set.probes.push_back(set.probes.back());
+  EXPECT_EQ(
+      said(true),
+      "VIZ: the transfer matrices of that many probes do not fit into 4 GiB (use a lower degree or fewer "
+      "probes)");
+  EXPECT_EQ(said(false), "no error") << "coefficients alone take little";
 }
 
 }  // namespace

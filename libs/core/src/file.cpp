@@ -98,7 +98,6 @@ void write_file(const std::filesystem::path& path, std::span<const std::byte> da
   // A device or pipe has no old content to keep and must not be replaced by a file.
   struct stat status {};
   if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
-    if (S_ISDIR(status.st_mode)) fail(path, "write", EISDIR);
     Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
     if (device.get() < 0) fail(path, "write", errno);
     if (const int error = write_all(device.get(), data)) fail(path, "write", error);

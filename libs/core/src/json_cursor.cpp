@@ -97,7 +97,7 @@ std::size_t Cursor::size(std::size_t least, std::size_t most) const {
 }
 
 Cursor Cursor::operator[](std::size_t i) const {
-  SSPHH_CHECK(i < size());
+  size(i + 1);
   return {(*value_)[i], *file_, fmt::format("{}[{}]", path_, i)};
 }
 

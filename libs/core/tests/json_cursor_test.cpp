@@ -134,6 +134,10 @@ TEST(JsonCursor, ArraysHaveAsManyElementsAsAreWanted) {
             "f: v[1]: must be a number, not string");
   EXPECT_EQ(said_of("[[1,2],[3,1e39]]", [](const Cursor& v) { v[1].vector2(); }),
             "f: v[1][1]: 1e+39 is too large a number");
+  const auto third = [](const Cursor& v) { EXPECT_EQ(v[2].number(), 3); };
+  EXPECT_EQ(said_of("[1,2,3]", third), "no error");
+  EXPECT_EQ(said_of("[1,2]", third), "f: v: must have at least 3 elements, not 2");
+  EXPECT_EQ(said_of("{\"2\":3}", third), "f: v: must be an array, not object");
 }
 
 TEST(JsonCursor, MembersThatAreMissingAreWhatStandsForThem) {

@@ -39,6 +39,8 @@ TEST_F(Listening, TellsOfUnitsWorkersAndRetries) {
     FarmProgress progress({this, nullptr}, "bake", 12, "probe steps");
     progress.cached(0);
     EXPECT_EQ(take_lines(), Lines{});
+    progress.cached(1);
+    EXPECT_EQ(take_lines(), Lines{"1 results are in the cache"});
     progress.cached(5);
     EXPECT_EQ(take_lines(), Lines{"5 results are in the cache"});
     FarmReport report;
@@ -56,7 +58,7 @@ TEST_F(Listening, TellsOfUnitsWorkersAndRetries) {
     progress.finished(0, report);
     EXPECT_EQ(take_lines(), Lines{"2 retries: workers were lost or failed"});
   }
-  EXPECT_EQ(told_, "bake 12 probe steps;0;5;1;2;3;1;0;end;");
+  EXPECT_EQ(told_, "bake 12 probe steps;0;1;5;1;2;3;1;0;end;");
 }
 
 TEST_F(Listening, ResultsAreKeptWhereThereIsACacheAndRoom) {

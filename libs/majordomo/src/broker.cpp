@@ -39,6 +39,7 @@ struct Broker::Impl {
         outbox(options.limits.outbox_bytes) {
     core.set_least_event(options.least_event);
     require_keys(options.bind, options.security.has_value(), "--bind");
+    if (options.timers.heartbeat < 1) throw Error("heartbeat", "must be 1 ms or more");
     if (options.timers.worker_expiry < 3 * options.timers.heartbeat)
       throw Error("worker expiry", "is shorter than three heartbeats",
                   "the guide's workers beat every 2500 ms: at least 7500 ms with them");

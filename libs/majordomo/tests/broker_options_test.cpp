@@ -21,6 +21,8 @@ TEST(BrokerOptions, WorkersMayBeSilentForThreeHeartbeats) {
   EXPECT_THROW(Broker(silent_for(7499, 2500)), Error);
   EXPECT_NO_THROW(Broker(silent_for(300, 100)));
   EXPECT_THROW(Broker(silent_for(299, 100)), Error);
+  EXPECT_NO_THROW(Broker(silent_for(3, 1)));
+  EXPECT_THROW(Broker(silent_for(3, 0)), Error) << "would do nothing but beat";
 }
 
 }  // namespace

@@ -13,8 +13,7 @@ std::vector<int> rings(int count) {
   double radius = std::sqrt(count);
   while (inside.back() > 1) {
     radius -= std::sqrt(pi_d) * 0.9;  // a cell has area π, and somewhat more length across than along
-    const int next = radius > 0 ? static_cast<int>(std::lround(radius * radius)) : 0;
-    inside.push_back(std::min(next, inside.back() - 1));
+    inside.push_back(std::min(static_cast<int>(std::lround(radius * radius)), inside.back() - 1));
     if (inside.back() <= 0) {
       inside.back() = 0;
       break;

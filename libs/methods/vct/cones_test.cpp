@@ -38,6 +38,26 @@ TEST(VctCones, DivideTheHemisphere) {
   }
 }
 
+TEST(VctCones, AreAboutAsLongAsWide) {
+  for (int count = 3; count <= 200; ++count) {
+    const std::vector<Cone> cones = hemisphere_cones(count);
+    // Rings from the pole out; on the unit disk a cell has area π / count.
+    for (std::size_t inside = 0, end = 0; inside < cones.size(); inside = end) {
+      while (end < cones.size() && cones[end].direction.z == cones[inside].direction.z) ++end;
+      const auto cells = static_cast<double>(end - inside);
+      if (inside == 0) {
+        EXPECT_LE(cells, 5) << count << ": sectors meet at the pole";
+        continue;
+      }
+      const double inner = std::sqrt(static_cast<double>(inside) / count),
+                   outer = std::sqrt(static_cast<double>(end) / count);
+      const double across = pi_d * (inner + outer) / cells;
+      EXPECT_GE(across / (outer - inner), 1) << count << ", ring of " << cells;
+      EXPECT_LE(across / (outer - inner), 1.6) << count << ", ring of " << cells;
+    }
+  }
+}
+
 TEST(VctCones, LobesNarrowWithRoughness) {
   float last = 1;
   for (const float roughness : {0.0f, 0.2f, 0.5f, 0.8f, 1.0f}) {

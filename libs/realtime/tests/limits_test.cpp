@@ -1,6 +1,8 @@
 /// Where OpenGL's memory and numbers end: what halves hold, what a pass may take, what things are counted to
 /// take.
 
+#include <set>
+
 #include <epoxy/gl.h>
 #include <gmock/gmock.h>
 
@@ -91,6 +93,40 @@ TEST_F(Limits, FittedPointsBrighterThanHalvesShineAsBrightAsHalvesDo) {
     for (const std::size_t colour : {0u, 5u, 10u})
       EXPECT_EQ(texels[16 * point + colour], 0xfbff7bffu) << point;
   }
+}
+
+TEST_F(Limits, EveryVariantOfAShaderIsAProgramOfItsOwn) {
+  const gl::ShaderFiles files(shader_table());
+  Shaders shaders(files);
+  std::set<const gl::Program*> programs;
+  std::size_t asked = 0;
+  const auto ask = [&](const gl::Program& program) { programs.insert(&program), ++asked; };
+  const auto ask_all = [&] {
+    for (int textures = 0; textures < 16; ++textures) ask(shaders.geometry(textures));
+    for (const bool on : {false, true}) {
+      ask(shaders.shadow(on)), ask(shaders.depth_bounds(on)), ask(shaders.agree(on));
+      ask(shaders.interpolate(on));
+      for (int k = 0; k < emitter_kinds; ++k)
+        for (const bool shadow_view : {false, true})
+          ask(shaders.direct(static_cast<EmitterKind>(k), on, shadow_view));
+      for (int output = 0; output < indirect_outputs; ++output) {
+        const auto o = static_cast<IndirectOutput>(output);
+        for (int k = 0; k < indirect_lookups; ++k)
+          ask(shaders.indirect(static_cast<IndirectLookup>(k), on, o));
+        if (o == IndirectOutput::chosen) continue;
+        for (int k = 0; k < method_kinds; ++k) ask(shaders.method(static_cast<MethodKind>(k), on, o));
+      }
+    }
+    for (const EmitterKind kind : {EmitterKind::disc, EmitterKind::sphere, EmitterKind::environment})
+      ask(shaders.seen(kind));
+    ask(shaders.mark()), ask(shaders.occlusion()), ask(shaders.view()), ask(shaders.resolve());
+    ask(shaders.display());
+  };
+  ask_all();
+  EXPECT_EQ(programs.size(), asked);
+  asked = 0;
+  ask_all();
+  EXPECT_EQ(programs.size(), asked) << "each is compiled once";
 }
 
 TEST_F(Limits, APassTakes256VirtualLights) {

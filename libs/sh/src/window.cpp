@@ -100,7 +100,7 @@ Channel channel_values(const Sh& sh, int c) {
 template <class Sh>
 glm::dvec3 minima(const Sh& sh) {
   const int degree = sh.degree();
-  if (degree <= 0) return degree < 0 ? glm::dvec3(0) : glm::dvec3(sh[0]) * std::sqrt(1 / (4 * pi_d));
+  if (degree < 0) return glm::dvec3(0);
   glm::dvec3 result;
   for (int c = 0; c < 3; ++c) result[c] = channel_minimum(channel_values(sh, c), degree);
   return result;

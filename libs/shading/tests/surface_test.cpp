@@ -83,6 +83,16 @@ TEST(SurfaceAt, ShadingNormalsInterpolateAndNeverFaceAway) {
   expect_near(look(scene, {0, 0.2f, -1}).normal, {0, 0, -1}, 1e-6f);
 }
 
+TEST(SurfaceAt, NormalsThatPointBehindTheirTriangleAreTurnedAndOnlyThose) {
+  Scene scene = triangle_scene();
+  const vec3 behind = glm::normalize(vec3(1, 0, -0.5f));
+  scene.meshes[0].normals.assign(3, behind);
+  expect_near(look(scene, {-1, 0, 1}).normal, -behind, 1e-6f);
+  expect_near(look(scene, {1, 0, -1}).normal, behind, 1e-6f, "from the back");
+  scene.meshes[0].normals.assign(3, vec3(1, 0, 0));
+  expect_near(look(scene, {1, 0, 1}).normal, {1, 0, 0}, 1e-6f, "within the triangle's plane");
+}
+
 TEST(SurfaceAt, NormalMapGreenPointsUpTheImage) {
   Scene scene = triangle_scene();
   auto& material = scene.materials[0];

@@ -70,6 +70,7 @@ TEST(LinkFile, RefusesWhatIsBroken) {
     std::memcpy(bytes.data() + at, &value, sizeof(value));
     return bytes;
   };
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(good.data()), 8), "SPHLLINK");
   for (const std::size_t size : {std::size_t{0}, std::size_t{31}})
     refused({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size)}, "too short");
   refused({good.begin(), good.end() - 8}, "do not make");

@@ -102,8 +102,8 @@ void BrokerCore::Impl::check_worker(const std::string& id) {
   }
   if (now - worker.sent >= times.heartbeat) to_worker(id, worker, Command::heartbeat);
   const Millis expiry = worker.suspect ? Timers::never : peer.heard + times.worker_expiry;
-  worker.check = timers.set(std::max(now + 1, std::min(worker.sent + times.heartbeat, expiry)),
-                            [this, id](Millis) { check_worker(id); });
+  worker.check =
+      timers.set(std::min(worker.sent + times.heartbeat, expiry), [this, id](Millis) { check_worker(id); });
 }
 
 void BrokerCore::Impl::attempt_overdue(const std::string& id) {

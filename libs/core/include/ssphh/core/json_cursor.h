@@ -53,7 +53,7 @@ class Cursor {
 
   /// Elements of this array; fails when this is no array, or has fewer or more than asked for.
   std::size_t size(std::size_t least = 0, std::size_t most = std::numeric_limits<std::size_t>::max()) const;
-  Cursor operator[](std::size_t i) const;
+  Cursor operator[](std::size_t i) const;  ///< fails when this is no array, or has no such element
   Cursor operator[](int i) const { return (*this)[static_cast<std::size_t>(i)]; }
 
   /// Whole number; one that is written with a fraction of 0 counts (JSON has one kind of number).

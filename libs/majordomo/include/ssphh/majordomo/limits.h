@@ -33,7 +33,7 @@ struct BrokerLimits {
 
 /// All in milliseconds.
 struct BrokerTimers {
-  Millis heartbeat = 2500;          ///< to each worker that was sent nothing else; workers beat as often
+  Millis heartbeat = 2500;  ///< to each worker that was sent nothing else, 1 at least; workers beat as often
   Millis worker_expiry = 8000;      ///< of silence; at least three heartbeats
   Millis request_expiry = 600'000;  ///< of a foreign client's request that no worker ever took
   Millis retry_backoff = 100;       ///< before the second attempt; doubles with each further one
