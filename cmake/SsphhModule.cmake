@@ -2,14 +2,19 @@
 #              [TEST_LINK <target>...])
 #
 # Makes the static library ssphh::<name> from src/, two folders deep, with its own include directory, and
-# test_<name> from tests/*.cpp. FOLDERS beside src/ hold sources together with their tests (*_test.cpp). DEPENDS is exactly the list of modules it may include. Third-party targets go to
-# LINK_PRIVATE unless their types stand in public headers.
+# test_<name> from tests/*.cpp. FOLDERS beside src/ hold sources together with their tests (*_test.cpp) and, where they
+# have public headers, an include directory of their own. DEPENDS is exactly the list of modules it may include.
+# Third-party targets go to LINK_PRIVATE unless their types stand in public headers.
 function(ssphh_module name)
   cmake_parse_arguments(ARG "" "" "DEPENDS;FOLDERS;LINK_PUBLIC;LINK_PRIVATE;TEST_LINK" ${ARGN})
   set(target ssphh_${name})
   file(GLOB sources CONFIGURE_DEPENDS src/*.cpp src/*/*.cpp src/*/*/*.cpp)
   file(GLOB tests CONFIGURE_DEPENDS tests/*.cpp)
+  set(includes include)
   foreach(folder IN LISTS ARG_FOLDERS)
+    if(IS_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/include)
+      list(APPEND includes ${folder}/include)
+    endif()
     file(GLOB inside CONFIGURE_DEPENDS ${folder}/*.cpp)
     foreach(file IN LISTS inside)
       if(file MATCHES "_test\\.cpp$")
@@ -23,9 +28,11 @@ function(ssphh_module name)
   add_library(ssphh::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   target_compile_features(${target} PUBLIC cxx_std_20)
-  target_include_directories(${target}
-    PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
-    PRIVATE src)
+  foreach(folder IN LISTS includes)
+    target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${folder}>)
+    install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  endforeach()
+  target_include_directories(${target} PUBLIC $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}> PRIVATE src)
   if(ARG_FOLDERS)
     target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   endif()
@@ -34,7 +41,6 @@ function(ssphh_module name)
     PUBLIC ${ARG_DEPENDS} ${ARG_LINK_PUBLIC}
     PRIVATE ${ARG_LINK_PRIVATE} $<BUILD_INTERFACE:ssphh_compile_options>)
   install(TARGETS ${target} EXPORT ssphhTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
   if(SSPHH_BUILD_TESTS AND tests)
     ssphh_test(test_${name} SOURCES ${tests} LINK ssphh::${name} ${ARG_TEST_LINK})

@@ -26,6 +26,13 @@ TEST(MethodParameters, DefaultsAndSettings) {
   EXPECT_EQ(read({}).choice("kind"), "sphere");
 }
 
+TEST(MethodParameters, LieBetweenTheirLimits) {
+  for (const char* good : {"photons=1", "photons=1000", "clamp=0", "clamp=10", "photons=1e3", "photons=64.0"})
+    EXPECT_NO_THROW(read({good})) << good;
+  for (const char* bad : {"photons=0", "photons=1001", "clamp=-0.001", "clamp=10.001"})
+    EXPECT_THROW(read({bad}), Error) << bad;
+}
+
 TEST(MethodParameters, BadOnesAreNamed) {
   EXPECT_THAT([] { read({"photon=3"}); }, ThrowsMessage<Error>(HasSubstr("did you mean \"photons\"")));
   EXPECT_THAT([] { read({"photons=x"}); }, ThrowsMessage<Error>(HasSubstr("photons of method vpl: \"x\"")));
