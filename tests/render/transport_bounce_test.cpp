@@ -42,6 +42,24 @@ TEST(Bounce, OneApplicationAddsOneBounceToDirectLight) {
   for (const sh::RadianceSh& s : reflected) EXPECT_NEAR(s[0].y / root_4pi, 0.75f, 3e-3f);
 }
 
+TEST(Bounce, LooksUpAnewOnlyWhereAPartMayComeBetween) {
+  GlowingBox box(0.5f);
+  EXPECT_EQ(transport::BounceOperator(box.session.network(), box.source, 2).update_pose(), 0u);
+  // Of a door between two rooms hang the weights of what lies around it, whether it has moved or not.
+  const scene::Scene scene = scene::make_builtin("two-rooms");
+  const trace::TransportScene source(scene);
+  transport::RelightParams params;
+  params.transport = small_network();
+  params.degree = 1;
+  const LitSession session(source, places_of(scene), params);
+  const std::size_t rays = session.network().seen().size();
+  transport::BounceOperator bounce(session.network(), source, 1);
+  const std::size_t around = bounce.update_pose();
+  EXPECT_GT(around, rays / 100);
+  EXPECT_LT(around, rays / 2);
+  EXPECT_EQ(bounce.update_pose(), around);
+}
+
 transport::RelightParams bounce_session() {
   transport::RelightParams params;
   params.transport = small_network();

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <ssphh/core/parallel.h>
@@ -12,28 +13,19 @@
 #include "sphl_emission.h"
 
 namespace ssphh::transport {
-namespace {
-
-/// Whether a lookup on this thread asked for a way that some part may cross at some time.
-thread_local bool asked_near_part = false;
-
-}  // namespace
 
 struct BounceOperator::Data {
-  Data(const TransportNetwork& network_in, const rays::TransportSource& source, int degree,
+  Data(const TransportNetwork& network_in, const rays::TransportSource& source_in, int degree,
        const BounceParams& params_in)
       : network(network_in),
+        source(source_in),
         params(params_in),
         projector(degree, network.gbuffer().directions),
         swept(swept_bounds(source)) {
     params.irradiance_degree = std::min(params.irradiance_degree, degree);
-    lookup = probes::make_weights(
-        network.gbuffer().positions,
-        [&](const vec3& a, const vec3& b) {
-          if (crosses_swept({a, b - a, 1})) asked_near_part = true;
-          return sees(network, source, a, b);
-        },
-        params.weights);
+    // Else every RayLookup would find it anew.
+    const float spacing = probes::median_spacing(network.gbuffer().positions);
+    if (params.weights.spacing == 0 && std::isfinite(spacing)) params.weights.spacing = spacing;
     const std::size_t rays = network.seen().size();
     known.resize(rays);
     basis.assign(rays * bands(), 0);
@@ -48,11 +40,38 @@ struct BounceOperator::Data {
     bool near_part = false;
   };
 
+  /// Lookup weights, and whether they hang on a way that some part may cross at some time. One for each range
+  /// of rays that a thread works on.
+  class RayLookup {
+   public:
+    explicit RayLookup(const Data& d)
+        : weights_(probes::make_weights(
+              d.network.gbuffer().positions,
+              [this, &d](const vec3& a, const vec3& b) {
+                near_part_ = near_part_ || d.crosses_swept({a, b - a, 1});
+                return sees(d.network, d.source, a, b);
+              },
+              d.params.weights)) {}
+    RayLookup(const RayLookup&) = delete;
+    RayLookup& operator=(const RayLookup&) = delete;
+
+    probes::ProbeWeights at(const rays::SurfacePoint& point, bool& near_part) {
+      near_part_ = false;
+      const probes::ProbeWeights found = weights_->at(point);
+      near_part = near_part_;
+      return found;
+    }
+
+   private:
+    bool near_part_ = false;
+    std::unique_ptr<probes::LookupWeights> weights_;
+  };
+
   const TransportNetwork& network;
+  const rays::TransportSource& source;
   BounceParams params;
   DirectionProjector projector;
-  std::vector<scene::Bounds> swept;  ///< per part, all that it ever occupies
-  std::unique_ptr<probes::LookupWeights> lookup;
+  std::vector<scene::Bounds> swept;          ///< per part, all that it ever occupies
   std::vector<KnownHit> known;               ///< per probe ray
   std::vector<std::size_t> begin;            ///< per probe ray, into weights; and the end
   std::vector<probes::ProbeWeight> weights;  ///< lookup weights at the rays' hits
@@ -82,7 +101,7 @@ struct BounceOperator::Data {
   }
 
   /// Weights and basis functions at the hit of one ray; `at` stays empty where nothing is seen.
-  void look_up_anew(std::size_t ray, probes::ProbeWeights& at) {
+  void look_up_anew(RayLookup& lookup, std::size_t ray, probes::ProbeWeights& at) {
     const ProbeGBuffer& g = network.gbuffer();
     const std::size_t directions = g.directions.size(), count = bands();
     const SeenPatch& patch = network.seen()[ray];
@@ -92,9 +111,7 @@ struct BounceOperator::Data {
     const mat3 turn(network.poses()[static_cast<std::size_t>(surfel.part)]);
     const vec3 n = glm::normalize(glm::transpose(glm::inverse(turn)) * surfel.point.normal);
     const vec3 x = g.positions[ray / directions] + known[ray].distance * g.directions[ray % directions];
-    asked_near_part = false;
-    at = lookup->at({x, n, surfel.part > 0});
-    known[ray].near_part = asked_near_part;
+    at = lookup.at({x, n, surfel.part > 0}, known[ray].near_part);
     const std::span<float> at_hit(basis.data() + ray * count, count);
     sh::eval_basis(params.irradiance_degree, n, at_hit);
     for (int l = 0; l <= params.irradiance_degree; ++l) {
@@ -107,8 +124,13 @@ struct BounceOperator::Data {
   void look_up_anew(std::span<const std::uint32_t> which) {
     if (which.empty()) return;
     std::vector<probes::ProbeWeights> found(which.size());
+    // So many rays that a lookup is made in a fraction of the time that they take.
+    const std::size_t grain = std::max<std::size_t>(256, network.gbuffer().positions.size());
     try {
-      parallel_for(which.size(), 256, [&](std::size_t i) { look_up_anew(which[i], found[i]); });
+      parallel_for(which.size(), grain, [&](std::size_t first, std::size_t end) {
+        RayLookup lookup(*this);
+        for (std::size_t i = first; i < end; ++i) look_up_anew(lookup, which[i], found[i]);
+      });
     } catch (...) {
       for (const std::uint32_t ray : which) known[ray].surfel = unknown;
       throw;
