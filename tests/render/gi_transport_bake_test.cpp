@@ -52,6 +52,11 @@ TEST(GiTransportBake, TheClosedBoxHoldsTheWholeGeometricSeries) {
   EXPECT_NEAR(baked.report.contraction, 0.5, 1e-3) << "one bounce keeps the albedo's share";
   EXPECT_GT(baked.report.iterations, 2);
   EXPECT_GT(baked.report.surfels, 100u);
+  EXPECT_GT(baked.report.links, baked.report.surfels);
+  EXPECT_LE(baked.report.links, baked.report.surfels * static_cast<std::size_t>(params.transport.link_rays));
+  EXPECT_EQ(baked.report.finest_surfel, baked.set.generator.surfel_size);
+  EXPECT_GE(baked.report.coarsest_surfel, baked.report.finest_surfel);
+  EXPECT_EQ(baked.report.lost, 0) << "every ray in a closed box ends at a surfel";
   EXPECT_GT(baked.report.rays, 384u * baked.set.probes.size());
   EXPECT_THAT(baked.report.warnings, testing::IsEmpty());
 }

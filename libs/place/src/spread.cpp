@@ -50,7 +50,7 @@ std::vector<bool> most_spread(const std::vector<Draft>& drafts, const std::vecto
   for (std::size_t i = 0; i < drafts.size(); ++i) {
     if (drafts[i].kind == PlaceKind::manual) choose(i);
   }
-  const auto room = [&](std::size_t i) { return std::min(drafts[i].site.nearest, 1e30f); };
+  const auto room = [&](std::size_t i) { return drafts[i].site.nearest; };
   while (number < std::min(count, drafts.size())) {
     std::size_t best = drafts.size();
     for (std::size_t i = 0; i < drafts.size(); ++i) {

@@ -41,6 +41,17 @@ std::map<int, float> by_probe(const ProbeWeights& weights) {
   return result;
 }
 
+TEST(FittedPoints, AreEqualInPlacesNormalsAndWeights) {
+  const FittedPoints fitted = floor_points();
+  EXPECT_EQ(fitted, floor_points());
+  FittedPoints moved = fitted, turned = fitted, weighed = fitted, more = fitted;
+  moved.points[80].position.x += 1e-3f;
+  turned.points[0].normal = {0, -1, 0};
+  weighed.weights[40].used()[1].weight += 1e-3f;
+  more.points.push_back(more.points.back());
+  for (const FittedPoints& other : {moved, turned, weighed, more}) EXPECT_FALSE(fitted == other);
+}
+
 TEST(FittedLookupWeights, AreLinearBetweenPointsAndKeepTheirSum) {
   const auto weights = lookup(floor_points());
   for (const vec3& x : {vec3(2, 0, 2), vec3(1.1f, 0, 2.3f), vec3(2.6f, 0, 1.4f), vec3(2.25f, 0, 1.75f)}) {

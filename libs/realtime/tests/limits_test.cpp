@@ -1,9 +1,11 @@
 /// Where OpenGL's memory and numbers end: what halves hold, what a pass may take, what things are counted to
 /// take.
 
+#include <numeric>
 #include <set>
 
 #include <epoxy/gl.h>
+#include <glm/gtc/packing.hpp>
 #include <gmock/gmock.h>
 
 #include <ssphh/scene/primitives.h>
@@ -92,6 +94,45 @@ TEST_F(Limits, FittedPointsBrighterThanHalvesShineAsBrightAsHalvesDo) {
   for (std::size_t point = 0; point < 4; ++point) {
     for (const std::size_t colour : {0u, 5u, 10u})
       EXPECT_EQ(texels[16 * point + colour], 0xfbff7bffu) << point;
+  }
+}
+
+// 512 points lie in a row of the texture; those beside each other are uploaded together.
+TEST_F(Limits, LightOfSomePointsLeavesThatOfTheOthers) {
+  constexpr std::size_t count = 1200, rows = 3;
+  FrameCounters counters;
+  probes::SurfaceLists lists;
+  lists.points.resize(count);
+  SurfaceLight light(lists, counters);
+  std::vector<std::uint32_t> all(count);
+  std::iota(all.begin(), all.end(), 0u);
+  const auto give = [&](const std::vector<std::uint32_t>& points, float scale) {
+    const std::uint64_t before = counters.bytes_uploaded;
+    light.update(
+        points,
+        [&](std::uint32_t point) {
+          SurfaceLight::Coefficients same;
+          same.fill(vec3(scale * static_cast<float>(point)));
+          return same;
+        },
+        counters);
+    EXPECT_EQ(counters.bytes_uploaded - before, points.size() * 64);
+  };
+  give(all, 1);
+  const std::vector<std::uint32_t> some = {0, 1, 2, 7, 9, 10, 510, 511, 512, 513, 1023, 1025, 1199};
+  give(some, -1);
+  const gl::ShaderFiles files(shader_table());
+  Shaders shaders(files);
+  light.bind(shaders.indirect(IndirectLookup::surface, false, IndirectOutput::radiance));
+  GLint texture = 0;
+  glGetIntegeri_v(GL_TEXTURE_BINDING_2D, unit::fitted_light, &texture);
+  std::vector<glm::uvec4> texels(rows * 2048);
+  glGetTextureImage(static_cast<GLuint>(texture), 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+                    static_cast<GLsizei>(texels.size() * sizeof(texels[0])), texels.data());
+  for (const std::uint32_t point : all) {
+    const float sign = std::ranges::binary_search(some, point) ? -1 : 1;
+    const vec2 two = glm::unpackHalf2x16(texels[std::size_t{4} * point].x);
+    EXPECT_EQ(two, vec2(sign * static_cast<float>(point))) << point;
   }
 }
 

@@ -48,7 +48,7 @@ TEST(SurfelSizes, DoubleWithTheDistanceOfProbesAndWithThatBetweenThem) {
   EXPECT_EQ(sizes.level(vec3(0)), 2) << "0.4 is no more than a quarter of 2, 0.8 is";
   EXPECT_EQ(sizes.level(vec3(0, 1.9f, 0)), 2) << "nearer than probes are apart";
   EXPECT_EQ(sizes.level(vec3(10, 0, 0)), 4) << "1.6 is no more than a quarter of 8, 3.2 is";
-  EXPECT_EQ(sizes.level(vec3(1e9f, 0, 0)), SurfelSizes::most_level);
+  EXPECT_EQ(sizes.level(vec3(1e9f, 0, 0)), 15) << "3.3 km, however far";
   const SurfelSizes alone(0.1f, std::span(probes).first(1), 0.25f);
   EXPECT_EQ(alone.level(vec3(0)), 0);
   EXPECT_EQ(alone.level(vec3(0, 0, 3.3f)), 3);
