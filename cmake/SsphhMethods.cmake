@@ -9,7 +9,7 @@ function(ssphh_method_entries target)
     string(APPEND calls "      ${method}::entry(),\n")
   endforeach()
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${target}_entries.cpp @ONLY CONTENT
-"#include <ssphh/methods/table.h>
+"#include <ssphh/methods/method_list.h>
 
 @declarations@
 namespace ssphh::methods {

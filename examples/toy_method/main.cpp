@@ -2,14 +2,14 @@
 
 #include <cstdio>
 
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/trace/transport_scene.h>
 
 using namespace ssphh;
 
 int main() {
-  for (const methods::MethodEntry& entry : methods::method_table())
+  for (const methods::MethodEntry& entry : methods::all_methods())
     std::printf("%-7s %s\n", entry.name, entry.about);
 
   const scene::Scene scene = scene::make_builtin("cornell");

@@ -96,8 +96,8 @@ TEST(Commands, SceneInfoCountsWhatTheSceneHoldsInItsPose) {
 
 TEST(Commands, MethodsAreTheLibrarysTable) {
   const MethodsResult all = run_methods();
-  EXPECT_EQ(all.methods.data(), methods::method_table().data());
-  EXPECT_EQ(all.methods.size(), methods::method_table().size());
+  EXPECT_EQ(all.methods.data(), methods::all_methods().data());
+  EXPECT_EQ(all.methods.size(), methods::all_methods().size());
   const MethodsResult one = run_methods({.name = "vpl"});
   ASSERT_EQ(one.methods.size(), 1u);
   EXPECT_EQ(one.methods.data(), &methods::find_method("vpl"));

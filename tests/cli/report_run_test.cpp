@@ -9,7 +9,7 @@
 
 #include <ssphh/core/file.h>
 #include <ssphh/image/io.h>
-#include <ssphh/report/jobs.h>
+#include <ssphh/report/expansion.h>
 
 #include "temp_dir.h"
 

@@ -8,7 +8,7 @@
 #include <ssphh/farm/scene_package.h>
 #include <ssphh/image/io.h>
 #include <ssphh/report/cache.h>
-#include <ssphh/report/jobs.h>
+#include <ssphh/report/expansion.h>
 #include <ssphh/report/measure.h>
 #include <ssphh/report/packed_image.h>
 #include <ssphh/report/report.h>

@@ -2,7 +2,7 @@
 
 #include <ssphh/bake/bake.h>
 #include <ssphh/geometry/nearest.h>
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 #include <ssphh/place/init.h>
 #include <ssphh/probes/hier.h>
 #include <ssphh/probes/lookup_weights.h>

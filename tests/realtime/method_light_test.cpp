@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <ssphh/core/parallel.h>
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 #include <ssphh/rays/posed_world.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/shading/bsdf.h>

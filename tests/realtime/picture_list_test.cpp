@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 #include <ssphh/trace/transport_scene.h>
 
 #include "busy_scene.h"

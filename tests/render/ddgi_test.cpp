@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/core/parallel.h>
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 #include <ssphh/place/place.h>
 #include <ssphh/study/leak.h>
 #include <ssphh/study/lookup_error.h>

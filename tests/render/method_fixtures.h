@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 #include <ssphh/place/place.h>
 #include <ssphh/scene/with_lighting.h>
 #include <ssphh/study/leak.h>

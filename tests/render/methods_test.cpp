@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/core/parallel.h>
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 #include <ssphh/study/leak.h>
 #include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
@@ -88,7 +88,7 @@ TEST_P(EveryMethod, GivesTheSameBitsOnOneThread) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, EveryMethod, testing::ValuesIn([] {
                            std::vector<const methods::MethodEntry*> entries;
-                           for (const methods::MethodEntry& entry : methods::method_table())
+                           for (const methods::MethodEntry& entry : methods::all_methods())
                              entries.push_back(&entry);
                            return entries;
                          }()),

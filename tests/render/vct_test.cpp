@@ -4,7 +4,7 @@
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/random.h>
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/study/surface_points.h>

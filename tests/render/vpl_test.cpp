@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/core/parallel.h>
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 #include <ssphh/study/leak.h>
 #include <ssphh/study/lookup_error.h>
 #include <ssphh/study/surface_points.h>

@@ -169,7 +169,7 @@ void add_bench_frame_command(Command app, Context& context) {
   add_scene_options(command, o.scene);
   command.option("--probes", o.lookup.probes, "Probe file; without one: direct light alone");
   std::vector<std::string> methods = {"ssphh"};
-  for (const methods::MethodEntry& entry : methods::method_table()) {
+  for (const methods::MethodEntry& entry : methods::all_methods()) {
     if (entry.has_light_data) methods.emplace_back(entry.name);
   }
   command.option("--method", o.method, "What lights the scene: probes, or another method, made first")

@@ -1,12 +1,12 @@
 #pragma once
-/// Methods of methods::method_table() made for a scene in this process, with what they took.
+/// Methods of methods::all_methods() made for a scene in this process, with what they took.
 
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <ssphh/core/control.h>
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 #include <ssphh/trace/transport_scene.h>
 
 #include "results/method_figures.h"

@@ -31,7 +31,7 @@ json::Value to_json(const methods::MethodParameter& p) {
 }  // namespace
 
 MethodsResult run_methods(const MethodsOptions& options, const Control&) {
-  if (options.name.empty()) return {methods::method_table()};
+  if (options.name.empty()) return {methods::all_methods()};
   return {{&methods::find_method(options.name), 1}};
 }
 

@@ -6,7 +6,7 @@
 
 #include <ssphh/core/control.h>
 #include <ssphh/core/json.h>
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 
 namespace ssphh::app {
 
@@ -15,7 +15,7 @@ struct MethodsOptions {
 };
 
 struct MethodsResult {
-  std::span<const methods::MethodEntry> methods;  ///< of methods::method_table(), in its order
+  std::span<const methods::MethodEntry> methods;  ///< of methods::all_methods(), in its order
 };
 
 /// Throws Error for a name that no method has.

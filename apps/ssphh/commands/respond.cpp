@@ -134,7 +134,7 @@ void add_respond_command(Command app, Context& context) {
                   run_respond);
   add_scene_options(command, o.scene);
   std::vector<std::string> names;
-  for (const methods::MethodEntry& entry : methods::method_table()) names.emplace_back(entry.name);
+  for (const methods::MethodEntry& entry : methods::all_methods()) names.emplace_back(entry.name);
   command.option("--method", o.method, "Method; `ssphh methods` tells of each").one_of(names);
   add_method_parameters(command, o.parameters);
   command

@@ -16,7 +16,7 @@ namespace ssphh::app {
 
 struct RespondOptions {
   SceneOptions scene;
-  std::string method = "ssphh";         ///< of methods::method_table()
+  std::string method = "ssphh";         ///< of methods::all_methods()
   std::vector<std::string> parameters;  ///< of the method, each as "NAME=VALUE"
   /// What changes, each as "NAME=BEFORE:AFTER"; none: the scene's animations go from start to end.
   std::vector<std::string> events;

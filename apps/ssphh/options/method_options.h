@@ -1,5 +1,5 @@
 #pragma once
-/// The options of the commands that make a method of methods::method_table().
+/// The options of the commands that make a method of methods::all_methods().
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 
 #include "options/method_options.h"
 #include "options/probe_options.h"
@@ -20,7 +20,7 @@ void add_render_options(Command command, RenderOptions& o) {
 
   std::vector<std::string> names = {"path"};
   std::string description = "How indirect light is found: path (path tracing, the ground truth);";
-  for (const methods::MethodEntry& entry : methods::method_table()) {
+  for (const methods::MethodEntry& entry : methods::all_methods()) {
     names.emplace_back(entry.name);
     description += fmt::format(" {} ({});", entry.name, entry.about);
   }

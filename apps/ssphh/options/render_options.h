@@ -24,8 +24,8 @@ constexpr auto enum_table(RenderBackend) {
 
 struct RenderOptions {
   SceneOptions scene;
-  FarmChoice farm;              ///< that traces, if there is any: for methods path and ssphh
-  std::string method = "path";  ///< what finds indirect light: path, or one of methods::method_table()
+  FarmChoice farm;                      ///< that traces, if there is any: for methods path and ssphh
+  std::string method = "path";          ///< what finds indirect light: path, or one of methods::all_methods()
   std::vector<std::string> parameters;  ///< of the method, as NAME=VALUE
   RenderBackend backend = RenderBackend::cpu;
   std::uint64_t seed = 0;

@@ -18,7 +18,7 @@ struct ReferenceParams {
   float time = 0;
   scene::CameraPose camera;
   int width = 0, height = 0;
-  std::string method = "path";  ///< or one of methods::method_table(), with its default parameters
+  std::string method = "path";  ///< or one of methods::all_methods(), with its default parameters
   int max_depth = 8;
   int passes = 256;  ///< one sample per pixel each
 };

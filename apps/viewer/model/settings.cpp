@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <ssphh/core/parse_number.h>
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 
 namespace ssphh::viewer {
 namespace {
@@ -41,7 +41,7 @@ SettingName word(const char* name, const char* group, const char* help, std::vec
 
 std::vector<std::string> truth_names() {
   std::vector<std::string> names = {"path"};
-  for (const methods::MethodEntry& entry : methods::method_table()) names.emplace_back(entry.name);
+  for (const methods::MethodEntry& entry : methods::all_methods()) names.emplace_back(entry.name);
   return names;
 }
 

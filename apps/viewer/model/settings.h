@@ -73,7 +73,7 @@ struct Settings {
   float wipe = 0.5f;  ///< place of the line, share of the width
   int block = 16;     ///< pixels, of `pixelated`
   std::string against =
-      "path";              ///< what the truth's place holds: path, or a method of methods::method_table()
+      "path";              ///< what the truth's place holds: path, or a method of methods::all_methods()
   int truth_depth = 8;     ///< scattering events of the ground truth
   int truth_passes = 256;  ///< samples per pixel
   float scale = 1;         ///< pixels of the real-time picture per pixel of the window, along each axis

@@ -1,6 +1,6 @@
 // A method of one's own: what the lamps send out, spread evenly over the sides of the scene's bounds.
 
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 #include <ssphh/rays/posed_world.h>
 
 namespace ssphh::methods::even {

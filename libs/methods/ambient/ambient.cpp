@@ -1,6 +1,6 @@
 #include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 #include <ssphh/rays/posed_world.h>
 
 #include "points_in_reach.h"

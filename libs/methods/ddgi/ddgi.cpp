@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 
 #include "blend.h"
 #include "reach.h"

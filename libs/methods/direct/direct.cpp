@@ -1,4 +1,4 @@
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 
 namespace ssphh::methods::direct {
 namespace {

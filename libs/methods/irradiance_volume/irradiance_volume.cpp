@@ -1,6 +1,6 @@
 #include <optional>
 
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/transport/session_sets.h>
 

@@ -5,7 +5,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/sh/rotate.h>
 #include <ssphh/transport/session_sets.h>

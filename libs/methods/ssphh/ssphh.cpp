@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <optional>
 
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 #include <ssphh/place/place.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/rays/posed_world.h>

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 
 #include "ddgi/blend.h"
 #include "ddgi/rays.h"
@@ -98,7 +98,7 @@ TEST(MethodDefaults, OfWhatPlacesNone) {
 }
 
 TEST(MethodDefaults, OpenGlCanDrawWhatGivesItsLightAsData) {
-  for (const MethodEntry& entry : method_table())
+  for (const MethodEntry& entry : all_methods())
     EXPECT_EQ(entry.has_light_data, std::string(entry.name) == "vpl" || std::string(entry.name) == "vct")
         << entry.name;
 }

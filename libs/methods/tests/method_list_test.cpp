@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 
 #include "number_list.h"
 #include "open_room.h"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/core/error.h>
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 
 namespace ssphh::methods {
 namespace {
@@ -46,7 +46,7 @@ TEST(MethodParameters, BadOnesAreNamed) {
 
 TEST(MethodTable, NamesAreUniqueAndDefaultsValid) {
   std::vector<std::string> names;
-  for (const MethodEntry& entry : method_table()) {
+  for (const MethodEntry& entry : all_methods()) {
     EXPECT_THAT(names, testing::Not(testing::Contains(entry.name)));
     names.emplace_back(entry.name);
     EXPECT_EQ(&find_method(entry.name), &entry);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 
 #include "error_message.h"
 #include "open_room.h"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/parallel.h>
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 #include <ssphh/methods/vct/cone_light.h>
 #include <ssphh/rays/posed_world.h>
 

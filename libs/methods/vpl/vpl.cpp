@@ -1,6 +1,6 @@
 #include <optional>
 
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 
 #include "field.h"
 #include "points_in_reach.h"

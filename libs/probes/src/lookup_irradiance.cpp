@@ -1,11 +1,11 @@
 #include <algorithm>
 
-#include "probe_table.h"
+#include "packed_probes.h"
 
 namespace ssphh::probes {
 
 struct IrradianceLookup::Data {
-  ProbeTable table;
+  PackedProbes probes;
   std::unique_ptr<LookupWeights> weights;
   std::shared_ptr<const SurfaceInterpolation> places;  ///< of the records; none: weights alone
   std::vector<RecordLight> light;                      ///< of each place
@@ -16,7 +16,7 @@ struct IrradianceLookup::Data {
     vec3 sum(0);
     const ProbeWeights found = weights->at(at);
     for (const ProbeWeight& entry : found.used()) {
-      require(entry.probe >= 0 && entry.probe < table.count(), "lookup weights",
+      require(entry.probe >= 0 && entry.probe < probes.count(), "lookup weights",
               "they name a probe that is not there");
       sum += entry.weight * value(entry.probe);
     }
@@ -43,10 +43,10 @@ WeightMethod chosen_weights(const ProbeSet& set, const LookupParams& params) {
 
 IrradianceLookup::IrradianceLookup(const ProbeSet& set, const rays::RadianceSource& source,
                                    const LookupParams& params)
-    : data_(std::unique_ptr<Data>(new Data{ProbeTable(set, params), nullptr, nullptr, {}})) {
+    : data_(std::unique_ptr<Data>(new Data{PackedProbes(set, params), nullptr, nullptr, {}})) {
   const auto sees = [&source](const vec3& a, const vec3& b) { return source.visible(a, b); };
   data_->weights =
-      make_weights(data_->table.positions(), sees, params.weights, set.fitted ? &*set.fitted : nullptr);
+      make_weights(data_->probes.positions(), sees, params.weights, set.fitted ? &*set.fitted : nullptr);
   if (chosen_weights(set, params) != WeightMethod::surface) return;
   if (!has_records(set, params))
     throw Error("probe lookup", "there are no surface records of that light",
@@ -56,7 +56,7 @@ IrradianceLookup::IrradianceLookup(const ProbeSet& set, const rays::RadianceSour
 IrradianceLookup::IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWeights> weights,
                                    const LookupParams& params,
                                    std::shared_ptr<const SurfaceInterpolation> places)
-    : data_(std::unique_ptr<Data>(new Data{ProbeTable(set, params), std::move(weights), nullptr, {}})) {
+    : data_(std::unique_ptr<Data>(new Data{PackedProbes(set, params), std::move(weights), nullptr, {}})) {
   require(data_->weights != nullptr, "probe lookup", "there are no weights");
   if (!places) return;
   require(has_records(set, params), "probe lookup", "there are no surface records of that light");
@@ -68,15 +68,15 @@ IrradianceLookup& IrradianceLookup::operator=(IrradianceLookup&&) noexcept = def
 
 vec3 IrradianceLookup::irradiance(const rays::SurfacePoint& at) const {
   if (vec3 found; data_->places && data_->places->irradiance(at, data_->light, found)) return found;
-  ProbeTable::Basis basis;
-  data_->table.irradiance_basis(at.normal, basis);
-  return data_->blend(at, [&](int probe) { return data_->table.irradiance(probe, basis.data()); });
+  PackedProbes::Basis basis;
+  data_->probes.irradiance_basis(at.normal, basis);
+  return data_->blend(at, [&](int probe) { return data_->probes.irradiance(probe, basis.data()); });
 }
 
 vec3 IrradianceLookup::glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const {
-  ProbeTable::Basis basis;
-  data_->table.glossy_basis(r, roughness, basis);
-  return data_->blend(at, [&](int probe) { return data_->table.radiance(probe, basis.data()); });
+  PackedProbes::Basis basis;
+  data_->probes.glossy_basis(r, roughness, basis);
+  return data_->blend(at, [&](int probe) { return data_->probes.radiance(probe, basis.data()); });
 }
 
 LookupParams lookup_params(const LookupSpec& spec, const ProbeSet& set) {

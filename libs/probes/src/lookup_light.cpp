@@ -1,10 +1,10 @@
+#include "packed_probes.h"
 #include "probe_sight.h"
-#include "probe_table.h"
 
 namespace ssphh::probes {
 
 struct LightLookup::Data {
-  ProbeTable table;
+  PackedProbes probes;
   ProbeSight sight;
 
   /// The nearest probe that the point sees and that stands above its horizon; else the nearest, with `lights`
@@ -21,7 +21,7 @@ struct LightLookup::Data {
     for (int i = 0; i < count; ++i) {
       const geometry::Near& candidate = near[static_cast<std::size_t>(i)];
       if (!(candidate.distance2 > 0)) continue;
-      const vec3 direction = (table.position(candidate.index) - x) / std::sqrt(candidate.distance2);
+      const vec3 direction = (probes.position(candidate.index) - x) / std::sqrt(candidate.distance2);
       const float cosine = glm::dot(n, direction);
       if (cosine > 0 && sight.sees(candidate, x, n)) return {candidate.index, direction, cosine, true};
     }
@@ -31,11 +31,11 @@ struct LightLookup::Data {
 
 LightLookup::LightLookup(const ProbeSet& set, const rays::RadianceSource& source,
                          const LookupParams& params) {
-  ProbeTable table(set, params);
+  PackedProbes packed(set, params);
   ProbeSight sight(
-      table.positions(), [&source](const vec3& a, const vec3& b) { return source.visible(a, b); },
+      packed.positions(), [&source](const vec3& a, const vec3& b) { return source.visible(a, b); },
       params.weights);
-  data_ = std::unique_ptr<Data>(new Data{std::move(table), std::move(sight)});
+  data_ = std::unique_ptr<Data>(new Data{std::move(packed), std::move(sight)});
 }
 LightLookup::~LightLookup() = default;
 LightLookup::LightLookup(LightLookup&&) noexcept = default;
@@ -44,19 +44,19 @@ LightLookup& LightLookup::operator=(LightLookup&&) noexcept = default;
 vec3 LightLookup::irradiance(const rays::SurfacePoint& at) const {
   const vec3 &x = at.position, &n = at.normal;
   const Data::Chosen chosen = data_->choose(x, n);
-  ProbeTable::Basis basis;
+  PackedProbes::Basis basis;
   if (!chosen.lights) {
-    data_->table.irradiance_basis(n, basis);
-    return data_->table.irradiance(chosen.probe, basis.data());
+    data_->probes.irradiance_basis(n, basis);
+    return data_->probes.irradiance(chosen.probe, basis.data());
   }
-  data_->table.radiance_basis(chosen.direction, basis);
-  return data_->table.radiance(chosen.probe, basis.data()) / std::max(chosen.cosine, smallest_cosine);
+  data_->probes.radiance_basis(chosen.direction, basis);
+  return data_->probes.radiance(chosen.probe, basis.data()) / std::max(chosen.cosine, smallest_cosine);
 }
 
 vec3 LightLookup::glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const {
-  ProbeTable::Basis basis;
-  data_->table.glossy_basis(r, roughness, basis);
-  return data_->table.radiance(data_->choose(at.position, at.normal).probe, basis.data());
+  PackedProbes::Basis basis;
+  data_->probes.glossy_basis(r, roughness, basis);
+  return data_->probes.radiance(data_->choose(at.position, at.normal).probe, basis.data());
 }
 
 }  // namespace ssphh::probes

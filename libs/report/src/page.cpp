@@ -1,6 +1,6 @@
 #include <string_view>
 
-#include "report_data.h"
+#include "report_json.h"
 
 namespace ssphh::report {
 
@@ -66,7 +66,7 @@ std::string encoded(const std::u16string& page) {
 }  // namespace
 
 std::string report_page(const Report& report) {
-  json::Value data = report_data(report);
+  json::Value data = json_of(report);
   std::u16string blobs;
   int count = 0;
   for (std::size_t i = 0; i < report.cells.size(); ++i) {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "report_data.h"
+#include "report_json.h"
 
 namespace ssphh::report {
 namespace {

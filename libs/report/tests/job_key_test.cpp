@@ -6,7 +6,7 @@
 #include <ssphh/core/file.h>
 #include <ssphh/core/hash.h>
 #include <ssphh/report/cache.h>
-#include <ssphh/report/jobs.h>
+#include <ssphh/report/expansion.h>
 
 #include "fields.h"
 #include "temp_dir.h"

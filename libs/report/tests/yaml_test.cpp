@@ -5,7 +5,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
-#include <ssphh/report/jobs.h>
+#include <ssphh/report/expansion.h>
 #include <ssphh/report/plan.h>
 
 #include "error_message.h"

@@ -1,7 +1,7 @@
 #pragma once
 /// Ways to find indirect light, behind one interface, so that each can be drawn, timed and measured as every
-/// other: methods/table.h lists them. A method is made once for a scene (its bake) and then follows lamps and
-/// doors frame by frame.
+/// other: methods/method_list.h lists them. A method is made once for a scene (its bake) and then follows
+/// lamps and doors frame by frame.
 
 #include <cstddef>
 #include <string>

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include <ssphh/report/jobs.h>
+#include <ssphh/report/expansion.h>
 
 namespace ssphh::report {
 

@@ -1,12 +1,13 @@
 #pragma once
-/// The report as JSON, for report.json and, with where its pictures are, for the page.
+/// The report as JSON, for report.json and, with where its pictures are, for the page; and numbers as people
+/// read them.
 
 #include <ssphh/core/json.h>
 #include <ssphh/report/report.h>
 
 namespace ssphh::report {
 
-json::Value report_data(const Report& report);
+json::Value json_of(const Report& report);
 
 /// Numbers for people: four significant digits; "" for NaN.
 std::string number_text(double value);

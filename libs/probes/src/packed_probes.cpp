@@ -1,4 +1,4 @@
-#include "probe_table.h"
+#include "packed_probes.h"
 
 #include <algorithm>
 
@@ -14,10 +14,11 @@ int irradiance_degree(const LookupParams& params, int set_degree) {
   return std::clamp(params.irradiance_degree, 0, std::min(set_degree, max_irradiance_degree));
 }
 
-ProbeTable::ProbeTable(const ProbeSet& set, const LookupParams& params)
-    : ProbeTable(set, surface_light(set, params), params) {}
+PackedProbes::PackedProbes(const ProbeSet& set, const LookupParams& params)
+    : PackedProbes(set, surface_light(set, params), params) {}
 
-ProbeTable::ProbeTable(const ProbeSet& set, std::vector<sh::RadianceSh> lights, const LookupParams& params)
+PackedProbes::PackedProbes(const ProbeSet& set, std::vector<sh::RadianceSh> lights,
+                           const LookupParams& params)
     : radiance_(set.probes.size(), set.degree),
       irradiance_(set.probes.size(), irradiance_degree(params, set.degree)) {
   const auto irradiance_count = static_cast<std::size_t>(sh::coefficient_count(irradiance_.degree));
@@ -31,42 +32,42 @@ ProbeTable::ProbeTable(const ProbeSet& set, std::vector<sh::RadianceSh> lights, 
   });
 }
 
-ProbeTable::Functions::Functions(std::size_t probes, int d)
+PackedProbes::Functions::Functions(std::size_t probes, int d)
     : degree(d),
       stride(whole_lanes(static_cast<std::size_t>(sh::coefficient_count(d)))),
       values(probes * 3 * stride, 0.0f) {}
 
-void ProbeTable::Functions::set(std::size_t probe, std::span<const vec3> coefficients) {
+void PackedProbes::Functions::set(std::size_t probe, std::span<const vec3> coefficients) {
   float* f = values.data() + probe * 3 * stride;
   for (std::size_t k = 0; k < coefficients.size(); ++k) {
     for (std::size_t c = 0; c < 3; ++c) f[c * stride + k] = coefficients[k][static_cast<glm::length_t>(c)];
   }
 }
 
-vec3 ProbeTable::Functions::dot(int probe, const float* basis) const {
+vec3 PackedProbes::Functions::dot(int probe, const float* basis) const {
   const float* f = values.data() + static_cast<std::size_t>(probe) * 3 * stride;
-  std::array<std::array<float, table_lanes>, 3> sums{};
-  for (std::size_t k = 0; k < stride; k += table_lanes) {
+  std::array<std::array<float, packed_lanes>, 3> sums{};
+  for (std::size_t k = 0; k < stride; k += packed_lanes) {
     for (std::size_t c = 0; c < 3; ++c) {
-      for (std::size_t i = 0; i < table_lanes; ++i) sums[c][i] += f[c * stride + k + i] * basis[k + i];
+      for (std::size_t i = 0; i < packed_lanes; ++i) sums[c][i] += f[c * stride + k + i] * basis[k + i];
     }
   }
   vec3 sum(0);
-  for (std::size_t i = 0; i < table_lanes; ++i) sum += vec3(sums[0][i], sums[1][i], sums[2][i]);
+  for (std::size_t i = 0; i < packed_lanes; ++i) sum += vec3(sums[0][i], sums[1][i], sums[2][i]);
   return glm::max(sum, vec3(0));
 }
 
-void ProbeTable::irradiance_basis(const vec3& n, Basis& basis) const {
+void PackedProbes::irradiance_basis(const vec3& n, Basis& basis) const {
   basis.fill(0);
   sh::eval_basis(irradiance_.degree, n, basis);
 }
 
-void ProbeTable::radiance_basis(const vec3& direction, Basis& basis) const {
+void PackedProbes::radiance_basis(const vec3& direction, Basis& basis) const {
   basis.fill(0);
   sh::eval_basis(radiance_.degree, direction, basis);
 }
 
-void ProbeTable::glossy_basis(const vec3& direction, float roughness, Basis& basis) const {
+void PackedProbes::glossy_basis(const vec3& direction, float roughness, Basis& basis) const {
   radiance_basis(direction, basis);
   const auto scales = sh::glossy_band_scales(roughness);
   for (int l = 0; l <= radiance_.degree; ++l) {

@@ -6,7 +6,7 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
 #include <ssphh/report/cache.h>
-#include <ssphh/report/jobs.h>
+#include <ssphh/report/expansion.h>
 
 #include "error_message.h"
 #include "json_text.h"

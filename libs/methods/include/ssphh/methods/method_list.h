@@ -11,9 +11,10 @@
 
 namespace ssphh::methods {
 
+/// What is known of a method before it is made.
 struct MethodEntry {
   const char* name;
-  const char* about;  ///< one line
+  const char* about;  ///< what it does, in one line
   std::vector<MethodParameter> parameters;
   /// Bakes whatever the method keeps for all frames. Throws Error for a scene that the method cannot do.
   std::unique_ptr<Method> (*make)(const MethodScene& scene, const MethodParameters& parameters,
@@ -21,13 +22,13 @@ struct MethodEntry {
   bool has_light_data = false;  ///< Method::light_data() gives some: OpenGL can draw it
 };
 
-/// What entry() of each method's folder says; written by CMake (ssphh_method_entries).
+/// Makes the list of what entry() of each method's folder says; written by CMake (ssphh_method_entries).
 std::vector<MethodEntry> method_entries();
 
-/// The same, made once.
-std::span<const MethodEntry> method_table();
+/// The same list, made once for the whole program.
+std::span<const MethodEntry> all_methods();
 
-/// Throws Error with the names that there are.
+/// The method of that name. Throws Error with the names that there are where none has it.
 const MethodEntry& find_method(const std::string& name);
 
 }  // namespace ssphh::methods

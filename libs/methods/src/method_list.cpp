@@ -1,18 +1,18 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>
-#include <ssphh/methods/table.h>
+#include <ssphh/methods/method_list.h>
 
 namespace ssphh::methods {
 
-std::span<const MethodEntry> method_table() {
-  static const std::vector<MethodEntry> table = method_entries();
-  return table;
+std::span<const MethodEntry> all_methods() {
+  static const std::vector<MethodEntry> methods = method_entries();
+  return methods;
 }
 
 const MethodEntry& find_method(const std::string& name) {
   std::string names;
-  for (const MethodEntry& entry : method_table()) {
+  for (const MethodEntry& entry : all_methods()) {
     if (name == entry.name) return entry;
     names += fmt::format("{}{}", names.empty() ? "" : ", ", entry.name);
   }

@@ -7,15 +7,15 @@
 namespace ssphh::probes {
 
 /// Floats of a vector, and the next multiple of that.
-inline constexpr std::size_t table_lanes = 8;
+inline constexpr std::size_t packed_lanes = 8;
 constexpr std::size_t whole_lanes(std::size_t count) {
-  return (count + table_lanes - 1) / table_lanes * table_lanes;
+  return (count + packed_lanes - 1) / packed_lanes * packed_lanes;
 }
 
 /// What both lookups need of a set, laid out for one call per pixel sample.
-class ProbeTable {
+class PackedProbes {
  public:
-  ProbeTable(const ProbeSet& set, const LookupParams& params);
+  PackedProbes(const ProbeSet& set, const LookupParams& params);
 
   int count() const { return static_cast<int>(positions_.size()); }
 
@@ -33,7 +33,7 @@ class ProbeTable {
   void glossy_basis(const vec3& direction, float roughness, Basis& basis) const;
 
  private:
-  ProbeTable(const ProbeSet& set, std::vector<sh::RadianceSh> lights, const LookupParams& params);
+  PackedProbes(const ProbeSet& set, std::vector<sh::RadianceSh> lights, const LookupParams& params);
 
   /// Functions of all probes, laid out so that one is evaluated by whole vectors.
   struct Functions {

@@ -1,4 +1,4 @@
-#include "report_data.h"
+#include "report_json.h"
 
 #include <cmath>
 #include <limits>
@@ -93,7 +93,7 @@ double published_value(const Report& report, const ReportCell& cell, const std::
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-json::Value report_data(const Report& report) {
+json::Value json_of(const Report& report) {
   const Provenance& p = report.provenance;
   json::Value columns = json::Value::array(), charts = json::Value::array(), published = json::Value::array(),
               cells = json::Value::array(), variables = json::Value::object();
@@ -127,7 +127,7 @@ json::Value report_data(const Report& report) {
 }
 
 std::string report_json(const Report& report) {
-  return json::print(report_data(report), 2) + "\n";
+  return json::print(json_of(report), 2) + "\n";
 }
 
 std::string identity_of(const std::string& text) {

@@ -5,7 +5,7 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
 #include <ssphh/core/hash.h>
-#include <ssphh/report/jobs.h>
+#include <ssphh/report/expansion.h>
 
 #include "command_words.h"
 
