@@ -50,13 +50,6 @@ std::string resolve(const std::string& word, const fs::path& folder) {
   return word;
 }
 
-std::string file_hash(const std::string& path) {
-  static thread_local std::map<std::string, std::string> known;
-  std::string& hash = known[path];
-  if (hash.empty()) hash = Hasher().bytes(read_file(path)).finish().hex();
-  return hash;
-}
-
 class Expander {
  public:
   Expander(const Plan& plan, const ExpandContext& context) : plan_(plan), context_(context) {}
@@ -158,16 +151,23 @@ class Expander {
   }
 
   template <class Add>
-  static void add_word(const std::string& word, const Add& add) {
+  void add_word(const std::string& word, const Add& add) {
     std::error_code ignored;
     const std::string option = option_of(word), path = word.substr(option.size());
     const bool file = path.starts_with('/') && fs::is_regular_file(path, ignored);
     add(word, file ? "file " + option + file_hash(path) : "word " + word);
   }
 
+  const std::string& file_hash(const std::string& path) {
+    std::string& hash = file_hashes_[path];
+    if (hash.empty()) hash = Hasher().bytes(read_file(path)).finish().hex();
+    return hash;
+  }
+
   const Plan& plan_;
   const ExpandContext& context_;
   Expansion result_;
+  std::map<std::string, std::string> file_hashes_;  ///< by path: many jobs name the same files
 };
 
 }  // namespace

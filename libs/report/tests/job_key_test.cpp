@@ -203,6 +203,8 @@ TEST(JobKey, AFileThatTheSceneNamesCountsByContent) {
   write_file(other / "lamps.json", std::string_view("{ }"));
   here.folder = other.path();
   EXPECT_NE(keys_of(plan, here), with);
+  write_file(other / "lamps.json", std::string_view("{}"));
+  EXPECT_EQ(keys_of(plan, here), with) << "the same file, written anew";
 }
 
 TEST(Cache, ARecordHoldsEveryFieldOfARun) {

@@ -27,6 +27,15 @@ TEST(Defaults, OfTransport) {
   EXPECT_EQ(RelightReport().pose_rays + RelightReport().direct_rays + RelightReport().hits_changed, 0u);
 }
 
+TEST(ProbePlaces, TakeNamePositionAndRadius) {
+  const std::vector<ProbePlace> places =
+      places_of(std::vector<probes::Probe>{{"a", vec3(1, 2, 3), 0.25f, {}, {}, {}, {}}});
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_EQ(places[0].name, "a");
+  EXPECT_EQ(places[0].position, vec3(1, 2, 3));
+  EXPECT_EQ(places[0].radius, 0.25f);
+}
+
 TEST(RelightReport, TotalIsOfAllFourStages) {
   RelightReport report;
   report.pose_ms = 1, report.direct_ms = 20, report.solve_ms = 300, report.project_ms = 4000;

@@ -12,7 +12,7 @@ namespace ssphh::transport {
 
 class SurfelSizes {
  public:
-  static constexpr int most_level = 15;
+  static constexpr int most_level = 15;  ///< doublings: surfels of a millimetre grow to 33 m at most
 
   /// The same `size` [m] everywhere.
   explicit SurfelSizes(float size) : finest_(size) {}
