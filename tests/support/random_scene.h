@@ -45,12 +45,15 @@ class SceneDraw {
     m.base_color = triple(0.1f, 0.9f), m.alpha = number(0.1f, 0.9f), m.metallic = number(0.1f, 0.9f);
     m.diffuse_roughness = number(-0.9f, 0.9f), m.specular_roughness = number(-0.9f, 0.9f);
     m.specular = number(0.1f, 0.9f), m.ior = number(1.1f, 2);
+    m.transmission = number(0.1f, 0.9f), m.thickness = number(0.1f, 2);
+    m.attenuation_color = triple(0.1f, 0.9f), m.attenuation_distance = number(0.1f, 2);
     m.emission = triple(0.1f, 20);
     m.double_sided = coin();
     m.alpha_mode = scene::AlphaMode::mask, m.alpha_cutoff = number(0.1f, 0.9f);
     m.normal_scale = number(0.2f, 0.8f);
     m.base_color_texture = use(textures), m.metallic_roughness_texture = use(textures);
     m.emission_texture = use(textures), m.normal_texture = use(textures);
+    m.transmission_texture = use(textures);
     return m;
   }
   scene::Mesh mesh(const std::string& name, int material) {
@@ -161,10 +164,13 @@ void each_float(scene::Scene& s, const Use& use) {
     use(at + "alpha", m.alpha), use(at + "metallic", m.metallic);
     use(at + "diffuse_roughness", m.diffuse_roughness), use(at + "specular_roughness", m.specular_roughness);
     use(at + "specular", m.specular), use(at + "ior", m.ior);
+    use(at + "transmission", m.transmission), use(at + "thickness", m.thickness);
+    many(at + "attenuation_color", m.attenuation_color);
+    use(at + "attenuation_distance", m.attenuation_distance);
     use(at + "alpha_cutoff", m.alpha_cutoff), use(at + "normal_scale", m.normal_scale);
     int slot = 0;
-    for (scene::TextureUse* t :
-         {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture, &m.normal_texture}) {
+    for (scene::TextureUse* t : {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture,
+                                 &m.normal_texture, &m.transmission_texture}) {
       const std::string of = at + "texture use " + std::to_string(slot++) + " ";
       many(of + "offset", t->offset), many(of + "scale", t->scale), use(of + "rotation", t->rotation);
     }

@@ -62,9 +62,10 @@ class SceneFields {
   }
 
   void members(const std::string& at, scene::Material& material) {
-    auto& [name, base_color, alpha, metallic, diffuse_roughness, specular_roughness, specular, ior, emission,
-           unlit, double_sided, alpha_mode, alpha_cutoff, normal_scale, base_color_texture,
-           metallic_roughness_texture, emission_texture, normal_texture] = material;
+    auto& [name, base_color, alpha, metallic, diffuse_roughness, specular_roughness, specular, ior,
+           transmission, thickness, attenuation_color, attenuation_distance, emission, unlit, double_sided,
+           alpha_mode, alpha_cutoff, normal_scale, base_color_texture, metallic_roughness_texture,
+           emission_texture, normal_texture, transmission_texture] = material;
     visit_(at + "name", name);
     visit_(at + "base_color", base_color);
     visit_(at + "alpha", alpha);
@@ -73,6 +74,10 @@ class SceneFields {
     visit_(at + "specular_roughness", specular_roughness);
     visit_(at + "specular", specular);
     visit_(at + "ior", ior);
+    visit_(at + "transmission", transmission);
+    visit_(at + "thickness", thickness);
+    visit_(at + "attenuation_color", attenuation_color);
+    visit_(at + "attenuation_distance", attenuation_distance);
     visit_(at + "emission", emission);
     visit_(at + "unlit", unlit);
     visit_(at + "double_sided", double_sided);
@@ -83,6 +88,7 @@ class SceneFields {
     members(at + "metallic_roughness_texture.", metallic_roughness_texture);
     members(at + "emission_texture.", emission_texture);
     members(at + "normal_texture.", normal_texture);
+    members(at + "transmission_texture.", transmission_texture);
   }
 
   void members(const std::string& at, scene::Mesh& mesh) {

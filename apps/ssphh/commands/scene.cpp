@@ -53,9 +53,12 @@ std::string to_text(const SceneListResult& result, const SceneListOptions&) {
 
 SceneInfo run_scene_info(const SceneOptions& options, const Control&) {
   const scene::Scene scene = load_scene(options);
-  const auto emits = [&](const scene::Instance& instance) {
-    const int material = scene::instance_material(scene, instance);
-    return material >= 0 && scene.materials[static_cast<std::size_t>(material)].emissive();
+  const auto count = [&](const auto& has) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(scene.instances, [&](const scene::Instance& instance) {
+          const int material = scene::instance_material(scene, instance);
+          return material >= 0 && has(scene.materials[static_cast<std::size_t>(material)]);
+        }));
   };
   SceneInfo info;
   info.name = scene.name;
@@ -66,7 +69,9 @@ SceneInfo run_scene_info(const SceneOptions& options, const Control&) {
   info.textures = scene.textures.size();
   info.lights = scene.lights.size();
   info.animations = scene.animations.size();
-  info.emissive_instances = static_cast<std::size_t>(std::ranges::count_if(scene.instances, emits));
+  info.emissive_instances = count([](const scene::Material& m) { return m.emissive(); });
+  info.glass_sheets = count([](const scene::Material& m) { return m.is_glass() && !(m.thickness > 0); });
+  info.glass_bodies = count([](const scene::Material& m) { return m.is_glass() && m.thickness > 0; });
   info.movable = static_cast<std::size_t>(std::ranges::count(scene.nodes, true, &scene::Node::movable));
   info.environment = scene.environment.has_value();
   info.light_groups = scene::light_groups(scene);
@@ -94,6 +99,8 @@ json::Value to_json(const SceneInfo& info, const SceneOptions& options) {
           {"textures", info.textures},
           {"lights", info.lights},
           {"emissive_instances", info.emissive_instances},
+          {"glass_sheets", info.glass_sheets},
+          {"glass_bodies", info.glass_bodies},
           {"environment", info.environment},
           {"light_groups", info.light_groups},
           {"cameras", info.cameras.size()},
@@ -117,6 +124,10 @@ std::string to_text(const SceneInfo& info, const SceneOptions& options) {
   line("triangles",
        fmt::format("{} in {} instances of {} meshes", info.triangles, info.instances, info.meshes));
   line("materials", fmt::format("{}, {} textures", info.materials, info.textures));
+  if (info.glass_sheets + info.glass_bodies > 0) {
+    line("glass", fmt::format("{} instances of thin sheets, {} of solid bodies", info.glass_sheets,
+                              info.glass_bodies));
+  }
   line("lights", fmt::format("{}, {} emissive instances, {}", info.lights, info.emissive_instances,
                              info.environment ? "environment" : "no environment"));
   line("light groups", list(info.light_groups));

@@ -32,17 +32,18 @@ struct SceneInfo {
   std::string name;             ///< as its file gives it; may be empty
   std::uint64_t triangles = 0;  ///< counted once per instance
   std::size_t meshes = 0, instances = 0, materials = 0, textures = 0, lights = 0, animations = 0;
-  std::size_t emissive_instances = 0;     ///< those whose material emits light
-  std::size_t movable = 0;                ///< nodes that are animated or stand below such
-  bool environment = false;               ///< there is one
-  std::vector<std::string> light_groups;  ///< names, in order of first use
-  std::vector<std::string> cameras;       ///< names
-  std::vector<std::string> sphls;         ///< names, of disabled ones too
-  std::vector<scene::SphlPlace> places;   ///< of the enabled SPHLs, at the options' time
-  float animation_seconds = 0;            ///< time of the last key; 0 without animations
-  scene::Bounds bounds;                   ///< of all vertices at the options' time, in metres; may be empty
-  Hash128 hash;                           ///< scene::scene_hash
-  std::vector<std::string> ignored;       ///< what its file holds and nothing uses, a line each
+  std::size_t emissive_instances = 0;              ///< those whose material emits light
+  std::size_t glass_sheets = 0, glass_bodies = 0;  ///< instances that light may go through
+  std::size_t movable = 0;                         ///< nodes that are animated or stand below such
+  bool environment = false;                        ///< there is one
+  std::vector<std::string> light_groups;           ///< names, in order of first use
+  std::vector<std::string> cameras;                ///< names
+  std::vector<std::string> sphls;                  ///< names, of disabled ones too
+  std::vector<scene::SphlPlace> places;            ///< of the enabled SPHLs, at the options' time
+  float animation_seconds = 0;                     ///< time of the last key; 0 without animations
+  scene::Bounds bounds;              ///< of all vertices at the options' time, in metres; may be empty
+  Hash128 hash;                      ///< scene::scene_hash
+  std::vector<std::string> ignored;  ///< what its file holds and nothing uses, a line each
 };
 
 /// Throws Error for a scene that cannot be read. Too short to be cancelled or to tell of its progress.

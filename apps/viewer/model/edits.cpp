@@ -51,7 +51,9 @@ Edits edits_of(const scene::Scene& scene) {
 bool same_surface(const scene::Material& a, const scene::Material& b) {
   return a.base_color == b.base_color && a.alpha == b.alpha && a.metallic == b.metallic &&
          a.diffuse_roughness == b.diffuse_roughness && a.specular_roughness == b.specular_roughness &&
-         a.specular == b.specular && a.ior == b.ior && a.emission == b.emission;
+         a.specular == b.specular && a.ior == b.ior && a.transmission == b.transmission &&
+         a.thickness == b.thickness && a.attenuation_color == b.attenuation_color &&
+         a.attenuation_distance == b.attenuation_distance && a.emission == b.emission;
 }
 
 scene::LightingState edited_lighting(const scene::Scene& scene, const Edits& edits, float time) {

@@ -15,9 +15,11 @@ void fields(auto& io, auto& t, const scene::TextureUse*) {
 }
 void fields(auto& io, auto& m, const scene::Material*) {
   io(m.name), io(m.base_color), io(m.alpha), io(m.metallic), io(m.diffuse_roughness);
-  io(m.specular_roughness), io(m.specular), io(m.ior), io(m.emission), io(m.unlit), io(m.double_sided);
+  io(m.specular_roughness), io(m.specular), io(m.ior), io(m.transmission), io(m.thickness);
+  io(m.attenuation_color), io(m.attenuation_distance), io(m.emission), io(m.unlit), io(m.double_sided);
   io.choice(m.alpha_mode, scene::AlphaMode::blend), io(m.alpha_cutoff), io(m.normal_scale);
   io(m.base_color_texture), io(m.metallic_roughness_texture), io(m.emission_texture), io(m.normal_texture);
+  io(m.transmission_texture);
 }
 void fields(auto& io, auto& m, const scene::Mesh*) {
   io(m.name), io(m.positions), io(m.normals), io(m.tangents), io(m.uvs[0]), io(m.uvs[1]), io(m.colors);

@@ -84,9 +84,7 @@ void check_indices(const Scene& scene) {
     check_texture(scene.textures[i], label("texture", i, scene.textures[i].name));
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& m = scene.materials[i];
-    for (const TextureUse* use :
-         {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture, &m.normal_texture})
-      check_use(*use, scene, label("material", i, m.name));
+    for (const TextureUse* use : m.texture_uses()) check_use(*use, scene, label("material", i, m.name));
   }
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
     const std::string where = label("mesh", i, scene.meshes[i].name);

@@ -40,6 +40,11 @@ Hash128 digest(const Material& m, const std::vector<Hash128>& textures) {
   add(h, m.base_color);
   h.value(m.alpha).value(m.metallic).value(m.diffuse_roughness).value(m.specular_roughness);
   h.value(m.specular).value(m.ior);
+  if (m.transmission > 0) {
+    h.text("glass").value(m.transmission).value(m.thickness > 0);
+    if (m.thickness > 0) add(h, m.attenuation_color).value(m.attenuation_distance);
+    add(h, m.transmission_texture, textures);
+  }
   add(h, m.emission);
   h.value(m.unlit).value(m.double_sided).value(m.alpha_mode);
   if (m.alpha_mode == AlphaMode::mask) h.value(m.alpha_cutoff);

@@ -49,13 +49,11 @@ void validate_use(const TextureUse& use, const std::string& where) {
 void validate_material(Material& m, const std::string& where, Repairs& repairs) {
   check_finite(m.base_color, where, "base colour");
   check_finite(m.emission, where, "emission");
+  check_finite(m.attenuation_color, where, "attenuation colour");
   check_finite({m.alpha, m.metallic, m.diffuse_roughness, m.specular_roughness, m.specular, m.ior,
-                m.alpha_cutoff, m.normal_scale},
+                m.transmission, m.thickness, m.attenuation_distance, m.alpha_cutoff, m.normal_scale},
                where, "a parameter");
-  for (const TextureUse* use :
-       {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture, &m.normal_texture}) {
-    validate_use(*use, where);
-  }
+  for (const TextureUse* use : m.texture_uses()) validate_use(*use, where);
   const std::string kind = "material parameters out of range: clamped";
   clamp(m.base_color, 0, 1, repairs, kind);
   clamp(m.emission, 0, unlimited, repairs, kind);
@@ -65,6 +63,10 @@ void validate_material(Material& m, const std::string& where, Repairs& repairs) 
   clamp(m.specular_roughness, -1, 1, repairs, kind);
   clamp(m.specular, 0, 1, repairs, kind);
   clamp(m.ior, 1, 1e6f, repairs, kind);
+  clamp(m.transmission, 0, 1, repairs, kind);
+  clamp(m.thickness, 0, unlimited, repairs, kind);
+  clamp(m.attenuation_color, 0, 1, repairs, kind);
+  clamp(m.attenuation_distance, 0, unlimited, repairs, kind);
 }
 
 void normalize_rotation(quat& q, Repairs& repairs) {

@@ -25,8 +25,10 @@ Scene full_scene() {
     Material m;
     m.emission = vec3(1, 2, 3), m.metallic = i == 0 ? 0.25f : 0.5f;
     m.alpha_mode = AlphaMode::mask;
-    for (TextureUse Material::*use : {&Material::base_color_texture, &Material::metallic_roughness_texture,
-                                      &Material::emission_texture, &Material::normal_texture})
+    m.transmission = 0.5f, m.thickness = 1, m.attenuation_distance = 2;
+    for (TextureUse Material::*use :
+         {&Material::base_color_texture, &Material::metallic_roughness_texture, &Material::emission_texture,
+          &Material::normal_texture, &Material::transmission_texture})
       (m.*use).texture = 0;
     s.materials.push_back(m);
     Mesh mesh = make_box(vec3(0), vec3(1 + i));
@@ -138,6 +140,7 @@ bool invisible(const std::string& path) {
       "name|ignored.*"                                             // of the scene: for people
       "|(textures|materials|meshes|animations)\\[.*\\]\\.name"     // for people
       "|(meshes|textures)\\[1\\]\\..*"                             // not used
+      "|materials\\[.\\]\\.thickness"                              // whether there is one counts
       "|nodes\\[1\\]\\.(translation|rotation|scale)"               // its matrix replaces them
       "|nodes\\[.\\]\\.movable"                                    // follows from the animations
       "|cameras\\[0\\]\\.yheight|cameras\\[1\\]\\.yfov"            // of the other projection

@@ -41,6 +41,10 @@ TEST(SceneDefaults, OfWhatStandsInAScene) {
   EXPECT_EQ(m.specular_roughness, 1);
   EXPECT_EQ(m.specular, 1);
   EXPECT_EQ(m.ior, 1.5f);
+  EXPECT_EQ(m.transmission, 0);
+  EXPECT_EQ(m.thickness, 0);
+  EXPECT_EQ(m.attenuation_color, vec3(1));
+  EXPECT_EQ(m.attenuation_distance, 0);
   EXPECT_EQ(m.alpha_cutoff, 0.5f);
   EXPECT_EQ(m.normal_scale, 1);
   EXPECT_EQ(m.alpha_mode, AlphaMode::opaque);

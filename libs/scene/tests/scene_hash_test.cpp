@@ -20,6 +20,7 @@ Scene full_scene() {
   s.materials[0].normal_texture.texture = 0;
   s.materials[0].alpha_mode = AlphaMode::mask;
   s.materials[0].emission = vec3(1);
+  s.materials[0].transmission = 0.5f;
   s.meshes.push_back(make_box(vec3(0), vec3(1)));
   s.meshes[0].uvs[1] = s.meshes[0].uvs[0];
   s.meshes[0].tangents.assign(24, vec4(1, 0, 0, 1));
@@ -81,6 +82,10 @@ std::vector<Change> visible_changes() {
       {"specular roughness", [](Scene& s) { s.materials[0].specular_roughness = 0.5f; }},
       {"specular", [](Scene& s) { s.materials[0].specular = 0; }},
       {"ior", [](Scene& s) { s.materials[0].ior = 1.4f; }},
+      {"transmission", [](Scene& s) { s.materials[0].transmission = 1; }},
+      {"no transmission", [](Scene& s) { s.materials[0].transmission = 0; }},
+      {"body", [](Scene& s) { s.materials[0].thickness = 1; }},
+      {"transmission texture", [](Scene& s) { s.materials[0].transmission_texture.texture = 0; }},
       {"emission", [](Scene& s) { s.materials[0].emission.z = 2; }},
       {"unlit", [](Scene& s) { s.materials[0].unlit = true; }},
       {"double-sided", [](Scene& s) { s.materials[0].double_sided = true; }},

@@ -75,12 +75,14 @@ TEST(ValidateProperty, AMatrixWhoseScaleIsNoFloatIsRefusedWhereItMustBeTakenApar
 /// Whether the number is one that its object does not use.
 bool unused(const std::string& name) {
   const auto is = [&](const char* text) { return name == text; };
-  // A camera has one of two sizes, a light the parameters of its type.
-  return is("camera 0 yheight") || is("camera 1 yfov") || is("light 0 radius") ||
-         is("light 0 angular_radius") || is("light 0 inner_cone") || is("light 0 outer_cone") ||
-         is("light 1 radius") || is("light 1 angular_radius") || is("light 2 radius") ||
-         is("light 2 inner_cone") || is("light 2 outer_cone") || is("light 2 range") ||
-         is("light 3 angular_radius") || is("light 3 inner_cone") || is("light 3 outer_cone");
+  // A camera has one of two sizes, a light the parameters of its type; of a body's thickness counts that it
+  // is none.
+  return name.ends_with(" thickness") || is("camera 0 yheight") || is("camera 1 yfov") ||
+         is("light 0 radius") || is("light 0 angular_radius") || is("light 0 inner_cone") ||
+         is("light 0 outer_cone") || is("light 1 radius") || is("light 1 angular_radius") ||
+         is("light 2 radius") || is("light 2 inner_cone") || is("light 2 outer_cone") ||
+         is("light 2 range") || is("light 3 angular_radius") || is("light 3 inner_cone") ||
+         is("light 3 outer_cone");
 }
 
 TEST(SceneHashProperty, SeesEveryNumberThatCanChangeAPicture) {

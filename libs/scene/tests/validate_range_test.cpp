@@ -28,6 +28,9 @@ const Range<Material> material_ranges[] = {
     {"specular roughness", &Material::specular_roughness, -1, 1},
     {"specular", &Material::specular, 0, 1},
     {"ior", &Material::ior, 1, 1e6f},
+    {"transmission", &Material::transmission, 0, 1},
+    {"thickness", &Material::thickness, 0, largest},
+    {"attenuation distance", &Material::attenuation_distance, 0, largest},
 };
 
 const Range<Light> light_ranges[] = {

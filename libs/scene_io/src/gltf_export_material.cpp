@@ -78,6 +78,20 @@ void export_emission(GltfExport& out, const Material& m, json::Value& material) 
   }
 }
 
+void export_glass(GltfExport& out, const Material& m, json::Value& material) {
+  if (m.transmission > 0 || m.transmission_texture.texture >= 0) {
+    json::Value transmission = {{"transmissionFactor", number(m.transmission)}};
+    set_unless_null(transmission, "transmissionTexture", export_use(out, m.transmission_texture));
+    add_extension(out, material, "KHR_materials_transmission", std::move(transmission));
+  }
+  json::Value volume;
+  if (m.thickness > 0) volume["thicknessFactor"] = number(m.thickness);
+  if (m.attenuation_color != vec3(1))
+    volume["attenuationColor"] = numbers(std::span(&m.attenuation_color.x, 3));
+  if (m.attenuation_distance > 0) volume["attenuationDistance"] = number(m.attenuation_distance);
+  if (!volume.is_null()) add_extension(out, material, "KHR_materials_volume", std::move(volume));
+}
+
 json::Value export_material(GltfExport& out, const Material& m) {
   json::Value material;
   if (!m.name.empty()) material["name"] = m.name;
@@ -100,6 +114,7 @@ json::Value export_material(GltfExport& out, const Material& m) {
   if (m.specular != 1) {
     add_extension(out, material, "KHR_materials_specular", {{"specularFactor", number(m.specular)}});
   }
+  export_glass(out, m, material);
   if (m.ior != 1.5f) add_extension(out, material, "KHR_materials_ior", {{"ior", number(m.ior)}});
   if (m.unlit) add_extension(out, material, "KHR_materials_unlit", json::Value::object());
 

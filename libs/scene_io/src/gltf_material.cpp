@@ -116,6 +116,24 @@ void import_metallic_roughness(GltfImport& import, const json::Cursor& pbr, Mate
   out.metallic_roughness_texture = import_texture(import, pbr, "metallicRoughnessTexture");
 }
 
+// What KHR_materials_volume says is of no use where nothing goes in.
+void import_glass(GltfImport& import, const json::Cursor& material, Material& out) {
+  const auto transmission = extension(material, "KHR_materials_transmission");
+  if (!transmission) return;
+  if (const auto factor = transmission->find("transmissionFactor")) out.transmission = factor->number(0, 1);
+  out.transmission_texture = import_texture(import, *transmission, "transmissionTexture");
+  const auto volume = extension(material, "KHR_materials_volume");
+  if (!volume) return;
+  if (const auto thickness = volume->find("thicknessFactor")) out.thickness = thickness->number(0, HUGE_VALF);
+  if (const auto color = volume->find("attenuationColor")) out.attenuation_color = color->vector3();
+  if (const auto distance = volume->find("attenuationDistance")) {
+    out.attenuation_distance = distance->number();
+    if (!(out.attenuation_distance > 0)) distance->fail("must be greater than 0");
+  }
+  if (volume->find("thicknessTexture"))
+    import.document.ignored.add("KHR_materials_volume.thicknessTexture (bodies are as thick as their mesh)");
+}
+
 void import_extensions(GltfImport& import, const json::Cursor& material, Material& out) {
   if (const auto strength = extension(material, "KHR_materials_emissive_strength")) {
     if (const auto value = strength->find("emissiveStrength")) out.emission *= value->number(0, HUGE_VALF);
@@ -132,6 +150,7 @@ void import_extensions(GltfImport& import, const json::Cursor& material, Materia
       if (specular->find(key)) import.document.ignored.add(fmt::format("KHR_materials_specular.{}", key));
     }
   }
+  import_glass(import, material, out);
   out.unlit = extension(material, "KHR_materials_unlit").has_value();
 }
 

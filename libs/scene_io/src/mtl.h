@@ -26,6 +26,7 @@ struct MtlMaterial {
   vec3 kd{0.8f}, ks{0}, ke{0};
   float ns = 0, ni = 1.5f;
   std::optional<float> dissolve, transparency;  ///< d; Tr, which counts when d is absent
+  std::optional<vec3> filter;                   ///< Tf: of white light, what comes out of a body or a sheet
   std::optional<float> roughness, metallic;     ///< Pr, Pm of the physically based extension
   int illum = 2;
   MtlTexture map_kd, map_ke, map_d, normal;

@@ -60,6 +60,21 @@ void convert_specular(const MtlMaterial& mtl, Material& out) {
   out.ior = (1 + std::sqrt(f0)) / (1 - std::sqrt(f0));
 }
 
+// Models 6 and 7 refract: solid bodies, whose light passes the surface twice. Models 4 and 9 are "glass" that
+// many writers choose for whatever is not quite there (d): a thin sheet only where a filter says so.
+void convert_glass(const MtlMaterial& mtl, Material& out) {
+  const bool body = mtl.illum == 6 || mtl.illum == 7;
+  const bool sheet = (mtl.illum == 4 || mtl.illum == 9) && mtl.filter && out.alpha == 1;
+  if (!body && !sheet) return;
+  const vec3 filter = glm::min(mtl.filter.value_or(vec3(1)), vec3(1));
+  out.transmission = out.specular = out.alpha = 1;
+  out.metallic = 0;
+  out.thickness = body ? 1.0f : 0.0f;
+  out.base_color = body ? glm::sqrt(filter) : filter;
+  out.ior = mtl.ni >= 1 ? mtl.ni : 1.5f;
+  out.specular_roughness = glm::clamp(mtl.roughness.value_or(0), 0.0f, 1.0f);
+}
+
 }  // namespace
 
 void MtlImport::add_library(const std::filesystem::path& path) {
@@ -95,6 +110,7 @@ Material MtlImport::convert(const MtlMaterial& mtl, const std::filesystem::path&
   out.emission = mtl.ke;
   out.alpha = glm::clamp(mtl.dissolve.value_or(1 - mtl.transparency.value_or(0)), 0.0f, 1.0f);
   convert_specular(mtl, out);
+  convert_glass(mtl, out);
   out.base_color_texture = use(mtl.map_kd, folder);
   out.emission_texture = use(mtl.map_ke, folder);
   out.normal_texture = use(mtl.normal, folder);

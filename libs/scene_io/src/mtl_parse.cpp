@@ -88,11 +88,18 @@ class Statement {
 
 bool parse_color(Statement& s, MtlMaterial& m) {
   const std::string_view k = s.keyword();
-  if (k != "Kd" && k != "Ks" && k != "Ke") return false;
-  if (s.rest().starts_with("spectral") || s.rest().starts_with("xyz")) s.fail("only RGB values can be read");
+  if (k != "Kd" && k != "Ks" && k != "Ke" && k != "Tf") return false;
+  if (s.rest().starts_with("spectral") || s.rest().starts_with("xyz")) {
+    if (k == "Tf") return false;
+    s.fail("only RGB values can be read");
+  }
   const vec3 value = s.color();
   if (value.x < 0 || value.y < 0 || value.z < 0) s.fail("must not be negative");
-  (k == "Kd" ? m.kd : k == "Ks" ? m.ks : m.ke) = value;
+  if (k == "Tf") {
+    m.filter = value;
+  } else {
+    (k == "Kd" ? m.kd : k == "Ks" ? m.ks : m.ke) = value;
+  }
   return true;
 }
 
@@ -141,8 +148,8 @@ std::vector<MtlMaterial> parse_mtl(std::string_view text, const std::string& fil
       materials.emplace_back().name = printable(statement.rest());
     } else if (materials.empty()) {
       statement.fail("stands before the first newmtl");
-    } else if (statement.keyword() == "Ka" || statement.keyword() == "Tf") {
-      continue;  // ambient light and transmission have no counterpart
+    } else if (statement.keyword() == "Ka") {
+      continue;  // ambient light has no counterpart
     } else if (!parse_color(statement, materials.back()) && !parse_scalar(statement, materials.back()) &&
                !parse_texture(statement, materials.back())) {
       ignored.add(fmt::format("MTL statement {}", printable(statement.keyword(), 40)));

@@ -121,7 +121,8 @@ void add_sphl(Scene& scene, const json::Cursor& entry, std::size_t number) {
 
 void override_material(Scene& scene, const json::Cursor& entry, std::size_t) {
   entry.only({"name", "base_color", "alpha", "metallic", "diffuse_roughness", "specular_roughness",
-              "specular", "ior", "emission", "double_sided", "unlit"});
+              "specular", "ior", "transmission", "thickness", "attenuation_color", "attenuation_distance",
+              "emission", "double_sided", "unlit"});
   const std::string& name = entry["name"].text();
   bool found = false;
   for (auto& m : scene.materials) {
@@ -138,6 +139,11 @@ void override_material(Scene& scene, const json::Cursor& entry, std::size_t) {
     number("specular_roughness", -1, 1, m.specular_roughness);
     number("specular", 0, 1, m.specular);
     number("ior", 1, HUGE_VALF, m.ior);
+    number("transmission", 0, 1, m.transmission);
+    number("thickness", 0, HUGE_VALF, m.thickness);
+    if (const auto color = entry.find("attenuation_color")) m.attenuation_color = color->vector3();
+    if (const auto distance = entry.find("attenuation_distance"))
+      m.attenuation_distance = positive(*distance);
     m.double_sided = entry.boolean_or("double_sided", m.double_sided);
     m.unlit = entry.boolean_or("unlit", m.unlit);
   }

@@ -141,6 +141,7 @@ void set_unit(Scene& scene, float unit, const vec3& origin) {
   shift(scene.sphls);
   for (auto& animation : scene.animations) shift(animation.channels);
   for (auto& light : scene.lights) light.range *= unit;
+  for (auto& material : scene.materials) material.thickness *= unit, material.attenuation_distance *= unit;
   for (auto& camera : scene.cameras)
     if (camera.orthographic) camera.yheight *= unit;
 }

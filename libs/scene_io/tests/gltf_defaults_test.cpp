@@ -28,6 +28,7 @@ void expect_default(const scene::Material& m) {
   EXPECT_EQ(m.emission, vec3(0));
   EXPECT_EQ(m.specular, 1);
   EXPECT_EQ(m.ior, 1.5f);
+  EXPECT_EQ(m.transmission, 0);
   EXPECT_EQ(m.alpha_mode, scene::AlphaMode::opaque);
   EXPECT_EQ(m.alpha_cutoff, 0.5f);
   EXPECT_EQ(m.normal_scale, 1);
@@ -74,6 +75,48 @@ TEST(GltfDefaults, MaterialExtensionsGoToTheirFields) {
   // 0 asks for a Fresnel term of 1: (ior − 1)²/(ior + 1)² within 1e-5
   const float ior = scene.materials.at(2).ior;
   EXPECT_NEAR(std::pow((ior - 1) / (ior + 1), 2), 1, 1e-5);
+}
+
+TEST(GltfDefaults, GlassIsAThinSheetUnlessAVolumeSaysThatItIsThick) {
+  const Scene scene = load_json(
+      "\"materials\":[{\"pbrMetallicRoughness\":{\"metallicFactor\":0},"
+      "\"extensions\":{\"KHR_materials_transmission\":{\"transmissionFactor\":0.75},"
+      "\"KHR_materials_volume\":{\"thicknessFactor\":0.5,\"attenuationDistance\":2,"
+      "\"attenuationColor\":[0.5,0.25,1]}}},"
+      "{\"extensions\":{\"KHR_materials_transmission\":{},\"KHR_materials_volume\":{}}},"
+      "{\"extensions\":{\"KHR_materials_volume\":{\"thicknessFactor\":0.5}}}]");
+  const scene::Material &body = scene.materials.at(0), &left_out = scene.materials.at(1);
+  EXPECT_EQ(body.transmission, 0.75f);
+  EXPECT_EQ(body.thickness, 0.5f);
+  EXPECT_EQ(body.attenuation_distance, 2);
+  EXPECT_EQ(body.attenuation_color, vec3(0.5f, 0.25f, 1));
+  EXPECT_TRUE(body.is_glass());
+  EXPECT_EQ(left_out.transmission, 0);
+  EXPECT_EQ(left_out.thickness, 0);
+  EXPECT_EQ(left_out.attenuation_color, vec3(1));
+  EXPECT_EQ(left_out.attenuation_distance, 0) << "absorbs nothing";
+  EXPECT_EQ(scene.materials.at(2).thickness, 0) << "a volume alone lets nothing in";
+}
+
+TEST(GltfDefaults, GlassThatCannotBeIsAnErrorThatNamesTheMember) {
+  const auto said = [](const std::string& transmission, const std::string& volume) {
+    try {
+      load_json("\"materials\":[{\"extensions\":{\"KHR_materials_transmission\":" + transmission +
+                ",\"KHR_materials_volume\":" + volume + "}}]");
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(said("{}", "{}"), "");
+  EXPECT_NE(said("{\"transmissionFactor\":1.5}", "{}").find("transmissionFactor"), std::string::npos);
+  EXPECT_NE(said("{\"transmissionFactor\":-1}", "{}").find("transmissionFactor"), std::string::npos);
+  EXPECT_NE(said("{}", "{\"thicknessFactor\":-1}").find("thicknessFactor"), std::string::npos);
+  for (const char* distance : {"0", "-2"}) {
+    const std::string message = said("{}", std::string("{\"attenuationDistance\":") + distance + "}");
+    EXPECT_NE(message.find("attenuationDistance"), std::string::npos) << message;
+    EXPECT_NE(message.find("must be greater than 0"), std::string::npos) << message;
+  }
 }
 
 TEST(GltfDefaults, LightsAreWhiteOfIntensityOneWithoutRangeAndSpotsHaveAConeOf45Degrees) {

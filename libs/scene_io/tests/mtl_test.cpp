@@ -55,6 +55,32 @@ TEST(MtlValues, TexturesAreRelativeFileNamesAsWindowsOrUnixWritesThem) {
   set_log_sink(before);
 }
 
+TEST(MtlValues, RefractionMakesABodyOfGlassAndAFilterAtGlassASheet) {
+  for (const char* model : {"6", "7"}) {
+    const scene::Material m = material_of(
+        std::string("Kd 0 0 0\nKs 0.3 0.3 0.3\nTf 0.25 0.64 1\nNi 1.7\nd 0.1\nillum ") + model + "\n");
+    EXPECT_EQ(m.transmission, 1) << model;
+    EXPECT_GT(m.thickness, 0) << model;
+    EXPECT_EQ(m.ior, 1.7f) << model;
+    EXPECT_EQ(m.specular_roughness, 0) << model;
+    EXPECT_EQ(m.metallic, 0) << model;
+    EXPECT_EQ(m.alpha_mode, scene::AlphaMode::opaque) << model;
+    EXPECT_NEAR(glm::distance(m.base_color, vec3(0.5f, 0.8f, 1)), 0, 1e-6f) << "twice is Tf; illum " << model;
+  }
+  EXPECT_EQ(material_of("illum 7\n").base_color, vec3(1));
+  for (const char* model : {"4", "9"}) {
+    const scene::Material sheet = material_of(std::string("Tf 0.25 0.5 1\nillum ") + model + "\n");
+    EXPECT_EQ(sheet.transmission, 1) << model;
+    EXPECT_EQ(sheet.thickness, 0) << model;
+    EXPECT_EQ(sheet.base_color, vec3(0.25f, 0.5f, 1)) << model;
+    EXPECT_EQ(material_of(std::string("illum ") + model + "\n").transmission, 0) << "without a filter";
+    const scene::Material half_there = material_of(std::string("Tf 1 1 1\nd 0.5\nillum ") + model + "\n");
+    EXPECT_EQ(half_there.transmission, 0) << "covers half";
+    EXPECT_EQ(half_there.alpha, 0.5f);
+  }
+  EXPECT_EQ(material_of("Tf 0.5 0.5 0.5\nillum 2\n").transmission, 0);
+}
+
 TEST(MtlValues, TransparencyIsWhatCoverageLeaves) {
   const scene::Material m = material_of("Tr 0.375\n");
   EXPECT_EQ(m.alpha, 0.625f);

@@ -65,9 +65,14 @@ TEST(OverlayValues, WhatIsLeftOutHasItsDefault) {
 TEST(OverlayValues, EveryMemberOfAMaterialReplacesItsField) {
   const scene::Material m = with_overlay(R"({"materials": [{"name": "clay", "base_color": [0.1, 0.2, 0.3],
     "alpha": 0.4, "metallic": 0.5, "diffuse_roughness": 0.6, "specular_roughness": -0.7, "specular": 0.8,
-    "ior": 1.9, "emission": [2, 3, 4], "double_sided": true, "unlit": true}]})")
+    "ior": 1.9, "transmission": 0.25, "thickness": 2, "attenuation_color": [0.7, 0.8, 0.9],
+    "attenuation_distance": 5, "emission": [2, 3, 4], "double_sided": true, "unlit": true}]})")
                                 .materials.at(0);
   EXPECT_EQ(m.base_color, vec3(0.1f, 0.2f, 0.3f));
+  EXPECT_EQ(m.transmission, 0.25f);
+  EXPECT_EQ(m.thickness, 2);
+  EXPECT_EQ(m.attenuation_color, vec3(0.7f, 0.8f, 0.9f));
+  EXPECT_EQ(m.attenuation_distance, 5);
   EXPECT_EQ(m.alpha, 0.4f);
   EXPECT_EQ(m.metallic, 0.5f);
   EXPECT_EQ(m.diffuse_roughness, 0.6f);

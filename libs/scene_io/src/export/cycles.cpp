@@ -71,6 +71,12 @@ json::Value material_json(const scene::Material& m) {
           {"diffuse_roughness", m.diffuse_roughness},
           {"specular_roughness", m.specular_roughness},
           {"f0", f0},
+          {"ior", m.ior},
+          {"specular", m.specular},
+          {"transmission", m.is_glass() ? m.transmission : 0},
+          {"sheet", !(m.thickness > 0)},
+          {"attenuation_color", array(m.attenuation_color)},
+          {"attenuation_distance", m.attenuation_distance},
           {"emission", array(m.emission)},
           {"unlit", m.unlit},
           {"double_sided", m.double_sided},
@@ -80,7 +86,8 @@ json::Value material_json(const scene::Material& m) {
           {"base_color_texture", texture_json(m.base_color_texture)},
           {"metallic_roughness_texture", texture_json(m.metallic_roughness_texture)},
           {"emission_texture", texture_json(m.emission_texture)},
-          {"normal_texture", texture_json(m.normal_texture)}};
+          {"normal_texture", texture_json(m.normal_texture)},
+          {"transmission_texture", texture_json(m.transmission_texture)}};
 }
 
 void note_material(const scene::Material& m, Differences& differences) {
@@ -93,6 +100,12 @@ void note_material(const scene::Material& m, Differences& differences) {
   }
   if (layered && m.specular_roughness < 0) {
     differences.add("Blinn-Phong becomes Beckmann, its Fresnel term that of the view angle", m.name);
+  }
+  if (m.is_glass() && m.thickness == 0) {
+    differences.add(
+        "sheets of glass add their reflections up for unpolarised light, rough ones show what is behind "
+        "them sharply",
+        m.name);
   }
   if (m.diffuse_roughness > 0) differences.add("Disney's diffuse model becomes Lambert's", m.name);
   if (m.normal_texture.texture >= 0) {

@@ -1,6 +1,5 @@
 #include "surface_model.h"
 
-#include <array>
 #include <cctype>
 #include <cmath>
 
@@ -8,10 +7,6 @@
 
 namespace ssphh::scene_io {
 namespace {
-
-std::array<const scene::TextureUse*, 4> textures_of(const scene::Material& m) {
-  return {&m.base_color_texture, &m.metallic_roughness_texture, &m.emission_texture, &m.normal_texture};
-}
 
 bool same_coordinates(const scene::TextureUse& a, const scene::TextureUse& b) {
   return a.uv_set == b.uv_set && a.offset == b.offset && a.scale == b.scale && a.rotation == b.rotation;
@@ -73,7 +68,7 @@ mat3 uv_matrix(const scene::TextureUse& use) {
 
 const scene::TextureUse& leading_texture(const scene::Material& m) {
   static const scene::TextureUse none;
-  for (const scene::TextureUse* use : textures_of(m)) {
+  for (const scene::TextureUse* use : m.texture_uses()) {
     if (use->texture >= 0) return *use;
   }
   return none;
@@ -114,13 +109,14 @@ void note_material(const scene::Material& m, const TextureAbilities& abilities, 
   } else {
     if (m.diffuse_roughness != 0 && m.metallic < 1)
       differences.add("Oren-Nayar's and Disney's diffuse models become Lambert's", m.name);
+    if (m.is_glass()) differences.add("glass becomes opaque, of its base colour", m.name);
     if (m.normal_texture.texture >= 0)
       differences.add("normal maps use tangents of the other renderer's own", m.name);
   }
   if (m.alpha_mode == scene::AlphaMode::mask && m.base_color_texture.texture >= 0)
     differences.add("cut-outs are cut at texels and their edge interpolated", m.name);
   const scene::TextureUse& first = leading_texture(m);
-  for (const scene::TextureUse* use : textures_of(m)) {
+  for (const scene::TextureUse* use : m.texture_uses()) {
     if (use->texture < 0) continue;
     const bool lost = abilities.own_transform ? use->uv_set != first.uv_set : !same_coordinates(*use, first);
     if (lost) differences.add("all textures take the coordinates of the material's first", m.name);

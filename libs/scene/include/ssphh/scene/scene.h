@@ -57,7 +57,14 @@ struct Material {
   float specular_roughness =
       1;               ///< −1..0: normalised Blinn–Phong of |value|; 0..1: GGX, perceptual (α = value²)
   float specular = 1;  ///< weight of the dielectric specular lobe; 0 leaves pure diffuse
-  float ior = 1.5f;    ///< dielectric F0 = ((ior − 1)/(ior + 1))²
+  float ior = 1.5f;    ///< dielectric F0 = ((ior − 1)/(ior + 1))²; of glass, also how it refracts
+  /// Share of a dielectric's base that is glass, 0..1: light goes through it, tinted by the base colour,
+  /// where it would be scattered. Times the red channel of its texture.
+  float transmission = 0;
+  float thickness = 0;        ///< of glass: 0 is a thin sheet, passed straight; above 0 [m] the mesh is the
+                              ///< boundary of a solid body, whose real extent counts
+  vec3 attenuation_color{1};  ///< share of white light that is left after attenuation_distance in a body
+  float attenuation_distance = 0;  ///< metres; 0: the body absorbs nothing
   vec3 emission{0};    ///< emitted radiance [W sr⁻¹ m⁻²], emissive strength included; times its texture
   bool unlit = false;  ///< KHR_materials_unlit: emits base_color, reflects nothing
   bool double_sided = false;  ///< emission from both faces; reflection is two-sided in any case
@@ -65,7 +72,17 @@ struct Material {
   float alpha_cutoff = 0.5f;
   float normal_scale = 1;
   TextureUse base_color_texture, metallic_roughness_texture, emission_texture, normal_texture;
+  TextureUse transmission_texture;
 
+  /// Every place for a texture, used or not.
+  std::array<const TextureUse*, 5> texture_uses() const {
+    return {&base_color_texture, &metallic_roughness_texture, &emission_texture, &normal_texture,
+            &transmission_texture};
+  }
+  /// Light may go through it.
+  bool is_glass() const {
+    return transmission > 0 && !unlit && (metallic < 1 || metallic_roughness_texture.texture >= 0);
+  }
   bool emissive() const { return max_component(emission) > 0 || unlit; }
 };
 

@@ -38,6 +38,8 @@ def build_material(m, scene, vertex_colors):
                             ).outputs[0]
     else:
         surface = reflection(nodes, m, scene, base, normal)
+        if m["transmission"] > 0:
+            surface = nodes.mix(glass_share(nodes, m, scene), surface, glass(nodes, m, scene, base, normal))
         if any(e > 0 for e in m["emission"]):
             strength = 1.0 if m["double_sided"] else nodes.math("SUBTRACT", 1.0, backfacing)
             # The colour input clamps nothing, so that radiance stands in it as it is.
@@ -48,8 +50,62 @@ def build_material(m, scene, vertex_colors):
             coverage = nodes.math("SUBTRACT", 1.0, nodes.math("LESS_THAN", coverage, m["alpha_cutoff"]))
         clear = nodes.add("ShaderNodeBsdfTransparent").outputs[0]
         surface = nodes.mix(coverage, clear, surface)
-    nodes.add("ShaderNodeOutputMaterial", {"Surface": surface})
+    output = nodes.add("ShaderNodeOutputMaterial", {"Surface": surface})
+    if m["transmission"] > 0 and not m["sheet"] and m["attenuation_distance"] > 0:
+        nodes.put(output.inputs["Volume"], absorption(nodes, m))
     return material
+
+
+def glass_share(nodes, m, scene):
+    share = m["transmission"]
+    if m["transmission_texture"]:
+        texture = texture_node(nodes, m["transmission_texture"], scene, False)
+        share = nodes.math("MULTIPLY", nodes.add("ShaderNodeSeparateColor", {0: texture.outputs["Color"]}).outputs[0],
+                           share)
+    return nodes.math("MULTIPLY", share, nodes.math("SUBTRACT", 1.0, roughness_metallic(nodes, m, scene)[1]))
+
+
+def glass(nodes, m, scene, tint, normal):
+    """A body by Cycles' own refraction; of a sheet r + r t tau and t = (1 - r)^2 tau / (1 - r^2 tau^2) straight through."""
+    shading = {"Normal": normal} if normal is not None else {}
+    roughness = roughness_metallic(nodes, m, scene)[0]
+    r = nodes.add("ShaderNodeFresnel", {"IOR": m["ior"], **shading}).outputs[0]
+    if m["specular"] < 1:
+        total = nodes.math("GREATER_THAN", r, 0.9999)
+        r = nodes.math("MULTIPLY", r, nodes.math("MAXIMUM", total, m["specular"]))
+    if not m["sheet"]:
+        mirror = nodes.add("ShaderNodeBsdfGlossy", {"Color": (1.0, 1.0, 1.0), "Roughness": roughness, **shading},
+                           distribution="GGX").outputs[0]
+        through = nodes.add("ShaderNodeBsdfRefraction", {"Color": tint, "Roughness": roughness, "IOR": m["ior"],
+                                                         **shading}, distribution="GGX").outputs[0]
+        return nodes.mix(r, through, mirror)
+    kept = nodes.math("SUBTRACT", 1.0, r)
+    passes = nodes.vector_math("MULTIPLY", tint, nodes.math("MULTIPLY", kept, kept))
+    once = nodes.vector_math("MULTIPLY", tint, r)
+    between = nodes.vector_math("SUBTRACT", (1.0, 1.0, 1.0), nodes.vector_math("MULTIPLY", once, once))
+    transmitted = nodes.vector_math("DIVIDE", passes, between)
+    reflected = nodes.vector_math("ADD", nodes.vector_math("MULTIPLY", once, transmitted), r)
+    mirror = nodes.add("ShaderNodeBsdfGlossy", {"Color": reflected, "Roughness": roughness, **shading},
+                       distribution="GGX").outputs[0]
+    return nodes.sum(nodes.add("ShaderNodeBsdfTransparent", {"Color": transmitted}).outputs[0], mirror)
+
+
+def absorption(nodes, m):
+    """Cycles absorbs (1 - color) density; the colour left after a distance d is exp(-sigma d)."""
+    sigma = [-np.log(max(c, 1e-30)) / m["attenuation_distance"] for c in m["attenuation_color"]]
+    density = max(max(sigma), 1e-9)
+    color = tuple(1.0 - s / density for s in sigma)
+    return nodes.add("ShaderNodeVolumeAbsorption", {"Color": color, "Density": density}).outputs[0]
+
+
+def roughness_metallic(nodes, m, scene):
+    roughness, metallic = abs(m["specular_roughness"]), m["metallic"]
+    if m["metallic_roughness_texture"]:
+        texture = texture_node(nodes, m["metallic_roughness_texture"], scene, False)
+        channels = nodes.add("ShaderNodeSeparateColor", {0: texture.outputs["Color"]}).outputs
+        roughness = nodes.math("MULTIPLY", channels[1], roughness)
+        metallic = nodes.math("MULTIPLY", channels[2], metallic)
+    return roughness, metallic
 
 
 def reflection(nodes, m, scene, base, normal):
@@ -58,12 +114,7 @@ def reflection(nodes, m, scene, base, normal):
     if m["f0"] == 0 and m["metallic"] == 0:
         return nodes.add("ShaderNodeBsdfDiffuse", {"Color": base, "Roughness": sigma, **shading}).outputs[0]
 
-    roughness, metallic = abs(m["specular_roughness"]), m["metallic"]
-    if m["metallic_roughness_texture"]:
-        texture = texture_node(nodes, m["metallic_roughness_texture"], scene, False)
-        channels = nodes.add("ShaderNodeSeparateColor", {0: texture.outputs["Color"]}).outputs
-        roughness = nodes.math("MULTIPLY", channels[1], roughness)
-        metallic = nodes.math("MULTIPLY", channels[2], metallic)
+    roughness, metallic = roughness_metallic(nodes, m, scene)
     f0 = nodes.add("ShaderNodeMixRGB", {"Fac": metallic, "Color1": (m["f0"],) * 3, "Color2": base}).outputs[0]
     phong = m["specular_roughness"] < 0
     ours, theirs = (albedo_node(nodes, name, roughness, shading) for name in albedo_images(phong))

@@ -129,7 +129,8 @@ def choose_settings(scene, options):
     # Cycles counts bounces after the first surface; depth 0 (emitters alone) is its emission pass.
     bounces = max(0, depth - 1)
     cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = bounces
-    cycles.transmission_bounces = cycles.volume_bounces = 0
+    cycles.transmission_bounces = bounces
+    cycles.volume_bounces = 0
     cycles.transparent_max_bounces = 256
     return depth
 
