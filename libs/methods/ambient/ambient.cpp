@@ -44,7 +44,7 @@ class Ambient final : public Method {
     for (std::size_t i = 0; i < rays.size(); ++i) {
       if (hits[i].escaped() || hits[i].back) continue;
       met.push_back({rays[i].origin + hits[i].distance * rays[i].direction, hits[i].normal});
-      albedo.push_back(hits[i].albedo);
+      albedo.push_back(hits[i].through * hits[i].albedo);
     }
 
     vec3 direct(0), bounced(0);

@@ -55,7 +55,7 @@ std::vector<ProbeRay> trace_probes(const DdgiField& field, const rays::PosedWorl
       result[begin + i].distance = hits[i].distance;
       if (hits[i].escaped() || !(max_component(hits[i].albedo) > 0)) continue;
       met.point.push_back({rays[i].origin + hits[i].distance * rays[i].direction, hits[i].normal});
-      met.albedo.push_back(hits[i].albedo);
+      met.albedo.push_back(hits[i].through * hits[i].albedo);
       met.wo.push_back(-rays[i].direction);
       met.ray.push_back(begin + i);
     }

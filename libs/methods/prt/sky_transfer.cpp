@@ -65,7 +65,7 @@ PlaceTransfer find_place_transfer(std::span<const vec3> places, const TransferMe
             const uvec3& t = mesh.triangles[static_cast<std::size_t>(at.triangle)];
             std::ranges::fill(leaving, vec3(0));
             for (int c = 0; c < 3; ++c) {
-              const vec3 factor = solid_angle / pi * at.weight[c] * hits[r].albedo;
+              const vec3 factor = solid_angle / pi * at.weight[c] * hits[r].through * hits[r].albedo;
               for (std::size_t k = 0; k < n; ++k) {
                 vec3 irradiance(transfer.direct[t[c] * n + k]);
                 if (!transfer.reflected.empty()) irradiance += transfer.reflected[t[c] * n + k];

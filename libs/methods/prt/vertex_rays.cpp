@@ -64,7 +64,7 @@ VertexHit packed(const rays::RayQuery& ray, const rays::RayHit& hit, const MeshI
   out.triangle = place.triangle;
   out.second = share(place.weight.y);
   out.third = std::min(share(place.weight.z), static_cast<std::uint16_t>(65535 - out.second));
-  out.albedo = transport::pack_albedo(hit.albedo);
+  out.albedo = transport::pack_albedo(hit.through * hit.albedo);
   return out;
 }
 

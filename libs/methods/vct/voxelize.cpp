@@ -130,8 +130,8 @@ std::vector<Fragment> voxelize(const scene::Scene& scene, float time, bool movin
     const auto node = static_cast<std::size_t>(instance.node);
     if (scene.nodes[node].movable != moving) continue;
     const int material = scene::instance_material(scene, instance);
-    const bool cutout = material >= 0 && scene.materials[static_cast<std::size_t>(material)].alpha_mode !=
-                                             scene::AlphaMode::opaque;
+    const scene::Material* m = material >= 0 ? &scene.materials[static_cast<std::size_t>(material)] : nullptr;
+    const bool cutout = m && (m->alpha_mode != scene::AlphaMode::opaque || m->is_glass());
     cut_mesh(scene.meshes[static_cast<std::size_t>(instance.mesh)], world[node], grid, cutout, fragments,
              control);
   }

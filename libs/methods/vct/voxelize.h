@@ -14,7 +14,7 @@ struct Fragment {
   VoxelKey voxel = 0;
   vec3 area{0};         ///< normal of the front, as long as the piece is large
   vec3 centroid{0};     ///< in grid units
-  bool cutout = false;  ///< of a material that is not there everywhere (alpha)
+  bool cutout = false;  ///< of a material that is not there everywhere to rays (alpha, glass)
 };
 
 /// Cuts a triangle (grid units, front counter-clockwise) and adds its pieces, by x, then y, then z. Voxels

@@ -68,7 +68,7 @@ std::vector<Vpl> trace_photons(const rays::DirectLight& lights, std::span<const 
       const rays::RayHit& hit = hits[i];
       if (hit.escaped()) continue;
       Flying& f = flying[i];
-      const vec3 arrived = f.photon.power * f.photon.range_share(hit.distance);
+      const vec3 arrived = f.photon.power * hit.through * f.photon.range_share(hit.distance);
       const vec3 left = arrived * hit.albedo;
       const vec3 position = rays[i].origin + hit.distance * rays[i].direction + lift * hit.normal;
       if (!(max_component(left) > 0)) continue;

@@ -166,6 +166,43 @@ TEST(SurfaceAt, ParametersFollowMetallicRoughnessRules) {
   expect_near(s.bsdf.f0, glm::mix(vec3(0.04f), material.base_color, 0.2f), 1e-5f);
 }
 
+TEST(SurfaceAt, GlassIsTheTransmittedShareOfWhatIsNoMetal) {
+  Scene scene = triangle_scene();
+  auto& material = scene.materials[0];
+  material.base_color = {0.8f, 0.4f, 0.2f};
+  material.ior = 1.7f, material.specular_roughness = -0.5f;
+  EXPECT_EQ(look(scene, {0, 0, 1}).glass.share, 0);
+  material.transmission = 0.5f, material.metallic = 0.2f;
+  material.transmission_texture.texture = add_texel(scene, 204, 0, 0);
+  Surface s = look(scene, {0, 0, 1});
+  EXPECT_NEAR(s.glass.share, 0.5f * 0.8f * 0.8f, 1e-5f);
+  EXPECT_TRUE(s.glass.sheet);
+  EXPECT_EQ(s.glass.ior, 1.7f);
+  EXPECT_EQ(s.glass.roughness, 0.5f) << "magnitude";
+  expect_near(s.glass.tint, material.base_color, 1e-6f);
+  EXPECT_EQ(s.glass.absorption, vec3(0));
+  // Both shares together: metal as much as it says, and of the dielectric base what is no glass.
+  const float opaque = 1 - s.glass.share;
+  expect_near(opaque * s.bsdf.diffuse, 0.8f * 0.6f * material.base_color, 1e-5f);
+  const float f0 = (0.7f / 2.7f) * (0.7f / 2.7f);
+  expect_near(opaque * s.bsdf.f0, 0.8f * 0.6f * vec3(f0) + 0.2f * material.base_color, 1e-5f);
+  // A body absorbs by distance; which side it is seen from counts.
+  material.thickness = 1, material.attenuation_color = {0.5f, 1, 0}, material.attenuation_distance = 2;
+  s = look(scene, {0, 0, 1});
+  EXPECT_FALSE(s.glass.sheet);
+  EXPECT_FALSE(s.glass.inside);
+  EXPECT_TRUE(look(scene, {0, 0, -1}).glass.inside);
+  EXPECT_NEAR(std::exp(-2 * s.glass.absorption.x), 0.5f, 1e-6f);
+  EXPECT_EQ(s.glass.absorption.y, 0);
+  EXPECT_LT(std::exp(-2 * s.glass.absorption.z), 1e-29f);
+  EXPECT_TRUE(std::isfinite(s.glass.absorption.z));
+  const GlassParams alone = glass_at(scene, scene.meshes[0], 0, 0, vec2(0.25f));
+  EXPECT_EQ(alone.share, s.glass.share);
+  EXPECT_EQ(alone.absorption, s.glass.absorption);
+  material.unlit = true;
+  EXPECT_EQ(look(scene, {0, 0, 1}).glass.share, 0);
+}
+
 TEST(SurfaceAt, BaseColourIsFactorTimesDecodedTextureTimesVertexColour) {
   Scene scene = triangle_scene();
   auto& material = scene.materials[0];

@@ -128,8 +128,9 @@ void splat_ball(const TracerData& data, const GhostEmitters::Ball& ball, int ind
     float distance;
     const vec3 direction =
         GhostEmitters::sample_cone(ball, request.position, sampler.camera().next2(), distance);
-    if (data.geometry.occluded({request.position, direction, distance}, sampler.alpha_seed(0, true), task))
-      continue;
+    const vec3 through = data.geometry.transmittance({request.position, direction, distance},
+                                                     sampler.passage(data.geometry, 0, true), task);
+    if (!(max_component(through) > 0)) continue;
     const CubePoint point = cube_point(direction);
     const auto texel = [&](float c) {
       return std::clamp(static_cast<int>(c * static_cast<float>(request.face_size)), 0,
@@ -139,8 +140,8 @@ void splat_ball(const TracerData& data, const GhostEmitters::Ball& ball, int ind
     const auto value =
         static_cast<float>(static_cast<double>(share) / texel_solid_angle(x, y, request.face_size));
     image::Image& image = map.faces[static_cast<std::size_t>(point.face)];
-    image.set_rgb(x, y, image.rgb(x, y) + vec3(value));
-    if (sink) sink(chunk, {index, direction, -direction, vec3(share)});
+    image.set_rgb(x, y, image.rgb(x, y) + value * through);
+    if (sink) sink(chunk, {index, direction, -direction, share * through});
   }
 }
 

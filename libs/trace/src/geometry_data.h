@@ -23,7 +23,7 @@ using EmbreeScene = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseEmbr
 struct InstanceGeometry {
   const scene::Mesh* mesh = nullptr;
   bool shared = false;
-  bool filtered = false;  ///< rays ask for its coverage
+  bool filtered = false;  ///< rays ask whether it lets them pass
   mat4 to_frame{1};
   mat3 normal_matrix{1};
   std::vector<vec3> vertices;
@@ -40,7 +40,7 @@ struct SceneGeometry::Data {
   const scene::Scene& scene;
   SceneParts layout;
   std::vector<InstanceGeometry> instances;
-  bool has_alpha = false;
+  bool filters = false;  ///< some instance is filtered
   EmbreeDevice device;
   std::vector<EmbreeScene> parts;  ///< geometry ids are the instances' indices
 
@@ -57,7 +57,7 @@ struct SceneGeometry::Data {
   std::map<int, SharedMesh> shared_meshes_;
 };
 
-/// Lets a candidate hit pass by chance (shaded_geometry.cpp).
-void alpha_filter(const RTCFilterFunctionNArguments* arguments);
+/// Lets a candidate hit pass: by chance where coverage is partial, or glass (shaded_geometry.cpp).
+void passage_filter(const RTCFilterFunctionNArguments* arguments);
 
 }  // namespace ssphh::trace

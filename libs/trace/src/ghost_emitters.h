@@ -24,7 +24,7 @@ class GhostEmitters {
     for (std::size_t j = 0; j < balls_.size(); ++j) {
       const Ball& ball = balls_[j];
       if (depth == 0 && !ball.directly_by_rays) continue;
-      if (!meets(ball, ray, distance)) continue;
+      if (!meets(ball, ray, distance) || (ray.t_min > 0 && meets(ball, ray, ray.t_min))) continue;
       float pdf = 0;
       if (depth > 0) {
         if (total < 0) total = total_weight(vertex);

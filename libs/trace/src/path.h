@@ -7,7 +7,9 @@
 
 #include <ssphh/core/random.h>
 #include <ssphh/shading/lights.h>
+#include <ssphh/shading/scattering.h>
 
+#include "glass_passage.h"
 #include "posed_geometry.h"
 
 namespace ssphh::trace {
@@ -19,6 +21,9 @@ struct PathOptions {
   int max_depth = 3;
   bool roulette = true;
   Strategy strategy = Strategy::mis;
+  /// The first surface that is no glass gets its indirect light from a lookup: what glass shows counts no
+  /// depth, and from that surface on light goes straight through glass of any kind.
+  bool looks_up = false;
 };
 
 /// Paths of at least this depth end by Russian roulette.
@@ -41,10 +46,24 @@ struct PathSampler {
     const auto u = sample_pairs(hash_combine(seed, static_cast<std::uint64_t>(depth) + 1), index);
     return {u[0].x, u[0].y, u[1], u[2], u[3].x};
   }
+  /// Of the n-th glass that a path meets: whether it goes straight on, and whether it takes what else glass
+  /// does.
+  vec2 glass(int n) const {
+    return sample_pairs(hash_combine(seed, 0x5eed61a550000000 + static_cast<std::uint64_t>(n)), index)[0];
+  }
+  /// What lets the ray pass that leaves a vertex: glass only toward lights, smooth sheets or all of it.
+  Passage passage(const PosedGeometry& scene, int vertex, bool shadow, bool all_glass = false) const {
+    const PassedGlass glass = !shadow     ? PassedGlass::none
+                              : all_glass ? PassedGlass::all
+                                          : PassedGlass::smooth_sheets;
+    return {scene.filters() ? passage_seed(vertex, shadow) : 0, glass};
+  }
+
+ private:
   /// Never 0.
-  std::uint64_t alpha_seed(int depth, bool shadow) const {
+  std::uint64_t passage_seed(int vertex, bool shadow) const {
     const std::uint64_t event =
-        (std::uint64_t{index} << 32) | (static_cast<std::uint64_t>(depth) << 1) | shadow;
+        (std::uint64_t{index} << 32) | (static_cast<std::uint64_t>(vertex) << 1) | shadow;
     return hash_combine(~seed, event) | 1;
   }
 };
@@ -53,8 +72,60 @@ struct PathSampler {
 struct PathVertex {
   vec3 position;       ///< on the surface: lights are sampled from here
   vec3 normal{0};      ///< geometric, toward wo; zero at the camera
-  float bsdf_pdf = 0;  ///< of the ray that leaves; only for depth ≥ 1
+  float bsdf_pdf = 0;  ///< of the ray that leaves; 0: nothing else finds the light that it meets
 };
+
+/// Light along a path so far.
+struct PathLight {
+  vec3 throughput{1};
+  float spread = 1;    ///< of radiance by refraction, contained in `throughput`
+  vec3 absorption{0};  ///< of the body that the ray is in [1/m]
+  int glass_met = 0;
+
+  /// Takes away what a body absorbs on the ray before `distance`.
+  void absorb(const vec3& by, const Ray& ray, float distance) {
+    if (max_component(by) > 0) throughput *= attenuated(by, distance - ray.t_min);
+  }
+};
+
+/// All that a surface does to light toward wo but letting it go straight on.
+inline shading::ScatteringFrom scattering_from(const shading::Surface& surface, const vec3& wo) {
+  return {surface, Frame::around(surface.normal).to_local(wo)};
+}
+
+/// Decides at a hit whether the path goes straight on, as smooth sheets let it, and with `all_glass` any
+/// glass; if so the ray begins anew beyond the hit. A path that cannot scatter any more (`last`) goes on
+/// wherever it can.
+inline bool go_straight(const shading::Surface& surface, const vec3& ray_origin, const Hit& hit,
+                        bool all_glass, bool last, const PathSampler& sampler, PathLight& light, Ray& ray) {
+  const shading::GlassParams& glass = surface.glass;
+  if (!passes(glass, {1, all_glass ? PassedGlass::all : PassedGlass::smooth_sheets})) return false;
+  const vec3 passed =
+      glass.share * shading::straight_transmittance(glass, -glm::dot(surface.normal, ray.direction));
+  const float through = (passed.x + passed.y + passed.z) / 3;
+  const float rest = last ? 0 : scattering_from(surface, -ray.direction).power();
+  const float chance = through > 0 ? through / (through + rest) : 0;
+  const bool straight = sampler.glass(light.glass_met++).x < chance;
+  if (straight) {
+    light.throughput *= passed / chance;
+    ray.t_min = beyond(ray, hit.distance, surface, ray_origin);
+  } else {
+    light.throughput /= 1 - chance;
+  }
+  return straight;
+}
+
+/// Makes the surface all glass or all opaque, by chance.
+inline bool choose_glass(shading::Surface& surface, const vec3& wo, const PathSampler& sampler,
+                         PathLight& light) {
+  float& share = surface.glass.share;
+  if (!(share > 0)) return false;
+  const float chance = scattering_from(surface, wo).glass_chance();
+  const bool chosen = sampler.glass(light.glass_met++).y < chance;
+  light.throughput *= chosen ? share / chance : (1 - share) / (1 - chance);
+  share = chosen ? 1 : 0;
+  return chosen;
+}
 
 /// Traces a path. `Emitters` (SceneEmitters, GhostEmitters) answers what light there is:
 ///   along(depth, vertex, ray, distance, visit)    emitters without surface that the ray meets before
@@ -64,90 +135,122 @@ struct PathVertex {
 ///   surface(vertex, ray, hit, surface, visit)     the same for the surface it hits
 ///   sample(vertex, u_choice, u)                   optional<shading::LightSample>
 ///   found_by_rays()                               whether scattered rays can meet any light
-/// `Visitor` receives first_hit(surface, ray_origin, ray, hit) and add(depth, group, value, emission),
-/// `emission` being the direction in which the light left its emitter. With `scattered_at` the ray is no
-/// camera's but leaves that vertex: its path begins at depth 1.
+/// `Visitor` receives first_hit(surface, ray_origin, ray, hit), of the first surface that the path does not
+/// go straight through, and add(depth, group, value, emission), `emission` being the direction in which the
+/// light left its emitter; where the options ask for it, also look_up(throughput, surface, ray_origin, ray,
+/// hit). With `scattered_at` the ray is no camera's but leaves that vertex: its path begins at depth 1.
 template <class Emitters, class Visitor>
 void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, const PathSampler& sampler,
                 const PathOptions& options, RayTask& task, Visitor& visitor,
                 const PathVertex* scattered_at = nullptr) {
-  vec3 throughput(1);
+  PathLight light;
   PathVertex vertex = scattered_at ? *scattered_at : PathVertex{ray.origin};
-  const bool has_alpha = scene.has_alpha();
+  bool met_any = scattered_at != nullptr;
+  bool looks_up = options.looks_up && !scattered_at;  // the surface with the lookup is still to come
+  int depth = scattered_at ? 1 : 0;
 
-  for (int depth = scattered_at ? 1 : 0;; ++depth) {
-    // Find the nearest surface.
+  for (int vertices = depth;; ++vertices) {
+    // Find the nearest surface on which the path does not go straight on.
     Hit hit;
-    const bool found = scene.intersect(ray, has_alpha ? sampler.alpha_seed(depth, false) : 0, task, hit);
-    const float distance = found ? hit.distance : std::numeric_limits<float>::infinity();
-
-    // Add the emitters that the ray meets, weighted against next-event estimation at the vertex before.
-    const auto add_emitted = [&](int group, const vec3& radiance, float light_pdf, const vec3& emission) {
-      float weight = 1;
-      if (depth > 0 && options.strategy == Strategy::nee_only) return;
-      if (depth > 0 && options.strategy == Strategy::mis)
-        weight = shading::power_heuristic(vertex.bsdf_pdf, light_pdf);
-      visitor.add(depth, group, throughput * radiance * weight, emission);
-    };
-    emitters.along(depth, vertex, ray, distance, add_emitted);
-    if (!found) return;
-
-    // Look up the surface, unless nothing of it is wanted any more.
-    const bool last = depth >= options.max_depth;
-    if (last && depth > 0 && !scene.emissive(hit.instance)) return;
-    // Random numbers need nothing of the surface: drawn here, they fill the wait for its memory.
-    const PathSampler::Vertex random = sampler.vertex(depth);
+    shading::Surface surface;
     vec3 ray_origin;
-    const shading::Surface surface = scene.surface(hit, -ray.direction, ray_origin);
-    if (depth == 0) visitor.first_hit(surface, ray_origin, ray, hit);
-    // What is unlit is seen, but lights nothing.
-    const bool emits = max_component(surface.emission) > 0 && (depth == 0 || !surface.unlit);
-    if (emits) emitters.surface(vertex, ray, hit, surface, add_emitted);
+    PathSampler::Vertex random;
+    const bool last = depth >= options.max_depth;
+    for (bool straight = true; straight;) {
+      const bool found = scene.intersect(ray, sampler.passage(scene, vertices, false), task, hit);
+      const float distance = found ? hit.distance : std::numeric_limits<float>::infinity();
+      light.absorb(light.absorption, ray, distance);
+
+      // Add the emitters that the ray meets, weighted against next-event estimation at the vertex before.
+      const auto add_emitted = [&](int group, const vec3& radiance, float light_pdf, const vec3& emission) {
+        float weight = 1;
+        if (vertex.bsdf_pdf > 0 && options.strategy == Strategy::nee_only) return;
+        if (vertex.bsdf_pdf > 0 && options.strategy == Strategy::mis)
+          weight = shading::power_heuristic(vertex.bsdf_pdf, light_pdf);
+        visitor.add(depth, group, light.throughput * radiance * weight, emission);
+      };
+      emitters.along(depth, vertex, ray, distance, add_emitted);
+      if (!found) return;
+
+      // Look up the surface, unless nothing of it is wanted any more.
+      if (last && depth > 0 && !scene.emissive(hit.instance) && !scene.glass(hit.instance)) return;
+      // Random numbers need nothing of the surface: drawn here, they fill the wait for its memory.
+      random = sampler.vertex(vertices);
+      surface = scene.surface(hit, -ray.direction, ray_origin);
+      const shading::GlassParams& glass = surface.glass;
+      if (!glass.sheet && glass.inside && light.absorption == vec3(0))
+        light.absorb(glass.absorption, ray, distance);
+      // What is unlit is seen, but lights nothing.
+      const bool emits = max_component(surface.emission) > 0 && (depth == 0 || !surface.unlit);
+      if (emits) emitters.surface(vertex, ray, hit, surface, add_emitted);
+      straight =
+          go_straight(surface, ray_origin, hit, options.looks_up && !looks_up, last, sampler, light, ray);
+    }
+    if (!met_any) visitor.first_hit(surface, ray_origin, ray, hit);
+    met_any = true;
     if (last || surface.unlit) return;
+    if (looks_up) {
+      looks_up = choose_glass(surface, -ray.direction, sampler, light);
+      if constexpr (requires { visitor.look_up(light.throughput, surface, ray_origin, ray, hit); }) {
+        if (!looks_up) visitor.look_up(light.throughput, surface, ray_origin, ray, hit);
+      }
+    }
 
     vertex = {surface.position, surface.geometric_normal};
+    const vec3 beyond_surface = 2.0f * surface.position - ray_origin;  // where rays start that go through
     const Frame frame = Frame::around(surface.normal);
     const vec3 wo = frame.to_local(-ray.direction);
-    const shading::BsdfFrom bsdf(surface.bsdf, wo);
+    const shading::ScatteringFrom scattering(surface, wo);
+    const bool is_glass = surface.glass.share > 0;
 
     // Sample direct light.
     if (options.strategy != Strategy::bsdf_only) {
-      const auto light = emitters.sample(vertex, random.light, random.point);
-      if (light && light->pdf > 0 && glm::dot(light->wi, vertex.normal) > 0) {
-        const shading::BsdfValue f = bsdf.eval(frame.to_local(light->wi));
-        const vec3 value = throughput * f.value * light->radiance;
+      const auto toward = emitters.sample(vertex, random.light, random.point);
+      const float side = toward ? glm::dot(toward->wi, vertex.normal) : 0;
+      if (toward && toward->pdf > 0 && (side > 0 || (is_glass && side < 0))) {
+        const vec3 wi = frame.to_local(toward->wi);
+        shading::BsdfValue f;
+        if ((wi.z > 0) == (side > 0)) f = scattering.eval(wi);
+        const vec3 value = light.throughput * f.value * toward->radiance;
         if (max_component(value) > 0) {
-          const bool alone = light->delta || options.strategy == Strategy::nee_only;
-          const float weight = alone ? 1 : shading::power_heuristic(light->pdf, f.pdf);
-          const Ray shadow{ray_origin, light->wi, shadow_distance(ray_origin, light->distance)};
-          if (!scene.occluded(shadow, has_alpha ? sampler.alpha_seed(depth, true) : 0, task)) {
-            visitor.add(depth + 1, light->group, value * (weight / light->pdf), -light->wi);
-          }
+          const bool alone = toward->delta || options.strategy == Strategy::nee_only;
+          const float weight = alone ? 1 : shading::power_heuristic(toward->pdf, f.pdf);
+          const vec3& start = side > 0 ? ray_origin : beyond_surface;
+          const Ray shadow{start, toward->wi, shadow_distance(start, toward->distance)};
+          const vec3 through = scene.transmittance(
+              shadow, sampler.passage(scene, vertices, true, options.looks_up && !looks_up), task);
+          if (max_component(through) > 0)
+            visitor.add(depth + 1, toward->group, through * value * (weight / toward->pdf), -toward->wi);
         }
       }
     }
-    if (depth + 1 == options.max_depth && !emitters.found_by_rays()) return;
+    if (!looks_up && depth + 1 == options.max_depth && !emitters.found_by_rays()) return;
 
     // Sample the BSDF; a direction that the shading normal allows but the surface does not ends the path.
-    const auto sample = bsdf.sample(random.lobe, random.direction);
-    if (!sample || !(sample->pdf > 0)) return;
+    const auto sample = scattering.sample(random.lobe, random.direction);
+    if (!sample || !(sample->pdf > 0 || sample->glass)) return;
     const vec3 wi = frame.to_world(sample->wi);
-    if (glm::dot(wi, vertex.normal) <= 0) return;
-    throughput *= sample->weight;
+    const float side = glm::dot(wi, vertex.normal);
+    if (!(sample->wi.z > 0 ? side > 0 : side < 0)) return;
+    light.throughput *= sample->weight;
+    light.spread *= sample->spread;
+    if (sample->glass && !surface.glass.sheet)
+      light.absorption = surface.glass.inside == (side > 0) ? surface.glass.absorption : vec3(0);
     vertex.bsdf_pdf = sample->pdf;
-    ray = {ray_origin, wi};
+    ray = {side > 0 ? ray_origin : beyond_surface, wi};
 
     // End paths by Russian roulette.
-    const float brightness = max_component(throughput);
+    const float brightness = max_component(light.throughput);
     if (!(brightness > 0) || !std::isfinite(brightness)) {
       if (!(brightness <= 0)) ++task.invalid;
       return;
     }
-    if (options.roulette && depth + 1 >= roulette_depth) {
-      const float survival = std::min(brightness, 0.95f);
+    if (options.roulette && vertices + 1 >= roulette_depth) {
+      const float survival = std::min(brightness / light.spread, 0.95f);
       if (random.roulette >= survival) return;
-      throughput /= survival;
+      light.throughput /= survival;
     }
+    if (!looks_up) ++depth;
   }
 }
 

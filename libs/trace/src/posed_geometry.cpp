@@ -5,6 +5,7 @@
 
 #include <ssphh/rays/posed_world.h>
 
+#include "glass_passage.h"
 #include "surface_gap.h"
 #include "sweep.h"
 
@@ -32,16 +33,16 @@ bool PosedGeometry::MovingPart::may_meet(const Ray& ray) const {
   return sweep_meets(ray.origin, {ray.direction, ray.direction}, ray.t_max, bounds);
 }
 
-bool PosedGeometry::intersect(const Ray& ray, std::uint64_t alpha_seed, RayTask& task, Hit& hit) const {
+bool PosedGeometry::intersect(const Ray& ray, const Passage& passage, RayTask& task, Hit& hit) const {
   ++task.rays;
   if (task.record) task.record->push_back({ray.origin, ray.t_max, ray.direction, false});
-  bool found = geometry_.intersect(0, ray, alpha_seed, hit);
+  bool found = geometry_.intersect(0, ray, passage, hit);
   float nearest = found ? hit.distance : ray.t_max;
   tree_.any(ray, nearest, [&](std::uint32_t i) {
     const MovingPart& part = moving_[i];
     Ray local = part.in_frame(ray);
     local.t_max = nearest;
-    if (part.may_meet(local) && geometry_.intersect(part.index, local, alpha_seed, hit)) {
+    if (part.may_meet(local) && geometry_.intersect(part.index, local, passage, hit)) {
       found = true;
       nearest = hit.distance;
     }
@@ -50,15 +51,32 @@ bool PosedGeometry::intersect(const Ray& ray, std::uint64_t alpha_seed, RayTask&
   return found;
 }
 
-bool PosedGeometry::occluded(const Ray& ray, std::uint64_t alpha_seed, RayTask& task) const {
+bool PosedGeometry::occluded(const Ray& ray, const Passage& passage, RayTask& task) const {
+  bool met_glass = false;
+  return occluded(ray, passage, task, met_glass);
+}
+
+vec3 PosedGeometry::transmittance(const Ray& ray, const Passage& passage, RayTask& task) const {
+  bool met_glass = false;
+  if (occluded(ray, passage, task, met_glass)) return vec3(0);
+  if (!met_glass) return vec3(1);
+  return through_glass(
+      ray,
+      [&](const Ray& rest, Hit& hit) {
+        return intersect(rest, {passage.seed, PassedGlass::none}, task, hit);
+      },
+      [&](const Hit& hit, const vec3& wo, vec3& ray_origin) { return surface(hit, wo, ray_origin); });
+}
+
+bool PosedGeometry::occluded(const Ray& ray, const Passage& passage, RayTask& task, bool& met_glass) const {
   if (!(ray.t_max > 0)) return false;
   ++task.rays;
   if (task.record) task.record->push_back({ray.origin, ray.t_max, ray.direction, true});
-  if (geometry_.occluded(0, ray, alpha_seed)) return true;
+  if (geometry_.occluded(0, ray, passage, met_glass)) return true;
   return tree_.any(ray, ray.t_max, [&](std::uint32_t i) {
     const MovingPart& part = moving_[i];
     const Ray local = part.in_frame(ray);
-    return part.may_meet(local) && geometry_.occluded(part.index, local, alpha_seed);
+    return part.may_meet(local) && geometry_.occluded(part.index, local, passage, met_glass);
   });
 }
 

@@ -53,26 +53,27 @@ PosedLight::Receiver PosedLight::receiver(const rays::SurfacePoint& point) const
 }
 
 template <class Draw>
-float PosedLight::visible_share(const Receiver& at, std::uint64_t seed, float sine2, const Draw& draw,
-                                RayTask& task) const {
+vec3 PosedLight::visible_share(const Receiver& at, std::uint64_t seed, float sine2, const Draw& draw,
+                               RayTask& task) const {
   // A ratio of sums: less noise than the plain mean, and none where all or nothing is hidden. Few points lie
   // in a penumbra, and only they need all rays. In it, agreement of the first ones by chance makes light
   // places lighter and dark ones darker, as much on one side as on the other. Penumbrae of small lights are
   // narrow.
   constexpr float small = 0.03f;  // 10° from the centre to the edge
   const int count = data_->options.light_samples, first = std::max(count / (sine2 < small ? 8 : 4), 1);
-  float seen = 0, all = 0;
+  vec3 seen(0);
+  float all = 0;
   for (int s = 0; s < count; ++s) {
-    if (s >= first && all > 0 && (seen == 0 || seen == all)) break;
+    if (s >= first && all > 0 && (seen == vec3(0) || seen == vec3(all))) break;
     const std::optional<shading::LightSample> sample =
         draw(SampleSequence(seed, static_cast<std::uint32_t>(s)).next2());
     if (!sample || !(sample->pdf > 0)) continue;
     const float weight = std::max(glm::dot(sample->wi, at.normal), 0.0f) / sample->pdf;
     all += weight;
-    if (weight > 0 && !geometry_.occluded(shadow_ray(at.start, at.position, *sample), 0, task))
-      seen += weight;
+    if (weight > 0)
+      seen += weight * geometry_.transmittance(shadow_ray(at.start, at.position, *sample), 0, task);
   }
-  return all > 0 ? seen / all : 0;
+  return all > 0 ? seen / all : vec3(0);
 }
 
 vec3 PosedLight::sphere_irradiance(const GroupEmitter& light, const Receiver& at, std::uint64_t seed,
@@ -127,9 +128,9 @@ vec3 PosedLight::irradiance_of(const GroupEmitter& light, const Receiver& at, st
     if (!sample || !(sample->pdf > 0)) continue;
     brightest = glm::max(brightest, sample->radiance);
     const float cosine = glm::dot(sample->wi, at.normal);
-    if (cosine > 0 && max_component(sample->radiance) > 0 &&
-        !geometry_.occluded(shadow_ray(at.start, at.position, *sample), 0, task))
-      sum += sample->radiance * (cosine / sample->pdf);
+    if (cosine > 0 && max_component(sample->radiance) > 0)
+      sum += geometry_.transmittance(shadow_ray(at.start, at.position, *sample), 0, task) * sample->radiance *
+             (cosine / sample->pdf);
   }
   sum /= static_cast<float>(count);
   // Samples by area vary without bound near a mesh; irradiance does not.
@@ -157,7 +158,9 @@ vec3 PosedLight::sky_irradiance(const GroupEmitter& light, const Receiver& at, s
     }
     const vec3 wi = sample ? sample->wi : frame.to_world(sample_cosine_hemisphere(u));
     const float cosine = glm::dot(wi, at.normal);
-    if (!(cosine > 0) || geometry_.occluded({at.start, wi}, 0, task)) continue;
+    if (!(cosine > 0)) continue;
+    const vec3 through = geometry_.transmittance({at.start, wi}, 0, task);
+    if (!(max_component(through) > 0)) continue;
     // Looking up the image costs more than the ray.
     vec3 radiance;
     float sky_pdf;
@@ -167,7 +170,7 @@ vec3 PosedLight::sky_irradiance(const GroupEmitter& light, const Receiver& at, s
       const auto sky = lights_.distant_radiance(light.index, wi);
       radiance = sky->radiance, sky_pdf = sky->pdf;
     }
-    sum += radiance * (cosine / (share * cosine / pi + (1 - share) * sky_pdf));
+    sum += through * radiance * (cosine / (share * cosine / pi + (1 - share) * sky_pdf));
   }
   return sum / static_cast<float>(count);
 }
@@ -220,6 +223,11 @@ vec3 PosedLight::emitted(int group, const rays::RayQuery& ray, float distance) c
   };
   lights_.intersect_spheres(ray.origin, direction, distance * length, add);
   if (std::isinf(distance)) lights_.escaped(direction, add);
+  if (sum != vec3(0) && geometry_.filters()) {
+    RayTask task;
+    sum *= geometry_.transmittance({ray.origin, direction, distance * length * (1 - 1e-4f)}, 0, task);
+    data_->rays.add(task.rays);
+  }
   return sum;
 }
 

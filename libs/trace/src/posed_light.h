@@ -30,11 +30,12 @@ class PosedLight final : public rays::DirectLight {
   };
 
   Receiver receiver(const rays::SurfacePoint& point) const;
-  /// Share of a light's irradiance that nothing holds back. `draw(u)` gives a LightSample toward it, or none;
-  /// `sine2` is the squared sine of the angle from its centre to its edge, 1 if that is not known.
+  /// Share of a light's irradiance that arrives, past what holds it back and through glass. `draw(u)` gives a
+  /// LightSample toward it, or none; `sine2` is the squared sine of the angle from its centre to its edge, 1
+  /// if that is not known.
   template <class Draw>
-  float visible_share(const Receiver& at, std::uint64_t seed, float sine2, const Draw& draw,
-                      RayTask& task) const;
+  vec3 visible_share(const Receiver& at, std::uint64_t seed, float sine2, const Draw& draw,
+                     RayTask& task) const;
   /// Of a sphere light as if nothing held it back; sets `sine2` where the point is outside of it.
   vec3 sphere_irradiance(const GroupEmitter& light, const Receiver& at, std::uint64_t seed,
                          float& sine2) const;

@@ -11,11 +11,30 @@
 
 namespace ssphh::trace {
 
-/// Directions are unit vectors; the ray covers the open interval (0, t_max).
+/// Directions are unit vectors; the ray covers the open interval (t_min, t_max). What has gone straight
+/// through glass keeps its origin, from which the distances of lights and their densities count.
 struct Ray {
   vec3 origin;
   vec3 direction;
   float t_max = std::numeric_limits<float>::infinity();
+  float t_min = 0;
+};
+
+/// Which glass lets rays pass as if it was not there; what it leaves of their light, transmittance() tells.
+enum class PassedGlass {
+  none,
+  smooth_sheets,  ///< those through which light goes on straight
+  all             ///< refraction and roughness left out
+};
+
+/// What lets rays pass.
+struct Passage {
+  /// With a seed surfaces are there with the probability of their coverage, and any share of glass lets pass.
+  /// With 0 coverage and shares from ½ on count as all, less as nothing.
+  std::uint64_t seed = 0;
+  PassedGlass glass = PassedGlass::all;
+
+  Passage(std::uint64_t seed_in, PassedGlass glass_in = PassedGlass::all) : seed(seed_in), glass(glass_in) {}
 };
 
 /// Nearest intersection. `barycentric` weighs the triangle's second and third vertex.

@@ -37,15 +37,20 @@ class PixelSums {
     (depth <= 1 ? direct_ : indirect_) += value;
   }
 
-  void first_hit(const shading::Surface& surface, const vec3& ray_origin, const Ray& ray, const Hit& hit) {
+  void first_hit(const shading::Surface& surface, const vec3& /*ray_origin*/, const Ray& ray,
+                 const Hit& hit) {
     const float cos_wo = -glm::dot(surface.normal, ray.direction);
-    albedo_ += surface.unlit ? glm::min(surface.emission, vec3(1))
-                             : shading::directional_albedo(surface.bsdf, cos_wo);
+    albedo_ += surface.unlit ? glm::min(surface.emission, vec3(1)) : shading::surface_albedo(surface, cos_wo);
     normal_ += surface.normal;
     depth_ += camera_.depth(ray, hit.distance);
     hits_ += 1;
+  }
+
+  void look_up(const vec3& throughput, const shading::Surface& surface, const vec3& ray_origin,
+               const Ray& ray, const Hit& hit) {
     if (!indirect_light_ || !indirect_wanted_ || surface.unlit) return;
-    const vec3 value = reflected_indirect(*indirect_light_, surface, ray_origin, -ray.direction, moves(hit));
+    const vec3 value =
+        throughput * reflected_indirect(*indirect_light_, surface, ray_origin, -ray.direction, moves(hit));
     if (is_finite(value)) {
       looked_up_ += value;
       indirect_ += value;
@@ -161,7 +166,7 @@ void run_passes(const TracerData& data, const rays::IndirectLight* indirect, con
 
   // With probes, paths carry direct light only.
   PathOptions options{params.path.max_depth};
-  if (indirect) options.max_depth = std::min(options.max_depth, 1);
+  if (indirect) options.max_depth = std::min(options.max_depth, 1), options.looks_up = true;
   const bool indirect_wanted = params.path.max_depth >= 2;
   const SceneEmitters emitters = data.emitters();
   const Tile tile = tile_of(params);

@@ -18,7 +18,9 @@ class SceneEmitters {
     const auto found = [&](const shading::EmitterHit& e) {
       visit(e.group, e.radiance, e.pdf, -ray.direction);
     };
-    lights_.intersect_spheres(ray.origin, ray.direction, distance, found);
+    lights_.intersect_spheres(ray.origin, ray.direction, distance, [&](const shading::EmitterHit& e) {
+      if (e.distance >= ray.t_min) found(e);
+    });
     if (std::isinf(distance)) lights_.escaped(ray.direction, found);
   }
 

@@ -17,8 +17,10 @@ const scene::Material* material_of(const scene::Scene& scene, const scene::Insta
   return material < 0 ? nullptr : &scene.materials[static_cast<std::size_t>(material)];
 }
 
-bool has_partial_alpha(const scene::Scene& scene, const scene::Instance& instance) {
+/// Whether rays may pass some of it.
+bool is_filtered(const scene::Scene& scene, const scene::Instance& instance) {
   const scene::Material* m = material_of(scene, instance);
+  if (m && m->is_glass()) return true;
   if (!m || m->alpha_mode == scene::AlphaMode::opaque) return false;
   return m->alpha < 1 || m->base_color_texture.texture >= 0 ||
          !scene.meshes[static_cast<std::size_t>(instance.mesh)].colors.empty();
@@ -27,8 +29,7 @@ bool has_partial_alpha(const scene::Scene& scene, const scene::Instance& instanc
 bool uses_uv_set(const scene::Scene& scene, const scene::Instance& instance, int set) {
   const scene::Material* m = material_of(scene, instance);
   if (!m) return false;
-  for (const scene::TextureUse* use :
-       {&m->base_color_texture, &m->metallic_roughness_texture, &m->emission_texture, &m->normal_texture}) {
+  for (const scene::TextureUse* use : m->texture_uses()) {
     if (use->texture >= 0 && (use->uv_set == 1) == (set == 1)) return true;
   }
   return false;
@@ -57,8 +58,8 @@ RTCGeometry new_triangles(RTCDevice device, const scene::Mesh& mesh, const std::
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
                              sizeof(uvec3), mesh.triangles.size());
   if (filtered) {
-    rtcSetGeometryIntersectFilterFunction(geometry, alpha_filter);
-    rtcSetGeometryOccludedFilterFunction(geometry, alpha_filter);
+    rtcSetGeometryIntersectFilterFunction(geometry, passage_filter);
+    rtcSetGeometryOccludedFilterFunction(geometry, passage_filter);
   }
   return geometry;
 }
@@ -110,8 +111,8 @@ void SceneGeometry::Data::build(std::uint64_t flatten_limit) {
     geometry.normal_matrix = singular ? linear : glm::transpose(glm::inverse(linear));
     geometry.shared =
         !singular && copied > flatten_limit && uses[static_cast<std::size_t>(instance.mesh)] > 1;
-    geometry.filtered = has_partial_alpha(scene, instance);
-    has_alpha |= geometry.filtered;
+    geometry.filtered = is_filtered(scene, instance);
+    filters |= geometry.filtered;
     geometry.shared ? add_shared(i) : add_flat(i);
   }
   for (const EmbreeScene& part : parts) rtcCommitScene(part.get());
@@ -151,7 +152,7 @@ void SceneGeometry::Data::add_shared(std::size_t i) {
     // One instance of the mesh may be opaque and another not: the filter asks the instance's material.
     bool filtered = false;
     for (const scene::Instance& other : scene.instances)
-      filtered |= other.mesh == mesh && has_partial_alpha(scene, other);
+      filtered |= other.mesh == mesh && is_filtered(scene, other);
     attach(shared.scene.get(), new_triangles(device.get(), *g.mesh, shared.positions, filtered), 0);
     rtcCommitScene(shared.scene.get());
     check("an instanced mesh");
@@ -173,7 +174,7 @@ bool SceneGeometry::Data::fits(const scene::Scene& other) const {
     if (a.node >= 0 && (frames.carrier[node] != layout.frames.carrier[node] ||
                         frames.to_frame[node] != layout.frames.to_frame[node]))
       return false;
-    if (has_partial_alpha(other, b) && !has_partial_alpha(scene, a)) return false;
+    if (is_filtered(other, b) && !is_filtered(scene, a)) return false;
     for (const int set : {0, 1}) {
       if (uses_uv_set(other, b, set) && !uses_uv_set(scene, a, set)) return false;
     }

@@ -3,18 +3,21 @@
 #include <ssphh/core/random.h>
 #include <ssphh/core/require.h>
 
+#include "glass_passage.h"
+
 namespace ssphh::trace {
 namespace {
 
-/// What the alpha filter needs, reached through Embree's context pointer.
+/// What the filter needs, reached through Embree's context pointer.
 struct FilterContext {
   RTCIntersectContext base;  // first: Embree hands back a pointer to it
   const ShadedGeometry* geometry;
-  std::uint64_t alpha_seed;
+  Passage passage;
+  bool met_glass;
 };
 
-FilterContext filter_context(const ShadedGeometry& geometry, std::uint64_t alpha_seed) {
-  FilterContext context{{}, &geometry, alpha_seed};
+FilterContext filter_context(const ShadedGeometry& geometry, const Passage& passage) {
+  FilterContext context{{}, &geometry, passage, false};
   rtcInitIntersectContext(&context.base);
   return context;
 }
@@ -42,19 +45,24 @@ float largest_coordinate(const scene::Mesh& mesh, std::uint32_t triangle, const 
 
 /// The decision is a hash of ray and triangle, so it depends neither on the order in which Embree offers the
 /// candidates nor on how often it offers one.
-void alpha_filter(const RTCFilterFunctionNArguments* arguments) {
-  const auto& context = *reinterpret_cast<const FilterContext*>(arguments->context);
+void passage_filter(const RTCFilterFunctionNArguments* arguments) {
+  auto& context = *reinterpret_cast<FilterContext*>(arguments->context);
   const RTCHit found = rtcGetHitFromHitN(arguments->hit, arguments->N, 0);
   const Hit hit{instance_of(found.geomID, found.instID[0]), found.primID, {found.u, found.v}, 0};
   const float alpha = context.geometry->alpha(hit);
-  if (alpha >= 1) return;
+  const std::uint64_t seed = context.passage.seed;
   const std::uint64_t triangle = (static_cast<std::uint64_t>(hit.instance) << 32) | hit.triangle;
-  const float threshold =
-      context.alpha_seed == 0
-          ? 0.5f
-          : to_unit_float(static_cast<std::uint32_t>(hash_combine(context.alpha_seed, triangle) >> 32)) +
-                0x1p-25f;
-  if (alpha < threshold) arguments->valid[0] = 0;
+  const auto chance = [&] {
+    return to_unit_float(static_cast<std::uint32_t>(hash_combine(seed, triangle) >> 32)) + 0x1p-25f;
+  };
+  if (alpha < 1 && alpha < (seed == 0 ? 0.5f : chance())) {
+    arguments->valid[0] = 0;
+    return;
+  }
+  if (context.passage.glass == PassedGlass::none || !context.geometry->glass(hit.instance)) return;
+  if (!passes(context.geometry->glass_at(hit), context.passage)) return;
+  arguments->valid[0] = 0;
+  context.met_glass = true;
 }
 
 ShadedGeometry::ShadedGeometry(SharedGeometry geometry, const scene::Scene& scene)
@@ -67,32 +75,46 @@ ShadedGeometry::ShadedGeometry(SharedGeometry geometry, const scene::Scene& scen
     if (shading.material < 0) continue;
     const scene::Material& material = scene.materials[static_cast<std::size_t>(shading.material)];
     shading.emissive = material.emissive(), shading.double_sided = material.double_sided;
+    shading.glass = material.is_glass();
   }
 }
 
-bool ShadedGeometry::intersect(int part, const Ray& ray, std::uint64_t alpha_seed, Hit& hit) const {
-  FilterContext context = filter_context(*this, alpha_seed);
+bool ShadedGeometry::intersect(int part, const Ray& ray, const Passage& passage, Hit& hit,
+                               bool* met_glass) const {
+  FilterContext context = filter_context(*this, passage);
   RTCRayHit r;
   r.ray.org_x = ray.origin.x, r.ray.org_y = ray.origin.y, r.ray.org_z = ray.origin.z;
   r.ray.dir_x = ray.direction.x, r.ray.dir_y = ray.direction.y, r.ray.dir_z = ray.direction.z;
-  r.ray.tnear = 0, r.ray.tfar = ray.t_max;
+  r.ray.tnear = ray.t_min, r.ray.tfar = ray.t_max;
   r.ray.time = 0, r.ray.mask = ~0u, r.ray.id = 0, r.ray.flags = 0;
   r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(data_->parts[static_cast<std::size_t>(part)].get(), &context.base, &r);
+  if (met_glass) *met_glass |= context.met_glass;
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
   hit = {instance_of(r.hit.geomID, r.hit.instID[0]), r.hit.primID, {r.hit.u, r.hit.v}, r.ray.tfar};
   return true;
 }
 
-bool ShadedGeometry::occluded(int part, const Ray& ray, std::uint64_t alpha_seed) const {
-  FilterContext context = filter_context(*this, alpha_seed);
+bool ShadedGeometry::occluded(int part, const Ray& ray, const Passage& passage, bool& met_glass) const {
+  FilterContext context = filter_context(*this, passage);
   RTCRay r;
   r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
   r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
-  r.tnear = 0, r.tfar = ray.t_max;
+  r.tnear = ray.t_min, r.tfar = ray.t_max;
   r.time = 0, r.mask = ~0u, r.id = 0, r.flags = 0;
   rtcOccluded1(data_->parts[static_cast<std::size_t>(part)].get(), &context.base, &r);
+  met_glass |= context.met_glass;
   return r.tfar < 0;
+}
+
+vec3 ShadedGeometry::through_glass(int part, const Ray& ray, const Passage& passage, RayTask& task) const {
+  return trace::through_glass(
+      ray,
+      [&](const Ray& rest, Hit& hit) {
+        ++task.rays;
+        return intersect(part, rest, {passage.seed, PassedGlass::none}, hit);
+      },
+      [&](const Hit& hit, const vec3& wo, vec3& ray_origin) { return surface(hit, wo, ray_origin); });
 }
 
 shading::Surface ShadedGeometry::surface(const Hit& hit, const vec3& wo, vec3& ray_origin) const {
@@ -123,6 +145,11 @@ shading::Surface ShadedGeometry::posed_surface(const Hit& hit, const mat4& pose,
 float ShadedGeometry::alpha(const Hit& hit) const {
   return shading::coverage_at(scene_, *geometry_of(hit).mesh, shading_of(hit).material, hit.triangle,
                               hit.barycentric);
+}
+
+shading::GlassParams ShadedGeometry::glass_at(const Hit& hit) const {
+  return shading::glass_at(scene_, *geometry_of(hit).mesh, shading_of(hit).material, hit.triangle,
+                           hit.barycentric);
 }
 
 bool ShadedGeometry::is_back(const Hit& hit, const vec3& direction) const {

@@ -47,11 +47,14 @@ void trace_from(const TracerData& data, const rays::SurfacePoint& point, float g
   const auto light = emitters.sample(vertex, u_light, u_point);
   if (light && light->pdf > 0) {
     const float cosine = glm::dot(light->wi, point.normal);
-    const std::uint64_t alpha_seed = data.geometry.has_alpha() ? sampler.alpha_seed(0, true) : 0;
-    if (cosine > 0 && !data.geometry.occluded(shadow_ray(start, point.position, *light), alpha_seed, task)) {
+    const vec3 through = cosine > 0
+                             ? data.geometry.transmittance(shadow_ray(start, point.position, *light),
+                                                           sampler.passage(data.geometry, 0, true), task)
+                             : vec3(0);
+    if (max_component(through) > 0) {
       const float weight = light->delta ? 1 : shading::power_heuristic(light->pdf, cosine / pi);
       sums.scale = 1;
-      sums.add(1, light->group, light->radiance * (cosine * weight / light->pdf), -light->wi);
+      sums.add(1, light->group, through * light->radiance * (cosine * weight / light->pdf), -light->wi);
     }
   }
   if (options.max_depth == 1 && !emitters.found_by_rays()) return;

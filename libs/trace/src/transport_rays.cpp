@@ -7,6 +7,7 @@
 #include <ssphh/core/require.h>
 #include <ssphh/shading/bsdf.h>
 
+#include "glass_passage.h"
 #include "transport_data.h"
 
 namespace ssphh::trace {
@@ -31,7 +32,9 @@ void for_rays(std::size_t count, SharedCount& rays, const Body& body) {
 
 vec3 lambertian_albedo(const shading::Surface& surface, const vec3& wo) {
   if (surface.unlit) return vec3(0);
-  return glm::clamp(shading::directional_albedo(surface.bsdf, glm::dot(surface.normal, wo)), 0.0f, 1.0f);
+  const float opaque = 1 - surface.glass.share;
+  return glm::clamp(opaque * shading::directional_albedo(surface.bsdf, glm::dot(surface.normal, wo)), 0.0f,
+                    1.0f);
 }
 
 /// Uniform on the triangle: weights of the second and third corner.
@@ -68,7 +71,7 @@ void sample_triangle(const TransportData& data, int instance_index, std::uint32_
     const Hit hit{instance_index, index, b, 0};
     vec3 ray_origin;
     const shading::Surface surface = data.geometry.surface(hit, front, ray_origin);
-    if (surface.alpha < 0.5f) continue;
+    if (surface.alpha < 0.5f || passes(surface.glass, 0)) continue;
     points.push_back({{p0 + b.x * e1 + b.y * e2, front}, lambertian_albedo(surface, front), double_sided});
   }
 }
@@ -85,9 +88,16 @@ void TransportScene::intersect(int part, std::span<const rays::RayQuery> rays,
     for (std::size_t i = begin; i < end; ++i) {
       rays::RayHit& out = hits[i] = {};
       const rays::RayQuery& ray = rays[i];
+      Ray way{ray.origin, ray.direction, ray.t_max};
       Hit hit;
       ++task.rays;
-      if (!geometry.intersect(part, {ray.origin, ray.direction, ray.t_max}, 0, hit)) continue;
+      bool met_glass = false;
+      const bool found = geometry.intersect(part, way, 0, hit, &met_glass);
+      if (met_glass) {
+        if (found) way.t_max = hit.distance;
+        out.through = geometry.through_glass(part, way, 0, task);
+      }
+      if (!found) continue;
       const vec3 wo = -glm::normalize(ray.direction);
       vec3 ray_origin;
       const shading::Surface surface = geometry.surface(hit, wo, ray_origin);
@@ -111,7 +121,9 @@ void TransportScene::occluded(int part, std::span<const rays::RayQuery> rays,
       const rays::RayQuery& ray = rays[i];
       const bool covers_any = ray.t_max > 0;
       task.rays += covers_any;
-      blocked[i] = covers_any && geometry.occluded(part, {ray.origin, ray.direction, ray.t_max}, 0) ? 1 : 0;
+      bool met_glass = false;
+      blocked[i] =
+          covers_any && geometry.occluded(part, {ray.origin, ray.direction, ray.t_max}, 0, met_glass) ? 1 : 0;
     }
   });
 }

@@ -23,6 +23,13 @@ vec3 quantise(const vec3& radiance) {
   return glm::round(radiance / step) * step;
 }
 
+/// Through glass in steps of 1/16, or the palette would not suffice: each angle dims by another share.
+vec3 seen_emission(const rays::RayHit& hit) {
+  if (hit.through == vec3(1)) return hit.emission;
+  constexpr float steps = 16;
+  return hit.emission * glm::round(hit.through * steps) / steps;
+}
+
 }  // namespace
 
 std::uint16_t EmissionPalette::find(const vec3& radiance, int group) const {
@@ -70,7 +77,7 @@ PackedHit pack_hit(const rays::RayHit& hit, int part, EmissionPalette& palette) 
   return {hit.distance,
           {to_unorm16(p.x), to_unorm16(p.y)},
           pack_albedo(hit.albedo) | (hit.back ? 1u << 30 : 0u),
-          palette.add(hit.emission, hit.group),
+          palette.add(seen_emission(hit), hit.group),
           static_cast<std::uint16_t>(part)};
 }
 
@@ -86,6 +93,11 @@ vec3 unpack_normal(const PackedHit& hit) {
 
 vec3 unpack_albedo(const PackedHit& hit) {
   return unpack_albedo(hit.albedo_and_back);
+}
+
+std::uint32_t ProbeGBuffer::seen_albedo(std::size_t hit) const {
+  const std::uint32_t own = hits[hit].albedo_and_back & 0x3fffffffu;
+  return through.empty() ? own : pack_albedo(unpack_albedo(own) * unpack_albedo(through[hit]));
 }
 
 ProbeGBuffer trace_gbuffer(const rays::TransportSource& source, std::span<const vec3> positions,
@@ -113,6 +125,11 @@ ProbeGBuffer trace_gbuffer(const rays::TransportSource& source, std::span<const 
     source.intersect(0, rays, hits);
     for (std::size_t r = 0; r < hits.size(); ++r)
       buffer.hits[begin * count + r] = pack_hit(hits[r], 0, buffer.palette);
+    if (buffer.through.empty() &&
+        std::ranges::any_of(hits, [](const rays::RayHit& hit) { return hit.through != vec3(1); }))
+      buffer.through.assign(buffer.hits.size(), pack_albedo(vec3(1)));
+    for (std::size_t r = 0; r < hits.size() && !buffer.through.empty(); ++r)
+      buffer.through[begin * count + r] = pack_albedo(hits[r].through);
     progress.advance(end - begin);
   }
   return buffer;

@@ -72,6 +72,7 @@ class NetworkBuilder {
     rays::RayQuery ray;  ///< t_max: distance of the hit
     vec3 normal;
     std::int32_t surfel;
+    float through = 1;  ///< what glass leaves of the light, mean over the channels
   };
 
   std::size_t rays_per_surfel() const { return static_cast<std::size_t>(d_.params.link_rays); }
@@ -95,7 +96,7 @@ class NetworkBuilder {
     bool emits = false;
     for (std::size_t i = 0; i < g.hits.size(); ++i) {
       const PackedHit& hit = g.hits[i];
-      d_.seen[i] = {no_surfel, hit.albedo_and_back & 0x3fffffffu};
+      d_.seen[i] = {no_surfel, g.seen_albedo(i)};
       d_.seen_distance[i] = hit.distance;
       emits |= hit.emission != 0;
       if (std::isinf(hit.distance)) continue;
@@ -124,6 +125,7 @@ class NetworkBuilder {
       links[i].ray.t_max = hits[i].distance;
       links[i].normal = hits[i].normal;
       links[i].surfel = no_surfel;
+      links[i].through = (hits[i].through.x + hits[i].through.y + hits[i].through.z) / 3;
       if (hits[i].escaped()) continue;
       points.push_back({{just_before(rays[i], hits[i].distance), hits[i].normal}, hits[i].albedo});
       owner.push_back(i);
@@ -202,15 +204,20 @@ class NetworkBuilder {
     return s * m() + ray % d_.used_samples(s);
   }
 
-  /// Keeps of each link only the surfel, and all of it where a part may come.
+  /// Keeps of each link only the surfel, and all of it where a part may come. All links weigh the same: of
+  /// those through glass as many are left out as it takes from the light of all.
   void keep(const std::vector<RawLink>& links, std::size_t first_surfel) {
+    float taken = 0;  // by glass, and not yet by leaving out links
     for (std::size_t i = 0; i < links.size(); ++i) {
       const std::size_t s = first_surfel + i / rays_per_surfel();
       if (i % rays_per_surfel() == 0) {
         links_of_.emplace_back();
         links_of_.back().all_moving = near_parts_surfel(s);
+        taken = 0;
       }
-      const RawLink& link = links[i];
+      RawLink link = links[i];
+      taken += 1 - link.through;
+      if (taken > 0.5f) taken -= 1, link.surfel = no_surfel;
       SurfelLinks& row = links_of_.back();
       if (row.all_moving || d_.near_parts(link.ray, link.normal, link.surfel)) {
         MovingRay moving{link.ray,

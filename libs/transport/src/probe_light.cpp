@@ -103,7 +103,7 @@ std::vector<sh::RadianceSh> project_emitted(const TransportNetwork& network,
     for (std::size_t k = 0; k < which.size(); ++k) {
       const std::size_t q = which[k];
       vec3 value = light.emitted(group, {position, directions[q]}, nearest[k].distance);
-      if (nearest[k].group == group) value += nearest[k].emission;
+      if (nearest[k].group == group) value += nearest[k].through * nearest[k].emission;
       radiance[q] = value.x, radiance[stride + q] = value.y, radiance[2 * stride + q] = value.z;
       any |= value != vec3(0);
     }

@@ -57,21 +57,48 @@ vec3 facing_normal(const vec3& n, const vec3& wo, const vec3& geometric) {
   return normalize_or(n + (2 * least_cosine - c) * wo, geometric);
 }
 
-BsdfParams bsdf_at(const scene::Scene& scene, const scene::Material& material, const vec3& base,
-                   const vec2 (&uv)[2]) {
-  float metallic = material.metallic, roughness = material.specular_roughness;
+struct MetallicRoughness {
+  float metallic, roughness;
+};
+
+MetallicRoughness metallic_roughness_at(const scene::Scene& scene, const scene::Material& material,
+                                        const vec2 (&uv)[2]) {
+  MetallicRoughness at{material.metallic, material.specular_roughness};
   if (material.metallic_roughness_texture.texture >= 0) {
     const vec4 texel = sample_texture(scene, material.metallic_roughness_texture, uv, false);
-    metallic *= texel.b;
-    roughness *= texel.g;  // the sign, which chooses the model, stays
+    at.metallic *= texel.b;
+    at.roughness *= texel.g;  // the sign, which chooses the model, stays
   }
+  return at;
+}
+
+BsdfParams bsdf_at(const scene::Material& material, const MetallicRoughness& at, const vec3& base) {
   const float r = (material.ior - 1) / (material.ior + 1);
   BsdfParams params;
-  params.diffuse = base * (1 - metallic);
-  params.f0 = glm::mix(vec3(r * r * material.specular), base, metallic);
+  params.diffuse = base * (1 - at.metallic);
+  params.f0 = glm::mix(vec3(r * r * material.specular), base, at.metallic);
   params.diffuse_roughness = material.diffuse_roughness;
-  params.specular_roughness = roughness;
+  params.specular_roughness = at.roughness;
   return params;
+}
+
+GlassParams glass_of(const scene::Scene& scene, const scene::Material& material, const MetallicRoughness& at,
+                     const vec3& base, const vec2 (&uv)[2]) {
+  GlassParams glass;
+  const float transmission =
+      material.transmission * sample_texture(scene, material.transmission_texture, uv, false).r;
+  glass.share = transmission * (1 - at.metallic);
+  glass.sheet = !(material.thickness > 0);
+  glass.ior = material.ior;
+  glass.specular = material.specular;
+  glass.roughness = glm::min(std::abs(at.roughness), 1.0f);
+  glass.tint = base;
+  if (!glass.sheet && material.attenuation_distance > 0) {
+    constexpr float least = 1e-30f;  // black after any distance, and no infinity
+    glass.absorption =
+        -glm::log(glm::max(material.attenuation_color, vec3(least))) / material.attenuation_distance;
+  }
+  return glass;
 }
 
 }  // namespace
@@ -119,11 +146,36 @@ Surface surface_of(const SurfaceGeometry& geometry, const scene::Scene& scene, c
     surface.bsdf.diffuse = surface.bsdf.f0 = vec3(0);
     return surface;
   }
-  surface.bsdf = bsdf_at(scene, material, vec3(base), geometry.uv);
+  MetallicRoughness at_point = metallic_roughness_at(scene, material, geometry.uv);
+  if (material.is_glass()) {
+    surface.glass = glass_of(scene, material, at_point, vec3(base), geometry.uv);
+    surface.glass.inside = !from_front;
+    // Metal takes no part in glass: of what is left it is the larger share.
+    if (surface.glass.share < 1) at_point.metallic /= 1 - surface.glass.share;
+  }
+  surface.bsdf = bsdf_at(material, at_point, vec3(base));
   if ((from_front || material.double_sided) && max_component(material.emission) > 0) {
     surface.emission = emission_at(scene, material, geometry.uv);
   }
   return surface;
+}
+
+vec3 surface_albedo(const Surface& surface, float cos_o) {
+  const vec3 opaque = directional_albedo(surface.bsdf, cos_o);
+  if (!(surface.glass.share > 0)) return opaque;
+  const GlassShares shares = glass_shares(surface.glass, cos_o);
+  return glm::mix(opaque, shares.reflected + shares.transmitted, surface.glass.share);
+}
+
+GlassParams glass_at(const scene::Scene& scene, const scene::Mesh& mesh, int material_index,
+                     std::uint32_t triangle, const vec2& barycentric) {
+  const scene::Material& material = material_at(scene, material_index);
+  if (!material.is_glass()) return {};
+  const Corners at(mesh, triangle, barycentric);
+  vec2 uv[2];
+  interpolate_uvs(mesh, at, uv);
+  return glass_of(scene, material, metallic_roughness_at(scene, material, uv),
+                  vec3(base_color_at(scene, mesh, material, at, uv)), uv);
 }
 
 float coverage_at(const scene::Scene& scene, const scene::Mesh& mesh, int material, std::uint32_t triangle,

@@ -39,6 +39,9 @@ struct RayHit {
   vec3 emission{0};   ///< radiance toward the ray's origin [W sr⁻¹ m⁻²]
   int group = -1;     ///< light group of the emission; −1: none
   bool back = false;  ///< the back of a one-sided surface was hit
+  /// What glass of the same part leaves of the light that comes along the ray. Rays go straight through
+  /// glass, which is no surface to them.
+  vec3 through{1};
 
   bool escaped() const { return !(distance < std::numeric_limits<float>::infinity()); }
 };

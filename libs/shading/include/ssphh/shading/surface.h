@@ -3,6 +3,7 @@
 
 #include <ssphh/scene/scene.h>
 #include <ssphh/shading/bsdf.h>
+#include <ssphh/shading/glass.h>
 
 namespace ssphh::shading {
 
@@ -11,9 +12,10 @@ struct Surface {
   vec3 position;
   vec3 geometric_normal;  ///< unit, toward wo
   vec3 normal;            ///< unit shading normal (interpolated, normal-mapped), in wo's hemisphere
-  BsdfParams bsdf;
-  vec3 emission{0};  ///< radiance toward wo
-  float alpha = 1;   ///< coverage after alpha mode: 0 or 1 for opaque and mask, 0..1 for blend
+  BsdfParams bsdf;        ///< of what is not glass
+  GlassParams glass;      ///< share 0: there is none
+  vec3 emission{0};       ///< radiance toward wo
+  float alpha = 1;        ///< coverage after alpha mode: 0 or 1 for opaque and mask, 0..1 for blend
   bool unlit = false;
 };
 
@@ -40,6 +42,14 @@ Surface surface_of(const SurfaceGeometry& geometry, const scene::Scene& scene, c
 /// Surface::alpha alone.
 float coverage_at(const scene::Scene& scene, const scene::Mesh& mesh, int material, std::uint32_t triangle,
                   const vec2& barycentric);
+
+/// Share of the light from a direction of view that leaves the surface again, reflected or through glass; an
+/// estimate.
+vec3 surface_albedo(const Surface& surface, float cos_o);
+
+/// Surface::glass alone, as seen from outside.
+GlassParams glass_at(const scene::Scene& scene, const scene::Mesh& mesh, int material, std::uint32_t triangle,
+                     const vec2& barycentric);
 
 /// Texture lookup with bilinear filtering (or nearest) and wrapping; RGBA in 0..1, RGB decoded from sRGB if
 /// asked. Without a texture: all ones.

@@ -57,8 +57,13 @@ struct ProbeGBuffer {
   std::vector<vec3> positions;   ///< of the probes
   std::vector<vec3> directions;  ///< unit, the same for every probe; weight 4π / count each
   std::vector<PackedHit> hits;   ///< [probe · directions.size() + direction]
+  /// Of each hit, RayHit::through packed as an albedo; empty where no ray meets glass. Emission is kept as
+  /// seen through it.
+  std::vector<std::uint32_t> through;
   EmissionPalette palette;
 
+  /// Albedo of a hit as the probe sees it, packed: dimmed by glass in front of it.
+  std::uint32_t seen_albedo(std::size_t hit) const;
   vec3 point(std::size_t probe, std::size_t direction) const {
     return positions[probe] + hits[probe * directions.size() + direction].distance * directions[direction];
   }

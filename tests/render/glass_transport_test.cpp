@@ -1,0 +1,96 @@
+/// Light that a pane dims on its way between surfaces: transport against path tracing.
+
+#include <gtest/gtest.h>
+
+#include <ssphh/bake/transport_bake.h>
+#include <ssphh/core/sphere.h>
+#include <ssphh/place/init.h>
+#include <ssphh/scene/primitives.h>
+#include <ssphh/sh/irradiance.h>
+#include <ssphh/trace/path_tracer.h>
+#include <ssphh/trace/transport_scene.h>
+
+namespace ssphh {
+namespace {
+
+/// A closed room of 4 × 2 × 2 m that a pane divides, if there is one; a lamp in one half and an SPHL in
+/// either. The pane mirrors nothing, which transport would leave out.
+scene::Scene divided_room(std::optional<vec3> tint, float roughness = 0) {
+  scene::Scene s;
+  const auto add = [&](scene::Mesh mesh, const scene::Material& material) {
+    mesh.material = static_cast<int>(s.materials.size());
+    s.materials.push_back(material);
+    s.nodes.emplace_back();
+    scene::Instance& instance = s.instances.emplace_back();
+    instance.mesh = static_cast<int>(s.meshes.size()), instance.node = static_cast<int>(s.nodes.size()) - 1;
+    s.meshes.push_back(std::move(mesh));
+  };
+  scene::Material wall;
+  wall.base_color = vec3(0.5f), wall.specular = 0;
+  add(scene::flipped(scene::make_box(vec3(-2, -1, -1), vec3(2, 1, 1))), wall);
+  if (tint) {
+    scene::Material pane;
+    pane.base_color = *tint, pane.specular = 0, pane.transmission = 1, pane.specular_roughness = roughness;
+    add(scene::make_quad(vec3(0, -1, -1), vec3(0, 0, 2), vec3(0, 2, 0)), pane);
+  }
+  const auto place = [&](const vec3& at) {
+    s.nodes.emplace_back().local.translation = at;
+    return static_cast<int>(s.nodes.size()) - 1;
+  };
+  scene::Light lamp;
+  lamp.name = "lamp", lamp.intensity = 5, lamp.node = place(vec3(-1, 0.3f, 0.1f));
+  s.lights.push_back(lamp);
+  s.sphls = {{"lit", place(vec3(-1, -0.2f, 0))}, {"behind", place(vec3(1.1f, 0.1f, -0.1f))}};
+  return s;
+}
+
+/// Mean reflected radiance at a point by paths of every bounce.
+vec3 traced_mean(const scene::Scene& scene, const vec3& position) {
+  rays::CubeRequest request;
+  request.position = position, request.face_size = 16;
+  request.path.max_depth = 40, request.path.spp = 128;
+  const auto groups = trace::PathTracer(scene).incident_radiance(request, {});
+  vec3 sum(0);
+  for (int face = 0; face < 6; ++face) {
+    for (int y = 0; y < 16; ++y) {
+      for (int x = 0; x < 16; ++x)
+        sum += groups[0].reflected.faces[static_cast<std::size_t>(face)].rgb(x, y) *
+               static_cast<float>(texel_solid_angle(x, y, 16));
+    }
+  }
+  return sum / (4 * pi);
+}
+
+void expect_as_traced(const scene::Scene& scene, float share) {
+  const trace::TransportScene source(scene);
+  bake::TransportBakeReport report;
+  bake::TransportBakeParams params;
+  params.transport.surfel_size = 0.2f;
+  const probes::ProbeSet set = bake::bake_transport(source, place::init_from_scene(scene, 2), params, report);
+  for (const probes::Probe& probe : set.probes) {
+    const vec3 truth = traced_mean(scene, probe.position), found = sh::mean(probe.groups[0].reflected);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c] / truth[c], 1, share) << probe.name << ' ' << c;
+  }
+}
+
+// 3 %: what patches of 0.2 m and 128 links leave without a pane as well.
+TEST(GlassTransport, BouncesThroughAGreyPaneAreDimmedAsPathsAre) {
+  expect_as_traced(divided_room({}), 0.03f);
+  expect_as_traced(divided_room(vec3(0.5f)), 0.03f);
+}
+
+// A frosted pane spreads light, which transport lets go straight on: as much of it, differently divided. What
+// is lost is the pane's own glow, lamp light that it throws toward the probe: a quarter here.
+TEST(GlassTransport, ARoughPaneLetsAsMuchLightPass) {
+  expect_as_traced(divided_room(vec3(0.8f), 0.7f), 0.3f);
+}
+
+// Links know the mean of the channels only: what they carry through a pane loses its colour there. Direct
+// light and what probes see keep it, so that some of it is left: of blue, dimmed to a fifth, half too much
+// arrives.
+TEST(GlassTransport, AColouredPaneKeepsMostOfItsColour) {
+  expect_as_traced(divided_room(vec3(0.8f, 0.5f, 0.2f)), 0.6f);
+}
+
+}  // namespace
+}  // namespace ssphh
