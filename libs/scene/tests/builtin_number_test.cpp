@@ -77,7 +77,7 @@ TEST(BuiltinNumber, ATownHasSoManyOfTheHouseEachWithTheSameShape) {
 TEST(BuiltinNumber, RandomScenesAreSoundLitAndOfAnySize) {
   float smallest = std::numeric_limits<float>::infinity(), largest = 0;
   std::set<std::string> hashes;
-  std::size_t lamps = 0, skies = 0, textures = 0, doors = 0, stairs = 0;
+  std::size_t lamps = 0, skies = 0, textures = 0, doors = 0, stairs = 0, panes = 0, bodies = 0;
   constexpr int seeds = 150;
   for (int seed = 0; seed < seeds; ++seed) {
     const std::string name = numbered("random?seed", seed);
@@ -100,11 +100,14 @@ TEST(BuiltinNumber, RandomScenesAreSoundLitAndOfAnySize) {
     textures += !scene.textures.empty();
     doors += count(scene, "door") > 0;
     stairs += count(scene, "stair") > 0;
+    panes += count(scene, "pane") > 0;
+    bodies += std::ranges::any_of(scene.materials,
+                                  [](const Material& m) { return m.is_glass() && m.thickness > 0; });
   }
   EXPECT_EQ(hashes.size(), seeds);
   EXPECT_LT(smallest, 0.01f);
   EXPECT_GT(largest, 2000.0f);
-  for (const std::size_t kind : {lamps, skies, textures, doors, stairs}) {
+  for (const std::size_t kind : {lamps, skies, textures, doors, stairs, panes, bodies}) {
     EXPECT_GT(kind, 3u);
     EXPECT_LT(kind, seeds);
   }

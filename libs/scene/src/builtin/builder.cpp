@@ -18,6 +18,21 @@ Transform looking_at(const vec3& eye, const vec3& target) {
   return {eye, glm::normalize(glm::quatLookAt(direction, up)), vec3(1)};
 }
 
+Material thin_glass(const std::string& name, const vec3& tint) {
+  Material m;
+  m.name = name;
+  m.base_color = tint;
+  m.specular_roughness = 0;
+  m.transmission = 1;
+  return m;
+}
+
+Material solid_glass(const std::string& name, const vec3& color, float distance) {
+  Material m = thin_glass(name, vec3(1));
+  m.thickness = distance, m.attenuation_color = color, m.attenuation_distance = distance;
+  return m;
+}
+
 int Builder::add_material(Material material) {
   scene_.materials.push_back(std::move(material));
   return static_cast<int>(scene_.materials.size()) - 1;
@@ -43,6 +58,10 @@ int Builder::glossy(const std::string& name, const vec3& albedo, float roughness
 
 int Builder::metal(const std::string& name, const vec3& f0, float roughness) {
   return glossy(name, f0, roughness, 1);
+}
+
+int Builder::pane(const std::string& name, const vec3& tint) {
+  return add_material(thin_glass(name, tint));
 }
 
 int Builder::node(const std::string& name, const Transform& local, int parent) {

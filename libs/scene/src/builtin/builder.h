@@ -17,6 +17,8 @@ class Builder {
   /// Dielectric with a specular lobe of the given GGX roughness.
   int glossy(const std::string& name, const vec3& albedo, float roughness, float metallic = 0);
   int metal(const std::string& name, const vec3& f0, float roughness);
+  /// thin_glass().
+  int pane(const std::string& name, const vec3& tint);
 
   /// On `parent`, or on what `stand_on` named.
   int node(const std::string& name, const Transform& local = {}, int parent = -1);
@@ -55,6 +57,11 @@ class Builder {
   Scene scene_;
   int parent_ = -1;
 };
+
+/// A thin sheet of smooth glass that keeps `tint` of what goes through it once.
+Material thin_glass(const std::string& name, const vec3& tint);
+/// Solid smooth glass: of white light `color` is left after `distance` metres.
+Material solid_glass(const std::string& name, const vec3& color, float distance);
 
 inline Transform at(const vec3& translation) {
   return {translation, quat(1, 0, 0, 0), vec3(1)};

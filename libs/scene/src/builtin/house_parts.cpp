@@ -18,6 +18,11 @@ void add_wall(Builder& b, const std::string& name, const Wall& wall, int materia
     piece(at, o.from, 0, wall.height);
     piece(o.from, o.to, 0, o.low);
     piece(o.from, o.to, o.high, wall.height);
+    if (o.pane >= 0) {
+      vec3 corner(wall.across + wall.thick / 2, o.low, wall.across + wall.thick / 2), along(0);
+      corner[wall.axis] = o.from, along[wall.axis] = o.to - o.from;
+      b.add("pane", make_quad(corner, along, {0, o.high - o.low, 0}), o.pane);
+    }
     at = o.to;
   }
   piece(at, wall.end, 0, wall.height);
@@ -96,6 +101,7 @@ HousePaint house_paint(Builder& b) {
   paint.cloth = b.matte("cloth", {0.2f, 0.3f, 0.5f});
   paint.wood = b.matte("wood", {0.45f, 0.3f, 0.18f});
   paint.white = b.matte("white", vec3(0.75f));
+  paint.pane = b.pane("pane", {0.96f, 0.98f, 0.97f});
   return paint;
 }
 
@@ -105,11 +111,11 @@ void add_house(Builder& b, const HousePaint& paint) {
                         std::vector<Opening> openings, int material) {
     add_wall(b, name, {axis, across, begin, end, height, thick, std::move(openings)}, material);
   };
-  wall("front", 0, 0, 0, 12.2f, {{1, 3, sill, lintel}, {5, 7, sill, lintel}, {9, 11, sill, lintel}},
-       paint.outer);
+  const auto window = [&](float from) { return Opening{from, from + 2, sill, lintel, paint.pane}; };
+  wall("front", 0, 0, 0, 12.2f, {window(1), window(5), window(9)}, paint.outer);
   wall("rear", 0, 8, 0, 12.2f, {{5.6f, 6.6f, 0, door}}, paint.outer);
-  wall("west", 2, 0, thick, 8, {{1.5f, 3.5f, sill, lintel}}, paint.outer);
-  wall("east", 2, 12, thick, 8, {{1.5f, 3.5f, sill, lintel}}, paint.outer);
+  wall("west", 2, 0, thick, 8, {window(1.5f)}, paint.outer);
+  wall("east", 2, 12, thick, 8, {window(1.5f)}, paint.outer);
   wall("corridor wall", 0, 5.5f, thick, 12,
        {{1.5f, 2.4f, 0, door}, {5.5f, 6.4f, 0, door}, {9.5f, 10.4f, 0, door}}, paint.inner);
   wall("partition", 2, 4, thick, 5.5f, {}, paint.inner);

@@ -7,9 +7,11 @@
 
 namespace ssphh::scene {
 
-/// Along a wall, from `from` to `to` metres, open between two heights.
+/// Along a wall, from `from` to `to` metres, open between two heights, or closed by a pane in the wall's
+/// middle.
 struct Opening {
   float from, to, low, high;
+  int pane = -1;  ///< its material; −1: there is none
 };
 
 /// Boxes along x (axis 0) or z (axis 2).
@@ -32,10 +34,10 @@ void add_stairs(Builder& b, const vec3& corner, int steps, float width, int mate
 void add_teapot(Builder& b, const vec3& foot, float size, int material);
 
 struct HousePaint {
-  int outer, inner, red, roof, cloth, wood, white;
+  int outer, inner, red, roof, cloth, wood, white, pane;
 };
 HousePaint house_paint(Builder& b);
-/// Three furnished rooms and a corridor: x 0…12.2, z 0…8.2, without floor.
+/// Three furnished rooms with panes in their windows, and a corridor: x 0…12.2, z 0…8.2, without floor.
 void add_house(Builder& b, const HousePaint& paint);
 
 }  // namespace ssphh::scene

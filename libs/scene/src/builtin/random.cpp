@@ -14,6 +14,7 @@ void scale_scene(Scene& scene, float by) {
   for (Mesh& mesh : scene.meshes) {
     for (vec3& position : mesh.positions) position *= by;
   }
+  for (Material& material : scene.materials) material.thickness *= by, material.attenuation_distance *= by;
   for (Light& light : scene.lights) {
     light.radius *= by;
     if (light.type == LightType::point || light.type == LightType::spot) light.intensity *= by * by;
@@ -26,7 +27,7 @@ constexpr float least_extent = 1e-3f, most_extent = 1e4f;
 
 /// A flat, a hall, a street or things on a table; half of them in metres, the others of 1 mm to 10 km.
 Scene make_random(int seed) {
-  RandomScene s{.draw = Draw(seed), .b = Builder("random")};
+  RandomScene s{.draw = Draw(seed), .glass = Draw(seed, 0x91a55), .b = Builder("random")};
   Draw& draw = s.draw;
   const int kind = draw.pick(8);
   const bool night = draw.chance(0.4f);

@@ -96,6 +96,19 @@ int RandomScene::material() {
   }
 }
 
+int RandomScene::material_or_glass() {
+  const int chosen = material();
+  if (!glass.chance(0.25f)) return chosen;
+  const vec3 color = glass.chance(0.5f) ? vec3(1) : glass.albedo();
+  b.scene().materials[static_cast<std::size_t>(chosen)] = solid_glass("glass", color, glass.scaled(0.05f, 1));
+  return chosen;
+}
+
+int RandomScene::pane() {
+  if (!glass.chance(0.5f)) return -1;
+  return b.pane("pane", glass.chance(0.8f) ? vec3(0.97f) : vec3(0.3f) + 0.6f * glass.albedo());
+}
+
 void add_daylight(RandomScene& s, Daylight daylight) {
   s.daylight = daylight;
   Draw& draw = s.draw;

@@ -11,7 +11,9 @@ namespace ssphh::scene {
 
 class Draw {
  public:
-  explicit Draw(int seed) : random_(static_cast<std::uint64_t>(seed), 0x5ce4e5) {}
+  /// Numbers of another `stream` change none of the usual ones.
+  explicit Draw(int seed, std::uint64_t stream = 0x5ce4e5)
+      : random_(static_cast<std::uint64_t>(seed), stream) {}
   float between(float least, float most) { return least + (most - least) * random_.uniform(); }
   /// Uniform in the logarithm.
   float scaled(float least, float most);
@@ -32,6 +34,7 @@ enum class Daylight { none, sun_and_sky, sky, picture };
 /// A scene in metres that is being drawn.
 struct RandomScene {
   Draw draw;
+  Draw glass;  ///< what is made of glass
   Builder b;
   Daylight daylight = Daylight::none;
   int lamps = 0;
@@ -40,6 +43,10 @@ struct RandomScene {
   /// Matte, glossy, metal or with a texture.
   int material();
   int textured(const vec3& a, const vec3& b, float repeats);
+  /// As material(), or solid glass.
+  int material_or_glass();
+  /// Of a window: clear or tinted glass, or −1, none.
+  int pane();
 };
 
 /// Sun and sky, an even sky, a coloured picture, or nothing.

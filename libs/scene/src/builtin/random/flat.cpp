@@ -11,9 +11,9 @@ namespace {
 constexpr float thick = 0.2f, door_width = 0.9f, door_height = 2.05f;
 
 /// An opening of `wide` somewhere on a wall that goes from `from` to `to`.
-Opening somewhere(Draw& draw, float from, float to, float wide, float low, float high) {
+Opening somewhere(Draw& draw, float from, float to, float wide, float low, float high, int pane = -1) {
   const float begin = draw.between(from + 0.3f, std::max(from + 0.3f, to - wide - 0.3f));
-  return {begin, std::min(begin + wide, to - 0.1f), low, high};
+  return {begin, std::min(begin + wide, to - 0.1f), low, high, pane};
 }
 
 /// A leaf in a doorway, turned by any angle.
@@ -39,7 +39,7 @@ void add_flat(RandomScene& s) {
   for (int i = 0; i < rows; ++i) zs.push_back(zs.back() + draw.between(2.6f, 5) + thick);
   const float wide = xs.back() + thick, deep = zs.back() + thick;
   const bool day = s.daylight != Daylight::none;
-  const int outer = s.matte();
+  const int outer = s.matte(), pane = day ? s.pane() : -1;
 
   if (day && draw.chance(0.5f)) {
     const float half = draw.scaled(15, 600);
@@ -58,7 +58,8 @@ void add_flat(RandomScene& s) {
   const auto window = [&](float from, float to) {
     std::vector<Opening> openings;
     if (day && draw.chance(0.7f))
-      openings.push_back(somewhere(draw, from, to, draw.between(0.8f, 2.2f), draw.between(0, 1.1f), 2.1f));
+      openings.push_back(
+          somewhere(draw, from, to, draw.between(0.8f, 2.2f), draw.between(0, 1.1f), 2.1f, pane));
     return openings;
   };
   for (int row = 0; row <= rows; ++row) {

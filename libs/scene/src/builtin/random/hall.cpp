@@ -10,7 +10,7 @@ void add_hall(RandomScene& s) {
   const float half_x = draw.between(4, 18), half_z = draw.between(4, 10), height = draw.between(4, 9);
   const float thick = 0.4f;
   const bool day = s.daylight != Daylight::none;
-  const int walls = s.matte();
+  const int walls = s.matte(), pane = day ? s.pane() : -1;
   s.b.add("floor", make_box({-half_x - thick, -0.3f, -half_z - thick}, {half_x + thick, 0, half_z + thick}),
           s.textured(draw.albedo(), draw.albedo(), half_x));
   s.b.add(
@@ -21,7 +21,7 @@ void add_hall(RandomScene& s) {
     std::vector<Opening> result;
     if (!day) return result;
     for (float at = -half + 1; at + 1.5f < half; at += 3)
-      result.push_back({at, at + 1.2f, 0.45f * height, 0.85f * height});
+      result.push_back({at, at + 1.2f, 0.45f * height, 0.85f * height, pane});
     return result;
   };
   const auto wall = [&](int axis, float across, float half, std::vector<Opening> holes) {

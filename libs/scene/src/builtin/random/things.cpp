@@ -16,7 +16,7 @@ void add_thing(RandomScene& s, const vec3& foot, float size, float height) {
     }
     case 1: {
       const float ball = std::min(draw.between(0.4f, 1) * r, height / 2);
-      b.add("ball", make_sphere(ball, 40, 20), s.material(), above(ball));
+      b.add("ball", make_sphere(ball, 40, 20), s.material_or_glass(), above(ball));
       return;
     }
     case 2: {
@@ -38,7 +38,7 @@ void add_thing(RandomScene& s, const vec3& foot, float size, float height) {
     }
     case 5: {
       const float tall = draw.between(0.3f, 0.95f) * height;
-      b.add("cylinder", make_cylinder(0.6f * r, tall, 40), s.material(), above(0));
+      b.add("cylinder", make_cylinder(0.6f * r, tall, 40), s.material_or_glass(), above(0));
       return;
     }
     case 6:
