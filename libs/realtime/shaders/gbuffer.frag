@@ -1,6 +1,10 @@
 #version 450 core
 #include "common.glsl"
 #include "material.glsl"
+#ifdef GLASS
+#include "bsdf.glsl"
+#include "glass.glsl"
+#endif
 
 layout(location = 0) in vec3 from_camera;
 layout(location = 1) in vec3 world_normal;
@@ -13,6 +17,11 @@ layout(location = 1) out uvec2 gbuffer1;
 layout(location = 2) out vec4 color_out;
 
 uniform int emission_shown;  // 1: all; 2: of unlit surfaces, whose colour it is
+#ifdef GLASS
+// What is mostly no glass; what glass leaves of the light behind it; glass as a surface that reflects.
+uniform int glass_layer;
+const int OPAQUE = 0, THROUGH = 1, REFLECTING = 2;
+#endif
 
 vec3 normalize_or(vec3 v, vec3 fallback) {
   float l2 = dot(v, v);
@@ -91,6 +100,26 @@ void main() {
 
   vec3 diffuse = unlit ? vec3(0) : base.rgb * (1 - metallic);
   vec3 f0 = unlit ? vec3(0) : mix(vec3(material.rough.z), base.rgb, metallic);
+#ifdef GLASS
+  {
+    float share = glass_share(uv.xy, uv.zw);
+    if ((share < 0.5) != (glass_layer == OPAQUE)) discard;
+    float cosine = clamp(dot(n, wo), 0.0, 1.0);
+    GlassShares shares = glass_shares(cosine, base.rgb);
+    if (glass_layer == THROUGH) {
+      gbuffer0 = uvec4(0), gbuffer1 = uvec2(0);
+      color_out = vec4(share * kept_by_lobe(cosine, abs(roughness.y)) * shares.transmitted, 1);
+      return;
+    }
+    diffuse *= 1 - share;
+    if (glass_layer == REFLECTING) {
+      // The F0 with which Schlick's term is that of the glass at this angle.
+      float m = 1 - cosine, s = m * m * m * m * m;
+      vec3 seen = mix(f0 * (1 - s) + s, shares.reflected, share);
+      f0 = clamp((seen - s) / max(1 - s, 1e-3), 0.0, 1.0);
+    }
+  }
+#endif
   gbuffer0 = uvec4(packSnorm2x16(oct_encode(n)), packSnorm2x16(oct_encode(toward_viewer)),
                    pack_color(diffuse, (flags & 2) != 0 ? 1u : 0u), pack_color(f0, 0u));
   gbuffer1 = uvec2(packSnorm2x16(roughness), floatBitsToUint(dot(from_camera, frame.camera_forward.xyz)));

@@ -10,7 +10,9 @@ layout(std140, binding = 3) uniform MaterialBlock {
   vec4 emission;  // rgb, metallic
   vec4 rough;     // diffuse, specular (both bipolar), F0 of the dielectric, normal scale
   vec4 alpha;     // cutoff, mode (0 opaque, 1 mask, 2 blend), unlit, double sided
-  TextureUse base_use, rough_use, emission_use, normal_use;
+  vec4 glass;     // transmission, 1 for a thin sheet, index of refraction, weight of what is reflected
+  vec4 inside;    // rgb: what a solid body leaves of light on half the way through it
+  TextureUse base_use, rough_use, emission_use, normal_use, transmission_use;
 } material;
 layout(std140, binding = 4) uniform InstanceBlock {
   mat4 world;
@@ -22,6 +24,7 @@ layout(binding = 8) uniform sampler2D base_texture;
 layout(binding = 9) uniform sampler2D rough_texture;
 layout(binding = 10) uniform sampler2D emission_texture;
 layout(binding = 11) uniform sampler2D normal_texture;
+layout(binding = 12) uniform sampler2D transmission_texture;
 
 vec2 texture_place(TextureUse use, vec2 uv0, vec2 uv1) {
   vec2 uv = use.offset.z != 0 ? uv1 : uv0;
@@ -34,6 +37,13 @@ vec4 base_color(vec2 uv0, vec2 uv1, vec4 color) {
   base *= texture(base_texture, texture_place(material.base_use, uv0, uv1));
 #endif
   return base;
+}
+
+// Share of the surface that is glass.
+float glass_share(vec2 uv0, vec2 uv1) {
+  float metallic = material.emission.w * texture(rough_texture, texture_place(material.rough_use, uv0, uv1)).b;
+  float texel = texture(transmission_texture, texture_place(material.transmission_use, uv0, uv1)).r;
+  return material.glass.x * texel * (1 - metallic);
 }
 
 // Partial coverage is met by chance, a hash of the place: the mean over samples is right.

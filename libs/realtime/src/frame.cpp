@@ -46,7 +46,8 @@ const FrameStats& Renderer::draw(const scene::CameraPose& camera, const FrameSet
   const bool wants_indirect =
       !wants_method && d.probes.count() > 0 &&
       (settings.view == View::chosen_sphl || (settings.indirect && (lit || settings.view == View::indirect)));
-  if (wants_indirect && (d.scene.any_full() || settings.lookup == probes::LookupMethod::light))
+  if (wants_indirect &&
+      (d.scene.any_full() || d.scene.any_glass() || settings.lookup == probes::LookupMethod::light))
     d.probes.want_radiance(d.counters);
   const FrameBlock block = frame_block(camera, settings, d.images, d.lights, d.probes, d.scene.bounds());
   upload(d.counters, d.frame_buffer, std::span<const FrameBlock>(&block, 1));
@@ -66,6 +67,9 @@ const FrameStats& Renderer::draw(const scene::CameraPose& camera, const FrameSet
   if (wants_indirect) d.run(indirect, [&] { d.draw_indirect(settings); });
   if (wants_method) d.run(indirect, [&] { d.draw_method(settings); });
   if (wants_direct) d.run(seen, [&] { d.draw_seen(settings); });
+  const bool shows_light = wants_direct || wants_indirect || wants_method;
+  if (d.scene.any_glass() && shows_light && settings.view != View::chosen_sphl)
+    d.run(glass, [&] { d.draw_glass(settings, wants_direct, wants_indirect); });
   if (settings.view >= View::albedo && settings.view != View::chosen_sphl)
     d.run(seen, [&] { d.draw_view(); });
   if (samples > 1) {

@@ -36,23 +36,52 @@ void Renderer::Data::draw_geometry(const FrameSettings& settings) {
   gl::clear_color_uint(0, 0, 0, 0, 0);
   gl::clear_color_uint(1, 0, 0, 0, 0);
   gl::clear_color(2, 0, 0, 0, 0);
+  draw_items(settings, GlassLayer::opaque, {.depth = gl::Depth::test_and_write, .lines = settings.wireframe},
+             [](const DrawItem&) { return true; });
+}
+
+template <class Wanted>
+void Renderer::Data::draw_items(const FrameSettings& settings, GlassLayer layer, gl::DrawState state,
+                                const Wanted& wanted) {
   const bool emission = settings.direct && (settings.view == View::lit || settings.view == View::direct);
   scene.begin(false);
-  int surface = -1, textures = -1;
+  int surface = -1, textures = -1, glass_programs = -1;
   for (const DrawItem& item : scene.items()) {
-    if (item.textures != textures) {
-      textures = item.textures;
-      gl::Program& program = shaders.geometry(textures);
+    if (!wanted(item)) continue;
+    if (item.textures != textures || int{item.glass} != glass_programs) {
+      textures = item.textures, glass_programs = item.glass;
+      gl::Program& program = shaders.geometry(textures, item.glass);
       program.set("emission_shown", emission ? 1 : settings.view == View::albedo ? 2 : 0);
+      if (item.glass) program.set("glass_layer", static_cast<int>(layer));
       program.use();
     }
-    if (item.surface_class != surface) {
-      surface = item.surface_class;
-      gl::apply({.depth = gl::Depth::test_and_write, .lines = settings.wireframe, .stencil_write = surface});
+    const int surface_now = layer == GlassLayer::opaque ? item.surface_class : surface_class::full;
+    if (surface_now != surface) {
+      surface = surface_now;
+      if (layer != GlassLayer::through) state.stencil_write = surface;
+      gl::apply(state);
     }
     scene.draw(item, true, counters);
   }
   for (unsigned i = 0; i < unit::count; ++i) gl::Sampler::unbind(i);
+}
+
+void Renderer::Data::draw_glass(const FrameSettings& settings, bool wants_direct, bool wants_indirect) {
+  const auto is_glass = [](const DrawItem& item) { return item.glass; };
+  gl::bind_framebuffer(images.geometry_pass.id(), images.full());
+  constexpr int color_image = 2;
+  draw_items(settings, GlassLayer::through,
+             {.depth = gl::Depth::test, .blend = gl::Blend::multiply, .color_attachment = color_image},
+             is_glass);
+  gl::clear_stencil(surface_class::nothing);
+  draw_items(settings, GlassLayer::reflecting, {.depth = gl::Depth::test_and_write, .blend = gl::Blend::add},
+             is_glass);
+  if (wants_direct) draw_direct(false, true);
+  if (wants_indirect) {
+    gl::Program& program = shaders.indirect(lookup_of(settings), true, IndirectOutput::radiance);
+    probes.bind_lookup(program);
+    fullscreen(program, images.light_pass.id(), images.full(), of_class(surface_class::full));
+  }
 }
 
 void Renderer::Data::bind_sky_lobes(gl::Program& program) {
@@ -62,7 +91,7 @@ void Renderer::Data::bind_sky_lobes(gl::Program& program) {
   program.set("environment_roughness", std::span<const float>(environment_roughness));
 }
 
-void Renderer::Data::draw_direct(bool shadow_view) {
+void Renderer::Data::draw_direct(bool shadow_view, bool glass) {
   lights.bind();
   if (probes.count() > 0) probes.bind_sight();
   const gl::Framebuffer& target = shadow_view ? images.shadow_pass : images.light_pass;
@@ -72,11 +101,12 @@ void Renderer::Data::draw_direct(bool shadow_view) {
   }
   for (const Lights::Lit& lit : lights.lit()) {
     lights.bind_emitter(lit);
-    for_each_class([&](bool full, const gl::DrawState& where) {
+    const auto draw_class = [&](bool full, const gl::DrawState& where) {
       gl::Program& program = shaders.direct(lit.kind, full, shadow_view);
       if (full && lit.kind == EmitterKind::environment) bind_sky_lobes(program);
       fullscreen(program, target.id(), images.full(), where);
-    });
+    };
+    glass ? draw_class(true, of_class(surface_class::full)) : for_each_class(draw_class);
   }
 }
 

@@ -26,10 +26,15 @@ GpuMaterial gpu_material(const scene::Material& m) {
   g.rough = {m.diffuse_roughness, m.specular_roughness, r * r * m.specular, m.normal_scale};
   g.alpha = {m.alpha_cutoff, static_cast<float>(m.alpha_mode), m.unlit ? 1.0f : 0.0f,
              m.double_sided ? 1.0f : 0.0f};
+  const bool body = m.thickness > 0;
+  g.glass = {m.is_glass() ? m.transmission : 0, body ? 0 : 1, m.ior, m.specular};
+  const float half_way = body && m.attenuation_distance > 0 ? 0.5f * m.thickness / m.attenuation_distance : 0;
+  g.inside = vec4(glm::pow(m.attenuation_color, vec3(half_way)), 0);
   g.base_use = gpu_use(m.base_color_texture);
   g.rough_use = gpu_use(m.metallic_roughness_texture);
   g.emission_use = gpu_use(m.emission_texture);
   g.normal_use = gpu_use(m.normal_texture);
+  g.transmission_use = gpu_use(m.transmission_texture);
   return g;
 }
 
@@ -162,19 +167,29 @@ GpuScene::GpuScene(const scene::Scene& scene, const std::vector<mat4>& world, fl
   pose(world, ignored, counters);
 }
 
+GpuScene::GlassKind GpuScene::glass_kind(const scene::Material& m) {
+  if (!m.is_glass()) return GlassKind::none;
+  const bool even = m.transmission_texture.texture < 0 && m.metallic_roughness_texture.texture < 0;
+  return even && m.transmission * (1 - m.metallic) >= 0.5f ? GlassKind::everywhere : GlassKind::some;
+}
+
 void GpuScene::classify(const std::vector<scene::Material>& materials) {
   if (classes_.empty()) {
-    for (const scene::Material& m : materials) classes_.push_back(class_of(m));
-    classes_.push_back(class_of(plain_material));
+    for (const scene::Material& m : materials)
+      classes_.push_back(class_of(m)), glass_.push_back(glass_kind(m));
+    classes_.push_back(class_of(plain_material)), glass_.push_back(GlassKind::none);
   }
-  any_full_ = false;
+  any_full_ = any_glass_ = false;
   for (DrawItem& item : items_) {
     item.surface_class = classes_[static_cast<std::size_t>(item.material)];
-    any_full_ |= item.surface_class == surface_class::full;
+    const GlassKind glass = glass_[static_cast<std::size_t>(item.material)];
+    item.glass = glass != GlassKind::none;
+    any_full_ |= item.surface_class == surface_class::full && glass != GlassKind::everywhere;
+    any_glass_ |= item.glass;
   }
   std::ranges::stable_sort(items_, [](const DrawItem& a, const DrawItem& b) {
-    return std::tuple(a.partial, a.textures, a.surface_class, a.material) <
-           std::tuple(b.partial, b.textures, b.surface_class, b.material);
+    return std::tuple(a.filters(), a.glass, a.textures, a.surface_class, a.material) <
+           std::tuple(b.filters(), b.glass, b.textures, b.surface_class, b.material);
   });
 }
 
@@ -209,8 +224,9 @@ void GpuScene::set_material(int index, const scene::Material& material, FrameCou
   // Textures stay the scene's
   now.base_use = materials_[m].base_use, now.rough_use = materials_[m].rough_use;
   now.emission_use = materials_[m].emission_use, now.normal_use = materials_[m].normal_use;
+  now.transmission_use = materials_[m].transmission_use;
   materials_[m] = now;
-  classes_[m] = class_of(material);
+  classes_[m] = class_of(material), glass_[m] = glass_kind(material);
   classify({});
   upload_block(counters, material_buffer_, now, m);
 }

@@ -22,8 +22,12 @@ struct DrawItem {
   int index_count, base_vertex;
   std::size_t first_index;
   scene::Bounds local, world;
-  bool partial;  ///< may be covered in part only
-  int textures;  ///< those that its material reads: a bit for each of Shaders::texture_names
+  bool partial;        ///< may be covered in part only
+  int textures;        ///< those that its material reads: a bit for each of Shaders::texture_names
+  bool glass = false;  ///< light may go through it
+
+  /// Whether light may pass some of it.
+  bool filters() const { return partial || glass; }
 };
 
 class GpuScene {
@@ -41,8 +45,9 @@ class GpuScene {
   const scene::Bounds& bounds() const { return bounds_; }
   std::size_t bytes() const { return bytes_; }
 
-  /// Whether anything reflects otherwise than Lambert's law says.
+  /// Whether anything but glass, which has passes of its own, reflects otherwise than Lambert's law says.
   bool any_full() const { return any_full_; }
+  bool any_glass() const { return any_glass_; }
 
   /// Binds buffers; then draw() what is wanted, in the order of items() for few changes of state. `program`
   /// is the one in use.
@@ -50,6 +55,8 @@ class GpuScene {
   void draw(const DrawItem& item, bool textures, FrameCounters& counters) const;
 
  private:
+  enum class GlassKind { none, some, everywhere };
+  static GlassKind glass_kind(const scene::Material& material);
   struct Slot {
     unsigned unit;
     int texture, sampler;  ///< −1: white
@@ -65,7 +72,8 @@ class GpuScene {
   std::vector<int> nodes_, groups_;  ///< of each instance
   std::vector<GpuMaterial> materials_;
   std::vector<int> classes_;                ///< of each material
-  std::vector<std::array<Slot, 4>> slots_;  ///< of each material
+  std::vector<GlassKind> glass_;            ///< of each material
+  std::vector<std::array<Slot, 5>> slots_;  ///< of each material
   std::map<std::pair<int, bool>, int> texture_index_;
   std::map<int, int> sampler_index_;
   std::vector<gl::Texture> textures_;
@@ -77,7 +85,7 @@ class GpuScene {
   scene::Bounds bounds_;
   float anisotropy_;
   std::size_t bytes_ = 0;
-  bool any_full_ = false;
+  bool any_full_ = false, any_glass_ = false;
   mutable int bound_material_, bound_instance_;  ///< since begin(); below 0: none
 };
 

@@ -20,10 +20,11 @@ void GpuScene::add_textures(const scene::Scene& scene, FrameCounters& counters) 
       if (use.texture < 0) return Slot{unit, -1, -1};
       return Slot{unit, texture_for(scene, use.texture, srgb, counters), sampler_for(use)};
     };
-    return std::array<Slot, 4>{slot(unit::base_texture, m.base_color_texture, true),
+    return std::array<Slot, 5>{slot(unit::base_texture, m.base_color_texture, true),
                                slot(unit::rough_texture, m.metallic_roughness_texture, false),
                                slot(unit::emission_texture, m.emission_texture, true),
-                               slot(unit::normal_texture, m.normal_texture, false)};
+                               slot(unit::normal_texture, m.normal_texture, false),
+                               slot(unit::transmission_texture, m.transmission_texture, false)};
   };
   for (const scene::Material& m : scene.materials) slots_.push_back(slots_of(m));
   slots_.push_back(slots_of({}));

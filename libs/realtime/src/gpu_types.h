@@ -31,10 +31,10 @@ struct GpuTextureUse {
   vec4 offset{0};
 };
 struct GpuMaterial {
-  vec4 base, emission, rough, alpha;
-  GpuTextureUse base_use, rough_use, emission_use, normal_use;
+  vec4 base, emission, rough, alpha, glass, inside;
+  GpuTextureUse base_use, rough_use, emission_use, normal_use, transmission_use;
 };
-static_assert(sizeof(GpuMaterial) == 12 * 16 && offsetof(GpuMaterial, normal_use) == 10 * 16);
+static_assert(sizeof(GpuMaterial) == 16 * 16 && offsetof(GpuMaterial, transmission_use) == 14 * 16);
 
 struct GpuInstance {
   mat4 world;
@@ -103,7 +103,8 @@ namespace unit {
 inline constexpr unsigned color_image = 0;
 inline constexpr unsigned gbuffer0 = 0, gbuffer1 = 1, albedo_table = 3, light_maps = 4, area_maps = 5,
                           parallel_maps = 6, probe_maps = 7;
-inline constexpr unsigned base_texture = 8, rough_texture = 9, emission_texture = 10, normal_texture = 11;
+inline constexpr unsigned base_texture = 8, rough_texture = 9, emission_texture = 10, normal_texture = 11,
+                          transmission_texture = 12;
 inline constexpr unsigned irradiance = 8, glossy = 9, cells = 10, shadow_image = 8, occlusion = 2;
 inline constexpr unsigned fitted_ranges = 8, fitted_lists = 9, fitted_light = 10;
 inline constexpr unsigned irradiance_tiles = 12, radiance_tiles = 13, environment = 13,

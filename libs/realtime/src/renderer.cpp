@@ -122,7 +122,8 @@ void Renderer::set_material(int index, const scene::Material& material) {
 void Renderer::set_probes(const probes::ProbeSet& set, const probes::LookupParams& params) {
   Data& d = *data_;
   d.forget_emission();
-  d.probes = Probes(set, params, d.params, d.scene.bounds(), d.scene.any_full(), d.counters);
+  d.probes =
+      Probes(set, params, d.params, d.scene.bounds(), d.scene.any_full() || d.scene.any_glass(), d.counters);
   d.context.throw_on_error("uploading probes");
 }
 

@@ -19,9 +19,12 @@
 
 namespace ssphh::realtime {
 
-enum Pass { shadows, geometry, direct, indirect, seen, resolve, display, pass_count };
-inline constexpr const char* pass_names[pass_count] = {"shadows", "geometry", "direct", "indirect",
-                                                       "seen",    "resolve",  "display"};
+enum Pass { shadows, geometry, direct, indirect, seen, glass, resolve, display, pass_count };
+inline constexpr const char* pass_names[pass_count] = {"shadows", "geometry", "direct",  "indirect",
+                                                       "seen",    "glass",    "resolve", "display"};
+
+/// Of gbuffer.frag.
+enum class GlassLayer { opaque, through, reflecting };
 
 struct Renderer::Data {
   Data(gl::Context& context, const scene::Scene& scene, const RendererParams& params, float time);
@@ -44,17 +47,24 @@ struct Renderer::Data {
   /// One triangle over the rectangle; `where` tells which pixels and how.
   void fullscreen(gl::Program& program, unsigned framebuffer, const gl::Rect& rect,
                   const gl::DrawState& where = {});
+  /// Adds light where such surfaces are.
+  static gl::DrawState of_class(int surface) { return {.blend = gl::Blend::add, .stencil_equal = surface}; }
   /// For the classes of surfaces that reflect: draw(full, state).
   template <class Draw>
   void for_each_class(const Draw& draw_class) {
-    draw_class(false, gl::DrawState{.blend = gl::Blend::add, .stencil_equal = surface_class::lambertian});
-    if (scene.any_full())
-      draw_class(true, gl::DrawState{.blend = gl::Blend::add, .stencil_equal = surface_class::full});
+    draw_class(false, of_class(surface_class::lambertian));
+    if (scene.any_full()) draw_class(true, of_class(surface_class::full));
   }
   void draw_shadows();
   void draw_geometry(const FrameSettings& settings);
+  /// Items of the scene as one layer has them; `wanted(item)` chooses, `state` says how.
+  template <class Wanted>
+  void draw_items(const FrameSettings& settings, GlassLayer layer, gl::DrawState state, const Wanted& wanted);
+  /// Dims what stands behind glass, and adds what the nearest glass reflects.
+  void draw_glass(const FrameSettings& settings, bool wants_direct, bool wants_indirect);
   void bind_sky_lobes(gl::Program& program);
-  void draw_direct(bool shadow_view);
+  /// `glass`: of glass alone, which stands in the G-buffer then.
+  void draw_direct(bool shadow_view, bool glass = false);
   IndirectLookup lookup_of(const FrameSettings& settings) const;
   void draw_indirect(const FrameSettings& settings);
   void draw_occlusion();

@@ -31,9 +31,9 @@ gl::Program& Shaders::compiled(Slot& slot, gl::Program program) {
   return *slot;
 }
 
-gl::Program& Shaders::geometry(int textures) {
-  return get(geometry_[textures], "gbuffer.vert", "gbuffer.frag", [&] {
-    std::string defines;
+gl::Program& Shaders::geometry(int textures, bool glass) {
+  return get(geometry_[textures][glass], "gbuffer.vert", "gbuffer.frag", [&] {
+    std::string defines = define("GLASS", glass);
     for (int i = 0; i < 4; ++i) defines += define(texture_names[i], (textures >> i & 1) != 0);
     return defines;
   });
@@ -95,7 +95,7 @@ gl::Program& Shaders::seen(EmitterKind kind) {
 }
 
 std::string Shaders::compile_all() {
-  for (int textures = 0; textures < 16; ++textures) geometry(textures);
+  for (int textures = 0; textures < 16; ++textures) geometry(textures, false), geometry(textures, true);
   occlusion(), mark(), view(), resolve(), display();
   for (const bool full : {false, true}) {
     shadow(full);

@@ -26,7 +26,8 @@ class Shaders {
   /// A bit for each texture that materials may have.
   static constexpr const char* texture_names[] = {"BASE_TEXTURE", "ROUGH_TEXTURE", "EMISSION_TEXTURE",
                                                   "NORMAL_TEXTURE"};
-  gl::Program& geometry(int textures);
+  /// `glass`: with the layers of gbuffer.frag.
+  gl::Program& geometry(int textures, bool glass);
   gl::Program& shadow(bool alpha);
   /// A level of the bounds of depth, from the map itself or from the level before.
   gl::Program& depth_bounds(bool first);
@@ -66,7 +67,7 @@ class Shaders {
 
   const gl::ShaderFiles* files_;
   std::string warnings_;
-  Slot geometry_[16], shadow_[2], depth_bounds_[2], direct_[emitter_kinds][2][2],
+  Slot geometry_[16][2], shadow_[2], depth_bounds_[2], direct_[emitter_kinds][2][2],
       indirect_[indirect_lookups][2][indirect_outputs], agree_[2], mark_, interpolate_[2], occlusion_,
       method_[method_kinds][2][indirect_outputs], seen_[emitter_kinds], view_, resolve_, display_;
 };

@@ -100,7 +100,7 @@ void MapAtlas::draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, g
   // One texel at each edge lies beyond what the map stands for, so that filters find it there
   const MapView& view = views_[static_cast<std::size_t>(tile)];
   const float shrink = static_cast<float>(size_ - 2) / static_cast<float>(size_);
-  bool partial = false;
+  bool filters = false;
   const auto use = [&](gl::Program& program) {
     program.use();
     program.set("origin", view.origin);
@@ -113,12 +113,12 @@ void MapAtlas::draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, g
   scene.begin(true);
   for (const DrawItem& item : scene.items()) {
     if (!sees_box(view, item.world)) continue;
-    if (item.partial && !partial) {
-      partial = true;
+    if (item.filters() && !filters) {
+      filters = true;
       use(alpha);
       scene.begin(false);
     }
-    scene.draw(item, item.partial, counters);
+    scene.draw(item, item.filters(), counters);
   }
 }
 

@@ -241,6 +241,40 @@ TEST(Glass, StrategiesAgreeThroughSmoothAndRoughGlass) {
   }
 }
 
+// The last ray of a path goes through panes to the lights behind them.
+TEST(Glass, PathsOfDepthOneFindLightsThroughPanes) {
+  scene::Scene scene;
+  add_floor(scene, lambertian(vec3(0.5f)));
+  add_pane(scene, pane(vec3(0.8f)), 0.5f), add_pane(scene, pane(vec3(0.9f)), 0.7f);
+  add_light(scene, scene::LightType::sphere, 3, vec3(0.3f, 2, 0)).radius = 0.6f;
+  const trace::Ray ray{vec3(0, 0.3f, 0), glm::normalize(vec3(0.2f, -1, 0.1f))};
+  const Samples by_rays = radiance_along(scene, ray, {1, true, Strategy::bsdf_only}, 3000);
+  const Samples by_lights = radiance_along(scene, ray, {1, true, Strategy::nee_only}, 3000);
+  EXPECT_TRUE(means_agree(by_rays, by_lights, {}, 1e-6));
+  EXPECT_GT(by_rays.mean(), 0.01);
+}
+
+// Black and glowing in the middle of a body: (1 − r)/n² of its radiance leaves, less what the way out
+// absorbs.
+TEST(Glass, BodiesAbsorbTheLightOfWhatIsInThem) {
+  const scene::Material glass = body({0.3f, 0.8f, 1});
+  scene::Scene scene;
+  add_object(scene, scene::make_box(vec3(-30, 0, -30), vec3(30, 4, 30)), glass, "block");
+  add_pane(scene, lambertian(vec3(0), vec3(2)), 1.5f, 40);
+  scene.materials.back().double_sided = true;
+  for (const float cosine : {1.0f, 0.5f}) {
+    const double r = double{shares_of(glass, cosine).reflected.x};
+    const double within = std::sqrt(1 - (1 - double{cosine} * cosine) / 2.25);
+    for (const int channel : {0, 1, 2}) {
+      const double expected =
+          2 * (1 - r) / 2.25 * std::pow(double{glass.attenuation_color[channel]}, 1.5 / within);
+      EXPECT_TRUE(mean_is(radiance_along(scene, {vec3(0, -1, 0), slanted(cosine)}, endless(), 400, channel),
+                          expected, {1e-3, 6}, 2e-5))
+          << "cosine " << cosine << ", channel " << channel;
+    }
+  }
+}
+
 TEST(Glass, RadianceWithinABodyIsTheSquareOfItsIndexTimesThatOutside) {
   scene::Scene scene;
   add_constant_sky(scene, vec3(1));

@@ -8,7 +8,8 @@
 namespace ssphh::gl {
 
 enum class Depth { off, test, test_and_write };
-enum class Blend { off, add, over };
+/// `multiply` darkens what is there by what is drawn.
+enum class Blend { off, add, over, multiply };
 enum class Cull { off, back, front };
 
 /// Depth is reversed everywhere in this project: 1 at the near plane, 0 at infinity, nearer is greater.
@@ -17,9 +18,10 @@ struct DrawState {
   Blend blend = Blend::off;
   Cull cull = Cull::off;
   bool color_write = true;
-  bool lines = false;      ///< draw triangles' edges only
-  int stencil_equal = -1;  ///< only where the stencil has this value; −1: everywhere
-  int stencil_write = -1;  ///< the stencil's new value where the depth test passes; −1: as it was
+  int color_attachment = -1;  ///< the only one that is written; −1: all
+  bool lines = false;         ///< draw triangles' edges only
+  int stencil_equal = -1;     ///< only where the stencil has this value; −1: everywhere
+  int stencil_write = -1;     ///< the stencil's new value where the depth test passes; −1: as it was
   int stencil_mark = 0;  ///< bits set where a fragment is drawn and not discarded; stencil_equal ignores them
 };
 

@@ -1,0 +1,112 @@
+/// Panes as OpenGL draws them, pixel by pixel against closed forms, and light that goes through them.
+
+#include <gmock/gmock.h>
+
+#include <ssphh/shading/glass.h>
+
+#include "gl_context.h"
+#include "picture_bounds.h"
+#include "pictures.h"
+#include "stage.h"
+
+namespace ssphh::test {
+namespace {
+
+using realtime::Renderer;
+
+constexpr PictureSize size{48, 32};
+const vec3 glow(0.8f, 0.5f, 0.2f), sky(0.6f, 0.9f, 1.2f);
+
+scene::Material pane(const vec3& tint) {
+  scene::Material m;
+  m.base_color = tint, m.specular_roughness = 0, m.transmission = 1;
+  return m;
+}
+
+/// A wall that glows and lights nothing, all across the picture under an even sky, and before it whatever
+/// `glass` says.
+scene::Scene before_a_wall(const std::vector<scene::Material>& glass) {
+  scene::Scene s;
+  scene::Material wall = matte(glow);
+  wall.unlit = true;
+  s.materials = {wall};
+  add_mesh(s, scene::make_quad({-20, -20, -9}, {40, 0, 0}, {0, 40, 0}), 0);
+  for (std::size_t i = 0; i < glass.size(); ++i) {
+    s.materials.push_back(glass[i]);
+    add_mesh(s, scene::make_quad({-9, -9, -3 - 0.5f * static_cast<float>(i)}, {18, 0, 0}, {0, 18, 0}),
+             static_cast<int>(i) + 1);
+  }
+  s.nodes.emplace_back();
+  s.cameras.emplace_back().node = static_cast<int>(s.nodes.size()) - 1;
+  s.cameras[0].yfov = 1.8f;  // also at a slant
+  s.environment.emplace().color = sky;
+  scene::validate(s);
+  return s;
+}
+
+class GlassPixels : public WithGl {
+ protected:
+  image::Image draw(const scene::Scene& scene) {
+    Renderer renderer(gl(), scene, {.light_map_size = 128, .sun_map_size = 128});
+    renderer.draw(scene::camera_pose(scene, ""), {}, {.width = size.width, .height = size.height});
+    return renderer.read_back();
+  }
+};
+
+shading::GlassShares shares_of(const scene::Material& m, float cosine) {
+  shading::GlassParams glass;
+  glass.share = 1, glass.tint = m.base_color, glass.ior = m.ior, glass.sheet = m.thickness == 0;
+  return shading::glass_shares(glass, cosine);
+}
+
+TEST_F(GlassPixels, PanesDimWhatIsBehindThemAndReflectTheSky) {
+  const scene::Material first = pane({0.9f, 0.7f, 1}), second = pane({0.5f, 1, 0.8f});
+  for (const bool two : {false, true}) {
+    const scene::Scene scene = before_a_wall(two ? std::vector{first, second} : std::vector{first});
+    const image::Image drawn = draw(scene);
+    const std::vector<rays::RayQuery> rays = pixel_rays(scene::camera_pose(scene, ""), size);
+    image::Image expected(size.width, size.height, 3);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const float cosine = -rays[i].direction.z;
+      const shading::GlassShares near = shares_of(first, cosine);
+      vec3 value = glow * near.transmitted;
+      if (two) value *= shares_of(second, cosine).transmitted;
+      value += near.reflected * sky;  // of the nearest pane alone
+      const int x = static_cast<int>(i) % size.width, y = static_cast<int>(i) / size.width;
+      expected.set_rgb(x, y, value);
+    }
+    // What is reflected is kept in 10 bits of its root: up to 0.4 % of it, 1 % of the sky at these angles.
+    for (std::size_t i = 0; i < expected.pixels.size(); ++i)
+      EXPECT_NEAR(drawn.pixels[i], expected.pixels[i], 4e-3f) << i << (two ? " of two" : "");
+  }
+}
+
+TEST_F(GlassPixels, WhatIsHalfGlassOrLessIsASurface) {
+  scene::Material thin = pane(vec3(0.5f));
+  thin.transmission = 0.25f, thin.specular = 0;
+  const image::Image drawn = draw(before_a_wall({thin}));
+  // Its opaque share, in the open under an even sky.
+  const vec3 expected = 0.75f * 0.5f * sky;
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(drawn.at(size.width / 2, size.height / 2)[c], expected[c], 0.02f * expected[c]);
+}
+
+TEST_F(GlassPixels, LightGoesThroughPanesAndIsHeldBackByWhatIsMostlyNone) {
+  scene::Light sun;
+  sun.type = scene::LightType::directional, sun.intensity = 3;
+  const auto lit_through = [&](scene::Material roof) {
+    scene::Scene s = stage(matte(vec3(0.5f)));
+    s.materials.push_back(roof);
+    add_mesh(s, scene::make_quad({-20, 9, 20}, {40, 0, 0}, {0, 0, -40}), 4);
+    add_stage_lamp(s, sun);
+    return draw(s);
+  };
+  scene::Material absent = matte(vec3(1)), veil = pane(vec3(1));
+  absent.alpha_mode = scene::AlphaMode::mask, absent.alpha = 0;
+  veil.transmission = 0.25f;
+  EXPECT_EQ(lit_through(pane(vec3(1))).pixels, lit_through(absent).pixels) << "shadow maps know no glass";
+  EXPECT_THAT(lit_through(veil).pixels, testing::Each(0));
+}
+
+}  // namespace
+}  // namespace ssphh::test
