@@ -85,9 +85,10 @@ TEST(MethodNumbers, OfSsphhAreItsProbesSurfelsAndFittedPoints) {
   const double records = surface.numbers()["records"];
   EXPECT_LE(records, 120) << "as many again, where nothing is seen";
   EXPECT_GT(records, 15);
-  // Each a place, a normal, a class of cover, its share of the tree, and 12 floats of light
+  // Each a place, spacing, normal and class of cover, an item of the tree, and 12 floats of light; a box of
+  // the tree for four
   EXPECT_EQ(double(surface.method->memory().lookup) - double(mls.method->memory().lookup),
-            records * (12 + 6 + 1 + 17 + 48));
+            records * (24 + 20 + 48) + 24 * (std::floor(records / 4) + 1));
   EXPECT_GT(surface.method->memory().update, network.bytes());
   EXPECT_EQ(Framed("ssphh", {"probes=7", "directions=64", "surfel_size=0.5"}).numbers()["probes"], 7);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/core/random.h>
+#include <ssphh/geometry/balls.h>
 #include <ssphh/geometry/near_grid.h>
 #include <ssphh/geometry/nearest.h>
 #include <ssphh/geometry/triangle_tree.h>
@@ -27,6 +28,43 @@ TEST(NearGrid, FindsAllNearerThanTheRadiusInTheirOrder) {
       EXPECT_EQ(grid.near(at, radius), expected);
     }
   }
+}
+
+TEST(Balls, ThatHoldAPlaceOrTouchABoxAreThoseOfAll) {
+  Pcg32 random(8);
+  for (const int number : {0, 1, 8, 9, 17, 500}) {
+    std::vector<vec3> centres;
+    std::vector<float> radii;
+    for (int i = 0; i < number; ++i) {
+      centres.push_back(9.0f * random.uniform3());
+      radii.push_back(i % 7 == 0 ? 0 : std::exp2(6 * random.uniform() - 4));
+    }
+    const Balls balls(centres, radii);
+    EXPECT_EQ(balls.count(), centres.size());
+    for (int q = 0; q < 100; ++q) {
+      const vec3 low = 11.0f * random.uniform3() - 1.0f;
+      const vec3 high = q % 2 == 0 ? low : low + 2.0f * random.uniform3();
+      std::vector<std::uint32_t> expected, found;
+      for (std::uint32_t i = 0; i < centres.size(); ++i) {
+        if (glm::distance(centres[i], glm::clamp(centres[i], low, high)) < radii[i]) expected.push_back(i);
+      }
+      balls.visit_box(low, high, [&](std::uint32_t i, float distance2) {
+        EXPECT_FLOAT_EQ(std::sqrt(distance2), glm::distance(centres[i], glm::clamp(centres[i], low, high)));
+        found.push_back(i);
+      });
+      std::ranges::sort(found);
+      EXPECT_EQ(found, expected);
+    }
+  }
+}
+
+TEST(Balls, ThatAreNoneAreRefused) {
+  const float inf = std::numeric_limits<float>::infinity();
+  const std::vector<vec3> centres(2, vec3(0));
+  EXPECT_THROW(Balls(centres, std::vector<float>{1}), Error);
+  EXPECT_THROW(Balls(centres, std::vector<float>{1, -1}), Error);
+  EXPECT_THROW(Balls(centres, std::vector<float>{1, inf}), Error);
+  EXPECT_THROW(Balls(std::vector<vec3>{vec3(0), vec3(inf)}, std::vector<float>{1, 1}), Error);
 }
 
 TEST(TriangleTree, NearestIsThatOfAllTriangles) {

@@ -27,7 +27,7 @@ class SumByProbe {
 
  private:
   static constexpr std::uint16_t none = 0xffff;
-  std::array<std::uint16_t, 256> slots_;  ///< of an open hash table that is never full
+  std::array<std::uint16_t, 512> slots_;  ///< of an open hash table that is never full
   std::array<ProbeWeight, most_surface_points * max_weights> sums_;
   static_assert(std::tuple_size_v<decltype(sums_)> < std::tuple_size_v<decltype(slots_)>);
   std::size_t count_ = 0;

@@ -1,5 +1,5 @@
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/require.h>
@@ -10,31 +10,27 @@
 namespace ssphh::probes {
 namespace {
 
-/// 1 and the tangential offset in spacings, of each share.
+/// What a lookup leaves out, of its whole weight.
+constexpr float left_out = 0.001f;
+
+/// 1 and the tangential offset, of each share.
 using Places = std::array<vec3, most_surface_points>;
 
-std::vector<vec3> positions_of(std::span<const rays::SurfacePoint> points) {
-  std::vector<vec3> positions;
-  for (const rays::SurfacePoint& point : points) positions.push_back(point.position);
-  return positions;
-}
-
 /// Turns the weights, of sum `total`, into those of a linear fit's value at x. Only their ratios count: a
-/// lone point at the border of those that are looked at has next to no weight.
-void fit_linearly(std::span<SurfaceShare> shares, const Places& places, float total) {
+/// lone point at the border of its reach has next to no weight. `ridge` in the places' unit, squared.
+void fit_linearly(std::span<SurfaceShare> shares, const Places& places, float total, float ridge) {
   mat3 gram(0);
   for (std::size_t i = 0; i < shares.size(); ++i) {
     shares[i].weight /= total;
     for (int c = 0; c < 3; ++c) gram[c] += shares[i].weight * places[i][c] * places[i];
   }
-  gram[1][1] += fitted_ridge;
-  gram[2][2] += fitted_ridge;
+  gram[1][1] += ridge;
+  gram[2][2] += ridge;
   const vec3 row = glm::inverse(gram)[0];
-  float most = 1;  // of the way from the mean to the fit
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    const float relative = glm::dot(row, places[i]);  // 1: as in the mean
-    if (relative < fitted_lowest) most = std::min(most, (1 - fitted_lowest) / (1 - relative));
-  }
+  float negative = 0;
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    negative += shares[i].weight * std::max(-glm::dot(row, places[i]), 0.0f);
+  const float most = std::min(1.0f, fitted_negative / negative);  // of the way from the mean to the fit
   float sum = 0;
   for (std::size_t i = 0; i < shares.size(); ++i) {
     shares[i].weight *= 1 - most + most * glm::dot(row, places[i]);
@@ -45,27 +41,27 @@ void fit_linearly(std::span<SurfaceShare> shares, const Places& places, float to
 
 }  // namespace
 
-float surface_spacing(std::span<const rays::SurfacePoint> points) {
-  const geometry::NearestPoints nearest(positions_of(points));
-  std::vector<float> distance(points.size(), std::numeric_limits<float>::infinity());
-  parallel_for(points.size(), 256, [&](std::size_t i) {
-    std::array<geometry::Near, 2 * most_surface_points> near;
-    const int count = nearest.find(points[i].position, near);
-    for (int k = 0; k < count; ++k) {
-      const geometry::Near& found = near[static_cast<std::size_t>(k)];
-      const rays::SurfacePoint& other = points[static_cast<std::size_t>(found.index)];
-      const float off = std::abs(glm::dot(other.position - points[i].position, points[i].normal));
-      if (found.distance2 > 0 && glm::dot(other.normal, points[i].normal) >= fitted_cosine &&
-          off * off <= fitted_off_plane * fitted_off_plane * found.distance2) {
-        distance[i] = std::sqrt(found.distance2);
-        break;
-      }
-    }
-  });
-  if (distance.empty()) return std::numeric_limits<float>::infinity();
-  const auto middle = distance.begin() + static_cast<std::ptrdiff_t>(distance.size() / 2);
-  std::ranges::nth_element(distance, middle);
-  return *middle;
+geometry::Balls surface_reach(std::span<const rays::SurfacePoint> points, std::span<const float> spacings) {
+  std::vector<vec3> centres;
+  std::vector<float> radii;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    centres.push_back(points[i].position);
+    radii.push_back(fitted_reach * spacings[i]);
+  }
+  return {centres, radii};
+}
+
+float share_by_distance(float distance2, float spacing) {
+  float t = std::max(1 - distance2 / (fitted_reach * fitted_reach * spacing * spacing), 0.0f);
+  for (int i = 0; i < 3; ++i) t *= t;
+  return t;
+}
+
+float share_by_surface(const vec3& offset, float cosine, const vec3& normal, float spacing) {
+  const float facing = (cosine - fitted_cosine) / (1 - fitted_cosine);
+  const float most = fitted_off_plane * spacing + fitted_off_plane_slope * glm::length(offset);
+  const float off = glm::dot(offset, normal) / most, level = 1 - off * off;
+  return facing > 0 && level > 0 ? facing * level * level : 0;
 }
 
 bool see_along_surface(const rays::SurfacePoint& a, const rays::SurfacePoint& b, float spacing,
@@ -104,16 +100,16 @@ float cover_factor(int cover, float distance2, float spacing) {
 }
 
 SurfaceInterpolation::SurfaceInterpolation(std::span<const rays::SurfacePoint> points, SeesProbe sees)
-    : position_(positions_of(points)),
-      near_(position_),
-      spacing_(surface_spacing(points)),
-      sees_(std::move(sees)) {
+    : SurfaceInterpolation(points, surface_spacings(points), std::move(sees)) {}
+
+SurfaceInterpolation::SurfaceInterpolation(std::span<const rays::SurfacePoint> points,
+                                           std::span<const float> spacings, SeesProbe sees)
+    : points_(points.size()), reach_(surface_reach(points, spacings)), sees_(std::move(sees)) {
   require(sees_ != nullptr, "surface points", "nothing tells what sees them");
-  for (const rays::SurfacePoint& point : points) normal_.emplace_back(glm::round(32767.0f * point.normal));
-  cover_.resize(points.size());
-  if (!std::isfinite(spacing_)) return;
   parallel_for(points.size(), 64, [&](std::size_t i) {
-    cover_[i] = static_cast<std::uint8_t>(surface_cover(points[i], spacing_, sees_));
+    const int cover = spacings[i] > 0 ? surface_cover(points[i], spacings[i], sees_) : 0;
+    points_[i] = {points[i].position, spacings[i], glm::round(32767.0f * points[i].normal),
+                  static_cast<std::uint8_t>(cover)};
   });
 }
 
@@ -121,37 +117,49 @@ std::span<const SurfaceShare> SurfaceInterpolation::at(const rays::SurfacePoint&
                                                        SurfaceShares& shares) const {
   if (at.moves) return {};
   const vec3 &x = at.position, &n = at.normal;
-  const float radius = 4 * spacing_;
-  std::array<geometry::Near, most_surface_points> near;
-  const int count = near_.find(x, near, radius);
+  // Those that count most, sorted
+  std::size_t count = 0;
+  const auto before = [](const SurfaceShare& a, const SurfaceShare& b) {
+    return a.weight > b.weight || (a.weight == b.weight && a.point < b.point);
+  };
+  reach_.visit(x, [&](std::uint32_t p, float distance2) {
+    const Point& point = points_[p];
+    const float spacing = point.spacing, cosine = glm::dot(vec3(point.normal), n) / 32767.0f;
+    const float by_surface = share_by_surface(point.position - x, cosine, n, spacing);
+    if (by_surface == 0) return;
+    const SurfaceShare share{p, by_surface * share_by_distance(distance2, spacing) *
+                                    cover_factor(point.cover, distance2, spacing)};
+    if (count == shares.size() && !before(share, shares.back())) return;
+    std::size_t i = count < shares.size() ? count++ : count - 1;
+    for (; i > 0 && before(share, shares[i - 1]); --i) shares[i] = shares[i - 1];
+    shares[i] = share;
+  });
+  float left = 0;
+  for (std::size_t i = 0; i < count; ++i) left += shares[i].weight;
+
   const Frame frame = Frame::around(n);
-  // Points fade out toward the farthest that is looked at.
-  const float reach = count == static_cast<int>(most_surface_points)
-                          ? std::sqrt(near[most_surface_points - 1].distance2) * 1.0001f
-                          : radius;
   Places places;
   std::size_t used = 0;
-  float total = 0;
-  for (int i = 0; i < count; ++i) {
-    const geometry::Near& found = near[static_cast<std::size_t>(i)];
-    const auto p = static_cast<std::size_t>(found.index);
-    const vec3 other = position_[p], other_normal = vec3(normal_[p]) / 32767.0f;
-    const float cosine = glm::dot(other_normal, n);
-    const vec3 local = frame.to_local(other - x);
-    const float off_plane = fitted_off_plane * spacing_ + fitted_off_plane_slope * std::sqrt(found.distance2);
-    if (cosine < fitted_cosine || std::abs(local.z) > off_plane) continue;
-    if (found.distance2 > 1e-6f * spacing_ * spacing_ &&
-        !see_along_surface({x, n}, {other, other_normal}, spacing_, sees_))
+  float total = 0, unit = 0, square = 0;
+  for (std::size_t i = 0; i < count && left > left_out * total; ++i) {
+    const SurfaceShare share = shares[i];
+    const Point& point = points_[share.point];
+    left -= share.weight;
+    const float spacing = point.spacing;
+    const vec3 offset = point.position - x;
+    if (glm::dot(offset, offset) > 1e-6f * spacing * spacing &&
+        !see_along_surface(at, {point.position, vec3(point.normal) / 32767.0f}, spacing, sees_))
       continue;
-    const float t = 1 - found.distance2 / (reach * reach);
-    const float weight = t * t * cosine * cover_factor(cover_[p], found.distance2, spacing_);
-    shares[used] = {static_cast<std::uint32_t>(p), weight};
-    places[used++] = vec3(1, local.x / spacing_, local.y / spacing_);
-    total += weight;
+    if (used == 0) unit = spacing;
+    const vec3 local = frame.to_local(offset) / unit;
+    shares[used] = share;
+    places[used++] = vec3(1, local.x, local.y);
+    total += share.weight;
+    square += share.weight * spacing * spacing;
   }
   if (!(total > 0)) return {};
   const std::span<SurfaceShare> found(shares.data(), used);
-  fit_linearly(found, places, total);
+  fit_linearly(found, places, total, fitted_ridge * square / (total * unit * unit));
   return found;
 }
 
@@ -168,7 +176,7 @@ bool SurfaceInterpolation::irradiance(const rays::SurfacePoint& at, std::span<co
 }
 
 std::size_t SurfaceInterpolation::bytes() const {
-  return count() * (sizeof(position_[0]) + sizeof(normal_[0]) + sizeof(cover_[0])) + near_.bytes();
+  return count() * sizeof(Point) + reach_.bytes();
 }
 
 }  // namespace ssphh::probes

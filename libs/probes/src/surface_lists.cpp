@@ -1,13 +1,11 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
-#include <glm/gtc/packing.hpp>
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
-#include <ssphh/geometry/nearest.h>
 #include <ssphh/probes/surface_interpolation.h>
 #include <ssphh/probes/surface_lists.h>
 
@@ -21,27 +19,26 @@ namespace {
 // shading normals are not those.
 constexpr float least_cosine = 0.2f;
 
-std::vector<vec3> positions_of(std::span<const rays::SurfacePoint> points) {
-  std::vector<vec3> positions;
-  for (const rays::SurfacePoint& point : points) positions.push_back(point.position);
-  return positions;
-}
+/// A point is left out of a list where nearer ones that are seen outweigh it so many times.
+constexpr float outweighed = 4096;
 
 struct Sample {
   vec3 position, normal;  ///< of one side; the other's is −normal
   /// Whether any point that faces this side's way, or the other's, is seen from there. What sees none lies
   /// within a body, and has no say.
   std::array<bool, 2> alive{};
+  std::array<float, 2> weight{};  ///< of those that are seen and lie on its very surface
 };
 
 /// What one thread needs while it makes a cell's list.
 struct Work {
   struct Candidate {
     std::uint32_t point;
+    float order;                       ///< distance from the cell's middle, in the point's spacings, squared
     std::vector<std::uint32_t> asked;  ///< samples that it may light
     std::vector<char> seen;            ///< by those; empty: by all
+    std::uint64_t outweighed = 0;      ///< squares with samples at which it does not count
   };
-  std::vector<geometry::Near> near;
   std::vector<Sample> samples;
   std::vector<unsigned char> taken;
   std::vector<Candidate> candidates;
@@ -54,12 +51,12 @@ class Preparation {
       : out_(out),
         triangles_(std::move(triangles)),
         sees_(sees),
-        positions_(positions_of(out.points)),
-        near_(positions_) {
+        spacings_(surface_spacings(out.points)),
+        reach_(surface_reach(out.points, spacings_)) {
     place_grid();
     cover_.resize(out_.points.size());
     parallel_for(cover_.size(), 64,
-                 [&](std::size_t i) { cover_[i] = surface_cover(out_.points[i], out_.spacing, sees_); });
+                 [&](std::size_t i) { cover_[i] = surface_cover(out_.points[i], spacings_[i], sees_); });
     in_cells_ = triangle_cells(triangles_, out_.origin, out_.cell_size, out_.cells);
   }
 
@@ -76,9 +73,8 @@ class Preparation {
         },
         control);
     for (std::vector<uvec4>& list : lists) {
-      const std::size_t points = list.empty() ? 0 : list.size() - 1;
-      out_.ranges.emplace_back(out_.lists.size(), points);
-      if (points > 0) out_.lists.insert(out_.lists.end(), list.begin(), list.end());
+      out_.ranges.emplace_back(out_.lists.size(), list.size());
+      out_.lists.insert(out_.lists.end(), list.begin(), list.end());
       list = {};
     }
   }
@@ -88,23 +84,17 @@ class Preparation {
     constexpr float most_cells = 1 << 21;
     scene::Bounds bounds;
     for (const StillTriangle& t : triangles_) bounds.add(t.a), bounds.add(t.b), bounds.add(t.c);
-    out_.cell_size = 2 * out_.spacing / 3;  // so that a lookup's reach, four spacings, is six cells
+    std::vector<float> sorted = spacings_;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::ranges::nth_element(sorted, middle);
+    const float spacing = *middle;
+    out_.cell_size = 2 * spacing / 3;
     // Surfaces of a wall in a cell's plane must not fall into either of two
-    const vec3 extent = bounds.max - bounds.min + 0.5f * out_.spacing;
-    out_.origin = bounds.min - 0.25f * out_.spacing;
+    const vec3 extent = bounds.max - bounds.min + 0.5f * spacing;
+    out_.origin = bounds.min - 0.25f * spacing;
     const auto number = [&] { return glm::ceil(extent / out_.cell_size); };
     while (number().x * number().y * number().z > most_cells) out_.cell_size *= 1.26f;
     out_.cells = ivec3(number());
-  }
-
-  /// How far a lookup at x looks [m].
-  float reach(const vec3& x) const {
-    const float radius = 4 * out_.spacing;
-    std::array<geometry::Near, most_surface_points> near;
-    const int count = near_.find(x, near, radius);
-    return count == static_cast<int>(most_surface_points)
-               ? std::sqrt(near[most_surface_points - 1].distance2) * 1.0001f
-               : radius;
   }
 
   std::vector<uvec4> list_of(std::size_t cell, Work& work) const {
@@ -114,35 +104,14 @@ class Preparation {
     take_samples(cell, corner, work);
     if (work.samples.empty()) return {};
 
-    std::array<float, 8> reaches;
-    float farthest = 0;
-    for (int i = 0; i < 8; ++i) {
-      const float r = reach(corner + out_.cell_size * vec3(i & 1, i >> 1 & 1, i >> 2));
-      reaches[static_cast<std::size_t>(i)] = r;
-      farthest = std::max(farthest, r);
-    }
-    find_candidates(corner, farthest, work);
-    for (Work::Candidate& candidate : work.candidates) ask(candidate, work);
+    find_candidates(corner, work);
+    work.list.clear();
     for (const Work::Candidate& candidate : work.candidates) {
-      for (std::size_t i = 0; i < candidate.asked.size(); ++i) {
-        Sample& s = work.samples[candidate.asked[i]];
-        s.alive[side(s, candidate.point)] |= candidate.seen.empty() || candidate.seen[i];
-      }
-    }
-
-    work.list.assign(1, uvec4(0));
-    for (int i = 0; i < 4; ++i) {
-      const auto k = static_cast<std::size_t>(2 * i);
-      work.list[0][i] = glm::packHalf2x16(vec2(reaches[k], reaches[k + 1]));
-    }
-    for (const Work::Candidate& candidate : work.candidates) {
-      if (work.list.size() > static_cast<std::size_t>(SurfaceLists::longest)) break;
-      const rays::SurfacePoint& point = out_.points[candidate.point];
-      const CoarseNormal normal = CoarseNormal::of(point.normal);
-      const std::uint64_t squares = squares_of(candidate, normal.axis(), corner, work);
-      if (squares == 0) continue;
-      work.list.push_back(pack_surface_entry(candidate.point, cover_[candidate.point],
-                                             (point.position - corner) / out_.cell_size, normal, squares));
+      if (work.list.size() == static_cast<std::size_t>(SurfaceLists::longest)) break;
+      const std::uint32_t p = candidate.point;
+      const int axis = surface_axis(out_.points[p].normal);
+      const std::uint64_t squares = squares_of(candidate, corner, work);
+      if (squares != 0) work.list.push_back(pack_surface_entry(p, cover_[p], axis, squares, spacings_[p]));
     }
     return work.list;
   }
@@ -155,7 +124,7 @@ class Preparation {
     for (std::size_t i = in_cells_.first[cell]; i < in_cells_.first[cell + 1]; ++i) {
       const StillTriangle& whole = triangles_[in_cells_.triangles[i]];
       const vec3 normal = glm::normalize(glm::cross(whole.b - whole.a, whole.c - whole.a));
-      const int axis = CoarseNormal::of(normal).axis();
+      const int axis = surface_axis(normal);
       visit_parts(whole, corner, corner + size, size / 8, [&](const StillTriangle& t) {
         const vec3 x = (t.a + t.b + t.c) / 3.0f;
         const ivec3 at(glm::floor((x - corner) * (8 / size)));
@@ -169,30 +138,51 @@ class Preparation {
     }
   }
 
-  void find_candidates(const vec3& corner, float farthest, Work& work) const {
+  /// Those that light some sample, and are not outweighed there; asks the samples.
+  void find_candidates(const vec3& corner, Work& work) const {
     const float size = out_.cell_size;
-    const vec3 middle = corner + 0.5f * size;
-    work.near.resize(std::min<std::size_t>(256, positions_.size()));
-    const int found = near_.find(middle, work.near, 1.02f * farthest + 0.87f * size);
     work.candidates.clear();
-    for (int k = 0; k < found; ++k) {
-      const auto p = static_cast<std::uint32_t>(work.near[static_cast<std::size_t>(k)].index);
-      const rays::SurfacePoint& point = out_.points[p];
-      Work::Candidate candidate{p, {}, {}};
+    reach_.visit_box(corner, corner + size, [&](std::uint32_t p, float) {
+      const vec3 d = out_.points[p].position - (corner + 0.5f * size);
+      const float spacing = spacings_[p];
+      work.candidates.push_back({p, glm::dot(d, d) / (spacing * spacing), {}, {}, 0});
+    });
+    std::ranges::sort(work.candidates, [](const Work::Candidate& a, const Work::Candidate& b) {
+      return a.order < b.order || (a.order == b.order && a.point < b.point);
+    });
+    for (Work::Candidate& candidate : work.candidates) {
       for (std::size_t i = 0; i < work.samples.size(); ++i) {
         const Sample& s = work.samples[i];
-        const vec3 d = point.position - s.position;
-        const float distance2 = glm::dot(d, d);
-        if (std::abs(glm::dot(s.normal, point.normal)) < least_cosine ||
-            distance2 > 1.05f * farthest * farthest)
-          continue;
-        // A shading normal may lean toward the point
-        const float off = std::abs(glm::dot(d, s.normal));
-        if (off > 0.75f * out_.spacing + 0.3f * std::sqrt(distance2)) continue;
-        candidate.asked.push_back(static_cast<std::uint32_t>(i));
+        if (!may_light(candidate.point, s)) continue;
+        if (is_outweighed(candidate.point, s)) {
+          candidate.outweighed |= square_bit(s, candidate.point, corner);
+        } else {
+          candidate.asked.push_back(static_cast<std::uint32_t>(i));
+        }
       }
-      if (!candidate.asked.empty()) work.candidates.push_back(std::move(candidate));
+      if (!candidate.asked.empty()) ask(candidate, work);
     }
+    std::erase_if(work.candidates, [](const Work::Candidate& c) { return c.asked.empty(); });
+  }
+
+  bool may_light(std::uint32_t p, const Sample& s) const {
+    const rays::SurfacePoint& point = out_.points[p];
+    const float spacing = spacings_[p];
+    const vec3 d = point.position - s.position;
+    const float distance2 = glm::dot(d, d), share = share_by_distance(distance2, spacing);
+    // A shading normal may lean toward the point
+    return share > 0 && std::abs(glm::dot(s.normal, point.normal)) >= least_cosine &&
+           std::abs(glm::dot(d, s.normal)) <= 0.75f * spacing + 0.3f * std::sqrt(distance2);
+  }
+
+  bool is_outweighed(std::uint32_t p, const Sample& s) const {
+    const vec3 d = out_.points[p].position - s.position;
+    return outweighed * share_by_distance(glm::dot(d, d), spacings_[p]) <= s.weight[side(s, p)];
+  }
+
+  std::uint64_t square_bit(const Sample& s, std::uint32_t p, const vec3& corner) const {
+    return std::uint64_t{1} << surface_square((s.position - corner) / out_.cell_size,
+                                              surface_axis(out_.points[p].normal));
   }
 
   /// 1 where the point faces the other side's way.
@@ -203,36 +193,49 @@ class Preparation {
   bool sees(const Sample& sample, std::uint32_t p) const {
     const rays::SurfacePoint& point = out_.points[p];
     const vec3 n = side(sample, p) ? -sample.normal : sample.normal;
-    return see_along_surface({sample.position, n}, point, out_.spacing, sees_);
+    return see_along_surface({sample.position, n}, point, spacings_[p], sees_);
   }
 
   /// Asks a few samples first, then all where those disagree.
-  void ask(Work::Candidate& candidate, const Work& work) const {
+  void ask(Work::Candidate& candidate, Work& work) const {
     constexpr std::size_t few = 16;
     const std::size_t count = candidate.asked.size(), step = (count + few - 1) / few;
     std::size_t asked = 0, seen = 0;
     for (std::size_t i = 0; i < count; i += step, ++asked)
       seen += sees(work.samples[candidate.asked[i]], candidate.point);
-    if (seen == asked) return;
-    candidate.seen.assign(count, 0);
-    if (seen == 0) return;
-    for (std::size_t i = 0; i < count; ++i)
-      candidate.seen[i] = sees(work.samples[candidate.asked[i]], candidate.point);
+    if (seen < asked) candidate.seen.assign(count, 0);
+    if (seen < asked && seen > 0) {
+      for (std::size_t i = 0; i < count; ++i)
+        candidate.seen[i] = sees(work.samples[candidate.asked[i]], candidate.point);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (candidate.seen.empty() || candidate.seen[i])
+        count_in(candidate.point, work.samples[candidate.asked[i]]);
+    }
+  }
+
+  void count_in(std::uint32_t p, Sample& s) const {
+    const rays::SurfacePoint& point = out_.points[p];
+    const std::size_t k = side(s, p);
+    s.alive[k] = true;
+    const vec3 d = point.position - s.position, n = k == 1 ? -s.normal : s.normal;
+    const float spacing = spacings_[p];
+    s.weight[k] += share_by_distance(glm::dot(d, d), spacing) *
+                   share_by_surface(d, glm::dot(point.normal, n), n, spacing) *
+                   cover_factor(cover_[p], glm::dot(d, d), spacing);
   }
 
   /// Squares in which every sample sees the point, sides within bodies apart. A square
   /// without samples is as those around it.
-  std::uint64_t squares_of(const Work::Candidate& candidate, int axis, const vec3& corner,
-                           const Work& work) const {
-    if (candidate.seen.empty()) return ~std::uint64_t{0};
-    std::uint64_t known = 0, hidden = 0;
+  std::uint64_t squares_of(const Work::Candidate& candidate, const vec3& corner, const Work& work) const {
+    if (candidate.seen.empty() && candidate.outweighed == 0) return ~std::uint64_t{0};
+    std::uint64_t known = candidate.outweighed, hidden = candidate.outweighed;
     for (std::size_t i = 0; i < candidate.asked.size(); ++i) {
       const Sample& s = work.samples[candidate.asked[i]];
       if (!s.alive[side(s, candidate.point)]) continue;
-      const std::uint64_t bit = std::uint64_t{1}
-                                << surface_square((s.position - corner) / out_.cell_size, axis);
+      const std::uint64_t bit = square_bit(s, candidate.point, corner);
       known |= bit;
-      if (!candidate.seen[i]) hidden |= bit;
+      if (!candidate.seen.empty() && !candidate.seen[i]) hidden |= bit;
     }
     std::uint64_t seen = known & ~hidden;
     if (seen == 0) return 0;
@@ -253,9 +256,9 @@ class Preparation {
   SurfaceLists& out_;
   std::vector<StillTriangle> triangles_;
   const SeesProbe& sees_;
-  std::vector<vec3> positions_;
+  std::vector<float> spacings_;
   std::vector<int> cover_;
-  geometry::NearestPoints near_;
+  geometry::Balls reach_;
   TriangleCells in_cells_;
 };
 
@@ -268,9 +271,10 @@ SurfaceLists prepare_surfaces(const scene::Scene& scene, float time, std::vector
   if (out.points.size() > SurfaceLists::most_points)
     throw Error("surface points", fmt::format("there are {}, at most {} can be drawn", out.points.size(),
                                               SurfaceLists::most_points));
-  out.spacing = surface_spacing(out.points);
   std::vector<StillTriangle> triangles = still_triangles(scene, time);
-  if (!std::isfinite(out.spacing) || triangles.empty()) return out;
+  const bool apart = std::ranges::any_of(
+      out.points, [&](const rays::SurfacePoint& p) { return p.position != out.points[0].position; });
+  if (!apart || triangles.empty()) return out;
   Preparation(out, std::move(triangles), sees).run(control);
   return out;
 }

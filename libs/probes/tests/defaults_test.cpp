@@ -57,7 +57,7 @@ TEST(Defaults, OfLookups) {
   EXPECT_EQ(weights.normal_offset, 0);
   EXPECT_EQ(max_weights, 16);
   EXPECT_EQ(ProbeWeights().entries.size(), 48u);
-  EXPECT_EQ(most_surface_points, 12u);
+  EXPECT_EQ(most_surface_points, 24u);
   EXPECT_EQ(LightLookup::smallest_cosine, 0.05f);
 }
 

@@ -1,10 +1,12 @@
 /// Fitted weights between points that lie at random, in light that differs by place, direction and colour.
 
 #include <algorithm>
+#include <functional>
 
 #include <gtest/gtest.h>
 
 #include <ssphh/probes/lookup.h>
+#include <ssphh/probes/surface_spacing.h>
 
 #include "fake_source.h"
 #include "varied_light.h"
@@ -27,38 +29,45 @@ FittedPoints scattered() {
   return fitted;
 }
 
-/// Of the point at x: a linear fit to the twelve nearest within four spacings, whose weights fall to 0 at the
-/// farthest or there, with a ridge of 5 % on its slopes; so much of it that no point counts less than -1/4 of
-/// its share of the mean. In doubles.
-std::vector<double> shares_at(const FittedPoints& fitted, const vec3& x, double spacing) {
-  std::vector<std::pair<double, std::size_t>> near;
-  for (std::size_t i = 0; i < fitted.points.size(); ++i)
-    near.emplace_back(glm::distance(glm::dvec3(fitted.points[i].position), glm::dvec3(x)), i);
-  std::ranges::sort(near);
-  std::erase_if(near, [&](const auto& n) { return n.first > 4 * spacing; });
-  near.resize(std::min<std::size_t>(near.size(), 12));
-  const double reach = near.size() == 12 ? near.back().first * 1.0001 : 4 * spacing;
+/// Of the point at x: a linear fit to those within three of their spacings, whose weights fall as
+/// (1 − q²/9)⁸, less the least that come to a thousandth of the rest, with a ridge of 5 % of a squared
+/// spacing on its slopes; so much of it that no more than a quarter of the weight is negative. In doubles.
+std::vector<double> shares_at(const FittedPoints& fitted, const vec3& x, std::span<const float> spacings) {
+  struct Near {
+    double weight, spacing;
+    std::size_t point;
+  };
+  std::vector<Near> near;
+  double left = 0;
+  for (std::size_t i = 0; i < fitted.points.size(); ++i) {
+    const double spacing = static_cast<double>(spacings[i]);
+    const double q = glm::distance(glm::dvec3(fitted.points[i].position), glm::dvec3(x)) / spacing;
+    if (q < 3) near.push_back({std::pow(1 - q * q / 9, 8), spacing, i});
+    if (q < 3) left += near.back().weight;
+  }
+  std::ranges::sort(near, std::greater(), &Near::weight);
   glm::dmat3 gram(0);
-  double total = 0;
+  double total = 0, ridge = 0;
   std::vector<std::pair<double, glm::dvec3>> rows;
-  for (const auto& [distance, i] : near) {
-    const double t = 1 - std::pow(distance / reach, 2), weight = t * t;
-    const glm::dvec3 d = (glm::dvec3(fitted.points[i].position) - glm::dvec3(x)) / spacing, row(1, d.x, d.z);
-    gram += weight * glm::outerProduct(row, row);
-    total += weight;
-    rows.emplace_back(weight, row);
+  for (const Near& n : near) {
+    if (left <= 0.001 * total) break;
+    left -= n.weight;
+    const glm::dvec3 d = glm::dvec3(fitted.points[n.point].position) - glm::dvec3(x), row(1, d.x, d.z);
+    gram += n.weight * glm::outerProduct(row, row);
+    total += n.weight;
+    ridge += 0.05 * n.weight * n.spacing * n.spacing;
+    rows.emplace_back(n.weight, row);
   }
-  gram[1][1] += 0.05 * total, gram[2][2] += 0.05 * total;
+  EXPECT_LE(rows.size(), 24u);
+  gram[1][1] += ridge, gram[2][2] += ridge;
   const glm::dvec3 solution = glm::inverse(gram)[0];
-  double most = 1, sum = 0;
-  for (const auto& [weight, row] : rows) {
-    const double relative = total * glm::dot(solution, row);
-    if (relative < -0.25) most = std::min(most, 1.25 / (1 - relative));
-  }
+  double negative = 0, sum = 0;
+  for (const auto& [weight, row] : rows) negative += weight * std::max(-glm::dot(solution, row), 0.0);
+  const double most = std::min(1.0, 0.25 / negative);
   std::vector<double> shares(fitted.points.size(), 0);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const auto& [weight, row] = rows[k];
-    sum += shares[near[k].second] = weight * ((1 - most) / total + most * glm::dot(solution, row));
+    sum += shares[near[k].point] = weight * ((1 - most) / total + most * glm::dot(solution, row));
   }
   for (double& share : shares) share /= sum;
   return shares;
@@ -71,13 +80,11 @@ TEST(FittedFields, LightIsThatOfALinearFitToThePointsAround) {
   LookupParams params;
   params.weights.method = WeightMethod::fitted;
   const IrradianceLookup lookup(set, source, params);
-  std::vector<vec3> positions;
-  for (const rays::SurfacePoint& p : set.fitted->points) positions.push_back(p.position);
-  const auto spacing = static_cast<double>(median_spacing(positions));
+  const std::vector<float> spacings = surface_spacings(set.fitted->points);
   Pcg32 random(5);
   for (int i = 0; i < 60; ++i) {
     const rays::SurfacePoint p{vec3(4 * random.uniform(), 0, 4 * random.uniform()), {0, 1, 0}};
-    const std::vector<double> shares = shares_at(*set.fitted, p.position, spacing);
+    const std::vector<double> shares = shares_at(*set.fitted, p.position, spacings);
     test::VariedLight light;
     for (std::size_t k = 0; k < shares.size(); ++k) {
       for (const ProbeWeight& entry : set.fitted->weights[k].used())

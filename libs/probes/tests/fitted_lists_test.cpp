@@ -1,29 +1,17 @@
 /// What lists of fitted points are made of: their bits, and the surfaces that stand still.
 
 #include <algorithm>
+#include <bit>
 
 #include <gmock/gmock.h>
 
 #include <ssphh/scene/primitives.h>
 
-#include "random_points.h"
 #include "still_surface.h"
 #include "surface_entry.h"
 
 namespace ssphh::probes {
 namespace {
-
-using test::random_points;
-
-TEST(FittedEntry, NormalsKeepTheirDirectionAndAxesExactly) {
-  for (const vec3& n : {vec3(1, 0, 0), vec3(0, -1, 0), vec3(0, 0, -1)})
-    EXPECT_EQ(CoarseNormal::of(n).unit(), n);
-  for (vec3 n : random_points(500, 1)) {
-    n = glm::normalize(n);
-    // A step of 2/62 on the map is at most 0.09 on the sphere, of which half and that across the diagonal
-    EXPECT_GT(glm::dot(CoarseNormal::of(n).unit(), n), std::cos(0.07f));
-  }
-}
 
 TEST(StillSurface, PartsCoverTheirTriangleWithinTheBox) {
   const StillTriangle whole{{0, 0, 0}, {4, 0, 0}, {0, 3, 1}};
@@ -52,29 +40,22 @@ TEST(FittedEntry, SquaresAreCountedAcrossTheAxis) {
 }
 
 TEST(FittedEntry, AxisIsThatOfTheLargestComponent) {
-  EXPECT_EQ(CoarseNormal::of({0.9f, 0.1f, -0.3f}).axis(), 0);
-  EXPECT_EQ(CoarseNormal::of({0.3f, -0.9f, 0.1f}).axis(), 1);
-  EXPECT_EQ(CoarseNormal::of({0.1f, 0.3f, -0.9f}).axis(), 2);
-  EXPECT_EQ((CoarseNormal{0, 0}.axis()), 2);
+  EXPECT_EQ(surface_axis({0.9f, 0.1f, -0.3f}), 0);
+  EXPECT_EQ(surface_axis({0.3f, -0.9f, 0.1f}), 1);
+  EXPECT_EQ(surface_axis({0.1f, 0.3f, -0.9f}), 2);
 }
 
 /// As fitted_lookup.glsl takes an entry apart.
 TEST(FittedEntry, HoldsAllOfAPointInItsBits) {
   const std::uint64_t squares = 0x123456789abcdef0ull;
-  for (const CoarseNormal& normal : {CoarseNormal{-31, 0}, {31, -5}, {-7, 30}, {0, -1}}) {
-    const uvec4 e = pack_surface_entry(0x5bcde, 5, {-6, 0.5f, 7}, normal, squares);
-    EXPECT_EQ(e.x >> 10 & 0x7ffffu, 0x5bcdeu);
-    EXPECT_EQ(e.x >> 29, 5u);
-    EXPECT_EQ(static_cast<int>((e.x >> 5 & 31u) | (e.y >> 30 & 1u) << 5) - 32, normal.u);
-    EXPECT_EQ(static_cast<int>((e.x & 31u) | (e.y >> 31) << 5) - 32, normal.v);
-    EXPECT_EQ(e.y & 1023u, 0u);
-    EXPECT_NEAR(static_cast<double>(e.y >> 10 & 1023u) * 13 / 1023 - 6, 0.5, 6.51 / 1023);
-    EXPECT_EQ(e.y >> 20 & 1023u, 1023u);
-    EXPECT_EQ((static_cast<std::uint64_t>(e.w) << 32 | e.z), squares);
+  for (const int axis : {0, 1, 2}) {
+    const uvec4 e = pack_surface_entry(0x5bcde, 5, axis, squares, 0.125f);
+    EXPECT_EQ(e.x & 0x7ffffu, 0x5bcdeu);
+    EXPECT_EQ(e.x >> 19 & 7u, 5u);
+    EXPECT_EQ(e.x >> 22, static_cast<std::uint32_t>(axis));
+    EXPECT_EQ((static_cast<std::uint64_t>(e.z) << 32 | e.y), squares);
+    EXPECT_EQ(std::bit_cast<float>(e.w), 0.125f);
   }
-  const uvec4 far = pack_surface_entry(0, 0, {-9, 2, 99}, {}, 0);
-  EXPECT_EQ(far.y & 1023u, 0u) << "as near as there is room for";
-  EXPECT_EQ(far.y >> 20 & 1023u, 1023u);
 }
 
 TEST(StillSurface, LeavesOutWhatMovesShinesAloneOrHasNoArea) {

@@ -28,9 +28,9 @@ TEST(KeptBytes, OfFittedPointsAreThoseThatHaveWeights) {
   fitted.weights[0].add(0, 1);
   fitted.weights[2].add(0, 0.5f), fitted.weights[2].add(4, 0.5f);
   const auto weights = make_weights(five, open, {}, &fitted);
-  // Two points with 12 bytes of place, 6 of normal, 1 of cover and 17 in the tree; three places of first
-  // weights; three weights of 2 + 4 bytes; and the fallback.
-  EXPECT_EQ(weights->bytes(), 2u * (12 + 6 + 1 + 17) + 3 * 4 + 3 * 6 + 5 * (12 + 17));
+  // Two points with 12 bytes of place, 4 of spacing, 6 of normal, 2 of cover and 20 in the tree, with its one
+  // box of 24; three places of first weights; three weights of 2 + 4 bytes; and the fallback.
+  EXPECT_EQ(weights->bytes(), 2u * (12 + 4 + 6 + 2 + 20) + 24 + 3 * 4 + 3 * 6 + 5 * (12 + 17));
 }
 
 }  // namespace

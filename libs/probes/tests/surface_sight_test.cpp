@@ -21,16 +21,51 @@ std::vector<rays::SurfacePoint> floor_grid(int side, float step, float height = 
   return points;
 }
 
-TEST(SurfaceSpacing, IsThatAlongASurfaceWhateverIsNearIt) {
+std::size_t middle_of(int side) {
+  return static_cast<std::size_t>(side / 2 * side + side / 2);
+}
+
+TEST(SurfaceSpacings, AreThoseAlongASurfaceWhateverIsNearIt) {
   std::vector<rays::SurfacePoint> points = floor_grid(9, 0.5f);
-  EXPECT_FLOAT_EQ(surface_spacing(points), 0.5f);
+  EXPECT_FLOAT_EQ(surface_spacings(points)[middle_of(9)], 0.5f);
   // A board's other side, a shelf above it, and walls that cross it are nearer
   for (const rays::SurfacePoint& p : floor_grid(9, 0.5f, -0.02f, -1)) points.push_back(p);
-  for (const rays::SurfacePoint& p : floor_grid(9, 0.5f, 0.3f)) points.push_back(p);
-  for (rays::SurfacePoint p : floor_grid(9, 0.5f, 0.05f)) points.push_back({p.position, {1, 0, 0}});
-  EXPECT_FLOAT_EQ(surface_spacing(points), 0.5f);
-  EXPECT_TRUE(std::isinf(surface_spacing({})));
-  EXPECT_TRUE(std::isinf(surface_spacing(floor_grid(1, 1))));
+  for (const rays::SurfacePoint& p : floor_grid(9, 0.5f, 0.4f)) points.push_back(p);
+  EXPECT_NEAR(surface_spacings(points)[middle_of(9)], 0.42f, 0.04f) << "six tenths of the twelfth's";
+}
+
+TEST(SurfaceSpacings, FollowThePointsFromPlaceToPlace) {
+  std::vector<rays::SurfacePoint> points = floor_grid(11, 0.1f);
+  for (rays::SurfacePoint p : floor_grid(11, 8)) points.push_back({p.position + vec3(100, 0, 0), p.normal});
+  const std::vector<float> spacings = surface_spacings(points);
+  EXPECT_NEAR(spacings[middle_of(11)], 0.1f, 0.1f * 0.1f);
+  EXPECT_NEAR(spacings[121 + middle_of(11)], 8, 0.1f * 8);
+}
+
+TEST(SurfaceSpacings, OfALoneThingAreThoseOfWhatIsNear) {
+  // A shelf's edge, narrow and alone of its kind but for one far away
+  std::vector<rays::SurfacePoint> points = floor_grid(9, 0.5f);
+  points.push_back({{2, 0.1f, 2}, {1, 0, 0}});
+  points.push_back({{2, 0.1f, 60}, {1, 0, 0}});
+  EXPECT_LT(surface_spacings(points)[81], 0.8f);
+  EXPECT_GT(surface_spacings(points)[81], 0.3f);
+}
+
+TEST(SurfaceSpacings, AreNoneOfOnePlace) {
+  EXPECT_TRUE(surface_spacings({}).empty());
+  EXPECT_EQ(surface_spacings(floor_grid(1, 1))[0], 0);
+  const std::vector<rays::SurfacePoint> twice(2, {vec3(1), {0, 1, 0}});
+  EXPECT_EQ(surface_spacings(twice), (std::vector<float>{0, 0}));
+}
+
+TEST(SurfaceSpacings, OfTwoThatAlmostCoincideAreThoseOfTheOthers) {
+  std::vector<rays::SurfacePoint> points = floor_grid(9, 1);
+  points.push_back({points[40].position + vec3(1e-4f, 0, 0), points[40].normal});
+  EXPECT_NEAR(surface_spacings(points)[40], 0.75f, 1e-3f) << "three of a metre and one of none";
+  points = floor_grid(21, 1);
+  for (int i = 1; i < 6; ++i)
+    points.push_back({points[220].position + vec3(1e-4f * static_cast<float>(i), 0, 0), {0, 1, 0}});
+  EXPECT_NEAR(surface_spacings(points)[220], 0.25f * 0.85f, 0.01f) << "0.85 m: there are corners";
 }
 
 /// Whether the segment meets the ball.

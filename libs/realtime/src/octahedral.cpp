@@ -24,6 +24,12 @@ vec3 octahedral_direction(vec2 p) {
   return glm::normalize(n);
 }
 
+vec2 octahedral_place(const vec3& d) {
+  const vec3 p = d / (std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
+  if (p.z >= 0) return {p.x, p.y};
+  return {(1 - std::abs(p.y)) * std::copysign(1.0f, p.x), (1 - std::abs(p.x)) * std::copysign(1.0f, p.y)};
+}
+
 TileBasis::TileBasis(int size, int degree) : size_(size), degree_(degree) {
   const auto count = static_cast<std::size_t>(sh::coefficient_count(degree));
   basis_.resize(count * texels());

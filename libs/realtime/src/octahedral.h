@@ -15,6 +15,8 @@ namespace ssphh::realtime {
 
 /// Unit direction of a place in [−1, 1]²; places a little outside are those across the edge.
 vec3 octahedral_direction(vec2 place);
+/// Place of a unit direction in [−1, 1]².
+vec2 octahedral_place(const vec3& direction);
 
 /// Values of spherical harmonics at a tile's texels: what turns coefficients into a tile.
 class TileBasis {

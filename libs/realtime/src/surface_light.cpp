@@ -3,6 +3,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "gpu_types.h"
+#include "octahedral.h"
 
 namespace ssphh::realtime {
 namespace {
@@ -19,16 +20,25 @@ gl::Texture list_texture(gl::Format format, std::vector<T> texels, FrameCounters
   return texture;
 }
 
+/// Of each point its position, and its normal on the octahedral map.
+std::vector<glm::uvec4> places_of(std::span<const rays::SurfacePoint> points) {
+  std::vector<glm::uvec4> places;
+  for (const rays::SurfacePoint& point : points)
+    places.emplace_back(glm::floatBitsToUint(point.position),
+                        glm::packSnorm2x16(octahedral_place(point.normal)));
+  return places;
+}
+
 }  // namespace
 
 SurfaceLight::SurfaceLight(const probes::SurfaceLists& lists, FrameCounters& counters)
     : count_(lists.points.size()),
-      spacing_(lists.spacing),
       cell_size_(lists.cell_size),
       origin_(lists.origin),
       cells_(lists.cells),
       ranges_(list_texture(gl::Format::rg32ui, lists.ranges, counters)),
-      lists_(list_texture(gl::Format::rgba32ui, lists.lists, counters)) {
+      lists_(list_texture(gl::Format::rgba32ui, lists.lists, counters)),
+      places_(list_texture(gl::Format::rgba32ui, places_of(lists.points), counters)) {
   const std::size_t rows = (count_ * point_texels + width - 1) / width;
   light_ = gl::Texture(gl::Format::rgba32ui, static_cast<int>(width), static_cast<int>(rows));
 }
@@ -65,14 +75,14 @@ void SurfaceLight::upload(std::span<const std::uint32_t> points, FrameCounters& 
 void SurfaceLight::bind(gl::Program& program) const {
   ranges_.bind(unit::fitted_ranges);
   lists_.bind(unit::fitted_lists);
+  places_.bind(unit::fitted_points);
   light_.bind(unit::fitted_light);
   program.set("fitted_origin", vec4(origin_, cell_size_));
   program.set("fitted_cells", cells_.x, cells_.y, cells_.z);
-  program.set("fitted_spacing", spacing_);
 }
 
 std::size_t SurfaceLight::bytes() const {
-  return ranges_.bytes() + lists_.bytes() + light_.bytes();
+  return ranges_.bytes() + lists_.bytes() + places_.bytes() + light_.bytes();
 }
 
 }  // namespace ssphh::realtime

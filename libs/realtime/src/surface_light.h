@@ -44,11 +44,11 @@ class SurfaceLight {
   void upload(std::span<const std::uint32_t> points, FrameCounters& counters);
 
   std::size_t count_;
-  float spacing_, cell_size_;
+  float cell_size_;
   vec3 origin_;
   glm::ivec3 cells_;
   std::vector<glm::uvec4> texels_;
-  gl::Texture ranges_, lists_, light_;
+  gl::Texture ranges_, lists_, places_, light_;
 };
 
 }  // namespace ssphh::realtime

@@ -29,8 +29,8 @@ class FittedPicture : public test::WithGl {
     fitted.weights.emplace_back().add(static_cast<int>(probes_.set.probes.size()) - 1, 1);
   }
 
-  /// Places come in 1023 steps of nine cells: points stand up to 4.4 mm beside theirs each way, weights fall
-  /// by at most 1.5 of their largest per metre of four, and halves round.
+  /// The CPU leaves out a thousandth of the weight, normals come in steps of 1/32767 on an octahedron, and
+  /// halves round.
   void expect_the_cpus_lookup(
       const std::string& what,
       const std::function<bool(const vec2&)>& skip = [](const vec2&) { return false; }) {
@@ -52,7 +52,7 @@ class FittedPicture : public test::WithGl {
         worst.take(drawn.rgb(x, y), reflected(lookup.irradiance({f.to_world({p, 0}), f.z})));
       }
     }
-    for (int c = 0; c < 3; ++c) EXPECT_LT(worst.share()[c], 0.01f) << what << ", channel " << c;
+    for (int c = 0; c < 3; ++c) EXPECT_LT(worst.share()[c], 0.02f) << what << ", channel " << c;
   }
 
  private:
@@ -72,8 +72,7 @@ TEST_F(FittedPicture, WeighsNinePointsAsTheCpuDoes) {
 }
 
 TEST_F(FittedPicture, LeavesOutPointsThatAreTiltedByMoreThanFortyFiveDegrees) {
-  // The lists' normals stand on a grid of steps of 1/31 on an octahedron; these lie on it. 0.7 is the cosine
-  // of 45.6°.
+  // 0.7 is the cosine of 45.6°.
   for (const auto& [normal, degrees] :
        {std::pair(vec3(0, 11, 20), "28.8 degrees"), std::pair(vec3(0, 15, 16), "43.2 degrees"),
         std::pair(vec3(0, 16, 15), "46.8 degrees"), std::pair(vec3(0, 20, 11), "61.2 degrees")}) {

@@ -26,9 +26,11 @@ inline constexpr float mls_ridge = 0.05f;
 /// A tent of trilinear weights that is lower counts for nothing.
 inline constexpr float least_tent = 1e-4f;
 
-/// A fitted point lights surfaces whose normal agrees with its own to this cosine …
+/// A point of a surface lights places around it within so many of its spacings …
+inline constexpr float fitted_reach = 3;
+/// … whose normal agrees with its own to this cosine …
 inline constexpr float fitted_cosine = 0.7f;
-/// … and from whose plane it is no farther than so many spacings of points and …
+/// … and from whose plane it is no farther than so many of its spacings and …
 inline constexpr float fitted_off_plane = 0.5f;
 /// … this share of the distance.
 inline constexpr float fitted_off_plane_slope = 0.1f;
@@ -38,8 +40,8 @@ inline constexpr float fitted_lift = 0.02f, fitted_lift_over_bulges = 0.2f;
 /// Classes of what lies close before a point (surface_cover).
 inline constexpr int most_cover = 4;
 inline constexpr float fitted_ridge = 0.05f;
-/// No fitted point counts for less, in shares of what it has in the mean.
-inline constexpr float fitted_lowest = -0.25f;
+/// Of their whole weight, points count for less than nothing with no more than this.
+inline constexpr float fitted_negative = 0.25f;
 
 struct ShaderConstant {
   const char* name;
@@ -59,11 +61,12 @@ inline constexpr std::array constants_of_shaders = {
     ShaderConstant{"MLS_RIDGE", mls_ridge},
     ShaderConstant{"LEAST_TENT", least_tent},
     ShaderConstant{"SMALLEST_COSINE", LightLookup::smallest_cosine},
+    ShaderConstant{"FITTED_REACH", fitted_reach},
     ShaderConstant{"FITTED_COSINE", fitted_cosine},
     ShaderConstant{"FITTED_OFF_PLANE", fitted_off_plane},
     ShaderConstant{"FITTED_OFF_PLANE_SLOPE", fitted_off_plane_slope},
     ShaderConstant{"FITTED_RIDGE", fitted_ridge},
-    ShaderConstant{"FITTED_LOWEST", fitted_lowest},
+    ShaderConstant{"FITTED_NEGATIVE", fitted_negative},
 };
 
 }  // namespace ssphh::probes

@@ -8,18 +8,24 @@
 
 #include <glm/gtc/type_precision.hpp>
 
-#include <ssphh/geometry/nearest.h>
+#include <ssphh/geometry/balls.h>
 #include <ssphh/probes/lookup_weights.h>
 #include <ssphh/probes/surface_records.h>
+#include <ssphh/probes/surface_spacing.h>
 
 namespace ssphh::probes {
 
-/// So many of the nearest points a lookup between them takes. Twice as many give the same errors.
-inline constexpr std::size_t most_surface_points = 12;
+/// A lookup between points takes no more of them.
+inline constexpr std::size_t most_surface_points = 24;
 
-/// Median distance of points from the nearest one that lights the same surface [m]; infinite where there is
-/// none: what lookups between them measure distances in.
-float surface_spacing(std::span<const rays::SurfacePoint> points);
+/// Where each point counts at all.
+geometry::Balls surface_reach(std::span<const rays::SurfacePoint> points, std::span<const float> spacings);
+/// What a point counts at a squared distance [m²]: 1 there, 0 from three of its spacings on. Most of a
+/// lookup's weight lies within two.
+float share_by_distance(float distance2, float spacing);
+/// What it counts on a surface: less as that turns away from it, or lies off its plane. `offset` leads from
+/// the place to the point; 0 from 45° on, and from half a spacing and a tenth of the distance.
+float share_by_surface(const vec3& offset, float cosine, const vec3& normal, float spacing);
 
 /// Whether two points of one surface see each other: above bulges of that surface, but not above what stands
 /// on it.
@@ -39,29 +45,36 @@ struct SurfaceShare {
 };
 using SurfaceShares = std::array<SurfaceShare, most_surface_points>;
 
-/// A linear fit in the tangent plane over the points near x that face about its way and that x sees, taken at
-/// x; as far from their weighted mean as no point counts less than −¼ of what it counts in the mean:
-/// extrapolation toward a corner is wanted, but no overshoot. Safe to call from several threads.
+/// A linear fit in the tangent plane over the points around x that face about its way and that x sees, taken
+/// at x; as far from their weighted mean as no more than ¼ of the weight is negative: extrapolation
+/// toward a corner is wanted, but no overshoot. Each point reaches three of its own spacings
+/// (surface_spacings): where they are sparse, farther. Safe to call from several threads.
 class SurfaceInterpolation {
  public:
-  /// Copies the points. Throws Error without `sees`.
+  /// Copies the points. Throws Error without `sees`, and for a point that is not finite.
   SurfaceInterpolation(std::span<const rays::SurfacePoint> points, SeesProbe sees);
 
-  /// The points that count at `at`, with a sum of 1, in `shares`; none for what moves, and where no point is
-  /// near.
+  /// The points that count at `at`, with a sum of 1, in `shares`; none for what moves, and where no point
+  /// reaches. What would change the sum by less than a thousandth is left out.
   std::span<const SurfaceShare> at(const rays::SurfacePoint& at, SurfaceShares& shares) const;
   /// Whether any record lights `at`; then E of its normal, not negative. `light` is of each point.
   bool irradiance(const rays::SurfacePoint& at, std::span<const RecordLight> light, vec3& out) const;
 
-  std::size_t count() const { return position_.size(); }
+  std::size_t count() const { return points_.size(); }
   std::size_t bytes() const;
 
  private:
-  std::vector<vec3> position_;
-  std::vector<glm::i16vec3> normal_;  ///< times 32767
-  std::vector<std::uint8_t> cover_;
-  geometry::NearestPoints near_;
-  float spacing_;
+  struct Point {
+    vec3 position;
+    float spacing;        ///< of surface_spacings [m]
+    glm::i16vec3 normal;  ///< times 32767
+    std::uint8_t cover;   ///< of surface_cover
+  };
+  SurfaceInterpolation(std::span<const rays::SurfacePoint> points, std::span<const float> spacings,
+                       SeesProbe sees);
+
+  std::vector<Point> points_;
+  geometry::Balls reach_;
   SeesProbe sees_;
 };
 

@@ -20,19 +20,16 @@ using glm::uvec4;
 /// SurfaceInterpolation finds them, and for each which of 8 × 8 squares of the cell see it: squares of
 /// the plane across the axis that the point's normal is nearest to.
 struct SurfaceLists {
-  static constexpr int longest = 64;  ///< points of a list; the nearest to the cell's middle
+  static constexpr int longest =
+      96;  ///< points of a list; the nearest to the cell's middle, in their spacings
   static constexpr std::size_t most_points = std::size_t{1} << 19;
 
   std::vector<rays::SurfacePoint> points;
-  float spacing = 0;  ///< median distance between neighbours [m]
   vec3 origin{0};
-  float cell_size = 1;  ///< metres: ⅔ `spacing`, or more in a scene of too many cells
+  float cell_size = 1;  ///< metres: ⅔ of the median spacing, or more in a scene of too many cells
   ivec3 cells{0};
-  std::vector<uvec2>
-      ranges;  ///< of each cell, x fastest: first entry of `lists`, number of points; 0: no surface
-  /// For each range a header, halves of how far its eight corners look [m], x fastest; then its points as
-  /// pack_surface_entry makes them.
-  std::vector<uvec4> lists;
+  std::vector<uvec2> ranges;  ///< of each cell, x fastest: first of `lists`, number of points; 0: no surface
+  std::vector<uvec4> lists;   ///< of each cell its points, as pack_surface_entry makes them
 
   bool empty() const { return lists.empty(); }
 };
