@@ -66,8 +66,8 @@ void add_transport_options(const Command& surfels, BakeOptions& options, BakeUse
           .range(8, 1 << 16),
       surfels
           .option("--surfel-size", params.surfel_size,
-                  "Edge of a surfel [m]; 0: a thirty-second of the scene's radius, at most 0.5 where probes "
-                  "are near each other, and more far from "
+                  "Edge of a surfel [m]; 0: a thirty-second of the scene's radius, at most 0.5 and a quarter "
+                  "of the probes' distance, and more far from "
                   "probes where that would make too many")
           .non_negative(),
       surfels

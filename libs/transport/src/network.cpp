@@ -31,11 +31,12 @@ TransportParams checked(const rays::TransportSource& source, std::span<const vec
   require(params.surfels_per_radius > 0 && std::isfinite(params.surfels_per_radius), "surfels per radius",
           "it must be a number over 0");
   if (params.surfel_size == 0) {
-    // No finer than the probes could tell, nor than SurfelSet can number.
+    // As fine as the probes stand dense, but no finer than they could tell, nor than SurfelSet can number.
     const scene::Bounds bounds = source.part_bounds(0);
     const float apart =
         positions.size() > 1 ? probes::median_spacing({positions.begin(), positions.end()}) : 0;
-    const float most = std::max({0.5f, apart / 16, max_component(bounds.max - bounds.min) / 30000});
+    const float dense = positions.size() > 1 ? std::min(0.5f, apart / 4) : 0.5f;
+    const float most = std::max({dense, apart / 16, max_component(bounds.max - bounds.min) / 30000});
     params.surfel_size = std::min(bounds.radius() / params.surfels_per_radius, most);
   }
   return params;

@@ -166,7 +166,14 @@ std::size_t SurfaceGather::bytes() const {
 std::vector<rays::SurfacePoint> record_points(const TransportNetwork& network, int most) {
   const std::vector<rays::SurfacePoint> all = surfel_points(network);
   if (all.empty()) return all;
-  std::vector<rays::SurfacePoint> points = spread_points(all, most);
+  // As surfels do, records stand farther apart where probes are far
+  const auto spread = [&](std::span<const rays::SurfacePoint> points, int count) {
+    std::vector<int> levels;
+    for (const rays::SurfacePoint& point : points)
+      levels.push_back(network.surfels().level(0, point.position));
+    return spread_points(points, count, levels);
+  };
+  std::vector<rays::SurfacePoint> points = spread(all, most);
   if (points.size() == all.size()) return points;
   const rays::TransportSource& source = network.data_->source;
   const probes::SurfaceInterpolation known(points, [&](const vec3& a, const vec3& b) {
@@ -187,7 +194,7 @@ std::vector<rays::SurfacePoint> record_points(const TransportNetwork& network, i
   if (unlit.empty()) return points;
   const int left = static_cast<int>(std::min(points.size(), most_records - points.size()));
   if (left < 1) return points;
-  std::ranges::copy(spread_points(unlit, left), std::back_inserter(points));
+  std::ranges::copy(spread(unlit, left), std::back_inserter(points));
   return points;
 }
 

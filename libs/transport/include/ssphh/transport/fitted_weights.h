@@ -63,7 +63,9 @@ std::vector<double> fit_non_negative(std::span<const double> rows, std::span<con
 std::vector<rays::SurfacePoint> surfel_points(const TransportNetwork& network, int per_surfel = 1);
 
 /// At most `count` of the points, spread evenly over place and the six directions that normals face, in their
-/// order; all, if there are no more. Throws Error for a count under 1.
-std::vector<rays::SurfacePoint> spread_points(std::span<const rays::SurfacePoint> points, int count);
+/// order; all, if there are no more. Where `levels` are given, those of level k stand 2ᵏ times as far apart
+/// as those of level 0. Throws Error for a count under 1, and where not every point has its level.
+std::vector<rays::SurfacePoint> spread_points(std::span<const rays::SurfacePoint> points, int count,
+                                              std::span<const int> levels = {});
 
 }  // namespace ssphh::transport
