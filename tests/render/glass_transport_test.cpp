@@ -79,6 +79,25 @@ TEST(GlassTransport, BouncesThroughAGreyPaneAreDimmedAsPathsAre) {
   expect_as_traced(divided_room(vec3(0.5f)), 0.03f);
 }
 
+TEST(GlassTransport, RecordsBehindAPaneAreDimmedAsPathsAre) {
+  const scene::Scene scene = divided_room(vec3(0.5f));
+  const trace::TransportScene source(scene);
+  bake::TransportBakeReport report;
+  bake::TransportBakeParams params;
+  params.transport.surfel_size = 0.2f;
+  params.records = {.points = 60, .rays = 1024};
+  const probes::ProbeSet set = bake::bake_transport(source, place::init_from_scene(scene, 2), params, report);
+  const auto truth = trace::PathTracer(scene).surface_irradiance(
+      set.surface->points, {.max_depth = 40, .passes = 1, .spp = 256, .seed = 3}, {});
+  vec3 found(0), expected(0);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (set.surface->points[i].position.x < 0.2f) continue;
+    found += vec3(set.surface->light[i][3]), expected += truth[i].indirect;
+  }
+  // Undimmed, what comes through the pane alone would be twice as much
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c] / expected[c], 1, 0.05f) << c;
+}
+
 // A frosted pane spreads light, which transport lets go straight on: as much of it, differently divided. What
 // is lost is the pane's own glow, lamp light that it throws toward the probe: a quarter here.
 TEST(GlassTransport, ARoughPaneLetsAsMuchLightPass) {

@@ -143,8 +143,8 @@ TEST_F(Limits, EveryVariantOfAShaderIsAProgramOfItsOwn) {
   std::size_t asked = 0;
   const auto ask = [&](const gl::Program& program) { programs.insert(&program), ++asked; };
   const auto ask_all = [&] {
-    for (int textures = 0; textures < 16; ++textures) ask(shaders.geometry(textures));
     for (const bool on : {false, true}) {
+      for (int textures = 0; textures < 16; ++textures) ask(shaders.geometry(textures, on));
       ask(shaders.shadow(on)), ask(shaders.depth_bounds(on)), ask(shaders.agree(on));
       ask(shaders.interpolate(on));
       for (int k = 0; k < emitter_kinds; ++k)

@@ -99,10 +99,12 @@ SurfaceGather::Row SurfaceGather::trace_point(std::uint32_t p, const HemisphereP
     std::int32_t surfel = no_surfel;
     if (!hits[i].escaped())
       surfel = d.find_static({rays[i].origin + hits[i].distance * rays[i].direction, hits[i].normal});
-    const Link link{static_cast<std::uint32_t>(std::max(surfel, 0)), weights[i],
-                    weights[i] * (slope_of(rays[i], point.normal) - mean)};
+    // As of the surfels' links, glass takes the mean of its channels
+    const float weight = weights[i] * (hits[i].through.x + hits[i].through.y + hits[i].through.z) / 3;
+    const Link link{static_cast<std::uint32_t>(std::max(surfel, 0)), weight,
+                    weight * (slope_of(rays[i], point.normal) - mean)};
     if (d.near_parts(rays[i], hits[i].normal, surfel)) {
-      row.moving.push_back({rays[i], hits[i].normal, surfel, link, weights[i], p});
+      row.moving.push_back({rays[i], hits[i].normal, surfel, link, weight, p});
     } else if (surfel != no_surfel) {
       all.push_back(link);
     }
