@@ -82,5 +82,18 @@ TEST(Respond, TellsHowFastAMethodFollows) {
   expect_failure({"respond", "builtin:two-rooms", "--event", "lamp.pos=1:2"}, {"lamp"});
 }
 
+TEST(Methods, DefaultsLightAStreetWhateverItsUnit) {
+  // Houses 2 mm high on a plain a hundred times as wide: once 1.6 times too bright
+  const json::Value found = run_json({"measure", "builtin:random?seed=4", "--method", "ssphh,records=3000",
+                                      "--views", "--points", "32", "--truth-spp", "256"});
+  for (const char* view : {"view street", "view middle"}) {
+    const json::Value errors = found["results"][0]["regions"][view];
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_NEAR(errors["ratio"][c].number(), 1, 0.08) << view << ", channel " << c;
+      EXPECT_LT(errors["mean_error"][c].number(), 0.2) << view << ", channel " << c;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ssphh

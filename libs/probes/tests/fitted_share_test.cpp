@@ -88,7 +88,7 @@ TEST(FittedShare, IsOfEachPointsOwnSpacing) {
       points.add({0.2f * static_cast<float>(x) + 0.25f, 0.2f * static_cast<float>(y), 0}, 1);
   }
   EXPECT_GT(points.spacing(9 * 2 + 4), 4 * points.spacing(36 + 21 * 5 + 10));
-  // Even-handed, as neither the sparse side's distance nor the dense side's number rules
+  // Neither the sparse side's distance nor the dense side's number rules: by one spacing for all, it was 1
   EXPECT_NEAR(points.share(), 0.5f, 0.45f);
 }
 

@@ -56,6 +56,22 @@ TEST(SpreadPoints, LeaveNoPlaceFarFromOneThatFacesTheSameWay) {
   }
 }
 
+TEST(SpreadPoints, OfALevelStandTwiceAsFarApartAsOfTheOneBelow) {
+  // A floor of 8 m × 8 m, its halves of levels 0 and 2: sixteen times as many points in the first
+  Pcg32 random(5);
+  std::vector<rays::SurfacePoint> points;
+  std::vector<int> levels;
+  for (int i = 0; i < 20000; ++i) {
+    points.push_back({{8 * random.uniform(), 0, 8 * random.uniform()}, {0, 1, 0}});
+    levels.push_back(points.back().position.x < 4 ? 0 : 2);
+  }
+  int fine = 0, coarse = 0;
+  for (const rays::SurfacePoint& p : spread_points(points, 1100, levels))
+    ++(p.position.x < 4 ? fine : coarse);
+  EXPECT_NEAR(static_cast<double>(fine) / coarse, 16, 4) << "cells at the edges are cut";
+  EXPECT_THROW(spread_points(points, 1100, std::span(levels).first(3)), Error);
+}
+
 TEST(SpreadPoints, KeepOneForEachOfSixSides) {
   // Two points of each side in the same place, the normals a little aslant.
   std::vector<rays::SurfacePoint> points;
