@@ -8,6 +8,7 @@
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/stopwatch.h>
+#include <ssphh/study/converged_truth.h>
 #include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
@@ -47,7 +48,7 @@ std::vector<MeasuredRegion> views_of(const MeasureOptions& o, const scene::Scene
     const float aspect = camera.camera.aspect.value_or(16.0f / 9);
     std::vector<rays::SurfacePoint> points =
         study::points_in_view(surfaces, camera, aspect, o.scene.time, o.points, o.seed);
-    if (!points.empty()) views.push_back({"view " + camera.camera.name, std::move(points), {}});
+    if (!points.empty()) views.push_back({"view " + camera.camera.name, std::move(points), {}, 0});
   }
   return views;
 }
@@ -166,7 +167,7 @@ MeasuredLight measured(const Candidate& candidate, const MeasureResult& at,
   result.leak_ratio = study::leak_ratio(looked_up, at.truth);
   for (const MeasuredRegion& region : at.regions) {
     const std::vector<vec3> there = study::look_up(*candidate.light, region.points, control);
-    result.regions.push_back({region.name, study::lookup_error(there, region.truth),
+    result.regions.push_back({region.name, region.spp, study::lookup_error(there, region.truth),
                               unseen_by(candidate, surfaces, region.points, time)});
   }
   if (candidate.live) result.frame_ms = frame_milliseconds(*candidate.live, time, control);
@@ -189,6 +190,7 @@ json::Value light_json(const MeasuredLight& light) {
   json::Value& regions = object["regions"] = json::Value::object();
   for (const RegionError& region : light.regions) {
     json::Value& part = regions[region.name] = to_json(region.error);
+    part["truth_spp"] = region.spp;
     if (region.unseen) part["unseen"] = *region.unseen;
   }
   return object;
@@ -226,16 +228,21 @@ MeasureResult run_measure(const MeasureOptions& o, const Control& control) {
   result.points = find_points(o, o.box, surfaces, origins, control);
   std::vector<MeasuredRegion> boxes;
   for (const NamedBox& named : o.regions)
-    boxes.push_back({named.name, find_points(o, named.box, surfaces, origins, control), {}});
+    boxes.push_back({named.name, find_points(o, named.box, surfaces, origins, control), {}, 0});
   if (o.views) {
     for (MeasuredRegion& view : views_of(o, scene, geometry, surfaces)) boxes.push_back(std::move(view));
   }
   study::LeakParams params = o.params;
   params.path.seed = o.seed;
+  params.noise = params.path.spp > 0 ? 0 : usual_noise;
+  if (params.path.spp == 0) params.path.spp = 512;
   result.truth = study::trace_truth(tracer, result.points, params, control);
-  result.regions = inside_and_outside(surfaces, result.points, result.truth.estimates, o.scene.time);
+  result.regions = inside_and_outside(surfaces, result.points, result.truth, o.scene.time);
   for (MeasuredRegion& region : boxes) {
-    region.truth = tracer.surface_irradiance(region.points, params.path, control);
+    study::ConvergedTruth truth =
+        study::converged_truth(tracer, region.points, params.path, params.noise, control);
+    region.truth = std::move(truth.estimates);
+    region.spp = truth.spp;
     result.regions.push_back(std::move(region));
   }
 
@@ -249,20 +256,20 @@ MeasureResult run_measure(const MeasureOptions& o, const Control& control) {
   return result;
 }
 
-json::Value to_json(const MeasureResult& result, const MeasureOptions& options) {
+json::Value to_json(const MeasureResult& result, const MeasureOptions&) {
   json::Value lights = json::Value::array();
   for (const MeasuredLight& light : result.lights) lights.push_back(light_json(light));
   return {{"points", result.points.size()},  {"dark_points", result.truth.dark},
-          {"mean_truth", result.truth.mean}, {"truth_spp", options.params.path.spp},
+          {"mean_truth", result.truth.mean}, {"truth_spp", result.truth.spp},
           {"noise", noise_of(result)},       {"geometry_builds", result.geometry_builds},
           {"results", std::move(lights)}};
 }
 
-std::string to_text(const MeasureResult& result, const MeasureOptions& options) {
+std::string to_text(const MeasureResult& result, const MeasureOptions&) {
   std::string text = fmt::format(
       "{} points of {} paths, {} of them dark; mean {:.5g} W/m2\n"
       "{:<24}{:<11}{:>7}{:>7}{:>7}{:>9}{:>9}{:>10}{:>9}{:>9}{:>9}{:>9}",
-      result.points.size(), options.params.path.spp, result.truth.dark, result.truth.mean, "light", "weights",
+      result.points.size(), result.truth.spp, result.truth.dark, result.truth.mean, "light", "weights",
       "ratio R", "G", "B", "error", "95 %", "relMSE", "colour", "leak", "unseen", "lookup");
   for (const MeasuredLight& light : result.lights) {
     text += fmt::format("\n{:<24}{:<11}{}{:>7.2f} %{}{:>6.3g} us", light.name,
@@ -330,7 +337,9 @@ void add_measure_command(Command app, Context& context) {
                "In the open instead of on surfaces, facing anywhere: where things that move would be");
   add_force_option(command, o.force);
 
-  add_truth_path_options(command.under("Truth"), o.params.path.spp, o.params.path.max_depth);
+  add_truth_path_options(command.under("Truth"), o.params.path.spp, o.params.path.max_depth)
+      .shown_default(fmt::format("512, and twice as many until their mean noise is {:g} %, {} at most",
+                                 100 * usual_noise, study::most_truth_spp));
   command.footer(
       "Indirect irradiance per channel. Error: mean of |looked up - true| / true, the truth's own noise "
       "taken off;\n"

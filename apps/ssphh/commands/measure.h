@@ -18,6 +18,9 @@
 
 namespace ssphh::app {
 
+/// Mean relative noise of a truth that is held against lookups, where nobody asks for a number of paths.
+inline constexpr double usual_noise = 0.03;
+
 struct MeasureOptions {
   SceneOptions scene;
   std::vector<std::string> probes;  ///< probe files
@@ -32,13 +35,15 @@ struct MeasureOptions {
   bool force = false;                ///< go on, with a warning, where probes are of another scene or pose
   int points = 1024;                 ///< surface points, over 0
   std::uint64_t seed = 0;            ///< of points and paths
-  /// Of the truth; its seed is not read.
-  study::LeakParams params{.path = {.max_depth = 25, .passes = 1, .spp = 1024, .seed = 0}};
+  /// Of the truth. Seed and noise are not read: 0 paths a point stand for 512, and more until their noise is
+  /// usual_noise.
+  study::LeakParams params{.path = {.max_depth = 25, .passes = 1, .spp = 0, .seed = 0}};
 };
 
 /// The error at the points of one region.
 struct RegionError {
   std::string name;
+  int spp = 0;  ///< paths of each point's truth
   study::LookupError error;
   std::optional<double>
       unseen;  ///< share of the points that see none of the probes near them; of a probe file
@@ -71,7 +76,7 @@ struct MeasureResult {
 /// study::reachable_points and study::trace_truth do; Cancelled when asked to stop.
 MeasureResult run_measure(const MeasureOptions& options, const Control& control = {});
 
-json::Value to_json(const MeasureResult& result, const MeasureOptions& options);
-std::string to_text(const MeasureResult& result, const MeasureOptions& options);
+json::Value to_json(const MeasureResult& result, const MeasureOptions&);
+std::string to_text(const MeasureResult& result, const MeasureOptions&);
 
 }  // namespace ssphh::app

@@ -32,14 +32,13 @@ void require_different_names(const std::vector<NamedBox>& boxes) {
 
 std::vector<MeasuredRegion> inside_and_outside(const rays::TransportSource& source,
                                                const std::vector<rays::SurfacePoint>& points,
-                                               const std::vector<rays::IrradianceEstimate>& truth,
-                                               float time) {
+                                               const study::TruthAtPoints& truth, float time) {
   const std::vector<std::uint8_t> is_inside = study::inside(source, points, time);
-  std::vector<MeasuredRegion> regions = {{"inside", {}, {}}, {"outside", {}, {}}};
+  std::vector<MeasuredRegion> regions = {{"inside", {}, {}, truth.spp}, {"outside", {}, {}, truth.spp}};
   for (std::size_t i = 0; i < points.size(); ++i) {
     MeasuredRegion& region = regions[is_inside[i] ? 0 : 1];
     region.points.push_back(points[i]);
-    region.truth.push_back(truth[i]);
+    region.truth.push_back(truth.estimates[i]);
   }
   std::erase_if(regions, [](const MeasuredRegion& region) { return region.points.empty(); });
   return regions;

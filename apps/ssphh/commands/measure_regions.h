@@ -6,6 +6,7 @@
 
 #include <ssphh/rays/radiance_source.h>
 #include <ssphh/scene/query.h>
+#include <ssphh/study/leak.h>
 
 namespace ssphh::app {
 
@@ -25,12 +26,12 @@ struct MeasuredRegion {
   std::string name;
   std::vector<rays::SurfacePoint> points;       ///< not empty
   std::vector<rays::IrradianceEstimate> truth;  ///< at these
+  int spp = 0;                                  ///< paths that each got
 };
 
 /// `inside` and `outside` (study::inside), those of them that hold any of the points.
 std::vector<MeasuredRegion> inside_and_outside(const rays::TransportSource& source,
                                                const std::vector<rays::SurfacePoint>& points,
-                                               const std::vector<rays::IrradianceEstimate>& truth,
-                                               float time);
+                                               const study::TruthAtPoints& truth, float time);
 
 }  // namespace ssphh::app

@@ -120,9 +120,10 @@ Option add_layer_option(Command command, probes::ProbeLayer& layer) {
                         {"sum", "self"});
 }
 
-void add_truth_path_options(const Command& command, int& spp, int& max_depth) {
-  command.option("--truth-spp", spp, "Paths per point").range(2, 1 << 22);
+Option add_truth_path_options(const Command& command, int& spp, int& max_depth) {
+  const Option paths = command.option("--truth-spp", spp, "Paths per point").range(2, 1 << 22);
   command.option("--max-depth", max_depth, "Scattering events of a path").range(2, 1000);
+  return paths;
 }
 
 probes::LookupParams lookup_params(const std::string& file, const probes::ProbeSet& set,

@@ -45,8 +45,8 @@ Option add_lookup_option(Command command, probes::LookupMethod& method);
 Option add_weights_option(Command command, std::optional<probes::WeightMethod>& weights);
 Option add_layer_option(Command command, probes::ProbeLayer& layer);
 
-/// --truth-spp and --max-depth of paths that tell what light there really is.
-void add_truth_path_options(const Command& command, int& spp, int& max_depth);
+/// --truth-spp, which is returned, and --max-depth of paths that tell what light there really is.
+Option add_truth_path_options(const Command& command, int& spp, int& max_depth);
 
 /// What the choice means for the set in `file`. Throws Error for `fitted` and `surface` with a set that
 /// has none.

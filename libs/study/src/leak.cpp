@@ -4,6 +4,7 @@
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/random.h>
+#include <ssphh/study/converged_truth.h>
 #include <ssphh/study/leak.h>
 
 #include "truth_luminance.h"
@@ -28,13 +29,9 @@ TruthAtPoints trace_truth(const rays::RadianceSource& source, std::span<const ra
                           const LeakParams& params, const Control& control) {
   check(points, params);
   TruthAtPoints truth;
-  const auto trace = [&](std::span<const rays::SurfacePoint> at, const rays::PathParams& path) {
-    auto estimates = source.surface_irradiance(at, path, control);
-    require(estimates.size() == at.size(), "radiance source",
-            "it answers with not one estimate for each point");
-    return estimates;
-  };
-  truth.estimates = trace(points, params.path);
+  ConvergedTruth traced = converged_truth(source, points, params.path, params.noise, control);
+  truth.estimates = std::move(traced.estimates);
+  truth.spp = traced.spp;
   double sum = 0, deviations = 0;
   for (const rays::IrradianceEstimate& estimate : truth.estimates) {
     sum += true_luminance(estimate);
@@ -61,7 +58,7 @@ TruthAtPoints trace_truth(const rays::RadianceSource& source, std::span<const ra
   rays::PathParams again = params.path;
   again.spp *= 4;
   again.seed = mix64(again.seed);
-  const auto second = trace(suspects, again);
+  const auto second = converged_truth(source, suspects, again, 0, control).estimates;
   for (std::size_t s = 0; s < suspects.size(); ++s) {
     if (!is_dark(second[s])) continue;
     truth.dark_at[of[s]] = 1;

@@ -17,6 +17,8 @@ struct LeakParams {
   /// Of the truth. The points found dark are traced again, with four times the samples and other paths, and
   /// must stay dark: rare bright paths make light points look dark, and their variance with them.
   rays::PathParams path{.max_depth = 25, .passes = 1, .spp = 256, .seed = 0};
+  double noise =
+      0;           ///< that more paths are to bring the truth to, as converged_truth has it; 0: `path` alone
   float mean = 0;  ///< that dark_share refers to [W/m²]; 0: the mean over the points
 };
 
@@ -36,6 +38,7 @@ struct TruthAtPoints {
   std::vector<rays::IrradianceEstimate> estimates;
   std::vector<std::uint8_t> dark_at;  ///< 1 at dark points
   std::size_t dark = 0;
+  int spp = 0;       ///< paths that each point got
   double mean = 0;   ///< indirect Rec.709 luminance [W/m²]
   double noise = 0;  ///< Σ standard deviations / Σ truth
 };
