@@ -9,6 +9,7 @@
 #include <ssphh/study/lookup_error.h>
 #include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
+#include <ssphh/transport/fitted_weights.h>
 #include <ssphh/transport/gather_light.h>
 #include <ssphh/transport/session_sets.h>
 
@@ -18,6 +19,10 @@ namespace ssphh::test {
 namespace {
 
 using transport::SurfaceGather;
+
+std::vector<rays::SurfacePoint> spread_places(const transport::TransportNetwork& network, int most) {
+  return transport::spread_points(transport::surfel_points(network), most);
+}
 
 TEST(SurfaceRecords, AreAllAlikeWhereAllWallsAreAsBright) {
   // E = π ρ/(1 − ρ), whichever way a surface faces.
@@ -50,7 +55,7 @@ struct Room {
 TEST(SurfaceRecords, HoldWhatCosineRaysMeetOfTheSurfels) {
   Room room;
   const transport::TransportNetwork& network = room.session.network();
-  const std::vector<rays::SurfacePoint> points = transport::record_points(network, 60);
+  const std::vector<rays::SurfacePoint> points = spread_places(network, 60);
   constexpr int rays = 4096;
   const SurfaceGather gather(network, points, rays, room.session.direct_by_group());
   std::vector<transport::Irradiance4> total = room.session.surfel_direct();
@@ -87,7 +92,7 @@ TEST(SurfaceRecords, GuidedRaysFindAPatchOfLightThatEvenOnesMeetByChance) {
   // All light comes from a few surfels; the guide may know it, know nothing, or be told of another place.
   Room room;
   const transport::TransportNetwork& network = room.session.network();
-  const std::vector<rays::SurfacePoint> points = transport::record_points(network, 60);
+  const std::vector<rays::SurfacePoint> points = spread_places(network, 60);
   const auto patch = [&](std::size_t first) {
     std::vector<transport::Irradiance4> irradiance(network.surfel_count(), vec4(0));
     for (std::size_t s = first; s < first + 3; ++s) irradiance[s] = vec4(1);
@@ -108,32 +113,6 @@ TEST(SurfaceRecords, GuidedRaysFindAPatchOfLightThatEvenOnesMeetByChance) {
   EXPECT_LT(relative_error(light(1 << 14, wrong), truth), 0.5 * even) << "and it converges";
 }
 
-TEST(SurfaceRecords, StandWhereverASurfelWouldSeeNone) {
-  const scene::Scene scene = scene::make_builtin("gallery1");
-  const trace::TransportScene source(scene);
-  const transport::TransportNetwork network(source, positions_of(places_of(scene)), small_network());
-  const std::vector<rays::SurfacePoint> all = transport::surfel_points(network);
-  constexpr int most = 150;
-  const std::vector<rays::SurfacePoint> spread = transport::spread_points(all, most);
-  const std::vector<rays::SurfacePoint> points = transport::record_points(network, most);
-  ASSERT_GT(points.size(), spread.size());
-  EXPECT_LE(points.size(), 2 * spread.size());
-  for (std::size_t i = 0; i < spread.size(); ++i) EXPECT_EQ(points[i].position, spread[i].position);
-  const rays::PosedWorld world(source, 0);
-  const auto unlit = [&](const std::vector<rays::SurfacePoint>& records) {
-    const probes::SurfaceInterpolation known(
-        records, [&](const vec3& a, const vec3& b) { return world.visible(a, b); });
-    std::size_t count = 0;
-    for (const rays::SurfacePoint& p : all) {
-      probes::SurfaceShares shares;
-      count += known.at(p, shares).empty();
-    }
-    return count;
-  };
-  ASSERT_GT(unlit(spread), all.size() / 20) << "so few see all: nothing is tested";
-  EXPECT_LT(unlit(points), unlit(spread) / 2);
-}
-
 TEST(SurfaceRecords, GatheredLightIsThatOfRecordsAtTheirPlaces) {
   Room room;
   class Glossy final : public rays::IndirectLight {
@@ -145,7 +124,7 @@ TEST(SurfaceRecords, GatheredLightIsThatOfRecordsAtTheirPlaces) {
   };
   const auto glossy = std::make_shared<const Glossy>();
   const transport::GatherLight light(room.session, 4096, glossy);
-  const std::vector<rays::SurfacePoint> points = transport::record_points(room.session.network(), 40);
+  const std::vector<rays::SurfacePoint> points = spread_places(room.session.network(), 40);
   std::vector<transport::Irradiance4> total = room.session.surfel_direct();
   for (std::size_t s = 0; s < total.size(); ++s) total[s] += room.session.surfel_irradiance()[s];
   std::vector<probes::RecordLight> records;
@@ -167,7 +146,7 @@ TEST(SurfaceRecords, TurnAsTheLightAroundThemSays) {
   // The record's derivative against gathers at normals that are turned a little.
   Room room;
   const transport::TransportNetwork& network = room.session.network();
-  const std::vector<rays::SurfacePoint> all = transport::record_points(network, 400);
+  const std::vector<rays::SurfacePoint> all = spread_places(network, 400);
   // In the middle of the walls nothing but the other walls is near
   std::vector<rays::SurfacePoint> points, turned[2];
   for (const rays::SurfacePoint& p : all) {
@@ -206,7 +185,7 @@ TEST(SurfaceRecords, FollowADoorToTheBitsOfAGatherMadeThere) {
   const trace::TransportScene source(scene);
   const std::vector<vec3> places = positions_of(places_of(scene));
   transport::TransportNetwork network(source, places, small_network());
-  const std::vector<rays::SurfacePoint> points = transport::record_points(network, 200);
+  const std::vector<rays::SurfacePoint> points = spread_places(network, 200);
   const float time = 0.7f * source.duration();
   SurfaceGather moved(network, points, 48);
   std::vector<transport::Irradiance4> irradiance(network.surfel_count());
@@ -275,7 +254,7 @@ TEST(SurfaceRecords, OfABakeAreNearerToPathTracingThanProbesAre) {
   bake::TransportBakeReport report;
   probes::ProbeSet set = bake::bake_transport(source, place::init_from_scene(scene, 4), params, report);
   ASSERT_TRUE(set.surface);
-  EXPECT_GT(set.surface->points.size(), 1500u);
+  EXPECT_GT(set.surface->points.size(), 900u);
   const trace::PathTracer tracer(scene);
   const std::vector<rays::SurfacePoint> points =
       study::reachable_points(source, positions_of(places_of(scene)), 0, {200, 5});

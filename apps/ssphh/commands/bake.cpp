@@ -76,9 +76,10 @@ void add_transport_options(const Command& surfels, BakeOptions& options, BakeUse
           .range(4, 1 << 16)};
   surfels
       .option("--records", options.records,
-              "Also keep the light of so many surface points, spread evenly, and of as many again where "
-              "those are "
-              "not seen, for --weights surface; 0: none. Default: 8192 with --operator surfel, else none")
+              fmt::format("Also keep the light of so many surface points at most, dense where it asks for "
+                          "it, and of as many again where those are not seen, for --weights surface; 0: "
+                          "none. Default: {} with --operator surfel, else none",
+                          transport::usual_records))
       .range(0, 1 << 16);
   surfels.flag("--fit", options.transport.fit,
                "Also fit lookup weights at the surfels and store them with the probes");

@@ -65,7 +65,7 @@ TEST(MethodDefaults, OfWhatPlacesProbes) {
   EXPECT_THAT(declared("ssphh"),
               ElementsAre("places 0i 0..1 auto scene", "spacing 0 0..10000", "probes 0i 0..4096",
                           "degree 4i 0..10", "weights 4i 0..5 distance trilinear mls fitted surface gather",
-                          "records 8192i 1..65536", "fit_poses 3i 1..64", "fit_points 0i 0..262144",
+                          "records 16384i 1..65536", "fit_poses 3i 1..64", "fit_points 0i 0..262144",
                           "surfel_size 0 0..1000", "directions 384i 16..65536", "warm_start 1i 0..1"));
   EXPECT_THAT(declared("irradiance-volume"),
               ElementsAre("places 0i 0..2 auto scene grid", "spacing 0 0..10000", "probes 0i 0..4096",

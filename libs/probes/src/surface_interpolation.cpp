@@ -113,8 +113,8 @@ SurfaceInterpolation::SurfaceInterpolation(std::span<const rays::SurfacePoint> p
   });
 }
 
-std::span<const SurfaceShare> SurfaceInterpolation::at(const rays::SurfacePoint& at,
-                                                       SurfaceShares& shares) const {
+std::span<const SurfaceShare> SurfaceInterpolation::at(const rays::SurfacePoint& at, SurfaceShares& shares,
+                                                       std::uint32_t without) const {
   if (at.moves) return {};
   const vec3 &x = at.position, &n = at.normal;
   // Those that count most, sorted
@@ -123,6 +123,7 @@ std::span<const SurfaceShare> SurfaceInterpolation::at(const rays::SurfacePoint&
     return a.weight > b.weight || (a.weight == b.weight && a.point < b.point);
   };
   reach_.visit(x, [&](std::uint32_t p, float distance2) {
+    if (p == without) return;
     const Point& point = points_[p];
     const float spacing = point.spacing, cosine = glm::dot(vec3(point.normal), n) / 32767.0f;
     const float by_surface = share_by_surface(point.position - x, cosine, n, spacing);

@@ -134,8 +134,23 @@ struct RelightSession::Data {
     if (params.records.points < 0)
       throw Error("surface records", fmt::format("{} is no number of points", params.records.points));
     update_direct({});
-    gather = std::make_unique<SurfaceGather>(network, record_points(network, params.records.points),
-                                             params.records.rays, direct_by_group(), control);
+    const std::vector<std::vector<Irradiance4>> by_group = direct_by_group();
+    SolveReport report;
+    const std::vector<Irradiance4> lit = lit_under(each_alike(by_group), report);
+    gather = gather_where_needed(network, params.records, by_group, lit, control);
+  }
+
+  /// The sum of the groups' direct light, each as bright as another.
+  std::vector<Irradiance4> each_alike(std::span<const std::vector<Irradiance4>> by_group) const {
+    std::vector<Irradiance4> sum(network.surfel_count(), Irradiance4(0));
+    for (const std::vector<Irradiance4>& group : by_group) {
+      double all = 0;
+      for (const Irradiance4& e : group) all += static_cast<double>(luminance(vec3(e)));
+      if (!(all > 0)) continue;
+      const auto scale = static_cast<float>(static_cast<double>(group.size()) / all);
+      for (std::size_t s = 0; s < sum.size(); ++s) sum[s] += scale * group[s];
+    }
+    return sum;
   }
 
   /// Direct irradiance at each surfel per group, unscaled.

@@ -5,8 +5,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
-#include <ssphh/probes/surface_interpolation.h>
-#include <ssphh/transport/fitted_weights.h>
+#include <ssphh/core/require.h>
 #include <ssphh/transport/surface_gather.h>
 
 #include "gather_guide.h"
@@ -16,7 +15,6 @@ namespace {
 
 /// Slopes of rays that graze are taken as of this cosine: the few that do would rule the derivative's noise.
 constexpr float least_slope_cosine = 0.1f;
-constexpr std::size_t most_records = std::size_t{1} << 16;
 
 vec2 slope_of(const rays::RayQuery& ray, const vec3& normal) {
   const vec3 local = Frame::around(normal).to_local(ray.direction);
@@ -45,9 +43,26 @@ SurfaceGather::SurfaceGather(const TransportNetwork& network, std::vector<rays::
     moving_.insert(moving_.end(), row.moving.begin(), row.moving.end());
     first_.push_back(links_.size());
     first_moving_.push_back(moving_.size());
+    openness_.push_back(row.openness);
     row = {};
   }
   update_pose();
+}
+
+void SurfaceGather::append(SurfaceGather&& other) {
+  require(other.network_ == network_, "surface gather", "the other is of another network");
+  if (points_.size() + other.points_.size() > most_records)
+    throw Error("surface records", fmt::format("{} points, at most {} can be kept",
+                                               points_.size() + other.points_.size(), most_records));
+  for (Moving& m : other.moving_) m.point += static_cast<std::uint32_t>(points_.size());
+  for (std::size_t i = 1; i < other.first_.size(); ++i) {
+    first_.push_back(links_.size() + other.first_[i]);
+    first_moving_.push_back(moving_.size() + other.first_moving_[i]);
+  }
+  std::ranges::move(other.links_, std::back_inserter(links_));
+  std::ranges::move(other.moving_, std::back_inserter(moving_));
+  std::ranges::move(other.points_, std::back_inserter(points_));
+  std::ranges::move(other.openness_, std::back_inserter(openness_));
 }
 
 void SurfaceGather::trace(std::uint32_t rays, std::span<const std::vector<Irradiance4>> direct, Rows& rows,
@@ -93,6 +108,9 @@ SurfaceGather::Row SurfaceGather::trace_point(std::uint32_t p, const HemisphereP
   vec2 mean(0);
   for (std::size_t i = 0; i < rays.size(); ++i) mean += weights[i] * slope_of(rays[i], point.normal);
   Row row;
+  float nearness = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) nearness += weights[i] / std::max(hits[i].distance, 1e-30f);
+  row.openness = 1 / nearness;
   std::vector<Link> all;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     rays[i].t_max = hits[i].distance;
@@ -163,41 +181,6 @@ void SurfaceGather::light(std::span<const Irradiance4> irradiance,
 std::size_t SurfaceGather::bytes() const {
   return points_.size() * sizeof(points_[0]) + links_.size() * sizeof(Link) +
          moving_.size() * sizeof(Moving) + (first_.size() + first_moving_.size()) * sizeof(std::size_t);
-}
-
-std::vector<rays::SurfacePoint> record_points(const TransportNetwork& network, int most) {
-  const std::vector<rays::SurfacePoint> all = surfel_points(network);
-  if (all.empty()) return all;
-  // As surfels do, records stand farther apart where probes are far
-  const auto spread = [&](std::span<const rays::SurfacePoint> points, int count) {
-    std::vector<int> levels;
-    for (const rays::SurfacePoint& point : points)
-      levels.push_back(network.surfels().level(0, point.position));
-    return spread_points(points, count, levels);
-  };
-  std::vector<rays::SurfacePoint> points = spread(all, most);
-  if (points.size() == all.size()) return points;
-  const rays::TransportSource& source = network.data_->source;
-  const probes::SurfaceInterpolation known(points, [&](const vec3& a, const vec3& b) {
-    const rays::RayQuery way{a, b - a, 1};
-    std::uint8_t hit = 0;
-    source.occluded(0, {&way, 1}, {&hit, 1});
-    return !hit;
-  });
-  std::vector<std::uint8_t> lit(all.size());
-  parallel_for(all.size(), 64, [&](std::size_t i) {
-    probes::SurfaceShares shares;
-    lit[i] = !known.at(all[i], shares).empty();
-  });
-  std::vector<rays::SurfacePoint> unlit;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!lit[i]) unlit.push_back(all[i]);
-  }
-  if (unlit.empty()) return points;
-  const int left = static_cast<int>(std::min(points.size(), most_records - points.size()));
-  if (left < 1) return points;
-  std::ranges::copy(spread(unlit, left), std::back_inserter(points));
-  return points;
 }
 
 }  // namespace ssphh::transport

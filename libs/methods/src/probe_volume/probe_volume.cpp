@@ -124,7 +124,7 @@ std::vector<MethodParameter> probe_volume_parameters() {
       {"probes", 0, 0, 4096, "so many are placed, places of a grid counted; 0: as the spacing gives", true},
       word_parameter("interpolation", {"tetrahedra", "trilinear"},
                      "between the probes; trilinear on a grid only"),
-      {"surfel_size", 0, 0, 1e3, "edge of a surfel [m]; 0: a twentieth of the scene's radius"},
+      {"surfel_size", 0, 0, 1e3, "edge of a surfel [m]; 0: by the scene's radius and the probes' distance"},
       {"directions", 384, 16, 65536, "rays of a probe", true}};
 }
 

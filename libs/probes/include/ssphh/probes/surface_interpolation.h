@@ -17,6 +17,7 @@ namespace ssphh::probes {
 
 /// A lookup between points takes no more of them.
 inline constexpr std::size_t most_surface_points = 24;
+inline constexpr std::uint32_t no_surface_point = ~std::uint32_t{0};
 
 /// Where each point counts at all.
 geometry::Balls surface_reach(std::span<const rays::SurfacePoint> points, std::span<const float> spacings);
@@ -55,11 +56,13 @@ class SurfaceInterpolation {
   SurfaceInterpolation(std::span<const rays::SurfacePoint> points, SeesProbe sees);
 
   /// The points that count at `at`, with a sum of 1, in `shares`; none for what moves, and where no point
-  /// reaches. What would change the sum by less than a thousandth is left out.
-  std::span<const SurfaceShare> at(const rays::SurfacePoint& at, SurfaceShares& shares) const;
+  /// reaches. What would change the sum by less than a thousandth is left out, and the point `without`.
+  std::span<const SurfaceShare> at(const rays::SurfacePoint& at, SurfaceShares& shares,
+                                   std::uint32_t without = no_surface_point) const;
   /// Whether any record lights `at`; then E of its normal, not negative. `light` is of each point.
   bool irradiance(const rays::SurfacePoint& at, std::span<const RecordLight> light, vec3& out) const;
 
+  float spacing(std::size_t point) const { return points_[point].spacing; }  ///< [m]
   std::size_t count() const { return points_.size(); }
   std::size_t bytes() const;
 

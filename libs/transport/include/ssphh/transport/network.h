@@ -138,7 +138,7 @@ class TransportNetwork {
  private:
   friend class GatherLight;
   friend class SurfaceGather;
-  friend std::vector<rays::SurfacePoint> record_points(const TransportNetwork&, int);
+  friend class RecordPlaces;
   Held<Data> data_;
 };
 

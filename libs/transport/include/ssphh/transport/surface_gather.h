@@ -2,6 +2,7 @@
 /// What points of still surfaces see of the surfels: a sparse row for each, by which surface records follow
 /// lamps and doors (docs/methods/transport.md#records).
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -11,10 +12,11 @@
 namespace ssphh::transport {
 
 /// What a room or a flat needs.
-inline constexpr int usual_records = 8192;
+inline constexpr int usual_records = 16384;
+inline constexpr std::size_t most_records = std::size_t{1} << 16;
 
 struct GatherParams {
-  int points = 0;   ///< record_points(): 1..65536; 0: none
+  int points = 0;   ///< of gather_where_needed(): 1..65536; 0: none
   int rays = 1024;  ///< per point, 4..65536
 
   friend bool operator==(const GatherParams&, const GatherParams&) = default;
@@ -40,7 +42,13 @@ class SurfaceGather {
   /// of what is bright.
   void update_pose();
 
+  /// Takes over the points of another gather of the same network, after its own.
+  void append(SurfaceGather&& other);
+
   const std::vector<rays::SurfacePoint>& points() const { return points_; }
+  /// How far surfaces are from each point: the harmonic mean over its cosine rays [m], infinite where all
+  /// escape (Ward 1988: the light of a point holds for a share of it).
+  const std::vector<float>& openness() const { return openness_; }
   /// Light of each point, when each surfel gets `irradiance`, direct and reflected.
   void light(std::span<const Irradiance4> irradiance, std::vector<probes::RecordLight>& out) const;
   std::size_t bytes() const;
@@ -65,6 +73,7 @@ class SurfaceGather {
   struct Row {
     std::vector<Link> links;
     std::vector<Moving> moving;
+    float openness;
   };
   using Rows = std::vector<Row>;
   void trace(std::uint32_t rays, std::span<const std::vector<Irradiance4>> direct, Rows& rows,
@@ -74,14 +83,23 @@ class SurfaceGather {
 
   const TransportNetwork* network_;
   std::vector<rays::SurfacePoint> points_;
+  std::vector<float> openness_;
   std::vector<Link> links_;
   std::vector<std::size_t> first_;         ///< of each point's links, and the end
   std::vector<Moving> moving_;             ///< by point
   std::vector<std::size_t> first_moving_;  ///< likewise
 };
 
-/// Places for records in the network's scene: the static surfels' points, at most so many, spread evenly;
-/// then as many again, where there are points that see none of those.
-std::vector<rays::SurfacePoint> record_points(const TransportNetwork& network, int most);
+/// Gathers at places of the network's static surfels, dense where light asks for it: at first far apart, then
+/// wherever the points that are there do not predict each other's light within a few per cent, surfaces are
+/// nearer than points, or no point is seen, between them, down to an even spread of at most params.points;
+/// then at no more than as many again where there are surfels that see none of those. `direct` as of
+/// SurfaceGather; `lit` is of each surfel by all of it, the light by which this is judged. Throws as
+/// SurfaceGather does.
+std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& network,
+                                                   const GatherParams& params,
+                                                   std::span<const std::vector<Irradiance4>> direct,
+                                                   std::span<const Irradiance4> lit,
+                                                   const Control& control = {});
 
 }  // namespace ssphh::transport

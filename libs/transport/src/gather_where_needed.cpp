@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include <ssphh/core/parallel.h>
+#include <ssphh/probes/surface_interpolation.h>
+#include <ssphh/transport/fitted_weights.h>
+#include <ssphh/transport/surface_gather.h>
+
+#include "network_data.h"
+#include "point_cells.h"
+
+namespace ssphh::transport {
+
+/// Where records may stand: at static surfels, in cubes of a grid.
+class RecordPlaces {
+ public:
+  RecordPlaces(const TransportNetwork& network, int most)
+      : source_(network.data_->source), all_(surfel_points(network)) {
+    // As surfels do, records stand farther apart where probes are far
+    for (const rays::SurfacePoint& point : all_)
+      levels_.push_back(network.surfels().level(0, point.position));
+    if (!all_.empty()) grid_ = finest_grid(all_, levels_, most);
+  }
+
+  const std::vector<rays::SurfacePoint>& all() const { return all_; }
+
+  /// Of each cube, `coarser` levels above its points' own, in which none of the chosen stands, the middle
+  /// one.
+  std::vector<std::size_t> free(int coarser) const {
+    std::set<PointCell> taken;
+    for (const std::size_t i : chosen_) taken.insert(grid_.cell(all_[i], levels_[i] + coarser));
+    std::vector<int> levels = levels_;
+    for (int& level : levels) level += coarser;
+    std::vector<std::size_t> result;
+    for (const auto& [cell, members] : grid_.sort(all_, levels)) {
+      if (!taken.contains(cell)) result.push_back(middle_one(all_, members));
+    }
+    std::ranges::sort(result);
+    return result;
+  }
+
+  std::vector<rays::SurfacePoint> choose(std::span<const std::size_t> which) {
+    chosen_.insert(chosen_.end(), which.begin(), which.end());
+    std::vector<rays::SurfacePoint> points;
+    for (const std::size_t i : which) points.push_back(all_[i]);
+    return points;
+  }
+
+  /// At most so many of these, spread evenly.
+  std::vector<rays::SurfacePoint> spread(std::span<const std::size_t> which, int most) const {
+    std::vector<rays::SurfacePoint> points;
+    std::vector<int> levels;
+    for (const std::size_t i : which) {
+      points.push_back(all_[i]);
+      levels.push_back(levels_[i]);
+    }
+    return spread_points(points, most, levels);
+  }
+
+  /// Lookups between points, in the scene as posed.
+  probes::SurfaceInterpolation between(std::span<const rays::SurfacePoint> points) const {
+    return {points, [&source = source_](const vec3& a, const vec3& b) {
+              const rays::RayQuery way{a, b - a, 1};
+              std::uint8_t hit = 0;
+              source.occluded(0, {&way, 1}, {&hit, 1});
+              return !hit;
+            }};
+  }
+
+ private:
+  const rays::TransportSource& source_;
+  std::vector<rays::SurfacePoint> all_;
+  std::vector<int> levels_;
+  PointGrid grid_{vec3(0), 1};
+  std::vector<std::size_t> chosen_;
+};
+
+namespace {
+
+/// Points that stand first, at most: a quarter as many may be too few to tell where more are wanted.
+constexpr std::size_t first_points = 512;
+/// What the points around a point may miss of its light, leaving it out doubles their distance.
+constexpr float tolerance = 0.04f;
+/// The same of the mean light: the dark may be less exact.
+constexpr float tolerance_of_mean = 0.002f;
+
+/// How far each point is from being known by those around it: 1 where it just is.
+std::vector<float> doubts(const SurfaceGather& gather, const probes::SurfaceInterpolation& known,
+                          std::span<const Irradiance4> lit) {
+  std::vector<probes::RecordLight> light;
+  gather.light(lit, light);
+  const std::vector<rays::SurfacePoint>& points = gather.points();
+  double sum = 0;
+  for (const probes::RecordLight& l : light) sum += static_cast<double>(max_component(l[3]));
+  const float least = tolerance_of_mean * static_cast<float>(sum / static_cast<double>(points.size()));
+  std::vector<float> result(points.size());
+  parallel_for(points.size(), 64, [&](std::size_t i) {
+    probes::SurfaceShares storage;
+    const auto shares = known.at(points[i], storage, static_cast<std::uint32_t>(i));
+    probes::RecordLight predicted(0);
+    for (const probes::SurfaceShare& share : shares) predicted += share.weight * light[share.point];
+    const vec3 e = light[i][3], missed = glm::abs(predicted * vec4(points[i].normal, 1) - e);
+    const float allowed = tolerance * max_component(e) + least;
+    const float of_light = shares.empty() ? 1 : allowed > 0 ? max_component(missed) / allowed : 0;
+    result[i] = std::max(of_light, known.spacing(i) / gather.openness()[i]);
+  });
+  return result;
+}
+
+/// The doubts of the points that light a place, by their weights; 1 where none does.
+float doubt_at(const rays::SurfacePoint& place, const probes::SurfaceInterpolation& known,
+               std::span<const float> doubts) {
+  probes::SurfaceShares storage;
+  float sum = 0, all = 0;
+  for (const probes::SurfaceShare& share : known.at(place, storage)) {
+    sum += std::abs(share.weight) * doubts[share.point];
+    all += std::abs(share.weight);
+  }
+  return all > 0 ? sum / all : 1;
+}
+
+/// Those of `which` at which `doubts` are 1 at least.
+std::vector<std::size_t> doubtful(std::vector<std::size_t> which, const RecordPlaces& places,
+                                  const probes::SurfaceInterpolation& known, std::span<const float> doubts,
+                                  const Control& control) {
+  std::vector<std::uint8_t> is(places.all().size());
+  parallel_for(
+      which.size(), 64,
+      [&](std::size_t i) { is[which[i]] = doubt_at(places.all()[which[i]], known, doubts) >= 1; }, control);
+  std::erase_if(which, [&](std::size_t i) { return !is[i]; });
+  return which;
+}
+
+}  // namespace
+
+std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& network,
+                                                   const GatherParams& params,
+                                                   std::span<const std::vector<Irradiance4>> direct,
+                                                   std::span<const Irradiance4> lit, const Control& control) {
+  RecordPlaces places(network, params.points);
+  int coarser = 0;
+  std::vector<std::size_t> wanted;
+  if (!places.all().empty()) wanted = places.free(coarser);
+  while (wanted.size() > first_points) {
+    std::vector<std::size_t> fewer = places.free(++coarser);
+    if (fewer.size() == wanted.size()) break;  // far from each other
+    wanted = std::move(fewer);
+  }
+  const auto gather_at = [&](std::vector<rays::SurfacePoint> points) {
+    return SurfaceGather(network, std::move(points), params.rays, direct, control);
+  };
+  auto gather = std::make_unique<SurfaceGather>(gather_at(places.choose(wanted)));
+  while (coarser-- > 0) {
+    const probes::SurfaceInterpolation known = places.between(gather->points());
+    wanted = doubtful(places.free(coarser), places, known, doubts(*gather, known, lit), control);
+    gather->append(gather_at(places.choose(wanted)));
+  }
+
+  const std::size_t count = gather->points().size(), left = std::min(count, most_records - count);
+  if (left == 0) return gather;
+  std::vector<std::size_t> all(places.all().size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const std::vector<float> sure(count, 0);
+  const std::vector<std::size_t> unlit =
+      doubtful(std::move(all), places, places.between(gather->points()), sure, control);
+  if (!unlit.empty()) gather->append(gather_at(places.spread(unlit, static_cast<int>(left))));
+  return gather;
+}
+
+}  // namespace ssphh::transport

@@ -1,0 +1,213 @@
+/// Where records of surfaces are put, and why.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include <gtest/gtest.h>
+
+#include <ssphh/core/random.h>
+#include <ssphh/core/sphere.h>
+#include <ssphh/probes/surface_interpolation.h>
+#include <ssphh/rays/posed_world.h>
+#include <ssphh/transport/fitted_weights.h>
+#include <ssphh/transport/surface_gather.h>
+
+#include "transport_fixtures.h"
+
+namespace ssphh::test {
+namespace {
+
+using transport::Irradiance4;
+using transport::SurfaceGather;
+
+/// A scene with its surfels and the light that they solve.
+struct Lit {
+  explicit Lit(scene::Scene scene_in, float surfel_size = 0)
+      : scene(std::move(scene_in)), source(scene), session(source, places_of(scene), params(surfel_size)) {
+    session.update();
+    lit = session.surfel_direct();
+    for (std::size_t s = 0; s < lit.size(); ++s) lit[s] += session.surfel_irradiance()[s];
+  }
+  static transport::RelightParams params(float surfel_size) {
+    transport::RelightParams params;
+    params.transport = small_network();
+    if (surfel_size > 0) params.transport.surfel_size = surfel_size;
+    return params;
+  }
+  const transport::TransportNetwork& network() const { return session.network(); }
+  std::unique_ptr<SurfaceGather> where_needed(int most, int rays) const {
+    return gather_where_needed(network(), {most, rays}, {}, lit);
+  }
+  /// Mean difference between gathers at some surfels and lookups between those points, of the mean.
+  double error_between(const SurfaceGather& gather) const {
+    const std::vector<rays::SurfacePoint> some =
+        transport::spread_points(transport::surfel_points(network()), 800);
+    std::vector<probes::RecordLight> truth, light;
+    SurfaceGather(network(), some, 1024).light(lit, truth);
+    gather.light(lit, light);
+    const rays::PosedWorld world(source, 0);
+    const probes::SurfaceInterpolation known(
+        gather.points(), [&](const vec3& a, const vec3& b) { return world.visible(a, b); });
+    double error = 0, all = 0;
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      vec3 found(0);
+      known.irradiance(some[i], light, found);
+      error += double(glm::distance(found, truth[i][3])), all += double(glm::length(truth[i][3]));
+    }
+    return error / all;
+  }
+
+  scene::Scene scene;
+  trace::TransportScene source;
+  LitSession session;
+  std::vector<Irradiance4> lit;
+};
+
+TEST(RecordPlaces, AreFewerThanOnesSpreadEvenlyAndKnowMore) {
+  const Lit gallery(scene::make_builtin("gallery1"), 0.16f);
+  constexpr int most = 4000, rays = 128;
+  const auto some = gallery.where_needed(most, rays);
+  const SurfaceGather even(gallery.network(),
+                           transport::spread_points(transport::surfel_points(gallery.network()), most), rays);
+  const std::size_t count = some->points().size();
+  EXPECT_LT(count, even.points().size());
+  const SurfaceGather as_many(
+      gallery.network(),
+      transport::spread_points(transport::surfel_points(gallery.network()), static_cast<int>(count)), rays);
+  const double error = gallery.error_between(*some);
+  EXPECT_LT(error, 0.9 * gallery.error_between(as_many)) << "than as many that are spread evenly";
+  EXPECT_LT(error, 0.95 * gallery.error_between(even)) << "than more of them";
+}
+
+TEST(RecordPlaces, AreDenseWhereSurfacesMeet) {
+  // A glowing box is lit evenly: only nearness asks for points.
+  scene::Scene scene = scene::make_builtin("box");
+  for (scene::Material& material : scene.materials) material.base_color = vec3(0.5f);
+  const Lit box(std::move(scene), 0.05f);
+  const auto gather = box.where_needed(4000, 64);
+  scene::Bounds bounds;
+  for (const rays::SurfacePoint& p : gather->points()) bounds.add(p.position);
+  // Along a wall, by distance from the nearest other wall as a share of the box
+  double inner = 0, outer = 0;
+  for (const rays::SurfacePoint& p : gather->points()) {
+    const vec3 share = (p.position - bounds.min) / (bounds.max - bounds.min);
+    float near = 1;
+    for (int c = 0; c < 3; ++c) {
+      if (std::abs(p.normal[c]) < 0.5f) near = std::min({near, share[c], 1 - share[c]});
+    }
+    (near > 0.25f ? inner : outer) += 1;
+  }
+  // A quarter of each wall is that far from its rims.
+  EXPECT_GT(outer, 1.5 * 3 * inner);
+}
+
+TEST(RecordPlaces, AreEverywhereThatASurfelWouldSeeNone) {
+  const Lit gallery(scene::make_builtin("gallery1"));
+  const std::vector<rays::SurfacePoint> all = transport::surfel_points(gallery.network());
+  const rays::PosedWorld world(gallery.source, 0);
+  const auto unlit = [&](const std::vector<rays::SurfacePoint>& records) {
+    const probes::SurfaceInterpolation known(
+        records, [&](const vec3& a, const vec3& b) { return world.visible(a, b); });
+    return std::ranges::count_if(all, [&](const rays::SurfacePoint& p) {
+      probes::SurfaceShares shares;
+      return known.at(p, shares).empty();
+    });
+  };
+  constexpr int most = 150;
+  const auto gather = gallery.where_needed(most, 32);
+  EXPECT_LE(gather->points().size(), 2u * most);
+  const auto spread = unlit(transport::spread_points(all, most));
+  ASSERT_GT(spread, static_cast<long>(all.size() / 20)) << "so few see all: nothing is tested";
+  EXPECT_LT(unlit(gather->points()), spread / 2);
+}
+
+using Place = std::array<float, 6>;
+
+std::vector<Place> places_of_points(const SurfaceGather& gather) {
+  std::vector<Place> places;
+  for (const rays::SurfacePoint& p : gather.points())
+    places.push_back({p.position.x, p.position.y, p.position.z, p.normal.x, p.normal.y, p.normal.z});
+  return places;
+}
+
+TEST(RecordPlaces, AreAllDifferentAndTheSameEachTime) {
+  const Lit rooms(scene::make_builtin("two-rooms"));
+  const auto once = rooms.where_needed(900, 32), again = rooms.where_needed(900, 32);
+  EXPECT_EQ(places_of_points(*once), places_of_points(*again));
+  std::vector<probes::RecordLight> light, other;
+  once->light(rooms.lit, light);
+  again->light(rooms.lit, other);
+  EXPECT_EQ(light, other);
+  std::vector<Place> places = places_of_points(*once);
+  std::ranges::sort(places);
+  EXPECT_EQ(std::ranges::adjacent_find(places), places.end());
+}
+
+TEST(RecordPlaces, HaveAnOpennessOfTheHarmonicMeanDistance) {
+  // Against as many other cosine rays as bring the mean of 1/d to 1 %.
+  const Lit room(coloured_room({3, 2.5f, 2}));
+  const std::vector<rays::SurfacePoint> points =
+      transport::spread_points(transport::surfel_points(room.network()), 30);
+  const SurfaceGather gather(room.network(), points, 4096);
+  const rays::PosedWorld world(room.source, 0);
+  Pcg32 random(7);
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const Frame frame = Frame::around(points[p].normal);
+    constexpr int count = 20000;
+    std::vector<rays::RayQuery> rays;
+    for (int i = 0; i < count; ++i) {
+      rays.push_back({points[p].position + 1e-4f * points[p].normal,
+                      frame.to_world(sample_cosine_hemisphere(random.uniform2()))});
+    }
+    std::vector<rays::RayHit> hits(rays.size());
+    std::vector<std::uint8_t> parts(rays.size());
+    world.intersect(rays, hits, parts);
+    double sum = 0, squares = 0;
+    for (const rays::RayHit& hit : hits) {
+      const double nearness = 1 / double(hit.distance);
+      sum += nearness, squares += nearness * nearness;
+    }
+    const double mean = sum / count, deviation = std::sqrt((squares / count - mean * mean) / count);
+    EXPECT_NEAR(1 / double(gather.openness()[p]), mean, 5 * deviation + 0.02 * mean) << p;
+  }
+}
+
+TEST(RecordPlaces, GathersThatAreJoinedHoldWhatEachHeld) {
+  scene::Scene scene = scene::make_builtin("two-rooms");
+  const trace::TransportScene source(scene);
+  transport::TransportNetwork network(source, positions_of(places_of(scene)), small_network());
+  const std::vector<rays::SurfacePoint> all = transport::spread_points(transport::surfel_points(network), 90);
+  const std::size_t half = all.size() / 2;
+  const auto part = [&](std::size_t begin, std::size_t end) {
+    return SurfaceGather(
+        network,
+        {all.begin() + static_cast<std::ptrdiff_t>(begin), all.begin() + static_cast<std::ptrdiff_t>(end)},
+        48);
+  };
+  SurfaceGather joined = part(0, half), first = part(0, half), second = part(half, all.size());
+  joined.append(part(half, all.size()));
+  std::vector<Irradiance4> irradiance(network.surfel_count());
+  for (std::size_t s = 0; s < irradiance.size(); ++s)
+    irradiance[s] = vec4(1 + s % 7, 1 + s % 5, 1 + s % 3, 0);
+  for (const float time : {0.0f, 0.7f * source.duration()}) {
+    network.set_time(time);
+    std::vector<probes::RecordLight> whole, of_first, of_second;
+    for (SurfaceGather* gather : {&joined, &first, &second}) gather->update_pose();
+    joined.light(irradiance, whole);
+    first.light(irradiance, of_first);
+    second.light(irradiance, of_second);
+    of_first.insert(of_first.end(), of_second.begin(), of_second.end());
+    EXPECT_EQ(whole, of_first) << time;
+  }
+  std::vector<Place> places = places_of_points(first);
+  std::ranges::copy(places_of_points(second), std::back_inserter(places));
+  EXPECT_EQ(places_of_points(joined), places);
+  std::vector<float> openness = first.openness();
+  openness.insert(openness.end(), second.openness().begin(), second.openness().end());
+  EXPECT_EQ(joined.openness(), openness);
+}
+
+}  // namespace
+}  // namespace ssphh::test
