@@ -148,22 +148,24 @@ class Ssphh final : public Method {
 }  // namespace
 
 MethodEntry entry() {
-  return {"ssphh",
-          "SPHLs lit by transport between surfels",
-          {word_parameter("places", {"auto", "scene"}, "of the probes: found, or the scene's own SPHLs"),
-           {"spacing", 0, 0, 1e4, "between probes that are placed [m]; 0: some 100 to 200 probes"},
-           {"probes", 0, 0, 4096, "so many are placed; 0: as the spacing gives", true},
-           {"degree", 4, 0, 10, "highest band kept of a probe's light", true},
-           weights_parameter(),
-           {"records", transport::usual_records, 1, 65536,
-            "most points that keep light, and as many again where those are not seen; with weights surface", true},
-           {"fit_poses", 3, 1, 64, "of the doors, to which weights are fitted", true},
-           {"fit_points", 0, 0, 262144, "at most so many have weights; 0: one for each surfel", true},
-           {"surfel_size", 0, 0, 1e3, "edge of a surfel [m]; 0: by the scene's radius and the probes' distance"},
-           {"directions", 384, 16, 65536, "rays of a probe", true},
-           {"warm_start", 1, 0, 1, "solve from the last frame's light", true}},
-          [](const MethodScene& scene, const MethodParameters& p, const Control& control)
-              -> std::unique_ptr<Method> { return std::make_unique<Ssphh>(scene, p, control); }};
+  return {
+      "ssphh",
+      "SPHLs lit by transport between surfels",
+      {word_parameter("places", {"auto", "scene"}, "of the probes: found, or the scene's own SPHLs"),
+       {"spacing", 0, 0, 1e4, "between probes that are placed [m]; 0: some 100 to 200 probes"},
+       {"probes", 0, 0, 4096, "so many are placed; 0: as the spacing gives", true},
+       {"degree", 4, 0, 10, "highest band kept of a probe's light", true},
+       weights_parameter(),
+       {"records", transport::usual_records, 1, 65536,
+        "most points that keep light, and as many again where those are not seen; with weights surface",
+        true},
+       {"fit_poses", 3, 1, 64, "of the doors, to which weights are fitted", true},
+       {"fit_points", 0, 0, 262144, "at most so many have weights; 0: one for each surfel", true},
+       {"surfel_size", 0, 0, 1e3, "edge of a surfel [m]; 0: by the scene's radius and the probes' distance"},
+       {"directions", 384, 16, 65536, "rays of a probe", true},
+       {"warm_start", 1, 0, 1, "solve from the last frame's light", true}},
+      [](const MethodScene& scene, const MethodParameters& p, const Control& control)
+          -> std::unique_ptr<Method> { return std::make_unique<Ssphh>(scene, p, control); }};
 }
 
 }  // namespace ssphh::methods::ssphh
