@@ -40,6 +40,24 @@ inline probes::SurfaceRecords random_records(std::uint64_t seed, int point_count
   return records;
 }
 
+inline probes::Baseline random_baseline(std::uint64_t seed, int item_count, int probe_count,
+                                        int group_count) {
+  Pcg32 rng(seed);
+  const auto hash = [&] { return Hash128{rng.next(), rng.next()}; };
+  probes::Baseline baseline;
+  baseline.viz_neighbors = 7;
+  baseline.viz_threshold = 0.25f;
+  for (int i = 0; i < item_count; ++i)
+    baseline.items.push_back({static_cast<scene::ItemKind>(i % 3), "item \"" + std::to_string(i) + "\"",
+                              hash(), hash(), hash(), hash()});
+  for (int i = 0; i < probe_count; ++i) {
+    probes::Trial& trial = baseline.trials.emplace_back();
+    for (std::vector<sh::RadianceSh>& half : trial.halves)
+      for (int g = 0; g < group_count; ++g) half.push_back(random_sh(rng, probes::trial_degree));
+  }
+  return baseline;
+}
+
 /// A valid set with random light; every probe is a neighbour of every other.
 inline probes::ProbeSet random_set(std::uint64_t seed, int probe_count, int degree, int group_count = 2,
                                    bool matrices = false) {

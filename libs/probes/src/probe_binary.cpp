@@ -119,6 +119,56 @@ SurfaceRecords read_surface(ByteReader& in, std::size_t group_count) {
   return surface;
 }
 
+void write_hash(ByteWriter& out, const Hash128& hash) {
+  out.value(hash.high), out.value(hash.low);
+}
+
+Hash128 read_hash(ByteReader& in, const char* what) {
+  const auto high = in.value<std::uint64_t>(what);
+  return {high, in.value<std::uint64_t>(what)};
+}
+
+void write_baseline(ByteWriter& out, const Baseline& baseline) {
+  out.value(static_cast<std::int32_t>(baseline.viz_neighbors));
+  out.value(baseline.viz_threshold);
+  out.value(static_cast<std::uint32_t>(baseline.items.size()));
+  for (const scene::SceneItem& item : baseline.items) {
+    out.value(static_cast<std::uint8_t>(item.kind));
+    out.text(item.name);
+    for (const Hash128& hash : {item.shape, item.place, item.surface, item.emission}) write_hash(out, hash);
+  }
+  for (const Trial& trial : baseline.trials) {
+    for (const std::vector<sh::RadianceSh>& half : trial.halves) {
+      for (const sh::RadianceSh& light : half)
+        ByteWriterParts(out).vectors("trial", light.values, Missing::never);
+    }
+  }
+}
+
+Baseline read_baseline(ByteReader& in, std::size_t probe_count, std::size_t group_count) {
+  Baseline baseline;
+  baseline.viz_neighbors = in.value_in<std::int32_t>("neighbors", -1, static_cast<int>(limits::probes));
+  baseline.viz_threshold = in.value_in<float>("threshold", 0.0f, 1.0f);
+  constexpr std::size_t item_bytes = 1 + sizeof(std::uint32_t) + 4 * sizeof(Hash128);
+  baseline.items.resize(in.count("scene item count", limits::scene_items, item_bytes));
+  for (scene::SceneItem& item : baseline.items) {
+    item.kind = static_cast<scene::ItemKind>(in.value_in<std::uint8_t>("kind of scene item", 0, 2));
+    item.name = in.text("name of scene item", limits::text);
+    for (Hash128* hash : {&item.shape, &item.place, &item.surface, &item.emission})
+      *hash = read_hash(in, "hash of scene item");
+  }
+  constexpr auto coefficients = static_cast<std::size_t>(sh::coefficient_count(trial_degree));
+  baseline.trials.resize(probe_count);
+  for (Trial& trial : baseline.trials) {
+    for (std::vector<sh::RadianceSh>& half : trial.halves) {
+      half.resize(group_count);
+      for (sh::RadianceSh& light : half)
+        light.values = ByteReaderParts(in).vectors("trial", coefficients, Missing::never);
+    }
+  }
+  return baseline;
+}
+
 ProbeSet read_payload(ByteReader& in) {
   ProbeSet set;
   set.degree = read_int(in, "degree", 0, sh::max_degree);
@@ -154,6 +204,8 @@ ProbeSet read_payload(ByteReader& in) {
   if (in.value_in<std::uint8_t>("fitted flag", 0, 1)) set.fitted = read_fitted(in, probe_count);
   if (in.value_in<std::uint8_t>("surface flag", 0, 1))
     set.surface = read_surface(in, set.light_groups.size());
+  if (in.value_in<std::uint8_t>("baseline flag", 0, 1))
+    set.baseline = read_baseline(in, probe_count, set.light_groups.size());
   in.expect_end();
   return set;
 }
@@ -194,6 +246,8 @@ std::vector<std::byte> probes_to_binary(const ProbeSet& set) {
   if (set.fitted) write_fitted(payload, *set.fitted);
   payload.value(static_cast<std::uint8_t>(set.surface.has_value()));
   if (set.surface) write_surface(payload, *set.surface);
+  payload.value(static_cast<std::uint8_t>(set.baseline.has_value()));
+  if (set.baseline) write_baseline(payload, *set.baseline);
 
   ByteWriter file;
   file.array(std::span<const char>(magic));

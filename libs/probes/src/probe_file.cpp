@@ -31,6 +31,7 @@ class Validator {
     if (set_.hierarchy) hierarchy(*set_.hierarchy);
     if (set_.fitted) fitted(*set_.fitted);
     if (set_.surface) surface(*set_.surface);
+    if (set_.baseline) baseline(*set_.baseline);
   }
 
  private:
@@ -138,6 +139,28 @@ class Validator {
       place(s.points[i], at);
       for (const std::vector<PackedRecordLight>& group : s.groups)
         number(group[i].scale, 0, limits::coefficient, at + "/groups");
+    }
+  }
+
+  void baseline(const Baseline& b) const {
+    require(b.viz_neighbors >= -1 && b.viz_neighbors <= static_cast<int>(limits::probes),
+            "/baseline/neighbors", "must be -1 (all) or a count");
+    number(b.viz_threshold, 0, 1, "/baseline/threshold");
+    require(b.items.size() <= limits::scene_items, "/baseline/items",
+            fmt::format("there are more than {}", limits::scene_items));
+    for (std::size_t i = 0; i < b.items.size(); ++i)
+      text(b.items[i].name, fmt::format("/baseline/items/{}/name", i));
+    require(b.trials.size() == set_.probes.size(), "/baseline/trials", "needs one entry per probe");
+    constexpr auto coefficients = static_cast<std::size_t>(sh::coefficient_count(trial_degree));
+    for (std::size_t i = 0; i < b.trials.size(); ++i) {
+      const std::string at = fmt::format("/baseline/trials/{}", i);
+      for (const std::vector<sh::RadianceSh>& half : b.trials[i].halves) {
+        require(half.size() == set_.light_groups.size(), at, "needs one entry per light group");
+        for (const sh::RadianceSh& light : half) {
+          require(light.values.size() == coefficients, at, "must be of degree 2");
+          numbers(light.values, at);
+        }
+      }
     }
   }
 

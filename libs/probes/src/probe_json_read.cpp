@@ -126,10 +126,45 @@ SurfaceRecords read_surface(const Cursor& at, std::size_t group_count) {
   return surface;
 }
 
+Baseline read_baseline(const Cursor& at, std::size_t probe_count, std::size_t group_count) {
+  at.members({"neighbors", "threshold", "items", "trials"});
+  Baseline baseline;
+  baseline.viz_neighbors = integer(at["neighbors"], -1, static_cast<int>(limits::probes));
+  baseline.viz_threshold = at["threshold"].number(0, 1);
+  const Cursor items = at["items"];
+  baseline.items.resize(items.size(0, limits::scene_items));
+  for (std::size_t i = 0; i < baseline.items.size(); ++i) {
+    const Cursor item = items[i].members({"kind", "name", "shape", "place", "surface", "emission"});
+    baseline.items[i] = {item["kind"].named<scene::ItemKind>(),
+                         item["name"].text(limits::text),
+                         item["shape"].hash(),
+                         item["place"].hash(),
+                         item["surface"].hash(),
+                         item["emission"].hash()};
+  }
+  const Cursor trials = at["trials"];
+  trials.size(probe_count, probe_count);
+  for (std::size_t i = 0; i < probe_count; ++i) {
+    trials[i].size(2, 2);
+    Trial& trial = baseline.trials.emplace_back();
+    for (std::size_t half = 0; half < 2; ++half) {
+      const Cursor groups = trials[i][half];
+      groups.size(group_count, group_count);
+      for (std::size_t g = 0; g < group_count; ++g) {
+        const FilePlace at_light(groups[g]);
+        sh::RadianceSh& light = trial.halves[half].emplace_back(trial_degree);
+        at_light.size(3 * light.values.size(), 3 * light.values.size());
+        at_light.vectors(light.values);
+      }
+    }
+  }
+  return baseline;
+}
+
 ProbeSet read_set(const Cursor& root) {
   if (root.has("version")) root["version"].expect_version(probe_file_version);
   root.members({"format", "version", "degree", "generator", "light_groups", "probes"},
-               {"hierarchy", "fitted", "surface"});
+               {"hierarchy", "fitted", "surface", "baseline"});
   if (root["format"].text(limits::text) != "ssphh-probes") root["format"].fail("must be \"ssphh-probes\"");
   ProbeSet set;
   set.degree = integer(root["degree"], 0, sh::max_degree);
@@ -158,6 +193,7 @@ ProbeSet read_set(const Cursor& root) {
   }
   if (root.has("fitted")) set.fitted = read_fitted(root["fitted"], probe_count);
   if (root.has("surface")) set.surface = read_surface(root["surface"], group_count);
+  if (root.has("baseline")) set.baseline = read_baseline(root["baseline"], probe_count, group_count);
   return set;
 }
 

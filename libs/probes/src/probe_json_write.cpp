@@ -42,6 +42,7 @@ class Writer {
     }
     if (set_.fitted) fitted(*set_.fitted);
     if (set_.surface) surface(*set_.surface);
+    if (set_.baseline) baseline(*set_.baseline);
     put("}}\n");
     return std::move(out_);
   }
@@ -117,6 +118,38 @@ class Writer {
       put("]}}");
     }
     put("]");
+  }
+
+  /// With all digits: an update tells from the last one whether anything has changed.
+  void baseline(const Baseline& b) {
+    put(",\n\"baseline\":{{\"neighbors\":{},\"threshold\":{},\n\"items\":[", b.viz_neighbors,
+        exact(b.viz_threshold));
+    for (std::size_t i = 0; i < b.items.size(); ++i) {
+      const scene::SceneItem& item = b.items[i];
+      put("{}\n{{\"kind\":\"{}\",\"name\":{},\"shape\":\"{}\",\"place\":\"{}\",\"surface\":\"{}\","
+          "\"emission\":\"{}\"}}",
+          comma(i), name_of(item.kind), quoted(item.name), item.shape.hex(), item.place.hex(),
+          item.surface.hex(), item.emission.hex());
+    }
+    put("],\n\"trials\":[");
+    for (std::size_t i = 0; i < b.trials.size(); ++i) {
+      put("{}\n[", comma(i));
+      for (std::size_t half = 0; half < 2; ++half) {
+        put("{}[", comma(half));
+        const std::vector<sh::RadianceSh>& groups = b.trials[i].halves[half];
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+          put("{}[", comma(g));
+          for (std::size_t k = 0; k < groups[g].values.size(); ++k) {
+            const vec3& v = groups[g].values[k];
+            put("{}{},{},{}", comma(k), exact(v.x), exact(v.y), exact(v.z));
+          }
+          put("]");
+        }
+        put("]");
+      }
+      put("]");
+    }
+    put("]}}");
   }
 
   void probe(std::size_t i) {

@@ -28,6 +28,7 @@ ProbeSet full_set(int degree = 2) {
   hier(set, {HierOperator::mean, 2, 0.1f});
   set.fitted = test::random_fitted(7, 9, 3);
   set.surface = test::random_records(8, 5, 2);
+  set.baseline = test::random_baseline(9, 4, 3, 2);
   merge_groups(set);
   return set;
 }
@@ -305,6 +306,14 @@ TEST(ProbeFile, ASetThatBreaksTheRulesIsNotWritten) {
   expect_rejected("/surface/2/groups", [](ProbeSet& s) { s.surface->groups[0][2].scale = -1; });
   expect_rejected("/surface", [](ProbeSet& s) { s.surface->groups[1].pop_back(); });
   expect_rejected("/surface", [](ProbeSet& s) { s.surface->groups.pop_back(); });
+  expect_rejected("/baseline/neighbors", [](ProbeSet& s) { s.baseline->viz_neighbors = -2; });
+  expect_rejected("/baseline/threshold", [&](ProbeSet& s) { s.baseline->viz_threshold = nan; });
+  expect_rejected("/baseline/items/3/name", [](ProbeSet& s) { s.baseline->items[3].name.resize(2000, 'x'); });
+  expect_rejected("/baseline/trials", [](ProbeSet& s) { s.baseline->trials.pop_back(); });
+  expect_rejected("/baseline/trials/2", [](ProbeSet& s) { s.baseline->trials[2].halves[1].pop_back(); });
+  expect_rejected("/baseline/trials/1",
+                  [](ProbeSet& s) { s.baseline->trials[1].halves[0][0].values.pop_back(); });
+  expect_rejected("/baseline/trials/0", [&](ProbeSet& s) { s.baseline->trials[0].halves[0][1][8].z = nan; });
   expect_rejected("/generator/spp", [](ProbeSet& s) { s.generator.spp = 0; });
 }
 

@@ -33,6 +33,7 @@ const json::Value valid_document() {
   hier(set, {HierOperator::mean, 2, 0.1f});
   set.fitted = test::random_fitted(7, 3, 2);
   set.surface = test::random_records(8, 2, 2);
+  set.baseline = test::random_baseline(9, 3, 2, 2);
   std::swap(set.fitted->weights[0], set.fitted->weights[2]);  // the first point has two probes
   return test::parse_json(probes_to_json(set));
 }
@@ -66,8 +67,8 @@ TEST(ProbeSchema, SchemaAndReaderRejectTheSameMutations) {
   const std::vector<Mutation> mutations = {
       {"/format", "probes"},
       {"/version", 1},
-      {"/version", 5},
-      {"/version", "4"},
+      {"/version", 6},
+      {"/version", "5"},
       {"/degree", 11},
       {"/degree", -1},
       {"/degree", 1.5},
@@ -152,6 +153,20 @@ TEST(ProbeSchema, SchemaAndReaderRejectTheSameMutations) {
       {"/surface/0/groups/1/9", -32768},
       {"/surface/0/groups/0", json::Value(std::vector<int>(9, 0))},
       {"/surface/0/groups/0", json::Value(std::vector<int>(11, 0))},
+      {"/baseline", nullptr},
+      {"/baseline/extra", 1},
+      {"/baseline/neighbors", -2},
+      {"/baseline/threshold", 1.5},
+      {"/baseline/items/0/kind", "camera"},
+      {"/baseline/items/0/extra", 1},
+      {"/baseline/items/1/name", 3},
+      {"/baseline/items/1/shape", "12"},
+      {"/baseline/items/2/emission", nullptr},
+      {"/baseline/trials", nullptr},
+      {"/baseline/trials/0", 3},
+      {"/baseline/trials/1/0/1", json::Value(std::vector<int>(26, 0))},
+      {"/baseline/trials/1/0/1/5", 1e31},
+      {"/baseline/trials/1", json::Value::array()},
       {"/hierarchy", nullptr},
       {"/hierarchy/operator", "tensor"},
       {"/hierarchy/neighbors", -2},
@@ -191,8 +206,8 @@ TEST(ProbeSchema, SchemaAndReaderAgreeOnEveryMissingKey) {
     EXPECT_EQ(conforms, reader_accepts(print(without))) << key;
     optional += conforms;
   }
-  EXPECT_EQ(optional, 3) << "only an edge's matrix, fitted points and records may be missing; a hierarchy "
-                            "needs the neighbours' parts and they it";
+  EXPECT_EQ(optional, 4) << "only an edge's matrix, fitted points, records and a baseline may be missing; a "
+                            "hierarchy needs the neighbours' parts and they it";
 }
 
 TEST(ProbeSchema, SchemaAndReaderAcceptOtherSpellingsOfTheSame) {
@@ -214,6 +229,8 @@ TEST(ProbeSchema, RulesBeyondTheSchemaAreTheReadersAlone) {
       {"/fitted/0/probes", json::Value::array({0})},  // two weights
       {"/fitted/0/normal", json::Value::array({1, 1, 0})},
       {"/surface/0/groups", json::Value::array()},  // of no light group
+      {"/baseline/trials", json::Value::array()},   // of no probe
+      {"/baseline/trials/0/1", json::Value::array()},
       {"/surface/0/normal", json::Value::array({1, 1, 0})},
       {"/probes/0/name", std::string(1024, 'x') + "\u00fc"},
   };

@@ -11,7 +11,7 @@
 
 namespace ssphh::probes {
 
-inline constexpr int probe_file_version = 4;
+inline constexpr int probe_file_version = 5;
 
 enum class ProbeFileFormat { json, binary };
 

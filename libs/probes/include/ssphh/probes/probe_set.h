@@ -10,6 +10,7 @@
 #include <ssphh/core/enum_names.h>
 #include <ssphh/core/hash.h>
 #include <ssphh/core/math.h>
+#include <ssphh/probes/baseline.h>
 #include <ssphh/probes/fitted_points.h>
 #include <ssphh/probes/surface_records.h>
 #include <ssphh/sh/operators.h>
@@ -132,6 +133,7 @@ struct ProbeSet {
   std::optional<Hierarchy> hierarchy;
   std::optional<FittedPoints> fitted;     ///< of surface points that stand still in the pose of the bake
   std::optional<SurfaceRecords> surface;  ///< light at such points, every bounce, whatever the probes hold
+  std::optional<Baseline> baseline;       ///< by which an update tells what has changed
 
   friend bool operator==(const ProbeSet&, const ProbeSet&) = default;
 };
