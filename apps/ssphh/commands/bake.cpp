@@ -10,10 +10,11 @@
 namespace ssphh::app {
 namespace {
 
-/// --viz as it is typed, and the options that stand only with path tracing, transport or VIZ.
+/// --viz as it is typed, and the options that stand only with path tracing, transport or VIZ, or only without
+/// an update.
 struct BakeUses {
   std::string viz;
-  std::vector<Option> of_paths, of_transport, of_viz;
+  std::vector<Option> of_paths, of_transport, of_viz, not_of_update;
 };
 
 std::vector<std::string> names_of_given(const std::vector<Option>& options) {
@@ -85,6 +86,17 @@ void add_transport_options(const Command& surfels, BakeOptions& options, BakeUse
                "Also fit lookup weights at the surfels and store them with the probes");
 }
 
+void add_update_options(const Command& update, BakeOptions& options) {
+  add_probe_file(update, "--update", options.update,
+                 "Probe file of an earlier bake of this scene, which has changed since: only probes whose "
+                 "light has changed are baked, as that file was baked; the others are kept");
+  update
+      .option("--tolerance", options.tolerance,
+              "Share of its light by which a kept probe may have changed; 0: whatever few paths see counts. "
+              "Default: 0.01, or the noise of the bake where that is more")
+      .non_negative();
+}
+
 }  // namespace
 
 void add_bake_command(Command app, Context& context) {
@@ -98,6 +110,7 @@ void add_bake_command(Command app, Context& context) {
         given.of_paths = names_of_given(uses->of_paths);
         given.of_transport = names_of_given(uses->of_transport);
         given.of_viz = names_of_given(uses->of_viz);
+        given.not_of_update = names_of_given(uses->not_of_update);
         run_and_print(context, given, run_bake);
       });
   add_scene_options(command, o.scene);
@@ -114,6 +127,13 @@ void add_bake_command(Command app, Context& context) {
   add_viz_options(command.under("VIZ: light between the SPHLs, which HIER needs"), o, *uses);
   add_transport_options(command.under("Transport: --operator surfel|bounce, --viz links, --records, --fit"),
                         o, *uses);
+  add_update_options(command.under("Update of an earlier bake"), o);
+  for (const char* name :
+       {"--time",      "--probes",    "--clearance", "--refine",       "--max-probes", "--degree",
+        "--operator",  "--face",      "--max-depth", "--passes",       "--spp",        "--gen",
+        "--viz",       "--neighbors", "--threshold", "--viz-transfer", "--directions", "--surfel-size",
+        "--link-rays", "--records",   "--fit"})
+    uses->not_of_update.push_back(command[name]);
   add_farm_options(command, o.farm);
   command.footer(
       "An interrupted bake leaves OUTPUT.checkpoint; the same command continues there and gives the same "

@@ -7,8 +7,10 @@
 
 #include <ssphh/bake/bake.h>
 #include <ssphh/bake/transport_bake.h>
+#include <ssphh/bake/update.h>
 #include <ssphh/core/control.h>
 #include <ssphh/core/json.h>
+#include <ssphh/scene/scene_items.h>
 
 #include "options/farm_options.h"
 #include "options/place_options.h"
@@ -52,6 +54,18 @@ struct BakeOptions {
   /// Names of options that were given and stand only with path tracing, transport or VIZ: they are refused
   /// where these have nothing to do.
   std::vector<std::string> of_paths, of_transport, of_viz;
+  /// Probe file of an earlier bake, of which is kept what the scene's changes do not reach; empty: none. The
+  /// parameters of the bake are that file's.
+  std::string update;
+  std::optional<float> tolerance;  ///< of an update: share of light, plan_update()
+  /// Names of options that were given and stand only without an update.
+  std::vector<std::string> not_of_update;
+};
+
+/// What an update found.
+struct BakeUpdate {
+  std::vector<scene::ChangedItem> changed;  ///< none: nothing was compared
+  bake::UpdatePlan plan;
 };
 
 struct BakeResult {
@@ -61,6 +75,7 @@ struct BakeResult {
   bake::TransportBakeReport transport;              ///< of transport, VIZ by links and the fit
   std::optional<farm::FarmReport> farm;             ///< of a farm that was asked and had anything to do
   std::optional<PlaceResult> place;                 ///< where places were looked for
+  std::optional<BakeUpdate> update;                 ///< where there was one
   std::uint64_t geometry_builds = 0;                ///< acceleration structures that were built
 };
 

@@ -12,6 +12,7 @@
 #include <ssphh/trace/transport_scene.h>
 
 #include "commands/bake.h"
+#include "commands/bake_update.h"
 #include "results/geometry_builds.h"
 
 namespace ssphh::app {
@@ -83,6 +84,13 @@ void fill(BakeResult& result, const BakeOptions& o, const trace::SharedGeometry&
     result.set = bake::bake(tracer, std::move(result.set), o.params, checkpoint, result.paths, control,
                             crew ? &*crew : nullptr);
     if (crew) result.farm = crew->report();
+    if (path) {
+      const transport::LinkVizParams& links = o.transport.viz_params;
+      const bake::VizParams viz =
+          o.transport.viz ? bake::VizParams{false, links.neighbors, links.threshold} : o.params.viz_params;
+      result.set.baseline =
+          bake::make_baseline(tracer, result.set, scene::scene_items(scene, o.scene.time), viz, control);
+    }
   }
 }
 
@@ -90,16 +98,13 @@ double viz_seconds(const BakeResult& r) {
   return r.paths.viz_seconds + r.transport.viz_seconds;
 }
 
-}  // namespace
-
-BakeResult run_bake(const BakeOptions& options, const Control& control) {
-  const GeometryBuilds builds;
+/// Finds places and fills the set, where nothing is taken from an earlier bake.
+void run_full_bake(const BakeOptions& options, BakeResult& result, const Control& control) {
   BakeOptions o = options;
   const std::optional<FarmSession> session = farm_session(o.farm);
   const scene::Scene scene = load_lit_scene(o.scene);
   o.params.path.seed = o.seed;
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
-  BakeResult result;
   result.place = place_for(geometry, scene, o.scene.time, o.place, "", control);
   result.set = result.place
                    ? place::init_from_placement(scene, result.place->placement, o.degree, o.scene.time)
@@ -109,8 +114,22 @@ BakeResult run_bake(const BakeOptions& options, const Control& control) {
   const std::filesystem::path checkpoint = o.output + ".checkpoint";
   if (!o.resume) std::filesystem::remove(checkpoint);
   fill(result, o, geometry, scene, checkpoint, session ? &*session : nullptr, control);
-  probes::write_probe_file(result.set, o.output);
-  std::filesystem::remove(checkpoint);
+}
+
+}  // namespace
+
+BakeResult run_bake(const BakeOptions& options, const Control& control) {
+  const GeometryBuilds builds;
+  if (options.tolerance && options.update.empty())
+    throw Error("--tolerance", "is of an update", "give --update FILE, too");
+  BakeResult result;
+  if (options.update.empty()) {
+    run_full_bake(options, result, control);
+  } else {
+    run_bake_update(options, result, control);
+  }
+  probes::write_probe_file(result.set, options.output);
+  std::filesystem::remove(options.output + ".checkpoint");
   result.geometry_builds = builds.count();
   return result;
 }
@@ -130,7 +149,7 @@ json::Value to_json(const BakeResult& r, const BakeOptions& o) {
                         {"degree", r.set.degree},
                         {"light_groups", r.set.light_groups.size()},
                         {"edges", probes::edge_count(r.set)},
-                        {"gen", name_of(o.params.gen)},
+                        {"gen", name_of(r.set.generator.gen)},
                         {"gen_seconds", r.paths.gen_seconds},
                         {"viz_seconds", viz_seconds(r)},
                         {"transport_seconds", if_any(solved, t.seconds)},
@@ -149,6 +168,7 @@ json::Value to_json(const BakeResult& r, const BakeOptions& o) {
                         {"geometry_builds", r.geometry_builds}};
   if (r.farm) object["farm"] = farm_json(*r.farm);
   if (r.place) object["placement"] = place_json(*r.place);
+  if (r.update) object["update"] = update_json(*r.update, o);
   return object;
 }
 
@@ -188,6 +208,7 @@ std::string to_text(const BakeResult& r, const BakeOptions& o) {
                         r.set.probes.size() * stages);
   }
   if (r.place) text += "\n" + place_text(*r.place);
+  if (r.update) text += "\n" + update_text(*r.update, o);
   return text;
 }
 

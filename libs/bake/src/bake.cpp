@@ -97,7 +97,10 @@ struct Work {
   std::vector<ProbeStage> resume(const std::vector<BakeStage>& stages) const {
     std::vector<ProbeStage> left;
     for (const BakeStage stage : stages) {
-      std::vector<bool> done(set.probes.size(), false);
+      std::vector<bool> done(set.probes.size(), params.only.has_value());
+      if (params.only) {
+        for (const std::uint32_t probe : *params.only) done[probe] = false;
+      }
       for (const CheckpointRecord& record : checkpoint.records()) {
         if (record.stage != stage || record.probe >= done.size() || done[record.probe]) continue;
         keep(decode(record, set));
@@ -213,6 +216,9 @@ probes::ProbeSet bake(const rays::RadianceSource& source, probes::ProbeSet set, 
                       const Control& control, BakeCrew* crew, const ProbeDone& on_probe) {
   if (set.probes.empty())
     throw Error("bake", "there are no probes to bake", "run INIT on a scene with SPHLs");
+  if (params.only)
+    require(std::ranges::all_of(*params.only, [&](std::uint32_t i) { return i < set.probes.size(); }), "bake",
+            "there is no probe of that index");
   report = {};
 
   // Say how the set is made.
@@ -224,7 +230,7 @@ probes::ProbeSet bake(const rays::RadianceSource& source, probes::ProbeSet set, 
   g.seed = params.path.seed;
   g.face_size = params.face_size;
   if (params.viz) g.viz = probes::VizMethod::path;
-  if (params.keep_light) {
+  if (params.keep_light || params.only) {
     if (!std::ranges::equal(set.light_groups, source.light_groups(), {}, &probes::LightGroup::name))
       throw Error("bake", "the light to keep is of other light groups than the scene's");
   } else {

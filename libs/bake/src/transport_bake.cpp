@@ -196,4 +196,33 @@ void add_transport(const rays::TransportSource& source, probes::ProbeSet& set,
   report.rays = source.rays_traced() - rays_before;
 }
 
+void update_edges(const rays::TransportSource& source, probes::ProbeSet& set,
+                  std::span<const std::uint32_t> which, const transport::LinkVizParams& params,
+                  TransportBakeReport& report, const Control& control) {
+  require_probes(set);
+  report = {};
+  if (which.empty()) return;
+  const std::uint64_t rays_before = source.rays_traced();
+  const Stopwatch watch;
+  transport::LinkVizScope scope{{which.begin(), which.end()}, {which.begin(), which.end()}};
+  for (const std::uint32_t i : which) {
+    require(i < set.probes.size(), "update of edges", "there is no probe of that index");
+    for (const probes::Edge& edge : set.probes[i].edges)
+      scope.from.push_back(static_cast<std::uint32_t>(edge.from));
+  }
+  std::vector<vec3> positions;
+  for (const probes::Probe& probe : set.probes) positions.push_back(probe.position);
+  transport::TransportParams network_params;
+  network_params.directions = set.generator.directions;
+  network_params.surfel_size = set.generator.surfel_size;
+  network_params.link_rays = set.generator.link_rays;
+  const transport::TransportNetwork network(source, positions, network_params, set.generator.time, control);
+  describe_network(network, set, report);
+  std::vector<std::vector<probes::Edge>> edges =
+      transport::viz_from_links(network, source, set.probes, set.degree, params, control, &scope);
+  for (const std::uint32_t i : which) set.probes[i].edges = std::move(edges[i]);
+  report.viz_seconds = watch.seconds();
+  report.rays = source.rays_traced() - rays_before;
+}
+
 }  // namespace ssphh::bake

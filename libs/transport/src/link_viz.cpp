@@ -60,21 +60,37 @@ std::vector<std::size_t> scattered(std::size_t count) {
   return order;
 }
 
+/// 1 for each probe of the list; without a list for all.
+std::vector<std::uint8_t> marked(const std::vector<std::uint32_t>* which, std::size_t count) {
+  std::vector<std::uint8_t> marks(count, which ? 0 : 1);
+  if (!which) return marks;
+  for (const std::uint32_t i : *which) {
+    require(i < count, "VIZ from links", "there is no probe of that index");
+    marks[i] = 1;
+  }
+  return marks;
+}
+
 class LinkViz {
  public:
   LinkViz(const TransportNetwork& network, const rays::TransportSource& source,
-          std::span<const probes::Probe> probes, int degree, const LinkVizParams& params)
+          std::span<const probes::Probe> probes, int degree, const LinkVizParams& params,
+          const LinkVizScope* scope)
       : network_(network),
         source_(source),
         probes_(probes),
         params_(params),
         projector_(degree, network.gbuffer().directions),
         field_(network, 0),
-        kept_(probes.size(), StrongestEdges(params)) {}
+        kept_(probes.size(), StrongestEdges(params)),
+        to_(marked(scope ? &scope->to : nullptr, probes.size())),
+        from_(marked(scope ? &scope->from : nullptr, probes.size())) {}
 
   std::vector<std::vector<probes::Edge>> run(const Control& control) {
-    ProgressStage progress(control, "VIZ from links", probes_.size(), "probes");
+    const auto count = static_cast<std::uint64_t>(std::ranges::count(from_, 1));
+    ProgressStage progress(control, "VIZ from links", count, "probes");
     for (const std::size_t j : scattered(probes_.size())) {
+      if (!from_[j]) continue;
       control.check();
       light_sphere(j);
       read_off(j);
@@ -112,7 +128,8 @@ class LinkViz {
     // Upper bounds of P first: the sphere takes rays and H a projection, and most pairs need neither.
     std::vector<std::uint8_t> wanted(probes_.size());
     parallel_for(probes_.size(), 8, [&](std::size_t i) {
-      wanted[i] = i != j && kept_[i].wants(seen_on_surfaces(i) + sphere_share(probes_[i].position, sphere_));
+      wanted[i] = i != j && to_[i] &&
+                  kept_[i].wants(seen_on_surfaces(i) + sphere_share(probes_[i].position, sphere_));
     });
     std::vector<std::size_t> at;
     std::vector<vec3> positions;
@@ -144,6 +161,7 @@ class LinkViz {
   DirectionProjector projector_;
   DirectField field_;
   std::vector<StrongestEdges> kept_;
+  std::vector<std::uint8_t> to_, from_;
   // Of the sphere that is lit.
   SphlEmitter sphere_;
   std::vector<vec3> at_samples_;
@@ -155,14 +173,15 @@ class LinkViz {
 std::vector<std::vector<probes::Edge>> viz_from_links(const TransportNetwork& network,
                                                       const rays::TransportSource& source,
                                                       std::span<const probes::Probe> probes, int degree,
-                                                      const LinkVizParams& params, const Control& control) {
+                                                      const LinkVizParams& params, const Control& control,
+                                                      const LinkVizScope* scope) {
   if (params.neighbors < -1) throw Error("VIZ from links", "neighbours must be -1 (all) or a count");
   if (!(params.threshold >= 0 && params.threshold <= 1))
     throw Error("VIZ from links", "the threshold must be 0..1, as P is");
   const std::vector<vec3>& positions = network.gbuffer().positions;
   require(std::ranges::equal(probes, positions, {}, &probes::Probe::position), "VIZ from links",
           "the probes do not stand where the network's do");
-  return LinkViz(network, source, probes, degree, params).run(control);
+  return LinkViz(network, source, probes, degree, params, scope).run(control);
 }
 
 }  // namespace ssphh::transport

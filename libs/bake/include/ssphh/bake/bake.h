@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 
 #include <ssphh/bake/viz.h>
@@ -19,6 +20,8 @@ struct BakeParams {
   bool keep_light = false;                      ///< no GEN: VIZ alone, beside the light that the set holds
   bool viz = true;                              ///< false: the set's edges stay as they are
   VizParams viz_params;
+  /// GEN and VIZ of these probes alone, ascending; the others keep what the set holds. None: of all.
+  std::optional<std::vector<std::uint32_t>> only;
 };
 
 /// Told of each probe when its GEN or VIZ is done, from one thread at a time: `groups` or `edges` are new,

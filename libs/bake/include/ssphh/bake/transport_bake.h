@@ -53,4 +53,11 @@ void add_transport(const rays::TransportSource& source, probes::ProbeSet& set,
                    const TransportBakeParams& params, TransportBakeReport& report,
                    const Control& control = {});
 
+/// Finds the edges of some probes anew, by links, with the network that the set's generator tells of: to each
+/// of them from one another and from those that its edges come from. The other probes keep theirs.
+/// Fills the report's surfels, links, contraction, lost, viz_seconds and rays.
+void update_edges(const rays::TransportSource& source, probes::ProbeSet& set,
+                  std::span<const std::uint32_t> which, const transport::LinkVizParams& params,
+                  TransportBakeReport& report, const Control& control = {});
+
 }  // namespace ssphh::bake

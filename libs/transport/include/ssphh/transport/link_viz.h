@@ -18,14 +18,21 @@ struct LinkVizParams {
   SolveParams solve{.tolerance = 1e-2f};
 };
 
+/// Which edges are looked for: those to probes of `to` from probes of `from`, indices.
+struct LinkVizScope {
+  std::vector<std::uint32_t> to, from;
+};
+
 /// Edges i ← j of each of `probes`, ascending j: those that a traced VIZ finds, with every bounce, for
 /// diffuse surfaces, as the network is posed. `probes` stand where the network's do and in the same order;
 /// only position and radius are read. N direct fields and solutions, memory for the edges kept alone. A P
-/// over 1 is stored as 1. Throws Error for parameters out of range.
+/// over 1 is stored as 1. With a `scope` other probes have no edges, and time is taken for those of `from`
+/// alone; an edge has the bits that it has without. Throws Error for parameters out of range.
 std::vector<std::vector<probes::Edge>> viz_from_links(const TransportNetwork& network,
                                                       const rays::TransportSource& source,
                                                       std::span<const probes::Probe> probes, int degree,
                                                       const LinkVizParams& params = {},
-                                                      const Control& control = {});
+                                                      const Control& control = {},
+                                                      const LinkVizScope* scope = nullptr);
 
 }  // namespace ssphh::transport
