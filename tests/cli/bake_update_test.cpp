@@ -83,6 +83,18 @@ TEST_F(BakeUpdate, ALampKeepsTheEdges) {
   EXPECT_NE(now.probes[0].groups, before.probes[0].groups);
 }
 
+TEST_F(BakeUpdate, VizOffKeepsTheEdges) {
+  baked("builtin:cornell", old_);
+  const json::Value update =
+      updated(overlay("blue", R"("materials": [{"name": "red", "base_color": [0, 0, 1]}])"), old_, new_,
+              {"--tolerance", "0", "--viz", "off"});
+  EXPECT_EQ(update["viz_seconds"], 0.0);
+  EXPECT_GT(update["gen_seconds"].number(), 0);
+  const probes::ProbeSet before = probes::read_probe_file(old_), now = probes::read_probe_file(new_);
+  for (std::size_t i = 0; i < now.probes.size(); ++i) EXPECT_EQ(now.probes[i].edges, before.probes[i].edges);
+  EXPECT_EQ(now.generator.viz, before.generator.viz);
+}
+
 TEST_F(BakeUpdate, AFileMayBeUpdatedInPlaceAndAgain) {
   const std::string plain = overlay("plain", ""),
                     blue = overlay("blue", R"("materials": [{"name": "red", "base_color": [0, 0, 1]}])");
@@ -131,6 +143,7 @@ TEST_F(BakeUpdate, RefusesWhatItCannotDo) {
     EXPECT_THAT(problem({"--update", old_, option, "1"}), AllOf(HasSubstr(option), HasSubstr("was baked")));
   EXPECT_THAT(problem({"--update", old_, "--seed", "3"}), AllOf(HasSubstr("--seed 3"), HasSubstr("seed 0")));
   EXPECT_THAT(problem({"--update", old_, "--probes", "auto"}), HasSubstr("--probes"));
+  EXPECT_THAT(problem({"--update", old_, "--viz", "links"}), AllOf(HasSubstr("--viz"), HasSubstr("off")));
 
   const std::string moved = overlay("moved", R"("sphls": [{"name": "SPHL new", "position": [0, 1, 0.3]}])");
   EXPECT_THAT(problem({"--update", old_}, moved), AllOf(HasSubstr("SPHL new"), HasSubstr("all places")));

@@ -22,7 +22,7 @@ TEST(Stages, OfBakesAndPictures) {
   const std::string file = dir / "a.sphl", out = dir / "a.exr";
   // Five probes, six faces of 2×2 texels
   EXPECT_THAT(stages({"bake", "builtin:box", "-o", file, "--face", "2", "--spp", "3", "--degree", "1"}),
-              ElementsAre("GEN: 120 texels", "VIZ: 120 texels"));
+              ElementsAre("GEN: 120 texels", "VIZ: 120 texels", "trials: 5 probes"));
   const std::vector<std::string> render = {"builtin:box", "-o", out,     "--width", "4",
                                            "--height",    "3",  "--spp", "2"};
   EXPECT_THAT(stages(test::joined(test::joined({"render"}, render), {"--passes", "3"})),

@@ -89,7 +89,8 @@ void add_transport_options(const Command& surfels, BakeOptions& options, BakeUse
 void add_update_options(const Command& update, BakeOptions& options) {
   add_probe_file(update, "--update", options.update,
                  "Probe file of an earlier bake of this scene, which has changed since: only probes whose "
-                 "light has changed are baked, as that file was baked; the others are kept");
+                 "light has changed are baked, as that file was baked; the others are kept, and with "
+                 "--viz off all edges");
   update
       .option("--tolerance", options.tolerance,
               "Share of its light by which a kept probe may have changed; 0: whatever few paths see counts. "
@@ -128,11 +129,10 @@ void add_bake_command(Command app, Context& context) {
   add_transport_options(command.under("Transport: --operator surfel|bounce, --viz links, --records, --fit"),
                         o, *uses);
   add_update_options(command.under("Update of an earlier bake"), o);
-  for (const char* name :
-       {"--time",      "--probes",    "--clearance", "--refine",       "--max-probes", "--degree",
-        "--operator",  "--face",      "--max-depth", "--passes",       "--spp",        "--gen",
-        "--viz",       "--neighbors", "--threshold", "--viz-transfer", "--directions", "--surfel-size",
-        "--link-rays", "--records",   "--fit"})
+  for (const char* name : {"--time",       "--probes",      "--clearance", "--refine",    "--max-probes",
+                           "--degree",     "--operator",    "--face",      "--max-depth", "--passes",
+                           "--spp",        "--gen",         "--neighbors", "--threshold", "--viz-transfer",
+                           "--directions", "--surfel-size", "--link-rays", "--records",   "--fit"})
     uses->not_of_update.push_back(command[name]);
   add_farm_options(command, o.farm);
   command.footer(

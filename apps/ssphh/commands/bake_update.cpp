@@ -66,6 +66,17 @@ bake::BakeParams params_of(const probes::ProbeSet& old) {
   return params;
 }
 
+/// Probes whose edges by links are found anew. Networks of nearly the same scene have other surfels: their
+/// edges differ by some 5 % in any case, so that smaller changes are not worth a network unless asked for.
+std::vector<std::uint32_t> probes_for_links(const bake::UpdatePlan& plan, std::optional<float> asked) {
+  constexpr float link_noise = 0.05f;
+  std::vector<std::uint32_t> which;
+  for (const std::uint32_t i : plan.probes) {
+    if (asked || plan.changed[i] > link_noise) which.push_back(i);
+  }
+  return which;
+}
+
 void fit_anew(const trace::TransportScene& source, BakeResult& result, const Control& control) {
   const probes::GeneratorInfo& g = result.set.generator;
   bake::TransportBakeParams params;
@@ -102,6 +113,10 @@ void run_bake_update(const BakeOptions& options, BakeResult& result, const Contr
   if (!options.not_of_update.empty())
     throw Error(options.not_of_update.front(), "an update bakes as the file of --update was baked",
                 "leave it out, or leave out --update");
+  if (options.viz && *options.viz != VizMethod::none)
+    throw Error(fmt::format("--viz {}", name_of(*options.viz)),
+                "an update finds edges as the file of --update was baked",
+                "leave it out, or keep all edges as they were with --viz off");
   const std::optional<FarmSession> session = farm_session(options.farm);
   probes::ProbeSet& set = result.set;
   set = probes::read_probe_file(options.update);
@@ -128,9 +143,9 @@ void run_bake_update(const BakeOptions& options, BakeResult& result, const Contr
   log_info("{} of {} probes have changed by more than {:.2g} % of their light", which.size(),
            set.probes.size(), 100 * update.plan.tolerance);
 
-  const bool bodies = scene::bodies_changed(update.changed);
+  const bool edges = !options.viz && scene::bodies_changed(update.changed);
   bake::BakeParams params = params_of(set);
-  params.viz = bodies && set.generator.viz == VizMethod::path;
+  params.viz = edges && set.generator.viz == VizMethod::path;
   params.only = which;
   if (!which.empty()) {
     const std::filesystem::path checkpoint = options.output + ".checkpoint";
@@ -142,11 +157,12 @@ void run_bake_update(const BakeOptions& options, BakeResult& result, const Contr
     if (crew) result.farm = crew->report();
   }
   const trace::TransportScene source(geometry, scene);
-  if (bodies && set.generator.viz == VizMethod::links) {
+  if (edges && set.generator.viz == VizMethod::links) {
     transport::LinkVizParams viz;
     viz.neighbors = set.baseline->viz_neighbors;
     viz.threshold = set.baseline->viz_threshold;
-    bake::update_edges(source, set, which, viz, result.transport, control);
+    bake::update_edges(source, set, probes_for_links(update.plan, options.tolerance), viz, result.transport,
+                       control);
   }
   if (set.fitted) fit_anew(source, result, control);
   bake::renew_baseline(set, update.plan, std::move(items));

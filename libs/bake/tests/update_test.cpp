@@ -1,3 +1,6 @@
+#include <functional>
+#include <set>
+
 #include <gmock/gmock.h>
 
 #include <ssphh/bake/update.h>
@@ -31,6 +34,20 @@ BakeParams small_bake() {
   params.viz = false;
   return params;
 }
+
+/// Light that depends on the paths' seed alone.
+class SeededSource : public test::FakeSource {
+ public:
+  std::function<float(std::uint64_t seed)> level;
+
+  std::vector<rays::GroupRadiance> incident_radiance(const rays::CubeRequest& request,
+                                                     const Control&) const override {
+    image::CubeMap map(request.face_size);
+    for (image::Image& face : map.faces)
+      for (float& value : face.pixels) value = level(request.path.seed);
+    return {{image::CubeMap(request.face_size), map}};
+  }
+};
 
 /// Radiance 1, times 1 + `more` beyond 2.5 m.
 test::FakeSource::Field brighter_beyond(float more) {
@@ -111,6 +128,41 @@ TEST(Update, FindsTheProbesWhoseLightHasChanged) {
   source.reflected = {brighter_beyond(1e-4f)};
   EXPECT_THAT(plan_update(source, set, {}).probes, IsEmpty());
   EXPECT_THAT(plan_update(source, set, 0.0f).probes, ElementsAre(3, 4));
+}
+
+TEST(Update, EveryHalfHasRandomNumbersOfItsOwn) {
+  SeededSource source;
+  std::set<std::uint64_t> seeds;
+  source.level = [&](std::uint64_t seed) {
+    seeds.insert(seed);
+    return 1.0f;
+  };
+  probes::ProbeSet set = row();
+  set.light_groups = {{"sky", vec3(1)}};
+  make_baseline(source, set, {}, {});
+  EXPECT_EQ(seeds.size(), 10u) << "two of each probe";
+  const std::set<std::uint64_t> first = seeds;
+  make_baseline(source, set, {}, {});
+  EXPECT_EQ(seeds, first) << "the same every time";
+  set.generator.seed = 1;
+  make_baseline(source, set, {}, {});
+  EXPECT_EQ(seeds.size(), 20u);
+}
+
+TEST(Update, WithoutToleranceOneHalfIsEnough) {
+  SeededSource source;
+  std::set<std::uint64_t> seeds;
+  source.level = [&](std::uint64_t seed) {
+    seeds.insert(seed);
+    return 1.0f;
+  };
+  probes::ProbeSet set = row();
+  set.light_groups = {{"sky", vec3(1)}};
+  set.baseline = make_baseline(source, set, {}, {});
+  const std::uint64_t changed = *seeds.begin();
+  source.level = [&](std::uint64_t seed) { return seed == changed ? 1.5f : 1.0f; };
+  EXPECT_THAT(plan_update(source, set, {}).changed, testing::Each(0));
+  EXPECT_EQ(plan_update(source, set, 0.0f).probes.size(), 1u);
 }
 
 TEST(Update, EmittedLightCounts) {
