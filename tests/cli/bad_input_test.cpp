@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "here.h"
 #include "temp_dir.h"
 #include "tool_checks.h"
 
@@ -13,6 +14,7 @@ namespace ssphh {
 namespace {
 
 using test::expect_failure;
+using test::joined;
 using test::run_tool;
 using test::TempDir;
 using test::ToolProcess;
@@ -31,12 +33,6 @@ void write(const std::filesystem::path& path, const std::string& content) {
 
 const std::vector<std::string> small = {"--width", "16", "--height", "9", "--spp", "1"};
 
-std::vector<std::string> with(std::vector<std::string> arguments,
-                              const std::vector<std::string>& more = small) {
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-
 TEST(BadInput, WrongUsageIsExitCode2) {
   expect_failure({"probe"}, "subcommand", 2);
   expect_failure({"nonsense"}, "nonsense", 2);
@@ -51,7 +47,8 @@ TEST(BadInput, WrongUsageIsExitCode2) {
 TEST(BadInput, UnknownNamesListTheKnownOnes) {
   expect_failure({"scene", "info", "builtin:nowhere"}, "cornell");
   const TempDir dir;
-  expect_failure(with({"render", "builtin:two-rooms", "--camera", "nobody", "-o", dir / "x.png"}), "room-a");
+  expect_failure(joined({"render", "builtin:two-rooms", "--camera", "nobody", "-o", dir / "x.png"}, small),
+                 "room-a");
 }
 
 TEST(BadInput, ErrorsAreJsonWhenAskedFor) {
@@ -78,7 +75,7 @@ TEST(BadInput, BrokenScenesNameFileAndPlace) {
 TEST(BadInput, WarningsDoNotStopTheWork) {
   const TempDir dir;
   write(dir / "plain.obj", "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0\nf 1 2 3\nf 1 2 4\n");
-  const ToolResult no_lights = run_tool(with({"render", dir / "plain.obj", "-o", dir / "x.exr"}));
+  const ToolResult no_lights = run_tool(joined({"render", dir / "plain.obj", "-o", dir / "x.exr"}, small));
   EXPECT_EQ(no_lights.exit_code, 0) << no_lights.err;
   EXPECT_THAT(no_lights.err, AllOf(HasSubstr("warning"), HasSubstr("no lights"), HasSubstr("gone.mtl"),
                                    HasSubstr("--sun-sky or --environment FILE")));
@@ -89,12 +86,12 @@ TEST(BadInput, ASceneWithoutLightsStandsInAStudioUnlessItIsMeantToBeDark) {
   write(dir / "plain.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
   write(dir / "off.json",
         R"({"lights": [{"name": "lamp", "type": "point", "position": [0, 0, 2], "intensity": 0}]})");
-  const std::vector<std::string> render = with({"render", dir / "plain.obj", "-o", dir / "x.exr"});
+  const std::vector<std::string> render = joined({"render", dir / "plain.obj", "-o", dir / "x.exr"}, small);
   const json::Value mean = test::run_json(render)["mean"];
   EXPECT_GT(mean[0].number(), 0.1);
   EXPECT_EQ(mean[0], mean[2]) << "neutral";
-  const ToolResult off =
-      run_tool(with({"render", dir / "plain.obj", "--overlay", dir / "off.json", "-o", dir / "x.exr"}));
+  const ToolResult off = run_tool(
+      joined({"render", dir / "plain.obj", "--overlay", dir / "off.json", "-o", dir / "x.exr"}, small));
   EXPECT_THAT(off.out, HasSubstr("mean radiance 0 0 0"));
   EXPECT_THAT(off.err, Not(HasSubstr("studio")));
   EXPECT_THAT(run_tool({"scene", "info", dir / "plain.obj"}).out, HasSubstr("no environment"))
@@ -118,8 +115,9 @@ TEST(BadInput, BakeWithoutProbesSaysHowToAddThem) {
 
 TEST(BadInput, SsphhOnAFarmWithoutProbesSaysHowToBake) {
   const TempDir dir;
-  expect_failure(with({"render", "builtin:box", "--method", "ssphh", "--local", "1", "-o", dir / "x.exr"}),
-                 "ssphh bake");
+  expect_failure(
+      joined({"render", "builtin:box", "--method", "ssphh", "--local", "1", "-o", dir / "x.exr"}, small),
+      "ssphh bake");
 }
 
 TEST(BadInput, BrokenProbeFilesAndImages) {
@@ -138,9 +136,9 @@ TEST(BadInput, BrokenProbeFilesAndImages) {
 
 TEST(BadInput, UnwritableOutputAndFullDisk) {
   const TempDir dir;
-  expect_failure(with({"render", "builtin:box", "-o", dir / "no/such/folder/x.exr"}), "folder");
+  expect_failure(joined({"render", "builtin:box", "-o", dir / "no/such/folder/x.exr"}, small), "folder");
   std::filesystem::create_symlink("/dev/full", dir / "full.exr");
-  expect_failure(with({"render", "builtin:box", "-o", dir / "full.exr"}), "No space left on device");
+  expect_failure(joined({"render", "builtin:box", "-o", dir / "full.exr"}, small), "No space left on device");
   std::filesystem::create_symlink("/dev/full", dir / "full.sphl");
   expect_failure(
       {"bake", "builtin:box", "-o", dir / "full.sphl", "--face", "4", "--spp", "1", "--viz", "off"},
@@ -152,7 +150,7 @@ TEST(BadInput, CtrlCLeavesTheOldOutputAndResumeGivesTheSameBits) {
   const std::string cut = dir / "cut.exr", whole = dir / "whole.exr";
   const std::vector<std::string> effort = {"--width", "64", "--height", "64", "--spp", "4", "--passes", "60"};
   write(cut, "the old file");
-  ToolProcess process(with({"render", "builtin:cornell", "-o", cut, "--progress", "json"}, effort));
+  ToolProcess process(joined({"render", "builtin:cornell", "-o", cut, "--progress", "json"}, effort));
   ASSERT_TRUE(process.wait_for_stderr("\"done\"")) << process.stderr_so_far();
   process.signal(SIGINT);
   const ToolResult stopped = process.wait();
@@ -160,8 +158,8 @@ TEST(BadInput, CtrlCLeavesTheOldOutputAndResumeGivesTheSameBits) {
   EXPECT_THAT(stopped.err, HasSubstr("cancelled"));
   EXPECT_EQ(read(cut), "the old file");
 
-  ASSERT_EQ(run_tool(with({"render", "builtin:cornell", "-o", cut, "--resume"}, effort)).exit_code, 0);
-  ASSERT_EQ(run_tool(with({"render", "builtin:cornell", "-o", whole, "--threads", "1"}, effort)).exit_code,
+  ASSERT_EQ(run_tool(joined({"render", "builtin:cornell", "-o", cut, "--resume"}, effort)).exit_code, 0);
+  ASSERT_EQ(run_tool(joined({"render", "builtin:cornell", "-o", whole, "--threads", "1"}, effort)).exit_code,
             0);
   EXPECT_TRUE(read(cut) == read(whole));
 }
@@ -171,14 +169,14 @@ TEST(BadInput, AKilledBakeResumesToTheSameBits) {
   const std::string cut = dir / "cut.sphl", whole = dir / "whole.sphl";
   const std::vector<std::string> effort = {"--face",      "16", "--spp",    "64",
                                            "--max-depth", "8",  "--degree", "3"};
-  ToolProcess process(with({"bake", "builtin:cornell", "-o", cut, "--progress", "json"}, effort));
+  ToolProcess process(joined({"bake", "builtin:cornell", "-o", cut, "--progress", "json"}, effort));
   ASSERT_TRUE(process.wait_for_stderr("\"done\"")) << process.stderr_so_far();
   process.signal(SIGKILL);
   EXPECT_EQ(process.wait().exit_code, 128 + SIGKILL);
   EXPECT_FALSE(std::filesystem::exists(cut));
 
-  ASSERT_EQ(run_tool(with({"bake", "builtin:cornell", "-o", cut}, effort)).exit_code, 0);
-  ASSERT_EQ(run_tool(with({"bake", "builtin:cornell", "-o", whole}, effort)).exit_code, 0);
+  ASSERT_EQ(run_tool(joined({"bake", "builtin:cornell", "-o", cut}, effort)).exit_code, 0);
+  ASSERT_EQ(run_tool(joined({"bake", "builtin:cornell", "-o", whole}, effort)).exit_code, 0);
   EXPECT_TRUE(read(cut) == read(whole));
 }
 

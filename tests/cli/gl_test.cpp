@@ -11,6 +11,7 @@
 #include <ssphh/image/io.h>
 
 #include "gl_context.h"
+#include "here.h"
 #include "temp_dir.h"
 #include "tool_checks.h"
 
@@ -19,6 +20,7 @@ namespace {
 
 using test::expect_failure;
 using test::expect_keys;
+using test::joined;
 using test::run_json;
 using test::TempDir;
 
@@ -27,13 +29,8 @@ class GlTool : public test::WithGl {};
 
 const std::vector<std::string> tiny = {"--width", "48", "--height", "27"};
 
-std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-
 TEST_F(GlTool, BenchFrameTellsTimesOfPasses) {
-  const json::Value bench = run_json(with({"bench-frame", "builtin:cornell", "--frames", "3"}, tiny));
+  const json::Value bench = run_json(joined({"bench-frame", "builtin:cornell", "--frames", "3"}, tiny));
   expect_keys(bench, {"median_ms", "p99_ms", "passes", "renderer", "width", "height", "memory_growth_bytes"});
   EXPECT_EQ(bench["frames"], 3);
   EXPECT_EQ(bench["probes"], 0);
@@ -45,26 +42,26 @@ TEST_F(GlTool, BenchFrameTellsTimesOfPasses) {
 
 TEST_F(GlTool, BenchFrameTellsHowOftenASampleIsShaded) {
   const auto overdraw = [](const std::vector<std::string>& arguments) -> double {
-    return run_json(with(arguments, tiny))["overdraw"].number();
+    return run_json(joined(arguments, tiny))["overdraw"].number();
   };
   // Within a closed convex room each sample is shaded once, however many a pixel has
   const std::vector<std::string> inside = {"bench-frame", "builtin:box", "--frames", "2"};
   EXPECT_EQ(overdraw(inside), 1);
-  EXPECT_EQ(overdraw(with(inside, {"--samples", "3"})), 1);
+  EXPECT_EQ(overdraw(joined(inside, {"--samples", "3"})), 1);
   // A room seen from before its open side; once the camera has turned away, nothing is. Counts come late: the
   // last of four frames tells of one a quarter or half a turn on
   const std::vector<std::string> outside = {"bench-frame", "builtin:cornell", "--frames", "4"};
   const double seen = overdraw(outside);
   EXPECT_GT(seen, 0.1);
   EXPECT_LT(seen, 1);
-  EXPECT_EQ(overdraw(with(outside, {"--turn"})), 0);
+  EXPECT_EQ(overdraw(joined(outside, {"--turn"})), 0);
 }
 
 TEST_F(GlTool, BenchFrameComparesWithDirectLightAlone) {
   const TempDir dir;
   run_json({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--degree", "1", "--face", "4", "--spp", "1",
             "--viz", "off"});
-  const json::Value bench = run_json(with(
+  const json::Value bench = run_json(joined(
       {"bench-frame", "builtin:two-rooms", "--probes", dir / "a.sphl", "--frames", "3", "--ratio", "--move"},
       tiny));
   EXPECT_EQ(bench["probes"], 6);
@@ -81,7 +78,7 @@ TEST_F(GlTool, LightAtSomePixelsIsOfTheRealTimeRenderer) {
       {"render", "builtin:cornell", "--method", "direct", "--indirect-scale", "3", "-o", dir / "a.exr"},
       "--backend gl");
   EXPECT_FALSE(std::filesystem::exists(dir / "a.exr"));
-  const json::Value done = run_json(with(
+  const json::Value done = run_json(joined(
       {"render", "builtin:cornell", "--method", "vpl", "--param", "photons=8", "--param", "check_points=0",
        "--spp", "2", "--passes", "2", "--backend", "gl", "--indirect-scale", "3", "-o", dir / "b.exr"},
       tiny));
@@ -96,10 +93,10 @@ TEST_F(GlTool, EveryKindOfWeightsIsDrawnAsTheCpuDoes) {
   run_json({"bake", "builtin:box", "-o", file, "--operator", "surfel", "--directions", "64", "--surfel-size",
             "0.3", "--link-rays", "16", "--viz", "off", "--fit", "--records", "0"});
   const auto mean = [&](const std::vector<std::string>& more) {
-    return run_json(with(with({"render", "builtin:box", "--method", "ssphh", "--probes", file, "-o",
-                               dir / "x.exr", "--spp", "16"},
-                              tiny),
-                         more))["mean"][0]
+    return run_json(joined(joined({"render", "builtin:box", "--method", "ssphh", "--probes", file, "-o",
+                                   dir / "x.exr", "--spp", "16"},
+                                  tiny),
+                           more))["mean"][0]
         .number();
   };
   std::map<std::string, double> drawn;
@@ -127,7 +124,7 @@ TEST_F(GlTool, TakesSixteenSamplesAtMostForThePathsAskedFor) {
 TEST_F(GlTool, TurntableWritesPicturesFromAllAround) {
   const TempDir dir;
   const json::Value turn = run_json(
-      with({"turntable", "builtin:cornell", "-o", dir / "turn", "--frames", "2", "--samples", "1"}, tiny));
+      joined({"turntable", "builtin:cornell", "-o", dir / "turn", "--frames", "2", "--samples", "1"}, tiny));
   EXPECT_EQ(turn["frames"], 2);
   const image::Image front = image::read_image(dir / "turn/0000.png"),
                      back = image::read_image(dir / "turn/0001.png");
@@ -141,9 +138,10 @@ TEST_F(GlTool, TurntableWritesPicturesFromAllAround) {
 TEST_F(GlTool, NormalsAreThoseOfTheTracedPicture) {
   const TempDir dir;
   for (const std::string how : {"gl", "cpu"})
-    run_json(with({"render", "builtin:cornell", "--backend", how, "--method", how == "gl" ? "direct" : "path",
-                   "--spp", "1", "-o", dir / (how + ".exr"), "--aov", "normal"},
-                  tiny));
+    run_json(
+        joined({"render", "builtin:cornell", "--backend", how, "--method", how == "gl" ? "direct" : "path",
+                "--spp", "1", "-o", dir / (how + ".exr"), "--aov", "normal"},
+               tiny));
   const image::Image drawn = image::read_image(dir / "gl.normal.exr"),
                      traced = image::read_image(dir / "cpu.normal.exr");
   ASSERT_EQ(drawn.width, traced.width);
@@ -158,10 +156,10 @@ TEST_F(GlTool, NormalsAreThoseOfTheTracedPicture) {
 TEST_F(GlTool, DrawsMethodsThatGiveTheirLightAsData) {
   const TempDir dir;
   const auto render = [&](const std::vector<std::string>& more) {
-    return run_json(with(with({"render", "builtin:cornell", "--backend", "gl", "--spp", "1", "-o",
-                               dir / "a.exr", "--aov", "indirect"},
-                              more),
-                         tiny));
+    return run_json(joined(joined({"render", "builtin:cornell", "--backend", "gl", "--spp", "1", "-o",
+                                   dir / "a.exr", "--aov", "indirect"},
+                                  more),
+                           tiny));
   };
   const json::Value cones = render({"--method", "vct", "--param", "resolution=16", "--param", "bounces=1"});
   expect_keys(cones, {"renderer", "bake_seconds", "update_seconds", "lookup_bytes", "gl_bytes", "gl_cones"});
@@ -174,16 +172,16 @@ TEST_F(GlTool, DrawsMethodsThatGiveTheirLightAsData) {
   const image::Image indirect = image::read_image(dir / "a.indirect.exr");
   EXPECT_GT(*std::ranges::max_element(indirect.pixels), 0);
   EXPECT_FALSE(render({"--method", "direct"}).contains("gl_bytes"));
-  const json::Value bench = run_json(with({"bench-frame", "builtin:cornell", "--method", "vct", "--param",
-                                           "resolution=8", "--frames", "2", "--ratio"},
-                                          tiny));
+  const json::Value bench = run_json(joined({"bench-frame", "builtin:cornell", "--method", "vct", "--param",
+                                             "resolution=8", "--frames", "2", "--ratio"},
+                                            tiny));
   expect_keys(bench, {"method_ratio", "gl_bytes"});
   EXPECT_TRUE(bench["passes"].contains("indirect"));
 
   const std::vector<std::string> gl = {"render", "builtin:cornell", "--backend", "gl", "-o", dir / "b.exr"};
-  expect_failure(with(gl, {"--method", "ddgi"}), {"ddgi", "no OpenGL version", "vct"});
-  expect_failure(with(gl, {"--method", "vct", "--probes", "x.sphl"}), {"--probes", "vct"});
-  expect_failure(with(gl, {"--method", "ssphh", "--param", "probes=8"}), {"--param"});
+  expect_failure(joined(gl, {"--method", "ddgi"}), {"ddgi", "no OpenGL version", "vct"});
+  expect_failure(joined(gl, {"--method", "vct", "--probes", "x.sphl"}), {"--probes", "vct"});
+  expect_failure(joined(gl, {"--method", "ssphh", "--param", "probes=8"}), {"--param"});
   expect_failure({"bench-frame", "builtin:cornell", "--method", "vpl", "--move"}, {"--move"});
   EXPECT_FALSE(std::filesystem::exists(dir / "b.exr"));
 }

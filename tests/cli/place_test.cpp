@@ -7,12 +7,14 @@
 
 #include <ssphh/core/file.h>
 
+#include "here.h"
 #include "temp_dir.h"
 #include "tool_checks.h"
 
 namespace ssphh {
 namespace {
 
+using test::joined;
 using test::run_json;
 using test::run_tool;
 using test::TempDir;
@@ -21,14 +23,9 @@ using testing::HasSubstr;
 
 const std::vector<std::string> quick = {"--degree", "1", "--face", "4", "--spp", "1"};
 
-std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-
 TEST(PlaceTool, BakeTakesTheScenesProbesUnlessAsked) {
   const TempDir dir;
-  const json::Value bake = run_json(with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl"}, quick));
+  const json::Value bake = run_json(joined({"bake", "builtin:two-rooms", "-o", dir / "a.sphl"}, quick));
   EXPECT_EQ(bake["probes"], 6);
   EXPECT_FALSE(bake.contains("placement"));
   EXPECT_EQ(bake["viz"], "path");
@@ -37,7 +34,7 @@ TEST(PlaceTool, BakeTakesTheScenesProbesUnlessAsked) {
 TEST(PlaceTool, ANumberOfProbesKeepsTheScenesOwn) {
   const TempDir dir;
   const json::Value bake = run_json(
-      with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", "20", "--viz", "off"}, quick));
+      joined({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", "20", "--viz", "off"}, quick));
   EXPECT_EQ(bake["probes"], 20);
   EXPECT_EQ(bake["placement"]["manual"], 6);
   for (const char* key : {"probes", "spacing", "removed", "relocated", "edges", "seconds"})
@@ -49,9 +46,9 @@ TEST(PlaceTool, ANumberOfProbesKeepsTheScenesOwn) {
 TEST(PlaceTool, ManyProbesGetTheirEdgesFromLinks) {
   const TempDir dir;
   const json::Value bake =
-      run_json(with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", "auto:1", "--directions",
-                     "64", "--link-rays", "16", "--surfel-size", "0.5"},
-                    quick));
+      run_json(joined({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", "auto:1",
+                       "--directions", "64", "--link-rays", "16", "--surfel-size", "0.5"},
+                      quick));
   EXPECT_GT(bake["probes"].number(), 64);
   EXPECT_EQ(bake["viz"], "links");
   EXPECT_GT(bake["edges"].number(), bake["probes"].number());
@@ -87,7 +84,7 @@ TEST(PlaceTool, WhatPlaceWritesKeepsTheUnit) {
 TEST(PlaceTool, SaysWhatIsWrong) {
   const TempDir dir;
   const auto bake = [&](const std::string& probes, const std::vector<std::string>& more = {}) {
-    return run_tool(with({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", probes}, more));
+    return run_tool(joined({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", probes}, more));
   };
   for (const char* bad :
        {"auto:0", "auto:-1", "auto:nan", "auto:inf", "auto:", "auto:1m", "0", "-3", "some"}) {
@@ -107,7 +104,7 @@ TEST(PlaceTool, SaysWhatIsWrong) {
 TEST(LintTool, ExitCodeIsAGate) {
   const TempDir dir;
   const std::string file = dir / "a.sphl.json";
-  run_json(with({"bake", "builtin:cornell", "-o", file, "--viz", "off"}, {"--face", "8", "--spp", "16"}));
+  run_json(joined({"bake", "builtin:cornell", "-o", file, "--viz", "off"}, {"--face", "8", "--spp", "16"}));
   const json::Value clean = run_json({"probe", "lint", file, "--scene", "builtin:cornell"});
   EXPECT_EQ(clean["probes"], 5);
   EXPECT_THAT(clean["problems"], testing::IsEmpty());

@@ -7,6 +7,7 @@
 
 #include <ssphh/core/file.h>
 
+#include "here.h"
 #include "temp_dir.h"
 #include "tool_checks.h"
 
@@ -25,9 +26,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::vector<std::string> relight(const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {"relight", "builtin:two-rooms"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
+  return test::joined({"relight", "builtin:two-rooms", "--surfel-size", "0.4", "--link-rays", "32"}, more);
 }
 
 TEST(Relight, BounceFollowsLampsAndDoorsToo) {
@@ -76,11 +75,9 @@ TEST(Relight, ReportsStagesRaysAndErrors) {
 TEST(Relight, TakesThePlacesOfAProbeFileAndSavesWhatLeakReads) {
   const TempDir dir;
   const std::string shut = dir / "shut.sphl", again = dir / "again.sphl", map = dir / "map.png";
-  run_json(relight({"--probes", "auto:2", "--animate", "lamp.scale=1", "--frames", "1", "--surfel-size",
-                    "0.4", "--link-rays", "32", "--save", shut}));
-  const ToolResult result =
-      run_tool(relight({"--probes", shut, "--animate", "lamp.scale=1", "--frames", "1", "--surfel-size",
-                        "0.4", "--link-rays", "32", "--save", again, "--json"}));
+  run_json(relight({"--probes", "auto:2", "--animate", "lamp.scale=1", "--frames", "1", "--save", shut}));
+  const ToolResult result = run_tool(
+      relight({"--probes", shut, "--animate", "lamp.scale=1", "--frames", "1", "--save", again, "--json"}));
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.err, Not(HasSubstr("warning")));
   EXPECT_EQ(run_json({"probe", "info", again})["probes"], run_json({"probe", "info", shut})["probes"]);

@@ -19,7 +19,7 @@ using test::run_json;
 using test::TempDir;
 using testing::HasSubstr;
 
-const std::string tiny = test::source_dir() / "plans/tiny.json";
+const std::string tiny_plan = test::source_dir() / "plans/tiny.json";
 
 std::string slurp(const fs::path& path) {
   std::ifstream file(path);
@@ -50,7 +50,7 @@ const json::Value& cell(const json::Value& report, const std::string& label) {
 TEST(Report, RunsAPlanOnceAndAgainOnlyWhatChanged) {
   const TempDir dir;
   const std::string out = dir / "out/tiny";
-  const json::Value first = run_json({"report", tiny, "-o", out});
+  const json::Value first = run_json({"report", tiny_plan, "-o", out});
   expect_keys(first, {"output", "commands", "run", "cached", "cells", "failed", "notes", "page_bytes"});
   EXPECT_EQ(first["failed"], 0);
   EXPECT_EQ(first["cells"], 4);  // truth, path at two depths, ssphh
@@ -73,15 +73,15 @@ TEST(Report, RunsAPlanOnceAndAgainOnlyWhatChanged) {
   EXPECT_EQ(page.substr(0, 2), "\xff\xfe");  // UTF-16
   EXPECT_EQ(page.size(), first["page_bytes"]);
 
-  EXPECT_EQ(run_json({"report", tiny, "-o", out})["changed"], false);
+  EXPECT_EQ(run_json({"report", tiny_plan, "-o", out})["changed"], false);
   fs::remove(out + "/report.md");
-  const json::Value again = run_json({"report", tiny, "-o", out});
+  const json::Value again = run_json({"report", tiny_plan, "-o", out});
   EXPECT_EQ(again["run"], 0);
   EXPECT_EQ(again["cached"], 9);
-  const json::Value finer = run_json({"report", tiny, "-o", out, "--set", "spp=3"});
+  const json::Value finer = run_json({"report", tiny_plan, "-o", out, "--set", "spp=3"});
   EXPECT_EQ(finer["run"], 7);  // not the truth, not the bake
   fs::remove_all(dir / "out/cache");
-  EXPECT_EQ(run_json({"report", tiny, "-o", dir / "out/other"})["run"], 9);
+  EXPECT_EQ(run_json({"report", tiny_plan, "-o", dir / "out/other"})["run"], 9);
 }
 
 TEST(Report, AFailureIsACellWithItsLogAndIsTriedAgain) {
@@ -169,7 +169,8 @@ TEST(Report, MistakesInThePlanAreNamed) {
   plan["scenes"][0]["scene"] = "builtin:box --tiem 1";
   write_json(dir / "scene.json", plan);
   expect_failure({"report", dir / "scene.json", "-o", dir / "out"}, "scene box");
-  expect_failure({"report", tiny, "-o", dir / "out", "--set", "sp=1"}, {"no variable \"sp\"", "\"spp\""});
+  expect_failure({"report", tiny_plan, "-o", dir / "out", "--set", "sp=1"},
+                 {"no variable \"sp\"", "\"spp\""});
   std::ofstream(dir / "broken.json") << "{";
   expect_failure({"report", dir / "broken.json", "-o", dir / "out"}, "is not valid JSON");
   expect_failure({"report", dir / "absent.json", "-o", dir / "out"}, "absent.json", 2);

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "here.h"
 #include "temp_dir.h"
 #include "tool_checks.h"
 
@@ -13,6 +14,7 @@ namespace ssphh {
 namespace {
 
 using test::expect_failure;
+using test::joined;
 using test::run_json;
 using test::run_tool;
 using test::TempDir;
@@ -20,21 +22,24 @@ using test::ToolResult;
 using testing::AllOf;
 using testing::HasSubstr;
 
+std::vector<std::string> bake_with_records(const std::string& scene, const std::string& output,
+                                           const std::vector<std::string>& more = {}) {
+  return joined({"bake", scene, "-o", output, "--operator", "surfel", "--directions", "64", "--link-rays",
+                 "16", "--degree", "2"},
+                more);
+}
+
+/// Without the records, which take most of the time where light comes from elsewhere.
 std::vector<std::string> small_bake(const std::string& scene, const std::string& output,
                                     const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments = {"bake",         scene, "-o",          output, "--operator", "surfel",
-                                        "--directions", "64",  "--link-rays", "16",   "--degree",   "2"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
+  return joined(bake_with_records(scene, output, {"--records", "0"}), more);
 }
 
 std::vector<std::string> small_render(const std::string& scene, const std::string& probes,
                                       const std::string& output, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments = {"render",   scene,     "--probes", probes,     "-o",
-                                        output,     "--width", "16",       "--height", "9",
-                                        "--method", "ssphh",   "--spp",    "1"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
+  return joined({"render", scene, "--probes", probes, "-o", output, "--width", "16", "--height", "9",
+                 "--method", "ssphh", "--spp", "1"},
+                more);
 }
 
 TEST(TransportBakeCli, TellsOfTheOperatorInResultAndFile) {
@@ -76,8 +81,8 @@ TEST(TransportBakeCli, BounceIsAnOperatorOfItsOwn) {
 TEST(TransportBakeCli, RenderTakesFittedWeightsWhereTheFileHasThem) {
   const TempDir dir;
   const std::string fitted = dir / "f.sphl", plain = dir / "p.sphl", picture = dir / "x.exr";
-  run_json(small_bake("builtin:box", fitted, {"--surfel-size", "0.25", "--fit", "--records", "0"}));
-  run_json(small_bake("builtin:box", plain, {"--surfel-size", "0.25", "--records", "0"}));
+  run_json(small_bake("builtin:box", fitted, {"--surfel-size", "0.25", "--fit"}));
+  run_json(small_bake("builtin:box", plain, {"--surfel-size", "0.25"}));
   const auto mean = [&](const std::string& probes, const std::vector<std::string>& more) {
     return run_json(small_render("builtin:box", probes, picture, more))["mean"];
   };
@@ -91,16 +96,17 @@ TEST(TransportBakeCli, RenderTakesFittedWeightsWhereTheFileHasThem) {
 TEST(TransportBakeCli, RecordsAreTakenWhereTheFileHasThemOnCpuAndGpu) {
   const TempDir dir;
   const std::string kept = dir / "k.sphl", plain = dir / "p.sphl", picture = dir / "x.exr";
-  const json::Value bake =
-      run_json(small_bake("builtin:box", kept, {"--surfel-size", "0.25", "--records", "300", "--fit"}));
+  const json::Value bake = run_json(
+      bake_with_records("builtin:box", kept, {"--surfel-size", "0.25", "--records", "300", "--fit"}));
   EXPECT_LE(bake["records"].number(), 300);
   EXPECT_GT(bake["records"].number(), 100);
   EXPECT_GE(bake["record_seconds"].number(), 0);
   EXPECT_EQ(run_json({"probe", "info", kept})["records"], bake["records"]);
-  EXPECT_GT(run_json(small_bake("builtin:box", plain, {"--surfel-size", "0.25"}))["records"].number(), 300)
+  EXPECT_GT(run_json(bake_with_records("builtin:box", plain, {"--surfel-size", "0.25"}))["records"].number(),
+            300)
       << "without being asked";
   const json::Value without =
-      run_json(small_bake("builtin:box", plain, {"--surfel-size", "0.25", "--records", "0"}));
+      run_json(bake_with_records("builtin:box", plain, {"--surfel-size", "0.25", "--records", "0"}));
   EXPECT_EQ(without["records"], 0);
   EXPECT_TRUE(without["record_seconds"].is_null());
   const auto mean = [&](const std::vector<std::string>& more) {
@@ -156,7 +162,7 @@ TEST(TransportBakeCli, EdgesAreTracedWhereAskedFor) {
 
   const json::Value beside =
       run_json({"bake", "builtin:box", "-o", probes, "--face", "4", "--spp", "1", "--viz", "links",
-                "--directions", "64", "--link-rays", "16", "--degree", "1"});
+                "--directions", "64", "--link-rays", "16", "--degree", "1", "--records", "0"});
   EXPECT_EQ(beside["operator"], "path");
   EXPECT_EQ(beside["edges"], 5 * 4);
   EXPECT_GT(beside["surfels"].number(), 0);

@@ -2,7 +2,6 @@
 /// The contracts of the library's public entries as tables: a row per entry and misuse that its types allow.
 
 #include <functional>
-#include <limits>
 #include <memory>
 #include <ostream>
 #include <string>
@@ -12,10 +11,9 @@
 
 #include <ssphh/core/error.h>
 
-namespace ssphh::test {
+#include "not_finite.h"
 
-inline constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-inline constexpr float infinite = std::numeric_limits<float>::infinity();
+namespace ssphh::test {
 
 /// `entry` and `given` together are the test's name: "Rotation" "OfAMatrixThatSkews".
 struct Contract {

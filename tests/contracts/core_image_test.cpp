@@ -26,7 +26,7 @@ using image::CubeMap;
 using image::Image;
 
 /// An image whose size promises more pixels than it has.
-Image torn() {
+Image torn_image() {
   Image image(4, 4);
   image.pixels.resize(5);
   return image;
@@ -70,7 +70,7 @@ std::vector<Contract> of_images() {
       refuses("Image", "WithoutChannels", [] { Image(4, 4, 0); }, {"image"}),
       refuses("CubeMap", "OfANegativeSize", [] { CubeMap(-1); }, {"image"}),
       refuses("EncodeExr", "OfAnEmptyImage", [] { image::encode_exr(Image()); }, {"OpenEXR", "empty"}),
-      refuses("EncodeExr", "OfATornImage", [] { image::encode_exr(torn()); },
+      refuses("EncodeExr", "OfATornImage", [] { image::encode_exr(torn_image()); },
               {"OpenEXR", "number of pixels"}),
       refuses("EncodeExr", "OfTwoChannels", [] { image::encode_exr(two_channels()); }, {"1, 3 or 4"}),
       refuses("EncodeExr", "WithAChannelOfAnotherSize",
@@ -87,8 +87,9 @@ std::vector<Contract> of_images() {
                 image::encode_exr(Image(2, 2), {&channel, 1});
               },
               {"two channels R"}),
-      refuses("EncodeHdr", "OfATornImage", [] { image::encode_hdr(torn()); }, {"number of pixels"}),
-      refuses("EncodePng", "OfATornImage", [] { image::encode_png(torn()); }, {"PNG", "number of pixels"}),
+      refuses("EncodeHdr", "OfATornImage", [] { image::encode_hdr(torn_image()); }, {"number of pixels"}),
+      refuses("EncodePng", "OfATornImage", [] { image::encode_png(torn_image()); },
+              {"PNG", "number of pixels"}),
       refuses("EncodePng", "OfTwoChannels", [] { image::encode_png(two_channels()); }, {"1, 3 or 4"}),
       refuses("EncodePng", "OfBytesThatAreTooFew",
               [] {
@@ -96,12 +97,12 @@ std::vector<Contract> of_images() {
               },
               {"PNG", "agree"}),
       refuses("EncodeJpeg", "OfQualityZero", [] { image::encode_jpeg(Image(2, 2), 0); }, {"1..100"}),
-      refuses("EncodeJpeg", "OfATornImage", [] { image::encode_jpeg(torn()); }, {"number of pixels"}),
+      refuses("EncodeJpeg", "OfATornImage", [] { image::encode_jpeg(torn_image()); }, {"number of pixels"}),
       refuses("WriteImage", "WithAnUnknownEnding", [] { image::write_image("x.tga", Image(2, 2)); },
               {".tga"}),
       refuses("DecodeImage", "OfNoBytes", [] { image::decode_image({}, "x.png"); }, {"x.png"}),
       refuses("Resize", "ToNothing", [] { image::resize(Image(2, 2), 0, 2); }, {"resize"}),
-      refuses("Resize", "OfATornImage", [] { image::resize(torn(), 2, 2); }, {"number of pixels"}),
+      refuses("Resize", "OfATornImage", [] { image::resize(torn_image(), 2, 2); }, {"number of pixels"}),
       refuses("SampleBilinear", "OfAnEmptyImage", [] { image::sample_bilinear(Image(), 0, 0); }, {"empty"}),
       gives("SampleBilinear", "AtNoPlace",
             [] { EXPECT_FALSE(is_finite(image::sample_bilinear(Image(3, 2), nan, 1))); }),
@@ -144,8 +145,8 @@ std::vector<Contract> of_images() {
               {"layout"}),
       refuses("EnumNamed", "OfNoLayout", [] { enum_named<image::Layout>("layout", "dome"); },
               {"dome", "equirect"}),
-      refuses("ToneMap", "OfATornImage", [] { image::tone_map(torn(), {}); }, {"number of pixels"}),
-      refuses("AutomaticExposure", "OfATornImage", [] { image::automatic_exposure(torn()); },
+      refuses("ToneMap", "OfATornImage", [] { image::tone_map(torn_image(), {}); }, {"number of pixels"}),
+      refuses("AutomaticExposure", "OfATornImage", [] { image::automatic_exposure(torn_image()); },
               {"automatic exposure", "number of pixels"}),
       gives("ToneMap", "OfNoNumber", [] { EXPECT_EQ(image::tone_map(vec3(nan), {}), vec3(0)); }),
       refuses("ToDisplay", "OfTwoChannels", [] { image::to_display(two_channels(), {}); }, {"1, 3 or 4"}),
@@ -155,7 +156,8 @@ std::vector<Contract> of_images() {
 std::vector<Contract> of_metrics() {
   return {
       refuses("Compare", "OfTwoSizes", [] { metrics::compare(Image(4, 2), Image(2, 4)); }, {"sizes differ"}),
-      refuses("Compare", "OfATornImage", [] { metrics::compare(Image(4, 4), torn()); }, {"number of pixels"}),
+      refuses("Compare", "OfATornImage", [] { metrics::compare(Image(4, 4), torn_image()); },
+              {"number of pixels"}),
       refuses("Compare", "OfTwoChannels", [] { metrics::compare(two_channels(), two_channels()); },
               {"1, 3 or 4"}),
       gives("Compare", "OfPicturesWithoutANumber",
@@ -179,13 +181,13 @@ std::vector<Contract> of_metrics() {
               [] { metrics::heat_map(Image(2, 2), metrics::ColorRamp::grey, nan); }, {"scale"}),
       gives("RampColor", "OfNoNumber",
             [] { EXPECT_EQ(metrics::ramp_color(metrics::ColorRamp::inferno, nan), vec3(1, 0, 1)); }),
-      refuses("AutomaticScale", "OfATornImage", [] { metrics::automatic_scale(torn()); },
+      refuses("AutomaticScale", "OfATornImage", [] { metrics::automatic_scale(torn_image()); },
               {"number of pixels"}),
       refuses("Masked", "ByAnEmptyMask", [] { metrics::masked(Image(2, 2), Image()); }, {"mask", "empty"}),
       refuses("InMask", "BesideThePicture", [] { metrics::in_mask(Image(2, 2), 4, 0, 4, 4); },
               {"mask", "lie"}),
       refuses("PixelsOutside", "AnEmptyMask", [] { metrics::pixels_outside(Image(), 4, 4); }, {"empty"}),
-      refuses("Flip", "OfATornImage", [] { metrics::flip(Image(4, 4), torn()); }, {"number of pixels"}),
+      refuses("Flip", "OfATornImage", [] { metrics::flip(Image(4, 4), torn_image()); }, {"number of pixels"}),
       refuses("Flip", "AtNoPixelsPerDegree", [] { metrics::flip(Image(4, 4), Image(4, 4), {0}); },
               {"pixels per degree"}),
       refuses("HdrFlip", "AtPixelsPerDegreeThatAreNoNumber",

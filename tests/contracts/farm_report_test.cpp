@@ -60,7 +60,7 @@ std::vector<Contract> of_farm() {
       refuses_job("WithoutProbes", [](auto& job) { job.probes.clear(); }, {"job: probes"}),
       refuses_job("OfAPlaceThatIsNone", [](auto& job) { job.places[0].position.y = nan; },
                   {"job: places", "finite"}),
-      refuses_job("AtNoTime", [](auto& job) { job.scene.time = infinite; }, {"job: scene/time"}),
+      refuses_job("AtNoTime", [](auto& job) { job.scene.time = infinity; }, {"job: scene/time"}),
       refuses_job("OfMinusOneSamples", [](auto& job) { job.path.spp = -1; }, {"job: spp"}),
       refuses("Job", "OfNoTiles", [] { farm::validate(farm::TileJob()); }, {"job: "}),
       refuses("DecodeJob", "OfNoBytes", [] { farm::decode_job(""); }, {"job"}),

@@ -53,8 +53,8 @@ GlContract refuses_frame(std::string given, std::function<void(Renderer&)> call,
 }
 
 /// The same for a state of the light.
-GlContract refuses_state(std::string given, std::function<void(scene::LightingState&)> spoil,
-                         std::vector<std::string> words) {
+GlContract refuses_drawn_state(std::string given, std::function<void(scene::LightingState&)> spoil,
+                               std::vector<std::string> words) {
   return refuses_frame(
       std::move(given),
       [spoil](Renderer& renderer) {
@@ -146,25 +146,25 @@ std::vector<GlContract> of_renderer() {
                     {"probe 3"}),
       refuses_frame("UpdateWithoutLight", [](Renderer& r) { r.update_probes(std::vector<int>{0}, {}); },
                     {"probes", "function for each"}),
-      refuses_state("EmissionOfNoProbe",
-                    [](auto& s) {
-                      s.emission = {{3, {}}};
-                    },
-                    {"probe 3"}),
-      refuses_state("EmissionThatIsNoNumber",
-                    [](auto& s) {
-                      s.emission = {{0, sh::RadianceSh(0)}};
-                      s.emission[0].leaving[0] = vec3(nan);
-                    },
-                    {"emission", "finite"}),
-      refuses_state("OneLightMore", [](auto& s) { s.lights.resize(2); }, {"2 lights"}),
-      refuses_state("LightThatIsNoNumber", [](auto& s) { s.lights[0].color = vec3(nan); },
-                    {"light 0", "finite"}),
-      refuses_state("OneGroupMore", [](auto& s) { s.group_scales.resize(2); }, {"2 groups"}),
-      refuses_state("GroupScaleThatIsNoNumber", [](auto& s) { s.group_scales[0] = vec3(nan); },
-                    {"group 0", "finite"}),
+      refuses_drawn_state("EmissionOfNoProbe",
+                          [](auto& s) {
+                            s.emission = {{3, {}}};
+                          },
+                          {"probe 3"}),
+      refuses_drawn_state("EmissionThatIsNoNumber",
+                          [](auto& s) {
+                            s.emission = {{0, sh::RadianceSh(0)}};
+                            s.emission[0].leaving[0] = vec3(nan);
+                          },
+                          {"emission", "finite"}),
+      refuses_drawn_state("OneLightMore", [](auto& s) { s.lights.resize(2); }, {"2 lights"}),
+      refuses_drawn_state("LightThatIsNoNumber", [](auto& s) { s.lights[0].color = vec3(nan); },
+                          {"light 0", "finite"}),
+      refuses_drawn_state("OneGroupMore", [](auto& s) { s.group_scales.resize(2); }, {"2 groups"}),
+      refuses_drawn_state("GroupScaleThatIsNoNumber", [](auto& s) { s.group_scales[0] = vec3(nan); },
+                          {"group 0", "finite"}),
       refuses_frame("MaterialThatIsNotThere", [](Renderer& r) { r.set_material(1, {}); }, {"material 1"}),
-      refuses_state("TimeThatIsNoNumber", [](auto& s) { s.time = nan; }, {"time"}),
+      refuses_drawn_state("TimeThatIsNoNumber", [](auto& s) { s.time = nan; }, {"time"}),
       refuses_frame("FrameOfNoSize", [](Renderer& r) { r.draw({}, {}, {.width = 0}); }, {"frame size"}),
       refuses_frame("ReadBackBeforeAFrame", [](Renderer& r) { r.read_back(); }, {"no frame"}),
       refuses_frame("FittedPointsOfNoProbe",
@@ -256,12 +256,12 @@ std::vector<GlContract> of_contexts() {
   };
 }
 
-std::string name_of(const testing::TestParamInfo<GlContract>& row) {
+std::string row_name(const testing::TestParamInfo<GlContract>& row) {
   return row.param.entry + row.param.given;
 }
-INSTANTIATE_TEST_SUITE_P(OfGl, GlContractTest, testing::ValuesIn(of_objects()), name_of);
-INSTANTIATE_TEST_SUITE_P(OfContexts, GlContractTest, testing::ValuesIn(of_contexts()), name_of);
-INSTANTIATE_TEST_SUITE_P(OfRenderer, GlContractTest, testing::ValuesIn(of_renderer()), name_of);
+INSTANTIATE_TEST_SUITE_P(OfGl, GlContractTest, testing::ValuesIn(of_objects()), row_name);
+INSTANTIATE_TEST_SUITE_P(OfContexts, GlContractTest, testing::ValuesIn(of_contexts()), row_name);
+INSTANTIATE_TEST_SUITE_P(OfRenderer, GlContractTest, testing::ValuesIn(of_renderer()), row_name);
 
 }  // namespace
 }  // namespace ssphh::test

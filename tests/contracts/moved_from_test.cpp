@@ -16,7 +16,7 @@
 namespace ssphh::test {
 namespace {
 
-std::vector<Contract> rows() {
+std::vector<Contract> of_moved_from() {
   return {
       gives("LightSet", "ThatWasMoved",
             [] {
@@ -87,7 +87,7 @@ std::vector<Contract> rows() {
   };
 }
 
-SSPHH_CONTRACTS(Moved, rows());
+SSPHH_CONTRACTS(Moved, of_moved_from());
 
 }  // namespace
 }  // namespace ssphh::test

@@ -73,7 +73,7 @@ std::vector<Contract> of_lookups() {
                   {"probe 0", "merge_groups"}),
       refuses_set("Lookup", "OfDegreeMinusOne", [](ProbeSet& set) { set.degree = -1; }, look_up,
                   {"probe set", "0..10"}),
-      refuses_set("Lookup", "OfInfiniteLight", [](ProbeSet& set) { set.probes[2].reflected[3].y = infinite; },
+      refuses_set("Lookup", "OfInfiniteLight", [](ProbeSet& set) { set.probes[2].reflected[3].y = infinity; },
                   look_up, {"probe 2", "not finite"}),
       refuses_set("Lookup", "OfAHierarchyOfOtherProbes",
                   [](ProbeSet& set) { set.hierarchy = probes::Hierarchy{}; }, look_up, {"hierarchy"}),
@@ -177,7 +177,7 @@ std::vector<Contract> of_lookups() {
       refuses("SpreadPoints", "OfAPlaceThatIsNone",
               [] {
                 std::vector<rays::SurfacePoint> points(3);
-                points[2].position.x = infinite;
+                points[2].position.x = infinity;
                 transport::spread_points(points, 1);
               },
               {"not finite"}),

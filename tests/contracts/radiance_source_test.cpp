@@ -34,7 +34,7 @@ class UnrulyRadiance final : public rays::RadianceSource {
     if (sink && fault_ == Fault::emitter) sink(0, {99, vec3(0, 1, 0), vec3(0, 1, 0), vec3(1)});
     if (sink && fault_ == Fault::chunk) sink(ghost_chunk_count, {0, vec3(0, 1, 0), vec3(0, 1, 0), vec3(1)});
     image::CubeMap map(request.face_size);
-    if (fault_ == Fault::not_finite) map.faces[0].pixels[0] = infinite;
+    if (fault_ == Fault::not_finite) map.faces[0].pixels[0] = infinity;
     return std::vector<image::CubeMap>(count, map);
   }
   std::vector<rays::IrradianceEstimate> surface_irradiance(std::span<const rays::SurfacePoint> points,
@@ -66,7 +66,7 @@ bake::BakeParams without_viz() {
   return params;
 }
 
-std::vector<Contract> rows() {
+std::vector<Contract> of_sources_of_radiance() {
   return {
       refuses("Gen", "FromASourceOfOtherGroups", [] { gen(Fault::groups); }, {"radiance source", "groups"}),
       refuses("Gen", "FromASourceOfOtherFaces", [] { gen(Fault::face_size); }, {"size"}),
@@ -139,7 +139,7 @@ std::vector<Contract> rows() {
   };
 }
 
-SSPHH_CONTRACTS(RadianceSource, rows());
+SSPHH_CONTRACTS(RadianceSource, of_sources_of_radiance());
 
 }  // namespace
 }  // namespace ssphh::test

@@ -114,7 +114,7 @@ std::vector<Contract> of_scenes() {
       gives("LightGroups", "OfAnEmptyScene", [] { EXPECT_TRUE(scene::light_groups({}).empty()); }));
   rows.push_back(
       gives("WorldBounds", "OfAnEmptyScene", [] { EXPECT_TRUE(scene::world_bounds({}, {}).empty()); }));
-  for (const float wrong : {nan, -1.0f, infinite}) {
+  for (const float wrong : {nan, -1.0f, infinity}) {
     const std::string name = wrong != wrong ? "NoNumber" : wrong < 0 ? "MinusOne" : "Infinity";
     rows.push_back(refuses("AddSunSky", "OfElevation" + name,
                            [wrong] {

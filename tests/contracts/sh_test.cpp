@@ -29,7 +29,7 @@ RadianceSh too_many() {
   return f;
 }
 
-sh::TransferMatrix torn() {
+sh::TransferMatrix torn_matrix() {
   sh::TransferMatrix matrix(2, 2);
   matrix.values.resize(5);
   return matrix;
@@ -67,12 +67,12 @@ std::vector<Contract> of_values() {
       refuses("TransferMatrixSum", "WithOneThatLacksValues",
               [] {
                 sh::TransferMatrix sum(2, 2);
-                sum += torn();
+                sum += torn_matrix();
               },
               {"degrees differ"}),
       refuses("AddPath", "IntoAMatrixThatLacksValues",
               [] {
-                sh::TransferMatrix matrix = torn();
+                sh::TransferMatrix matrix = torn_matrix();
                 sh::add_path(matrix, vec3(1), up, up);
               },
               {"transfer matrix"}),
@@ -91,7 +91,7 @@ std::vector<Contract> of_values() {
       refuses("MatrixProduct", "WithAMatrixThatLacksValues",
               [] {
                 RadianceSh sum(2);
-                sh::add_matrix_product(sum, torn(), RadianceSh(2));
+                sh::add_matrix_product(sum, torn_matrix(), RadianceSh(2));
               },
               {"matrix product"}),
       refuses("TripleProduct", "OfDegreeEleven", [] { sh::TripleProductTensor(2, 11, 2); }, {"0..10"}),

@@ -18,8 +18,8 @@ using realtime::FrameSettings;
 using realtime::Renderer;
 using realtime::View;
 
-constexpr PictureSize size{40, 24};
-constexpr gl::Rect around{0, 0, 60, 50}, place{7, 15, size.width, size.height};
+constexpr PictureSize display_size{40, 24};
+constexpr gl::Rect around{0, 0, 60, 50}, place{7, 15, display_size.width, display_size.height};
 
 class Display : public WithGl {
  protected:
@@ -38,8 +38,8 @@ class Display : public WithGl {
     gl::bind_framebuffer(framebuffer_.id(), around);
     gl::clear_color(0, 0.2f, 0.2f, 0.2f, 0.2f);
     renderer_->draw(scene::camera_pose(scene_, ""), settings,
-                    {.width = size.width,
-                     .height = size.height,
+                    {.width = display_size.width,
+                     .height = display_size.height,
                      .framebuffer = framebuffer_.id(),
                      .x = place.x,
                      .y = place.y});

@@ -14,7 +14,7 @@ namespace {
 
 using realtime::Renderer;
 
-constexpr PictureSize size{48, 32};
+constexpr PictureSize glass_size{48, 32};
 const vec3 glow(0.8f, 0.5f, 0.2f), sky(0.6f, 0.9f, 1.2f);
 
 scene::Material pane(const vec3& tint) {
@@ -48,7 +48,8 @@ class GlassPixels : public WithGl {
  protected:
   image::Image draw(const scene::Scene& scene) {
     Renderer renderer(gl(), scene, {.light_map_size = 128, .sun_map_size = 128});
-    renderer.draw(scene::camera_pose(scene, ""), {}, {.width = size.width, .height = size.height});
+    renderer.draw(scene::camera_pose(scene, ""), {},
+                  {.width = glass_size.width, .height = glass_size.height});
     return renderer.read_back();
   }
 };
@@ -64,15 +65,15 @@ TEST_F(GlassPixels, PanesDimWhatIsBehindThemAndReflectTheSky) {
   for (const bool two : {false, true}) {
     const scene::Scene scene = before_a_wall(two ? std::vector{first, second} : std::vector{first});
     const image::Image drawn = draw(scene);
-    const std::vector<rays::RayQuery> rays = pixel_rays(scene::camera_pose(scene, ""), size);
-    image::Image expected(size.width, size.height, 3);
+    const std::vector<rays::RayQuery> rays = pixel_rays(scene::camera_pose(scene, ""), glass_size);
+    image::Image expected(glass_size.width, glass_size.height, 3);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const float cosine = -rays[i].direction.z;
       const shading::GlassShares near = shares_of(first, cosine);
       vec3 value = glow * near.transmitted;
       if (two) value *= shares_of(second, cosine).transmitted;
       value += near.reflected * sky;  // of the nearest pane alone
-      const int x = static_cast<int>(i) % size.width, y = static_cast<int>(i) / size.width;
+      const int x = static_cast<int>(i) % glass_size.width, y = static_cast<int>(i) / glass_size.width;
       expected.set_rgb(x, y, value);
     }
     // What is reflected is kept in 10 bits of its root: up to 0.4 % of it, 1 % of the sky at these angles.
@@ -88,7 +89,7 @@ TEST_F(GlassPixels, WhatIsHalfGlassOrLessIsASurface) {
   // Its opaque share, in the open under an even sky.
   const vec3 expected = 0.75f * 0.5f * sky;
   for (int c = 0; c < 3; ++c)
-    EXPECT_NEAR(drawn.at(size.width / 2, size.height / 2)[c], expected[c], 0.02f * expected[c]);
+    EXPECT_NEAR(drawn.at(glass_size.width / 2, glass_size.height / 2)[c], expected[c], 0.02f * expected[c]);
 }
 
 TEST_F(GlassPixels, LightGoesThroughPanesAndIsHeldBackByWhatIsMostlyNone) {

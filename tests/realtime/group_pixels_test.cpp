@@ -13,8 +13,8 @@
 namespace ssphh::test {
 namespace {
 
-constexpr PictureSize size{80, 48};
-constexpr float rounding = 0.004f;  // as of lamps without an extent
+constexpr PictureSize group_size{80, 48};
+constexpr float group_rounding = 0.004f;  // as of lamps without an extent
 
 /// Irradiance of one group at the middle of every pixel, as transport has it, and without shadows.
 struct GroupLight {
@@ -57,7 +57,7 @@ class GroupPixels : public WithGl {
   void expect_truth(const scene::Scene& scene, const std::vector<vec3>& scales, float steps, double partly) {
     const trace::TransportScene source(scene);
     const scene::CameraPose pose = scene::camera_pose(scene, "");
-    const PixelPoints points(source, pose, size);
+    const PixelPoints points(source, pose, group_size);
     std::vector<GroupLight> groups;
     for (std::size_t g = 0; g < scales.size(); ++g) groups.emplace_back(scene, static_cast<int>(g), points);
     const auto sum = [&](std::vector<vec3> GroupLight::*of) {
@@ -70,16 +70,18 @@ class GroupPixels : public WithGl {
     };
     const image::Image lit = sum(&GroupLight::lit), open = sum(&GroupLight::open);
     PictureBounds bounds =
-        PictureBounds::around(lit, rounding, 2e-3f * static_cast<float>(mean_luminance(lit)));
+        PictureBounds::around(lit, group_rounding, 2e-3f * static_cast<float>(mean_luminance(lit)));
     std::vector<bool> edge = points.corners();  // and shadows of a texel's width before walls
     for (const GroupLight& group : groups) {
       const std::vector<bool> found = points.edges(
           [&](std::size_t a, std::size_t b) { return std::abs(group.share(a) - group.share(b)) > 0.003; });
       for (std::size_t i = 0; i < edge.size(); ++i) edge[i] = edge[i] || found[i];
     }
-    const auto at_edge = [&](int x, int y) { return edge[static_cast<std::size_t>(y * size.width + x)]; };
-    for (int y = 0; y < size.height; ++y) {
-      for (int x = 0; x < size.width; ++x) {
+    const auto at_edge = [&](int x, int y) {
+      return edge[static_cast<std::size_t>(y * group_size.width + x)];
+    };
+    for (int y = 0; y < group_size.height; ++y) {
+      for (int x = 0; x < group_size.width; ++x) {
         if (!at_edge(x, y)) continue;
         bounds.low.set_rgb(x, y, bounds.low.rgb(x, y) - steps * open.rgb(x, y));
         bounds.high.set_rgb(x, y, bounds.high.rgb(x, y) + steps * open.rgb(x, y));
@@ -91,7 +93,7 @@ class GroupPixels : public WithGl {
     change_lighting(renderer, [&](auto& state) { std::ranges::copy(scales, state.group_scales.begin()); });
     realtime::FrameSettings settings;
     settings.view = realtime::View::direct;
-    renderer.draw(pose, settings, {.width = size.width, .height = size.height});
+    renderer.draw(pose, settings, {.width = group_size.width, .height = group_size.height});
     EXPECT_TRUE(picture_is(renderer.read_back(), bounds));
   }
   static scene::Light lamp(scene::LightType type, const vec3& color, float intensity, const char* group) {

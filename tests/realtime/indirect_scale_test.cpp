@@ -26,15 +26,15 @@ class IndirectScale : public test::WithGl {
   }
 };
 
-struct Difference {
+struct ScaleDifference {
   double mean = 0;   ///< of absolute differences, by the mean of the first picture
   double other = 0;  ///< share of the pixels that are not the same
   double off = 0;    ///< share of those that differ by more than allowed
 };
 
 /// `allowed` of the brighter, and what no display shows.
-Difference difference(const image::Image& a, const image::Image& b, float allowed) {
-  Difference found;
+ScaleDifference difference(const image::Image& a, const image::Image& b, float allowed) {
+  ScaleDifference found;
   double sum = 0;
   for (int y = 0; y < a.height; ++y) {
     for (int x = 0; x < a.width; ++x) {
@@ -68,7 +68,7 @@ TEST_F(IndirectScale, PixelsBetweenThoseLookedUpDifferByNoMoreThanTheTolerance) 
         SCOPED_TRACE(testing::Message() << scale << ", " << tolerance << ", occlusion " << occlusion);
         settings.indirect_scale = scale;
         settings.indirect_tolerance = tolerance;
-        const Difference found =
+        const ScaleDifference found =
             difference(exact, draw(renderer, scene, settings, target), tolerance + half_float);
         EXPECT_EQ(found.off, 0);
         // Halves err by a quarter of 2^-10 in the mean; with any tolerance interpolation was seen to by 0.021

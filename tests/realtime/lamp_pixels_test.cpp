@@ -13,11 +13,11 @@
 namespace ssphh::test {
 namespace {
 
-constexpr PictureSize size{80, 48};
+constexpr PictureSize lamp_size{80, 48};
 
 /// Of the G-buffer: 10 bits of a colour's root err by 0.1 % / root, of albedos over 0.2; sums of halves by
 /// 0.05 % each. Normals of 16 bits err by 3e-5 rad, which counts at grazing angles: a constant.
-constexpr float rounding = 0.004f;
+constexpr float lamp_rounding = 0.004f;
 
 class LampPixels : public WithGl {
  protected:
@@ -25,14 +25,15 @@ class LampPixels : public WithGl {
     realtime::FrameSettings settings;
     settings.view = realtime::View::direct;
     settings.sky = realtime::Sky::black;
-    renderer.draw(scene::camera_pose(scene, ""), settings, {.width = size.width, .height = size.height});
+    renderer.draw(scene::camera_pose(scene, ""), settings,
+                  {.width = lamp_size.width, .height = lamp_size.height});
     return renderer.read_back();
   }
 };
 
 /// What may be drawn of a lamp's light: shadows' edges may lie a pixel aside, and are few.
 PictureBounds bounds_of(const LampPicture& truth) {
-  PictureBounds bounds = PictureBounds::around(truth.picture, rounding,
+  PictureBounds bounds = PictureBounds::around(truth.picture, lamp_rounding,
                                                2e-3f * static_cast<float>(mean_luminance(truth.picture)));
   EXPECT_LT(bounds.widen([&](int x, int y) { return truth.edge_at(x, y); }), 0.15);
   return bounds;
@@ -45,7 +46,7 @@ TEST_P(LampWithoutExtent, LightsEveryPixelAsItsClosedFormSays) {
     scene::Scene scene = stage(matte({0.9f, 0.3f, 0.5f}));
     add_stage_lamp(scene, GetParam().light);
     scene.cameras[0].orthographic = parallel, scene.cameras[0].yheight = 3.5f;
-    const LampPicture truth(scene, size, GetParam().arriving, lambertian);
+    const LampPicture truth(scene, lamp_size, GetParam().arriving, lambertian);
     realtime::Renderer renderer(gl(), scene);
     EXPECT_TRUE(picture_is(draw(renderer, scene), bounds_of(truth)))
         << (parallel ? "orthographic" : "perspective");
@@ -77,7 +78,7 @@ TEST_F(LampPixels, EveryModelOfReflectionIsThatOfTheCpu) {
     const shading::BsdfParams ball{material.base_color * (1 - m.metallic),
                                    glm::mix(vec3(0.04f * m.specular), material.base_color, m.metallic),
                                    m.diffuse, m.specular_roughness};
-    const LampPicture truth(scene, size, lamp.arriving, [&](const PixelPoint& p, const vec3& wi) {
+    const LampPicture truth(scene, lamp_size, lamp.arriving, [&](const PixelPoint& p, const vec3& wi) {
       if (!on_stage_ball(p.point)) return lambertian(p, wi);
       const Frame frame = Frame::around(stage_normal(p.point));
       return shading::eval_bsdf(ball, frame.to_local(p.wo), frame.to_local(wi));
@@ -102,7 +103,7 @@ TEST_F(LampPixels, ShadowsOfAMaskedLeafHaveItsHoles) {
   s.materials.push_back(leaf);
   add_mesh(s, scene::make_quad({-0.2f, 1.6f, 1.6f}, {1.6f, 0, 0}, {0, 0, -1}), 4);
   add_stage_lamp(s, lamp.light);
-  const LampPicture truth(s, size, lamp.arriving, lambertian);
+  const LampPicture truth(s, lamp_size, lamp.arriving, lambertian);
   realtime::Renderer renderer(gl(), s);
   EXPECT_TRUE(picture_is(draw(renderer, s), bounds_of(truth)));
 }

@@ -15,7 +15,7 @@
 namespace ssphh::test {
 namespace {
 
-constexpr PictureSize size{72, 48};
+constexpr PictureSize lookup_size{72, 48};
 
 using probes::LookupMethod;
 using probes::WeightMethod;
@@ -101,7 +101,8 @@ class LookupPixels : public WithGl {
                                  const Differs& differs) {
     PictureBounds bounds = PictureBounds::around(truth, share, 3e-4f);
     const std::vector<bool> edges = points.edges(differs);
-    EXPECT_LT(bounds.widen([&](int x, int y) { return edges[static_cast<std::size_t>(y * size.width + x)]; }),
+    EXPECT_LT(bounds.widen(
+                  [&](int x, int y) { return edges[static_cast<std::size_t>(y * lookup_size.width + x)]; }),
               0.25);
     // One texel of a probe's map tells whether it is seen: within 1.5 of them, 2 * 3.9 m / 254 wide, the next
     // wall may hide it. Closer still, rounding says which wall a pixel shows
@@ -110,7 +111,7 @@ class LookupPixels : public WithGl {
                  away = glm::min(x, vec3(4, 3, 5) - x) + 10.0f * glm::abs(p.point.normal);
       bounds.left_out.push_back(std::min({away.x, away.y, away.z}) < 0.05f);
     }
-    EXPECT_LT(std::ranges::count(bounds.left_out, true), 0.08 * size.width * size.height);
+    EXPECT_LT(std::ranges::count(bounds.left_out, true), 0.08 * lookup_size.width * lookup_size.height);
     return bounds;
   }
   static PictureBounds bounds_of(const PixelPoints& points, const image::Image& truth, float share) {
@@ -121,7 +122,8 @@ class LookupPixels : public WithGl {
     realtime::FrameSettings settings;
     settings.view = realtime::View::indirect;
     settings.lookup = method, settings.weights = weights;
-    renderer.draw(pose_of(scene, camera), settings, {.width = size.width, .height = size.height});
+    renderer.draw(pose_of(scene, camera), settings,
+                  {.width = lookup_size.width, .height = lookup_size.height});
     return renderer.read_back();
   }
   static scene::CameraPose pose_of(const scene::Scene& scene, const std::string& camera) {
@@ -172,7 +174,7 @@ TEST_P(EveryWeight, InAnEmptyRoomEveryPixelIsTheCpus) {
   if (w.weights == WeightMethod::surface)
     probes.surface = made_up_records(made_up_fit(scene, probes, 800).points, probes.light_groups);
   const trace::TransportScene source(scene);
-  const PixelPoints points(source, pose_of(scene, ""), size);
+  const PixelPoints points(source, pose_of(scene, ""), lookup_size);
   realtime::Renderer renderer(gl(), scene);
   renderer.set_probes(probes);
   if (probes.surface) set_records(renderer, scene, *probes.surface, tracer);
@@ -231,7 +233,7 @@ TEST_F(LookupPixels, WhatStandsBehindTheEndOfAListIsNoProbe) {
   const probes::ProbeSet probes = coloured(smooth_probes(places));
   const trace::PathTracer tracer(scene);
   const trace::TransportScene source(scene);
-  const PixelPoints points(source, pose_of(scene, ""), size);
+  const PixelPoints points(source, pose_of(scene, ""), lookup_size);
   realtime::Renderer renderer(gl(), scene);
   renderer.set_probes(probes);
   const auto light = lookup(probes, tracer, LookupMethod::light, WeightMethod::distance);
@@ -243,8 +245,9 @@ TEST_F(LookupPixels, WhatStandsBehindTheEndOfAListIsNoProbe) {
   PictureBounds bounds = PictureBounds::around(looked_up(points, *light), 1.5f * tile, 3e-4f);
   const std::vector<bool> edges =
       points.edges([&](std::size_t a, std::size_t b) { return nearest[a] != nearest[b]; });
-  EXPECT_LT(bounds.widen([&](int x, int y) { return edges[static_cast<std::size_t>(y * size.width + x)]; }),
-            0.35);
+  EXPECT_LT(
+      bounds.widen([&](int x, int y) { return edges[static_cast<std::size_t>(y * lookup_size.width + x)]; }),
+      0.35);
   EXPECT_TRUE(picture_is(draw(renderer, scene, "", LookupMethod::light, WeightMethod::distance), bounds));
 }
 
@@ -266,7 +269,7 @@ TEST_F(LookupPixels, GlossyWallsMirrorTheProbesByTheirRoughness) {
       for (probes::GroupLight& light : probe.groups) light.reflected[0] *= 2;
     probes::merge_groups(probes);
     const trace::TransportScene source(scene);
-    const PixelPoints points(source, pose_of(scene, ""), size);
+    const PixelPoints points(source, pose_of(scene, ""), lookup_size);
     realtime::Renderer renderer(gl(), scene);
     renderer.set_probes(probes);
     const auto light = lookup(probes, tracer, LookupMethod::irradiance, WeightMethod::mls);

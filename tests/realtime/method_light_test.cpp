@@ -23,7 +23,7 @@ using test::PictureSize;
 using Settings = std::vector<std::string>;
 using testing::HasSubstr;
 
-constexpr PictureSize size{96, 54};
+constexpr PictureSize method_size{96, 54};
 /// Small maps, to be quick.
 const realtime::RendererParams quick{.virtual_light_map_bytes = std::size_t{16} << 20};
 
@@ -59,14 +59,14 @@ struct Picture {
 /// material.
 Picture looked_up(const Subject& subject, const std::string& camera,
                   const shading::BsdfParams* glossy = nullptr) {
-  const std::vector<rays::RayQuery> rays = test::pixel_rays(subject.camera(camera), size);
+  const std::vector<rays::RayQuery> rays = test::pixel_rays(subject.camera(camera), method_size);
   std::vector<rays::RayHit> hits(rays.size());
   rays::PosedWorld(subject.source, subject.time).intersect(rays, hits);
-  Picture picture{{size.width, size.height, 3}, {size.width, size.height, 3}};
+  Picture picture{{method_size.width, method_size.height, 3}, {method_size.width, method_size.height, 3}};
   parallel_for(rays.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (hits[i].escaped()) continue;
-      const int x = static_cast<int>(i) % size.width, y = static_cast<int>(i) / size.width;
+      const int x = static_cast<int>(i) % method_size.width, y = static_cast<int>(i) / method_size.width;
       const vec3 at = rays[i].origin + hits[i].distance * rays[i].direction;
       const rays::SurfacePoint point{at, hits[i].normal};
       const vec3 irradiance = subject.method->light().irradiance(point);
@@ -86,14 +86,14 @@ Picture looked_up(const Subject& subject, const std::string& camera,
 }
 
 /// Of luminance, relative to the truth, its mean / 10 added in squares.
-struct Difference {
+struct LightDifference {
   double relmse = 0;
   double largest = 0;  ///< of the means of blocks of 6 × 6
   double ratio = 0;    ///< of the pictures' means
 };
 
 /// Leaves out pixels that show different surfaces: edges that pass through their very middle.
-Difference difference(const Picture& picture, const Picture& truth) {
+LightDifference difference(const Picture& picture, const Picture& truth) {
   constexpr int block = 6;
   const auto counts = [&](int x, int y) {
     return glm::dot(picture.normal.rgb(x, y), truth.normal.rgb(x, y)) > 0.99f;
@@ -102,14 +102,15 @@ Difference difference(const Picture& picture, const Picture& truth) {
     return counts(x, y) ? static_cast<double>(luminance(p.radiance.rgb(x, y))) : 0;
   };
   double mean = 0, of_picture = 0;
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) mean += value(truth, x, y), of_picture += value(picture, x, y);
+  for (int y = 0; y < method_size.height; ++y) {
+    for (int x = 0; x < method_size.width; ++x)
+      mean += value(truth, x, y), of_picture += value(picture, x, y);
   }
-  Difference d{0, 0, of_picture / mean};
-  constexpr double pixels = size.width * size.height;
+  LightDifference d{0, 0, of_picture / mean};
+  constexpr double pixels = method_size.width * method_size.height;
   const double least = 0.1 * mean / pixels;
-  for (int by = 0; by < size.height / block; ++by) {
-    for (int bx = 0; bx < size.width / block; ++bx) {
+  for (int by = 0; by < method_size.height / block; ++by) {
+    for (int bx = 0; bx < method_size.width / block; ++bx) {
       double a = 0, b = 0;
       for (int i = 0; i < block * block; ++i) {
         const int x = bx * block + i % block, y = by * block + i / block;
@@ -129,7 +130,8 @@ class MethodLight : public test::WithGl {
                realtime::FrameSettings settings = {}) {
     const auto view = [&](realtime::View wanted) {
       settings.view = wanted;
-      stats_ = renderer.draw(subject.camera(camera), settings, {.width = size.width, .height = size.height});
+      stats_ = renderer.draw(subject.camera(camera), settings,
+                             {.width = method_size.width, .height = method_size.height});
       return renderer.read_back();
     };
     Picture picture{{}, view(realtime::View::normal)};
@@ -154,26 +156,26 @@ double number(const realtime::Renderer& renderer, const std::string& name) {
   return 0;
 }
 
-struct View {
+struct MethodView {
   std::string scene, camera;
   float time;
 };
-void PrintTo(const View& view, std::ostream* out) {
+void PrintTo(const MethodView& view, std::ostream* out) {
   *out << view.scene << " " << view.camera << " " << view.time;
 }
 
-class MethodPicture : public MethodLight, public testing::WithParamInterface<View> {};
+class MethodPicture : public MethodLight, public testing::WithParamInterface<MethodView> {};
 
 /// The same arithmetic on the same voxels. What differs: voxels are halves (2⁻¹¹), normals have 16 bits; and
 /// where a rounding decides whether a surface is still being crossed, one of 16 cones goes on with another
 /// size of voxels: it may err by half of what it sees, 1/32 of the whole.
 TEST_P(MethodPicture, OfConesThroughVoxelsIsTheCpus) {
-  const View& view = GetParam();
+  const MethodView& view = GetParam();
   const bool dense = view.time > 0;  // both ways to keep voxels give the same ones
   const Subject subject(view.scene, "vct",
                         {"resolution=32", "bounces=2", dense ? "storage=dense" : "storage=sparse"},
                         view.time);
-  const Difference d = difference(draw(subject, view.camera), looked_up(subject, view.camera));
+  const LightDifference d = difference(draw(subject, view.camera), looked_up(subject, view.camera));
   EXPECT_LT(d.relmse, 4e-5);
   EXPECT_LT(d.largest, 1.0 / 50) << "not all of a block's pixels do";
   EXPECT_NEAR(d.ratio, 1, 5e-4);
@@ -182,13 +184,13 @@ TEST_P(MethodPicture, OfConesThroughVoxelsIsTheCpus) {
 /// Edges of shadows move by up to 1.5 texels: with 126 on 2 d at distance d, 0.024 d, which is 0.4 of a block
 /// where the picture is d wide. Of some 75 lights none gives more than a quarter of a block's light.
 TEST_P(MethodPicture, OfVirtualLightsIsTheCpusUpToTexelsOfTheirMaps) {
-  const View& view = GetParam();
+  const MethodView& view = GetParam();
   for (const char* kind : {"kind=point", "kind=sphere"}) {
     const Subject subject(view.scene, "vpl", {"photons=48", "check_points=0", kind}, view.time);
     const Picture truth = looked_up(subject, view.camera);
-    const Difference coarse =
+    const LightDifference coarse =
         difference(draw(subject, view.camera, {.virtual_light_map_bytes = std::size_t{4} << 20}), truth);
-    const Difference fine =
+    const LightDifference fine =
         difference(draw(subject, view.camera, {.virtual_light_map_bytes = std::size_t{64} << 20}), truth);
     EXPECT_LT(fine.relmse, 0.01) << kind;
     EXPECT_LT(fine.largest, 0.08) << kind;
@@ -199,7 +201,7 @@ TEST_P(MethodPicture, OfVirtualLightsIsTheCpusUpToTexelsOfTheirMaps) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Builtin, MethodPicture,
-                         testing::Values(View{"cornell", "", 0}, View{"two-rooms", "room-b", 1}),
+                         testing::Values(MethodView{"cornell", "", 0}, MethodView{"two-rooms", "room-b", 1}),
                          [](const auto& given) {
                            std::string name = given.param.scene + given.param.camera;
                            std::erase(name, '-');
@@ -217,11 +219,11 @@ TEST_F(MethodLight, IsReflectedByGlossySurfacesAsTheTracerDoes) {
     }
     const shading::BsdfParams bsdf{vec3(0.25f), vec3(0.27f), 0, roughness};
     const Subject cones(scene, "vct", {"resolution=16", "bounces=1"});
-    const Difference by_cones = difference(draw(cones, ""), looked_up(cones, "", &bsdf));
+    const LightDifference by_cones = difference(draw(cones, ""), looked_up(cones, "", &bsdf));
     EXPECT_LT(by_cones.largest, 0.01) << roughness;
     EXPECT_NEAR(by_cones.ratio, 1, 0.002) << roughness;
     const Subject lights(scene, "vpl", {"photons=32", "check_points=0"});
-    const Difference by_lights = difference(draw(lights, ""), looked_up(lights, "", &bsdf));
+    const LightDifference by_lights = difference(draw(lights, ""), looked_up(lights, "", &bsdf));
     EXPECT_LT(by_lights.largest, 0.06) << roughness;
     EXPECT_NEAR(by_lights.ratio, 1, 0.002) << roughness;
   }
@@ -238,7 +240,7 @@ TEST_F(MethodLight, BehindAShutDoorIsDark) {
 
   // Voxels leak, as much as on the CPU
   const Subject cones("two-rooms", "vct", {"resolution=32", "bounces=1"});
-  const Difference d = difference(draw(cones, "room-b"), looked_up(cones, "room-b"));
+  const LightDifference d = difference(draw(cones, "room-b"), looked_up(cones, "room-b"));
   EXPECT_NEAR(d.ratio, 1, 0.005);
 }
 
@@ -266,7 +268,7 @@ TEST_F(MethodLight, KeepsToTheMemoryItIsGiven) {
   const std::size_t added = renderer.memory_bytes() - before;
   EXPECT_EQ(number(renderer, "gl_bytes"), static_cast<double>(added));
   EXPECT_LE(added, params.virtual_light_map_bytes + 170 * 48);
-  const Difference d = difference(draw(renderer, lights, ""), looked_up(lights, ""));
+  const LightDifference d = difference(draw(renderer, lights, ""), looked_up(lights, ""));
   EXPECT_NEAR(d.ratio, 1, 0.05)
       << "the same power; the means of 170 random lights of some size differ by 1/√170";
   renderer.clear_method_light();
@@ -284,7 +286,7 @@ TEST_F(MethodLight, FollowsLampsAndKeepsMapsThatHold) {
   realtime::Renderer renderer(gl(), lights.scene, quick);
   renderer.set_method_light(lights.method->light_data());
   const scene::CameraPose camera = lights.camera("room-a");
-  const realtime::Target target{.width = size.width, .height = size.height};
+  const realtime::Target target{.width = method_size.width, .height = method_size.height};
   EXPECT_GT(renderer.draw(camera, {}, target).shadow_maps_drawn, number(renderer, "gl_lights"))
       << "some faces of each light's cube, beside the lamp's";
   const double once = test::mean_luminance(draw(renderer, lights, "room-a").radiance);

@@ -15,7 +15,7 @@ using realtime::Renderer;
 using realtime::Sky;
 using realtime::View;
 
-constexpr PictureSize size{48, 32};
+constexpr PictureSize seen_size{48, 32};
 
 /// A black wall 2 m before the eye that covers the right half of the picture.
 scene::Scene black_wall() {
@@ -44,7 +44,8 @@ class Seen : public WithGl {
     Renderer renderer(
         gl(), scene,
         {.light_map_size = 32, .area_map_size = 32, .sun_map_size = 32, .environment_samples = 1});
-    renderer.draw(scene::camera_pose(scene, ""), settings, {.width = size.width, .height = size.height});
+    renderer.draw(scene::camera_pose(scene, ""), settings,
+                  {.width = seen_size.width, .height = seen_size.height});
     return renderer.read_back();
   }
   /// `light(ray)` is what is seen along it, up to `share`; pixels whose middle it calls doubtful by a NaN are
@@ -52,16 +53,16 @@ class Seen : public WithGl {
   template <class Light>
   static void expect_seen(const image::Image& drawn, const scene::Scene& scene, const Light& light,
                           float share = 1e-4f) {
-    const std::vector<rays::RayQuery> rays = pixel_rays(scene::camera_pose(scene, ""), size);
-    image::Image expected(size.width, size.height, 3);
+    const std::vector<rays::RayQuery> rays = pixel_rays(scene::camera_pose(scene, ""), seen_size);
+    image::Image expected(seen_size.width, seen_size.height, 3);
     std::vector<bool> doubtful;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const vec3 value = light(rays[i]);
       doubtful.push_back(!is_finite(value));
-      expected.set_rgb(static_cast<int>(i) % size.width, static_cast<int>(i) / size.width,
+      expected.set_rgb(static_cast<int>(i) % seen_size.width, static_cast<int>(i) / seen_size.width,
                        doubtful.back() ? vec3(0) : value);
     }
-    EXPECT_LT(std::ranges::count(doubtful, true), size.width * size.height / 20);
+    EXPECT_LT(std::ranges::count(doubtful, true), seen_size.width * seen_size.height / 20);
     PictureBounds bounds = PictureBounds::around(expected, share, 1e-6f);
     bounds.left_out = doubtful;
     EXPECT_TRUE(picture_is(drawn, bounds));
@@ -154,7 +155,8 @@ class Views : public WithGl {
   image::Image draw(Renderer& renderer, View view) {
     FrameSettings settings;
     settings.view = view;
-    renderer.draw(scene::camera_pose(scene_, ""), settings, {.width = size.width, .height = size.height});
+    renderer.draw(scene::camera_pose(scene_, ""), settings,
+                  {.width = seen_size.width, .height = seen_size.height});
     return renderer.read_back();
   }
   scene::Scene scene_ = stage(matte({0.9f, 0.3f, 0.5f}));
@@ -166,7 +168,7 @@ TEST_F(Views, DepthIsThatAlongTheAxis) {
     add_stage_lamp(scene_, {});
     const trace::TransportScene source(scene_);
     const scene::CameraPose pose = scene::camera_pose(scene_, "");
-    const PixelPoints points(source, pose, size);
+    const PixelPoints points(source, pose, seen_size);
     Renderer renderer(gl(), scene_);
     PictureBounds bounds = PictureBounds::around(points.picture([&](const PixelPoint& p) {
       const float z = glm::dot(p.point.position - vec3(pose.world[3]), -vec3(pose.world[2]));
@@ -174,9 +176,9 @@ TEST_F(Views, DepthIsThatAlongTheAxis) {
     }),
                                                  1e-4f, 0);
     const std::vector<bool> corners = points.corners();
-    EXPECT_LT(
-        bounds.widen([&](int x, int y) { return corners[static_cast<std::size_t>(y * size.width + x)]; }),
-        0.35);
+    EXPECT_LT(bounds.widen(
+                  [&](int x, int y) { return corners[static_cast<std::size_t>(y * seen_size.width + x)]; }),
+              0.35);
     EXPECT_TRUE(picture_is(draw(renderer, View::depth), bounds));
   }
 }

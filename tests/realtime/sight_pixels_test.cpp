@@ -15,11 +15,11 @@ namespace {
 
 using probes::WeightMethod;
 
-constexpr PictureSize size{80, 45};
+constexpr PictureSize sight_size{80, 45};
 
 /// As tests/realtime/lookup_pixels_test.cpp derives it: interpolation in tiles, 0.55 % of the mean, and
 /// colours of few bits. Where weights of both signs leave next to nothing, the same of a mean of 0.1 remains.
-constexpr float tile = 0.01f, least = 5e-4f;
+constexpr float sight_tile = 0.01f, least = 5e-4f;
 
 class SightPixels : public WithGl {
  protected:
@@ -30,7 +30,7 @@ class SightPixels : public WithGl {
     const trace::TransportScene source(scene);
     scene::CameraPose pose = scene::camera_pose(scene, camera);
     pose.world[3] += vec4(0.013f, 0.003f, 0, 0);  // no edge passes through the middle of pixels
-    const PixelPoints points(source, pose, size);
+    const PixelPoints points(source, pose, sight_size);
 
     std::vector<vec3> places;
     for (const probes::Probe& probe : probes.probes) places.push_back(probe.position);
@@ -40,30 +40,31 @@ class SightPixels : public WithGl {
     const probes::IrradianceLookup lookup(probes, probes::make_weights(places, sight.sees(), params.weights),
                                           params);
 
-    const image::Image black(size.width, size.height, 3);
+    const image::Image black(sight_size.width, sight_size.height, 3);
     PictureBounds bounds{black, black, {}, {}};
     int doubtful = 0;
-    for (int y = 0; y < size.height; ++y) {
-      for (int x = 0; x < size.width; ++x) {
+    for (int y = 0; y < sight_size.height; ++y) {
+      for (int x = 0; x < sight_size.width; ++x) {
         const PixelPoint& p = points.at(x, y);
         if (p.hit.escaped()) continue;
         vec3 low(INFINITY), high(-INFINITY);
         const int doubts = sight.for_each_choice(p.point, [&] {
           const vec3 value = p.hit.albedo / pi * lookup.irradiance(p.point);
-          low = glm::min(low, (1 - tile) * value - least), high = glm::max(high, (1 + tile) * value + least);
+          low = glm::min(low, (1 - sight_tile) * value - least),
+          high = glm::max(high, (1 + sight_tile) * value + least);
         });
         EXPECT_LE(doubts, DoubtfulSight::most);
         doubtful += doubts > 0;
         bounds.low.set_rgb(x, y, low), bounds.high.set_rgb(x, y, high);
       }
     }
-    EXPECT_LT(doubtful, 0.2 * size.width * size.height);
+    EXPECT_LT(doubtful, 0.2 * sight_size.width * sight_size.height);
     realtime::Renderer renderer(gl(), scene);
     renderer.set_probes(probes);
     realtime::FrameSettings settings;
     settings.view = realtime::View::indirect;
     settings.weights = method;
-    renderer.draw(pose, settings, {.width = size.width, .height = size.height});
+    renderer.draw(pose, settings, {.width = sight_size.width, .height = sight_size.height});
     EXPECT_TRUE(picture_is(renderer.read_back(), bounds));
   }
 };

@@ -19,7 +19,7 @@ namespace {
 using realtime::Renderer;
 using realtime::View;
 
-constexpr PictureSize size{60, 44};
+constexpr PictureSize surface_size{60, 44};
 
 /// Texels that are all different, smooth enough that a filter's eight bits do not count.
 scene::Texture noise(const std::string& name, unsigned seed, int least, int most) {
@@ -56,7 +56,7 @@ std::vector<std::optional<shading::Surface>> surfaces_of(const scene::Scene& sce
   const mat4 world = scene::world_matrices(scene, 0)[0];
   const mat3 normals = glm::transpose(glm::inverse(mat3(world)));
   std::vector<std::optional<shading::Surface>> found;
-  for (const rays::RayQuery& ray : pixel_rays(scene::camera_pose(scene, ""), size)) {
+  for (const rays::RayQuery& ray : pixel_rays(scene::camera_pose(scene, ""), surface_size)) {
     std::optional<shading::Surface>& surface = found.emplace_back();
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const auto corner = [&](int c) { return vec3(world * vec4(mesh.positions[mesh.triangles[t][c]], 1)); };
@@ -77,7 +77,8 @@ class SurfacePixels : public WithGl {
   static image::Image draw(Renderer& renderer, const scene::Scene& scene, View view) {
     realtime::FrameSettings settings;
     settings.view = view;
-    renderer.draw(scene::camera_pose(scene, ""), settings, {.width = size.width, .height = size.height});
+    renderer.draw(scene::camera_pose(scene, ""), settings,
+                  {.width = surface_size.width, .height = surface_size.height});
     return renderer.read_back();
   }
   /// `value(surface)` is what the view shows, up to `slack`.
@@ -85,15 +86,15 @@ class SurfacePixels : public WithGl {
   static void expect_view(const image::Image& drawn,
                           const std::vector<std::optional<shading::Surface>>& truth, float share, float slack,
                           const Value& value) {
-    image::Image expected(size.width, size.height, 3);
+    image::Image expected(surface_size.width, surface_size.height, 3);
     std::vector<bool> none;
     for (std::size_t i = 0; i < truth.size(); ++i) {
       none.push_back(!truth[i]);
       if (truth[i])
-        expected.set_rgb(static_cast<int>(i) % size.width, static_cast<int>(i) / size.width,
+        expected.set_rgb(static_cast<int>(i) % surface_size.width, static_cast<int>(i) / surface_size.width,
                          value(*truth[i]));
     }
-    EXPECT_LT(std::ranges::count(none, true), size.width * size.height / 2);
+    EXPECT_LT(std::ranges::count(none, true), surface_size.width * surface_size.height / 2);
     PictureBounds bounds = PictureBounds::around(expected, share, slack);
     bounds.left_out = none;
     EXPECT_TRUE(picture_is(drawn, bounds));
@@ -170,7 +171,8 @@ TEST_F(SurfacePixels, OfTexturesBeyondTheirEdgesAreTheCpus) {
     for (std::size_t i = 0; i < truth.size(); ++i) {
       if (!truth[i]) continue;
       const vec3 d =
-          drawn.rgb(static_cast<int>(i) % size.width, static_cast<int>(i) / size.width) - truth[i]->emission;
+          drawn.rgb(static_cast<int>(i) % surface_size.width, static_cast<int>(i) / surface_size.width) -
+          truth[i]->emission;
       ++all, same += glm::length(d) < 0.02f;
     }
     // Of two neighbours that a pixel's middle lies between, rounding may choose either
@@ -244,7 +246,9 @@ TEST_F(SurfacePixels, OfAMaskAreThereFromItsCutoffOn) {
   int off = 0, there = 0, all = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (!truth[i]) continue;
-    const bool shown = drawn.rgb(static_cast<int>(i) % size.width, static_cast<int>(i) / size.width).x > 0.5f;
+    const bool shown =
+        drawn.rgb(static_cast<int>(i) % surface_size.width, static_cast<int>(i) / surface_size.width).x >
+        0.5f;
     ++all, there += shown, off += shown != (truth[i]->alpha == 1);
   }
   EXPECT_LE(off, 3) << "pixels whose middle lies between two texels";
@@ -265,7 +269,9 @@ TEST_F(SurfacePixels, OfPartialCoverAreThereAsOftenAsItSays) {
     for (std::size_t i = 0; i < truth.size(); ++i) {
       if (!truth[i]) continue;
       ++all;
-      there += drawn.rgb(static_cast<int>(i) % size.width, static_cast<int>(i) / size.width).x > 0.5f;
+      there +=
+          drawn.rgb(static_cast<int>(i) % surface_size.width, static_cast<int>(i) / surface_size.width).x >
+          0.5f;
     }
     // Five standard errors of a binomial count: 6e-7
     const double share = static_cast<double>(alpha);

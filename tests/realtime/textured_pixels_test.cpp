@@ -11,7 +11,7 @@
 namespace ssphh::test {
 namespace {
 
-constexpr PictureSize size{48, 32};
+constexpr PictureSize texture_size{48, 32};
 
 /// Texels of few, strong colours, none beside one of its own.
 scene::Texture strong_colours(std::uint8_t (*alpha)(int x, int y)) {
@@ -42,7 +42,7 @@ scene::Texture waves() {
 }
 
 /// A slanted sheet, larger than the picture, under a lamp beside the eye. Its coordinates are sheared.
-scene::Scene sheet() {
+scene::Scene textured_sheet() {
   scene::Scene s;
   s.materials = {matte(vec3(1))};
   scene::Mesh mesh = scene::make_quad({-4, -4, 0}, {8, 0, 0}, {0, 8, 0});
@@ -73,7 +73,7 @@ class TexturedPixels : public WithGl {
         probes ? probes::make_lookup(probes::LookupMethod::irradiance, *probes, tracer, params) : nullptr;
     PictureSamples samples;
     for (std::uint64_t seed = 1; seed <= 8; ++seed)
-      samples.add(traced(scene, lookup.get(), size, 8, seed, tracer));
+      samples.add(traced(scene, lookup.get(), texture_size, 8, seed, tracer));
     const image::Image truth = samples.mean();
     // Weights of filters have 8 bits along each axis: 2 / 256 of the texels' differences, of colours up to 1,
     // of normals up to 0.4, which a cosine may have in full: 0.011 of a radiance of 1. Tiles of probes, and
@@ -82,8 +82,8 @@ class TexturedPixels : public WithGl {
     bounds.variance = samples.variance(), bounds.degrees = samples.degrees();
     const auto jumps = [&](int x, int y) {
       vec3 low(INFINITY), high(0);
-      for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, size.height - 1); ++ny) {
-        for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, size.width - 1); ++nx)
+      for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, texture_size.height - 1); ++ny) {
+        for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, texture_size.width - 1); ++nx)
           low = glm::min(low, truth.rgb(nx, ny)), high = glm::max(high, truth.rgb(nx, ny));
       }
       return max_component(high - low) > edge;
@@ -93,7 +93,7 @@ class TexturedPixels : public WithGl {
     if (probes) renderer.set_probes(*probes);
     realtime::FrameSettings settings;
     settings.weights = probes::WeightMethod::distance;
-    const image::Image picture = drawn(renderer, scene, size, settings);
+    const image::Image picture = drawn(renderer, scene, texture_size, settings);
     EXPECT_TRUE(picture_is(picture, bounds));
     EXPECT_GT(mean_luminance(truth), 0.1);
     EXPECT_LT(*std::ranges::max_element(truth.pixels), 1.5f);
@@ -101,7 +101,7 @@ class TexturedPixels : public WithGl {
 };
 
 TEST_F(TexturedPixels, OfColoursAndNormalsTurnedAndUnevenlyScaledAreTheTracers) {
-  scene::Scene s = sheet();
+  scene::Scene s = textured_sheet();
   s.textures = {strong_colours([](int, int) -> std::uint8_t { return 255; }), waves()};
   s.materials[0].base_color_texture = {
       .texture = 0, .offset = {0.13f, -0.27f}, .scale = {0.9f, 0.5f}, .rotation = 0.6f};
@@ -115,7 +115,7 @@ TEST_F(TexturedPixels, OfColoursAndNormalsTurnedAndUnevenlyScaledAreTheTracers) 
 // Texels that are all alike leave filters nothing to round: what the map's strength and the turn of its
 // coordinates do is seen to 1 %. A tenth of the strength is up to 5 % of the light here.
 TEST_F(TexturedPixels, OfAnEvenNormalMapAreTheTracersToAPercent) {
-  scene::Scene s = sheet();
+  scene::Scene s = textured_sheet();
   scene::Texture& lean = s.textures.emplace_back();
   lean.name = "lean", lean.width = lean.height = 2;
   for (int i = 0; i < 4; ++i) lean.rgba.insert(lean.rgba.end(), {80, 170, 215, 255});
@@ -129,7 +129,7 @@ TEST_F(TexturedPixels, OfAnEvenNormalMapAreTheTracersToAPercent) {
 }
 
 TEST_F(TexturedPixels, OfAMaskAndOfWhatIsLitThroughItsHolesAreTheTracers) {
-  scene::Scene s = sheet();
+  scene::Scene s = textured_sheet();
   s.textures = {strong_colours([](int x, int y) -> std::uint8_t { return (x + y) % 3 == 0 ? 120 : 170; })};
   scene::Material& m = s.materials[0];
   m.alpha_mode = scene::AlphaMode::mask, m.alpha = 0.9f, m.alpha_cutoff = 0.5f;

@@ -11,12 +11,13 @@
 #include <ssphh/scene/builtin.h>
 #include <ssphh/trace/path_tracer.h>
 
+#include "root_4pi.h"
 #include "z_test.h"
 
 namespace ssphh {
 namespace {
 
-constexpr float root_4pi = 3.5449077018110318f;
+using test::root_4pi;
 
 probes::ProbeSet bake(const scene::Scene& scene, int degree, const bake::BakeParams& params, float time = 0) {
   const trace::PathTracer tracer(scene, time);

@@ -13,33 +13,20 @@
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
+#include "transport_baked.h"
 #include "transport_fixtures.h"
 
 namespace ssphh {
 namespace {
 
-/// The room behind the shut door is dark, which is no news here.
-void silence_warnings() {
-  set_log_level(LogLevel::error);
-}
-
-struct Baked {
-  probes::ProbeSet set;
-  bake::TransportBakeReport report;
-};
-
-Baked bake(const scene::Scene& scene, int degree, const bake::TransportBakeParams& params = {}) {
-  const trace::TransportScene source(scene);
-  Baked baked;
-  baked.set = bake::bake_transport(source, place::init_from_scene(scene, degree), params, baked.report);
-  return baked;
-}
+using test::transport_baked;
+using test::TransportBaked;
 
 TEST(GiTransportBake, TheClosedBoxHoldsTheWholeGeometricSeries) {
   // Emission 1 and albedo 1/2 everywhere: 1 is seen directly, 1/2 + 1/4 + ... = 1 is reflected.
   bake::TransportBakeParams params;
   params.solve.tolerance = 1e-5f;
-  const Baked baked = bake(scene::make_builtin("box"), 3, params);
+  const TransportBaked baked = transport_baked(scene::make_builtin("box"), 3, params);
   for (const probes::Probe& probe : baked.set.probes) {
     ASSERT_EQ(probe.groups.size(), 1u);
     EXPECT_NEAR(double(sh::mean(probe.groups[0].emitted).y), 1, 2e-3);  // emissions are kept to 1 in 512
@@ -66,7 +53,7 @@ TEST(GiTransportBake, TheSetTellsHowItWasMade) {
   params.transport.directions = 200;
   params.transport.link_rays = 32;
   const scene::Scene scene = scene::make_builtin("box");
-  const probes::GeneratorInfo g = bake(scene, 2, params).set.generator;
+  const probes::GeneratorInfo g = transport_baked(scene, 2, params).set.generator;
   EXPECT_EQ(g.op, probes::LightOperator::surfel);
   EXPECT_EQ(g.directions, 200);
   EXPECT_EQ(g.link_rays, 32);
@@ -79,7 +66,7 @@ TEST(GiTransportBake, GroupsAddUpToTheLightOfAll) {
   bake::TransportBakeParams params;
   params.transport.link_rays = 32;
   params.solve.tolerance = 1e-5f;
-  const probes::ProbeSet set = bake(scene, 2, params).set;
+  const probes::ProbeSet set = transport_baked(scene, 2, params).set;
   ASSERT_GT(set.light_groups.size(), 1u);
 
   const trace::TransportScene source(scene);
@@ -109,7 +96,7 @@ TEST(GiTransportBake, FittedPointsAreThoseOfASessionOfTheSameParameters) {
   params.fit = true;
   params.fit_params.probes = 3;
   params.transport.surfel_size = 0.2f;
-  const probes::ProbeSet set = bake(scene, 2, params).set;
+  const probes::ProbeSet set = transport_baked(scene, 2, params).set;
   ASSERT_TRUE(set.fitted);
 
   const trace::TransportScene source(scene);
@@ -153,7 +140,7 @@ TEST(GiTransportBake, WeightsFitBesidePathTracedLight) {
 
 TEST(GiTransportBake, VizStandsBesideTheLightAndKeepsIt) {
   const scene::Scene scene = scene::make_builtin("box");
-  const probes::ProbeSet lit = bake(scene, 2).set;
+  const probes::ProbeSet lit = transport_baked(scene, 2).set;
   bake::BakeParams viz;
   viz.keep_light = true;
   viz.face_size = 4;
@@ -172,7 +159,7 @@ TEST(GiTransportBake, VizStandsBesideTheLightAndKeepsIt) {
 
 TEST(GiTransportBake, WhatIsWrongIsNamed) {
   const scene::Scene scene = scene::make_builtin("box");
-  silence_warnings();
+  set_log_level(LogLevel::error);  // that the room behind the shut door is dark
   const trace::TransportScene source(scene);
   bake::TransportBakeReport report;
   EXPECT_THROW(bake::bake_transport(source, {}, {}, report), Error);
@@ -190,10 +177,10 @@ TEST(GiTransportBake, WhatIsWrongIsNamed) {
 }
 
 bake::TransportBakeReport report_of(const scene::Scene& scene, bake::TransportBakeParams params) {
-  silence_warnings();
+  set_log_level(LogLevel::error);  // that the room behind the shut door is dark
   params.transport.directions = 64, params.transport.link_rays = 16;
   if (params.transport.surfel_size == 0) params.transport.surfel_size = 0.4f;
-  return bake(scene, 1, params).report;
+  return transport_baked(scene, 1, params).report;
 }
 
 TEST(GiTransportBake, WarningsCountTheProbesAndNameTheFirstFive) {
@@ -256,16 +243,16 @@ TEST(GiTransportBake, SurfelsAreAThirtySecondOfTheRadiusAndAtMostHalfAMetre) {
 }
 
 TEST(GiTransportBake, TheNumberOfThreadsChangesNoBit) {
-  silence_warnings();
+  set_log_level(LogLevel::error);  // that the room behind the shut door is dark
   const scene::Scene scene = scene::make_builtin("two-rooms");
   bake::TransportBakeParams params;
   params.transport.link_rays = 16;
   params.transport.surfel_size = 0.5f;
   params.fit = true;
   set_thread_count(1);
-  const auto one = probes::probes_to_binary(bake(scene, 3, params).set);
+  const auto one = probes::probes_to_binary(transport_baked(scene, 3, params).set);
   set_thread_count(0);
-  EXPECT_EQ(probes::probes_to_binary(bake(scene, 3, params).set), one);
+  EXPECT_EQ(probes::probes_to_binary(transport_baked(scene, 3, params).set), one);
 }
 
 }  // namespace

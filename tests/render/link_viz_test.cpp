@@ -12,13 +12,12 @@
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/trace/path_tracer.h>
 
+#include "root_4pi.h"
 #include "transport_fixtures.h"
 #include "z_test.h"
 
 namespace ssphh::test {
 namespace {
-
-constexpr double root_4pi = 3.5449077018110318;
 
 /// The box [−4, 4]³ without any reflection.
 scene::Scene black_box() {
@@ -106,7 +105,7 @@ TEST(LinkViz, AgreesWithTracedPathsInAClosedRoomOfColouredWalls) {
     for (std::size_t i = 0; i < n; ++i) {
       for (const probes::Edge& e : traced.probes[i].edges) {
         transfer[i * n + static_cast<std::size_t>(e.from)].add(double(e.transfer));
-        red[i * n + static_cast<std::size_t>(e.from)].add(double(e.h[0].x) / root_4pi);
+        red[i * n + static_cast<std::size_t>(e.from)].add(double(e.h[0].x) / root_4pi_d);
       }
     }
   }
@@ -120,7 +119,7 @@ TEST(LinkViz, AgreesWithTracedPathsInAClosedRoomOfColouredWalls) {
       EXPECT_TRUE(
           mean_is(transfer[i * n + j], double(e->transfer), significance, 0.025 * double(e->transfer)))
           << i << " " << j;
-      const double x = double(e->h[0].x) / root_4pi;
+      const double x = double(e->h[0].x) / root_4pi_d;
       EXPECT_TRUE(mean_is(red[i * n + j], x, significance, 0.025 * x)) << i << " " << j;
     }
   }

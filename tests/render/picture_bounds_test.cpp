@@ -9,7 +9,7 @@
 namespace ssphh::test {
 namespace {
 
-constexpr int size = 32;
+constexpr int pixels_across = 32;
 constexpr int samples = 48;
 
 using Shade = std::function<vec3(float x, float y)>;
@@ -23,10 +23,10 @@ vec3 shade(float x, float y) {
 }
 
 image::Image picture(const Shade& value, float noise = 0, std::uint64_t seed = 0) {
-  image::Image image(size, size, 3);
+  image::Image image(pixels_across, pixels_across, 3);
   Pcg32 random(seed);
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
+  for (int y = 0; y < pixels_across; ++y) {
+    for (int x = 0; x < pixels_across; ++x) {
       vec3 normal;  // Box and Muller
       for (int c = 0; c < 3; ++c) {
         const float u = 1 - random.uniform(), turn = 2 * pi * random.uniform();
@@ -68,7 +68,7 @@ const Fault faults[] = {
      [](float x, float y) { return shade(x, y) * (x > 7 && x < 13 && y > 21 && y < 27 ? 1.05f : 1.0f); }},
     {"swapped channels", [](float x, float y) { return vec3(shade(x, y).z, shade(x, y).y, shade(x, y).x); }},
     {"half a pixel aside", [](float x, float y) { return shade(x + 0.5f, y); }},
-    {"upside down", [](float x, float y) { return shade(x, static_cast<float>(size) - y); }},
+    {"upside down", [](float x, float y) { return shade(x, static_cast<float>(pixels_across) - y); }},
     {"facets", [](float x, float y) {
        const float middle = 4 * std::floor(x / 4) + 2;
        return glm::length(vec2(x, y) - vec2(13.3f, 17.6f)) < 9.5f ? shade(0.5f * (x + middle), y)
@@ -106,7 +106,7 @@ TEST(PictureBounds, EdgesMayLieAPixelAsideAndNoFurther) {
     PictureBounds bounds = PictureBounds::around(step(at), 0.01f, 0);
     const double share =
         bounds.widen([&](int x, int) { return std::abs(static_cast<float>(x) + 0.5f - at) < 1; });
-    EXPECT_DOUBLE_EQ(share, 2.0 / size);
+    EXPECT_DOUBLE_EQ(share, 2.0 / pixels_across);
     return bounds;
   };
   EXPECT_TRUE(picture_is(step(12), bounds_around(12)));
@@ -118,8 +118,8 @@ TEST(PictureBounds, EdgesMayLieAPixelAsideAndNoFurther) {
 TEST(PictureBounds, WhatIsLeftOutHidesNothingBesideIt) {
   image::Image wrong = picture(shade);
   PictureBounds bounds = PictureBounds::around(wrong, 0.01f, 0);
-  bounds.left_out.assign(size * size, false);
-  bounds.left_out[5 * size + 9] = true;
+  bounds.left_out.assign(pixels_across * pixels_across, false);
+  bounds.left_out[5 * pixels_across + 9] = true;
   wrong.set_rgb(9, 5, vec3(7));
   EXPECT_TRUE(picture_is(wrong, bounds));
   wrong.set_rgb(10, 5, 1.02f * wrong.rgb(10, 5));
@@ -130,7 +130,7 @@ TEST(PictureBounds, WhatIsNotANumberIsRefused) {
   image::Image wrong = picture(shade);
   wrong.at(3, 4)[1] = NAN;
   EXPECT_FALSE(picture_is(wrong, estimated(1)));
-  EXPECT_FALSE(picture_is(image::Image(size, size - 1, 3), estimated(1)));
+  EXPECT_FALSE(picture_is(image::Image(pixels_across, pixels_across - 1, 3), estimated(1)));
 }
 
 }  // namespace

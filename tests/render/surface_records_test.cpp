@@ -38,8 +38,9 @@ TEST(SurfaceRecords, AreAllAlikeWhereAllWallsAreAsBright) {
 }
 
 /// A room whose walls differ, lit by its ceiling.
-struct Room {
-  Room() : scene(coloured_room({3, 2.5f, 2})), source(scene), session(source, places_of(scene), params()) {
+struct RecordRoom {
+  RecordRoom()
+      : scene(coloured_room({3, 2.5f, 2})), source(scene), session(source, places_of(scene), params()) {
     session.update();
   }
   static transport::RelightParams params() {
@@ -53,7 +54,7 @@ struct Room {
 };
 
 TEST(SurfaceRecords, HoldWhatCosineRaysMeetOfTheSurfels) {
-  Room room;
+  RecordRoom room;
   const transport::TransportNetwork& network = room.session.network();
   const std::vector<rays::SurfacePoint> points = spread_places(network, 60);
   constexpr int rays = 4096;
@@ -90,7 +91,7 @@ double relative_error(const std::vector<probes::RecordLight>& light,
 
 TEST(SurfaceRecords, GuidedRaysFindAPatchOfLightThatEvenOnesMeetByChance) {
   // All light comes from a few surfels; the guide may know it, know nothing, or be told of another place.
-  Room room;
+  RecordRoom room;
   const transport::TransportNetwork& network = room.session.network();
   const std::vector<rays::SurfacePoint> points = spread_places(network, 60);
   const auto patch = [&](std::size_t first) {
@@ -114,7 +115,7 @@ TEST(SurfaceRecords, GuidedRaysFindAPatchOfLightThatEvenOnesMeetByChance) {
 }
 
 TEST(SurfaceRecords, GatheredLightIsThatOfRecordsAtTheirPlaces) {
-  Room room;
+  RecordRoom room;
   class Glossy final : public rays::IndirectLight {
    public:
     vec3 irradiance(const rays::SurfacePoint&) const override { return vec3(-1); }
@@ -138,13 +139,13 @@ TEST(SurfaceRecords, GatheredLightIsThatOfRecordsAtTheirPlaces) {
   EXPECT_THROW(transport::GatherLight(room.session, 2, glossy), Error);
   EXPECT_THROW(transport::GatherLight(room.session, 64, nullptr), Error);
   const transport::RelightSession dark(room.source, transport::places_of(places_of(room.scene)),
-                                       Room::params());
+                                       RecordRoom::params());
   EXPECT_THROW(transport::GatherLight(dark, 64, glossy), Error) << "before its first update";
 }
 
 TEST(SurfaceRecords, TurnAsTheLightAroundThemSays) {
   // The record's derivative against gathers at normals that are turned a little.
-  Room room;
+  RecordRoom room;
   const transport::TransportNetwork& network = room.session.network();
   const std::vector<rays::SurfacePoint> all = spread_places(network, 400);
   // In the middle of the walls nothing but the other walls is near

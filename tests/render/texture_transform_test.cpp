@@ -16,7 +16,7 @@
 namespace ssphh {
 namespace {
 
-constexpr int size = 64;
+constexpr int texels_across = 64;
 
 struct Slot {
   const char* name;
@@ -57,9 +57,9 @@ std::string texture_info(const Slot& slot) {
 
 /// One material with all slots; red of its texture is the column, green the row.
 scene::Scene scene_with_transforms(const test::TempDir& folder) {
-  image::Rgba8 texels{size, size, {}};
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
+  image::Rgba8 texels{texels_across, texels_across, {}};
+  for (int y = 0; y < texels_across; ++y) {
+    for (int x = 0; x < texels_across; ++x) {
       for (const int v : {x, y, 0, 255}) texels.rgba.push_back(static_cast<std::uint8_t>(v));
     }
   }
@@ -86,7 +86,7 @@ TEST(TextureTransform, EverySlotIsScaledThenTurnedThenMoved) {
       const vec2 other(0.3f, 0.7f);
       const vec2 sets[] = {slot.uv_set == 0 ? vec2(uv) : other, slot.uv_set == 1 ? vec2(uv) : other};
       const vec4 texel = shading::sample_texture(scene, use, {sets[0], sets[1]}, false);
-      const glm::dvec2 expected = glm::floor(glm::fract(place(slot, uv)) * double{size});
+      const glm::dvec2 expected = glm::floor(glm::fract(place(slot, uv)) * double{texels_across});
       EXPECT_EQ(glm::dvec2(std::round(texel.x * 255), std::round(texel.y * 255)), expected)
           << slot.name << " at " << uv.x << " " << uv.y;
       if (HasFailure()) break;

@@ -12,9 +12,9 @@
 namespace ssphh::test {
 namespace {
 
-constexpr PictureSize size{40, 24};
+constexpr PictureSize traced_size{40, 24};
 constexpr int fine = 4;  ///< rays of the truth along each side of a pixel
-constexpr PictureSize fine_size{fine * size.width, fine* size.height};
+constexpr PictureSize fine_size{fine * traced_size.width, fine* traced_size.height};
 constexpr int pictures = 48;
 
 /// Mean of each pixel's rays.
@@ -32,7 +32,7 @@ image::Image coarse(const image::Image& picture) {
 PictureSamples traced(const scene::Scene& scene, const rays::IndirectLight* indirect, int max_depth) {
   const trace::PathTracer tracer(scene);
   trace::RenderParams params;
-  params.width = size.width, params.height = size.height;
+  params.width = traced_size.width, params.height = traced_size.height;
   params.camera = scene::camera_pose(scene, "");
   if (params.camera.camera.orthographic) params.projection = trace::Projection::orthographic;
   PictureSamples samples;

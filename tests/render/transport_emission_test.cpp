@@ -12,7 +12,7 @@ namespace {
 using transport::RelightParams;
 using transport::RelightSession;
 
-RelightParams small_session() {
+RelightParams fine_session() {
   RelightParams params;
   params.transport = small_network();
   params.transport.surfel_size = 0.2f;
@@ -36,7 +36,7 @@ struct DarkRoom {
 TEST(RelightEmission, AnIsotropicSphlIsASphereLight) {
   const DarkRoom room;
   const vec3 radiance(5, 3, 2);
-  LitSession session(room.source, places_of(room.scene), small_session());
+  LitSession session(room.source, places_of(room.scene), fine_session());
   session.shine(0, isotropic(radiance));
   session.update();
 
@@ -50,7 +50,7 @@ TEST(RelightEmission, AnIsotropicSphlIsASphereLight) {
   lamp.node = lit.sphls[0].node;
   lit.lights.push_back(lamp);
   const trace::TransportScene lit_source(lit, {.light_samples = 256});
-  LitSession reference(lit_source, places_of(lit), small_session());
+  LitSession reference(lit_source, places_of(lit), fine_session());
   reference.update();
 
   ASSERT_EQ(session.surfel_direct().size(), reference.surfel_direct().size());
@@ -72,7 +72,7 @@ TEST(RelightEmission, AnIsotropicSphlIsASphereLight) {
 TEST(RelightEmission, OtherProbesSeeTheSphereAsADisc) {
   const DarkRoom room;
   const std::vector<transport::ProbePlace> places = places_of(room.scene);
-  LitSession session(room.source, places, small_session());
+  LitSession session(room.source, places, fine_session());
   const vec3 radiance(5, 3, 2);
   session.shine(0, isotropic(radiance));
   session.update();
@@ -110,7 +110,7 @@ TEST(RelightEmission, SphereLightsAndSmallLampsAreSeenAtTheirTrueSize) {
   scene::validate(scene);
   const trace::TransportScene source(scene);
   const std::vector<transport::ProbePlace> places = places_of(scene);
-  LitSession session(source, places, small_session());
+  LitSession session(source, places, fine_session());
   session.update();
   const auto groups = session.emitted_by_group();
   ASSERT_EQ(groups.size(), 2u);
@@ -137,7 +137,7 @@ TEST(RelightEmission, SphereLightsAndSmallLampsAreSeenAtTheirTrueSize) {
 TEST(RelightEmission, ADirectedSphlLightsItsSideByItsOwnFunction) {
   // L(ω) = 2 ω·x, clamped at 0: E = π (r/d)² cosθ · 2 (d̂·x) on the right, nothing on the left.
   const DarkRoom room;
-  LitSession session(room.source, places_of(room.scene), small_session());
+  LitSession session(room.source, places_of(room.scene), fine_session());
   sh::RadianceSh leaving(1);
   leaving[3] = vec3(2 / std::sqrt(3 / (4 * pi)));
   session.shine(0, leaving);
@@ -168,7 +168,7 @@ TEST(RelightEmission, ADirectedSphlLightsItsSideByItsOwnFunction) {
 TEST(RelightEmission, BouncesBetweenWallsAndIsStoppedByADoor) {
   const scene::Scene scene = scene::make_builtin("two-rooms");
   const trace::TransportScene source(scene);
-  RelightParams params = small_session();
+  RelightParams params = fine_session();
   params.transport.surfel_size = 0.5f;
   LitSession session(source, places_of(scene), params, 0);
   session.state.group_scales[0] = vec3(0);
@@ -186,7 +186,7 @@ TEST(RelightEmission, BouncesBetweenWallsAndIsStoppedByADoor) {
 
 TEST(RelightEmission, SetTwiceReplacesAndEmptyClears) {
   const DarkRoom room;
-  LitSession session(room.source, places_of(room.scene), small_session());
+  LitSession session(room.source, places_of(room.scene), fine_session());
   session.update();
   for (const sh::RadianceSh& dark : session.reflected()) EXPECT_TRUE(dark == sh::RadianceSh(4));
 

@@ -12,6 +12,7 @@
 #include <ssphh/transport/relight_session.h>
 
 #include "lit_session.h"
+#include "root_4pi.h"
 
 namespace ssphh::test {
 
@@ -83,8 +84,6 @@ inline transport::TransportParams small_network() {
   params.link_rays = 64;
   return params;
 }
-
-inline constexpr float root_4pi = 3.5449077018110318f;
 
 /// builtin:box, every wall with this albedo and Le = 1, lit.
 struct GlowingBox {

@@ -8,10 +8,14 @@
 #include <ssphh/place/init.h>
 #include <ssphh/probes/probe_set.h>
 
+#include "transport_baked.h"
 #include "transport_fixtures.h"
 
 namespace ssphh {
 namespace {
+
+using test::transport_baked;
+using test::TransportBaked;
 
 /// All of the scene times `factor`, about the origin.
 scene::Scene scaled(scene::Scene scene, float factor) {
@@ -22,18 +26,6 @@ scene::Scene scaled(scene::Scene scene, float factor) {
   }
   for (scene::Sphl& sphl : scene.sphls) sphl.radius *= factor;
   return scene;
-}
-
-struct Baked {
-  probes::ProbeSet set;
-  bake::TransportBakeReport report;
-};
-
-Baked bake(const scene::Scene& scene, const bake::TransportBakeParams& params = {}) {
-  const trace::TransportScene source(scene);
-  Baked baked;
-  baked.set = bake::bake_transport(source, place::init_from_scene(scene, 3), params, baked.report);
-  return baked;
 }
 
 /// Largest difference of the probes' mean radiance in any channel, as a share of the mean.
@@ -49,9 +41,9 @@ double difference(const probes::ProbeSet& a, const probes::ProbeSet& b) {
 TEST(TransportScale, LightIsThatOfMetresInMillimetresAndInKilometres) {
   set_log_level(LogLevel::error);
   const scene::Scene cornell = scene::make_builtin("cornell");
-  const Baked metres = bake(cornell);
+  const TransportBaked metres = transport_baked(cornell, 3);
   for (const float factor : {1e-3f, 1e4f}) {
-    const Baked other = bake(scaled(cornell, factor));
+    const TransportBaked other = transport_baked(scaled(cornell, factor), 3);
     ASSERT_EQ(other.set.probes.size(), metres.set.probes.size());
     // Other voxels, other rays: the noise of a hundred link rays stays.
     EXPECT_LT(difference(other.set, metres.set), 0.02) << "times " << factor;
@@ -66,9 +58,9 @@ TEST(TransportScale, FewerSurfelsThanOneSizeWouldMakeHoldTheSameLight) {
   bake::TransportBakeParams params;
   params.transport.surfel_size = 0.1f;
   params.transport.most_surfels = 1 << 20;
-  const Baked fine = bake(scene, params);
+  const TransportBaked fine = transport_baked(scene, 3, params);
   params.transport.most_surfels = 4000;
-  const Baked coarse = bake(scene, params);
+  const TransportBaked coarse = transport_baked(scene, 3, params);
   EXPECT_LT(coarse.report.surfels, fine.report.surfels / 4);
   EXPECT_LT(difference(coarse.set, fine.set), 0.05);
 }

@@ -40,8 +40,8 @@ struct Vpls {
 
 /// A diffuse scene with lamps of several kinds, and points away from its corners, where unbounded virtual
 /// lights have no variance worth the name.
-struct Room {
-  Room() : scene(coloured_room({2, 1.5f, 1})) {
+struct LampRoom {
+  LampRoom() : scene(coloured_room({2, 1.5f, 1})) {
     scene::Light light;
     light.name = "bulb", light.type = scene::LightType::sphere, light.radius = 0.1f, light.intensity = 8;
     light.node = scene.sphls[2].node;
@@ -58,7 +58,7 @@ struct Room {
 };
 
 /// Means over independent seeds, [point][channel].
-std::vector<std::array<Samples, 3>> over_seeds(const Room& room, const trace::TransportScene& source,
+std::vector<std::array<Samples, 3>> over_seeds(const LampRoom& room, const trace::TransportScene& source,
                                                const std::vector<std::string>& settings, int seeds) {
   std::vector<std::array<Samples, 3>> samples(room.points.size());
   for (int seed = 0; seed < seeds; ++seed) {
@@ -76,7 +76,7 @@ class VplMean : public testing::TestWithParam<int> {};
 
 TEST_P(VplMean, IsWhatPathsFind) {
   const int depth = GetParam();
-  const Room room;
+  const LampRoom room;
   const trace::TransportScene source(room.scene);
   const auto traced =
       trace::PathTracer(room.scene).surface_irradiance(room.points, {depth, 1, 1 << 15, 5}, {});
@@ -123,7 +123,7 @@ TEST(Vpl, ErrorFallsWithTheCount) {
 }
 
 TEST(Vpl, TheBoundLosesWhatItSaysAndSpheresKeepIt) {
-  const Room room;
+  const LampRoom room;
   const trace::TransportScene source(room.scene);
   const auto points = study::reachable_points(source, positions_of(places_of(room.scene)), 0, {200, 2});
   Vpls::check_points = 64;
@@ -173,7 +173,7 @@ TEST(Vpl, CutsErrAsLittleAsAsked) {
 }
 
 TEST(Vpl, SameBitsForAnyNumberOfThreads) {
-  const Room room;
+  const LampRoom room;
   const trace::TransportScene source(room.scene);
   const int before = thread_count();
   std::vector<std::vector<vec3>> light;

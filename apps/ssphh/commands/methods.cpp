@@ -18,7 +18,7 @@ std::string range_text(const methods::MethodParameter& p) {
   return fmt::format("{:g}..{:g}", p.least, p.most);
 }
 
-json::Value to_json(const methods::MethodParameter& p) {
+json::Value parameter_json(const methods::MethodParameter& p) {
   json::Value item = {{"name", p.name}, {"default", default_text(p)}, {"about", p.about}};
   if (p.choices.empty()) {
     item["default"] = p.value, item["least"] = p.least, item["most"] = p.most, item["whole"] = p.whole;
@@ -39,7 +39,7 @@ json::Value to_json(const MethodsResult& result, const MethodsOptions&) {
   json::Value all = json::Value::array();
   for (const methods::MethodEntry& entry : result.methods) {
     json::Value parameters = json::Value::array();
-    for (const methods::MethodParameter& p : entry.parameters) parameters.push_back(to_json(p));
+    for (const methods::MethodParameter& p : entry.parameters) parameters.push_back(parameter_json(p));
     all.push_back({{"name", entry.name}, {"about", entry.about}, {"parameters", std::move(parameters)}});
   }
   return {{"methods", std::move(all)}};

@@ -7,6 +7,7 @@
 #include <ssphh/core/file.h>
 
 #include "error_message.h"
+#include "expect_near.h"
 #include "json_schema.h"
 #include "places.h"
 #include "temp_dir.h"
@@ -14,12 +15,8 @@
 namespace ssphh::viewer {
 namespace {
 
+using test::expect_near;
 using testing::HasSubstr;
-
-void expect_near(const vec3& a, const vec3& b, float tolerance) {
-  EXPECT_LT(glm::distance(a, b), tolerance)
-      << a.x << ' ' << a.y << ' ' << a.z << " is not " << b.x << ' ' << b.y << ' ' << b.z;
-}
 
 /// A camera on the parabola p(t) = a + b t + c t², keyed at uneven times.
 CameraPath parabola(const std::vector<float>& times) {

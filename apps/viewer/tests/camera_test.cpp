@@ -2,15 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "expect_near.h"
 #include "model/view_camera.h"
 
 namespace ssphh::viewer {
 namespace {
 
-void expect_near(const vec3& a, const vec3& b, float tolerance) {
-  EXPECT_LT(glm::distance(a, b), tolerance)
-      << a.x << ' ' << a.y << ' ' << a.z << " is not " << b.x << ' ' << b.y << ' ' << b.z;
-}
+using test::expect_near;
 
 TEST(ViewCamera, LooksAtItsTarget) {
   for (const vec3& target : {vec3(3, 0, 0), vec3(0, 5, 0), vec3(0, -5, 0), vec3(-1, 2, 4)}) {

@@ -4,13 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include "expect_near.h"
+
 namespace ssphh::viewer {
 namespace {
 
-void expect_near(const vec3& a, const vec3& b, float tolerance = 1e-5f) {
-  EXPECT_LT(glm::distance(a, b), tolerance)
-      << a.x << ' ' << a.y << ' ' << a.z << " is not " << b.x << ' ' << b.y << ' ' << b.z;
-}
+using test::expect_near;
 
 vec3 flies(const std::string& keys) {
   return fly_direction([&](char key) { return keys.find(key) != std::string::npos; });

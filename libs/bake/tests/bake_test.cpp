@@ -13,6 +13,7 @@
 
 #include "bake_helpers.h"
 #include "progress_recorder.h"
+#include "root_4pi.h"
 
 namespace ssphh::bake {
 namespace {
@@ -21,7 +22,7 @@ using test::constant;
 using test::FakeSource;
 using testing::HasSubstr;
 
-constexpr float root_4pi = 3.5449077018110318f;
+using test::root_4pi;
 
 TEST(Gen, AConstantFieldHasOnlyBandZero) {
   FakeSource source;

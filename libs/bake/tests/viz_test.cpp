@@ -7,13 +7,14 @@
 #include <ssphh/sh/reconstruct.h>
 
 #include "bake_helpers.h"
+#include "root_4pi.h"
 
 namespace ssphh::bake {
 namespace {
 
 using test::FakeSource;
 
-constexpr float root_4pi = 3.5449077018110318f;
+using test::root_4pi;
 
 TEST(Viz, ASphereInEmptySpaceIsSeenUnderItsSolidAngle) {
   // ∫H dω = 2π(1 − √(1 − (r/d)²)), and P is its share of the sphere.

@@ -10,7 +10,7 @@
 namespace ssphh::farm {
 namespace {
 
-constexpr std::array<char, 8> magic = {'S', 'S', 'P', 'H', 'H', 'S', 'C', '1'};
+constexpr std::array<char, 8> manifest_magic = {'S', 'S', 'P', 'H', 'H', 'S', 'C', '1'};
 /// Arrays of more bytes are blobs.
 constexpr std::size_t inline_bytes = 1024;
 constexpr std::size_t max_text = 1 << 16, max_items = 1 << 24;
@@ -22,7 +22,9 @@ constexpr bool is_plain = std::is_arithmetic_v<T> || std::is_same_v<T, vec2> || 
 
 class Writer {
  public:
-  explicit Writer(ScenePackage& package) : package_(package) { out_.array(std::span<const char>(magic)); }
+  explicit Writer(ScenePackage& package) : package_(package) {
+    out_.array(std::span<const char>(manifest_magic));
+  }
   std::vector<std::byte> take() { return out_.take(); }
 
   void operator()(const std::string& text) { out_.text(text); }
@@ -78,7 +80,7 @@ class Reader {
       : in_(manifest, "scene manifest"), fetch_(fetch) {
     std::array<char, 8> begin;
     in_.raw("magic", std::span<char>(begin));
-    if (begin != magic) in_.fail("magic", "is not that of a scene manifest");
+    if (begin != manifest_magic) in_.fail("magic", "is not that of a scene manifest");
   }
   void end() { in_.expect_end(); }
 

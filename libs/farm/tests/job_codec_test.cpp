@@ -1,4 +1,4 @@
-/// Every field of a job and of a result travels, in both encodings.
+/// Every field of a job and of a result travels, in both_encodings encodings.
 
 #include <gtest/gtest.h>
 
@@ -12,18 +12,18 @@ namespace {
 
 using ssphh::test::expect_same_fields;
 
-constexpr ContentType both[] = {ContentType::json, ContentType::binary};
+constexpr ContentType both_encodings[] = {ContentType::json, ContentType::binary};
 
 template <class Data>
 void expect_to_travel(const Data& job) {
-  for (const ContentType type : both)
+  for (const ContentType type : both_encodings)
     expect_same_fields(std::get<Data>(decode_job(encode_job(job, type))), job);
 }
 
 template <class Data>
 void expect_result_to_travel(const Data& data) {
   const JobStats stats{1.0 / 3, (std::uint64_t{1} << 40) + 5, "host:7"};
-  for (const ContentType type : both) {
+  for (const ContentType type : both_encodings) {
     const JobResult back = decode_result(encode_result({data, stats}, type));
     expect_same_fields(std::get<Data>(back.data), data);
     expect_same_fields(back.stats, stats);

@@ -56,9 +56,9 @@ struct Decompression : jpeg_decompress_struct {
   Decompression& operator=(const Decompression&) = delete;
 };
 
-class Decoder {
+class JpegDecoder {
  public:
-  explicit Decoder(const Source& source) : source_(source) {
+  explicit JpegDecoder(const Source& source) : source_(source) {
     jpeg_.err = errors_.set();
     guarded([this] {
       jpeg_create_decompress(&jpeg_);
@@ -126,7 +126,7 @@ class Decoder {
 }  // namespace
 
 Image decode_jpeg(const Source& source) {
-  Decoder decoder(source);
+  JpegDecoder decoder(source);
   const std::vector<std::uint8_t> codes = decoder.decode();
   Image image(decoder.width(), decoder.height(), decoder.channels());
   for (std::size_t i = 0; i < codes.size(); ++i) image.pixels[i] = decode_8bit(codes[i], false);
@@ -134,7 +134,7 @@ Image decode_jpeg(const Source& source) {
 }
 
 Rgba8 decode_jpeg_rgba8(const Source& source) {
-  Decoder decoder(source);
+  JpegDecoder decoder(source);
   const std::vector<std::uint8_t> codes = decoder.decode();
   const auto channels = static_cast<std::size_t>(decoder.channels());
   Rgba8 image{decoder.width(), decoder.height(), std::vector<std::uint8_t>(codes.size() / channels * 4)};

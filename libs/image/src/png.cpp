@@ -23,9 +23,9 @@ Context make_context(int flags) {
   return context;
 }
 
-class Decoder {
+class PngDecoder {
  public:
-  explicit Decoder(const Source& source) : source_(source), context_(make_context(0)) {
+  explicit PngDecoder(const Source& source) : source_(source), context_(make_context(0)) {
     // Text and profiles are nothing that a picture needs.
     check(spng_set_chunk_limits(context_.get(), std::size_t{16} << 20, std::size_t{64} << 20));
     check(spng_set_png_stream(context_.get(), read, this));
@@ -56,7 +56,7 @@ class Decoder {
 
  private:
   static int read(spng_ctx*, void* user, void* to, std::size_t count) {
-    Decoder& self = *static_cast<Decoder*>(user);
+    PngDecoder& self = *static_cast<PngDecoder*>(user);
     self.ended_early_ = self.source_.data.size() - self.position_ < count;
     if (self.ended_early_) return SPNG_IO_EOF;
     std::memcpy(to, self.source_.data.data() + self.position_, count);
@@ -76,7 +76,7 @@ class Decoder {
 };
 
 template <class Code, class ToFloat>
-Image to_image(Decoder& decoder, const ToFloat& to_float) {
+Image to_image(PngDecoder& decoder, const ToFloat& to_float) {
   const std::vector<Code> codes = decoder.decode<Code>();
   Image image(decoder.width(), decoder.height(), decoder.channels());
   const auto channels = static_cast<std::size_t>(image.channels);
@@ -115,7 +115,7 @@ std::vector<std::byte> encode(const std::vector<std::uint8_t>& codes, int width,
 }  // namespace
 
 Image decode_png(const Source& source) {
-  Decoder decoder(source);
+  PngDecoder decoder(source);
   if (!decoder.deep()) return to_image<std::uint8_t>(decoder, decode_8bit);
   return to_image<std::uint16_t>(decoder, [](std::uint16_t code, bool alpha) {
     const float value = static_cast<float>(code) / 65535;
@@ -124,7 +124,7 @@ Image decode_png(const Source& source) {
 }
 
 Rgba8 decode_png_rgba8(const Source& source) {
-  Decoder decoder(source);
+  PngDecoder decoder(source);
   return {decoder.width(), decoder.height(), decoder.decode<std::uint8_t>()};
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 using namespace ssphh::test;
 
-Generator<Layout> cube_layouts() {
+Generator<Layout> any_cube_layout() {
   return one_of<Layout>({Layout::strip_h, Layout::strip_v, Layout::cross_h, Layout::cross_v});
 }
 
@@ -21,7 +21,7 @@ CubeMap noise_cube(int size, int channels, std::uint64_t seed) {
 }
 
 TEST(CubeLayoutProperty, AnyWayThroughStripsAndCrossesKeepsEveryTexel) {
-  EXPECT_TRUE(for_all(integers(1, 12), seeds(), lists(cube_layouts(), 1, 5))
+  EXPECT_TRUE(for_all(integers(1, 12), seeds(), lists(any_cube_layout(), 1, 5))
                   .cases(40)
                   .holds([](int size, std::uint64_t seed, const std::vector<Layout>& way) {
                     const CubeMap cube = noise_cube(size, 3, seed);

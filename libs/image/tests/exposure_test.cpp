@@ -8,10 +8,12 @@
 #include <ssphh/core/error.h>
 #include <ssphh/image/exposure.h>
 
+#include "not_finite.h"
+
 namespace ssphh::image {
 namespace {
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+using test::nan;
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
 /// Light over some ten stops, as a picture of a room has it.

@@ -60,7 +60,7 @@ Look look_at(const std::string& parts, int flags = 0, std::size_t blocks = 1 << 
 }
 
 /// What is said without its place.
-std::string said_of(const std::string& parts, int flags = 0, std::size_t blocks = 1 << 12) {
+std::string said_of_header(const std::string& parts, int flags = 0, std::size_t blocks = 1 << 12) {
   const std::string said = look_at(parts, flags, blocks).said;
   return said.substr(0, said.rfind(" (byte"));
 }
@@ -105,7 +105,7 @@ TEST(ExrHeaders, BlocksHaveTheLinesOfTheirCompression) {
       EXPECT_EQ(look.headers[0].chunks, 1 + more) << "compression " << c;
     }
   }
-  EXPECT_EQ(said_of(part(attribute("compression", "\x0a"))), broken + "unknown compression");
+  EXPECT_EQ(said_of_header(part(attribute("compression", "\x0a"))), broken + "unknown compression");
 }
 
 TEST(ExrHeaders, TilesAreCountedInBothDirections) {
@@ -114,13 +114,13 @@ TEST(ExrHeaders, TilesAreCountedInBothDirections) {
   };
   EXPECT_EQ(look_at(part(tiles(5, 2)), tiled).headers.at(0).chunks, 2 * 3) << "of 10 × 5 pixels";
   EXPECT_EQ(look_at(part(tiles(4, 5)), tiled).headers.at(0).chunks, 3 * 1);
-  EXPECT_EQ(said_of(part(), tiled), broken + "tiles without a size");
-  EXPECT_EQ(said_of(part(tiles(0, 1)), tiled), broken + "tiles without a size");
-  EXPECT_EQ(said_of(part(tiles(1, 0)), tiled), broken + "tiles without a size");
-  EXPECT_EQ(said_of(part(tiles(65536, 1)), tiled), "no error");
-  EXPECT_EQ(said_of(part(tiles(1, 65536)), tiled), "no error");
-  EXPECT_EQ(said_of(part(tiles(65537, 1)), tiled), broken + "tiles beyond all bounds");
-  EXPECT_EQ(said_of(part(tiles(1, 65537)), tiled), broken + "tiles beyond all bounds");
+  EXPECT_EQ(said_of_header(part(), tiled), broken + "tiles without a size");
+  EXPECT_EQ(said_of_header(part(tiles(0, 1)), tiled), broken + "tiles without a size");
+  EXPECT_EQ(said_of_header(part(tiles(1, 0)), tiled), broken + "tiles without a size");
+  EXPECT_EQ(said_of_header(part(tiles(65536, 1)), tiled), "no error");
+  EXPECT_EQ(said_of_header(part(tiles(1, 65536)), tiled), "no error");
+  EXPECT_EQ(said_of_header(part(tiles(65537, 1)), tiled), broken + "tiles beyond all bounds");
+  EXPECT_EQ(said_of_header(part(tiles(1, 65537)), tiled), broken + "tiles beyond all bounds");
   EXPECT_EQ(look_at(part(tiles(0, 0))).headers.at(0).chunks, 5) << "of a file that has none";
 }
 
@@ -137,26 +137,26 @@ TEST(ExrHeaders, PartsSayThemselvesWhatTheyAre) {
   }
   EXPECT_TRUE(look_at(part(), deep).headers.at(0).deep);
   EXPECT_FALSE(look_at(part() + '\0', deep | multipart).headers.at(0).deep) << "its part does not say so";
-  EXPECT_EQ(said_of(std::string(1, '\0'), multipart), broken + "no parts");
+  EXPECT_EQ(said_of_header(std::string(1, '\0'), multipart), broken + "no parts");
 }
 
 TEST(ExrHeaders, WindowsLieWithinTheirBounds) {
   const std::int64_t far = 1 << 30;
   const auto at = [](std::int64_t x, std::int64_t y) { return part("", window(x, y, x, y)); };
   for (const std::int64_t edge : {-far, far}) {
-    EXPECT_EQ(said_of(at(edge, 0)), "no error");
-    EXPECT_EQ(said_of(at(0, edge)), "no error");
+    EXPECT_EQ(said_of_header(at(edge, 0)), "no error");
+    EXPECT_EQ(said_of_header(at(0, edge)), "no error");
     const std::int64_t beyond = edge + (edge > 0 ? 1 : -1);
-    EXPECT_EQ(said_of(at(beyond, 0)), broken + "window beyond all bounds");
-    EXPECT_EQ(said_of(at(0, beyond)), broken + "window beyond all bounds");
+    EXPECT_EQ(said_of_header(at(beyond, 0)), broken + "window beyond all bounds");
+    EXPECT_EQ(said_of_header(at(0, beyond)), broken + "window beyond all bounds");
   }
-  EXPECT_EQ(said_of(part("", window(3, 0, 2, 0))), "f: has no pixels: 0 x 1");
-  EXPECT_EQ(said_of(part("", window(0, 3, 0, 2))), "f: has no pixels: 1 x 0");
+  EXPECT_EQ(said_of_header(part("", window(3, 0, 2, 0))), "f: has no pixels: 0 x 1");
+  EXPECT_EQ(said_of_header(part("", window(0, 3, 0, 2))), "f: has no pixels: 1 x 0");
 }
 
 TEST(ExrHeaders, ChannelsHaveLimits) {
   const auto with = [](const std::string& channels) {
-    return said_of(part("", window(0, 0, 9, 4), channels));
+    return said_of_header(part("", window(0, 0, 9, 4), channels));
   };
   std::string many;
   for (int i = 0; i < 1024; ++i) many += channel("c" + std::to_string(i));
@@ -176,17 +176,18 @@ TEST(ExrHeaders, ChannelsHaveLimits) {
 }
 
 TEST(ExrHeaders, AttributesFitTheFile) {
-  EXPECT_EQ(said_of(part(attribute("note", std::string(300, 'x')))), "no error");
-  EXPECT_EQ(said_of(part(attribute("note", "x", ""))), broken + "malformed attribute 'note'");
-  EXPECT_EQ(said_of(part(name("note") + name("type") + u32(0x80000000))),
+  EXPECT_EQ(said_of_header(part(attribute("note", std::string(300, 'x')))), "no error");
+  EXPECT_EQ(said_of_header(part(attribute("note", "x", ""))), broken + "malformed attribute 'note'");
+  EXPECT_EQ(said_of_header(part(name("note") + name("type") + u32(0x80000000))),
             broken + "malformed attribute 'note'");
-  EXPECT_EQ(said_of(part(name("note") + name("type") + u32(0x7fffffff))), broken + "ends too early");
-  EXPECT_EQ(said_of(attribute("compression", "")), broken + "attribute 'compression' is too short");
-  EXPECT_EQ(said_of(attribute("channels", channel("Y") + '\0') + '\0'), broken + "no data or display window");
+  EXPECT_EQ(said_of_header(part(name("note") + name("type") + u32(0x7fffffff))), broken + "ends too early");
+  EXPECT_EQ(said_of_header(attribute("compression", "")), broken + "attribute 'compression' is too short");
+  EXPECT_EQ(said_of_header(attribute("channels", channel("Y") + '\0') + '\0'),
+            broken + "no data or display window");
   std::string many;
   for (int i = 0; i < 4092; ++i) many += attribute("n", "");
-  EXPECT_EQ(said_of(part(many)), "no error") << "4096 with those that every part has";
-  EXPECT_EQ(said_of(part(many + attribute("n", ""))), broken + "too many attributes");
+  EXPECT_EQ(said_of_header(part(many)), "no error") << "4096 with those that every part has";
+  EXPECT_EQ(said_of_header(part(many + attribute("n", ""))), broken + "too many attributes");
 }
 
 TEST(ExrHeaders, FilesHaveAVersionAndAtMost256Parts) {
@@ -199,29 +200,30 @@ TEST(ExrHeaders, FilesHaveAVersionAndAtMost256Parts) {
   std::string parts;
   for (int i = 0; i < 256; ++i) parts += one;
   EXPECT_EQ(look_at(parts + '\0', multipart, 1 << 16).headers.size(), 256u);
-  EXPECT_EQ(said_of(parts + one + '\0', multipart, 1 << 16), broken + "too many parts");
+  EXPECT_EQ(said_of_header(parts + one + '\0', multipart, 1 << 16), broken + "too many parts");
 }
 
 // Five lines of ten pixels: an entry of the table and a chunk of 8 bytes for each.
 TEST(ExrHeaders, BlocksFitTheRestOfTheFile) {
-  EXPECT_EQ(said_of(part(), 0, 5 * 16), "no error");
-  EXPECT_EQ(said_of(part(), 0, 5 * 16 - 1), broken + "5 blocks of pixels do not fit the rest of the file");
-  EXPECT_EQ(said_of(part() + part() + '\0', multipart, 10 * 16), "no error");
-  EXPECT_EQ(said_of(part() + part() + '\0', multipart, 10 * 16 - 1),
+  EXPECT_EQ(said_of_header(part(), 0, 5 * 16), "no error");
+  EXPECT_EQ(said_of_header(part(), 0, 5 * 16 - 1),
+            broken + "5 blocks of pixels do not fit the rest of the file");
+  EXPECT_EQ(said_of_header(part() + part() + '\0', multipart, 10 * 16), "no error");
+  EXPECT_EQ(said_of_header(part() + part() + '\0', multipart, 10 * 16 - 1),
             broken + "10 blocks of pixels do not fit the rest of the file");
 }
 
 TEST(ExrHeaders, ABlockTakesAtMostHalfAGibibyte) {
   // 2^23 pixels of 4 bytes in lines of 16, and in tiles.
   const std::string zip = attribute("compression", "\3");
-  EXPECT_EQ(said_of(part(zip, window(0, 0, (1 << 23) - 1, 0))), "no error");
-  EXPECT_EQ(said_of(part(zip, window(0, 0, 1 << 23, 0))),
+  EXPECT_EQ(said_of_header(part(zip, window(0, 0, (1 << 23) - 1, 0))), "no error");
+  EXPECT_EQ(said_of_header(part(zip, window(0, 0, 1 << 23, 0))),
             broken + "one block of pixels would take 536870976 bytes");
-  EXPECT_EQ(
-      said_of(part(zip, window(0, 0, (1 << 22), 0), channel("a", 1) + channel("b", 1) + channel("c", 2))),
-      broken + "one block of pixels would take 536871040 bytes");
+  EXPECT_EQ(said_of_header(
+                part(zip, window(0, 0, (1 << 22), 0), channel("a", 1) + channel("b", 1) + channel("c", 2))),
+            broken + "one block of pixels would take 536871040 bytes");
   const auto tiles = [](std::int64_t width) {
-    return said_of(part(attribute("tiles", u32(width) + u32(16384) + '\0')), tiled);
+    return said_of_header(part(attribute("tiles", u32(width) + u32(16384) + '\0')), tiled);
   };
   EXPECT_EQ(tiles(8192), "no error");
   EXPECT_EQ(tiles(8193), broken + "one block of pixels would take 536936448 bytes");

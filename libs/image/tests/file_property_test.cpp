@@ -13,6 +13,7 @@ namespace ssphh::image {
 namespace {
 
 using namespace ssphh::test;
+using test::same_bits;
 
 /// A picture by its size and a seed, since what it shows does not matter.
 struct Shape {
@@ -50,13 +51,6 @@ Image painted(const Shape& shape, std::uint64_t seed, const Draw& draw) {
 float any_number(Pcg32& random) {
   const float x = std::bit_cast<float>(random.next());
   return std::isfinite(x) ? x : 0.5f;
-}
-
-bool same_bits(const Image& a, const Image& b) {
-  return a.width == b.width && a.height == b.height && a.channels == b.channels &&
-         std::equal(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), b.pixels.end(), [](float x, float y) {
-           return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
-         });
 }
 
 Image there_and_back(const std::vector<std::byte>& file) {

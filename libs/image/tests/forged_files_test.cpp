@@ -14,7 +14,7 @@ std::span<const std::byte> bytes_of(const std::string& text) {
   return std::as_bytes(std::span(text));
 }
 
-std::string said_of(const std::string& file, void (*check)(const Source&), const DecodeLimits& limits = {}) {
+std::string said_by(const std::string& file, void (*check)(const Source&), const DecodeLimits& limits = {}) {
   const std::string name = "f";
   return message_of([&] { check({bytes_of(file), name, limits}); });
 }
@@ -53,7 +53,7 @@ TEST(CheckSize, LargePicturesHaveAByteForEvery4096Pixels) {
 // --- Radiance HDR
 
 std::string said_of_hdr(const std::string& rest) {
-  return said_of("#?RADIANCE\n" + rest, [](const Source& source) { decode_hdr(source); });
+  return said_by("#?RADIANCE\n" + rest, [](const Source& source) { decode_hdr(source); });
 }
 
 const std::string pixel("\x80\x40\x20\x81", 4);

@@ -22,13 +22,7 @@ namespace {
 
 using ssphh::test::message_of;
 using test::noise_image;
-
-bool same_bits(const Image& a, const Image& b) {
-  return a.width == b.width && a.height == b.height && a.channels == b.channels &&
-         std::equal(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), b.pixels.end(), [](float x, float y) {
-           return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
-         });
-}
+using test::same_bits;
 
 // Collects warnings while it lives.
 class WarningCatcher {

@@ -17,6 +17,7 @@ namespace ssphh::image {
 namespace {
 
 using ssphh::test::message_of;
+using test::said_of;
 using testing::HasSubstr;
 using Bytes = std::vector<std::byte>;
 
@@ -106,10 +107,6 @@ std::size_t find_marker(const Bytes& file, int marker, std::size_t from = 0) {
       std::search(file.begin() + static_cast<std::ptrdiff_t>(from), file.end(), wanted.begin(), wanted.end());
   EXPECT_NE(found, file.end());
   return static_cast<std::size_t>(found - file.begin());
-}
-
-std::string said_of(const Bytes& file) {
-  return message_of([&] { decode_image(file, "f"); });
 }
 
 // Some cameras leave bytes between segments.

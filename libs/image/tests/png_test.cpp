@@ -13,6 +13,7 @@ namespace {
 
 using ssphh::test::message_of;
 using test::png_row;
+using test::said_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -20,10 +21,6 @@ std::vector<float> values_of(const std::vector<std::byte>& file, int channels) {
   const Image image = decode_image(file, "f");
   EXPECT_EQ(image.channels, channels);
   return image.pixels;
-}
-
-std::string said_of(const std::vector<std::byte>& file) {
-  return message_of([&] { decode_image(file, "f"); });
 }
 
 float linear(int code) {

@@ -4,6 +4,10 @@
 
 #include <boost/crc.hpp>
 
+#include <ssphh/image/io.h>
+
+#include "error_message.h"
+
 namespace ssphh::image::test {
 namespace {
 
@@ -59,6 +63,10 @@ std::vector<std::byte> png_16bit_grey(const std::vector<std::uint16_t>& row) {
     samples.push_back(static_cast<std::uint8_t>(v & 255));
   }
   return png_row(static_cast<int>(row.size()), 16, 0, samples);
+}
+
+std::string said_of(std::span<const std::byte> file) {
+  return message_of([&] { decode_image(file, "f"); });
 }
 
 }  // namespace ssphh::image::test

@@ -47,7 +47,7 @@ Codes noise(std::size_t count) {
   return codes;
 }
 
-std::string said_of(const Bytes& file) {
+std::string said_of_webp(const Bytes& file) {
   return message_of([&] { decode_rgba8(file, "f"); });
 }
 
@@ -83,10 +83,10 @@ TEST(WebP, LossyFilesComeNear) {
 
 TEST(WebP, TruncatedFilesAreRefused) {
   for (const Bytes& good : {lossless(noise(600), 10, 4), lossy(noise(768), 16)}) {
-    EXPECT_EQ(said_of(good), "no error");
+    EXPECT_EQ(said_of_webp(good), "no error");
     for (std::size_t size = 12; size + 1 < good.size(); ++size) {
       const Bytes cut(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size));
-      ASSERT_THAT(said_of(cut), HasSubstr("f: broken WebP: ")) << size << " of " << good.size();
+      ASSERT_THAT(said_of_webp(cut), HasSubstr("f: broken WebP: ")) << size << " of " << good.size();
     }
   }
 }
@@ -98,7 +98,7 @@ TEST(WebP, FlippedBitsNeverCrash) {
     for (int i = 0; i < 1000; ++i) {
       Bytes damaged = good;
       damaged[random.next() % damaged.size()] ^= static_cast<std::byte>(1u << (random.next() % 8));
-      refused += said_of(damaged) == "no error" ? 0 : 1;
+      refused += said_of_webp(damaged) == "no error" ? 0 : 1;
     }
     EXPECT_GT(refused, 10);
   }
@@ -116,7 +116,7 @@ TEST(WebP, SizesAreCheckedBeforeMemoryIsTaken) {
 TEST(WebP, AnimationsAreRefused) {
   const std::string riff("RIFF\x16\0\0\0WEBPVP8X\x0a\0\0\0\x02\0\0\0\0\0\0\0\0\0", 30);
   const auto bytes = std::as_bytes(std::span(riff));
-  EXPECT_EQ(said_of({bytes.begin(), bytes.end()}), "f: is an animated WebP (one picture is needed)");
+  EXPECT_EQ(said_of_webp({bytes.begin(), bytes.end()}), "f: is an animated WebP (one picture is needed)");
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 namespace ssphh::methods::prt {
 namespace {
 
-constexpr std::size_t vertices_at_once = 32;
 using Basis = std::array<float, sh::max_coefficient_count>;
 
 void add_cosine_lobe(int degree, const vec3& normal, float* out) {

@@ -11,7 +11,6 @@
 namespace ssphh::methods::prt {
 namespace {
 
-constexpr std::size_t vertices_at_once = 32;
 /// How far toward its neighbours a vertex's rays start, of the way.
 constexpr float spread = 0.5f;
 

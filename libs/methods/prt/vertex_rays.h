@@ -11,6 +11,9 @@
 
 namespace ssphh::methods::prt {
 
+/// A task of the loops over vertices takes so many.
+inline constexpr std::size_t vertices_at_once = 32;
+
 /// Where a vertex's ray ends.
 struct VertexHit {
   float distance;               ///< [m]; infinite: it escapes

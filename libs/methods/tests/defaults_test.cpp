@@ -53,7 +53,7 @@ std::string summary(const MethodParameter& p) {
   return text;
 }
 
-std::vector<std::string> declared(const std::string& method) {
+std::vector<std::string> declared_by(const std::string& method) {
   std::vector<std::string> found;
   for (const MethodParameter& p : find_method(method).parameters) found.push_back(summary(p));
   return found;
@@ -62,36 +62,36 @@ std::vector<std::string> declared(const std::string& method) {
 using testing::ElementsAre;
 
 TEST(MethodDefaults, OfWhatPlacesProbes) {
-  EXPECT_THAT(declared("ssphh"),
+  EXPECT_THAT(declared_by("ssphh"),
               ElementsAre("places 0i 0..1 auto scene", "spacing 0 0..10000", "probes 0i 0..4096",
                           "degree 4i 0..10", "weights 4i 0..5 distance trilinear mls fitted surface gather",
                           "records 16384i 1..65536", "fit_poses 3i 1..64", "fit_points 0i 0..262144",
                           "surfel_size 0 0..1000", "directions 384i 16..65536", "warm_start 1i 0..1"));
-  EXPECT_THAT(declared("irradiance-volume"),
+  EXPECT_THAT(declared_by("irradiance-volume"),
               ElementsAre("places 0i 0..2 auto scene grid", "spacing 0 0..10000", "probes 0i 0..4096",
                           "interpolation 0i 0..1 tetrahedra trilinear", "surfel_size 0 0..1000",
                           "directions 384i 16..65536", "degree 4i 2..10"));
-  EXPECT_THAT(declared("prt"),
+  EXPECT_THAT(declared_by("prt"),
               ElementsAre("places 0i 0..2 auto scene grid", "spacing 0 0..10000", "probes 0i 0..4096",
                           "interpolation 0i 0..1 tetrahedra trilinear", "surfel_size 0 0..1000",
                           "directions 384i 16..65536", "degree 4i 0..10", "interreflect 3i 0..64",
                           "self_shadow 0.25 0..1e+06", "environment 0i 0..1 transfer probes",
                           "rays 256i 16..65536", "edge 0 0..10000", "vertices 262144i 3..6.71089e+07"));
   EXPECT_THAT(
-      declared("ddgi"),
+      declared_by("ddgi"),
       ElementsAre("spacing 0 0..10000", "probes 512i 1..262144", "rays 128i 8..4096",
                   "hysteresis 0.97 0..0.999", "warmup 64i 1..65536", "change 0.5 0..10", "bias 0.3 0..4",
                   "gamma 1 1..8", "visibility 1i 0..1", "relocate 1i 0..1", "seed 0i 0..1e+09"));
 }
 
 TEST(MethodDefaults, OfWhatPlacesNone) {
-  EXPECT_THAT(declared("direct"), ElementsAre());
-  EXPECT_THAT(declared("ambient"), ElementsAre("points 4096i 16..4.1943e+06", "factor 1 0..1000"));
-  EXPECT_THAT(declared("vpl"),
+  EXPECT_THAT(declared_by("direct"), ElementsAre());
+  EXPECT_THAT(declared_by("ambient"), ElementsAre("points 4096i 16..4.1943e+06", "factor 1 0..1000"));
+  EXPECT_THAT(declared_by("vpl"),
               ElementsAre("photons 512i 1..1.04858e+06", "depth 25i 2..1000", "kind 0i 0..1 point sphere",
                           "clamp 0.05 0..10", "radius 1 0.01..100", "cluster_error 0 0..1",
                           "check_points 256i 0..65536", "seed 0i 0..1e+09"));
-  EXPECT_THAT(declared("vct"),
+  EXPECT_THAT(declared_by("vct"),
               ElementsAre("resolution 4i 0..6 8 16 32 64 128 256 512", "storage 0i 0..1 sparse dense",
                           "bounces 6i 1..32", "cones 16i 3..4096", "bounce_cones 10i 3..4096",
                           "offset 1 0..16", "step 0.5 0.05..1", "opacity 1 1..8", "samples 4i 1..16"));

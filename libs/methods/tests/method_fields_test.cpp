@@ -12,18 +12,16 @@
 
 #include "ddgi/field.h"
 #include "ddgi/octahedral.h"
+#include "expect_near.h"
 #include "probe_volume/probe_volume.h"
 #include "varied_light.h"
 
 namespace ssphh::methods {
 namespace {
 
+using test::expect_near;
 using test::light_at;
 using test::VariedLight;
-
-void expect_near(const vec3& actual, const vec3& expected, float tolerance) {
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(actual[c], expected[c], tolerance) << "channel " << c;
-}
 
 /// 4 × 3 × 5 probes in a box of unequal cells, every texel that of a linear field.
 struct Ddgi {

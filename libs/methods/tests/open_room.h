@@ -12,7 +12,10 @@
 
 #include "triangle_source.h"
 
+// What all tests share is found as test::name beside these, too.
+namespace ssphh::test {}
 namespace ssphh::methods::test {
+using namespace ssphh::test;
 
 inline scene::Scene open_room(const quat& turn) {
   scene::Scene s;

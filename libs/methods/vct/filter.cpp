@@ -4,11 +4,6 @@
 #include <ssphh/methods/vct/pyramid.h>
 
 namespace ssphh::methods::vct {
-namespace {
-
-constexpr int brick = VoxelGrid::brick;
-
-}  // namespace
 
 Voxel join_voxels(const std::array<const Voxel*, 8>& children) {
   Voxel joined;
@@ -41,6 +36,7 @@ void Pyramid::filter() {
 }
 
 void Pyramid::filter_sparse(int level) {
+  constexpr int brick = VoxelGrid::brick;
   Level& at = levels_[static_cast<std::size_t>(level)];
   const Level& finer = levels_[static_cast<std::size_t>(level - 1)];
   parallel_for(at.nodes.size(), 8, [&](std::size_t begin, std::size_t end) {

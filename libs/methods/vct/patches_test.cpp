@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "error_message.h"
+#include "expect_near.h"
 #include "gather_points.h"
 #include "given_light.h"
 #include "inject.h"
@@ -14,12 +15,9 @@
 namespace ssphh::methods::vct {
 namespace {
 
+using test::expect_near;
 using test::RaySource;
 using test::surface_at;
-
-void expect_near(const vec3& actual, const vec3& expected, float tolerance = 1e-5f) {
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(actual[c], expected[c], tolerance) << "channel " << c;
-}
 
 TEST(VctGrid, HasAVoxelOfMarginAndWholeBricks) {
   const VoxelGrid grid = make_grid({vec3(1, 2, 3), vec3(8, 4, 3.25f)}, 16);

@@ -53,13 +53,13 @@ std::vector<Vpl> trace(const GivenLight& light, const rays::TransportSource& sou
   return trace_photons(light, scales, rays::PosedWorld(source, 0), params, {});
 }
 
-vec3 power_of(const std::vector<Vpl>& lights) {
+vec3 whole_power(const std::vector<Vpl>& lights) {
   vec3 sum(0);
   for (const Vpl& light : lights) sum += light.power;
   return sum;
 }
 
-void expect_near(const vec3& actual, const vec3& expected, float relative) {
+void expect_power(const vec3& actual, const vec3& expected, float relative) {
   for (int c = 0; c < 3; ++c)
     EXPECT_NEAR(actual[c], expected[c], relative * expected[c] + 1e-6f) << "channel " << c;
 }
@@ -70,7 +70,7 @@ TEST(VplPhotons, AreSharedOutByScaledFluxAndCarryTheirGroupsPowerTogether) {
   const std::vector<Vpl> lights = trace(light, floor_below, {.photons = 400}, {vec3(3, 1, 2), vec3(0, 0, 2)});
   ASSERT_EQ(lights.size(), 400u);
   EXPECT_EQ(std::count_if(lights.begin(), lights.end(), [](const Vpl& l) { return l.power.r > 0; }), 200);
-  expect_near(power_of(lights), albedo * (vec3(5, 3, 1) * vec3(3, 1, 2) + vec3(0, 0, 8 * 2)), 1e-4f);
+  expect_power(whole_power(lights), albedo * (vec3(5, 3, 1) * vec3(3, 1, 2) + vec3(0, 0, 8 * 2)), 1e-4f);
   EXPECT_EQ(trace(light, floor_below, {.photons = 400}, {vec3(1), vec3(0)}).size(), 400u)
       << "a group that is off";
   EXPECT_EQ(trace(downward({1e4f, 1e-4f}), floor_below, {.photons = 400}, {vec3(1), vec3(1)}).size(), 401u)
@@ -85,7 +85,7 @@ TEST(VplPhotons, StandATenThousandthOfTheScenesRadiusAboveWhatTheyMeet) {
     EXPECT_LT(light.position.x, 1);
     EXPECT_EQ(light.normal, vec3(0, 1, 0));
     EXPECT_EQ(light.radius, 0);
-    expect_near(light.power, albedo * vec3(5, 3, 1) / 16.0f, 1e-5f);
+    expect_power(light.power, albedo * vec3(5, 3, 1) / 16.0f, 1e-5f);
   }
 }
 
@@ -95,7 +95,7 @@ TEST(VplPhotons, LosePowerOverTheRangeOfTheirLight) {
     return rays::Photon{{0, 2, 0}, {0, -1, 0}, vec3(1), 4};
   };
   // 1 − (2 / 4)⁴
-  expect_near(power_of(trace(light, floor_below, {.photons = 4}, {vec3(1)})), 15.0f / 16 * albedo, 1e-5f);
+  expect_power(whole_power(trace(light, floor_below, {.photons = 4}, {vec3(1)})), 15.0f / 16 * albedo, 1e-5f);
   light.photon = [](int, const rays::PhotonNumbers&) { return std::optional<rays::Photon>(); };
   EXPECT_TRUE(trace(light, floor_below, {.photons = 4}, {vec3(1)}).empty()) << "fell on darkness";
 }
@@ -112,7 +112,7 @@ TEST(VplPhotons, SurviveWithTheLargestShareThatIsReflectedUpToTheDepth) {
   EXPECT_TRUE(trace_to(1).empty());
   const std::vector<Vpl> first = trace_to(2);
   ASSERT_EQ(first.size(), std::size_t{photons});
-  expect_near(power_of(first), 8.0f * vec3(0.5f, 0.25f, 0), 1e-3f);
+  expect_power(whole_power(first), 8.0f * vec3(0.5f, 0.25f, 0), 1e-3f);
   // Half of them go on: of a binomial distribution five deviations.
   const std::vector<Vpl> second = trace_to(3);
   const auto deviation = static_cast<float>(std::sqrt(photons * 0.25));
@@ -120,12 +120,12 @@ TEST(VplPhotons, SurviveWithTheLargestShareThatIsReflectedUpToTheDepth) {
   // Each arrives with P ρ / 0.5 and leaves ρ of that.
   const vec3 reflected = 8.0f / photons * vec3(0.5f, 0.125f, 0);
   for (std::size_t i = photons; i < second.size(); ++i) {
-    expect_near(second[i].power, reflected, 1e-4f);
+    expect_power(second[i].power, reflected, 1e-4f);
     EXPECT_NEAR(glm::length(second[i].position), 1, 1e-3f);
     EXPECT_NEAR(glm::dot(second[i].position, second[i].normal), -1, 1e-3f);
   }
   // All bounces: 8 ρ / (1 − ρ) in each channel. Generations are of a geometric law of mean 2 and variance 2.
-  const vec3 all = power_of(trace_to(60));
+  const vec3 all = whole_power(trace_to(60));
   const float error = 5 * std::sqrt(2.0f / photons);
   EXPECT_NEAR(all.r, 8, 8 * error);
   EXPECT_NEAR(all.g, 8.0f / 3, 8.0f / 3 * error);

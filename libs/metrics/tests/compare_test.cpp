@@ -8,25 +8,21 @@
 #include <ssphh/core/random.h>
 #include <ssphh/metrics/compare.h>
 
+#include "noise.h"
+#include "not_finite.h"
+
 namespace ssphh::metrics {
 namespace {
 
 using image::Image;
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+using test::nan;
 constexpr float inf = std::numeric_limits<float>::infinity();
 
-Image noise(int width, int height, int channels, std::uint64_t seed) {
-  Image image(width, height, channels);
-  Pcg32 random(seed);
-  for (float& x : image.pixels) x = random.uniform();
-  return image;
-}
-
 // Two pixels whose errors are easy by hand: d = (1, 0, −2) and (0.5, 0, 0).
-struct Pair {
+struct TwoPixels {
   Image reference{2, 1}, test{2, 1};
-  Pair() {
+  TwoPixels() {
     reference.set_rgb(0, 0, {1, 2, 4});
     reference.set_rgb(1, 0, {0, 2, 0});
     test.set_rgb(0, 0, {2, 2, 2});
@@ -35,7 +31,7 @@ struct Pair {
 };
 
 TEST(Compare, GivesTheValuesOfAHandCalculation) {
-  const Pair pair;
+  const TwoPixels pair;
   const ImageError e = compare(pair.reference, pair.test);
   EXPECT_EQ(e.width, 2);
   EXPECT_EQ(e.height, 1);
@@ -147,7 +143,7 @@ TEST(Compare, SumsInDoublePrecision) {
 }
 
 TEST(ErrorMaps, HoldTheErrorOfEachPixel) {
-  const Pair pair;
+  const TwoPixels pair;
   EXPECT_EQ(absolute_error_map(pair.reference, pair.test).rgb(0, 0), vec3(1, 0, 2));
   EXPECT_EQ(signed_error_map(pair.reference, pair.test).rgb(0, 0), vec3(1, 0, -2));
   EXPECT_FLOAT_EQ(relative_squared_error_map(pair.reference, pair.test).rgb(0, 0).z, 4 / 16.01f);

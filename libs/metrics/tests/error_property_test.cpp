@@ -5,6 +5,7 @@
 #include <ssphh/metrics/flip.h>
 #include <ssphh/metrics/perceptual.h>
 
+#include "noise.h"
 #include "property.h"
 
 namespace ssphh::metrics {
@@ -12,13 +13,6 @@ namespace {
 
 using namespace ssphh::test;
 using image::Image;
-
-Image noise(int width, int height, std::uint64_t seed) {
-  Image image(width, height);
-  Pcg32 random(seed);
-  for (float& x : image.pixels) x = random.uniform();
-  return image;
-}
 
 enum class Mirror { columns, rows, both };
 Generator<Mirror> mirrors() {
@@ -70,7 +64,7 @@ TEST(ErrorProperty, IsNothingBetweenEqualsAndSomethingAfterOneChange) {
   EXPECT_TRUE(for_all(integers(1, 24), integers(1, 24), seeds(), seeds(), floats(0.02f, 0.5f))
                   .cases(40)
                   .holds([](int width, int height, std::uint64_t seed, std::uint64_t place, float change) {
-                    const Image image = noise(width, height, seed);
+                    const Image image = noise(width, height, 3, seed);
                     for (const double none : differences(image, image)) {
                       if (!(std::abs(none) <= 1e-12)) return at_most(none, 0) << " between equals";
                     }
@@ -88,7 +82,7 @@ TEST(ErrorProperty, SymmetricMeasuresDoNotCareWhichPictureIsTheReference) {
   EXPECT_TRUE(for_all(integers(1, 24), integers(1, 24), seeds(), seeds())
                   .cases(40)
                   .holds([](int width, int height, std::uint64_t first, std::uint64_t second) {
-                    const Image a = noise(width, height, first), b = noise(width, height, second);
+                    const Image a = noise(width, height, 3, first), b = noise(width, height, 3, second);
                     const ImageError there = compare(a, b), back = compare(b, a);
                     const DisplayError shown = display_error(a, b), swapped = display_error(b, a);
                     const std::vector<double> x{there.sum,  there.mae,   there.max,  there.mse, there.rmse,
@@ -103,7 +97,7 @@ TEST(ErrorProperty, MirroredPicturesDifferAsMuch) {
   EXPECT_TRUE(for_all(integers(1, 24), integers(1, 24), seeds(), seeds(), mirrors())
                   .cases(40)
                   .holds([](int width, int height, std::uint64_t first, std::uint64_t second, Mirror mirror) {
-                    const Image a = noise(width, height, first), b = noise(width, height, second);
+                    const Image a = noise(width, height, 3, first), b = noise(width, height, 3, second);
                     // The order of sums, some of them in float.
                     return at_most(largest_relative(differences(mirrored(a, mirror), mirrored(b, mirror)),
                                                     differences(a, b)),
@@ -115,7 +109,7 @@ TEST(ErrorProperty, GrowsWithTheDifference) {
   EXPECT_TRUE(for_all(integers(1, 20), seeds(), seeds(), floats(0.05f, 0.7f), floats(1.1f, 1.4f))
                   .cases(40)
                   .holds([](int size, std::uint64_t first, std::uint64_t second, float little, float factor) {
-                    const Image a = noise(size, size, first), b = noise(size, size, second);
+                    const Image a = noise(size, size, 3, first), b = noise(size, size, 3, second);
                     const std::vector<double> less = differences(a, towards(a, b, little)),
                                               more = differences(a, towards(a, b, little * factor));
                     for (std::size_t i = 0; i < less.size(); ++i) {
@@ -129,7 +123,7 @@ TEST(ErrorProperty, ScalesWithTheDifferenceAsItsDefinitionSays) {
   EXPECT_TRUE(for_all(integers(1, 24), seeds(), seeds(), integers(-12, 12))
                   .cases(40)
                   .holds([](int size, std::uint64_t first, std::uint64_t second, int exponent) {
-                    const Image a = noise(size, size, first), b = noise(size, size, second);
+                    const Image a = noise(size, size, 3, first), b = noise(size, size, 3, second);
                     // Both pictures times a power of two, which no rounding sees.
                     Image c = a, d = b;
                     const double k = std::ldexp(1.0, exponent);
@@ -146,7 +140,7 @@ TEST(ErrorMapProperty, MapsAddUpToTheNumbers) {
   EXPECT_TRUE(for_all(integers(1, 24), integers(1, 24), seeds(), seeds(), integers(1, 30))
                   .cases(40)
                   .holds([](int width, int height, std::uint64_t first, std::uint64_t second, int block) {
-                    const Image a = noise(width, height, first), b = noise(width, height, second);
+                    const Image a = noise(width, height, 3, first), b = noise(width, height, 3, second);
                     const ImageError e = compare(a, b);
                     const auto sum = [](const Image& map) {
                       double all = 0;

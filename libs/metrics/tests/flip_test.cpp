@@ -12,9 +12,9 @@ namespace {
 using image::Image;
 
 // A picture by formula with a tint, blocks and a thin line as errors; `gain` > 0 spreads it over 6 stops.
-struct Pair {
+struct FormulaPictures {
   Image reference{96, 64, 3}, test{96, 64, 3};
-  explicit Pair(double gain) {
+  explicit FormulaPictures(double gain) {
     for (int y = 0; y < 64; ++y) {
       for (int x = 0; x < 96; ++x) {
         const double u = (x + 0.5) / 96, v = (y + 0.5) / 64;
@@ -48,14 +48,14 @@ void expect_near(const FlipError& e, const Expected& x) {
 // Values that the authors' program (github.com/NVlabs/flip, version 1.6, its CPU code) gave for the same
 // pixels.
 TEST(Flip, GivesTheAuthorsValues) {
-  const Pair pair(0);
+  const FormulaPictures pair(0);
   for (const Expected& x : {Expected{67.0206, 0.2844022, 0.548323, 0.494637, 0.561793, 0.178180, 0.222191},
                             Expected{30, 0.2690208, 0.838978, 0.419519, 0.546503, 0.160221, 0.056582}})
     expect_near(flip(pair.reference, pair.test, {x.pixels_per_degree}), x);
 }
 
 TEST(Flip, GivesTheAuthorsValuesForHighDynamicRange) {
-  const Pair pair(3);
+  const FormulaPictures pair(3);
   for (const Expected& x : {Expected{67.0206, 0.2595454, 0.421679, 0.413687, 0.515948, 0.218770, 0.128338},
                             Expected{30, 0.2608469, 0.658762, 0.446634, 0.480729, 0.272947, 0.037829}}) {
     const FlipError e = hdr_flip(pair.reference, pair.test, {x.pixels_per_degree});
@@ -67,7 +67,7 @@ TEST(Flip, GivesTheAuthorsValuesForHighDynamicRange) {
 }
 
 TEST(Flip, IsZeroForEqualPicturesAndOneFromGreenToBlue) {
-  const Pair pair(0);
+  const FormulaPictures pair(0);
   EXPECT_EQ(flip(pair.reference, pair.reference).mean, 0);
   EXPECT_EQ(hdr_flip(pair.test, pair.test).mean, 0);
   Image green(8, 8, 3), blue(8, 8, 3);
@@ -76,7 +76,7 @@ TEST(Flip, IsZeroForEqualPicturesAndOneFromGreenToBlue) {
 }
 
 TEST(Flip, LeavesNonFinitePixelsOut) {
-  Pair pair(0);
+  FormulaPictures pair(0);
   pair.test = pair.reference;
   pair.test.at(30, 30)[1] = std::numeric_limits<float>::quiet_NaN();
   const FlipError e = flip(pair.reference, pair.test);

@@ -9,17 +9,12 @@
 #include <ssphh/image/transfer.h>
 #include <ssphh/metrics/perceptual.h>
 
+#include "noise.h"
+
 namespace ssphh::metrics {
 namespace {
 
 using image::Image;
-
-Image noise(int width, int height, std::uint64_t seed) {
-  Image image(width, height, 3);
-  Pcg32 random(seed);
-  for (float& x : image.pixels) x = random.uniform();
-  return image;
-}
 
 Image flat(int width, int height, float encoded) {
   Image image(width, height, 3);
@@ -64,8 +59,8 @@ double ssim_by_definition(const Image& a, const Image& b) {
 }
 
 TEST(DisplayError, SsimEqualsItsDefinition) {
-  const Image a = noise(23, 17, 1);
-  Image b = noise(23, 17, 2);
+  const Image a = noise(23, 17, 3, 1);
+  Image b = noise(23, 17, 3, 2);
   for (std::size_t i = 0; i < b.pixels.size(); ++i) b.pixels[i] = 0.7f * a.pixels[i] + 0.3f * b.pixels[i];
   const double expected = ssim_by_definition(a, b);
   EXPECT_GT(expected, 0.2);
@@ -80,14 +75,14 @@ TEST(DisplayError, FlatPicturesHaveTheirClosedForm) {
 }
 
 TEST(DisplayError, EqualPicturesAndSmallOnes) {
-  const Image a = noise(5, 3, 3);
+  const Image a = noise(5, 3, 3, 3);
   const DisplayError e = display_error(a, a);
   EXPECT_TRUE(std::isinf(e.psnr));
   EXPECT_NEAR(e.ssim, 1, 1e-12);
 }
 
 TEST(DisplayError, LeavesNonFinitePixelsOut) {
-  const Image a = noise(40, 40, 4);
+  const Image a = noise(40, 40, 3, 4);
   Image b = a;
   b.at(3, 3)[0] = std::numeric_limits<float>::infinity();
   const DisplayError e = display_error(a, b);

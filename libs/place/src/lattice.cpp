@@ -9,7 +9,7 @@ namespace {
 constexpr int offset_count = 8;
 
 /// Offset, in spacings from box.min, that leaves as much room on both sides.
-vec3 centred(const scene::Bounds& box, float spacing) {
+vec3 centred_offset(const scene::Bounds& box, float spacing) {
   vec3 offset;
   for (int axis = 0; axis < 3; ++axis) {
     const float cells = (box.max[axis] - box.min[axis]) / spacing;
@@ -79,7 +79,8 @@ Lattice choose_lattice(const rays::TransportSource& source, const scene::Bounds&
   Lattice best;
   double best_score = -1;
   for (int i = 0; i <= offset_count; ++i) {
-    const Lattice lattice = make_lattice(box, spacing, i == 0 ? centred(box, spacing) : spread_in_cube(i));
+    const Lattice lattice =
+        make_lattice(box, spacing, i == 0 ? centred_offset(box, spacing) : spread_in_cube(i));
     const double s =
         score(look_around(source, lattice_points(lattice), coarse_fan_size, control), spacing, rules);
     if (s > best_score) best = lattice, best_score = s;

@@ -9,6 +9,7 @@
 #include "draft.h"
 #include "error_message.h"
 #include "ray_source.h"
+#include "scene_of.h"
 #include "triangle_source.h"
 
 namespace ssphh::place {
@@ -18,16 +19,6 @@ using test::message_of;
 using test::RaySource;
 using test::TriangleSource;
 using testing::HasSubstr;
-
-scene::Scene scene_of(std::vector<scene::Mesh> meshes) {
-  scene::Scene scene;
-  scene.nodes.emplace_back();
-  for (scene::Mesh& mesh : meshes) {
-    scene.instances.push_back({static_cast<int>(scene.meshes.size()), 0, -1, {}});
-    scene.meshes.push_back(std::move(mesh));
-  }
-  return scene;
-}
 
 scene::Scene room(const vec3& size) {
   return scene_of({scene::flipped(scene::make_box(vec3(0), size))});

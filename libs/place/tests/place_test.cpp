@@ -12,6 +12,7 @@
 
 #include "draft.h"
 #include "relocate.h"
+#include "scene_of.h"
 #include "triangle_source.h"
 
 namespace ssphh::place {
@@ -49,18 +50,6 @@ struct Given {
   explicit Given(scene::Scene s) : scene(std::move(s)), source(scene) {}
   explicit Given(const char* name) : Given(scene::make_builtin(name)) {}
 };
-
-scene::Scene scene_of(std::vector<scene::Mesh> meshes) {
-  scene::Scene scene;
-  scene.name = "test";
-  scene.nodes.emplace_back();
-  for (scene::Mesh& mesh : meshes) {
-    scene.instances.push_back({static_cast<int>(scene.meshes.size()), 0, -1, {}});
-    scene.meshes.push_back(std::move(mesh));
-  }
-  scene::validate(scene);
-  return scene;
-}
 
 class TwoRooms : public testing::TestWithParam<float> {};
 

@@ -7,10 +7,11 @@
 #include <ssphh/core/error.h>
 #include <ssphh/probes/fitted_points.h>
 
+#include "open_space.h"
+
 namespace ssphh::probes {
 namespace {
 
-const SeesProbe everything = [](const vec3&, const vec3&) { return true; };
 const std::vector<vec3> probes{{0, 1, 0}, {4, 1, 0}, {0, 1, 4}};
 
 /// Points 0.5 m apart on the floor [0, 4]², facing up; weights of three probes that are linear in place and
@@ -34,7 +35,7 @@ std::unique_ptr<LookupWeights> lookup(const FittedPoints& fitted, const SeesProb
   return make_weights(probes, sees, params, &fitted);
 }
 
-std::map<int, float> by_probe(const ProbeWeights& weights) {
+std::map<int, float> weights_by_probe(const ProbeWeights& weights) {
   std::map<int, float> result;
   for (const ProbeWeight& entry : weights.used())
     EXPECT_TRUE(result.emplace(entry.probe, entry.weight).second) << "probe twice";
@@ -55,7 +56,7 @@ TEST(FittedPoints, AreEqualInPlacesNormalsAndWeights) {
 TEST(FittedLookupWeights, AreLinearBetweenPointsAndKeepTheirSum) {
   const auto weights = lookup(floor_points());
   for (const vec3& x : {vec3(2, 0, 2), vec3(1.1f, 0, 2.3f), vec3(2.6f, 0, 1.4f), vec3(2.25f, 0, 1.75f)}) {
-    const std::map<int, float> at = by_probe(weights->at({x, {0, 1, 0}}));
+    const std::map<int, float> at = weights_by_probe(weights->at({x, {0, 1, 0}}));
     // The ridge gives up a few per cent of the slope over the distance to the points' middle: under 0.1 m.
     EXPECT_NEAR(at.at(1), 0.9f * x.x / 8, 0.004f) << x.x;
     EXPECT_NEAR(at.at(2), 0.9f * x.z / 8, 0.004f) << x.z;
@@ -65,7 +66,7 @@ TEST(FittedLookupWeights, AreLinearBetweenPointsAndKeepTheirSum) {
 
 TEST(FittedLookupWeights, ReachIntoACornerFurtherThanTheMeanWithoutOvershoot) {
   const auto weights = lookup(floor_points());
-  const std::map<int, float> at = by_probe(weights->at({{0, 0, 0}, {0, 1, 0}}));
+  const std::map<int, float> at = weights_by_probe(weights->at({{0, 0, 0}, {0, 1, 0}}));
   // 0.9 is right; the mean of the points around lies inside and gives 0.797. No point counts less
   // than −¼ of its share of the mean, so that the fit stays between.
   EXPECT_GT(at.at(0), 0.82f);
@@ -98,9 +99,9 @@ TEST(FittedLookupWeights, APointBehindAWallDoesNotCount) {
   const auto walled =
       lookup(fitted, [](const vec3& a, const vec3& b) { return (a.x > 2.01f) == (b.x > 2.01f); });
   for (const float x : {1.6f, 1.9f, 2.0f}) {
-    const std::map<int, float> at = by_probe(walled->at({{x, 0, 2}, {0, 1, 0}}));
+    const std::map<int, float> at = weights_by_probe(walled->at({{x, 0, 2}, {0, 1, 0}}));
     EXPECT_FALSE(at.contains(1)) << x;
-    EXPECT_TRUE(by_probe(lookup(fitted)->at({{x, 0, 2}, {0, 1, 0}})).contains(1))
+    EXPECT_TRUE(weights_by_probe(lookup(fitted)->at({{x, 0, 2}, {0, 1, 0}})).contains(1))
         << x << ", without the wall";
   }
 }

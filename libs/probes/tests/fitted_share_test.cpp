@@ -7,10 +7,10 @@
 #include <ssphh/probes/fitted_points.h>
 #include <ssphh/probes/surface_spacing.h>
 
+#include "open_space.h"
+
 namespace ssphh::probes {
 namespace {
-
-const SeesProbe everything = [](const vec3&, const vec3&) { return true; };
 
 /// Points around the origin on a surface that faces `up`, each with a probe of its own kind.
 class Around {

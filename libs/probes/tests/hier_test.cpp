@@ -7,6 +7,7 @@
 #include <ssphh/sh/rotate.h>
 
 #include "random_set.h"
+#include "root_4pi.h"
 
 namespace ssphh::probes {
 namespace {
@@ -15,7 +16,7 @@ using test::random_set;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr double root_4pi = 3.5449077018110318;
+using test::root_4pi_d;
 
 /// Textbook HIER in double precision over a dense table: sort all, take the first N′ above the threshold.
 std::vector<glm::dvec3> dense_reference(const ProbeSet& set, const HierParams& params, std::size_t i) {
@@ -36,8 +37,8 @@ std::vector<glm::dvec3> dense_reference(const ProbeSet& set, const HierParams& p
     const auto& s = set.probes[j].self.values;
     for (std::size_t k = 0; k < count; ++k) {
       const glm::dvec3 h(dense[j]->h.values[k]);
-      if (params.op == HierOperator::coefficient) sum[k] += h * glm::dvec3(s[k]) / root_4pi;
-      if (params.op == HierOperator::mean) sum[k] += h * glm::dvec3(s[0]) / root_4pi;
+      if (params.op == HierOperator::coefficient) sum[k] += h * glm::dvec3(s[k]) / root_4pi_d;
+      if (params.op == HierOperator::mean) sum[k] += h * glm::dvec3(s[0]) / root_4pi_d;
       if (params.op == HierOperator::matrix) {
         for (std::size_t m = 0; m < count; ++m) {
           sum[k] += glm::dvec3(dense[j]->matrix.values[k * count + m]) * glm::dvec3(s[m]);
@@ -57,7 +58,7 @@ void expect_near(const sh::RadianceSh& actual, const std::vector<glm::dvec3>& ex
 
 sh::RadianceSh constant_sh(int degree, const vec3& value) {
   sh::RadianceSh f(degree);
-  f[0] = value * static_cast<float>(root_4pi);
+  f[0] = value * static_cast<float>(root_4pi_d);
   return f;
 }
 
@@ -137,7 +138,7 @@ TEST(Hier, MeanHasRankOneItGivesTheResponseTimesANumber) {
     const sh::RadianceSh s = test::random_sh(rng, 5);
     ProbeSet set = pair_set(h, s);
     hier(set, {HierOperator::mean, -1, 0});
-    const vec3 factor = s[0] / static_cast<float>(root_4pi);
+    const vec3 factor = s[0] / static_cast<float>(root_4pi_d);
     for (int k = 0; k < sh::coefficient_count(5); ++k) {
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(set.hierarchy->neighbor[0][k][c], factor[c] * h[k][c], 1e-6f);
     }
@@ -205,9 +206,9 @@ TEST(Hier, ContractionOfTwoProbesIsTheGeometricMeanOfTheirResponses) {
   // A = (0 a; b 0) has the eigenvalues +-sqrt(ab).
   ProbeSet set = random_set(3, 2, 1);
   set.probes[0].edges[0].h = sh::RadianceSh(1);
-  set.probes[0].edges[0].h[0] = vec3(0.1f, 0.3f, 0.2f) * static_cast<float>(root_4pi);
+  set.probes[0].edges[0].h[0] = vec3(0.1f, 0.3f, 0.2f) * static_cast<float>(root_4pi_d);
   set.probes[1].edges[0].h = sh::RadianceSh(1);
-  set.probes[1].edges[0].h[0] = vec3(0.3f, 0.2f, 0.1f) * static_cast<float>(root_4pi);
+  set.probes[1].edges[0].h[0] = vec3(0.3f, 0.2f, 0.1f) * static_cast<float>(root_4pi_d);
   const auto bounds = hier_contraction(set, {HierOperator::mean});
   ASSERT_TRUE(bounds);
   EXPECT_LE(bounds->lower, 0.3 + 1e-6);

@@ -69,7 +69,7 @@ std::vector<Number> numbers() {
        into<float>([](S& s) -> float& { return s.fitted->weights[3].entries[1].weight; })}};
 }
 
-ProbeSet full_set() {
+ProbeSet set_of_everything() {
   ProbeSet set = test::random_set(42, 3, 1, 2, true);
   hier(set, {HierOperator::mean, 2, 0.1f});
   set.fitted = test::random_fitted(7, 5, 3);
@@ -97,12 +97,12 @@ TEST(Limits, OfEveryNumberAreWrittenAndReadAndNothingBeyondThem) {
       return number.whole ? static_cast<std::uint32_t>(static_cast<std::int64_t>(v))
                           : std::bit_cast<std::uint32_t>(static_cast<float>(v));
     };
-    ProbeSet known = full_set();
+    ProbeSet known = set_of_everything();
     const double inside = number.whole ? 3000 + number.low : 0.0123456789;
     number.set(known, inside);
     const std::vector<std::byte> file = probes_to_binary(known);
     for (const double limit : {number.low, number.high}) {
-      ProbeSet set = full_set();
+      ProbeSet set = set_of_everything();
       number.set(set, limit);
       merge_groups(set);
       EXPECT_EQ(message_of([&] { validate(set, "file"); }), "no error") << limit;
@@ -126,7 +126,7 @@ TEST(Limits, OfEveryNumberAreWrittenAndReadAndNothingBeyondThem) {
 
 TEST(Limits, OfNamesAndCounts) {
   const auto said = [](auto&& change) {
-    ProbeSet set = full_set();
+    ProbeSet set = set_of_everything();
     change(set);
     const std::string problem = message_of([&] { validate(set, "file"); });
     if (problem == "no error") {
@@ -170,13 +170,13 @@ TEST(Limits, OfScalesThatRelightTakes) {
   const std::string problem = "light group \"lamp 1\": its scale must be three numbers in 0..1e6";
   for (int c = 0; c < 3; ++c) {
     for (const float bad : {-1e-30f, 1.000001e6f, std::nanf(""), std::numeric_limits<float>::infinity()}) {
-      ProbeSet set = full_set();
+      ProbeSet set = set_of_everything();
       vec3 scale(1);
       scale[c] = bad;
       EXPECT_EQ(message_of([&] { relight(set, "lamp 1", scale); }), problem) << bad;
     }
   }
-  ProbeSet set = full_set();
+  ProbeSet set = set_of_everything();
   relight(set, "lamp 1", {0, 1e6f, 2});
   EXPECT_FALSE(set.hierarchy);
   EXPECT_EQ(set.light_groups[1].scale, vec3(0, 1e6f, 2));

@@ -6,21 +6,19 @@
 #include <ssphh/probes/lookup.h>
 #include <ssphh/sh/zonal.h>
 
+#include "expect_near.h"
 #include "fake_source.h"
 #include "varied_light.h"
 
 namespace ssphh::probes {
 namespace {
 
+using test::expect_near;
 using test::light_at;
 using test::VariedLight;
 
 /// Float sums of some dozen terms of up to 20.
-constexpr float rounding = 1e-4f;
-
-void expect_near(const vec3& actual, const vec3& expected, float tolerance = rounding) {
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(actual[c], expected[c], tolerance) << "channel " << c;
-}
+constexpr float field_rounding = 1e-4f;
 
 /// 5³ probes 1 m apart in [0, 4]³.
 std::vector<vec3> grid() {
@@ -47,7 +45,7 @@ std::vector<rays::SurfacePoint> points(int count, float low, float high) {
 /// Irradiance and two lobes of `lookup` are those of `expected(point)`.
 template <class Expected>
 void expect_light(const rays::IndirectLight& lookup, const std::vector<rays::SurfacePoint>& at,
-                  const Expected& expected, float tolerance = rounding) {
+                  const Expected& expected, float tolerance = field_rounding) {
   for (const rays::SurfacePoint& p : at) {
     SCOPED_TRACE(testing::Message() << p.position.x << ' ' << p.position.y << ' ' << p.position.z);
     const VariedLight light = expected(p);
@@ -177,9 +175,10 @@ TEST(LookupFields, LightTakesItsProbesRadianceAlongTheWayToIt) {
     ++lit;
     const vec3 w = glm::normalize(*chosen - p.position);
     const vec3 l = light_at(*chosen).radiance(w) / std::max(glm::dot(w, p.normal), 0.05f);
-    expect_near(lookup.irradiance(p), l, 20 * rounding);
+    expect_near(lookup.irradiance(p), l, 20 * field_rounding);
     const vec3 r = glm::normalize(p.normal + vec3(0.3f, -0.2f, 0.4f));
-    expect_near(lookup.glossy(p, r, 0.5f), light_at(*chosen).glossy(r, sh::glossy_band_scales(0.5f)));
+    expect_near(lookup.glossy(p, r, 0.5f), light_at(*chosen).glossy(r, sh::glossy_band_scales(0.5f)),
+                field_rounding);
   }
   EXPECT_GT(lit, 40);
 }
@@ -215,9 +214,9 @@ TEST(LookupFields, BandsOverTheIrradiancesDegreeAreLeftToTheLobes) {
   const IrradianceLookup lookup(test::varied_set({place}, 4, light_at), source, params);
   VariedLight first = light_at(place);
   const vec3 n = glm::normalize(vec3(1, 2, -1));
-  expect_near(lookup.glossy({{0, 0, 0}, n}, n, 0), first.radiance(n));
+  expect_near(lookup.glossy({{0, 0, 0}, n}, n, 0), first.radiance(n), field_rounding);
   first.c = vec3(0);
-  expect_near(lookup.irradiance({{0, 0, 0}, n}), first.irradiance(n));
+  expect_near(lookup.irradiance({{0, 0, 0}, n}), first.irradiance(n), field_rounding);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ std::vector<vec3> scattered(int count, float size, std::uint64_t seed) {
 }
 
 /// In both rooms, beside the wall, outside of all, and one that moves.
-std::vector<rays::SurfacePoint> points() {
+std::vector<rays::SurfacePoint> listed_points() {
   Pcg32 random(17);
   std::vector<rays::SurfacePoint> at;
   for (int i = 0; i < 12; ++i)
@@ -66,7 +66,7 @@ TEST(LookupList, OfWeightsIsWhatItWas) {
         if (other) params.nearest = 5, params.spacing = 1.1f, params.normal_offset = 0.07f;
         const auto weights = make_weights(probes, free_way, params);
         list.add(std::string(name_of(method)), other, weights->bytes());
-        for (const rays::SurfacePoint& p : points()) add(list, " at", weights->at(p));
+        for (const rays::SurfacePoint& p : listed_points()) add(list, " at", weights->at(p));
         if (&probes != &sets[1]) add(list, " on a probe", weights->at({probes[2], {0, 1, 0}}));  // no ties
       }
     }
@@ -140,7 +140,7 @@ TEST(LookupList, OfLightIsWhatItWas) {
         }
         const auto lookup = make_lookup(method, set, source, params);
         list.add(fmt::format("{} {} {}", name_of(method), name_of(layer), other));
-        for (const rays::SurfacePoint& p : points())
+        for (const rays::SurfacePoint& p : listed_points())
           list.add(" at", lookup->irradiance(p),
                    lookup->glossy(p, glm::normalize(p.normal + vec3(0.4f, -0.2f, 0.1f)), 0.35f));
       }

@@ -4,11 +4,12 @@
 
 #include <ssphh/probes/lookup_weights.h>
 
+#include "open_space.h"
+
 namespace ssphh::probes {
 namespace {
 
 const SeesProbe nothing = [](const vec3&, const vec3&) { return false; };
-const vec3 up(0, 1, 0);
 
 std::unique_ptr<LookupWeights> by_distance(const std::vector<vec3>& positions, const SeesProbe& sees) {
   WeightParams params;

@@ -6,15 +6,18 @@
 #include <ssphh/probes/lookup.h>
 #include <ssphh/sh/zonal.h>
 
+#include "expect_near.h"
 #include "fake_source.h"
 #include "random_set.h"
+#include "root_4pi.h"
 
 namespace ssphh::probes {
 namespace {
 
+using test::expect_near;
 using test::FakeSource;
 
-constexpr float root_4pi = 3.5449077018110318f;
+using test::root_4pi;
 
 /// L(ω) = a + b·ω.
 sh::RadianceSh linear(int degree, const vec3& a, const vec3& b) {
@@ -53,10 +56,6 @@ std::vector<vec3> directions() {
 /// Float rounding of a few dozen terms of size 1 to 10.
 constexpr float rounding = 2e-5f;
 
-void expect_near(const vec3& actual, const vec3& expected, float tolerance = rounding) {
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(actual[c], expected[c], tolerance);
-}
-
 TEST(IrradianceLookup, AConstantFieldGivesPiTimesItEverywhere) {
   const FakeSource source;
   const vec3 l(1, 2, 0.5f);
@@ -64,8 +63,9 @@ TEST(IrradianceLookup, AConstantFieldGivesPiTimesItEverywhere) {
   const IrradianceLookup lookup(
       make_set({{{0, 0, 0}, field, {}}, {{2, 0, 0}, field, {}}, {{0, 3, 1}, field, {}}}), source);
   for (const vec3& n : directions()) {
-    expect_near(lookup.irradiance({3.0f * n, n}), pi * l);
-    for (const float roughness : {0.0f, 0.3f, 1.0f}) expect_near(lookup.glossy({n, n}, n, roughness), l);
+    expect_near(lookup.irradiance({3.0f * n, n}), pi * l, rounding);
+    for (const float roughness : {0.0f, 0.3f, 1.0f})
+      expect_near(lookup.glossy({n, n}, n, roughness), l, rounding);
   }
 }
 
@@ -78,9 +78,9 @@ TEST(IrradianceLookup, ALinearSkyGivesItsClosedForm) {
     sky *= tint;
     const IrradianceLookup lookup(make_set({{{0, 0, 0}, sky, {}}}), source);
     for (const vec3& n : directions()) {
-      expect_near(lookup.irradiance({{1, 1, 1}, n}), tint * (pi * a + 2 * pi / 3 * glm::dot(b, n)));
+      expect_near(lookup.irradiance({{1, 1, 1}, n}), tint * (pi * a + 2 * pi / 3 * glm::dot(b, n)), rounding);
       const float scale = sh::glossy_band_scale(0.5f, 1);
-      expect_near(lookup.glossy({{1, 1, 1}, n}, n, 0.5f), tint * (a + scale * glm::dot(b, n)));
+      expect_near(lookup.glossy({{1, 1, 1}, n}, n, 0.5f), tint * (a + scale * glm::dot(b, n)), rounding);
     }
   }
 }
@@ -97,9 +97,9 @@ TEST(IrradianceLookup, WeighsByInverseSquaredDistance) {
       make_set({{{0, 0, 0}, linear(2, vec3(1), vec3(0)), {}}, {{3, 0, 0}, linear(2, vec3(5), vec3(0)), {}}}),
       source, by_distance());
   const vec3 up(0, 1, 0);
-  expect_near(lookup.irradiance({{1.5f, 0, 0}, up}), vec3(pi * 3));
-  expect_near(lookup.irradiance({{1, 0, 0}, up}), vec3(pi * (1 * 4 + 5 * 1) / 5.0f));
-  expect_near(lookup.irradiance({{3, 0, 0}, up}), vec3(pi * 5));
+  expect_near(lookup.irradiance({{1.5f, 0, 0}, up}), vec3(pi * 3), rounding);
+  expect_near(lookup.irradiance({{1, 0, 0}, up}), vec3(pi * (1 * 4 + 5 * 1) / 5.0f), rounding);
+  expect_near(lookup.irradiance({{3, 0, 0}, up}), vec3(pi * 5), rounding);
 }
 
 TEST(IrradianceLookup, AProbeInFrontCountsMoreThanOneBehind) {
@@ -108,7 +108,7 @@ TEST(IrradianceLookup, AProbeInFrontCountsMoreThanOneBehind) {
       make_set({{{0, 1, 0}, linear(2, vec3(1), vec3(0)), {}}, {{0, -1, 0}, linear(2, vec3(5), vec3(0)), {}}}),
       source, by_distance());
   // Wrapped cosines squared 1 and 0, each plus 0.05.
-  expect_near(lookup.irradiance({{0, 0, 0}, {0, 1, 0}}), vec3(pi * (1 * 1.05f + 5 * 0.05f) / 1.1f));
+  expect_near(lookup.irradiance({{0, 0, 0}, {0, 1, 0}}), vec3(pi * (1 * 1.05f + 5 * 0.05f) / 1.1f), rounding);
 }
 
 TEST(IrradianceLookup, AHiddenProbeDoesNotLeakAndTheLookupReachesPastIt) {
@@ -118,8 +118,8 @@ TEST(IrradianceLookup, AHiddenProbeDoesNotLeakAndTheLookupReachesPastIt) {
   const IrradianceLookup lookup(make_set({{{1.1f, 0, 0}, linear(2, vec3(100), vec3(0)), {}},
                                           {{-5, 0, 0}, linear(2, vec3(1), vec3(0)), {}}}),
                                 source, by_distance());
-  expect_near(lookup.irradiance({{0.9f, 0, 0}, {-1, 0, 0}}), vec3(pi));
-  expect_near(lookup.glossy({{0.9f, 0, 0}, {-1, 0, 0}}, {0, 1, 0}, 0.2f), vec3(1));
+  expect_near(lookup.irradiance({{0.9f, 0, 0}, {-1, 0, 0}}), vec3(pi), rounding);
+  expect_near(lookup.glossy({{0.9f, 0, 0}, {-1, 0, 0}}, {0, 1, 0}, 0.2f), vec3(1), rounding);
 }
 
 TEST(IrradianceLookup, WithoutAVisibleProbeTheNearestOnesServe) {
@@ -127,8 +127,8 @@ TEST(IrradianceLookup, WithoutAVisibleProbeTheNearestOnesServe) {
   source.free = [](const vec3&, const vec3&) { return false; };
   const auto set =
       make_set({{{0, 0, 0}, linear(2, vec3(1), vec3(0)), {}}, {{9, 0, 0}, linear(2, vec3(1), vec3(0)), {}}});
-  expect_near(IrradianceLookup(set, source).irradiance({{1, -5, 0}, {0, 1, 0}}), vec3(pi));
-  expect_near(LightLookup(set, source).irradiance({{1, -5, 0}, {0, 1, 0}}), vec3(pi));
+  expect_near(IrradianceLookup(set, source).irradiance({{1, -5, 0}, {0, 1, 0}}), vec3(pi), rounding);
+  expect_near(LightLookup(set, source).irradiance({{1, -5, 0}, {0, 1, 0}}), vec3(pi), rounding);
 }
 
 TEST(IrradianceLookup, HiddenProbesBelowTheTangentPlaneGiveNothing) {
@@ -142,15 +142,15 @@ TEST(IrradianceLookup, HiddenProbesBelowTheTangentPlaneGiveNothing) {
     LookupParams params;
     params.weights.method = method;
     const IrradianceLookup lookup(room, source, params);
-    expect_near(lookup.irradiance({{0.5f, 0, 0}, up}), vec3(0));
-    expect_near(lookup.glossy({{0.5f, 0, 0}, up}, up, 0.5f), vec3(0));
+    expect_near(lookup.irradiance({{0.5f, 0, 0}, up}), vec3(0), rounding);
+    expect_near(lookup.glossy({{0.5f, 0, 0}, up}, up, 0.5f), vec3(0), rounding);
     expect_near(lookup.irradiance({{0.5f, 0, 0}, -up}), vec3(100 * pi), 1e-3f);
   }
   // One above it as far away as one below: wrapped cosines squared 1 and 0, each plus 0.05; the first counts.
   const auto both = make_set(
       {{{0, -1, 0}, linear(2, vec3(100), vec3(0)), {}}, {{0, 1, 0}, linear(2, vec3(1), vec3(0)), {}}});
   expect_near(IrradianceLookup(both, source, by_distance()).irradiance({{0, 0, 0}, up}),
-              vec3(pi * 1.05f / 1.1f));
+              vec3(pi * 1.05f / 1.1f), rounding);
 }
 
 TEST(IrradianceLookup, BlendsTheNearestVisibleProbesOnly) {
@@ -245,7 +245,7 @@ TEST(LightLookup, IsThePapersFormulaAsWritten) {
     const vec3 x = p - 2.0f * glm::normalize(n + vec3(0.3f, 0.2f, -0.1f));
     const vec3 omega = glm::normalize(p - x);
     ASSERT_GT(glm::dot(n, omega), 0.5f);
-    expect_near(lookup.irradiance({x, n}), (a + glm::dot(b, omega)) / glm::dot(n, omega));
+    expect_near(lookup.irradiance({x, n}), (a + glm::dot(b, omega)) / glm::dot(n, omega), rounding);
   }
 }
 
@@ -257,8 +257,8 @@ TEST(LightLookup, TheNearestVisibleProbeAboveTheHorizonLights) {
                                      {{0, 4, 0}, linear(2, vec3(3), vec3(0)), {}},      // the one
                                      {{0, 5, 0}, linear(2, vec3(4), vec3(0)), {}}}),
                            source);
-  expect_near(lookup.irradiance({{0, 0, 0}, {0, 1, 0}}), vec3(3));
-  expect_near(lookup.glossy({{0, 0, 0}, {0, 1, 0}}, {1, 0, 0}, 0.5f), vec3(3));
+  expect_near(lookup.irradiance({{0, 0, 0}, {0, 1, 0}}), vec3(3), rounding);
+  expect_near(lookup.glossy({{0, 0, 0}, {0, 1, 0}}, {1, 0, 0}, 0.5f), vec3(3), rounding);
 }
 
 TEST(LightLookup, GrazingLightIsGuarded) {
@@ -272,7 +272,7 @@ TEST(Lookup, LightSeenDirectlyDoesNotCountTwice) {
   const auto set = make_set({{{0, 0, 0}, linear(2, vec3(1), vec3(0)), linear(2, vec3(10), vec3(0))}});
   LookupParams all;
   all.light = ProbeLight::all;
-  expect_near(IrradianceLookup(set, source).irradiance({{1, 0, 0}, {0, 1, 0}}), vec3(pi));
+  expect_near(IrradianceLookup(set, source).irradiance({{1, 0, 0}, {0, 1, 0}}), vec3(pi), rounding);
   expect_near(IrradianceLookup(set, source, all).irradiance({{1, 0, 0}, {0, 1, 0}}), vec3(11 * pi), 1e-4f);
 }
 

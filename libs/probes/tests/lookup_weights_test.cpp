@@ -11,12 +11,12 @@
 #include <ssphh/core/sphere.h>
 #include <ssphh/probes/lookup_weights.h>
 
+#include "open_space.h"
+
 namespace ssphh::probes {
 namespace {
 
 constexpr WeightMethod all_methods[] = {WeightMethod::distance, WeightMethod::trilinear, WeightMethod::mls};
-const SeesProbe everything = [](const vec3&, const vec3&) { return true; };
-const vec3 up(0, 1, 0);
 
 std::unique_ptr<LookupWeights> weights(const std::vector<vec3>& positions, WeightMethod method,
                                        const SeesProbe& sees = everything) {

@@ -17,7 +17,7 @@ namespace {
 const vec3 low(-0.6f, 0.1f, -0.6f), high(0.6f, 1.2f, 0.6f);  // of the body
 
 /// Whether the way from a to b stays out of the body, by slabs.
-bool free_way(const vec3& a, const vec3& b) {
+bool misses_body(const vec3& a, const vec3& b) {
   float enter = 0, leave = 1;
   for (glm::length_t c = 0; c < 3; ++c) {
     const float d = b[c] - a[c];
@@ -44,7 +44,7 @@ scene::Scene body_on_a_floor() {
 }
 
 /// On the floor, half a metre apart, and one in the middle of the body's lower side.
-FittedPoints points() {
+FittedPoints around_body() {
   FittedPoints fitted;
   const auto add = [&](const vec3& place, const vec3& normal) {
     fitted.points.push_back({place, normal});
@@ -76,7 +76,7 @@ std::vector<vec3> lighting(const SurfaceLists& surfaces, const vec3& x) {
 
 TEST(SurfaceLists, TheFloorUnderABodySeesItsNeighboursOnTheFloor) {
   // The body's lower side lies in the same squares, faces the other way, and sees the one point on it.
-  const SurfaceLists surfaces = prepare_fitted(body_on_a_floor(), 0, points(), free_way).surfaces;
+  const SurfaceLists surfaces = prepare_fitted(body_on_a_floor(), 0, around_body(), misses_body).surfaces;
   for (const vec3& x :
        {vec3(0.45f, 0, 0.1f), vec3(-0.3f, 0, -0.35f), vec3(0.1f, 0, 0.1f), vec3(1.5f, 0, 0.2f)}) {
     EXPECT_GE(lighting(surfaces, x).size(), 4u) << x.x << " " << x.z;
@@ -84,7 +84,7 @@ TEST(SurfaceLists, TheFloorUnderABodySeesItsNeighboursOnTheFloor) {
 }
 
 TEST(SurfaceLists, TheFloorBesideABodySeesNothingThroughIt) {
-  FittedPoints fitted = points();
+  FittedPoints fitted = around_body();
   const auto walled = [](const vec3& a, const vec3& b) { return (a.x < 0) == (b.x < 0); };
   const SurfaceLists surfaces = prepare_fitted(body_on_a_floor(), 0, fitted, walled).surfaces;
   for (const float x : {-0.4f, -0.2f, 0.2f, 0.4f}) {
@@ -118,7 +118,7 @@ std::string row_text(const SurfaceLists& surfaces, int y, int z) {
 
 TEST(SurfaceLists, ListsAreWhatTheyWere) {
   // Uneven points, a few without weights, on a floor that is turned, and on the body
-  FittedPoints fitted = points();
+  FittedPoints fitted = around_body();
   for (std::size_t i = 0; i < 100; ++i) {
     fitted.points[i].position +=
         vec3(0.03f * static_cast<float>(i % 7), 0, 0.05f * static_cast<float>(i % 3));
@@ -133,7 +133,7 @@ TEST(SurfaceLists, ListsAreWhatTheyWere) {
   scene::Scene scene = body_on_a_floor();
   scene.nodes[0].local.rotation = glm::angleAxis(0.05f, vec3(0, 0, 1));
   scene.instances[1].node = -1;
-  const SurfaceLists surfaces = prepare_fitted(scene, 0, fitted, free_way).surfaces;
+  const SurfaceLists surfaces = prepare_fitted(scene, 0, fitted, misses_body).surfaces;
   EXPECT_EQ(surfaces.points.size(), 98u) << "of 110, twelve have no weight";
   std::string text =
       fmt::format("cells of {} from {} {} {}: {} {} {}\n", surfaces.cell_size, surfaces.origin.x,

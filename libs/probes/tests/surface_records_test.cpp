@@ -10,6 +10,7 @@
 
 #include "error_message.h"
 #include "fake_source.h"
+#include "open_space.h"
 #include "random_set.h"
 
 namespace ssphh::probes {
@@ -17,8 +18,6 @@ namespace {
 
 using test::message_of;
 using testing::HasSubstr;
-
-const SeesProbe everything = [](const vec3&, const vec3&) { return true; };
 
 /// E(n) = level + slope (n · along), RGB; `along` must be a tangent.
 RecordLight light_of(const vec3& level, const vec3& slope = vec3(0), const vec3& along = vec3(1, 0, 0)) {

@@ -4,11 +4,12 @@
 
 #include "dark_space.h"
 #include "error_message.h"
+#include "not_finite.h"
 
 namespace ssphh::rays {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using test::infinity;
 
 TEST(RayDefaults, OfQuestionsAndAnswers) {
   const PathParams path;

@@ -10,13 +10,14 @@
 #include <ssphh/rays/posed_world.h>
 
 #include "error_message.h"
+#include "not_finite.h"
 
 namespace ssphh::rays {
 namespace {
 
 using ssphh::test::message_of;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using test::infinity;
 constexpr float rounding = 2e-6f;  // of a few float operations on numbers near 1
 
 /// Part 0 is the floor y = 0, 20 m wide; all others are balls of radius 1 around the origins of their frames.

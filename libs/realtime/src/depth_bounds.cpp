@@ -8,14 +8,14 @@
 namespace ssphh::realtime {
 namespace {
 
-constexpr int preferred_side = 4096;
+constexpr int depth_atlas_side = 4096;
 
 }  // namespace
 
 DepthBounds::DepthBounds(int size, int tiles)
     : tiles_(tiles),
       levels_(static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(size, 2)) - 1))),
-      layout_(tiles, preferred_side >> levels_) {
+      layout_(tiles, depth_atlas_side >> levels_) {
   const int side = 1 << (levels_ - 1);
   texture_ =
       gl::Texture(gl::Format::rg32f, side * layout_.columns(), side * layout_.rows, layout_.layers, true);

@@ -17,9 +17,9 @@ constexpr int tile_size = 96, lobe_samples = 64;
 /// An image and its halves: a sample of a lobe reads the one whose pixels are as large as what it stands for,
 /// so that few samples have no noise (Křivánek & Colbert, Real-time Shading with Filtered Importance
 /// Sampling, EGSR 2008).
-class Pyramid {
+class ImagePyramid {
  public:
-  explicit Pyramid(const scene::Environment& environment) {
+  explicit ImagePyramid(const scene::Environment& environment) {
     image::Image whole = environment.equirect.empty() ? image::Image(2, 1, 3) : environment.equirect;
     for (int y = 0; y < whole.height; ++y) {
       for (int x = 0; x < whole.width; ++x)
@@ -65,7 +65,7 @@ class Pyramid {
 };
 
 /// The lobe about `axis`, for a viewer along it: half vectors by their density.
-vec3 seen_through_lobe(const Pyramid& pyramid, const vec3& axis, float roughness) {
+vec3 seen_through_lobe(const ImagePyramid& pyramid, const vec3& axis, float roughness) {
   const float alpha = std::max(roughness * roughness, 1e-3f), a2 = alpha * alpha;
   const Frame frame = Frame::around(axis);
   vec3 sum(0);
@@ -87,7 +87,7 @@ vec3 seen_through_lobe(const Pyramid& pyramid, const vec3& axis, float roughness
 }  // namespace
 
 TileAtlas environment_tiles(const scene::Environment& environment) {
-  const Pyramid pyramid(environment);
+  const ImagePyramid pyramid(environment);
   TileAtlas atlas(tile_size, static_cast<int>(environment_roughness.size()));
   constexpr int side = tile_size + 2;
   constexpr float own = 4 * pi / (tile_size * tile_size);

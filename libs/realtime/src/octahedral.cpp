@@ -8,7 +8,7 @@
 namespace ssphh::realtime {
 namespace {
 
-constexpr int preferred_side = 2048;
+constexpr int octahedral_atlas_side = 2048;
 
 }  // namespace
 
@@ -62,7 +62,7 @@ void TileBasis::evaluate(std::span<const vec3> coefficients, std::span<const flo
   for (vec4& texel : out) texel = glm::max(texel, vec4(0));
 }
 
-TileAtlas::TileAtlas(int size, int tiles) : size_(size), layout_(tiles, preferred_side / (size + 2)) {
+TileAtlas::TileAtlas(int size, int tiles) : size_(size), layout_(tiles, octahedral_atlas_side / (size + 2)) {
   const int side = size + 2;
   texture_ = gl::Texture(gl::Format::rgba16f, side * layout_.columns(), side * layout_.rows, layout_.layers);
   texture_.set_filter(true);

@@ -7,7 +7,7 @@ namespace {
 
 enum State : std::uint8_t { stale, fresh, unused };
 
-constexpr int preferred_side = 4096;
+constexpr int shadow_atlas_side = 4096;
 
 struct FaceAxes {
   vec3 right, up, forward;
@@ -40,7 +40,7 @@ bool sees_box(const MapView& view, const scene::Bounds& box) {
   return !(left || right || below || above || behind);
 }
 
-MapAtlas::MapAtlas(int size, int tiles) : size_(size), layout_(tiles, preferred_side / size) {
+MapAtlas::MapAtlas(int size, int tiles) : size_(size), layout_(tiles, shadow_atlas_side / size) {
   texture_ = gl::Texture(gl::Format::depth32f, size * layout_.columns(), size * layout_.rows, layout_.layers);
   for (int i = 0; i < layout_.layers; ++i) layers_.emplace_back(texture_, i);
   views_.resize(static_cast<std::size_t>(tiles));
@@ -49,7 +49,7 @@ MapAtlas::MapAtlas(int size, int tiles) : size_(size), layout_(tiles, preferred_
 }
 
 std::size_t MapAtlas::bytes_of(int size, int tiles) {
-  const TileLayout layout(tiles, preferred_side / size);
+  const TileLayout layout(tiles, shadow_atlas_side / size);
   return static_cast<std::size_t>(size * layout.columns()) * static_cast<std::size_t>(size * layout.rows) *
          static_cast<std::size_t>(layout.layers) * gl::bytes_per_texel(gl::Format::depth32f);
 }

@@ -13,7 +13,7 @@ namespace {
 
 using methods::vpl::Vpl;
 
-constexpr int largest_face = 256, smallest_face = 32;
+constexpr int largest_map = 256, smallest_map = 32;
 /// Of one pass over the picture: drivers stop what keeps a GPU for seconds.
 constexpr int lights_per_pass = 256;
 
@@ -35,15 +35,15 @@ VirtualMapPlan plan_virtual_maps(std::size_t lights, std::size_t most_bytes) {
     const auto face = static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * sizeof(float);
     return std::min<std::size_t>(most_bytes / (6 * face), std::numeric_limits<int>::max() / 6);
   };
-  for (int size = largest_face; size >= smallest_face; size /= 2) {
+  for (int size = largest_map; size >= smallest_map; size /= 2) {
     if (lights <= room(size) && fits(size, lights)) return {size, static_cast<int>(lights)};
   }
-  std::size_t low = 0, high = room(smallest_face) + 1;  // low fits, high does not
+  std::size_t low = 0, high = room(smallest_map) + 1;  // low fits, high does not
   while (high - low > 1) {
     const std::size_t middle = (low + high) / 2;
-    (fits(smallest_face, middle) ? low : high) = middle;
+    (fits(smallest_map, middle) ? low : high) = middle;
   }
-  return {smallest_face, static_cast<int>(low)};
+  return {smallest_map, static_cast<int>(low)};
 }
 
 VirtualLightMaps::VirtualLightMaps(const methods::VirtualLights& data, std::size_t most_bytes,

@@ -6,7 +6,10 @@
 #include <ssphh/report/measure.h>
 #include <ssphh/report/report.h>
 
+// What all tests share is found as test::name beside these, too.
+namespace ssphh::test {}
 namespace ssphh::report::test {
+using namespace ssphh::test;
 
 inline image::Image example_picture(float warmth) {
   image::Image image(32, 18);

@@ -89,7 +89,7 @@ Plan example_plan() {
   return plan;
 }
 
-ExpandContext context() {
+ExpandContext context_of_two() {
   return {"/nowhere", "1.0", {{"s", "hash of s"}, {"t", "hash of t"}}, 3};
 }
 
@@ -138,18 +138,19 @@ TEST(JobKey, HoldsEveryFieldOfThePlanThatACommandSees) {
   undecisive["reference/variants"] = "a reference has none";
   undecisive["reference/scenes"] = "a reference is of all scenes";
   expect_a_key_of_every_field(
-      example_plan(), [](const Plan& plan) { return keys_of(plan, context()); }, undecisive);
+      example_plan(), [](const Plan& plan) { return keys_of(plan, context_of_two()); }, undecisive);
 }
 
 TEST(JobKey, HoldsEveryFieldOfTheContext) {
-  expect_a_key_of_every_field(context(), [](const ExpandContext& c) { return keys_of(example_plan(), c); });
+  expect_a_key_of_every_field(context_of_two(),
+                              [](const ExpandContext& c) { return keys_of(example_plan(), c); });
 }
 
 TEST(JobKey, HoldsWhichOfTheEarlierFilesIsRead) {
   const auto render_key = [](const char* probes) {
     Plan plan = example_plan();
     plan.methods[0].steps[2].words[5] = probes;
-    for (const Job& job : expand(plan, context()).jobs)
+    for (const Job& job : expand(plan, context_of_two()).jobs)
       if (job.words.size() > 5 && job.words[5].starts_with('@')) return job.key;
     return std::string("no step reads what an earlier one wrote");
   };
@@ -162,9 +163,9 @@ TEST(JobKey, RepetitionsOfAStepWithASeedOfItsOwnAreOneRun) {
   Plan plan = example_plan();
   std::vector<std::string>& words = plan.methods[1].steps[0].words;
   words.insert(words.end(), {"--seed", "7"});
-  const Hash128 once = keys_of(plan, context());
+  const Hash128 once = keys_of(plan, context_of_two());
   plan.methods[1].repetitions = 3;
-  EXPECT_EQ(keys_of(plan, context()), once);
+  EXPECT_EQ(keys_of(plan, context_of_two()), once);
 }
 
 // One in the plan's folder, however the option is written.
@@ -178,7 +179,7 @@ TEST(JobKey, AFileOfAnOptionCountsByContent) {
     for (const char* content : {"abc", "abc", "abd"}) {
       const test::TempDir dir;
       write_file(dir / "sky.hdr", std::string_view(content));
-      ExpandContext here = context();
+      ExpandContext here = context_of_two();
       here.folder = dir.path();
       keys.push_back(keys_of(plan, here));
       const std::vector<std::string> made = expand(plan, here).jobs.back().words;
@@ -193,7 +194,7 @@ TEST(JobKey, AFileThatTheSceneNamesCountsByContent) {
   const test::TempDir dir;
   Plan plan = example_plan();
   plan.scenes[1].words.insert(plan.scenes[1].words.end(), {"--overlay", "lamps.json"});
-  ExpandContext here = context();
+  ExpandContext here = context_of_two();
   here.folder = dir.path();
   const Hash128 without = keys_of(plan, here);
   write_file(dir / "lamps.json", std::string_view("{}"));
@@ -209,7 +210,7 @@ TEST(JobKey, AFileThatTheSceneNamesCountsByContent) {
 
 TEST(Cache, ARecordHoldsEveryFieldOfARun) {
   const test::TempDir dir;
-  const Job job = expand(example_plan(), context()).jobs[1];
+  const Job job = expand(example_plan(), context_of_two()).jobs[1];
   JobRecord record;
   auto& [command, build, machine, started, seconds, cpu_seconds, peak_bytes, files, result] = record;
   build = "b1", machine = "M", started = "2026-01-02T03:04:05Z";

@@ -24,7 +24,7 @@ namespace {
 
 using test::message_of;
 
-json::Value plan_of(const std::string& member, const std::string& value) {
+json::Value plan_with(const std::string& member, const std::string& value) {
   json::Value plan = test::parse_json(R"({
     "variables": {"width": 48, "spp": 2},
     "scenes": [{"name": "room", "scene": "builtin:box"}],
@@ -36,7 +36,9 @@ json::Value plan_of(const std::string& member, const std::string& value) {
 }
 
 std::string said_of(const std::string& member, const std::string& value) {
-  return message_of([&] { parse_plan(print(plan_of(member, value)), "plan", {"render", "truth", "bake"}); });
+  return message_of([&] {
+    parse_plan(print(plan_with(member, value)), "plan", {"render", "truth", "bake"});
+  });
 }
 
 TEST(Messages, OfPlans) {
@@ -93,7 +95,7 @@ TEST(Messages, OfPlans) {
 }
 
 TEST(Messages, OfVariables) {
-  Plan plan = parse_plan(print(plan_of("", "")), "plan", {"render", "truth"});
+  Plan plan = parse_plan(print(plan_with("", "")), "plan", {"render", "truth"});
   EXPECT_EQ(message_of([&] { set_variable(plan, "width"); }), "--set width: is not NAME=VALUE");
   EXPECT_EQ(message_of([&] { set_variable(plan, "widht=1"); }),
             "--set widht=1: the plan has no variable \"widht\" (did you mean \"width\"?)");
@@ -104,7 +106,7 @@ TEST(Messages, OfVariables) {
 TEST(Messages, OfPicturesThatNoStepWrites) {
   const auto said = [](const char* method) {
     const Plan plan =
-        parse_plan(print(plan_of("methods", fmt::format("[{}]", method))), "plan", {"render", "truth"});
+        parse_plan(print(plan_with("methods", fmt::format("[{}]", method))), "plan", {"render", "truth"});
     const ExpandContext context{.folder = {}, .version = "1", .scene_hashes = {{"room", "h"}}};
     return message_of([&] { expand(plan, context); });
   };

@@ -37,7 +37,7 @@ Plan parse(const json::Value& json) {
 }
 
 // The message of the Error that a changed plan gives.
-std::string message_of(const std::function<void(json::Value&)>& change) {
+std::string refusal_of(const std::function<void(json::Value&)>& change) {
   json::Value json = valid();
   change(json);
   try {
@@ -80,45 +80,45 @@ TEST(Plan, ParametersAsListStandForThemselves) {
 
 TEST(Plan, UnknownNamesAreAnsweredWithTheNearest) {
   using testing::HasSubstr;
-  EXPECT_THAT(message_of([](auto& j) { j["titel"] = "x"; }),
+  EXPECT_THAT(refusal_of([](auto& j) { j["titel"] = "x"; }),
               AllOf(HasSubstr("\"titel\""), HasSubstr("\"title\"")));
-  EXPECT_THAT(message_of([](auto& j) { j["scenes"][0]["exposre"] = 1; }),
+  EXPECT_THAT(refusal_of([](auto& j) { j["scenes"][0]["exposre"] = 1; }),
               AllOf(HasSubstr("scenes[0]"), HasSubstr("\"exposure\"")));
-  EXPECT_THAT(message_of([](auto& j) { j["methods"][0]["repetition"] = 1; }), HasSubstr("\"repetitions\""));
-  EXPECT_THAT(message_of([](auto& j) { j["layers"] = {"indirekt"}; }), HasSubstr("\"indirect\""));
-  EXPECT_THAT(message_of([](auto& j) { j["methods"][0]["steps"][0] = "rendr {scene}"; }),
+  EXPECT_THAT(refusal_of([](auto& j) { j["methods"][0]["repetition"] = 1; }), HasSubstr("\"repetitions\""));
+  EXPECT_THAT(refusal_of([](auto& j) { j["layers"] = {"indirekt"}; }), HasSubstr("\"indirect\""));
+  EXPECT_THAT(refusal_of([](auto& j) { j["methods"][0]["steps"][0] = "rendr {scene}"; }),
               HasSubstr("\"render\""));
   EXPECT_THAT(
-      message_of([](auto& j) { j["methods"][0]["steps"][0] = "render {scene} --width {widht} -o p.exr"; }),
+      refusal_of([](auto& j) { j["methods"][0]["steps"][0] = "render {scene} --width {widht} -o p.exr"; }),
       HasSubstr("\"width\""));
-  EXPECT_THAT(message_of([](auto& j) { j["scenes"][0]["variables"]["sp"] = 1; }), HasSubstr("\"spp\""));
-  EXPECT_THAT(message_of([](auto& j) { j["published"]["rows"][0]["method"] = "m, depth 2, n a"; }),
+  EXPECT_THAT(refusal_of([](auto& j) { j["scenes"][0]["variables"]["sp"] = 1; }), HasSubstr("\"spp\""));
+  EXPECT_THAT(refusal_of([](auto& j) { j["published"]["rows"][0]["method"] = "m, depth 2, n a"; }),
               HasSubstr("did you mean \"m, depth 1, n a\""));
-  EXPECT_THAT(message_of([](auto& j) { j["columns"][1]["titel"] = 1; }), HasSubstr("\"title\""));
-  EXPECT_THAT(message_of([](auto& j) { j["published"]["sources"] = "me"; }), HasSubstr("\"source\""));
-  EXPECT_THAT(message_of([](auto& j) { j["published"]["rows"][0]["scenes"] = 1; }), HasSubstr("\"scene\""));
-  EXPECT_THAT(message_of([](auto& j) { j["charts"][0]["titel"] = "x"; }), HasSubstr("\"title\""));
+  EXPECT_THAT(refusal_of([](auto& j) { j["columns"][1]["titel"] = 1; }), HasSubstr("\"title\""));
+  EXPECT_THAT(refusal_of([](auto& j) { j["published"]["sources"] = "me"; }), HasSubstr("\"source\""));
+  EXPECT_THAT(refusal_of([](auto& j) { j["published"]["rows"][0]["scenes"] = 1; }), HasSubstr("\"scene\""));
+  EXPECT_THAT(refusal_of([](auto& j) { j["charts"][0]["titel"] = "x"; }), HasSubstr("\"title\""));
 }
 
 TEST(Plan, WrongValuesAreNamedWithTheirPlace) {
   using testing::HasSubstr;
-  EXPECT_THAT(message_of([](auto& j) { j.erase("scenes"); }), HasSubstr("\"scenes\" is missing"));
-  EXPECT_THAT(message_of([](auto& j) { j["scenes"] = json::Value::array(); }), HasSubstr("plan: scenes"));
-  EXPECT_THAT(message_of([](auto& j) { j["block"] = 0; }), HasSubstr("plan: block"));
-  EXPECT_THAT(message_of([](auto& j) { j["block"] = 1.5; }),
+  EXPECT_THAT(refusal_of([](auto& j) { j.erase("scenes"); }), HasSubstr("\"scenes\" is missing"));
+  EXPECT_THAT(refusal_of([](auto& j) { j["scenes"] = json::Value::array(); }), HasSubstr("plan: scenes"));
+  EXPECT_THAT(refusal_of([](auto& j) { j["block"] = 0; }), HasSubstr("plan: block"));
+  EXPECT_THAT(refusal_of([](auto& j) { j["block"] = 1.5; }),
               HasSubstr("1.5 must be an integer from 1 to 4096"));
-  EXPECT_THAT(message_of([](auto& j) { j["methods"][0]["repetitions"] = 0; }), HasSubstr("repetitions"));
-  EXPECT_THAT(message_of([](auto& j) {
+  EXPECT_THAT(refusal_of([](auto& j) { j["methods"][0]["repetitions"] = 0; }), HasSubstr("repetitions"));
+  EXPECT_THAT(refusal_of([](auto& j) {
                 j["scenes"][0]["insets"][0]["at"] = {0, 0, 0, 1};
               }),
               HasSubstr("left < right"));
-  EXPECT_THAT(message_of([](auto& j) { j["reference"]["picture"] = "x.exr"; }), HasSubstr("exclude"));
-  EXPECT_THAT(message_of([](auto& j) { j["methods"][0]["steps"][0] = "render 'x"; }), HasSubstr("quote"));
-  EXPECT_THAT(message_of([](auto& j) {
+  EXPECT_THAT(refusal_of([](auto& j) { j["reference"]["picture"] = "x.exr"; }), HasSubstr("exclude"));
+  EXPECT_THAT(refusal_of([](auto& j) { j["methods"][0]["steps"][0] = "render 'x"; }), HasSubstr("quote"));
+  EXPECT_THAT(refusal_of([](auto& j) {
                 j["methods"][0]["steps"] = {"sh a", "sh b"};
               }),
               HasSubstr("two steps"));
-  EXPECT_THAT(message_of([](auto& j) { j["methods"][0]["steps"][0] = "render x{scene}"; }),
+  EXPECT_THAT(refusal_of([](auto& j) { j["methods"][0]["steps"][0] = "render x{scene}"; }),
               HasSubstr("by itself"));
   EXPECT_THROW(parse_plan("{", "plan", commands), Error);
   EXPECT_THROW(parse_plan("[]", "plan", commands), Error);
@@ -220,7 +220,7 @@ TEST(Plan, EveryKeyGoesWhereItBelongs) {
 
 TEST(Plan, NumbersHaveLimits) {
   const auto accepted = [](const std::function<void(json::Value&)>& change) {
-    const std::string message = message_of(change);
+    const std::string message = refusal_of(change);
     EXPECT_TRUE(message == "accepted" || message.find(" must be ") != std::string::npos) << message;
     return message == "accepted";
   };
@@ -255,7 +255,7 @@ TEST(Plan, AnExposureMayBeLeftToThePicture) {
 
 TEST(Plan, AnInsetLiesWithinThePicture) {
   const auto at = [](const json::Value& value) {
-    return message_of([&](auto& j) { j["scenes"][0]["insets"][0]["at"] = value; });
+    return refusal_of([&](auto& j) { j["scenes"][0]["insets"][0]["at"] = value; });
   };
   EXPECT_EQ(at({0, 0, 1, 1}), "accepted");
   for (const std::vector<double>& bad : std::vector<std::vector<double>>{{-0.01, 0, 1, 1},
@@ -269,9 +269,9 @@ TEST(Plan, AnInsetLiesWithinThePicture) {
     EXPECT_THAT(at(bad), testing::HasSubstr("insets[0].at: must be left < right and top < bottom"));
   EXPECT_THAT(at({0, 0, 1}), testing::HasSubstr("insets[0].at"));
   EXPECT_THAT(at({0, 0, 1, "1"}), testing::HasSubstr("insets[0].at"));
-  EXPECT_THAT(message_of([](auto& j) { j["scenes"][0]["insets"][0]["mask"] = "m.png"; }),
+  EXPECT_THAT(refusal_of([](auto& j) { j["scenes"][0]["insets"][0]["mask"] = "m.png"; }),
               testing::HasSubstr("exclude each other"));
-  EXPECT_EQ(message_of([](auto& j) {
+  EXPECT_EQ(refusal_of([](auto& j) {
               j["scenes"][0]["insets"][0] = {{"name", "i"}, {"mask", "m.png"}};
             }),
             "accepted");
@@ -285,7 +285,7 @@ TEST(Plan, AsksAnHourOfACommandAndBlocksOf16PixelsUnlessItSaysOtherwise) {
 TEST(Plan, WrongKindsAndDoublesAreNamed) {
   using testing::HasSubstr;
   const auto expect = [](const char* message, const std::function<void(json::Value&)>& change) {
-    EXPECT_THAT(message_of(change), HasSubstr(message));
+    EXPECT_THAT(refusal_of(change), HasSubstr(message));
   };
   expect("plan: must be an object", [](auto& j) { j = json::Value::array(); });
   expect("plan: title: must be a string", [](auto& j) { j["title"] = 7; });

@@ -18,8 +18,8 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::vector<std::string> commands = {"render",  "bake",    "hier",    "truth", "sh",
-                                           "measure", "compare", "relight", "leak"};
+const std::vector<std::string> words_of_steps = {"render",  "bake",    "hier",    "truth", "sh",
+                                                 "measure", "compare", "relight", "leak"};
 
 const char* const plan = R"(# Degrees
 title: Degrees
@@ -44,7 +44,7 @@ methods:
 std::string message_of(std::string text, const std::string& what, const std::string& with) {
   text.replace(text.find(what), what.size(), with);
   try {
-    parse_plan(text, "p.yaml", commands);
+    parse_plan(text, "p.yaml", words_of_steps);
   } catch (const Error& e) {
     return e.what();
   }
@@ -66,7 +66,8 @@ TEST(YamlPlan, ShippedPlansSayTheSameInYamlAsInJson) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".json") continue;
     const std::string text = read_text_file(entry.path());
-    const Plan json = parse_plan(text, "plan.json", commands), yaml = parse_plan(text, "plan.yaml", commands);
+    const Plan json = parse_plan(text, "plan.json", words_of_steps),
+               yaml = parse_plan(text, "plan.yaml", words_of_steps);
     EXPECT_EQ(keys(json, folder), keys(yaml, folder)) << entry.path();
     EXPECT_EQ(json.title, yaml.title);
     EXPECT_EQ(json.columns.size(), yaml.columns.size());
@@ -76,7 +77,7 @@ TEST(YamlPlan, ShippedPlansSayTheSameInYamlAsInJson) {
 }
 
 TEST(YamlPlan, PlainScalarsHaveTheirTypeAndQuotedOnesAreText) {
-  const Plan p = parse_plan(plan, "p.yaml", commands);
+  const Plan p = parse_plan(plan, "p.yaml", words_of_steps);
   EXPECT_EQ(p.title, "Degrees");
   EXPECT_EQ(p.variables, (Parameters{{"width", "48"}, {"exposure", "0.5"}, {"label", "016"}}));
   EXPECT_TRUE(p.scenes[0].optional);
@@ -159,7 +160,7 @@ TEST(YamlPlan, AliasesThatMultiplyAreRefused) {
     bomb += "]\n";
   }
   try {
-    parse_plan(bomb, "p.yaml", commands);
+    parse_plan(bomb, "p.yaml", words_of_steps);
     ADD_FAILURE();
   } catch (const Error& e) {
     EXPECT_THAT(e.what(), HasSubstr("over a million values"));

@@ -12,8 +12,6 @@
 namespace ssphh::scene {
 namespace {
 
-using namespace testing;
-
 std::vector<Triangle> inner_skin(const Scene& scene) {
   std::vector<Triangle> skin = world_triangles(scene, 0, "room");
   const auto doorway = world_triangles(scene, 0, "doorway");

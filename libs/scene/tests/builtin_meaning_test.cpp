@@ -10,9 +10,7 @@
 namespace ssphh::scene {
 namespace {
 
-using namespace testing;
-
-std::vector<Triangle> parts(const Scene& scene, const std::vector<std::string>& names) {
+std::vector<Triangle> named_triangles(const Scene& scene, const std::vector<std::string>& names) {
   std::vector<Triangle> all;
   for (const std::string& name : names) {
     const std::vector<Triangle> part = world_triangles(scene, 0, name);
@@ -35,7 +33,7 @@ bool faces(const Triangle& t, const vec3& place) {
 TEST(Cornell, IsABoxOfTwoMetresThatFacesInwardAndIsOpenToTheCamera) {
   const Scene scene = make_builtin("cornell");
   const std::vector<Triangle> walls =
-      parts(scene, {"floor", "ceiling", "back wall", "left wall", "right wall"});
+      named_triangles(scene, {"floor", "ceiling", "back wall", "left wall", "right wall"});
   EXPECT_EQ(open_edges(walls), 4) << "around the open side";
   EXPECT_EQ(bounds_of(walls).min, vec3(-1, 0, -1));
   EXPECT_EQ(bounds_of(walls).max, vec3(1, 2, 1));
@@ -80,7 +78,7 @@ TEST(Court, StandsAroundAFloorUnderAnOpenSky) {
   const Bounds floor = bounds_of(world_triangles(scene, 0, "floor"));
   EXPECT_EQ(floor.min, vec3(-2, 0, -2));
   EXPECT_EQ(floor.max, vec3(2, 0, 2));
-  EXPECT_EQ(bounds_of(parts(scene, {"left", "right", "back", "sill"})).max, vec3(2.2f, 2, 2));
+  EXPECT_EQ(bounds_of(named_triangles(scene, {"left", "right", "back", "sill"})).max, vec3(2.2f, 2, 2));
   for (const char* body : {"block", "knot", "ball"}) {
     const std::vector<Triangle> triangles = world_triangles(scene, 0, body);
     const Bounds b = bounds_of(triangles);

@@ -16,7 +16,6 @@
 namespace ssphh::scene {
 namespace {
 
-using namespace testing;
 using ssphh::test::message_of;
 
 std::string numbered(const std::string& name, int number) {

@@ -18,8 +18,6 @@ void PrintTo(const BuiltinScene& scene, std::ostream* out) {
 
 namespace {
 
-using namespace testing;
-
 class Builtin : public ::testing::TestWithParam<BuiltinScene> {
  protected:
   const Scene scene_ = GetParam().make();

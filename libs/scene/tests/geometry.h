@@ -10,7 +10,7 @@
 
 #include <ssphh/scene/query.h>
 
-namespace ssphh::scene::testing {
+namespace ssphh::scene {
 
 using Triangle = std::array<vec3, 3>;
 
@@ -122,4 +122,4 @@ inline int open_edges(const std::vector<Triangle>& triangles) {
   return open;
 }
 
-}  // namespace ssphh::scene::testing
+}  // namespace ssphh::scene

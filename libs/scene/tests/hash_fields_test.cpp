@@ -17,7 +17,7 @@ namespace {
 
 /// Two of everything that has an index, different from each other, so that 0 and 1 are both allowed and not
 /// the same. Instance 0 has its mesh's material, 1.
-Scene full_scene() {
+Scene scene_with_all_fields() {
   Scene s;
   for (int i = 0; i < 2; ++i) {
     const auto n = static_cast<std::uint8_t>(i);
@@ -118,7 +118,7 @@ struct Field {
 std::vector<Field> changed_scenes() {
   std::vector<Field> all;
   const auto next = [&] {
-    Field field{"", full_scene()};
+    Field field{"", scene_with_all_fields()};
     std::size_t i = 0;
     const auto visit = [&](const std::string& path, auto& member) {
       using Member = std::remove_reference_t<decltype(member)>;
@@ -156,13 +156,13 @@ bool of_observers(const std::string& path) {
 }
 
 TEST(SceneHash, EveryFieldThatIsSeenCounts) {
-  const Hash128 before = scene_hash(full_scene());
+  const Hash128 before = scene_hash(scene_with_all_fields());
   for (const Field& field : changed_scenes())
     EXPECT_EQ(scene_hash(field.scene) == before, invisible(field.path)) << field.path;
 }
 
 TEST(LightHash, EveryFieldThatDecidesLightCounts) {
-  const Hash128 before = light_hash(full_scene());
+  const Hash128 before = light_hash(scene_with_all_fields());
   for (const Field& field : changed_scenes()) {
     EXPECT_EQ(light_hash(field.scene) == before, invisible(field.path) || of_observers(field.path))
         << field.path;

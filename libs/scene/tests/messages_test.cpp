@@ -12,13 +12,14 @@
 #include <ssphh/scene/sun_sky.h>
 
 #include "error_message.h"
+#include "not_finite.h"
 
 namespace ssphh::scene {
 namespace {
 
 using ssphh::test::message_of;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using test::infinity;
 
 TEST(SceneDefaults, OfWhatStandsInAScene) {
   const Texture texture;

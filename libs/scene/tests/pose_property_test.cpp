@@ -64,13 +64,13 @@ TEST(PoseProperty, ARootThatTurnsMovesAndGrowsDoesSoToAllTriangles) {
                   .cases(60)
                   .holds([](std::uint64_t seed, const vec3& axis, float angle, const vec3& move, float size) {
                     Scene scene = still_scene(seed);
-                    const auto before = scene::testing::world_triangles(scene);
+                    const auto before = scene::world_triangles(scene);
                     Transform root{move, glm::angleAxis(angle, axis), vec3(size)};
                     // Nodes without a parent hang on a new one.
                     for (Node& node : scene.nodes) ++node.parent;
                     scene.nodes.insert(scene.nodes.begin(), {"root", -1, root, {}, false});
                     for (Instance& instance : scene.instances) ++instance.node;
-                    const auto after = scene::testing::world_triangles(scene);
+                    const auto after = scene::world_triangles(scene);
                     double worst = 0;
                     for (std::size_t t = 0; t < before.size(); ++t) {
                       for (std::size_t c = 0; c < 3; ++c) {
@@ -90,7 +90,7 @@ TEST(PoseProperty, BoundsHoldEveryTriangleAndNoMore) {
     const Scene scene = random_scene(seed);
     const Bounds bounds = world_bounds(scene, world_matrices(scene, time));
     vec3 low(INFINITY), high(-INFINITY);
-    for (const auto& triangle : scene::testing::world_triangles(scene, time)) {
+    for (const auto& triangle : scene::world_triangles(scene, time)) {
       for (const vec3& p : triangle) low = glm::min(low, p), high = glm::max(high, p);
     }
     // The same products in the same order.

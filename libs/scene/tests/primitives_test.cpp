@@ -7,8 +7,6 @@
 namespace ssphh::scene {
 namespace {
 
-using namespace testing;
-
 struct Body {
   std::string name;
   Mesh mesh;

@@ -3,6 +3,7 @@
 #include <ssphh/core/error.h>
 #include <ssphh/scene/query.h>
 
+#include "not_finite.h"
 #include "property.h"
 #include "random_scene.h"
 
@@ -14,7 +15,7 @@ using ::testing::AssertionFailure;
 using ::testing::AssertionResult;
 using ::testing::AssertionSuccess;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using test::infinity;
 
 TEST(ValidateProperty, ARandomSceneNeedsNoRepair) {
   EXPECT_TRUE(for_all(seeds()).cases(20).holds([](std::uint64_t seed) -> AssertionResult {

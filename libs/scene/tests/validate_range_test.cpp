@@ -7,6 +7,7 @@
 #include <ssphh/core/error.h>
 #include <ssphh/scene/query.h>
 
+#include "not_finite.h"
 #include "scene_fields.h"
 
 namespace ssphh::scene {
@@ -124,7 +125,7 @@ TEST(ValidateRange, VectorsAreLeftAsTheyAreWithinRounding) {
   EXPECT_EQ(repairs(1, 0.9998f), 1u);
 }
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+using test::nan;
 
 /// Makes the last number of a field NaN; whether it has one.
 template <class T>

@@ -8,11 +8,13 @@
 #include <ssphh/scene/primitives.h>
 #include <ssphh/scene/query.h>
 
+#include "not_finite.h"
+
 namespace ssphh::scene {
 namespace {
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using test::infinity;
+using test::nan;
 
 Scene good_scene() {
   Scene s;

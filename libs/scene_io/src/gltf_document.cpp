@@ -9,6 +9,7 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
 
+#include "file_bytes.h"
 #include "gltf_meshopt.h"
 #include "uri.h"
 
@@ -19,10 +20,6 @@ std::uint32_t read_u32(std::span<const std::byte> data, std::size_t offset) {
   std::uint32_t v;
   std::memcpy(&v, data.data() + offset, 4);
   return v;
-}
-
-std::string_view as_text(std::span<const std::byte> data) {
-  return {reinterpret_cast<const char*>(data.data()), data.size()};
 }
 
 struct KnownExtension {

@@ -5,6 +5,7 @@
 #include <ssphh/core/log.h>
 #include <ssphh/image/io.h>
 
+#include "file_bytes.h"
 #include "gltf_names.h"
 #include "gltf_parts.h"
 #include "uri.h"
@@ -15,8 +16,6 @@ namespace {
 using scene::Material;
 using scene::TextureUse;
 using scene::Wrap;
-
-constexpr std::uint64_t max_image_bytes = std::uint64_t{1} << 30;
 
 // Scene texture of a glTF image; −1 when it cannot be used, which is a warning: the factors still stand.
 int import_image(GltfImport& import, int index) {

@@ -17,6 +17,8 @@
 #include <ssphh/scene_io/overlay.h>
 #include <ssphh/scene_io/unit.h>
 
+#include "file_bytes.h"
+
 namespace ssphh::scene_io {
 namespace {
 
@@ -28,10 +30,6 @@ constexpr std::uint64_t max_scene_bytes = std::uint64_t{4} << 30;
 constexpr std::uint64_t max_overlay_bytes = std::uint64_t{16} << 20;
 
 enum class Format { gltf, obj, overlay };
-
-std::string_view as_text(std::span<const std::byte> data) {
-  return {reinterpret_cast<const char*>(data.data()), data.size()};
-}
 
 std::string lower_extension(const fs::path& path) {
   std::string extension = path.extension().string();

@@ -8,6 +8,7 @@
 #include <ssphh/core/log.h>
 #include <ssphh/image/io.h>
 
+#include "file_bytes.h"
 #include "mtl.h"
 #include "printable.h"
 
@@ -20,7 +21,6 @@ using scene::Texture;
 using scene::TextureUse;
 
 constexpr std::uint64_t max_mtl_bytes = std::uint64_t{64} << 20;
-constexpr std::uint64_t max_image_bytes = std::uint64_t{1} << 30;
 
 // Roughness whose α = roughness² has the width of the Blinn–Phong lobe of exponent n: α² = 2/(n + 2)
 // (Walter et al., Microfacet Models for Refraction through Rough Surfaces, 2007).

@@ -66,7 +66,7 @@ int add_node(Scene& scene, const json::Cursor& entry, const std::string& name) {
   return static_cast<int>(scene.nodes.size()) - 1;
 }
 
-void add_camera(Scene& scene, const json::Cursor& entry, std::size_t number) {
+void read_camera(Scene& scene, const json::Cursor& entry, std::size_t number) {
   entry.only(
       {"name", "position", "look_at", "direction", "up", "node", "yfov_degrees", "xfov_degrees", "aspect"});
   scene::Camera camera;
@@ -84,7 +84,7 @@ void add_camera(Scene& scene, const json::Cursor& entry, std::size_t number) {
   scene.cameras.push_back(std::move(camera));
 }
 
-void add_light(Scene& scene, const json::Cursor& entry, std::size_t number) {
+void read_light(Scene& scene, const json::Cursor& entry, std::size_t number) {
   entry.only({"name", "light_group", "type", "position", "look_at", "direction", "up", "node", "color",
               "intensity", "radius", "angular_diameter_degrees", "inner_cone_degrees", "outer_cone_degrees",
               "range"});
@@ -108,7 +108,7 @@ void add_light(Scene& scene, const json::Cursor& entry, std::size_t number) {
   scene.lights.push_back(std::move(light));
 }
 
-void add_sphl(Scene& scene, const json::Cursor& entry, std::size_t number) {
+void read_sphl(Scene& scene, const json::Cursor& entry, std::size_t number) {
   entry.only({"name", "position", "node", "radius", "enabled"});
   scene::Sphl sphl;
   sphl.name = entry.text_or("name", fmt::format("SPHL-{}", number));
@@ -218,9 +218,9 @@ void apply_overlay(Scene& scene, std::string_view text, const std::filesystem::p
              origin ? origin->vector3() : vec3(0));
   }
   for_each_entry(scene, root, "materials", override_material);
-  for_each_entry(scene, root, "cameras", add_camera);
-  for_each_entry(scene, root, "lights", add_light);
-  for_each_entry(scene, root, "sphls", add_sphl);
+  for_each_entry(scene, root, "cameras", read_camera);
+  for_each_entry(scene, root, "lights", read_light);
+  for_each_entry(scene, root, "sphls", read_sphl);
   const auto environment = root.find("environment"), sun_sky = root.find("sun_sky");
   if (environment && sun_sky) root.fail("has both \"environment\" and \"sun_sky\"");
   if (environment) set_environment(scene, *environment, path);

@@ -16,13 +16,14 @@
 namespace ssphh::test {
 namespace {
 
-struct Exported {
+struct CoronaFiles {
   scene_io::ExportReport report;
   XmlElement scn, mtl;
 };
 
-Exported exported(const scene::Scene& scene, const scene_io::ExportSettings& settings, const TempDir& dir) {
-  Exported e{scene_io::export_corona(scene, settings, dir.path()), {}, {}};
+CoronaFiles corona_files(const scene::Scene& scene, const scene_io::ExportSettings& settings,
+                         const TempDir& dir) {
+  CoronaFiles e{scene_io::export_corona(scene, settings, dir.path()), {}, {}};
   const std::string scn = read_text_file(dir / "scene.scn"), mtl = read_text_file(dir / "scene.mtl");
   e.scn = XmlReader(scn).document();
   e.mtl = XmlReader(mtl).document();
@@ -117,7 +118,7 @@ void check_material(const XmlElement& material, const std::filesystem::path& dir
   }
 }
 
-void check(const Exported& e, const std::filesystem::path& directory) {
+void check(const CoronaFiles& e, const std::filesystem::path& directory) {
   std::set<std::string> materials;
   EXPECT_EQ(e.mtl.name, "mtlLib");
   for (const XmlElement& d : e.mtl.children) {
@@ -154,7 +155,7 @@ void check(const Exported& e, const std::filesystem::path& directory) {
 
 TEST(ExportCorona, EveryElementIsDocumented) {
   const TempDir dir;
-  check(exported(scene_of_everything(), export_settings(), dir), dir.path());
+  check(corona_files(scene_of_everything(), export_settings(), dir), dir.path());
   // [type] [name] = [value]; the names are the paper's.
   EXPECT_EQ(read_text_file(dir / "scene.conf"),
             "Int image.width = 64\nInt image.height = 36\nFloat colorMap.simpleExposure = 0\n"
@@ -167,14 +168,14 @@ TEST(ExportCorona, BuiltinScenesAreDocumentedToo) {
     const scene::Scene scene = scene::make_builtin(name);
     scene_io::ExportSettings settings = export_settings();
     settings.camera = scene::camera_pose(scene, "");
-    check(exported(scene, settings, dir), dir.path());
+    check(corona_files(scene, settings, dir), dir.path());
   }
 }
 
 TEST(ExportCorona, TheCameraSeesTheSamePicture) {
   const TempDir dir;
   const scene_io::ExportSettings settings = export_settings();
-  const Exported e = exported(scene::make_builtin("box"), settings, dir);
+  const CoronaFiles e = corona_files(scene::make_builtin("box"), settings, dir);
   const XmlElement& camera = e.scn.child("camera");
   const auto vector = [&](const char* name) {
     const std::vector<float> v = numbers_of(camera.child(name).text);
@@ -200,14 +201,14 @@ TEST(ExportCorona, RefusesAnOrthographicCamera) {
 }
 
 /// The mesh of the material whose name begins so.
-Obj mesh_of(const Exported& e, const std::string& material, const std::filesystem::path& directory) {
+Obj mesh_of(const CoronaFiles& e, const std::string& material, const std::filesystem::path& directory) {
   for (const XmlElement* g : e.scn.all("geometryGroup"))
     if (g->child("instance").child("material").text.starts_with(material))
       return read_obj(directory / g->child("object").text);
   throw std::runtime_error("no mesh of " + material);
 }
 
-vec3 emission_of(const Exported& e, const std::string& material) {
+vec3 emission_of(const CoronaFiles& e, const std::string& material) {
   for (const XmlElement& d : e.mtl.children) {
     if (!d.at("name").starts_with(material)) continue;
     const std::vector<float> v = numbers_of(d.child("material").child("emission").child("color").text);
@@ -220,7 +221,7 @@ vec3 emission_of(const Exported& e, const std::string& material) {
 TEST(ExportCorona, LampsGiveTheSameLight) {
   const TempDir dir;
   const scene::Scene scene = scene_of_everything();
-  const Exported e = exported(scene, export_settings(), dir);
+  const CoronaFiles e = corona_files(scene, export_settings(), dir);
   const std::vector<mat4> world = scene::world_matrices(scene);
   const auto area = [](const Obj& obj) {
     double sum = 0;
@@ -270,7 +271,7 @@ TEST(ExportCorona, LampsGiveTheSameLight) {
 TEST(ExportCorona, TheSkyLooksTheSameInEveryDirection) {
   const TempDir dir;
   const scene::Scene scene = scene_of_everything();
-  const Exported e = exported(scene, export_settings(), dir);
+  const CoronaFiles e = corona_files(scene, export_settings(), dir);
   const Obj sky = mesh_of(e, "sky", dir.path());
   vec3 min(1e30f), max(-1e30f);
   for (const vec3& p : sky.positions) min = glm::min(min, p), max = glm::max(max, p);

@@ -157,7 +157,7 @@ vec3 environment_radiance(const scene::Environment& environment, const vec3& dir
   return environment.color * image::sample_equirect(environment.equirect, d);
 }
 
-std::vector<vec3> directions() {
+std::vector<vec3> directions_around() {
   std::vector<vec3> result;
   for (int i = 0; i < 60; ++i) {
     const float y = 1 - (static_cast<float>(i) + 0.5f) / 30, r = std::sqrt(1 - y * y);

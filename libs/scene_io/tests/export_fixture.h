@@ -39,7 +39,7 @@ std::vector<vec3> visible_points();
 vec3 environment_radiance(const scene::Environment& environment, const vec3& direction);
 
 /// Directions all around.
-std::vector<vec3> directions();
+std::vector<vec3> directions_around();
 
 struct Ply {
   std::vector<std::string> properties;  ///< of a vertex

@@ -208,13 +208,14 @@ class Checker {
   std::set<std::string> ids_;
 };
 
-struct Exported {
+struct MitsubaFiles {
   scene_io::ExportReport report;
   XmlElement scene;
 };
 
-Exported exported(const scene::Scene& scene, const scene_io::ExportSettings& settings, const TempDir& dir) {
-  Exported e{scene_io::export_mitsuba(scene, settings, dir.path()), {}};
+MitsubaFiles mitsuba_files(const scene::Scene& scene, const scene_io::ExportSettings& settings,
+                           const TempDir& dir) {
+  MitsubaFiles e{scene_io::export_mitsuba(scene, settings, dir.path()), {}};
   const std::string text = read_text_file(dir / "scene.xml");
   e.scene = XmlReader(text).document();
   for (const auto& file : e.report.files) EXPECT_TRUE(std::filesystem::is_regular_file(file)) << file;
@@ -223,7 +224,7 @@ Exported exported(const scene::Scene& scene, const scene_io::ExportSettings& set
 
 TEST(ExportMitsuba, EveryElementIsDocumented) {
   const TempDir dir;
-  const Exported e = exported(scene_of_everything(), export_settings(), dir);
+  const MitsubaFiles e = mitsuba_files(scene_of_everything(), export_settings(), dir);
   Checker(dir.path()).check_scene(e.scene);
   EXPECT_EQ(parameter(e.scene.child("integrator"), "max_depth")->at("value"), "4");
   EXPECT_EQ(e.scene.child("integrator").at("type"), "volpath");
@@ -242,7 +243,7 @@ TEST(ExportMitsuba, BuiltinScenesAreDocumentedToo) {
     const scene::Scene scene = scene::make_builtin(name);
     scene_io::ExportSettings settings = export_settings();
     settings.camera = scene::camera_pose(scene, "");
-    const Exported e = exported(scene, settings, dir);
+    const MitsubaFiles e = mitsuba_files(scene, settings, dir);
     Checker(dir.path()).check_scene(e.scene);
     EXPECT_EQ(e.scene.child("integrator").at("type"), "path") << name;
   }
@@ -253,7 +254,7 @@ TEST(ExportMitsuba, TheCameraSeesTheSamePicture) {
     const TempDir dir;
     scene_io::ExportSettings settings = export_settings();
     settings.camera.camera.orthographic = orthographic, settings.camera.camera.yheight = 5;
-    const Exported e = exported(scene::make_builtin("box"), settings, dir);
+    const MitsubaFiles e = mitsuba_files(scene::make_builtin("box"), settings, dir);
     const XmlElement& sensor = e.scene.child("sensor");
     const mat4 to_camera = glm::inverse(matrix_of(*parameter(sensor, "to_world")));
     const float aspect = 64.0f / 36;
@@ -279,12 +280,12 @@ TEST(ExportMitsuba, TheCameraSeesTheSamePicture) {
 TEST(ExportMitsuba, TheEnvironmentLooksTheSameInEveryDirection) {
   const TempDir dir;
   const scene::Scene scene = scene_of_everything();
-  const Exported e = exported(scene, export_settings(), dir);
+  const MitsubaFiles e = mitsuba_files(scene, export_settings(), dir);
   for (const XmlElement* emitter : e.scene.all("emitter")) {
     if (emitter->at("type") != "envmap") continue;
     const image::Image image = image::read_image(dir / parameter(*emitter, "filename")->at("value"));
     const mat4 to_local = glm::inverse(matrix_of(*parameter(*emitter, "to_world")));
-    for (const vec3& direction : directions()) {
+    for (const vec3& direction : directions_around()) {
       const vec3 d(to_local * vec4(direction, 0));
       float u = std::atan2(d.x, -d.z) / (2 * pi);
       u -= std::floor(u);
@@ -307,7 +308,7 @@ TEST(ExportMitsuba, TheEnvironmentLooksTheSameInEveryDirection) {
 TEST(ExportMitsuba, LightsStandAndShineWhereTheyDoHere) {
   const TempDir dir;
   const scene::Scene scene = scene_of_everything();
-  const Exported e = exported(scene, export_settings(), dir);
+  const MitsubaFiles e = mitsuba_files(scene, export_settings(), dir);
   const std::vector<mat4> world = scene::world_matrices(scene);
   const auto emitter = [&](const std::string& type) -> const XmlElement& {
     for (const XmlElement* c : e.scene.all("emitter"))
@@ -334,7 +335,7 @@ TEST(ExportMitsuba, LightsStandAndShineWhereTheyDoHere) {
 TEST(ExportMitsuba, TexturesGoThroughTheSameTransform) {
   const TempDir dir;
   const scene::Scene scene = scene_of_everything();
-  const Exported e = exported(scene, export_settings(), dir);
+  const MitsubaFiles e = mitsuba_files(scene, export_settings(), dir);
   const XmlElement* bitmap = nullptr;
   for (const XmlElement* bsdf : e.scene.all("bsdf"))
     if (bsdf->at("id") == "material2") bitmap = parameter(bsdf->child("bsdf"), "reflectance");

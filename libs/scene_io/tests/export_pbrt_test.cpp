@@ -241,8 +241,8 @@ void check_scene(const std::vector<Statement>& statements, const std::filesystem
   EXPECT_EQ(depth, 0);
 }
 
-std::vector<Statement> exported(const scene::Scene& scene, const scene_io::ExportSettings& settings,
-                                const TempDir& dir) {
+std::vector<Statement> pbrt_statements(const scene::Scene& scene, const scene_io::ExportSettings& settings,
+                                       const TempDir& dir) {
   const scene_io::ExportReport report = scene_io::export_pbrt(scene, settings, dir.path());
   for (const auto& file : report.files) EXPECT_TRUE(std::filesystem::is_regular_file(file)) << file;
   return parse(read_text_file(dir / "scene.pbrt"));
@@ -257,7 +257,7 @@ const Statement& find(const std::vector<Statement>& statements, const std::strin
 
 TEST(ExportPbrt, EveryStatementIsDocumented) {
   const TempDir dir;
-  const std::vector<Statement> s = exported(scene_of_everything(), export_settings(), dir);
+  const std::vector<Statement> s = pbrt_statements(scene_of_everything(), export_settings(), dir);
   check_scene(s, dir.path());
   EXPECT_EQ(find(s, "Integrator").at("maxdepth").numbers, std::vector<float>{3});
 }
@@ -268,7 +268,7 @@ TEST(ExportPbrt, BuiltinScenesAreDocumentedToo) {
     const scene::Scene scene = scene::make_builtin(name);
     scene_io::ExportSettings settings = export_settings();
     settings.camera = scene::camera_pose(scene, "");
-    check_scene(exported(scene, settings, dir), dir.path());
+    check_scene(pbrt_statements(scene, settings, dir), dir.path());
   }
 }
 
@@ -278,7 +278,7 @@ TEST(ExportPbrt, TheCameraSeesTheSamePicture) {
     const TempDir dir;
     scene_io::ExportSettings settings = export_settings();
     settings.camera.camera.orthographic = orthographic, settings.camera.camera.yheight = 5;
-    const std::vector<Statement> s = exported(scene::make_builtin("box"), settings, dir);
+    const std::vector<Statement> s = pbrt_statements(scene::make_builtin("box"), settings, dir);
     mat4 m;
     for (int i = 0; i < 16; ++i)
       m[i / 4][i % 4] = find(s, "Transform").numbers.at(static_cast<std::size_t>(i));
@@ -314,11 +314,11 @@ vec2 equal_area_place(const vec3& d) {
 TEST(ExportPbrt, TheEnvironmentLooksTheSameInEveryDirection) {
   const TempDir dir;
   const scene::Scene scene = scene_of_everything();
-  const std::vector<Statement> s = exported(scene, export_settings(), dir);
+  const std::vector<Statement> s = pbrt_statements(scene, export_settings(), dir);
   const image::Image image =
       image::read_image(dir / find(s, "LightSource", "infinite").at("filename").strings[0]);
   ASSERT_EQ(image.width, image.height);  // pbrt refuses others
-  for (const vec3& d : directions()) {
+  for (const vec3& d : directions_around()) {
     const vec2 place = equal_area_place(d) * static_cast<float>(image.width);
     const vec3 value = image.rgb(static_cast<int>(place.x), static_cast<int>(place.y));
     const vec3 ours = environment_radiance(*scene.environment, d);
@@ -332,7 +332,7 @@ TEST(ExportPbrt, TheEnvironmentLooksTheSameInEveryDirection) {
 TEST(ExportPbrt, LightsStandAndShineWhereTheyDoHere) {
   const TempDir dir;
   const scene::Scene scene = scene_of_everything();
-  const std::vector<Statement> s = exported(scene, export_settings(), dir);
+  const std::vector<Statement> s = pbrt_statements(scene, export_settings(), dir);
   const std::vector<mat4> world = scene::world_matrices(scene);
   const auto place = [&](std::size_t light) {
     return world[static_cast<std::size_t>(scene.lights[light].node)];
@@ -353,7 +353,7 @@ TEST(ExportPbrt, LightsStandAndShineWhereTheyDoHere) {
 TEST(ExportPbrt, TextureCoordinatesAreTransformedAndTurnedUp) {
   const TempDir dir;
   const scene::Scene scene = scene_of_everything();
-  exported(scene, export_settings(), dir);
+  pbrt_statements(scene, export_settings(), dir);
   const Ply ply = read_ply(dir / "mesh2.ply");
   const std::size_t u = ply.properties.size() - 2;
   for (std::size_t i = 0; i < ply.vertices.size(); ++i) {

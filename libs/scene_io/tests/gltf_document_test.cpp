@@ -41,28 +41,29 @@ std::string glb(const std::string& chunks, std::uint32_t version = 2, int more =
   return "glTF" + u32(version) + u32(length) + chunks;
 }
 
-std::string said_of(const std::string& file) {
+std::string said_of_document(const std::string& file) {
   return message_of([&] { GltfDocument(bytes_of(file), "f"); });
 }
 
 std::string said_of_json(const std::string& members) {
-  return said_of("{" + asset + "," + members + "}");
+  return said_of_document("{" + asset + "," + members + "}");
 }
 
 TEST(GltfContainer, ChunksLieWithinTheFile) {
   const std::string json = chunk(json_type, "{" + asset + "}"), bin = chunk(bin_type, "abcd");
-  EXPECT_EQ(said_of(glb(json + bin)), "no error");
-  EXPECT_EQ(said_of(glb(json) + "what follows"), "no error");
-  EXPECT_EQ(said_of("glTF" + u32(2)), "f: the GLB header is cut short");
-  EXPECT_EQ(said_of("glTF" + u32(2) + u32(12)), "f: the GLB file has no JSON chunk");
-  EXPECT_EQ(said_of(glb(json, 1)), "f: is GLB version 1, only 2 can be read");
+  EXPECT_EQ(said_of_document(glb(json + bin)), "no error");
+  EXPECT_EQ(said_of_document(glb(json) + "what follows"), "no error");
+  EXPECT_EQ(said_of_document("glTF" + u32(2)), "f: the GLB header is cut short");
+  EXPECT_EQ(said_of_document("glTF" + u32(2) + u32(12)), "f: the GLB file has no JSON chunk");
+  EXPECT_EQ(said_of_document(glb(json, 1)), "f: is GLB version 1, only 2 can be read");
   const std::string size = std::to_string(12 + json.size());
-  EXPECT_EQ(said_of(glb(json, 2, 1)), "f: is cut short: the GLB header says " +
-                                          std::to_string(13 + json.size()) + " bytes, the file has " + size);
-  EXPECT_EQ(said_of(glb(json + bin.substr(0, 7))), "f: the header of GLB chunk 1 is cut short");
-  EXPECT_EQ(said_of(glb(json + bin.substr(0, 8))), "f: GLB chunk 1 says 4 bytes, 0 are left");
-  EXPECT_EQ(said_of(glb(json + bin.substr(0, 11))), "f: GLB chunk 1 says 4 bytes, 3 are left");
-  EXPECT_EQ(said_of(glb(bin)), "f: the first GLB chunk is not JSON");
+  EXPECT_EQ(said_of_document(glb(json, 2, 1)), "f: is cut short: the GLB header says " +
+                                                   std::to_string(13 + json.size()) +
+                                                   " bytes, the file has " + size);
+  EXPECT_EQ(said_of_document(glb(json + bin.substr(0, 7))), "f: the header of GLB chunk 1 is cut short");
+  EXPECT_EQ(said_of_document(glb(json + bin.substr(0, 8))), "f: GLB chunk 1 says 4 bytes, 0 are left");
+  EXPECT_EQ(said_of_document(glb(json + bin.substr(0, 11))), "f: GLB chunk 1 says 4 bytes, 3 are left");
+  EXPECT_EQ(said_of_document(glb(bin)), "f: the first GLB chunk is not JSON");
 }
 
 TEST(GltfContainer, TheFirstBinaryChunkCountsAndOthersAreSkipped) {
@@ -78,7 +79,9 @@ TEST(GltfContainer, TheFirstBinaryChunkCountsAndOthersAreSkipped) {
 }
 
 TEST(GltfVersion, IsTwo) {
-  const auto version = [](const std::string& members) { return said_of(R"({"asset":{)" + members + "}}"); };
+  const auto version = [](const std::string& members) {
+    return said_of_document(R"({"asset":{)" + members + "}}");
+  };
   EXPECT_EQ(version(R"("version":"2.0")"), "no error");
   EXPECT_EQ(version(R"("version":"2.1")"), "no error");
   EXPECT_EQ(version(R"("version":"2.1","minVersion":"2.0")"), "no error");
@@ -86,8 +89,8 @@ TEST(GltfVersion, IsTwo) {
   EXPECT_EQ(version(R"("version":"2.1","minVersion":"2.1")"),
             "f: asset.minVersion: glTF 2.1 cannot be read, only 2.0");
   EXPECT_EQ(version(""), "f: asset: \"version\" is missing");
-  EXPECT_EQ(said_of("{}"), "f: \"asset\" is missing");
-  EXPECT_EQ(said_of("[]"), "f: must be a JSON object");
+  EXPECT_EQ(said_of_document("{}"), "f: \"asset\" is missing");
+  EXPECT_EQ(said_of_document("[]"), "f: must be a JSON object");
 }
 
 TEST(GltfExtensions, ThatAreRequiredAreKnownOrOnlyAddToTheLook) {

@@ -15,6 +15,7 @@
 
 #include "error_message.h"
 #include "glb_file.h"
+#include "gltf_bytes.h"
 #include "shared_scenes.h"
 
 namespace ssphh::scene_io {
@@ -92,14 +93,6 @@ Bytes pack(const Bytes& plain, const Packing& how) {
   }
   out.json["extensionsRequired"].push_back("KHR_draco_mesh_compression");
   return out.write();
-}
-
-scene::Scene load(const Bytes& file) {
-  return load_gltf(file, "f");
-}
-
-std::string said_of(const Bytes& file) {
-  return test::message_of([&] { load(file); });
 }
 
 Bytes plain_scene(const char* name) {
@@ -219,7 +212,8 @@ TEST(Draco, TheKhronosBoxIsABox) {
 }
 
 /// The file with a change of its first primitive's extension.
-Bytes changed(const Bytes& file, const std::function<void(json::Value& extension, GlbFile& all)>& change) {
+Bytes changed_primitive(const Bytes& file,
+                        const std::function<void(json::Value& extension, GlbFile& all)>& change) {
   GlbFile glb(file);
   change(glb.json["meshes"][std::size_t{0}]["primitives"][std::size_t{0}]["extensions"]
                  ["KHR_draco_mesh_compression"],
@@ -237,14 +231,16 @@ const std::string place = "f: meshes[0].primitives[0].extensions.KHR_draco_mesh_
 TEST(Draco, WhatDoesNotFitTheFileIsNamed) {
   const Bytes good = pack(plain_scene("box"), {});
   ASSERT_EQ(said_of(good), "no error");
-  EXPECT_EQ(said_of(changed(good, [](json::Value& e, GlbFile&) { e["attributes"]["POSITION"] = 9; })),
-            place + ".attributes.POSITION: the packed mesh has no attribute 9");
-  EXPECT_THAT(said_of(changed(good, [](json::Value& e, GlbFile&) { e["bufferView"] = 99; })),
+  EXPECT_EQ(
+      said_of(changed_primitive(good, [](json::Value& e, GlbFile&) { e["attributes"]["POSITION"] = 9; })),
+      place + ".attributes.POSITION: the packed mesh has no attribute 9");
+  EXPECT_THAT(said_of(changed_primitive(good, [](json::Value& e, GlbFile&) { e["bufferView"] = 99; })),
               HasSubstr(place + ".bufferView: index 99 out of range"));
-  EXPECT_THAT(said_of(changed(good, [](json::Value& e, GlbFile&) { e["attributes"]["COLOR_0"] = 0; })),
-              HasSubstr("\"COLOR_0\" is missing"));
+  EXPECT_THAT(
+      said_of(changed_primitive(good, [](json::Value& e, GlbFile&) { e["attributes"]["COLOR_0"] = 0; })),
+      HasSubstr("\"COLOR_0\" is missing"));
   const auto with_count = [&](const char* key, int count) {
-    return said_of(changed(good, [&](json::Value&, GlbFile& all) {
+    return said_of(changed_primitive(good, [&](json::Value&, GlbFile& all) {
       const json::Value& primitive = all.json["meshes"][std::size_t{0}]["primitives"][std::size_t{0}];
       const double accessor =
           std::string(key) == "indices" ? primitive[key].number() : primitive["attributes"][key].number();
@@ -258,7 +254,7 @@ TEST(Draco, WhatDoesNotFitTheFileIsNamed) {
 TEST(Draco, OtherBitstreamsAreNamed) {
   const Bytes good = pack(plain_scene("box"), {});
   const auto with_byte = [&](std::size_t at, int value) {
-    return said_of(changed(good, [&](json::Value& e, GlbFile& all) {
+    return said_of(changed_primitive(good, [&](json::Value& e, GlbFile& all) {
       all.binary[begin_of(e, all) + at] = static_cast<std::byte>(value);
     }));
   };
@@ -278,7 +274,7 @@ TEST(Draco, DamagedDataIsAnErrorOrAScene) {
     Pcg32 random(1);
     int refused = 0;
     for (int i = 0; i < 1000; ++i) {
-      const Bytes damaged = changed(good, [&](json::Value& e, GlbFile& all) {
+      const Bytes damaged = changed_primitive(good, [&](json::Value& e, GlbFile& all) {
         const std::size_t begin = begin_of(e, all), length = all.binary.size() - begin;
         all.binary[begin + random.next() % length] ^= static_cast<std::byte>(1u << (random.next() % 8));
       });
@@ -294,7 +290,7 @@ TEST(Draco, TruncatedDataIsAnError) {
   for (const auto method : {draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING}) {
     const Bytes good = pack(plain_scene("box"), {method, 11});
     const auto cut_to = [&](std::size_t length) {
-      return said_of(changed(good, [&](json::Value& e, GlbFile& all) {
+      return said_of(changed_primitive(good, [&](json::Value& e, GlbFile& all) {
         all.json["bufferViews"][static_cast<std::size_t>(e["bufferView"].number())]["byteLength"] = length;
       }));
     };

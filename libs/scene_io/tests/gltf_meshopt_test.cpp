@@ -14,6 +14,7 @@
 
 #include "error_message.h"
 #include "glb_file.h"
+#include "gltf_bytes.h"
 
 namespace ssphh::scene_io {
 namespace {
@@ -73,14 +74,6 @@ Bytes pack(const Bytes& plain, const std::string& index_mode, const char* name =
   out.json["extensionsUsed"].push_back(name);
   out.json["extensionsRequired"].push_back(name);
   return out.write();
-}
-
-scene::Scene load(const Bytes& file) {
-  return load_gltf(file, "f");
-}
-
-std::string said_of(const Bytes& file) {
-  return test::message_of([&] { load(file); });
 }
 
 TEST(Meshopt, PackedScenesAreThoseThatWerePacked) {
@@ -162,7 +155,8 @@ TEST(Meshopt, FiltersAreUndone) {
   }
 }
 
-Bytes changed(const Bytes& file, const std::function<void(json::Value& extension, GlbFile& all)>& change) {
+Bytes changed_packing(const Bytes& file,
+                      const std::function<void(json::Value& extension, GlbFile& all)>& change) {
   GlbFile glb(file);
   change(glb.json["bufferViews"][std::size_t{0}]["extensions"]["EXT_meshopt_compression"], glb);
   return glb.write();
@@ -173,7 +167,7 @@ TEST(Meshopt, WhatTheExtensionForbidsIsNamed) {
   ASSERT_EQ(said_of(good), "no error");
   const std::string place = "f: bufferViews[0].extensions.EXT_meshopt_compression";
   const auto said_with = [&](const char* key, const json::Value& value) {
-    return said_of(changed(good, [&](json::Value& extension, GlbFile&) { extension[key] = value; }));
+    return said_of(changed_packing(good, [&](json::Value& extension, GlbFile&) { extension[key] = value; }));
   };
   EXPECT_EQ(said_with("byteStride", 10), place + ".byteStride: 10 cannot be, in mode ATTRIBUTES");
   EXPECT_EQ(said_with("mode", "TRIANGLES"), place + ".byteStride: 12 cannot be, in mode TRIANGLES");
@@ -189,7 +183,7 @@ TEST(Meshopt, WhatTheExtensionForbidsIsNamed) {
 
 TEST(Meshopt, VersionsToComeAreNamed) {
   const Bytes good = pack(export_glb(scene::make_builtin("box")), "TRIANGLES");
-  const Bytes newer = changed(good, [&](json::Value& extension, GlbFile& all) {
+  const Bytes newer = changed_packing(good, [&](json::Value& extension, GlbFile& all) {
     all.binary[static_cast<std::size_t>(extension["byteOffset"].number())] = std::byte{0xa1};
   });
   EXPECT_EQ(
@@ -204,7 +198,7 @@ TEST(Meshopt, DamagedDataIsAnErrorOrAScene) {
   Pcg32 random(1);
   int refused = 0;
   for (int i = 0; i < 300; ++i) {
-    const Bytes damaged = changed(good, [&](json::Value&, GlbFile& all) {
+    const Bytes damaged = changed_packing(good, [&](json::Value&, GlbFile& all) {
       all.binary[random.next() % all.binary.size()] ^= static_cast<std::byte>(1u << (random.next() % 8));
     });
     const std::string said = said_of(damaged);
@@ -217,7 +211,7 @@ TEST(Meshopt, DamagedDataIsAnErrorOrAScene) {
 // A thousand elements in few bytes are fine, four thousand million are not.
 TEST(Meshopt, SizesAreCheckedBeforeMemoryIsTaken) {
   const Bytes good = pack(export_glb(scene::make_builtin("box")), "TRIANGLES");
-  const Bytes greedy = changed(good, [&](json::Value& extension, GlbFile& all) {
+  const Bytes greedy = changed_packing(good, [&](json::Value& extension, GlbFile& all) {
     const std::uint64_t count = 4'000'000'000;
     extension["count"] = count;
     json::Value& view = all.json["bufferViews"][std::size_t{0}];

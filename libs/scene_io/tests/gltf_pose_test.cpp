@@ -10,6 +10,7 @@
 
 #include "error_message.h"
 #include "glb_builder.h"
+#include "gltf_bytes.h"
 #include "gltf_deform.h"
 
 namespace ssphh::scene_io {
@@ -29,10 +30,6 @@ class GltfPose : public testing::Test {
   ~GltfPose() override { set_log_sink({}); }
   std::vector<std::string> lines_;
 };
-
-std::string said_of(const std::vector<std::byte>& file) {
-  return test::message_of([&] { load_gltf(file, "f"); });
-}
 
 /// Vertex `v` of instance `i` in the world.
 vec3 vertex(const Scene& scene, std::size_t v, std::size_t i = 0, float time = 0) {

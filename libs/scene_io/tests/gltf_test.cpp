@@ -15,17 +15,17 @@ using scene::Scene;
 using test::GlbBuilder;
 using testing::HasSubstr;
 
-Scene load(const std::vector<std::byte>& glb) {
+Scene load_glb(const std::vector<std::byte>& glb) {
   return load_gltf(glb, "test.glb");
 }
 
-Scene load_json(const std::string& json) {
+Scene load_text(const std::string& json) {
   return load_gltf(std::as_bytes(std::span(json.data(), json.size())), "test.gltf");
 }
 
 // The message of the error that loading gives; fails the test when it loads.
 template <class Load>
-std::string error_of(const Load& load) {
+std::string loading_error(const Load& load) {
   try {
     load();
   } catch (const Error& e) {
@@ -35,14 +35,14 @@ std::string error_of(const Load& load) {
   return {};
 }
 
-std::string error_of_json(const std::string& json) {
-  return error_of([&] { load_json(json); });
+std::string loading_error_of_json(const std::string& json) {
+  return loading_error([&] { load_text(json); });
 }
 
 const std::string triangle_mesh = "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]";
 
 TEST(Gltf, ReadsSomeOfEverything) {
-  const Scene scene = load(test::rich_glb());
+  const Scene scene = load_glb(test::rich_glb());
   ASSERT_EQ(scene.nodes.size(), 4u);
   EXPECT_EQ(scene.name, "rich");
   EXPECT_EQ(scene.nodes[1].parent, 0);
@@ -73,7 +73,7 @@ TEST(Gltf, ReadsSomeOfEverything) {
 }
 
 TEST(Gltf, WhatIsBelowAnAnimatedNodeIsMovableAndMoves) {
-  const Scene scene = load(test::rich_glb());
+  const Scene scene = load_glb(test::rich_glb());
   EXPECT_TRUE(scene.nodes[0].movable);
   EXPECT_TRUE(scene.nodes[1].movable);
   EXPECT_TRUE(scene.nodes[2].movable);
@@ -83,7 +83,7 @@ TEST(Gltf, WhatIsBelowAnAnimatedNodeIsMovableAndMoves) {
 }
 
 TEST(Gltf, NegativeScaleIsKept) {
-  const Scene scene = load(test::rich_glb());
+  const Scene scene = load_glb(test::rich_glb());
   EXPECT_LT(glm::determinant(mat3(scene::world_matrices(scene)[1])), 0);
 }
 
@@ -92,8 +92,8 @@ TEST(Gltf, QuantizedAttributesAreScaledToUnitRange) {
   b.add<std::int16_t>({0, 0, 0, 32767, -32768, 0, 0, 16384, 0}, 5122, "VEC3", 3, ",\"normalized\":true");
   b.add<std::int8_t>({127, 0, 0, -128, 0, 0, 0, 0, 127}, 5120, "VEC3", 3, ",\"normalized\":true");
   const Scene scene =
-      load(b.glb("\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
-                 "{\"POSITION\":0,\"NORMAL\":1}}]}],\"extensionsRequired\":[\"KHR_mesh_quantization\"]"));
+      load_glb(b.glb("\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
+                     "{\"POSITION\":0,\"NORMAL\":1}}]}],\"extensionsRequired\":[\"KHR_mesh_quantization\"]"));
   EXPECT_EQ(scene.meshes[0].positions[1], vec3(1, -1, 0));
   EXPECT_FLOAT_EQ(scene.meshes[0].positions[2].y, 16384 / 32767.0f);
   EXPECT_EQ(scene.meshes[0].normals[1], vec3(-1, 0, 0));
@@ -102,7 +102,7 @@ TEST(Gltf, QuantizedAttributesAreScaledToUnitRange) {
 TEST(Gltf, UnnormalizedIntegersKeepTheirValue) {
   GlbBuilder b;
   b.add<std::uint16_t>({0, 0, 0, 500, 0, 0, 0, 7, 0}, 5123, "VEC3", 3);
-  const Scene scene = load(b.glb("\"nodes\":[{\"mesh\":0}]," + triangle_mesh));
+  const Scene scene = load_glb(b.glb("\"nodes\":[{\"mesh\":0}]," + triangle_mesh));
   EXPECT_EQ(scene.meshes[0].positions[1], vec3(500, 0, 0));
 }
 
@@ -112,9 +112,9 @@ TEST(Gltf, PrimitivesThatShareAVertexBufferKeepOnlyTheirVertices) {
   b.add<std::uint8_t>({0, 1, 2}, 5121, "SCALAR", 3);
   b.add<std::uint8_t>({5, 3, 4}, 5121, "SCALAR", 3);
   const Scene scene =
-      load(b.glb("\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":["
-                 "{\"attributes\":{\"POSITION\":0},\"indices\":1},"
-                 "{\"attributes\":{\"POSITION\":0},\"indices\":2}]}]"));
+      load_glb(b.glb("\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":["
+                     "{\"attributes\":{\"POSITION\":0},\"indices\":1},"
+                     "{\"attributes\":{\"POSITION\":0},\"indices\":2}]}]"));
   ASSERT_EQ(scene.meshes.size(), 2u);
   EXPECT_EQ(scene.instances.size(), 2u);
   ASSERT_EQ(scene.meshes[1].positions.size(), 3u);
@@ -125,7 +125,7 @@ TEST(Gltf, PrimitivesThatShareAVertexBufferKeepOnlyTheirVertices) {
 }
 
 TEST(Gltf, NodesAreSortedParentsFirst) {
-  const Scene scene = load_json(
+  const Scene scene = load_text(
       "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"name\":\"leaf\"},{\"name\":\"middle\",\"children\":[0]}"
       ","
       "{\"name\":\"top\",\"children\":[1]}]}");
@@ -136,7 +136,7 @@ TEST(Gltf, NodesAreSortedParentsFirst) {
 }
 
 TEST(Gltf, ExtrasGiveSpheresDiscsAndBipolarRoughness) {
-  const Scene scene = load_json(
+  const Scene scene = load_text(
       "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}},"
       "{\"extensions\":{\"KHR_lights_punctual\":{\"light\":1}}},{\"extensions\":{\"KHR_lights_punctual\":{"
       "\"light\":2}}}],"
@@ -158,7 +158,7 @@ TEST(Gltf, ExtrasGiveSpheresDiscsAndBipolarRoughness) {
 TEST(Gltf, WhatIsIgnoredIsListedWithCounts) {
   GlbBuilder b;
   b.add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, 5126, "VEC3", 3);
-  const Scene scene = load(b.glb(
+  const Scene scene = load_glb(b.glb(
       "\"nodes\":[{\"mesh\":0},{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,"
       "\"JOINTS_0\":0},\"targets\":[{\"POSITION\":0},{\"POSITION\":0}]},"
       "{\"attributes\":{\"POSITION\":0},\"mode\":1}]}],"
@@ -170,31 +170,36 @@ TEST(Gltf, WhatIsIgnoredIsListedWithCounts) {
 
 TEST(Gltf, ErrorsNameFileAndPlace) {
   const std::string asset = "{\"asset\":{\"version\":\"2.0\"},";
-  EXPECT_THAT(error_of_json(asset + "\"meshes\":[{\"primitives\":[]},{\"primitives\":[]}],"
-                                    "\"nodes\":[{},{},{},{\"mesh\":7}]}"),
+  EXPECT_THAT(loading_error_of_json(asset + "\"meshes\":[{\"primitives\":[]},{\"primitives\":[]}],"
+                                            "\"nodes\":[{},{},{},{\"mesh\":7}]}"),
               HasSubstr("test.gltf: nodes[3].mesh: index 7 out of range, the file has 2 meshes"));
-  EXPECT_THAT(error_of_json(
+  EXPECT_THAT(loading_error_of_json(
                   asset + "\"nodes\":[{\"children\":[1]},{\"children\":[0]}],\"scenes\":[{\"nodes\":[0]}]}"),
               HasSubstr("nodes must form trees"));
-  EXPECT_THAT(error_of_json(asset + "\"nodes\":[{\"rotation\":[0,0,0,0]}]}"), HasSubstr("nodes[0].rotation"));
-  EXPECT_THAT(error_of_json(asset + "\"nodes\":[{\"translation\":[0,1e39,0]}]}"), HasSubstr("too large"));
-  EXPECT_THAT(error_of_json(asset + "\"nodes\":{}}"), HasSubstr("must be an array"));
-  EXPECT_THAT(error_of_json("{\"asset\":{\"version\":\"1.0\"}}"), HasSubstr("glTF 1.0 cannot be read"));
-  EXPECT_THAT(error_of_json("{"), HasSubstr("is not valid JSON"));
-  EXPECT_THAT(error_of_json(std::string(100'000, '[')), HasSubstr("nested deeper"));
-  EXPECT_THAT(error_of_json(asset + "\"extensionsRequired\":[\"KHR_texture_basisu\"]}"),
+  EXPECT_THAT(loading_error_of_json(asset + "\"nodes\":[{\"rotation\":[0,0,0,0]}]}"),
+              HasSubstr("nodes[0].rotation"));
+  EXPECT_THAT(loading_error_of_json(asset + "\"nodes\":[{\"translation\":[0,1e39,0]}]}"),
+              HasSubstr("too large"));
+  EXPECT_THAT(loading_error_of_json(asset + "\"nodes\":{}}"), HasSubstr("must be an array"));
+  EXPECT_THAT(loading_error_of_json("{\"asset\":{\"version\":\"1.0\"}}"),
+              HasSubstr("glTF 1.0 cannot be read"));
+  EXPECT_THAT(loading_error_of_json("{"), HasSubstr("is not valid JSON"));
+  EXPECT_THAT(loading_error_of_json(std::string(100'000, '[')), HasSubstr("nested deeper"));
+  EXPECT_THAT(loading_error_of_json(asset + "\"extensionsRequired\":[\"KHR_texture_basisu\"]}"),
               HasSubstr("export it with PNG"));
-  EXPECT_THAT(error_of_json(asset + "\"buffers\":[{\"byteLength\":4,\"uri\":\"../../etc/nothing.bin\"}]}"),
-              HasSubstr("buffers[0].uri"));
-  EXPECT_THAT(error_of_json(asset + "\"buffers\":[{\"byteLength\":4,\"uri\":\"/etc/passwd\"}]}"),
+  EXPECT_THAT(
+      loading_error_of_json(asset + "\"buffers\":[{\"byteLength\":4,\"uri\":\"../../etc/nothing.bin\"}]}"),
+      HasSubstr("buffers[0].uri"));
+  EXPECT_THAT(loading_error_of_json(asset + "\"buffers\":[{\"byteLength\":4,\"uri\":\"/etc/passwd\"}]}"),
               HasSubstr("is not a relative file name"));
-  EXPECT_THAT(error_of_json(asset + "\"buffers\":[{\"byteLength\":9,\"uri\":\"data:;base64,AAAA\"}]}"),
-              HasSubstr("only 3 bytes are there"));
+  EXPECT_THAT(
+      loading_error_of_json(asset + "\"buffers\":[{\"byteLength\":9,\"uri\":\"data:;base64,AAAA\"}]}"),
+      HasSubstr("only 3 bytes are there"));
 }
 
 TEST(Gltf, DataThatIsOutOfBoundsIsAnError) {
   const auto error = [](const GlbBuilder& b, const std::string& members) {
-    return error_of([&] { load(b.glb(members)); });
+    return loading_error([&] { load_glb(b.glb(members)); });
   };
   GlbBuilder indices;
   indices.add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, 5126, "VEC3", 3);
@@ -225,13 +230,13 @@ TEST(Gltf, AFewBytesCannotAskForGigabytes) {
       "4000000000}],"
       "\"nodes\":[{\"mesh\":0}]," +
       triangle_mesh + "}";
-  EXPECT_THAT(error_of_json(json), HasSubstr("too much for its size"));
+  EXPECT_THAT(loading_error_of_json(json), HasSubstr("too much for its size"));
 }
 
 TEST(Gltf, MissingImagesAreWarningsAndLeaveTheFactor) {
   std::vector<std::string> messages;
   const LogSink before = set_log_sink([&](LogLevel, const std::string& m) { messages.push_back(m); });
-  const Scene scene = load_json(
+  const Scene scene = load_text(
       "{\"asset\":{\"version\":\"2.0\"},\"images\":[{\"uri\":\"nothing.png\"}],\"textures\":[{\"source\":0}],"
       "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},\"baseColorFactor\":[1,0."
       "5,0,1]}}]}");
@@ -244,7 +249,7 @@ TEST(Gltf, MissingImagesAreWarningsAndLeaveTheFactor) {
 TEST(Gltf, TruncatedFilesNeverCrash) {
   const auto whole = test::rich_glb();
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    EXPECT_THROW(load({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}), Error)
+    EXPECT_THROW(load_glb({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}), Error)
         << size << " bytes";
   }
 }
@@ -257,7 +262,7 @@ TEST(Gltf, FilesWithFlippedBitsLoadOrGiveAnError) {
     auto broken = whole;
     broken[bit / 8] ^= static_cast<std::byte>(1 << (bit % 8));
     try {
-      Scene scene = load(broken);
+      Scene scene = load_glb(broken);
       scene::validate(scene);
     } catch (const Error&) {
       ++errors;

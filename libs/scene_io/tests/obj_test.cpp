@@ -22,7 +22,7 @@ using testing::HasSubstr;
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-std::string error_of(const std::string& text) {
+std::string obj_error(const std::string& text) {
   try {
     load_obj(text, "test.obj");
   } catch (const Error& e) {
@@ -93,17 +93,17 @@ TEST(Obj, CommentsBlanksAndContinuedLinesAreUnderstood) {
 }
 
 TEST(Obj, ErrorsNameFileAndLine) {
-  EXPECT_THAT(error_of("v 0 0 0\nv 0 nan 0\n"), HasSubstr("test.obj:2: the coordinate nan is not finite"));
-  EXPECT_THAT(error_of("v 0 0 1e99\n"), HasSubstr("test.obj:1"));
-  EXPECT_THAT(error_of("v 0 zero 0\n"), HasSubstr("\"zero\" is no number"));
-  EXPECT_THAT(error_of("v 0 0\n"), HasSubstr("a coordinate is missing"));
-  EXPECT_THAT(error_of(square + "f 1 2 5\n"),
+  EXPECT_THAT(obj_error("v 0 0 0\nv 0 nan 0\n"), HasSubstr("test.obj:2: the coordinate nan is not finite"));
+  EXPECT_THAT(obj_error("v 0 0 1e99\n"), HasSubstr("test.obj:1"));
+  EXPECT_THAT(obj_error("v 0 zero 0\n"), HasSubstr("\"zero\" is no number"));
+  EXPECT_THAT(obj_error("v 0 0\n"), HasSubstr("a coordinate is missing"));
+  EXPECT_THAT(obj_error(square + "f 1 2 5\n"),
               HasSubstr("test.obj:5: vertex index 5 out of range, 4 are defined so far"));
-  EXPECT_THAT(error_of(square + "f 1 2 0\n"), HasSubstr("out of range"));
-  EXPECT_THAT(error_of(square + "f 1 2 -5\n"), HasSubstr("out of range"));
-  EXPECT_THAT(error_of(square + "f 1/1 2/1 3/1\n"), HasSubstr("texture coordinate index 1 out of range"));
-  EXPECT_THAT(error_of(square + "f 1 2 99999999999999999999\n"), HasSubstr("no vertex index"));
-  EXPECT_THAT(error_of(""), HasSubstr("holds no faces"));
+  EXPECT_THAT(obj_error(square + "f 1 2 0\n"), HasSubstr("out of range"));
+  EXPECT_THAT(obj_error(square + "f 1 2 -5\n"), HasSubstr("out of range"));
+  EXPECT_THAT(obj_error(square + "f 1/1 2/1 3/1\n"), HasSubstr("texture coordinate index 1 out of range"));
+  EXPECT_THAT(obj_error(square + "f 1 2 99999999999999999999\n"), HasSubstr("no vertex index"));
+  EXPECT_THAT(obj_error(""), HasSubstr("holds no faces"));
 }
 
 TEST(Obj, WhatIsIgnoredIsListed) {

@@ -32,7 +32,7 @@ Scene plain_scene() {
   return scene;
 }
 
-std::string error_of(const std::string& text) {
+std::string overlay_error(const std::string& text) {
   Scene scene = plain_scene();
   try {
     apply_overlay(scene, text, "test.ssphh.json");
@@ -87,23 +87,25 @@ TEST(Overlay, AddsWhatItSays) {
 }
 
 TEST(Overlay, ErrorsNameThePlace) {
-  EXPECT_THAT(error_of(R"({"camera": []})"),
+  EXPECT_THAT(overlay_error(R"({"camera": []})"),
               HasSubstr("unknown member \"camera\" (did you mean \"cameras\"?)"));
-  EXPECT_THAT(error_of(R"({"cameras": [{"xfov_degrees": 90}]})"),
+  EXPECT_THAT(overlay_error(R"({"cameras": [{"xfov_degrees": 90}]})"),
               HasSubstr("cameras[0]: \"xfov_degrees\" needs"));
-  EXPECT_THAT(error_of(R"({"lights": [{"type": "laser"}]})"),
+  EXPECT_THAT(overlay_error(R"({"lights": [{"type": "laser"}]})"),
               HasSubstr("lights[0].type: \"laser\" is none of: point"));
-  EXPECT_THAT(error_of(R"({"lights": [{"type": "spot"}]})"), HasSubstr("needs \"direction\""));
-  EXPECT_THAT(error_of(R"({"lights": [{"type": "sphere"}]})"), HasSubstr("\"radius\" is missing"));
-  EXPECT_THAT(error_of(R"({"sphls": [{"position": [0, 0]}]})"),
+  EXPECT_THAT(overlay_error(R"({"lights": [{"type": "spot"}]})"), HasSubstr("needs \"direction\""));
+  EXPECT_THAT(overlay_error(R"({"lights": [{"type": "sphere"}]})"), HasSubstr("\"radius\" is missing"));
+  EXPECT_THAT(overlay_error(R"({"sphls": [{"position": [0, 0]}]})"),
               HasSubstr("sphls[0].position: must have 3 elements, not 2"));
-  EXPECT_THAT(error_of(R"({"sphls": [{"position": [0,0,0], "node": "leg"}]})"), HasSubstr("no node \"leg\""));
-  EXPECT_THAT(error_of(R"({"sphls": [{"position": [0,0,0], "radius": 0}]})"), HasSubstr("greater than 0"));
-  EXPECT_THAT(error_of(R"({"materials": [{"name": "gold"}]})"), HasSubstr("it has: clay"));
-  EXPECT_THAT(error_of(R"({"environment": {"image": "none.hdr"}})"), HasSubstr("none.hdr"));
-  EXPECT_THAT(error_of(R"({"environment": {}, "sun_sky": {}})"), HasSubstr("both"));
-  EXPECT_THAT(error_of(R"({"sun_sky": {"turbidity": 50}})"), HasSubstr("sun_sky"));
-  EXPECT_THAT(error_of("[]"), HasSubstr("must be an object"));
+  EXPECT_THAT(overlay_error(R"({"sphls": [{"position": [0,0,0], "node": "leg"}]})"),
+              HasSubstr("no node \"leg\""));
+  EXPECT_THAT(overlay_error(R"({"sphls": [{"position": [0,0,0], "radius": 0}]})"),
+              HasSubstr("greater than 0"));
+  EXPECT_THAT(overlay_error(R"({"materials": [{"name": "gold"}]})"), HasSubstr("it has: clay"));
+  EXPECT_THAT(overlay_error(R"({"environment": {"image": "none.hdr"}})"), HasSubstr("none.hdr"));
+  EXPECT_THAT(overlay_error(R"({"environment": {}, "sun_sky": {}})"), HasSubstr("both"));
+  EXPECT_THAT(overlay_error(R"({"sun_sky": {"turbidity": 50}})"), HasSubstr("sun_sky"));
+  EXPECT_THAT(overlay_error("[]"), HasSubstr("must be an object"));
 }
 
 TEST(Overlay, TheSchemaAgreesWithTheReader) {
@@ -116,7 +118,7 @@ TEST(Overlay, TheSchemaAgreesWithTheReader) {
        {R"({"camera": []})", R"({"cameras": [{"xfov_degrees": 90}]})", R"({"lights": [{"type": "laser"}]})",
         R"({"sphls": [{"position": [0, 0]}]})", R"({"sphls": [{"position": [0,0,0], "radius": 0}]})", "[]"}) {
     EXPECT_THAT(errors(wrong), testing::Not(testing::IsEmpty())) << wrong;
-    EXPECT_NE(error_of(wrong), "");
+    EXPECT_NE(overlay_error(wrong), "");
   }
 }
 

@@ -15,7 +15,7 @@
 namespace ssphh::shading::test {
 namespace {
 
-constexpr float view_cosines[] = {0.95f, 0.5f, 0.15f};
+constexpr float glass_cosines[] = {0.95f, 0.5f, 0.15f};
 
 GlassParams sheet(float roughness = 0, const vec3& tint = vec3(1), float ior = 1.5f) {
   GlassParams glass;
@@ -148,7 +148,7 @@ TEST(Glass, StraightThroughRoughGlassKeepsThePowerOfItsLobe) {
 TEST(Glass, SmoothSamplesKeepThePowerOfLight) {
   const vec3 tint(0.5f, 0.8f, 1);
   for (const GlassParams& glass : {sheet(0, tint), body(false, 0, tint), body(true, 0, tint)}) {
-    for (const float c : view_cosines) {
+    for (const float c : glass_cosines) {
       const vec3 wo = direction(c, 0.4f);
       const GlassFrom from(glass, wo);
       EXPECT_EQ(from.eval(direction(0.5f)).pdf, 0);
@@ -224,10 +224,10 @@ TEST(Glass, RoughGlassLosesLittleLightAndGainsNone) {
 TEST(Glass, DirectionsFollowTheirDensity) {
   const auto models = rough_glass();
   const ssphh::test::Significance significance{0.01,
-                                               static_cast<int>(models.size() * std::size(view_cosines))};
+                                               static_cast<int>(models.size() * std::size(glass_cosines))};
   std::uint64_t seed = 100;
   for (const NamedGlass& model : models) {
-    for (const float cos_o : view_cosines) {
+    for (const float cos_o : glass_cosines) {
       const GlassFrom from(model.params, direction(cos_o, 0.3f));
       const auto draw = [&](Pcg32& random) -> std::optional<vec3> {
         const float u_lobe = random.uniform();

@@ -12,6 +12,8 @@
 
 namespace ssphh::shading::test {
 
+inline const vec3 up(0, 1, 0);
+
 inline int add_node(scene::Scene& scene, const scene::Transform& transform,
                     const std::string& name = "node") {
   scene::Node node;

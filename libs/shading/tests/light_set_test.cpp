@@ -13,8 +13,6 @@ using ssphh::test::mean_is;
 using ssphh::test::means_agree;
 using ssphh::test::Samples;
 
-const vec3 up(0, 1, 0);
-
 /// One light of every kind; `points` point lights.
 scene::Scene everything(int points) {
   scene::Scene scene;

@@ -12,8 +12,6 @@ using scene::LightType;
 using ssphh::test::mean_is;
 using ssphh::test::Samples;
 
-const vec3 up(0, 1, 0);
-
 TEST(PointLight, GivesIntensityTimesCosineOverDistanceSquared) {
   scene::Scene scene;
   add_light(scene, LightType::point, {0, 3, 0}).intensity = 50;

@@ -14,8 +14,8 @@ using scene::Scene;
 
 const vec3 half(3, 1.3f, 2);
 
-/// A room of 6 by 2.6 by 4 m, seen from inside, with a table; its lamp is a part of the ceiling.
-Scene room(float size = 1, bool lit = true) {
+/// A furnished_room of 6 by 2.6 by 4 m, seen from inside, with a table; its lamp is a part of the ceiling.
+Scene furnished_room(float size = 1, bool lit = true) {
   Scene s;
   s.materials = {test::matte(vec3(0.8f)), test::matte(vec3(0.5f)), test::matte(vec3(0))};
   if (lit) s.materials[2].emission = vec3(5);
@@ -51,7 +51,7 @@ bool shows_box(const CameraPose& pose, const vec3& most) {
 }
 
 TEST(DefaultView, StandsInARoomAndLooksAcrossIt) {
-  const CameraPose pose = view_of(room());
+  const CameraPose pose = view_of(furnished_room());
   const vec3 eye = eye_of(pose), forward(-pose.world[2]);
   EXPECT_TRUE(is_within(eye, half));
   EXPECT_NEAR(eye.y, -1.3f + 1.56f, 0.01f) << "six tenths of the height, which is less than 1.6 m";
@@ -62,11 +62,11 @@ TEST(DefaultView, StandsInARoomAndLooksAcrossIt) {
 }
 
 TEST(DefaultView, DoesNotStandWhereNoLightGets) {
-  EXPECT_TRUE(shows_box(view_of(room(1, false)), half));
+  EXPECT_TRUE(shows_box(view_of(furnished_room(1, false)), half));
 }
 
 TEST(DefaultView, StandsBeforeThings) {
-  Scene thing = room();
+  Scene thing = furnished_room();
   thing.meshes[0] = scene::make_box(-half, half);
   thing.meshes[0].material = 0;
   const CameraPose pose = view_of(thing);
@@ -74,11 +74,12 @@ TEST(DefaultView, StandsBeforeThings) {
   EXPECT_GT(eye_of(pose).y, half.y) << "from above";
   EXPECT_GT(eye_of(pose).z, half.z) << "from in front";
   EXPECT_FALSE(shows_box(pose, 1.2f * half)) << "no farther than needed";
-  EXPECT_TRUE(shows_box(view_of(room(0.1f)), 0.1f * half)) << "a box may be hollow: it is no room";
+  EXPECT_TRUE(shows_box(view_of(furnished_room(0.1f)), 0.1f * half))
+      << "a box may be hollow: it is no furnished_room";
 }
 
 TEST(DefaultView, AWideGroundChangesNothingMuch) {
-  Scene s = room();
+  Scene s = furnished_room();
   test::add_mesh(s, scene::make_quad({-120, -1.31f, 120}, {240, 0, 0}, {0, 0, -240}), 1);
   EXPECT_TRUE(is_within(eye_of(view_of(s)), half));
 }
@@ -121,7 +122,7 @@ TEST(DefaultView, StandsAsHighAsAPersonInALargeHallToo) {
 }
 
 TEST(DefaultView, IsTheSameForTheSameScene) {
-  EXPECT_EQ(view_of(room()).world, view_of(room()).world);
+  EXPECT_EQ(view_of(furnished_room()).world, view_of(furnished_room()).world);
 }
 
 TEST(DefaultView, WhatHasNoTrianglesIsLookedAtFromTheOrigin) {

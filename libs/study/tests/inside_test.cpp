@@ -8,24 +8,11 @@
 #include <ssphh/study/inside.h>
 #include <ssphh/study/surface_points.h>
 
+#include "boxes.h"
 #include "triangle_source.h"
 
 namespace ssphh::study {
 namespace {
-
-scene::Scene boxes(const std::vector<scene::Bounds>& list) {
-  scene::Scene scene;
-  scene.materials.emplace_back();
-  for (const scene::Bounds& box : list) {
-    scene.meshes.push_back(scene::make_box(box.min, box.max));
-    scene.meshes.back().material = 0;
-    scene.nodes.emplace_back();
-    const int index = static_cast<int>(scene.nodes.size()) - 1;
-    scene.instances.push_back({index, index, -1, ""});
-  }
-  scene::validate(scene);
-  return scene;
-}
 
 /// On a plain of 100 m, all walls 0.2 m thick: a house of 6 × 3 × 5 m with a flat roof that reaches 0.5 m
 /// over, a window of 3 × 1.4 m above a sill of 0.9 m and a door without a leaf, 1 m wide; and a court of 8 ×

@@ -12,14 +12,14 @@ namespace {
 /// A colour of luminance 1: 0.2126 · 2 + 0.7152 · 0.5 + 0.0722 · 3.0083.
 const vec3 tint(2, 0.5f, 3.0083102f);
 
-/// Truth by place: a luminance of `mean` W/m² with standard deviation `deviation`.
-struct Truth {
+/// PlaceTruth by place: a luminance of `mean` W/m² with standard deviation `deviation`.
+struct PlaceTruth {
   float mean, deviation;
 };
 
 class TruthSource final : public test::DarkSpace {
  public:
-  std::function<Truth(const vec3& position, const rays::PathParams& path)> truth;
+  std::function<PlaceTruth(const vec3& position, const rays::PathParams& path)> truth;
   mutable std::vector<rays::PathParams> asked;
 
   std::vector<rays::IrradianceEstimate> surface_irradiance(std::span<const rays::SurfacePoint> points,
@@ -28,7 +28,7 @@ class TruthSource final : public test::DarkSpace {
     asked.push_back(path);
     std::vector<rays::IrradianceEstimate> estimates;
     for (const rays::SurfacePoint& point : points) {
-      const Truth t = truth(point.position, path);
+      const PlaceTruth t = truth(point.position, path);
       estimates.push_back({vec3(100), t.mean * tint, t.deviation * t.deviation * tint * tint});
     }
     return estimates;
@@ -55,7 +55,7 @@ std::vector<rays::SurfacePoint> row(int count) {
 
 TEST(Leak, IsTheShareOfTheLookedUpEnergyAtDarkPoints) {
   TruthSource source;
-  source.truth = [](const vec3& x, const rays::PathParams&) { return Truth{x.x < 6 ? 2.0f : 0.0f, 0}; };
+  source.truth = [](const vec3& x, const rays::PathParams&) { return PlaceTruth{x.x < 6 ? 2.0f : 0.0f, 0}; };
   const FakeLookup lookup([](const vec3& x) { return x.x < 6 ? 2.0f : 0.75f; });
   const LeakReport report = measure_leak(source, lookup, row(10));
   // 6 points of 2 and 4 of 0.75: 3 of 15.
@@ -73,8 +73,8 @@ TEST(Leak, APointWhoseNoiseReachesOverTheLimitIsNotDark) {
   TruthSource source;
   // Mean 1; the limit is 1e-4: 5e-5 with three deviations of 1e-5 lies below, with 2e-5 above.
   source.truth = [](const vec3& x, const rays::PathParams&) {
-    if (x.x < 2) return Truth{1.5f, 0.1f};
-    return Truth{5e-5f, x.x < 3 ? 1e-5f : 2e-5f};
+    if (x.x < 2) return PlaceTruth{1.5f, 0.1f};
+    return PlaceTruth{5e-5f, x.x < 3 ? 1e-5f : 2e-5f};
   };
   const LeakReport report = measure_leak(source, FakeLookup([](const vec3&) { return 1.0f; }), row(4),
                                          {.dark_share = 1e-4f, .sigmas = 3, .mean = 1});
@@ -86,7 +86,7 @@ TEST(Leak, WhatASecondLookFindsLitIsNotDark) {
   TruthSource source;
   source.truth = [](const vec3& x, const rays::PathParams& path) {
     const bool lucky = path.spp > 64;  // A rare path that the first look missed, variance and all.
-    return Truth{x.x < 2 ? 1.0f : lucky && x.x < 3 ? 0.5f : 0.0f, 0};
+    return PlaceTruth{x.x < 2 ? 1.0f : lucky && x.x < 3 ? 0.5f : 0.0f, 0};
   };
   const LeakReport report = measure_leak(source, FakeLookup([](const vec3&) { return 1.0f; }), row(4),
                                          {.path = {.max_depth = 9, .passes = 1, .spp = 64, .seed = 3}});
@@ -99,7 +99,7 @@ TEST(Leak, WhatASecondLookFindsLitIsNotDark) {
 
 TEST(Leak, NothingLooksUpNothing) {
   TruthSource source;
-  source.truth = [](const vec3&, const rays::PathParams&) { return Truth{0, 0}; };
+  source.truth = [](const vec3&, const rays::PathParams&) { return PlaceTruth{0, 0}; };
   const LeakReport dark = measure_leak(source, FakeLookup([](const vec3&) { return 0.0f; }), row(3));
   EXPECT_EQ(dark.ratio, 0);
   EXPECT_EQ(dark.dark, 3u);
@@ -109,7 +109,7 @@ TEST(Leak, NothingLooksUpNothing) {
 
 TEST(Leak, RefusesWhatItCannotMeasure) {
   TruthSource source;
-  source.truth = [](const vec3&, const rays::PathParams&) { return Truth{1, 0}; };
+  source.truth = [](const vec3&, const rays::PathParams&) { return PlaceTruth{1, 0}; };
   const FakeLookup lookup([](const vec3&) { return 1.0f; });
   EXPECT_THROW(measure_leak(source, lookup, {}), Error);
   EXPECT_THROW(measure_leak(source, lookup, row(1), {.dark_share = 0}), Error);

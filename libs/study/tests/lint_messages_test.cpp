@@ -22,7 +22,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// Walls 2 m away wherever one stands.
-const RaySource room([](const vec3&, const vec3& d) { return surface_at(2, d); });
+const RaySource walls_around([](const vec3&, const vec3& d) { return surface_at(2, d); });
 
 /// Constant radiance 1, and `band1` toward +y.
 sh::RadianceSh light(float level, float band1 = 0) {
@@ -53,8 +53,9 @@ std::vector<std::string> messages(const std::vector<LintProblem>& problems) {
 }
 
 TEST(LintMessages, KindsHaveTheNamesThatReportsUse) {
-  const std::vector<std::string> names{"not-finite", "inside",   "too-close", "swept",      "unlit",
-                                       "unlit-room", "isolated", "negative",  "unseen-room"};
+  const std::vector<std::string> names{"not-finite", "inside",   "too-close",
+                                       "swept",      "unlit",    "unlit-walls_around",
+                                       "isolated",   "negative", "unseen-walls_around"};
   for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(name_of(static_cast<ProbeProblem>(i)), names[i]);
 }
 
@@ -88,7 +89,7 @@ TEST(LintMessages, NumbersThatAreNoneAreFoundWhereverTheyHide) {
     set.probes[0].edges = {{1, 0.5f, light(1), {}}};
     spoil(set);
     std::vector<ProbeProblem> kinds;
-    for (const LintProblem& p : lint_places(set, room, {})) {
+    for (const LintProblem& p : lint_places(set, walls_around, {})) {
       kinds.push_back(p.kind);
       EXPECT_EQ(p.probe, 0);
       EXPECT_EQ(p.message, "holds a number that is not finite; bake it again");
@@ -116,7 +117,7 @@ TEST(LintMessages, AProbeInTheWayNamesThePart) {
   EXPECT_THAT(said[0], HasSubstr("swept: stands in the way of \"" + source.part_name(1) + "\" at some time"));
 }
 
-/// A closed room of 6 m, so that all probes see each other.
+/// A closed walls_around of 6 m, so that all probes see each other.
 test::TriangleSource hall() {
   scene::Scene scene;
   scene.nodes.emplace_back();
@@ -147,8 +148,9 @@ TEST(LintMessages, LightIsWhatAnyGroupSendsOrReflects) {
   set.generator.time = 1.5f;
   EXPECT_THAT(
       said(),
-      ElementsAre("unlit-room: 3 probes around \"p0\" see each other and no light at all at 1.5 s; put a "
-                  "lamp there, bake with the door open, or leave the probes out"));
+      ElementsAre(
+          "unlit-walls_around: 3 probes around \"p0\" see each other and no light at all at 1.5 s; put a "
+          "lamp there, bake with the door open, or leave the probes out"));
 }
 
 TEST(LintMessages, NegativeIrradianceIsToldInPerCentOfTheMean) {
@@ -196,8 +198,8 @@ TEST(LintMessages, UnseenPlacesAreCountedAndTheWidestIsNamed) {
   }
   const std::vector<LintProblem> problems = lint_probes(set, source, params);
   ASSERT_EQ(problems.size(), 1u);
-  EXPECT_EQ(messages(problems)[0], "unseen-room: no probe is to be seen from " + std::to_string(unseen) +
-                                       " places around here; add one");
+  EXPECT_EQ(messages(problems)[0], "unseen-walls_around: no probe is to be seen from " +
+                                       std::to_string(unseen) + " places around here; add one");
   EXPECT_EQ(problems[0].probe, -1);
   EXPECT_GT(problems[0].position.x, 4);
   float clearance = 0;
@@ -208,7 +210,7 @@ TEST(LintMessages, UnseenPlacesAreCountedAndTheWidestIsNamed) {
 
 TEST(LintMessages, ParametersOutOfRangeAreNamedWithTheirValue) {
   const auto said = [&](const LintParams& params) {
-    return test::message_of([&] { lint_probes(lit_at({vec3(0)}), room, params); });
+    return test::message_of([&] { lint_probes(lit_at({vec3(0)}), walls_around, params); });
   };
   LintParams params;
   params.clearance = -0.5f;
@@ -223,7 +225,7 @@ TEST(LintMessages, ParametersOutOfRangeAreNamedWithTheirValue) {
   params = {};
   params.clearance = INFINITY;
   EXPECT_THAT(said(params), HasSubstr("clearance"));
-  EXPECT_THAT(lint_probes({}, room, {}), IsEmpty());
+  EXPECT_THAT(lint_probes({}, walls_around, {}), IsEmpty());
 }
 
 }  // namespace

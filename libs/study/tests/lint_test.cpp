@@ -13,7 +13,7 @@ namespace ssphh::study {
 namespace {
 
 /// Constant radiance, of another colour in each channel, with `tilt` of band 1 toward +y in blue alone.
-sh::RadianceSh light(float level, float tilt = 0) {
+sh::RadianceSh coloured_light(float level, float tilt = 0) {
   sh::RadianceSh f(2);
   f[0] = level * 3.5449077f * vec3(1, 2, 0.5f);
   f[1] = vec3(0, 0, 0.5f * tilt);
@@ -28,7 +28,7 @@ probes::ProbeSet probes_at(const std::vector<vec3>& positions) {
     probes::Probe probe;
     probe.name = "probe " + std::to_string(set.probes.size());
     probe.position = p;
-    probe.groups = {{{}, light(1)}};
+    probe.groups = {{{}, coloured_light(1)}};
     set.probes.push_back(std::move(probe));
   }
   probes::merge_groups(set);
@@ -103,17 +103,17 @@ TEST_F(Lint, ProbeInTheDoorsWay) {
 }
 
 TEST_F(Lint, UnlitProbe) {
-  set_.probes[2].groups[0].reflected = light(0);
+  set_.probes[2].groups[0].reflected = coloured_light(0);
   expect_only(ProbeProblem::unlit, 2);
   // A lamp that is switched off leaves a probe as good as it is.
-  set_.probes[2].groups[0].reflected = light(1);
+  set_.probes[2].groups[0].reflected = coloured_light(1);
   set_.light_groups[0].scale = vec3(0);
   EXPECT_THAT(run(), testing::IsEmpty());
 }
 
 TEST_F(Lint, UnlitRoomBehindTheDoor) {
   // Shut at time 0 and open at 1, so that room B is a room of its own, or one with A.
-  for (const std::size_t i : {3u, 4u, 5u}) set_.probes[i].groups[0].reflected = light(0);
+  for (const std::size_t i : {3u, 4u, 5u}) set_.probes[i].groups[0].reflected = coloured_light(0);
   const std::vector<LintProblem> problems = run();
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_EQ(problems[0].kind, ProbeProblem::unlit_room);
@@ -128,9 +128,9 @@ TEST_F(Lint, UnlitRoomBehindTheDoor) {
 TEST_F(Lint, NegativeIrradiance) {
   // E(n) = π L + (2π/3) 0.4886 t n·y: under zero by 5 % of its mean for t = 1.05 · 3.0700.
   constexpr float zero = 1.5f / 0.48860251f;
-  set_.probes[4].groups[0].reflected = light(1, 1.05f * zero);
+  set_.probes[4].groups[0].reflected = coloured_light(1, 1.05f * zero);
   EXPECT_THAT(run(), testing::IsEmpty()) << "5 % is within the tolerance of 10 %";
-  set_.probes[4].groups[0].reflected = light(1, 1.15f * zero);
+  set_.probes[4].groups[0].reflected = coloured_light(1, 1.15f * zero);
   expect_only(ProbeProblem::negative, 4);
   params_.negative_tolerance = 0.16f;
   EXPECT_THAT(run(), testing::IsEmpty());

@@ -5,36 +5,13 @@
 #include <ssphh/scene/primitives.h>
 #include <ssphh/study/surface_points.h>
 
+#include "boxes.h"
 #include "error_message.h"
 #include "ray_source.h"
 #include "triangle_source.h"
 
 namespace ssphh::study {
 namespace {
-
-/// Boxes given by their corners; `flip` turns the faces inward. The last one swings if `moving`.
-scene::Scene boxes(const std::vector<scene::Bounds>& list, bool moving = false) {
-  scene::Scene scene;
-  scene.materials.emplace_back();
-  for (const scene::Bounds& box : list) {
-    scene.meshes.push_back(scene::make_box(box.min, box.max));
-    scene.meshes.back().material = 0;
-    scene::Node node;
-    scene.nodes.push_back(node);
-    const int index = static_cast<int>(scene.nodes.size()) - 1;
-    scene.instances.push_back({index, index, -1, ""});
-  }
-  if (moving) {
-    scene::AnimationChannel channel;
-    channel.node = static_cast<int>(scene.nodes.size()) - 1;
-    channel.path = scene::AnimationPath::translation;
-    channel.times = {0, 1};
-    channel.values = {{0, 0, 0, 0}, {2, 0, 0, 0}};
-    scene.animations.push_back({"move", {channel}});
-  }
-  scene::validate(scene);
-  return scene;
-}
 
 /// A room of 4 × 2 × 3 m with walls 0.1 m thick, and a pillar of 0.5 × 2 × 0.5 m (but for 1 cm) in it.
 const std::vector<scene::Bounds> room = {{{-0.1f, -0.1f, -0.1f}, {4.1f, 2.1f, 3.1f}},

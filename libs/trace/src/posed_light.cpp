@@ -14,7 +14,7 @@
 namespace ssphh::trace {
 namespace {
 
-constexpr std::size_t parallel_from = 256, grain = 32;
+constexpr std::size_t many_points = 256, points_at_once = 32;
 
 std::uint64_t position_seed(const vec3& p) {
   const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
@@ -189,10 +189,10 @@ void PosedLight::irradiance(int group, std::span<const rays::SurfacePoint> point
     }
     data_->rays.add(task.rays);
   };
-  if (points.size() < parallel_from) {
+  if (points.size() < many_points) {
     range(0, points.size());
   } else {
-    parallel_for(points.size(), grain, range);
+    parallel_for(points.size(), points_at_once, range);
   }
 }
 

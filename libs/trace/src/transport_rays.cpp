@@ -13,7 +13,7 @@
 namespace ssphh::trace {
 namespace {
 
-constexpr std::size_t parallel_from = 1024, grain = 256;
+constexpr std::size_t many_rays = 1024, rays_at_once = 256;
 
 /// Calls body(begin, end, task) over [0, count), in parallel where that pays, and books the rays.
 template <class Body>
@@ -23,10 +23,10 @@ void for_rays(std::size_t count, SharedCount& rays, const Body& body) {
     body(begin, end, task);
     rays.add(task.rays);
   };
-  if (count < parallel_from) {
+  if (count < many_rays) {
     range(0, count);
   } else {
-    parallel_for(count, grain, range);
+    parallel_for(count, rays_at_once, range);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "hand_made.h"
 #include "temp_dir.h"
+#include "thread_count.h"
 
 namespace ssphh::test {
 namespace {
@@ -42,14 +43,6 @@ void expect_same(const trace::RenderState& a, const trace::RenderState& b) {
   ASSERT_EQ(a.groups.size(), b.groups.size());
   for (std::size_t g = 0; g < a.groups.size(); ++g) EXPECT_EQ(a.groups[g].pixels, b.groups[g].pixels);
 }
-
-class Threads {
- public:
-  explicit Threads(int count) { set_thread_count(count); }
-  ~Threads() { set_thread_count(0); }
-  Threads(const Threads&) = delete;
-  Threads& operator=(const Threads&) = delete;
-};
 
 TEST(Determinism, OneThreadAndTwoGiveTheSameImage) {
   const scene::Scene scene = small_scene();

@@ -56,8 +56,8 @@ struct Sums {
 };
 
 /// Means over 16 samples of independent sequences along one ray.
-Samples radiance_along(const scene::Scene& scene, const trace::Ray& ray, const trace::PathOptions& options,
-                       int count, int channel = 0) {
+Samples channel_along(const scene::Scene& scene, const trace::Ray& ray, const trace::PathOptions& options,
+                      int count, int channel = 0) {
   const trace::TracerData data(std::make_shared<const trace::SceneGeometry>(scene), scene, 0);
   trace::RayTask task;
   Samples samples;
@@ -72,7 +72,7 @@ Samples radiance_along(const scene::Scene& scene, const trace::Ray& ray, const t
   return samples;
 }
 
-trace::PathOptions endless(Strategy strategy = Strategy::mis) {
+trace::PathOptions many_bounces(Strategy strategy = Strategy::mis) {
   return {1 << 20, true, strategy};
 }
 
@@ -99,8 +99,8 @@ TEST(Glass, StackOfPanesLetsThroughWhatItsClosedFormSays) {
           all_t *= t / between;
           all_r = r + t * t * all_r / between;
         }
-        EXPECT_TRUE(mean_is(radiance_along(scene, {vec3(0), slanted(cosine)}, endless(), 400, channel), all_t,
-                            {1e-3, 12}, 2e-6))
+        EXPECT_TRUE(mean_is(channel_along(scene, {vec3(0), slanted(cosine)}, many_bounces(), 400, channel),
+                            all_t, {1e-3, 12}, 2e-6))
             << panes << " panes, cosine " << cosine << ", channel " << channel;
       }
     }
@@ -121,7 +121,7 @@ TEST(Glass, SlabOfABodyAbsorbsByTheWayThroughIt) {
     for (const int channel : {0, 1, 2}) {
       const double a = std::pow(double{glass.attenuation_color[channel]}, 0.5 / within);
       const double expected = (1 - r) * (1 - r) * a / (1 - r * r * a * a);
-      EXPECT_TRUE(mean_is(radiance_along(scene, {vec3(0), slanted(cosine)}, endless(), 400, channel),
+      EXPECT_TRUE(mean_is(channel_along(scene, {vec3(0), slanted(cosine)}, many_bounces(), 400, channel),
                           expected, {1e-3, 6}, 2e-5))
           << "cosine " << cosine << ", channel " << channel;
     }
@@ -228,12 +228,12 @@ TEST(Glass, StrategiesAgreeThroughSmoothAndRoughGlass) {
       add_light(scene, scene::LightType::sphere, 3, vec3(0.3f, 2, 0)).radius = 0.6f;
       const trace::Ray ray{vec3(0, 0.3f, 0), glm::normalize(vec3(0.2f, -1, 0.1f))};
       const int count = 3000;
-      const Samples mis = radiance_along(scene, ray, {6, true, Strategy::mis}, count);
-      const Samples rays_only = radiance_along(scene, ray, {6, true, Strategy::bsdf_only}, count);
+      const Samples mis = channel_along(scene, ray, {6, true, Strategy::mis}, count);
+      const Samples rays_only = channel_along(scene, ray, {6, true, Strategy::bsdf_only}, count);
       EXPECT_TRUE(means_agree(mis, rays_only, {1e-3, 5}, 1e-6)) << roughness << ' ' << thickness;
       EXPECT_GT(mis.mean(), 0.01) << roughness << ' ' << thickness;
       if (thickness == 0 && roughness == 0) {
-        const Samples lights_only = radiance_along(scene, ray, {6, true, Strategy::nee_only}, count);
+        const Samples lights_only = channel_along(scene, ray, {6, true, Strategy::nee_only}, count);
         // The pane's reflections of the lamp, which only rays find, do not light the floor below it.
         EXPECT_TRUE(means_agree(mis, lights_only, {1e-3, 5}, 1e-6));
       }
@@ -248,8 +248,8 @@ TEST(Glass, PathsOfDepthOneFindLightsThroughPanes) {
   add_pane(scene, pane(vec3(0.8f)), 0.5f), add_pane(scene, pane(vec3(0.9f)), 0.7f);
   add_light(scene, scene::LightType::sphere, 3, vec3(0.3f, 2, 0)).radius = 0.6f;
   const trace::Ray ray{vec3(0, 0.3f, 0), glm::normalize(vec3(0.2f, -1, 0.1f))};
-  const Samples by_rays = radiance_along(scene, ray, {1, true, Strategy::bsdf_only}, 3000);
-  const Samples by_lights = radiance_along(scene, ray, {1, true, Strategy::nee_only}, 3000);
+  const Samples by_rays = channel_along(scene, ray, {1, true, Strategy::bsdf_only}, 3000);
+  const Samples by_lights = channel_along(scene, ray, {1, true, Strategy::nee_only}, 3000);
   EXPECT_TRUE(means_agree(by_rays, by_lights, {}, 1e-6));
   EXPECT_GT(by_rays.mean(), 0.01);
 }
@@ -268,8 +268,9 @@ TEST(Glass, BodiesAbsorbTheLightOfWhatIsInThem) {
     for (const int channel : {0, 1, 2}) {
       const double expected =
           2 * (1 - r) / 2.25 * std::pow(double{glass.attenuation_color[channel]}, 1.5 / within);
-      EXPECT_TRUE(mean_is(radiance_along(scene, {vec3(0, -1, 0), slanted(cosine)}, endless(), 400, channel),
-                          expected, {1e-3, 6}, 2e-5))
+      EXPECT_TRUE(
+          mean_is(channel_along(scene, {vec3(0, -1, 0), slanted(cosine)}, many_bounces(), 400, channel),
+                  expected, {1e-3, 6}, 2e-5))
           << "cosine " << cosine << ", channel " << channel;
     }
   }
@@ -281,7 +282,7 @@ TEST(Glass, RadianceWithinABodyIsTheSquareOfItsIndexTimesThatOutside) {
   scene::Material glass = body();
   glass.specular = 0;
   add_object(scene, scene::make_box(vec3(-1), vec3(1)), glass, "block");
-  const Samples up = radiance_along(scene, {vec3(0), vec3(0, 1, 0)}, endless(), 40);
+  const Samples up = channel_along(scene, {vec3(0), vec3(0, 1, 0)}, many_bounces(), 40);
   EXPECT_NEAR(up.mean(), 2.25, 1e-5);
 }
 

@@ -50,7 +50,7 @@ void PrintTo(const Case& c, std::ostream* out) {
 }
 
 /// The lamp's node stands at (0.3, 1.2, −0.2), turned to shine down and a little aside.
-std::vector<Case> cases() {
+std::vector<Case> lamps_and_suns() {
   using scene::LightType;
   return {
       {"point", [](scene::Scene& s) { s.lights.push_back(lamp(LightType::point, 5)); }, true},
@@ -196,7 +196,7 @@ TEST_P(PhotonsOf, LandAsIrradianceSays) {
   EXPECT_GE(chi2.p, 1e-4) << "χ² " << chi2.statistic << " with " << chi2.degrees << " degrees";
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryLight, PhotonsOf, testing::ValuesIn(cases()),
+INSTANTIATE_TEST_SUITE_P(EveryLight, PhotonsOf, testing::ValuesIn(lamps_and_suns()),
                          [](const auto& c) { return std::string(c.param.name); });
 
 }  // namespace

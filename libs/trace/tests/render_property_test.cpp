@@ -4,6 +4,7 @@
 
 #include "property.h"
 #include "random_room.h"
+#include "thread_count.h"
 
 namespace ssphh::test {
 namespace {
@@ -11,14 +12,6 @@ namespace {
 using testing::AssertionFailure;
 using testing::AssertionResult;
 using testing::AssertionSuccess;
-
-class Threads {
- public:
-  explicit Threads(int count) { set_thread_count(count); }
-  ~Threads() { set_thread_count(0); }
-  Threads(const Threads&) = delete;
-  Threads& operator=(const Threads&) = delete;
-};
 
 /// Cuts a rectangle into tiles: each number halves the largest tile somewhere, one way or the other.
 std::vector<trace::Tile> cut_up(int width, int height, const std::vector<int>& cuts) {

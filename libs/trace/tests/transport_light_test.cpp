@@ -36,14 +36,14 @@ double at_origin(const scene::Scene& scene, const trace::TransportOptions& optio
   return static_cast<double>(irradiance(*light_at(source), {}).x);
 }
 
-scene::Scene floor_scene() {
+scene::Scene grey_floor() {
   scene::Scene scene;
   add_floor(scene, lambertian(vec3(0.5f)));
   return scene;
 }
 
 TEST(TransportLight, PointLightGivesCosineOverSquaredDistance) {
-  scene::Scene scene = floor_scene();
+  scene::Scene scene = grey_floor();
   add_light(scene, scene::LightType::point, 7, vec3(3, 4, 0)).color = vec3(1, 0.5f, 0.25f);
   const trace::TransportScene source(scene);
   const vec3 e = irradiance(*light_at(source), {});
@@ -55,7 +55,7 @@ TEST(TransportLight, PointLightGivesCosineOverSquaredDistance) {
 }
 
 TEST(TransportLight, StateOfALightWinsOverTheScene) {
-  scene::Scene scene = floor_scene();
+  scene::Scene scene = grey_floor();
   add_light(scene, scene::LightType::point, 7, vec3(3, 4, 0));
   const trace::TransportScene source(scene);
   std::vector<scene::LightState> lights = source.lights(0);
@@ -70,7 +70,7 @@ TEST(TransportLight, StateOfALightWinsOverTheScene) {
 }
 
 TEST(TransportLight, SpotAndDirectionalLight) {
-  scene::Scene scene = floor_scene();
+  scene::Scene scene = grey_floor();
   scene::Light& spot = add_light(scene, scene::LightType::spot, 5, vec3(0, 2, 0), vec3(0.5f, -2, 0));
   spot.inner_cone = 0.5f, spot.outer_cone = 0.6f;
   EXPECT_NEAR(at_origin(scene), 5.0 / 4, 1e-6) << "within the inner cone";
@@ -80,7 +80,7 @@ TEST(TransportLight, SpotAndDirectionalLight) {
 }
 
 TEST(TransportLight, SphereLightGivesPiLTimesSquaredSineTimesCosine) {
-  scene::Scene scene = floor_scene();
+  scene::Scene scene = grey_floor();
   add_light(scene, scene::LightType::sphere, 7, vec3(3, 4, 0)).radius = 0.5f;
   const double exact = pi_d * 7 * (0.25 / 25) * 0.8;
   EXPECT_NEAR(at_origin(scene), exact, 1e-5 * exact) << "no noise unhidden";
@@ -89,7 +89,7 @@ TEST(TransportLight, SphereLightGivesPiLTimesSquaredSineTimesCosine) {
 TEST(TransportLight, SphereLightOnTheHorizonGivesTheIntegralOverItsUpperHalf) {
   // Nusselt: the half cap above the horizon projects onto the unit disc as the segment beyond the chord at
   // cos α, of area α − sin α cos α.
-  scene::Scene scene = floor_scene();
+  scene::Scene scene = grey_floor();
   add_light(scene, scene::LightType::sphere, 7, vec3(3, 0, 0)).radius = 1;
   const double alpha = std::asin(1.0 / 3), exact = 7 * (alpha - std::sin(alpha) * std::cos(alpha));
   trace::TransportOptions options;
@@ -110,7 +110,7 @@ double lambert(std::span<const vec3> corners) {
 }
 
 TEST(TransportLight, AreaLightGivesItsFormFactor) {
-  scene::Scene scene = floor_scene();
+  scene::Scene scene = grey_floor();
   const vec3 corner(-0.3f, 1.5f, -0.5f), u(1, 0, 0), v(0, 0, 1);
   add_object(scene, scene::make_quad(corner, u, v), lambertian(vec3(0), vec3(4)), "panel");
   const vec3 corners[4] = {corner, corner + u, corner + u + v, corner + v};
@@ -122,7 +122,7 @@ TEST(TransportLight, AreaLightGivesItsFormFactor) {
 }
 
 TEST(TransportLight, ConstantSkyGivesPi) {
-  scene::Scene scene = floor_scene();
+  scene::Scene scene = grey_floor();
   add_constant_sky(scene, vec3(1, 2, 3));
   const trace::TransportScene source(scene);
   const vec3 e = irradiance(*light_at(source), {});
@@ -131,7 +131,7 @@ TEST(TransportLight, ConstantSkyGivesPi) {
 
 TEST(TransportLight, SkyImageGivesTheCosineIntegralOfItsTexels) {
   // Radiance 1 at azimuths with x > 0: half of the irradiance of a full sky.
-  scene::Scene scene = floor_scene();
+  scene::Scene scene = grey_floor();
   scene::Environment sky;
   sky.equirect = image::Image(64, 32);
   for (int y = 0; y < 32; ++y) {
@@ -149,7 +149,7 @@ TEST(TransportLight, SkyImageGivesTheCosineIntegralOfItsTexels) {
 }
 
 TEST(TransportLight, MovingPartCastsItsShadowWhereItIs) {
-  scene::Scene scene = floor_scene();
+  scene::Scene scene = grey_floor();
   const int node = add_node(scene, "lid", vec3(0, 1, 0));
   add_object(scene, scene::make_box(vec3(-0.5f, 0, -0.5f), vec3(0.5f, 0.1f, 0.5f)), lambertian(vec3(0.5f)),
              "", node);
@@ -172,7 +172,7 @@ TEST(TransportLight, MovingPartCastsItsShadowWhereItIs) {
 }
 
 TEST(TransportLight, EmittedSeesSpheresAndTheSky) {
-  scene::Scene scene = floor_scene();
+  scene::Scene scene = grey_floor();
   add_light(scene, scene::LightType::sphere, 7, vec3(0, 4, 0)).radius = 0.5f;
   add_constant_sky(scene, vec3(2));
   const trace::TransportScene source(scene);
@@ -334,7 +334,7 @@ TEST(TransportLight, MayShadowIsNeverWrong) {
   Pcg32 random(11);
   int changed = 0, denied = 0;
   for (int trial = 0; trial < 120; ++trial) {
-    scene::Scene scene = floor_scene();
+    scene::Scene scene = grey_floor();
     const auto place = [&] {
       return vec3(4, 3, 4) * (random.uniform3() - vec3(0.5f, 0, 0.5f)) + vec3(0, 0.2f, 0);
     };

@@ -7,7 +7,10 @@
 #include <ssphh/core/sphere.h>
 #include <ssphh/rays/transport_source.h>
 
+// What all tests share is found as test::name beside these, too.
+namespace ssphh::test {}
 namespace ssphh::transport::test {
+using namespace ssphh::test;
 
 /// Both spheres about their part's origin. The walls are of two colours, one half each, and their upper cap
 /// glows, as does the ball's; a lamp lights both.

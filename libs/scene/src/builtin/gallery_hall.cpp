@@ -3,12 +3,12 @@
 namespace ssphh::scene {
 namespace {
 
-constexpr float half_width = 5, height = 4, half_depth = 4;
+constexpr float half_width = 5, hall_height = 4, half_depth = 4;
 
 }  // namespace
 
 void add_hall(Builder& b, const HallMaterials& m) {
-  const float x = half_width, y = height, z = half_depth;
+  const float x = half_width, y = hall_height, z = half_depth;
   b.add("floor", make_quad({-x, 0, z}, {2 * x, 0, 0}, {0, 0, -2 * z}), m.floor);
   b.add("ceiling", make_quad({-x, y, -z}, {2 * x, 0, 0}, {0, 0, 2 * z}), m.ceiling);
   b.add("back wall", make_quad({-x, 0, -z}, {2 * x, 0, 0}, {0, y, 0}), m.back);

@@ -15,6 +15,7 @@
 #include "xml_writer.h"
 
 namespace ssphh::scene_io {
+namespace corona {
 namespace {
 
 // Corona Standalone: https://wiki.corona-renderer.com/standalone (scn, mtl, mtl-maps, obj, conf). All that
@@ -343,9 +344,11 @@ std::string configuration(const ExportSettings& settings) {
 }
 
 }  // namespace
+}  // namespace corona
 
 ExportReport export_corona(const scene::Scene& scene, const ExportSettings& settings,
                            const std::filesystem::path& directory) {
+  using namespace corona;
   begin_export(scene, settings, directory);
   const FlatScene flat = flatten(scene, settings.time);
   const scene::Bounds bounds = bounds_of(flat);

@@ -13,6 +13,7 @@
 #include "surface_model.h"
 
 namespace ssphh::scene_io {
+namespace pbrt {
 namespace {
 
 // pbrt-v4's scene format: https://pbrt.org/fileformat-v4. An RGB light of scale 1 gives a film of the default
@@ -272,9 +273,11 @@ std::string camera(const ExportSettings& settings) {
 }
 
 }  // namespace
+}  // namespace pbrt
 
 ExportReport export_pbrt(const scene::Scene& scene, const ExportSettings& settings,
                          const std::filesystem::path& directory) {
+  using namespace pbrt;
   begin_export(scene, settings, directory);
   const FlatScene flat = flatten(scene, settings.time);
   const std::filesystem::path file = directory / "scene.pbrt";

@@ -8,7 +8,7 @@
 namespace ssphh::scene {
 namespace {
 
-constexpr float thick = 0.2f, door_width = 0.9f, door_height = 2.05f;
+constexpr float thick = 0.2f, doorway_width = 0.9f, doorway_height = 2.05f;
 
 /// An opening of `wide` somewhere on a wall that goes from `from` to `to`.
 Opening somewhere(Draw& draw, float from, float to, float wide, float low, float high, int pane = -1) {
@@ -19,7 +19,7 @@ Opening somewhere(Draw& draw, float from, float to, float wide, float low, float
 /// A leaf in a doorway, turned by any angle.
 void add_leaf(RandomScene& s, int axis, float across, const Opening& door) {
   const float wide = door.to - door.from - 0.02f;
-  Mesh leaf = make_box({0.01f, 0.01f, -0.02f}, {wide, door_height - 0.02f, 0.02f});
+  Mesh leaf = make_box({0.01f, 0.01f, -0.02f}, {wide, doorway_height - 0.02f, 0.02f});
   const float angle = s.draw.between(0, 110) + (axis == 0 ? 0.0f : -90.0f);
   vec3 hinge(across + thick / 2, 0, across + thick / 2);
   hinge[axis] = door.from;
@@ -70,7 +70,7 @@ void add_flat(RandomScene& s) {
         wall(0, across, xs[i], to, window(from, to), outer);
         continue;
       }
-      const Opening door = somewhere(draw, from, to, door_width, 0, door_height);
+      const Opening door = somewhere(draw, from, to, doorway_width, 0, doorway_height);
       wall(0, across, xs[i], to, {door}, s.matte());
       if (draw.chance(0.6f)) add_leaf(s, 0, across, door);
     }
@@ -84,7 +84,7 @@ void add_flat(RandomScene& s) {
         wall(2, across, from, to, window(from, to), outer);
         continue;
       }
-      const Opening door = somewhere(draw, from, to, door_width, 0, door_height);
+      const Opening door = somewhere(draw, from, to, doorway_width, 0, doorway_height);
       wall(2, across, from, to, {door}, s.matte());
       if (draw.chance(0.6f)) add_leaf(s, 2, across, door);
     }
