@@ -40,6 +40,7 @@ function(ssphh_module name)
   target_link_libraries(${target}
     PUBLIC ${ARG_DEPENDS} ${ARG_LINK_PUBLIC}
     PRIVATE ${ARG_LINK_PRIVATE} $<BUILD_INTERFACE:ssphh_compile_options>)
+  ssphh_unity(${target})
   install(TARGETS ${target} EXPORT ssphhTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 
   if(SSPHH_BUILD_TESTS AND tests)
@@ -65,6 +66,7 @@ function(ssphh_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} ssphh_test_support GTest::gmock_main ssphh_compile_options)
+  ssphh_unity(${name})
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 600)
 endfunction()
 
