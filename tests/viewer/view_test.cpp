@@ -56,7 +56,7 @@ class View : public testing::Test {
   TempDir dir_;
 };
 
-const std::vector<std::string> two_rooms = {"view",        "builtin:two-rooms", "--size", "320x200",
+const std::vector<std::string> two_rooms = {"view",        "builtin:two-rooms", "--size", "160x100",
                                             "--no-panels", "--exposure",        "0"};
 
 std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
@@ -83,9 +83,9 @@ TEST_F(View, AnOpenedDoorBrightensTheRoomBehindIt) {
 
 TEST_F(View, MouseAndKeysChangeWhatIsShown) {
   // A drag turns the view, a key shows the probes, Tab hides the panels, undo takes an edit back.
-  run_json({"view", "builtin:two-rooms", "--size", "640x400", "--script",
+  run_json({"view", "builtin:two-rooms", "--size", "480x300", "--script",
             script("settle\nscreenshot " + path("a.png") + "\nsettle\nscreenshot " + path("same.png") +
-                   "\ndrag 500 200 560 220\nsettle\nscreenshot " + path("turned.png") +
+                   "\ndrag 400 150 460 170\nsettle\nscreenshot " + path("turned.png") +
                    "\nkey P\nsettle\nscreenshot " + path("balls.png") +
                    "\nkey P\nlight lamp color 1 0 0\nsettle\nscreenshot " + path("red.png") +
                    "\nkey Ctrl+Z\nsettle\nscreenshot " + path("undone.png") + "\nscreenshot " +
@@ -103,8 +103,8 @@ TEST_F(View, MouseAndKeysChangeWhatIsShown) {
   EXPECT_NEAR(brightness("undone.png"), brightness("turned.png"), 0.002);
   EXPECT_GT(std::abs(brightness("red.png") - brightness("turned.png")), 0.02);
   const image::Image panels = image::read_image(path("panels.png"));
-  EXPECT_EQ(panels.width, 640);
-  EXPECT_EQ(panels.height, 400);
+  EXPECT_EQ(panels.width, 480);
+  EXPECT_EQ(panels.height, 300);
   EXPECT_FALSE(bytes("bare.png") == bytes("panels.png"));
 }
 
