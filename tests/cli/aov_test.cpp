@@ -74,5 +74,17 @@ TEST(Aovs, GroupsWithProbesHoldTheDirectLightAlone) {
   expect_sum(groups, indirect, image::read_image(dir / "lit.exr"));
 }
 
+TEST(Aovs, OfGroupsAloneAreThoseOfAll) {
+  const TempDir dir;
+  std::vector<std::string> arguments = picture(dir / "all.exr", {});
+  run_json(arguments);
+  arguments[3] = dir / "alone.exr";
+  arguments.back() = "groups";
+  run_json(arguments);
+  const Image all = sum_of_groups(dir, "all"), alone = sum_of_groups(dir, "alone");
+  EXPECT_EQ(alone.pixels, all.pixels);
+  EXPECT_FALSE(std::filesystem::exists(dir / "alone.direct.exr"));
+}
+
 }  // namespace
 }  // namespace ssphh

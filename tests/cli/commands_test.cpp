@@ -107,6 +107,9 @@ TEST_F(BakedRooms, HierScalesGroupsAndAddsTheNeighbours) {
   ASSERT_TRUE(result.contraction);
   EXPECT_EQ(result.contraction->upper, probes::hier_contraction(wanted, options.params)->upper);
   EXPECT_GT(result.seconds, 0);
+  HierResult slow = result;
+  slow.seconds = 1.5e-3;
+  EXPECT_THAT(to_text(slow, options), testing::HasSubstr(": 1500.0 us; another application"));
 }
 
 TEST_F(BakedRooms, LeakAndMeasureAgreeWithTheLibraryPointByPoint) {

@@ -1,5 +1,6 @@
 /// Sets whose light surfel transport found, through Embree, against closed forms and against the session.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <ssphh/bake/bake.h>
@@ -206,6 +207,29 @@ TEST(GiTransportBake, LightThatDidNotConvergeIsToldWithItsIterations) {
   EXPECT_THAT(bounce.warnings, testing::ElementsAre(testing::HasSubstr("did not converge in 3 iterations")));
   EXPECT_GT(bounce.contraction, 0.1);
   EXPECT_LT(bounce.contraction, 0.8) << "of the brightest wall";
+}
+
+/// A body whose slats stand closer to each other than light is looked for before a surface of it.
+TEST(GiTransportBake, LostLightIsToldInPercentOfTheRays) {
+  scene::Scene room = test::coloured_room(vec3(0.5f));
+  for (int i = 0; i < 20; ++i) {
+    const vec3 foot(0.04f * static_cast<float>(i) - 0.9f, -0.9f, -0.8f);
+    test::add_body(room, "slat", scene::make_quad(foot, {0, 0, 1.6f}, {0.085f, 0.085f, 0}), vec3(0.5f));
+    if (i > 0) room.instances.back().node = room.instances[room.instances.size() - 2].node;
+  }
+  room.animations.push_back({"still",
+                             {{room.instances.back().node,
+                               scene::AnimationPath::translation,
+                               scene::Interpolation::linear,
+                               {0, 1},
+                               {vec4(0), vec4(0)}}}});
+  scene::validate(room);
+  const bake::TransportBakeReport report = report_of(room, {});
+  ASSERT_GT(report.lost, 0.01);
+  ASSERT_LT(report.lost, 0.5);
+  EXPECT_THAT(report.warnings,
+              testing::ElementsAre(testing::StartsWith(
+                  fmt::format("{:.1f} % of the surfels' rays end where no surfel is", 100 * report.lost))));
 }
 
 TEST(GiTransportBake, SurfelsAreAThirtySecondOfTheRadiusAndAtMostHalfAMetre) {

@@ -314,7 +314,9 @@ TEST(RelightSession, WhatIsCancelledIsDoneByTheNextUpdate) {
   for (LitSession* s : {&session, &other}) s->state.time = 0.7f, s->state.lights[0].intensity *= 2;
   CancelToken cancel;
   cancel.request();
+  const std::uint64_t rays = rooms.source.rays_traced();
   EXPECT_THROW(session.update(session.state, {nullptr, &cancel}), Cancelled);
+  EXPECT_EQ(rooms.source.rays_traced(), rays) << "it goes on with nothing, not to the end of the door's way";
   EXPECT_TRUE(session.reflected() == before);
   session.update();
   other.update();

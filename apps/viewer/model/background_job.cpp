@@ -49,7 +49,6 @@ void BackgroundJob::start(const std::string& name, Work work) {
   join();
   {
     const std::lock_guard lock(mutex_);
-    handed_.clear();
     name_ = name;
     error_.clear();
     running_ = true;

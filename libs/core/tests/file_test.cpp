@@ -1,11 +1,14 @@
+#include <cerrno>
 #include <csignal>
 #include <thread>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
@@ -114,6 +117,23 @@ TEST(File, WritingOpensNoFileOfAnotherThread) {
     wrong += permissions(entry.path()) != 0640;
   EXPECT_EQ(wrong, 0);
   EXPECT_EQ(::umask(027), mode_t{027}) << "of the process, afterwards";
+}
+
+// A daemon may have closed its standard input: its next file is number 0, as good as any other.
+TEST(File, ThatIsTheProcessesFirstIsOpenedOnce) {
+  const test::TempDir dir;
+  write_file(dir / "a", "old");
+  const int input = ::dup(0);
+  ASSERT_GE(input, 0);
+  ::close(0);
+  errno = EEXIST;  // of whatever came before
+  write_file(dir / "a", "x");
+  const int next = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  ::dup2(input, 0);
+  ::close(input);
+  EXPECT_EQ(next, 0) << "it was closed, too";
+  EXPECT_EQ(read_text_file(dir / "a"), "x");
+  EXPECT_EQ(file_count(dir.path()), 1);
 }
 
 }  // namespace

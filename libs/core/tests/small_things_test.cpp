@@ -12,6 +12,7 @@
 #include <ssphh/core/log.h>
 #include <ssphh/core/math.h>
 #include <ssphh/core/random.h>
+#include <ssphh/core/stopwatch.h>
 
 #include "error_message.h"
 
@@ -87,6 +88,16 @@ TEST(Stages, StopWhenTheyAreAskedTo) {
   EXPECT_TRUE(token.requested());
   EXPECT_TRUE(control.cancelled());
   EXPECT_THROW(control.check(), Cancelled);
+}
+
+// What is made earlier and read later tells more; nothing is said of how long anything takes.
+TEST(Stopwatches, TellTheTimeSinceTheyWereMade) {
+  const Stopwatch outer;
+  const double inner = Stopwatch().seconds();
+  const double milliseconds = outer.milliseconds(), seconds = outer.seconds();
+  EXPECT_GE(inner, 0);
+  EXPECT_GE(milliseconds, 1000 * inner);
+  EXPECT_GE(1000 * seconds, milliseconds);
 }
 
 TEST(Vectors, HaveALuminanceALargestComponentAndAreFinite) {

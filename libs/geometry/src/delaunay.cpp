@@ -185,10 +185,10 @@ class Builder {
   }
 
   void compact() {
-    std::vector<std::int32_t> index(cells_.size(), none);
+    std::vector<std::int32_t> index;
+    index.reserve(cells_.size());
     std::size_t count = 0;
-    for (std::size_t c = 0; c < cells_.size(); ++c)
-      if (cells_[c].alive) index[c] = static_cast<std::int32_t>(count++);
+    for (const Cell& cell : cells_) index.push_back(cell.alive ? static_cast<std::int32_t>(count++) : none);
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       if (index[c] == none) continue;
       Cell moved = cells_[c];

@@ -260,5 +260,19 @@ TEST_F(GlDrawCalls, IndexedVerticesAreReadWhereTheirBufferHoldsThem) {
   EXPECT_THAT(drawn(3, 3, 6), ElementsAre(0, 0, 0, 1));
 }
 
+// A software renderer orders commands without barriers, so that no picture there misses one.
+TEST_F(GlDraw, WhatShadersWroteIsOrderedBeforeAllThatReadsIt) {
+  static GLbitfield ordered;
+  ordered = 0;
+  const auto real = epoxy_glMemoryBarrier;
+  epoxy_glMemoryBarrier = [](GLbitfield barriers) { ordered |= barriers; };
+  shader_memory_barrier();
+  epoxy_glMemoryBarrier = real;
+  for (const GLbitfield barrier :
+       {GL_SHADER_STORAGE_BARRIER_BIT, GL_COMMAND_BARRIER_BIT, GL_SHADER_IMAGE_ACCESS_BARRIER_BIT,
+        GL_FRAMEBUFFER_BARRIER_BIT, GL_TEXTURE_FETCH_BARRIER_BIT, GL_BUFFER_UPDATE_BARRIER_BIT})
+    EXPECT_NE(ordered & barrier, 0u) << barrier;
+}
+
 }  // namespace
 }  // namespace ssphh::gl

@@ -1,5 +1,6 @@
 /// Times and counts against those that the queries themselves give.
 
+#include <algorithm>
 #include <chrono>
 #include <set>
 #include <stdexcept>
@@ -76,6 +77,43 @@ TEST_F(GlTimer, OnAGpuIsTheQueryOfTheLastSpanThatIsKnown) {
   }
   EXPECT_EQ(std::set(queries.begin(), queries.end()).size(), 4u) << "four are in flight";
   for (std::size_t i = 4; i < queries.size(); ++i) EXPECT_EQ(queries[i], queries[i - 4]);
+}
+
+/// The queries whose results were asked for, while this lives.
+class AskedQueries {
+ public:
+  AskedQueries() : before_(epoxy_glGetQueryObjectiv) {
+    ids.clear();
+    real = before_;
+    epoxy_glGetQueryObjectiv = [](GLuint id, GLenum what, GLint* result) {
+      ids.insert(id);
+      real(id, what, result);
+    };
+  }
+  ~AskedQueries() { epoxy_glGetQueryObjectiv = before_; }
+  AskedQueries(const AskedQueries&) = delete;
+  AskedQueries& operator=(const AskedQueries&) = delete;
+
+  static inline std::set<unsigned> ids;
+
+ private:
+  static inline PFNGLGETQUERYOBJECTIVPROC real = nullptr;
+  PFNGLGETQUERYOBJECTIVPROC before_;
+};
+
+// Of one that was never begun GL need not say that it is ready: a driver may let its result be waited for.
+TEST_F(GlTimer, AsksOnlyQueriesThatWereBegun) {
+  Timer timer(false);
+  const AskedQueries asked;
+  std::set<unsigned> begun;
+  for (int i = 0; i < 6; ++i) {
+    timer.begin();
+    EXPECT_TRUE(std::ranges::includes(begun, asked.ids)) << "span " << i;
+    begun.insert(current_query(GL_TIME_ELAPSED));
+    timer.end();
+    glFinish();
+  }
+  EXPECT_EQ(asked.ids.size(), 4u);
 }
 
 /// Samples drawn by `triangles` times the whole picture of 3 × 2.

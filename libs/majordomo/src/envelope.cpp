@@ -160,10 +160,8 @@ std::optional<Envelope> decode_envelope(std::string_view frame) {
   std::uint32_t seen = 0;
   for (std::string_view rest = frame.substr(6); !rest.empty();) {
     std::uint16_t size = 0;
-    if (rest.size() < 3) return std::nullopt;
     const auto tag = static_cast<std::uint8_t>(rest[0]);
-    read(rest.substr(1, 2), size);
-    if (rest.size() < 3u + size) return std::nullopt;
+    if (!read(rest.substr(1, 2), size) || rest.size() < 3u + size) return std::nullopt;
     if (tag < tag_end) {
       if (seen & (1u << tag)) return std::nullopt;
       seen |= 1u << tag;

@@ -144,6 +144,27 @@ TEST(Transfer, MeshesAreRefinedAlikeOnBothSidesOfAnEdge) {
   EXPECT_THROW(make_transfer_mesh(scene, source, {.edge = 0.5f, .most = 10}), Error);
 }
 
+/// A side is left out where half of what it sees are backs, as within a body; a sign before it is none.
+TEST(Transfer, ASideThatSeesFewBacksIsInTheOpen) {
+  const auto underside = [](float sign) {
+    scene::Scene scene;
+    add(scene, scene::make_quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}));
+    add(scene, scene::make_quad({-100, -1, 100}, {200, 0, 0}, {0, 0, -200}));
+    add(scene,
+        scene::make_quad({-sign, -0.7f, -sign}, {2 * sign, 0, 0}, {0, 0, 2 * sign}));  // faces the ground
+    const TransferMesh mesh = make_transfer_mesh(scene, test::TriangleSource(scene), {.edge = 300});
+    double area = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const geometry::Corners c = mesh.corners(i);
+      const vec3 cross = glm::cross(c[1] - c[0], c[2] - c[0]);
+      if (c[0].y == 0 && cross.y < 0) area += 0.5 * static_cast<double>(glm::length(cross));
+    }
+    return area;
+  };
+  EXPECT_NEAR(underside(0.4f), 4, 1e-4);
+  EXPECT_EQ(underside(5), 0);
+}
+
 TEST(Transfer, PlacesAreFoundOnTheirSide) {
   scene::Scene scene;
   add(scene, scene::make_quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}));

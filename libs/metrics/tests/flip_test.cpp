@@ -94,6 +94,17 @@ TEST(Flip, AnswersForBlackReferences) {
   EXPECT_GT(hdr_flip(dot, black).mean, 0);
 }
 
+// The square of 1e30 is no float any more; the curve is white long before.
+TEST(Flip, WhatIsTooBrightToBeSquaredIsWhite) {
+  const Pair pair(3);
+  Image bright = pair.reference, brighter = pair.reference;
+  bright.set_rgb(30, 30, vec3(1e15f));
+  brighter.set_rgb(30, 30, vec3(1e30f));
+  const FlipError a = hdr_flip(pair.reference, bright), b = hdr_flip(pair.reference, brighter);
+  EXPECT_GT(a.map.at(30, 30)[0], 0.1f);
+  EXPECT_EQ(a.map.pixels, b.map.pixels);
+}
+
 TEST(Flip, RejectsDifferentSizes) {
   EXPECT_THROW(flip(Image(4, 4, 3), Image(4, 5, 3)), Error);
   EXPECT_THROW(hdr_flip(Image(), Image()), Error);

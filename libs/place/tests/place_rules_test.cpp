@@ -210,6 +210,20 @@ TEST(PlaceRules, OfEightTimesTheLimitTheUnreachableAreStillLeftOut) {
   EXPECT_THROW(place_probes(source, params), Error);
 }
 
+TEST(PlaceRules, AFifthMoreThanAskedForIsNearEnough) {
+  const TriangleSource source(room({7, 3, 5}));
+  const auto surplus = [&](int count) {
+    PlaceParams params;
+    params.interest = {vec3(1)};
+    params.levels = 0;
+    params.count = count;
+    return place_probes(source, params).counts.surplus;
+  };
+  // For both the first grid has 105 places: 17 over 88 are a fifth, 18 over 87 are more.
+  EXPECT_EQ(surplus(88), 17u);
+  EXPECT_LT(surplus(87), 17u);
+}
+
 TEST(PlaceFilter, KeepsEdgesBetweenWhatIsKept) {
   std::vector<Draft> drafts(5);
   for (int i = 0; i < 5; ++i) drafts[static_cast<std::size_t>(i)].position = vec3(i, 0, 0);

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/place/init.h>
+#include <ssphh/place/place.h>
 
 #include "error_message.h"
+#include "unlit_source.h"
 
 namespace ssphh::place {
 namespace {
@@ -14,6 +16,33 @@ using test::message_of;
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 constexpr float endless = std::numeric_limits<float>::infinity();
+
+/// All that stands still is at one place.
+class APoint : public test::UnlitSource {
+ public:
+  int part_count() const override { return 1; }
+  const std::string& part_name(int) const override { return name_; }
+  scene::Bounds part_bounds(int) const override { return {vec3(3), vec3(3)}; }
+  float duration() const override { return 0; }
+  mat4 part_pose(int, float) const override { return mat4(1); }
+  void intersect(int, std::span<const rays::RayQuery> rays, std::span<rays::RayHit> hits) const override {
+    std::fill_n(hits.begin(), rays.size(), rays::RayHit{});
+  }
+  void occluded(int, std::span<const rays::RayQuery> rays, std::span<std::uint8_t> blocked) const override {
+    std::fill_n(blocked.begin(), rays.size(), std::uint8_t{0});
+  }
+  std::uint64_t rays_traced() const override { return 0; }
+
+ private:
+  std::string name_ = "static";
+};
+
+TEST(Placement, OfASinglePointIsRefused) {
+  PlaceParams params;
+  params.count = 2;
+  EXPECT_EQ(message_of([&] { place_probes(APoint(), params); }),
+            "probe placement: the scene's surfaces are a single point");
+}
 
 TEST(Init, OfAPlacementTakesItsProbes) {
   scene::Scene scene;

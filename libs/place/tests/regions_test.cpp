@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ssphh/place/lattice.h>
+#include <ssphh/place/place.h>
 #include <ssphh/scene/primitives.h>
 
 #include "triangle_source.h"
@@ -152,6 +154,35 @@ TEST(Regions, ADividedPlainHasNoDetail) {
   const Regions regions = detail_regions(Source(scene), {});
   EXPECT_TRUE(regions.open_rest);
   EXPECT_LT(max_component(regions.boxes[0].max - regions.boxes[0].min), 80);
+}
+
+/// Signs of two points each stand on the ground, of two, far from the 108 points of the blocks.
+TEST(Regions, ATenthAsManyPointsOfOtherDirectionsIsFewAndMoreIsNot) {
+  for (const int signs : {4, 5}) {
+    scene::Scene scene = plain(100);
+    add_blocks(scene, {30, 0, -20});
+    for (int i = 0; i < signs; ++i)
+      add(scene, scene::make_quad({-80, 2, 10 * static_cast<float>(i) - 60}, {0, 2, 0}, {0, 0, 2}));
+    EXPECT_EQ(detail_regions(Source(scene), {}).open_rest, signs == 4) << signs;
+  }
+}
+
+/// The grid around the regions is as fine as it may be, by tenths, with no more places than it is given.
+TEST(Regions, TheOpenRestHasAtMostFortyEightPlaces) {
+  scene::Scene scene = plain(100);
+  add_blocks(scene, {30, 0, -20});
+  const Source source(scene);
+  PlaceParams params;
+  params.spacing = 3;
+  params.levels = 0;
+  float widest = 0;
+  for (const PlacedProbe& probe : place_probes(source, params).probes)
+    widest = std::max(widest, probe.spacing);
+  const auto places = [&](float spacing) {
+    return lattice_places(widened(source.part_bounds(0), spacing), spacing);
+  };
+  EXPECT_LE(places(widest), 48);
+  EXPECT_GT(places(0.89f * widest), 48);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/probes/lookup_weights.h>
+#include <ssphh/probes/probe_set.h>
 
 #include "error_message.h"
 
@@ -35,6 +36,17 @@ TEST(Refusals, OfLookups) {
   PointWeights full;
   for (int i = 0; i < 16; ++i) full.add(i, 1);
   EXPECT_EQ(message_of([&] { full.add(16, 1); }), "list of weights: it is full");
+}
+
+TEST(Refusals, OfLightOfMoreGroupsThanTheSetHas) {
+  ProbeSet set;
+  set.degree = 1;
+  set.probes.resize(2);
+  set.light_groups.resize(2);
+  set.probes[1].groups.resize(2);
+  EXPECT_EQ(message_of([&] { merge_groups(set); }), "no error");
+  set.probes[1].groups.resize(5);
+  EXPECT_EQ(message_of([&] { merge_groups(set); }), "probe 1: has the light of 5 groups; the set has 2");
 }
 
 }  // namespace

@@ -52,6 +52,15 @@ class Loading : public testing::Test {
 
 using Lines = std::vector<std::string>;
 
+TEST_F(Loading, IsAtTimeZeroAndAddsNothingUnlessSomebodySaysSo) {
+  const LoadOptions options;
+  EXPECT_EQ(options.overlay + options.unit + options.environment, "");
+  EXPECT_EQ(options.time, 0);
+  EXPECT_EQ(options.environment_intensity, 1);
+  EXPECT_EQ(options.environment_rotation, 0);
+  EXPECT_FALSE(options.sun_sky);
+}
+
 // The sphere around the box of a right triangle of legs a has the diameter a√2.
 TEST_F(Loading, WarnsOfScenesThatAreLargeOrFarAway) {
   EXPECT_EQ(warnings_of(triangle(1414)), Lines{}) << "1999.7 m";

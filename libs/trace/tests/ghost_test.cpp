@@ -6,6 +6,7 @@
 
 #include <ssphh/core/sphere.h>
 
+#include "ghost_emitters.h"
 #include "hand_made.h"
 
 namespace ssphh::test {
@@ -176,6 +177,28 @@ TEST(Ghost, EmissionDirectionOfADirectPathIsOppositeToTheView) {
   };
   (void)trace::PathTracer(empty_space).ghost_radiance({vec3(0), 8, {1, 1, 4, 7}}, ghosts, sink, {});
   for (const float w : worst) EXPECT_LT(w, -0.9999f);
+}
+
+/// Of balls that are seen under a cone of sine s, whose cosine is at most c, each is looked at in proportion
+/// to s² c.
+TEST(Ghost, BallsAreChosenByTheLightThatTheyMayGive) {
+  const trace::PathVertex floor{vec3(0), vec3(0, 1, 0)};
+  const auto ball = [](float cosine, float distance, float radius) {
+    return trace::GhostEmitters::Ball{distance * vec3(std::sqrt(1 - cosine * cosine), cosine, 0), radius,
+                                      true};
+  };
+  const trace::GhostEmitters balls(
+      {ball(1, 2, 0.2f), ball(0.1f, 2, 0.2f), ball(1, 2, 0.4f), ball(-0.9f, 2, 0.4f)});
+  const std::array<double, 4> light = {0.01 * 1.1, 0.01 * 0.2, 0.04 * 1.2, 0};
+  constexpr int choices = 100000;
+  std::array<int, 4> chosen{};
+  for (int i = 0; i < choices; ++i) {
+    const auto sample = balls.sample(floor, (static_cast<float>(i) + 0.5f) / choices, vec2(0.5f));
+    ASSERT_TRUE(sample);
+    ++chosen[static_cast<std::size_t>(sample->group)];
+  }
+  for (std::size_t j = 0; j < 4; ++j)
+    EXPECT_NEAR(chosen[j] / double{choices}, light[j] / (light[0] + light[1] + light[2]), 2e-5) << j;
 }
 
 TEST(Ghost, NoSpheresGiveNoMaps) {
