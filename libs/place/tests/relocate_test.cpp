@@ -4,10 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <ssphh/scene/primitives.h>
-
 #include "ray_source.h"
-#include "triangle_source.h"
 
 namespace ssphh::place {
 namespace {
@@ -84,12 +81,4 @@ TEST(Sidestep, TakesTheNearestOfFourDistancesThatIsFreeValidAndInSight) {
 }
 
 }  // namespace
-
-namespace methods {
-namespace {
-
-using test::TriangleSource;
-
-}  // namespace
-}  // namespace methods
 }  // namespace ssphh::place
