@@ -1,4 +1,4 @@
-/// Every field of a job and of a result travels, in both_encodings encodings.
+/// Every field of a job and of a result travels, in both encodings.
 
 #include <gtest/gtest.h>
 

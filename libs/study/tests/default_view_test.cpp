@@ -14,7 +14,7 @@ using scene::Scene;
 
 const vec3 half(3, 1.3f, 2);
 
-/// A furnished_room of 6 by 2.6 by 4 m, seen from inside, with a table; its lamp is a part of the ceiling.
+/// A room of 6 by 2.6 by 4 m, seen from inside, with a table; its lamp is a part of the ceiling.
 Scene furnished_room(float size = 1, bool lit = true) {
   Scene s;
   s.materials = {test::matte(vec3(0.8f)), test::matte(vec3(0.5f)), test::matte(vec3(0))};
@@ -74,8 +74,7 @@ TEST(DefaultView, StandsBeforeThings) {
   EXPECT_GT(eye_of(pose).y, half.y) << "from above";
   EXPECT_GT(eye_of(pose).z, half.z) << "from in front";
   EXPECT_FALSE(shows_box(pose, 1.2f * half)) << "no farther than needed";
-  EXPECT_TRUE(shows_box(view_of(furnished_room(0.1f)), 0.1f * half))
-      << "a box may be hollow: it is no furnished_room";
+  EXPECT_TRUE(shows_box(view_of(furnished_room(0.1f)), 0.1f * half)) << "a box may be hollow: it is no room";
 }
 
 TEST(DefaultView, AWideGroundChangesNothingMuch) {

@@ -53,9 +53,8 @@ std::vector<std::string> messages(const std::vector<LintProblem>& problems) {
 }
 
 TEST(LintMessages, KindsHaveTheNamesThatReportsUse) {
-  const std::vector<std::string> names{"not-finite", "inside",   "too-close",
-                                       "swept",      "unlit",    "unlit-walls_around",
-                                       "isolated",   "negative", "unseen-walls_around"};
+  const std::vector<std::string> names{"not-finite", "inside",   "too-close", "swept",      "unlit",
+                                       "unlit-room", "isolated", "negative",  "unseen-room"};
   for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(name_of(static_cast<ProbeProblem>(i)), names[i]);
 }
 
@@ -117,7 +116,7 @@ TEST(LintMessages, AProbeInTheWayNamesThePart) {
   EXPECT_THAT(said[0], HasSubstr("swept: stands in the way of \"" + source.part_name(1) + "\" at some time"));
 }
 
-/// A closed walls_around of 6 m, so that all probes see each other.
+/// A closed room of 6 m, so that all probes see each other.
 test::TriangleSource hall() {
   scene::Scene scene;
   scene.nodes.emplace_back();
@@ -148,9 +147,8 @@ TEST(LintMessages, LightIsWhatAnyGroupSendsOrReflects) {
   set.generator.time = 1.5f;
   EXPECT_THAT(
       said(),
-      ElementsAre(
-          "unlit-walls_around: 3 probes around \"p0\" see each other and no light at all at 1.5 s; put a "
-          "lamp there, bake with the door open, or leave the probes out"));
+      ElementsAre("unlit-room: 3 probes around \"p0\" see each other and no light at all at 1.5 s; put a "
+                  "lamp there, bake with the door open, or leave the probes out"));
 }
 
 TEST(LintMessages, NegativeIrradianceIsToldInPerCentOfTheMean) {
@@ -198,8 +196,8 @@ TEST(LintMessages, UnseenPlacesAreCountedAndTheWidestIsNamed) {
   }
   const std::vector<LintProblem> problems = lint_probes(set, source, params);
   ASSERT_EQ(problems.size(), 1u);
-  EXPECT_EQ(messages(problems)[0], "unseen-walls_around: no probe is to be seen from " +
-                                       std::to_string(unseen) + " places around here; add one");
+  EXPECT_EQ(messages(problems)[0], "unseen-room: no probe is to be seen from " + std::to_string(unseen) +
+                                       " places around here; add one");
   EXPECT_EQ(problems[0].probe, -1);
   EXPECT_GT(problems[0].position.x, 4);
   float clearance = 0;
