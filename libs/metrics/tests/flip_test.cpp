@@ -96,7 +96,7 @@ TEST(Flip, AnswersForBlackReferences) {
 
 // The square of 1e30 is no float any more; the curve is white long before.
 TEST(Flip, WhatIsTooBrightToBeSquaredIsWhite) {
-  const Pair pair(3);
+  const FormulaPictures pair(3);
   Image bright = pair.reference, brighter = pair.reference;
   bright.set_rgb(30, 30, vec3(1e15f));
   brighter.set_rgb(30, 30, vec3(1e30f));

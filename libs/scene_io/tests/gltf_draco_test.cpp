@@ -256,7 +256,7 @@ TEST(Draco, WhatIsNoNumberIsNamed) {
   const Bytes good = pack(plain_scene("box"), {});
   const vec3 first = load(good).meshes.at(0).positions.at(0);
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity()}) {
-    const std::string said = said_of(changed(good, [&](json::Value& e, GlbFile& all) {
+    const std::string said = said_of(changed_primitive(good, [&](json::Value& e, GlbFile& all) {
       const auto wanted = std::as_bytes(std::span(&first, 1)), with = std::as_bytes(std::span(&bad, 1));
       const auto packed_mesh = all.binary.begin() + static_cast<std::ptrdiff_t>(begin_of(e, all));
       const auto at = std::search(packed_mesh, all.binary.end(), wanted.begin(), wanted.end());
