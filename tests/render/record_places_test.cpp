@@ -23,8 +23,8 @@ using transport::Irradiance4;
 using transport::SurfaceGather;
 
 /// A scene with its surfels and the light that they solve.
-struct Lit {
-  explicit Lit(scene::Scene scene_in, float surfel_size = 0)
+struct SolvedScene {
+  explicit SolvedScene(scene::Scene scene_in, float surfel_size = 0)
       : scene(std::move(scene_in)), source(scene), session(source, places_of(scene), params(surfel_size)) {
     session.update();
     lit = session.surfel_direct();
@@ -66,7 +66,7 @@ struct Lit {
 };
 
 TEST(RecordPlaces, AreFewerThanOnesSpreadEvenlyAndKnowMore) {
-  const Lit gallery(scene::make_builtin("gallery1"), 0.16f);
+  const SolvedScene gallery(scene::make_builtin("gallery1"), 0.16f);
   constexpr int most = 4000, rays = 128;
   const auto some = gallery.where_needed(most, rays);
   const SurfaceGather even(gallery.network(),
@@ -85,7 +85,7 @@ TEST(RecordPlaces, AreDenseWhereSurfacesMeet) {
   // A glowing box is lit evenly: only nearness asks for points.
   scene::Scene scene = scene::make_builtin("box");
   for (scene::Material& material : scene.materials) material.base_color = vec3(0.5f);
-  const Lit box(std::move(scene), 0.05f);
+  const SolvedScene box(std::move(scene), 0.05f);
   const auto gather = box.where_needed(4000, 64);
   scene::Bounds bounds;
   for (const rays::SurfacePoint& p : gather->points()) bounds.add(p.position);
@@ -104,7 +104,7 @@ TEST(RecordPlaces, AreDenseWhereSurfacesMeet) {
 }
 
 TEST(RecordPlaces, AreEverywhereThatASurfelWouldSeeNone) {
-  const Lit gallery(scene::make_builtin("gallery1"));
+  const SolvedScene gallery(scene::make_builtin("gallery1"));
   const std::vector<rays::SurfacePoint> all = transport::surfel_points(gallery.network());
   const rays::PosedWorld world(gallery.source, 0);
   const auto unlit = [&](const std::vector<rays::SurfacePoint>& records) {
@@ -123,31 +123,31 @@ TEST(RecordPlaces, AreEverywhereThatASurfelWouldSeeNone) {
   EXPECT_LT(unlit(gather->points()), spread / 2);
 }
 
-using Place = std::array<float, 6>;
+using PlaceKey = std::array<float, 6>;
 
-std::vector<Place> places_of_points(const SurfaceGather& gather) {
-  std::vector<Place> places;
+std::vector<PlaceKey> places_of_points(const SurfaceGather& gather) {
+  std::vector<PlaceKey> places;
   for (const rays::SurfacePoint& p : gather.points())
     places.push_back({p.position.x, p.position.y, p.position.z, p.normal.x, p.normal.y, p.normal.z});
   return places;
 }
 
 TEST(RecordPlaces, AreAllDifferentAndTheSameEachTime) {
-  const Lit rooms(scene::make_builtin("two-rooms"));
+  const SolvedScene rooms(scene::make_builtin("two-rooms"));
   const auto once = rooms.where_needed(900, 32), again = rooms.where_needed(900, 32);
   EXPECT_EQ(places_of_points(*once), places_of_points(*again));
   std::vector<probes::RecordLight> light, other;
   once->light(rooms.lit, light);
   again->light(rooms.lit, other);
   EXPECT_EQ(light, other);
-  std::vector<Place> places = places_of_points(*once);
+  std::vector<PlaceKey> places = places_of_points(*once);
   std::ranges::sort(places);
   EXPECT_EQ(std::ranges::adjacent_find(places), places.end());
 }
 
 TEST(RecordPlaces, HaveAnOpennessOfTheHarmonicMeanDistance) {
   // Against as many other cosine rays as bring the mean of 1/d to 1 %.
-  const Lit room(coloured_room({3, 2.5f, 2}));
+  const SolvedScene room(coloured_room({3, 2.5f, 2}));
   const std::vector<rays::SurfacePoint> points =
       transport::spread_points(transport::surfel_points(room.network()), 30);
   const SurfaceGather gather(room.network(), points, 4096);
@@ -201,7 +201,7 @@ TEST(RecordPlaces, GathersThatAreJoinedHoldWhatEachHeld) {
     of_first.insert(of_first.end(), of_second.begin(), of_second.end());
     EXPECT_EQ(whole, of_first) << time;
   }
-  std::vector<Place> places = places_of_points(first);
+  std::vector<PlaceKey> places = places_of_points(first);
   std::ranges::copy(places_of_points(second), std::back_inserter(places));
   EXPECT_EQ(places_of_points(joined), places);
   std::vector<float> openness = first.openness();
