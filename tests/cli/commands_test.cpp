@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include <ssphh/bake/update.h>
 #include <ssphh/core/file.h>
 #include <ssphh/image/io.h>
 #include <ssphh/majordomo/broker.h>
@@ -16,6 +17,7 @@
 #include <ssphh/probes/lookup.h>
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/scene/builtin.h>
+#include <ssphh/scene/scene_items.h>
 #include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
@@ -59,7 +61,11 @@ class BakedRooms : public testing::Test {
     params.path.seed = o.seed;
     params.viz_params.neighbors = o.neighbors.value_or(-1);
     bake::BakeReport report;
-    return bake::bake(tracer_, place::init_from_scene(scene_, o.degree, o.scene.time), params, "", report);
+    probes::ProbeSet set =
+        bake::bake(tracer_, place::init_from_scene(scene_, o.degree, o.scene.time), params, "", report);
+    set.baseline =
+        bake::make_baseline(tracer_, set, scene::scene_items(scene_, o.scene.time), params.viz_params);
+    return set;
   }
   std::vector<rays::SurfacePoint> points(const probes::ProbeSet& set, int count, float clearance,
                                          const std::optional<scene::Bounds>& box = {}) const {

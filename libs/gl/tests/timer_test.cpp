@@ -79,12 +79,29 @@ TEST_F(GlTimer, OnAGpuIsTheQueryOfTheLastSpanThatIsKnown) {
   for (std::size_t i = 4; i < queries.size(); ++i) EXPECT_EQ(queries[i], queries[i - 4]);
 }
 
+/// A query that has ended.
+struct GlQuery {
+  GlQuery() {
+    glCreateQueries(GL_TIME_ELAPSED, 1, &id);
+    glBeginQuery(GL_TIME_ELAPSED, id);
+    glEndQuery(GL_TIME_ELAPSED);
+  }
+  ~GlQuery() { glDeleteQueries(1, &id); }
+  GlQuery(const GlQuery&) = delete;
+  GlQuery& operator=(const GlQuery&) = delete;
+  unsigned id = 0;
+};
+
 /// The queries whose results were asked for, while this lives.
 class AskedQueries {
  public:
-  AskedQueries() : before_(epoxy_glGetQueryObjectiv) {
+  AskedQueries() {
+    // The first call of a function is what finds it: what stands there before would be called for ever
+    const GlQuery query;
+    GLint ready = 0;
+    glGetQueryObjectiv(query.id, GL_QUERY_RESULT_AVAILABLE, &ready);
+    real = before_ = epoxy_glGetQueryObjectiv;
     ids.clear();
-    real = before_;
     epoxy_glGetQueryObjectiv = [](GLuint id, GLenum what, GLint* result) {
       ids.insert(id);
       real(id, what, result);
