@@ -27,6 +27,12 @@ probes::ProbeSet row() {
   return set;
 }
 
+probes::ProbeSet lit_row() {
+  probes::ProbeSet set = row();
+  set.light_groups = {{"sky", vec3(1)}};
+  return set;
+}
+
 BakeParams small_bake() {
   BakeParams params;
   params.face_size = 4;
@@ -35,13 +41,15 @@ BakeParams small_bake() {
   return params;
 }
 
-/// Light that depends on the paths' seed alone.
+/// Light that depends on the paths' seed alone; remembers the seeds.
 class SeededSource : public test::FakeSource {
  public:
-  std::function<float(std::uint64_t seed)> level;
+  std::function<float(std::uint64_t seed)> level = [](std::uint64_t) { return 1.0f; };
+  mutable std::set<std::uint64_t> seeds;
 
   std::vector<rays::GroupRadiance> incident_radiance(const rays::CubeRequest& request,
                                                      const Control&) const override {
+    seeds.insert(request.path.seed);
     image::CubeMap map(request.face_size);
     for (image::Image& face : map.faces)
       for (float& value : face.pixels) value = level(request.path.seed);
@@ -132,34 +140,22 @@ TEST(Update, FindsTheProbesWhoseLightHasChanged) {
 
 TEST(Update, EveryHalfHasRandomNumbersOfItsOwn) {
   SeededSource source;
-  std::set<std::uint64_t> seeds;
-  source.level = [&](std::uint64_t seed) {
-    seeds.insert(seed);
-    return 1.0f;
-  };
-  probes::ProbeSet set = row();
-  set.light_groups = {{"sky", vec3(1)}};
+  probes::ProbeSet set = lit_row();
   make_baseline(source, set, {}, {});
-  EXPECT_EQ(seeds.size(), 10u) << "two of each probe";
-  const std::set<std::uint64_t> first = seeds;
+  EXPECT_EQ(source.seeds.size(), 10u) << "two of each probe";
+  const std::set<std::uint64_t> first = source.seeds;
   make_baseline(source, set, {}, {});
-  EXPECT_EQ(seeds, first) << "the same every time";
+  EXPECT_EQ(source.seeds, first) << "the same every time";
   set.generator.seed = 1;
   make_baseline(source, set, {}, {});
-  EXPECT_EQ(seeds.size(), 20u);
+  EXPECT_EQ(source.seeds.size(), 20u);
 }
 
 TEST(Update, WithoutToleranceOneHalfIsEnough) {
   SeededSource source;
-  std::set<std::uint64_t> seeds;
-  source.level = [&](std::uint64_t seed) {
-    seeds.insert(seed);
-    return 1.0f;
-  };
-  probes::ProbeSet set = row();
-  set.light_groups = {{"sky", vec3(1)}};
+  probes::ProbeSet set = lit_row();
   set.baseline = make_baseline(source, set, {}, {});
-  const std::uint64_t changed = *seeds.begin();
+  const std::uint64_t changed = *source.seeds.begin();
   source.level = [&](std::uint64_t seed) { return seed == changed ? 1.5f : 1.0f; };
   EXPECT_THAT(plan_update(source, set, {}).changed, testing::Each(0));
   EXPECT_EQ(plan_update(source, set, 0.0f).probes.size(), 1u);

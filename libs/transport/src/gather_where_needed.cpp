@@ -21,7 +21,9 @@ class RecordPlaces {
     // As surfels do, records stand farther apart where probes are far
     for (const rays::SurfacePoint& point : all_)
       levels_.push_back(network.surfels().level(0, point.position));
-    if (!all_.empty()) grid_ = finest_grid(all_, levels_, most);
+    // Cubes too small for two surfels, however few there are, would not differ from larger ones
+    const auto apart = static_cast<int>(std::min<std::size_t>(all_.size() - all_.size() / 10, most_records));
+    if (!all_.empty()) grid_ = finest_grid(all_, levels_, std::min(most, apart));
   }
 
   const std::vector<rays::SurfacePoint>& all() const { return all_; }
@@ -143,11 +145,7 @@ std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& netwo
   int coarser = 0;
   std::vector<std::size_t> wanted;
   if (!places.all().empty()) wanted = places.free(coarser);
-  while (wanted.size() > first_points) {
-    std::vector<std::size_t> fewer = places.free(++coarser);
-    if (fewer.size() == wanted.size()) break;  // far from each other
-    wanted = std::move(fewer);
-  }
+  while (wanted.size() > first_points) wanted = places.free(++coarser);
   const auto gather_at = [&](std::vector<rays::SurfacePoint> points) {
     return SurfaceGather(network, std::move(points), params.rays, direct, control);
   };
