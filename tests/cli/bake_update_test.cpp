@@ -29,7 +29,8 @@ class BakeUpdate : public testing::Test {
   }
   const json::Value baked(const std::string& scene, const std::string& output,
                           const std::vector<std::string>& more = {}) const {
-    return json_here(joined({"bake", scene, "-o", output, "--face", "8", "--degree", "3"}, more));
+    return json_here(
+        joined({"bake", scene, "-o", output, "--face", "8", "--degree", "3", "--records", "0"}, more));
   }
   const json::Value updated(const std::string& scene, const std::string& old, const std::string& output,
                             const std::vector<std::string>& more = {}) const {

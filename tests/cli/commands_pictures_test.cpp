@@ -62,7 +62,7 @@ TEST_F(RoomsInPictures, RenderHandsBackTheLibrarysPicture) {
   trace::RenderParams params;
   params.width = 8, params.height = 6;
   params.camera = scene::camera_pose(scene_, "", 0.5f);
-  params.path = {.max_depth = 3, .passes = 2, .spp = 1, .seed = 7};
+  params.path = {.max_depth = rays::usual_max_depth, .passes = 2, .spp = 1, .seed = 7};
   const auto picture = [](const trace::RenderState& s) { return trace::resolve(s.color, s.passes_done); };
 
   trace::RenderState state;

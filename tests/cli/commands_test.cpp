@@ -53,6 +53,7 @@ class BakedRooms : public testing::Test {
     o.seed = 7;
     o.params.face_size = 2;
     o.params.path.spp = 2;
+    o.records = 0;
     return o;
   }
   /// What the library bakes by these options, in one go and without files.

@@ -150,7 +150,7 @@ TEST_F(Messages, OfProbes) {
   with({"--viz-transfer", "--viz", "links"});
   with({"--operator", "surfel", "--gen", "local"});
   with({"--operator", "surfel", "--spp", "4"});
-  with({"--viz", "path", "--directions", "64"});
+  with({"--viz", "path", "--records", "0", "--directions", "64"});
   with({"--viz", "off", "--threshold", "0.5"});
   with({"--operator", "surfel", "--broker", "ipc:///nowhere"});
   add({"bake", bare, "-o", out, "--probes", "scene"});

@@ -169,8 +169,8 @@ TEST(Texts, OfRespond) {
 
 TEST(Texts, OfBakes) {
   const test::TempDir dir;
-  const std::vector<std::string> paths = {"bake", "builtin:box", "-o", dir / "a.sphl", "--face",
-                                          "1",    "--spp",       "1",  "--degree",     "0"};
+  const std::vector<std::string> paths = {"bake", "builtin:box", "-o", dir / "a.sphl", "--face", "1", "--spp",
+                                          "1",    "--degree",    "0",  "--records",    "0"};
   const std::string head = (dir / "a.sphl").string() + ": 5 probes of degree 0, 1 light groups, 20 edges";
   const json::Value traced = json_here(paths);
   EXPECT_THAT(text_here(paths), MatchesRegex(pattern(fmt::format("{}\nGEN @ s\nVIZ from paths @ s\n{} rays",

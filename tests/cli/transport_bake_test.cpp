@@ -127,7 +127,7 @@ TEST(TransportBakeCli, RecordsAreTakenWhereTheFileHasThemOnCpuAndGpu) {
 TEST(TransportBakeCli, PathTracedProbesHaveNoNumbersOfTransport) {
   const TempDir dir;
   const json::Value bake =
-      run_json({"bake", "builtin:box", "-o", dir / "a.sphl", "--face", "4", "--spp", "1"});
+      run_json({"bake", "builtin:box", "-o", dir / "a.sphl", "--face", "4", "--spp", "1", "--records", "0"});
   EXPECT_EQ(bake["operator"], "path");
   for (const char* key : {"surfels", "links", "iterations", "contraction"})
     EXPECT_TRUE(bake[key].is_null()) << key;
@@ -135,6 +135,22 @@ TEST(TransportBakeCli, PathTracedProbesHaveNoNumbersOfTransport) {
   EXPECT_GT(mean["contraction"].number(), 0);
   const json::Value paper = run_json({"hier", dir / "a.sphl", "-o", dir / "b.sphl"});
   EXPECT_TRUE(paper["contraction"].is_null());
+}
+
+TEST(TransportBakeCli, RecordsStandBesideProbesOfEveryBounceUnlessToldOtherwise) {
+  const TempDir dir;
+  const auto records = [&](const std::vector<std::string>& more) {
+    return run_json(test::joined({"bake", "builtin:box", "-o", dir / "a.sphl", "--face", "2", "--spp", "1",
+                                  "--degree", "0", "--viz", "off"},
+                                 more))["records"]
+        .number();
+  };
+  EXPECT_GT(records({}), 100);
+  EXPECT_GT(records({"--max-depth", "25"}), 100);
+  EXPECT_EQ(records({"--max-depth", "24"}), 0);
+  EXPECT_EQ(records({"--gen", "local"}), 0);
+  EXPECT_EQ(records({"--records", "0"}), 0);
+  EXPECT_GT(records({"--max-depth", "3", "--records", "64"}), 0) << "whoever asks gets them";
 }
 
 TEST(TransportBakeCli, SurfelBakesHaveAHierarchyByThemselves) {
@@ -177,7 +193,7 @@ TEST(TransportBakeCli, OptionsWithoutEffectAreRefused) {
   expect_failure(small_bake("builtin:box", out, {"--viz", "off", "--neighbors", "3"}), "--neighbors");
   expect_failure(small_bake("builtin:box", out, {"--viz", "links", "--viz-transfer"}), "--viz-transfer");
   expect_failure(small_bake("builtin:box", out, {"--neighbors", "-2"}), "--neighbors", 2);
-  expect_failure({"bake", "builtin:box", "-o", out, "--directions", "64"}, "--directions");
+  expect_failure({"bake", "builtin:box", "-o", out, "--records", "0", "--directions", "64"}, "--directions");
   expect_failure({"bake", "builtin:box", "-o", out, "--operator", "photons"}, "photons", 2);
   expect_failure(small_bake("builtin:box", out, {"--link-rays", "0"}), "--link-rays", 2);
 }

@@ -47,7 +47,7 @@ struct BakeOptions {
   /// Of transport; its operator, viz and number of records are not read either, nor the same of its VIZ.
   bake::TransportBakeParams transport = unhurried_transport();
   std::optional<int> neighbors;  ///< most edges of a probe, strongest first; -1: all
-  /// Surface points that keep light; none given: usual_records with operator surfel, else 0.
+  /// Surface points that keep light; none given: usual_records where probes hold every bounce, too, else 0.
   std::optional<int> records;
   float threshold = 0;  ///< only edges with P above it, 0..1
   bool resume = true;   ///< go on where OUTPUT.checkpoint of an interrupted bake ends

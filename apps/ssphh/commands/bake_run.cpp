@@ -24,6 +24,14 @@ void refuse(const std::vector<std::string>& given, const char* needs) {
   if (!given.empty()) throw Error(given.front(), needs);
 }
 
+/// Records hold every bounce, so there are none unasked beside probes that are to hold fewer.
+int usual_records(const BakeOptions& o) {
+  const bool every_bounce = o.op == probes::LightOperator::surfel ||
+                            (o.op == probes::LightOperator::path && o.params.gen == probes::GenMode::full &&
+                             o.params.path.max_depth >= rays::usual_max_depth);
+  return every_bounce ? transport::usual_records : 0;
+}
+
 /// Decides on VIZ, which it returns, and refuses options that would have no effect.
 probes::VizMethod resolve(BakeOptions& o, std::size_t probes) {
   const bool path = o.op == probes::LightOperator::path, transfer = o.params.viz_params.matrix;
@@ -46,8 +54,7 @@ probes::VizMethod resolve(BakeOptions& o, std::size_t probes) {
   params.viz = o.viz == VizMethod::path;
   params.viz_params.neighbors = o.neighbors.value_or(-1);
   params.viz_params.threshold = o.threshold;
-  const bool surfel = o.op == probes::LightOperator::surfel;
-  o.transport.records.points = o.records.value_or(surfel ? transport::usual_records : 0);
+  o.transport.records.points = o.records.value_or(usual_records(o));
   o.transport.viz = o.viz == VizMethod::links;
   o.transport.viz_params.neighbors = o.neighbors.value_or(default_link_neighbors);
   o.transport.viz_params.threshold = o.threshold;

@@ -37,7 +37,7 @@ struct MeasureOptions {
   std::uint64_t seed = 0;            ///< of points and paths
   /// Of the truth. Seed and noise are not read: 0 paths a point stand for 512, and more until their noise is
   /// usual_noise.
-  study::LeakParams params{.path = {.max_depth = 25, .passes = 1, .spp = 0, .seed = 0}};
+  study::LeakParams params{.path = {.max_depth = rays::usual_max_depth, .passes = 1, .spp = 0, .seed = 0}};
 };
 
 /// The error at the points of one region.

@@ -8,6 +8,7 @@
 #include <ssphh/core/control.h>
 #include <ssphh/core/json.h>
 #include <ssphh/probes/lookup_weights.h>
+#include <ssphh/rays/radiance_source.h>
 #include <ssphh/transport/relight_session.h>
 
 #include "options/place_options.h"
@@ -29,7 +30,7 @@ struct RelightOptions {
   int truth = 0;         ///< every so-many-th frame is path traced, and the lookup's error found; 0: none
   int points = 256;      ///< surface points of the truth, over 0
   int truth_spp = 1024;  ///< paths per point
-  int max_depth = 25;    ///< scattering events of a path
+  int max_depth = rays::usual_max_depth;                         ///< scattering events of a path
   probes::WeightMethod weights = probes::WeightMethod::surface;  ///< of lookups for truth and pictures
   int fit_frames = 3;  ///< frames that `fitted` weights are fitted to, evenly spaced over the run, over 0
 

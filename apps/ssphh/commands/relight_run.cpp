@@ -219,7 +219,7 @@ class Relighting {
     params.height = o_.height;
     params.camera = scene_.cameras.empty() ? start_ : scene::camera_pose(lit, o_.camera, kept.state.time);
     params.projection = projection_of(PictureProjection::camera, params.camera.camera);
-    params.path = {.max_depth = 3, .passes = 1, .spp = o_.spp, .seed = o_.seed};
+    params.path = {.max_depth = rays::usual_max_depth, .passes = 1, .spp = o_.spp, .seed = o_.seed};
     trace::RenderState state;
     tracer.render_with(lookup, params, state, control);
     const image::Image picture = trace::resolve(state.color, state.passes_done);

@@ -26,7 +26,7 @@ struct RespondOptions {
   float clearance = 0.05f;  ///< only points with so much free space before them [m]
   std::uint64_t seed = 0;   ///< of points and paths
   /// Of the truth; its seed is not read.
-  study::LeakParams truth{.path = {.max_depth = 25, .passes = 1, .spp = 1024, .seed = 0}};
+  study::LeakParams truth{.path = {.max_depth = rays::usual_max_depth, .passes = 1, .spp = 1024, .seed = 0}};
   std::string output;  ///< CSV file of the frames; empty: none
 };
 

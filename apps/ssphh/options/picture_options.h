@@ -5,6 +5,7 @@
 #include <string>
 
 #include <ssphh/core/enum_names.h>
+#include <ssphh/rays/radiance_source.h>
 #include <ssphh/scene_io/renderer_export.h>
 #include <ssphh/trace/render_state.h>
 #include <ssphh/trace/scene_geometry.h>
@@ -36,10 +37,10 @@ void add_exposure_option(Command command, std::optional<float>& exposure, const 
 
 struct PictureOptions {
   SceneOptions scene;
-  std::string camera;              ///< by name; empty: the scene's first
-  int width = 1280, height = 720;  ///< pixels, over 0
-  int max_depth = 25;              ///< scattering events of a path
-  int spp = 64;                    ///< samples per pixel
+  std::string camera;                     ///< by name; empty: the scene's first
+  int width = 1280, height = 720;         ///< pixels, over 0
+  int max_depth = rays::usual_max_depth;  ///< scattering events of a path
+  int spp = 64;                           ///< samples per pixel
 };
 
 /// SCENE and its options, --camera, --width, --height, --max-depth, --spp.

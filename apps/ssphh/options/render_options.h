@@ -8,6 +8,7 @@
 #include <ssphh/core/enum_names.h>
 #include <ssphh/image/tonemap.h>
 #include <ssphh/probes/lookup.h>
+#include <ssphh/rays/radiance_source.h>
 
 #include "options/farm_options.h"
 #include "options/picture_options.h"
@@ -42,10 +43,11 @@ struct RenderOptions {
   PictureProjection projection = PictureProjection::camera;
   std::string at;  ///< place of a whole sphere: a SPHL by name, or "X,Y,Z"; empty: the camera's
 
-  int max_depth = 3;    ///< scattering events of a path: 0 emitters only, 1 direct light, 2 one bounce
-  int passes = 1;       ///< over 0; finished ones survive a cancel in OUTPUT.state
-  int spp = 16;         ///< samples per pixel and pass, over 0; OpenGL takes up to 16 in all
-  bool resume = false;  ///< go on from OUTPUT.state
+  int max_depth =
+      rays::usual_max_depth;  ///< scattering events of a path: 0 emitters only, 1 direct light, 2 one bounce
+  int passes = 1;             ///< over 0; finished ones survive a cancel in OUTPUT.state
+  int spp = 16;               ///< samples per pixel and pass, over 0; OpenGL takes up to 16 in all
+  bool resume = false;        ///< go on from OUTPUT.state
 
   std::string probes;  ///< probe file, for method ssphh; empty: probes are placed and lit for the picture
   probes::LookupSpec lookup;  ///< of the probes

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include <ssphh/image/image.h>
+#include <ssphh/rays/radiance_source.h>
 #include <ssphh/trace/render_state.h>
 #include <ssphh/trace/scene_geometry.h>
 
@@ -19,7 +20,7 @@ struct ReferenceParams {
   scene::CameraPose camera;
   int width = 0, height = 0;
   std::string method = "path";  ///< or one of methods::all_methods(), with its default parameters
-  int max_depth = 8;
+  int max_depth = rays::usual_max_depth;
   int passes = 256;  ///< one sample per pixel each
 };
 

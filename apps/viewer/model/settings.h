@@ -10,6 +10,7 @@
 #include <ssphh/image/tonemap.h>
 #include <ssphh/probes/hier.h>
 #include <ssphh/probes/lookup.h>
+#include <ssphh/rays/radiance_source.h>
 
 namespace ssphh::viewer {
 
@@ -73,9 +74,9 @@ struct Settings {
   float wipe = 0.5f;  ///< place of the line, share of the width
   int block = 16;     ///< pixels, of `pixelated`
   std::string against =
-      "path";              ///< what the truth's place holds: path, or a method of methods::all_methods()
-  int truth_depth = 8;     ///< scattering events of the ground truth
-  int truth_passes = 256;  ///< samples per pixel
+      "path";  ///< what the truth's place holds: path, or a method of methods::all_methods()
+  int truth_depth = rays::usual_max_depth;  ///< scattering events of the ground truth
+  int truth_passes = 256;                   ///< samples per pixel
   float scale = 1;         ///< pixels of the real-time picture per pixel of the window, along each axis
   int indirect_scale = 3;  ///< of the real-time picture where no truth is beside it
 

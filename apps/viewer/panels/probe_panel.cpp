@@ -43,7 +43,7 @@ void draw_bake(App& app) {
   ImGui::SliderInt("##spp", &p.path.spp, 1, 256);
   tip("paths per texel of a probe's cube map");
   row("bounces");
-  ImGui::SliderInt("##depth", &p.path.max_depth, 1, 16);
+  ImGui::SliderInt("##depth", &p.path.max_depth, 1, 32);
   row("cube face");
   ImGui::SliderInt("##face", &p.face_size, 8, 128);
   const bool running = app.job.running();

@@ -40,7 +40,7 @@ TEST_F(Panels, SlidersReachFromEndToEndOfTheirRange) {
   expect_ends(
       "samples", [&] { return app().bake_params.path.spp; }, 1, 256);
   expect_ends(
-      "bounces", [&] { return app().bake_params.path.max_depth; }, 1, 16);
+      "bounces", [&] { return app().bake_params.path.max_depth; }, 1, 32);
   expect_ends(
       "cube face", [&] { return app().bake_params.face_size; }, 8, 128);
   open("Light");

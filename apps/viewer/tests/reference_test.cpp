@@ -235,7 +235,7 @@ TEST(Reference, BuildsNothingWhereItIsGivenAGeometry) {
 TEST(Reference, StartsWithTheseValues) {
   const ReferenceParams params = {};
   EXPECT_EQ(params.method, "path");
-  EXPECT_EQ(params.max_depth, 8);
+  EXPECT_EQ(params.max_depth, 25);
   EXPECT_EQ(params.passes, 256);
   EXPECT_EQ(params.time, 0);
 }

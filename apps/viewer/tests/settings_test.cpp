@@ -54,7 +54,7 @@ TEST(Settings, StartAtTheirDefaults) {
   const std::map<std::string, std::string> wanted = {
       {"exposure", "auto"}, {"tonemap", "clip"},      {"debug", "none"},    {"scale", "1"},
       {"wipe", "0.5"},      {"indirect-scale", "3"},  {"show", "realtime"}, {"block", "16"},
-      {"against", "path"},  {"truth-depth", "8"},     {"degree", "4"},      {"truth-spp", "256"},
+      {"against", "path"},  {"truth-depth", "25"},    {"degree", "4"},      {"truth-spp", "256"},
       {"hier", "off"},      {"lookup", "irradiance"}, {"layer", "sum"},     {"weights", "surface"},
       {"operator", "mean"}, {"neighbors", "-1"},      {"threshold", "0"},   {"balls", "off"},
       {"ball", "radiance"}, {"ball-size", "0"},       {"lobes", "off"},     {"graph", "off"},

@@ -13,7 +13,7 @@ using test::infinity;
 
 TEST(RayDefaults, OfQuestionsAndAnswers) {
   const PathParams path;
-  EXPECT_EQ(path.max_depth, 3);
+  EXPECT_EQ(path.max_depth, 25);
   EXPECT_EQ(path.passes, 1);
   EXPECT_EQ(path.spp, 16);
   EXPECT_EQ(path.seed, 0u);

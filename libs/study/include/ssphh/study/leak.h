@@ -16,7 +16,7 @@ struct LeakParams {
   float sigmas = 3;  ///< … even with so many standard deviations of the estimate on top.
   /// Of the truth. The points found dark are traced again, with four times the samples and other paths, and
   /// must stay dark: rare bright paths make light points look dark, and their variance with them.
-  rays::PathParams path{.max_depth = 25, .passes = 1, .spp = 256, .seed = 0};
+  rays::PathParams path{.max_depth = rays::usual_max_depth, .passes = 1, .spp = 256, .seed = 0};
   double noise =
       0;           ///< that more paths are to bring the truth to, as converged_truth has it; 0: `path` alone
   float mean = 0;  ///< that dark_share refers to [W/m²]; 0: the mean over the points
