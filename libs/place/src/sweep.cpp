@@ -17,10 +17,13 @@ vec3 point(const mat4& m, const vec3& p) {
 /// Farthest way of a corner of the box from one pose to the other.
 float motion(const scene::Bounds& box, const mat4& from, const mat4& to) {
   float farthest = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const vec3 p((corner & 1) != 0 ? box.max.x : box.min.x, (corner & 2) != 0 ? box.max.y : box.min.y,
-                 (corner & 4) != 0 ? box.max.z : box.min.z);
-    farthest = std::max(farthest, glm::distance(point(from, p), point(to, p)));
+  for (const float x : {box.min.x, box.max.x}) {
+    for (const float y : {box.min.y, box.max.y}) {
+      for (const float z : {box.min.z, box.max.z}) {
+        const vec3 corner(x, y, z);
+        farthest = std::max(farthest, glm::distance(point(from, corner), point(to, corner)));
+      }
+    }
   }
   return farthest;
 }

@@ -6,54 +6,11 @@
 
 #include <ssphh/place/lattice.h>
 #include <ssphh/place/place.h>
-#include <ssphh/scene/primitives.h>
 
-#include "triangle_source.h"
+#include "plain_scene.h"
 
 namespace ssphh::place {
 namespace {
-
-/// Says where the triangles of part 0 are: a point in the middle of each.
-class Source : public test::TriangleSource {
- public:
-  explicit Source(const scene::Scene& scene) : TriangleSource(scene), scene_(scene) {}
-  std::vector<rays::PartPoint> sample_part(int part, double) const override {
-    EXPECT_EQ(part, 0);
-    std::vector<rays::PartPoint> points;
-    for (const scene::Mesh& mesh : scene_.meshes) {
-      for (const uvec3& t : mesh.triangles) {
-        const vec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
-        points.push_back({{(a + b + c) / 3.0f, glm::normalize(glm::cross(b - a, c - a))}, vec3(0.5f)});
-      }
-    }
-    return points;
-  }
-
- private:
-  const scene::Scene& scene_;
-};
-
-void add(scene::Scene& scene, scene::Mesh mesh) {
-  scene.nodes.emplace_back();
-  scene.meshes.push_back(std::move(mesh));
-  scene::Instance& instance = scene.instances.emplace_back();
-  instance.mesh = static_cast<int>(scene.meshes.size()) - 1;
-  instance.node = static_cast<int>(scene.nodes.size()) - 1;
-}
-
-scene::Scene plain(float half) {
-  scene::Scene scene;
-  add(scene, scene::make_quad({-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half}));
-  return scene;
-}
-
-/// Blocks of a metre side by side, 6 m by 6, from `corner` on.
-void add_blocks(scene::Scene& scene, const vec3& corner) {
-  for (int i = 0; i < 9; ++i) {
-    const vec3 at = corner + vec3(2.0f * static_cast<float>(i % 3), 0, 2.0f * static_cast<float>(i / 3));
-    add(scene, scene::make_box(at, at + vec3(2, 1, 2)));
-  }
-}
 
 bool holds(const scene::Bounds& box, const vec3& low, const vec3& high) {
   return glm::all(glm::lessThanEqual(box.min, low)) && glm::all(glm::greaterThanEqual(box.max, high));
@@ -63,7 +20,7 @@ TEST(Regions, AGroupOfBlocksOnAPlainIsOneHoweverFarThePlainReaches) {
   for (const float half : {100.0f, 1000.0f, 20000.0f}) {
     scene::Scene scene = plain(half);
     add_blocks(scene, {30, 0, -20});
-    const Regions regions = detail_regions(Source(scene), {});
+    const Regions regions = detail_regions(SampledSource(scene), {});
     ASSERT_EQ(regions.boxes.size(), 1u) << half;
     EXPECT_TRUE(regions.open_rest);
     EXPECT_TRUE(holds(regions.boxes[0], {31, 0, -19}, {35, 1, -15})) << half << " m";
@@ -75,7 +32,7 @@ TEST(Regions, TwoGroupsAreTwoTheLargerFirst) {
   scene::Scene scene = plain(500);
   add_blocks(scene, {-300, 0, 0});
   for (int i = 0; i < 8; ++i) add_blocks(scene, {200.0f + 6 * static_cast<float>(i), 0, 50});
-  const Regions regions = detail_regions(Source(scene), {});
+  const Regions regions = detail_regions(SampledSource(scene), {});
   ASSERT_EQ(regions.boxes.size(), 2u);
   EXPECT_TRUE(holds(regions.boxes[0], {201, 0, 51}, {245, 1, 55}));
   EXPECT_TRUE(holds(regions.boxes[1], {-299, 0, 1}, {-295, 1, 5}));
@@ -84,7 +41,7 @@ TEST(Regions, TwoGroupsAreTwoTheLargerFirst) {
 
 TEST(Regions, WithoutDetailOrWithDetailEverywhereItIsTheWholeScene) {
   const scene::Scene bare = plain(10);
-  const Source source(bare);
+  const SampledSource source(bare);
   const Regions regions = detail_regions(source, {});
   ASSERT_EQ(regions.boxes.size(), 1u);
   EXPECT_EQ(regions.boxes[0].min, source.part_bounds(0).min);
@@ -94,8 +51,8 @@ TEST(Regions, WithoutDetailOrWithDetailEverywhereItIsTheWholeScene) {
   scene::Scene full = plain(10);
   for (int i = 0; i < 9; ++i)
     add_blocks(full, {-9 + 6 * static_cast<float>(i % 3), 0, -9 + 6 * static_cast<float>(i / 3)});
-  EXPECT_FALSE(detail_regions(Source(full), {}).open_rest);
-  EXPECT_TRUE(detail_regions(Source(scene::Scene{}), {}).boxes.empty());
+  EXPECT_FALSE(detail_regions(SampledSource(full), {}).open_rest);
+  EXPECT_TRUE(detail_regions(SampledSource(scene::Scene{}), {}).boxes.empty());
 }
 
 TEST(Regions, DetailInAClosedHallTakesNothingFromTheHall) {
@@ -103,7 +60,7 @@ TEST(Regions, DetailInAClosedHallTakesNothingFromTheHall) {
   scene::Scene scene = plain(100);
   add_blocks(scene, {30, 0, -20});
   add(scene, scene::make_box({-100, -1, -100}, {100, 12, 100}));
-  const Source source(scene);
+  const SampledSource source(scene);
   const Regions regions = detail_regions(source, {});
   ASSERT_EQ(regions.boxes.size(), 1u);
   EXPECT_FALSE(regions.open_rest);
@@ -130,7 +87,7 @@ TEST(Regions, RoomsInAHallAreARegionAndABodyThereIsNone) {
     add(scene, scene::make_box({x + 5.8f, 0, 0}, {x + 6, 2.5f, 2.5f}));
     add(scene, scene::make_box({x + 5.8f, 0, 3.5f}, {x + 6, 2.5f, 6}));
   }
-  const Regions rooms = detail_regions(Source(scene), {});
+  const Regions rooms = detail_regions(SampledSource(scene), {});
   ASSERT_EQ(rooms.boxes.size(), 1u);
   EXPECT_TRUE(rooms.open_rest);
   EXPECT_TRUE(holds(rooms.boxes[0], {1, 0.2f, 1}, {11, 2.3f, 5}));
@@ -138,7 +95,7 @@ TEST(Regions, RoomsInAHallAreARegionAndABodyThereIsNone) {
 
   hall();
   add_blocks(scene, {0, 0, 0});
-  const Regions body = detail_regions(Source(scene), {});
+  const Regions body = detail_regions(SampledSource(scene), {});
   EXPECT_FALSE(body.open_rest);
   EXPECT_GT(max_component(body.boxes[0].max - body.boxes[0].min), 999);
 }
@@ -151,7 +108,7 @@ TEST(Regions, ADividedPlainHasNoDetail) {
         scene::make_quad({static_cast<float>(i % 30) * 14 - 210, 0, static_cast<float>(i / 30) * 14 - 196},
                          {14, 0, 0}, {0, 0, -14}));
   add_blocks(scene, {30, 0, -20});
-  const Regions regions = detail_regions(Source(scene), {});
+  const Regions regions = detail_regions(SampledSource(scene), {});
   EXPECT_TRUE(regions.open_rest);
   EXPECT_LT(max_component(regions.boxes[0].max - regions.boxes[0].min), 80);
 }
@@ -163,7 +120,7 @@ TEST(Regions, ATenthAsManyPointsOfOtherDirectionsIsFewAndMoreIsNot) {
     add_blocks(scene, {30, 0, -20});
     for (int i = 0; i < signs; ++i)
       add(scene, scene::make_quad({-80, 2, 10 * static_cast<float>(i) - 60}, {0, 2, 0}, {0, 0, 2}));
-    EXPECT_EQ(detail_regions(Source(scene), {}).open_rest, signs == 4) << signs;
+    EXPECT_EQ(detail_regions(SampledSource(scene), {}).open_rest, signs == 4) << signs;
   }
 }
 
@@ -171,7 +128,7 @@ TEST(Regions, ATenthAsManyPointsOfOtherDirectionsIsFewAndMoreIsNot) {
 TEST(Regions, TheOpenRestHasAtMostFortyEightPlaces) {
   scene::Scene scene = plain(100);
   add_blocks(scene, {30, 0, -20});
-  const Source source(scene);
+  const SampledSource source(scene);
   PlaceParams params;
   params.spacing = 3;
   params.levels = 0;

@@ -8,10 +8,11 @@ namespace ssphh::rays {
 
 scene::Bounds transformed(const scene::Bounds& box, const mat4& matrix) {
   scene::Bounds out;
-  for (int corner = 0; corner < 8 && !box.empty(); ++corner) {
-    const vec3 at((corner & 1) != 0 ? box.max.x : box.min.x, (corner & 2) != 0 ? box.max.y : box.min.y,
-                  (corner & 4) != 0 ? box.max.z : box.min.z);
-    out.add(vec3(matrix * vec4(at, 1)));
+  if (box.empty()) return out;
+  for (const float x : {box.min.x, box.max.x}) {
+    for (const float y : {box.min.y, box.max.y}) {
+      for (const float z : {box.min.z, box.max.z}) out.add(vec3(matrix * vec4(x, y, z, 1)));
+    }
   }
   return out;
 }

@@ -26,9 +26,9 @@ class NearGrid {
   std::vector<std::uint32_t> near(const vec3& p, float radius) const {
     std::vector<std::uint32_t> found;
     const glm::ivec3 c = cell(p);
-    for (int z = -1; z <= 1; ++z) {
-      for (int y = -1; y <= 1; ++y) {
-        for (int x = -1; x <= 1; ++x) {
+    for (const int z : {-1, 0, 1}) {
+      for (const int y : {-1, 0, 1}) {
+        for (const int x : {-1, 0, 1}) {
           const auto at = cells_.find(key(c + glm::ivec3(x, y, z)));
           if (at == cells_.end()) continue;
           for (const std::uint32_t i : at->second) {
