@@ -109,6 +109,8 @@ TEST(Json, LimitsAreKept) {
   EXPECT_EQ(said("[[],{},[]]", {.containers = 3}), "f: the JSON has more than 3 arrays and objects");
   EXPECT_EQ(said("[1,2,3,4,null,true,\"7\",8.5]", {.containers = 1}), "no error");
   EXPECT_EQ(said("[1,2,3,4,5,6,7,8,9]", {.containers = 1}), "f: the JSON has more than 8 values");
+  EXPECT_EQ(said("[[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]]", {.containers = 2}),
+            "f: the JSON has more than 16 values");
   EXPECT_EQ(said("[[1]]", {.depth = 1}), "f: the JSON is nested deeper than 1 levels");
   EXPECT_FALSE(try_parse("[10]", {.bytes = 3}));
   EXPECT_EQ(try_parse("[10]")->size(), 1u);
@@ -165,7 +167,7 @@ TEST(JsonProperty, PrintsWhatNlohmannPrintsAndReadsItBack) {
     const Value value = draw(random, 3);
     const auto theirs = nlohmann::ordered_json::parse(print(value));
     return print(value) == theirs.dump() && print(value, 2) == theirs.dump(2) &&
-           parse(print(value, 1), "f") == value;
+           print(value, 0) == theirs.dump(0) && parse(print(value, 1), "f") == value;
   }));
 }
 

@@ -8,8 +8,9 @@ namespace {
 
 constexpr std::int32_t leaf_size = 4;
 
-/// Nearest point of the segment from corner i to corner j.
-OnTriangle nearest_on_edge(const Corners& triangle, int i, int j, const vec3& p) {
+/// Nearest point of the edge that begins at corner i.
+OnTriangle nearest_on_edge(const Corners& triangle, int i, const vec3& p) {
+  const int j = (i + 1) % 3;
   const vec3 a = triangle[static_cast<std::size_t>(i)], b = triangle[static_cast<std::size_t>(j)];
   const vec3 edge = b - a;
   const float length2 = glm::dot(edge, edge);
@@ -36,10 +37,10 @@ OnTriangle nearest_on_triangle(const Corners& triangle, const vec3& p) {
       return {vec3(1 - b1 - b2, b1, b2), away * away / n2};
     }
   }
-  OnTriangle best = nearest_on_edge(triangle, 0, 1, p);
-  for (const OnTriangle& other : {nearest_on_edge(triangle, 1, 2, p), nearest_on_edge(triangle, 2, 0, p)})
-    if (other.distance2 < best.distance2) best = other;
-  return best;
+  const auto nearer = [](const OnTriangle& a, const OnTriangle& b) { return a.distance2 < b.distance2; };
+  return std::min(
+      {nearest_on_edge(triangle, 0, p), nearest_on_edge(triangle, 1, p), nearest_on_edge(triangle, 2, p)},
+      nearer);
 }
 
 TriangleTree::TriangleTree(std::span<const Corners> triangles)

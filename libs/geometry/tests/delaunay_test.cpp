@@ -141,6 +141,7 @@ TEST(Delaunay, ManyPointsOnASphere) {
 
 TEST(Delaunay, LargestCoordinatesDoNotOverflow) {
   constexpr int m = lattice_range;
+  EXPECT_EQ(m, 1048576);
   const std::vector<LatticePoint> points = {{-m, -m, -m}, {m, -m, -m}, {-m, m, -m}, {m, m, -m}, {-m, -m, m},
                                             {m, -m, m},   {-m, m, m},  {m, m, m},   {0, 0, 1}};
   expect_delaunay(points, 48.0 * m * m * m);

@@ -11,12 +11,12 @@
 namespace ssphh::geometry {
 namespace {
 
-std::vector<Near> sorted_by_distance(const std::vector<vec3>& points, const vec3& x, float radius) {
-  std::vector<Near> all;
+std::vector<std::pair<float, int>> sorted_by_distance(const std::vector<vec3>& points, const vec3& x,
+                                                      float radius) {
+  std::vector<std::pair<float, int>> all;  // by distance, then by index
   for (std::size_t i = 0; i < points.size(); ++i) {
     const vec3 d = points[i] - x;
-    const Near near{glm::dot(d, d), static_cast<int>(i)};
-    if (near.distance2 <= radius * radius) all.push_back(near);
+    if (glm::dot(d, d) <= radius * radius) all.emplace_back(glm::dot(d, d), static_cast<int>(i));
   }
   std::sort(all.begin(), all.end());
   return all;
@@ -26,11 +26,11 @@ void expect_nearest(const std::vector<vec3>& points, const vec3& x, std::size_t 
   const NearestPoints tree(points);
   std::vector<Near> found(wanted);
   const auto count = static_cast<std::size_t>(tree.find(x, found, radius));
-  const std::vector<Near> expected = sorted_by_distance(points, x, radius);
+  const std::vector<std::pair<float, int>> expected = sorted_by_distance(points, x, radius);
   ASSERT_EQ(count, std::min(wanted, expected.size()));
   for (std::size_t k = 0; k < count; ++k) {
-    EXPECT_EQ(found[k].index, expected[k].index) << "neighbour " << k << " of " << points.size();
-    EXPECT_EQ(found[k].distance2, expected[k].distance2);
+    EXPECT_EQ(found[k].index, expected[k].second) << "neighbour " << k << " of " << points.size();
+    EXPECT_EQ(found[k].distance2, expected[k].first);
   }
 }
 

@@ -1,4 +1,3 @@
-#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -41,12 +40,9 @@ namespace {
 
 constexpr int required_version = 45;
 
-bool has_word(const char* list, const char* word) {
-  const std::size_t length = std::strlen(word);
-  for (const char* at = list; at && (at = std::strstr(at, word)); at += length) {
-    if ((at == list || at[-1] == ' ') && (at[length] == ' ' || at[length] == 0)) return true;
-  }
-  return false;
+/// Whether a list of words with spaces between them, if there is one, holds the word.
+bool has_word(const char* list, const std::string& word) {
+  return list != nullptr && (" " + std::string(list) + " ").find(" " + word + " ") != std::string::npos;
 }
 
 struct Candidate {

@@ -58,6 +58,16 @@ TEST_F(GlTexture, HasTheFormatItIsMadeOf) {
   EXPECT_THROW(bytes_per_texel(static_cast<Format>(99)), Error);
 }
 
+TEST_F(GlTexture, OfNothingHasNoSize) {
+  const Texture none;
+  EXPECT_EQ(none.id(), 0u);
+  EXPECT_EQ(none.width(), 0);
+  EXPECT_EQ(none.height(), 0);
+  EXPECT_EQ(none.layers(), 0);
+  EXPECT_EQ(none.format(), Format::rgba8);
+  EXPECT_EQ(none.bytes(), 0u);
+}
+
 TEST_F(GlTexture, WhatIsUploadedIsReadInEveryFormat) {
   const auto seen = [](const Texture& image, const char* kind) {
     image.bind(1);

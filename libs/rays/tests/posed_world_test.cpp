@@ -207,7 +207,9 @@ TEST(PosedWorld, WhatIsScaledToNothingIsNotThere) {
     EXPECT_EQ(PosedWorld(source, tiny).bounds().max.y, 41);
     EXPECT_FALSE(PosedWorld(source, tiny).occluded({{0, 82, 0}, {0, -1, 0}, 4}));
   }
-  // Small, but there.
+  // Small, but there: 1/det is still a float, twice that were none.
+  const std::vector<mat4> least = {mat4(1), poses[1], glm::scale(at, vec3(1.6e-13f))};
+  EXPECT_EQ(PosedWorld(source, least).bounds().max.y, 80);
   const std::vector<mat4> small = {mat4(1), poses[1],
                                    glm::scale(glm::translate(mat4(1), vec3(0, 80, 0)), vec3(0.01f))};
   EXPECT_NEAR(PosedWorld(source, small).bounds().max.y, 80.01f, 1e-5f);

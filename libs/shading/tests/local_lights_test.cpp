@@ -189,6 +189,7 @@ TEST(AreaLight, DensityOfAHitIsThatOfTheSample) {
     // Both triangles have one area and one emission: the index does not matter
     const float cos_light = std::abs(glm::dot(s->wi, normal));
     EXPECT_NEAR(lights.pdf_triangle(from, panel, 1, s->distance, cos_light) / s->pdf, 1, 1e-4f);
+    EXPECT_EQ(lights.pdf_triangle(from, panel, 1, s->distance, 0), 0) << "seen edge on";
   }
   EXPECT_GT(compared, 50);
 }

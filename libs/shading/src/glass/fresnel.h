@@ -15,7 +15,7 @@ struct Polarised {
 /// Cosine of the refracted direction; 0 where all is reflected. `eta`: index beyond over index before.
 inline float refracted_cosine(float cosine, float eta) {
   const float sine2 = (1 - cosine * cosine) / (eta * eta);
-  return sine2 < 1 ? std::sqrt(1 - sine2) : 0;
+  return std::sqrt(glm::max(1 - sine2, 0.0f));
 }
 
 /// Fresnel's formulas (Born and Wolf, Principles of Optics, §1.5.2), exact; 1 where all is reflected.
