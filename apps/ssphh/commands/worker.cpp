@@ -4,7 +4,7 @@
 
 #include <ssphh/core/log.h>
 #include <ssphh/core/parallel.h>
-#include <ssphh/farm/engine.h>
+#include <ssphh/farm/disk_cache.h>
 
 #include "commands/command.h"
 
@@ -30,8 +30,6 @@ farm::WorkerPoolReport run_worker(const WorkerSettings& settings, const Control&
   const farm::WorkerPoolOptions options = pool_options(settings);
   set_thread_count(settings.threads);
   set_thread_count(shared_threads(thread_count(), options.slots));
-  log_info("worker-ready broker={} service={} slots={} cache={}", options.broker.endpoint,
-           farm::job_service(), options.slots, options.cache.string());
   return farm::run_workers(options, control);
 }
 

@@ -131,7 +131,10 @@ class Pool {
 
 WorkerPoolReport run_workers(const WorkerPoolOptions& options, const Control& control) {
   if (options.slots < 1 || options.slots > 1024) throw Error("slots", "must be 1 to 1024");
-  return Pool(options).run(control);
+  Pool pool(options);
+  log_info("worker-ready broker={} service={} slots={} cache={}", options.broker.endpoint, job_service(),
+           options.slots, options.cache.string());
+  return pool.run(control);
 }
 
 }  // namespace ssphh::farm

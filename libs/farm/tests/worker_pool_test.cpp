@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <ssphh/core/file.h>
 #include <ssphh/farm/engine.h>
 #include <ssphh/farm/job_codec.h>
 #include <ssphh/farm/worker_pool.h>
@@ -45,6 +46,26 @@ TEST(WorkerPool, LeavesWhenItHasHadNoJobForAsLongAsItWasTold) {
   EXPECT_EQ(report.jobs, 0u);
   EXPECT_EQ(report.busy_seconds, 0);
   EXPECT_GE(report.seconds, 0.1);
+}
+
+TEST(WorkerPool, IsReadyOnceItsCacheIsThereAndNotWithoutOne) {
+  const TempDir dir;
+  const BrokerThread broker;
+  WorkerPoolOptions options = pool_options(broker.address(), dir);
+  options.idle_exit = 0.01;
+  const auto logged = [&](const std::filesystem::path& cache, const std::string& problem) {
+    options.cache = cache;
+    testing::internal::CaptureStderr();
+    EXPECT_THAT(message_of([&] { run_workers(options, {}); }), testing::HasSubstr(problem));
+    return testing::internal::GetCapturedStderr();
+  };
+  write_file(dir / "file", "no folder");
+  EXPECT_THAT(logged(dir / "file" / "cache", "the cache cannot be made"),
+              testing::Not(testing::HasSubstr("worker-ready")));
+  EXPECT_THAT(logged(dir / "cache", "no error"),
+              testing::HasSubstr("worker-ready broker=" + options.broker.endpoint + " service=" +
+                                 job_service() + " slots=1 cache=" + (dir / "cache").string() + "\n"));
+  EXPECT_TRUE(std::filesystem::is_directory(dir / "cache"));
 }
 
 // The first job waits for its scene for longer than the pool may be idle; the second is done nevertheless.
