@@ -69,18 +69,18 @@ class Tree {
   }
 
   bool to_halve(const Cell& cell) const {
-    int good = 0, bad = 0;
+    int good = 0;
     bool near = false, solid = true;
     for (int i = 0; i < 8; ++i) {
       const Place& place = at(corner(cell, i));
       if (!place.in_box) continue;
       solid = solid && place.site.nearest > std::sqrt(3.0f) * spacing(cell.level);
       const bool ok = valid(place.site, context_.rules);
-      ++(ok ? good : bad);
+      good += ok ? 1 : 0;
       near = near || (ok && place.site.harmonic < refine_below * spacing(cell.level));
     }
-    if (good == 0 && solid) return false;  // deep inside a body
-    return near || bad > 0 || (good > 0 && good < 8);
+    if (good == 0 && solid) return false;  // deep inside a body, or outside of the box
+    return near || good < 8;
   }
 
  private:

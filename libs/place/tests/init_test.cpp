@@ -2,6 +2,8 @@
 
 #include <ssphh/place/init.h>
 
+#include "error_message.h"
+
 namespace ssphh::place {
 namespace {
 
@@ -35,6 +37,16 @@ TEST(Init, ASceneWithoutSphlsSaysHowToAddSome) {
   }
   EXPECT_THROW(init_from_scene(scene::Scene(), 11), Error);
   EXPECT_THROW(init_from_scene(scene::Scene(), -1), Error);
+}
+
+TEST(Init, TakesAsManySphlsAsASetMayHave) {
+  scene::Scene scene;
+  scene.nodes.emplace_back();
+  scene.sphls.assign(65536, {"SPHL", 0, 0.2f, true});
+  EXPECT_EQ(init_from_scene(scene, 0).probes.size(), 65536u);
+  scene.sphls.push_back(scene.sphls[0]);
+  EXPECT_EQ(test::message_of([&] { init_from_scene(scene, 0); }),
+            "scene without a name: has 65537 SPHLs; at most 65536 are supported");
 }
 
 }  // namespace

@@ -13,6 +13,8 @@
 namespace ssphh::place {
 namespace {
 
+// None is surplus here: which ones of an even grid are, is a matter of roundings.
+
 /// What all probes of a kind have in common, and all edges.
 void list_placement(test::NumberList& list, const std::string& name, const Placement& placement) {
   const PlaceCounts& n = placement.counts;
@@ -71,9 +73,9 @@ TEST(PlacementList, OfRoomsIsWhatItWas) {
   }
   params = {};
   params.levels = 0;
-  params.count = 23;
+  params.max_probes = 30;
   const Placement placement = place_probes(source, params);
-  list_placement(list, "twenty-three", placement);
+  list_placement(list, "up to thirty", placement);
   list_probes(list, placement);
   list.expect("libs/place/tests/expected/rooms.txt");
 }
@@ -98,12 +100,19 @@ TEST(PlacementList, OnAPlainIsWhatItWas) {
   test::NumberList list;
   PlaceParams params;
   params.spacing = 2.9f;
+  params.manual = {{"by hand", vec3(-20, 3, 10), 0.2f}};
   list_placement(list, "plain", place_probes(source, params));
-  params.spacing = 0;
+  params = {};
   params.count = 9;
   const Placement placement = place_probes(source, params);
   list_placement(list, "nine", placement);
   list_probes(list, placement);
+  // A floor alone, which has no volume.
+  scene::Scene floor;
+  add(floor, scene::make_quad({1, 2, 3}, {0, 0, 3.7f}, {6.1f, 0, 0}));
+  params = {};
+  params.max_probes = 15;
+  list_placement(list, "up to fifteen", place_probes(SampledSource(floor), params));
   list.expect("libs/place/tests/expected/plain.txt");
 }
 

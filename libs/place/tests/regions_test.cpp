@@ -93,8 +93,10 @@ TEST(Regions, RoomsInAHallAreARegionAndABodyThereIsNone) {
   EXPECT_TRUE(holds(rooms.boxes[0], {1, 0.2f, 1}, {11, 2.3f, 5}));
   EXPECT_LT(max_component(rooms.boxes[0].max - rooms.boxes[0].min), 40);
 
+  // Enough blocks that the hall's own walls are few beside them.
   hall();
   add_blocks(scene, {0, 0, 0});
+  add_blocks(scene, {6, 0, 0});
   const Regions body = detail_regions(SampledSource(scene), {});
   EXPECT_FALSE(body.open_rest);
   EXPECT_GT(max_component(body.boxes[0].max - body.boxes[0].min), 999);

@@ -21,8 +21,8 @@ struct WorkerPoolReport {
 };
 
 /// Serves until `control` is cancelled; then finishes the jobs in hand, answers them and leaves. Logs that it
-/// is ready once its cache is there, and a line per job with the broker's number of it. Throws Error for options that make no sense and a cache that
-/// cannot be written.
+/// is ready once its cache is there, and a line per job with the broker's number of it. Throws Error for
+/// options that make no sense and a cache that cannot be written.
 WorkerPoolReport run_workers(const WorkerPoolOptions& options, const Control& control);
 
 }  // namespace ssphh::farm
