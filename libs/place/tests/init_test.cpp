@@ -25,6 +25,7 @@ TEST(Init, TakesTheEnabledSphlsOfASceneInOrder) {
   EXPECT_EQ(set.probes[1].radius, 0.2f);
   EXPECT_EQ(set.degree, 5);
   EXPECT_EQ(set.generator.scene, "room");
+  EXPECT_EQ(set.generator.time, 0);
   EXPECT_EQ(set.generator.scene_hash, scene::light_hash(scene));
 }
 

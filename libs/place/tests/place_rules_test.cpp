@@ -224,6 +224,20 @@ TEST(PlaceRules, AFifthMoreThanAskedForIsNearEnough) {
   EXPECT_LT(surplus(87), 17u);
 }
 
+TEST(PlaceRules, WithoutASpacingTheFirstGridOfAHundredToTwoHundredIsTaken) {
+  // The first has as many cells as probes are wanted, a hundred: some are halved.
+  std::size_t most = 0;
+  for (const float height : {0.53f, 1.1f, 1.2f, 2.3f}) {
+    const vec3 size(5, height, 4);
+    const TriangleSource source(room(size));
+    const Placement first = place_probes(source, params_at(std::cbrt(size.x * size.y * size.z / 100)));
+    const std::size_t count = first.probes.size();
+    most = std::max(most, count);
+    EXPECT_EQ(place_probes(source, {}).probes.size(), count) << height;
+  }
+  EXPECT_GT(most, 180u);
+}
+
 TEST(PlaceFilter, KeepsEdgesBetweenWhatIsKept) {
   std::vector<Draft> drafts(5);
   for (int i = 0; i < 5; ++i) drafts[static_cast<std::size_t>(i)].position = vec3(i, 0, 0);
