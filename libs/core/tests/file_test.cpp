@@ -45,6 +45,12 @@ TEST(File, MissingDirectoryTooLargeAndUnwritableAreErrorsThatNameTheFile) {
   EXPECT_THAT(message_of([&] { read_file(dir / "five", 4); }),
               HasSubstr("too large: 5 bytes, the limit is 4"));
   EXPECT_EQ(read_file(dir / "five", 5).size(), 5u) << "as long as the limit";
+  // Files with nothing in them: their sizes alone are looked at.
+  write_file(dir / "hollow", "");
+  std::filesystem::resize_file(dir / "hollow", (std::uint64_t{256} << 20) + 1);
+  EXPECT_THAT(message_of([&] { read_text_file(dir / "hollow"); }), HasSubstr("the limit is 268435456"));
+  std::filesystem::resize_file(dir / "hollow", (std::uint64_t{4} << 30) + 1);
+  EXPECT_THAT(message_of([&] { read_file(dir / "hollow"); }), HasSubstr("the limit is 4294967296"));
   EXPECT_THAT(message_of([] { read_file("/dev/null"); }), HasSubstr("/dev/null: is not a regular file"));
   EXPECT_THAT(message_of([&] { write_file(dir / "no/such/file", "x"); }),
               HasSubstr("cannot write: No such file"));

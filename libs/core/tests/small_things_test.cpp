@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/core/bytes.h>
+#include <ssphh/core/contraction.h>
 #include <ssphh/core/control.h>
 #include <ssphh/core/hash.h>
 #include <ssphh/core/held.h>
+#include <ssphh/core/json.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/math.h>
 #include <ssphh/core/random.h>
@@ -22,6 +24,12 @@ namespace {
 using test::message_of;
 
 TEST(CoreDefaults, AreNamed) {
+  EXPECT_EQ(Contraction().lower, 0);
+  EXPECT_EQ(Contraction().upper, 0);
+  const json::Limits limits;
+  EXPECT_EQ(limits.bytes, 268435456u);
+  EXPECT_EQ(limits.depth, 128);
+  EXPECT_EQ(limits.containers, 4194304u);
   EXPECT_EQ(Hash128().high, 0u);
   EXPECT_EQ(Hash128().low, 0u);
   EXPECT_EQ((Hash128{0x0123456789abcdef, 0xfedcba9876543210}.hex()), "0123456789abcdeffedcba9876543210");

@@ -6,6 +6,7 @@
 #include <glm/gtc/packing.hpp>
 #include <gmock/gmock.h>
 
+#include <ssphh/gl/framebuffer.h>
 #include <ssphh/gl/volume.h>
 
 #include "error_message.h"
@@ -59,6 +60,8 @@ TEST_F(GlTexture, HasTheFormatItIsMadeOf) {
 }
 
 TEST_F(GlTexture, OfNothingHasNoSize) {
+  const Rect rect;
+  EXPECT_TRUE(rect.x == 0 && rect.y == 0 && rect.width == 0 && rect.height == 0);
   const Texture none;
   EXPECT_EQ(none.id(), 0u);
   EXPECT_EQ(none.width(), 0);
