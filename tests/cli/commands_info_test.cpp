@@ -30,6 +30,7 @@
 #include "commands/worker.h"
 #include "error_message.h"
 #include "temp_dir.h"
+#include "thread_count.h"
 
 namespace ssphh::app {
 namespace {
@@ -244,6 +245,7 @@ TEST(Commands, BrokerAndWorkerServeUntilTheyAreStopped) {
   worker.broker = choice;
   worker.pool.slots = 2;
   worker.cache = dir / "cache";
+  const test::Threads all(0);  // whatever another test left
   const int threads = thread_count();
   CancelToken leave;
   farm::WorkerPoolReport report;
