@@ -145,12 +145,30 @@ TEST(TransportBakeCli, RecordsStandBesideProbesOfEveryBounceUnlessToldOtherwise)
                                  more))["records"]
         .number();
   };
-  EXPECT_GT(records({}), 100);
-  EXPECT_GT(records({"--max-depth", "25"}), 100);
+  const std::vector<std::string> coarse = {"--link-rays", "8", "--surfel-size", "0.3", "--directions", "64"};
+  EXPECT_GT(records(coarse), 50);
+  EXPECT_GT(records(test::joined(coarse, {"--max-depth", "25"})), 50);
   EXPECT_EQ(records({"--max-depth", "24"}), 0);
   EXPECT_EQ(records({"--gen", "local"}), 0);
   EXPECT_EQ(records({"--records", "0"}), 0);
-  EXPECT_GT(records({"--max-depth", "3", "--records", "64"}), 0) << "whoever asks gets them";
+  EXPECT_GT(records(test::joined(coarse, {"--max-depth", "3", "--records", "64"})), 0)
+      << "whoever asks gets them";
+}
+
+TEST(TransportBakeCli, ManyProbesAreLitBySurfelsUnlessPathsAreAskedFor) {
+  const TempDir dir;
+  const auto operator_of = [&](const char* probes, const std::vector<std::string>& more) {
+    return run_json(test::joined(
+        {"bake", "builtin:box", "-o", dir / "a.sphl", "--degree", "0", "--viz", "off", "--probes", probes},
+        more))["operator"];
+  };
+  const std::vector<std::string> coarse = {"--link-rays", "8", "--surfel-size", "0.3",
+                                           "--records",   "0", "--directions",  "64"};
+  const std::vector<std::string> quick = {"--spp", "1", "--face", "1", "--records", "0"};
+  EXPECT_EQ(operator_of("64", {"--quality", "draft", "--face", "1"}), "path");
+  EXPECT_EQ(operator_of("65", coarse), "surfel");
+  EXPECT_EQ(operator_of("65", quick), "path");
+  EXPECT_EQ(operator_of("65", {"--gen", "local", "--face", "1"}), "path");
 }
 
 TEST(TransportBakeCli, SurfelBakesHaveAHierarchyByThemselves) {

@@ -1,6 +1,8 @@
 #include "commands/bake.h"
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -14,6 +16,7 @@ namespace {
 /// an update.
 struct BakeUses {
   std::string viz;
+  std::optional<bake::Quality> quality;
   std::vector<Option> of_paths, of_transport, of_viz, not_of_update;
 };
 
@@ -87,6 +90,34 @@ void add_transport_options(const Command& surfels, BakeOptions& options, BakeUse
                "Also fit lookup weights at the surfels and store them with the probes");
 }
 
+/// One word for many numbers; those that are given by themselves stand.
+void add_effort_options(const Command& effort, BakeOptions& options, std::optional<bake::Quality>& quality) {
+  effort.choice(
+      "--quality", quality,
+      "draft, good (the default) or best: how many paths, rays, surfels and records, where they are not "
+      "given by themselves; each takes about three times as long as the one before");
+  effort
+      .option(
+          "--max-memory", options.max_memory,
+          "Memory that surfels and their links may take [GB]; surfels far from probes grow where it is not "
+          "enough. Default: half of the machine's")
+      .positive();
+}
+
+/// Puts what the quality says where nothing was given.
+void apply_quality(BakeOptions& options, bake::Quality quality) {
+  const auto given = [](const std::vector<std::string>& names, const char* name) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  const int spp = options.params.path.spp;
+  transport::TransportParams& params = options.transport.transport;
+  const transport::TransportParams before = params;
+  set_effort(options, quality);
+  if (given(options.of_paths, "--spp")) options.params.path.spp = spp;
+  if (given(options.of_transport, "--directions")) params.directions = before.directions;
+  if (given(options.of_transport, "--link-rays")) params.link_rays = before.link_rays;
+}
+
 void add_update_options(const Command& update, BakeOptions& options) {
   add_probe_file(update, "--update", options.update,
                  "Probe file of an earlier bake of this scene, which has changed since: only probes whose "
@@ -113,6 +144,7 @@ void add_bake_command(Command app, Context& context) {
         given.of_transport = names_of_given(uses->of_transport);
         given.of_viz = names_of_given(uses->of_viz);
         given.not_of_update = names_of_given(uses->not_of_update);
+        if (uses->quality) apply_quality(given, *uses->quality);
         run_and_print(context, given, run_bake);
       });
   add_scene_options(command, o.scene);
@@ -121,19 +153,25 @@ void add_bake_command(Command app, Context& context) {
                  "Probe file to write: .sphl (binary) or .sphl.json (JSON, five digits)")
       .required();
   command.option("--degree", o.degree, "Highest spherical harmonics band, 0..10").range(0, sh::max_degree);
-  command.choice("--operator", o.op,
-                 "What finds the probes' light: path (GEN: path tracing, up to --max-depth bounces), surfel "
-                 "(transport between patches of surface: every bounce, no noise, seconds; surfaces reflect "
-                 "diffusely), bounce (the same with the probes as the only unknowns)");
+  command.choice(
+      "--operator", o.op,
+      fmt::format(
+          "What finds the probes' light: path (GEN: path tracing, up to --max-depth bounces), surfel "
+          "(transport between patches of surface: every bounce, no noise, seconds; surfaces reflect "
+          "diffusely), bounce (the same with the probes as the only unknowns). Default: path for up to {} "
+          "probes, with a farm or options of path tracing, else surfel",
+          most_probes_for_paths));
+  add_effort_options(command, o, uses->quality);
   add_path_options(command.under("GEN and VIZ: path tracing"), o, *uses);
   add_viz_options(command.under("VIZ: light between the SPHLs, which HIER needs"), o, *uses);
   add_transport_options(command.under("Transport: --operator surfel|bounce, --viz links, --records, --fit"),
                         o, *uses);
   add_update_options(command.under("Update of an earlier bake"), o);
-  for (const char* name : {"--time",       "--probes",      "--clearance", "--refine",    "--max-probes",
-                           "--degree",     "--operator",    "--face",      "--max-depth", "--passes",
-                           "--spp",        "--gen",         "--neighbors", "--threshold", "--viz-transfer",
-                           "--directions", "--surfel-size", "--link-rays", "--records",   "--fit"})
+  for (const char* name :
+       {"--time",      "--probes",    "--clearance",    "--refine",     "--max-probes",  "--degree",
+        "--operator",  "--face",      "--max-depth",    "--passes",     "--spp",         "--gen",
+        "--neighbors", "--threshold", "--viz-transfer", "--directions", "--surfel-size", "--link-rays",
+        "--records",   "--fit",       "--quality",      "--max-memory"})
     uses->not_of_update.push_back(command[name]);
   add_farm_options(command, o.farm);
   command.footer(

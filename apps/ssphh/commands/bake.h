@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <ssphh/bake/bake.h>
+#include <ssphh/bake/effort.h>
 #include <ssphh/bake/transport_bake.h>
 #include <ssphh/bake/update.h>
 #include <ssphh/core/control.h>
@@ -18,25 +19,23 @@
 
 namespace ssphh::app {
 
-/// Where --viz is not given: VIZ by paths up to so many probes, then by links up to so many, then none. It
-/// takes a pass over all probes for each probe; nobody waits long for that unasked.
+/// Where neither is given: light and VIZ by paths up to so many probes, then by surfels and their links, VIZ
+/// up to so many. A probe takes half a second by paths and a hundredth by surfels, VIZ a pass over all probes
+/// for each; nobody waits long for that unasked.
 inline constexpr std::size_t most_probes_for_paths = 64, most_probes_for_links = 512;
 /// Edges of a probe that VIZ by links keeps unless told otherwise: 1.2 kB each at degree 9.
 inline constexpr int default_link_neighbors = 16;
 
-/// Nobody waits for a frame: few probes are right to 3 % with so many directions.
-inline bake::TransportBakeParams unhurried_transport() {
-  bake::TransportBakeParams params;
-  params.transport.directions = 1536;
-  return params;
-}
-
 struct BakeOptions {
+  BakeOptions();  ///< of quality `good`
+
   SceneOptions scene;
   PlaceOptions place;
   FarmChoice farm;     ///< that does GEN and VIZ by paths, if there is any
   std::string output;  ///< probe file to write: .sphl or .sphl.json; OUTPUT.checkpoint beside it
-  probes::LightOperator op = probes::LightOperator::path;  ///< what finds the probes' light
+  /// What finds the probes' light; none given: path for few probes, with a farm, and with options of path
+  /// tracing, else surfel.
+  std::optional<probes::LightOperator> op;
   /// What finds the edges; none given: what suits the operator and the number of probes.
   std::optional<probes::VizMethod> viz;
   int degree = 9;  ///< highest band of the probes' functions, 0..10
@@ -45,12 +44,14 @@ struct BakeOptions {
   /// threshold of VIZ: they follow from the other options.
   bake::BakeParams params;
   /// Of transport; its operator, viz and number of records are not read either, nor the same of its VIZ.
-  bake::TransportBakeParams transport = unhurried_transport();
+  bake::TransportBakeParams transport;
   std::optional<int> neighbors;  ///< most edges of a probe, strongest first; -1: all
   /// Surface points that keep light; none given: usual_records where probes hold every bounce, too, else 0.
   std::optional<int> records;
-  float threshold = 0;  ///< only edges with P above it, 0..1
-  bool resume = true;   ///< go on where OUTPUT.checkpoint of an interrupted bake ends
+  int usual_records = transport::usual_records;
+  double max_memory = 0;  ///< that surfels and their links may take [GB]; 0: half of the machine's
+  float threshold = 0;    ///< only edges with P above it, 0..1
+  bool resume = true;     ///< go on where OUTPUT.checkpoint of an interrupted bake ends
   /// Names of options that were given and stand only with path tracing, transport or VIZ: they are refused
   /// where these have nothing to do.
   std::vector<std::string> of_paths, of_transport, of_viz;
@@ -78,6 +79,9 @@ struct BakeResult {
   std::optional<BakeUpdate> update;                 ///< where there was one
   std::uint64_t geometry_builds = 0;                ///< acceleration structures that were built
 };
+
+/// Options as `quality` has them.
+void set_effort(BakeOptions& options, bake::Quality quality);
 
 /// Bakes and writes the probe file. Warns in the log as its parts do. Throws Error for scenes that cannot be
 /// read, options that exclude each other, files that cannot be written, a farm that cannot be reached, and as

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/log.h>
+#include <ssphh/core/memory.h>
 #include <ssphh/farm/farm_bake.h>
 #include <ssphh/place/init.h>
 #include <ssphh/probes/probe_file.h>
@@ -24,17 +25,29 @@ void refuse(const std::vector<std::string>& given, const char* needs) {
   if (!given.empty()) throw Error(given.front(), needs);
 }
 
+probes::LightOperator operator_of(const BakeOptions& o, std::size_t probes) {
+  if (o.op) return *o.op;
+  const bool asked = !o.of_paths.empty() || o.farm.any() || o.params.gen != probes::GenMode::full;
+  if (asked || probes <= most_probes_for_paths) return probes::LightOperator::path;
+  log_info(
+      "{} probes are lit by transport between surfels, in seconds: --operator path traces paths from each",
+      probes);
+  return probes::LightOperator::surfel;
+}
+
 /// Records hold every bounce, so there are none unasked beside probes that are to hold fewer.
-int usual_records(const BakeOptions& o) {
+int records_of(const BakeOptions& o) {
   const bool every_bounce = o.op == probes::LightOperator::surfel ||
                             (o.op == probes::LightOperator::path && o.params.gen == probes::GenMode::full &&
                              o.params.path.max_depth >= rays::usual_max_depth);
-  return every_bounce ? transport::usual_records : 0;
+  return every_bounce ? o.usual_records : 0;
 }
 
 /// Decides on VIZ, which it returns, and refuses options that would have no effect.
 probes::VizMethod resolve(BakeOptions& o, std::size_t probes) {
-  const bool path = o.op == probes::LightOperator::path, transfer = o.params.viz_params.matrix;
+  const probes::LightOperator op = operator_of(o, probes);
+  o.op = op;
+  const bool path = op == probes::LightOperator::path, transfer = o.params.viz_params.matrix;
   bake::BakeParams& params = o.params;
   if (!o.viz) {
     o.viz = transfer || (path && probes <= most_probes_for_paths) ? VizMethod::path
@@ -50,11 +63,11 @@ probes::VizMethod resolve(BakeOptions& o, std::size_t probes) {
     throw Error(fmt::format("--gen {}", name_of(params.gen)),
                 "is of --operator path; the light of surfels has every bounce");
   params.keep_light = !path;
-  if (!path) o.transport.op = o.op;
+  if (!path) o.transport.op = op;
   params.viz = o.viz == VizMethod::path;
   params.viz_params.neighbors = o.neighbors.value_or(-1);
   params.viz_params.threshold = o.threshold;
-  o.transport.records.points = o.records.value_or(usual_records(o));
+  o.transport.records.points = o.records.value_or(records_of(o));
   o.transport.viz = o.viz == VizMethod::links;
   o.transport.viz_params.neighbors = o.neighbors.value_or(default_link_neighbors);
   o.transport.viz_params.threshold = o.threshold;
@@ -64,10 +77,21 @@ probes::VizMethod resolve(BakeOptions& o, std::size_t probes) {
     refuse(o.of_transport, "is of transport: use --operator surfel, bounce, --viz links, --records or --fit");
   if (o.viz == VizMethod::none) refuse(o.of_viz, "is of VIZ: use --viz links or path");
   if (o.farm.any() && !path && !params.viz)
-    throw Error(fmt::format("--operator {}", name_of(o.op)),
+    throw Error(fmt::format("--operator {}", name_of(op)),
                 "is done here, in seconds; a farm does GEN and VIZ by path tracing",
                 "leave out --broker and --local");
   return *o.viz;
+}
+
+/// Keeps surfels within memory; whether that makes fewer of them than there might be.
+bool fit_into_memory(BakeOptions& o) {
+  transport::TransportParams& params = o.transport.transport;
+  const auto bytes =
+      o.max_memory > 0 ? static_cast<std::uint64_t>(o.max_memory * 1e9) : memory_of_machine() / 2;
+  const int most = bake::surfels_within(bytes, params.link_rays);
+  if (most >= params.most_surfels) return false;
+  params.most_surfels = most;
+  return true;
 }
 
 /// Fills the result's set, which INIT made, by options that are resolved.
@@ -118,12 +142,35 @@ void run_full_bake(const BakeOptions& options, BakeResult& result, const Control
                    : place::init_from_scene(scene, o.degree, o.scene.time);
   result.viz = resolve(o, result.set.probes.size());
 
+  const bool limited = fit_into_memory(o);
   const std::filesystem::path checkpoint = o.output + ".checkpoint";
   if (!o.resume) std::filesystem::remove(checkpoint);
   fill(result, o, geometry, scene, checkpoint, session ? &*session : nullptr, control);
+  bake::TransportBakeReport& t = result.transport;
+  if (limited && t.coarsest_surfel > t.finest_surfel) {
+    t.warnings.push_back(fmt::format(
+        "surfels grow to {:.3g} m, to stay within memory: give --max-memory, or fewer --link-rays",
+        t.coarsest_surfel));
+    log_warning("{}", t.warnings.back());
+  }
 }
 
 }  // namespace
+
+void set_effort(BakeOptions& options, bake::Quality quality) {
+  const bake::Effort effort = bake::effort_of(quality);
+  transport::TransportParams& params = options.transport.transport;
+  options.params.path.spp = effort.spp;
+  params.directions = effort.directions;
+  params.link_rays = effort.link_rays;
+  params.surfels_per_radius = effort.surfels_per_radius;
+  params.most_surfels = effort.most_surfels;
+  options.usual_records = effort.records;
+}
+
+BakeOptions::BakeOptions() {
+  set_effort(*this, bake::Quality::good);
+}
 
 BakeResult run_bake(const BakeOptions& options, const Control& control) {
   const GeometryBuilds builds;
@@ -145,13 +192,14 @@ BakeResult run_bake(const BakeOptions& options, const Control& control) {
 json::Value to_json(const BakeResult& r, const BakeOptions& o) {
   const bake::TransportBakeReport& t = r.transport;
   const auto if_any = [](bool any, const auto& value) { return any ? json::Value(value) : json::Value(); };
-  const bool solved = o.op != probes::LightOperator::path, network = t.surfels > 0;
+  const probes::LightOperator op = r.set.generator.op;
+  const bool solved = op != probes::LightOperator::path, network = t.surfels > 0;
   std::vector<std::string> warnings = t.warnings;
   for (const std::string& warning : r.paths.warnings) {
     if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
   }
   json::Value object = {{"output", o.output},
-                        {"operator", name_of(o.op)},
+                        {"operator", name_of(op)},
                         {"probes", r.set.probes.size()},
                         {"degree", r.set.degree},
                         {"light_groups", r.set.light_groups.size()},
@@ -189,10 +237,11 @@ std::string to_text(const BakeResult& r, const BakeOptions& o) {
       fmt::format("{}: {} probes of degree {}, {} light groups, {} edges", o.output, r.set.probes.size(),
                   r.set.degree, r.set.light_groups.size(), probes::edge_count(r.set));
   const bake::TransportBakeReport& t = r.transport;
+  const bool path = r.set.generator.op == probes::LightOperator::path;
   if (t.surfels > 0) {
     text += fmt::format("\n{} surfels of {}, {} links", t.surfels,
                         sizes_text(t.finest_surfel, t.coarsest_surfel), t.links);
-    if (o.op != probes::LightOperator::path) {
+    if (!path) {
       text += fmt::format("; {} iterations, a bounce keeps at most {:.3g} of the light; {:.2f} s",
                           t.iterations, t.contraction, t.seconds);
     }
@@ -203,14 +252,14 @@ std::string to_text(const BakeResult& r, const BakeOptions& o) {
   if (r.set.fitted)
     text +=
         fmt::format("\nweights fitted at {} points in {:.2f} s", r.set.fitted->points.size(), t.fit_seconds);
-  if (o.op == probes::LightOperator::path) text += fmt::format("\nGEN {:.2f} s", r.paths.gen_seconds);
+  if (path) text += fmt::format("\nGEN {:.2f} s", r.paths.gen_seconds);
   if (r.viz != VizMethod::none)
     text +=
         fmt::format("\nVIZ from {} {:.2f} s", r.viz == VizMethod::path ? "paths" : "links", viz_seconds(r));
   text += fmt::format("\n{} rays", r.paths.rays + t.rays);
   if (r.farm) text += "\n" + farm_text(*r.farm);
   if (r.paths.resumed > 0) {
-    const std::size_t stages = std::size_t{o.op == probes::LightOperator::path} + (r.viz == VizMethod::path);
+    const std::size_t stages = std::size_t{path} + (r.viz == VizMethod::path);
     text += fmt::format("\n{} of {} steps were taken from the checkpoint", r.paths.resumed,
                         r.set.probes.size() * stages);
   }

@@ -1,0 +1,35 @@
+#include <algorithm>
+
+#include <ssphh/bake/effort.h>
+
+namespace ssphh::bake {
+
+Effort effort_of(Quality quality) {
+  switch (quality) {
+    case Quality::draft:
+      return {.spp = 4,
+              .directions = 512,
+              .link_rays = 64,
+              .surfels_per_radius = 20,
+              .most_surfels = 30000,
+              .records = 4096};
+    case Quality::good:
+      break;
+    case Quality::best:
+      return {.spp = 64,
+              .directions = 4096,
+              .link_rays = 256,
+              .surfels_per_radius = 56,
+              .most_surfels = 300000,
+              .records = 65536};
+  }
+  return {};
+}
+
+int surfels_within(std::uint64_t bytes, int link_rays) {
+  constexpr double other = 64e6, surfel = 2000, ray = 45;
+  const double count = (static_cast<double>(bytes) - other) / (surfel + ray * link_rays);
+  return static_cast<int>(std::clamp(count, 1000.0, 16e6));
+}
+
+}  // namespace ssphh::bake
