@@ -234,7 +234,7 @@ class PictureTest : public AppStage {
     EXPECT_GT(edges, 4u);
     EXPECT_EQ(app().message, fmt::format("VIZ: {} edges", edges));
     EXPECT_TRUE(app().light.live()) << "VIZ leaves the light alone";
-    play("set show truth\nset truth-spp 1\nset debug indirect");
+    play("set show truth\nset truth-spp 1\nset debug indirect\nset weights mls");
     const auto linear = [&](const std::string& script) {
       play(script);
       return app().picture.linear();
