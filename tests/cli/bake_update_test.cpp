@@ -149,10 +149,6 @@ TEST_F(BakeUpdate, RefusesWhatItCannotDo) {
   const std::string moved = overlay("moved", R"("sphls": [{"name": "SPHL new", "position": [0, 1, 0.3]}])");
   EXPECT_THAT(problem({"--update", old_}, moved), AllOf(HasSubstr("SPHL new"), HasSubstr("all places")));
 
-  json_here({"bake", "builtin:cornell", "-o", full_, "--operator", "surfel", "--directions", "64",
-             "--link-rays", "16", "--records", "0", "--degree", "2"});
-  EXPECT_THAT(problem({"--update", full_}), AllOf(HasSubstr(full_), HasSubstr("--operator surfel")));
-
   probes::ProbeSet bare = probes::read_probe_file(old_);
   bare.baseline.reset();
   probes::write_probe_file(bare, old_);

@@ -65,7 +65,8 @@ class BakedRooms : public testing::Test {
     probes::ProbeSet set =
         bake::bake(tracer_, place::init_from_scene(scene_, o.degree, o.scene.time), params, "", report);
     set.baseline =
-        bake::make_baseline(tracer_, set, scene::scene_items(scene_, o.scene.time), params.viz_params);
+        probes::Baseline{params.viz_params.neighbors, params.viz_params.threshold, 0,
+                         scene::scene_items(scene_, o.scene.time), bake::make_trials(tracer_, set)};
     return set;
   }
   std::vector<rays::SurfacePoint> points(const probes::ProbeSet& set, int count, float clearance,

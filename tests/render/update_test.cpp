@@ -53,7 +53,9 @@ probes::ProbeSet full_bake(const scene::Scene& scene, const bake::BakeParams& pa
   const trace::PathTracer tracer(scene);
   bake::BakeReport report;
   probes::ProbeSet set = bake::bake(tracer, place::init_from_scene(scene, 3), params, {}, report);
-  set.baseline = bake::make_baseline(tracer, set, scene::scene_items(scene), params.viz_params);
+  probes::Baseline& baseline = set.baseline.emplace();
+  baseline.items = scene::scene_items(scene);
+  baseline.trials = bake::make_trials(tracer, set);
   return set;
 }
 
@@ -72,7 +74,8 @@ Updated update(probes::ProbeSet set, const scene::Scene& scene, std::optional<fl
   bake::BakeReport report;
   set.generator.scene_hash = scene::light_hash(scene);
   result.set = bake::bake(tracer, std::move(set), params, {}, report);
-  bake::renew_baseline(result.set, result.plan, scene::scene_items(scene));
+  bake::renew_trials(result.set, result.plan);
+  result.set.baseline->items = scene::scene_items(scene);
   return result;
 }
 
@@ -178,8 +181,8 @@ TEST(UpdateOfEdges, ByLinksHaveTheBitsOfABakeInFull) {
   };
   const probes::ProbeSet old = with_edges(before), full = with_edges(now);
   probes::ProbeSet set = old;
-  bake::update_edges(trace::TransportScene(now), set, std::vector<std::uint32_t>{0, 2}, params.viz_params,
-                     report);
+  bake::add_transport(trace::TransportScene(now), set, params, report, {},
+                      {.light = {}, .edges = std::vector<std::uint32_t>{0, 2}});
   for (const std::size_t i : {0, 2}) {
     EXPECT_EQ(set.probes[i].edges, full.probes[i].edges) << i;
     EXPECT_NE(set.probes[i].edges, old.probes[i].edges) << i;

@@ -12,9 +12,10 @@ void fields(auto& visit, bake::VizParams& p) {
   visit("matrix", matrix), visit("neighbors", neighbors), visit("threshold", threshold);
 }
 void fields(auto& visit, bake::BakeParams& p) {
-  auto& [gen, path, face_size, keep_light, viz, viz_params, only] = p;
+  auto& [gen, path, face_size, keep_light, viz, viz_params, only, only_groups] = p;
   visit("gen", gen), visit("path", path), visit("face_size", face_size), visit("keep_light", keep_light);
   visit("viz", viz), visit("viz_params", viz_params), visit("only", only);
+  visit("only_groups", only_groups);
 }
 void fields(auto& visit, probes::GeneratorInfo& g) {
   auto& [op, viz, gen, max_depth, passes, spp, face_size, seed, directions, surfel_size, link_rays, scene,

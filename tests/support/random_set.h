@@ -47,6 +47,8 @@ inline probes::Baseline random_baseline(std::uint64_t seed, int item_count, int 
   probes::Baseline baseline;
   baseline.viz_neighbors = 7;
   baseline.viz_threshold = 0.25f;
+  baseline.records = 100;
+  baseline.most_surfels = 5000;
   for (int i = 0; i < item_count; ++i)
     baseline.items.push_back({static_cast<scene::ItemKind>(i % 3), "item \"" + std::to_string(i) + "\"",
                               hash(), hash(), hash(), hash()});

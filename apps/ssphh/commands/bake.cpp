@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "commands/bake_watch.h"
 #include "commands/command.h"
 #include "options/probe_options.h"
 
@@ -122,12 +123,22 @@ void add_update_options(const Command& update, BakeOptions& options) {
   add_probe_file(update, "--update", options.update,
                  "Probe file of an earlier bake of this scene, which has changed since: only probes whose "
                  "light has changed are baked, as that file was baked; the others are kept, and with "
-                 "--viz off all edges");
+                 "--viz off all edges. Surface records, and light by transport, are found anew as a whole");
   update
       .option("--tolerance", options.tolerance,
               "Share of its light by which a kept probe may have changed; 0: whatever few paths see counts. "
               "Default: 0.01, or the noise of the bake where that is more")
       .non_negative();
+  add_only_options(update, options.only);
+  const Option watch =
+      update.flag("--watch", options.watch,
+                  "Go on: update OUTPUT whenever SCENE or a file that it names is saved, until Ctrl-C");
+  update
+      .option(
+          "--preview", options.preview,
+          "Picture (.png, .jpg, .exr, .hdr) to draw with the probes after each bake, from the scene's first "
+          "camera")
+      .needs(watch);
 }
 
 }  // namespace
@@ -145,7 +156,11 @@ void add_bake_command(Command app, Context& context) {
         given.of_viz = names_of_given(uses->of_viz);
         given.not_of_update = names_of_given(uses->not_of_update);
         if (uses->quality) apply_quality(given, *uses->quality);
-        run_and_print(context, given, run_bake);
+        if (given.watch) {
+          run_and_print(context, given, run_bake_watch);
+        } else {
+          run_and_print(context, given, run_bake);
+        }
       });
   add_scene_options(command, o.scene);
   add_place_options(command, o.place);

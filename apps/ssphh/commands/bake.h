@@ -1,6 +1,7 @@
 #pragma once
 /// `ssphh bake`: the light at every SPHL of a scene and between them, as a probe file.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,9 +11,12 @@
 #include <ssphh/bake/transport_bake.h>
 #include <ssphh/bake/update.h>
 #include <ssphh/core/control.h>
+#include <ssphh/core/files_read.h>
 #include <ssphh/core/json.h>
 #include <ssphh/scene/scene_items.h>
+#include <ssphh/trace/scene_geometry.h>
 
+#include "commands/bake_only.h"
 #include "options/farm_options.h"
 #include "options/place_options.h"
 #include "options/scene_options.h"
@@ -59,14 +63,18 @@ struct BakeOptions {
   /// parameters of the bake are that file's.
   std::string update;
   std::optional<float> tolerance;  ///< of an update: share of light, plan_update()
+  BakeOnly only;                   ///< of an update: what is baked by hand
   /// Names of options that were given and stand only without an update.
   std::vector<std::string> not_of_update;
+  bool watch = false;   ///< go on with updates whenever the scene's files are saved
+  std::string preview;  ///< of a watch: picture to draw of each bake; empty: none
 };
 
 /// What an update found.
 struct BakeUpdate {
-  std::vector<scene::ChangedItem> changed;  ///< none: nothing was compared
-  bake::UpdatePlan plan;
+  std::vector<scene::ChangedItem> changed;                 ///< none: nothing was compared
+  probes::LightOperator op = probes::LightOperator::path;  ///< what finds the light
+  bake::UpdatePlan plan;  ///< of light by transport: what has changed, probes whose bits have
 };
 
 struct BakeResult {
@@ -83,11 +91,31 @@ struct BakeResult {
 /// Options as `quality` has them.
 void set_effort(BakeOptions& options, bake::Quality quality);
 
+/// Throws Error where a farm is asked for and this bake has nothing for it.
+void require_work_for(const FarmChoice& farm, probes::LightOperator op, bool viz_by_path);
+
 /// Bakes and writes the probe file. Warns in the log as its parts do. Throws Error for scenes that cannot be
 /// read, options that exclude each other, files that cannot be written, a farm that cannot be reached, and as
 /// place::place_probes, bake::bake and bake::bake_transport do; Cancelled when asked to stop, which leaves
 /// OUTPUT.checkpoint for the next call with the same options.
 BakeResult run_bake(const BakeOptions& options, const Control& control = {});
+
+/// A scene and its probes, as somebody who watches a bake may look at them.
+struct SeenLight {
+  const trace::SharedGeometry& geometry;
+  const scene::Scene& scene;
+  const probes::ProbeSet& set;
+  bool done;  ///< false: with the light that an update begins with
+};
+
+/// Who watches a bake.
+struct BakeWatcher {
+  std::vector<FileStamp> files;               ///< that the scene was read from; also where it throws
+  std::function<void(const SeenLight&)> see;  ///< none: nobody looks
+};
+
+/// run_bake() under somebody's eyes.
+BakeResult run_bake_watched(const BakeOptions& options, BakeWatcher& watcher, const Control& control);
 
 json::Value to_json(const BakeResult& result, const BakeOptions& options);
 std::string to_text(const BakeResult& result, const BakeOptions& options);

@@ -76,10 +76,7 @@ probes::VizMethod resolve(BakeOptions& o, std::size_t probes) {
   if (path && !transport)
     refuse(o.of_transport, "is of transport: use --operator surfel, bounce, --viz links, --records or --fit");
   if (o.viz == VizMethod::none) refuse(o.of_viz, "is of VIZ: use --viz links or path");
-  if (o.farm.any() && !path && !params.viz)
-    throw Error(fmt::format("--operator {}", name_of(op)),
-                "is done here, in seconds; a farm does GEN and VIZ by path tracing",
-                "leave out --broker and --local");
+  require_work_for(o.farm, op, params.viz);
   return *o.viz;
 }
 
@@ -99,6 +96,13 @@ void fill(BakeResult& result, const BakeOptions& o, const trace::SharedGeometry&
           const scene::Scene& scene, const std::filesystem::path& checkpoint, const FarmSession* session,
           const Control& control) {
   const bool path = o.op == probes::LightOperator::path;
+  const bool links = o.transport.viz;
+  probes::Baseline baseline{links ? o.transport.viz_params.neighbors : o.params.viz_params.neighbors,
+                            links ? o.transport.viz_params.threshold : o.params.viz_params.threshold,
+                            o.transport.records.points,
+                            o.transport.transport.most_surfels,
+                            scene::scene_items(scene, o.scene.time),
+                            {}};
   if (!path || o.transport.fit || o.transport.viz || o.transport.records.points > 0) {
     const trace::TransportScene source(geometry, scene);
     if (path) {
@@ -115,14 +119,9 @@ void fill(BakeResult& result, const BakeOptions& o, const trace::SharedGeometry&
     result.set = bake::bake(tracer, std::move(result.set), o.params, checkpoint, result.paths, control,
                             crew ? &*crew : nullptr);
     if (crew) result.farm = crew->report();
-    if (path) {
-      const transport::LinkVizParams& links = o.transport.viz_params;
-      const bake::VizParams viz =
-          o.transport.viz ? bake::VizParams{false, links.neighbors, links.threshold} : o.params.viz_params;
-      result.set.baseline =
-          bake::make_baseline(tracer, result.set, scene::scene_items(scene, o.scene.time), viz, control);
-    }
+    if (path) baseline.trials = bake::make_trials(tracer, result.set, control);
   }
+  result.set.baseline = std::move(baseline);
 }
 
 double viz_seconds(const BakeResult& r) {
@@ -130,10 +129,11 @@ double viz_seconds(const BakeResult& r) {
 }
 
 /// Finds places and fills the set, where nothing is taken from an earlier bake.
-void run_full_bake(const BakeOptions& options, BakeResult& result, const Control& control) {
+void run_full_bake(const BakeOptions& options, BakeResult& result, BakeWatcher& watcher,
+                   const Control& control) {
   BakeOptions o = options;
   const std::optional<FarmSession> session = farm_session(o.farm);
-  const scene::Scene scene = load_lit_scene(o.scene);
+  const scene::Scene scene = load_lit_scene(o.scene, watcher.files);
   o.params.path.seed = o.seed;
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   result.place = place_for(geometry, scene, o.scene.time, o.place, "", control);
@@ -153,6 +153,7 @@ void run_full_bake(const BakeOptions& options, BakeResult& result, const Control
         t.coarsest_surfel));
     log_warning("{}", t.warnings.back());
   }
+  if (watcher.see) watcher.see({geometry, scene, result.set, true});
 }
 
 }  // namespace
@@ -172,15 +173,30 @@ BakeOptions::BakeOptions() {
   set_effort(*this, bake::Quality::good);
 }
 
+void require_work_for(const FarmChoice& farm, probes::LightOperator op, bool viz_by_path) {
+  if (farm.any() && op != probes::LightOperator::path && !viz_by_path)
+    throw Error(fmt::format("--operator {}", name_of(op)),
+                "is done here, in seconds; a farm does GEN and VIZ by path tracing",
+                "leave out --broker and --local");
+}
+
 BakeResult run_bake(const BakeOptions& options, const Control& control) {
+  BakeWatcher nobody;
+  return run_bake_watched(options, nobody, control);
+}
+
+BakeResult run_bake_watched(const BakeOptions& options, BakeWatcher& watcher, const Control& control) {
   const GeometryBuilds builds;
-  if (options.tolerance && options.update.empty())
+  if (options.tolerance && options.update.empty() && !options.watch)
     throw Error("--tolerance", "is of an update", "give --update FILE, too");
+  if (options.only.any() && options.update.empty())
+    throw Error("--only-probes, --only-box and --only-lights",
+                "are of an update: the rest is taken from its file", "give --update FILE, too");
   BakeResult result;
   if (options.update.empty()) {
-    run_full_bake(options, result, control);
+    run_full_bake(options, result, watcher, control);
   } else {
-    run_bake_update(options, result, control);
+    run_bake_update(options, result, watcher, control);
   }
   probes::write_probe_file(result.set, options.output);
   std::filesystem::remove(options.output + ".checkpoint");
@@ -246,10 +262,10 @@ std::string to_text(const BakeResult& r, const BakeOptions& o) {
                           t.iterations, t.contraction, t.seconds);
     }
   }
-  if (r.set.surface)
+  if (r.set.surface && t.record_seconds > 0)
     text += fmt::format("\nlight kept at {} surface points in {:.2f} s", r.set.surface->points.size(),
                         t.record_seconds);
-  if (r.set.fitted)
+  if (r.set.fitted && t.fit_seconds > 0)
     text +=
         fmt::format("\nweights fitted at {} points in {:.2f} s", r.set.fitted->points.size(), t.fit_seconds);
   if (path) text += fmt::format("\nGEN {:.2f} s", r.paths.gen_seconds);

@@ -1,5 +1,6 @@
 #include "options/scene_options.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <ssphh/core/log.h>
@@ -72,6 +73,23 @@ scene::Scene load_lit_scene(const SceneOptions& options) {
     scene::add_studio(scene);
   }
   return scene;
+}
+
+scene::Scene load_lit_scene(const SceneOptions& options, std::vector<FileStamp>& files) {
+  const FilesRead read;
+  const FileStamp beside = stamp_of(scene_io::overlay_beside(options.source));
+  const auto keep = [&] {
+    files = read.stamps();
+    if (std::ranges::find(files, beside.path, &FileStamp::path) == files.end()) files.push_back(beside);
+  };
+  try {
+    scene::Scene scene = load_lit_scene(options);
+    keep();
+    return scene;
+  } catch (const Error&) {
+    keep();
+    throw;
+  }
 }
 
 }  // namespace ssphh::app

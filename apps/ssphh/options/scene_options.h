@@ -2,7 +2,9 @@
 /// The options of every command that reads a scene.
 
 #include <string>
+#include <vector>
 
+#include <ssphh/core/files_read.h>
 #include <ssphh/scene/scene.h>
 
 #include "options/command_line.h"
@@ -32,5 +34,9 @@ scene::Scene load_scene(const SceneOptions& options);
 
 /// For commands that look at light: a scene without any gets a neutral studio around it, and a warning.
 scene::Scene load_lit_scene(const SceneOptions& options);
+
+/// The same; `files` are those that it was read from, as far as it came before it threw, and the overlay
+/// beside SCENE, be there one or not.
+scene::Scene load_lit_scene(const SceneOptions& options, std::vector<FileStamp>& files);
 
 }  // namespace ssphh::app

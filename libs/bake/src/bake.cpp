@@ -73,12 +73,14 @@ CheckpointRecord encode(const ProbeStageResult& result) {
   return {result.done.stage, result.done.probe, result.seconds, result.rays, out.take()};
 }
 
-void store(ProbeStageResult result, probes::ProbeSet& set, BakeReport& report) {
+void store(ProbeStageResult result, probes::ProbeSet& set, const BakeParams& params, BakeReport& report) {
   const bool gen = result.done.stage == BakeStage::gen;
   (gen ? report.gen_seconds : report.viz_seconds) += result.seconds;
   report.rays += result.rays;
   probes::Probe& probe = set.probes[result.done.probe];
-  if (gen) {
+  if (gen && params.only_groups) {
+    for (const std::uint32_t g : *params.only_groups) probe.groups[g] = std::move(result.groups[g]);
+  } else if (gen) {
     probe.groups = std::move(result.groups);
   } else {
     probe.edges = std::move(result.edges);
@@ -120,7 +122,7 @@ struct Work {
 
   void keep(ProbeStageResult result) const {
     const std::size_t i = result.done.probe;
-    store(std::move(result), set, report);
+    store(std::move(result), set, params, report);
     if (on_probe) on_probe(i, set.probes[i]);
   }
 
@@ -240,6 +242,10 @@ probes::ProbeSet bake(const rays::RadianceSource& source, probes::ProbeSet set, 
     for (probes::Probe& probe : set.probes)
       probe.groups.assign(set.light_groups.size(), {{}, sh::RadianceSh(set.degree)});
   }
+  if (params.only_groups)
+    require(std::ranges::all_of(*params.only_groups,
+                                [&](std::uint32_t group) { return group < set.light_groups.size(); }),
+            "bake", "there is no light group of that index");
   set.hierarchy.reset();
   probes::validate(set, "bake");
 

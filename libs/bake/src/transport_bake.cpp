@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <ssphh/bake/transport_bake.h>
+#include <ssphh/bake/update.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/require.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/transport/session_sets.h>
+
+#include "renew_records.h"
 
 namespace ssphh::bake {
 namespace {
@@ -85,22 +88,35 @@ void fit(const transport::RelightSession& session, const rays::TransportSource& 
   report.fit_seconds += watch.seconds();
 }
 
-void keep_records(transport::RelightSession& session, probes::ProbeSet& set,
-                  const transport::GatherParams& params, TransportBakeReport& report,
+void find_records(transport::RelightSession& session, probes::ProbeSet& set,
+                  const transport::GatherParams& params, const LightScope& scope, TransportBakeReport& report,
                   const Control& control) {
   const Stopwatch watch;
-  session.keep_records(params, control);
-  set.surface = session.records_by_group(control);
+  renew_records(session, set, params, scope, control);
   report.record_seconds = watch.seconds();
 }
 
+/// Of these probes alone; none: of all.
 void find_edges(const transport::TransportNetwork& network, const rays::TransportSource& source,
-                probes::ProbeSet& set, const transport::LinkVizParams& params, TransportBakeReport& report,
+                probes::ProbeSet& set, const transport::LinkVizParams& params,
+                const std::optional<std::vector<std::uint32_t>>& which, TransportBakeReport& report,
                 const Control& control) {
+  if (which && which->empty()) return;
   const Stopwatch watch;
-  std::vector<std::vector<probes::Edge>> edges =
-      transport::viz_from_links(network, source, set.probes, set.degree, params, control);
-  for (std::size_t i = 0; i < edges.size(); ++i) set.probes[i].edges = std::move(edges[i]);
+  std::optional<transport::LinkVizScope> scope;
+  if (which) {
+    scope = {*which, *which};
+    for (const std::uint32_t i : *which) {
+      require(i < set.probes.size(), "update of edges", "there is no probe of that index");
+      for (const probes::Edge& edge : set.probes[i].edges)
+        scope->from.push_back(static_cast<std::uint32_t>(edge.from));
+    }
+  }
+  std::vector<std::vector<probes::Edge>> edges = transport::viz_from_links(
+      network, source, set.probes, set.degree, params, control, scope ? &*scope : nullptr);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (!which || std::ranges::binary_search(*which, i)) set.probes[i].edges = std::move(edges[i]);
+  }
   set.generator.viz = probes::VizMethod::links;
   report.viz_seconds = watch.seconds();
 }
@@ -126,37 +142,86 @@ void require_probes(const probes::ProbeSet& set) {
     throw Error("bake", "there are no probes to bake", "run INIT on a scene with SPHLs");
 }
 
+/// Lights everything once, then each group alone.
+class LitSession {
+ public:
+  LitSession(const rays::TransportSource& source, const probes::ProbeSet& set,
+             const TransportBakeParams& params, TransportBakeReport& report, const Control& control)
+      : source_(source),
+        params_(params),
+        report_(report),
+        degree_(set.degree),
+        session_(source, transport::places_of(set.probes), relight_params(set, params), set.generator.time,
+                 control) {
+    session_.update(session_.lighting(), control);
+  }
+
+  transport::RelightSession& session() { return session_; }
+  bool converged() const { return converged_; }
+
+  std::vector<std::vector<sh::RadianceSh>> reflected_by_group(const Control& control) {
+    if (params_.op == probes::LightOperator::bounce) {
+      report_.contraction = 0;
+      return bounce_by_group(session_, source_, params_, degree_, report_, converged_);
+    }
+    transport::SolveReport slowest;
+    std::vector<std::vector<sh::RadianceSh>> reflected = session_.reflected_by_group(control, &slowest);
+    report_.iterations = slowest.iterations;
+    converged_ = slowest.converged;
+    return reflected;
+  }
+
+ private:
+  static transport::RelightParams relight_params(const probes::ProbeSet& set,
+                                                 const TransportBakeParams& params) {
+    transport::RelightParams relight{params.transport, params.solve};
+    relight.degree = set.degree;
+    return relight;
+  }
+
+  const rays::TransportSource& source_;
+  const TransportBakeParams& params_;
+  TransportBakeReport& report_;
+  int degree_;
+  transport::RelightSession session_;
+  bool converged_ = true;
+};
+
+void require_transport(const TransportBakeParams& params) {
+  require(params.op != probes::LightOperator::path, "transport bake",
+          "path tracing is no transport between probes");
+}
+
+void tell_warnings(const TransportBakeReport& report) {
+  for (const std::string& warning : report.warnings) log_warning("{}", warning);
+}
+
+/// Of all the light that stands in a probe, as both halves of a trial that has no noise.
+probes::Trial light_of(const probes::Probe& probe) {
+  probes::Trial light;
+  for (const probes::GroupLight& group : probe.groups) {
+    sh::RadianceSh& sum = light.halves[0].emplace_back(group.reflected);
+    if (!group.emitted.empty()) sum += group.emitted;
+  }
+  light.halves[1] = light.halves[0];
+  return light;
+}
+
 }  // namespace
 
 probes::ProbeSet bake_transport(const rays::TransportSource& source, probes::ProbeSet set,
                                 const TransportBakeParams& params, TransportBakeReport& report,
                                 const Control& control) {
   require_probes(set);
-  require(params.op != probes::LightOperator::path, "transport bake",
-          "path tracing is no transport between probes");
+  require_transport(params);
   report = {};
   const std::uint64_t rays_before = source.rays_traced();
   const Stopwatch watch;
-
-  // Light everything once, then each group alone.
-  transport::RelightParams relight_params{params.transport, params.solve};
-  relight_params.degree = set.degree;
-  transport::RelightSession session(source, transport::places_of(set.probes), relight_params,
-                                    set.generator.time, control);
-  session.update(session.lighting(), control);
+  LitSession lit(source, set, params, report, control);
+  transport::RelightSession& session = lit.session();
   const transport::TransportNetwork& network = session.network();
   describe_network(network, set, report);
-  bool converged = true;
-  std::vector<std::vector<sh::RadianceSh>> reflected;
-  if (params.op == probes::LightOperator::bounce) {
-    report.contraction = 0;
-    reflected = bounce_by_group(session, source, params, set.degree, report, converged);
-  } else {
-    transport::SolveReport slowest;
-    reflected = session.reflected_by_group(control, &slowest);
-    report.iterations = slowest.iterations;
-    converged = slowest.converged;
-  }
+  std::vector<std::vector<sh::RadianceSh>> reflected = lit.reflected_by_group(control);
 
   set.generator.op = params.op;
   set.generator.viz = probes::VizMethod::none;
@@ -170,59 +235,95 @@ probes::ProbeSet bake_transport(const rays::TransportSource& source, probes::Pro
   transport::store_groups(set, std::move(reflected), session.emitted_by_group());
 
   report.seconds = watch.seconds();
-  if (params.records.points > 0) keep_records(session, set, params.records, report, control);
-  if (params.viz) find_edges(network, source, set, params.viz_params, report, control);
+  if (params.records.points > 0) find_records(session, set, params.records, {}, report, control);
+  if (params.viz) find_edges(network, source, set, params.viz_params, {}, report, control);
   if (params.fit) fit(session, source, set, params.fit_params, report, control);
   report.rays = source.rays_traced() - rays_before;
-  check_light(network, set, converged, report);
+  check_light(network, set, lit.converged(), report);
   probes::validate(set, "bake");
-  for (const std::string& warning : report.warnings) log_warning("{}", warning);
+  tell_warnings(report);
   return set;
 }
 
 void add_transport(const rays::TransportSource& source, probes::ProbeSet& set,
-                   const TransportBakeParams& params, TransportBakeReport& report, const Control& control) {
+                   const TransportBakeParams& params, TransportBakeReport& report, const Control& control,
+                   const TransportScope& scope) {
   require_probes(set);
   report = {};
+  const bool edges = params.viz && !(scope.edges && scope.edges->empty()),
+             records = params.records.points > 0;
+  if (!edges && !params.fit && !records) return;
   const std::uint64_t rays_before = source.rays_traced();
   transport::RelightSession session(source, transport::places_of(set.probes),
                                     {params.transport, params.solve}, set.generator.time, control);
   const transport::TransportNetwork& network = session.network();
   describe_network(network, set, report);
-  if (params.viz) find_edges(network, source, set, params.viz_params, report, control);
-  if (params.fit || params.records.points > 0) session.update(session.lighting(), control);
+  if (edges) find_edges(network, source, set, params.viz_params, scope.edges, report, control);
+  if (params.fit || records) session.update(session.lighting(), control);
   if (params.fit) fit(session, source, set, params.fit_params, report, control);
-  if (params.records.points > 0) keep_records(session, set, params.records, report, control);
+  if (records) find_records(session, set, params.records, scope.light, report, control);
   report.rays = source.rays_traced() - rays_before;
 }
 
-void update_edges(const rays::TransportSource& source, probes::ProbeSet& set,
-                  std::span<const std::uint32_t> which, const transport::LinkVizParams& params,
-                  TransportBakeReport& report, const Control& control) {
+TransportUpdate update_transport(const rays::TransportSource& source, probes::ProbeSet& set,
+                                 const TransportBakeParams& params, const LightScope& scope,
+                                 float edge_change, TransportBakeReport& report, const Control& control) {
   require_probes(set);
+  require_transport(params);
+  require(std::ranges::equal(set.light_groups, source.light_groups(), {}, &probes::LightGroup::name),
+          "transport update", "the set is of other light groups than the scene");
   report = {};
-  if (which.empty()) return;
   const std::uint64_t rays_before = source.rays_traced();
   const Stopwatch watch;
-  transport::LinkVizScope scope{{which.begin(), which.end()}, {which.begin(), which.end()}};
-  for (const std::uint32_t i : which) {
-    require(i < set.probes.size(), "update of edges", "there is no probe of that index");
-    for (const probes::Edge& edge : set.probes[i].edges)
-      scope.from.push_back(static_cast<std::uint32_t>(edge.from));
+  LitSession lit(source, set, params, report, control);
+  transport::RelightSession& session = lit.session();
+  describe_network(session.network(), set, report);
+  const std::vector<probes::Probe> before = set.probes;
+  transport::store_groups(set, lit.reflected_by_group(control), session.emitted_by_group());
+  set.hierarchy.reset();
+
+  TransportUpdate update;
+  std::vector<std::uint32_t> edges_to;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    std::vector<probes::GroupLight>& now = set.probes[i].groups;
+    for (std::size_t g = 0; g < now.size(); ++g) {
+      if (!scope.has_probe(i) || !scope.has_group(g)) now[g] = before[i].groups[g];
+    }
+    update.changed.push_back(changed_share(light_of(before[i]), light_of(set.probes[i])));
+    if (now != before[i].groups) update.probes.push_back(static_cast<std::uint32_t>(i));
+    if (update.changed[i] > edge_change) edges_to.push_back(static_cast<std::uint32_t>(i));
   }
-  std::vector<vec3> positions;
-  for (const probes::Probe& probe : set.probes) positions.push_back(probe.position);
-  transport::TransportParams network_params;
-  network_params.directions = set.generator.directions;
-  network_params.surfel_size = set.generator.surfel_size;
-  network_params.link_rays = set.generator.link_rays;
-  const transport::TransportNetwork network(source, positions, network_params, set.generator.time, control);
-  describe_network(network, set, report);
-  std::vector<std::vector<probes::Edge>> edges =
-      transport::viz_from_links(network, source, set.probes, set.degree, params, control, &scope);
-  for (const std::uint32_t i : which) set.probes[i].edges = std::move(edges[i]);
-  report.viz_seconds = watch.seconds();
+
+  report.seconds = watch.seconds();
+  if (params.records.points > 0) find_records(session, set, params.records, scope, report, control);
+  if (params.viz) find_edges(session.network(), source, set, params.viz_params, edges_to, report, control);
+  if (params.fit) fit(session, source, set, params.fit_params, report, control);
+  probes::merge_groups(set);
   report.rays = source.rays_traced() - rays_before;
+  check_light(session.network(), set, lit.converged(), report);
+  probes::validate(set, "bake");
+  tell_warnings(report);
+  return update;
+}
+
+TransportBakeParams transport_params_of(const probes::ProbeSet& set) {
+  const probes::GeneratorInfo& g = set.generator;
+  TransportBakeParams params;
+  params.op = g.op;
+  if (g.directions > 0) {
+    params.transport.directions = g.directions;
+    params.transport.surfel_size = g.surfel_size;
+    params.transport.link_rays = g.link_rays;
+  }
+  params.viz = g.viz == probes::VizMethod::links;
+  params.fit = set.fitted.has_value();
+  if (set.baseline) {
+    params.viz_params.neighbors = set.baseline->viz_neighbors;
+    params.viz_params.threshold = set.baseline->viz_threshold;
+    params.records.points = set.baseline->records;
+    params.transport.most_surfels = set.baseline->most_surfels;
+  }
+  return params;
 }
 
 }  // namespace ssphh::bake

@@ -107,25 +107,21 @@ float changed_share(const probes::Trial& before, const probes::Trial& now) {
   return brighter2 > 0 ? static_cast<float>(std::sqrt(std::max(change2, 0.0) / brighter2)) : 0;
 }
 
-probes::Baseline make_baseline(const rays::RadianceSource& source, const probes::ProbeSet& set,
-                               std::vector<scene::SceneItem> items, const VizParams& viz_params,
-                               const Control& control) {
-  probes::Baseline baseline;
-  baseline.viz_neighbors = viz_params.neighbors;
-  baseline.viz_threshold = viz_params.threshold;
-  baseline.items = std::move(items);
+std::vector<probes::Trial> make_trials(const rays::RadianceSource& source, const probes::ProbeSet& set,
+                                       const Control& control) {
+  std::vector<probes::Trial> trials;
   ProgressStage progress(control, "trials", set.probes.size(), "probes");
   for (std::size_t i = 0; i < set.probes.size(); ++i) {
     control.check();
-    baseline.trials.push_back(trial(source, set, i, {nullptr, control.cancel}));
+    trials.push_back(trial(source, set, i, {nullptr, control.cancel}));
     progress.advance(1);
   }
-  return baseline;
+  return trials;
 }
 
 UpdatePlan plan_update(const rays::RadianceSource& source, const probes::ProbeSet& set,
-                       std::optional<float> tolerance, const Control& control) {
-  if (!set.baseline)
+                       std::optional<float> tolerance, const LightScope& scope, const Control& control) {
+  if (!set.baseline || set.baseline->trials.size() != set.probes.size())
     throw Error("update", "the probes were baked without a baseline to compare with", "bake them in full");
   if (tolerance && !(*tolerance >= 0))
     throw Error("tolerance", "it must be a share of a probe's light, 0 or more");
@@ -137,16 +133,25 @@ UpdatePlan plan_update(const rays::RadianceSource& source, const probes::ProbeSe
   ProgressStage progress(control, "comparing", set.probes.size(), "probes");
   for (std::size_t i = 0; i < set.probes.size(); ++i) {
     control.check();
-    const probes::Trial& now = plan.trials.emplace_back(trial(source, set, i, {nullptr, control.cancel}));
-    plan.changed.push_back(changed_share(set.baseline->trials[i], now));
-    noise.push_back(bake_noise(now, set.generator));
+    const probes::Trial& before = set.baseline->trials[i];
+    probes::Trial& now = plan.trials.emplace_back(before);
+    if (scope.has_probe(i)) {
+      now = trial(source, set, i, {nullptr, control.cancel});
+      noise.push_back(bake_noise(now, set.generator));
+      for (std::size_t half = 0; half < 2; ++half) {
+        for (std::size_t g = 0; g < set.light_groups.size(); ++g)
+          if (!scope.has_group(g)) now.halves[half][g] = before.halves[half][g];
+      }
+    }
+    plan.changed.push_back(changed_share(before, now));
     progress.advance(1);
   }
   plan.noise = median(std::move(noise));
   plan.tolerance = tolerance.value_or(std::max(usual_tolerance, plan.noise));
   for (std::size_t i = 0; i < plan.changed.size(); ++i) {
     const bool strict = plan.tolerance == 0 && plan.trials[i] != set.baseline->trials[i];
-    if (strict || plan.changed[i] > plan.tolerance) plan.probes.push_back(static_cast<std::uint32_t>(i));
+    if (scope.probes ? scope.has_probe(i) : strict || plan.changed[i] > plan.tolerance)
+      plan.probes.push_back(static_cast<std::uint32_t>(i));
   }
   plan.seconds = watch.seconds();
   return plan;
@@ -170,6 +175,9 @@ void adopt_groups(probes::ProbeSet& set, std::span<const std::string> groups) {
   };
   for (probes::Probe& probe : set.probes)
     rearrange(probe.groups, probes::GroupLight{{}, sh::RadianceSh(set.degree)});
+  if (set.surface) {
+    rearrange(set.surface->groups, std::vector<probes::PackedRecordLight>(set.surface->points.size()));
+  }
   if (set.baseline) {
     for (probes::Trial& trial : set.baseline->trials) {
       for (std::vector<sh::RadianceSh>& half : trial.halves)
@@ -180,10 +188,9 @@ void adopt_groups(probes::ProbeSet& set, std::span<const std::string> groups) {
   set.hierarchy.reset();
 }
 
-void renew_baseline(probes::ProbeSet& set, const UpdatePlan& plan, std::vector<scene::SceneItem> items) {
+void renew_trials(probes::ProbeSet& set, const UpdatePlan& plan) {
   require(set.baseline && set.baseline->trials.size() == plan.trials.size(), "update",
           "the plan is of other probes");
-  set.baseline->items = std::move(items);
   for (const std::uint32_t i : plan.probes) set.baseline->trials[i] = plan.trials[i];
 }
 

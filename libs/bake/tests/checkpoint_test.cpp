@@ -288,6 +288,7 @@ TEST(Checkpoint, OfOtherParametersIsNotUsedWhicheverFieldItIs) {
   };
   ASSERT_EQ(resumed(request), 2u);
   const test::Undecisive undecisive = {
+      {"params/only_groups/given", "a unit holds the light of all groups"},
       {"generator/op", "what the bake makes is of op path"},
       {"generator/viz", "likewise"},
       {"generator/gen", "the bake's parameters replace it"},

@@ -67,7 +67,7 @@ test::FakeSource::Field brighter_beyond(float more) {
 probes::ProbeSet baked(const test::FakeSource& source) {
   BakeReport report;
   probes::ProbeSet set = bake(source, row(), small_bake(), {}, report);
-  set.baseline = make_baseline(source, set, {}, {});
+  set.baseline.emplace().trials = make_trials(source, set);
   return set;
 }
 
@@ -141,20 +141,20 @@ TEST(Update, FindsTheProbesWhoseLightHasChanged) {
 TEST(Update, EveryHalfHasRandomNumbersOfItsOwn) {
   SeededSource source;
   probes::ProbeSet set = lit_row();
-  make_baseline(source, set, {}, {});
+  make_trials(source, set);
   EXPECT_EQ(source.seeds.size(), 10u) << "two of each probe";
   const std::set<std::uint64_t> first = source.seeds;
-  make_baseline(source, set, {}, {});
+  make_trials(source, set);
   EXPECT_EQ(source.seeds, first) << "the same every time";
   set.generator.seed = 1;
-  make_baseline(source, set, {}, {});
+  make_trials(source, set);
   EXPECT_EQ(source.seeds.size(), 20u);
 }
 
 TEST(Update, WithoutToleranceOneHalfIsEnough) {
   SeededSource source;
   probes::ProbeSet set = lit_row();
-  set.baseline = make_baseline(source, set, {}, {});
+  set.baseline.emplace().trials = make_trials(source, set);
   const std::uint64_t changed = *source.seeds.begin();
   source.level = [&](std::uint64_t seed) { return seed == changed ? 1.5f : 1.0f; };
   EXPECT_THAT(plan_update(source, set, {}).changed, testing::Each(0));
@@ -196,22 +196,19 @@ TEST(Update, SmallChangesAddUpUntilTheyCount) {
     const UpdatePlan plan = plan_update(source, set, {});
     baked_again += !plan.probes.empty();
     EXPECT_EQ(plan.probes.empty(), step != 3) << "1.2 % are more than 1 %, and the next step is 0.4 % of it";
-    renew_baseline(set, plan, {});
+    renew_trials(set, plan);
   }
   EXPECT_EQ(baked_again, 1);
 }
 
-TEST(Update, RenewsTheItemsAndTheTrialsOfWhatWasBaked) {
+TEST(Update, RenewsTheTrialsOfWhatWasBaked) {
   test::FakeSource source;
   source.reflected = {brighter_beyond(0)};
   probes::ProbeSet set = baked(source);
   const probes::Baseline before = *set.baseline;
   source.reflected = {brighter_beyond(0.25f)};
   const UpdatePlan plan = plan_update(source, set, {});
-  scene::SceneItem chair;
-  chair.name = "chair";
-  renew_baseline(set, plan, {chair});
-  EXPECT_THAT(set.baseline->items, ElementsAre(chair));
+  renew_trials(set, plan);
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_EQ(set.baseline->trials[i] == before.trials[i], i < 3) << i;
     EXPECT_EQ(set.baseline->trials[i], plan.trials[i]) << i;

@@ -10,6 +10,8 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
 
+#include "note_file_read.h"
+
 namespace ssphh {
 namespace {
 
@@ -38,6 +40,7 @@ class Descriptor {
 
 template <class Container>
 Container read_whole(const std::filesystem::path& path, std::uint64_t limit) {
+  note_file_read(path);
   Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.get() < 0) fail(path, "open", errno);
   struct stat status {};

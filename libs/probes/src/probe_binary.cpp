@@ -131,12 +131,15 @@ Hash128 read_hash(ByteReader& in, const char* what) {
 void write_baseline(ByteWriter& out, const Baseline& baseline) {
   out.value(static_cast<std::int32_t>(baseline.viz_neighbors));
   out.value(baseline.viz_threshold);
+  out.value(static_cast<std::uint32_t>(baseline.records));
+  out.value(static_cast<std::uint32_t>(baseline.most_surfels));
   out.value(static_cast<std::uint32_t>(baseline.items.size()));
   for (const scene::SceneItem& item : baseline.items) {
     out.value(static_cast<std::uint8_t>(item.kind));
     out.text(item.name);
     for (const Hash128& hash : {item.shape, item.place, item.surface, item.emission}) write_hash(out, hash);
   }
+  out.value(static_cast<std::uint8_t>(!baseline.trials.empty()));
   for (const Trial& trial : baseline.trials) {
     for (const std::vector<sh::RadianceSh>& half : trial.halves) {
       for (const sh::RadianceSh& light : half)
@@ -149,6 +152,8 @@ Baseline read_baseline(ByteReader& in, std::size_t probe_count, std::size_t grou
   Baseline baseline;
   baseline.viz_neighbors = in.value_in<std::int32_t>("neighbors", -1, static_cast<int>(limits::probes));
   baseline.viz_threshold = in.value_in<float>("threshold", 0.0f, 1.0f);
+  baseline.records = read_int(in, "records", 0, static_cast<int>(limits::surface_records));
+  baseline.most_surfels = read_int(in, "surfels", 0, limits::surfels);
   constexpr std::size_t item_bytes = 1 + sizeof(std::uint32_t) + 4 * sizeof(Hash128);
   baseline.items.resize(in.count("scene item count", limits::scene_items, item_bytes));
   for (scene::SceneItem& item : baseline.items) {
@@ -158,7 +163,7 @@ Baseline read_baseline(ByteReader& in, std::size_t probe_count, std::size_t grou
       *hash = read_hash(in, "hash of scene item");
   }
   constexpr auto coefficients = static_cast<std::size_t>(sh::coefficient_count(trial_degree));
-  baseline.trials.resize(probe_count);
+  if (in.value_in<std::uint8_t>("trials flag", 0, 1)) baseline.trials.resize(probe_count);
   for (Trial& trial : baseline.trials) {
     for (std::vector<sh::RadianceSh>& half : trial.halves) {
       half.resize(group_count);

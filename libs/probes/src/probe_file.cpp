@@ -146,11 +146,15 @@ class Validator {
     require(b.viz_neighbors >= -1 && b.viz_neighbors <= static_cast<int>(limits::probes),
             "/baseline/neighbors", "must be -1 (all) or a count");
     number(b.viz_threshold, 0, 1, "/baseline/threshold");
+    require(b.records >= 0 && b.records <= static_cast<int>(limits::surface_records), "/baseline/records",
+            "must be a count");
+    require(b.most_surfels >= 0 && b.most_surfels <= limits::surfels, "/baseline/surfels", "must be a count");
     require(b.items.size() <= limits::scene_items, "/baseline/items",
             fmt::format("there are more than {}", limits::scene_items));
     for (std::size_t i = 0; i < b.items.size(); ++i)
       text(b.items[i].name, fmt::format("/baseline/items/{}/name", i));
-    require(b.trials.size() == set_.probes.size(), "/baseline/trials", "needs one entry per probe");
+    require(b.trials.empty() || b.trials.size() == set_.probes.size(), "/baseline/trials",
+            "needs one entry per probe, or none");
     constexpr auto coefficients = static_cast<std::size_t>(sh::coefficient_count(trial_degree));
     for (std::size_t i = 0; i < b.trials.size(); ++i) {
       const std::string at = fmt::format("/baseline/trials/{}", i);

@@ -127,10 +127,12 @@ SurfaceRecords read_surface(const Cursor& at, std::size_t group_count) {
 }
 
 Baseline read_baseline(const Cursor& at, std::size_t probe_count, std::size_t group_count) {
-  at.members({"neighbors", "threshold", "items", "trials"});
+  at.members({"neighbors", "threshold", "records", "surfels", "items", "trials"});
   Baseline baseline;
   baseline.viz_neighbors = integer(at["neighbors"], -1, static_cast<int>(limits::probes));
   baseline.viz_threshold = at["threshold"].number(0, 1);
+  baseline.records = integer(at["records"], 0, static_cast<int>(limits::surface_records));
+  baseline.most_surfels = integer(at["surfels"], 0, limits::surfels);
   const Cursor items = at["items"];
   baseline.items.resize(items.size(0, limits::scene_items));
   for (std::size_t i = 0; i < baseline.items.size(); ++i) {
@@ -143,6 +145,7 @@ Baseline read_baseline(const Cursor& at, std::size_t probe_count, std::size_t gr
                          item["emission"].hash()};
   }
   const Cursor trials = at["trials"];
+  if (trials.size(0, probe_count) == 0) return baseline;
   trials.size(probe_count, probe_count);
   for (std::size_t i = 0; i < probe_count; ++i) {
     trials[i].size(2, 2);

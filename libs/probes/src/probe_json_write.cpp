@@ -122,8 +122,8 @@ class Writer {
 
   /// With all digits: an update tells from the last one whether anything has changed.
   void baseline(const Baseline& b) {
-    put(",\n\"baseline\":{{\"neighbors\":{},\"threshold\":{},\n\"items\":[", b.viz_neighbors,
-        exact(b.viz_threshold));
+    put(",\n\"baseline\":{{\"neighbors\":{},\"threshold\":{},\"records\":{},\"surfels\":{},\n\"items\":[",
+        b.viz_neighbors, exact(b.viz_threshold), b.records, b.most_surfels);
     for (std::size_t i = 0; i < b.items.size(); ++i) {
       const scene::SceneItem& item = b.items[i];
       put("{}\n{{\"kind\":\"{}\",\"name\":{},\"shape\":\"{}\",\"place\":\"{}\",\"surface\":\"{}\","

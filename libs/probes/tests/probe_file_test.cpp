@@ -308,6 +308,8 @@ TEST(ProbeFile, ASetThatBreaksTheRulesIsNotWritten) {
   expect_rejected("/surface", [](ProbeSet& s) { s.surface->groups.pop_back(); });
   expect_rejected("/baseline/neighbors", [](ProbeSet& s) { s.baseline->viz_neighbors = -2; });
   expect_rejected("/baseline/threshold", [&](ProbeSet& s) { s.baseline->viz_threshold = nan; });
+  expect_rejected("/baseline/records", [](ProbeSet& s) { s.baseline->records = -1; });
+  expect_rejected("/baseline/surfels", [](ProbeSet& s) { s.baseline->most_surfels = -1; });
   expect_rejected("/baseline/items/3/name", [](ProbeSet& s) { s.baseline->items[3].name.resize(2000, 'x'); });
   expect_rejected("/baseline/trials", [](ProbeSet& s) { s.baseline->trials.pop_back(); });
   expect_rejected("/baseline/trials/2", [](ProbeSet& s) { s.baseline->trials[2].halves[1].pop_back(); });

@@ -67,7 +67,7 @@ TEST(ProbeSchema, SchemaAndReaderRejectTheSameMutations) {
   const std::vector<Mutation> mutations = {
       {"/format", "probes"},
       {"/version", 1},
-      {"/version", 6},
+      {"/version", 7},
       {"/version", "5"},
       {"/degree", 11},
       {"/degree", -1},
@@ -157,6 +157,8 @@ TEST(ProbeSchema, SchemaAndReaderRejectTheSameMutations) {
       {"/baseline/extra", 1},
       {"/baseline/neighbors", -2},
       {"/baseline/threshold", 1.5},
+      {"/baseline/records", -1},
+      {"/baseline/surfels", -1},
       {"/baseline/items/0/kind", "camera"},
       {"/baseline/items/0/extra", 1},
       {"/baseline/items/1/name", 3},
@@ -228,8 +230,8 @@ TEST(ProbeSchema, RulesBeyondTheSchemaAreTheReadersAlone) {
       {"/fitted/0/probes/0", 2},                      // no such probe
       {"/fitted/0/probes", json::Value::array({0})},  // two weights
       {"/fitted/0/normal", json::Value::array({1, 1, 0})},
-      {"/surface/0/groups", json::Value::array()},  // of no light group
-      {"/baseline/trials", json::Value::array()},   // of no probe
+      {"/surface/0/groups", json::Value::array()},                       // of no light group
+      {"/baseline/trials", json::Value::array({json::Value::array()})},  // of one probe
       {"/baseline/trials/0/1", json::Value::array()},
       {"/surface/0/normal", json::Value::array({1, 1, 0})},
       {"/probes/0/name", std::string(1024, 'x') + "\u00fc"},

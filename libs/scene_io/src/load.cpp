@@ -88,6 +88,10 @@ void check_size(const Scene& scene, const std::string& source) {
 
 }  // namespace
 
+fs::path overlay_beside(const std::string& source) {
+  return fs::path(source).replace_extension(".ssphh.json");
+}
+
 Scene load_scene(const std::string& source, const LoadOptions& options) {
   require(std::isfinite(options.environment_intensity) && options.environment_intensity >= 0 &&
               std::isfinite(options.environment_rotation),
@@ -112,7 +116,7 @@ Scene load_scene(const std::string& source, const LoadOptions& options) {
       overlay_with(as_text(data), source);
     } else {
       scene = load_plain(source, &data, options.time);
-      const fs::path beside = fs::path(source).replace_extension(".ssphh.json");
+      const fs::path beside = overlay_beside(source);
       std::error_code unreadable;
       if (overlay.empty() && fs::exists(beside, unreadable)) overlay = beside;
     }

@@ -140,6 +140,12 @@ struct RelightSession::Data {
     gather = gather_where_needed(network, params.records, by_group, lit, control);
   }
 
+  void light_records() {
+    if (!gather || reflected.empty()) return;
+    if (bounce) solve_surfels();
+    gather->light(total(direct, indirect), record_light);
+  }
+
   /// The sum of the groups' direct light, each as bright as another.
   std::vector<Irradiance4> each_alike(std::span<const std::vector<Irradiance4>> by_group) const {
     std::vector<Irradiance4> sum(network.surfel_count(), Irradiance4(0));

@@ -112,9 +112,15 @@ void RelightSession::keep_records(const GatherParams& params, const Control& con
   Data& d = *data_;
   d.params.records = params;
   d.keep_records(control);
-  if (!d.gather || d.reflected.empty()) return;
-  if (d.bounce) d.solve_surfels();
-  d.gather->light(total(d.direct, d.indirect), d.record_light);
+  d.light_records();
+}
+
+void RelightSession::keep_records_at(std::vector<rays::SurfacePoint> points, int rays,
+                                     const Control& control) {
+  Data& d = *data_;
+  d.update_direct({});
+  d.gather = std::make_unique<SurfaceGather>(d.network, std::move(points), rays, direct_by_group(), control);
+  d.light_records();
 }
 
 const SurfaceGather* RelightSession::gather() const {

@@ -22,6 +22,9 @@ struct BakeParams {
   VizParams viz_params;
   /// GEN and VIZ of these probes alone, ascending; the others keep what the set holds. None: of all.
   std::optional<std::vector<std::uint32_t>> only;
+  /// GEN of these light groups alone, ascending; with `only` the others keep what the set holds. None: of
+  /// all.
+  std::optional<std::vector<std::uint32_t>> only_groups;
 };
 
 /// Told of each probe when its GEN or VIZ is done, from one thread at a time: `groups` or `edges` are new,

@@ -2,6 +2,7 @@
 /// A set's light by transport between surfels instead of path tracing: every bounce, no noise, seconds
 /// instead of minutes (docs/methods/transport.md).
 
+#include <ssphh/bake/light_scope.h>
 #include <ssphh/probes/probe_set.h>
 #include <ssphh/transport/bounce.h>
 #include <ssphh/transport/fitted_weights.h>
@@ -46,18 +47,36 @@ probes::ProbeSet bake_transport(const rays::TransportSource& source, probes::Pro
                                 const TransportBakeParams& params, TransportBakeReport& report,
                                 const Control& control = {});
 
+/// What an update finds anew of what a set holds.
+struct TransportScope {
+  LightScope light;  ///< records go with the nearest probe; of some light groups alone they keep their places
+  std::optional<std::vector<std::uint32_t>> edges;  ///< to these probes, ascending; none: to all
+};
+
 /// What the parameters ask for beside light (edges, lookup weights, records), for a set whose light something
-/// else finds: builds a network in the pose of the set's time and notes its parameters in the set. Fills the
-/// report's surfels, links, contraction, lost, viz_seconds, fit_seconds, record_seconds and rays.
+/// else finds: builds a network in the pose of the set's time and notes its parameters in the set; without
+/// anything to find it builds none. In a `scope` that names probes, edges are found to each of them from one
+/// another and from those that its edges come from. Fills the report's surfels, links, contraction, lost,
+/// viz_seconds, fit_seconds, record_seconds and rays.
 void add_transport(const rays::TransportSource& source, probes::ProbeSet& set,
                    const TransportBakeParams& params, TransportBakeReport& report,
-                   const Control& control = {});
+                   const Control& control = {}, const TransportScope& scope = {});
 
-/// Finds the edges of some probes anew, by links, with the network that the set's generator tells of: to each
-/// of them from one another and from those that its edges come from. The other probes keep theirs.
-/// Fills the report's surfels, links, contraction, lost, viz_seconds and rays.
-void update_edges(const rays::TransportSource& source, probes::ProbeSet& set,
-                  std::span<const std::uint32_t> which, const transport::LinkVizParams& params,
-                  TransportBakeReport& report, const Control& control = {});
+/// What an update found by transport.
+struct TransportUpdate {
+  std::vector<float> changed;         ///< of every probe: changed_share() of its light
+  std::vector<std::uint32_t> probes;  ///< whose light has other bits than before, ascending
+};
+
+/// Finds the light of a set that bake_transport() filled anew, within the scope; edges, if the parameters ask
+/// for them, to those of its probes whose light has changed by more than `edge_change`. Its light groups must
+/// be those of the source. Throws Error for others, and as bake_transport() does.
+TransportUpdate update_transport(const rays::TransportSource& source, probes::ProbeSet& set,
+                                 const TransportBakeParams& params, const LightScope& scope,
+                                 float edge_change, TransportBakeReport& report, const Control& control = {});
+
+/// What bake_transport() and add_transport() were told when they filled this set, as far as it and its
+/// baseline tell.
+TransportBakeParams transport_params_of(const probes::ProbeSet& set);
 
 }  // namespace ssphh::bake

@@ -7,6 +7,7 @@
 #include <span>
 
 #include <ssphh/bake/bake.h>
+#include <ssphh/bake/light_scope.h>
 #include <ssphh/probes/baseline.h>
 
 namespace ssphh::bake {
@@ -25,15 +26,15 @@ float bake_noise(const probes::Trial& trial, const probes::GeneratorInfo& genera
 /// halves say, which do not share their noise; where that is negative the change is 0. 0 where both are dark.
 float changed_share(const probes::Trial& before, const probes::Trial& now);
 
-/// The baseline of a set that bake() has filled: trials of all its probes.
-probes::Baseline make_baseline(const rays::RadianceSource& source, const probes::ProbeSet& set,
-                               std::vector<scene::SceneItem> items, const VizParams& viz_params,
-                               const Control& control = {});
+/// Trials of all probes of a set that bake() has filled: those of its baseline.
+std::vector<probes::Trial> make_trials(const rays::RadianceSource& source, const probes::ProbeSet& set,
+                                       const Control& control = {});
 
 /// What an update has to do.
 struct UpdatePlan {
-  std::vector<std::uint32_t> probes;  ///< whose light has changed by more than the tolerance, ascending
-  std::vector<float> changed;         ///< of every probe: changed_share()
+  /// To be baked, ascending: whose light has changed by more than the tolerance, or that the scope names.
+  std::vector<std::uint32_t> probes;
+  std::vector<float> changed;         ///< of every probe: changed_share(); 0 where nothing was compared
   std::vector<probes::Trial> trials;  ///< of every probe, as it is now
   float noise = 0;                    ///< bake_noise() of the median probe
   float tolerance = 0;                ///< share of its light by which a kept probe may have changed
@@ -46,15 +47,19 @@ inline constexpr float usual_tolerance = 0.01f;
 /// Compares the scene with the set's baseline. `tolerance`: none stands for usual_tolerance or the bake's own
 /// noise, whichever is more; 0: a trial that differs by any bit counts. Throws Error for a set without
 /// baseline or of other light groups than the source's, and for a tolerance below 0.
+/// A scope that names probes has these baked, however much they have changed, and compares no others; one
+/// that names light groups compares the light of these alone.
 UpdatePlan plan_update(const rays::RadianceSource& source, const probes::ProbeSet& set,
-                       std::optional<float> tolerance, const Control& control = {});
+                       std::optional<float> tolerance, const LightScope& scope = {},
+                       const Control& control = {});
 
 /// Gives a set the light groups of a changed scene: those of a name stay as they are, new ones are dark, and
-/// what is gone is left out; of its baseline, too. Drops the hierarchy where the groups change.
+/// what is gone is left out; of its records and its baseline, too. Drops the hierarchy where the groups
+/// change.
 void adopt_groups(probes::ProbeSet& set, std::span<const std::string> groups);
 
-/// Takes the trials of `plan.probes` and the scene's items into the set's baseline. Trials of the others stay
-/// as they were when their light was baked, so that small changes add up until they count.
-void renew_baseline(probes::ProbeSet& set, const UpdatePlan& plan, std::vector<scene::SceneItem> items);
+/// Takes the trials of `plan.probes` into the set's baseline. Those of the others stay as they were when
+/// their light was baked, so that small changes add up until they count.
+void renew_trials(probes::ProbeSet& set, const UpdatePlan& plan);
 
 }  // namespace ssphh::bake

@@ -22,10 +22,12 @@ struct Trial {
 };
 
 struct Baseline {
-  int viz_neighbors = -1;   ///< most edges that a probe was to keep; −1: all
-  float viz_threshold = 0;  ///< P above which an edge was kept
+  int viz_neighbors = -1;     ///< most edges that a probe was to keep; −1: all
+  float viz_threshold = 0;    ///< P above which an edge was kept
+  int records = 0;            ///< most surface records that were asked for; 0: none
+  int most_surfels = 100000;  ///< beyond about so many, surfels grew with the distance of probes
   std::vector<scene::SceneItem> items;
-  std::vector<Trial> trials;  ///< of each probe, when its light was baked
+  std::vector<Trial> trials;  ///< of each probe, when its light was baked; of light by transport none
 
   friend bool operator==(const Baseline&, const Baseline&) = default;
 };

@@ -11,7 +11,7 @@
 
 namespace ssphh::probes {
 
-inline constexpr int probe_file_version = 5;
+inline constexpr int probe_file_version = 6;
 
 enum class ProbeFileFormat { json, binary };
 

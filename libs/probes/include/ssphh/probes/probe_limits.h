@@ -16,6 +16,7 @@ inline constexpr int face_size = 4096;
 inline constexpr int rays = 1 << 24;  ///< of a transport network: per probe, per surfel
 inline constexpr std::size_t fitted_points = std::size_t{1} << 18;
 inline constexpr std::size_t surface_records = std::size_t{1} << 20;
+inline constexpr int surfels = 1 << 24;
 inline constexpr std::size_t scene_items = std::size_t{1} << 20;
 inline constexpr float fitted_weight = 1e6f;  ///< not negative
 inline constexpr float coordinate = 1e9f;     ///< metres or seconds, either sign

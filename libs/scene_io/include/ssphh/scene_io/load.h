@@ -1,6 +1,7 @@
 #pragma once
 /// Scenes from files and names. Formats: glTF 2.0 and GLB, Wavefront OBJ/MTL, overlays (docs/scenes.md).
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -26,6 +27,9 @@ struct LoadOptions {
   /// Clear sky and sun; replaces any environment.
   std::optional<scene::SunSkyParams> sun_sky;
 };
+
+/// SCENE.ssphh.json of SCENE.glb, whether or not there is one.
+std::filesystem::path overlay_beside(const std::string& source);
 
 /// `source`: "builtin:NAME", a scene file, or an overlay that names its scene. The format is told from the
 /// content, then from the extension. The result is valid (scene::validate); what the file holds and nobody

@@ -106,6 +106,8 @@ class RelightSession {
   /// Keeps records of light as asked for, from now on and of the last update(); 0 points: none. Throws Error
   /// as SurfaceGather does, and Cancelled.
   void keep_records(const GatherParams& params, const Control& control = {});
+  /// The same at these points, as they stand in the pose of now.
+  void keep_records_at(std::vector<rays::SurfacePoint> points, int rays, const Control& control = {});
   /// Where the light of surfaces that stand still is kept; null: nowhere.
   const SurfaceGather* gather() const;
   /// Of each of the gather's points: reflected light after the last update().
