@@ -1,6 +1,10 @@
 // `bake --update`: what has changed since, what is baked again, and what is refused.
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
+
+#include <fmt/format.h>
 
 #include <ssphh/core/file.h>
 #include <ssphh/probes/probe_file.h>
@@ -27,15 +31,19 @@ class BakeUpdate : public testing::Test {
                         << "}";
     return file;
   }
-  const json::Value baked(const std::string& scene, const std::string& output,
-                          const std::vector<std::string>& more = {}) const {
-    return json_here(
-        joined({"bake", scene, "-o", output, "--face", "8", "--degree", "3", "--records", "0"}, more));
+  /// Records by a coarse network.
+  const json::Value baked(const std::string& scene, const std::string& output, int records = 0,
+                          std::vector<std::string> more = {}) const {
+    if (records > 0) more.insert(more.end(), {"--directions", "64", "--surfel-size", "0.2"});
+    return json_here(joined(
+        {"bake", scene, "-o", output, "--face", "8", "--degree", "3", "--records", std::to_string(records)},
+        more));
   }
   const json::Value updated(const std::string& scene, const std::string& old, const std::string& output,
                             const std::vector<std::string>& more = {}) const {
     return json_here(joined({"bake", scene, "--update", old, "-o", output}, more));
   }
+  const std::string blue_wall_ = R"("materials": [{"name": "red", "base_color": [0, 0, 1]}])";
   static std::string bytes(const std::string& file) { return read_text_file(file, 1 << 24); }
 
   const test::TempDir dir_;
@@ -54,8 +62,7 @@ TEST_F(BakeUpdate, NothingChangedGivesTheSameBytesAndBakesNothing) {
 }
 
 TEST_F(BakeUpdate, AChangedWallIsNamedAndFollowedToTheBitsOfABakeInFull) {
-  const std::string plain = overlay("plain", ""),
-                    blue = overlay("blue", R"("materials": [{"name": "red", "base_color": [0, 0, 1]}])");
+  const std::string plain = overlay("plain", ""), blue = overlay("blue", blue_wall_);
   baked(plain, old_);
   baked(blue, full_);
   const json::Value update = updated(blue, old_, new_, {"--tolerance", "0"});
@@ -87,8 +94,7 @@ TEST_F(BakeUpdate, ALampKeepsTheEdges) {
 TEST_F(BakeUpdate, VizOffKeepsTheEdges) {
   baked("builtin:cornell", old_);
   const json::Value update =
-      updated(overlay("blue", R"("materials": [{"name": "red", "base_color": [0, 0, 1]}])"), old_, new_,
-              {"--tolerance", "0", "--viz", "off"});
+      updated(overlay("blue", blue_wall_), old_, new_, {"--tolerance", "0", "--viz", "off"});
   EXPECT_EQ(update["viz_seconds"], 0.0);
   EXPECT_GT(update["gen_seconds"].number(), 0);
   const probes::ProbeSet before = probes::read_probe_file(old_), now = probes::read_probe_file(new_);
@@ -97,8 +103,7 @@ TEST_F(BakeUpdate, VizOffKeepsTheEdges) {
 }
 
 TEST_F(BakeUpdate, AFileMayBeUpdatedInPlaceAndAgain) {
-  const std::string plain = overlay("plain", ""),
-                    blue = overlay("blue", R"("materials": [{"name": "red", "base_color": [0, 0, 1]}])");
+  const std::string plain = overlay("plain", ""), blue = overlay("blue", blue_wall_);
   baked(plain, old_);
   baked(plain, full_);
   updated(blue, old_, old_, {"--tolerance", "0"});
@@ -131,6 +136,102 @@ TEST_F(BakeUpdate, TakesTheParametersAndThePoseOfTheOldBake) {
   EXPECT_EQ(now.degree, 1);
   EXPECT_EQ(now.baseline->viz_neighbors, 2);
   EXPECT_EQ(now.baseline->viz_threshold, 0.001f);
+}
+
+TEST_F(BakeUpdate, RecordsAndFittedWeightsFollowToo) {
+  const std::string plain = overlay("plain", ""), blue = overlay("blue", blue_wall_);
+  baked(plain, old_, 300, {"--fit"});
+  baked(blue, full_, 300, {"--fit"});
+  const json::Value update = updated(blue, old_, new_, {"--tolerance", "0"});
+  EXPECT_GT(update["records"].number(), 100);
+  EXPECT_EQ(bytes(new_), bytes(full_));
+  EXPECT_EQ(probes::read_probe_file(new_).baseline->records, 300);
+}
+
+TEST_F(BakeUpdate, LightByTransportIsFoundAnewInPlace) {
+  const std::string plain = overlay("plain", ""), blue = overlay("blue", blue_wall_);
+  for (const char* op : {"surfel", "bounce"}) {
+    const std::vector<std::string> more = {"--operator",   op,   "--records",     "200",
+                                           "--directions", "64", "--surfel-size", "0.2"};
+    const auto bake = [&](const std::string& scene, const std::string& output) {
+      json_here(joined({"bake", scene, "-o", output, "--degree", "3"}, more));
+    };
+    bake(plain, old_), bake(blue, full_);
+    EXPECT_EQ(updated(plain, old_, new_)["rays"], 0) << op;
+    EXPECT_EQ(bytes(new_), bytes(old_)) << op;
+    const json::Value update = updated(blue, old_, new_, {"--tolerance", "0"});
+    EXPECT_EQ(update["operator"], op);
+    EXPECT_EQ(update["update"]["changed"][0]["changes"][0], "surface") << op;
+    EXPECT_EQ(bytes(new_), bytes(full_)) << op;
+    EXPECT_THAT(test::text_here({"bake", blue, "--update", old_, "-o", new_}),
+                HasSubstr("all light was found anew"));
+  }
+}
+
+TEST_F(BakeUpdate, ByHandBakesTheProbesThatAreNamed) {
+  const std::string plain = overlay("plain", ""), blue = overlay("blue", blue_wall_);
+  baked(plain, old_, 300);
+  baked(blue, full_, 300);
+  const probes::ProbeSet before = probes::read_probe_file(old_), full = probes::read_probe_file(full_);
+  ASSERT_EQ(before.probes.size(), 5u);
+  const vec3 p = before.probes[3].position;
+  const std::string box = fmt::format("{},{},{},{},{},{}", p.x - 0.01f, p.y - 0.01f, p.z - 0.01f, p.x + 0.01f,
+                                      p.y + 0.01f, p.z + 0.01f);
+  for (const auto& [words, which] :
+       std::vector<std::pair<std::vector<std::string>, std::vector<std::size_t>>>{
+           {{"--only-probes", "0,2-3"}, {0, 2, 3}}, {{"--only-box=" + box}, {3}}}) {
+    const json::Value update = updated(blue, old_, new_, words);
+    const probes::ProbeSet now = probes::read_probe_file(new_);
+    EXPECT_EQ(update["update"]["probes"].size(), which.size());
+    for (std::size_t i = 0; i < 5; ++i) {
+      const bool named = std::ranges::count(which, i) > 0;
+      EXPECT_EQ(now.probes[i].groups, (named ? full : before).probes[i].groups) << i;
+      EXPECT_TRUE(named || now.probes[i].edges == before.probes[i].edges) << i;
+    }
+    EXPECT_NE(now.surface->groups, before.surface->groups);
+    EXPECT_EQ(now.baseline->items, before.baseline->items) << "the rest is still to be compared";
+  }
+  updated(blue, new_, new_, {"--tolerance", "0"});
+  EXPECT_EQ(probes::read_probe_file(new_).probes, full.probes) << "which an update does";
+}
+
+TEST_F(BakeUpdate, ByHandBakesTheLightGroupsThatAreNamed) {
+  const auto lamps = [&](const std::string& name, int intensity) {
+    return overlay(name, fmt::format(R"("lights": [
+        {{"name": "a", "light_group": "a", "type": "point", "position": [0, 1, 0], "intensity": {0}}},
+        {{"name": "b", "light_group": "b", "type": "point", "position": [0.5, 1, 0], "intensity": {0}}}])",
+                                     intensity));
+  };
+  const std::string dim = lamps("dim", 1), bright = lamps("bright", 2);
+  baked(dim, old_, 300);
+  baked(bright, full_, 300);
+  updated(bright, old_, new_, {"--only-lights", "b", "--tolerance", "0"});
+  const probes::ProbeSet before = probes::read_probe_file(old_), full = probes::read_probe_file(full_),
+                         now = probes::read_probe_file(new_);
+  for (std::size_t g = 0; g < now.light_groups.size(); ++g) {
+    const bool named = now.light_groups[g].name == "b";
+    for (std::size_t i = 0; i < now.probes.size(); ++i)
+      EXPECT_EQ(now.probes[i].groups[g], (named ? full : before).probes[i].groups[g]) << g << " " << i;
+    EXPECT_EQ(now.surface->groups[g] == before.surface->groups[g], !named) << g;
+  }
+  EXPECT_NE(now.probes, before.probes);
+}
+
+TEST_F(BakeUpdate, RefusesWhatCannotBeDoneByHand) {
+  baked("builtin:cornell", old_);
+  const auto problem = [&](const std::vector<std::string>& more) {
+    return problem_here(joined({"bake", "builtin:cornell", "-o", new_, "--update", old_}, more));
+  };
+  EXPECT_THAT(problem_here({"bake", "builtin:cornell", "-o", new_, "--only-probes", "1"}),
+              AllOf(HasSubstr("--only-probes"), HasSubstr("give --update FILE")));
+  EXPECT_THAT(problem({"--only-probes", "1,5"}), AllOf(HasSubstr("no probe 5"), HasSubstr("0 to 4")));
+  for (const char* list : {"x", "1,", "3-1", "-1", "1-", "1.5", "99999999999"})
+    EXPECT_THAT(problem({std::string("--only-probes=") + list}), HasSubstr("--only-probes")) << list;
+  EXPECT_THAT(problem({"--only-box=9,9,9,10,10,10"}),
+              AllOf(HasSubstr("no probe stands in it"), HasSubstr("the probes stand in")));
+  EXPECT_THAT(problem({"--only-box=1,0,0,0,1,1"}), HasSubstr("no box"));
+  EXPECT_THAT(problem({"--only-lights", "sun"}), AllOf(HasSubstr("--only-lights sun"), HasSubstr("known:")));
+  EXPECT_FALSE(std::filesystem::exists(new_));
 }
 
 TEST_F(BakeUpdate, RefusesWhatItCannotDo) {

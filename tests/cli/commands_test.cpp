@@ -64,9 +64,12 @@ class BakedRooms : public testing::Test {
     bake::BakeReport report;
     probes::ProbeSet set =
         bake::bake(tracer_, place::init_from_scene(scene_, o.degree, o.scene.time), params, "", report);
-    set.baseline =
-        probes::Baseline{params.viz_params.neighbors, params.viz_params.threshold, 0,
-                         scene::scene_items(scene_, o.scene.time), bake::make_trials(tracer_, set)};
+    set.baseline = probes::Baseline{params.viz_params.neighbors,
+                                    params.viz_params.threshold,
+                                    0,
+                                    bake::Effort().most_surfels,
+                                    scene::scene_items(scene_, o.scene.time),
+                                    bake::make_trials(tracer_, set)};
     return set;
   }
   std::vector<rays::SurfacePoint> points(const probes::ProbeSet& set, int count, float clearance,

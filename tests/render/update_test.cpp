@@ -190,5 +190,159 @@ TEST(UpdateOfEdges, ByLinksHaveTheBitsOfABakeInFull) {
   for (const std::size_t i : {1, 3, 4, 5}) EXPECT_EQ(set.probes[i].edges, old.probes[i].edges) << i;
 }
 
+/// Everything that transport gives, of the two closed rooms.
+bake::TransportBakeParams quick_transport() {
+  set_log_level(LogLevel::error);
+  bake::TransportBakeParams params;
+  params.transport = small_network();
+  params.viz = true;
+  params.records.points = 400;
+  params.records.rays = 64;
+  return params;
+}
+
+std::vector<vec3> record_places(const probes::ProbeSet& set) {
+  std::vector<vec3> places;
+  for (const rays::SurfacePoint& point : set.surface->points) places.push_back(point.position);
+  return places;
+}
+
+probes::ProbeSet with_records(const scene::Scene& scene) {
+  probes::ProbeSet set = full_bake(scene);
+  bake::TransportBakeReport report;
+  bake::add_transport(trace::TransportScene(scene), set, quick_transport(), report);
+  return set;
+}
+
+TEST(UpdateOfRecords, AsAWholeHasTheBitsOfABakeInFull) {
+  const scene::Scene now = two_closed_rooms({-1, -1.5f, -0.8f});
+  const probes::ProbeSet old = with_records(two_closed_rooms()), full = with_records(now);
+  probes::ProbeSet set = old;
+  bake::TransportBakeReport report;
+  bake::add_transport(trace::TransportScene(now), set, quick_transport(), report, {},
+                      {.light = {}, .edges = std::vector<std::uint32_t>{}});
+  EXPECT_EQ(record_places(set), record_places(full));
+  EXPECT_EQ(set.surface->groups, full.surface->groups);
+  EXPECT_NE(set.surface->groups, old.surface->groups);
+  EXPECT_EQ(report.viz_seconds, 0);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(set.probes[i], old.probes[i]) << i;
+}
+
+TEST(UpdateOfRecords, OfSomeProbesKeepsThoseOfTheOthers) {
+  const scene::Scene now = two_closed_rooms({-1, -1.5f, -0.8f});
+  const probes::ProbeSet old = with_records(two_closed_rooms()), full = with_records(now);
+  probes::ProbeSet set = old;
+  bake::TransportBakeReport report;
+  bake::add_transport(
+      trace::TransportScene(now), set, quick_transport(), report, {},
+      {.light = {.probes = {{0, 1, 2}}, .groups = {}}, .edges = std::vector<std::uint32_t>{}});
+  // The first room's are those of the full bake, the other's those of before; x = 0 parts the rooms.
+  const auto of_room = [](const probes::ProbeSet& of, bool first) {
+    std::vector<std::pair<float, probes::PackedRecordLight>> records;
+    for (std::size_t p = 0; p < of.surface->points.size(); ++p) {
+      if ((of.surface->points[p].position.x < 0) == first)
+        records.emplace_back(of.surface->points[p].position.x, of.surface->groups[0][p]);
+    }
+    return records;
+  };
+  EXPECT_EQ(of_room(set, false), of_room(old, false));
+  EXPECT_EQ(of_room(set, true), of_room(full, true));
+  EXPECT_NE(of_room(set, true), of_room(old, true));
+  EXPECT_GT(of_room(set, false).size(), 20u);
+}
+
+TEST(UpdateOfRecords, OfSomeLampsKeepsPlacesAndTheOtherLamps) {
+  const probes::ProbeSet old = with_records(two_closed_rooms());
+  scene::Scene now = two_closed_rooms();
+  for (scene::Light& lamp : now.lights) lamp.intensity *= 2;
+  ASSERT_EQ(old.light_groups[0].name, "lamp a");
+  probes::ProbeSet set = old;
+  bake::TransportBakeReport report;
+  bake::add_transport(trace::TransportScene(now), set, quick_transport(), report, {},
+                      {.light = {.probes = {}, .groups = {{0}}}, .edges = std::vector<std::uint32_t>{}});
+  EXPECT_EQ(record_places(set), record_places(old));
+  EXPECT_EQ(set.surface->groups[1], old.surface->groups[1]);
+  // Twice the light, gathered by other rays: of 64 rays a record errs by some 5 %, a sum of a hundred by 1 %.
+  const auto sum = [](const probes::ProbeSet& of) {
+    glm::dvec3 all(0);
+    for (std::size_t p = 0; p < of.surface->points.size(); ++p)
+      all += glm::dvec3(probes::unpack(of.surface->groups[0][p], of.surface->points[p].normal)[3]);
+    return all;
+  };
+  for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(sum(set)[c] / sum(old)[c], 2, 0.05) << c;
+}
+
+class UpdateOfTransport : public testing::TestWithParam<probes::LightOperator> {
+ protected:
+  static bake::TransportBakeParams params() {
+    bake::TransportBakeParams params = quick_transport();
+    params.op = GetParam();
+    return params;
+  }
+  static probes::ProbeSet full(const scene::Scene& scene) {
+    bake::TransportBakeReport report;
+    return bake::bake_transport(trace::TransportScene(scene), place::init_from_scene(scene, 3), params(),
+                                report);
+  }
+};
+
+TEST_P(UpdateOfTransport, HasTheBitsOfABakeInFull) {
+  const scene::Scene now = two_closed_rooms({-1, -1.5f, -0.8f});
+  const probes::ProbeSet old = full(two_closed_rooms()), wanted = full(now);
+  probes::ProbeSet set = old;
+  bake::TransportBakeReport report;
+  const bake::TransportUpdate update =
+      bake::update_transport(trace::TransportScene(now), set, params(), {}, -1, report);
+  set.generator.scene_hash = wanted.generator.scene_hash;
+  EXPECT_EQ(set, wanted);
+  EXPECT_THAT(update.probes, testing::SizeIs(6)) << "surfels of both rooms are numbered together";
+}
+
+TEST_P(UpdateOfTransport, KeepsWhatIsOutOfScopeAndEdgesToWhatHasHardlyChanged) {
+  const scene::Scene now = two_closed_rooms({-1, -1.5f, -0.8f});
+  const probes::ProbeSet old = full(two_closed_rooms()), wanted = full(now);
+  probes::ProbeSet set = old;
+  bake::TransportBakeReport report;
+  const bake::TransportUpdate update = bake::update_transport(trace::TransportScene(now), set, params(),
+                                                              {.probes = {{0, 2}}, .groups = {}}, 0, report);
+  EXPECT_THAT(update.probes, ElementsAre(0, 2));
+  for (const std::size_t i : {0, 2}) {
+    EXPECT_EQ(set.probes[i], wanted.probes[i]) << i;
+    EXPECT_GT(update.changed[i], 0) << i;
+  }
+  for (const std::size_t i : {1, 3, 4, 5}) {
+    EXPECT_EQ(set.probes[i], old.probes[i]) << i;
+    EXPECT_EQ(update.changed[i], 0) << i;
+  }
+
+  set = old;
+  bake::update_transport(trace::TransportScene(now), set, params(), {}, 1, report);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(set.probes[i].groups, wanted.probes[i].groups) << i;
+    EXPECT_EQ(set.probes[i].edges, old.probes[i].edges) << i;
+  }
+  EXPECT_EQ(report.viz_seconds, 0);
+}
+
+TEST_P(UpdateOfTransport, OfSomeLampsKeepsTheLightOfTheOthers) {
+  const probes::ProbeSet old = full(two_closed_rooms());
+  scene::Scene now = two_closed_rooms();
+  for (scene::Light& lamp : now.lights) lamp.intensity *= 2;
+  probes::ProbeSet set = old;
+  bake::TransportBakeReport report;
+  bake::update_transport(trace::TransportScene(now), set, params(), {.probes = {}, .groups = {{1}}}, 0,
+                         report);
+  const probes::ProbeSet wanted = full(now);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(set.probes[i].groups[0], old.probes[i].groups[0]) << i;
+    EXPECT_EQ(set.probes[i].groups[1], wanted.probes[i].groups[1]) << i;
+  }
+  EXPECT_NE(wanted.probes[4].groups[1], old.probes[4].groups[1]);
+}
+
+INSTANTIATE_TEST_SUITE_P(Operators, UpdateOfTransport,
+                         testing::Values(probes::LightOperator::surfel, probes::LightOperator::bounce),
+                         [](const auto& of) { return std::string(name_of(of.param)); });
+
 }  // namespace
 }  // namespace ssphh::test

@@ -129,10 +129,9 @@ BakeWatch run_bake_watch(const BakeOptions& options, const Control& control) {
   watch.first = run_bake_watched(options, watcher, control);
   const BakeOptions update = updates_of(options);
   const std::size_t probes = watch.first.set.probes.size();
-  const auto files_text = [&] {
-    return fmt::format("watching {} files; Ctrl-C ends it", watcher.files.size());
-  };
-  log_info("{}: {} probes baked; {}", options.output, probes, files_text());
+  const auto there = std::ranges::count_if(watcher.files, &FileStamp::exists);
+  log_info("{}: {} probes baked; watching {} file{}; Ctrl-C ends it", options.output, probes, there,
+           there == 1 ? "" : "s");
   std::vector<FileStamp> files = watcher.files;
   while (wait_for_save(files, control)) {
     WatchRound round;

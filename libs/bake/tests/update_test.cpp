@@ -186,6 +186,47 @@ TEST(Update, BakesOnlyWhatItIsTold) {
   EXPECT_THROW(bake(source, old, params, {}, report), Error);
 }
 
+TEST(Update, AScopeNamesTheProbesThatAreBaked) {
+  test::FakeSource source;
+  source.reflected = {brighter_beyond(0)};
+  const probes::ProbeSet set = baked(source);
+  source.reflected = {brighter_beyond(0.25f)};
+  const UpdatePlan plan = plan_update(source, set, {}, {.probes = {{1, 3}}, .groups = {}});
+  EXPECT_THAT(plan.probes, ElementsAre(1, 3)) << "whatever has changed";
+  EXPECT_THAT(plan.changed, ElementsAre(0, 0, 0, testing::FloatEq(0.2f), 0)) << "4 is not compared";
+  EXPECT_EQ(plan.trials[4], set.baseline->trials[4]);
+  EXPECT_NE(plan.trials[3], set.baseline->trials[3]);
+}
+
+TEST(Update, AScopeNamesTheGroupsWhoseLightIsComparedAndBaked) {
+  test::FakeSource source;
+  source.groups = {"lamp", "sky"};
+  source.reflected = {brighter_beyond(0), brighter_beyond(0)};
+  const probes::ProbeSet old = baked(source);
+  source.reflected = {brighter_beyond(0.25f), brighter_beyond(0)};
+  EXPECT_THAT(plan_update(source, old, {}, {.probes = {}, .groups = {{1}}}).probes, IsEmpty());
+  source.reflected = {brighter_beyond(0.25f), brighter_beyond(1)};
+  const UpdatePlan plan = plan_update(source, old, {}, {.probes = {}, .groups = {{0}}});
+  EXPECT_THAT(plan.probes, ElementsAre(3, 4));
+  BakeParams params = small_bake();
+  params.only = plan.probes;
+  params.only_groups = {{0}};
+  BakeReport report;
+  probes::ProbeSet part = bake(source, old, params, {}, report);
+  renew_trials(part, plan);
+  const probes::ProbeSet full = baked(source);
+  for (const std::size_t i : {3, 4}) {
+    EXPECT_EQ(part.probes[i].groups[0], full.probes[i].groups[0]) << i;
+    EXPECT_NE(part.probes[i].groups[0], old.probes[i].groups[0]) << i;
+    EXPECT_EQ(part.probes[i].groups[1], old.probes[i].groups[1]) << i;
+    EXPECT_NE(full.probes[i].groups[1], old.probes[i].groups[1]) << i;
+  }
+  EXPECT_THAT(plan_update(source, part, {}, {.probes = {}, .groups = {{0}}}).probes, IsEmpty());
+  EXPECT_THAT(plan_update(source, part, {}).probes, ElementsAre(3, 4)) << "the sky is still to be baked";
+  params.only_groups = {{2}};
+  EXPECT_THROW(bake(source, old, params, {}, report), Error);
+}
+
 TEST(Update, SmallChangesAddUpUntilTheyCount) {
   test::FakeSource source;
   source.reflected = {brighter_beyond(0)};
@@ -221,6 +262,8 @@ TEST(Update, LightGroupsKeepTheirLightByName) {
   source.reflected = {brighter_beyond(0), test::constant(vec3(2)), test::constant(vec3(3))};
   probes::ProbeSet set = baked(source);
   set.light_groups[1].scale = vec3(0.5f);
+  const probes::PackedRecordLight dim{1, {1}}, bright{2, {2}};
+  set.surface = {{{vec3(0), vec3(0, 1, 0)}}, {{dim}, {bright}, {{}}}, {}};
   const probes::ProbeSet old = set;
   adopt_groups(set, source.groups);
   EXPECT_EQ(set, old);
@@ -230,6 +273,8 @@ TEST(Update, LightGroupsKeepTheirLightByName) {
   EXPECT_EQ(set.light_groups[0], old.light_groups[1]);
   EXPECT_EQ(set.light_groups[1], (probes::LightGroup{"window", vec3(1)}));
   EXPECT_EQ(set.light_groups[2], old.light_groups[0]);
+  EXPECT_THAT(set.surface->groups,
+              ElementsAre(ElementsAre(bright), ElementsAre(probes::PackedRecordLight{}), ElementsAre(dim)));
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_EQ(set.probes[i].groups[0], old.probes[i].groups[1]);
     EXPECT_EQ(set.probes[i].groups[1], (probes::GroupLight{{}, sh::RadianceSh(2)}));
@@ -251,6 +296,8 @@ TEST(Update, RefusesWhatCannotBeCompared) {
   source.groups = {"sky", "lamp"};
   EXPECT_THROW(plan_update(source, set, {}), Error);
   source.groups = {"sky"};
+  set.baseline->trials.clear();
+  EXPECT_THROW(plan_update(source, set, {}), Error) << "of light by transport";
   set.baseline.reset();
   EXPECT_THROW(plan_update(source, set, {}), Error);
 }
