@@ -243,6 +243,7 @@ TEST(GiTransportBake, SurfelsAreAThirtySecondOfTheRadiusAndAtMostHalfAMetre) {
     set.probes.resize(1);
     bake::TransportBakeParams params;
     params.transport.directions = 16, params.transport.link_rays = 4, params.transport.samples = 1;
+    params.viz = true;
     bake::TransportBakeReport report;
     bake::add_transport(source, set, params, report);
     return set.generator.surfel_size;
