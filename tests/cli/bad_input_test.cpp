@@ -45,6 +45,10 @@ TEST(BadInput, WrongUsageIsExitCode2) {
 }
 
 TEST(BadInput, UnknownNamesListTheKnownOnes) {
+  for (const char* number : {"nan", "inf", "1e999"})
+    expect_failure({"bake", "builtin:box", "-o", "a.sphl", "--threshold", number}, "finite", 2);
+  for (const char* option : {"--clearance", "--surfel-size", "--max-memory"})
+    expect_failure({"bake", "builtin:box", "-o", "a.sphl", option, "nan"}, option, 2);
   expect_failure({"scene", "info", "builtin:nowhere"}, "cornell");
   const TempDir dir;
   expect_failure(joined({"render", "builtin:two-rooms", "--camera", "nobody", "-o", dir / "x.png"}, small),

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "commands/bake.h"
 #include "here.h"
 #include "temp_dir.h"
 #include "tool_checks.h"
@@ -157,18 +158,67 @@ TEST(TransportBakeCli, RecordsStandBesideProbesOfEveryBounceUnlessToldOtherwise)
 
 TEST(TransportBakeCli, ManyProbesAreLitBySurfelsUnlessPathsAreAskedFor) {
   const TempDir dir;
-  const auto operator_of = [&](const char* probes, const std::vector<std::string>& more) {
-    return run_json(test::joined(
-        {"bake", "builtin:box", "-o", dir / "a.sphl", "--degree", "0", "--viz", "off", "--probes", probes},
-        more))["operator"];
+  app::BakeOptions options;
+  options.scene.source = "builtin:box";
+  options.output = dir / "a.sphl";
+  options.degree = 0;
+  options.viz = probes::VizMethod::none;
+  options.records = 0;
+  options.params.face_size = 1, options.params.path.spp = 1;
+  options.transport.transport = {.directions = 64, .surfel_size = 0.3f, .link_rays = 8};
+  const auto operator_of = [&](const char* probes, const std::vector<std::string>& of_paths = {}) {
+    options.place.probes = probes;
+    options.of_paths = of_paths;
+    return app::run_bake(options).set.generator.op;
   };
-  const std::vector<std::string> coarse = {"--link-rays", "8", "--surfel-size", "0.3",
-                                           "--records",   "0", "--directions",  "64"};
-  const std::vector<std::string> quick = {"--spp", "1", "--face", "1", "--records", "0"};
-  EXPECT_EQ(operator_of("64", {"--quality", "draft", "--face", "1"}), "path");
-  EXPECT_EQ(operator_of("65", coarse), "surfel");
-  EXPECT_EQ(operator_of("65", quick), "path");
-  EXPECT_EQ(operator_of("65", {"--gen", "local", "--face", "1"}), "path");
+  EXPECT_EQ(operator_of("64"), probes::LightOperator::path);
+  EXPECT_EQ(operator_of("65"), probes::LightOperator::surfel);
+  EXPECT_EQ(operator_of("65", {"--spp"}), probes::LightOperator::path);
+  options.params.gen = probes::GenMode::local;
+  EXPECT_EQ(operator_of("65"), probes::LightOperator::path);
+}
+
+TEST(TransportBakeCli, QualityIsWhatIsNotGivenByItself) {
+  const TempDir dir;
+  const auto bake = [&](const std::vector<std::string>& more) {
+    run_json(
+        test::joined({"bake", "builtin:box", "-o", dir / "a.sphl", "--degree", "0", "--viz", "off"}, more));
+    return probes::read_probe_file(dir / "a.sphl").generator;
+  };
+  const bake::Effort draft = bake::effort_of(bake::Quality::draft),
+                     good = bake::effort_of(bake::Quality::good);
+  const probes::GeneratorInfo by_word = bake({"--quality", "draft", "--operator", "surfel"}),
+                              by_hand = bake({"--quality", "draft", "--operator", "surfel", "--directions",
+                                              "100", "--link-rays", "20"}),
+                              usual = bake({"--operator", "surfel", "--records", "0"}),
+                              paths = bake({"--quality", "draft", "--records", "0", "--face", "1"}),
+                              own_paths =
+                                  bake({"--quality", "draft", "--records", "0", "--face", "1", "--spp", "7"});
+  EXPECT_EQ(by_word.directions, draft.directions);
+  EXPECT_EQ(by_word.link_rays, draft.link_rays);
+  EXPECT_EQ(by_hand.directions, 100);
+  EXPECT_EQ(by_hand.link_rays, 20);
+  EXPECT_EQ(usual.directions, good.directions);
+  EXPECT_EQ(usual.link_rays, good.link_rays);
+  EXPECT_LT(usual.surfel_size, by_word.surfel_size);
+  EXPECT_EQ(paths.spp, draft.spp);
+  EXPECT_EQ(own_paths.spp, 7);
+}
+
+TEST(TransportBakeCli, SurfelsGrowToStayWithinMemoryAndSaySo) {
+  const TempDir dir;
+  const auto bake = [&](const std::vector<std::string>& more) {
+    return run_json(
+        test::joined({"bake", "builtin:house", "-o", dir / "a.sphl", "--degree", "0", "--viz", "off",
+                      "--records", "0", "--operator", "surfel", "--probes", "20", "--directions", "64"},
+                     more));
+  };
+  // A draft has surfels that grow with distance, too, and for that alone no warning
+  const json::Value plenty = bake({"--quality", "draft"}),
+                    little = bake({"--quality", "draft", "--max-memory", "0.07"});
+  EXPECT_LT(little["surfels"].number(), 0.7 * plenty["surfels"].number());
+  EXPECT_THAT(print(little["warnings"]), testing::HasSubstr("--max-memory"));
+  EXPECT_THAT(print(plenty["warnings"]), testing::Not(testing::HasSubstr("--max-memory")));
 }
 
 TEST(TransportBakeCli, SurfelBakesHaveAHierarchyByThemselves) {

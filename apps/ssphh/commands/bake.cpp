@@ -96,13 +96,13 @@ void add_effort_options(const Command& effort, BakeOptions& options, std::option
   effort.choice(
       "--quality", quality,
       "draft, good (the default) or best: how many paths, rays, surfels and records, where they are not "
-      "given by themselves; each takes about three times as long as the one before");
+      "given by themselves; each takes two to four times as long as the one before");
   effort
       .option(
           "--max-memory", options.max_memory,
           "Memory that surfels and their links may take [GB]; surfels far from probes grow where it is not "
           "enough. Default: half of the machine's")
-      .positive();
+      .range(0.01, 1e6);
 }
 
 /// Puts what the quality says where nothing was given.

@@ -148,9 +148,10 @@ void run_full_bake(const BakeOptions& options, BakeResult& result, BakeWatcher& 
   fill(result, o, geometry, scene, checkpoint, session ? &*session : nullptr, control);
   bake::TransportBakeReport& t = result.transport;
   if (limited && t.coarsest_surfel > t.finest_surfel) {
-    t.warnings.push_back(fmt::format(
-        "surfels grow to {:.3g} m, to stay within memory: give --max-memory, or fewer --link-rays",
-        t.coarsest_surfel));
+    t.warnings.push_back(
+        fmt::format("surfels grow to {:.3g} m, to stay within memory: more --max-memory or fewer --link-rays "
+                    "leave them small",
+                    t.coarsest_surfel));
     log_warning("{}", t.warnings.back());
   }
   if (watcher.see) watcher.see({geometry, scene, result.set, true});

@@ -1,6 +1,7 @@
 #include "options/command_line.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -26,6 +27,14 @@ void forget_default_outside(CLI::Option& option, double least, double most) {
   if (value < least || value > most) option.default_str("");
 }
 
+/// Ranges alone let NaN pass: it is neither less nor more than anything.
+void refuse_what_is_not_finite(CLI::Option& option) {
+  const auto problem = [](const std::string& text) {
+    return std::isfinite(std::strtod(text.c_str(), nullptr)) ? "" : text + " is no finite number";
+  };
+  option.check(CLI::Validator(problem, ""));
+}
+
 }  // namespace
 
 Option Option::required(bool needed) const {
@@ -41,18 +50,21 @@ Option Option::range(int least, int most) const {
 }
 
 Option Option::range(double least, double most) const {
+  refuse_what_is_not_finite(*option_);
   option_->check(CLI::Range(least, most));
   forget_default_outside(*option_, least, most);
   return *this;
 }
 
 Option Option::positive() const {
+  refuse_what_is_not_finite(*option_);
   option_->check(CLI::PositiveNumber);
   forget_default_outside(*option_, std::numeric_limits<double>::min(), std::numeric_limits<double>::max());
   return *this;
 }
 
 Option Option::non_negative() const {
+  refuse_what_is_not_finite(*option_);
   option_->check(CLI::NonNegativeNumber);
   return *this;
 }

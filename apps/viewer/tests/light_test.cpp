@@ -25,6 +25,8 @@ TEST(LiveLight, AnOpenedDoorLightsRoomB) {
   update(0);
   probes::ProbeSet set = light.probes();
   ASSERT_EQ(set.probes.size(), 6u);
+  ASSERT_TRUE(set.surface) << "few SPHLs see little of the walls";
+  EXPECT_GT(set.surface->points.size(), 100u);
   const auto mean = [&](std::size_t probe) { return set.probes[probe].self.values[0].x; };
   const float west_shut = mean(3), lamp_room = mean(0);
   EXPECT_GT(lamp_room, 0);

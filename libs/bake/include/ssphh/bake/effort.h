@@ -25,7 +25,7 @@ struct Effort {
   friend bool operator==(const Effort&, const Effort&) = default;
 };
 
-/// From quality to quality time grows about threefold (docs/methods/transport.md#quality).
+/// From quality to quality time grows two- to fourfold (docs/methods/transport.md#quality).
 Effort effort_of(Quality quality);
 
 /// Surfels whose network, at so many rays each, stays within `bytes` while it is built: 45 bytes a ray and 2
