@@ -26,7 +26,7 @@ class SceneFields {
 
   void members(const std::string& at, scene::Scene& scene) {
     auto& [name, textures, materials, meshes, nodes, instances, cameras, lights, sphls, animations,
-           environment, ignored] = scene;
+           environment, light_modes, ignored] = scene;
     visit_(at + "name", name);
     items(at + "textures", textures);
     items(at + "materials", materials);
@@ -38,7 +38,14 @@ class SceneFields {
     items(at + "sphls", sphls);
     items(at + "animations", animations);
     if (environment) members(at + "environment.", *environment);
+    items(at + "light_modes", light_modes);
     visit_(at + "ignored", ignored);
+  }
+
+  void members(const std::string& at, scene::GroupMode& asked) {
+    auto& [group, mode] = asked;
+    visit_(at + "group", group);
+    visit_(at + "mode", mode);
   }
 
   void members(const std::string& at, scene::Texture& texture) {

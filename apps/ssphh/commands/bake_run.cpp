@@ -3,7 +3,9 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <ssphh/bake/light_modes.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/memory.h>
 #include <ssphh/farm/farm_bake.h>
@@ -35,12 +37,13 @@ probes::LightOperator operator_of(const BakeOptions& o, std::size_t probes) {
   return probes::LightOperator::surfel;
 }
 
-/// Records hold every bounce, so there are none unasked beside probes that are to hold fewer.
+/// Records hold every bounce, so there are none unasked beside probes that are to hold fewer, unless light that
+/// is baked must be kept somewhere.
 int records_of(const BakeOptions& o) {
   const bool every_bounce = o.op == probes::LightOperator::surfel ||
                             (o.op == probes::LightOperator::path && o.params.gen == probes::GenMode::full &&
                              o.params.path.max_depth >= rays::usual_max_depth);
-  return every_bounce ? o.usual_records : 0;
+  return every_bounce || !o.transport.records.baked.empty() ? o.usual_records : 0;
 }
 
 /// Decides on VIZ, which it returns, and refuses options that would have no effect.
@@ -68,6 +71,9 @@ probes::VizMethod resolve(BakeOptions& o, std::size_t probes) {
   params.viz_params.neighbors = o.neighbors.value_or(-1);
   params.viz_params.threshold = o.threshold;
   o.transport.records.points = o.records.value_or(records_of(o));
+  if (o.transport.records.points == 0 && !o.transport.records.baked.empty())
+    throw Error("--records 0", "leaves no place for the light of groups that are baked",
+                "leave it out, or bake no group's direct light: --light-mode GROUP=mixed");
   o.transport.viz = o.viz == VizMethod::links;
   o.transport.viz_params.neighbors = o.neighbors.value_or(default_link_neighbors);
   o.transport.viz_params.threshold = o.threshold;
@@ -122,6 +128,8 @@ void fill(BakeResult& result, const BakeOptions& o, const trace::SharedGeometry&
     if (path) baseline.trials = bake::make_trials(tracer, result.set, control);
   }
   result.set.baseline = std::move(baseline);
+  const std::vector<scene::LightMode> modes = scene::light_modes(scene);
+  bake::set_light_modes(trace::TransportScene(geometry, scene), result.set, modes, control);
 }
 
 double viz_seconds(const BakeResult& r) {
@@ -140,6 +148,8 @@ void run_full_bake(const BakeOptions& options, BakeResult& result, BakeWatcher& 
   result.set = result.place
                    ? place::init_from_placement(scene, result.place->placement, o.degree, o.scene.time)
                    : place::init_from_scene(scene, o.degree, o.scene.time);
+  o.transport.records.baked = bake::baked_indices(scene::light_modes(scene));
+  for (const std::string& line : bake::blurred_shadows(scene)) log_warning("{}", line);
   result.viz = resolve(o, result.set.probes.size());
 
   const bool limited = fit_into_memory(o);
@@ -220,6 +230,7 @@ json::Value to_json(const BakeResult& r, const BakeOptions& o) {
                         {"probes", r.set.probes.size()},
                         {"degree", r.set.degree},
                         {"light_groups", r.set.light_groups.size()},
+                        {"baked_groups", probes::baked_groups(r.set)},
                         {"edges", probes::edge_count(r.set)},
                         {"gen", name_of(r.set.generator.gen)},
                         {"gen_seconds", r.paths.gen_seconds},
@@ -266,6 +277,8 @@ std::string to_text(const BakeResult& r, const BakeOptions& o) {
   if (r.set.surface && t.record_seconds > 0)
     text += fmt::format("\nlight kept at {} surface points in {:.2f} s", r.set.surface->points.size(),
                         t.record_seconds);
+  if (const std::vector<std::string> baked = probes::baked_groups(r.set); !baked.empty())
+    text += fmt::format("\ndirect light kept, too, of {}", fmt::join(baked, ", "));
   if (r.set.fitted && t.fit_seconds > 0)
     text +=
         fmt::format("\nweights fitted at {} points in {:.2f} s", r.set.fitted->points.size(), t.fit_seconds);

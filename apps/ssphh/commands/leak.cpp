@@ -36,11 +36,12 @@ LeakResult run_leak(const LeakOptions& o, const Control& control) {
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   scene::CameraPose camera;
   if (!o.output.empty()) camera = camera_of(scene, o.camera, time, geometry);
-  const trace::PathTracer tracer(geometry, scene, time);
+  trace::PathTracer tracer(geometry, scene, time);
   require_same_scene(o.probes, set, scene, tracer.light_groups(), {}, o.force);
   const trace::TransportScene surfaces(geometry, scene);
   const probes::LookupParams params_of_lookup = lookup_params(o.probes, set, o.lookup);
   const probes::IrradianceLookup lookup(set, tracer, params_of_lookup);
+  tracer.count_as_indirect(lookup.direct_groups());
   result.weights = probes::chosen_weights(set, params_of_lookup);
 
   study::LeakParams params = o.params;

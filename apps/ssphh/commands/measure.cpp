@@ -174,6 +174,21 @@ MeasuredLight measured(const Candidate& candidate, const MeasureResult& at,
   return result;
 }
 
+/// Whose direct light the lookups hold. Throws Error unless all, and methods, hold that of the same groups:
+/// there is one truth.
+std::vector<std::string> direct_groups_of(const std::vector<Candidate>& candidates, bool methods) {
+  if (candidates.empty()) return {};
+  std::vector<std::string> groups = candidates.front().light->direct_groups();
+  const bool alike = std::ranges::all_of(
+      candidates, [&](const Candidate& other) { return other.light->direct_groups() == groups; });
+  if (!alike || (methods && !groups.empty()))
+    throw Error(candidates.front().known.name,
+                "holds direct light of other light groups than what it is "
+                "compared with",
+                "measure them one by one, or bake all with the same --light-mode");
+  return groups;
+}
+
 /// The noise of the truth in its worst channel, which is the same whatever is compared with it.
 double noise_of(const MeasureResult& result) {
   return result.lights.empty() ? 0 : study::worst_channel(result.lights.front().error).noise;
@@ -218,10 +233,11 @@ MeasureResult run_measure(const MeasureOptions& o, const Control& control) {
   require_different_names(o.regions);
   const scene::Scene scene = load_lit_scene(o.scene);
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
-  const trace::PathTracer tracer(geometry, scene, o.scene.time);
+  trace::PathTracer tracer(geometry, scene, o.scene.time);
   std::vector<probes::ProbeSet> sets;
   for (const std::string& file : o.probes) sets.push_back(read_probes_of(scene, file, o.scene.time, o.force));
   const std::vector<Candidate> candidates = probe_candidates(o, sets, tracer);  // fails before the work
+  tracer.count_as_indirect(direct_groups_of(candidates, !o.methods.empty()));
   const trace::TransportScene surfaces(geometry, scene);
   MeasureResult result;
   const std::vector<vec3> origins = viewpoints(scene, surfaces, sets, o.scene.time);

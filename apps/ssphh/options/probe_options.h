@@ -22,8 +22,9 @@ Option add_probe_files(const Command& command, const std::string& names, std::ve
 
 Option add_force_option(Command command, bool& force);
 
-/// What tells the scene from the one in which the set was baked: name, content, light groups, and where
-/// something moves the time, if one is given. Empty: nothing.
+/// What tells the scene from the one in which the set was baked: name, content, light groups, modes that it
+/// asks for and by which the set would hold other light, and where something moves the time, if one is given.
+/// Empty: nothing.
 std::string scene_difference(const probes::ProbeSet& set, const scene::Scene& scene,
                              const std::vector<std::string>& light_groups, std::optional<float> time);
 

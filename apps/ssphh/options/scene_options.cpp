@@ -11,6 +11,27 @@
 #include <ssphh/scene_io/unit.h>
 
 namespace ssphh::app {
+namespace {
+
+/// "GROUP=MODE"; throws Error for anything else.
+scene::GroupMode read_light_mode(const std::string& text) {
+  const std::string where = "--light-mode " + text;
+  const std::size_t sign = text.rfind('=');
+  if (sign == std::string::npos || sign == 0)
+    throw Error(where, "is not GROUP=MODE", "write sky=baked, for instance");
+  return {text.substr(0, sign), enum_named<scene::LightMode>(where, text.substr(sign + 1))};
+}
+
+std::string light_mode_problem(const std::string& text) {
+  try {
+    read_light_mode(text);
+    return {};
+  } catch (const Error& e) {
+    return e.what();
+  }
+}
+
+}  // namespace
 
 void add_scene_options(Command command, SceneOptions& options, bool posed, const std::string& source) {
   command.option(source, options.source, "File (.glb .gltf .obj, or an overlay .ssphh.json) or builtin:NAME")
@@ -43,9 +64,18 @@ void add_scene_options(Command command, SceneOptions& options, bool posed, const
   scene.option("--sun-elevation", options.sun_elevation, "Degrees above the horizon").range(0.0f, 90.0f);
   scene.option("--sun-azimuth", options.sun_azimuth, "Degrees by compass: 0 is −z, 90 is +x");
   scene.option("--turbidity", options.turbidity, "Haze: 2 very clear, 10 hazy").range(1.7f, 10.0f);
+  scene
+      .option("--light-mode", options.light_modes,
+              "How a light group's light reaches pictures with probes: realtime, mixed (indirect light as "
+              "baked) or baked (direct light, too); default: what the scene says, else realtime")
+      .check(light_mode_problem, "GROUP=MODE")
+      .repeatable();
 }
 
-scene::Scene load_scene(const SceneOptions& options) {
+namespace {
+
+/// The scene as its file and its overlay tell of it, lit as the options ask.
+scene::Scene load_file(const SceneOptions& options) {
   scene_io::LoadOptions load;
   load.overlay = options.overlay;
   load.unit = options.unit;
@@ -63,8 +93,22 @@ scene::Scene load_scene(const SceneOptions& options) {
   return options.lambert ? scene::lambertian(std::move(scene)) : scene;
 }
 
+scene::Scene with_modes(scene::Scene scene, const SceneOptions& options) {
+  for (const std::string& text : options.light_modes) {
+    const auto [group, mode] = read_light_mode(text);
+    scene::set_light_mode(scene, group, mode);
+  }
+  return scene;
+}
+
+}  // namespace
+
+scene::Scene load_scene(const SceneOptions& options) {
+  return with_modes(load_file(options), options);
+}
+
 scene::Scene load_lit_scene(const SceneOptions& options) {
-  scene::Scene scene = load_scene(options);
+  scene::Scene scene = load_file(options);
   if (scene::light_groups(scene).empty()) {
     log_warning(
         "{}: no lights: a neutral studio lights it (add lights to the file or by --overlay, or give "
@@ -72,7 +116,7 @@ scene::Scene load_lit_scene(const SceneOptions& options) {
         options.source);
     scene::add_studio(scene);
   }
-  return scene;
+  return with_modes(std::move(scene), options);
 }
 
 scene::Scene load_lit_scene(const SceneOptions& options, std::vector<FileStamp>& files) {

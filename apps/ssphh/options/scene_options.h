@@ -21,7 +21,8 @@ struct SceneOptions {
   bool sun_sky = false;
   float sun_elevation = 45, sun_azimuth = 120;  ///< degrees; azimuth 0: −z, 90: +x
   float turbidity = 3;
-  float time = 0;  ///< seconds
+  float time = 0;                        ///< seconds
+  std::vector<std::string> light_modes;  ///< "GROUP=MODE"; the group's name may hold a "=", too
 };
 
 /// Adds the positional SCENE (or the option that `source` names) and --overlay, --unit, --lambert,

@@ -64,7 +64,7 @@ void renew_records(transport::RelightSession& session, probes::ProbeSet& set,
     which.push_back(p);
     points.push_back(set.surface->points[p]);
   }
-  session.keep_records_at(std::move(points), params.rays, control);
+  session.keep_records_at(std::move(points), params, control);
   const probes::SurfaceRecords now = session.records_by_group(control);
   for (const std::uint32_t g : *scope.groups) {
     require(g < now.groups.size() && g < set.surface->groups.size(), "surface records",

@@ -53,9 +53,12 @@ void fields(auto& io, auto& c, const scene::AnimationChannel*) {
 void fields(auto& io, auto& a, const scene::Animation*) {
   io(a.name), io(a.channels);
 }
+void fields(auto& io, auto& m, const scene::GroupMode*) {
+  io(m.group), io.choice(m.mode, scene::LightMode::baked);
+}
 void fields(auto& io, auto& s, const scene::Scene*) {
   io(s.name), io(s.textures), io(s.materials), io(s.meshes), io(s.nodes), io(s.instances), io(s.cameras);
-  io(s.lights), io(s.sphls), io(s.animations), io(s.environment), io(s.ignored);
+  io(s.lights), io(s.sphls), io(s.animations), io(s.environment), io(s.light_modes), io(s.ignored);
 }
 
 }  // namespace ssphh::farm

@@ -9,6 +9,7 @@ struct IrradianceLookup::Data {
   std::unique_ptr<LookupWeights> weights;
   std::shared_ptr<const SurfaceInterpolation> places;  ///< of the records; none: weights alone
   std::vector<RecordLight> light;                      ///< of each place
+  std::vector<std::string> direct_groups;
 
   /// Σ_j v_j value(j), not negative.
   template <class Value>
@@ -43,7 +44,8 @@ WeightMethod chosen_weights(const ProbeSet& set, const LookupParams& params) {
 
 IrradianceLookup::IrradianceLookup(const ProbeSet& set, const rays::RadianceSource& source,
                                    const LookupParams& params)
-    : data_(std::unique_ptr<Data>(new Data{PackedProbes(set, params), nullptr, nullptr, {}})) {
+    : data_(std::unique_ptr<Data>(
+          new Data{PackedProbes(set, params), nullptr, nullptr, {}, baked_groups(set)})) {
   const auto sees = [&source](const vec3& a, const vec3& b) { return source.visible(a, b); };
   data_->weights =
       make_weights(data_->probes.positions(), sees, params.weights, set.fitted ? &*set.fitted : nullptr);
@@ -56,7 +58,8 @@ IrradianceLookup::IrradianceLookup(const ProbeSet& set, const rays::RadianceSour
 IrradianceLookup::IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWeights> weights,
                                    const LookupParams& params,
                                    std::shared_ptr<const SurfaceInterpolation> places)
-    : data_(std::unique_ptr<Data>(new Data{PackedProbes(set, params), std::move(weights), nullptr, {}})) {
+    : data_(std::unique_ptr<Data>(
+          new Data{PackedProbes(set, params), std::move(weights), nullptr, {}, baked_groups(set)})) {
   require(data_->weights != nullptr, "probe lookup", "there are no weights");
   if (!places) return;
   require(has_records(set, params), "probe lookup", "there are no surface records of that light");
@@ -71,6 +74,10 @@ vec3 IrradianceLookup::irradiance(const rays::SurfacePoint& at) const {
   PackedProbes::Basis basis;
   data_->probes.irradiance_basis(at.normal, basis);
   return data_->blend(at, [&](int probe) { return data_->probes.irradiance(probe, basis.data()); });
+}
+
+std::vector<std::string> IrradianceLookup::direct_groups() const {
+  return data_->direct_groups;
 }
 
 vec3 IrradianceLookup::glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const {

@@ -6,6 +6,7 @@ namespace ssphh::probes {
 struct LightLookup::Data {
   PackedProbes probes;
   ProbeSight sight;
+  std::vector<std::string> direct_groups;
 
   /// The nearest probe that the point sees and that stands above its horizon; else the nearest, with `lights`
   /// false.
@@ -35,7 +36,7 @@ LightLookup::LightLookup(const ProbeSet& set, const rays::RadianceSource& source
   ProbeSight sight(
       packed.positions(), [&source](const vec3& a, const vec3& b) { return source.visible(a, b); },
       params.weights);
-  data_ = std::unique_ptr<Data>(new Data{std::move(packed), std::move(sight)});
+  data_ = std::unique_ptr<Data>(new Data{std::move(packed), std::move(sight), baked_groups(set)});
 }
 LightLookup::~LightLookup() = default;
 LightLookup::LightLookup(LightLookup&&) noexcept = default;
@@ -51,6 +52,10 @@ vec3 LightLookup::irradiance(const rays::SurfacePoint& at) const {
   }
   data_->probes.radiance_basis(chosen.direction, basis);
   return data_->probes.radiance(chosen.probe, basis.data()) / std::max(chosen.cosine, smallest_cosine);
+}
+
+std::vector<std::string> LightLookup::direct_groups() const {
+  return data_->direct_groups;
 }
 
 vec3 LightLookup::glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const {

@@ -180,10 +180,11 @@ ProbeSet read_payload(ByteReader& in) {
   const auto coefficients = static_cast<std::size_t>(sh::coefficient_count(set.degree));
   set.generator = read_generator(in);
   set.light_groups.resize(
-      in.count("light group count", limits::light_groups, sizeof(std::uint32_t) + sizeof(vec3)));
+      in.count("light group count", limits::light_groups, sizeof(std::uint32_t) + sizeof(vec3) + 1));
   for (LightGroup& group : set.light_groups) {
     group.name = in.text("light group name", limits::text);
     group.scale = in.vector3("light group scale");
+    group.mode = static_cast<scene::LightMode>(in.value_in<std::uint8_t>("light group mode", 0, 2));
   }
   const std::size_t bytes_each =
       set.light_groups.size() * (coefficients * sizeof(vec3) + 2) + sizeof(vec3) + 3 * sizeof(float);
@@ -230,6 +231,7 @@ std::vector<std::byte> probes_to_binary(const ProbeSet& set) {
   for (const LightGroup& group : set.light_groups) {
     payload.text(group.name);
     payload.vector3(group.scale);
+    payload.value(static_cast<std::uint8_t>(group.mode));
   }
   payload.value(static_cast<std::uint32_t>(set.probes.size()));
   for (const Probe& probe : set.probes) {

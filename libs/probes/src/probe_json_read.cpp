@@ -175,8 +175,9 @@ ProbeSet read_set(const Cursor& root) {
   const Cursor groups = root["light_groups"];
   const std::size_t group_count = groups.size(0, limits::light_groups);
   for (std::size_t g = 0; g < group_count; ++g) {
-    const Cursor at = groups[g].members({"name", "scale"});
-    set.light_groups.push_back({at["name"].text(limits::text), vector3(at["scale"], 0, limits::scale)});
+    const Cursor at = groups[g].members({"name", "scale", "mode"});
+    set.light_groups.push_back({at["name"].text(limits::text), vector3(at["scale"], 0, limits::scale),
+                                at["mode"].named<scene::LightMode>()});
   }
   if (root.has("hierarchy")) {
     const Cursor at = root["hierarchy"].members({"operator", "neighbors", "threshold"});

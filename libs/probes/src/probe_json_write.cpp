@@ -30,7 +30,8 @@ class Writer {
     put("\"light_groups\":[");
     for (std::size_t i = 0; i < set_.light_groups.size(); ++i) {
       const LightGroup& group = set_.light_groups[i];
-      put("{}\n{{\"name\":{},\"scale\":{}}}", comma(i), quoted(group.name), exact(group.scale));
+      put("{}\n{{\"name\":{},\"scale\":{},\"mode\":\"{}\"}}", comma(i), quoted(group.name),
+          exact(group.scale), name_of(group.mode));
     }
     put("],\n\"probes\":[");
     for (std::size_t i = 0; i < set_.probes.size(); ++i) probe(i);

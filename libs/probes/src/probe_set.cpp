@@ -43,8 +43,10 @@ void merge_groups(ProbeSet& set) {
     probe.reflected = sh::RadianceSh(set.degree);
     probe.self = sh::RadianceSh(set.degree);
     for (std::size_t g = 0; g < probe.groups.size(); ++g) {
-      add_scaled(probe.reflected, probe.groups[g].reflected, set.light_groups[g].scale);
-      add_scaled(probe.self, probe.groups[g].emitted, set.light_groups[g].scale);
+      const LightGroup& group = set.light_groups[g];
+      add_scaled(probe.reflected, probe.groups[g].reflected, group.scale);
+      const bool looked_up = group.mode == scene::LightMode::baked;
+      add_scaled(looked_up ? probe.reflected : probe.self, probe.groups[g].emitted, group.scale);
     }
     probe.self += probe.reflected;
   }
@@ -66,6 +68,14 @@ void relight(ProbeSet& set, const std::string& group, const vec3& scale) {
   }
   throw Error("light group \"" + group + "\"", "no such group in the probe set",
               known.empty() ? "the set has no light groups" : "there are: " + known);
+}
+
+std::vector<std::string> baked_groups(const ProbeSet& set) {
+  std::vector<std::string> names;
+  for (const LightGroup& group : set.light_groups) {
+    if (group.mode == scene::LightMode::baked) names.push_back(group.name);
+  }
+  return names;
 }
 
 std::size_t edge_count(const ProbeSet& set) {

@@ -100,6 +100,7 @@ void Renderer::Data::draw_direct(bool shadow_view, bool glass) {
     gl::clear_color(0, 0, 0, 0, 0);
   }
   for (const Lights::Lit& lit : lights.lit()) {
+    if (!lit.lights) continue;
     lights.bind_emitter(lit);
     const auto draw_class = [&](bool full, const gl::DrawState& where) {
       gl::Program& program = shaders.direct(lit.kind, full, shadow_view);

@@ -38,6 +38,7 @@ Lights::Lights(const scene::Scene& scene, const std::vector<mat4>& world, const 
     : near_(cube_near(bounds)) {
   const std::vector<std::string> groups = scene::light_groups(scene);
   scales_.assign(groups.size(), vec3(1));
+  groups_ = groups;
   add_lights(scene, world, groups, most_sun_parts(scene, params));
   add_meshes(scene, world, groups, std::clamp(params.area_samples, 1, max_area_samples));
   add_environment(scene, groups, std::clamp(params.environment_samples, 1, max_area_samples));
@@ -167,6 +168,35 @@ void Lights::set(const scene::LightingState& state, const std::vector<mat4>& wor
     turn_ = state.environment_rotation;
     turn_environment();
     place_environment(environment_bounds_);
+  }
+}
+
+void Lights::leave_out(const std::vector<std::string>& groups) {
+  for (Source& source : sources_) {
+    const bool left_out =
+        std::ranges::find(groups, groups_[static_cast<std::size_t>(source.group)]) != groups.end();
+    if (left_out == source.left_out) continue;
+    source.left_out = left_out;
+    want_maps(source);
+    emitters_changed_ = true;
+  }
+}
+
+void Lights::want_maps(const Source& source) {
+  const ivec4& items = emitters_[static_cast<std::size_t>(source.emitter)].items;
+  switch (static_cast<EmitterKind>(items.x)) {
+    case EmitterKind::point:
+      return lamps_.want(6 * source.first_map, 6, !source.left_out);
+    case EmitterKind::sun:
+    case EmitterKind::disc:
+      return parallel_.want(source.first_map, sun_cascades * items.z, !source.left_out);
+    case EmitterKind::environment:
+      return parallel_.want(source.first_map, items.z, !source.left_out);
+    case EmitterKind::sphere:
+    case EmitterKind::mesh:
+      return areas_.want(6 * source.first_map, 6 * items.z, !source.left_out);
+    case EmitterKind::sphl:
+      return;
   }
 }
 
@@ -303,13 +333,16 @@ void Lights::upload_emitters(FrameCounters& counters) {
 
 void Lights::list_lit() {
   lit_.clear();
+  std::vector<std::uint8_t> left_out(emitters_.size());
+  for (const Source& source : sources_) left_out[static_cast<std::size_t>(source.emitter)] = source.left_out;
   for (std::size_t i = 0; i < emitters_.size(); ++i) {
     const GpuEmitter& e = emitters_[i];
     if (!(max_component(vec3(e.light)) > black)) continue;
     const auto kind = static_cast<EmitterKind>(e.items.x);
     lit_.push_back(
         {kind, static_cast<int>(i),
-         kind == EmitterKind::disc || kind == EmitterKind::sphere || kind == EmitterKind::environment});
+         kind == EmitterKind::disc || kind == EmitterKind::sphere || kind == EmitterKind::environment,
+         !left_out[i]});
   }
 }
 

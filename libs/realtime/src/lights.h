@@ -22,6 +22,9 @@ class Lights {
 
   /// Emission of SPHLs apart. `world`: of each node at the state's time.
   void set(const scene::LightingState& state, const std::vector<mat4>& world);
+  /// Light groups whose direct light comes to surfaces from elsewhere: their emitters are seen, but light
+  /// nothing and need no shadow maps. Replaces those of before.
+  void leave_out(const std::vector<std::string>& groups);
   /// A probe's own light.
   void add_emission(int probe, const vec3& position, float radius, const sh::RadianceSh& leaving);
   void clear_emissions();
@@ -43,7 +46,8 @@ class Lights {
   struct Lit {
     EmitterKind kind;
     int emitter;
-    bool seen;  ///< is no surface, and looked at directly
+    bool seen;    ///< is no surface, and looked at directly
+    bool lights;  ///< surfaces
   };
   const std::vector<Lit>& lit() const { return lit_; }
   void bind_emitter(const Lit& lit) const;
@@ -68,6 +72,7 @@ class Lights {
     std::vector<vec3> corners;      ///< of triangles with a closed form, likewise
     mat4 placed{0};                 ///< pose of what is in the buffers
     int first_map;
+    bool left_out = false;
   };
   static int most_sun_parts(const scene::Scene& scene, const RendererParams& params);
   void add_lights(const scene::Scene& scene, const std::vector<mat4>& world,
@@ -84,6 +89,7 @@ class Lights {
   void place_environment(const scene::Bounds& bounds);
   void set_colors();
   void list_lit();
+  void want_maps(const Source& source);
   void upload_emitters(FrameCounters& counters);
   void set_parallel(int map, const vec3& forward, const vec3& center, float radius,
                     const scene::Bounds& bounds);
@@ -91,6 +97,7 @@ class Lights {
   std::vector<scene::Light> lights_;
   std::vector<scene::LightState> states_;
   std::vector<vec3> scales_;
+  std::vector<std::string> groups_;
   std::optional<scene::Environment> environment_;
   std::vector<EnvironmentSample> directions_;  ///< by the scene's own rotation
   sh::IrradianceSh sky_irradiance_;            ///< likewise

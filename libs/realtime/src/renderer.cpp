@@ -124,6 +124,8 @@ void Renderer::set_probes(const probes::ProbeSet& set, const probes::LookupParam
   d.forget_emission();
   d.probes =
       Probes(set, params, d.params, d.scene.bounds(), d.scene.any_full() || d.scene.any_glass(), d.counters);
+  d.baked_groups = probes::baked_groups(set);
+  d.choose_direct();
   d.context.throw_on_error("uploading probes");
 }
 
@@ -151,6 +153,8 @@ void Renderer::update_probes(std::span<const int> probes, std::span<const sh::Ra
 void Renderer::clear_probes() {
   data_->forget_emission();
   data_->probes = Probes();
+  data_->baked_groups.clear();
+  data_->choose_direct();
 }
 
 int Renderer::probe_count() const {
@@ -163,11 +167,13 @@ void Renderer::set_method_light(const methods::LightData& light) {
     d.method.reset();  // first: the two would not always fit side by side
     d.method = make_method_light(light, d.params, d.scene.bounds(), d.counters);
   }
+  d.choose_direct();
   d.context.throw_on_error("uploading a method's light");
 }
 
 void Renderer::clear_method_light() {
   data_->method.reset();
+  data_->choose_direct();
 }
 
 methods::MethodNumbers Renderer::method_numbers() const {

@@ -35,6 +35,8 @@ struct Renderer::Data {
     lights.clear_emissions();
     lighting.emission.clear();
   }
+  /// Leaves out the direct light that the probes hold, as long as they light the scene.
+  void choose_direct() { lights.leave_out(method ? std::vector<std::string>() : baked_groups); }
   void reload_changed_shaders();
   template <class Draw>
   void run(Pass pass, const Draw& draw_pass) {
@@ -89,7 +91,8 @@ struct Renderer::Data {
   GpuScene scene;
   Lights lights;
   Probes probes;
-  std::unique_ptr<MethodLight> method;  ///< null: probes light the scene
+  std::vector<std::string> baked_groups;  ///< of the probes
+  std::unique_ptr<MethodLight> method;    ///< null: probes light the scene
   gl::Texture albedo, sky;
   gl::Sampler sky_sampler;
   TileAtlas sky_lobes;  ///< made when something glossy is first lit by an environment

@@ -5,7 +5,7 @@
 namespace ssphh::realtime {
 namespace {
 
-enum State : std::uint8_t { stale, fresh, unused };
+enum State : std::uint8_t { stale, fresh, unused, unwanted };
 
 constexpr int shadow_atlas_side = 4096;
 
@@ -57,9 +57,20 @@ std::size_t MapAtlas::bytes_of(int size, int tiles) {
 void MapAtlas::set_view(int tile, const MapView& view, bool used) {
   const auto t = static_cast<std::size_t>(tile);
   views_[t] = view;
+  if (used && fresh_[t] == unwanted) return;
   stale_ -= fresh_[t] == stale;
   fresh_[t] = used ? stale : unused;
   stale_ += used;
+}
+
+void MapAtlas::want(int first, int count, bool wanted) {
+  for (int tile = first; tile < first + count; ++tile) {
+    auto& state = fresh_[static_cast<std::size_t>(tile)];
+    if (state == unused || wanted == (state != unwanted)) continue;
+    stale_ -= state == stale;
+    stale_ += wanted;
+    state = wanted ? stale : unwanted;
+  }
 }
 
 void MapAtlas::invalidate(const std::vector<scene::Bounds>& moved) {

@@ -50,6 +50,8 @@ class MapAtlas {
 
   /// Marks a tile as to be drawn with this view; `used` false: nobody looks at it.
   void set_view(int tile, const MapView& view, bool used = true);
+  /// Tiles that are not wanted keep their view, and are drawn when they are wanted again.
+  void want(int first, int count, bool wanted);
   /// Marks the tiles that see one of the boxes.
   void invalidate(const std::vector<scene::Bounds>& moved);
   void invalidate_all();
@@ -70,7 +72,7 @@ class MapAtlas {
   std::vector<gl::Framebuffer> layers_;
   std::vector<MapView> views_;
   std::vector<int> drawn_;
-  std::vector<std::uint8_t> fresh_;  ///< 0 stale, 1 fresh, 2 unused
+  std::vector<std::uint8_t> fresh_;  ///< 0 stale, 1 fresh, 2 unused, 3 not wanted
 };
 
 }  // namespace ssphh::realtime

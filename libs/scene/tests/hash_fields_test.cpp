@@ -138,6 +138,7 @@ std::vector<Field> changed_scenes() {
 bool invisible(const std::string& path) {
   static const std::regex patterns(
       "name|ignored.*"                                             // of the scene: for people
+      "|light_modes.*"                                             // what is to be kept of the light
       "|(textures|materials|meshes|animations)\\[.*\\]\\.name"     // for people
       "|(meshes|textures)\\[1\\]\\..*"                             // not used
       "|materials\\[.\\]\\.thickness"                              // whether there is one counts

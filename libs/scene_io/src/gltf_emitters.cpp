@@ -9,6 +9,7 @@
 
 #include "gltf_parts.h"
 #include "printable.h"
+#include "read_light_modes.h"
 
 namespace ssphh::scene_io {
 
@@ -129,6 +130,15 @@ void import_environment(GltfImport& import, const json::Cursor& gltf_scene) {
     }
   }
   import.scene.environment = std::move(out);
+}
+
+void import_light_modes(GltfImport& import) {
+  GltfDocument& document = import.document;
+  if (document.count("scenes") == 0) return;
+  const int shown = document.reference(document.root(), "scene", "scenes").value_or(0);
+  const auto extras = extra(document.item("scenes", shown), "ssphh");
+  if (const auto modes = extras ? extras->find("light_modes") : std::nullopt)
+    read_light_modes(import.scene, *modes);
 }
 
 }  // namespace ssphh::scene_io

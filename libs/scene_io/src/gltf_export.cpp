@@ -45,7 +45,10 @@ std::vector<std::byte> export_glb(const scene::Scene& scene) {
   json::Value shown;
   if (!scene.name.empty()) shown["name"] = scene.name;
   if (!roots.empty()) shown["nodes"] = roots;
-  if (json::Value extras = export_environment(out); !extras.is_null()) shown["extras"] = std::move(extras);
+  if (json::Value environment = export_environment(out); !environment.is_null())
+    shown["extras"]["ssphh"]["environment"] = std::move(environment);
+  if (json::Value modes = export_light_modes(out); !modes.is_null())
+    shown["extras"]["ssphh"]["light_modes"] = std::move(modes);
   if (shown.is_null()) shown = json::Value::object();
 
   json::Value document;

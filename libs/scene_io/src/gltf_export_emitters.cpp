@@ -63,6 +63,12 @@ json::Value export_light(const scene::Light& light) {
   return out;
 }
 
+json::Value export_light_modes(const GltfExport& out) {
+  json::Value modes;
+  for (const scene::GroupMode& asked : out.scene.light_modes) modes[asked.group] = name_of(asked.mode);
+  return modes;
+}
+
 json::Value export_environment(GltfExport& out) {
   if (!out.scene.environment) return nullptr;
   const scene::Environment& e = *out.scene.environment;
@@ -81,9 +87,7 @@ json::Value export_environment(GltfExport& out) {
     const int view = add_buffer_view(out, std::as_bytes(std::span<const float>(rgb)), 0);
     environment["image"] = {{"bufferView", view}, {"width", e.equirect.width}, {"height", e.equirect.height}};
   }
-  json::Value extras;
-  extras["ssphh"]["environment"] = std::move(environment);
-  return extras;
+  return environment;
 }
 
 void export_animations(GltfExport& out) {

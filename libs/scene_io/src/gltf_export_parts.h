@@ -65,8 +65,10 @@ json::Value export_nodes(GltfExport& out);
 
 json::Value export_camera(const scene::Camera& camera);
 json::Value export_light(const scene::Light& light);
-/// extras of the glTF scene, or null.
+/// extras.ssphh.environment of the glTF scene, or null.
 json::Value export_environment(GltfExport& out);
+/// extras.ssphh.light_modes of it, or null.
+json::Value export_light_modes(const GltfExport& out);
 void export_animations(GltfExport& out);
 
 }  // namespace ssphh::scene_io

@@ -51,6 +51,8 @@ scene::Light import_light(const json::Cursor& light);
 scene::Camera import_camera(const json::Cursor& camera);
 /// extras.ssphh.environment of the default scene.
 void import_environment(GltfImport& import, const json::Cursor& gltf_scene);
+/// extras.ssphh.light_modes of the default scene, whose lights are all there.
+void import_light_modes(GltfImport& import);
 
 /// Keyframes; marks animated nodes and what is below them as movable.
 void import_animations(GltfImport& import);

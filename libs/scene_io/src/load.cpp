@@ -138,6 +138,9 @@ Scene load_scene(const std::string& source, const LoadOptions& options) {
 
   if (options.sun_sky) scene::add_sun_sky(scene, *options.sun_sky);
 
+  for (const std::string& group : scene::drop_unused_light_modes(scene))
+    log_warning("{}: the light mode of \"{}\" is not used: its lights were replaced", source, group);
+
   for (const auto& repair : scene::validate(scene)) log_warning("{}: {}", source, repair);
   if (scene.instances.empty()) log_warning("{}: shows no triangles", source);
   if (!scene.ignored.empty()) log_warning("{}: ignored: {}", source, fmt::join(scene.ignored, ", "));

@@ -12,6 +12,7 @@
 #include <ssphh/scene_io/unit.h>
 
 #include "overlay_paths.h"
+#include "read_light_modes.h"
 
 namespace ssphh::scene_io {
 namespace {
@@ -209,7 +210,7 @@ void apply_overlay(Scene& scene, std::string_view text, const std::filesystem::p
   const json::Value json = json::parse(text, file);
   const json::Cursor root(json, file);
   root.only({"$schema", "comment", "scene", "name", "unit", "origin", "cameras", "lights", "sphls",
-             "environment", "sun_sky", "materials"});
+             "environment", "sun_sky", "materials", "light_modes"});
   scene.name = root.text_or("name", scene.name);
   const auto unit = root.find("unit"), origin = root.find("origin");
   const std::string own_unit = unit ? read_unit(*unit) : "m";
@@ -225,6 +226,7 @@ void apply_overlay(Scene& scene, std::string_view text, const std::filesystem::p
   if (environment && sun_sky) root.fail("has both \"environment\" and \"sun_sky\"");
   if (environment) set_environment(scene, *environment, path);
   if (sun_sky) set_sun_sky(scene, *sun_sky);
+  if (const auto modes = root.find("light_modes")) read_light_modes(scene, *modes);
 }
 
 }  // namespace ssphh::scene_io

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <ssphh/core/sphere.h>
@@ -161,6 +163,52 @@ TEST(Distribution, ChoosesInProportionAndRescalesTheNumber) {
   EXPECT_FLOAT_EQ(d.sample(0.625f).u, 0.5f);
   const float none[] = {0, -1, std::numeric_limits<float>::quiet_NaN()};
   EXPECT_TRUE(Distribution(none).empty());
+}
+
+TEST(LightSet, WithoutSomeGroupsIsTheSetOfAllOthers) {
+  for (const int points : {1, 30}) {
+    scene::Scene scene = everything(points);
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) scene.lights[i].group = i % 2 == 0 ? "even" : "odd";
+    scene.instances[0].light_group = "odd";
+    const std::vector<mat4> world = scene::world_matrices(scene);
+    const LightSet all(scene, world);
+    const std::vector<std::string>& groups = all.groups();
+    for (const std::vector<std::string>& names :
+         std::vector<std::vector<std::string>>{{"even"}, {"odd"}, {"environment"}, {"even", "odd"}, groups}) {
+      std::vector<int> indices;
+      for (const std::string& name : names) indices.push_back(scene::light_group_index(groups, name));
+      const LightSet rest = all.without(indices);
+      const auto is_out = [&](const std::string& name) {
+        return std::ranges::find(names, name) != names.end();
+      };
+      scene::Scene smaller = scene;
+      std::erase_if(smaller.lights, [&](const scene::Light& light) { return is_out(light.group); });
+      if (is_out("odd")) {
+        for (scene::Material& material : smaller.materials) material.emission = vec3(0);
+      }
+      if (is_out("environment")) smaller.environment.reset();
+      const LightSet made(smaller, world);
+      ASSERT_EQ(rest.emitter_count(), made.emitter_count());
+      EXPECT_EQ(rest.empty(), made.empty());
+      EXPECT_EQ(rest.groups(), groups) << "indices of groups stay";
+      Pcg32 random(3);
+      for (int i = 0; i < 200; ++i) {
+        const vec3 from = 2.0f * random.uniform3() - vec3(1, 0, 1);
+        const float u = random.uniform();
+        const vec2 at(random.uniform(), random.uniform());
+        const auto a = rest.sample(from, u, at), b = made.sample(from, u, at);
+        ASSERT_EQ(a.has_value(), b.has_value());
+        if (!a) continue;
+        EXPECT_EQ(a->wi, b->wi);
+        EXPECT_EQ(a->radiance, b->radiance);
+        EXPECT_EQ(a->pdf, b->pdf);
+        EXPECT_FALSE(is_out(groups[static_cast<std::size_t>(a->group)]));
+      }
+      for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        EXPECT_EQ(rest.instance_group(static_cast<int>(i)),
+                  is_out("odd") ? -1 : all.instance_group(static_cast<int>(i)));
+    }
+  }
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ class GhostEmitters {
 
   std::optional<shading::LightSample> sample(const PathVertex& vertex, float u_choice, const vec2& u) const;
 
-  bool found_by_rays() const { return true; }
+  bool found_by_rays(const PathVertex&) const { return true; }
 
   /// Whether the ray meets the ball (its surface, or it starts inside) before `distance`.
   static bool meets(const Ball& ball, const Ray& ray, float distance);

@@ -70,9 +70,10 @@ struct PathSampler {
 
 /// Where a scattered or camera ray starts, and what MIS needs to know about it.
 struct PathVertex {
-  vec3 position;       ///< on the surface: lights are sampled from here
-  vec3 normal{0};      ///< geometric, toward wo; zero at the camera
-  float bsdf_pdf = 0;  ///< of the ray that leaves; 0: nothing else finds the light that it meets
+  vec3 position;           ///< on the surface: lights are sampled from here
+  vec3 normal{0};          ///< geometric, toward wo; zero at the camera
+  float bsdf_pdf = 0;      ///< of the ray that leaves; 0: nothing else finds the light that it meets
+  bool looked_up = false;  ///< a lookup has given its indirect light, and the direct light that it holds
 };
 
 /// Light along a path so far.
@@ -134,7 +135,7 @@ inline bool choose_glass(shading::Surface& surface, const vec3& wo, const PathSa
 ///                                                 emission)
 ///   surface(vertex, ray, hit, surface, visit)     the same for the surface it hits
 ///   sample(vertex, u_choice, u)                   optional<shading::LightSample>
-///   found_by_rays()                               whether scattered rays can meet any light
+///   found_by_rays(vertex)                         whether rays that leave it can meet any light
 /// `Visitor` receives first_hit(surface, ray_origin, ray, hit), of the first surface that the path does not
 /// go straight through, and add(depth, group, value, emission), `emission` being the direction in which the
 /// light left its emitter; where the options ask for it, also look_up(throughput, surface, ray_origin, ray,
@@ -196,7 +197,9 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
       }
     }
 
-    vertex = {surface.position, surface.geometric_normal};
+    vertex = {.position = surface.position,
+              .normal = surface.geometric_normal,
+              .looked_up = options.looks_up && !looks_up};
     const vec3 beyond_surface = 2.0f * surface.position - ray_origin;  // where rays start that go through
     const Frame frame = Frame::around(surface.normal);
     const vec3 wo = frame.to_local(-ray.direction);
@@ -224,7 +227,7 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
         }
       }
     }
-    if (!looks_up && depth + 1 == options.max_depth && !emitters.found_by_rays()) return;
+    if (!looks_up && depth + 1 == options.max_depth && !emitters.found_by_rays(vertex)) return;
 
     // Sample the BSDF; a direction that the shading normal allows but the surface does not ends the path.
     const auto sample = scattering.sample(random.lobe, random.direction);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <ssphh/core/log.h>
@@ -58,6 +59,14 @@ TaskScope::~TaskScope() {
   }
 }
 
+std::vector<int> group_indices(const std::vector<std::string>& groups, std::span<const std::string> names) {
+  std::vector<int> indices;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (std::ranges::find(names, groups[g]) != names.end()) indices.push_back(static_cast<int>(g));
+  }
+  return indices;
+}
+
 void report_invalid(std::uint64_t invalid) {
   if (invalid) log_warning("path tracer: {} contributions were not finite and were left out", invalid);
 }
@@ -93,6 +102,10 @@ PathTracer& PathTracer::operator=(PathTracer&&) noexcept = default;
 
 const std::vector<std::string>& PathTracer::light_groups() const {
   return data_->lights.groups();
+}
+
+void PathTracer::count_as_indirect(std::span<const std::string> groups) {
+  data_->looked_up = group_indices(light_groups(), groups);
 }
 
 std::uint64_t PathTracer::rays_traced() const {

@@ -1,13 +1,11 @@
 #include "posed_light.h"
 
-#include <bit>
 #include <cmath>
 
 #include <ssphh/core/parallel.h>
-#include <ssphh/core/random.h>
 #include <ssphh/core/require.h>
-#include <ssphh/core/sphere.h>
 
+#include "sample_sky.h"
 #include "surface_gap.h"
 #include "sweep.h"
 
@@ -15,11 +13,6 @@ namespace ssphh::trace {
 namespace {
 
 constexpr std::size_t many_points = 256, points_at_once = 32;
-
-std::uint64_t position_seed(const vec3& p) {
-  const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
-  return hash_combine((std::uint64_t{bits(p.x)} << 32) | bits(p.y), bits(p.z));
-}
 
 /// The corner of the box farthest along the direction.
 vec3 farthest(const scene::Bounds& box, const vec3& direction) {
@@ -139,39 +132,9 @@ vec3 PosedLight::irradiance_of(const GroupEmitter& light, const Receiver& at, st
 
 vec3 PosedLight::sky_irradiance(const GroupEmitter& light, const Receiver& at, std::uint64_t seed,
                                 RayTask& task) const {
-  // A constant sky by cosine alone, which is exact where nothing hides it; an image half by cosine, half by
-  // its own brightness, combined with the balance heuristic.
-  const bool constant = data_->scene.environment->equirect.empty();
-  const int count = data_->options.environment_samples, by_cosine = constant ? count : (count + 1) / 2;
-  const float share = static_cast<float>(by_cosine) / static_cast<float>(count);
-  const Frame frame = Frame::around(at.normal);
+  const int count = data_->options.environment_samples;
   vec3 sum(0);
-  for (int s = 0; s < count; ++s) {
-    const bool cosine_sample = s < by_cosine;
-    SampleSequence sequence(cosine_sample ? seed : mix64(seed),
-                            static_cast<std::uint32_t>(cosine_sample ? s : s - by_cosine));
-    const vec2 u = sequence.next2();
-    std::optional<shading::LightSample> sample;
-    if (!cosine_sample) {
-      sample = lights_.sample_emitter(light.index, at.position, u);
-      if (!sample) continue;
-    }
-    const vec3 wi = sample ? sample->wi : frame.to_world(sample_cosine_hemisphere(u));
-    const float cosine = glm::dot(wi, at.normal);
-    if (!(cosine > 0)) continue;
-    const vec3 through = geometry_.transmittance({at.start, wi}, 0, task);
-    if (!(max_component(through) > 0)) continue;
-    // Looking up the image costs more than the ray.
-    vec3 radiance;
-    float sky_pdf;
-    if (sample) {
-      radiance = sample->radiance, sky_pdf = sample->pdf;
-    } else {
-      const auto sky = lights_.distant_radiance(light.index, wi);
-      radiance = sky->radiance, sky_pdf = sky->pdf;
-    }
-    sum += through * radiance * (cosine / (share * cosine / pi + (1 - share) * sky_pdf));
-  }
+  sample_sky(light, at, seed, count, task, [&](const vec3&, const vec3& irradiance) { sum += irradiance; });
   return sum / static_cast<float>(count);
 }
 

@@ -1,11 +1,20 @@
 #pragma once
 /// Direct light of a scene for one state of its lights and one pose of its parts.
 
+#include <bit>
+
+#include <ssphh/core/random.h>
 #include <ssphh/shading/mesh_view.h>
 
 #include "transport_data.h"
 
 namespace ssphh::trace {
+
+/// Of the random numbers of a place: its bits.
+inline std::uint64_t position_seed(const vec3& p) {
+  const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+  return hash_combine((std::uint64_t{bits(p.x)} << 32) | bits(p.y), bits(p.z));
+}
 
 class PosedLight final : public rays::DirectLight {
  public:
@@ -15,6 +24,9 @@ class PosedLight final : public rays::DirectLight {
   void irradiance(int group, std::span<const rays::SurfacePoint> points, std::span<vec3> out) const override;
   bool may_shadow(int group, const rays::SurfacePoint& point, const scene::Bounds& box) const override;
   vec3 emitted(int group, const rays::RayQuery& ray, float distance) const override;
+  rays::IrradianceByNormal irradiance_by_normal(int group, const rays::SurfacePoint& point,
+                                                int samples) const override;
+  std::vector<rays::ArrivingLight> arriving(int group, const vec3& place, int samples) const override;
   float flux(int group) const override;
   std::optional<rays::Photon> emit(int group, const rays::PhotonNumbers& numbers) const override;
 
@@ -41,6 +53,11 @@ class PosedLight final : public rays::DirectLight {
                          float& sine2) const;
   vec3 irradiance_of(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, RayTask& task) const;
   vec3 sky_irradiance(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, RayTask& task) const;
+  /// Calls add(direction, irradiance) for at most `count` samples of a sky: their sum over `count` is its
+  /// irradiance. sample_sky.h.
+  template <class Add>
+  void sample_sky(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, int count, RayTask& task,
+                  const Add& add) const;
   const std::vector<GroupEmitter>& emitters_of(int group) const;
 
   std::shared_ptr<const TransportData> data_;

@@ -168,7 +168,12 @@ void run_passes(const TracerData& data, const rays::IndirectLight* indirect, con
   PathOptions options{params.path.max_depth};
   if (indirect) options.max_depth = std::min(options.max_depth, 1), options.looks_up = true;
   const bool indirect_wanted = params.path.max_depth >= 2;
-  const SceneEmitters emitters = data.emitters();
+  // Whose direct light is looked up is sampled nowhere else.
+  std::vector<int> looked_up;
+  if (indirect && indirect_wanted) looked_up = group_indices(data.lights.groups(), indirect->direct_groups());
+  std::optional<shading::LightSet> sampled;
+  if (!looked_up.empty()) sampled = data.lights.without(looked_up);
+  const SceneEmitters emitters(data.lights, sampled ? *sampled : data.lights, data.found_by_rays);
   const Tile tile = tile_of(params);
   const auto width = static_cast<std::uint64_t>(tile.width), height = static_cast<std::uint64_t>(tile.height);
   const std::uint64_t row_paths = width * static_cast<std::uint64_t>(params.path.spp);

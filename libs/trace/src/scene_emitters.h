@@ -7,41 +7,57 @@ namespace ssphh::trace {
 
 class SceneEmitters {
  public:
-  /// `found_by_rays`: whether the scene has lights that are not points in space or direction.
+  /// `found_by_rays`: whether the scene has lights that are not points in space or direction. `sampled`:
+  /// those whose light comes straight to surfaces with a lookup.
+  SceneEmitters(const shading::LightSet& lights, const shading::LightSet& sampled, bool found_by_rays)
+      : lights_(lights), sampled_(sampled), found_by_rays_(found_by_rays) {
+    for (int i = 0; i < sampled.emitter_count(); ++i) sampled_by_rays_ |= !sampled.emitter(i).delta();
+  }
   SceneEmitters(const shading::LightSet& lights, bool found_by_rays)
-      : lights_(lights), found_by_rays_(found_by_rays) {}
+      : lights_(lights), sampled_(lights), found_by_rays_(found_by_rays), sampled_by_rays_(found_by_rays) {}
 
   template <class Visit>
-  void along(int /*depth*/, const PathVertex& /*vertex*/, const Ray& ray, float distance,
+  void along(int /*depth*/, const PathVertex& vertex, const Ray& ray, float distance,
              const Visit& visit) const {
-    if (!found_by_rays_) return;
+    if (!found_by_rays(vertex)) return;
+    const shading::LightSet& lights = lights_at(vertex);
     const auto found = [&](const shading::EmitterHit& e) {
       visit(e.group, e.radiance, e.pdf, -ray.direction);
     };
-    lights_.intersect_spheres(ray.origin, ray.direction, distance, [&](const shading::EmitterHit& e) {
+    lights.intersect_spheres(ray.origin, ray.direction, distance, [&](const shading::EmitterHit& e) {
       if (e.distance >= ray.t_min) found(e);
     });
-    if (std::isinf(distance)) lights_.escaped(ray.direction, found);
+    if (std::isinf(distance)) lights.escaped(ray.direction, found);
   }
 
   template <class Visit>
   void surface(const PathVertex& vertex, const Ray& ray, const Hit& hit, const shading::Surface& surface,
                const Visit& visit) const {
+    const shading::LightSet& lights = lights_at(vertex);
+    const int group = lights.instance_group(hit.instance);
+    if (group < 0) return;
     const float cos_light = std::abs(glm::dot(surface.geometric_normal, ray.direction));
     const float pdf =
-        lights_.pdf_triangle(vertex.position, hit.instance, hit.triangle, hit.distance, cos_light);
-    visit(lights_.instance_group(hit.instance), surface.emission, pdf, -ray.direction);
+        lights.pdf_triangle(vertex.position, hit.instance, hit.triangle, hit.distance, cos_light);
+    visit(group, surface.emission, pdf, -ray.direction);
   }
 
   std::optional<shading::LightSample> sample(const PathVertex& vertex, float u_choice, const vec2& u) const {
-    return lights_.sample(vertex.position, u_choice, u);
+    return lights_at(vertex).sample(vertex.position, u_choice, u);
   }
 
-  bool found_by_rays() const { return found_by_rays_; }
+  bool found_by_rays(const PathVertex& vertex) const {
+    return vertex.looked_up ? sampled_by_rays_ : found_by_rays_;
+  }
 
  private:
+  const shading::LightSet& lights_at(const PathVertex& vertex) const {
+    return vertex.looked_up ? sampled_ : lights_;
+  }
+
   const shading::LightSet& lights_;
-  bool found_by_rays_;
+  const shading::LightSet& sampled_;
+  bool found_by_rays_, sampled_by_rays_ = false;
 };
 
 }  // namespace ssphh::trace

@@ -1,5 +1,7 @@
 /// Path traced irradiance at points that the caller gives: the truth for lookups.
 
+#include <algorithm>
+
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/sphere.h>
 
@@ -14,14 +16,15 @@ constexpr std::size_t max_batches = 16;
 /// Sums of one batch at one point.
 class BatchSums {
  public:
-  explicit BatchSums(RayTask& task) : task_(task) {}
+  BatchSums(std::span<const int> looked_up, RayTask& task) : looked_up_(looked_up), task_(task) {}
 
-  void add(int depth, int /*group*/, const vec3& value, const vec3& /*emission*/) {
+  void add(int depth, int group, const vec3& value, const vec3& /*emission*/) {
     if (!is_finite(value)) {
       ++task_.invalid;
       return;
     }
-    (depth < 2 ? direct : indirect) += scale * value;
+    const bool is_direct = depth < 2 && std::ranges::find(looked_up_, group) == looked_up_.end();
+    (is_direct ? direct : indirect) += scale * value;
   }
   void first_hit(const shading::Surface&, const vec3&, const Ray&, const Hit&) {}
 
@@ -29,6 +32,7 @@ class BatchSums {
   float scale = 1;  ///< of the values that follow
 
  private:
+  std::span<const int> looked_up_;
   RayTask& task_;
 };
 
@@ -57,7 +61,7 @@ void trace_from(const TracerData& data, const rays::SurfacePoint& point, float g
       sums.add(1, light->group, through * light->radiance * (cosine * weight / light->pdf), -light->wi);
     }
   }
-  if (options.max_depth == 1 && !emitters.found_by_rays()) return;
+  if (options.max_depth == 1 && !emitters.found_by_rays(vertex)) return;
 
   // Follow a scattered ray: ∫ L cos θ dω = π times the mean of L.
   const vec3 local = sample_cosine_hemisphere(u_direction);
@@ -118,7 +122,7 @@ std::vector<rays::IrradianceEstimate> PathTracer::surface_irradiance(
       [&](std::size_t task_id, std::size_t) {
         control.check();
         TaskScope scope(*data_, invalid, task_id);
-        BatchSums sums(scope.task);
+        BatchSums sums(data_->looked_up, scope.task);
         const std::size_t i = task_id / batches, batch = task_id % batches;
         const std::uint64_t seed =
             pixel_seed(path.seed, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(batch));

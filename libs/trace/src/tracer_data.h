@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <mutex>
+#include <span>
 
 #include <ssphh/trace/path_tracer.h>
 
@@ -21,7 +22,8 @@ struct TracerData {
   shading::LightSet lights;
   ShadedGeometry shaded;
   PosedGeometry geometry;
-  bool found_by_rays;  ///< some light is no point
+  bool found_by_rays;          ///< some light is no point
+  std::vector<int> looked_up;  ///< light groups whose direct light counts as indirect at given points
   mutable SharedCount rays;
   mutable std::once_flag hash_once;
   mutable Hash128 hash;
@@ -51,6 +53,9 @@ class TaskScope {
   std::uint64_t task_id_;
   std::vector<RecordedRay> recorded_;
 };
+
+/// Of those names that there are.
+std::vector<int> group_indices(const std::vector<std::string>& groups, std::span<const std::string> names);
 
 /// Warns when contributions were left out because they were not numbers.
 void report_invalid(std::uint64_t invalid);

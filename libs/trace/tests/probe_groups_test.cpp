@@ -109,5 +109,74 @@ TEST(ProbeGroups, DepthOneLeavesTheProbesLightOut) {
   for (int c = 0; c < 3; ++c) EXPECT_EQ(mean_of(state.indirect, c), 0);
 }
 
+/// Light of which some groups' direct light is part.
+class WithDirect final : public rays::IndirectLight {
+ public:
+  explicit WithDirect(std::vector<std::string> groups) : groups_(std::move(groups)) {}
+  vec3 irradiance(const rays::SurfacePoint&) const override { return pi * probe_light; }
+  vec3 glossy(const rays::SurfacePoint&, const vec3&, float) const override { return probe_light; }
+  std::vector<std::string> direct_groups() const override { return groups_; }
+
+ private:
+  std::vector<std::string> groups_;
+};
+
+trace::RenderState render_with_direct(const scene::Scene& scene, const trace::RenderParams& params,
+                                      std::vector<std::string> groups) {
+  trace::RenderState state;
+  trace::PathTracer(scene).render_with(WithDirect(std::move(groups)), params, state);
+  return state;
+}
+
+TEST(RenderWithDirect, SamplesNothingOfGroupsThatAreLookedUp) {
+  const scene::Scene scene = coloured_lamps();
+  const trace::RenderParams params = inside_view(2, 8);
+  const trace::PathTracer tracer(scene);
+  for (std::size_t held = 0; held < 3; ++held) {
+    const std::vector<std::string>& names = tracer.light_groups();
+    SCOPED_TRACE(names[held]);
+    const trace::RenderState all = render_with_direct(scene, params, {});
+    const trace::RenderState some = render_with_direct(scene, params, {names[held]});
+    // What of the group is left is what the eye sees of its emitter.
+    trace::RenderParams seen = params;
+    seen.path.max_depth = 0;
+    trace::RenderState emitters;
+    tracer.render(seen, emitters);
+    for (std::size_t g = 0; g < 3; ++g) {
+      Samples difference;
+      const image::Image &truth = g == held ? emitters.groups[g] : all.groups[g], &image = some.groups[g];
+      for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        difference.add(static_cast<double>(image.pixels[i] - truth.pixels[i]));
+      if (g == held) {
+        EXPECT_EQ(difference.variance(), 0) << "nothing of it has noise";
+        EXPECT_EQ(difference.mean(), 0);
+      } else {
+        EXPECT_TRUE(mean_is(difference, 0, {1e-3, 6}, 1e-5)) << names[g] << ": light of others stays";
+      }
+    }
+    for (std::size_t i = 0; i < all.color.pixels.size(); ++i)
+      ASSERT_NEAR(some.indirect.pixels[i], all.indirect.pixels[i], rounding) << "the lookup is added once";
+  }
+}
+
+TEST(RenderWithDirect, SamplesAllWhereNothingIsLookedUp) {
+  // At depth 1 a picture is of direct light, which must not be lost because a lookup would have it.
+  const scene::Scene scene = coloured_lamps();
+  const trace::RenderParams params = inside_view(1, 2);
+  const trace::RenderState all = render_with_direct(scene, params, {});
+  EXPECT_EQ(render_with_direct(scene, params, {"panel", "bulb", "globe"}).color.pixels, all.color.pixels);
+}
+
+TEST(RenderWithDirect, HasNoNoiseWhereAllGroupsAreLookedUp) {
+  const scene::Scene scene = coloured_lamps();
+  trace::RenderParams params = inside_view(2, 1);
+  const std::vector<std::string> all = trace::PathTracer(scene).light_groups();
+  const image::Image first = render_with_direct(scene, params, all).direct;
+  params.path.max_depth = 0;
+  trace::RenderState emitters;
+  trace::PathTracer(scene).render(params, emitters);
+  EXPECT_EQ(first.pixels, emitters.color.pixels) << "emitters as the eye sees them, and nothing else";
+}
+
 }  // namespace
 }  // namespace ssphh::test

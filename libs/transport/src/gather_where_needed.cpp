@@ -10,13 +10,15 @@
 
 #include "network_data.h"
 #include "point_cells.h"
+#include "unseen_surfaces.h"
 
 namespace ssphh::transport {
 
-/// Where records may stand: at static surfels, in cubes of a grid.
+/// Where records may stand: on still surfaces, in cubes of a grid.
 class RecordPlaces {
  public:
-  RecordPlaces(const TransportNetwork& network, int most)
+  /// `everywhere`: also on surfaces that no surfel stands on.
+  RecordPlaces(const TransportNetwork& network, int most, bool everywhere)
       : source_(network.data_->source), all_(surfel_points(network)) {
     // As surfels do, records stand farther apart where probes are far
     for (const rays::SurfacePoint& point : all_)
@@ -24,6 +26,7 @@ class RecordPlaces {
     // Cubes too small for two surfels, however few there are, would not differ from larger ones
     const auto apart = static_cast<int>(std::min<std::size_t>(all_.size() - all_.size() / 10, most_records));
     if (!all_.empty()) grid_ = finest_grid(all_, levels_, std::min(most, apart));
+    if (everywhere) add_unseen(network, most / 4);
   }
 
   const std::vector<rays::SurfacePoint>& all() const { return all_; }
@@ -72,6 +75,21 @@ class RecordPlaces {
   }
 
  private:
+  /// Places that no surfel stands at are worth fewer points: their cubes are so large that at most so many
+  /// hold any.
+  void add_unseen(const TransportNetwork& network, int most) {
+    const std::vector<rays::SurfacePoint> others = unseen_surfaces(network, source_);
+    if (others.empty()) return;
+    if (all_.empty()) grid_ = finest_grid(others, {}, std::max(most, 1));
+    std::vector<int> levels;
+    for (const rays::SurfacePoint& point : others)
+      levels.push_back(network.surfels().level(0, point.position));
+    while (grid_.sort(others, levels).size() > static_cast<std::size_t>(std::max(most, 1)))
+      for (int& level : levels) ++level;
+    all_.insert(all_.end(), others.begin(), others.end());
+    levels_.insert(levels_.end(), levels.begin(), levels.end());
+  }
+
   const rays::TransportSource& source_;
   std::vector<rays::SurfacePoint> all_;
   std::vector<int> levels_;
@@ -88,11 +106,9 @@ constexpr float tolerance = 0.04f;
 /// The same of the mean light: the dark may be less exact.
 constexpr float tolerance_of_mean = 0.002f;
 
-/// How far each point is from being known by those around it: 1 where it just is.
+/// How far each point is from being known by those around it, by the points' light: 1 where it just is.
 std::vector<float> doubts(const SurfaceGather& gather, const probes::SurfaceInterpolation& known,
-                          std::span<const Irradiance4> lit) {
-  std::vector<probes::RecordLight> light;
-  gather.light(lit, light);
+                          std::span<const probes::RecordLight> light) {
   const std::vector<rays::SurfacePoint>& points = gather.points();
   double sum = 0;
   for (const probes::RecordLight& l : light) sum += static_cast<double>(max_component(l[3]));
@@ -140,8 +156,9 @@ std::vector<std::size_t> doubtful(std::vector<std::size_t> which, const RecordPl
 std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& network,
                                                    const GatherParams& params,
                                                    std::span<const std::vector<Irradiance4>> direct,
-                                                   std::span<const Irradiance4> lit, const Control& control) {
-  RecordPlaces places(network, params.points);
+                                                   std::span<const Irradiance4> lit, const Control& control,
+                                                   const AddRecordLight& add_more) {
+  RecordPlaces places(network, params.points, !params.baked.empty());
   int coarser = 0;
   std::vector<std::size_t> wanted;
   if (!places.all().empty()) wanted = places.free(coarser);
@@ -150,9 +167,18 @@ std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& netwo
     return SurfaceGather(network, std::move(points), params.rays, direct, control);
   };
   auto gather = std::make_unique<SurfaceGather>(gather_at(places.choose(wanted)));
+  std::vector<probes::RecordLight> light;
   while (coarser-- > 0) {
     const probes::SurfaceInterpolation known = places.between(gather->points());
-    wanted = doubtful(places.free(coarser), places, known, doubts(*gather, known, lit), control);
+    gather->light(lit, light);
+    std::vector<float> doubt = doubts(*gather, known, light);
+    if (add_more) {
+      // What is brighter hides how the light of other groups changes: either asks for points.
+      add_more(gather->points(), light);
+      const std::vector<float> of_all = doubts(*gather, known, light);
+      for (std::size_t i = 0; i < doubt.size(); ++i) doubt[i] = std::max(doubt[i], of_all[i]);
+    }
+    wanted = doubtful(places.free(coarser), places, known, doubt, control);
     gather->append(gather_at(places.choose(wanted)));
   }
 

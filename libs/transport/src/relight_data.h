@@ -15,6 +15,7 @@
 #include <ssphh/transport/relight_session.h>
 
 #include "probe_light.h"
+#include "record_direct.h"
 #include "sphl_emission.h"
 
 namespace ssphh::transport {
@@ -126,37 +127,75 @@ struct RelightSession::Data {
   std::vector<Irradiance4> direct, indirect;
   std::vector<sh::RadianceSh> reflected, before;
   std::vector<probes::RecordLight> record_light;
+  RecordDirect record_direct;  ///< of params.records.baked, as it was when records began
 
   void keep_records(const Control& control) {
     gather.reset();
     record_light.clear();
+    record_direct = RecordDirect(params.records.baked);
     if (params.records.points == 0) return;
     if (params.records.points < 0)
       throw Error("surface records", fmt::format("{} is no number of points", params.records.points));
+    for (const int group : params.records.baked)
+      require(group >= 0 && static_cast<std::size_t>(group) < state.group_scales.size(), "light group",
+              "there is none of that index");
     update_direct({});
     const std::vector<std::vector<Irradiance4>> by_group = direct_by_group();
+    const std::vector<vec3> scales = alike(by_group);
+    std::vector<Irradiance4> sum(network.surfel_count(), Irradiance4(0));
+    for (std::size_t g = 0; g < scales.size(); ++g) {
+      if (scales[g].x == 0) continue;
+      for (std::size_t s = 0; s < sum.size(); ++s) sum[s] += scales[g].x * by_group[g][s];
+    }
     SolveReport report;
-    const std::vector<Irradiance4> lit = lit_under(each_alike(by_group), report);
-    gather = gather_where_needed(network, params.records, by_group, lit, control);
+    const std::vector<Irradiance4> lit = lit_under(sum, report);
+    const auto extend = [&](std::span<const rays::SurfacePoint> points) {
+      record_direct.extend(*direct_light, points, params.records.rays, control);
+    };
+    AddRecordLight add_direct;
+    if (!params.records.baked.empty()) {
+      add_direct = [&](std::span<const rays::SurfacePoint> points, auto& light) {
+        extend(points);
+        record_direct.add_to(light, scales);
+      };
+    }
+    gather = gather_where_needed(network, params.records, by_group, lit, control, add_direct);
+    extend(gather->points());
   }
 
+  /// At these places, in place of those that keep_records() would choose.
+  void keep_records_at(std::vector<rays::SurfacePoint> points, const Control& control) {
+    record_direct = RecordDirect(params.records.baked);
+    update_direct({});
+    gather = std::make_unique<SurfaceGather>(network, std::move(points), params.records.rays,
+                                             direct_by_group(), control);
+    record_direct.extend(*direct_light, gather->points(), params.records.rays, control);
+  }
+
+  /// As lit after the last update.
   void light_records() {
     if (!gather || reflected.empty()) return;
     if (bounce) solve_surfels();
-    gather->light(total(direct, indirect), record_light);
+    light_records(total(direct, indirect), state.group_scales, record_light);
   }
 
-  /// The sum of the groups' direct light, each as bright as another.
-  std::vector<Irradiance4> each_alike(std::span<const std::vector<Irradiance4>> by_group) const {
-    std::vector<Irradiance4> sum(network.surfel_count(), Irradiance4(0));
+  /// Of the gather's points under a direct light of the surfels; `scales` of the light groups whose direct
+  /// light is kept, too.
+  void light_records(std::span<const Irradiance4> lit, std::span<const vec3> scales,
+                     std::vector<probes::RecordLight>& out) const {
+    gather->light(lit, out);
+    record_direct.add_to(out, scales);
+  }
+
+  /// Factors that make each group's direct light as bright as another's.
+  static std::vector<vec3> alike(std::span<const std::vector<Irradiance4>> by_group) {
+    std::vector<vec3> scales;
     for (const std::vector<Irradiance4>& group : by_group) {
       double all = 0;
       for (const Irradiance4& e : group) all += static_cast<double>(luminance(vec3(e)));
-      if (!(all > 0)) continue;
-      const auto scale = static_cast<float>(static_cast<double>(group.size()) / all);
-      for (std::size_t s = 0; s < sum.size(); ++s) sum[s] += scale * group[s];
+      scales.emplace_back(all > 0 ? static_cast<float>(static_cast<double>(group.size()) / all) : 0.0f);
     }
-    return sum;
+    return scales;
   }
 
   /// Direct irradiance at each surfel per group, unscaled.

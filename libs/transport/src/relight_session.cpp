@@ -34,7 +34,7 @@ RelightReport RelightSession::update(const scene::LightingState& state, const Co
       d.before.swap(d.reflected);
       project_reflected(d.network, d.projector, total(d.direct, d.indirect), d.reflected);
     }
-    if (d.gather) d.gather->light(total(d.direct, d.indirect), d.record_light);
+    if (d.gather) d.light_records(total(d.direct, d.indirect), state.group_scales, d.record_light);
     for (std::size_t i = 0; i < d.reflected.size(); ++i) {
       if (first || differs(d.reflected[i], d.before[i], d.params.changed))
         report.changed_probes.push_back(static_cast<int>(i));
@@ -115,11 +115,11 @@ void RelightSession::keep_records(const GatherParams& params, const Control& con
   d.light_records();
 }
 
-void RelightSession::keep_records_at(std::vector<rays::SurfacePoint> points, int rays,
+void RelightSession::keep_records_at(std::vector<rays::SurfacePoint> points, const GatherParams& params,
                                      const Control& control) {
   Data& d = *data_;
-  d.update_direct({});
-  d.gather = std::make_unique<SurfaceGather>(d.network, std::move(points), rays, direct_by_group(), control);
+  d.params.records = params;
+  d.keep_records_at(std::move(points), control);
   d.light_records();
 }
 
@@ -136,10 +136,13 @@ probes::SurfaceRecords RelightSession::records_by_group(const Control& control) 
   probes::SurfaceRecords records;
   records.points = d.gather->points();
   std::vector<probes::RecordLight> light;
-  for (const std::vector<Irradiance4>& direct : direct_by_group()) {
+  const std::vector<std::vector<Irradiance4>> by_group = direct_by_group();
+  for (std::size_t g = 0; g < by_group.size(); ++g) {
     control.check();
     SolveReport report;
-    d.gather->light(d.lit_under(direct, report), light);
+    std::vector<vec3> alone(by_group.size(), vec3(0));
+    alone[g] = vec3(1);
+    d.light_records(d.lit_under(by_group[g], report), alone, light);
     std::vector<probes::PackedRecordLight>& group = records.groups.emplace_back();
     for (std::size_t i = 0; i < light.size(); ++i)
       group.push_back(probes::pack(light[i], records.points[i].normal));

@@ -1,5 +1,6 @@
 #include "distant_lights.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace ssphh::shading {
@@ -20,26 +21,40 @@ DistantLights::DistantLights(std::span<const PosedLight> lights,
                              std::shared_ptr<const EnvironmentLight> environment,
                              const std::vector<std::string>& groups)
     : environment_(std::move(environment)) {
-  std::vector<float> directional_power, power;
   for (const PosedLight& posed : lights) {
     const scene::Light& light = posed.light;
     const vec3 irradiance = light.color * light.intensity;
-    const float weight = luminance(irradiance);
-    if (light.type != scene::LightType::directional || !(weight > 0)) continue;
+    if (light.type != scene::LightType::directional || !(luminance(irradiance) > 0)) continue;
     const vec3 to_light = node_axis(posed.world);
     const int group = scene::light_group_index(groups, scene::light_group(light));
     const float sin_radius = std::sin(glm::min(light.angular_radius, pi / 2));
     if (sin_radius > 0) {
       const float sin2 = sin_radius * sin_radius;
-      discs_.push_back({to_light, Frame::around(to_light), irradiance / (pi * sin2), Cone(sin2), group});
-      power.push_back(weight);
+      discs_.push_back(
+          {to_light, Frame::around(to_light), irradiance / (pi * sin2), Cone(sin2), irradiance, group});
     } else {
       directional_.push_back({to_light, irradiance, group});
-      directional_power.push_back(weight);
     }
   }
-  power.insert(power.begin(), directional_power.begin(), directional_power.end());
+  divide_choices();
+}
+
+DistantLights DistantLights::without(std::span<const int> groups) const {
+  const auto is_one = [&](int group) { return std::ranges::find(groups, group) != groups.end(); };
+  DistantLights rest = *this;
+  std::erase_if(rest.directional_, [&](const DirectionalLight& light) { return is_one(light.group); });
+  std::erase_if(rest.discs_, [&](const DiscLight& light) { return is_one(light.group); });
+  if (environment_ && is_one(environment_->group())) rest.environment_.reset();
+  rest.divide_choices();
+  return rest;
+}
+
+void DistantLights::divide_choices() {
+  std::vector<float> power;
+  for (const DirectionalLight& light : directional_) power.push_back(luminance(light.irradiance));
+  for (const DiscLight& light : discs_) power.push_back(luminance(light.irradiance));
   if (environment_) power.push_back(environment_->mean_irradiance());
+  irradiance_ = 0;
   for (const float p : power) irradiance_ += p;
   // A share for each, so that the sky is not lost beside the sun
   for (float& p : power) p += p > 0 ? 0.1f * irradiance_ / static_cast<float>(power.size()) : 0.0f;

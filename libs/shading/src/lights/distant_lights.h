@@ -31,6 +31,7 @@ struct DiscLight {
   Frame frame;
   vec3 radiance;
   Cone cone;
+  vec3 irradiance;  ///< on a facing plane
   int group;
 };
 
@@ -77,6 +78,9 @@ class DistantLights {
   DistantLights(std::span<const PosedLight> lights, std::shared_ptr<const EnvironmentLight> environment,
                 const std::vector<std::string>& groups);
 
+  /// Those of other light groups than these.
+  DistantLights without(std::span<const int> groups) const;
+
   bool empty() const { return choice_.empty(); }
   /// Sum of the irradiances on facing planes (luminance).
   float irradiance() const { return irradiance_; }
@@ -100,6 +104,8 @@ class DistantLights {
   const std::shared_ptr<const EnvironmentLight>& environment() const { return environment_; }
 
  private:
+  void divide_choices();
+
   std::vector<DirectionalLight> directional_;
   std::vector<DiscLight> discs_;
   std::shared_ptr<const EnvironmentLight> environment_;

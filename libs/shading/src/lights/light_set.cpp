@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -203,6 +204,29 @@ void LightSet::Data::divide_choices() {
     const float local = scene_radius > 0 ? total / (scene_radius * scene_radius) : distant.irradiance();
     distant_probability = glm::clamp(distant.irradiance() / (distant.irradiance() + local), 0.25f, 0.75f);
   }
+}
+
+LightSet::LightSet() : data_(std::make_unique<Data>()) {}
+
+LightSet LightSet::without(std::span<const int> groups) const {
+  const auto is_one = [&](int group) { return std::ranges::find(groups, group) != groups.end(); };
+  LightSet rest;
+  Data& d = *rest.data_;
+  d = *data_;
+  std::erase_if(d.points, [&](const PointLight& light) { return is_one(light.group); });
+  std::erase_if(d.spheres, [&](const SphereLight& light) { return is_one(light.group); });
+  d.meshes.clear();
+  for (std::size_t i = 0; i < d.instance_group.size(); ++i) {
+    int& mesh = d.instance_mesh_light[i];
+    const int before = mesh;
+    if (is_one(d.instance_group[i])) d.instance_group[i] = mesh = -1;
+    if (mesh < 0) continue;
+    mesh = static_cast<int>(d.meshes.size());
+    d.meshes.push_back(data_->meshes[static_cast<std::size_t>(before)]);
+  }
+  d.distant = d.distant.without(groups);
+  d.divide_choices();
+  return rest;
 }
 
 LightSet::~LightSet() = default;

@@ -59,6 +59,7 @@ class LightLookup final : public rays::IndirectLight {
   LightLookup(LightLookup&&) noexcept;
   LightLookup& operator=(LightLookup&&) noexcept;
   vec3 irradiance(const rays::SurfacePoint& at) const override;
+  std::vector<std::string> direct_groups() const override;
   vec3 glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const override;
 
   /// Guard of the paper's division: N·ω is taken as at least this.
@@ -91,6 +92,7 @@ class IrradianceLookup final : public rays::IndirectLight {
   IrradianceLookup(IrradianceLookup&&) noexcept;
   IrradianceLookup& operator=(IrradianceLookup&&) noexcept;
   vec3 irradiance(const rays::SurfacePoint& at) const override;
+  std::vector<std::string> direct_groups() const override;
   vec3 glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const override;
 
  private:

@@ -13,6 +13,7 @@
 #include <ssphh/probes/baseline.h>
 #include <ssphh/probes/fitted_points.h>
 #include <ssphh/probes/surface_records.h>
+#include <ssphh/scene/light_mode.h>
 #include <ssphh/sh/operators.h>
 
 namespace ssphh::probes {
@@ -74,6 +75,8 @@ struct GeneratorInfo {
 struct LightGroup {
   std::string name;
   vec3 scale{1};  ///< c_g, relative to the bake
+  /// `baked`: surfaces that look the set up get the group's direct light from it, too, and from nowhere else.
+  scene::LightMode mode = scene::LightMode::realtime;
 
   friend bool operator==(const LightGroup&, const LightGroup&) = default;
 };
@@ -96,7 +99,9 @@ float transfer_coefficient(const sh::RadianceSh& h);
 
 /// S_i^g as baked, in two fields so that no light is counted twice.
 struct GroupLight {
-  sh::RadianceSh emitted;    ///< path depth 0: the group's emitters seen directly; empty: zero
+  /// Path depth 0: the group's emitters seen directly; empty: zero. Of a baked group also lamps that are
+  /// points or parallel light, which no ray can see.
+  sh::RadianceSh emitted;
   sh::RadianceSh reflected;  ///< depth 1..max_depth: what surfaces that also get direct light may look up
 
   friend bool operator==(const GroupLight&, const GroupLight&) = default;
@@ -107,9 +112,11 @@ struct Probe {
   vec3 position{0};     ///< world, metres
   float radius = 0.1f;  ///< of the emitter sphere of VIZ, metres
   std::vector<GroupLight> groups;
-  sh::RadianceSh reflected;  ///< Σ_g c_g reflected_g: derived by merge_groups, not stored in files
-  sh::RadianceSh self;       ///< S_i = Σ_g c_g (emitted_g + reflected_g): likewise
-  std::vector<Edge> edges;   ///< only P > 0, ascending `from`; perhaps only the strongest ones
+  /// What surfaces look up, Σ_g c_g reflected_g, and of baked groups c_g emitted_g: derived by merge_groups,
+  /// not stored in files.
+  sh::RadianceSh reflected;
+  sh::RadianceSh self;      ///< S_i = Σ_g c_g (emitted_g + reflected_g): likewise
+  std::vector<Edge> edges;  ///< only P > 0, ascending `from`; perhaps only the strongest ones
 
   friend bool operator==(const Probe&, const Probe&) = default;
 };
@@ -147,6 +154,9 @@ void merge_groups(ProbeSet& set);
 /// hierarchy, which must be computed anew. Throws Error that lists the groups when `group` is unknown, or for
 /// a scale outside 0..1e6.
 void relight(ProbeSet& set, const std::string& group, const vec3& scale);
+
+/// Names of the groups whose direct light surfaces look up: whoever draws with the set leaves theirs out.
+std::vector<std::string> baked_groups(const ProbeSet& set);
 
 /// Number of edges stored in the set.
 std::size_t edge_count(const ProbeSet& set);

@@ -13,11 +13,9 @@
 
 namespace ssphh::probes {
 
-/// RGB irradiance [W/m²] around a record, by the surface's unit normal: E(n) = light · (n, 1). The part that
-/// is linear in n is the derivative as the surface turns (Ward & Heckbert, Irradiance Gradients, 1992); it
-/// lies in the record's tangent plane, so the last column is E of the record's own normal. It holds to about
-/// 45°.
-using RecordLight = glm::mat4x3;
+/// RGB irradiance [W/m²] around a record, by the surface's unit normal. The part that is linear in it is the
+/// derivative as the surface turns (Ward & Heckbert, Irradiance Gradients, 1992). It holds to about 45°.
+using RecordLight = rays::IrradianceByNormal;
 
 /// A RecordLight in 22 bytes: RGB of E and of its derivatives along both tangents of Frame::around(normal),
 /// in 32767ths of `scale`.
@@ -31,7 +29,7 @@ PackedRecordLight pack(const RecordLight& light, const vec3& normal);
 RecordLight unpack(const PackedRecordLight& packed, const vec3& normal);
 
 /// Records with the light that surfaces reflect toward them, every bounce; what emitters send straight to
-/// them is not in it. Per light group, unscaled.
+/// them is in it of baked light groups alone. Per light group, unscaled.
 struct SurfaceRecords {
   std::vector<rays::SurfacePoint> points;
   std::vector<std::vector<PackedRecordLight>> groups;  ///< [light group][point]

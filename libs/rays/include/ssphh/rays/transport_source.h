@@ -67,6 +67,16 @@ struct Photon {
   }
 };
 
+/// RGB irradiance [W/m²] at a surface point by the unit normal n near the point's own: E(n) = light · (n, 1).
+/// The part that is linear in n lies in the tangent plane; the last column is E of the point's own normal.
+using IrradianceByNormal = glm::mat4x3;
+
+/// Light that arrives at a place along one way.
+struct ArrivingLight {
+  vec3 toward{0, 1, 0};  ///< unit, toward the emitter
+  vec3 irradiance{0};    ///< [W/m²] on a plane that faces it
+};
+
 /// Uniform numbers in [0, 1) that choose a photon.
 struct PhotonNumbers {
   float emitter = 0;
@@ -87,6 +97,16 @@ class DirectLight {
   /// world-space ray whose nearest surface is at `distance`, infinite if it escapes: darkness there is
   /// darkness at any distance.
   virtual vec3 emitted(int group, const RayQuery& ray, float distance) const = 0;
+  /// The group's light at a surface point, from so many samples of each of its emitters, the same at every
+  /// call: for light that is kept, where noise would stay.
+  virtual IrradianceByNormal irradiance_by_normal(int /*group*/, const SurfacePoint& /*point*/,
+                                                  int /*samples*/) const {
+    throw Error("direct light", "it cannot tell irradiance by normal");
+  }
+  /// The group's light at a place in the open, likewise: with f of the directions summed, ∫ L f dω.
+  virtual std::vector<ArrivingLight> arriving(int /*group*/, const vec3& /*place*/, int /*samples*/) const {
+    throw Error("direct light", "it cannot tell what arrives in the open");
+  }
   /// Luminance of the flux [W] that the group's emitters send out; of those at infinity, through the sphere
   /// around the surfaces. Near enough to share photons out by.
   virtual float flux(int /*group*/) const { throw Error("direct light", "it cannot emit photons"); }

@@ -68,7 +68,8 @@ class Renderer {
   /// Numbers of a material; its textures stay those of the scene. Throws Error for an index out of range.
   void set_material(int index, const scene::Material& material);
 
-  /// Probes that light the scene, none of which shines until set() says so: copies what it needs.
+  /// Probes that light the scene, none of which shines until set() says so: copies what it needs. Emitters of
+  /// light groups that are baked light nothing but through them (docs/light-modes.md).
   /// `params.weights` and `params.irradiance_degree` limit what FrameSettings may ask for. Throws Error as
   /// probes::IrradianceLookup does.
   void set_probes(const probes::ProbeSet& set, const probes::LookupParams& params = {});

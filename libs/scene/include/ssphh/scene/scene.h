@@ -12,6 +12,7 @@
 #include <ssphh/core/enum_names.h>
 #include <ssphh/core/math.h>
 #include <ssphh/image/image.h>
+#include <ssphh/scene/light_mode.h>
 
 namespace ssphh::scene {
 
@@ -201,6 +202,7 @@ struct Scene {
   std::vector<Sphl> sphls;
   std::vector<Animation> animations;
   std::optional<Environment> environment;
+  std::vector<GroupMode> light_modes;  ///< of light groups that ask for one, each once
   /// What the file holds and this project does not use, one line each ("extension KHR_materials_sheen (2
   /// uses)").
   std::vector<std::string> ignored;

@@ -66,6 +66,8 @@ class LightSet {
   /// sample() divides its choices between near and distant lights.
   LightSet(const LightSet& base, const std::vector<mat4>& world, std::span<const scene::LightState> lights,
            float environment_rotation = 0);
+  /// The emitters of other light groups than these; what both have is shared.
+  LightSet without(std::span<const int> groups) const;
   ~LightSet();
   LightSet(LightSet&&) noexcept;
   LightSet& operator=(LightSet&&) noexcept;
@@ -124,6 +126,7 @@ class LightSet {
   }
 
  private:
+  LightSet();
   int sphere_count() const;
   std::optional<EmitterHit> intersect_sphere(int i, const vec3& origin, const vec3& direction,
                                              float max_distance) const;

@@ -37,6 +37,9 @@ class PathTracer final : public rays::RadianceSource {
   std::vector<rays::IrradianceEstimate> surface_irradiance(std::span<const rays::SurfacePoint> points,
                                                            const rays::PathParams& path,
                                                            const Control& control) const override;
+  /// From now on surface_irradiance() counts the direct light of these light groups as indirect: the truth
+  /// for lookups that hold it (rays::IndirectLight::direct_groups).
+  void count_as_indirect(std::span<const std::string> groups);
   bool visible(const vec3& a, const vec3& b) const override;
   /// From 128 rays; a miss and a double-sided material count as front.
   float backface_fraction(const vec3& position) const override;

@@ -107,7 +107,8 @@ class RelightSession {
   /// as SurfaceGather does, and Cancelled.
   void keep_records(const GatherParams& params, const Control& control = {});
   /// The same at these points, as they stand in the pose of now.
-  void keep_records_at(std::vector<rays::SurfacePoint> points, int rays, const Control& control = {});
+  void keep_records_at(std::vector<rays::SurfacePoint> points, const GatherParams& params,
+                       const Control& control = {});
   /// Where the light of surfaces that stand still is kept; null: nowhere.
   const SurfaceGather* gather() const;
   /// Of each of the gather's points: reflected light after the last update().

@@ -2,6 +2,7 @@
 /// What points of still surfaces see of the surfels: a sparse row for each, by which surface records follow
 /// lamps and doors (docs/methods/transport.md#records).
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -18,6 +19,9 @@ inline constexpr std::size_t most_records = std::size_t{1} << 16;
 struct GatherParams {
   int points = 0;   ///< of gather_where_needed(): 1..65536; 0: none
   int rays = 1024;  ///< per point, 4..65536
+  /// Light groups whose direct light is kept at the points, too, each once: as many rays per point and
+  /// emitter.
+  std::vector<int> baked = {};
 
   friend bool operator==(const GatherParams&, const GatherParams&) = default;
 };
@@ -90,16 +94,22 @@ class SurfaceGather {
   std::vector<std::size_t> first_moving_;  ///< likewise
 };
 
-/// Gathers at places of the network's static surfels, dense where light asks for it: at first far apart, then
-/// wherever the points that are there do not predict each other's light within a few per cent, surfaces are
-/// nearer than points, or no point is seen, between them, down to an even spread of at most params.points;
-/// then at no more than as many again where there are surfels that see none of those. `direct` as of
-/// SurfaceGather; `lit` is of each surfel by all of it, the light by which this is judged. Throws as
-/// SurfaceGather does.
+/// Adds to the light of points, one for each.
+using AddRecordLight =
+    std::function<void(std::span<const rays::SurfacePoint>, std::vector<probes::RecordLight>&)>;
+
+/// Gathers at places of the network's static surfels, and with baked groups of all other still surfaces,
+/// dense where light asks for it: at first far apart, then wherever the points that are there do not predict
+/// each other's light within a few per cent, surfaces are nearer than points, or no point is seen, between
+/// them, down to an even spread of at most params.points; then at no more than as many again where there are
+/// surfels that see none of those. `direct` as of SurfaceGather; `lit` is of each surfel by all of it, the
+/// light by which this is judged, with what `add_more` adds to that of the points, all of them so far, if
+/// given. Throws as SurfaceGather does.
 std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& network,
                                                    const GatherParams& params,
                                                    std::span<const std::vector<Irradiance4>> direct,
                                                    std::span<const Irradiance4> lit,
-                                                   const Control& control = {});
+                                                   const Control& control = {},
+                                                   const AddRecordLight& add_more = {});
 
 }  // namespace ssphh::transport

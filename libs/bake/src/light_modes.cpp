@@ -1,0 +1,87 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <ssphh/bake/light_modes.h>
+#include <ssphh/core/parallel.h>
+#include <ssphh/core/require.h>
+#include <ssphh/scene/query.h>
+#include <ssphh/sh/evaluate.h>
+
+namespace ssphh::bake {
+namespace {
+
+/// Of an emitter with an extent: what is left of its noise is under a hundredth of its light.
+constexpr int samples = 4096;
+/// Shadows of smaller discs are sharper than records are dense, at any height that matters [rad].
+constexpr float smallest_soft_disc = 0.05f;
+
+sh::RadianceSh projected(std::span<const rays::ArrivingLight> light, int degree) {
+  sh::RadianceSh sum(degree);
+  std::vector<float> basis(sum.values.size());
+  for (const rays::ArrivingLight& part : light) {
+    sh::eval_basis(degree, part.toward, basis);
+    for (std::size_t k = 0; k < basis.size(); ++k) sum.values[k] += basis[k] * part.irradiance;
+  }
+  return sum;
+}
+
+bool casts_sharp_shadows(const scene::Light& light) {
+  if (light.type == scene::LightType::sphere) return false;
+  return light.type != scene::LightType::directional || light.angular_radius < smallest_soft_disc;
+}
+
+}  // namespace
+
+std::vector<int> baked_indices(std::span<const scene::LightMode> modes) {
+  std::vector<int> indices;
+  for (std::size_t g = 0; g < modes.size(); ++g) {
+    if (modes[g] == scene::LightMode::baked) indices.push_back(static_cast<int>(g));
+  }
+  return indices;
+}
+
+void set_light_modes(const rays::TransportSource& source, probes::ProbeSet& set,
+                     std::span<const scene::LightMode> modes, const Control& control) {
+  require(modes.size() == set.light_groups.size(), "light modes", "there is not one for each light group");
+  for (std::size_t g = 0; g < modes.size(); ++g) set.light_groups[g].mode = modes[g];
+  const std::vector<int> baked = baked_indices(modes);
+  if (baked.empty()) return;
+  if (!set.surface)
+    throw Error(
+        fmt::format("light mode of \"{}\"", set.light_groups[static_cast<std::size_t>(baked[0])].name),
+        "baked light is kept at points of surfaces, and the set has none", "bake it with --records");
+
+  std::vector<mat4> poses;
+  for (int part = 0; part < source.part_count(); ++part)
+    poses.push_back(source.part_pose(part, set.generator.time));
+  const auto direct = source.direct_light(source.lights(set.generator.time), poses);
+  parallel_for(
+      set.probes.size(), 1,
+      [&](std::size_t i) {
+        probes::Probe& probe = set.probes[i];
+        for (const int g : baked)
+          probe.groups[static_cast<std::size_t>(g)].emitted =
+              projected(direct->arriving(g, probe.position, samples), set.degree);
+      },
+      control);
+  probes::merge_groups(set);
+}
+
+std::vector<std::string> blurred_shadows(const scene::Scene& scene) {
+  std::vector<std::string> lines;
+  for (const scene::GroupMode& asked : scene.light_modes) {
+    if (asked.mode != scene::LightMode::baked) continue;
+    const auto sharp = std::ranges::find_if(scene.lights, [&](const scene::Light& light) {
+      return scene::light_group(light) == asked.group && casts_sharp_shadows(light);
+    });
+    if (sharp != scene.lights.end())
+      lines.push_back(fmt::format(
+          "light group \"{}\" is baked: the sharp shadows of its {} light become as soft as records "
+          "are far apart; mixed keeps them",
+          asked.group, name_of(sharp->type)));
+  }
+  return lines;
+}
+
+}  // namespace ssphh::bake

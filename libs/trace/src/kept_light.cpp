@@ -1,0 +1,113 @@
+/// Direct light that is kept: sampled often enough that no noise is seen, and with how it turns.
+
+#include <ssphh/core/require.h>
+
+#include "posed_light.h"
+#include "sample_sky.h"
+#include "surface_gap.h"
+
+namespace ssphh::trace {
+namespace {
+
+/// Irradiance by directions, and how it changes as the surface turns.
+class SumByNormal {
+ public:
+  explicit SumByNormal(const vec3& normal) : frame_(Frame::around(normal)) {}
+
+  void add(const vec3& direction, const vec3& irradiance) {
+    // What grazes counts as at this cosine: a few such samples would rule the derivative's noise.
+    constexpr float least_cosine = 0.1f;
+    const vec3 local = frame_.to_local(direction);
+    const vec2 slope = vec2(local) / std::max(local.z, least_cosine);
+    level_ += irradiance;
+    x_ += slope.x * irradiance;
+    y_ += slope.y * irradiance;
+  }
+
+  const vec3& level() const { return level_; }
+
+  void add_to(rays::IrradianceByNormal& light, const vec3& factor) const {
+    for (glm::length_t c = 0; c < 3; ++c) light[c] += factor * (frame_.x[c] * x_ + frame_.y[c] * y_);
+    light[3] += factor * level_;
+  }
+
+ private:
+  Frame frame_;
+  vec3 level_{0}, x_{0}, y_{0};
+};
+
+vec2 sample_place(std::uint64_t seed, int s) {
+  return SampleSequence(seed, static_cast<std::uint32_t>(s)).next2();
+}
+
+}  // namespace
+
+rays::IrradianceByNormal PosedLight::irradiance_by_normal(int group, const rays::SurfacePoint& point,
+                                                          int samples) const {
+  require(samples > 0, "direct light", "it needs one sample at least");
+  const Receiver at = receiver(point);
+  rays::IrradianceByNormal light(0);
+  RayTask task;
+  std::size_t k = 0;
+  for (const GroupEmitter& emitter : emitters_of(group)) {
+    const std::uint64_t seed = hash_combine(at.seed, k++);
+    const int count = emitter.emitter.delta() ? 1 : samples;
+    SumByNormal sum(point.normal);
+    vec3 factor(1 / static_cast<float>(count));
+    if (emitter.emitter.kind == shading::EmitterKind::environment) {
+      sample_sky(emitter, at, seed, count, task,
+                 [&](const vec3& wi, const vec3& irradiance) { sum.add(wi, irradiance); });
+      sum.add_to(light, factor);
+      continue;
+    }
+    const auto view = lights_.view_mesh(emitter.index, at.position, at.normal);
+    vec3 open(0), brightest(0);
+    for (int s = 0; s < count; ++s) {
+      const vec2 u = sample_place(seed, s);
+      const auto sample = view ? view->sample(u) : lights_.sample_emitter(emitter.index, at.position, u);
+      if (!sample || !(sample->pdf > 0)) continue;
+      const float cosine = glm::dot(sample->wi, at.normal);
+      if (!(cosine > 0) || !(max_component(sample->radiance) > 0)) continue;
+      brightest = glm::max(brightest, sample->radiance);
+      const vec3 irradiance = sample->radiance * (cosine / sample->pdf);
+      open += irradiance;
+      sum.add(sample->wi,
+              irradiance * geometry_.transmittance(shadow_ray(at.start, at.position, *sample), 0, task));
+    }
+    if (view) {
+      // A ratio of sums, as irradiance() has it: no noise where all or nothing is hidden.
+      for (glm::length_t c = 0; c < 3; ++c) factor[c] = open[c] > 0 ? view->irradiance()[c] / open[c] : 0;
+    } else if (emitter.emitter.kind == shading::EmitterKind::mesh) {
+      // Samples by area vary without bound near a mesh; irradiance does not.
+      for (glm::length_t c = 0; c < 3; ++c) {
+        const float most = pi * brightest[c];
+        if (factor[c] * sum.level()[c] > most) factor[c] = most / sum.level()[c];
+      }
+    }
+    sum.add_to(light, factor);
+  }
+  data_->rays.add(task.rays);
+  return light;
+}
+
+std::vector<rays::ArrivingLight> PosedLight::arriving(int group, const vec3& place, int samples) const {
+  require(samples > 0, "direct light", "it needs one sample at least");
+  std::vector<rays::ArrivingLight> light;
+  RayTask task;
+  std::size_t k = 0;
+  for (const GroupEmitter& emitter : emitters_of(group)) {
+    const std::uint64_t seed = hash_combine(position_seed(place), k++);
+    const int count = emitter.emitter.delta() ? 1 : samples;
+    for (int s = 0; s < count; ++s) {
+      const auto sample = lights_.sample_emitter(emitter.index, place, sample_place(seed, s));
+      if (!sample || !(sample->pdf > 0) || !(max_component(sample->radiance) > 0)) continue;
+      const vec3 through = geometry_.transmittance(shadow_ray(place, place, *sample), 0, task);
+      if (max_component(through) > 0)
+        light.push_back({sample->wi, through * sample->radiance / (sample->pdf * static_cast<float>(count))});
+    }
+  }
+  data_->rays.add(task.rays);
+  return light;
+}
+
+}  // namespace ssphh::trace

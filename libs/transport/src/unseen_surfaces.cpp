@@ -1,0 +1,74 @@
+#include "unseen_surfaces.h"
+
+#include <algorithm>
+#include <set>
+
+#include <ssphh/core/parallel.h>
+#include <ssphh/core/sphere.h>
+#include <ssphh/transport/fitted_weights.h>
+
+#include "network_data.h"
+#include "point_cells.h"
+
+namespace ssphh::transport {
+namespace {
+
+/// Points looked at, at most: a plain of kilometres has no end of voxels.
+constexpr std::size_t most_points = 200'000;
+
+std::vector<rays::PartPoint> spread_over(const rays::TransportSource& source, float size) {
+  // As dense as voxels are, in steps from one point for each triangle
+  const double enough = 4 / (static_cast<double>(size) * static_cast<double>(size));
+  double density = enough;
+  for (int step = 0; step < 16; ++step) density /= 4;
+  std::vector<rays::PartPoint> points = source.sample_part(0, density);
+  while (density < enough && points.size() < most_points) {
+    density *= 4;
+    points = source.sample_part(0, density);
+  }
+  return points;
+}
+
+/// Whether most of what the point sees is the back of surfaces.
+bool is_inside(const rays::TransportSource& source, const rays::SurfacePoint& point, float lift) {
+  constexpr std::uint32_t count = 8;
+  const Frame frame = Frame::around(point.normal);
+  std::vector<rays::RayQuery> rays;
+  for (std::uint32_t i = 0; i < count; ++i)
+    rays.push_back({point.position + lift * point.normal, frame.to_world(sample_cosine_hemisphere(vec2(
+                                                              (static_cast<float>(i) + 0.5f) / count,
+                                                              static_cast<float>(i * 3 % count) / count)))});
+  std::vector<rays::RayHit> hits(count);
+  source.intersect(0, rays, hits);
+  return 2 * std::ranges::count_if(hits, [](const rays::RayHit& hit) { return hit.back; }) > count;
+}
+
+}  // namespace
+
+std::vector<rays::SurfacePoint> unseen_surfaces(const TransportNetwork& network,
+                                                const rays::TransportSource& source) {
+  const SurfelSet& surfels = network.surfels();
+  const PointGrid voxels{vec3(0), surfels.size()};
+  const auto voxel = [&](const rays::SurfacePoint& point) {
+    return voxels.cell(point, surfels.level(0, point.position));
+  };
+  std::set<PointCell> taken;
+  for (const rays::SurfacePoint& point : surfel_points(network)) taken.insert(voxel(point));
+  std::vector<rays::SurfacePoint> points;
+  for (const rays::PartPoint& sample : spread_over(source, surfels.size())) {
+    for (const float side : {1.0f, -1.0f}) {
+      const rays::SurfacePoint point{sample.point.position, side * sample.point.normal};
+      if (!taken.contains(voxel(point))) points.push_back(point);
+    }
+  }
+  std::vector<std::uint8_t> inside(points.size());
+  const float lift = link_lift * surfels.size();
+  parallel_for(points.size(), 256, [&](std::size_t i) { inside[i] = is_inside(source, points[i], lift); });
+  std::vector<rays::SurfacePoint> unseen;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!inside[i] && taken.insert(voxel(points[i])).second) unseen.push_back(points[i]);
+  }
+  return unseen;
+}
+
+}  // namespace ssphh::transport

@@ -1,0 +1,134 @@
+/// Light groups that are baked: drawn as traced, without passes and shadow maps of their own.
+
+#include <gtest/gtest.h>
+
+#include <ssphh/bake/light_modes.h>
+#include <ssphh/bake/transport_bake.h>
+#include <ssphh/place/init.h>
+#include <ssphh/scene/builtin.h>
+
+#include "gl_context.h"
+#include "pictures.h"
+
+namespace ssphh {
+namespace {
+
+constexpr test::PictureSize size{96, 54};
+
+/// The court under its sky, with a bulb.
+scene::Scene court() {
+  scene::Scene scene = scene::make_builtin("court");
+  scene::Light& bulb = scene.lights.emplace_back();
+  bulb.name = "bulb";
+  bulb.intensity = 0.4f;
+  bulb.node = static_cast<int>(scene.nodes.size());
+  scene.nodes.emplace_back().local.translation = {0.5f, 1.4f, 0.8f};
+  scene::validate(scene);
+  return scene;
+}
+
+probes::ProbeSet baked(const scene::Scene& scene, const std::vector<scene::LightMode>& modes) {
+  const trace::TransportScene source(scene);
+  bake::TransportBakeParams params;
+  params.transport.directions = 512;
+  params.transport.surfel_size = 0.2f;
+  params.records = {.points = 2048, .rays = 256, .baked = bake::baked_indices(modes)};
+  bake::TransportBakeReport report;
+  probes::ProbeSet set = bake::bake_transport(source, place::init_from_scene(scene, 4), params, report);
+  bake::set_light_modes(source, set, modes);
+  return set;
+}
+
+const std::vector<scene::LightMode> sky_baked = {scene::LightMode::realtime, scene::LightMode::baked};
+
+using BakedLight = test::WithGl;
+
+struct Drawn {
+  Drawn(gl::Context& gl, const scene::Scene& scene_in, const probes::ProbeSet& set)
+      : scene(scene_in), renderer(gl, scene) {
+    renderer.set_probes(set);
+    const trace::PathTracer tracer(scene);
+    const auto sees = [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); };
+    renderer.set_records(probes::prepare_surfaces(scene, 0, set.surface->points, sees));
+    renderer.set_record_light(set.surface->light);
+  }
+  image::Image picture(realtime::View view = realtime::View::lit) {
+    realtime::FrameSettings settings;
+    settings.weights = probes::WeightMethod::surface;
+    settings.supersample = 2;
+    settings.view = view;
+    stats =
+        renderer.draw(scene::camera_pose(scene, ""), settings, {.width = size.width, .height = size.height});
+    return renderer.read_back();
+  }
+
+  scene::Scene scene;
+  realtime::Renderer renderer;
+  realtime::FrameStats stats;
+};
+
+TEST_F(BakedLight, IsDrawnAsItIsTraced) {
+  const scene::Scene scene = court();
+  const probes::ProbeSet set = baked(scene, sky_baked);
+  const image::Image drawn = Drawn(gl(), scene, set).picture();
+  const trace::PathTracer tracer(scene);
+  const auto lookup = probes::make_lookup(probes::LookupSpec(), set, tracer);
+  const image::Image traced = test::traced(scene, lookup.get(), size, 16, 1, tracer);
+  trace::RenderParams params;
+  params.width = size.width, params.height = size.height;
+  params.camera = scene::camera_pose(scene, "");
+  params.path = {.max_depth = 12, .passes = 1, .spp = 64, .seed = 1};
+  trace::RenderState state;
+  tracer.render(params, state);
+  const image::Image truth = trace::resolve(state.color, state.passes_done);
+  vec3 sums[3] = {vec3(0), vec3(0), vec3(0)};
+  double off = 0;
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      sums[0] += drawn.rgb(x, y), sums[1] += traced.rgb(x, y), sums[2] += truth.rgb(x, y);
+      off += static_cast<double>(max_component(glm::abs(drawn.rgb(x, y) - traced.rgb(x, y))));
+    }
+  }
+  for (glm::length_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(sums[0][c] / sums[1][c], 1, 0.01) << "drawn and traced";
+    EXPECT_NEAR(sums[0][c] / sums[2][c], 1, 0.02) << "and path traced";
+  }
+  EXPECT_LT(off / static_cast<double>(max_component(sums[1])), 0.02);
+}
+
+TEST_F(BakedLight, NeedsNoShadowMapsUntilItIsNotBaked) {
+  const scene::Scene scene = court();
+  probes::ProbeSet set = baked(scene, sky_baked);
+  Drawn some(gl(), scene, set);
+  some.picture();
+  const int with_baked = some.stats.shadow_maps_drawn;
+  const image::Image direct = some.picture(realtime::View::direct);
+  // The same probes, and the sky sampled again: its maps are drawn now.
+  set.light_groups[1].mode = scene::LightMode::realtime;
+  probes::merge_groups(set);
+  Drawn all(gl(), scene, set);
+  all.picture();
+  constexpr int sky_maps = 32;  // RendererParams::environment_samples
+  EXPECT_EQ(all.stats.shadow_maps_drawn - with_baked, sky_maps);
+  some.renderer.set_probes(set);
+  const image::Image direct_again = some.picture(realtime::View::direct);
+  EXPECT_GE(some.stats.shadow_maps_drawn, sky_maps);
+  // Direct light of surfaces was the bulb's alone.
+  const image::Image of_all = all.picture(realtime::View::direct);
+  double more = 0;
+  for (std::size_t i = 0; i < of_all.pixels.size(); ++i) {
+    EXPECT_GE(of_all.pixels[i], direct.pixels[i] - 1e-3f);
+    more += static_cast<double>(of_all.pixels[i] - direct.pixels[i]);
+    ASSERT_NEAR(direct_again.pixels[i], of_all.pixels[i], 1e-3f);
+  }
+  EXPECT_GT(more, 0);
+  // Without the probes the sky must light again.
+  some.renderer.set_probes(baked(scene, sky_baked));
+  some.renderer.clear_probes();
+  const image::Image without = some.picture(realtime::View::direct);
+  for (std::size_t i = 0; i < of_all.pixels.size(); ++i)
+    ASSERT_NEAR(without.pixels[i], of_all.pixels[i], 1e-3f);
+}
+
+}  // namespace
+}  // namespace ssphh
