@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/bake/light_modes.h>
 #include <ssphh/core/log.h>
 #include <ssphh/place/init.h>
 #include <ssphh/trace/path_tracer.h>
@@ -155,6 +156,11 @@ void App::take_probe_file(const std::string& file) {
   if (set.generator.scene_hash != scene::light_hash(*document.scene)) {
     const std::string problem = fmt::format("was baked in another scene (\"{}\")", set.generator.scene);
     if (!options.force) throw Error(file, problem, "open that scene, or go on with --force");
+    log_warning("{}: {}", file, problem);
+  }
+  if (const std::string modes = bake::mode_difference(set, *document.scene); !modes.empty()) {
+    const std::string problem = "was baked with " + modes;
+    if (!options.force) throw Error(file, problem, "bake it anew, or go on with --force as it was baked");
     log_warning("{}: {}", file, problem);
   }
   take_places("probes of a file", set.probes);

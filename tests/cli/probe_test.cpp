@@ -142,13 +142,15 @@ TEST_F(ProbeTool, InfoOfAHierarchyHasTheNeighboursLight) {
 TEST_F(ProbeTool, InfoForPeopleTellsTheSame) {
   const std::string text = text_here({"probe", "info", file_});
   EXPECT_THAT(
-      text, testing::StartsWith(file_ + ": 3 probes of degree 1, 6 edges\n"
-                                        "scene rooms at 1.5 s; light by path, edges by links\n"
-                                        "paths: GEN local, depth 5, 2 x 7 samples, 9x9x6 texels, seed 11\n"
-                                        "transport: 64 directions a probe, surfels of 0.25 m, 16 link rays\n"
-                                        "light group lamp, scale 1 0.5 0.25\nlight group sky, scale 2 2 2\n"
-                                        "mean radiance R, G, B [W/sr/m2] over all directions:\n"
-                                        "  0  a  at (0, 1, -2) m, radius 0.125 m\n"));
+      text,
+      testing::StartsWith(
+          file_ + ": 3 probes of degree 1, 6 edges\n"
+                  "scene rooms at 1.5 s; light by path, edges by links\n"
+                  "paths: GEN local, depth 5, 2 x 7 samples, 9x9x6 texels, seed 11\n"
+                  "transport: 64 directions a probe, surfels of 0.25 m, 16 link rays\n"
+                  "light group lamp, scale 1 0.5 0.25, realtime\nlight group sky, scale 2 2 2, realtime\n"
+                  "mean radiance R, G, B [W/sr/m2] over all directions:\n"
+                  "  0  a  at (0, 1, -2) m, radius 0.125 m\n"));
   // The mean of a function is its first coefficient over √4π; b: 0.5 and 2 of the lamp, 0.25 of the sky.
   const double unit = 1 / std::sqrt(4 * pi_d);
   EXPECT_THAT(text, HasSubstr(fmt::format("     reflected  {:9.4g} {:9.4g} {:9.4g}   lamp\n"

@@ -120,10 +120,10 @@ TEST(LightModesInPictures, ABakedSkyEqualsPathTracing) {
   const trace::RenderState truth = traced(sky_baked().scene, 256);
   const Difference all = compared(looked_up(sky_baked().scene, sky_baked().set, 16).color, truth.color, 1);
   for (glm::length_t c = 0; c < 3; ++c) {
-    // Records are as dense as to miss 4 % of a place's light at most, either way; blocks of 64 pixels of 1024
-    // paths have a noise under 1 %.
-    EXPECT_NEAR(all.ratio[c], 1, 0.01) << c;
-    EXPECT_LT(all.of_blocks[c], 0.025) << c;
+    // Records are as dense as to miss 4 % of a place's light at most; blocks of 64 pixels of 1024 paths have
+    // a noise under 1 %, and half of that tolerance is left for what all places have in common.
+    EXPECT_NEAR(all.ratio[c], 1, 0.02) << c;
+    EXPECT_LT(all.of_blocks[c], 0.04) << c;
   }
 }
 
@@ -219,6 +219,21 @@ TEST(LightModesInPictures, BakedLightNeedsRecords) {
   const std::vector<LightMode> modes = {LightMode::realtime, LightMode::baked};
   EXPECT_THROW(bake::set_light_modes(sky_baked().source, set, modes), Error);
   EXPECT_THROW(bake::set_light_modes(sky_baked().source, set, std::span(modes).first(1)), Error);
+}
+
+TEST(LightModesInPictures, OfAFileThatHoldsOtherLightAreTold) {
+  scene::Scene scene = open_ground();
+  const probes::ProbeSet& set = sky_baked().set;
+  EXPECT_EQ(bake::mode_difference(set, scene), "") << "who asks for nothing takes what the file has";
+  scene::set_light_mode(scene, "sky", LightMode::baked);
+  scene::set_light_mode(scene, "lamp", LightMode::mixed);
+  EXPECT_EQ(bake::mode_difference(set, scene), "") << "mixed groups hold what realtime ones do";
+  scene::set_light_mode(scene, "sky", LightMode::mixed);
+  scene::set_light_mode(scene, "lamp", LightMode::baked);
+  EXPECT_EQ(
+      bake::mode_difference(set, scene),
+      "light group \"lamp\" as realtime, asked for as baked; light group \"sky\" as baked, asked for as "
+      "mixed");
 }
 
 TEST(LightModesInPictures, SharpShadowsThatWillBlurAreToldOf) {

@@ -50,8 +50,8 @@ struct BakeOptions {
   /// Of transport; its operator, viz and number of records are not read either, nor the same of its VIZ.
   bake::TransportBakeParams transport;
   std::optional<int> neighbors;  ///< most edges of a probe, strongest first; -1: all
-  /// Surface points that keep light; none given: usual_records where probes hold every bounce, too, or a light
-  /// group is baked, else 0.
+  /// Surface points that keep light; none given: usual_records where probes hold every bounce, too, or a
+  /// light group is baked, else 0.
   std::optional<int> records;
   int usual_records = transport::usual_records;
   double max_memory = 0;  ///< that surfels and their links may take [GB]; 0: half of the machine's

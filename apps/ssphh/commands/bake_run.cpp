@@ -37,8 +37,8 @@ probes::LightOperator operator_of(const BakeOptions& o, std::size_t probes) {
   return probes::LightOperator::surfel;
 }
 
-/// Records hold every bounce, so there are none unasked beside probes that are to hold fewer, unless light that
-/// is baked must be kept somewhere.
+/// Records hold every bounce, so there are none unasked beside probes that are to hold fewer, unless light
+/// that is baked must be kept somewhere.
 int records_of(const BakeOptions& o) {
   const bool every_bounce = o.op == probes::LightOperator::surfel ||
                             (o.op == probes::LightOperator::path && o.params.gen == probes::GenMode::full &&

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <ssphh/bake/light_modes.h>
 #include <ssphh/core/log.h>
 #include <ssphh/farm/farm_bake.h>
 #include <ssphh/probes/probe_file.h>
@@ -170,6 +171,11 @@ void run_bake_update(const BakeOptions& options, BakeResult& result, BakeWatcher
   scene_options.time = set.generator.time;
   const scene::Scene scene = load_lit_scene(scene_options, watcher.files);
   require_same_places(options.update, set, scene);
+  if (const std::string modes = bake::mode_difference(set, scene); !modes.empty())
+    throw Error(options.update, "was baked with " + modes, in_full);
+  if (const std::vector<std::string> baked = probes::baked_groups(set); options.only.any() && !baked.empty())
+    throw Error(options.update, fmt::format("holds direct light of \"{}\", which is not found in part", baked.front()),
+                "leave out --only-probes, --only-box and --only-lights");
 
   BakeUpdate& update = result.update.emplace();
   update.op = set.generator.op;
@@ -204,6 +210,7 @@ void run_bake_update(const BakeOptions& options, BakeResult& result, BakeWatcher
   } else {
     work.by_transport(tracer);
   }
+  bake::set_light_modes(trace::TransportScene(geometry, scene), set, scene::light_modes(scene), control);
   if (watcher.see) watcher.see({geometry, scene, set, true});
   // What is left out by hand is still to be compared with what it was baked in
   if (!options.only.any()) set.baseline->items = std::move(items);

@@ -104,7 +104,7 @@ json::Value to_json(const ProbeInfo& info, const ProbeInfoOptions& options) {
   const probes::ProbeSet& set = info.set;
   json::Value groups = json::Value::array(), probes = json::Value::array();
   for (const probes::LightGroup& group : set.light_groups)
-    groups.push_back({{"name", group.name}, {"scale", to_json(group.scale)}});
+    groups.push_back({{"name", group.name}, {"scale", to_json(group.scale)}, {"mode", name_of(group.mode)}});
   for (std::size_t i = 0; i < set.probes.size(); ++i) probes.push_back(probe_json(info, i));
   json::Value object = {{"file", options.input},
                         {"degree", set.degree},
@@ -139,8 +139,8 @@ std::string to_text(const ProbeInfo& info, const ProbeInfoOptions& options) {
   if (set.surface) text += fmt::format("light kept at {} surface points\n", set.surface->points.size());
   if (set.fitted) text += fmt::format("weights fitted at {} surface points\n", set.fitted->points.size());
   for (const probes::LightGroup& group : set.light_groups) {
-    text += fmt::format("light group {}, scale {:g} {:g} {:g}\n", group.name, group.scale.x, group.scale.y,
-                        group.scale.z);
+    text += fmt::format("light group {}, scale {:g} {:g} {:g}, {}\n", group.name, group.scale.x,
+                        group.scale.y, group.scale.z, name_of(group.mode));
   }
   if (set.hierarchy) {
     const probes::Hierarchy& h = *set.hierarchy;

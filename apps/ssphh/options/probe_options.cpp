@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <ssphh/bake/light_modes.h>
 #include <ssphh/core/log.h>
 #include <ssphh/place/place.h>
 #include <ssphh/scene/query.h>
@@ -61,13 +62,7 @@ std::string scene_difference(const probes::ProbeSet& set, const scene::Scene& sc
     if (baked != light_groups)
       say(fmt::format("light groups: {}, now {}", names_text(baked), names_text(light_groups)));
   }
-  for (const scene::GroupMode& asked : scene.light_modes) {
-    const auto baked = std::ranges::find(set.light_groups, asked.group, &probes::LightGroup::name);
-    const auto holds_direct = [](scene::LightMode mode) { return mode == scene::LightMode::baked; };
-    if (baked != set.light_groups.end() && holds_direct(baked->mode) != holds_direct(asked.mode))
-      say(fmt::format("light group \"{}\" as {}, asked for as {}", asked.group, name_of(baked->mode),
-                      name_of(asked.mode)));
-  }
+  if (const std::string modes = bake::mode_difference(set, scene); !modes.empty()) say(modes);
   if (time && *time != g.time && scene::animation_duration(scene) > 0)
     say(fmt::format("time {:g} s, now {:g} s", g.time, *time));
   return text;

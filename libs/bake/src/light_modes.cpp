@@ -68,6 +68,18 @@ void set_light_modes(const rays::TransportSource& source, probes::ProbeSet& set,
   probes::merge_groups(set);
 }
 
+std::string mode_difference(const probes::ProbeSet& set, const scene::Scene& scene) {
+  std::string text;
+  for (const probes::LightGroup& group : set.light_groups) {
+    const scene::LightMode asked = scene::asked_light_mode(scene, group.name).value_or(group.mode);
+    constexpr auto baked = scene::LightMode::baked;
+    if ((asked == baked) == (group.mode == baked)) continue;
+    text += fmt::format("{}light group \"{}\" as {}, asked for as {}", text.empty() ? "" : "; ", group.name,
+                        name_of(group.mode), name_of(asked));
+  }
+  return text;
+}
+
 std::vector<std::string> blurred_shadows(const scene::Scene& scene) {
   std::vector<std::string> lines;
   for (const scene::GroupMode& asked : scene.light_modes) {

@@ -321,6 +321,7 @@ TransportBakeParams transport_params_of(const probes::ProbeSet& set) {
     params.viz_params.neighbors = set.baseline->viz_neighbors;
     params.viz_params.threshold = set.baseline->viz_threshold;
     params.records.points = set.baseline->records;
+    params.records.baked = baked_indices(set);
     params.transport.most_surfels = set.baseline->most_surfels;
   }
   return params;

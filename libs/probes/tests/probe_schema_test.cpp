@@ -68,6 +68,7 @@ TEST(ProbeSchema, SchemaAndReaderRejectTheSameMutations) {
       {"/format", "probes"},
       {"/version", 1},
       {"/version", 7},
+      {"/light_groups/0/mode", "bakd"},
       {"/version", "5"},
       {"/degree", 11},
       {"/degree", -1},

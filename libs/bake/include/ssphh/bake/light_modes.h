@@ -22,6 +22,11 @@ std::vector<int> baked_indices(std::span<const scene::LightMode> modes);
 void set_light_modes(const rays::TransportSource& source, probes::ProbeSet& set,
                      std::span<const scene::LightMode> modes, const Control& control = {});
 
+/// In which groups the set holds direct light and the scene asks for another mode, or the other way round:
+/// "light group "sky" as realtime, asked for as baked; ..."; empty: none. Realtime and mixed groups hold the
+/// same.
+std::string mode_difference(const probes::ProbeSet& set, const scene::Scene& scene);
+
 /// A line for each baked group with lamps whose shadows are sharp, which records blur; empty: none.
 std::vector<std::string> blurred_shadows(const scene::Scene& scene);
 
