@@ -97,8 +97,9 @@ TEST_F(ProbeTool, InfoHoldsEverythingOfTheFile) {
                                             {"scene", "rooms"},
                                             {"scene_hash", Hash128{0x1234, 0x5678}.hex()},
                                             {"time", 1.5}}));
-  EXPECT_EQ(info["light_groups"], json::Value({{{"name", "lamp"}, {"scale", {1, 0.5, 0.25}}},
-                                               {{"name", "sky"}, {"scale", {2, 2, 2}}}}));
+  EXPECT_EQ(info["light_groups"],
+            json::Value({{{"name", "lamp"}, {"scale", {1, 0.5, 0.25}}, {"mode", "realtime"}},
+                         {{"name", "sky"}, {"scale", {2, 2, 2}}, {"mode", "realtime"}}}));
   ASSERT_EQ(info["probes"].size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     const json::Value& probe = info["probes"][i];

@@ -27,7 +27,7 @@ std::string light_mode_problem(const std::string& text) {
     read_light_mode(text);
     return {};
   } catch (const Error& e) {
-    return e.what();
+    return e.problem();
   }
 }
 
