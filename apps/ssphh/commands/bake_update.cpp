@@ -174,7 +174,8 @@ void run_bake_update(const BakeOptions& options, BakeResult& result, BakeWatcher
   if (const std::string modes = bake::mode_difference(set, scene); !modes.empty())
     throw Error(options.update, "was baked with " + modes, in_full);
   if (const std::vector<std::string> baked = probes::baked_groups(set); options.only.any() && !baked.empty())
-    throw Error(options.update, fmt::format("holds direct light of \"{}\", which is not found in part", baked.front()),
+    throw Error(options.update,
+                fmt::format("holds direct light of \"{}\", which is not found in part", baked.front()),
                 "leave out --only-probes, --only-box and --only-lights");
 
   BakeUpdate& update = result.update.emplace();

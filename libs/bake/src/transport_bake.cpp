@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/bake/light_modes.h>
 #include <ssphh/bake/transport_bake.h>
 #include <ssphh/bake/update.h>
 #include <ssphh/core/log.h>
@@ -321,7 +322,9 @@ TransportBakeParams transport_params_of(const probes::ProbeSet& set) {
     params.viz_params.neighbors = set.baseline->viz_neighbors;
     params.viz_params.threshold = set.baseline->viz_threshold;
     params.records.points = set.baseline->records;
-    params.records.baked = baked_indices(set);
+    std::vector<scene::LightMode> modes;
+    for (const probes::LightGroup& group : set.light_groups) modes.push_back(group.mode);
+    params.records.baked = baked_indices(modes);
     params.transport.most_surfels = set.baseline->most_surfels;
   }
   return params;
