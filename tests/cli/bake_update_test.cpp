@@ -234,6 +234,24 @@ TEST_F(BakeUpdate, RefusesWhatCannotBeDoneByHand) {
   EXPECT_FALSE(std::filesystem::exists(new_));
 }
 
+TEST_F(BakeUpdate, DirectLightOfABakedGroupIsFollowedToTheBitsOfABakeInFull) {
+  const std::string modes = R"("light_modes": {"lamp": "baked"})", plain = overlay("plain", modes),
+                    blue = overlay("blue",
+                                   modes + R"(, "materials": [{"name": "red", "base_color": [0, 0, 1]}])");
+  for (const auto& [scene, file] : {std::pair(plain, old_), std::pair(blue, full_)})
+    json_here({"bake", scene, "-o", file, "--face", "8", "--degree", "1", "--records", "256"});
+  updated(blue, old_, new_, {"--tolerance", "0"});
+  EXPECT_EQ(bytes(new_), bytes(full_));
+  EXPECT_THAT(problem_here({"bake", blue, "--update", old_, "-o", new_, "--only-probes", "1"}),
+              AllOf(HasSubstr("\"lamp\""), HasSubstr("--only-probes")));
+  EXPECT_THAT(problem_here({"bake", blue, "--update", old_, "-o", new_, "--light-mode", "lamp=realtime"}),
+              HasSubstr("asked for as realtime"));
+  // Where the scene says nothing of it the file knows
+  const std::string silent = overlay("silent", R"("materials": [{"name": "red", "base_color": [0, 0, 1]}])");
+  updated(silent, old_, new_, {"--tolerance", "0"});
+  EXPECT_EQ(probes::baked_groups(probes::read_probe_file(new_)), std::vector<std::string>{"lamp"});
+}
+
 TEST_F(BakeUpdate, RefusesWhatItCannotDo) {
   const auto problem = [&](const std::vector<std::string>& more,
                            const std::string& scene = "builtin:cornell") {

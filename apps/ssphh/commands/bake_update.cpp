@@ -45,6 +45,18 @@ void require_same_places(const std::string& file, const probes::ProbeSet& old, c
   }
 }
 
+/// The scene's groups: those that the set knows keep their modes, whatever the scene leaves open.
+void adopt_groups(probes::ProbeSet& set, const scene::Scene& scene) {
+  const std::vector<probes::LightGroup> before = set.light_groups;
+  bake::adopt_groups(set, scene::light_groups(scene));
+  const std::vector<scene::LightMode> asked = scene::light_modes(scene);
+  for (std::size_t g = 0; g < asked.size(); ++g) {
+    probes::LightGroup& group = set.light_groups[g];
+    const auto known = std::ranges::find(before, group.name, &probes::LightGroup::name);
+    group.mode = known == before.end() ? asked[g] : known->mode;
+  }
+}
+
 bake::BakeParams params_of(const probes::ProbeSet& old) {
   const probes::GeneratorInfo& g = old.generator;
   bake::BakeParams params;
@@ -185,7 +197,7 @@ void run_bake_update(const BakeOptions& options, BakeResult& result, BakeWatcher
   set.generator.scene = scene.name.substr(0, probes::limits::text);
   set.generator.scene_hash = scene::light_hash(scene);
   result.viz = set.generator.viz;
-  bake::adopt_groups(set, scene::light_groups(scene));
+  adopt_groups(set, scene);
   const bake::LightScope scope = light_scope(options.only, set);
   if (update.changed.empty() && !scope.probes) return;
   log_info("changed since {}: {}", options.update, changes_text(update.changed));
@@ -211,7 +223,7 @@ void run_bake_update(const BakeOptions& options, BakeResult& result, BakeWatcher
   } else {
     work.by_transport(tracer);
   }
-  bake::set_light_modes(trace::TransportScene(geometry, scene), set, scene::light_modes(scene), control);
+  bake::set_light_modes(trace::TransportScene(geometry, scene), set, bake::light_modes(set), control);
   if (watcher.see) watcher.see({geometry, scene, set, true});
   // What is left out by hand is still to be compared with what it was baked in
   if (!options.only.any()) set.baseline->items = std::move(items);

@@ -41,6 +41,12 @@ std::vector<int> baked_indices(std::span<const scene::LightMode> modes) {
   return indices;
 }
 
+std::vector<scene::LightMode> light_modes(const probes::ProbeSet& set) {
+  std::vector<scene::LightMode> modes;
+  for (const probes::LightGroup& group : set.light_groups) modes.push_back(group.mode);
+  return modes;
+}
+
 void set_light_modes(const rays::TransportSource& source, probes::ProbeSet& set,
                      std::span<const scene::LightMode> modes, const Control& control) {
   require(modes.size() == set.light_groups.size(), "light modes", "there is not one for each light group");

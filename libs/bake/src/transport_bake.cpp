@@ -322,9 +322,7 @@ TransportBakeParams transport_params_of(const probes::ProbeSet& set) {
     params.viz_params.neighbors = set.baseline->viz_neighbors;
     params.viz_params.threshold = set.baseline->viz_threshold;
     params.records.points = set.baseline->records;
-    std::vector<scene::LightMode> modes;
-    for (const probes::LightGroup& group : set.light_groups) modes.push_back(group.mode);
-    params.records.baked = baked_indices(modes);
+    params.records.baked = baked_indices(light_modes(set));
     params.transport.most_surfels = set.baseline->most_surfels;
   }
   return params;

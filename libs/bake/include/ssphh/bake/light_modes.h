@@ -15,6 +15,9 @@ namespace ssphh::bake {
 /// Indices of the groups that are baked: transport::GatherParams::baked.
 std::vector<int> baked_indices(std::span<const scene::LightMode> modes);
 
+/// Of the set's light groups, in their order.
+std::vector<scene::LightMode> light_modes(const probes::ProbeSet& set);
+
 /// Gives the set's light groups, which are those of the source in its order, their modes. What the emitters
 /// of baked groups send straight to each probe is found anew by sampling them: rays in all directions would
 /// meet small ones by chance, and lamps that are points never. Throws Error for another number of groups, and
