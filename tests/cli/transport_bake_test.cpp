@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ssphh/probes/probe_file.h>
+
 #include "commands/bake.h"
 #include "here.h"
 #include "temp_dir.h"

@@ -2,6 +2,7 @@
 
 #include <ssphh/bake/effort.h>
 #include <ssphh/bake/transport_bake.h>
+#include <ssphh/rays/radiance_source.h>
 
 namespace ssphh::bake {
 namespace {
