@@ -1,7 +1,9 @@
 // Extra images beside a picture: that they are means over all passes, and add up to it.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <ssphh/core/file.h>
 #include <ssphh/image/io.h>
 
 #include "temp_dir.h"
@@ -72,6 +74,20 @@ TEST(Aovs, GroupsWithProbesHoldTheDirectLightAlone) {
   EXPECT_GT(brightest(indirect), 0);
   expect_sum(groups, Image(groups.width, groups.height), direct);
   expect_sum(groups, indirect, image::read_image(dir / "lit.exr"));
+}
+
+TEST(Aovs, OfGroupsWhoseNamesAreNoFileNamesAreFilesOfTheirOwn) {
+  const TempDir dir;
+  write_file(dir / "lamps.mtl",
+             "newmtl desk lamp\nKe 1 0 0\nnewmtl desk_lamp\nKe 0 2 0\nnewmtl ../wall\nKe 0 0 4\n");
+  write_file(dir / "lamps.obj",
+             "mtllib lamps.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nv -1 -1 -1\nv 1 -1 -1\nv 0 1 -1\n"
+             "v -1 -1 -2\nv 1 -1 -2\nv 0 1 -2\n"
+             "usemtl desk lamp\nf 1 2 3\nusemtl desk_lamp\nf 4 5 6\nusemtl ../wall\nf 7 8 9\n");
+  run_json({"render", dir / "lamps.obj", "-o", dir / "out.exr", "--width", "8", "--height", "8", "--spp", "1",
+            "--aov", "groups"});
+  for (const char* part : {"desk_lamp", "desk_lamp_2", "___wall"})
+    EXPECT_TRUE(std::filesystem::exists(dir / fmt::format("out.group.{}.exr", part))) << part;
 }
 
 TEST(Aovs, OfGroupsAloneAreThoseOfAll) {

@@ -7,6 +7,7 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/random.h>
 
+#include "error_message.h"
 #include "fake_source.h"
 
 namespace ssphh::bake {
@@ -254,6 +255,17 @@ TEST(Update, RenewsTheTrialsOfWhatWasBaked) {
     EXPECT_EQ(set.baseline->trials[i] == before.trials[i], i < 3) << i;
     EXPECT_EQ(set.baseline->trials[i], plan.trials[i]) << i;
   }
+}
+
+TEST(Update, RenewsNoTrialsOfOtherProbes) {
+  probes::ProbeSet set = lit_row();
+  set.baseline.reset();
+  const std::string said = "update: the plan is of other probes";
+  EXPECT_EQ(ssphh::test::message_of([&] { renew_trials(set, {}); }), said);
+  set.baseline.emplace().trials.resize(4);
+  UpdatePlan plan;
+  plan.trials.resize(5);
+  EXPECT_EQ(ssphh::test::message_of([&] { renew_trials(set, plan); }), said);
 }
 
 TEST(Update, LightGroupsKeepTheirLightByName) {

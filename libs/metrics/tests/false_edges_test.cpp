@@ -73,6 +73,27 @@ TEST(FalseEdges, OfTheTruthItselfAreNone) {
   EXPECT_EQ(edges.least_step, 0.03) << "equal pictures have no noise between them";
 }
 
+TEST(FalseEdges, DepthsThatJumpByAThirdOfAPerCentAreTwoSurfaces) {
+  // Two walls that face the viewer, the right one nearer.
+  const auto tested = [](float nearer) {
+    SurfacePicture truth{picture(smooth), {}, {}, Image(width, height, 1)};
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) *truth.depth.at(x, y) = x < width / 2 ? 3 : 3 / (1 + nearer);
+    return false_edges(truth, {truth.indirect, {}, {}, {}}, {}).tested;
+  };
+  const std::uint64_t one = tested(0);
+  EXPECT_EQ(tested(0.0028f), one);
+  EXPECT_LT(tested(0.0032f), one) << "no window reaches over the gap";
+}
+
+TEST(FalseEdges, AreDrawnOnPicturesOfTheirSizeAlone) {
+  const FalseEdges edges = found(picture(smooth), picture(smooth));
+  EXPECT_EQ(edge_picture(edges, picture(smooth)).width, width);
+  for (const Image& other : {Image(width, height + 1), Image(width - 1, height), Image()})
+    EXPECT_EQ(ssphh::test::message_of([&] { edge_picture(edges, other); }),
+              "edge picture: the picture is not of the map's size");
+}
+
 TEST(FalseEdges, PlantedStepsAreFoundAndMeasured) {
   const Image truth = noisy(picture(smooth), 0.02f, 1);
   for (const double step : {0.04, 0.08, 0.2}) {

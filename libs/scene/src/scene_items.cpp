@@ -38,8 +38,10 @@ Hash128 place_digest(const Hash128& node, const mat4& world) {
 }
 
 const std::string& name_of_instance(const Scene& scene, const Instance& instance) {
+  const std::string& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)].name;
+  if (instance.node < 0) return mesh;
   const std::string& node = scene.nodes[static_cast<std::size_t>(instance.node)].name;
-  return node.empty() ? scene.meshes[static_cast<std::size_t>(instance.mesh)].name : node;
+  return node.empty() ? mesh : node;
 }
 
 auto contents(const SceneItem& item) {

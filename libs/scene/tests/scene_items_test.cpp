@@ -57,6 +57,13 @@ TEST(SceneItems, NamesCamerasAndSphlsDoNotCount) {
               IsEmpty());
 }
 
+TEST(SceneItems, WhatHangsOnNoNodeHasItsMeshsName) {
+  Scene s = furnished();
+  s.meshes[1].name = "table top";
+  s.instances[3].node = -1;
+  EXPECT_EQ(scene_items(s)[3].name, "table top");
+}
+
 TEST(SceneItems, OrderDoesNotCount) {
   EXPECT_THAT(changes([](Scene& s) { std::swap(s.instances[0], s.instances[3]); }), IsEmpty());
 }

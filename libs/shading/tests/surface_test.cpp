@@ -272,6 +272,11 @@ TEST(SampleTexture, InterpolatesBetweenTexelCentres) {
   EXPECT_FLOAT_EQ(at(0), 0);
   EXPECT_FLOAT_EQ(at(1.375f), 0.75f);
   EXPECT_FLOAT_EQ(at(-0.625f), 0.75f);
+  for (const float turns : {2.0f, -4.0f, 26.0f, -998.0f}) {
+    EXPECT_FLOAT_EQ(at(turns + 0.625f), 0.75f) << turns;
+    EXPECT_FLOAT_EQ(at(turns - 0.625f), 0.75f) << turns;
+    EXPECT_FLOAT_EQ(at(turns + 1), 1) << turns;
+  }
   use.nearest = true;
   EXPECT_FLOAT_EQ(at(0.49f), 0);
   EXPECT_FLOAT_EQ(at(0.51f), 1);

@@ -120,6 +120,13 @@ TEST(DefaultView, StandsAsHighAsAPersonInALargeHallToo) {
   EXPECT_NEAR(eye_of(view_of(hall(195.0f * half))).y, 195 * (-1.3f + 1.56f), 0.2f);
 }
 
+TEST(DefaultView, OfWhatHangsOnNoNodeIsTheOneOfANodeAtTheOrigin) {
+  const Scene room = furnished_room();
+  Scene loose = room;
+  for (scene::Instance& instance : loose.instances) instance.node = -1;
+  EXPECT_EQ(default_view(loose, test::TriangleSource(room)).world, view_of(room).world);
+}
+
 TEST(DefaultView, IsTheSameForTheSameScene) {
   EXPECT_EQ(view_of(furnished_room()).world, view_of(furnished_room()).world);
 }

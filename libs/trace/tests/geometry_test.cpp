@@ -165,6 +165,13 @@ TEST(Geometry, BlendLetsLightThroughInProportion) {
               0.7 * open, {}, 1e-5));
 }
 
+TEST(Geometry, BlendByVertexColoursAloneLetsLightThroughInProportion) {
+  scene::Scene scene = card_scene(scene::AlphaMode::blend, 1);
+  for (scene::Mesh& mesh : scene.meshes) mesh.colors.assign(mesh.positions.size(), vec4(1, 1, 1, 0.3f));
+  const double open = 10.0 / 4 * 0.5 / pi_d;
+  EXPECT_TRUE(mean_is(pixels_of(render(scene, view_point(vec3(0), 64, 1)).color), 0.7 * open, {}, 1e-5));
+}
+
 TEST(Geometry, MaskIsAllOrNothing) {
   const double open = 10.0 / 4 * 0.5 / pi_d;
   const auto floor_radiance = [](scene::AlphaMode mode, float alpha) {

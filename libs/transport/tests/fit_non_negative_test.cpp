@@ -108,6 +108,26 @@ TEST(FitNonNegative, EqualsTheBestOfAllActiveSets) {
   EXPECT_GT(bounded, 100) << "the bounds must matter in these problems";
 }
 
+TEST(FitNonNegative, GrowsAsWhatItIsFittedTo) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Problem p = random_problem(40, 8, 1e-3, seed);
+    if (seed % 2) {  // much alike: weights that were free meet their bounds on the way
+      for (double& a : p.rows) a = 1 + 0.1 * (a - 0.5);
+      for (double& b : p.targets) b = 1 + 0.1 * (b - 0.5);
+    }
+    const std::vector<double> v = fit_non_negative(p.rows, p.targets, p.prior, p.ridge);
+    for (const double scale : {1e-4, 1e4}) {
+      Problem other = p;
+      for (double& t : other.targets) t *= scale;
+      for (double& t : other.prior) t *= scale;
+      const std::vector<double> scaled =
+          fit_non_negative(other.rows, other.targets, other.prior, other.ridge);
+      for (std::size_t i = 0; i < p.n(); ++i)
+        EXPECT_NEAR(scaled[i], scale * v[i], 1e-9 * scale) << "seed " << seed << ", scale " << scale;
+    }
+  }
+}
+
 TEST(FitNonNegative, EqualsTheBestWhereProbesAreMuchAlike) {
   // Neighbours see nearly the same light: rows of 1 ± 5 %, for which descent along axes hardly moves.
   for (std::uint64_t seed = 0; seed < 20; ++seed) {

@@ -153,6 +153,17 @@ TEST_F(SessionList, OfSurfelsPosedExactly) {
   list_.expect("session-surfel");
 }
 
+TEST_F(SessionList, OfRecordsIsTheSameBeforeTheFirstUpdateAndAfterIt) {
+  RelightSession before(room_, places_, params()), after(room_, places_, params());
+  after.update(after.lighting());
+  const GatherParams asked{.points = 0, .rays = 64, .baked = {}};
+  for (RelightSession* session : {&before, &after})
+    session->keep_records_at(surfel_points(session->network(), 2), asked);
+  const probes::SurfaceRecords a = before.records_by_group(), b = after.records_by_group();
+  EXPECT_FALSE(a.points.empty());
+  EXPECT_EQ(a.groups, b.groups);
+}
+
 TEST_F(SessionList, OfSurfelsBetweenPoses) {
   RelightParams blended = params();
   blended.poses = 3;
