@@ -21,8 +21,9 @@ using testing::HasSubstr;
 
 /// A bake of as little as can be.
 const json::Value small_bake(const std::string& output, const std::vector<std::string>& more) {
-  return json_here(
-      joined({"bake", "builtin:box", "-o", output, "--face", "1", "--spp", "1", "--degree", "0"}, more));
+  return json_here(joined(
+      {"bake", "builtin:box", "-o", output, "--face", "1", "--spp", "1", "--degree", "0", "--records", "0"},
+      more));
 }
 
 TEST(BakeOptions, ReachTheFile) {
@@ -37,7 +38,8 @@ TEST(BakeOptions, ReachTheFile) {
                                       "--seed",      "9",
                                       "--degree",    "2",
                                       "--time",      "0.5",
-                                      "--viz",       "off"});
+                                      "--viz",       "off",
+                                      "--records",   "0"});
   const probes::ProbeSet set = probes::read_probe_file(file);
   EXPECT_EQ(set.degree, 2);
   EXPECT_EQ(bake["degree"], 2);

@@ -60,7 +60,7 @@ TEST_F(GlTool, BenchFrameTellsHowOftenASampleIsShaded) {
 TEST_F(GlTool, BenchFrameComparesWithDirectLightAlone) {
   const TempDir dir;
   run_json({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--degree", "1", "--face", "4", "--spp", "1",
-            "--viz", "off"});
+            "--viz", "off", "--records", "0"});
   const json::Value bench = run_json(joined(
       {"bench-frame", "builtin:two-rooms", "--probes", dir / "a.sphl", "--frames", "3", "--ratio", "--move"},
       tiny));
@@ -107,7 +107,8 @@ TEST_F(GlTool, EveryKindOfWeightsIsDrawnAsTheCpuDoes) {
   }
   EXPECT_NE(drawn["fitted"], drawn["mls"]);
   EXPECT_EQ(mean({"--backend", "gl"}), drawn["fitted"]);
-  run_json({"bake", "builtin:box", "-o", file, "--degree", "1", "--face", "4", "--spp", "1", "--viz", "off"});
+  run_json({"bake", "builtin:box", "-o", file, "--degree", "1", "--face", "4", "--spp", "1", "--viz", "off",
+            "--records", "0"});
   expect_failure({"render", "builtin:box", "--method", "ssphh", "--backend", "gl", "--probes", file,
                   "--weights", "fitted", "-o", dir / "x.exr"},
                  {"has no fitted weights", "--fit"});

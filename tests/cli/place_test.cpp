@@ -33,8 +33,9 @@ TEST(PlaceTool, BakeTakesTheScenesProbesUnlessAsked) {
 
 TEST(PlaceTool, ANumberOfProbesKeepsTheScenesOwn) {
   const TempDir dir;
-  const json::Value bake = run_json(
-      joined({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", "20", "--viz", "off"}, quick));
+  const json::Value bake = run_json(joined(
+      {"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", "20", "--viz", "off", "--records", "0"},
+      quick));
   EXPECT_EQ(bake["probes"], 20);
   EXPECT_EQ(bake["placement"]["manual"], 6);
   for (const char* key : {"probes", "spacing", "removed", "relocated", "edges", "seconds"})
