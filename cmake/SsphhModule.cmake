@@ -26,7 +26,8 @@ function(ssphh_module name)
   endforeach()
   add_library(${target} STATIC ${sources})
   add_library(ssphh::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name}
+    SSPHH_DEPENDS "${ARG_DEPENDS}" SSPHH_LINKS "${ARG_LINK_PUBLIC};${ARG_LINK_PRIVATE}")
   target_compile_features(${target} PUBLIC cxx_std_20)
   foreach(folder IN LISTS includes)
     target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${folder}>)
@@ -41,7 +42,7 @@ function(ssphh_module name)
     PUBLIC ${ARG_DEPENDS} ${ARG_LINK_PUBLIC}
     PRIVATE ${ARG_LINK_PRIVATE} $<BUILD_INTERFACE:ssphh_compile_options>)
   ssphh_unity(${target})
-  install(TARGETS ${target} EXPORT ssphhTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(TARGETS ${target} EXPORT ssphh-${name} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 
   if(SSPHH_BUILD_TESTS AND tests)
     ssphh_test(test_${name} SOURCES ${tests} LINK ssphh::${name} ${ARG_TEST_LINK})

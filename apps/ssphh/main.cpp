@@ -10,6 +10,7 @@
 
 #include <ssphh/core/log.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/version.h>
 
 #include "commands/command.h"
 #include "results/stderr_progress.h"

@@ -16,6 +16,7 @@
 #include <ssphh/core/log.h>
 #include <ssphh/core/nearest_word.h>
 #include <ssphh/core/stopwatch.h>
+#include <ssphh/core/version.h>
 #include <ssphh/scene/query.h>
 
 #include "commands/child_process.h"

@@ -15,6 +15,10 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 
+static_assert(alignof(glm::vec4) == alignof(float),
+              "ssphh is built with packed vectors: GLM_FORCE_DEFAULT_ALIGNED_GENTYPES would change what its "
+              "functions take");
+
 inline constexpr float pi = 3.14159265358979323846f;
 inline constexpr double pi_d = 3.14159265358979323846;
 
