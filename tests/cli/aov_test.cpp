@@ -81,13 +81,20 @@ TEST(Aovs, OfGroupsWhoseNamesAreNoFileNamesAreFilesOfTheirOwn) {
   write_file(dir / "lamps.mtl",
              "newmtl desk lamp\nKe 1 0 0\nnewmtl desk_lamp\nKe 0 2 0\nnewmtl ../wall\nKe 0 0 4\n");
   write_file(dir / "lamps.obj",
-             "mtllib lamps.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nv -1 -1 -1\nv 1 -1 -1\nv 0 1 -1\n"
-             "v -1 -1 -2\nv 1 -1 -2\nv 0 1 -2\n"
+             "mtllib lamps.mtl\nv -4 -1 0\nv -2 -1 0\nv -3 1 0\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\n"
+             "v 2 -1 0\nv 4 -1 0\nv 3 1 0\n"
              "usemtl desk lamp\nf 1 2 3\nusemtl desk_lamp\nf 4 5 6\nusemtl ../wall\nf 7 8 9\n");
   run_json({"render", dir / "lamps.obj", "-o", dir / "out.exr", "--width", "8", "--height", "8", "--spp", "1",
             "--aov", "groups"});
-  for (const char* part : {"desk_lamp", "desk_lamp_2", "___wall"})
-    EXPECT_TRUE(std::filesystem::exists(dir / fmt::format("out.group.{}.exr", part))) << part;
+  int channel = 0;  // each lamp is of another one
+  for (const char* part : {"desk_lamp", "desk_lamp_2", "___wall"}) {
+    const Image group = image::read_image(dir / fmt::format("out.group.{}.exr", part));
+    vec3 sum(0);
+    for (int y = 0; y < group.height; ++y)
+      for (int x = 0; x < group.width; ++x) sum += group.rgb(x, y);
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(sum[c] > 0, c == channel) << part << ", channel " << c;
+    ++channel;
+  }
 }
 
 TEST(Aovs, OfGroupsAloneAreThoseOfAll) {

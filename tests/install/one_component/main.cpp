@@ -4,7 +4,6 @@
 
 #include <ssphh/core/version.h>
 #include <ssphh/sh/irradiance.h>
-#include <ssphh/sh/project.h>
 
 static_assert(SSPHH_VERSION_AT_LEAST(0, 1, 0) && !SSPHH_VERSION_AT_LEAST(999, 0, 0));
 
