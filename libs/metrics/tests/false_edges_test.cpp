@@ -94,6 +94,17 @@ TEST(FalseEdges, AreDrawnOnPicturesOfTheirSizeAlone) {
               "edge picture: the picture is not of the map's size");
 }
 
+TEST(FalseEdges, AreDrawnOverThePictureInGreyOfItsOwnBrightness) {
+  const auto halves = [](double x, double) { return vec3(x < 80 ? 1.0f : 0.2f); };
+  const Image light = picture(halves);
+  const FalseEdges edges = found(light, light);
+  const image::Rgba8 drawn = edge_picture(edges, light);
+  const auto red_at = [&](int x) { return drawn.rgba[static_cast<std::size_t>(4 * (45 * width + x))]; };
+  // Of the encoded brightness; 8 bits hold it within 1 of 70.
+  EXPECT_NEAR(static_cast<double>(red_at(130)) / red_at(30), std::pow(0.2, 1 / 2.2), 0.02);
+  EXPECT_LE(red_at(30), 153) << "so that edges are brighter than any light";
+}
+
 TEST(FalseEdges, PlantedStepsAreFoundAndMeasured) {
   const Image truth = noisy(picture(smooth), 0.02f, 1);
   for (const double step : {0.04, 0.08, 0.2}) {
@@ -269,6 +280,9 @@ TEST(FalseEdges, RefuseWhatDoesNotFit) {
             "the normals: it has too few channels");
   EXPECT_EQ(problem({image, {}, {}, {}}, {image, {}, {}, {}}, {.across = 2}),
             "false edges: windows of 2 and 8 pixels are none");
+  EXPECT_EQ(problem({image, {}, {}, {}}, {image, {}, {}, {}}, {.across = 33}),
+            "false edges: windows of 33 and 8 pixels are none");
+  EXPECT_NO_THROW(false_edges({image, {}, {}, {}}, {image, {}, {}, {}}, {.across = 32}));
   EXPECT_EQ(problem({image, {}, {}, {}}, {image, {}, {}, {}}, {.threshold = 0}),
             "false edges: thresholds and floor must be over 0, standard errors at least 0");
 }

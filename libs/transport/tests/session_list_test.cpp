@@ -164,6 +164,29 @@ TEST_F(SessionList, OfRecordsIsTheSameBeforeTheFirstUpdateAndAfterIt) {
   EXPECT_EQ(a.groups, b.groups);
 }
 
+TEST_F(SessionList, OfRecordsThatWereTakenOverFollowTheBallAsBefore) {
+  const std::vector<vec3> positions = {vec3(0)};
+  TransportNetwork network(room_, positions, params().transport);
+  const std::vector<rays::SurfacePoint> points = surfel_points(network);
+  const std::size_t half = points.size() / 2;
+  const std::vector<rays::SurfacePoint> first(points.begin(), points.begin() + static_cast<long>(half)),
+      second(points.begin() + static_cast<long>(half), points.end());
+  SurfaceGather alone(network, second, 64), joined(network, first, 64);
+  joined.append(SurfaceGather(network, second, 64));
+  std::vector<Irradiance4> lit(network.surfel_count());
+  for (std::size_t s = 0; s < lit.size(); ++s) lit[s] = Irradiance4(0.5f + static_cast<float>(s % 7));
+  std::vector<probes::RecordLight> before, of_joined, of_alone;
+  alone.light(lit, before);
+  network.set_time(0.7f);
+  alone.update_pose();
+  joined.update_pose();
+  alone.light(lit, of_alone);
+  joined.light(lit, of_joined);
+  ASSERT_EQ(of_joined.size(), points.size());
+  EXPECT_TRUE(std::equal(of_alone.begin(), of_alone.end(), of_joined.begin() + static_cast<long>(half)));
+  EXPECT_NE(before, of_alone) << "or nothing is tested";
+}
+
 TEST_F(SessionList, OfSurfelsBetweenPoses) {
   RelightParams blended = params();
   blended.poses = 3;
