@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <ssphh/geometry/tetrahedra.h>
 #include <ssphh/methods/vct/pyramid.h>
 
 #include "ddgi/field.h"
 #include "kept_weights.h"
 #include "probe_volume/probe_grid.h"
-#include "probe_volume/tetrahedra.h"
 
 namespace ssphh::methods {
 namespace {
@@ -45,7 +45,7 @@ TEST(KeptBytes, OfVoxelsAreThoseOfAllLevels) {
 }
 
 TEST(KeptBytes, OfTetrahedraGrowWithTheirPoints) {
-  const probe_volume::Tetrahedra four({five.data(), 4}), all(five);
+  const geometry::Tetrahedra four({five.data(), 4}), all(five);
   EXPECT_EQ(four.cells().size(), 1u);
   EXPECT_EQ(four.hull_size(), 4u);
   EXPECT_GT(all.bytes(), four.bytes());

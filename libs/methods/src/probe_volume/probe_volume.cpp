@@ -51,8 +51,8 @@ std::vector<vec3> positions_of(const std::vector<transport::ProbePlace>& places)
 probes::ProbeWeights VolumeWeights::at(const vec3& position) const {
   if (const auto* grid = std::get_if<GridWeights>(&by_)) return grid->at(position);
   probes::ProbeWeights out;
-  const CornerWeights corners = std::get<Tetrahedra>(by_).at(position);
-  for (const probes::ProbeWeight& corner : corners.used()) out.add(corner.probe, corner.weight);
+  const geometry::CornerWeights corners = std::get<geometry::Tetrahedra>(by_).at(position);
+  for (const geometry::CornerWeight& corner : corners.used()) out.add(corner.point, corner.weight);
   return out;
 }
 
@@ -61,7 +61,7 @@ std::size_t VolumeWeights::bytes() const {
 }
 
 std::size_t VolumeWeights::cell_count() const {
-  const auto* tetrahedra = std::get_if<Tetrahedra>(&by_);
+  const auto* tetrahedra = std::get_if<geometry::Tetrahedra>(&by_);
   return tetrahedra ? tetrahedra->cells().size() : 0;
 }
 

@@ -6,19 +6,19 @@
 #include <variant>
 #include <vector>
 
+#include <ssphh/geometry/tetrahedra.h>
 #include <ssphh/methods/method.h>
 #include <ssphh/methods/parameters.h>
 #include <ssphh/transport/relight_session.h>
 
 #include "probe_grid.h"
-#include "tetrahedra.h"
 
 namespace ssphh::methods::probe_volume {
 
 /// How weights at a place are found.
 class VolumeWeights final : public probes::LookupWeights {
  public:
-  explicit VolumeWeights(std::span<const vec3> positions) : by_(Tetrahedra(positions)) {}
+  explicit VolumeWeights(std::span<const vec3> positions) : by_(geometry::Tetrahedra(positions)) {}
   explicit VolumeWeights(const ProbeGrid& grid) : by_(GridWeights(grid)) {}
   probes::ProbeWeights at(const rays::SurfacePoint& point) const override { return at(point.position); }
   probes::ProbeWeights at(const vec3& position) const;
@@ -27,7 +27,7 @@ class VolumeWeights final : public probes::LookupWeights {
   std::size_t cell_count() const;
 
  private:
-  std::variant<Tetrahedra, GridWeights> by_;
+  std::variant<geometry::Tetrahedra, GridWeights> by_;
 };
 
 class ProbeVolume {

@@ -1,5 +1,3 @@
-#include "tetrahedra.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -7,8 +5,9 @@
 #include <tuple>
 
 #include <ssphh/core/error.h>
+#include <ssphh/geometry/tetrahedra.h>
 
-namespace ssphh::methods::probe_volume {
+namespace ssphh::geometry {
 namespace {
 
 constexpr double lattice_places = 1 << 19;
@@ -26,7 +25,7 @@ Tetrahedra::Tetrahedra(std::span<const vec3> points) {
   make_frame(points);
   std::map<std::tuple<int, int, int>, std::int32_t> seen;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const geometry::LatticePoint at(glm::round(place_of(points[i])));
+    const LatticePoint at(glm::round(place_of(points[i])));
     if (!seen.try_emplace({at.x, at.y, at.z}, static_cast<std::int32_t>(i)).second) continue;
     points_.push_back(at);
     index_.push_back(static_cast<std::int32_t>(i));
@@ -85,10 +84,10 @@ Tetrahedra::Place Tetrahedra::place_of(const vec3& p) const {
 }
 
 void Tetrahedra::build_volume() {
-  cells_ = geometry::delaunay(points_);
+  cells_ = delaunay(points_);
   drop_flat_cells();
   std::vector<std::array<std::int32_t, 3>> faces;
-  for (const geometry::Tetrahedron& cell : cells_) {
+  for (const Tetrahedron& cell : cells_) {
     for (std::size_t k = 0; k < 4; ++k)
       if (cell.neighbor[k] < 0)
         faces.push_back({cell.vertex[(k + 1) % 4], cell.vertex[(k + 2) % 4], cell.vertex[(k + 3) % 4]});
@@ -101,9 +100,9 @@ void Tetrahedra::build_volume() {
 /// their outer faces join points from far apart. They are peeled off, unless a point would be left out.
 void Tetrahedra::drop_flat_cells() {
   std::vector<int> uses(points_.size(), 0);
-  for (const geometry::Tetrahedron& cell : cells_)
+  for (const Tetrahedron& cell : cells_)
     for (const std::int32_t v : cell.vertex) ++uses[static_cast<std::size_t>(v)];
-  const auto flat = [&](const geometry::Tetrahedron& cell) {
+  const auto flat = [&](const Tetrahedron& cell) {
     std::array<glm::dvec3, 4> p;
     for (std::size_t k = 0; k < 4; ++k) p[k] = points_[static_cast<std::size_t>(cell.vertex[k])];
     double longest = 0, area2 = 0;
@@ -117,7 +116,7 @@ void Tetrahedra::drop_flat_cells() {
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t c = 0; c < cells_.size(); ++c) {
-      geometry::Tetrahedron& cell = cells_[c];
+      Tetrahedron& cell = cells_[c];
       const bool outside = std::ranges::any_of(cell.neighbor, [](std::int32_t n) { return n < 0; });
       const bool needed = std::ranges::any_of(
           cell.vertex, [&](std::int32_t v) { return uses[static_cast<std::size_t>(v)] == 1; });
@@ -133,13 +132,13 @@ void Tetrahedra::drop_flat_cells() {
     }
   }
   std::vector<std::int32_t> index(cells_.size(), -1);
-  std::vector<geometry::Tetrahedron> kept;
+  std::vector<Tetrahedron> kept;
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     if (gone[c]) continue;
     index[c] = static_cast<std::int32_t>(kept.size());
     kept.push_back(cells_[c]);
   }
-  for (geometry::Tetrahedron& cell : kept)
+  for (Tetrahedron& cell : kept)
     for (std::int32_t& n : cell.neighbor)
       if (n >= 0) n = index[static_cast<std::size_t>(n)];
   cells_ = std::move(kept);
@@ -147,11 +146,11 @@ void Tetrahedra::drop_flat_cells() {
 
 /// An apex off the plane makes its Delaunay triangles faces of a hull.
 void Tetrahedra::build_plane() {
-  std::vector<geometry::LatticePoint> raised = points_;
+  std::vector<LatticePoint> raised = points_;
   raised.push_back({0, 0, static_cast<int>(lattice_places)});
   const auto apex = static_cast<std::int32_t>(points_.size());
   std::vector<std::array<std::int32_t, 3>> triangles;
-  for (const geometry::Tetrahedron& cell : geometry::delaunay(raised)) {
+  for (const Tetrahedron& cell : delaunay(raised)) {
     for (std::size_t k = 0; k < 4; ++k)
       if (cell.vertex[k] == apex)
         triangles.push_back({cell.vertex[(k + 1) % 4], cell.vertex[(k + 2) % 4], cell.vertex[(k + 3) % 4]});
@@ -172,18 +171,18 @@ void Tetrahedra::build_line() {
 
 void Tetrahedra::set_hull(const std::vector<std::array<std::int32_t, 3>>& triangles) {
   hull_corners_ = triangles;
-  std::vector<geometry::Corners> corners;
+  std::vector<Corners> corners;
   for (const auto& triangle : triangles) {
-    geometry::Corners& c = corners.emplace_back();
+    Corners& c = corners.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) c[k] = vec3(points_[static_cast<std::size_t>(triangle[k])]);
   }
-  hull_ = geometry::TriangleTree(corners);
+  hull_ = TriangleTree(corners);
 }
 
 /// About one box per cell; each starts with the cell that holds its middle, or the one found before.
 void Tetrahedra::set_starts() {
   glm::dvec3 low(points_[0]), high(points_[0]);
-  for (const geometry::LatticePoint& p : points_)
+  for (const LatticePoint& p : points_)
     low = glm::min(low, glm::dvec3(p)), high = glm::max(high, glm::dvec3(p));
   const glm::dvec3 size = glm::max(high - low, glm::dvec3(1));
   const double edge = std::cbrt(size.x * size.y * size.z / static_cast<double>(cells_.size()));
@@ -208,7 +207,7 @@ void Tetrahedra::set_starts() {
 std::int32_t Tetrahedra::walk(const Place& p, std::int32_t from, std::array<double, 4>& weight) const {
   std::int32_t now = from;
   for (std::size_t step = 0; step <= cells_.size() && now >= 0; ++step) {
-    const geometry::Tetrahedron& cell = cells_[static_cast<std::size_t>(now)];
+    const Tetrahedron& cell = cells_[static_cast<std::size_t>(now)];
     std::array<glm::dvec3, 4> v;
     for (std::size_t k = 0; k < 4; ++k) v[k] = points_[static_cast<std::size_t>(cell.vertex[k])];
     weight = {volume6(p, v[1], v[2], v[3]), volume6(v[0], p, v[2], v[3]), volume6(v[0], v[1], p, v[3]),
@@ -225,7 +224,7 @@ std::int32_t Tetrahedra::walk(const Place& p, std::int32_t from, std::array<doub
 }
 
 CornerWeights Tetrahedra::on_hull(const Place& p) const {
-  const geometry::TriangleTree::Found found = hull_.nearest(vec3(p));
+  const TriangleTree::Found found = hull_.nearest(vec3(p));
   const auto& corners = hull_corners_[static_cast<std::size_t>(found.triangle)];
   CornerWeights out;
   for (int k = 0; k < 3; ++k) {
@@ -255,9 +254,9 @@ CornerWeights Tetrahedra::at(const vec3& p) const {
 }
 
 std::size_t Tetrahedra::bytes() const {
-  return points_.size() * sizeof(geometry::LatticePoint) + index_.size() * sizeof(std::int32_t) +
-         cells_.size() * sizeof(geometry::Tetrahedron) + hull_.bytes() +
+  return points_.size() * sizeof(LatticePoint) + index_.size() * sizeof(std::int32_t) +
+         cells_.size() * sizeof(Tetrahedron) + hull_.bytes() +
          hull_corners_.size() * sizeof(hull_corners_[0]) + starts_.size() * sizeof(std::int32_t);
 }
 
-}  // namespace ssphh::methods::probe_volume
+}  // namespace ssphh::geometry

@@ -2,17 +2,30 @@
 /// Barycentric interpolation among points in space (Cupisz, Light Probe Interpolation Using Tetrahedral
 /// Tessellations, GDC 2012).
 
+#include <array>
 #include <span>
 #include <vector>
 
 #include <ssphh/geometry/delaunay.h>
 #include <ssphh/geometry/triangle_tree.h>
-#include <ssphh/probes/lookup_weights.h>
+#include <ssphh/scene/query.h>
 
-namespace ssphh::methods::probe_volume {
+namespace ssphh::geometry {
 
-/// Four points at most.
-using CornerWeights = probes::WeightList<4>;
+struct CornerWeight {
+  std::int32_t point;  ///< index among the points given
+  float weight;
+};
+
+/// Of four points at most; the first `count` entries hold.
+struct CornerWeights {
+  std::array<CornerWeight, 4> entries;
+  int count = 0;
+
+  void add(std::int32_t point, float weight) { entries[static_cast<std::size_t>(count++)] = {point, weight}; }
+  std::span<const CornerWeight> used() const& { return {entries.data(), static_cast<std::size_t>(count)}; }
+  void used() const&& = delete;  // the list would be gone
+};
 
 class Tetrahedra {
  public:
@@ -27,7 +40,15 @@ class Tetrahedra {
   /// a cubic equation and meets the same triangle for most points).
   CornerWeights at(const vec3& p) const;
 
-  const std::vector<geometry::Tetrahedron>& cells() const { return cells_; }
+  /// None where the points lie in a plane or on a line. Vertices are indices of lattice points; corners()
+  /// says which of the points given these are.
+  const std::vector<Tetrahedron>& cells() const { return cells_; }
+  /// Of a cell: indices among the points given.
+  std::array<std::int32_t, 4> corners(const Tetrahedron& cell) const {
+    std::array<std::int32_t, 4> points;
+    for (std::size_t k = 0; k < 4; ++k) points[k] = index_[static_cast<std::size_t>(cell.vertex[k])];
+    return points;
+  }
   std::size_t hull_size() const { return hull_.triangles().size(); }
   std::size_t bytes() const;
 
@@ -49,14 +70,14 @@ class Tetrahedra {
   int dimension_ = 3;
   glm::dvec3 origin_{0};
   glm::dmat3 frame_{1};  ///< world to lattice units
-  std::vector<geometry::LatticePoint> points_;
+  std::vector<LatticePoint> points_;
   std::vector<std::int32_t> index_;  ///< of each lattice point among those given
-  std::vector<geometry::Tetrahedron> cells_;
-  geometry::TriangleTree hull_;
+  std::vector<Tetrahedron> cells_;
+  TriangleTree hull_;
   std::vector<std::array<std::int32_t, 3>> hull_corners_;
   std::vector<std::int32_t> starts_;  ///< a cell near the middle of each box of a coarse grid
   glm::ivec3 start_size_{1};
   glm::dvec3 start_low_{0}, start_step_{1};
 };
 
-}  // namespace ssphh::methods::probe_volume
+}  // namespace ssphh::geometry

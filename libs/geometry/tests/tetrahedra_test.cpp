@@ -1,11 +1,10 @@
-#include "probe_volume/tetrahedra.h"
-
 #include <gtest/gtest.h>
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/random.h>
+#include <ssphh/geometry/tetrahedra.h>
 
-namespace ssphh::methods::probe_volume {
+namespace ssphh::geometry {
 namespace {
 
 std::vector<vec3> random_points(int count, std::uint64_t seed) {
@@ -15,7 +14,7 @@ std::vector<vec3> random_points(int count, std::uint64_t seed) {
   return points;
 }
 
-std::vector<vec3> grid(int n, float step) {
+std::vector<vec3> cubic_grid(int n, float step) {
   std::vector<vec3> points;
   for (int z = 0; z < n; ++z)
     for (int y = 0; y < n; ++y)
@@ -27,15 +26,15 @@ template <class Field>
 float blend(const Tetrahedra& tetrahedra, std::span<const vec3> points, const vec3& at, const Field& field) {
   float sum = 0;
   const CornerWeights weights = tetrahedra.at(at);
-  for (const probes::ProbeWeight& w : weights.used())
-    sum += w.weight * field(points[static_cast<std::size_t>(w.probe)]);
+  for (const CornerWeight& w : weights.used())
+    sum += w.weight * field(points[static_cast<std::size_t>(w.point)]);
   return sum;
 }
 
 void expect_partition_of_unity(const Tetrahedra& tetrahedra, const vec3& at) {
   const CornerWeights weights = tetrahedra.at(at);
   float sum = 0;
-  for (const probes::ProbeWeight& w : weights.used()) {
+  for (const CornerWeight& w : weights.used()) {
     EXPECT_GE(w.weight, 0);
     sum += w.weight;
   }
@@ -47,7 +46,7 @@ float linear(const vec3& p) {
 }
 
 TEST(Tetrahedra, LinearFieldsInsideTheHull) {
-  for (const std::vector<vec3>& points : {random_points(200, 1), grid(5, 0.7f)}) {
+  for (const std::vector<vec3>& points : {random_points(200, 1), cubic_grid(5, 0.7f)}) {
     const Tetrahedra tetrahedra(points);
     Pcg32 random(9);
     for (int i = 0; i < 2000; ++i) {
@@ -95,7 +94,7 @@ TEST(Tetrahedra, ContinuousInsideAndOutside) {
 }
 
 TEST(Tetrahedra, OutsideTakesTheHullsNearestPoint) {
-  const std::vector<vec3> points = grid(4, 1);
+  const std::vector<vec3> points = cubic_grid(4, 1);
   const Tetrahedra tetrahedra(points);
   Pcg32 random(5);
   for (int i = 0; i < 500; ++i) {
@@ -106,7 +105,7 @@ TEST(Tetrahedra, OutsideTakesTheHullsNearestPoint) {
 
 /// A tilted grid is rounded, so that its hull is not flat: corners far apart must not be joined over it.
 TEST(Tetrahedra, TiltedGridInterpolatesBetweenNeighbours) {
-  std::vector<vec3> points = grid(6, 1);
+  std::vector<vec3> points = cubic_grid(6, 1);
   const mat3 turn(glm::mat3_cast(glm::normalize(quat(0.8f, 0.3f, 0.4f, 0.2f))));
   for (vec3& p : points) p = turn * p;
   const Tetrahedra tetrahedra(points);
@@ -116,8 +115,8 @@ TEST(Tetrahedra, TiltedGridInterpolatesBetweenNeighbours) {
     at[i % 3] = i % 2 == 0 ? -0.5f : 5.5f;  // before a side
     const vec3 world = turn * at;
     const CornerWeights weights = tetrahedra.at(world);
-    for (const probes::ProbeWeight& w : weights.used())
-      EXPECT_LT(glm::length(points[static_cast<std::size_t>(w.probe)] - world), 2.3f);
+    for (const CornerWeight& w : weights.used())
+      EXPECT_LT(glm::length(points[static_cast<std::size_t>(w.point)] - world), 2.3f);
   }
 }
 
@@ -139,8 +138,7 @@ struct Kite {
         {half, 0, height}, {0, before, 0}, {-half, 0, height}, {0, -behind, 0}, {0, 0, -5}};
     const CornerWeights weights = Tetrahedra(points).at({0, 0, 3});
     bool on_ac = true;
-    for (const probes::ProbeWeight& w : weights.used())
-      on_ac &= w.weight < 1e-3f || w.probe == 0 || w.probe == 2;
+    for (const CornerWeight& w : weights.used()) on_ac &= w.weight < 1e-3f || w.point == 0 || w.point == 2;
     return on_ac;
   }
 };
@@ -184,12 +182,12 @@ TEST(Tetrahedra, CollinearAndCoplanarAndTheSame) {
     const vec3 p = vec3(-1, 0, 4) + 5 * random.uniform() * u + 4 * random.uniform() * v;
     EXPECT_NEAR(blend(on_plane, plane, p + b * glm::cross(u, v), linear), linear(p), 1e-4f);
     const CornerWeights near = on_plane.at(p);
-    for (const probes::ProbeWeight& w : near.used())
-      EXPECT_LT(glm::length(plane[static_cast<std::size_t>(w.probe)] - p), 1.42f);
+    for (const CornerWeight& w : near.used())
+      EXPECT_LT(glm::length(plane[static_cast<std::size_t>(w.point)] - p), 1.42f);
   }
   ASSERT_EQ(on_point.at({9, 9, 9}).count, 1);
   EXPECT_EQ(on_point.at({9, 9, 9}).entries[0].weight, 1);
 }
 
 }  // namespace
-}  // namespace ssphh::methods::probe_volume
+}  // namespace ssphh::geometry

@@ -1,0 +1,168 @@
+#include "commands/probe_export.h"
+
+#include <set>
+
+#include <fmt/format.h>
+
+#include <ssphh/core/file.h>
+#include <ssphh/core/parse_number.h>
+#include <ssphh/probes/probe_file.h>
+#include <ssphh/trace/transport_scene.h>
+
+#include "commands/command.h"
+#include "options/probe_options.h"
+
+namespace ssphh::app {
+namespace {
+
+float spacing_of(const std::string& grid) {
+  if (grid == "auto") return 0;
+  const std::optional<float> metres = parse_number<float>(grid);
+  if (!metres || !(*metres > 0) || !std::isfinite(*metres))
+    throw Error("--grid " + grid, "is neither auto nor a length in metres", "write 0.5, for instance");
+  return *metres;
+}
+
+std::string without_ending(std::string name, std::string_view ending) {
+  if (name.ends_with(ending)) name.resize(name.size() - ending.size());
+  return name;
+}
+
+/// What a file's name may hold of a group's.
+std::string plain(const std::string& group) {
+  std::string name;
+  for (const char c : group) {
+    const bool fits = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
+    name += fits ? c : '_';
+  }
+  return name;
+}
+
+std::vector<std::string> groups_of(const ProbeExportOptions& o, const probes::ProbeSet& set) {
+  std::vector<std::string> groups = o.group;
+  if (o.groups == "separate") {
+    for (const probes::LightGroup& group : set.light_groups) groups.push_back(group.name);
+  }
+  std::set<std::string> names;
+  for (const std::string& group : groups) {
+    if (!names.insert(plain(group)).second)
+      throw Error("light group " + group, "its file would have the name of another group's",
+                  "export them one by one with --group");
+  }
+  return groups;
+}
+
+void check(const ProbeExportOptions& o, const probe_export::Target& target) {
+  const auto need = [](const std::string& value, const char* option) {
+    if (value.empty())
+      throw Error("probe export", fmt::format("{} is missing", option), "see --help, or --list");
+  };
+  need(o.input, "FILE"), need(o.scene.source, "--scene"), need(o.output, "--output");
+  if (!target.grid && o.grid != "auto")
+    throw Error(fmt::format("--to {}", target.name), "has no grid: the probes themselves are written",
+                "leave out --grid");
+}
+
+}  // namespace
+
+ProbeExportResult run_probe_export(const ProbeExportOptions& o, const Control& control) {
+  if (o.list) return {};
+  const probe_export::Target& target = probe_export::find_target(o.to);
+  check(o, target);
+  const float spacing = spacing_of(o.grid);
+  const probes::ProbeSet set = probes::read_probe_file(o.input);
+  const scene::Scene scene = load_lit_scene(o.scene);
+  const trace::TransportScene rays(scene);
+  require_same_scene(o.input, set, scene, rays.light_groups(), {}, o.force);
+
+  const std::string stem = without_ending(o.output, target.ending);
+  ProbeExportResult result;
+  const auto write = [&](const probes::ProbeSet& light, const std::string& path) {
+    probe_export::ExportSource source{light, rays};
+    if (o.emitted) source.light = probes::ProbeLight::all;
+    source.grid.spacing = spacing;
+    const probe_export::Exported exported =
+        target.write(source, std::filesystem::path(path).filename().string(), control);
+    for (const probe_export::ExportFile& file : exported.files) {
+      result.files.push_back(path + (file.ending.empty() ? std::string(target.ending) : file.ending));
+      result.bytes += file.data.size();
+      write_file(result.files.back(), file.data);
+    }
+    result.points = exported.points, result.filled = exported.filled, result.notes = exported.notes;
+    result.lost = probe_export::lost(light, target);
+  };
+  const std::vector<std::string> groups = groups_of(o, set);
+  for (const std::string& group : groups)
+    write(probe_export::only_group(set, group), stem + "-" + plain(group));
+  if (groups.empty()) write(set, stem);
+  return result;
+}
+
+json::Value to_json(const ProbeExportResult& result, const ProbeExportOptions& o) {
+  if (o.list) {
+    json::Value list = json::Value::array();
+    for (const probe_export::Target& t : probe_export::targets()) {
+      list.push_back({{"name", t.name},
+                      {"about", t.about},
+                      {"carries", t.carries},
+                      {"loses", t.loses},
+                      {"ending", t.ending}});
+    }
+    return {{"targets", std::move(list)}};
+  }
+  return {{"to", o.to},
+          {"files", result.files},
+          {"points", result.points},
+          {"filled", result.filled},
+          {"bytes", result.bytes},
+          {"lost", result.lost},
+          {"notes", result.notes}};
+}
+
+std::string to_text(const ProbeExportResult& result, const ProbeExportOptions& o) {
+  std::string text;
+  if (o.list) {
+    for (const probe_export::Target& t : probe_export::targets()) {
+      text += fmt::format("{}{}: {}\n  carries  {}\n  loses    {}", text.empty() ? "" : "\n", t.name, t.about,
+                          t.carries, t.loses);
+    }
+    return text;
+  }
+  for (const std::string& file : result.files) text += file + "\n";
+  text += fmt::format("{} points ({} within bodies, out of sight or added: light of neighbours), {} bytes",
+                      result.points, result.filled, result.bytes);
+  for (const std::string& line : result.notes) text += "\nnote: " + line;
+  for (const std::string& line : result.lost) text += "\nnot carried: " + line;
+  return text;
+}
+
+void add_probe_export_command(Command group, Context& context) {
+  auto [command, o] =
+      add_command(group, context, "export", "Write a probe file's light for an engine", run_probe_export);
+  add_probe_file(command, "FILE", o.input, "Probe file");
+  add_scene_options(command, o.scene, false, "--scene");
+  command["--scene"].required(false);
+  std::vector<std::string> names;
+  for (const probe_export::Target& target : probe_export::targets()) names.emplace_back(target.name);
+  command.option("--to", o.to, "Engine or format").one_of(names);
+  command.option("-o,--output", o.output, "File to write; the format's ending is added");
+  command.option("--grid", o.grid,
+                 "Metres between the points of a grid, where the format has one; auto: some 8,000 points");
+  const Option some =
+      command.option("--group", o.group, "Write this light group alone, to OUT-GROUP").repeatable();
+  command.option("--groups", o.groups, "One file of all light groups, or a file for each, OUT-GROUP")
+      .one_of({"sum", "separate"})
+      .excludes(some);
+  command.flag("--emitted", o.emitted,
+               "With light straight from emitters that probes see, for an engine that lacks these lamps");
+  command.flag("--list", o.list, "Tell what each format carries and loses");
+  add_force_option(command, o.force);
+  command.footer(
+      "Grids are resampled from this project's lookup, which knows what hides what; points within bodies or "
+      "out of\n"
+      "all probes' sight take the light of neighbours. Only indirect light is written, unless --emitted or a "
+      "light\n"
+      "group's mode says otherwise. FILE, --scene, --to and --output are needed unless --list is given.");
+}
+
+}  // namespace ssphh::app

@@ -1,0 +1,67 @@
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+#include <glm/gtc/packing.hpp>
+
+#include <ssphh/core/enum_names.h>
+#include <ssphh/probe_export/target.h>
+
+#include "writers.h"
+
+namespace ssphh::probe_export {
+namespace {
+
+constexpr std::array table = {
+    Target{"csv", "one line per probe, for scripts and importers of one's own",
+           "every probe: name, place, radius and the radiance it holds, all bands, summed over groups",
+           "edges, fitted weights, surface records", ".csv", sh::max_degree, false, false, write_csv},
+    Target{"three", "three.js LightProbeGridWebGL: a JSON header and its texture as half floats",
+           "a grid of radiance of degree 2, resampled by this project's lookup, cells laid along walls",
+           "bands above 2, fitted weights, surface records; the engine hides nothing itself", ".json", 2,
+           true, false, write_three},
+    Target{"godot", "Godot 4 LightmapGIData.probe_data: a text resource",
+           "every probe's radiance of degree 2, tetrahedra between the probes and the planes that find them",
+           "bands above 2, fitted weights, surface records; the engine hides nothing itself", ".tres", 2,
+           false, false, write_godot},
+    Target{"bevy", "Bevy IrradianceVolume: ambient cubes as half floats, and a JSON file with its place",
+           "a grid of irradiance along six axes, each asked for before the surface there that faces it",
+           "all between the axes, fitted weights, surface records; the engine hides nothing itself",
+           ".vxgi.ktx2", 2, true, false, write_bevy},
+};
+
+}  // namespace
+
+std::span<const Target> targets() {
+  return table;
+}
+
+const Target& find_target(std::string_view name) {
+  std::vector<std::string> known;
+  for (const Target& target : table) {
+    if (target.name == name) return target;
+    known.emplace_back(target.name);
+  }
+  throw Error("export target", none_of(name, known));
+}
+
+std::vector<std::byte> bytes_of(std::string_view text) {
+  const auto* begin = reinterpret_cast<const std::byte*>(text.data());
+  return {begin, begin + text.size()};
+}
+
+void write_half(ByteWriter& out, float value, const char* what) {
+  constexpr float most = 65504;
+  if (!(std::abs(value) <= most)) {
+    throw Error(what, fmt::format("{:g} is more than a half float holds", value),
+                "scale the scene's lights down, and the engine's exposure up");
+  }
+  out.value(glm::packHalf1x16(value));
+}
+
+LightGrid make_grid(const ExportSource& source, const Control& control) {
+  const FreeLight light(source.set, source.scene, source.light);
+  return resample(source.set, light, source.scene, fit_grid(source.set, light, source.grid), control);
+}
+
+}  // namespace ssphh::probe_export

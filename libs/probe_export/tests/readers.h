@@ -1,0 +1,96 @@
+#pragma once
+/// What engines do with the files, written from their shaders' descriptions.
+
+#include <gtest/gtest.h>
+
+#include <ssphh/core/json.h>
+
+#include "field_sets.h"
+
+namespace ssphh::probe_export {
+
+inline vec3 triple(const json::Value& v) {
+  return {static_cast<float>(v[0].number()), static_cast<float>(v[1].number()),
+          static_cast<float>(v[2].number())};
+}
+
+/// three.js r187, lightprobes_pars_fragment: E(n) at a surface.
+class ThreeReader {
+ public:
+  explicit ThreeReader(const Exported& exported) {
+    const json::Value header = json::parse(text_of(exported.files.at(0)), "header");
+    low_ = triple(header["min"]), high_ = triple(header["max"]), resolution_ = triple(header["resolution"]);
+    const json::Value& t = header["texture"];
+    texture_ = texture({*t["width"].integer(), *t["height"].integer(), *t["depth"].integer()},
+                       exported.files.at(1).data);
+    EXPECT_EQ(exported.files[1].data.size(),
+              static_cast<std::size_t>(8 * texture_.size.x * texture_.size.y * texture_.size.z));
+  }
+
+  vec3 cell() const { return (high_ - low_) / resolution_; }
+  /// Whether the grid lights the place at all.
+  bool holds(const vec3& at, const vec3& n) const {
+    const vec3 place = at + 0.5f * cell() * n, more = 0.01f * cell();
+    return glm::all(glm::greaterThanEqual(place, low_ - more)) &&
+           glm::all(glm::lessThanEqual(place, high_ + more));
+  }
+  vec3 irradiance(const vec3& at, const vec3& n) const {
+    const vec3 range = high_ - low_, place = at + 0.5f * range / resolution_ * n;
+    const vec3 uvw = glm::clamp((place - low_) / range, 0.5f / resolution_, 1.0f - 0.5f / resolution_);
+    const float padded = resolution_.z + 2;
+    float numbers[28];
+    for (int t = 0; t < 7; ++t) {
+      const float z = (uvw.z * resolution_.z + 1 + static_cast<float>(t) * padded) / (7 * padded);
+      const vec4 four = texture_.sample({uvw.x, uvw.y, z});
+      for (int c = 0; c < 4; ++c) numbers[4 * t + c] = four[c];
+    }
+    const auto c = [&](int k) { return vec3(numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]); };
+    vec3 e = c(0) * 0.886227f;
+    e += 2 * 0.511664f * (c(1) * n.y + c(2) * n.z + c(3) * n.x);
+    e += 2 * 0.429043f * (c(4) * n.x * n.y + c(5) * n.y * n.z + c(7) * n.x * n.z);
+    e += c(6) * (0.743125f * n.z * n.z - 0.247708f) + c(8) * 0.429043f * (n.x * n.x - n.y * n.y);
+    return glm::max(e, vec3(0));
+  }
+
+ private:
+  vec3 low_, high_, resolution_;
+  Texture3 texture_;
+};
+
+/// Bevy, irradiance_volume.wgsl: E(n)/π at a place.
+class BevyReader {
+ public:
+  explicit BevyReader(const Exported& exported) {
+    const json::Value place = json::parse(text_of(exported.files.at(1)), "place");
+    translation_ = triple(place["translation"]), scale_ = triple(place["scale"]);
+    ByteReader file(exported.files.at(0).data, "ktx2");
+    file.view("identifier", 12);
+    EXPECT_EQ(file.value<std::uint32_t>("format"), 97u);  // VK_FORMAT_R16G16B16A16_SFLOAT
+    EXPECT_EQ(file.value<std::uint32_t>("type size"), 2u);
+    glm::ivec3 size;
+    for (int axis = 0; axis < 3; ++axis) size[axis] = static_cast<int>(file.value<std::uint32_t>("size"));
+    file.view("to the level index", 80 - 32);
+    const auto at = file.value<std::uint64_t>("offset"), bytes = file.value<std::uint64_t>("length");
+    EXPECT_EQ(at % 8, 0u);
+    EXPECT_EQ(at + bytes, exported.files[0].data.size());
+    texture_ = texture(size, std::span(exported.files[0].data).subspan(at, bytes));
+  }
+
+  vec3 diffuse(const vec3& at, const vec3& n) const {
+    const vec3 atlas(texture_.size), resolution = atlas / vec3(1, 2, 3);
+    const vec3 unit = (at - translation_) / scale_;
+    const vec3 uvw = glm::clamp((unit + 0.5f) * resolution, vec3(0.5f), resolution - 0.5f) / atlas;
+    vec3 sum(0);
+    for (int axis = 0; axis < 3; ++axis) {
+      const float below = n[axis] < 0 ? 0.5f : 0.0f;
+      sum += n[axis] * n[axis] * vec3(texture_.sample(uvw + vec3(0, below, static_cast<float>(axis) / 3)));
+    }
+    return sum;
+  }
+
+ private:
+  vec3 translation_, scale_;
+  Texture3 texture_;
+};
+
+}  // namespace ssphh::probe_export

@@ -1,0 +1,128 @@
+// Light of known size comes out of each file by the engine's own arithmetic as it went in.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <ssphh/core/random.h>
+
+#include "error_message.h"
+#include "expect_near.h"
+#include "readers.h"
+
+namespace ssphh::probe_export {
+namespace {
+
+Exported exported(const char* target, const probes::ProbeSet& set, float spacing = 0.25f) {
+  ExportSource source{set, open_space};
+  source.grid.spacing = spacing;
+  return find_target(target).write(source, "grid", {});
+}
+
+/// Moving least squares keep slopes a little flat (mls_ridge, 5 %), half floats have 11 bits.
+constexpr float for_half_floats = 0.03f, for_ridge = 0.25f;
+
+template <class Check>
+void for_places(const Check& check) {
+  Pcg32 random(3);
+  for (int i = 0; i < 300; ++i) {
+    const vec3 at = 1.2f * random.uniform3() - 0.6f;
+    check(at, glm::normalize(2.0f * random.uniform3() - 1.0f));
+  }
+}
+
+TEST(Scales, ThreeReadsIrradiance) {
+  for (const bool linear : {false, true}) {
+    const ThreeReader reader(exported("three", field_set(linear)));
+    for_places([&](const vec3& at, const vec3& n) {
+      ASSERT_TRUE(reader.holds(at, n));
+      // The engine looks half a cell along the normal.
+      const vec3 place = at + 0.5f * reader.cell() * n;
+      test::expect_near(reader.irradiance(at, n), field_irradiance(place, n, linear),
+                        linear ? for_ridge : for_half_floats);
+    });
+  }
+}
+
+TEST(Scales, BevyReadsIrradianceOverPiAlongTheAxes) {
+  for (const bool linear : {false, true}) {
+    const BevyReader reader(exported("bevy", field_set(linear)));
+    for_places([&](const vec3& at, const vec3&) {
+      for (int axis = 0; axis < 3; ++axis) {
+        for (const float sign : {-1.0f, 1.0f}) {
+          vec3 n(0);
+          n[axis] = sign;
+          test::expect_near(reader.diffuse(at, n), field_irradiance(at, n, linear) / pi,
+                            (linear ? for_ridge : for_half_floats) / pi);
+        }
+      }
+    });
+  }
+}
+
+TEST(Scales, CsvHoldsEveryProbesRadianceOfAllBands) {
+  const probes::ProbeSet set = field_set(true, 3);
+  const Exported file = exported("csv", set);
+  std::string line = "name,x,y,z,radius";
+  for (int k = 0; k < 16; ++k) line += fmt::format(",r{0},g{0},b{0}", k);
+  for (const probes::Probe& p : set.probes) {
+    line += fmt::format("\n\"{}\",{},{},{},{}", p.name, p.position.x, p.position.y, p.position.z, p.radius);
+    for (const vec3& v : p.reflected.values) line += fmt::format(",{},{},{}", v.x, v.y, v.z);
+  }
+  EXPECT_EQ(text_of(file.files[0]), line + "\n");
+  test::expect_near(set.probes[7].reflected[2], field(2, set.probes[7].position, true));
+}
+
+TEST(Scales, AGroupAloneIsItsShareOfTheSum) {
+  probes::ProbeSet set = field_set(false);
+  set.light_groups.push_back({"sky", vec3(1)});
+  for (probes::Probe& probe : set.probes) probe.groups.push_back({{}, sh::RadianceSh(2)});
+  for (probes::Probe& probe : set.probes) probe.groups[1].reflected[0] = vec3(1, 2, 3);
+  probes::merge_groups(set);
+  const vec3 at(0.1f, 0.2f, 0.3f), up(0, 1, 0);
+  const vec3 both = ThreeReader(exported("three", set)).irradiance(at, up);
+  const vec3 lamp = ThreeReader(exported("three", only_group(set, "lamp"))).irradiance(at, up);
+  const vec3 sky = ThreeReader(exported("three", only_group(set, "sky"))).irradiance(at, up);
+  test::expect_near(sky, 0.886227f * vec3(1, 2, 3), for_half_floats);
+  test::expect_near(lamp + sky, both, for_half_floats);
+  EXPECT_THAT(test::message_of([&] { only_group(set, "moon"); }), testing::HasSubstr("none of: lamp, sky"));
+}
+
+TEST(Scales, WhatHasNoHalfFloatIsNamed) {
+  probes::ProbeSet set = field_set(false);
+  relight(set, "lamp", vec3(1e5f));
+  EXPECT_THAT(test::message_of([&] { exported("three", set); }),
+              testing::HasSubstr("is more than a half float holds"));
+}
+
+TEST(Grid, TooManyPointsAreNamedWithMetresThatFit) {
+  const probes::ProbeSet set = field_set(false);
+  const FreeLight light(set, open_space, probes::ProbeLight::reflected);
+  GridParams params{.spacing = 0.002f};
+  const std::string said = test::message_of([&] { fit_grid(set, light, params); });
+  EXPECT_THAT(said, testing::HasSubstr("0.002 m make 1e+09 points of 2 x 2 x 2 m"));
+  const std::size_t at = said.find('(');
+  ASSERT_NE(at, std::string::npos) << said;
+  params.spacing = std::stof(said.substr(at + 1));
+  EXPECT_GT(fit_grid(set, light, params).count(), params.most / 2);
+}
+
+TEST(Losses, NameWhatASetHasAndATargetHasNot) {
+  const probes::ProbeSet plain = field_set(false);
+  const std::vector<std::string> few = lost(plain, find_target("three"));
+  EXPECT_THAT(few, testing::ElementsAre(testing::HasSubstr("poses"), testing::HasSubstr("visibility")));
+  probes::ProbeSet set = field_set(false, 4);
+  set.light_groups = {{"lamp", vec3(2)}, {"sky", vec3(1), scene::LightMode::baked}};
+  for (probes::Probe& probe : set.probes) probe.groups.push_back({sh::RadianceSh(4), sh::RadianceSh(4)});
+  set.surface.emplace().points.resize(3);
+  set.fitted.emplace();
+  set.probes[0].edges.push_back({1, 0.5f, sh::RadianceSh(4), {}});
+  set.hierarchy.emplace();
+  const std::vector<std::string> many = lost(set, find_target("three"));
+  for (const char* word : {"bands 3 to 4", "lamp, sky are summed", "baked groups is within (sky)",
+                           "3 surface records", "fitted weights", "1 edges", "hierarchy"})
+    EXPECT_THAT(many, testing::Contains(testing::HasSubstr(word)));
+  EXPECT_THAT(test::message_of([&] { only_group(set, "sky"); }), testing::HasSubstr("hierarchy"));
+}
+
+}  // namespace
+}  // namespace ssphh::probe_export
