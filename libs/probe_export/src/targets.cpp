@@ -15,7 +15,7 @@ namespace {
 constexpr std::array table = {
     Target{"csv", "one line per probe, for scripts and importers of one's own",
            "every probe: name, place, radius and the radiance it holds, all bands, summed over groups",
-           "edges, fitted weights, surface records", ".csv", sh::max_degree, false, false, write_csv},
+           "edges, fitted weights, surface records", ".csv", sh::max_degree, false, true, write_csv},
     Target{"three", "three.js LightProbeGridWebGL: a JSON header and its texture as half floats",
            "a grid of radiance of degree 2, resampled by this project's lookup, cells laid along walls",
            "bands above 2, fitted weights, surface records; the engine hides nothing itself", ".json", 2,

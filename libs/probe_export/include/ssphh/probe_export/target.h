@@ -40,7 +40,7 @@ struct Target {
   std::string_view ending;  ///< of its files' names
   int degree;               ///< highest that it carries
   bool grid;                ///< resampled on a grid
-  bool hides;               ///< what it looks up knows what hides what
+  bool hides;               ///< what reads it may know what hides what: it names no lookup
   /// `name`: of the file, without folder and ending, for files that name each other.
   Exported (*write)(const ExportSource& source, const std::string& name, const Control& control);
 };
