@@ -43,6 +43,23 @@ TEST(Scales, ThreeReadsIrradiance) {
   }
 }
 
+TEST(Scales, SubVolumesForThreeEndInCopiesOfTheirOuterSlices) {
+  const Exported file = exported("three", field_set(true));
+  const json::Value size = json::parse(text_of(file.files[0]), "header")["resolution"];
+  const auto slices = static_cast<std::size_t>(*size[2].integer());
+  const std::size_t slice = 8 * static_cast<std::size_t>(*size[0].integer() * *size[1].integer());
+  const auto at = [&](std::size_t volume, std::size_t z) {
+    const auto begin =
+        file.files[1].data.begin() + static_cast<std::ptrdiff_t>((volume * (slices + 2) + z) * slice);
+    return std::vector<std::byte>(begin, begin + static_cast<std::ptrdiff_t>(slice));
+  };
+  for (std::size_t volume = 0; volume < 7; ++volume) {
+    EXPECT_EQ(at(volume, 0), at(volume, 1));
+    EXPECT_EQ(at(volume, slices + 1), at(volume, slices));
+    EXPECT_NE(at(volume, 0), at(volume, slices));
+  }
+}
+
 TEST(Scales, BevyReadsIrradianceOverPiAlongTheAxes) {
   for (const bool linear : {false, true}) {
     const BevyReader reader(exported("bevy", field_set(linear)));
