@@ -8,6 +8,7 @@
 #include "error_message.h"
 #include "expect_near.h"
 #include "readers.h"
+#include "thread_count.h"
 
 namespace ssphh::probe_export {
 namespace {
@@ -102,6 +103,17 @@ TEST(Scales, AGroupAloneIsItsShareOfTheSum) {
   test::expect_near(sky, 0.886227f * vec3(1, 2, 3), for_half_floats);
   test::expect_near(lamp + sky, both, for_half_floats);
   EXPECT_THAT(test::message_of([&] { only_group(set, "moon"); }), testing::HasSubstr("none of: lamp, sky"));
+}
+
+TEST(Scales, SameBitsWhateverTheNumberOfThreads) {
+  for (const char* target : {"three", "bevy"}) {
+    const Exported one = [&] {
+      const test::Threads limit(1);
+      return exported(target, field_set(true));
+    }();
+    const Exported many = exported(target, field_set(true));
+    for (std::size_t i = 0; i < one.files.size(); ++i) EXPECT_EQ(one.files[i].data, many.files[i].data);
+  }
 }
 
 TEST(Scales, WhatHasNoHalfFloatIsNamed) {
