@@ -84,11 +84,16 @@ TEST_F(ProbeTool, InfoHoldsEverythingOfTheFile) {
   EXPECT_EQ(info["fitted"], 0);
   EXPECT_FALSE(info.contains("hierarchy"));
   EXPECT_EQ(info["generator"], json::Value({{"operator", "path"},
-                                            {"viz", "links"},
                                             {"gen", "local"},
                                             {"max_depth", 5},
                                             {"passes", 2},
                                             {"spp", 7},
+                                            {"viz", "links"},
+                                            {"viz_source", "intensity"},
+                                            {"viz_paths", "all"},
+                                            {"viz_max_depth", 3},
+                                            {"viz_passes", 1},
+                                            {"viz_spp", 16},
                                             {"face_size", 9},
                                             {"seed", 11},
                                             {"directions", 64},
@@ -147,7 +152,8 @@ TEST_F(ProbeTool, InfoForPeopleTellsTheSame) {
       testing::StartsWith(
           file_ + ": 3 probes of degree 1, 6 edges\n"
                   "scene rooms at 1.5 s; light by path, edges by links\n"
-                  "paths: GEN local, depth 5, 2 x 7 samples, 9x9x6 texels, seed 11\n"
+                  "GEN local: paths of depth 5, 2 x 7 samples\n"
+                  "9x9x6 texels, seed 11\nP of SPHLs of intensity 1\n"
                   "transport: 64 directions a probe, surfels of 0.25 m, 16 link rays\n"
                   "light group lamp, scale 1 0.5 0.25, realtime\nlight group sky, scale 2 2 2, realtime\n"
                   "mean radiance R, G, B [W/sr/m2] over all directions:\n"
@@ -166,7 +172,7 @@ TEST_F(ProbeTool, InfoForPeopleTellsTheSame) {
   for (probes::Probe& probe : bare.probes) probe.edges.clear();
   probes::write_probe_file(bare, file_);
   const std::string less = text_here({"probe", "info", file_});
-  EXPECT_THAT(less, testing::AllOf(testing::Not(HasSubstr("paths:")), testing::Not(HasSubstr("transport:")),
+  EXPECT_THAT(less, testing::AllOf(testing::Not(HasSubstr("paths of")), testing::Not(HasSubstr("transport:")),
                                    testing::EndsWith("     P  no edges")));
 }
 

@@ -20,9 +20,10 @@ namespace {
 using Tables =
     testing::Types<LogLevel, image::Layout, image::ToneCurve, sh::Convention, sh::NonNegative, scene::Wrap,
                    scene::AlphaMode, scene::LightType, trace::Projection, probes::LightOperator,
-                   probes::VizMethod, probes::GenMode, probes::HierOperator, probes::WeightMethod,
-                   probes::LookupMethod, probes::ProbeLayer, study::ProbeProblem, bake::BakeStage,
-                   methods::vct::Storage, methods::vpl::VplKind, majordomo::Outcome, farm::JobKind>;
+                   rays::PathSet, probes::VizMethod, probes::VizSource, probes::GenMode, probes::HierOperator,
+                   probes::WeightMethod, probes::LookupMethod, probes::ProbeLayer, study::ProbeProblem,
+                   bake::BakeStage, methods::vct::Storage, methods::vpl::VplKind, majordomo::Outcome,
+                   farm::JobKind>;
 INSTANTIATE_TYPED_TEST_SUITE_P(OfLibraries, EnumTable, Tables);
 
 }  // namespace

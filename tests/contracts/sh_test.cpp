@@ -51,6 +51,10 @@ std::vector<Contract> of_values() {
           "CoefficientProduct", "OfOtherDegrees", [] { return std::make_unique<RadianceSh>(2); },
           [](RadianceSh& sum) { sh::add_coefficient_product(sum, RadianceSh(2), RadianceSh(1)); },
           {"coefficient product", "one degree"}, [](RadianceSh& sum) { EXPECT_EQ(sum, RadianceSh(2)); }),
+      refuses(
+          "RawProduct", "OfOtherDegrees", [] { return std::make_unique<RadianceSh>(2); },
+          [](RadianceSh& sum) { sh::add_raw_product(sum, RadianceSh(1), RadianceSh(2)); },
+          {"raw product", "one degree"}, [](RadianceSh& sum) { EXPECT_EQ(sum, RadianceSh(2)); }),
       refuses("MeanProduct", "OfASourceWithoutMean",
               [] {
                 RadianceSh sum(2);

@@ -212,6 +212,28 @@ TEST_P(EveryWeight, InAnEmptyRoomEveryPixelIsTheCpus) {
 INSTANTIATE_TEST_SUITE_P(Lookups, EveryWeight, testing::ValuesIn(all_weights),
                          [](const auto& given) { return given.param.name; });
 
+// Radiance L from everywhere leaves ρ L of every wall, the SPHLs being lights, from in front to grazing.
+TEST_F(LookupPixels, OfAConstantFieldSphlsAsLightsLeaveTheSameAtEveryAngle) {
+  const vec3 level(0.5f, 1, 2);
+  const scene::Scene scene = room(matte(vec3(1)));
+  probes::ProbeSet probes = smooth_probes(eight());
+  for (probes::Probe& probe : probes.probes) {
+    for (probes::GroupLight& light : probe.groups) {
+      std::ranges::fill(light.reflected.values, vec3(0));
+      light.reflected[0] = std::sqrt(4 * pi) / static_cast<float>(probe.groups.size()) * level;
+    }
+  }
+  for (probes::LightGroup& group : probes.light_groups) group.scale = vec3(1);
+  probes::merge_groups(probes);
+  const trace::TransportScene source(scene);
+  const PixelPoints points(source, pose_of(scene, ""), lookup_size);
+  realtime::Renderer renderer(gl(), scene);
+  renderer.set_probes(probes);
+  const image::Image truth = points.picture([&](const PixelPoint& p) { return p.hit.albedo * level; });
+  EXPECT_TRUE(picture_is(draw(renderer, scene, "", LookupMethod::light, WeightMethod::distance),
+                         bounds_of(points, truth, tile)));
+}
+
 // Cells with fewer probes around them have shorter lists than others. Behind their end stands the origin of
 // the world, which is nearer to this floor than any probe.
 TEST_F(LookupPixels, WhatStandsBehindTheEndOfAListIsNoProbe) {

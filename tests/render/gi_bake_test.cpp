@@ -80,7 +80,9 @@ TEST(GiBake, TwoProbesInEmptySpaceSeeTheSolidAngle) {
   silence_warnings();
   for (const float d : {1.0f, 3.0f, 20.0f}) {
     const float r = 0.25f;
-    const probes::ProbeSet set = bake(empty_space({{0, 0, 0}, {0, d, 0}}, r), 2, effort(32, 16, 3));
+    bake::BakeParams params = effort(32, 16, 3);
+    params.viz_params.source = probes::VizSource::radiance;
+    const probes::ProbeSet set = bake(empty_space({{0, 0, 0}, {0, d, 0}}, r), 2, params);
     const double omega = 2 * pi_d * (1 - std::sqrt(1 - double(r) * r / (double(d) * d)));
     for (const probes::Probe& probe : set.probes) {
       ASSERT_EQ(probe.edges.size(), 1u);
@@ -98,6 +100,7 @@ TEST(GiBake, AMatrixOverAllEmissionDirectionsIsTheResponse) {
   scene.sphls.resize(3);
   bake::BakeParams params = effort(8, 4, 2);
   params.viz_params.matrix = true;
+  params.viz_params.source = probes::VizSource::radiance;
   const probes::ProbeSet set = bake(scene, 2, params);
   std::size_t edges = 0;
   for (const probes::Probe& probe : set.probes) {

@@ -50,7 +50,7 @@ TEST(LinkViz, WithoutReflectionASphereIsItsDisc) {
   const float r = 0.25f;
   const std::vector<vec3> places = {{0, 0, 0}, {0, 1, 0}, {0, 0, 3}, {0.1f, 0.1f, 0}};
   for (const vec3& p : places) add_sphl(scene, "SPHL", p, r);
-  const probes::ProbeSet set = with_edges(scene, 2);
+  const probes::ProbeSet set = with_edges(scene, 2, {.source = probes::VizSource::radiance});
   for (std::size_t i = 0; i < places.size(); ++i) {
     ASSERT_EQ(set.probes[i].edges.size(), places.size() - 1);
     for (const probes::Edge& e : set.probes[i].edges) {
@@ -74,7 +74,7 @@ TEST(LinkViz, WhatStandsInFrontHidesAsMuchOfTheSphereAsItCovers) {
   add_sphl(scene, "half", {0, 0, 3}, 0.2f);
   add_sphl(scene, "whole", {0, -0.5f, 3}, 0.2f);
   add_sphl(scene, "hidden", {0, 0.5f, 3}, 0.2f);
-  const probes::ProbeSet set = with_edges(scene, 1);
+  const probes::ProbeSet set = with_edges(scene, 1, {.source = probes::VizSource::radiance});
   const double sine = 0.2 / 3, share = (1 - std::sqrt(1 - sine * sine)) / 2;
   ASSERT_TRUE(edge(set, 0, 1));
   EXPECT_NEAR(double(edge(set, 0, 1)->transfer), share / 2, share / 16);  // one of 16 rays
@@ -192,7 +192,7 @@ TEST(LinkViz, KeepsTheStrongestNeighboursOverTheThreshold) {
     EXPECT_TRUE(std::ranges::is_sorted(all.probes[i].edges, {}, &probes::Edge::from));
   }
   EXPECT_THROW(with_edges(scene, 1, {.neighbors = -2}), Error);
-  EXPECT_THROW(with_edges(scene, 1, {.threshold = 1.5f}), Error);
+  EXPECT_THROW(with_edges(scene, 1, {.threshold = -0.5f}), Error);
 }
 
 TEST(LinkViz, TracedEdgesAreCutAlike) {

@@ -40,6 +40,7 @@ std::unique_ptr<methods::Method> make_small(const methods::MethodEntry& entry, c
                                             const rays::TransportSource& source) {
   static const std::map<std::string, std::vector<std::string>> small = {
       {"ssphh", {"probes=8", "directions=64", "surfel_size=0.4"}},
+      {"ssphh-paper", {"degree=3", "face=8", "spp=2", "viz_spp=1"}},
       {"irradiance-volume", {"probes=8", "directions=64", "surfel_size=0.4"}},
       {"prt", {"probes=8", "directions=64", "surfel_size=0.4", "rays=32", "edge=0.5"}},
       {"vpl", {"photons=256", "cluster_error=0.02"}},

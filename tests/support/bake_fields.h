@@ -8,20 +8,23 @@
 namespace ssphh::test {
 
 void fields(auto& visit, bake::VizParams& p) {
-  auto& [matrix, neighbors, threshold] = p;
+  auto& [matrix, neighbors, threshold, source, paths] = p;
   visit("matrix", matrix), visit("neighbors", neighbors), visit("threshold", threshold);
+  visit("source", source), visit("paths", paths);
 }
 void fields(auto& visit, bake::BakeParams& p) {
-  auto& [gen, path, face_size, keep_light, viz, viz_params, only, only_groups] = p;
+  auto& [gen, path, face_size, keep_light, viz, viz_params, viz_path, only, only_groups] = p;
   visit("gen", gen), visit("path", path), visit("face_size", face_size), visit("keep_light", keep_light);
-  visit("viz", viz), visit("viz_params", viz_params), visit("only", only);
+  visit("viz", viz), visit("viz_params", viz_params), visit("viz_path", viz_path), visit("only", only);
   visit("only_groups", only_groups);
 }
 void fields(auto& visit, probes::GeneratorInfo& g) {
-  auto& [op, viz, gen, max_depth, passes, spp, face_size, seed, directions, surfel_size, link_rays, scene,
-         scene_hash, time] = g;
-  visit("op", op), visit("viz", viz), visit("gen", gen), visit("max_depth", max_depth);
-  visit("passes", passes), visit("spp", spp), visit("face_size", face_size), visit("seed", seed);
+  auto& [op, viz, viz_source, gen, max_depth, passes, spp, viz_paths, viz_max_depth, viz_passes, viz_spp,
+         face_size, seed, directions, surfel_size, link_rays, scene, scene_hash, time] = g;
+  visit("op", op), visit("viz", viz), visit("viz_source", viz_source), visit("gen", gen);
+  visit("max_depth", max_depth), visit("passes", passes), visit("spp", spp), visit("viz_paths", viz_paths);
+  visit("viz_max_depth", viz_max_depth), visit("viz_passes", viz_passes), visit("viz_spp", viz_spp);
+  visit("face_size", face_size), visit("seed", seed);
   visit("directions", directions), visit("surfel_size", surfel_size), visit("link_rays", link_rays);
   visit("scene", scene), visit("scene_hash", scene_hash), visit("time", time);
 }

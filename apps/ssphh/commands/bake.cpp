@@ -18,7 +18,7 @@ namespace {
 struct BakeUses {
   std::string viz;
   std::optional<bake::Quality> quality;
-  std::vector<Option> of_paths, of_transport, of_viz, not_of_update;
+  std::vector<Option> of_paths, of_transport, of_viz, of_viz_paths, not_of_update;
 };
 
 std::vector<std::string> names_of_given(const std::vector<Option>& options) {
@@ -59,7 +59,23 @@ void add_viz_options(const Command& viz, BakeOptions& options, BakeUses& uses) {
                              "with links, all with path",
                              default_link_neighbors))
           .range(-1, 65536),
-      viz.option("--threshold", options.threshold, "Keep only edges with P above this").range(0.0, 1.0)};
+      viz.option("--threshold", options.threshold, "Keep only edges with P above this").non_negative(),
+      viz.choice(
+          "--viz-source", options.viz_source,
+          "What is 1 of the sphere by which an SPHL lights the others: intensity (the paper's; P hardly "
+          "depends on the sphere's radius) or radiance (P grows with its square)")};
+  uses.of_viz_paths = {
+      viz.choice(
+          "--viz-paths", options.params.viz_params.paths,
+          "Scattering between two SPHLs: all, or diffuse (the paper's {D}*: mirrors and glass are black)"),
+      viz.option(
+             "--viz-max-depth", options.viz_max_depth,
+             "Surface scatterings of a path between two SPHLs; 0: direct sight alone. Default: --max-depth")
+          .range(0, 65535),
+      viz.option("--viz-passes", options.viz_passes, "Passes of --viz-spp samples. Default: --passes")
+          .range(1, 1 << 24),
+      viz.option("--viz-spp", options.viz_spp, "Samples per texel and pass. Default: --spp")
+          .range(1, 1 << 24)};
   viz.flag("--viz-transfer", options.params.viz_params.matrix,
            "Also trace the transfer matrices of `hier --operator matrix` (120 kB an edge at degree 9)");
 }
@@ -154,6 +170,7 @@ void add_bake_command(Command app, Context& context) {
         given.of_paths = names_of_given(uses->of_paths);
         given.of_transport = names_of_given(uses->of_transport);
         given.of_viz = names_of_given(uses->of_viz);
+        given.of_viz_paths = names_of_given(uses->of_viz_paths);
         given.not_of_update = names_of_given(uses->not_of_update);
         if (uses->quality) apply_quality(given, *uses->quality);
         if (given.watch) {
@@ -183,10 +200,11 @@ void add_bake_command(Command app, Context& context) {
                         o, *uses);
   add_update_options(command.under("Update of an earlier bake"), o);
   for (const char* name :
-       {"--time",      "--probes",    "--clearance",    "--refine",     "--max-probes",  "--degree",
-        "--operator",  "--face",      "--max-depth",    "--passes",     "--spp",         "--gen",
-        "--neighbors", "--threshold", "--viz-transfer", "--directions", "--surfel-size", "--link-rays",
-        "--records",   "--fit",       "--quality",      "--max-memory"})
+       {"--time",      "--probes",       "--clearance",  "--refine",      "--max-probes",    "--degree",
+        "--operator",  "--face",         "--max-depth",  "--passes",      "--spp",           "--gen",
+        "--neighbors", "--threshold",    "--viz-source", "--viz-paths",   "--viz-max-depth", "--viz-passes",
+        "--viz-spp",   "--viz-transfer", "--directions", "--surfel-size", "--link-rays",     "--records",
+        "--fit",       "--quality",      "--max-memory"})
     uses->not_of_update.push_back(command[name]);
   add_farm_options(command, o.farm);
   command.footer(

@@ -44,8 +44,8 @@ struct BakeOptions {
   std::optional<probes::VizMethod> viz;
   int degree = 9;  ///< highest band of the probes' functions, 0..10
   std::uint64_t seed = 0;
-  /// GEN and VIZ by paths. Its seed, keep_light and viz are not read, nor are the neighbours and the
-  /// threshold of VIZ: they follow from the other options.
+  /// GEN and VIZ by paths. Its seed, keep_light, viz and viz_path are not read, nor are the neighbours, the
+  /// threshold and the source of VIZ: they follow from the other options.
   bake::BakeParams params;
   /// Of transport; its operator, viz and number of records are not read either, nor the same of its VIZ.
   bake::TransportBakeParams transport;
@@ -55,11 +55,13 @@ struct BakeOptions {
   std::optional<int> records;
   int usual_records = transport::usual_records;
   double max_memory = 0;  ///< that surfels and their links may take [GB]; 0: half of the machine's
-  float threshold = 0;    ///< only edges with P above it, 0..1
-  bool resume = true;     ///< go on where OUTPUT.checkpoint of an interrupted bake ends
-  /// Names of options that were given and stand only with path tracing, transport or VIZ: they are refused
-  /// where these have nothing to do.
-  std::vector<std::string> of_paths, of_transport, of_viz;
+  float threshold = 0;    ///< only edges with P above it, from 0 up
+  probes::VizSource viz_source = probes::VizSource::intensity;  ///< of VIZ by paths and by links
+  std::optional<int> viz_max_depth, viz_passes, viz_spp;        ///< of VIZ by paths; none: as of GEN
+  bool resume = true;  ///< go on where OUTPUT.checkpoint of an interrupted bake ends
+  /// Names of options that were given and stand only with path tracing, transport, VIZ or VIZ by paths: they
+  /// are refused where these have nothing to do.
+  std::vector<std::string> of_paths, of_transport, of_viz, of_viz_paths;
   /// Probe file of an earlier bake, of which is kept what the scene's changes do not reach; empty: none. The
   /// parameters of the bake are that file's.
   std::string update;

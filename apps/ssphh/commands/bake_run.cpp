@@ -70,6 +70,10 @@ probes::VizMethod resolve(BakeOptions& o, std::size_t probes) {
   params.viz = o.viz == VizMethod::path;
   params.viz_params.neighbors = o.neighbors.value_or(-1);
   params.viz_params.threshold = o.threshold;
+  params.viz_params.source = o.viz_source;
+  params.viz_path = {o.viz_max_depth.value_or(params.path.max_depth),
+                     o.viz_passes.value_or(params.path.passes), o.viz_spp.value_or(params.path.spp),
+                     params.path.seed};
   o.transport.records.points = o.records.value_or(records_of(o));
   if (o.transport.records.points == 0 && !o.transport.records.baked.empty())
     throw Error("--records 0", "leaves no place for the light of groups that are baked",
@@ -77,11 +81,13 @@ probes::VizMethod resolve(BakeOptions& o, std::size_t probes) {
   o.transport.viz = o.viz == VizMethod::links;
   o.transport.viz_params.neighbors = o.neighbors.value_or(default_link_neighbors);
   o.transport.viz_params.threshold = o.threshold;
+  o.transport.viz_params.source = o.viz_source;
   const bool transport = o.transport.fit || o.transport.viz || o.transport.records.points > 0;
   if (!path && !params.viz) refuse(o.of_paths, "is of path tracing: use --operator path or --viz path");
   if (path && !transport)
     refuse(o.of_transport, "is of transport: use --operator surfel, bounce, --viz links, --records or --fit");
   if (o.viz == VizMethod::none) refuse(o.of_viz, "is of VIZ: use --viz links or path");
+  if (o.viz != VizMethod::path) refuse(o.of_viz_paths, "is of VIZ by path tracing: use --viz path");
   require_work_for(o.farm, op, params.viz);
   return *o.viz;
 }

@@ -61,7 +61,8 @@ bake::BakeParams params_of(const probes::ProbeSet& old) {
   const probes::GeneratorInfo& g = old.generator;
   bake::BakeParams params;
   params.gen = g.gen;
-  params.path = {g.max_depth, g.passes, g.spp, g.seed};
+  params.path = bake::path_of(g, bake::BakeStage::gen);
+  params.viz_path = bake::path_of(g, bake::BakeStage::viz);
   params.face_size = g.face_size;
   params.viz_params = {std::ranges::any_of(old.probes,
                                            [](const probes::Probe& probe) {
@@ -70,7 +71,7 @@ bake::BakeParams params_of(const probes::ProbeSet& old) {
                                                                           return !edge.matrix.values.empty();
                                                                         });
                                            }),
-                       old.baseline->viz_neighbors, old.baseline->viz_threshold};
+                       old.baseline->viz_neighbors, old.baseline->viz_threshold, g.viz_source, g.viz_paths};
   return params;
 }
 

@@ -101,15 +101,16 @@ void add_hier_command(Command app, Context& context) {
       add_command(app, context, "hier", "Add each probe's neighbours to its light (HIER)", run_hier);
   add_probe_file(command, "FILE", o.input, "Probe file of `ssphh bake`").required();
   add_probe_file(command, "-o,--output", o.output, "Probe file to write: .sphl or .sphl.json").required();
-  command.choice("--operator", o.params.op,
-                 "What H (x) S means: coefficient (the paper's, coefficient by coefficient), mean (H times "
-                 "the mean of S), matrix (exact for SPHLs that are lights; bake with --viz-transfer)");
+  command.choice(
+      "--operator", o.params.op,
+      "What H (x) S means: coefficient (the paper's, coefficient by coefficient, and a factor that "
+      "makes two constants multiply right), raw (the same without the factor), mean (H times "
+      "the mean of S), matrix (exact for SPHLs that are lights; bake with --viz-transfer)");
   command
       .option("--neighbors", o.params.neighbors,
               "At most so many neighbours per probe, strongest P first; -1: all")
       .range(-1, 65536);
-  command.option("--threshold", o.params.threshold, "Only neighbours with P above this, 0..1")
-      .range(0.0, 1.0);
+  command.option("--threshold", o.params.threshold, "Only neighbours with P above this").non_negative();
   command
       .option("--scale", o.scales,
               "Switch, dim or recolour a light group first: GROUP=R,G,B or GROUP=X, relative to the "

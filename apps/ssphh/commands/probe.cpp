@@ -28,11 +28,16 @@ float lowest_irradiance(const sh::RadianceSh& light) {
 
 json::Value generator_json(const probes::GeneratorInfo& g) {
   return {{"operator", name_of(g.op)},
-          {"viz", name_of(g.viz)},
           {"gen", name_of(g.gen)},
           {"max_depth", g.max_depth},
           {"passes", g.passes},
           {"spp", g.spp},
+          {"viz", name_of(g.viz)},
+          {"viz_source", name_of(g.viz_source)},
+          {"viz_paths", name_of(g.viz_paths)},
+          {"viz_max_depth", g.viz_max_depth},
+          {"viz_passes", g.viz_passes},
+          {"viz_spp", g.viz_spp},
           {"face_size", g.face_size},
           {"seed", g.seed},
           {"directions", g.directions},
@@ -128,10 +133,15 @@ std::string to_text(const ProbeInfo& info, const ProbeInfoOptions& options) {
   std::string text = fmt::format(
       "{}: {} probes of degree {}, {} edges\nscene {} at {} s; light by {}, edges by {}\n", options.input,
       set.probes.size(), set.degree, probes::edge_count(set), g.scene, g.time, name_of(g.op), name_of(g.viz));
-  if (g.op == probes::LightOperator::path || g.viz == probes::VizMethod::path) {
-    text += fmt::format("paths: GEN {}, depth {}, {} x {} samples, {}x{}x6 texels, seed {}\n", name_of(g.gen),
-                        g.max_depth, g.passes, g.spp, g.face_size, g.face_size, g.seed);
-  }
+  const bool gen = g.op == probes::LightOperator::path, viz = g.viz == probes::VizMethod::path;
+  if (gen)
+    text += fmt::format("GEN {}: paths of depth {}, {} x {} samples\n", name_of(g.gen), g.max_depth, g.passes,
+                        g.spp);
+  if (viz)
+    text += fmt::format("VIZ: {} paths of depth {}, {} x {} samples\n", name_of(g.viz_paths), g.viz_max_depth,
+                        g.viz_passes, g.viz_spp);
+  if (gen || viz) text += fmt::format("{0}x{0}x6 texels, seed {1}\n", g.face_size, g.seed);
+  if (g.viz != probes::VizMethod::none) text += fmt::format("P of SPHLs of {} 1\n", name_of(g.viz_source));
   if (g.directions > 0) {
     text += fmt::format("transport: {} directions a probe, surfels of {:.3g} m, {} link rays\n", g.directions,
                         g.surfel_size, g.link_rays);

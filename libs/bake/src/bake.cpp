@@ -26,9 +26,10 @@ Hash128 bake_key(const rays::RadianceSource& source, const probes::ProbeSet& set
       .value(g.scene_hash.low)
       .value(g.time);
   hasher.value(g.gen).value(g.max_depth).value(g.passes).value(g.spp).value(g.seed).value(g.face_size);
+  hasher.value(g.viz_max_depth).value(g.viz_passes).value(g.viz_spp);
   hasher.value(params.keep_light).value(params.viz);
   const VizParams& viz = params.viz_params;
-  hasher.value(viz.matrix).value(viz.neighbors).value(viz.threshold);
+  hasher.value(viz.matrix).value(viz.neighbors).value(viz.threshold).value(viz.source).value(viz.paths);
   for (const std::string& group : source.light_groups()) hasher.text(group);
   for (const probes::Probe& probe : set.probes) {
     hasher.text(probe.name)
@@ -45,8 +46,8 @@ rays::CubeRequest request_of(const probes::ProbeSet& set, const ProbeStage& stag
   rays::CubeRequest request;
   request.position = set.probes[stage.probe].position;
   request.face_size = g.face_size;
-  request.path = {g.max_depth, g.passes, g.spp,
-                  hash_combine(g.seed, 2 * std::uint64_t{stage.probe} + (stage.stage == BakeStage::viz))};
+  request.path = path_of(g, stage.stage);
+  request.path.seed = hash_combine(g.seed, 2 * std::uint64_t{stage.probe} + (stage.stage == BakeStage::viz));
   return request;
 }
 
@@ -176,12 +177,12 @@ void check_probes(const rays::RadianceSource& source, const probes::ProbeSet& se
       return light.emitted.empty() && sh::mean(light.reflected) == vec3(0);
     });
     for (const probes::Edge& edge : probe.edges) {
-      const float transfer = probes::transfer_coefficient(edge.h);
-      if (transfer <= 1.001f) continue;  // more than rounding
+      const probes::Probe& from = set.probes[static_cast<std::size_t>(edge.from)];
+      if (glm::distance(probe.position, from.position) > from.radius) continue;
       report.warnings.push_back(
-          fmt::format("P({} <- {}) = {:.3g} is stored as 1: the sphere of \"{}\" is that close", probe.name,
-                      set.probes[static_cast<std::size_t>(edge.from)].name, transfer,
-                      set.probes[static_cast<std::size_t>(edge.from)].name));
+          fmt::format("probe \"{}\" stands within the sphere of \"{}\", whose light it gets from all sides: "
+                      "the radius of {:.3g} m is too large",
+                      probe.name, from.name, from.radius));
     }
     const float inside = source.backface_fraction(probe.position);
     if (inside > 0.5f) {
@@ -195,6 +196,19 @@ void check_probes(const rays::RadianceSource& source, const probes::ProbeSet& se
 }
 
 }  // namespace
+
+rays::PathParams path_of(const probes::GeneratorInfo& g, BakeStage stage) {
+  if (stage == BakeStage::gen) return {g.max_depth, g.passes, g.spp, g.seed};
+  return {g.viz_max_depth, g.viz_passes, g.viz_spp, g.seed};
+}
+
+void set_path(probes::GeneratorInfo& g, BakeStage stage, const rays::PathParams& path) {
+  const bool gen = stage == BakeStage::gen;
+  (gen ? g.max_depth : g.viz_max_depth) = path.max_depth;
+  (gen ? g.passes : g.viz_passes) = path.passes;
+  (gen ? g.spp : g.viz_spp) = path.spp;
+  g.seed = path.seed;
+}
 
 ProbeStageResult bake_stage(const rays::RadianceSource& source, const probes::ProbeSet& set,
                             const VizParams& viz_params, const ProbeStage& stage, const Control& control) {
@@ -226,12 +240,15 @@ probes::ProbeSet bake(const rays::RadianceSource& source, probes::ProbeSet set, 
   // Say how the set is made.
   probes::GeneratorInfo& g = set.generator;
   g.gen = params.gen;
-  g.max_depth = params.gen == probes::GenMode::local ? 1 : params.path.max_depth;
-  g.passes = params.path.passes;
-  g.spp = params.path.spp;
-  g.seed = params.path.seed;
+  set_path(g, BakeStage::viz, params.viz_path.value_or(params.path));
+  set_path(g, BakeStage::gen, params.path);
+  if (params.gen == probes::GenMode::local) g.max_depth = 1;
   g.face_size = params.face_size;
-  if (params.viz) g.viz = probes::VizMethod::path;
+  if (params.viz) {
+    g.viz = probes::VizMethod::path;
+    g.viz_source = params.viz_params.source;
+    g.viz_paths = params.viz_params.paths;
+  }
   if (params.keep_light || params.only) {
     if (!std::ranges::equal(set.light_groups, source.light_groups(), {}, &probes::LightGroup::name))
       throw Error("bake", "the light to keep is of other light groups than the scene's");

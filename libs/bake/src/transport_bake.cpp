@@ -119,6 +119,7 @@ void find_edges(const transport::TransportNetwork& network, const rays::Transpor
     if (!which || std::ranges::binary_search(*which, i)) set.probes[i].edges = std::move(edges[i]);
   }
   set.generator.viz = probes::VizMethod::links;
+  set.generator.viz_source = params.source;
   report.viz_seconds = watch.seconds();
 }
 
@@ -317,6 +318,7 @@ TransportBakeParams transport_params_of(const probes::ProbeSet& set) {
     params.transport.link_rays = g.link_rays;
   }
   params.viz = g.viz == probes::VizMethod::links;
+  params.viz_params.source = g.viz_source;
   params.fit = set.fitted.has_value();
   if (set.baseline) {
     params.viz_params.neighbors = set.baseline->viz_neighbors;

@@ -68,6 +68,7 @@ std::vector<probes::Edge> viz(const rays::RadianceSource& source, const probes::
   // Trace once from probe i; each sphere has its own cube map.
   rays::CubeRequest at_probe = request;
   at_probe.position = set.probes[i].position;
+  at_probe.paths = params.paths;
   MatrixAccumulator matrices(ghosts.size(), set.degree);
   const std::vector<image::CubeMap> cubes =
       source.ghost_radiance(at_probe, ghosts, params.matrix ? matrices.sink() : nullptr, control);
@@ -81,11 +82,12 @@ std::vector<probes::Edge> viz(const rays::RadianceSource& source, const probes::
     probes::Edge edge;
     edge.from = from[g];
     edge.h = project_cube_map(projector, cubes[g]);
+    edge.h *= vec3(probes::emitter_radiance(params.source, ghosts[g].radius));
     const float transfer = probes::transfer_coefficient(edge.h);
     if (!std::isfinite(transfer))
       throw Error("VIZ of probe \"" + set.probes[i].name + "\"", "the traced light is not finite");
     if (transfer <= params.threshold) continue;
-    edge.transfer = std::min(transfer, 1.0f);
+    edge.transfer = transfer;
     if (params.matrix) edge.matrix = matrices.reduce(g);
     edges.push_back(std::move(edge));
   }

@@ -23,6 +23,7 @@ TEST(BakeRules, TheSetTellsHowItWasMade) {
   source.reflected = {constant(vec3(1))};
   BakeParams params = test::small(8, 3);
   params.path.max_depth = 5, params.path.passes = 2, params.path.seed = 77;
+  params.viz_params.source = probes::VizSource::radiance, params.viz_params.paths = rays::PathSet::diffuse;
   probes::ProbeSet start = test::places({vec3(0)}, 0.1f, 1);
   start.generator.op = probes::LightOperator::bounce;
   start.generator.time = 2.5f;
@@ -32,6 +33,8 @@ TEST(BakeRules, TheSetTellsHowItWasMade) {
   expected.op = probes::LightOperator::path, expected.viz = probes::VizMethod::path,
   expected.gen = probes::GenMode::full;
   expected.max_depth = 5, expected.passes = 2, expected.spp = 3, expected.face_size = 8, expected.seed = 77;
+  expected.viz_source = probes::VizSource::radiance, expected.viz_paths = rays::PathSet::diffuse;
+  expected.viz_max_depth = 5, expected.viz_passes = 2, expected.viz_spp = 3;
   expected.time = 2.5f;
   EXPECT_EQ(set.generator, expected);
   EXPECT_EQ(set.light_groups, (std::vector<probes::LightGroup>{{"sun", vec3(1)}, {"lamp", vec3(1)}}));
@@ -87,6 +90,38 @@ TEST(BakeRules, EveryUnitHasItsPlaceAndASeedOfItsOwn) {
   EXPECT_EQ(source.spheres[1][0].center, vec3(1, 0, 0));
   EXPECT_EQ(source.spheres[1][1].center, vec3(4, 0, 0));
   EXPECT_EQ(source.spheres[1][1].radius, 0.3f);
+}
+
+TEST(BakeRules, GenAndVizHavePathsOfTheirOwn) {
+  Asked source;
+  BakeParams params = test::small(4, 2);
+  params.path.max_depth = 6, params.path.passes = 3, params.path.seed = 9;
+  params.viz_path = {4, 5, 7, 1234};
+  params.viz_params.paths = rays::PathSet::diffuse;
+  const probes::ProbeSet start = test::places({vec3(1, 0, 0), vec3(2, 0, 0)}, 0.1f, 0);
+  const probes::ProbeSet set = test::bake_now(source, start, params);
+  for (const rays::CubeRequest& request : source.gen) {
+    EXPECT_EQ(request.path.max_depth, 6);
+    EXPECT_EQ(request.path.passes, 3);
+    EXPECT_EQ(request.path.spp, 2);
+    EXPECT_EQ(request.paths, rays::PathSet::all);
+  }
+  for (const rays::CubeRequest& request : source.viz) {
+    EXPECT_EQ(request.path.max_depth, 4);
+    EXPECT_EQ(request.path.passes, 5);
+    EXPECT_EQ(request.path.spp, 7);
+    EXPECT_EQ(request.paths, rays::PathSet::diffuse);
+  }
+  EXPECT_EQ(set.generator.seed, 9u) << "one for both";
+  // What GEN leaves out with `local`, VIZ follows.
+  params.viz_path.reset();
+  params.gen = probes::GenMode::local;
+  source.gen.clear(), source.viz.clear();
+  const probes::ProbeSet local = test::bake_now(source, start, params);
+  EXPECT_EQ(source.gen[0].path.max_depth, 1);
+  EXPECT_EQ(source.viz[0].path.max_depth, 6);
+  EXPECT_EQ(local.generator.max_depth, 1);
+  EXPECT_EQ(local.generator.viz_max_depth, 6);
 }
 
 TEST(BakeRules, LightThatIsKeptStaysAndOnlyEdgesAreFound) {
@@ -162,31 +197,16 @@ TEST_F(BakeWords, OnlyWhatNeitherEmitsNorReflectsIsDark) {
               ElementsAre("probe \"SPHL0\" receives no light at all"));
 }
 
-/// Spheres light all that there is.
-class Bright final : public FakeSource {
- public:
-  float level = 1;
-  std::vector<image::CubeMap> ghost_radiance(const rays::CubeRequest& request,
-                                             std::span<const rays::GhostSphere> ghosts, const GhostSink&,
-                                             const Control&) const override {
-    std::vector<image::CubeMap> cubes(ghosts.size(), image::CubeMap(request.face_size));
-    for (image::CubeMap& cube : cubes)
-      for (image::Image& face : cube.faces) std::ranges::fill(face.pixels, level);
-    return cubes;
-  }
-};
-
-TEST_F(BakeWords, MoreLightThanASphereAllAroundIsToldAndStoredAsOne) {
-  Bright source;
+TEST_F(BakeWords, AProbeWithinTheSphereOfAnotherIsTold) {
+  FakeSource source;
   source.reflected = {constant(vec3(1))};
-  source.level = 1.25f;
-  const probes::ProbeSet two = test::places({vec3(0), vec3(1, 0, 0)}, 0.1f, 0);
-  EXPECT_THAT(warnings(source, two),
-              ElementsAre("P(SPHL0 <- SPHL1) = 1.25 is stored as 1: the sphere of \"SPHL1\" is that close",
-                          "P(SPHL1 <- SPHL0) = 1.25 is stored as 1: the sphere of \"SPHL0\" is that close"));
-  EXPECT_EQ(test::bake_now(source, two, test::small(8, 1)).probes[0].edges[0].transfer, 1);
-  source.level = 1.0005f;
-  EXPECT_THAT(warnings(source, two), testing::IsEmpty()) << "rounding";
+  probes::ProbeSet two = test::places({vec3(0), vec3(1, 0, 0)}, 0.1f, 0);
+  EXPECT_THAT(warnings(source, two), testing::IsEmpty());
+  two.probes[1].radius = 1;
+  EXPECT_THAT(
+      warnings(source, two),
+      ElementsAre("probe \"SPHL0\" stands within the sphere of \"SPHL1\", whose light it gets from all "
+                  "sides: the radius of 1 m is too large"));
 }
 
 TEST_F(BakeWords, TenWarningsAreLoggedAndTheRestCounted) {

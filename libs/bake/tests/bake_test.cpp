@@ -123,13 +123,18 @@ TEST(Bake, TellsOfEveryProbeWhenItsStageIsDone) {
   EXPECT_EQ(test::bake_now(source, start, params), set);
 }
 
-TEST(Bake, InsideTheSphereOfAnotherTransferIsOne) {
+TEST(Bake, InsideTheSphereOfAnotherTransferIsItsRadiance) {
   FakeSource source;
   source.reflected = {constant(vec3(1))};
   BakeReport report;
-  const probes::ProbeSet set =
-      bake(source, test::places({{0, 0, 0}, {0.1f, 0, 0}}, 1, 1), test::small(), {}, report);
-  EXPECT_NEAR(set.probes[0].edges[0].transfer, 1, 1e-5f);
+  BakeParams params = test::small();
+  for (const auto& [viz, radiance] :
+       {std::pair(probes::VizSource::radiance, 1.0f), std::pair(probes::VizSource::intensity, 4 / pi)}) {
+    params.viz_params.source = viz;
+    const probes::ProbeSet set =
+        bake(source, test::places({{0, 0, 0}, {0.1f, 0, 0}}, 0.5f, 1), params, {}, report);
+    EXPECT_NEAR(set.probes[0].edges[0].transfer, radiance, 1e-5f * radiance);
+  }
 }
 
 /// Warnings are for people; here only BakeWarnings wants them.

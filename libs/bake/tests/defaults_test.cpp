@@ -20,6 +20,9 @@ TEST(Defaults, OfPathTracedBakes) {
   EXPECT_FALSE(params.viz_params.matrix);
   EXPECT_EQ(params.viz_params.neighbors, -1);
   EXPECT_EQ(params.viz_params.threshold, 0);
+  EXPECT_EQ(params.viz_params.source, probes::VizSource::intensity);
+  EXPECT_EQ(params.viz_params.paths, rays::PathSet::all);
+  EXPECT_FALSE(params.viz_path.has_value());
   const BakeReport report;
   EXPECT_EQ(report.gen_seconds + report.viz_seconds, 0);
   EXPECT_EQ(report.rays + report.resumed, 0u);
@@ -40,6 +43,7 @@ TEST(Defaults, OfBakesByTransport) {
   EXPECT_EQ(params.bounce.max_iterations, 200);
   EXPECT_EQ(params.viz_params.neighbors, 16);
   EXPECT_EQ(params.viz_params.threshold, 0);
+  EXPECT_EQ(params.viz_params.source, probes::VizSource::intensity);
   EXPECT_EQ(params.viz_params.solve.tolerance, 1e-2f);
   EXPECT_EQ(params.viz_params.solve.max_iterations, 300);
   EXPECT_EQ(params.fit_params.probes, 12);

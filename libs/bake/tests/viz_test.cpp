@@ -20,8 +20,9 @@ TEST(Viz, ASphereInEmptySpaceIsSeenUnderItsSolidAngle) {
   // ∫H dω = 2π(1 − √(1 − (r/d)²)), and P is its share of the sphere.
   const float r = 0.5f, d = 2;
   const FakeSource source;
-  const probes::ProbeSet set =
-      test::bake_now(source, test::places({{0, 0, 0}, {d, 0, 0}}, r, 4), test::small(32, 16));
+  BakeParams params = test::small(32, 16);
+  params.viz_params.source = probes::VizSource::radiance;
+  const probes::ProbeSet set = test::bake_now(source, test::places({{0, 0, 0}, {d, 0, 0}}, r, 4), params);
   ASSERT_EQ(set.probes[0].edges.size(), 1u);
   const probes::Edge& edge = set.probes[0].edges[0];
   EXPECT_EQ(edge.from, 1);
@@ -31,6 +32,20 @@ TEST(Viz, ASphereInEmptySpaceIsSeenUnderItsSolidAngle) {
   EXPECT_NEAR(edge.transfer, omega / (4 * pi_d), 0.02 * omega / (4 * pi_d));
   // It is seen toward +x.
   EXPECT_GT(sh::eval(edge.h, {1, 0, 0}).x, 5 * std::abs(sh::eval(edge.h, {-1, 0, 0}).x));
+}
+
+TEST(Viz, ASphereOfIntensityOneHasPOfOneOver4PiD2WhateverItsRadius) {
+  // I/d² = 1/d² is its irradiance across a small distance; over all directions 1/(4π d²). Closer up the disc
+  // counts 1 + (r/2d)² of that.
+  const float d = 2;
+  const FakeSource source;
+  for (const float r : {0.4f, 0.2f}) {
+    const probes::ProbeSet set =
+        test::bake_now(source, test::places({{0, 0, 0}, {d, 0, 0}}, r, 2), test::small(64, 64));
+    const double p = 1 / (4 * pi_d * d * d) * (1 + std::pow(r / (2 * d), 2));
+    // About 900 texels of 24576 lie along the smaller rim's cube, 64 jittered samples each: below 0.5 %.
+    EXPECT_NEAR(set.probes[0].edges[0].transfer, p, 0.02 * p) << r;
+  }
 }
 
 TEST(Viz, SymmetricGeometryHasSymmetricTransfer) {
@@ -64,6 +79,7 @@ TEST(Viz, MatrixOfAnIsotropicEmitterIsTheMeanOperator) {
   const FakeSource source;
   BakeParams params = test::small(16, 4);
   params.viz_params.matrix = true;
+  params.viz_params.source = probes::VizSource::radiance;
   probes::ProbeSet set = test::bake_now(source, test::places({{0, 0, 0}, {1, 0, 0}}, 0.4f, 3), params);
   const probes::Edge& edge = set.probes[0].edges[0];
   const auto count = static_cast<std::size_t>(sh::coefficient_count(3));

@@ -54,7 +54,9 @@ json::Value put(const ProbeJob& job, MessageWriter& out) {
           {"viz",
            {{"matrix", job.viz_params.matrix},
             {"neighbors", job.viz_params.neighbors},
-            {"threshold", exact(job.viz_params.threshold)}}},
+            {"threshold", exact(job.viz_params.threshold)},
+            {"source", name_of(job.viz_params.source)},
+            {"paths", name_of(job.viz_params.paths)}}},
           {"probes", job.probes},
           {"places", places}};
 }
@@ -68,7 +70,8 @@ ProbeJob get_probe_job(const Field& f, bake::BakeStage stage) {
   job.path = get_path(f["path"]);
   const Field viz = f["viz"];
   job.viz_params = {viz["matrix"].boolean(), static_cast<int>(viz["neighbors"].integer(-1, INT32_MAX)),
-                    viz["threshold"].number()};
+                    viz["threshold"].number(), viz["source"].named<probes::VizSource>(),
+                    viz["paths"].named<rays::PathSet>()};
   for (const Field& probe : json::elements(f["probes"], 0, job_limits::units))
     job.probes.push_back(static_cast<std::uint32_t>(probe.integer(0, job_limits::places - 1)));
   const Field places = f["places"];
@@ -88,7 +91,7 @@ struct MessageParts {
   MessageWriter& out;
 
   void index(const char* name, int value) { object[name] = value; }
-  void share(const char* name, float value) { object[name] = exact(value); }
+  void amount(const char* name, float value) { object[name] = exact(value); }
   void vectors(const char* name, std::span<const vec3> values, probes::Missing missing) {
     if (!values.empty() || missing != probes::Missing::absent) object[name] = out.vectors(values);
   }

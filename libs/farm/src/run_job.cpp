@@ -12,10 +12,7 @@ namespace {
 probes::ProbeSet set_of(const ProbeJob& job) {
   probes::ProbeSet set;
   set.degree = job.degree;
-  set.generator.max_depth = job.path.max_depth;
-  set.generator.passes = job.path.passes;
-  set.generator.spp = job.path.spp;
-  set.generator.seed = job.path.seed;
+  bake::set_path(set.generator, job.stage, job.path);
   set.generator.face_size = job.face_size;
   const bool viz = job.stage == bake::BakeStage::viz;
   set.probes.resize(viz ? job.places.size() : job.probes.back() + std::size_t{1});

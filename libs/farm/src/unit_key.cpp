@@ -23,7 +23,7 @@ ProbeJob job_of_set(const probes::ProbeSet& set, const bake::VizParams& viz_para
   job.stage = stage;
   job.degree = set.degree;
   job.face_size = g.face_size;
-  job.path = {g.max_depth, g.passes, g.spp, g.seed};
+  job.path = bake::path_of(g, stage);
   job.viz_params = viz_params;
   for (const probes::Probe& probe : set.probes) job.places.push_back({probe.position, probe.radius});
   return job;
@@ -43,7 +43,7 @@ Hash128 unit_key(const ProbeJob& all, std::uint32_t probe) {
     add(h, all.places[probe]);
   } else {
     const bake::VizParams& viz = all.viz_params;
-    h.value(viz.matrix).value(viz.neighbors).value(viz.threshold);
+    h.value(viz.matrix).value(viz.neighbors).value(viz.threshold).value(viz.source).value(viz.paths);
     for (const ProbePlace& place : all.places) add(h, place);
   }
   return h.finish();

@@ -76,7 +76,7 @@ TEST(FarmDefaults, ReportsBeginAtNothing) {
 }
 
 TEST(FarmDefaults, LimitsAreThoseOfTheProtocol) {
-  EXPECT_EQ(job_version, 1);
+  EXPECT_EQ(job_version, 2);
   EXPECT_EQ(tile_edge, 32);
   EXPECT_EQ(max_json_bytes, 32u << 20);
   EXPECT_EQ(max_manifest_bytes, 256u << 20);

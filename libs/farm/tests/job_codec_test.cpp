@@ -127,7 +127,7 @@ image::Image some_image(const trace::Tile& tile, int channels, float first) {
 TEST(JobCodec, EdgesOfAResultAreThoseOfAProbeSet) {
   const auto read = [](const std::string& edges) {
     return ssphh::test::message_of([&] {
-      decode_result(R"({"format":"ssphh-result","version":1,"kind":"viz","degree":0,"probes":[)"
+      decode_result(R"({"format":"ssphh-result","version":2,"kind":"viz","degree":0,"probes":[)"
                     R"({"probe":5,"seconds":1,"rays":2,"edges":[)" +
                     edges + R"(]}],"stats":{"seconds":1,"rays":3,"worker":"w"}})");
     });
@@ -144,7 +144,8 @@ TEST(JobCodec, EdgesOfAResultAreThoseOfAProbeSet) {
   EXPECT_EQ(read(edge(2, R"("transfer":0.5,"h":[1,2])")), at + "[0].h: must be 3 numbers, not 2");
   EXPECT_EQ(read(edge(2, R"("transfer":0.5,"h":[])")), at + "[0].h: must be 3 numbers, not 0");
   EXPECT_EQ(read(edge(2, sound + R"(,"matrix":[])")), at + "[0].matrix: must be 3 numbers, not 0");
-  EXPECT_NE(read(edge(2, R"("transfer":1.5,"h":[1,2,3])")), "no error");
+  EXPECT_EQ(read(edge(2, R"("transfer":1.5,"h":[1,2,3])")), "no error") << "an SPHL that is near";
+  EXPECT_NE(read(edge(2, R"("transfer":-0.5,"h":[1,2,3])")), "no error");
   EXPECT_NE(read(edge(2, sound + R"(,"weight":1)")), "no error") << "of a later version";
 }
 

@@ -72,7 +72,7 @@ inline ProbeJob some_probe_job(bake::BakeStage stage) {
   job.degree = 7;
   job.face_size = 12;
   job.path = {5, 2, 3, 0x9abcdef012345678};
-  job.viz_params = {true, 4, 1.0f / 3};
+  job.viz_params = {true, 4, 1.0f / 3, probes::VizSource::radiance, rays::PathSet::diffuse};
   job.probes = {0, 1, 2};
   job.places = {{{0.1f, 0.2f, 0.3f}, 0.4f}, {{0.5f, 0.6f, 0.7f}, 0.8f}, {{0.9f, 1.1f, 1.2f}, 1.3f}};
   return job;

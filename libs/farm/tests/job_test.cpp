@@ -29,10 +29,7 @@ JobResult far_away(const PackedScene& packed, const Job& job, ContentType type) 
 
 probes::ProbeSet set_for(const PackedScene& packed, const ProbeJob& job) {
   probes::ProbeSet set = place::init_from_scene(packed.scene, job.degree);
-  set.generator.max_depth = job.path.max_depth;
-  set.generator.passes = job.path.passes;
-  set.generator.spp = job.path.spp;
-  set.generator.seed = job.path.seed;
+  bake::set_path(set.generator, job.stage, job.path);
   set.generator.face_size = job.face_size;
   return set;
 }
@@ -205,7 +202,7 @@ TEST(Job, BrokenMessagesAreErrors) {
   const std::string job = encode_job(test::viz_job(packed), ContentType::binary);
   for (std::size_t cut = 0; cut < job.size(); cut += 5) EXPECT_THROW(decode_job(job.substr(0, cut)), Error);
   for (const char* bad : {"", "{}", "[]", "null", "SSPHHMSG", R"({"format":"ssphh-job","version":2})",
-                          R"({"format":"ssphh-job","version":1,"kind":"rm"})"}) {
+                          R"({"format":"ssphh-job","version":2,"kind":"rm"})"}) {
     EXPECT_THROW(decode_job(bad), Error) << bad;
     EXPECT_THROW(decode_result(bad), Error) << bad;
   }
@@ -217,7 +214,7 @@ TEST(Job, BrokenMessagesAreErrors) {
 
 TEST(Job, FloatsBehindADocumentAreReadOnce) {
   const auto message = [](const std::string& second) {
-    std::string text = R"({"format":"ssphh-result","version":1,"kind":"ref","tiles":[{"tile":[0,0,2,1],)"
+    std::string text = R"({"format":"ssphh-result","version":2,"kind":"ref","tiles":[{"tile":[0,0,2,1],)"
                        R"("passes":1,"paths":2,"rays":3,"layers":{"color":{"f32":[0,6]},"direct":)" +
                        second + R"(}}],"stats":{"seconds":1,"rays":3,"worker":"w"}})";
     text.resize((text.size() + 3) / 4 * 4, ' ');

@@ -75,6 +75,7 @@ TEST(UnitKey, AJobHoldsWhatTheSetsGeneratorSays) {
   probes::ProbeSet set;
   set.degree = 6;
   set.generator.max_depth = 5, set.generator.passes = 2, set.generator.spp = 3;
+  set.generator.viz_max_depth = 7, set.generator.viz_passes = 4, set.generator.viz_spp = 6;
   set.generator.face_size = 11, set.generator.seed = 0x123456789abcdef0;
   for (const float x : {0.5f, 2.5f}) {
     probes::Probe probe;
@@ -86,6 +87,7 @@ TEST(UnitKey, AJobHoldsWhatTheSetsGeneratorSays) {
     wanted.scene = test::some_scene(), wanted.stage = stage;
     wanted.degree = 6, wanted.face_size = 11;
     wanted.path = {5, 2, 3, 0x123456789abcdef0};
+    if (stage == bake::BakeStage::viz) wanted.path = {7, 4, 6, 0x123456789abcdef0};
     wanted.viz_params = {true, 3, 0.25f};
     wanted.places = {{{0.5f, 0.6f, 0.7f}, 0.8f}, {{2.5f, 2.6f, 2.7f}, 2.8f}};
     expect_same_fields(job_of_set(set, {true, 3, 0.25f}, stage, test::some_scene()), wanted);

@@ -84,6 +84,19 @@ TEST(MethodDefaults, OfWhatPlacesProbes) {
                   "gamma 1 1..8", "visibility 1i 0..1", "relocate 1i 0..1", "seed 0i 0..1e+09"));
 }
 
+// Those of the paper: SPHLs of 64x64x6 texels and degree 10, maximum ray depth 3, one pass.
+TEST(MethodDefaults, OfThePapersWay) {
+  EXPECT_THAT(
+      declared_by("ssphh-paper"),
+      ElementsAre("places 0i 0..1 scene auto", "probes 6i 1..4096", "degree 10i 0..10", "face 64i 1..4096",
+                  "gen 0i 0..1 full local", "depth 3i 0..65535", "passes 1i 1..1.67772e+07",
+                  "spp 16i 1..1.67772e+07", "viz_source 0i 0..1 intensity radiance",
+                  "viz_paths 1i 0..1 all diffuse", "viz_depth 3i 0..65535", "viz_passes 1i 1..1.67772e+07",
+                  "viz_spp 16i 1..1.67772e+07", "operator 0i 0..3 coefficient mean matrix raw",
+                  "neighbors -1i -1..65536", "threshold 0 0..1e+30", "layer 2i 0..2 self neighbor sum",
+                  "lookup 0i 0..1 light irradiance"));
+}
+
 TEST(MethodDefaults, OfWhatPlacesNone) {
   EXPECT_THAT(declared_by("direct"), ElementsAre());
   EXPECT_THAT(declared_by("ambient"), ElementsAre("points 4096i 16..4.1943e+06", "factor 1 0..1000"));

@@ -59,7 +59,7 @@ TEST(MethodTable, NamesAreUniqueAndDefaultsValid) {
   }
   EXPECT_THAT([] { find_method("radiosity"); },
               ThrowsMessage<Error>("method radiosity: there is no such method (choose one of ambient, ddgi, "
-                                   "direct, irradiance-volume, prt, ssphh, vct, vpl)"));
+                                   "direct, irradiance-volume, prt, ssphh, ssphh-paper, vct, vpl)"));
 }
 
 }  // namespace

@@ -35,6 +35,13 @@ TEST_F(Refusals, OfProbesThatCannotBePlaced) {
             "method ssphh: the scene has no SPHLs of its own (let places=auto find some)");
 }
 
+TEST_F(Refusals, OfPathsThatTheSourceCannotTrace) {
+  const MethodEntry& entry = find_method("ssphh-paper");
+  const auto method = entry.make({scene_, room_}, MethodParameters("ssphh-paper", entry.parameters), {});
+  EXPECT_EQ(ssphh::test::message_of([&] { method->update(rays::lighting_at(room_), {}); }),
+            "transport source: it cannot trace paths");
+}
+
 const std::vector<std::string> small{"places=scene", "surfel_size=1.9", "directions=16", "rays=16", "edge=9"};
 
 TEST_F(Refusals, OfTransferThatCannotBeFound) {

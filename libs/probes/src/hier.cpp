@@ -5,6 +5,7 @@
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/probes/hier.h>
+#include <ssphh/probes/probe_limits.h>
 
 namespace ssphh::probes {
 namespace {
@@ -40,6 +41,7 @@ void gather(const ProbeSet& set, const HierParams& params, std::size_t i, std::v
     const Edge& edge = probe.edges[static_cast<std::size_t>(e)];
     const sh::RadianceSh& source = set.probes[static_cast<std::size_t>(edge.from)].self;
     if (params.op == HierOperator::coefficient) sh::add_coefficient_product(neighbor, edge.h, source);
+    if (params.op == HierOperator::raw) sh::add_raw_product(neighbor, edge.h, source);
     if (params.op == HierOperator::mean) sh::add_mean_product(neighbor, edge.h, source);
     if (params.op == HierOperator::matrix) sh::add_matrix_product(neighbor, edge.matrix, source);
   }
@@ -49,7 +51,8 @@ void gather(const ProbeSet& set, const HierParams& params, std::size_t i, std::v
 
 void check(const ProbeSet& set, const HierParams& params) {
   if (params.neighbors < -1) throw Error("neighbors", "must be -1 (all) or a count");
-  if (!(params.threshold >= 0 && params.threshold <= 1)) throw Error("threshold", "must be 0..1, as P is");
+  if (!(params.threshold >= 0 && params.threshold <= limits::coefficient))
+    throw Error("threshold", "must be a number from 0 up, as P is");
   sh::require_degree(set.degree, "probe set");
   for (std::size_t i = 0; i < set.probes.size(); ++i) {
     const Probe& probe = set.probes[i];

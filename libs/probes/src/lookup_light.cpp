@@ -13,7 +13,6 @@ struct LightLookup::Data {
   struct Chosen {
     int probe;
     vec3 direction;  ///< ω, from x to the probe
-    float cosine;    ///< N·ω
     bool lights;
   };
   Chosen choose(const vec3& x, const vec3& n) const {
@@ -23,10 +22,10 @@ struct LightLookup::Data {
       const geometry::Near& candidate = near[static_cast<std::size_t>(i)];
       if (!(candidate.distance2 > 0)) continue;
       const vec3 direction = (probes.position(candidate.index) - x) / std::sqrt(candidate.distance2);
-      const float cosine = glm::dot(n, direction);
-      if (cosine > 0 && sight.sees(candidate, x, n)) return {candidate.index, direction, cosine, true};
+      if (glm::dot(n, direction) > 0 && sight.sees(candidate, x, n))
+        return {candidate.index, direction, true};
     }
-    return {count > 0 ? near[0].index : 0, n, 1, false};  // none is near a point that is no number
+    return {count > 0 ? near[0].index : 0, n, false};  // none is near a point that is no number
   }
 };
 
@@ -51,7 +50,7 @@ vec3 LightLookup::irradiance(const rays::SurfacePoint& at) const {
     return data_->probes.irradiance(chosen.probe, basis.data());
   }
   data_->probes.radiance_basis(chosen.direction, basis);
-  return data_->probes.radiance(chosen.probe, basis.data()) / std::max(chosen.cosine, smallest_cosine);
+  return pi * data_->probes.radiance(chosen.probe, basis.data());
 }
 
 std::vector<std::string> LightLookup::direct_groups() const {

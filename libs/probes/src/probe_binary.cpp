@@ -19,8 +19,11 @@ constexpr std::array<char, 8> magic = {'S', 'P', 'H', 'L', '\r', '\n', '\x1a', '
 void write_generator(ByteWriter& out, const GeneratorInfo& g) {
   out.value(static_cast<std::uint8_t>(g.op));
   out.value(static_cast<std::uint8_t>(g.viz));
+  out.value(static_cast<std::uint8_t>(g.viz_source));
   out.value(static_cast<std::uint8_t>(g.gen));
-  for (const int v : {g.max_depth, g.passes, g.spp, g.face_size}) out.value(static_cast<std::uint32_t>(v));
+  out.value(static_cast<std::uint8_t>(g.viz_paths));
+  for (const int v : {g.max_depth, g.passes, g.spp, g.viz_max_depth, g.viz_passes, g.viz_spp, g.face_size})
+    out.value(static_cast<std::uint32_t>(v));
   out.value(g.seed);
   out.value(static_cast<std::uint32_t>(g.directions));
   out.value(g.surfel_size);
@@ -39,10 +42,15 @@ GeneratorInfo read_generator(ByteReader& in) {
   GeneratorInfo g;
   g.op = static_cast<LightOperator>(in.value_in<std::uint8_t>("operator", 0, 2));
   g.viz = static_cast<VizMethod>(in.value_in<std::uint8_t>("VIZ method", 0, 2));
+  g.viz_source = static_cast<VizSource>(in.value_in<std::uint8_t>("VIZ source", 0, 1));
   g.gen = static_cast<GenMode>(in.value_in<std::uint8_t>("GEN mode", 0, 1));
+  g.viz_paths = static_cast<rays::PathSet>(in.value_in<std::uint8_t>("VIZ paths", 0, 1));
   g.max_depth = read_int(in, "max depth", 0, limits::depth);
   g.passes = read_int(in, "passes", 1, limits::samples);
   g.spp = read_int(in, "samples", 1, limits::samples);
+  g.viz_max_depth = read_int(in, "max depth of VIZ", 0, limits::depth);
+  g.viz_passes = read_int(in, "passes of VIZ", 1, limits::samples);
+  g.viz_spp = read_int(in, "samples of VIZ", 1, limits::samples);
   g.face_size = read_int(in, "face size", 1, limits::face_size);
   g.seed = in.value<std::uint64_t>("seed");
   g.directions = read_int(in, "directions", 0, limits::rays);
@@ -151,7 +159,7 @@ void write_baseline(ByteWriter& out, const Baseline& baseline) {
 Baseline read_baseline(ByteReader& in, std::size_t probe_count, std::size_t group_count) {
   Baseline baseline;
   baseline.viz_neighbors = in.value_in<std::int32_t>("neighbors", -1, static_cast<int>(limits::probes));
-  baseline.viz_threshold = in.value_in<float>("threshold", 0.0f, 1.0f);
+  baseline.viz_threshold = in.value_in<float>("threshold", 0.0f, limits::coefficient);
   baseline.records = read_int(in, "records", 0, static_cast<int>(limits::surface_records));
   baseline.most_surfels = read_int(in, "surfels", 0, limits::surfels);
   constexpr std::size_t item_bytes = 1 + sizeof(std::uint32_t) + 4 * sizeof(Hash128);
@@ -200,9 +208,9 @@ ProbeSet read_payload(ByteReader& in) {
   }
   if (in.value_in<std::uint8_t>("hierarchy flag", 0, 1)) {
     Hierarchy& hierarchy = set.hierarchy.emplace();
-    hierarchy.op = static_cast<HierOperator>(in.value_in<std::uint8_t>("operator", 0, 2));
+    hierarchy.op = static_cast<HierOperator>(in.value_in<std::uint8_t>("operator", 0, 3));
     hierarchy.neighbors = in.value_in<std::int32_t>("neighbors", -1, static_cast<int>(limits::probes));
-    hierarchy.threshold = in.value_in<float>("threshold", 0.0f, 1.0f);
+    hierarchy.threshold = in.value_in<float>("threshold", 0.0f, limits::coefficient);
     hierarchy.neighbor.resize(probe_count);
     for (sh::RadianceSh& neighbor : hierarchy.neighbor)
       neighbor.values = ByteReaderParts(in).vectors("neighbour part", coefficients, Missing::never);

@@ -68,6 +68,9 @@ class Validator {
     count(g.max_depth, 0, limits::depth, "/generator/max_depth");
     count(g.passes, 1, limits::samples, "/generator/passes");
     count(g.spp, 1, limits::samples, "/generator/spp");
+    count(g.viz_max_depth, 0, limits::depth, "/generator/viz_max_depth");
+    count(g.viz_passes, 1, limits::samples, "/generator/viz_passes");
+    count(g.viz_spp, 1, limits::samples, "/generator/viz_spp");
     count(g.face_size, 1, limits::face_size, "/generator/face_size");
     count(g.directions, 0, limits::rays, "/generator/directions");
     number(g.surfel_size, 0, limits::coordinate, "/generator/surfel_size");
@@ -99,7 +102,7 @@ class Validator {
                   edge.from != static_cast<int>(i),
               edge_at + "/from", "must be another probe's index, in ascending order");
       last = edge.from;
-      number(edge.transfer, 0, 1, edge_at + "/transfer");
+      number(edge.transfer, 0, limits::coefficient, edge_at + "/transfer");
       function(edge.h, edge_at + "/h");
       const std::vector<vec3>& matrix = edge.matrix.values;
       if (matrix.empty()) continue;
@@ -113,7 +116,7 @@ class Validator {
   void hierarchy(const Hierarchy& h) const {
     require(h.neighbors >= -1 && h.neighbors <= static_cast<int>(limits::probes), "/hierarchy/neighbors",
             "must be -1 (all) or a count");
-    number(h.threshold, 0, 1, "/hierarchy/threshold");
+    number(h.threshold, 0, limits::coefficient, "/hierarchy/threshold");
     require(h.neighbor.size() == set_.probes.size(), "/hierarchy", "needs one neighbour part per probe");
     for (std::size_t i = 0; i < h.neighbor.size(); ++i)
       function(h.neighbor[i], fmt::format("/probes/{}/neighbor", i));
@@ -145,7 +148,7 @@ class Validator {
   void baseline(const Baseline& b) const {
     require(b.viz_neighbors >= -1 && b.viz_neighbors <= static_cast<int>(limits::probes),
             "/baseline/neighbors", "must be -1 (all) or a count");
-    number(b.viz_threshold, 0, 1, "/baseline/threshold");
+    number(b.viz_threshold, 0, limits::coefficient, "/baseline/threshold");
     require(b.records >= 0 && b.records <= static_cast<int>(limits::surface_records), "/baseline/records",
             "must be a count");
     require(b.most_surfels >= 0 && b.most_surfels <= limits::surfels, "/baseline/surfels", "must be a count");

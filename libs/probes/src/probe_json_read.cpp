@@ -43,8 +43,9 @@ class FilePlace : public Cursor {
 using FileParts = JsonParts<FilePlace>;
 
 GeneratorInfo read_generator(const Cursor& at) {
-  at.members({"operator", "viz", "gen", "max_depth", "passes", "spp", "face_size", "seed", "directions",
-              "surfel_size", "link_rays", "scene", "scene_hash", "time"});
+  at.members({"operator", "gen", "max_depth", "passes", "spp", "viz", "viz_source", "viz_paths",
+              "viz_max_depth", "viz_passes", "viz_spp", "face_size", "seed", "directions", "surfel_size",
+              "link_rays", "scene", "scene_hash", "time"});
   GeneratorInfo g;
   g.op = at["operator"].named<LightOperator>();
   g.viz = at["viz"].named<VizMethod>();
@@ -52,6 +53,11 @@ GeneratorInfo read_generator(const Cursor& at) {
   g.max_depth = integer(at["max_depth"], 0, limits::depth);
   g.passes = integer(at["passes"], 1, limits::samples);
   g.spp = integer(at["spp"], 1, limits::samples);
+  g.viz_source = at["viz_source"].named<VizSource>();
+  g.viz_paths = at["viz_paths"].named<rays::PathSet>();
+  g.viz_max_depth = integer(at["viz_max_depth"], 0, limits::depth);
+  g.viz_passes = integer(at["viz_passes"], 1, limits::samples);
+  g.viz_spp = integer(at["viz_spp"], 1, limits::samples);
   g.face_size = integer(at["face_size"], 1, limits::face_size);
   g.seed = at["seed"].hexadecimal();
   g.directions = integer(at["directions"], 0, limits::rays);
@@ -130,7 +136,7 @@ Baseline read_baseline(const Cursor& at, std::size_t probe_count, std::size_t gr
   at.members({"neighbors", "threshold", "records", "surfels", "items", "trials"});
   Baseline baseline;
   baseline.viz_neighbors = integer(at["neighbors"], -1, static_cast<int>(limits::probes));
-  baseline.viz_threshold = at["threshold"].number(0, 1);
+  baseline.viz_threshold = at["threshold"].number(0, limits::coefficient);
   baseline.records = integer(at["records"], 0, static_cast<int>(limits::surface_records));
   baseline.most_surfels = integer(at["surfels"], 0, limits::surfels);
   const Cursor items = at["items"];
@@ -184,7 +190,7 @@ ProbeSet read_set(const Cursor& root) {
     Hierarchy& h = set.hierarchy.emplace();
     h.op = at["operator"].named<HierOperator>();
     h.neighbors = integer(at["neighbors"], -1, static_cast<int>(limits::probes));
-    h.threshold = at["threshold"].number(0, 1);
+    h.threshold = at["threshold"].number(0, limits::coefficient);
   }
   const Cursor probes = root["probes"];
   const std::size_t probe_count = probes.size(0, limits::probes);

@@ -20,9 +20,13 @@ class Writer {
   std::string run() {
     const GeneratorInfo& g = set_.generator;
     put("{{\"format\":\"ssphh-probes\",\"version\":{},\n\"degree\":{},\n", probe_file_version, set_.degree);
-    put("\"generator\":{{\"operator\":\"{}\",\"viz\":\"{}\",\"gen\":\"{}\",\"max_depth\":{},\"passes\":{},"
-        "\"spp\":{},\"face_size\":{},\"seed\":\"{:x}\",\n",
-        name_of(g.op), name_of(g.viz), name_of(g.gen), g.max_depth, g.passes, g.spp, g.face_size, g.seed);
+    put("\"generator\":{{\"operator\":\"{}\",\"gen\":\"{}\",\"max_depth\":{},\"passes\":{},\"spp\":{},\n",
+        name_of(g.op), name_of(g.gen), g.max_depth, g.passes, g.spp);
+    put("\"viz\":\"{}\",\"viz_source\":\"{}\",\"viz_paths\":\"{}\",\"viz_max_depth\":{},\"viz_passes\":{},"
+        "\"viz_spp\":{},\n",
+        name_of(g.viz), name_of(g.viz_source), name_of(g.viz_paths), g.viz_max_depth, g.viz_passes,
+        g.viz_spp);
+    put("\"face_size\":{},\"seed\":\"{:x}\",\n", g.face_size, g.seed);
     put("\"directions\":{},\"surfel_size\":{},\"link_rays\":{},\n", g.directions, exact(g.surfel_size),
         g.link_rays);
     put("\"scene\":{},\"scene_hash\":\"{}\",\"time\":{}}},\n", quoted(g.scene), g.scene_hash.hex(),
@@ -77,7 +81,7 @@ class Writer {
     bool first = true;
 
     void index(const char* name, int value) { begin(name), writer.put("{}", value); }
-    void share(const char* name, float value) { begin(name), append_five_digits(writer.out_, value); }
+    void amount(const char* name, float value) { begin(name), append_five_digits(writer.out_, value); }
     void vectors(const char* name, std::span<const vec3> values, Missing missing) {
       if (values.empty() && missing == Missing::absent) return;
       begin(name, "\n"), writer.numbers(values);

@@ -32,6 +32,10 @@ void check_groups(const ProbeSet& set) {
 
 }  // namespace
 
+float emitter_radiance(VizSource source, float radius) {
+  return source == VizSource::intensity ? 1 / (pi * radius * radius) : 1;
+}
+
 void merge_groups(ProbeSet& set) {
   check_groups(set);
   if (set.surface) {

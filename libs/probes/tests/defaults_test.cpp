@@ -58,7 +58,6 @@ TEST(Defaults, OfLookups) {
   EXPECT_EQ(max_weights, 16);
   EXPECT_EQ(ProbeWeights().entries.size(), 48u);
   EXPECT_EQ(most_surface_points, 24u);
-  EXPECT_EQ(LightLookup::smallest_cosine, 0.05f);
 }
 
 TEST(ProbeLimits, AreThoseOfThePageOfProbeFiles) {

@@ -38,6 +38,7 @@ std::vector<glm::dvec3> dense_reference(const ProbeSet& set, const HierParams& p
     for (std::size_t k = 0; k < count; ++k) {
       const glm::dvec3 h(dense[j]->h.values[k]);
       if (params.op == HierOperator::coefficient) sum[k] += h * glm::dvec3(s[k]) / root_4pi_d;
+      if (params.op == HierOperator::raw) sum[k] += h * glm::dvec3(s[k]);
       if (params.op == HierOperator::mean) sum[k] += h * glm::dvec3(s[0]) / root_4pi_d;
       if (params.op == HierOperator::matrix) {
         for (std::size_t m = 0; m < count; ++m) {
@@ -83,7 +84,8 @@ ProbeSet pair_set(const sh::RadianceSh& h, const sh::RadianceSh& source) {
 TEST(Hier, EveryOperatorAndSelectionEqualsTheDenseReference) {
   ProbeSet set = random_set(7, 7, 4, 2, true);
   set.probes[3].edges[1].transfer = set.probes[3].edges[4].transfer;  // a tie
-  for (const HierOperator op : {HierOperator::coefficient, HierOperator::mean, HierOperator::matrix}) {
+  for (const HierOperator op :
+       {HierOperator::coefficient, HierOperator::mean, HierOperator::matrix, HierOperator::raw}) {
     for (const int neighbors : {-1, 0, 1, 3, 100}) {
       for (const float threshold : {0.0f, 0.4f, 1.0f}) {
         const HierParams params{op, neighbors, threshold};
@@ -189,7 +191,8 @@ TEST(Hier, MatrixWithoutMatricesAndBadParametersAreErrors) {
     EXPECT_THAT(e.what(), HasSubstr("--viz-transfer"));
   }
   EXPECT_THROW(hier(set, {HierOperator::mean, -2, 0}), Error);
-  EXPECT_THROW(hier(set, {HierOperator::mean, -1, 1.5f}), Error);
+  EXPECT_THROW(hier(set, {HierOperator::mean, -1, -0.5f}), Error);
+  EXPECT_THROW(hier(set, {HierOperator::mean, -1, std::numeric_limits<float>::infinity()}), Error);
   EXPECT_THROW(hier(set, {HierOperator::mean, -1, std::numeric_limits<float>::quiet_NaN()}), Error);
 }
 

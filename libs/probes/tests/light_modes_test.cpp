@@ -96,7 +96,7 @@ TEST(BakedGroups, OfFilesWithAnotherModeAreRefused) {
   };
   EXPECT_THROW(probes_from_json(replaced("\"mode\":\"baked\"", "\"mode\":\"bakd\""), "set"), Error);
   EXPECT_THROW(probes_from_json(replaced(",\"mode\":\"baked\"", ""), "set"), Error);
-  EXPECT_THROW(probes_from_json(replaced("\"version\":6", "\"version\":5"), "set"), Error);
+  EXPECT_THROW(probes_from_json(replaced("\"version\":7", "\"version\":6"), "set"), Error);
 }
 
 }  // namespace

@@ -24,7 +24,9 @@ TEST(Names, OfOperatorsAndMethodsAreThoseOfFiles) {
   expect_names<LightOperator>({"path", "surfel", "bounce"});
   expect_names<VizMethod>({"none", "path", "links"});
   expect_names<GenMode>({"full", "local"});
-  expect_names<HierOperator>({"coefficient", "mean", "matrix"});
+  expect_names<VizSource>({"intensity", "radiance"});
+  expect_names<rays::PathSet>({"all", "diffuse"});
+  expect_names<HierOperator>({"coefficient", "mean", "matrix", "raw"});
   expect_names<WeightMethod>({"distance", "trilinear", "mls", "fitted", "surface"});
   expect_names<LookupMethod>({"light", "irradiance"});
   expect_names<ProbeLayer>({"self", "neighbor", "sum"});

@@ -62,6 +62,8 @@ TEST(ProbeCodec, EdgesComeFromOtherProbesInAscendingOrder) {
   EXPECT_EQ(said_of(written({edge_from(10, false)})), "from is out of range");
   Edge strong = edge_from(1, false);
   strong.transfer = 1.01f;
+  EXPECT_EQ(said_of(written({strong})), said_of(written({edge_from(1, false)}))) << "an SPHL that is near";
+  strong.transfer = -0.01f;
   EXPECT_EQ(said_of(written({strong})), "transfer is out of range");
 }
 

@@ -283,7 +283,7 @@ TEST(ProbeFile, ASetThatBreaksTheRulesIsNotWritten) {
   expect_rejected("/probes/2/edges/0/from", [](ProbeSet& s) { s.probes[2].edges[0].from = 2; });
   expect_rejected("/probes/2/edges/1/from", [](ProbeSet& s) { s.probes[2].edges[1].from = 0; });
   expect_rejected("/probes/0/edges/1/from", [](ProbeSet& s) { s.probes[0].edges[1].from = 3; });
-  expect_rejected("/probes/0/edges/0/transfer", [](ProbeSet& s) { s.probes[0].edges[0].transfer = 1.5f; });
+  expect_rejected("/probes/0/edges/0/transfer", [](ProbeSet& s) { s.probes[0].edges[0].transfer = -0.1f; });
   expect_rejected("/probes/0/edges/0/matrix",
                   [](ProbeSet& s) { s.probes[0].edges[0].matrix.values.pop_back(); });
   expect_rejected("/hierarchy", [](ProbeSet& s) { s.hierarchy->neighbor.pop_back(); });

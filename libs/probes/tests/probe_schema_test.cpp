@@ -67,7 +67,7 @@ TEST(ProbeSchema, SchemaAndReaderRejectTheSameMutations) {
   const std::vector<Mutation> mutations = {
       {"/format", "probes"},
       {"/version", 1},
-      {"/version", 7},
+      {"/version", 8},
       {"/light_groups/0/mode", "bakd"},
       {"/version", "5"},
       {"/degree", 11},
@@ -83,6 +83,11 @@ TEST(ProbeSchema, SchemaAndReaderRejectTheSameMutations) {
       {"/generator/link_rays", 1e9},
       {"/generator/viz", "photons"},
       {"/generator/viz", 1},
+      {"/generator/viz_source", "photons"},
+      {"/generator/viz_paths", 1},
+      {"/generator/viz_max_depth", 70000},
+      {"/generator/viz_passes", 0},
+      {"/generator/viz_spp", 0.5},
       {"/generator/gen", "half"},
       {"/generator/max_depth", -1},
       {"/generator/passes", 0},
@@ -122,7 +127,7 @@ TEST(ProbeSchema, SchemaAndReaderRejectTheSameMutations) {
       {"/probes/0/edges", 0},
       {"/probes/0/edges/0/from", -1},
       {"/probes/0/edges/0/from", 0.5},
-      {"/probes/0/edges/0/transfer", 1.01},
+      {"/probes/0/edges/0/transfer", 1e31},
       {"/probes/0/edges/0/transfer", -0.01},
       {"/probes/0/edges/0/h", nine_numbers},
       {"/probes/0/edges/0/matrix", nine_numbers},
@@ -157,7 +162,7 @@ TEST(ProbeSchema, SchemaAndReaderRejectTheSameMutations) {
       {"/baseline", nullptr},
       {"/baseline/extra", 1},
       {"/baseline/neighbors", -2},
-      {"/baseline/threshold", 1.5},
+      {"/baseline/threshold", -1.5},
       {"/baseline/records", -1},
       {"/baseline/surfels", -1},
       {"/baseline/items/0/kind", "camera"},
@@ -173,7 +178,7 @@ TEST(ProbeSchema, SchemaAndReaderRejectTheSameMutations) {
       {"/hierarchy", nullptr},
       {"/hierarchy/operator", "tensor"},
       {"/hierarchy/neighbors", -2},
-      {"/hierarchy/threshold", 2},
+      {"/hierarchy/threshold", -2},
   };
   for (const Mutation& mutation : mutations) {
     json::Value document = valid_document();

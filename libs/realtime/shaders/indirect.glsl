@@ -27,7 +27,8 @@ int next_bit(inout uint bits) {
 }
 
 #ifdef LOOKUP_LIGHT
-// The nearest visible one above the horizon as a lamp, I = L / (N . w); else the nearest as if it stood here.
+// The nearest visible one above the horizon as a lamp whose cosine cancels: rho L leaves; else the nearest as if it
+// stood here.
 Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
   int base = candidates_at(s.position);
   uint above = 0;
@@ -54,7 +55,7 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
   found.count = best < 1e30 ? 1 : 0;
   found.chosen = int(found.count > 0 ? chosen.w : nearest.w);
   vec3 w = normalize(chosen.xyz - s.position);
-  vec3 as_lamp = radiance_of(found.chosen, radiance_at(w, 0)) / max(dot(s.normal, w), SMALLEST_COSINE);
+  vec3 as_lamp = PI * radiance_of(found.chosen, radiance_at(w, 0));
   found.irradiance = found.count > 0 ? as_lamp : irradiance_of(found.chosen, irradiance_at(s.normal));
   found.glossy = radiance_of(found.chosen, radiance_at(mirror, roughness));
   return found;

@@ -14,6 +14,15 @@ bool is_whole(const TransferMatrix& matrix) {
                                      static_cast<std::size_t>(coefficient_count(matrix.emitted_degree));
 }
 
+/// sum[k] += factor·H[k]·S[k].
+void add_products(RadianceSh& sum, const RadianceSh& response, const RadianceSh& source, float factor,
+                  const char* where) {
+  const std::size_t count = sum.values.size();
+  require(response.values.size() == count && source.values.size() == count, where,
+          "sum, response and source must have one degree");
+  for (std::size_t k = 0; k < count; ++k) sum.values[k] += factor * response.values[k] * source.values[k];
+}
+
 }  // namespace
 
 vec3 mean(const RadianceSh& radiance) {
@@ -27,12 +36,11 @@ RadianceSh add(const RadianceSh& a, const RadianceSh& b) {
 }
 
 void add_coefficient_product(RadianceSh& sum, const RadianceSh& response, const RadianceSh& source) {
-  const std::size_t count = sum.values.size();
-  require(response.values.size() == count && source.values.size() == count, "coefficient product",
-          "sum, response and source must have one degree");
-  for (std::size_t k = 0; k < count; ++k) {
-    sum.values[k] += inverse_root_4pi * response.values[k] * source.values[k];
-  }
+  add_products(sum, response, source, inverse_root_4pi, "coefficient product");
+}
+
+void add_raw_product(RadianceSh& sum, const RadianceSh& response, const RadianceSh& source) {
+  add_products(sum, response, source, 1, "raw product");
 }
 
 void add_mean_product(RadianceSh& sum, const RadianceSh& response, const RadianceSh& source) {

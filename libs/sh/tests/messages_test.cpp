@@ -66,6 +66,8 @@ TEST(ShMessages, OfFunctionsThatDoNotFit) {
             "coefficient product: sum, response and source must have one degree");
   EXPECT_EQ(message_of([&] { add_coefficient_product(one, one, two); }),
             "coefficient product: sum, response and source must have one degree");
+  EXPECT_EQ(message_of([&] { add_raw_product(one, one, two); }),
+            "raw product: sum, response and source must have one degree");
   EXPECT_EQ(message_of([&] { add_mean_product(one, two, one); }),
             "mean product: sum and response must have one degree, and the source a mean");
   EXPECT_EQ(message_of([&] { add_mean_product(one, one, none); }),

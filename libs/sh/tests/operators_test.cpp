@@ -49,6 +49,14 @@ TEST(Operators, CoefficientProductMultipliesEachCoefficient) {
   }
 }
 
+TEST(Operators, RawProductLeavesTheFactorOut) {
+  const RadianceSh h = random_sh(10, 4), s = random_sh(10, 5), start = random_sh(10, 6);
+  RadianceSh sum = start;
+  add_raw_product(sum, h, s);
+  for (int k = 0; k < max_coefficient_count; ++k)
+    EXPECT_LT(largest_difference(sum[k], start[k] + h[k] * s[k]), 1e-6f);
+}
+
 // The weakness that theory states: two lobes toward −z give one toward +z.
 TEST(Operators, CoefficientProductTurnsTwoLobesAround) {
   RadianceSh down(1), sum(1);

@@ -128,6 +128,7 @@ TEST(OperatorProperty, EachIsLinearInTheSource) {
               worst = std::max(worst, apart(whole, first));
             };
             compare([&](RadianceSh& sum, const RadianceSh& s) { add_coefficient_product(sum, response, s); });
+            compare([&](RadianceSh& sum, const RadianceSh& s) { add_raw_product(sum, response, s); });
             compare([&](RadianceSh& sum, const RadianceSh& s) { add_mean_product(sum, response, s); });
             compare([&](RadianceSh& sum, const RadianceSh& s) { add_matrix_product(sum, matrix, s); });
             // 16 products of numbers up to 2 · 3.

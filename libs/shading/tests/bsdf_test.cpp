@@ -24,6 +24,30 @@ TEST(Bsdf, LambertIsAlbedoOverPiTimesCosine) {
   EXPECT_EQ(sample->weight, params.diffuse) << "cosine sampling leaves exactly the albedo";
 }
 
+TEST(Bsdf, ItsDiffuseLobeIsWhatIsLeftWithoutTheSpecularOne) {
+  for (const NamedBsdf& model : bsdf_models()) {
+    BsdfParams specular = model.params;
+    specular.diffuse = vec3(0);
+    Pcg32 random(2);
+    for (int n = 0; n < 100; ++n) {
+      const vec3 wo = direction(0.02f + 0.97f * random.uniform(), 6 * random.uniform());
+      const vec3 wi = direction(0.02f + 0.97f * random.uniform(), 6 * random.uniform());
+      const BsdfFrom diffuse(model.params, wo, Lobes::diffuse);
+      const vec3 whole = eval_bsdf(model.params, wo, wi), mirrored = eval_bsdf(specular, wo, wi);
+      const BsdfValue f = diffuse.eval(wi);
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(f.value[c], whole[c] - mirrored[c], 1e-6f * (1 + whole[c])) << model.name;
+      EXPECT_NEAR(f.pdf, wi.z / pi, 1e-6f) << model.name;
+      const auto sample = diffuse.sample(random.uniform(), random.uniform2());
+      ASSERT_TRUE(sample) << model.name;
+      const BsdfValue there = diffuse.eval(sample->wi);
+      EXPECT_NEAR(sample->pdf, there.pdf, 1e-6f) << model.name;
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(sample->weight[c], there.value[c] / there.pdf, 1e-4f) << model.name;
+    }
+  }
+}
+
 TEST(Bsdf, IsReciprocal) {
   for (const NamedBsdf& model : bsdf_models()) {
     Pcg32 random(1);

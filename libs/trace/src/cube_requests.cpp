@@ -58,7 +58,7 @@ void trace_texel_rows(const TracerData& data, const Emitters& emitters, const ra
                       std::vector<image::CubeMap>& maps, ProgressStage& stage, const Control& control) {
   const auto size = static_cast<std::size_t>(request.face_size);
   const rays::PathParams& path = request.path;
-  const PathOptions options{path.max_depth};
+  const PathOptions options{.max_depth = path.max_depth, .paths = request.paths};
   const float mean_scale = 1 / (static_cast<float>(path.spp) * static_cast<float>(path.passes));
   for (std::size_t row = begin; row < end; ++row) {
     control.check();
@@ -128,8 +128,9 @@ void splat_ball(const TracerData& data, const GhostEmitters::Ball& ball, int ind
     float distance;
     const vec3 direction =
         GhostEmitters::sample_cone(ball, request.position, sampler.camera().next2(), distance);
-    const vec3 through = data.geometry.transmittance({request.position, direction, distance},
-                                                     sampler.passage(data.geometry, 0, true), task);
+    const vec3 through =
+        data.geometry.transmittance({request.position, direction, distance},
+                                    sampler.passage(data.geometry, 0, true, false, request.paths), task);
     if (!(max_component(through) > 0)) continue;
     const CubePoint point = cube_point(direction);
     const auto texel = [&](float c) {

@@ -24,6 +24,7 @@ struct PathOptions {
   /// The first surface that is no glass gets its indirect light from a lookup: what glass shows counts no
   /// depth, and from that surface on light goes straight through glass of any kind.
   bool looks_up = false;
+  rays::PathSet paths = rays::PathSet::all;
 };
 
 /// Paths of at least this depth end by Russian roulette.
@@ -52,10 +53,11 @@ struct PathSampler {
     return sample_pairs(hash_combine(seed, 0x5eed61a550000000 + static_cast<std::uint64_t>(n)), index)[0];
   }
   /// What lets the ray pass that leaves a vertex: glass only toward lights, smooth sheets or all of it.
-  Passage passage(const PosedGeometry& scene, int vertex, bool shadow, bool all_glass = false) const {
-    const PassedGlass glass = !shadow     ? PassedGlass::none
-                              : all_glass ? PassedGlass::all
-                                          : PassedGlass::smooth_sheets;
+  Passage passage(const PosedGeometry& scene, int vertex, bool shadow, bool all_glass = false,
+                  rays::PathSet paths = rays::PathSet::all) const {
+    const PassedGlass glass = !shadow || paths == rays::PathSet::diffuse ? PassedGlass::none
+                              : all_glass                                ? PassedGlass::all
+                                                                         : PassedGlass::smooth_sheets;
     return {scene.filters() ? passage_seed(vertex, shadow) : 0, glass};
   }
 
@@ -185,6 +187,7 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
       const bool emits = max_component(surface.emission) > 0 && (depth == 0 || !surface.unlit);
       if (emits) emitters.surface(vertex, ray, hit, surface, add_emitted);
       straight =
+          options.paths == rays::PathSet::all &&
           go_straight(surface, ray_origin, hit, options.looks_up && !looks_up, last, sampler, light, ray);
     }
     if (!met_any) visitor.first_hit(surface, ray_origin, ray, hit);
@@ -203,7 +206,12 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
     const vec3 beyond_surface = 2.0f * surface.position - ray_origin;  // where rays start that go through
     const Frame frame = Frame::around(surface.normal);
     const vec3 wo = frame.to_local(-ray.direction);
-    const shading::ScatteringFrom scattering(surface, wo);
+    if (options.paths == rays::PathSet::diffuse) {
+      light.throughput *= 1 - surface.glass.share;
+      surface.glass.share = 0;
+    }
+    const shading::ScatteringFrom scattering(
+        surface, wo, options.paths == rays::PathSet::diffuse ? shading::Lobes::diffuse : shading::Lobes::all);
     const bool is_glass = surface.glass.share > 0;
 
     // Sample direct light.
@@ -221,7 +229,8 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
           const vec3& start = side > 0 ? ray_origin : beyond_surface;
           const Ray shadow{start, toward->wi, shadow_distance(start, toward->distance)};
           const vec3 through = scene.transmittance(
-              shadow, sampler.passage(scene, vertices, true, options.looks_up && !looks_up), task);
+              shadow, sampler.passage(scene, vertices, true, options.looks_up && !looks_up, options.paths),
+              task);
           if (max_component(through) > 0)
             visitor.add(depth + 1, toward->group, through * value * (weight / toward->pdf), -toward->wi);
         }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <ssphh/core/log.h>
+#include <ssphh/core/require.h>
 #include <ssphh/core/sphere.h>
 #include <ssphh/trace/path_tracer.h>
 
@@ -32,14 +33,16 @@ void set_ray_recording(RayRecording* recording) {
   ray_recording = recording;
 }
 
-TracerData::TracerData(SharedGeometry geometry_in, const scene::Scene& scene_in, float time_in)
-    : scene(scene_in),
+TracerData::TracerData(SharedGeometry geometry_in, std::shared_ptr<const scene::Scene> scene_in,
+                       float time_in)
+    : kept(std::move(scene_in)),
+      scene(*kept),
       time(time_in),
-      world(scene::world_matrices(scene_in, time_in)),
-      lights(scene_in, world),
-      shaded(std::move(geometry_in), scene_in),
-      geometry(shaded, shaded.layout().poses(scene_in, time_in)),
-      found_by_rays(has_found_by_rays(scene_in)) {}
+      world(scene::world_matrices(scene, time_in)),
+      lights(scene, world),
+      shaded(std::move(geometry_in), scene),
+      geometry(shaded, shaded.layout().poses(scene, time_in)),
+      found_by_rays(has_found_by_rays(scene)) {}
 
 const Hash128& TracerData::scene_hash() const {
   std::call_once(hash_once, [this] { hash = scene::scene_hash(scene); });
@@ -87,11 +90,16 @@ void check_image_memory(const std::string& where, std::uint64_t pixels, std::uin
   }
 }
 
-PathTracer::PathTracer(SharedGeometry geometry, const scene::Scene& scene, float time) {
+PathTracer::PathTracer(SharedGeometry geometry, std::shared_ptr<const scene::Scene> scene, float time) {
+  require(scene != nullptr, "path tracer", "there is no scene");
   if (!std::isfinite(time)) throw Error("time", "it must be a finite number of seconds");
-  scene::check_indices(scene);
-  data_ = std::make_unique<Data>(std::move(geometry), scene, time);
+  scene::check_indices(*scene);
+  data_ = std::make_unique<Data>(std::move(geometry), std::move(scene), time);
 }
+
+PathTracer::PathTracer(SharedGeometry geometry, const scene::Scene& scene, float time)
+    : PathTracer(std::move(geometry), std::shared_ptr<const scene::Scene>(std::shared_ptr<void>(), &scene),
+                 time) {}
 
 PathTracer::PathTracer(const scene::Scene& scene, float time)
     : PathTracer(std::make_shared<const SceneGeometry>(scene), scene, time) {}

@@ -43,6 +43,7 @@ class ShadedGeometry {
   bool filters() const { return data_->filters; }
   const SceneParts& layout() const { return data_->layout; }
   const scene::Scene& scene() const { return scene_; }
+  const SharedGeometry& shared() const { return geometry_; }
 
  private:
   struct InstanceShading {

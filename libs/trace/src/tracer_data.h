@@ -14,8 +14,13 @@
 namespace ssphh::trace {
 
 struct TracerData {
-  TracerData(SharedGeometry geometry, const scene::Scene& scene_in, float time_in);
+  TracerData(SharedGeometry geometry, std::shared_ptr<const scene::Scene> scene_in, float time_in);
+  /// Of a scene that somebody else keeps.
+  TracerData(SharedGeometry geometry_in, const scene::Scene& scene_in, float time_in)
+      : TracerData(std::move(geometry_in),
+                   std::shared_ptr<const scene::Scene>(std::shared_ptr<void>(), &scene_in), time_in) {}
 
+  std::shared_ptr<const scene::Scene> kept;
   const scene::Scene& scene;
   float time;
   std::vector<mat4> world;

@@ -1,6 +1,8 @@
 /// The lights as transport sees them.
 
 #include <ssphh/core/require.h>
+#include <ssphh/scene/with_lighting.h>
+#include <ssphh/trace/path_tracer.h>
 
 #include "posed_light.h"
 #include "transport_data.h"
@@ -52,6 +54,11 @@ std::unique_ptr<rays::DirectLight> TransportScene::direct_light(std::span<const 
   require(poses.size() == data_->layout().parts.size(), "direct light",
           "there is not one pose for each part");
   return std::make_unique<PosedLight>(data_, lights, poses, environment_rotation);
+}
+
+std::unique_ptr<rays::RadianceSource> TransportScene::path_tracing(const scene::LightingState& state) const {
+  auto lit = std::make_shared<const scene::Scene>(scene::with_lighting(data_->scene, state));
+  return std::make_unique<PathTracer>(data_->geometry.shared(), std::move(lit), state.time);
 }
 
 }  // namespace ssphh::trace

@@ -105,7 +105,8 @@ class LinkViz {
   /// Irradiance of every surfel while probe j is the only light.
   void light_sphere(std::size_t j) {
     sphere_ = {probes_[j].position, probes_[j].radius, sh::RadianceSh(0)};
-    sphere_.leaving[0] = vec3(std::sqrt(4 * pi));
+    radiance_ = probes::emitter_radiance(params_.source, sphere_.radius);
+    sphere_.leaving[0] = vec3(radiance_ * std::sqrt(4 * pi));
     at_samples_.assign(network_.samples().size(), vec3(0));
     add_emission(network_, source_, sphere_, at_samples_);
     field_.sum({}, at_samples_, direct_);
@@ -128,8 +129,9 @@ class LinkViz {
     // Upper bounds of P first: the sphere takes rays and H a projection, and most pairs need neither.
     std::vector<std::uint8_t> wanted(probes_.size());
     parallel_for(probes_.size(), 8, [&](std::size_t i) {
-      wanted[i] = i != j && to_[i] &&
-                  kept_[i].wants(seen_on_surfaces(i) + sphere_share(probes_[i].position, sphere_));
+      wanted[i] =
+          i != j && to_[i] &&
+          kept_[i].wants(seen_on_surfaces(i) + radiance_ * sphere_share(probes_[i].position, sphere_));
     });
     std::vector<std::size_t> at;
     std::vector<vec3> positions;
@@ -149,7 +151,7 @@ class LinkViz {
         seen *= vec3(visible[k]);
         edge.h += seen;
       }
-      edge.transfer = std::min(probes::transfer_coefficient(edge.h), 1.0f);
+      edge.transfer = probes::transfer_coefficient(edge.h);
       if (kept_[at[k]].wants(edge.transfer)) kept_[at[k]].add(std::move(edge));
     });
   }
@@ -164,6 +166,7 @@ class LinkViz {
   std::vector<std::uint8_t> to_, from_;
   // Of the sphere that is lit.
   SphlEmitter sphere_;
+  float radiance_ = 1;
   std::vector<vec3> at_samples_;
   std::vector<Irradiance4> direct_, indirect_;
 };
@@ -176,8 +179,8 @@ std::vector<std::vector<probes::Edge>> viz_from_links(const TransportNetwork& ne
                                                       const LinkVizParams& params, const Control& control,
                                                       const LinkVizScope* scope) {
   if (params.neighbors < -1) throw Error("VIZ from links", "neighbours must be -1 (all) or a count");
-  if (!(params.threshold >= 0 && params.threshold <= 1))
-    throw Error("VIZ from links", "the threshold must be 0..1, as P is");
+  if (!(params.threshold >= 0 && std::isfinite(params.threshold)))
+    throw Error("VIZ from links", "the threshold must be a number from 0 up, as P is");
   const std::vector<vec3>& positions = network.gbuffer().positions;
   require(std::ranges::equal(probes, positions, {}, &probes::Probe::position), "VIZ from links",
           "the probes do not stand where the network's do");

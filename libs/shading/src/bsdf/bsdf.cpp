@@ -30,13 +30,15 @@ vec3 specular_albedo(const SpecularLobe& specular, float mu) {
 // Diffuse under specular: what the specular lobe leaves, on the way in and on the way out (Kelemen and
 // Szirmay-Kalos 2001), so that a Lambertian base gives exactly ρ (1 − E(μ_o)).
 
-void BsdfFrom::weigh_layers() {
+void BsdfFrom::weigh_layers(Lobes lobes) {
+  if (lobes == Lobes::diffuse) p_specular_ = 0;
   if (!(max_component(params_.diffuse) > 0)) return;
   const SpecularLobe specular(params_);
   const vec3 albedo = specular_albedo(specular, wo_.z);
   const vec2 ab = albedo_table(specular.phong).mean(specular.roughness);
   const vec3 mean = specular.f0 * ab.x + specular.f90 * ab.y;
   left_ = (vec3(1) - albedo) / glm::max(vec3(1) - mean, vec3(1e-3f));
+  if (lobes == Lobes::diffuse) return;
 
   // Choose the lobe by its share of the reflected light, neither starved when both are there
   const float s = albedo.x + albedo.y + albedo.z;
@@ -51,10 +53,12 @@ BsdfValue BsdfFrom::eval_lobes(const vec3& wi) const {
 
 BsdfValue BsdfFrom::eval_layers(const vec3& wi) const {
   const SpecularLobe specular(params_);
-  const vec3 h = glm::normalize(wo_ + wi);
   BsdfValue result;
-  result.value = specular.fresnel(glm::dot(wo_, h)) * specular.eval(wo_, wi, h);
-  result.pdf = p_specular_ * specular.pdf(wo_, h);
+  if (p_specular_ > 0) {
+    const vec3 h = glm::normalize(wo_ + wi);
+    result.value = specular.fresnel(glm::dot(wo_, h)) * specular.eval(wo_, wi, h);
+    result.pdf = p_specular_ * specular.pdf(wo_, h);
+  }
   if (p_specular_ < 1) {
     const vec3 transmitted = left_ * (vec3(1) - specular_albedo(specular, wi.z));
     result.value += params_.diffuse * transmitted * diffuse_model(params_.diffuse_roughness, wo_, wi);

@@ -15,11 +15,13 @@ namespace ssphh::bake {
 
 struct BakeParams {
   probes::GenMode gen = probes::GenMode::full;  ///< local overrides path.max_depth with 1
-  rays::PathParams path;                        ///< of GEN; VIZ uses the same depth and samples
+  rays::PathParams path;                        ///< of GEN; its seed is also VIZ's
   int face_size = 64;                           ///< texels along a cube face
   bool keep_light = false;                      ///< no GEN: VIZ alone, beside the light that the set holds
   bool viz = true;                              ///< false: the set's edges stay as they are
   VizParams viz_params;
+  std::optional<rays::PathParams>
+      viz_path;  ///< of VIZ, but for the seed; none: as `path`, whatever `gen` says
   /// GEN and VIZ of these probes alone, ascending; the others keep what the set holds. None: of all.
   std::optional<std::vector<std::uint32_t>> only;
   /// GEN of these light groups alone, ascending; with `only` the others keep what the set holds. None: of
@@ -60,6 +62,11 @@ struct ProbeStageResult {
   std::vector<probes::GroupLight> groups;  ///< of GEN
   std::vector<probes::Edge> edges;         ///< of VIZ
 };
+
+/// Sampling effort and seed that the set's generator states for a stage.
+rays::PathParams path_of(const probes::GeneratorInfo& generator, BakeStage stage);
+/// States them; the seed is one for both.
+void set_path(probes::GeneratorInfo& generator, BakeStage stage, const rays::PathParams& path);
 
 /// One unit: a pure function of the scene, the set's generator (path parameters, face size, seed), degree and
 /// places, but for the seconds. GEN looks at that probe's place alone, VIZ at all.

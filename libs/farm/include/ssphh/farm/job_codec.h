@@ -22,7 +22,7 @@ std::string encode_result(const JobResult& result, ContentType type);
 /// As decode_job. Sizes are checked against the bytes that are there before memory is taken.
 JobResult decode_result(std::string_view body);
 
-inline constexpr int job_version = 1;
+inline constexpr int job_version = 2;
 inline constexpr std::size_t max_json_bytes = std::size_t{32} << 20;  ///< of a document, without raw floats
 
 }  // namespace ssphh::farm

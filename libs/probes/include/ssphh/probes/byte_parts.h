@@ -12,7 +12,7 @@ class ByteWriterParts {
   explicit ByteWriterParts(ByteWriter& out) : out_(out) {}
 
   void index(const char*, int value) { out_.value(static_cast<std::uint32_t>(value)); }
-  void share(const char*, float value) { out_.value(value); }
+  void amount(const char*, float value) { out_.value(value); }
   void vectors(const char*, std::span<const vec3> values, Missing) {
     out_.value(static_cast<std::uint8_t>(!values.empty()));
     out_.array(values);
@@ -36,7 +36,7 @@ class ByteReaderParts {
     if (value >= count) fail(name, "is out of range");
     return static_cast<int>(value);
   }
-  float share(const char* name) const { return in_.value_in<float>(name, 0, 1); }
+  float amount(const char* name) const { return in_.value_in<float>(name, 0, limits::coefficient); }
   std::vector<vec3> vectors(const char* name, std::size_t count, Missing missing) const {
     if (!in_.value_in<std::uint8_t>(name, missing == Missing::never ? 1 : 0, 1)) return {};
     if (count > in_.left() / sizeof(vec3)) fail(name, "is cut off");

@@ -2,6 +2,7 @@
 /// HIER: S'_i = S_i ⊕ Σ_j H_{j→i} ⊗ S_j over the strongest neighbours (paper §3, Algorithm 1). What ⊗ can
 /// mean, and what each meaning is worth, is in libs/methods/ssphh/README.md:
 ///   coefficient  (1/√4π) H[k]·S_j[k]: the paper's; depends on the axes of the scene
+///   raw          H[k]·S_j[k]: the same without the factor, which makes two constants multiply right
 ///   mean         H[k]·S_j[0]/√4π: H keeps its directions, S_j gives only its mean
 ///   matrix       T_{j→i} S_j: exact for SPHLs that are lights; needs a bake with the transfer matrices
 
@@ -15,7 +16,7 @@ namespace ssphh::probes {
 struct HierParams {
   HierOperator op = HierOperator::coefficient;
   int neighbors = -1;   ///< N′: at most so many neighbours per probe, those with the largest P; −1: all
-  float threshold = 0;  ///< and only those with P above it
+  float threshold = 0;  ///< and only those with P above it, which may exceed 1 (VizSource)
 
   friend bool operator==(const HierParams&, const HierParams&) = default;
 };

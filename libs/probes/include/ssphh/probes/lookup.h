@@ -48,9 +48,10 @@ std::vector<sh::RadianceSh> surface_light(const ProbeSet& set, const LookupParam
 /// and copy what they need of the set; `source` (for visibility) must outlive them. Constructors throw Error
 /// as surface_light does.
 
-/// The paper's SPHL as a light (§3): the nearest visible SPHL above the horizon gives I = L_S(ω)/(N·ω), ω
-/// from x to it. When there is none, the nearest SPHL's irradiance, "as if the light probe is located around
-/// x" (§4).
+/// The paper's SPHL as a light (§3): from the nearest visible SPHL above the horizon the radiance L_S(ω)
+/// arrives, ω from x to it, as I = L_S(ω)/(N·ω), so that the cosine of the rendering equation cancels and ρ L
+/// leaves the surface at every angle: irradiance π L. When there is none, the nearest SPHL's irradiance, "as
+/// if the light probe is located around x" (§4).
 class LightLookup final : public rays::IndirectLight {
  public:
   LightLookup(const ProbeSet& set, const rays::RadianceSource& source, const LookupParams& params = {});
@@ -61,9 +62,6 @@ class LightLookup final : public rays::IndirectLight {
   vec3 irradiance(const rays::SurfacePoint& at) const override;
   std::vector<std::string> direct_groups() const override;
   vec3 glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const override;
-
-  /// Guard of the paper's division: N·ω is taken as at least this.
-  static constexpr float smallest_cosine = 0.05f;
 
  private:
   struct Data;

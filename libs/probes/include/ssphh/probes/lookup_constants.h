@@ -60,7 +60,6 @@ inline constexpr std::array constants_of_shaders = {
     ShaderConstant{"MLS_LEAST_BUMP", mls_least_bump},
     ShaderConstant{"MLS_RIDGE", mls_ridge},
     ShaderConstant{"LEAST_TENT", least_tent},
-    ShaderConstant{"SMALLEST_COSINE", LightLookup::smallest_cosine},
     ShaderConstant{"FITTED_REACH", fitted_reach},
     ShaderConstant{"FITTED_COSINE", fitted_cosine},
     ShaderConstant{"FITTED_OFF_PLANE", fitted_off_plane},

@@ -2,8 +2,8 @@
 /// What GEN and VIZ find at a probe, in and out, once for every format: which parts there are, in which
 /// order, how many numbers each has, which may be missing, and what is refused. A format brings the alphabet:
 ///
-///   Out: index(name, int), share(name, float), vectors(name, span of vec3, Missing)
-///   In:  members(needed, further), size(most, floats_each), operator[](i), index(name, count), share(name),
+///   Out: index(name, int), amount(name, float), vectors(name, span of vec3, Missing)
+///   In:  members(needed, further), size(most, floats_each), operator[](i), index(name, count), amount(name),
 ///        vectors(name, count, Missing), fail(name, problem)
 ///
 /// which are bytes in binary probe files and in checkpoints, JSON in probe files, and JSON with floats behind
@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/json_cursor.h>
+#include <ssphh/probes/probe_limits.h>
 #include <ssphh/probes/probe_set.h>
 
 namespace ssphh::probes {
@@ -46,7 +47,7 @@ GroupLight read_light(const In& in, int degree) {
 template <class Out>
 void write_edge(Out&& out, const Edge& edge) {
   out.index("from", edge.from);
-  out.share("transfer", edge.transfer);
+  out.amount("transfer", edge.transfer);
   out.vectors("h", edge.h.values, Missing::never);
   out.vectors("matrix", edge.matrix.values, Missing::absent);
 }
@@ -65,7 +66,7 @@ std::vector<Edge> read_edges(const In& in, int degree, std::size_t to, std::size
     if (edge.from <= last || static_cast<std::size_t>(edge.from) == to)
       at.fail("from", "must be another probe's index, in ascending order");
     last = edge.from;
-    edge.transfer = at.share("transfer");
+    edge.transfer = at.amount("transfer");
     edge.h.values = at.vectors("h", k, Missing::never);
     edge.matrix.values = at.vectors("matrix", k * k, Missing::absent);
     if (!edge.matrix.values.empty()) edge.matrix.arriving_degree = edge.matrix.emitted_degree = degree;
@@ -89,7 +90,7 @@ class JsonParts {
   int index(const char* name, std::size_t count) const {
     return static_cast<int>(at_[name].integer(0, static_cast<std::int64_t>(count) - 1));
   }
-  float share(const char* name) const { return at_[name].number(0, 1); }
+  float amount(const char* name) const { return at_[name].number(0, limits::coefficient); }
   std::vector<vec3> vectors(const char* name, std::size_t count, Missing missing) const {
     if (missing == Missing::absent && !at_.has(name)) return {};
     const At part = at_[name];

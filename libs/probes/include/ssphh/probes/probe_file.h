@@ -11,7 +11,7 @@
 
 namespace ssphh::probes {
 
-inline constexpr int probe_file_version = 6;
+inline constexpr int probe_file_version = 7;
 
 enum class ProbeFileFormat { json, binary };
 

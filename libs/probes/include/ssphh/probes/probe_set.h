@@ -13,6 +13,7 @@
 #include <ssphh/probes/baseline.h>
 #include <ssphh/probes/fitted_points.h>
 #include <ssphh/probes/surface_records.h>
+#include <ssphh/rays/radiance_source.h>
 #include <ssphh/scene/light_mode.h>
 #include <ssphh/sh/operators.h>
 
@@ -34,6 +35,17 @@ constexpr auto enum_table(VizMethod) {
   return std::to_array<EnumName<VizMethod>>({{none, "none"}, {path, "path"}, {links, "links"}});
 }
 
+/// How bright the emitter of VIZ is, a sphere that shines alike in all directions: total intensity 1 (the
+/// paper's L̂: I = 1 W/sr, radiance 1/(π r²), so that H and P hardly depend on its radius r), or radiance 1.
+enum class VizSource { intensity, radiance };
+constexpr auto enum_table(VizSource) {
+  using enum VizSource;
+  return std::to_array<EnumName<VizSource>>({{intensity, "intensity"}, {radiance, "radiance"}});
+}
+
+/// Radiance of the emitter [W sr⁻¹ m⁻²], its radius in metres.
+float emitter_radiance(VizSource source, float radius);
+
 /// What the GEN cube maps hold: every bounce up to max_depth, or direct light only (max_depth 1), so that
 /// HIER does not count the neighbours' light a second time.
 enum class GenMode { full, local };
@@ -43,22 +55,27 @@ constexpr auto enum_table(GenMode) {
 }
 
 /// What ⊗ means in S'_i = S_i ⊕ Σ_j H_{j→i} ⊗ S_j (see hier.h).
-enum class HierOperator { coefficient, mean, matrix };
+enum class HierOperator { coefficient, mean, matrix, raw };
 constexpr auto enum_table(HierOperator) {
   using enum HierOperator;
   return std::to_array<EnumName<HierOperator>>(
-      {{coefficient, "coefficient"}, {mean, "mean"}, {matrix, "matrix"}});
+      {{coefficient, "coefficient"}, {mean, "mean"}, {matrix, "matrix"}, {raw, "raw"}});
 }
 
-/// How a set was made. `gen` to `seed` tell of the paths of GEN and VIZ, as far as `op` and `viz` say that
-/// there were any; light and edges of other operators have every bounce.
+/// How a set was made. `gen` to `face_size` tell of the paths of GEN and VIZ, as far as `op` and `viz` say
+/// that there were any; light and edges of other operators have every bounce.
 struct GeneratorInfo {
   LightOperator op = LightOperator::path;
   VizMethod viz = VizMethod::none;
+  VizSource viz_source = VizSource::intensity;
   GenMode gen = GenMode::full;
-  int max_depth = 3;
+  int max_depth = 3;  ///< of GEN, as the next two
   int passes = 1;
   int spp = 16;
+  rays::PathSet viz_paths = rays::PathSet::all;
+  int viz_max_depth = 3;
+  int viz_passes = 1;
+  int viz_spp = 16;
   int face_size = 64;
   std::uint64_t seed = 0;
   int directions = 0;     ///< rays per probe of the transport network; 0: there was none
@@ -81,20 +98,24 @@ struct LightGroup {
   friend bool operator==(const LightGroup&, const LightGroup&) = default;
 };
 
-/// What SPHL j, lit with radiance 1 in every direction, gives at probe i: an edge i ← j of the hierarchy.
+/// What SPHL j, a sphere that shines alike in all directions (VizSource), gives at probe i: an edge i ← j of
+/// the hierarchy.
 struct Edge {
-  int from = -1;       ///< j
-  float transfer = 0;  ///< P_ij in [0, 1]: mean over directions of the radiance seen at i (Rec.709 luminance)
-  sh::RadianceSh h;    ///< H_{j→i}
-  sh::TransferMatrix matrix;  ///< T_{j→i}, both degrees that of the set; or empty
+  int from = -1;  ///< j
+  /// P_ij ≥ 0: mean over directions of the radiance seen at i (Rec.709 luminance). With a sphere of radiance
+  /// 1 it is the share of that radiance, about 1 at most.
+  float transfer = 0;
+  sh::RadianceSh h;  ///< H_{j→i}
+  /// T_{j→i} of radiance that the sphere gives off, whatever the source of H; both degrees that of the set;
+  /// or empty.
+  sh::TransferMatrix matrix;
 
   friend bool operator==(const Edge& a, const Edge& b) {
     return a.from == b.from && a.transfer == b.transfer && a.h == b.h && a.matrix.values == b.matrix.values;
   }
 };
 
-/// P_ij = H_{j→i}[0]/√4π as Rec.709 luminance: the mean over directions of the unit radiance seen at i. Not
-/// clamped.
+/// P_ij = H_{j→i}[0]/√4π as Rec.709 luminance. Not clamped.
 float transfer_coefficient(const sh::RadianceSh& h);
 
 /// S_i^g as baked, in two fields so that no light is counted twice.

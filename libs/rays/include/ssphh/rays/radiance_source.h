@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <ssphh/core/control.h>
+#include <ssphh/core/enum_names.h>
 #include <ssphh/image/cube_map.h>
 #include <ssphh/rays/transport_source.h>
 #include <ssphh/scene/query.h>
@@ -42,10 +43,19 @@ struct GhostPath {
   vec3 throughput;  ///< radiance contribution times the texel's solid angle / samples: sums to ∫ L dω
 };
 
+/// What may lie between a light and a probe, in Heckbert's notation: L{D|S}*, every scattering; or L{D}*, the
+/// diffuse lobes of opaque surfaces alone, so that mirrors are as black as glass.
+enum class PathSet { all, diffuse };
+constexpr auto enum_table(PathSet) {
+  using enum PathSet;
+  return std::to_array<EnumName<PathSet>>({{all, "all"}, {diffuse, "diffuse"}});
+}
+
 struct CubeRequest {
   vec3 position{0};
   int face_size = 64;
   PathParams path;
+  PathSet paths = PathSet::all;
 };
 
 /// Radiance arriving at a point from one light group, in two fields, so that no light is counted twice: a

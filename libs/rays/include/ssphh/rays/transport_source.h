@@ -117,6 +117,8 @@ class DirectLight {
   }
 };
 
+class RadianceSource;
+
 /// Implemented by trace::TransportScene.
 class TransportSource {
  public:
@@ -156,6 +158,10 @@ class TransportSource {
   virtual std::unique_ptr<DirectLight> direct_light(std::span<const scene::LightState> lights,
                                                     std::span<const mat4> poses,
                                                     float environment_rotation = 0) const = 0;
+
+  /// Path tracing of the scene in that state, whose SPHLs do not shine. What it returns may outlive this
+  /// object, but not the scene.
+  virtual std::unique_ptr<RadianceSource> path_tracing(const scene::LightingState& state) const;
 
   /// Rays traced so far by this object and its DirectLights.
   virtual std::uint64_t rays_traced() const = 0;

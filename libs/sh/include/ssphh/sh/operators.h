@@ -1,7 +1,7 @@
 #pragma once
-/// What ⊗ of S′_i = S_i ⊕ Σ_j H_{j→i} ⊗ S_j can mean: `coefficient`, `mean` and `matrix`. Each adds to a sum
-/// of the same degree, so that a hierarchy is a loop without allocation. H is the response at probe i to
-/// radiance 1 from the sphere at j; S_j is the radiance that sphere gives off.
+/// What ⊗ of S′_i = S_i ⊕ Σ_j H_{j→i} ⊗ S_j can mean: `coefficient`, `raw`, `mean` and `matrix`. Each adds to
+/// a sum of the same degree, so that a hierarchy is a loop without allocation. H is the response at probe i
+/// to the sphere at j, which shines alike in all directions; S_j is the light of probe j.
 
 #include <vector>
 
@@ -18,6 +18,9 @@ RadianceSh add(const RadianceSh& a, const RadianceSh& b);
 /// sum[k] += H[k]·S[k]/√4π (Metzgar & Semwal). The factor makes two constant functions multiply right.
 /// Neither a product nor a convolution of functions: it depends on the axes and on the signs of the basis.
 void add_coefficient_product(RadianceSh& sum, const RadianceSh& response, const RadianceSh& source);
+
+/// sum[k] += H[k]·S[k], as the paper writes it: √4π times the above.
+void add_raw_product(RadianceSh& sum, const RadianceSh& response, const RadianceSh& source);
 
 /// sum[k] += H[k]·S[0]/√4π: the response's directions with the mean of the source.
 void add_mean_product(RadianceSh& sum, const RadianceSh& response, const RadianceSh& source);

@@ -3,6 +3,7 @@
 /// normal; wo points to the known (viewer's) side, wi to the sampled (light's) side. Reflection only: values
 /// are zero unless wo.z > 0 and wi.z > 0.
 
+#include <cstdint>
 #include <optional>
 
 #include <ssphh/core/sphere.h>
@@ -29,15 +30,19 @@ struct BsdfSample {
   float pdf;    ///< as pdf_bsdf(params, wo, wi)
 };
 
+/// Which part of the reflection is meant: all of it; or the diffuse lobe, as dark as the specular lobe above
+/// it leaves it.
+enum class Lobes : std::uint8_t { all, diffuse };
+
 /// The BSDF seen from one direction: what evaluating and sampling it have in common is computed once.
 class BsdfFrom {
  public:
-  BsdfFrom(const BsdfParams& params, const vec3& wo)
+  BsdfFrom(const BsdfParams& params, const vec3& wo, Lobes lobes = Lobes::all)
       : params_(params),
         wo_(wo),
         specular_(max_component(params.f0) > 0),
         lambertian_(!specular_ && params.diffuse_roughness == 0) {
-    if (specular_) weigh_layers();
+    if (specular_) weigh_layers(lobes);
   }
 
   /// As eval_bsdf and pdf_bsdf.
@@ -54,7 +59,7 @@ class BsdfFrom {
   }
 
  private:
-  void weigh_layers();
+  void weigh_layers(Lobes lobes);
   std::optional<BsdfSample> sample_lobes(float u_lobe, const vec2& u) const;
   BsdfValue eval_lobes(const vec3& wi) const;
   BsdfValue eval_layers(const vec3& wi) const;
@@ -62,7 +67,7 @@ class BsdfFrom {
   BsdfParams params_;
   vec3 wo_;
   bool specular_, lambertian_;
-  float p_specular_ = 1;  ///< probability to sample the specular lobe
+  float p_specular_ = 1;  ///< probability to sample the specular lobe; 0: it does not count
   vec3 left_{0};  ///< what the specular lobe leaves for the diffuse layer, but for its share toward wi
 };
 

@@ -17,8 +17,8 @@ struct ScatteringSample {
 /// sheet is left to straight_transmittance().
 class ScatteringFrom {
  public:
-  ScatteringFrom(const Surface& surface, const vec3& wo)
-      : opaque_(surface.bsdf, wo), share_(surface.glass.share) {
+  ScatteringFrom(const Surface& surface, const vec3& wo, Lobes lobes = Lobes::all)
+      : opaque_(surface.bsdf, wo, lobes), share_(surface.glass.share) {
     if (share_ > 0) add_glass(surface.glass, wo);
   }
 

@@ -2,6 +2,8 @@
 /// Unidirectional path tracer over Embree: next-event estimation with MIS, light groups, progressive passes.
 /// The same bits for any number of threads.
 
+#include <memory>
+
 #include <ssphh/core/held.h>
 #include <ssphh/rays/radiance_source.h>
 #include <ssphh/scene/scene.h>
@@ -10,12 +12,13 @@
 
 namespace ssphh::trace {
 
-/// A scene at one time, ready for rays. Keeps a reference to the scene.
+/// A scene at one time, ready for rays. Keeps a reference to the scene, or the scene where it is shared.
 class PathTracer final : public rays::RadianceSource {
  public:
   /// Throws Error where the geometry was built for a scene with other surfaces.
   PathTracer(SharedGeometry geometry, const scene::Scene& scene, float time = 0);
   PathTracer(SharedGeometry, const scene::Scene&&, float = 0) = delete;  // it would be gone
+  PathTracer(SharedGeometry geometry, std::shared_ptr<const scene::Scene> scene, float time = 0);
   /// Builds the geometry as well.
   explicit PathTracer(const scene::Scene& scene, float time = 0);
   explicit PathTracer(const scene::Scene&&, float = 0) = delete;  // it would be gone

@@ -58,6 +58,7 @@ class TransportScene final : public rays::TransportSource {
   std::unique_ptr<rays::DirectLight> direct_light(std::span<const scene::LightState> lights,
                                                   std::span<const mat4> poses,
                                                   float environment_rotation = 0) const override;
+  std::unique_ptr<rays::RadianceSource> path_tracing(const scene::LightingState& state) const override;
 
   std::uint64_t rays_traced() const override;
 
