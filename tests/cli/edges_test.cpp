@@ -39,9 +39,9 @@ TEST(SceneOptions, TheSunStandsWhereTheCompassSays) {
   const scene::SunSkyParams east = {.elevation = pi / 6, .azimuth = 0, .turbidity = 6};
   EXPECT_NEAR(scene::sun_direction(east).x, std::cos(pi / 6), 1e-6);
   scene::add_sun_sky(expected, east);
-  EXPECT_EQ(scene::light_hash(app::load_scene(options)), scene::light_hash(expected));
+  EXPECT_EQ(scene::light_hash(pipeline::load_scene(options)), scene::light_hash(expected));
   options.turbidity = 3;
-  EXPECT_NE(scene::light_hash(app::load_scene(options)), scene::light_hash(expected));
+  EXPECT_NE(scene::light_hash(pipeline::load_scene(options)), scene::light_hash(expected));
 }
 
 // The problem of the first probe has its name, as any other's.

@@ -51,13 +51,13 @@ void add_viz_options(const Command& viz, BakeOptions& options, BakeUses& uses) {
              fmt::format("path: trace it; links: find it with the surfels of transport, every bounce and "
                          "no noise, surfaces reflect diffusely; off. Default: path for operator path and "
                          "up to {} probes, else links for up to {}",
-                         most_probes_for_paths, most_probes_for_links))
+                         pipeline::most_probes_for_paths, pipeline::most_probes_for_links))
       .one_of({"path", "links", "off"});
   uses.of_viz = {
       viz.option("--neighbors", options.neighbors,
                  fmt::format("Keep at most so many edges per SPHL, strongest P first; -1: all. Default: {} "
                              "with links, all with path",
-                             default_link_neighbors))
+                             pipeline::default_link_neighbors))
           .range(-1, 65536),
       viz.option("--threshold", options.threshold, "Keep only edges with P above this").non_negative(),
       viz.choice(
@@ -192,7 +192,7 @@ void add_bake_command(Command app, Context& context) {
           "(transport between patches of surface: every bounce, no noise, seconds; surfaces reflect "
           "diffusely), bounce (the same with the probes as the only unknowns). Default: path for up to {} "
           "probes, with a farm or options of path tracing, else surfel",
-          most_probes_for_paths));
+          pipeline::most_probes_for_paths));
   add_effort_options(command, o, uses->quality);
   add_path_options(command.under("GEN and VIZ: path tracing"), o, *uses);
   add_viz_options(command.under("VIZ: light between the SPHLs, which HIER needs"), o, *uses);

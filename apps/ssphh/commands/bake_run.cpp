@@ -5,14 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <ssphh/bake/light_modes.h>
-#include <ssphh/core/log.h>
-#include <ssphh/core/memory.h>
 #include <ssphh/farm/farm_bake.h>
-#include <ssphh/place/init.h>
 #include <ssphh/probes/probe_file.h>
-#include <ssphh/trace/path_tracer.h>
-#include <ssphh/trace/transport_scene.h>
 
 #include "commands/bake.h"
 #include "commands/bake_update.h"
@@ -23,179 +17,27 @@ namespace {
 
 using probes::VizMethod;
 
-void refuse(const std::vector<std::string>& given, const char* needs) {
-  if (!given.empty()) throw Error(given.front(), needs);
-}
-
-probes::LightOperator operator_of(const BakeOptions& o, std::size_t probes) {
-  if (o.op) return *o.op;
-  const bool asked = !o.of_paths.empty() || o.farm.any() || o.params.gen != probes::GenMode::full;
-  if (asked || probes <= most_probes_for_paths) return probes::LightOperator::path;
-  log_info(
-      "{} probes are lit by transport between surfels, in seconds: --operator path traces paths from each",
-      probes);
-  return probes::LightOperator::surfel;
-}
-
-/// Records hold every bounce, so there are none unasked beside probes that are to hold fewer, unless light
-/// that is baked must be kept somewhere.
-int records_of(const BakeOptions& o) {
-  const bool every_bounce = o.op == probes::LightOperator::surfel ||
-                            (o.op == probes::LightOperator::path && o.params.gen == probes::GenMode::full &&
-                             o.params.path.max_depth >= rays::usual_max_depth);
-  return every_bounce || !o.transport.records.baked.empty() ? o.usual_records : 0;
-}
-
-/// Decides on VIZ, which it returns, and refuses options that would have no effect.
-probes::VizMethod resolve(BakeOptions& o, std::size_t probes) {
-  const probes::LightOperator op = operator_of(o, probes);
-  o.op = op;
-  const bool path = op == probes::LightOperator::path, transfer = o.params.viz_params.matrix;
-  bake::BakeParams& params = o.params;
-  if (!o.viz) {
-    o.viz = transfer || (path && probes <= most_probes_for_paths) ? VizMethod::path
-            : probes <= most_probes_for_links                     ? VizMethod::links
-                                                                  : VizMethod::none;
-    if (o.viz == VizMethod::none)
-      log_info("VIZ is left out for more than {} probes: --viz links if HIER is to run",
-               most_probes_for_links);
-  }
-  if (transfer && o.viz != VizMethod::path)
-    throw Error("--viz-transfer", "needs VIZ by path tracing", "use --viz path");
-  if (!path && params.gen != probes::GenMode::full)
-    throw Error(fmt::format("--gen {}", name_of(params.gen)),
-                "is of --operator path; the light of surfels has every bounce");
-  params.keep_light = !path;
-  if (!path) o.transport.op = op;
-  params.viz = o.viz == VizMethod::path;
-  params.viz_params.neighbors = o.neighbors.value_or(-1);
-  params.viz_params.threshold = o.threshold;
-  params.viz_params.source = o.viz_source;
-  params.viz_path = {o.viz_max_depth.value_or(params.path.max_depth),
-                     o.viz_passes.value_or(params.path.passes), o.viz_spp.value_or(params.path.spp),
-                     params.path.seed};
-  o.transport.records.points = o.records.value_or(records_of(o));
-  if (o.transport.records.points == 0 && !o.transport.records.baked.empty())
-    throw Error("--records 0", "leaves no place for the light of groups that are baked",
-                "leave it out, or bake no group's direct light: --light-mode GROUP=mixed");
-  o.transport.viz = o.viz == VizMethod::links;
-  o.transport.viz_params.neighbors = o.neighbors.value_or(default_link_neighbors);
-  o.transport.viz_params.threshold = o.threshold;
-  o.transport.viz_params.source = o.viz_source;
-  const bool transport = o.transport.fit || o.transport.viz || o.transport.records.points > 0;
-  if (!path && !params.viz) refuse(o.of_paths, "is of path tracing: use --operator path or --viz path");
-  if (path && !transport)
-    refuse(o.of_transport, "is of transport: use --operator surfel, bounce, --viz links, --records or --fit");
-  if (o.viz == VizMethod::none) refuse(o.of_viz, "is of VIZ: use --viz links or path");
-  if (o.viz != VizMethod::path) refuse(o.of_viz_paths, "is of VIZ by path tracing: use --viz path");
-  require_work_for(o.farm, op, params.viz);
-  return *o.viz;
-}
-
-/// Keeps surfels within memory; whether that makes fewer of them than there might be.
-bool fit_into_memory(BakeOptions& o) {
-  transport::TransportParams& params = o.transport.transport;
-  const auto bytes =
-      o.max_memory > 0 ? static_cast<std::uint64_t>(o.max_memory * 1e9) : memory_of_machine() / 2;
-  const int most = bake::surfels_within(bytes, params.link_rays);
-  if (most >= params.most_surfels) return false;
-  params.most_surfels = most;
-  return true;
-}
-
-/// Fills the result's set, which INIT made, by options that are resolved.
-void fill(BakeResult& result, const BakeOptions& o, const trace::SharedGeometry& geometry,
-          const scene::Scene& scene, const std::filesystem::path& checkpoint, const FarmSession* session,
-          const Control& control) {
-  const bool path = o.op == probes::LightOperator::path;
-  const bool links = o.transport.viz;
-  probes::Baseline baseline{links ? o.transport.viz_params.neighbors : o.params.viz_params.neighbors,
-                            links ? o.transport.viz_params.threshold : o.params.viz_params.threshold,
-                            o.transport.records.points,
-                            o.transport.transport.most_surfels,
-                            scene::scene_items(scene, o.scene.time),
-                            {}};
-  if (!path || o.transport.fit || o.transport.viz || o.transport.records.points > 0) {
-    const trace::TransportScene source(geometry, scene);
-    if (path) {
-      bake::add_transport(source, result.set, o.transport, result.transport, control);
-    } else {
-      result.set =
-          bake::bake_transport(source, std::move(result.set), o.transport, result.transport, control);
-    }
-  }
-  if (path || o.params.viz) {
-    const trace::PathTracer tracer(geometry, scene, o.scene.time);
-    std::optional<farm::FarmCrew> crew;
-    if (session) crew.emplace(session->options(), scene, o.scene.time);
-    result.set = bake::bake(tracer, std::move(result.set), o.params, checkpoint, result.paths, control,
-                            crew ? &*crew : nullptr);
-    if (crew) result.farm = crew->report();
-    if (path) baseline.trials = bake::make_trials(tracer, result.set, control);
-  }
-  result.set.baseline = std::move(baseline);
-  const std::vector<scene::LightMode> modes = scene::light_modes(scene);
-  bake::set_light_modes(trace::TransportScene(geometry, scene), result.set, modes, control);
-}
-
 double viz_seconds(const BakeResult& r) {
   return r.paths.viz_seconds + r.transport.viz_seconds;
 }
 
-/// Finds places and fills the set, where nothing is taken from an earlier bake.
-void run_full_bake(const BakeOptions& options, BakeResult& result, BakeWatcher& watcher,
-                   const Control& control) {
-  BakeOptions o = options;
+/// Where nothing is taken from an earlier bake.
+void run_full_bake(const BakeOptions& o, BakeResult& result, BakeWatcher& watcher, const Control& control) {
   const std::optional<FarmSession> session = farm_session(o.farm);
   const scene::Scene scene = load_lit_scene(o.scene, watcher.files);
-  o.params.path.seed = o.seed;
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
-  result.place = place_for(geometry, scene, o.scene.time, o.place, "", control);
-  result.set = result.place
-                   ? place::init_from_placement(scene, result.place->placement, o.degree, o.scene.time)
-                   : place::init_from_scene(scene, o.degree, o.scene.time);
-  o.transport.records.baked = bake::baked_indices(scene::light_modes(scene));
-  for (const std::string& line : bake::blurred_shadows(scene)) log_warning("{}", line);
-  result.viz = resolve(o, result.set.probes.size());
-
-  const bool limited = fit_into_memory(o);
+  std::optional<farm::FarmCrew> crew;
+  if (session) crew.emplace(session->options(), scene, o.scene.time);
   const std::filesystem::path checkpoint = o.output + ".checkpoint";
   if (!o.resume) std::filesystem::remove(checkpoint);
-  fill(result, o, geometry, scene, checkpoint, session ? &*session : nullptr, control);
-  bake::TransportBakeReport& t = result.transport;
-  if (limited && t.coarsest_surfel > t.finest_surfel) {
-    t.warnings.push_back(
-        fmt::format("surfels grow to {:.3g} m, to stay within memory: more --max-memory or fewer --link-rays "
-                    "leave them small",
-                    t.coarsest_surfel));
-    log_warning("{}", t.warnings.back());
-  }
+  pipeline::SceneBake& baked = result;
+  baked = pipeline::bake_scene(geometry, scene, o.scene.time, o.place, o, checkpoint, control,
+                               crew ? &*crew : nullptr);
+  if (crew) result.farm = crew->report();
   if (watcher.see) watcher.see({geometry, scene, result.set, true});
 }
 
 }  // namespace
-
-void set_effort(BakeOptions& options, bake::Quality quality) {
-  const bake::Effort effort = bake::effort_of(quality);
-  transport::TransportParams& params = options.transport.transport;
-  options.params.path.spp = effort.spp;
-  params.directions = effort.directions;
-  params.link_rays = effort.link_rays;
-  params.surfels_per_radius = effort.surfels_per_radius;
-  params.most_surfels = effort.most_surfels;
-  options.usual_records = effort.records;
-}
-
-BakeOptions::BakeOptions() {
-  set_effort(*this, bake::Quality::good);
-}
-
-void require_work_for(const FarmChoice& farm, probes::LightOperator op, bool viz_by_path) {
-  if (farm.any() && op != probes::LightOperator::path && !viz_by_path)
-    throw Error(fmt::format("--operator {}", name_of(op)),
-                "is done here, in seconds; a farm does GEN and VIZ by path tracing",
-                "leave out --broker and --local");
-}
 
 BakeResult run_bake(const BakeOptions& options, const Control& control) {
   BakeWatcher nobody;

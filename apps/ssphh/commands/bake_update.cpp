@@ -178,7 +178,7 @@ void run_bake_update(const BakeOptions& options, BakeResult& result, BakeWatcher
   set = probes::read_probe_file(options.update);
   require_updatable(options.update, set, options.seed);
   const bool path = set.generator.op == probes::LightOperator::path;
-  require_work_for(options.farm, set.generator.op, set.generator.viz == VizMethod::path);
+  pipeline::require_work_for(options.farm.any(), set.generator.op, set.generator.viz == VizMethod::path);
   const std::optional<FarmSession> session = farm_session(options.farm);
   SceneOptions scene_options = options.scene;
   scene_options.time = set.generator.time;

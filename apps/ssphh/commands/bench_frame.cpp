@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <ssphh/pipeline/live_method.h>
 #include <ssphh/scene/query.h>
 
 #include "commands/command.h"
-#include "commands/live_method.h"
 #include "options/method_options.h"
 #include "options/picture_options.h"
 #include "options/probe_options.h"
@@ -44,8 +44,8 @@ void move_scene(realtime::Renderer& renderer, const scene::Scene& scene, const s
 /// Lights the scene by the method: from here on nothing of it is asked for.
 void set_method(realtime::Renderer& renderer, const BenchFrameOptions& o, const scene::Scene& scene,
                 const Control& control) {
-  LiveMethod live(o.method, o.parameters, std::make_shared<const trace::SceneGeometry>(scene), scene,
-                  control);
+  pipeline::LiveMethod live(o.method, o.parameters, std::make_shared<const trace::SceneGeometry>(scene),
+                            scene, control);
   live.update(rays::lighting_at(live.source(), o.scene.time), control);
   renderer.set_method_light(live.method().light_data());
 }

@@ -8,13 +8,13 @@
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/stopwatch.h>
+#include <ssphh/pipeline/live_method.h>
 #include <ssphh/study/converged_truth.h>
 #include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
 #include "commands/command.h"
-#include "commands/live_method.h"
 #include "options/picture_options.h"
 #include "options/probe_options.h"
 #include "results/geometry_builds.h"
@@ -57,8 +57,8 @@ std::vector<MeasuredRegion> views_of(const MeasureOptions& o, const scene::Scene
 struct Candidate {
   MeasuredLight known;
   std::shared_ptr<const rays::IndirectLight> light;
-  std::shared_ptr<LiveMethod> live = nullptr;  ///< null for probe files
-  const probes::ProbeSet* probes = nullptr;    ///< of a probe file
+  std::shared_ptr<pipeline::LiveMethod> live = nullptr;  ///< null for probe files
+  const probes::ProbeSet* probes = nullptr;              ///< of a probe file
 };
 
 std::vector<Candidate> probe_candidates(const MeasureOptions& o, const std::vector<probes::ProbeSet>& sets,
@@ -102,7 +102,7 @@ MethodSpec read_method(const std::string& spec) {
 Candidate method_candidate(const std::string& spec, const trace::SharedGeometry& geometry,
                            const scene::Scene& scene, float time, const Control& control) {
   const auto [name, settings] = read_method(spec);
-  auto live = std::make_shared<LiveMethod>(name, settings, geometry, scene, control);
+  auto live = std::make_shared<pipeline::LiveMethod>(name, settings, geometry, scene, control);
   live->update(rays::lighting_at(live->source(), time), control);
   Candidate candidate;
   candidate.known.name = spec;
@@ -128,7 +128,7 @@ double lookup_microseconds(const rays::IndirectLight& light, std::span<const ray
 
 /// Median milliseconds of an update for which every lamp went a centimetre aside (or, without lamps, all
 /// light changed its strength), of seven or as many as two seconds hold. Leaves the method in another state.
-double frame_milliseconds(LiveMethod& live, float time, const Control& control) {
+double frame_milliseconds(pipeline::LiveMethod& live, float time, const Control& control) {
   constexpr int most_frames = 7;
   constexpr double most_ms = 2000;
   std::vector<double> ms;

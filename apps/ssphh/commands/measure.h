@@ -7,6 +7,7 @@
 
 #include <ssphh/core/control.h>
 #include <ssphh/core/json.h>
+#include <ssphh/pipeline/method_figures.h>
 #include <ssphh/probes/lookup_weights.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/study/leak.h>
@@ -14,9 +15,10 @@
 
 #include "commands/measure_regions.h"
 #include "options/scene_options.h"
-#include "results/method_figures.h"
 
 namespace ssphh::app {
+
+using pipeline::MethodFigures;
 
 /// Mean relative noise of a truth that is held against lookups, where nobody asks for a number of paths.
 inline constexpr double usual_noise = 0.03;

@@ -12,11 +12,8 @@
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/farm/farm_render.h>
 #include <ssphh/image/io.h>
-#include <ssphh/probes/lookup.h>
-#include <ssphh/trace/path_tracer.h>
 
 #include "commands/command.h"
-#include "commands/live_method.h"
 #include "options/probe_options.h"
 #include "results/geometry_builds.h"
 #include "results/pictures.h"
@@ -120,15 +117,6 @@ probes::ProbeSet read_probes(const RenderOptions& o, const scene::Scene& scene) 
   return read_probes_of(scene, o.probes, o.scene.time, o.force);
 }
 
-void render_with_probes(const trace::PathTracer& tracer, const scene::Scene& scene, const RenderOptions& o,
-                        const trace::RenderParams& params, trace::RenderState& state,
-                        const Control& control) {
-  const probes::ProbeSet probes = read_probes(o, scene);
-  const auto indirect =
-      probes::make_lookup(o.lookup.method, probes, tracer, lookup_params(o.probes, probes, o.lookup));
-  tracer.render_with(*indirect, params, state, control);
-}
-
 // What decides the pixels beside the parameters: the scene, the method and its probes.
 Hash128 content_hash(const RenderOptions& o, const scene::Scene& scene) {
   const Hash128 hash = scene::scene_hash(scene);
@@ -142,34 +130,17 @@ Hash128 content_hash(const RenderOptions& o, const scene::Scene& scene) {
   return hasher.finish();
 }
 
-// What the method took that was made for the picture; none for those that are not.
 std::optional<MethodFigures> render_here(const trace::SharedGeometry& geometry, const scene::Scene& scene,
                                          const RenderOptions& o, const trace::RenderParams& params,
                                          trace::RenderState& state, const Control& control) {
-  const trace::PathTracer tracer(geometry, scene, o.scene.time);
-  if (o.method == "path") {
-    tracer.render(params, state, control);
-    return std::nullopt;
-  }
-  if (!o.probes.empty()) {
-    render_with_probes(tracer, scene, o, params, state, control);
-    return std::nullopt;
-  }
-  LiveMethod live(o.method, o.parameters, geometry, scene, control);
-  live.update(rays::lighting_at(live.source(), o.scene.time), control);
-  log_info("{}: {}", o.method, live.text());
-  tracer.render_with(live.method().light(), params, state, control);
-  return live.figures();
+  std::optional<probes::ProbeSet> set;
+  if (!o.probes.empty()) set = read_probes(o, scene);
+  const pipeline::LightFinder finder{o.method, o.parameters, set ? &*set : nullptr, o.probes, o.lookup};
+  return pipeline::render_scene(geometry, scene, o.scene.time, finder, params, state, control);
 }
 
 void check_method(const RenderOptions& o) {
-  if (!o.probes.empty() && o.method != "ssphh")
-    throw Error("--probes", fmt::format("is of method ssphh, not of {}", o.method));
-  if (!o.parameters.empty() && o.method == "path")
-    throw Error("--param", "method path has none", "see --max-depth, --spp and --passes");
-  if (!o.parameters.empty() && !o.probes.empty())
-    throw Error("--param", "tells how probes are made, and --probes gives made ones",
-                "leave out one of them");
+  pipeline::check_method(o.method, !o.parameters.empty(), !o.probes.empty());
   if (o.farm.any() && o.method != "path" && o.method != "ssphh")
     throw Error("--method " + o.method, "is rendered in this process only", "leave out --broker and --local");
 }

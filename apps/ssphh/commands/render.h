@@ -8,11 +8,13 @@
 #include <ssphh/core/control.h>
 #include <ssphh/core/json.h>
 #include <ssphh/image/image.h>
+#include <ssphh/pipeline/method_figures.h>
 
 #include "options/render_options.h"
-#include "results/method_figures.h"
 
 namespace ssphh::app {
+
+using pipeline::MethodFigures;
 
 /// What the real-time renderer tells of its frame.
 struct GlFigures {

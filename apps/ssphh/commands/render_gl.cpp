@@ -5,9 +5,9 @@
 #include <ssphh/core/log.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/image/io.h>
+#include <ssphh/pipeline/live_method.h>
 #include <ssphh/realtime/renderer.h>
 
-#include "commands/live_method.h"
 #include "commands/render.h"
 #include "options/gl_options.h"
 #include "results/geometry_builds.h"
@@ -51,7 +51,7 @@ RenderResult render_gl(const RenderOptions& o, const Control& control) {
   const GeometryBuilds builds;
   const scene::Scene scene = load_lit_scene(o.scene);
   const Stopwatch watch;
-  std::optional<LiveMethod> live;
+  std::optional<pipeline::LiveMethod> live;
   trace::SharedGeometry geometry;
   if (o.method != "ssphh") {
     geometry = std::make_shared<const trace::SceneGeometry>(scene);

@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/file.h>
+#include <ssphh/pipeline/live_method.h>
 #include <ssphh/scene/with_lighting.h>
 #include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
 
 #include "commands/command.h"
-#include "commands/live_method.h"
 #include "commands/relight_animation.h"
 #include "options/method_options.h"
 #include "options/probe_options.h"
@@ -63,7 +63,7 @@ RespondResult run_respond(const RespondOptions& o, const Control& control) {
   const RelightAnimation event(surfaces, scene, o.scene.time, o.events);
   const scene::LightingState before = event.frame(0), after = event.frame(1);
   if (before == after) throw Error("--event", "nothing changes", "give two different keys, as in time=0:1");
-  LiveMethod live(o.method, o.parameters, geometry, scene, control);
+  pipeline::LiveMethod live(o.method, o.parameters, geometry, scene, control);
 
   const scene::Scene lit = scene::with_lighting(scene, after);
   const trace::PathTracer tracer(geometry, lit, after.time);

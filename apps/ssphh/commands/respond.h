@@ -6,13 +6,15 @@
 
 #include <ssphh/core/control.h>
 #include <ssphh/core/json.h>
+#include <ssphh/pipeline/method_figures.h>
 #include <ssphh/study/leak.h>
 #include <ssphh/study/lookup_error.h>
 
 #include "options/scene_options.h"
-#include "results/method_figures.h"
 
 namespace ssphh::app {
+
+using pipeline::MethodFigures;
 
 struct RespondOptions {
   SceneOptions scene;

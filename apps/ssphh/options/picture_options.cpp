@@ -5,27 +5,11 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/parse_number.h>
-#include <ssphh/study/default_view.h>
-#include <ssphh/trace/transport_scene.h>
 
 namespace ssphh::app {
 
-trace::Projection projection_of(PictureProjection projection, const scene::Camera& camera) {
-  using enum trace::Projection;
-  if (projection == PictureProjection::equirect) return equirect;
-  if (projection == PictureProjection::cube) return cube_strip;
-  return camera.orthographic ? orthographic : pinhole;
-}
-
 void add_camera_option(Command command, std::string& camera) {
   command.option("--camera", camera, "Camera by name; default: the scene's first, or a view of what matters");
-}
-
-scene::CameraPose camera_of(const scene::Scene& scene, const std::string& name, float time,
-                            trace::SharedGeometry geometry) {
-  if (!name.empty() || !scene.cameras.empty()) return scene::camera_pose(scene, name, time);
-  if (!geometry) geometry = std::make_shared<const trace::SceneGeometry>(scene);
-  return study::default_view(scene, trace::TransportScene(geometry, scene), time);
 }
 
 void add_size_options(Command command, int& width, int& height, int most) {

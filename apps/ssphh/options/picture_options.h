@@ -4,31 +4,19 @@
 #include <optional>
 #include <string>
 
-#include <ssphh/core/enum_names.h>
+#include <ssphh/pipeline/render_scene.h>
 #include <ssphh/rays/radiance_source.h>
 #include <ssphh/scene_io/renderer_export.h>
-#include <ssphh/trace/render_state.h>
-#include <ssphh/trace/scene_geometry.h>
 
 #include "options/command_line.h"
 #include "options/scene_options.h"
 
 namespace ssphh::app {
 
-/// What the camera sees, or the whole sphere around it: equirectangular, or as a strip of 6×1 faces.
-enum class PictureProjection { camera, equirect, cube };
-constexpr auto enum_table(PictureProjection) {
-  using enum PictureProjection;
-  return std::to_array<EnumName<PictureProjection>>(
-      {{camera, "camera"}, {equirect, "equirect"}, {cube, "cube"}});
-}
-trace::Projection projection_of(PictureProjection projection, const scene::Camera& camera);
+using pipeline::camera_of;
+using pipeline::PictureProjection;
 
 void add_camera_option(Command command, std::string& camera);
-/// The camera of that name, or the scene's first; study::default_view() of a scene that has none, by its
-/// geometry where that has been built already.
-scene::CameraPose camera_of(const scene::Scene& scene, const std::string& name, float time,
-                            trace::SharedGeometry geometry = {});
 /// --width and --height in pixels, each at most `most`.
 void add_size_options(Command command, int& width, int& height, int most = 16384);
 Option add_max_depth_option(Command command, int& max_depth);

@@ -4,30 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <ssphh/core/log.h>
-#include <ssphh/core/parse_number.h>
-#include <ssphh/core/stopwatch.h>
-#include <ssphh/trace/transport_scene.h>
-
 #include "results/json_values.h"
 
 namespace ssphh::app {
 namespace {
-
-/// Sets spacing or count. Returns what is wrong with the text; empty: nothing.
-std::string parse(const std::string& text, place::PlaceParams& params) {
-  constexpr std::string_view prefix = "auto:";
-  if (text == "scene" || text == "auto") return {};
-  if (text.starts_with(prefix)) {
-    const std::string_view metres = std::string_view(text).substr(prefix.size());
-    params.spacing = parse_number<float>(metres).value_or(0);
-    if (params.spacing > 0) return {};
-    return fmt::format("\"{}\" is no spacing: give metres over 0, as in auto:0.7", metres);
-  }
-  params.count = parse_number<int>(text).value_or(0);
-  if (params.count > 0) return {};
-  return fmt::format("\"{}\" is none of: scene, auto, auto:METRES, a number of probes over 0", text);
-}
 
 std::size_t count_of(const place::Placement& placement, place::PlaceKind kind) {
   return static_cast<std::size_t>(
@@ -35,10 +15,6 @@ std::size_t count_of(const place::Placement& placement, place::PlaceKind kind) {
 }
 
 }  // namespace
-
-bool is_probe_file(const PlaceOptions& options) {
-  return options.probes.ends_with(".sphl") || options.probes.ends_with(".sphl.json");
-}
 
 void add_place_options(Command command, PlaceOptions& options, bool files) {
   const Command placement = command.under("Placement");
@@ -50,9 +26,8 @@ void add_place_options(Command command, PlaceOptions& options, bool files) {
                   "has SPHLs, else auto")
       .check(
           [files](const std::string& text) -> std::string {
-            if (files && is_probe_file({.probes = text})) return {};
-            place::PlaceParams ignored;
-            return parse(text, ignored);
+            if (files && pipeline::is_probe_file({.probes = text})) return {};
+            return pipeline::places_problem(text);
           },
           files ? "FILE|scene|auto|auto:METRES|N" : "scene|auto|auto:METRES|N");
   placement.option("--clearance", options.clearance, "Least distance of a placed probe from surfaces [m]")
@@ -60,30 +35,6 @@ void add_place_options(Command command, PlaceOptions& options, bool files) {
   placement.option("--refine", options.levels, "Times that the spacing may be halved near surfaces, 0..3")
       .range(0, 3);
   placement.option("--max-probes", options.max_probes, "Most probes that may be placed").range(1, 65536);
-}
-
-std::optional<PlaceResult> place_for(const trace::SharedGeometry& geometry, const scene::Scene& scene,
-                                     float time, const PlaceOptions& options, const std::string& fallback,
-                                     const Control& control) {
-  place::PlaceParams params = place::place_params(scene, time);
-  std::string probes = options.probes.empty() ? fallback : options.probes;
-  if (probes.empty()) {
-    probes = params.manual.empty() ? "auto" : "scene";
-    if (params.manual.empty()) log_info("the scene has no SPHLs, so --probes auto finds places");
-  }
-  if (probes == "scene") return std::nullopt;
-  parse(probes, params);
-  params.clearance = options.clearance;
-  params.levels = options.levels;
-  params.max_probes = options.max_probes;
-
-  const Stopwatch watch;
-  const trace::TransportScene source(geometry, scene);
-  PlaceResult result;
-  result.placement = place::place_probes(source, params, control);
-  result.seconds = watch.seconds();
-  for (const std::string& warning : result.placement.warnings) log_warning("{}", warning);
-  return result;
 }
 
 json::Value place_json(const PlaceResult& result) {

@@ -2,42 +2,19 @@
 /// The options of every command that reads a scene.
 
 #include <string>
-#include <vector>
 
-#include <ssphh/core/files_read.h>
-#include <ssphh/scene/scene.h>
+#include <ssphh/pipeline/scene_options.h>
 
 #include "options/command_line.h"
 
 namespace ssphh::app {
 
-struct SceneOptions {
-  std::string source;  ///< file or builtin:NAME
-  std::string overlay, environment;
-  std::string unit;  ///< of the file's lengths (scene_io/unit.h); empty: what overlays say, else metres
-  float environment_intensity = 1;
-  float environment_rotation = 0;  ///< degrees
-  bool lambert = false;
-  bool sun_sky = false;
-  float sun_elevation = 45, sun_azimuth = 120;  ///< degrees; azimuth 0: −z, 90: +x
-  float turbidity = 3;
-  float time = 0;                        ///< seconds
-  std::vector<std::string> light_modes;  ///< "GROUP=MODE"; the group's name may hold a "=", too
-};
+using pipeline::SceneOptions;
 
 /// Adds the positional SCENE (or the option that `source` names) and --overlay, --unit, --lambert,
 /// --environment,
 /// --sun-sky and so on; --time where a pose matters.
 void add_scene_options(Command command, SceneOptions& options, bool posed = true,
                        const std::string& source = "SCENE");
-
-scene::Scene load_scene(const SceneOptions& options);
-
-/// For commands that look at light: a scene without any gets a neutral studio around it, and a warning.
-scene::Scene load_lit_scene(const SceneOptions& options);
-
-/// The same; `files` are those that it was read from, as far as it came before it threw, and the overlay
-/// beside SCENE, be there one or not.
-scene::Scene load_lit_scene(const SceneOptions& options, std::vector<FileStamp>& files);
 
 }  // namespace ssphh::app

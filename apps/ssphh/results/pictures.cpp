@@ -5,19 +5,9 @@
 
 #include <fmt/format.h>
 
-#include <ssphh/image/exposure.h>
 #include <ssphh/image/io.h>
-#include <ssphh/image/resample.h>
 
 namespace ssphh::app {
-
-float suitable_exposure(const image::Image& linear) {
-  constexpr int enough = 160;  // pixels
-  const int shrink = std::max(1, std::max(linear.width, linear.height) / enough);
-  if (shrink == 1) return image::automatic_exposure(linear);
-  return image::automatic_exposure(
-      image::resize(linear, std::max(1, linear.width / shrink), std::max(1, linear.height / shrink)));
-}
 
 float SharedExposure::of(const image::Image& linear) {
   if (chosen_) return *chosen_;

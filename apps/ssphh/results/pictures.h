@@ -8,12 +8,11 @@
 
 #include <ssphh/image/image.h>
 #include <ssphh/image/tonemap.h>
+#include <ssphh/pipeline/exposure.h>
 
 namespace ssphh::app {
 
-/// image::automatic_exposure() of the picture made small: noise of few samples would count as darkness and
-/// lamps.
-float suitable_exposure(const image::Image& linear);
+using pipeline::suitable_exposure;
 
 /// The exposure of pictures that belong together: as asked for, else as suits the first of them that is not
 /// black.

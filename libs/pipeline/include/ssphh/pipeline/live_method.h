@@ -7,11 +7,10 @@
 
 #include <ssphh/core/control.h>
 #include <ssphh/methods/method_list.h>
+#include <ssphh/pipeline/method_figures.h>
 #include <ssphh/trace/transport_scene.h>
 
-#include "results/method_figures.h"
-
-namespace ssphh::app {
+namespace ssphh::pipeline {
 
 class LiveMethod {
  public:
@@ -38,4 +37,4 @@ class LiveMethod {
   double bake_seconds_ = 0, update_seconds_ = 0;
 };
 
-}  // namespace ssphh::app
+}  // namespace ssphh::pipeline

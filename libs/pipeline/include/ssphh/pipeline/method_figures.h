@@ -6,7 +6,7 @@
 #include <ssphh/core/json.h>
 #include <ssphh/methods/method.h>
 
-namespace ssphh::app {
+namespace ssphh::pipeline {
 
 struct MethodFigures {
   double bake_seconds = 0, update_seconds = 0;  ///< of making it, of its last update
@@ -18,4 +18,4 @@ struct MethodFigures {
 json::Value to_json(const MethodFigures& figures);
 std::string to_text(const MethodFigures& figures);
 
-}  // namespace ssphh::app
+}  // namespace ssphh::pipeline

@@ -1,8 +1,8 @@
-#include "results/method_figures.h"
-
 #include <fmt/format.h>
 
-namespace ssphh::app {
+#include <ssphh/pipeline/method_figures.h>
+
+namespace ssphh::pipeline {
 namespace {
 
 std::string bytes_text(std::size_t bytes) {
@@ -30,4 +30,4 @@ std::string to_text(const MethodFigures& figures) {
   return text;
 }
 
-}  // namespace ssphh::app
+}  // namespace ssphh::pipeline

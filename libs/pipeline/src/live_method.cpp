@@ -1,8 +1,7 @@
-#include "commands/live_method.h"
-
 #include <ssphh/core/stopwatch.h>
+#include <ssphh/pipeline/live_method.h>
 
-namespace ssphh::app {
+namespace ssphh::pipeline {
 
 LiveMethod::LiveMethod(const std::string& name, const std::vector<std::string>& settings,
                        trace::SharedGeometry geometry, const scene::Scene& scene, const Control& control)
@@ -24,4 +23,4 @@ MethodFigures LiveMethod::figures() const {
   return {bake_seconds_, update_seconds_, method_->memory(), method_->numbers()};
 }
 
-}  // namespace ssphh::app
+}  // namespace ssphh::pipeline

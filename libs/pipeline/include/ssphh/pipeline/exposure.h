@@ -1,0 +1,11 @@
+#pragma once
+
+#include <ssphh/image/image.h>
+
+namespace ssphh::pipeline {
+
+/// image::automatic_exposure() of the picture made small: noise of few samples would count as darkness and
+/// lamps.
+float suitable_exposure(const image::Image& linear);
+
+}  // namespace ssphh::pipeline

@@ -1,0 +1,180 @@
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <ssphh/bake/light_modes.h>
+#include <ssphh/bake/update.h>
+#include <ssphh/core/log.h>
+#include <ssphh/core/memory.h>
+#include <ssphh/pipeline/bake_scene.h>
+#include <ssphh/place/init.h>
+#include <ssphh/trace/path_tracer.h>
+#include <ssphh/trace/transport_scene.h>
+
+namespace ssphh::pipeline {
+namespace {
+
+using probes::VizMethod;
+
+void refuse(const std::vector<std::string>& given, const char* needs) {
+  if (!given.empty()) throw Error(given.front(), needs);
+}
+
+probes::LightOperator operator_of(const BakeSettings& o, std::size_t probes, bool farm) {
+  if (o.op) return *o.op;
+  const bool asked = !o.of_paths.empty() || farm || o.params.gen != probes::GenMode::full;
+  if (asked || probes <= most_probes_for_paths) return probes::LightOperator::path;
+  log_info(
+      "{} probes are lit by transport between surfels, in seconds: --operator path traces paths from each",
+      probes);
+  return probes::LightOperator::surfel;
+}
+
+/// Records hold every bounce, so there are none unasked beside probes that are to hold fewer, unless light
+/// that is baked must be kept somewhere.
+int records_of(const BakeSettings& o) {
+  const bool every_bounce = o.op == probes::LightOperator::surfel ||
+                            (o.op == probes::LightOperator::path && o.params.gen == probes::GenMode::full &&
+                             o.params.path.max_depth >= rays::usual_max_depth);
+  return every_bounce || !o.transport.records.baked.empty() ? o.usual_records : 0;
+}
+
+/// Decides on VIZ, which it returns, and refuses options that would have no effect.
+probes::VizMethod resolve(BakeSettings& o, std::size_t probes, bool farm) {
+  const probes::LightOperator op = operator_of(o, probes, farm);
+  o.op = op;
+  const bool path = op == probes::LightOperator::path, transfer = o.params.viz_params.matrix;
+  bake::BakeParams& params = o.params;
+  if (!o.viz) {
+    o.viz = transfer || (path && probes <= most_probes_for_paths) ? VizMethod::path
+            : probes <= most_probes_for_links                     ? VizMethod::links
+                                                                  : VizMethod::none;
+    if (o.viz == VizMethod::none)
+      log_info("VIZ is left out for more than {} probes: --viz links if HIER is to run",
+               most_probes_for_links);
+  }
+  if (transfer && o.viz != VizMethod::path)
+    throw Error("--viz-transfer", "needs VIZ by path tracing", "use --viz path");
+  if (!path && params.gen != probes::GenMode::full)
+    throw Error(fmt::format("--gen {}", name_of(params.gen)),
+                "is of --operator path; the light of surfels has every bounce");
+  params.keep_light = !path;
+  if (!path) o.transport.op = op;
+  params.viz = o.viz == VizMethod::path;
+  params.viz_params.neighbors = o.neighbors.value_or(-1);
+  params.viz_params.threshold = o.threshold;
+  params.viz_params.source = o.viz_source;
+  params.viz_path = {o.viz_max_depth.value_or(params.path.max_depth),
+                     o.viz_passes.value_or(params.path.passes), o.viz_spp.value_or(params.path.spp),
+                     params.path.seed};
+  o.transport.records.points = o.records.value_or(records_of(o));
+  if (o.transport.records.points == 0 && !o.transport.records.baked.empty())
+    throw Error("--records 0", "leaves no place for the light of groups that are baked",
+                "leave it out, or bake no group's direct light: --light-mode GROUP=mixed");
+  o.transport.viz = o.viz == VizMethod::links;
+  o.transport.viz_params.neighbors = o.neighbors.value_or(default_link_neighbors);
+  o.transport.viz_params.threshold = o.threshold;
+  o.transport.viz_params.source = o.viz_source;
+  const bool transport = o.transport.fit || o.transport.viz || o.transport.records.points > 0;
+  if (!path && !params.viz) refuse(o.of_paths, "is of path tracing: use --operator path or --viz path");
+  if (path && !transport)
+    refuse(o.of_transport, "is of transport: use --operator surfel, bounce, --viz links, --records or --fit");
+  if (o.viz == VizMethod::none) refuse(o.of_viz, "is of VIZ: use --viz links or path");
+  if (o.viz != VizMethod::path) refuse(o.of_viz_paths, "is of VIZ by path tracing: use --viz path");
+  require_work_for(farm, op, params.viz);
+  return *o.viz;
+}
+
+/// Keeps surfels within memory; whether that makes fewer of them than there might be.
+bool fit_into_memory(BakeSettings& o) {
+  transport::TransportParams& params = o.transport.transport;
+  const auto bytes =
+      o.max_memory > 0 ? static_cast<std::uint64_t>(o.max_memory * 1e9) : memory_of_machine() / 2;
+  const int most = bake::surfels_within(bytes, params.link_rays);
+  if (most >= params.most_surfels) return false;
+  params.most_surfels = most;
+  return true;
+}
+
+/// Fills the result's set, which INIT made, by settings that are resolved.
+void fill(SceneBake& result, const BakeSettings& o, const trace::SharedGeometry& geometry,
+          const scene::Scene& scene, float time, const std::filesystem::path& checkpoint,
+          bake::BakeCrew* crew, const Control& control) {
+  const bool path = o.op == probes::LightOperator::path;
+  const bool links = o.transport.viz;
+  probes::Baseline baseline{links ? o.transport.viz_params.neighbors : o.params.viz_params.neighbors,
+                            links ? o.transport.viz_params.threshold : o.params.viz_params.threshold,
+                            o.transport.records.points,
+                            o.transport.transport.most_surfels,
+                            scene::scene_items(scene, time),
+                            {}};
+  if (!path || o.transport.fit || o.transport.viz || o.transport.records.points > 0) {
+    const trace::TransportScene source(geometry, scene);
+    if (path) {
+      bake::add_transport(source, result.set, o.transport, result.transport, control);
+    } else {
+      result.set =
+          bake::bake_transport(source, std::move(result.set), o.transport, result.transport, control);
+    }
+  }
+  if (path || o.params.viz) {
+    const trace::PathTracer tracer(geometry, scene, time);
+    result.set = bake::bake(tracer, std::move(result.set), o.params, checkpoint, result.paths, control, crew);
+    if (path) baseline.trials = bake::make_trials(tracer, result.set, control);
+  }
+  result.set.baseline = std::move(baseline);
+  const std::vector<scene::LightMode> modes = scene::light_modes(scene);
+  bake::set_light_modes(trace::TransportScene(geometry, scene), result.set, modes, control);
+}
+
+}  // namespace
+
+void set_effort(BakeSettings& settings, bake::Quality quality) {
+  const bake::Effort effort = bake::effort_of(quality);
+  transport::TransportParams& params = settings.transport.transport;
+  settings.params.path.spp = effort.spp;
+  params.directions = effort.directions;
+  params.link_rays = effort.link_rays;
+  params.surfels_per_radius = effort.surfels_per_radius;
+  params.most_surfels = effort.most_surfels;
+  settings.usual_records = effort.records;
+}
+
+BakeSettings::BakeSettings() {
+  set_effort(*this, bake::Quality::good);
+}
+
+void require_work_for(bool farm, probes::LightOperator op, bool viz_by_path) {
+  if (farm && op != probes::LightOperator::path && !viz_by_path)
+    throw Error(fmt::format("--operator {}", name_of(op)),
+                "is done here, in seconds; a farm does GEN and VIZ by path tracing",
+                "leave out --broker and --local");
+}
+
+SceneBake bake_scene(const trace::SharedGeometry& geometry, const scene::Scene& scene, float time,
+                     const PlaceOptions& places, const BakeSettings& settings,
+                     const std::filesystem::path& checkpoint, const Control& control, bake::BakeCrew* crew) {
+  BakeSettings o = settings;
+  o.params.path.seed = o.seed;
+  SceneBake result;
+  result.place = place_for(geometry, scene, time, places, "", control);
+  result.set = result.place ? place::init_from_placement(scene, result.place->placement, o.degree, time)
+                            : place::init_from_scene(scene, o.degree, time);
+  o.transport.records.baked = bake::baked_indices(scene::light_modes(scene));
+  for (const std::string& line : bake::blurred_shadows(scene)) log_warning("{}", line);
+  result.viz = resolve(o, result.set.probes.size(), crew != nullptr);
+
+  const bool limited = fit_into_memory(o);
+  fill(result, o, geometry, scene, time, checkpoint, crew, control);
+  bake::TransportBakeReport& t = result.transport;
+  if (limited && t.coarsest_surfel > t.finest_surfel) {
+    t.warnings.push_back(
+        fmt::format("surfels grow to {:.3g} m, to stay within memory: more --max-memory or fewer --link-rays "
+                    "leave them small",
+                    t.coarsest_surfel));
+    log_warning("{}", t.warnings.back());
+  }
+  return result;
+}
+
+}  // namespace ssphh::pipeline
