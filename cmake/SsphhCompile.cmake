@@ -1,13 +1,13 @@
 # Compile options shared by every target of this project; not exported to users of the installed package.
 add_library(ssphh_compile_options INTERFACE)
 target_compile_options(ssphh_compile_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual
-  -Werror=return-type $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -fno-math-errno -march=${SSPHH_ARCH})
+  -Wall -Wextra -Wpedantic $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor> $<$<COMPILE_LANGUAGE:CXX>:-Wold-style-cast>
+  $<$<COMPILE_LANGUAGE:CXX>:-Woverloaded-virtual> -Werror=return-type $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> -fno-math-errno -march=${SSPHH_ARCH})
 if(NOT SSPHH_UNITY)
   target_compile_options(ssphh_compile_options INTERFACE -Wshadow)
 elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Names of a file are neither those of another in its batch, nor do they stand in a header.
-  target_compile_options(ssphh_compile_options INTERFACE -Wshadow=local -Wno-subobject-linkage)
+  target_compile_options(ssphh_compile_options INTERFACE -Wshadow=local $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
 endif()
 option(SSPHH_WARNINGS_AS_ERRORS "Treat warnings as errors" OFF)
 if(SSPHH_WARNINGS_AS_ERRORS)

@@ -1,14 +1,14 @@
-# ssphh_module(<name> [DEPENDS <module>...] [FOLDERS <folder>...] [LINK_PUBLIC <target>...] [LINK_PRIVATE <target>...]
+# ssphh_module(<name> [C] [DEPENDS <module>...] [FOLDERS <folder>...] [LINK_PUBLIC <target>...] [LINK_PRIVATE <target>...]
 #              [TEST_LINK <target>...])
 #
 # Makes the static library ssphh::<name> from src/, two folders deep, with its own include directory, and
 # test_<name> from tests/*.cpp. FOLDERS beside src/ hold sources together with their tests (*_test.cpp) and, where they
 # have public headers, an include directory of their own. DEPENDS is exactly the list of modules it may include.
-# Third-party targets go to LINK_PRIVATE unless their types stand in public headers.
+# Third-party targets go to LINK_PRIVATE unless their types stand in public headers. C: the sources are src/*.c, with nothing of C++.
 function(ssphh_module name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;FOLDERS;LINK_PUBLIC;LINK_PRIVATE;TEST_LINK" ${ARGN})
+  cmake_parse_arguments(ARG "C" "" "DEPENDS;FOLDERS;LINK_PUBLIC;LINK_PRIVATE;TEST_LINK" ${ARGN})
   set(target ssphh_${name})
-  file(GLOB sources CONFIGURE_DEPENDS src/*.cpp src/*/*.cpp src/*/*/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS src/*.cpp src/*/*.cpp src/*/*/*.cpp src/*.c)
   file(GLOB tests CONFIGURE_DEPENDS tests/*.cpp)
   set(includes include)
   foreach(folder IN LISTS ARG_FOLDERS)
@@ -28,7 +28,12 @@ function(ssphh_module name)
   add_library(ssphh::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name}
     SSPHH_DEPENDS "${ARG_DEPENDS}" SSPHH_LINKS "${ARG_LINK_PUBLIC};${ARG_LINK_PRIVATE}")
-  target_compile_features(${target} PUBLIC cxx_std_20)
+  if(ARG_C)
+    set_target_properties(${target} PROPERTIES C_VISIBILITY_PRESET hidden)
+    target_link_libraries(${target} PUBLIC m)
+  else()
+    target_compile_features(${target} PUBLIC cxx_std_20)
+  endif()
   foreach(folder IN LISTS includes)
     target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${folder}>)
     install(DIRECTORY ${folder}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
@@ -41,7 +46,9 @@ function(ssphh_module name)
   target_link_libraries(${target}
     PUBLIC ${ARG_DEPENDS} ${ARG_LINK_PUBLIC}
     PRIVATE ${ARG_LINK_PRIVATE} $<BUILD_INTERFACE:ssphh_compile_options>)
-  ssphh_unity(${target})
+  if(NOT ARG_C)
+    ssphh_unity(${target})
+  endif()
   install(TARGETS ${target} EXPORT ssphh-${name} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 
   if(SSPHH_BUILD_TESTS AND tests)

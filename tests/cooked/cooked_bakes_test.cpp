@@ -1,0 +1,171 @@
+/// Cooked files of real bakes against the formulas that they follow, and against the full lookup, which sends
+/// rays.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <ssphh/bake/transport_bake.h>
+#include <ssphh/place/init.h>
+#include <ssphh/probes/hier.h>
+#include <ssphh/scene/builtin.h>
+#include <ssphh/study/surface_points.h>
+#include <ssphh/trace/path_tracer.h>
+#include <ssphh/trace/transport_scene.h>
+
+#include "cooked_reference.h"
+#include "cooked_room.h"
+
+namespace ssphh::test {
+namespace {
+
+/// Room B of two-rooms is dark: a lamp of another group there, and two probes' light has two sources.
+scene::Scene lit_two_rooms() {
+  scene::Scene scene = scene::make_builtin("two-rooms");
+  scene::Light lamp = scene.lights.at(0);
+  lamp.name = lamp.group = "lamp B";
+  scene::Node node = scene.nodes.at(static_cast<std::size_t>(lamp.node));
+  node.name = lamp.name;
+  node.local.translation.x = -node.local.translation.x;
+  lamp.node = static_cast<int>(scene.nodes.size());
+  lamp.color = vec3(0.5f, 1, 2);
+  scene.nodes.push_back(node);
+  scene.lights.push_back(lamp);
+  return scene;
+}
+
+struct Baked {
+  explicit Baked(scene::Scene s, bool records = true) : scene(std::move(s)), source(scene), tracer(scene) {
+    bake::TransportBakeParams params;
+    params.transport.surfels_per_radius = 16;
+    params.transport.directions = 256;
+    params.records.points = records ? 600 : 0;
+    params.fit = !records;
+    bake::TransportBakeReport report;
+    set = bake::bake_transport(source, place::init_from_scene(scene, 5), params, report);
+    const cook::CookScene cook_scene{scene, source};
+    file.emplace(cook::cook(set, &cook_scene).bytes);
+    std::vector<vec3> origins;
+    for (const probes::Probe& probe : set.probes) origins.push_back(probe.position);
+    // Not in the slots behind pictures, narrower than points are apart, where lists tell little
+    surfaces = study::reachable_points(source, origins, 0, {1500, 5, 0.1f});
+    open = study::points_in_the_open(source, surfaces, 0, 5);
+    for (rays::SurfacePoint& at : open) at.moves = true;
+  }
+
+  scene::Scene scene;
+  trace::TransportScene source;
+  trace::PathTracer tracer;
+  probes::ProbeSet set;
+  std::optional<OpenedFile> file;
+  std::vector<rays::SurfacePoint> surfaces, open;
+};
+
+/// Differences in shares of the mean irradiance, sorted.
+struct Differences {
+  std::vector<double> sorted;
+  double ratio = 0;
+
+  template <class Light>
+  Differences(const OpenedFile& file, const Light& light, const std::vector<rays::SurfacePoint>& places) {
+    double sum = 0, found = 0;
+    for (const rays::SurfacePoint& at : places) {
+      const vec3 a = light.irradiance(at), b = file.irradiance(at);
+      sum += static_cast<double>(a.x + a.y + a.z), found += static_cast<double>(b.x + b.y + b.z);
+      sorted.push_back(static_cast<double>(glm::length(a - b)));
+    }
+    std::ranges::sort(sorted);
+    ratio = found / sum;
+    for (double& d : sorted) d *= 3 * static_cast<double>(places.size()) / sum;
+  }
+  double within(double share) const {
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+  }
+};
+
+class CookedBake : public testing::TestWithParam<std::string> {
+ protected:
+  static scene::Scene scene() {
+    const std::string name = GetParam().substr(0, GetParam().find('_'));
+    return name == "rooms" ? lit_two_rooms() : scene::make_builtin(name);
+  }
+  static bool records() { return GetParam().find("fitted") == std::string::npos; }
+};
+
+TEST_P(CookedBake, GivesWhatItsFormulaSays) {
+  const Baked baked(scene(), records());
+  const CookedReference reference(baked.scene, baked.source, baked.set, cook::CookParams{}.sight_size);
+  std::size_t by_points = 0;
+  for (const rays::SurfacePoint& at : baked.surfaces) by_points += reference.by_points(at);
+  EXPECT_GT(by_points, baked.surfaces.size() / 2);
+  // Where a distance lies next to the one asked for, its 16 bits may decide otherwise than the ray
+  for (const auto& places : {baked.surfaces, baked.open}) {
+    const Differences found(*baked.file, reference, places);
+    // Points that blend probes hold bands over 2 at their own normals alone
+    EXPECT_LT(found.within(0.99), records() ? 1e-5 : 0.02);
+    EXPECT_LT(found.within(0.5), 2e-5);
+    EXPECT_NEAR(found.ratio, 1, 1e-3);
+  }
+}
+
+TEST_P(CookedBake, IsNearTheFullLookup) {
+  const Baked baked(scene(), records());
+  const probes::IrradianceLookup full(baked.set, baked.tracer);
+  const Differences surfaces(*baked.file, full, baked.surfaces), open(*baked.file, full, baked.open);
+  RecordProperty("surfaces", fmt::format("ratio {:.4f}, half {:.2g}, 90 % {:.2g}", surfaces.ratio,
+                                         surfaces.within(0.5), surfaces.within(0.9)));
+  RecordProperty("open", fmt::format("ratio {:.4f}, half {:.2g}, 90 % {:.2g}", open.ratio, open.within(0.5),
+                                     open.within(0.9)));
+  // A ninth of gallery1's surfaces lies in a lamp's cove and behind pictures, where lists name no points
+  EXPECT_LT(surfaces.within(0.5), 1e-4);
+  EXPECT_LT(surfaces.within(0.8), 1e-3);
+  EXPECT_NEAR(surfaces.ratio, 1, 0.03);
+  EXPECT_LT(open.within(0.5), 1e-5);
+  EXPECT_LT(open.within(0.9), 1e-4);
+  EXPECT_NEAR(open.ratio, 1, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, CookedBake, testing::Values("cornell", "rooms", "gallery1", "gallery1_fitted"),
+                         [](const auto& of) { return of.param; });
+
+TEST(CookedBakes, LightOfOtherLampsIsSwappedInAtTheSamePlaces) {
+  const Baked day(lit_two_rooms());
+  scene::Scene lamps = lit_two_rooms();
+  lamps.lights[0].color *= vec3(0.2f, 0.1f, 0.05f);
+  const Baked evening(lamps);
+  const auto swap = [&](const std::vector<std::byte>& bytes) {
+    return ssphh_runtime_swap_light(day.file->runtime, bytes.data(), bytes.size());
+  };
+  EXPECT_EQ(swap(evening.file->bytes()), SSPHH_RUNTIME_OTHER_GEOMETRY)
+      << "records stand where light asks for them";
+  const cook::CookScene cook_scene{evening.scene, evening.source};
+  cook::CookParams params;
+  params.places = &day.set;
+  const std::vector<std::byte> at_places = cook::cook(evening.set, &cook_scene, params).bytes;
+  ASSERT_EQ(swap(at_places), SSPHH_RUNTIME_OK);
+  for (const rays::SurfacePoint& at : evening.open)
+    EXPECT_EQ(day.file->irradiance(at), evening.file->irradiance(at)) << "probes have no other places";
+  const probes::IrradianceLookup full(evening.set, evening.tracer);
+  const Differences surfaces(*day.file, full, evening.surfaces);
+  EXPECT_LT(surfaces.within(0.5), 0.01);
+  EXPECT_LT(surfaces.within(0.9), 0.05);
+  EXPECT_NEAR(surfaces.ratio, 1, 0.01);
+}
+
+TEST(CookedBakes, OtherScalesAreNearTheRelitSet) {
+  // The window of each probe is that of the bake's scales
+  Baked baked(scene::make_builtin("gallery1"));
+  probes::ProbeSet set = baked.set;
+  set.surface.reset();
+  const vec3 scales[] = {vec3(0), {3, 2, 1}, vec3(0.2f)};
+  for (std::uint32_t g = 0; g < 3; ++g) {
+    probes::relight(set, set.light_groups[g].name, scales[g]);
+    ASSERT_EQ(ssphh_runtime_set_group_scale(baked.file->runtime, g, &scales[g].x), SSPHH_RUNTIME_OK);
+  }
+  const CookedReference reference(baked.scene, baked.source, set, cook::CookParams{}.sight_size);
+  const Differences found(*baked.file, reference, baked.open);
+  EXPECT_LT(found.within(0.5), 2e-3);
+  EXPECT_LT(found.within(0.99), 0.05);
+}
+
+}  // namespace
+}  // namespace ssphh::test
