@@ -1,11 +1,15 @@
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <utility>
 
+#include <ssphh/core/check_handler.h>
 #include <ssphh/core/require.h>
 
 namespace ssphh {
 namespace {
+
+std::atomic<CheckHandler> check_handler = nullptr;
 
 std::string message(const std::string& where, const std::string& problem, const std::string& hint) {
   std::string text = where.empty() ? problem : where + ": " + problem;
@@ -25,8 +29,16 @@ void refuse(const char* where, const char* problem) {
   throw Error(where, problem);
 }
 
+CheckHandler set_check_handler(CheckHandler handler) {
+  return check_handler.exchange(handler);
+}
+
 void check_failed(const char* expression, const char* file, int line) {
-  std::fprintf(stderr, "%s:%d: internal error, please report: check failed: %s\n", file, line, expression);
+  if (const CheckHandler handler = check_handler) {
+    handler(expression, file, line);
+  } else {
+    std::fprintf(stderr, "%s:%d: internal error, please report: check failed: %s\n", file, line, expression);
+  }
   std::abort();
 }
 

@@ -1,7 +1,9 @@
+#include <cstdio>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include <ssphh/core/check_handler.h>
 #include <ssphh/core/error.h>
 #include <ssphh/core/hash.h>
 #include <ssphh/core/log.h>
@@ -16,6 +18,16 @@ TEST(Error, SaysWhereWhatAndWhatToDo) {
 
 TEST(CheckDeathTest, AbortsWithThePlace) {
   EXPECT_DEATH(SSPHH_CHECK(1 > 2), "check failed: 1 > 2");
+}
+
+TEST(CheckDeathTest, TellsAHostsHandlerBeforeItAborts) {
+  const auto report = [](const char* condition, const char* file, int line) {
+    std::fprintf(stderr, "host: %s in %s, line %s\n", condition, file, line > 0 ? "known" : "unknown");
+  };
+  EXPECT_EQ(set_check_handler(report), nullptr);
+  EXPECT_DEATH(SSPHH_CHECK(1 > 2), "^host: 1 > 2 in .*error_hash_log_test.cpp, line known\n$");
+  EXPECT_EQ(set_check_handler(nullptr), static_cast<CheckHandler>(report));
+  EXPECT_DEATH(SSPHH_CHECK(1 > 2), "please report");
 }
 
 // XXH3-128 of the empty input, from the xxHash specification.
