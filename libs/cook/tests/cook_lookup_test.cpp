@@ -59,6 +59,20 @@ TEST(CookedLookup, ProbesToFiveDigits) {
   }
 }
 
+TEST(CookedLookup, ProbesBelowAStillSurfaceAreHidden) {
+  // Anywhere, so that probes stand on all sides of the surface; and where probes stand
+  const ProbeSet set = set_of_two_rooms(OnSurfaces::nothing);
+  std::vector<rays::SurfacePoint> places = places_in_the_open(1000, 12);
+  for (rays::SurfacePoint& at : places) at.moves = false;
+  EXPECT_LE(compare(set, places).apart, 4u);
+  places.clear();
+  for (const probes::Probe& probe : set.probes) {
+    places.push_back({probe.position, {0, 1, 0}, false});
+    places.push_back({probe.position, {0, 0, 1}, true});
+  }
+  EXPECT_EQ(compare(set, places).apart, 0u);
+}
+
 TEST(CookedLookup, WhatHidesProbesMatters) {
   const ProbeSet set = set_of_two_rooms(OnSurfaces::nothing);
   const OpenedFile file(cook_two_rooms(set)), all_seen(cook_two_rooms(set, 0));

@@ -66,7 +66,7 @@ static int counts_hold(const ssphh_cooked_header* h) {
   if (h->point_count == 0) return h->point_floats == 0 && h->entry_count == 0 && h->mask_count == 0;
   return (h->point_floats == SSPHH_COOKED_RECORD_FLOATS || h->point_floats == SSPHH_COOKED_FITTED_FLOATS) &&
          cells_of(h->surface_cells) != 0 && is_length(h->surface_cell_size) &&
-         are_finite(h->surface_origin, 3) && h->cell_count <= cells_of(h->surface_cells);
+         are_finite(h->surface_origin, 3);
 }
 
 static int sections_hold(const ssphh_cooked_header* h) {

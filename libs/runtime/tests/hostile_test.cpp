@@ -159,6 +159,27 @@ TEST(HostileFile, WhatLookupsFollowIsLookedAt) {
   expect_invalid(file, last(SSPHH_COOKED_LIGHT), 0x7f800000u, "light without end");
 }
 
+TEST(HostileFile, NoListIsLongerThanALookupHasRoomFor) {
+  std::vector<std::byte> file = small_file();
+  const auto& h = *reinterpret_cast<const ssphh_cooked_header*>(file.data());
+  auto* cells = reinterpret_cast<ssphh_cooked_cell*>(file.data() + h.sections[SSPHH_COOKED_CELLS].offset);
+  // The first cell takes the lists of those behind it
+  std::uint32_t end = 1;
+  while (cells[end].entry <= SSPHH_COOKED_MOST_LISTED_POINTS) ++end;
+  ASSERT_LE(end, h.cell_count);
+  for (std::uint32_t i = 1; i < end; ++i) cells[i] = cells[end];
+  sign(file);
+  EXPECT_EQ(use(file), SSPHH_RUNTIME_INVALID);
+}
+
+TEST(HostileFile, NothingStandsBehindTheLastSection) {
+  std::vector<std::byte> file = small_file();
+  file.resize(file.size() + 64);
+  reinterpret_cast<ssphh_cooked_header*>(file.data())->file_size = file.size();
+  sign(file);
+  EXPECT_EQ(use(file), SSPHH_RUNTIME_INVALID);
+}
+
 TEST(HostileFile, SwappedLightMayHoldAnything) {
   const OpenedFile opened(small_file());
   std::vector<std::byte> other = small_file();

@@ -190,6 +190,10 @@ TEST_F(Runtime, LightOfOthersIsNotSwappedIn) {
   probes::ProbeSet renamed = set_of_two_rooms(OnSurfaces::records);
   renamed.light_groups[0].name = "lamq";
   EXPECT_EQ(swap(renamed), SSPHH_RUNTIME_OTHER_GROUPS);
+  probes::ProbeSet live = set_of_two_rooms(OnSurfaces::records);
+  live.light_groups[1].mode = scene::LightMode::mixed;
+  probes::merge_groups(live);
+  EXPECT_EQ(swap(live), SSPHH_RUNTIME_OTHER_GROUPS) << "its direct light is not within";
   probes::ProbeSet fewer = set_of_two_rooms(OnSurfaces::records);
   fewer.light_groups.pop_back(), fewer.surface->groups.pop_back();
   for (probes::Probe& probe : fewer.probes) probe.groups.pop_back();

@@ -7,8 +7,8 @@ namespace ssphh {
 /// returns the program aborts; it may end the program itself, but must not throw or use the library.
 using CheckHandler = void (*)(const char* condition, const char* file, int line);
 
-/// Sets what SSPHH_CHECK calls, in place of a line on stderr, and returns what it called before; null: that line.
-/// From any thread.
+/// Sets what SSPHH_CHECK calls, in place of a line on stderr, and returns what it called before; null: that
+/// line. From any thread.
 CheckHandler set_check_handler(CheckHandler handler);
 
 }  // namespace ssphh

@@ -1,0 +1,90 @@
+/// What cannot be cooked, and what is said of what is lost.
+
+#include <gmock/gmock.h>
+
+#include <ssphh/core/parallel.h>
+
+#include "cooked_room.h"
+#include "error_message.h"
+
+namespace ssphh::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Cook, RefusesWhatItCannotCook) {
+  const scene::Scene scene = two_rooms_with_a_wall();
+  const TriangleSource source(scene);
+  const cook::CookScene cook_scene{scene, source};
+  const probes::ProbeSet set = set_of_two_rooms(OnSurfaces::records, 2);
+  const auto problem = [&](const probes::ProbeSet& s, const cook::CookParams& params, bool posed = true) {
+    return message_of([&] { cook::cook(s, posed ? &cook_scene : nullptr, params); });
+  };
+  for (const int texels : {-1, 7, 257})
+    EXPECT_THAT(problem(set, {texels}), HasSubstr("0 or 8 to 256")) << texels;
+  EXPECT_THAT(problem({}, {}), HasSubstr("empty"));
+  probes::ProbeSet unmerged = set;
+  for (probes::Probe& probe : unmerged.probes) probe.reflected = {};
+  EXPECT_THAT(problem(unmerged, {}), HasSubstr("merge_groups"));
+  probes::ProbeSet many = set;
+  many.probes.resize(65536);
+  EXPECT_THAT(problem(many, {}), HasSubstr("at most 65535"));
+
+  EXPECT_THAT(problem(set, {16, &set}, false), HasSubstr("need a scene"));
+  probes::ProbeSet other = set;
+  other.probes[0].position.x += 0.1f;
+  EXPECT_THAT(problem(set, {16, &other}), HasSubstr("of other probes"));
+  EXPECT_THAT(problem(set, {16, &many}), HasSubstr("of other probes"));
+  const probes::ProbeSet without = set_of_two_rooms(OnSurfaces::nothing, 2);
+  EXPECT_THAT(problem(without, {16, &set}), HasSubstr("only one of the two"));
+  EXPECT_EQ(problem(set, {16, &set}), "no error");
+}
+
+TEST(Cook, IsTheSameWhateverTheNumberOfThreads) {
+  const probes::ProbeSet set = set_of_two_rooms(OnSurfaces::records);
+  const std::vector<std::byte> all = cook_two_rooms(set);
+  set_thread_count(1);
+  const std::vector<std::byte> one = cook_two_rooms(set);
+  set_thread_count(0);
+  EXPECT_EQ(all, one);
+}
+
+TEST(Cook, ItsOwnPlacesAreNothingNew) {
+  for (const OnSurfaces kind : {OnSurfaces::records, OnSurfaces::fitted, OnSurfaces::nothing}) {
+    const probes::ProbeSet set = set_of_two_rooms(kind, 2);
+    const scene::Scene scene = two_rooms_with_a_wall();
+    const TriangleSource source(scene);
+    const cook::CookScene cook_scene{scene, source};
+    const std::vector<std::byte> own = cook::cook(set, &cook_scene, {8}).bytes,
+                                 same = cook::cook(set, &cook_scene, {8, &set}).bytes;
+    const OpenedFile a(own), b(same);
+    ASSERT_EQ(ssphh_runtime_swap_light(a.runtime, same.data(), same.size()), SSPHH_RUNTIME_OK);
+    for (const rays::SurfacePoint& at : places_on_surfaces(50, 3))
+      EXPECT_EQ(a.irradiance(at), b.irradiance(at));
+  }
+}
+
+TEST(Cook, TellsWhatIsLost) {
+  probes::ProbeSet set = set_of_two_rooms(OnSurfaces::records, 6);
+  set.fitted = set_of_two_rooms(OnSurfaces::fitted).fitted;
+  set.baseline.emplace();
+  const cook::Cooked without = cook::cook(set, nullptr);
+  EXPECT_EQ(without.points, 0u);
+  EXPECT_THAT(without.lost, Contains(HasSubstr("without --scene")));
+  EXPECT_THAT(without.lost, Contains(HasSubstr("they need --scene")));
+  EXPECT_THAT(without.lost, Contains(HasSubstr("bands 5 to 6")));
+  EXPECT_THAT(without.lost, Contains(HasSubstr("--update")));
+  const scene::Scene scene = two_rooms_with_a_wall();
+  const TriangleSource source(scene);
+  const cook::CookScene cook_scene{scene, source};
+  const cook::Cooked with = cook::cook(set, &cook_scene, {8});
+  EXPECT_EQ(with.points, 300u);
+  EXPECT_EQ(with.sight_bytes, 27u * 6 * 64 * 2);
+  EXPECT_THAT(with.lost, Contains(HasSubstr("fitted weights")));
+  EXPECT_THAT(with.lost, Not(Contains(HasSubstr("--scene"))));
+}
+
+}  // namespace
+}  // namespace ssphh::test
