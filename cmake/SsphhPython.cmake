@@ -1,0 +1,30 @@
+# ssphh_find_python(): the interpreter that the module ssphh is built for: SSPHH_PYTHON where it is given, else /usr/bin/python3,
+# whose packages Debian brings, else the first python3 of the PATH; of these the first that has numpy and its own headers.
+# Sets Python_FOUND and the target Python::Module; pybind11_FOUND; SSPHH_PYTHON_MISSING says what is not there.
+set(SSPHH_PYTHON "" CACHE FILEPATH "Interpreter that the Python module is built for; empty: the first that has numpy and headers")
+
+macro(ssphh_find_python)
+  set(SSPHH_PYTHON_MISSING "no python3 with numpy and headers (python3-dev, python3-numpy)")
+  find_program(ssphh_python_of_path python3 NO_CACHE)
+  set(ssphh_pythons ${SSPHH_PYTHON})
+  if(NOT ssphh_pythons)
+    set(ssphh_pythons /usr/bin/python3 ${ssphh_python_of_path})
+  endif()
+  foreach(candidate IN LISTS ssphh_pythons)
+    execute_process(COMMAND ${candidate} -c "import numpy, os, sysconfig; print(os.path.exists(os.path.join(sysconfig.get_path('include'), 'Python.h')))"
+      OUTPUT_VARIABLE ssphh_python_answer ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
+    if(ssphh_python_answer STREQUAL "True")
+      set(Python_EXECUTABLE ${candidate})
+      find_package(Python QUIET COMPONENTS Interpreter Development.Module)
+      if(Python_FOUND)
+        set(PYBIND11_FINDPYTHON ON)
+        find_package(pybind11 2.10 QUIET)
+        set(SSPHH_PYTHON_MISSING "")
+        if(NOT pybind11_FOUND)
+          set(SSPHH_PYTHON_MISSING "no pybind11 (pybind11-dev)")
+        endif()
+        break()
+      endif()
+    endif()
+  endforeach()
+endmacro()

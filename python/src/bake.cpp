@@ -1,0 +1,101 @@
+#include <filesystem>
+#include <optional>
+
+#include <ssphh/pipeline/bake_scene.h>
+#include <ssphh/probes/probe_file.h>
+
+#include "probes_argument.h"
+#include "work.h"
+
+namespace ssphh::python {
+namespace {
+
+using pipeline::BakeSettings;
+using ProbesHandle = std::shared_ptr<probes::ProbeSet>;
+
+/// Takes what was given, and notes the name of it.
+template <class T>
+void take(const std::optional<T>& given, T& value, const char* name = nullptr,
+          std::vector<std::string>* names = nullptr) {
+  if (!given) return;
+  value = *given;
+  if (names) names->emplace_back(name);
+}
+
+template <class E>
+void take_word(const std::optional<std::string>& given, std::optional<E>& value, const char* name) {
+  if (given) value = enum_named<E>(name, *given);
+}
+
+/// A probe file to write, with the checkpoint of an interrupted bake beside it; empty: none.
+std::string output_of(const py::object& output) {
+  if (output.is_none()) return {};
+  const std::string path = path_of(output);
+  probes::probe_file_format(path);  // refused before any work
+  return path;
+}
+
+using OptionalInt = std::optional<int>;
+using OptionalFloat = std::optional<float>;
+using OptionalWord = std::optional<std::string>;
+
+ProbesHandle bake_probes(const LoadedScene& scene, const py::object& output, const py::object& probes,
+                         int degree, const OptionalWord& op, const OptionalWord& quality, double max_memory,
+                         std::uint64_t seed, OptionalInt face, OptionalInt max_depth, OptionalInt passes,
+                         OptionalInt spp, const std::string& gen, const OptionalWord& viz,
+                         OptionalInt neighbors, OptionalFloat threshold, bool viz_transfer,
+                         OptionalInt directions, OptionalFloat surfel_size, OptionalInt link_rays,
+                         OptionalInt records, bool fit, float clearance, int refine, int max_probes,
+                         bool resume, const py::object& progress) {
+  BakeSettings o;
+  if (quality) pipeline::set_effort(o, enum_named<bake::Quality>("quality", *quality));
+  sh::require_degree(degree, "degree");
+  o.degree = degree;
+  o.seed = seed;
+  o.max_memory = max_memory;
+  o.neighbors = neighbors;
+  o.records = records;
+  o.params.gen = enum_named<probes::GenMode>("gen", gen);
+  o.params.viz_params.matrix = viz_transfer;
+  o.transport.fit = fit;
+  take_word(op, o.op, "operator");
+  if (viz) o.viz = *viz == "off" ? probes::VizMethod::none : enum_named<probes::VizMethod>("viz", *viz);
+  take(face, o.params.face_size, "face", &o.of_paths);
+  take(max_depth, o.params.path.max_depth, "max_depth", &o.of_paths);
+  take(passes, o.params.path.passes, "passes", &o.of_paths);
+  take(spp, o.params.path.spp, "spp", &o.of_paths);
+  take(directions, o.transport.transport.directions, "directions", &o.of_transport);
+  take(surfel_size, o.transport.transport.surfel_size, "surfel_size", &o.of_transport);
+  take(link_rays, o.transport.transport.link_rays, "link_rays", &o.of_transport);
+  take(threshold, o.threshold, "threshold", &o.of_viz);
+  if (neighbors) o.of_viz.emplace_back("neighbors");
+  const std::string path = output_of(output);
+  const std::filesystem::path checkpoint = path.empty() ? "" : path + ".checkpoint";
+  const pipeline::PlaceOptions places{places_in_words(probes), clearance, refine, max_probes};
+  return run(progress, [&](const Control& control) {
+    if (!resume && !path.empty()) std::filesystem::remove(checkpoint);
+    pipeline::SceneBake baked =
+        pipeline::bake_scene(scene.geometry(), scene.scene(), scene.time(), places, o, checkpoint, control);
+    if (!path.empty()) {
+      probes::write_probe_file(baked.set, path);
+      std::filesystem::remove(checkpoint);
+    }
+    return std::make_shared<probes::ProbeSet>(std::move(baked.set));
+  });
+}
+
+}  // namespace
+
+void add_bake(py::module_& m) {
+  const py::none none;
+  m.def("bake", &bake_probes,
+        "Finds the light at every probe of a scene, as `ssphh bake` does, to the same bits.", "scene"_a,
+        "output"_a = none, py::kw_only(), "probes"_a = none, "degree"_a = 9, "operator"_a = none,
+        "quality"_a = none, "max_memory"_a = 0.0, "seed"_a = 0, "face"_a = none, "max_depth"_a = none,
+        "passes"_a = none, "spp"_a = none, "gen"_a = "full", "viz"_a = none, "neighbors"_a = none,
+        "threshold"_a = none, "viz_transfer"_a = false, "directions"_a = none, "surfel_size"_a = none,
+        "link_rays"_a = none, "records"_a = none, "fit"_a = false, py::arg_v("clearance", 0.04f, "0.04"),
+        "refine"_a = 1, "max_probes"_a = 4096, "resume"_a = true, "progress"_a = none);
+}
+
+}  // namespace ssphh::python
