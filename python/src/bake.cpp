@@ -1,5 +1,8 @@
 #include <filesystem>
+#include <limits>
 #include <optional>
+
+#include <fmt/format.h>
 
 #include <ssphh/pipeline/bake_scene.h>
 #include <ssphh/probes/probe_file.h>
@@ -27,6 +30,13 @@ void take_word(const std::optional<std::string>& given, std::optional<E>& value,
   if (given) value = enum_named<E>(name, *given);
 }
 
+/// The limits of the tool's options.
+template <class T>
+void require_within(const std::optional<T>& given, T least, T most, const char* name) {
+  if (given && !(*given >= least && *given <= most))
+    throw Error(name, fmt::format("{} is not in {}..{}", *given, least, most));
+}
+
 /// A probe file to write, with the checkpoint of an interrupted bake beside it; empty: none.
 std::string output_of(const py::object& output) {
   if (output.is_none()) return {};
@@ -50,6 +60,10 @@ ProbesHandle bake_probes(const LoadedScene& scene, const py::object& output, con
   BakeSettings o;
   if (quality) pipeline::set_effort(o, enum_named<bake::Quality>("quality", *quality));
   sh::require_degree(degree, "degree");
+  require_within(neighbors, -1, 65536, "neighbors");
+  require_within(records, 0, static_cast<int>(transport::most_records), "records");
+  require_within(threshold, 0.0f, std::numeric_limits<float>::max(), "threshold");
+  if (max_memory != 0) require_within(std::optional(max_memory), 0.01, 1e6, "max_memory");
   o.degree = degree;
   o.seed = seed;
   o.max_memory = max_memory;

@@ -25,7 +25,7 @@ std::string with_keywords(const std::string& text) {
 }
 
 std::string path_of(const py::object& path) {
-  return py::str(py::module_::import("os").attr("fspath")(path));
+  return py::str(py::module_::import("os").attr("fsdecode")(path));
 }
 
 void add_errors(py::module_& m) {

@@ -69,21 +69,14 @@ class Lookup {
   std::unique_ptr<rays::IndirectLight> light_;
 };
 
-/// Direct and indirect irradiance by path tracing.
 py::tuple traced_irradiance(const LoadedScene& scene, const py::object& points, const py::object& normals,
                             int spp, int passes, int max_depth, std::uint64_t seed,
                             const py::object& progress) {
   const std::vector<rays::SurfacePoint> at = surface_points(points, normals, py::none());
-  const auto found = run(progress, [&](const Control& control) {
+  return traced_at(progress, [&](const Control& control) {
     const trace::PathTracer tracer(scene.geometry(), scene.scene(), scene.time());
     return tracer.surface_irradiance(at, {max_depth, passes, spp, seed}, control);
   });
-  std::vector<vec3> direct, indirect;
-  for (const rays::IrradianceEstimate& e : found) {
-    direct.push_back(e.direct);
-    indirect.push_back(e.indirect);
-  }
-  return py::make_tuple(array_of(std::move(direct)), array_of(std::move(indirect)));
 }
 
 }  // namespace
@@ -102,6 +95,16 @@ FloatArray irradiance_of(const rays::IndirectLight& light, const std::vector<ray
         control);
     return found;
   }));
+}
+
+py::tuple traced_at(const py::object& progress,
+                    const std::function<std::vector<rays::IrradianceEstimate>(const Control&)>& trace) {
+  std::vector<vec3> direct, indirect;
+  for (const rays::IrradianceEstimate& e : run(progress, trace)) {
+    direct.push_back(e.direct);
+    indirect.push_back(e.indirect);
+  }
+  return py::make_tuple(array_of(std::move(direct)), array_of(std::move(indirect)));
 }
 
 void add_lookup(py::module_& m) {

@@ -43,11 +43,11 @@ py::array view_of(const sh::RadianceSh& function, const Handle& owner) {
   return array;
 }
 
-py::dict light_at(const Handle& self, std::size_t index) {
-  if (index >= self->probes.size())
-    throw py::index_error(fmt::format("there is no probe {}: they are numbered 0 to {}", index,
-                                      static_cast<std::ptrdiff_t>(self->probes.size()) - 1));
-  const Probe& probe = self->probes[index];
+py::dict light_at(const Handle& self, std::ptrdiff_t index) {
+  const auto count = static_cast<std::ptrdiff_t>(self->probes.size());
+  if (index < -count || index >= count)
+    throw py::index_error(fmt::format("there is no probe {}: there are {}", index, count));
+  const Probe& probe = self->probes[static_cast<std::size_t>(index < 0 ? index + count : index)];
   py::dict groups;
   for (std::size_t g = 0; g < probe.groups.size(); ++g) {
     const GroupLight& light = probe.groups[g];
@@ -181,6 +181,10 @@ Handle from_arrays(const py::object& positions_, const py::object& reflected,
   const FloatArray places = positions(positions_, "positions");
   const auto n = static_cast<std::size_t>(places.shape(0));
   if (light_groups.empty()) throw Error("light_groups", "there must be one");
+  for (std::size_t g = 1; g < light_groups.size(); ++g)
+    if (std::find(light_groups.begin(), light_groups.begin() + static_cast<std::ptrdiff_t>(g),
+                  light_groups[g]) != light_groups.begin() + static_cast<std::ptrdiff_t>(g))
+      throw Error("light_groups", fmt::format("two are named \"{}\"", light_groups[g]));
   if (names && names->size() != n) throw Error("names", "must be as many as positions");
   LightArray light = light_of(reflected, light_groups.size(), n);
   auto set = std::make_shared<ProbeSet>();
@@ -214,9 +218,9 @@ Handle load_probes(const py::object& path, const SceneHandle& scene, bool force)
   });
 }
 
+/// Under the GIL, as everything that looks at a set: another thread might dim its lamps meanwhile.
 void save_probes(const ProbeSet& self, const py::object& path) {
-  const std::string file = path_of(path);
-  do_work(py::none(), [&](const Control&) { probes::write_probe_file(self, file); });
+  probes::write_probe_file(self, path_of(path));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <map>
 
 #include <fmt/format.h>
@@ -24,6 +25,22 @@ namespace {
 
 using probes::ProbeSet;
 using transport::ProbePlace;
+
+/// Held while a session is at work: the GIL is free then, and its other methods must wait for a better time.
+class AtWork {
+ public:
+  explicit AtWork(std::atomic<bool>& busy) : busy_(busy) {
+    if (busy_.exchange(true))
+      throw Error("relight session", "is at work, in another thread or below its own progress",
+                  "wait until it is done, or make one for each thread");
+  }
+  ~AtWork() { busy_ = false; }
+  AtWork(const AtWork&) = delete;
+  AtWork& operator=(const AtWork&) = delete;
+
+ private:
+  std::atomic<bool>& busy_;
+};
 
 struct LightChange {
   std::optional<vec3> position, direction, color;
@@ -90,6 +107,7 @@ class Session {
   }
 
   py::dict update(const py::object& progress) {
+    const AtWork work(busy_);
     const scene::LightingState state = wanted();
     light_.reset();
     const transport::RelightReport r =
@@ -105,6 +123,7 @@ class Session {
     return array_of(std::move(all));
   }
   FloatArray reflected() const {
+    const AtWork work(busy_);
     require_light();
     return array_of_functions(
         session_->reflected(), params_.degree, [](const auto& f) -> const auto& { return f; });
@@ -112,12 +131,14 @@ class Session {
 
   FloatArray irradiance(const py::object& points, const py::object& normals, const py::object& moves,
                         const py::object& progress) {
+    const AtWork work(busy_);
     const std::vector<rays::SurfacePoint> at = surface_points(points, normals, moves);
     return irradiance_of(light().lookup, at, progress);
   }
 
   FloatArray render(const std::string& camera, int width, int height, int max_depth, int spp,
                     std::uint64_t seed, const py::object& progress) {
+    const AtWork work(busy_);
     Light& light = this->light();
     return array_of(run(progress, [&](const Control& control) {
       trace::RenderParams params;
@@ -136,21 +157,17 @@ class Session {
   /// What there is to see, path traced: the truth.
   py::tuple trace_irradiance(const py::object& points, const py::object& normals, int spp, int max_depth,
                              std::uint64_t seed, const py::object& progress) {
+    const AtWork work(busy_);
     const std::vector<rays::SurfacePoint> at = surface_points(points, normals, py::none());
     Light& light = this->light();
-    const auto found = run(progress, [&](const Control& control) {
+    return traced_at(progress, [&](const Control& control) {
       return light.tracer.surface_irradiance(at, {max_depth, 1, spp, seed}, control);
     });
-    std::vector<vec3> direct, indirect;
-    for (const rays::IrradianceEstimate& e : found) {
-      direct.push_back(e.direct);
-      indirect.push_back(e.indirect);
-    }
-    return py::make_tuple(array_of(std::move(direct)), array_of(std::move(indirect)));
   }
 
   /// The light as a bake stores it.
   std::shared_ptr<ProbeSet> probe_set(const py::object& progress) const {
+    const AtWork work(busy_);
     require_light();
     return run(progress, [&](const Control& control) {
       scene::LightingState unscaled = session_->lighting();
@@ -216,6 +233,7 @@ class Session {
     return *light_;
   }
 
+  mutable std::atomic<bool> busy_ = false;
   SceneHandle scene_;
   float time_, turn_degrees_ = 0;
   transport::RelightParams params_;

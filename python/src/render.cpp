@@ -28,7 +28,9 @@ trace::RenderState rendered(const LoadedScene& scene, const std::string& method,
                             int spp, std::uint64_t seed, const std::string& lookup,
                             const std::optional<std::string>& weights, const std::string& light, bool force,
                             bool per_group, const py::object& progress) {
-  pipeline::LightFinder finder{method, settings_of(param), set, "probes"};
+  // Its own copy: another thread may dim the lamps of the caller's.
+  const std::optional<probes::ProbeSet> own = set ? std::optional(*set) : std::nullopt;
+  pipeline::LightFinder finder{method, settings_of(param), own ? &*own : nullptr, "probes"};
   finder.lookup.method = enum_named<probes::LookupMethod>("lookup", lookup);
   if (weights) finder.lookup.weights = enum_named<probes::WeightMethod>("weights", *weights);
   finder.lookup.layer = enum_named<probes::ProbeLayer>("light", light);
@@ -45,8 +47,8 @@ trace::RenderState rendered(const LoadedScene& scene, const std::string& method,
   if (place && projected == pipeline::PictureProjection::camera)
     throw Error("at", "is the place of a picture of the whole sphere", "add projection='cube' or 'equirect'");
   return run(progress, [&](const Control& control) {
-    if (set)
-      pipeline::require_same_scene("probes", *set, scene.scene(), scene::light_groups(scene.scene()),
+    if (own)
+      pipeline::require_same_scene("probes", *own, scene.scene(), scene::light_groups(scene.scene()),
                                    scene.time(), force);
     params.camera = pipeline::camera_of(scene.scene(), camera, scene.time(), scene.geometry());
     params.projection = pipeline::projection_of(projected, params.camera.camera);

@@ -99,7 +99,8 @@ SceneHandle load_scene(const py::object& source, const py::object& overlay, cons
                        float time, const std::map<std::string, std::string>& light_mode) {
   const auto path = [](const py::object& object) { return object.is_none() ? "" : path_of(object); };
   pipeline::SceneOptions options;
-  options.source = path(source);
+  options.source = path_of(source);
+  if (options.source.empty()) throw Error("source", "names no scene", "see builtin_scenes()");
   options.overlay = path(overlay);
   options.unit = unit;
   options.environment = path(environment);

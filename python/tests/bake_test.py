@@ -64,7 +64,8 @@ class Bakes(InAFolder):
                 self.assertEqual(e.where, where)
                 self.assertIn(said, str(e))
                 self.assertNotIn("--", str(e))
-        for keywords in (dict(spp=0), dict(face=0), dict(directions=1, operator="surfel"), dict(max_depth=-1)):
+        for keywords in (dict(spp=0), dict(face=0), dict(directions=1, operator="surfel"), dict(max_depth=-1),
+                         dict(records=-1), dict(neighbors=-2), dict(threshold=float("nan")), dict(max_memory=-1.0)):
             with self.subTest(**keywords):
                 error_of(self, ssphh.bake, scene, **keywords)
         self.assertRaises(TypeError, ssphh.bake, scene, spp="many")

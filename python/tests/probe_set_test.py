@@ -77,6 +77,7 @@ class ProbeSets(InAFolder):
         np.testing.assert_array_equal(view, light[1][1])
         with self.assertRaises(ValueError):
             view[0] = 1
+        np.testing.assert_array_equal(self.two()[0].light(-1)["sky"][1], view)
         self.assertRaises(IndexError, self.two()[0].light, 2)
 
     def test_hier_adds_what_edges_carry(self):
@@ -119,6 +120,7 @@ class ProbeSets(InAFolder):
             (PLACES, np.zeros((2, 144, 3)), {}, "reflected"),
             (PLACES, good, {"light_groups": ["a", "b"]}, "reflected"),
             (PLACES, good, {"names": ["a"]}, "names"),
+            (PLACES, np.array([good, good]), {"light_groups": ["a", "a"]}, "light_groups"),
         ):
             with self.subTest(where=where, shape=np.shape(reflected), **keywords):
                 self.assertEqual(error_of(self, make, positions, reflected, **keywords).where, where)

@@ -75,6 +75,13 @@ class Relighting(InAFolder):
         session.update()
         self.assertEqual(float(session.render(width=32, height=18, spp=2).max()), 0)
 
+    def test_one_thing_at_a_time(self):
+        session = ssphh.RelightSession(self.scene, **SMALL)
+        session.update()
+        with self.assertRaisesRegex(ssphh.Error, "is at work"):
+            session.irradiance(self.points, self.normals, progress=lambda *told: session.update())
+        self.light(session)  # and goes on
+
     def test_refuses_what_there_is_not(self):
         session = ssphh.RelightSession(self.scene, **SMALL)
         self.assertIn("update()", error_of(self, self.light, session).hint)

@@ -81,6 +81,9 @@ class Scenes(InAFolder):
     def test_names_of_scenes(self):
         self.assertIn("builtin:cornell", ssphh.builtin_scenes())
         self.assertIn("cornell", str(error_of(self, ssphh.load, "builtin:cornel")))
+        self.assertEqual(error_of(self, ssphh.load, "").where, "source")
+        self.assertRaises(TypeError, ssphh.load, None)
+        self.assertEqual(ssphh.load(b"builtin:box").name, "box")
         self.assertIn("nobody.glb", error_of(self, ssphh.load, os.path.join(self.folder, "nobody.glb")).where)
 
 
