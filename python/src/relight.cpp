@@ -7,6 +7,7 @@
 
 #include <ssphh/core/nearest_word.h>
 #include <ssphh/pipeline/places.h>
+#include <ssphh/pipeline/relit.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/scene/turn_surroundings.h>
 #include <ssphh/scene/with_lighting.h>
@@ -170,14 +171,8 @@ class Session {
     const AtWork work(busy_);
     require_light();
     return run(progress, [&](const Control& control) {
-      scene::LightingState unscaled = session_->lighting();
-      unscaled.group_scales.assign(unscaled.group_scales.size(), vec3(1));
-      probes::GeneratorInfo generator;
-      generator.op = params_.op;
-      generator.scene = scene_->scene().name;
-      generator.scene_hash = scene::light_hash(scene::with_lighting(scene_->scene(), unscaled));
       return std::make_shared<ProbeSet>(
-          transport::baked_set(*session_, source_->light_groups(), generator, control));
+          pipeline::baked_session(*session_, scene_->scene(), source_->light_groups(), params_.op, control));
     });
   }
 
@@ -209,10 +204,7 @@ class Session {
     for (const auto& [index, change] : changes_) {
       scene::LightState& light = state.lights[index];
       if (change.position) light.world[3] = vec4(*change.position, 1);
-      if (change.direction) {
-        const Frame frame = Frame::around(-glm::normalize(*change.direction));
-        light.world = {vec4(frame.x, 0), vec4(frame.y, 0), vec4(frame.z, 0), light.world[3]};
-      }
+      if (change.direction) light.world = pipeline::aimed(light.world, *change.direction);
       if (change.color) light.color = *change.color;
       if (change.intensity) light.intensity = *change.intensity;
     }

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <ssphh/core/parse_number.h>
+#include <ssphh/pipeline/relit.h>
 #include <ssphh/scene/turn_surroundings.h>
 
 namespace ssphh::app {
@@ -101,12 +102,6 @@ Track read_track(const std::string& spec, const rays::TransportSource& source, c
   return track;
 }
 
-/// Turned such that −z goes along `direction`; the place stays.
-mat4 turned(const mat4& world, const vec3& direction) {
-  const Frame frame = Frame::around(-glm::normalize(direction));
-  return {vec4(frame.x, 0), vec4(frame.y, 0), vec4(frame.z, 0), world[3]};
-}
-
 }  // namespace
 
 const char* const animation_help =
@@ -165,7 +160,7 @@ scene::LightingState RelightAnimation::frame(float u) const {
     }
     scene::LightState& light = state.lights[target];
     if (track.property == TrackProperty::position) light.world[3] = vec4(value, 1);
-    if (track.property == TrackProperty::direction) light.world = turned(light.world, value);
+    if (track.property == TrackProperty::direction) light.world = pipeline::aimed(light.world, value);
     if (track.property == TrackProperty::intensity) light.intensity = value.x;
     if (track.property == TrackProperty::color) light.color = value;
   }

@@ -7,6 +7,7 @@
 
 #include <ssphh/core/log.h>
 #include <ssphh/core/stopwatch.h>
+#include <ssphh/pipeline/relit.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/scene/with_lighting.h>
@@ -151,14 +152,8 @@ class Relighting {
   }
 
   void save(const transport::RelightSession& session) {
-    scene::LightingState unscaled = session.lighting();
-    unscaled.group_scales.assign(unscaled.group_scales.size(), vec3(1));
-    probes::GeneratorInfo generator;
-    generator.op = o_.params.op;
-    generator.scene = scene_.name;
-    generator.scene_hash = scene::light_hash(scene::with_lighting(scene_, unscaled));
-    probes::write_probe_file(transport::baked_set(session, source_.light_groups(), generator, control_),
-                             o_.save);
+    probes::write_probe_file(
+        pipeline::baked_session(session, scene_, source_.light_groups(), o_.params.op, control_), o_.save);
     saved_ = true;
   }
 

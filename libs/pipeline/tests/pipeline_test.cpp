@@ -5,6 +5,7 @@
 
 #include <ssphh/core/file.h>
 #include <ssphh/pipeline/bake_scene.h>
+#include <ssphh/pipeline/relit.h>
 #include <ssphh/pipeline/render_scene.h>
 #include <ssphh/pipeline/scene_options.h>
 #include <ssphh/pipeline/scene_probes.h>
@@ -49,6 +50,17 @@ TEST(LoadScene, KnowsTheModesOfLightGroups) {
   EXPECT_THAT(test::message_of([&] { load_scene(options); }), HasSubstr("nobody"));
   options.light_modes = {"nobody"};
   EXPECT_THAT(test::message_of([&] { load_scene(options); }), HasSubstr("is not GROUP=MODE"));
+}
+
+TEST(Aimed, TurnsWhereALampShinesAndLeavesItsPlace) {
+  mat4 world(1);
+  world[3] = vec4(1, 2, 3, 1);
+  for (const vec3 direction : {vec3(0, -2, 0), vec3(0, 0, -1), vec3(1, 2, -2)}) {
+    const mat4 turned = aimed(world, direction);
+    EXPECT_LT(glm::length(-vec3(turned[2]) - glm::normalize(direction)), 1e-6f);
+    EXPECT_NEAR(glm::determinant(turned), 1, 1e-6f);
+    EXPECT_EQ(turned[3], world[3]);
+  }
 }
 
 class BakeOfABox : public testing::Test {
