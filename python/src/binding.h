@@ -26,12 +26,6 @@ class LoadedScene {
       : scene_(std::make_shared<const scene::Scene>(std::move(scene))),
         source_(std::move(source)),
         time_(time) {}
-  /// The same surfaces, with other probes' places.
-  LoadedScene(scene::Scene scene, const LoadedScene& other)
-      : scene_(std::make_shared<const scene::Scene>(std::move(scene))),
-        source_(other.source_),
-        time_(other.time_),
-        geometry_(other.geometry()) {}
 
   const scene::Scene& scene() const { return *scene_; }
   const std::string& source() const { return source_; }

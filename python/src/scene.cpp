@@ -89,7 +89,7 @@ SceneHandle with_probes(const LoadedScene& self, const py::object& positions_, f
       scene.sphls.push_back({node.name, static_cast<int>(scene.nodes.size()) - 1, radius});
     }
     scene::validate(scene);
-    return std::make_shared<LoadedScene>(std::move(scene), self);
+    return std::make_shared<LoadedScene>(std::move(scene), self.source(), self.time());
   });
 }
 

@@ -66,6 +66,14 @@ class Scenes(InAFolder):
         # It is the same scene to whoever asks.
         ssphh.Lookup(ssphh.load("builtin:box"), probes)
 
+    def test_probes_of_ones_own_stand_where_the_scenes_would(self):
+        scene = ssphh.load("builtin:two-rooms")  # with a lamp and a door, whose nodes come after
+        own = [place.position for place in scene.probe_places]
+        names = [place.name for place in scene.probe_places]
+        settings = dict(operator="surfel", degree=2, records=64, directions=64, surfel_size=0.5, link_rays=16)
+        same = ssphh.bake(scene.with_probes(own, names=names), **settings)
+        np.testing.assert_allclose(same.reflected, ssphh.bake(scene, **settings).reflected, rtol=1e-5, atol=1e-7)
+
     def test_places_are_found_as_asked_for(self):
         scene = ssphh.load("builtin:two-rooms")
         found = ssphh.place(scene, 12)
