@@ -53,10 +53,12 @@ ProbesHandle bake_probes(const LoadedScene& scene, const py::object& output, con
                          int degree, const OptionalWord& op, const OptionalWord& quality, double max_memory,
                          std::uint64_t seed, OptionalInt face, OptionalInt max_depth, OptionalInt passes,
                          OptionalInt spp, const std::string& gen, const OptionalWord& viz,
-                         OptionalInt neighbors, OptionalFloat threshold, bool viz_transfer,
-                         OptionalInt directions, OptionalFloat surfel_size, OptionalInt link_rays,
-                         OptionalInt records, bool fit, float clearance, int refine, int max_probes,
-                         bool resume, const py::object& progress) {
+                         OptionalInt neighbors, OptionalFloat threshold, const OptionalWord& viz_source,
+                         const OptionalWord& viz_paths, OptionalInt viz_max_depth, OptionalInt viz_passes,
+                         OptionalInt viz_spp, bool viz_transfer, OptionalInt directions,
+                         OptionalFloat surfel_size, OptionalInt link_rays, OptionalInt records, bool fit,
+                         float clearance, int refine, int max_probes, bool resume,
+                         const py::object& progress) {
   BakeSettings o;
   if (quality) pipeline::set_effort(o, enum_named<bake::Quality>("quality", *quality));
   sh::require_degree(degree, "degree");
@@ -83,6 +85,21 @@ ProbesHandle bake_probes(const LoadedScene& scene, const py::object& output, con
   take(link_rays, o.transport.transport.link_rays, "link_rays", &o.of_transport);
   take(threshold, o.threshold, "threshold", &o.of_viz);
   if (neighbors) o.of_viz.emplace_back("neighbors");
+  if (viz_source) {
+    o.viz_source = enum_named<probes::VizSource>("viz_source", *viz_source);
+    o.of_viz.emplace_back("viz_source");
+  }
+  if (viz_paths) {
+    o.params.viz_params.paths = enum_named<rays::PathSet>("viz_paths", *viz_paths);
+    o.of_viz_paths.emplace_back("viz_paths");
+  }
+  const auto note = [&](const OptionalInt& given, OptionalInt& value, const char* name) {
+    value = given;
+    if (given) o.of_viz_paths.emplace_back(name);
+  };
+  note(viz_max_depth, o.viz_max_depth, "viz_max_depth");
+  note(viz_passes, o.viz_passes, "viz_passes");
+  note(viz_spp, o.viz_spp, "viz_spp");
   const std::string path = output_of(output);
   const std::filesystem::path checkpoint = path.empty() ? "" : path + ".checkpoint";
   const pipeline::PlaceOptions places{places_in_words(probes), clearance, refine, max_probes};
@@ -107,9 +124,11 @@ void add_bake(py::module_& m) {
         "output"_a = none, py::kw_only(), "probes"_a = none, "degree"_a = 9, "operator"_a = none,
         "quality"_a = none, "max_memory"_a = 0.0, "seed"_a = 0, "face"_a = none, "max_depth"_a = none,
         "passes"_a = none, "spp"_a = none, "gen"_a = "full", "viz"_a = none, "neighbors"_a = none,
-        "threshold"_a = none, "viz_transfer"_a = false, "directions"_a = none, "surfel_size"_a = none,
-        "link_rays"_a = none, "records"_a = none, "fit"_a = false, py::arg_v("clearance", 0.04f, "0.04"),
-        "refine"_a = 1, "max_probes"_a = 4096, "resume"_a = true, "progress"_a = none);
+        "threshold"_a = none, "viz_source"_a = none, "viz_paths"_a = none, "viz_max_depth"_a = none,
+        "viz_passes"_a = none, "viz_spp"_a = none, "viz_transfer"_a = false, "directions"_a = none,
+        "surfel_size"_a = none, "link_rays"_a = none, "records"_a = none, "fit"_a = false,
+        py::arg_v("clearance", 0.04f, "0.04"), "refine"_a = 1, "max_probes"_a = 4096, "resume"_a = true,
+        "progress"_a = none);
 }
 
 }  // namespace ssphh::python

@@ -13,6 +13,8 @@ CASES = [
     ("builtin:cornell", dict(operator="surfel", quality="draft", directions=64, surfel_size=0.2, link_rays=16, records=64,
                              degree=2, fit=True, viz="links")),
     ("builtin:two-rooms", dict(probes=9, time=0.5, spp=1, face=4, degree=2, viz="off", records=0, clearance=0.1)),
+    ("builtin:cornell", dict(spp=2, face=4, degree=1, records=0, viz_source="radiance", viz_paths="diffuse", viz_max_depth=2,
+                             viz_passes=2, viz_spp=1)),
     ("builtin:cornell", dict(gen="local", spp=1, face=4, degree=1, viz_transfer=True)),
 ]
 
@@ -52,6 +54,7 @@ class Bakes(InAFolder):
             (dict(operator="surfel", spp=4), "spp", "operator path"),
             (dict(spp=4, viz="path", link_rays=4, records=0), "link_rays", "operator surfel"),
             (dict(viz_transfer=True, viz="links"), "viz_transfer", "viz path"),
+            (dict(viz="links", viz_spp=1), "viz_spp", "viz path"),
             (dict(operator="surfl"), "operator", "surfel"),
             (dict(quality="better"), "quality", "best"),
             (dict(gen="all"), "gen", "local"),
