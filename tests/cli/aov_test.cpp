@@ -6,6 +6,7 @@
 #include <ssphh/core/file.h>
 #include <ssphh/image/io.h>
 
+#include "joined.h"
 #include "temp_dir.h"
 #include "tool_checks.h"
 
@@ -18,15 +19,9 @@ using test::TempDir;
 
 /// A scene with several light groups, in three passes.
 std::vector<std::string> picture(const std::string& output, const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {"render",   "builtin:gallery1",
-                                        "-o",       output,
-                                        "--width",  "24",
-                                        "--height", "16",
-                                        "--spp",    "2",
-                                        "--passes", "3",
-                                        "--aov",    "direct,indirect,groups"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
+  return test::joined({"render", "builtin:gallery1", "-o", output, "--width", "24", "--height", "16", "--spp",
+                       "2", "--passes", "3", "--aov", "direct,indirect,groups"},
+                      more);
 }
 
 /// Sum of the pictures of all groups.

@@ -12,6 +12,7 @@
 #include <ssphh/image/io.h>
 #include <ssphh/metrics/false_edges.h>
 
+#include "joined.h"
 #include "temp_dir.h"
 #include "tool_checks.h"
 
@@ -43,9 +44,7 @@ class Compare : public testing::Test {
   std::vector<std::string> command(const std::vector<std::string>& more = {}) {
     image::write_image(dir_ / "ref.exr", reference_);
     image::write_image(dir_ / "test.exr", picture_);
-    std::vector<std::string> arguments = {"compare", dir_ / "ref.exr", dir_ / "test.exr"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
+    return test::joined({"compare", dir_ / "ref.exr", dir_ / "test.exr"}, more);
   }
   /// The errors of `pixels` good pixels, which are all equal.
   static void expect_errors(const json::Value& errors, int pixels, int nonfinite) {
@@ -143,9 +142,7 @@ class CompareEdges : public testing::Test {
     image::write_image(dir_ / "test.indirect.exr", test_.indirect);
   }
   std::vector<std::string> command(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments = {"compare", dir_ / "ref.exr", dir_ / "test.exr"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
+    return test::joined({"compare", dir_ / "ref.exr", dir_ / "test.exr"}, more);
   }
 
   static constexpr int width = 64, height = 40;

@@ -46,9 +46,4 @@ std::string problem_here(const std::vector<std::string>& arguments) {
   return message_of([&] { run_here(arguments); });
 }
 
-std::vector<std::string> joined(std::vector<std::string> arguments, const std::vector<std::string>& more) {
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-
 }  // namespace ssphh::test

@@ -8,6 +8,7 @@
 
 #include <ssphh/core/control.h>
 
+#include "joined.h"
 #include "json_text.h"
 
 namespace ssphh::test {
@@ -27,7 +28,5 @@ const json::Value json_here(std::vector<std::string> arguments, int exit_code = 
 
 /// The message of the Error that it throws.
 std::string problem_here(const std::vector<std::string>& arguments);
-
-std::vector<std::string> joined(std::vector<std::string> arguments, const std::vector<std::string>& more);
 
 }  // namespace ssphh::test

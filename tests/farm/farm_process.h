@@ -5,6 +5,7 @@
 
 #include <ssphh/core/file.h>
 
+#include "joined.h"
 #include "tool_checks.h"
 
 namespace ssphh::test {
@@ -41,8 +42,7 @@ class FarmProcesses {
                                           "test:" + std::to_string(workers_.size()),
                                           "--cache",
                                           (dir_ / ("cache" + std::to_string(workers_.size()))).string()};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    workers_.push_back(std::make_unique<ToolProcess>(arguments));
+    workers_.push_back(std::make_unique<ToolProcess>(joined(arguments, more)));
   }
   void replace_worker(std::size_t i) {
     end(*workers_[i]);
@@ -56,9 +56,7 @@ class FarmProcesses {
     workers_[i] = std::make_unique<ToolProcess>(arguments);
   }
   void start_broker() {
-    std::vector<std::string> arguments = {"broker", "--bind", endpoint()};
-    arguments.insert(arguments.end(), broker_options_.begin(), broker_options_.end());
-    broker_ = std::make_unique<ToolProcess>(arguments);
+    broker_ = std::make_unique<ToolProcess>(joined({"broker", "--bind", endpoint()}, broker_options_));
     EXPECT_TRUE(broker_->wait_for_stderr("broker-ready")) << broker_->stderr_so_far();
   }
   void kill_broker() { end(*broker_); }
@@ -85,18 +83,14 @@ struct SmallBake {
     arguments = {"bake", "builtin:gallery1", "--face", "16",          "--spp",
                  spp,    "--degree",         "5",      "--max-depth", "3"};
     const std::string file = (dir / "local.sphl").string();
-    auto local = arguments;
-    local.insert(local.end(), {"-o", file, "--progress", "none"});
-    const ToolResult result = run_tool(local);
+    const ToolResult result = run_tool(joined(arguments, {"-o", file, "--progress", "none"}));
     EXPECT_EQ(result.exit_code, 0) << result.err;
     wanted = read_file(file);
   }
   std::vector<std::string> on(const std::string& endpoint, const std::filesystem::path& output,
                               const std::string& cache = "none") const {
-    auto command = arguments;
-    command.insert(command.end(), {"-o", output.string(), "--broker", endpoint, "--cache", cache,
-                                   "--progress", "plain", "--json"});
-    return command;
+    return joined(arguments, {"-o", output.string(), "--broker", endpoint, "--cache", cache, "--progress",
+                              "plain", "--json"});
   }
 };
 

@@ -15,6 +15,7 @@
 #include <ssphh/core/file.h>
 #include <ssphh/image/io.h>
 
+#include "joined.h"
 #include "temp_dir.h"
 #include "tool_checks.h"
 #include "xvfb.h"
@@ -24,6 +25,7 @@ namespace {
 
 using test::expect_failure;
 using test::expect_keys;
+using test::joined;
 using test::run_json;
 using test::TempDir;
 using testing::HasSubstr;
@@ -59,13 +61,8 @@ class View : public testing::Test {
 const std::vector<std::string> two_rooms = {"view",        "builtin:two-rooms", "--size", "160x100",
                                             "--no-panels", "--exposure",        "0"};
 
-std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-
 TEST_F(View, AnOpenedDoorBrightensTheRoomBehindIt) {
-  const json::Value run = run_json(with(
+  const json::Value run = run_json(joined(
       two_rooms,
       {"--camera", "room-b", "--stats", path("times.json"), "--script",
        script("settle\nscreenshot " + path("shut.png") + "\ntime 1\nsettle\nscreenshot " + path("open.png") +
@@ -109,11 +106,11 @@ TEST_F(View, MouseAndKeysChangeWhatIsShown) {
 }
 
 TEST_F(View, SavesWhatWasEdited) {
-  run_json(with(two_rooms,
-                {"--script",
-                 script("settle\nlight lamp intensity 7\nsphl 2 1.5 0.5\nsettle\nsave " + path("rooms.glb") +
-                        "\nsave " + path("rooms.sphl") + "\nbookmark\nview 1 1 1 2 1 0\nbookmark\nsave " +
-                        path("path.json") + "\nquit\n")}));
+  run_json(joined(
+      two_rooms, {"--script",
+                  script("settle\nlight lamp intensity 7\nsphl 2 1.5 0.5\nsettle\nsave " + path("rooms.glb") +
+                         "\nsave " + path("rooms.sphl") + "\nbookmark\nview 1 1 1 2 1 0\nbookmark\nsave " +
+                         path("path.json") + "\nquit\n")}));
   const json::Value scene = run_json({"scene", "info", path("rooms.glb")});
   EXPECT_EQ(scene["sphls"], 7);
   EXPECT_EQ(scene["lights"], 1);
@@ -122,7 +119,7 @@ TEST_F(View, SavesWhatWasEdited) {
                                       "160x100", "--no-panels", "--screenshot", path("again.png")});
   EXPECT_EQ(again["probes"], 7);
   const json::Value frames =
-      run_json(with(two_rooms, {"--path", path("path.json"), "--export", path("frames"), "--fps", "1"}));
+      run_json(joined(two_rooms, {"--path", path("path.json"), "--export", path("frames"), "--fps", "1"}));
   EXPECT_EQ(frames["written"].size(), 3u);
   EXPECT_TRUE(exists("frames/frame-0002.png"));
 }
@@ -184,9 +181,9 @@ TEST_F(View, SaysWhatIsWrongWithItsInput) {
   expect_failure({"view", "builtin:cornell", "--exposure", "bright"}, "not a number", 2);
   expect_failure({"view", "builtin:cornell", "--size", "wide"}, "WIDTHxHEIGHT");
   expect_failure({"view", "builtin:cornell", "--export", path("f")}, "--path");
-  expect_failure(with(two_rooms, {"--script", script("time 1\nfly away\n")}),
+  expect_failure(joined(two_rooms, {"--script", script("time 1\nfly away\n")}),
                  {"line 2", "no command \"fly\""});
-  expect_failure(with(two_rooms, {"--script", script("light lamb off\n")}), {"line 1", "there are: lamp"});
+  expect_failure(joined(two_rooms, {"--script", script("light lamb off\n")}), {"line 1", "there are: lamp"});
 }
 
 TEST(ViewWithoutADisplay, SaysSo) {
