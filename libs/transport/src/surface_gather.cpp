@@ -54,7 +54,6 @@ void SurfaceGather::append(SurfaceGather&& other) {
   if (points_.size() + other.points_.size() > most_records)
     throw Error("surface records", fmt::format("{} points, at most {} can be kept",
                                                points_.size() + other.points_.size(), most_records));
-  for (Moving& m : other.moving_) m.point += static_cast<std::uint32_t>(points_.size());
   for (std::size_t i = 1; i < other.first_.size(); ++i) {
     first_.push_back(links_.size() + other.first_[i]);
     first_moving_.push_back(moving_.size() + other.first_moving_[i]);
@@ -122,7 +121,7 @@ SurfaceGather::Row SurfaceGather::trace_point(std::uint32_t p, const HemisphereP
     const Link link{static_cast<std::uint32_t>(std::max(surfel, 0)), weight,
                     weight * (slope_of(rays[i], point.normal) - mean)};
     if (d.near_parts(rays[i], hits[i].normal, surfel)) {
-      row.moving.push_back({rays[i], hits[i].normal, surfel, link, weight, p});
+      row.moving.push_back({rays[i], hits[i].normal, surfel, link, weight});
     } else if (surfel != no_surfel) {
       all.push_back(link);
     }

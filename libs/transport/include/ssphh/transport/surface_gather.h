@@ -72,7 +72,6 @@ class SurfaceGather {
     std::int32_t surfel;
     Link link;     ///< as posed; of no weight where the ray escapes
     float weight;  ///< where it does not
-    std::uint32_t point;
   };
   struct Row {
     std::vector<Link> links;
