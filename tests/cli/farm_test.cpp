@@ -63,7 +63,7 @@ TEST_F(Farm, StatusShowsCountsServicesAndWorkers) {
   EXPECT_THAT(
       text,
       testing::MatchesRegex(
-          "1 workers \\(1 idle\\), 0 jobs queued, 0 running, [0-9]+ finished, 0 retries, 0 parked\n(.|\n)*"));
+          "1 worker \\(1 idle\\), 0 jobs queued, 0 running, [0-9]+ finished, 0 retries, 0 parked\n(.|\n)*"));
   EXPECT_THAT(text, HasSubstr(fmt::format("\n{:<48} {:>7} {:>6} {:>7} {:>9}\n", "gen", 1, 1, 0, 3)));
   const std::string row = text.substr(text.find("\nw1") + 1);
   EXPECT_THAT(row, testing::EndsWith(fmt::format("{:>7}  gen", 3)));

@@ -9,6 +9,7 @@
 #include <ssphh/image/io.h>
 #include <ssphh/scene/builtin.h>
 
+#include "commands/bake_watch.h"
 #include "here.h"
 #include "options/farm_options.h"
 #include "temp_dir.h"
@@ -245,6 +246,17 @@ TEST(Texts, OfComparisons) {
                   print(blocks["max_block"][1]), (dir / "m.png").string(), number(c["map"], "scale")));
 }
 
+TEST(Texts, OfWatchedBakes) {
+  app::BakeWatch watch;
+  watch.rounds.resize(3);
+  watch.rounds[1].problem = "not valid JSON";
+  const app::BakeOptions options;
+  const std::string first = app::to_text(watch.first, options);
+  EXPECT_EQ(app::to_text(watch, options), first + "\n2 saves were baked, 1 could not be");
+  watch.rounds.pop_back();
+  EXPECT_EQ(app::to_text(watch, options), first + "\n1 save was baked, 1 could not be");
+}
+
 TEST(Texts, OfFarms) {
   farm::FarmReport report;
   report.jobs = 7, report.units = 12, report.cached = 0, report.retries = 0, report.workers = 3;
@@ -252,7 +264,7 @@ TEST(Texts, OfFarms) {
   const std::string base = "farm: 7 jobs, 3 workers, 2.50 s of computing in 1.25 s";
   EXPECT_EQ(app::farm_text(report), base);
   report.cached = 1, report.retries = 1;
-  EXPECT_EQ(app::farm_text(report), base + "; 1 of 12 results were known; 1 retries");
+  EXPECT_EQ(app::farm_text(report), base + "; 1 of 12 results were known; 1 retry");
   EXPECT_EQ(app::farm_json(report), ssphh::json::Value({{"jobs", 7},
                                                         {"retries", 1},
                                                         {"units", 12},

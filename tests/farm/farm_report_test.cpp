@@ -3,6 +3,7 @@
 #include <map>
 
 #include "farm_process.h"
+#include "joined.h"
 #include "places.h"
 
 namespace ssphh::test {
@@ -24,11 +25,10 @@ std::map<std::string, std::vector<std::byte>> results_in(const fs::path& cache) 
 TEST(FarmReport, RunsOfAFarmHaveTheKeysAndTheBitsOfLocalOnes) {
   const TempDir dir;
   const std::string plan = test::source_dir() / "plans/tiny.json";
-  const auto report = [&](const std::string& name, std::vector<std::string> more) {
-    std::vector<std::string> command = {
-        "report", plan, "-o", (dir / name / "out").string(), "--cache", (dir / name / "cache").string()};
-    command.insert(command.end(), more.begin(), more.end());
-    return run_json(command);
+  const auto report = [&](const std::string& name, const std::vector<std::string>& more) {
+    return run_json(test::joined(
+        {"report", plan, "-o", (dir / name / "out").string(), "--cache", (dir / name / "cache").string()},
+        more));
   };
   EXPECT_EQ(report("here", {})["run"], 9);
   const auto far = report("far", {"--local", "2"});
@@ -57,7 +57,7 @@ TEST(FarmCommand, ParkedJobsAreShownReleasedAndDropped) {
   const SmallBake bake(dir, "2");
   const ToolResult failed = run_tool(bake.on(farm.endpoint(), dir / "out.sphl"));
   EXPECT_EQ(failed.exit_code, 1);
-  EXPECT_THAT(failed.err, testing::HasSubstr("failed on 1 workers"));
+  EXPECT_THAT(failed.err, testing::HasSubstr("failed on 1 worker"));
 
   const std::vector<std::string> to = {"--broker", farm.endpoint()};
   const auto farm_command = [&](std::vector<std::string> words) {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/metrics/compare.h>
@@ -130,8 +131,8 @@ BakeWatch run_bake_watch(const BakeOptions& options, const Control& control) {
   const BakeOptions update = updates_of(options);
   const std::size_t probes = watch.first.set.probes.size();
   const auto there = std::ranges::count_if(watcher.files, &FileStamp::exists);
-  log_info("{}: {} probes baked; watching {} file{}; Ctrl-C ends it", options.output, probes, there,
-           there == 1 ? "" : "s");
+  log_info("{}: {} baked; watching {}; Ctrl-C ends it", options.output, counted(probes, "probe"),
+           counted(there, "file"));
   std::vector<FileStamp> files = watcher.files;
   while (wait_for_save(files, control)) {
     WatchRound round;
@@ -174,8 +175,8 @@ json::Value to_json(const BakeWatch& watch, const BakeOptions& options) {
 std::string to_text(const BakeWatch& watch, const BakeOptions& options) {
   const auto failed =
       std::ranges::count_if(watch.rounds, [](const WatchRound& round) { return !round.problem.empty(); });
-  return fmt::format("{}\n{} saves were baked, {} could not be", to_text(watch.first, options),
-                     watch.rounds.size() - static_cast<std::size_t>(failed), failed);
+  return fmt::format("{}\n{} baked, {} could not be", to_text(watch.first, options),
+                     counted(std::ssize(watch.rounds) - failed, "save was", "saves were"), failed);
 }
 
 }  // namespace ssphh::app

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/scene_io/gltf_export.h>
 
 #include "commands/command.h"
@@ -58,8 +59,8 @@ json::Value to_json(const ExportResult& result, const ExportOptions& o) {
 
 std::string to_text(const ExportResult& result, const ExportOptions&) {
   const scene_io::ExportReport& report = result.report;
-  std::string text = fmt::format("{}: {} file{}, {} triangles", report.files.front().string(),
-                                 report.files.size(), report.files.size() == 1 ? "" : "s", result.triangles);
+  std::string text = fmt::format("{}: {}, {}", report.files.front().string(),
+                                 counted(report.files.size(), "file"), counted(result.triangles, "triangle"));
   if (!report.command.empty()) text += "\nrender with: " + report.command;
   for (const std::string& line : report.differences) text += "\ndiffers: " + line;
   return text;

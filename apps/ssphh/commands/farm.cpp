@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/majordomo/security.h>
 
@@ -17,6 +18,10 @@ namespace {
 
 double seconds(const json::Value& object, const char* key) {
   return object.number_or(key, 0) / 1000;
+}
+
+std::uint64_t count(const json::Value& object, const char* key) {
+  return static_cast<std::uint64_t>(object.number_or(key, 0));
 }
 
 /// Without questions to the broker, as those of `top` itself, which its totals count as well.
@@ -48,10 +53,10 @@ json::Value to_json(const FarmStatus& s, const BrokerChoice&) {
 std::string to_text(const FarmStatus& s, const BrokerChoice&) {
   const json::Value &now = s.stats["now"], &total = s.stats["total"];
   std::string text =
-      fmt::format("{} workers ({} idle), {} jobs queued, {} running, {} finished, {} retries, {} parked",
-                  now.number_or("workers", 0), now.number_or("idle", 0), now.number_or("queued", 0),
-                  now.number_or("running", 0), total.number_or("finished", 0), total.number_or("retries", 0),
-                  total.number_or("parked", 0));
+      fmt::format("{} ({} idle), {} queued, {} running, {} finished, {}, {} parked",
+                  counted(count(now, "workers"), "worker"), count(now, "idle"),
+                  counted(count(now, "queued"), "job"), count(now, "running"), count(total, "finished"),
+                  counted(count(total, "retries"), "retry", "retries"), count(total, "parked"));
   if (s.per_second) {
     const double left = now.number_or("queued", 0) + now.number_or("running", 0);
     text += fmt::format("\n{:.2f} jobs/s", *s.per_second);
@@ -100,7 +105,7 @@ json::Value to_json(const FarmDrainResult& result, const FarmDrainOptions&) {
 }
 
 std::string to_text(const FarmDrainResult& result, const FarmDrainOptions&) {
-  return fmt::format("{} workers were told to leave", result.told);
+  return counted(result.told, "worker was", "workers were") + " told to leave";
 }
 
 FarmKeygenResult run_farm_keygen(const FarmKeygenOptions& o, const Control&) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/core/error.h>
 
 #include "commands/command.h"
@@ -20,7 +21,7 @@ int tell(const FarmJobsOptions& choice, const std::string& service, const Contro
 }
 
 std::string jobs_text(int count) {
-  return count == 1 ? "1 job is" : fmt::format("{} jobs are", count);
+  return counted(count, "job is", "jobs are");
 }
 
 void add_choice(Command command, FarmJobsOptions& choice) {

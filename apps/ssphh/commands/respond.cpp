@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/core/file.h>
 #include <ssphh/pipeline/live_method.h>
 #include <ssphh/scene/with_lighting.h>
@@ -121,11 +122,11 @@ std::string to_text(const RespondResult& result, const RespondOptions& o) {
   const int settled = frames_to_settle(result.frames);
   return fmt::format(
       "{}: {}\nmean error at {} points: {:.1f} % with the light of before, {:.1f} % after one "
-      "frame, {:.1f} % after {} (ratio{})\nsettled after {} frame{}, {:.3g} ms a frame "
+      "frame, {:.1f} % after {} (ratio{})\nsettled after {}, {:.3g} ms a frame "
       "(the first {:.3g})",
       o.method, to_text(result.method), result.points.size(), 100 * mean_error(result.stale),
       100 * mean_error(first.error), 100 * mean_error(last.error), o.frames, ratio_columns(last.error),
-      settled, settled == 1 ? "" : "s", median_ms(result.frames), first.ms);
+      counted(settled, "frame"), median_ms(result.frames), first.ms);
 }
 
 void add_respond_command(Command app, Context& context) {

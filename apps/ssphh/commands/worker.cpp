@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/farm/disk_cache.h>
@@ -38,7 +39,8 @@ json::Value to_json(const farm::WorkerPoolReport& report, const WorkerSettings&)
 }
 
 std::string to_text(const farm::WorkerPoolReport& report, const WorkerSettings&) {
-  return fmt::format("{} jobs, busy {:.1f} s of {:.1f} s", report.jobs, report.busy_seconds, report.seconds);
+  return fmt::format("{}, busy {:.1f} s of {:.1f} s", counted(report.jobs, "job"), report.busy_seconds,
+                     report.seconds);
 }
 
 void add_worker_command(Command app, Context& context) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/majordomo/security.h>
 
 namespace ssphh::app {
@@ -70,10 +71,13 @@ json::Value farm_json(const farm::FarmReport& report) {
 }
 
 std::string farm_text(const farm::FarmReport& report) {
-  std::string text = fmt::format("farm: {} jobs, {} workers, {:.2f} s of computing in {:.2f} s", report.jobs,
-                                 report.workers, report.compute_seconds, report.seconds);
-  if (report.cached > 0) text += fmt::format("; {} of {} results were known", report.cached, report.units);
-  if (report.retries > 0) text += fmt::format("; {} retries", report.retries);
+  std::string text =
+      fmt::format("farm: {}, {}, {:.2f} s of computing in {:.2f} s", counted(report.jobs, "job"),
+                  counted(report.workers, "worker"), report.compute_seconds, report.seconds);
+  if (report.cached > 0)
+    text +=
+        fmt::format("; {} of {} known", report.cached, counted(report.units, "result was", "results were"));
+  if (report.retries > 0) text += "; " + counted(report.retries, "retry", "retries");
   return text;
 }
 

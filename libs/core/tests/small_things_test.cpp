@@ -8,6 +8,7 @@
 #include <ssphh/core/bytes.h>
 #include <ssphh/core/contraction.h>
 #include <ssphh/core/control.h>
+#include <ssphh/core/counted.h>
 #include <ssphh/core/hash.h>
 #include <ssphh/core/held.h>
 #include <ssphh/core/json.h>
@@ -51,6 +52,14 @@ TEST(Errors, HoldTheirParts) {
   EXPECT_EQ(message_of([] { refuse("here", "is wrong"); }), "here: is wrong");
   EXPECT_EQ(message_of([] { require(false, "here", "is wrong"); }), "here: is wrong");
   EXPECT_EQ(message_of([] { require(true, "here", "is wrong"); }), "no error");
+}
+
+TEST(Counted, IsANumberWithItsNoun) {
+  EXPECT_EQ(counted(0, "worker"), "0 workers");
+  EXPECT_EQ(counted(1, "worker"), "1 worker");
+  EXPECT_EQ(counted(std::size_t{12}, "worker"), "12 workers");
+  EXPECT_EQ(counted(1u, "retry", "retries"), "1 retry");
+  EXPECT_EQ(counted(0u, "retry", "retries"), "0 retries");
 }
 
 TEST(HeldThings, AreThereUntilTheyAreMovedAway) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/core/json.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/stopwatch.h>
@@ -97,8 +98,8 @@ class Dispatcher {
     if (event.outcome != majordomo::Outcome::ok) {
       throw Error(
           "the farm",
-          fmt::format("a job of {} units ended as \"{}\": {}", job.units.size(), name_of(event.outcome),
-                      event.reason),
+          fmt::format("a job of {} ended as \"{}\": {}", counted(job.units.size(), "unit"),
+                      name_of(event.outcome), event.reason),
           event.outcome == majordomo::Outcome::parked ? "the broker keeps it: see `ssphh farm parked`" : "");
     }
     if (event.body.empty()) throw Error("the farm", "a worker answered without a result");

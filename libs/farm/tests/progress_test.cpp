@@ -40,7 +40,7 @@ TEST_F(Listening, TellsOfUnitsWorkersAndRetries) {
     progress.cached(0);
     EXPECT_EQ(take_lines(), Lines{});
     progress.cached(1);
-    EXPECT_EQ(take_lines(), Lines{"1 results are in the cache"});
+    EXPECT_EQ(take_lines(), Lines{"1 result is in the cache"});
     progress.cached(5);
     EXPECT_EQ(take_lines(), Lines{"5 results are in the cache"});
     FarmReport report;
@@ -53,7 +53,7 @@ TEST_F(Listening, TellsOfUnitsWorkersAndRetries) {
     EXPECT_EQ(take_lines(), Lines{}) << "once";
     report.workers = 3, report.retries = 1;
     progress.finished(1, report);
-    EXPECT_EQ(take_lines(), (Lines{"3 workers", "1 retries: workers were lost or failed"}));
+    EXPECT_EQ(take_lines(), (Lines{"3 workers", "1 retry: workers were lost or failed"}));
     report.workers = 1, report.retries = 2;
     progress.finished(0, report);
     EXPECT_EQ(take_lines(), Lines{"2 retries: workers were lost or failed"});

@@ -155,7 +155,7 @@ TEST_F(Units, FailuresAreToldWithTheirReason) {
     const ServiceThread serving =
         worker([&](const majordomo::Job&) -> majordomo::Frames { throw Error("here", "cannot be done"); });
     EXPECT_EQ(message_of([&] { run({numbered(0, 3, done)}); }),
-              "the farm: a job of 1 units ended as \"failed\": " + test::name_of_this_process() +
+              "the farm: a job of 1 unit ended as \"failed\": " + test::name_of_this_process() +
                   ": here: cannot be done");
   }
   {

@@ -91,9 +91,15 @@ TEST(WorkerLife, WhyItCouldNotIsToldWhenNobodyIsLeft) {
   Client client({.endpoint = broker.endpoint()});
   const std::string hint = " (the broker's log and `mmi.parked` tell more)";
   EXPECT_EQ(ssphh::test::message_of([&] { client.call("job", {"x"}); }),
-            "job: parked: failed on 1 workers; w: no memory" + hint);
+            "job: parked: failed on 1 worker; w: no memory" + hint);
   EXPECT_EQ(ssphh::test::message_of([&] { client.call("never", {"x"}); }),
             "never: failed: n: scene: is none (take another)" + hint);
+}
+
+TEST(WorkerLife, ThatCannotConnectSaysSo) {
+  Worker worker({.endpoint = "tcp://127.0.0.1", .service = "job", .name = "w"});
+  EXPECT_THAT(ssphh::test::message_of([&] { worker.run(echo); }),
+              testing::StartsWith("tcp://127.0.0.1: cannot connect: "));
 }
 
 TEST(WorkerLife, StoppedItFinishesTheJobInHand) {

@@ -1,5 +1,6 @@
 /// Jobs that were set aside, and what an administrator does with them.
 
+#include <ssphh/core/counted.h>
 #include <ssphh/core/hash.h>
 #include <ssphh/core/parse_number.h>
 
@@ -8,7 +9,7 @@
 namespace ssphh::majordomo {
 
 void BrokerCore::Impl::park(QueuedJob& job) {
-  std::string reason = fmt::format("failed on {} workers", job.failures.size());
+  std::string reason = "failed on " + counted(job.failures.size(), "worker");
   for (const std::string& failure : job.failures) reason += "; " + failure;
   ++sums.parked;
   event(LogLevel::error, "job-parked", Field("job", std::to_string(job.number)),
