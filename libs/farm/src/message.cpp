@@ -86,7 +86,7 @@ std::optional<Field> Field::find(const char* name) const {
 }
 
 std::size_t Field::float_count() const {
-  if (!is_reference(value())) return size(0, std::size_t{1} << 24);
+  if (!is_reference(value())) return size();
   const Field range = (*this)["f32"];
   if (range.size() != 2) fail("\"f32\" must be [first, count]");
   const std::uint64_t total = raw_->bytes.size() / sizeof(float);
