@@ -91,15 +91,9 @@ TEST(GiTransportBake, GroupsAddUpToTheLightOfAll) {
   }
 }
 
-TEST(GiTransportBake, FittedPointsAreThoseOfASessionOfTheSameParameters) {
-  const scene::Scene scene = scene::make_builtin("box");
-  bake::TransportBakeParams params;
-  params.fit = true;
-  params.fit_params.probes = 3;
-  params.transport.surfel_size = 0.2f;
-  const probes::ProbeSet set = transport_baked(scene, 2, params).set;
-  ASSERT_TRUE(set.fitted);
-
+/// By a session of the set's parameters, lit as the scene is.
+probes::FittedPoints fitted_by_session(const scene::Scene& scene, const probes::ProbeSet& set,
+                                       const transport::FitParams& params) {
   const trace::TransportScene source(scene);
   std::vector<transport::ProbePlace> places;
   for (const probes::Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
@@ -110,8 +104,20 @@ TEST(GiTransportBake, FittedPointsAreThoseOfASessionOfTheSameParameters) {
   test::LitSession session(source, places, same);
   session.update();
   const transport::TransportNetwork& network = session.network();
-  EXPECT_EQ(*set.fitted, transport::fit_weights(network, source, transport::surfel_points(network),
-                                                params.fit_params, session.direct_by_group()));
+  return transport::fit_weights(network, source, transport::surfel_points(network), params,
+                                session.direct_by_group());
+}
+
+TEST(GiTransportBake, FittedPointsAreThoseOfASessionOfTheSameParameters) {
+  const scene::Scene scene = scene::make_builtin("box");
+  bake::TransportBakeParams params;
+  params.fit = true;
+  params.fit_params.probes = 3;
+  params.transport.surfel_size = 0.2f;
+  const probes::ProbeSet set = transport_baked(scene, 2, params).set;
+  ASSERT_TRUE(set.fitted);
+
+  EXPECT_EQ(*set.fitted, fitted_by_session(scene, set, params.fit_params));
   int most = 0;
   for (const probes::PointWeights& weights : set.fitted->weights) most = std::max(most, weights.count);
   EXPECT_EQ(most, 3);
@@ -127,6 +133,8 @@ TEST(GiTransportBake, WeightsFitBesidePathTracedLight) {
   params.transport.surfel_size = 0.25f;
   bake::add_transport(source, set, params, report);
   ASSERT_TRUE(set.fitted);
+  EXPECT_EQ(*set.fitted, fitted_by_session(scene, set, params.fit_params))
+      << "to the scene's own lights, too";
   EXPECT_EQ(set.generator.op, probes::LightOperator::path);
   EXPECT_GT(set.generator.directions, 0);
   bake::BakeParams paths;

@@ -261,8 +261,10 @@ void add_transport(const rays::TransportSource& source, probes::ProbeSet& set,
   const transport::TransportNetwork& network = session.network();
   describe_network(network, set, report);
   if (edges) find_edges(network, source, set, params.viz_params, scope.edges, report, control);
-  if (params.fit || records) session.update(session.lighting(), control);
-  if (params.fit) fit(session, source, set, params.fit_params, report, control);
+  if (params.fit) {
+    session.update(session.lighting(), control);
+    fit(session, source, set, params.fit_params, report, control);
+  }
   if (records) find_records(session, set, params.records, scope.light, report, control);
   report.rays = source.rays_traced() - rays_before;
 }

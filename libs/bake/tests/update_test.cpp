@@ -9,6 +9,7 @@
 
 #include "error_message.h"
 #include "fake_source.h"
+#include "progress_recorder.h"
 
 namespace ssphh::bake {
 namespace {
@@ -312,6 +313,19 @@ TEST(Update, RefusesWhatCannotBeCompared) {
   EXPECT_THROW(plan_update(source, set, {}), Error) << "of light by transport";
   set.baseline.reset();
   EXPECT_THROW(plan_update(source, set, {}), Error);
+  EXPECT_EQ(test::message_of([] {
+              changed_share(trial_of({1}, {1}), trial_of({1, 2}, {1, 2}));
+            }),
+            "trial: it is of another number of light groups");
+}
+
+TEST(Update, ProgressIsToldByProbes) {
+  test::FakeSource source;
+  const probes::ProbeSet set = baked(source);
+  test::ProgressRecorder progress;
+  make_trials(source, set, {&progress, nullptr});
+  plan_update(source, set, {}, {}, {&progress, nullptr});
+  EXPECT_THAT(progress.finished(), ElementsAre("trials: 5 probes", "comparing: 5 probes"));
 }
 
 }  // namespace

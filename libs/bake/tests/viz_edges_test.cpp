@@ -58,6 +58,11 @@ TEST_F(VizEdges, LieAboveTheThreshold) {
   EXPECT_THAT(kept({.threshold = 0.999f * third}), ElementsAre(2, 3, 5));
 }
 
+TEST_F(VizEdges, OfNoProbeAreRefused) {
+  EXPECT_EQ(test::message_of([&] { viz(test::FakeSource(), set_, set_.probes.size(), {}, {}); }),
+            "VIZ: there is no probe of that index");
+}
+
 TEST_F(VizEdges, OfASphereAroundTheProbeHaveAPOfOne) {
   kept({});
   EXPECT_NEAR(edges_[4].transfer, 1, 1e-5f);

@@ -94,6 +94,23 @@ TEST(SurfaceLists, TheFloorBesideABodySeesNothingThroughIt) {
   }
 }
 
+TEST(SurfaceLists, BothSidesOfASheetAreAlike) {
+  // All is seen, so that far points are left out by their weight alone.
+  const auto lists = [](float side) {
+    FittedPoints fitted = around_body();
+    fitted.points.pop_back(), fitted.weights.pop_back();
+    for (rays::SurfacePoint& point : fitted.points) point.normal = {0, side, 0};
+    scene::Scene sheet = body_on_a_floor();
+    sheet.instances.pop_back();
+    return prepare_fitted(sheet, 0, fitted, [](const vec3&, const vec3&) { return true; }).surfaces;
+  };
+  const SurfaceLists above = lists(1), below = lists(-1);
+  EXPECT_EQ(above.ranges, below.ranges);
+  EXPECT_EQ(above.lists, below.lists);
+  EXPECT_TRUE(std::ranges::any_of(above.lists, [](const uvec4& e) { return ~(e.y & e.z) != 0; }))
+      << "some are left out";
+}
+
 /// Of the cells along x: what their lists hold, each cell with a weight of its own.
 std::string row_text(const SurfaceLists& surfaces, int y, int z) {
   double points = 0, indices = 0, squares = 0, kinds = 0, spacing = 0;

@@ -224,6 +224,23 @@ TEST_F(GltfPose, AnimatedJointsGiveTheShapeOfATime) {
   expect_near(vertex(load_gltf(export_glb(checked), "f"), 2), {0, 2, 0});
 }
 
+TEST_F(GltfPose, ShapesOfTheirOwnCountAsDecodedData) {
+  // Eight copies of 200,000 vertices, 32 bytes each, are within 64 MiB; thirty are not. The file has few
+  // bytes.
+  const auto file = [](int copies) {
+    GlbBuilder b;
+    for (int i = 0; i < 2; ++i) b.accessor("\"componentType\":5126,\"type\":\"VEC3\",\"count\":200001");
+    std::string nodes;
+    for (int i = 0; i <= copies; ++i) nodes += std::string(i > 0 ? "," : "") + "{\"mesh\":0,\"weights\":[1]}";
+    return b.glb("\"nodes\":[" + nodes +
+                 "],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":"
+                 "1}]}]}]");
+  };
+  EXPECT_EQ(load_gltf(file(2), "f").meshes.size(), 3u);
+  EXPECT_THAT(said_of(file(30)),
+              testing::MatchesRegex("f: nodes.*: the file asks for more than 64 MiB of decoded data, .*"));
+}
+
 TEST_F(GltfPose, WhatIsWrongIsNamed) {
   EXPECT_EQ(said_of(Morphing().glb("{\"mesh\":0,\"weights\":[1]}")),
             "f: nodes[0].weights: has 1 weights, the mesh has 2 targets");

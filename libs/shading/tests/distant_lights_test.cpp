@@ -44,6 +44,21 @@ TEST(DirectionalLight, GivesItsIrradianceOnAFacingPlane) {
   EXPECT_FALSE(hit(lights, s->wi)) << "rays cannot find it";
 }
 
+TEST(DirectionalLight, OfAScaledNodeIsTheSame) {
+  for (const float angular_radius : {0.0f, 0.3f}) {
+    scene::Scene plain;
+    add_light(plain, LightType::directional, vec3(0), {1, -2, 3}).angular_radius = angular_radius;
+    scene::Scene scaled = plain;
+    scaled.nodes[static_cast<std::size_t>(scaled.lights[0].node)].local.scale = {2, 0.5f, 4};
+    const auto a = make_lights(plain).sample(vec3(0), 0.5f, vec2(0.3f, 0.6f)),
+               b = make_lights(scaled).sample(vec3(0), 0.5f, vec2(0.3f, 0.6f));
+    ASSERT_TRUE(a && b);
+    EXPECT_LE(glm::distance(a->wi, b->wi), 1e-6f) << "a direction has the length 1";
+    EXPECT_FLOAT_EQ(a->pdf, b->pdf);
+    EXPECT_FLOAT_EQ(a->radiance.x, b->radiance.x);
+  }
+}
+
 TEST(DirectionalLight, DiscGivesTheSameIrradiance) {
   for (const float angular_radius : {0.00465f, 0.3f, 1.2f}) {
     scene::Scene scene;

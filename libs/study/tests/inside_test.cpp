@@ -9,6 +9,7 @@
 #include <ssphh/study/surface_points.h>
 
 #include "boxes.h"
+#include "ray_source.h"
 #include "triangle_source.h"
 
 namespace ssphh::study {
@@ -80,6 +81,22 @@ TEST(Inside, TellsAllPointsOfAHouseFromThoseOutside) {
   }
   EXPECT_GT(rooms, 200);
   EXPECT_LT(wrong, 20) << "thresholds and reveals may be either";
+}
+
+TEST(Inside, AQuarterOfTheSkyMayBeFreeAsAMeterWeighsIt) {
+  // Free within an angle about the zenith, whose squared sine is its share; and along the horizon, which is
+  // none.
+  const auto is_inside = [](float share) {
+    const float least = std::sqrt(1 - share);
+    const test::RaySource source([=](const vec3& origin, const vec3& d) {
+      return origin.y > 0.1f && (d.y > least || d.y == 0) ? rays::RayHit() : test::surface_at(2, d);
+    });
+    const rays::SurfacePoint floor{{0, 0, 0}, {0, 1, 0}};
+    return inside(source, {&floor, 1}, 0)[0] != 0;
+  };
+  // Of sixteen rays four, and five.
+  EXPECT_TRUE(is_inside(4.0f / 16));
+  EXPECT_FALSE(is_inside(5.0f / 16));
 }
 
 TEST(Inside, ClosedScenesAreAndSingleThingsAreNot) {
