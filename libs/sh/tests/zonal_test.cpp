@@ -33,14 +33,6 @@ TEST(Zonal, CoefficientsAreTheProjectionOfTheLobe) {
   }
 }
 
-TEST(Zonal, ItsRuleIsExactForPolynomialsOfDegree117) {
-  // ∫ t^116 Y_00 dω = 2π √(1/4π) 2/117, and with P_2 = (3t² − 1)/2 in its place.
-  const ZonalSh zonal = zonal_from_function(max_degree, [](double t) { return std::pow(t, 116); });
-  EXPECT_NEAR(zonal[0], std::sqrt(pi_d) * 2 / 117, 1e-12);
-  EXPECT_NEAR(zonal[1], 0, 1e-12);
-  EXPECT_NEAR(zonal[2], std::sqrt(5 * pi_d) * (3.0 / 119 - 1.0 / 117), 1e-12);
-}
-
 TEST(Zonal, EvaluatesToTheSameAsTheFullSeries) {
   const ZonalSh zonal = zonal_from_function(8, bump);
   std::vector<float> full(coefficient_count(8));
