@@ -105,8 +105,9 @@ TEST(BadInput, ASceneWithoutLightsStandsInAStudioUnlessItIsMeantToBeDark) {
 TEST(BadInput, AProbeInsideABodyIsWarnedAbout) {
   const TempDir dir;
   write(dir / "inside.json", R"({"sphls": [{"name": "buried", "position": [0.33, 0.2, 0.3]}]})");
-  const ToolResult result = run_tool({"bake", "builtin:cornell", "--overlay", dir / "inside.json", "-o",
-                                      dir / "x.sphl", "--face", "8", "--spp", "1", "--viz", "off"});
+  const ToolResult result =
+      run_tool({"bake", "builtin:cornell", "--overlay", dir / "inside.json", "-o", dir / "x.sphl", "--face",
+                "8", "--spp", "1", "--viz", "off", "--records", "0"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, AllOf(HasSubstr("warning"), HasSubstr("buried"), HasSubstr("inside a body")));
 }
@@ -144,9 +145,9 @@ TEST(BadInput, UnwritableOutputAndFullDisk) {
   std::filesystem::create_symlink("/dev/full", dir / "full.exr");
   expect_failure(joined({"render", "builtin:box", "-o", dir / "full.exr"}, small), "No space left on device");
   std::filesystem::create_symlink("/dev/full", dir / "full.sphl");
-  expect_failure(
-      {"bake", "builtin:box", "-o", dir / "full.sphl", "--face", "4", "--spp", "1", "--viz", "off"},
-      "No space left on device");
+  expect_failure({"bake", "builtin:box", "-o", dir / "full.sphl", "--face", "4", "--spp", "1", "--viz", "off",
+                  "--records", "0"},
+                 "No space left on device");
 }
 
 TEST(BadInput, CtrlCLeavesTheOldOutputAndResumeGivesTheSameBits) {

@@ -238,8 +238,7 @@ TEST_F(BakeUpdate, DirectLightOfABakedGroupIsFollowedToTheBitsOfABakeInFull) {
   const std::string modes = R"("light_modes": {"lamp": "baked"})", plain = overlay("plain", modes),
                     blue = overlay("blue",
                                    modes + R"(, "materials": [{"name": "red", "base_color": [0, 0, 1]}])");
-  for (const auto& [scene, file] : {std::pair(plain, old_), std::pair(blue, full_)})
-    json_here({"bake", scene, "-o", file, "--face", "8", "--degree", "1", "--records", "256"});
+  baked(plain, old_, 256), baked(blue, full_, 256);
   updated(blue, old_, new_, {"--tolerance", "0"});
   EXPECT_EQ(bytes(new_), bytes(full_));
   EXPECT_THAT(problem_here({"bake", blue, "--update", old_, "-o", new_, "--only-probes", "1"}),

@@ -72,7 +72,8 @@ TEST(Keys, FromSceneToComparedPicture) {
   const std::string path = dir / "path.exr", ssphh = dir / "ssphh.exr", png = dir / "ssphh.png";
 
   const json::Value bake =
-      run_json({"bake", "builtin:cornell", "-o", probes, "--degree", "4", "--face", "8", "--spp", "2"});
+      run_json({"bake", "builtin:cornell", "-o", probes, "--degree", "4", "--face", "8", "--spp", "2",
+                "--records", "256", "--directions", "64", "--surfel-size", "0.2"});
   expect_keys(bake, {"probes", "gen_seconds", "viz_seconds", "rays"});
   EXPECT_GE(bake["probes"].number(), 4);
   const json::Value hier =

@@ -25,7 +25,8 @@ const std::vector<std::string> quick = {"--degree", "1", "--face", "4", "--spp",
 
 TEST(PlaceTool, BakeTakesTheScenesProbesUnlessAsked) {
   const TempDir dir;
-  const json::Value bake = run_json(joined({"bake", "builtin:two-rooms", "-o", dir / "a.sphl"}, quick));
+  const json::Value bake =
+      run_json(joined({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--records", "0"}, quick));
   EXPECT_EQ(bake["probes"], 6);
   EXPECT_FALSE(bake.contains("placement"));
   EXPECT_EQ(bake["viz"], "path");
@@ -48,7 +49,7 @@ TEST(PlaceTool, ManyProbesGetTheirEdgesFromLinks) {
   const TempDir dir;
   const json::Value bake =
       run_json(joined({"bake", "builtin:two-rooms", "-o", dir / "a.sphl", "--probes", "auto:1",
-                       "--directions", "64", "--link-rays", "16", "--surfel-size", "0.5"},
+                       "--directions", "64", "--link-rays", "16", "--surfel-size", "0.5", "--records", "0"},
                       quick));
   EXPECT_GT(bake["probes"].number(), 64);
   EXPECT_EQ(bake["viz"], "links");
@@ -105,7 +106,8 @@ TEST(PlaceTool, SaysWhatIsWrong) {
 TEST(LintTool, ExitCodeIsAGate) {
   const TempDir dir;
   const std::string file = dir / "a.sphl.json";
-  run_json(joined({"bake", "builtin:cornell", "-o", file, "--viz", "off"}, {"--face", "8", "--spp", "16"}));
+  run_json({"bake", "builtin:cornell", "-o", file, "--viz", "off", "--face", "8", "--spp", "16", "--records",
+            "0"});
   const json::Value clean = run_json({"probe", "lint", file, "--scene", "builtin:cornell"});
   EXPECT_EQ(clean["probes"], 5);
   EXPECT_THAT(clean["problems"], testing::IsEmpty());

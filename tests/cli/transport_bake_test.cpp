@@ -183,8 +183,9 @@ TEST(TransportBakeCli, ManyProbesAreLitBySurfelsUnlessPathsAreAskedFor) {
 TEST(TransportBakeCli, QualityIsWhatIsNotGivenByItself) {
   const TempDir dir;
   const auto bake = [&](const std::vector<std::string>& more) {
-    run_json(
-        test::joined({"bake", "builtin:box", "-o", dir / "a.sphl", "--degree", "0", "--viz", "off"}, more));
+    run_json(test::joined(
+        {"bake", "builtin:box", "-o", dir / "a.sphl", "--degree", "0", "--viz", "off", "--records", "0"},
+        more));
     return probes::read_probe_file(dir / "a.sphl").generator;
   };
   const bake::Effort draft = bake::effort_of(bake::Quality::draft),
@@ -192,10 +193,9 @@ TEST(TransportBakeCli, QualityIsWhatIsNotGivenByItself) {
   const probes::GeneratorInfo by_word = bake({"--quality", "draft", "--operator", "surfel"}),
                               by_hand = bake({"--quality", "draft", "--operator", "surfel", "--directions",
                                               "100", "--link-rays", "20"}),
-                              usual = bake({"--operator", "surfel", "--records", "0"}),
-                              paths = bake({"--quality", "draft", "--records", "0", "--face", "1"}),
-                              own_paths =
-                                  bake({"--quality", "draft", "--records", "0", "--face", "1", "--spp", "7"});
+                              usual = bake({"--operator", "surfel"}),
+                              paths = bake({"--quality", "draft", "--face", "1"}),
+                              own_paths = bake({"--quality", "draft", "--face", "1", "--spp", "7"});
   EXPECT_EQ(by_word.directions, draft.directions);
   EXPECT_EQ(by_word.link_rays, draft.link_rays);
   EXPECT_EQ(by_hand.directions, 100);
