@@ -123,6 +123,31 @@ TEST(GiTransportBake, FittedPointsAreThoseOfASessionOfTheSameParameters) {
   EXPECT_EQ(most, 3);
 }
 
+TEST(GiTransportBake, ItsRaysAreThoseThatItHasTracedItself) {
+  set_log_level(LogLevel::error);  // that rays are few
+  const scene::Scene scene = scene::make_builtin("box");
+  bake::TransportBakeParams params;
+  params.viz = true;
+  params.transport.surfel_size = 0.5f, params.transport.directions = 32, params.transport.link_rays = 8;
+  const trace::TransportScene source(scene);
+  probes::ProbeSet set = place::init_from_scene(scene, 1);
+  std::uint64_t traced = 0;
+  bake::TransportBakeReport report;
+  const auto expect_new_rays = [&](const char* by) {
+    EXPECT_EQ(report.rays, source.rays_traced() - traced) << by;
+    EXPECT_GT(report.rays, 0u) << by;
+    traced = source.rays_traced();
+  };
+  for (int time = 0; time < 2; ++time) {
+    set = bake::bake_transport(source, set, params, report);
+    expect_new_rays("bake");
+    bake::add_transport(source, set, params, report);
+    expect_new_rays("what is added");
+    bake::update_transport(source, set, params, {}, 0, report);
+    expect_new_rays("update");
+  }
+}
+
 TEST(GiTransportBake, WeightsFitBesidePathTracedLight) {
   const scene::Scene scene = scene::make_builtin("box");
   const trace::TransportScene source(scene);
