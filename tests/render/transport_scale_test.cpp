@@ -41,9 +41,11 @@ double difference(const probes::ProbeSet& a, const probes::ProbeSet& b) {
 TEST(TransportScale, LightIsThatOfMetresInMillimetresAndInKilometres) {
   set_log_level(LogLevel::error);
   const scene::Scene cornell = scene::make_builtin("cornell");
-  const TransportBaked metres = transport_baked(cornell, 3);
+  bake::TransportBakeParams params;
+  params.transport.surfels_per_radius = 16;
+  const TransportBaked metres = transport_baked(cornell, 3, params);
   for (const float factor : {1e-3f, 1e4f}) {
-    const TransportBaked other = transport_baked(scaled(cornell, factor), 3);
+    const TransportBaked other = transport_baked(scaled(cornell, factor), 3, params);
     ASSERT_EQ(other.set.probes.size(), metres.set.probes.size());
     // Other voxels, other rays: the noise of a hundred link rays stays.
     EXPECT_LT(difference(other.set, metres.set), 0.02) << "times " << factor;
