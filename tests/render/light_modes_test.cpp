@@ -72,6 +72,12 @@ const ModeBake& sky_baked() {
   return bake;
 }
 
+/// The same with few records, for what does not look at their light.
+const ModeBake& sky_baked_into_few() {
+  static const ModeBake bake({LightMode::realtime, LightMode::baked}, 256, 64);
+  return bake;
+}
+
 trace::RenderParams from_above(int spp) {
   trace::RenderParams params;
   params.width = 64, params.height = 48;
@@ -133,8 +139,8 @@ TEST(LightModesInPictures, EveryGroupIsCountedOnce) {
   const trace::RenderState truth = traced(sky_baked().scene, 64);
   for (const LightMode sky : {LightMode::realtime, LightMode::baked}) {
     SCOPED_TRACE(std::string(name_of(sky)));
-    const ModeBake realtime({LightMode::realtime, LightMode::realtime});
-    probes::ProbeSet set = sky == LightMode::baked ? sky_baked().set : realtime.set;
+    probes::ProbeSet set =
+        sky == LightMode::baked ? sky_baked().set : ModeBake({LightMode::realtime, LightMode::realtime}).set;
     const trace::RenderState with = looked_up(sky_baked().scene, set, 16);
     probes::relight(set, "sky", vec3(0));
     const trace::RenderState without = looked_up(sky_baked().scene, set, 16);
@@ -175,7 +181,7 @@ TEST(LightModesInPictures, RecordsOfABakedGroupHoldWhatPathTracingFinds) {
 
 TEST(LightModesInPictures, WhatMovesGetsBakedLightFromProbes) {
   // Nothing hides the sky from the board but the ground below it: E = ∫ L cos over the upper half, in colour.
-  const ModeBake& bake = sky_baked();
+  const ModeBake& bake = sky_baked_into_few();
   probes::ProbeSet set = bake.set;
   probes::relight(set, "lamp", vec3(0));
   scene::Scene sky_alone = bake.scene;
@@ -191,7 +197,7 @@ TEST(LightModesInPictures, WhatMovesGetsBakedLightFromProbes) {
 }
 
 TEST(LightModesInPictures, LampsThatArePointsAreInProbesToo) {
-  const ModeBake lamp({LightMode::baked, LightMode::realtime});
+  const ModeBake lamp({LightMode::baked, LightMode::realtime}, 256, 64);
   for (const probes::Probe& probe : lamp.set.probes) {
     const vec3 way = vec3(-1.5f, 1.2f, 1.5f) - probe.position;
     const bool seen = trace::PathTracer(lamp.scene).visible(probe.position, vec3(-1.5f, 1.2f, 1.5f));
@@ -214,16 +220,16 @@ TEST(LightModesInPictures, BakesAreTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(LightModesInPictures, BakedLightNeedsRecords) {
-  probes::ProbeSet set = sky_baked().set;
+  probes::ProbeSet set = sky_baked_into_few().set;
   set.surface.reset();
   const std::vector<LightMode> modes = {LightMode::realtime, LightMode::baked};
-  EXPECT_THROW(bake::set_light_modes(sky_baked().source, set, modes), Error);
-  EXPECT_THROW(bake::set_light_modes(sky_baked().source, set, std::span(modes).first(1)), Error);
+  EXPECT_THROW(bake::set_light_modes(sky_baked_into_few().source, set, modes), Error);
+  EXPECT_THROW(bake::set_light_modes(sky_baked_into_few().source, set, std::span(modes).first(1)), Error);
 }
 
 TEST(LightModesInPictures, OfAFileThatHoldsOtherLightAreTold) {
   scene::Scene scene = open_ground();
-  const probes::ProbeSet& set = sky_baked().set;
+  const probes::ProbeSet& set = sky_baked_into_few().set;
   EXPECT_EQ(bake::mode_difference(set, scene), "") << "who asks for nothing takes what the file has";
   scene::set_light_mode(scene, "sky", LightMode::baked);
   scene::set_light_mode(scene, "lamp", LightMode::mixed);
