@@ -163,6 +163,7 @@ void App::take_probe_file(const std::string& file) {
     if (!options.force) throw Error(file, problem, "bake it anew, or go on with --force as it was baked");
     log_warning("{}: {}", file, problem);
   }
+  if (bake::mode_difference(set, *document.scene).empty()) bake::adopt_modes(set, *document.scene);
   take_places("probes of a file", set.probes);
   say(fmt::format("{}: {} probes", file, set.probes.size()));
   light.take(std::move(set), file);

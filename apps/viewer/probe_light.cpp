@@ -31,6 +31,8 @@ void ProbeLight::take(std::shared_ptr<LiveLight> live) {
 void ProbeLight::take(probes::ProbeSet set, const std::string& origin) {
   live_.reset();
   set_ = std::move(set);
+  modes_.clear();
+  for (const probes::LightGroup& group : set_->light_groups) modes_.push_back(group.mode);
   probes::merge_groups(*set_);
   origin_ = origin;
   fitted_ = {};
@@ -77,12 +79,25 @@ bool ProbeLight::relight(const Document& document) {
   } else {
     const std::vector<vec3>& scales = state.group_scales;
     const bool dimmed = !lighting_ || lighting_->group_scales != scales;
-    if (!dimmed || scales.size() != set_->light_groups.size()) return false;
+    if (scales.size() != set_->light_groups.size() || !(choose_modes(state) || dimmed)) return false;
     for (std::size_t g = 0; g < scales.size(); ++g) set_->light_groups[g].scale = scales[g];
     probes::merge_groups(*set_);
   }
   lighting_ = std::move(state);
   return true;
+}
+
+bool ProbeLight::choose_modes(const scene::LightingState& state) {
+  const bool as_baked = state.environment_rotation == 0 && state.time == set_->generator.time;
+  bool changed = false;
+  for (std::size_t g = 0; g < modes_.size(); ++g) {
+    if (modes_[g] != scene::LightMode::diffuse) continue;
+    scene::LightMode& mode = set_->light_groups[g].mode;
+    const scene::LightMode now = as_baked ? scene::LightMode::diffuse : scene::LightMode::realtime;
+    changed |= mode != now;
+    mode = now;
+  }
+  return changed;
 }
 
 bool ProbeLight::rebuild_hierarchy(const Settings& settings) {
@@ -157,6 +172,10 @@ ProbeLight::Update ProbeLight::update(const Document& document, const Settings& 
     for (const int i : changed) light.push_back(looked_up(static_cast<std::size_t>(i), settings));
     renderer.update_probes(changed, light);
     out.relit = true;
+  }
+  if (groups_ != set_->light_groups) {
+    if (!places_new_) renderer.set_kept_light(*set_);
+    groups_ = set_->light_groups;
   }
   const bool by_records = !records_.empty() && probes::has_records(*set_, lookup_params(settings));
   if (surfaces_new_ || by_records != by_records_) {

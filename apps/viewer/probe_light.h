@@ -49,6 +49,8 @@ class ProbeLight {
 
  private:
   bool relight(const Document& document);
+  /// Groups of a file that are `diffuse` are so as long as surroundings and pose are as baked.
+  bool choose_modes(const scene::LightingState& state);
   bool rebuild_hierarchy(const Settings& settings);
   sh::RadianceSh looked_up(std::size_t i, const Settings& settings) const;
   probes::LookupParams lookup_params(const Settings& settings) const;
@@ -60,10 +62,13 @@ class ProbeLight {
   probes::FittedSurfaces fitted_;
   probes::SurfaceLists records_;
 
+  std::vector<scene::LightMode> modes_;  ///< of a file's groups
+
   // What was last brought to the set and the renderer.
   bool places_new_ = false, light_new_ = false, surfaces_new_ = false, by_records_ = false;
   std::optional<scene::LightingState> lighting_;
   std::optional<Settings> settings_;
+  std::vector<probes::LightGroup> groups_;
 };
 
 }  // namespace ssphh::viewer

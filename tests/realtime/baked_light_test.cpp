@@ -39,7 +39,8 @@ probes::ProbeSet baked(const scene::Scene& scene, const std::vector<scene::Light
   return set;
 }
 
-const std::vector<scene::LightMode> sky_baked = {scene::LightMode::realtime, scene::LightMode::baked};
+const std::vector<scene::LightMode> sky_baked = {scene::LightMode::realtime, scene::LightMode::baked},
+                                    sky_diffuse = {scene::LightMode::realtime, scene::LightMode::diffuse};
 
 using BakedLight = test::WithGl;
 
@@ -67,10 +68,9 @@ struct Drawn {
   realtime::FrameStats stats;
 };
 
-TEST_F(BakedLight, IsDrawnAsItIsTraced) {
+void expect_drawn_as_traced(gl::Context& gl, const probes::ProbeSet& set) {
   const scene::Scene scene = court();
-  const probes::ProbeSet set = baked(scene, sky_baked);
-  const image::Image drawn = Drawn(gl(), scene, set).picture();
+  const image::Image drawn = Drawn(gl, scene, set).picture();
   const trace::PathTracer tracer(scene);
   const auto lookup = probes::make_lookup(probes::LookupSpec(), set, tracer);
   const image::Image traced = test::traced(scene, lookup.get(), size, 16, 1, tracer);
@@ -94,6 +94,51 @@ TEST_F(BakedLight, IsDrawnAsItIsTraced) {
     EXPECT_NEAR(sums[0][c] / sums[2][c], 1, 0.02) << "and path traced";
   }
   EXPECT_LT(off / static_cast<double>(max_component(sums[1])), 0.02);
+}
+
+TEST_F(BakedLight, IsDrawnAsItIsTraced) {
+  expect_drawn_as_traced(gl(), baked(court(), sky_baked));
+}
+
+TEST_F(BakedLight, OfADiffuseSkyIsDrawnAsItIsTraced) {
+  expect_drawn_as_traced(gl(), baked(court(), sky_diffuse));
+}
+
+TEST_F(BakedLight, OfADiffuseSkyIsSampledWhereRecordsDoNotLight) {
+  const scene::Scene scene = court();
+  const probes::ProbeSet set = baked(scene, sky_diffuse);
+  probes::ProbeSet realtime = set;
+  realtime.light_groups[1].mode = scene::LightMode::realtime;
+  probes::merge_groups(realtime);
+  Drawn some(gl(), scene, set), all(gl(), scene, realtime);
+  const auto drawn = [](Drawn& by, probes::WeightMethod weights, bool indirect) {
+    realtime::FrameSettings settings;
+    settings.weights = weights;
+    settings.indirect = indirect;
+    by.renderer.draw(scene::camera_pose(by.scene, ""), settings,
+                     {.width = size.width, .height = size.height});
+    return by.renderer.read_back();
+  };
+  const auto mean = [](const image::Image& image) {
+    double sum = 0;
+    for (const float v : image.pixels) sum += static_cast<double>(v);
+    return sum / static_cast<double>(image.pixels.size());
+  };
+  // By probes, and of direct light alone, both are the same picture
+  for (const auto& [weights, indirect] :
+       {std::pair(probes::WeightMethod::mls, true), std::pair(probes::WeightMethod::surface, false)}) {
+    const image::Image a = drawn(some, weights, indirect), b = drawn(all, weights, indirect);
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) ASSERT_NEAR(a.pixels[i], b.pixels[i], 1e-4f);
+  }
+  // By records they differ by what 32 directions miss, and no light is there twice or not at all
+  const image::Image kept = drawn(some, probes::WeightMethod::surface, true),
+                     sampled = drawn(all, probes::WeightMethod::surface, true);
+  EXPECT_NEAR(mean(kept) / mean(sampled), 1, 0.04);
+  EXPECT_NE(kept.pixels, sampled.pixels);
+  // So it is while the set says that the sky is another than it was
+  some.renderer.set_kept_light(realtime);
+  some.renderer.set_record_light(realtime.surface->light);
+  EXPECT_EQ(drawn(some, probes::WeightMethod::surface, true).pixels, sampled.pixels);
 }
 
 TEST_F(BakedLight, NeedsNoShadowMapsUntilItIsNotBaked) {

@@ -9,6 +9,7 @@
 #include <ssphh/probes/lookup.h>
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/trace/path_tracer.h>
+#include <ssphh/transport/session_sets.h>
 
 #include "transport_fixtures.h"
 
@@ -122,6 +123,12 @@ Difference compared(const image::Image& test, const image::Image& truth, float s
   return {a / b, off / b};
 }
 
+float mean(const image::Image& image) {
+  double sum = 0;
+  for (const float v : image.pixels) sum += static_cast<double>(v);
+  return static_cast<float>(sum / static_cast<double>(image.pixels.size()));
+}
+
 TEST(LightModesInPictures, ABakedSkyEqualsPathTracing) {
   const trace::RenderState truth = traced(sky_baked().scene, 256);
   const Difference all = compared(looked_up(sky_baked().scene, sky_baked().set, 16).color, truth.color, 1);
@@ -172,7 +179,8 @@ TEST(LightModesInPictures, RecordsOfABakedGroupHoldWhatPathTracingFinds) {
   const auto truth = tracer.surface_irradiance(some, {.max_depth = 8, .passes = 1, .spp = 4096}, {});
   vec3 sum(0), off(0);
   for (std::size_t k = 0; k < some.size(); ++k) {
-    const vec3 kept = probes::unpack(records.groups[1][which[k]], some[k].normal)[3];
+    const vec3 kept = probes::unpack(records.groups[1][which[k]], some[k].normal)[3] +
+                      probes::unpack(records.direct[1][which[k]], some[k].normal)[3];
     const vec3 found = truth[k].direct + truth[k].indirect;
     sum += found, off += glm::abs(kept - found);
   }
@@ -208,6 +216,83 @@ TEST(LightModesInPictures, LampsThatArePointsAreInProbesToo) {
   }
 }
 
+TEST(LightModesInPictures, GlossySurfacesMirrorADiffuseSkyItself) {
+  // The box is of metal and all that is seen: what it shows of the sky is as if nothing were kept. Degree 4
+  // of a baked one knows no edge between its colours.
+  const ModeBake diffuse({LightMode::realtime, LightMode::diffuse});
+  scene::Scene scene = diffuse.scene;
+  scene.materials[1].metallic = 1;
+  scene.materials[1].specular_roughness = 0.15f;
+  trace::RenderParams params = from_above(64);
+  params.camera.world = glm::inverse(glm::lookAt(vec3(1.5f, 2.5f, 2), vec3(0, 1, 0), vec3(0, 1, 0)));
+  params.camera.camera.yfov = 0.12f;
+  const trace::PathTracer tracer(scene);
+  const auto sky_of = [&](const probes::ProbeSet& set) {
+    const auto lookup = probes::make_lookup(probes::LookupSpec(), set, tracer);
+    trace::RenderState state;
+    tracer.render_with(*lookup, params, state);
+    return state.groups[1];
+  };
+  trace::RenderState truth;
+  params.path.max_depth = 1;
+  tracer.render(params, truth);
+  params.path.max_depth = 8;
+  const Difference found = compared(sky_of(diffuse.set), truth.groups[1], 1);
+  for (glm::length_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(found.ratio[c], 1, 0.01) << c;
+    EXPECT_LT(found.of_blocks[c], 0.02) << c;
+  }
+  EXPECT_EQ(mean(sky_of(sky_baked().set)), 0) << "of a baked one nothing is sampled";
+}
+
+TEST(LightModesInPictures, OfASessionHoldAsLongAsSurroundingsAndPoseDo) {
+  const ModeBake& bake = sky_baked();
+  transport::RelightParams params;
+  params.transport.directions = 256;
+  params.records = {.points = 512, .rays = 256, .baked = {1}};
+  transport::RelightSession session(bake.source, transport::places_of(bake.set.probes), params);
+  scene::LightingState state = session.lighting();
+  session.update(state);
+  probes::ProbeSet set = transport::lookup_set(session);
+  const std::vector<std::string> sky = {"sky"};
+  const auto light_at = [&](std::size_t i) { return vec3(set.surface->light[i][3]); };
+  // The record that gets most of the sky
+  std::size_t open = 0;
+  for (std::size_t i = 0; i < set.surface->points.size(); ++i) {
+    if (luminance(vec3(session.kept_direct()[0].light[i][3])) >
+        luminance(vec3(session.kept_direct()[0].light[open][3])))
+      open = i;
+  }
+  const auto expect_kept = [&](bool kept) {
+    transport::refresh(set, session);
+    EXPECT_EQ(probes::mirrored_groups(set), kept ? sky : std::vector<std::string>());
+    const vec3 direct = session.kept_direct()[0].light[open][3], reflected = session.record_light()[open][3];
+    const vec3 expected = reflected + (kept ? state.group_scales[1] * direct : vec3(0));
+    for (glm::length_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(light_at(open)[c], expected[c], 1e-3f * max_component(expected));
+  };
+  expect_kept(true);
+  state.lights[0].intensity = 5;
+  session.update(state);
+  expect_kept(true);
+  state.environment_rotation = 0.5f;
+  session.update(state);
+  expect_kept(false);
+  state.environment_rotation = 0;
+  state.group_scales[1] = vec3(0.5f, 1, 2);
+  session.update(state);
+  expect_kept(true);
+  state.time = 0.5f;
+  session.update(state);
+  expect_kept(false);
+  // A bake of now leaves out what does not hold
+  const auto baked = [&] { return transport::baked_set(session, bake.source.light_groups(), {}); };
+  EXPECT_TRUE(baked().surface->direct.empty());
+  state.time = 0;
+  session.update(state);
+  EXPECT_EQ(probes::mirrored_groups(baked()), sky);
+}
+
 TEST(LightModesInPictures, BakesAreTheSameBitsForAnyNumberOfThreads) {
   const auto bytes = [](int threads) {
     set_thread_count(threads);
@@ -235,11 +320,26 @@ TEST(LightModesInPictures, OfAFileThatHoldsOtherLightAreTold) {
   scene::set_light_mode(scene, "lamp", LightMode::mixed);
   EXPECT_EQ(bake::mode_difference(set, scene), "") << "mixed groups hold what realtime ones do";
   scene::set_light_mode(scene, "sky", LightMode::mixed);
+  EXPECT_EQ(bake::mode_difference(set, scene), "") << "direct light that is kept may be left unused";
   scene::set_light_mode(scene, "lamp", LightMode::baked);
-  EXPECT_EQ(
-      bake::mode_difference(set, scene),
-      "light group \"lamp\" as realtime, asked for as baked; light group \"sky\" as baked, asked for as "
-      "mixed");
+  EXPECT_EQ(bake::mode_difference(set, scene), "light group \"lamp\" as realtime, asked for as baked");
+  scene::set_light_mode(scene, "lamp", LightMode::diffuse);
+  EXPECT_EQ(bake::mode_difference(set, scene), "light group \"lamp\" as realtime, asked for as diffuse");
+}
+
+TEST(LightModesInPictures, ThatTheSceneAsksForAreThoseOfTheFileThen) {
+  scene::Scene scene = open_ground();
+  probes::ProbeSet set = sky_baked().set;
+  bake::adopt_modes(set, scene);
+  EXPECT_EQ(set, sky_baked().set) << "who asks for nothing takes what the file has";
+  scene::set_light_mode(scene, "sky", LightMode::realtime);
+  bake::adopt_modes(set, scene);
+  EXPECT_EQ(set.light_groups[1].mode, LightMode::realtime);
+  const trace::RenderState with = looked_up(scene, set, 16);
+  const Difference all = compared(with.color, traced(scene, 64).color, 1);
+  for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(all.ratio[c], 1, 0.02) << c;
+  EXPECT_GT(mean(with.groups[1]), mean(looked_up(scene, sky_baked().set, 16).groups[1]) + 0.01f)
+      << "the sky is sampled again";
 }
 
 TEST(LightModesInPictures, SharpShadowsThatWillBlurAreToldOf) {

@@ -63,6 +63,17 @@ BakeResult run_bake_watched(const BakeOptions& options, BakeWatcher& watcher, co
   return result;
 }
 
+namespace {
+
+/// Whose direct light records keep.
+std::vector<std::string> kept_groups(const probes::ProbeSet& set) {
+  std::vector<std::string> groups = probes::baked_groups(set), mirrored = probes::mirrored_groups(set);
+  groups.insert(groups.end(), mirrored.begin(), mirrored.end());
+  return groups;
+}
+
+}  // namespace
+
 /// Numbers of transport are null where there was none; `iterations` also where only weights were fitted.
 json::Value to_json(const BakeResult& r, const BakeOptions& o) {
   const bake::TransportBakeReport& t = r.transport;
@@ -78,7 +89,7 @@ json::Value to_json(const BakeResult& r, const BakeOptions& o) {
                         {"probes", r.set.probes.size()},
                         {"degree", r.set.degree},
                         {"light_groups", r.set.light_groups.size()},
-                        {"baked_groups", probes::baked_groups(r.set)},
+                        {"baked_groups", kept_groups(r.set)},
                         {"edges", probes::edge_count(r.set)},
                         {"gen", name_of(r.set.generator.gen)},
                         {"gen_seconds", r.paths.gen_seconds},
@@ -125,7 +136,7 @@ std::string to_text(const BakeResult& r, const BakeOptions& o) {
   if (r.set.surface && t.record_seconds > 0)
     text += fmt::format("\nlight kept at {} surface points in {:.2f} s", r.set.surface->points.size(),
                         t.record_seconds);
-  if (const std::vector<std::string> baked = probes::baked_groups(r.set); !baked.empty())
+  if (const std::vector<std::string> baked = kept_groups(r.set); !baked.empty())
     text += fmt::format("\ndirect light kept, too, of {}", fmt::join(baked, ", "));
   if (r.set.fitted && t.fit_seconds > 0)
     text +=

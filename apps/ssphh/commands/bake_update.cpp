@@ -45,15 +45,16 @@ void require_same_places(const std::string& file, const probes::ProbeSet& old, c
   }
 }
 
-/// The scene's groups: those that the set knows keep their modes, whatever the scene leaves open.
+/// The scene's groups: those that the set knows keep their modes where the scene leaves them open.
 void adopt_groups(probes::ProbeSet& set, const scene::Scene& scene) {
   const std::vector<probes::LightGroup> before = set.light_groups;
   bake::adopt_groups(set, scene::light_groups(scene));
-  const std::vector<scene::LightMode> asked = scene::light_modes(scene);
+  const std::vector<scene::LightMode> asked = bake::light_modes(scene, set.surface.has_value());
   for (std::size_t g = 0; g < asked.size(); ++g) {
     probes::LightGroup& group = set.light_groups[g];
     const auto known = std::ranges::find(before, group.name, &probes::LightGroup::name);
-    group.mode = known == before.end() ? asked[g] : known->mode;
+    group.mode =
+        known == before.end() ? asked[g] : scene::asked_light_mode(scene, group.name).value_or(known->mode);
   }
 }
 
@@ -186,10 +187,6 @@ void run_bake_update(const BakeOptions& options, BakeResult& result, BakeWatcher
   require_same_places(options.update, set, scene);
   if (const std::string modes = bake::mode_difference(set, scene); !modes.empty())
     throw Error(options.update, "was baked with " + modes, in_full);
-  if (const std::vector<std::string> baked = probes::baked_groups(set); options.only.any() && !baked.empty())
-    throw Error(options.update,
-                fmt::format("holds direct light of \"{}\", which is not found in part", baked.front()),
-                "leave out --only-probes, --only-box and --only-lights");
 
   BakeUpdate& update = result.update.emplace();
   update.op = set.generator.op;
@@ -224,7 +221,7 @@ void run_bake_update(const BakeOptions& options, BakeResult& result, BakeWatcher
   } else {
     work.by_transport(tracer);
   }
-  bake::set_light_modes(trace::TransportScene(geometry, scene), set, bake::light_modes(set), control);
+  bake::set_light_modes(trace::TransportScene(geometry, scene), set, bake::light_modes(set), control, scope);
   if (watcher.see) watcher.see({geometry, scene, set, true});
   // What is left out by hand is still to be compared with what it was baked in
   if (!options.only.any()) set.baseline->items = std::move(items);

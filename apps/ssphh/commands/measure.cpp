@@ -235,7 +235,13 @@ MeasureResult run_measure(const MeasureOptions& o, const Control& control) {
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   trace::PathTracer tracer(geometry, scene, o.scene.time);
   std::vector<probes::ProbeSet> sets;
-  for (const std::string& file : o.probes) sets.push_back(read_probes_of(scene, file, o.scene.time, o.force));
+  for (const std::string& file : o.probes) {
+    probes::ProbeSet& set = sets.emplace_back(read_probes_of(scene, file, o.scene.time, o.force));
+    // What is compared is reflected light, that of methods without records too
+    for (probes::LightGroup& group : set.light_groups)
+      if (group.mode == scene::LightMode::diffuse) group.mode = scene::LightMode::realtime;
+    probes::merge_groups(set);
+  }
   const std::vector<Candidate> candidates = probe_candidates(o, sets, tracer);  // fails before the work
   tracer.count_as_indirect(direct_groups_of(candidates, !o.methods.empty()));
   const trace::TransportScene surfaces(geometry, scene);

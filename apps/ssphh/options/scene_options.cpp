@@ -51,7 +51,9 @@ void add_scene_options(Command command, SceneOptions& options, bool posed, const
   scene
       .option("--light-mode", options.light_modes,
               "How a light group's light reaches pictures with probes: realtime, mixed (indirect light as "
-              "baked) or baked (direct light, too); default: what the scene says, else realtime")
+              "baked), baked (direct light, too) or diffuse (as baked, with sharp reflections of the "
+              "environment); default: what the scene says, else diffuse for an environment without a sharp "
+              "sun and realtime for lamps")
       .check(light_mode_problem, "GROUP=MODE")
       .repeatable();
 }

@@ -1,5 +1,6 @@
 #include "live_light.h"
 
+#include <ssphh/scene/light_mode.h>
 #include <ssphh/scene/query.h>
 
 namespace ssphh::viewer {
@@ -21,7 +22,11 @@ LiveLight::LiveLight(std::shared_ptr<const scene::Scene> scene, const LiveLightP
     : scene_(std::move(scene)),
       source_(params.geometry ? params.geometry : trace::geometry_of(scene_), *scene_) {
   std::vector<transport::ProbePlace> places = find_places(*scene_, source_, params, time, control);
-  session_.emplace(source_, std::move(places), params.relight, time, control);
+  transport::RelightParams relight = params.relight;
+  const std::vector<scene::LightMode> modes = scene::light_modes(*scene_);
+  for (std::size_t g = 0; g < modes.size() && relight.records.points > 0; ++g)
+    if (modes[g] == scene::LightMode::diffuse) relight.records.baked.push_back(static_cast<int>(g));
+  session_.emplace(source_, std::move(places), relight, time, control);
   // The first one lights everything; the window should not wait for it
   session_->update(rays::lighting_at(source_, time), control);
 }

@@ -6,25 +6,13 @@
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/require.h>
 #include <ssphh/scene/query.h>
-#include <ssphh/sh/evaluate.h>
+#include <ssphh/transport/projection.h>
 
 namespace ssphh::bake {
 namespace {
 
-/// Of an emitter with an extent: what is left of its noise is under a hundredth of its light.
-constexpr int samples = 4096;
 /// Shadows of smaller discs are sharper than records are dense, at any height that matters [rad].
 constexpr float smallest_soft_disc = 0.05f;
-
-sh::RadianceSh projected(std::span<const rays::ArrivingLight> light, int degree) {
-  sh::RadianceSh sum(degree);
-  std::vector<float> basis(sum.values.size());
-  for (const rays::ArrivingLight& part : light) {
-    sh::eval_basis(degree, part.toward, basis);
-    for (std::size_t k = 0; k < basis.size(); ++k) sum.values[k] += basis[k] * part.irradiance;
-  }
-  return sum;
-}
 
 bool casts_sharp_shadows(const scene::Light& light) {
   if (light.type == scene::LightType::sphere) return false;
@@ -36,9 +24,17 @@ bool casts_sharp_shadows(const scene::Light& light) {
 std::vector<int> baked_indices(std::span<const scene::LightMode> modes) {
   std::vector<int> indices;
   for (std::size_t g = 0; g < modes.size(); ++g) {
-    if (modes[g] == scene::LightMode::baked) indices.push_back(static_cast<int>(g));
+    if (scene::keeps_direct(modes[g])) indices.push_back(static_cast<int>(g));
   }
   return indices;
+}
+
+std::vector<scene::LightMode> light_modes(const scene::Scene& scene, bool records) {
+  std::vector<scene::LightMode> modes = scene::light_modes(scene);
+  const std::vector<std::string> groups = scene::light_groups(scene);
+  for (std::size_t g = 0; g < modes.size(); ++g)
+    if (!records && !scene::asked_light_mode(scene, groups[g])) modes[g] = scene::LightMode::realtime;
+  return modes;
 }
 
 std::vector<scene::LightMode> light_modes(const probes::ProbeSet& set) {
@@ -48,7 +44,8 @@ std::vector<scene::LightMode> light_modes(const probes::ProbeSet& set) {
 }
 
 void set_light_modes(const rays::TransportSource& source, probes::ProbeSet& set,
-                     std::span<const scene::LightMode> modes, const Control& control) {
+                     std::span<const scene::LightMode> modes, const Control& control,
+                     const LightScope& scope) {
   require(modes.size() == set.light_groups.size(), "light modes", "there is not one for each light group");
   for (std::size_t g = 0; g < modes.size(); ++g) set.light_groups[g].mode = modes[g];
   const std::vector<int> baked = baked_indices(modes);
@@ -66,20 +63,31 @@ void set_light_modes(const rays::TransportSource& source, probes::ProbeSet& set,
       set.probes.size(), 1,
       [&](std::size_t i) {
         probes::Probe& probe = set.probes[i];
-        for (const int g : baked)
-          probe.groups[static_cast<std::size_t>(g)].emitted =
-              projected(direct->arriving(g, probe.position, samples), set.degree);
+        for (const int g : baked) {
+          const auto index = static_cast<std::size_t>(g);
+          // What is diffuse is the sky, which rays have found
+          if (modes[index] != scene::LightMode::baked) continue;
+          if (!scope.has_probe(i) || !scope.has_group(index)) continue;
+          probe.groups[index].emitted = transport::project_arriving(
+              direct->arriving(g, probe.position, transport::arriving_samples), set.degree);
+        }
       },
       control);
   probes::merge_groups(set);
 }
 
+void adopt_modes(probes::ProbeSet& set, const scene::Scene& scene) {
+  for (probes::LightGroup& group : set.light_groups)
+    group.mode = scene::asked_light_mode(scene, group.name).value_or(group.mode);
+  probes::merge_groups(set);
+}
+
 std::string mode_difference(const probes::ProbeSet& set, const scene::Scene& scene) {
   std::string text;
-  for (const probes::LightGroup& group : set.light_groups) {
+  for (std::size_t g = 0; g < set.light_groups.size(); ++g) {
+    const probes::LightGroup& group = set.light_groups[g];
     const scene::LightMode asked = scene::asked_light_mode(scene, group.name).value_or(group.mode);
-    constexpr auto baked = scene::LightMode::baked;
-    if ((asked == baked) == (group.mode == baked)) continue;
+    if (!scene::keeps_direct(asked) || (set.surface && set.surface->keeps_direct(g))) continue;
     text += fmt::format("{}light group \"{}\" as {}, asked for as {}", text.empty() ? "" : "; ", group.name,
                         name_of(group.mode), name_of(asked));
   }
@@ -89,7 +97,7 @@ std::string mode_difference(const probes::ProbeSet& set, const scene::Scene& sce
 std::vector<std::string> blurred_shadows(const scene::Scene& scene) {
   std::vector<std::string> lines;
   for (const scene::GroupMode& asked : scene.light_modes) {
-    if (asked.mode != scene::LightMode::baked) continue;
+    if (!scene::keeps_direct(asked.mode)) continue;
     const auto sharp = std::ranges::find_if(scene.lights, [&](const scene::Light& light) {
       return scene::light_group(light) == asked.group && casts_sharp_shadows(light);
     });

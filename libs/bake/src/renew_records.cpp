@@ -12,10 +12,13 @@ namespace {
 void append_marked(const probes::SurfaceRecords& from, const std::vector<std::uint8_t>& mark, bool marked,
                    probes::SurfaceRecords& to) {
   to.groups.resize(from.groups.size());
+  to.direct.resize(from.direct.size());
   for (std::size_t p = 0; p < from.points.size(); ++p) {
     if ((mark[p] != 0) != marked) continue;
     to.points.push_back(from.points[p]);
     for (std::size_t g = 0; g < from.groups.size(); ++g) to.groups[g].push_back(from.groups[g][p]);
+    for (std::size_t g = 0; g < from.direct.size(); ++g)
+      if (from.keeps_direct(g)) to.direct[g].push_back(from.direct[g][p]);
   }
 }
 
@@ -47,6 +50,9 @@ void renew_records(transport::RelightSession& session, probes::ProbeSet& set,
     if (scope.probes && set.surface) {
       require(set.surface->groups.size() == now.groups.size(), "surface records",
               "the set is of other light groups than the session");
+      for (std::size_t g = 0; g < now.groups.size(); ++g)
+        require(set.surface->keeps_direct(g) == now.keeps_direct(g), "surface records",
+                "the set keeps direct light of other light groups than the session");
       probes::SurfaceRecords both;
       append_marked(*set.surface, near_probes(set.surface->points, set, scope), false, both);
       append_marked(now, near_probes(now.points, set, scope), true, both);
@@ -69,7 +75,11 @@ void renew_records(transport::RelightSession& session, probes::ProbeSet& set,
   for (const std::uint32_t g : *scope.groups) {
     require(g < now.groups.size() && g < set.surface->groups.size(), "surface records",
             "there is no light group of that index");
-    for (std::size_t k = 0; k < which.size(); ++k) set.surface->groups[g][which[k]] = now.groups[g][k];
+    for (std::size_t k = 0; k < which.size(); ++k) {
+      set.surface->groups[g][which[k]] = now.groups[g][k];
+      if (set.surface->keeps_direct(g) && now.keeps_direct(g))
+        set.surface->direct[g][which[k]] = now.direct[g][k];
+    }
   }
 }
 

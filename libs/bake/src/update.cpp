@@ -177,6 +177,10 @@ void adopt_groups(probes::ProbeSet& set, std::span<const std::string> groups) {
     rearrange(probe.groups, probes::GroupLight{{}, sh::RadianceSh(set.degree)});
   if (set.surface) {
     rearrange(set.surface->groups, std::vector<probes::PackedRecordLight>(set.surface->points.size()));
+    set.surface->direct.resize(set.light_groups.size());
+    rearrange(set.surface->direct, std::vector<probes::PackedRecordLight>());
+    if (std::ranges::all_of(set.surface->direct, &std::vector<probes::PackedRecordLight>::empty))
+      set.surface->direct.clear();
   }
   if (set.baseline) {
     for (probes::Trial& trial : set.baseline->trials) {

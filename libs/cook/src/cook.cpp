@@ -41,9 +41,15 @@ void add_probe_light(Sections& out, const sh::IrradianceSh& light) {
   }
 }
 
-void add_record_light(Sections& out, const probes::SurfaceRecords& records, std::size_t group) {
-  for (std::size_t i = 0; i < records.points.size(); ++i)
-    out.append(SSPHH_COOKED_LIGHT, unpack(records.groups[group][i], records.points[i].normal));
+/// With direct light, where the group's mode keeps it.
+void add_record_light(Sections& out, const probes::SurfaceRecords& records, std::size_t group,
+                      scene::LightMode mode) {
+  const bool direct = scene::keeps_direct(mode) && records.keeps_direct(group);
+  for (std::size_t i = 0; i < records.points.size(); ++i) {
+    probes::RecordLight light = unpack(records.groups[group][i], records.points[i].normal);
+    if (direct) light += unpack(records.direct[group][i], records.points[i].normal);
+    out.append(SSPHH_COOKED_LIGHT, light);
+  }
 }
 
 /// Bands 0 to 2, and what the rest adds at the point's own normal.
@@ -150,7 +156,7 @@ Cooked cook(const probes::ProbeSet& set, const CookScene* scene, const CookParam
 
   for (std::size_t g = 0; g < light.size(); ++g) {
     for (const sh::IrradianceSh& probe : light[g]) add_probe_light(out, probe);
-    if (on_surfaces.records) add_record_light(out, *on_surfaces.records, g);
+    if (on_surfaces.records) add_record_light(out, *on_surfaces.records, g, set.light_groups[g].mode);
     add_fitted_light(out, on_surfaces.fitted, light[g], degree);
   }
 

@@ -1,5 +1,7 @@
 #include "group_light.h"
 
+#include <algorithm>
+
 #include <ssphh/core/parallel.h>
 #include <ssphh/probes/hier.h>
 #include <ssphh/sh/irradiance.h>
@@ -35,19 +37,32 @@ std::vector<std::vector<sh::IrradianceSh>> group_irradiance(const probes::ProbeS
     light.values.resize(count);
     return light;
   };
-  std::vector<sh::RadianceSh> sum = probes::surface_light(set, {});
-  std::vector<sh::BandScales> windows(sum.size());
-  parallel_for(sum.size(), 4, [&](std::size_t i) {
-    windows[i] = sh::lanczos_window(sh::choose_window(shortened(sum[i])).width);
-  });
+  const auto windows_of = [&](const std::vector<sh::RadianceSh>& sum) {
+    std::vector<sh::BandScales> windows(sum.size());
+    parallel_for(sum.size(), 4, [&](std::size_t i) {
+      windows[i] = sh::lanczos_window(sh::choose_window(shortened(sum[i])).width);
+    });
+    return windows;
+  };
+  const std::vector<sh::BandScales> windows = windows_of(probes::surface_light(set, {})),
+                                    windows_beside = windows_of(probes::light_beside_records(set));
+  const std::vector<std::string> beside = probes::mirrored_groups(set);
   std::vector<std::vector<sh::IrradianceSh>> out;
   for (std::size_t g = 0; g < set.light_groups.size(); ++g) {
     const std::vector<sh::RadianceSh> light = light_of_group(set, g);
     const bool off = set.light_groups[g].scale == vec3(0);
+    const auto irradiance_of = [&](const sh::RadianceSh& whole, const sh::BandScales& window) {
+      const sh::RadianceSh own = shortened(whole);
+      return sh::irradiance_from_radiance(off ? sh::dering(own) : sh::apply_window(own, window));
+    };
+    const bool seen_too = std::ranges::find(beside, set.light_groups[g].name) != beside.end();
     std::vector<sh::IrradianceSh>& irradiance = out.emplace_back(light.size());
     parallel_for(light.size(), 4, [&](std::size_t i) {
-      const sh::RadianceSh own = shortened(light[i]);
-      irradiance[i] = sh::irradiance_from_radiance(off ? sh::dering(own) : sh::apply_window(own, windows[i]));
+      irradiance[i] = irradiance_of(light[i], windows[i]);
+      const sh::RadianceSh& emitted = set.probes[i].groups[g].emitted;
+      if (!seen_too || emitted.empty()) return;
+      const sh::IrradianceSh more = irradiance_of(emitted, windows_beside[i]);
+      for (std::size_t k = 0; k < more.values.size(); ++k) irradiance[i].values[k] += more.values[k];
     });
   }
   return out;

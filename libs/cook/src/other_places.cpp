@@ -36,16 +36,23 @@ SurfaceRecords records_at(const std::vector<rays::SurfacePoint>& places, const S
   SurfaceRecords out;
   out.points = places;
   out.groups.assign(records.groups.size(), std::vector<probes::PackedRecordLight>(places.size()));
+  out.direct.resize(records.direct.size());
+  for (std::size_t g = 0; g < records.direct.size(); ++g)
+    if (records.keeps_direct(g)) out.direct[g].resize(places.size());
   parallel_for(
       places.size(), 64,
       [&](std::size_t i) {
         const std::vector<SurfaceShare> shares = shares_at(places[i], records, between);
-        for (std::size_t g = 0; g < records.groups.size(); ++g) {
+        const auto at_place = [&](const std::vector<probes::PackedRecordLight>& light) {
           probes::RecordLight sum(0);
           for (const auto& [point, weight] : shares)
-            sum += weight * probes::unpack(records.groups[g][point], records.points[point].normal);
-          out.groups[g][i] = probes::pack(sum, places[i].normal);
-        }
+            sum += weight * probes::unpack(light[point], records.points[point].normal);
+          return probes::pack(sum, places[i].normal);
+        };
+        for (std::size_t g = 0; g < records.groups.size(); ++g)
+          out.groups[g][i] = at_place(records.groups[g]);
+        for (std::size_t g = 0; g < records.direct.size(); ++g)
+          if (records.keeps_direct(g)) out.direct[g][i] = at_place(records.direct[g]);
       },
       control);
   return out;

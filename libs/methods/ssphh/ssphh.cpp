@@ -5,6 +5,7 @@
 #include <ssphh/place/place.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/rays/posed_world.h>
+#include <ssphh/scene/light_mode.h>
 #include <ssphh/transport/fitted_weights.h>
 #include <ssphh/transport/gather_light.h>
 #include <ssphh/transport/session_sets.h>
@@ -47,13 +48,17 @@ MethodParameter weights_parameter() {
                         static_cast<std::size_t>(surface));
 }
 
-transport::RelightParams relight_params(const MethodParameters& p) {
+transport::RelightParams relight_params(const MethodScene& scene, const MethodParameters& p) {
   transport::RelightParams params;
   params.degree = p.integer("degree");
   params.transport.surfel_size = static_cast<float>(p.number("surfel_size"));
   params.transport.directions = p.integer("directions");
   params.warm_start = p.flag("warm_start");
   params.records.points = weight_method(p) == probes::WeightMethod::surface ? p.integer("records") : 0;
+  if (!scene.keep_direct || params.records.points == 0) return params;
+  const std::vector<scene::LightMode> modes = scene::light_modes(scene.scene);
+  for (std::size_t g = 0; g < modes.size(); ++g)
+    if (scene::keeps_direct(modes[g])) params.records.baked.push_back(static_cast<int>(g));
   return params;
 }
 
@@ -62,7 +67,7 @@ class Ssphh final : public Method {
  public:
   Ssphh(const MethodScene& scene, const MethodParameters& p, const Control& control)
       : source_(scene.source),
-        session_(scene.source, find_places(scene, p, control), relight_params(p), 0, control),
+        session_(scene.source, find_places(scene, p, control), relight_params(scene, p), 0, control),
         surfaces_(std::in_place, scene.source, 0.0f),
         gathers_(p.choice("weights") == gather) {
     probes::WeightParams weights;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -32,15 +33,16 @@ probes::LightOperator operator_of(const BakeSettings& o, std::size_t probes, boo
 
 /// Records hold every bounce, so there are none unasked beside probes that are to hold fewer, unless light
 /// that is baked must be kept somewhere.
-int records_of(const BakeSettings& o) {
+int records_of(const BakeSettings& o, bool keeps_asked) {
   const bool every_bounce = o.op == probes::LightOperator::surfel ||
                             (o.op == probes::LightOperator::path && o.params.gen == probes::GenMode::full &&
                              o.params.path.max_depth >= rays::usual_max_depth);
-  return every_bounce || !o.transport.records.baked.empty() ? o.usual_records : 0;
+  return every_bounce || keeps_asked ? o.usual_records : 0;
 }
 
-/// Decides on VIZ, which it returns, and refuses options that would have no effect.
-probes::VizMethod resolve(BakeSettings& o, std::size_t probes, bool farm) {
+/// Decides on VIZ, which it returns, and refuses options that would have no effect. `keeps_asked`: the scene
+/// asks to keep a group's direct light.
+probes::VizMethod resolve(BakeSettings& o, std::size_t probes, bool farm, bool keeps_asked) {
   const probes::LightOperator op = operator_of(o, probes, farm);
   o.op = op;
   const bool path = op == probes::LightOperator::path, transfer = o.params.viz_params.matrix;
@@ -67,8 +69,8 @@ probes::VizMethod resolve(BakeSettings& o, std::size_t probes, bool farm) {
   params.viz_path = {o.viz_max_depth.value_or(params.path.max_depth),
                      o.viz_passes.value_or(params.path.passes), o.viz_spp.value_or(params.path.spp),
                      params.path.seed};
-  o.transport.records.points = o.records.value_or(records_of(o));
-  if (o.transport.records.points == 0 && !o.transport.records.baked.empty())
+  o.transport.records.points = o.records.value_or(records_of(o, keeps_asked));
+  if (o.transport.records.points == 0 && keeps_asked)
     throw Error("--records 0", "leaves no place for the light of groups that are baked",
                 "leave it out, or bake no group's direct light: --light-mode GROUP=mixed");
   o.transport.viz = o.viz == VizMethod::links;
@@ -123,7 +125,7 @@ void fill(SceneBake& result, const BakeSettings& o, const trace::SharedGeometry&
     if (path) baseline.trials = bake::make_trials(tracer, result.set, control);
   }
   result.set.baseline = std::move(baseline);
-  const std::vector<scene::LightMode> modes = scene::light_modes(scene);
+  const std::vector<scene::LightMode> modes = bake::light_modes(scene, result.set.surface.has_value());
   bake::set_light_modes(trace::TransportScene(geometry, scene), result.set, modes, control);
 }
 
@@ -160,9 +162,11 @@ SceneBake bake_scene(const trace::SharedGeometry& geometry, const scene::Scene& 
   result.place = place_for(geometry, scene, time, places, "", control);
   result.set = result.place ? place::init_from_placement(scene, result.place->placement, o.degree, time)
                             : place::init_from_scene(scene, o.degree, time);
-  o.transport.records.baked = bake::baked_indices(scene::light_modes(scene));
   for (const std::string& line : bake::blurred_shadows(scene)) log_warning("{}", line);
-  result.viz = resolve(o, result.set.probes.size(), crew != nullptr);
+  const bool keeps_asked = std::ranges::any_of(
+      scene.light_modes, [](const scene::GroupMode& asked) { return scene::keeps_direct(asked.mode); });
+  result.viz = resolve(o, result.set.probes.size(), crew != nullptr, keeps_asked);
+  o.transport.records.baked = bake::baked_indices(bake::light_modes(scene, o.transport.records.points > 0));
 
   const bool limited = fit_into_memory(o);
   fill(result, o, geometry, scene, time, checkpoint, crew, control);

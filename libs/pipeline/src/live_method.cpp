@@ -4,12 +4,13 @@
 namespace ssphh::pipeline {
 
 LiveMethod::LiveMethod(const std::string& name, const std::vector<std::string>& settings,
-                       trace::SharedGeometry geometry, const scene::Scene& scene, const Control& control)
+                       trace::SharedGeometry geometry, const scene::Scene& scene, const Control& control,
+                       bool keep_direct)
     : source_(std::move(geometry), scene) {
   const methods::MethodEntry& entry = methods::find_method(name);
   const methods::MethodParameters parameters(name, entry.parameters, settings);
   const Stopwatch watch;
-  method_ = entry.make({scene, source_}, parameters, control);
+  method_ = entry.make({scene, source_, keep_direct}, parameters, control);
   bake_seconds_ = watch.seconds();
 }
 

@@ -52,7 +52,7 @@ std::optional<MethodFigures> render_scene(const trace::SharedGeometry& geometry,
     tracer.render_with(*indirect, params, state, control);
     return std::nullopt;
   }
-  LiveMethod live(finder.method, finder.parameters, geometry, scene, control);
+  LiveMethod live(finder.method, finder.parameters, geometry, scene, control, true);
   live.update(rays::lighting_at(live.source(), time), control);
   log_info("{}: {}", finder.method, live.text());
   tracer.render_with(live.method().light(), params, state, control);

@@ -57,6 +57,7 @@ probes::ProbeSet read_probes_of(const scene::Scene& scene, const std::string& fi
                                 bool force) {
   probes::ProbeSet set = probes::read_probe_file(file);
   require_same_scene(file, set, scene, scene::light_groups(scene), time, force);
+  if (bake::mode_difference(set, scene).empty()) bake::adopt_modes(set, scene);
   return set;
 }
 

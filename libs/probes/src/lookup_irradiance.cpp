@@ -9,7 +9,7 @@ struct IrradianceLookup::Data {
   std::unique_ptr<LookupWeights> weights;
   std::shared_ptr<const SurfaceInterpolation> places;  ///< of the records; none: weights alone
   std::vector<RecordLight> light;                      ///< of each place
-  std::vector<std::string> direct_groups;
+  std::vector<std::string> direct_groups, mirrored_groups;
 
   /// Σ_j v_j value(j), not negative.
   template <class Value>
@@ -30,6 +30,15 @@ struct IrradianceLookup::Data {
     places = std::move(points);
     light = records.light;
   }
+
+  /// Of probes beside records.
+  static Data beside(const ProbeSet& set, const LookupParams& params, bool records) {
+    std::vector<std::string> groups = baked_groups(set), mirrored;
+    std::vector<sh::RadianceSh> more;
+    if (records) mirrored = probes::mirrored_groups(set), more = light_beside_records(set);
+    groups.insert(groups.end(), mirrored.begin(), mirrored.end());
+    return {PackedProbes(set, params, more), nullptr, nullptr, {}, std::move(groups), std::move(mirrored)};
+  }
 };
 
 bool has_records(const ProbeSet& set, const LookupParams& params) {
@@ -44,8 +53,8 @@ WeightMethod chosen_weights(const ProbeSet& set, const LookupParams& params) {
 
 IrradianceLookup::IrradianceLookup(const ProbeSet& set, const rays::RadianceSource& source,
                                    const LookupParams& params)
-    : data_(std::unique_ptr<Data>(
-          new Data{PackedProbes(set, params), nullptr, nullptr, {}, baked_groups(set)})) {
+    : data_(std::make_unique<Data>(
+          Data::beside(set, params, chosen_weights(set, params) == WeightMethod::surface))) {
   const auto sees = [&source](const vec3& a, const vec3& b) { return source.visible(a, b); };
   data_->weights =
       make_weights(data_->probes.positions(), sees, params.weights, set.fitted ? &*set.fitted : nullptr);
@@ -58,8 +67,8 @@ IrradianceLookup::IrradianceLookup(const ProbeSet& set, const rays::RadianceSour
 IrradianceLookup::IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWeights> weights,
                                    const LookupParams& params,
                                    std::shared_ptr<const SurfaceInterpolation> places)
-    : data_(std::unique_ptr<Data>(
-          new Data{PackedProbes(set, params), std::move(weights), nullptr, {}, baked_groups(set)})) {
+    : data_(std::make_unique<Data>(Data::beside(set, params, places != nullptr))) {
+  data_->weights = std::move(weights);
   require(data_->weights != nullptr, "probe lookup", "there are no weights");
   if (!places) return;
   require(has_records(set, params), "probe lookup", "there are no surface records of that light");
@@ -73,11 +82,15 @@ vec3 IrradianceLookup::irradiance(const rays::SurfacePoint& at) const {
   if (vec3 found; data_->places && data_->places->irradiance(at, data_->light, found)) return found;
   PackedProbes::Basis basis;
   data_->probes.irradiance_basis(at.normal, basis);
-  return data_->blend(at, [&](int probe) { return data_->probes.irradiance(probe, basis.data()); });
+  return data_->blend(at, [&](int probe) { return data_->probes.irradiance(probe, basis.data(), at.moves); });
 }
 
 std::vector<std::string> IrradianceLookup::direct_groups() const {
   return data_->direct_groups;
+}
+
+std::vector<std::string> IrradianceLookup::mirrored_groups() const {
+  return data_->mirrored_groups;
 }
 
 vec3 IrradianceLookup::glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const {

@@ -14,21 +14,26 @@ int irradiance_degree(const LookupParams& params, int set_degree) {
   return std::clamp(params.irradiance_degree, 0, std::min(set_degree, max_irradiance_degree));
 }
 
-PackedProbes::PackedProbes(const ProbeSet& set, const LookupParams& params)
-    : PackedProbes(set, surface_light(set, params), params) {}
+PackedProbes::PackedProbes(const ProbeSet& set, const LookupParams& params,
+                           std::span<const sh::RadianceSh> of_moving)
+    : PackedProbes(set, surface_light(set, params), params, of_moving) {}
 
 PackedProbes::PackedProbes(const ProbeSet& set, std::vector<sh::RadianceSh> lights,
-                           const LookupParams& params)
+                           const LookupParams& params, std::span<const sh::RadianceSh> of_moving)
     : radiance_(set.probes.size(), set.degree),
       irradiance_(set.probes.size(), irradiance_degree(params, set.degree)) {
   const auto irradiance_count = static_cast<std::size_t>(sh::coefficient_count(irradiance_.degree));
   for (const Probe& probe : set.probes) positions_.push_back(probe.position);
-  parallel_for(set.probes.size(), 4, [&](std::size_t i) {
-    sh::RadianceSh light = std::move(lights[i]);
-    radiance_.set(i, light.values);
+  if (!of_moving.empty()) more_of_moving_.emplace(set.probes.size(), irradiance_.degree);
+  const auto set_irradiance = [&](Functions& functions, std::size_t i, sh::RadianceSh light) {
     light.values.resize(irradiance_count);
     if (params.dering) light = sh::dering(light, sh::NonNegative::irradiance);
-    irradiance_.set(i, sh::irradiance_from_radiance(light).values);
+    functions.set(i, sh::irradiance_from_radiance(light).values);
+  };
+  parallel_for(set.probes.size(), 4, [&](std::size_t i) {
+    radiance_.set(i, lights[i].values);
+    set_irradiance(irradiance_, i, std::move(lights[i]));
+    if (more_of_moving_) set_irradiance(*more_of_moving_, i, of_moving[i]);
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include <ssphh/probes/lookup.h>
 
@@ -15,7 +16,9 @@ constexpr std::size_t whole_lanes(std::size_t count) {
 /// What both lookups need of a set, laid out for one call per pixel sample.
 class PackedProbes {
  public:
-  PackedProbes(const ProbeSet& set, const LookupParams& params);
+  /// `of_moving`: of each probe what more lights things that move, but for mirrors; or none.
+  PackedProbes(const ProbeSet& set, const LookupParams& params,
+               std::span<const sh::RadianceSh> of_moving = {});
 
   int count() const { return static_cast<int>(positions_.size()); }
 
@@ -23,8 +26,11 @@ class PackedProbes {
   const vec3& position(int probe) const { return positions_[static_cast<std::size_t>(probe)]; }
   /// L(ω), not negative. `basis` holds Y_k(ω), perhaps scaled by band.
   vec3 radiance(int probe, const float* basis) const { return radiance_.dot(probe, basis); }
-  /// E(n), not negative.
-  vec3 irradiance(int probe, const float* basis) const { return irradiance_.dot(probe, basis); }
+  /// E(n) of what moves or stands still, not negative.
+  vec3 irradiance(int probe, const float* basis, bool moves = false) const {
+    const vec3 e = irradiance_.dot(probe, basis);
+    return moves && more_of_moving_ ? e + more_of_moving_->dot(probe, basis) : e;
+  }
 
   /// Y_k(n) for irradiance(), Y_k(ω) for radiance(), and the same for a glossy lobe; zeros after these.
   using Basis = std::array<float, whole_lanes(sh::max_coefficient_count)>;
@@ -33,7 +39,8 @@ class PackedProbes {
   void glossy_basis(const vec3& direction, float roughness, Basis& basis) const;
 
  private:
-  PackedProbes(const ProbeSet& set, std::vector<sh::RadianceSh> lights, const LookupParams& params);
+  PackedProbes(const ProbeSet& set, std::vector<sh::RadianceSh> lights, const LookupParams& params,
+               std::span<const sh::RadianceSh> of_moving);
 
   /// Functions of all probes, laid out so that one is evaluated by whole vectors.
   struct Functions {
@@ -48,6 +55,7 @@ class PackedProbes {
 
   std::vector<vec3> positions_;
   Functions radiance_, irradiance_;
+  std::optional<Functions> more_of_moving_;  ///< irradiance
 };
 
 }  // namespace ssphh::probes

@@ -98,12 +98,18 @@ FittedPoints read_fitted(ByteReader& in, std::size_t probe_count) {
 
 void write_surface(ByteWriter& out, const SurfaceRecords& surface) {
   out.value(static_cast<std::uint32_t>(surface.points.size()));
+  for (std::size_t g = 0; g < surface.groups.size(); ++g)
+    out.value(static_cast<std::uint8_t>(surface.keeps_direct(g)));
+  const auto write = [&](const PackedRecordLight& light) {
+    out.value(light.scale);
+    out.array(std::span<const std::int16_t>(light.values));
+  };
   for (std::size_t i = 0; i < surface.points.size(); ++i) {
     out.vector3(surface.points[i].position);
     out.vector3(surface.points[i].normal);
-    for (const std::vector<PackedRecordLight>& group : surface.groups) {
-      out.value(group[i].scale);
-      out.array(std::span<const std::int16_t>(group[i].values));
+    for (std::size_t g = 0; g < surface.groups.size(); ++g) {
+      write(surface.groups[g][i]);
+      if (surface.keeps_direct(g)) write(surface.direct[g][i]);
     }
   }
 }
@@ -115,13 +121,21 @@ SurfaceRecords read_surface(ByteReader& in, std::size_t group_count) {
   SurfaceRecords surface;
   surface.points.resize(count);
   surface.groups.assign(group_count, std::vector<PackedRecordLight>(count));
+  surface.direct.resize(group_count);
+  for (std::vector<PackedRecordLight>& group : surface.direct)
+    if (in.value_in<std::uint8_t>("direct light flag", 0, 1)) group.resize(count);
+  if (std::ranges::all_of(surface.direct, &std::vector<PackedRecordLight>::empty)) surface.direct.clear();
+  const auto read = [&](PackedRecordLight& light) {
+    light.scale = in.value_in<float>("surface record's scale", 0, limits::coefficient);
+    for (std::int16_t& v : light.values)
+      v = in.value_in<std::int16_t>("surface record's light", -32767, 32767);
+  };
   for (std::size_t i = 0; i < count; ++i) {
     surface.points[i].position = in.vector3("surface record");
     surface.points[i].normal = in.vector3("surface record's normal");
-    for (std::vector<PackedRecordLight>& group : surface.groups) {
-      group[i].scale = in.value_in<float>("surface record's scale", 0, limits::coefficient);
-      for (std::int16_t& v : group[i].values)
-        v = in.value_in<std::int16_t>("surface record's light", -32767, 32767);
+    for (std::size_t g = 0; g < group_count; ++g) {
+      read(surface.groups[g][i]);
+      if (surface.keeps_direct(g)) read(surface.direct[g][i]);
     }
   }
   return surface;
@@ -192,7 +206,7 @@ ProbeSet read_payload(ByteReader& in) {
   for (LightGroup& group : set.light_groups) {
     group.name = in.text("light group name", limits::text);
     group.scale = in.vector3("light group scale");
-    group.mode = static_cast<scene::LightMode>(in.value_in<std::uint8_t>("light group mode", 0, 2));
+    group.mode = static_cast<scene::LightMode>(in.value_in<std::uint8_t>("light group mode", 0, 3));
   }
   const std::size_t bytes_each =
       set.light_groups.size() * (coefficients * sizeof(vec3) + 2) + sizeof(vec3) + 3 * sizeof(float);

@@ -137,11 +137,18 @@ class Validator {
         fmt::format("has the light of {} groups; the set has {}", s.groups.size(), set_.light_groups.size()));
     for (const std::vector<PackedRecordLight>& group : s.groups)
       require(group.size() == s.points.size(), "/surface", "needs the light of every point");
+    require(s.direct.empty() || s.direct.size() == s.groups.size(), "/surface",
+            "has direct light of some groups without telling of all");
+    for (const std::vector<PackedRecordLight>& group : s.direct)
+      require(group.empty() || group.size() == s.points.size(), "/surface",
+              "needs the direct light of every point");
     for (std::size_t i = 0; i < s.points.size(); ++i) {
       const std::string at = fmt::format("/surface/{}", i);
       place(s.points[i], at);
       for (const std::vector<PackedRecordLight>& group : s.groups)
         number(group[i].scale, 0, limits::coefficient, at + "/groups");
+      for (const std::vector<PackedRecordLight>& group : s.direct)
+        if (!group.empty()) number(group[i].scale, 0, limits::coefficient, at + "/direct");
     }
   }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -115,20 +116,30 @@ SurfaceRecords read_surface(const Cursor& at, std::size_t group_count) {
   SurfaceRecords surface;
   surface.points.resize(count);
   surface.groups.assign(group_count, std::vector<PackedRecordLight>(count));
+  const auto read = [](const Cursor& numbers, PackedRecordLight& light) {
+    numbers.size(1 + light.values.size(), 1 + light.values.size());
+    light.scale = numbers[0].number(0, limits::coefficient);
+    for (std::size_t k = 0; k < light.values.size(); ++k)
+      light.values[k] = static_cast<std::int16_t>(integer(numbers[1 + k], -32767, 32767));
+  };
   for (std::size_t i = 0; i < count; ++i) {
-    const Cursor point = at[i].members({"position", "normal", "groups"});
+    const Cursor point = at[i].members({"position", "normal", "groups"}, {"direct"});
     surface.points[i] = {vector3(point["position"], -limits::coordinate, limits::coordinate),
                          vector3(point["normal"], -2, 2)};
     const Cursor groups = point["groups"];
     groups.size(group_count, group_count);
+    for (std::size_t g = 0; g < group_count; ++g) read(groups[g], surface.groups[g][i]);
+    if (!point.has("direct")) continue;
+    const Cursor direct = point["direct"];
+    direct.size(group_count, group_count);
+    surface.direct.resize(group_count);
     for (std::size_t g = 0; g < group_count; ++g) {
-      PackedRecordLight& light = surface.groups[g][i];
-      groups[g].size(1 + light.values.size(), 1 + light.values.size());
-      light.scale = groups[g][0].number(0, limits::coefficient);
-      for (std::size_t k = 0; k < light.values.size(); ++k)
-        light.values[k] = static_cast<std::int16_t>(integer(groups[g][1 + k], -32767, 32767));
+      if (direct[g].size() == 0) continue;
+      surface.direct[g].resize(count);  // that of points which say nothing is dark
+      read(direct[g], surface.direct[g][i]);
     }
   }
+  if (std::ranges::all_of(surface.direct, &std::vector<PackedRecordLight>::empty)) surface.direct.clear();
   return surface;
 }
 

@@ -114,13 +114,23 @@ class Writer {
     for (std::size_t i = 0; i < s.points.size(); ++i) {
       put("{}\n{{\"position\":{},\"normal\":{},\"groups\":[", comma(i), exact(s.points[i].position),
           exact(s.points[i].normal));
-      for (std::size_t g = 0; g < s.groups.size(); ++g) {
-        const PackedRecordLight& light = s.groups[g][i];
-        put("{}[{}", comma(g), exact(light.scale));
-        for (const std::int16_t v : light.values) put(",{}", v);
+      const auto light = [&](const PackedRecordLight& l) {
+        put("[{}", exact(l.scale));
+        for (const std::int16_t v : l.values) put(",{}", v);
         put("]");
+      };
+      for (std::size_t g = 0; g < s.groups.size(); ++g) {
+        put("{}", comma(g));
+        light(s.groups[g][i]);
       }
-      put("]}}");
+      put("]");
+      if (!s.direct.empty()) put(",\"direct\":[");
+      for (std::size_t g = 0; g < s.direct.size(); ++g) {
+        put("{}", comma(g));
+        s.keeps_direct(g) ? light(s.direct[g][i]) : put("[]");
+      }
+      if (!s.direct.empty()) put("]");
+      put("}}");
     }
     put("]");
   }

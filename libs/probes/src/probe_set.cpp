@@ -40,8 +40,12 @@ void merge_groups(ProbeSet& set) {
   check_groups(set);
   if (set.surface) {
     std::vector<vec3> scales;
-    for (const LightGroup& group : set.light_groups) scales.push_back(group.scale);
-    merge_groups(*set.surface, scales);
+    std::vector<bool> with_direct;
+    for (const LightGroup& group : set.light_groups) {
+      scales.push_back(group.scale);
+      with_direct.push_back(scene::keeps_direct(group.mode));
+    }
+    merge_groups(*set.surface, scales, with_direct);
   }
   for (Probe& probe : set.probes) {
     probe.reflected = sh::RadianceSh(set.degree);
@@ -80,6 +84,31 @@ std::vector<std::string> baked_groups(const ProbeSet& set) {
     if (group.mode == scene::LightMode::baked) names.push_back(group.name);
   }
   return names;
+}
+
+std::vector<std::string> mirrored_groups(const ProbeSet& set) {
+  std::vector<std::string> names;
+  for (std::size_t g = 0; g < set.light_groups.size(); ++g) {
+    const LightGroup& group = set.light_groups[g];
+    if (group.mode == scene::LightMode::diffuse && set.surface && set.surface->keeps_direct(g))
+      names.push_back(group.name);
+  }
+  return names;
+}
+
+std::vector<sh::RadianceSh> light_beside_records(const ProbeSet& set) {
+  const std::vector<std::string> names = mirrored_groups(set);
+  std::vector<sh::RadianceSh> light;
+  if (names.empty()) return light;
+  for (const Probe& probe : set.probes) {
+    sh::RadianceSh& sum = light.emplace_back(set.degree);
+    for (std::size_t g = 0; g < probe.groups.size(); ++g) {
+      const LightGroup& group = set.light_groups[g];
+      if (std::ranges::find(names, group.name) != names.end())
+        add_scaled(sum, probe.groups[g].emitted, group.scale);
+    }
+  }
+  return light;
 }
 
 std::size_t edge_count(const ProbeSet& set) {

@@ -44,7 +44,8 @@ RecordLight unpack(const PackedRecordLight& packed, const vec3& normal) {
 }
 
 bool operator==(const SurfaceRecords& a, const SurfaceRecords& b) {
-  return std::ranges::equal(a.points, b.points, same_place) && a.groups == b.groups && a.light == b.light;
+  return std::ranges::equal(a.points, b.points, same_place) && a.groups == b.groups && a.direct == b.direct &&
+         a.light == b.light;
 }
 
 void require_whole(const SurfaceRecords& records, std::size_t group_count) {
@@ -53,23 +54,33 @@ void require_whole(const SurfaceRecords& records, std::size_t group_count) {
     if (!is_finite(records.points[i].position) || !is_finite(records.points[i].normal))
       throw Error(fmt::format("surface record {}", i), "its place is not finite");
   }
-  for (const std::vector<PackedRecordLight>& group : records.groups) {
+  require(records.direct.size() <= group_count, "surface records", "there is direct light of no group");
+  const auto require_light = [&](const std::vector<PackedRecordLight>& group) {
     require(group.size() == records.points.size(), "surface records", "not every point has its light");
     for (std::size_t i = 0; i < group.size(); ++i) {
       if (!(group[i].scale >= 0) || !std::isfinite(group[i].scale))
         throw Error(fmt::format("surface record {}", i), "its light is not finite");
     }
-  }
+  };
+  std::ranges::for_each(records.groups, require_light);
+  for (const std::vector<PackedRecordLight>& group : records.direct)
+    if (!group.empty()) require_light(group);
 }
 
-void merge_groups(SurfaceRecords& records, std::span<const vec3> scales) {
+void merge_groups(SurfaceRecords& records, std::span<const vec3> scales,
+                  const std::vector<bool>& with_direct) {
   require_whole(records, scales.size());
   records.light.assign(records.points.size(), RecordLight(0));
-  for (std::size_t g = 0; g < scales.size(); ++g) {
+  const auto add = [&](const std::vector<PackedRecordLight>& group, const vec3& scale) {
     for (std::size_t i = 0; i < records.points.size(); ++i) {
-      const RecordLight light = unpack(records.groups[g][i], records.points[i].normal);
-      for (glm::length_t c = 0; c < 4; ++c) records.light[i][c] += scales[g] * light[c];
+      const RecordLight light = unpack(group[i], records.points[i].normal);
+      for (glm::length_t c = 0; c < 4; ++c) records.light[i][c] += scale * light[c];
     }
+  };
+  for (std::size_t g = 0; g < scales.size(); ++g) {
+    add(records.groups[g], scales[g]);
+    if (g < with_direct.size() && with_direct[g] && records.keeps_direct(g))
+      add(records.direct[g], scales[g]);
   }
 }
 

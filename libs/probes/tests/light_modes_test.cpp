@@ -43,7 +43,8 @@ TEST(BakedGroups, AreLookedUpWithTheirDirectLightAndNoOthersAre) {
   expect_equal(mean_of(two_groups(realtime, mixed).probes[0].reflected), vec3(510, 1020, 1530));
   expect_equal(mean_of(two_groups(baked, realtime).probes[0].reflected), vec3(511, 1022, 1533));
   expect_equal(mean_of(two_groups(realtime, baked).probes[0].reflected), vec3(560, 1120, 1680));
-  for (const LightMode sky : {realtime, mixed, baked})
+  expect_equal(mean_of(two_groups(diffuse, mixed).probes[0].reflected), vec3(510, 1020, 1530));
+  for (const LightMode sky : {realtime, mixed, baked, diffuse})
     expect_equal(mean_of(two_groups(sky, realtime).probes[0].self), vec3(561, 1122, 1683));
 }
 
@@ -77,8 +78,80 @@ TEST(BakedGroups, AreNamedByEveryLookup) {
   }
 }
 
+/// The same with one record of each group, of a fifth and twice the light that probes see, on a floor; the
+/// sky's direct light is kept apart.
+ProbeSet with_a_record(LightMode sky, LightMode lamp) {
+  ProbeSet set = two_groups(sky, lamp);
+  const auto even_light = [](const vec3& e) {
+    RecordLight light(0);
+    light[3] = e;
+    return std::vector{pack(light, {0, 1, 0})};
+  };
+  set.surface = {{{vec3(0), {0, 1, 0}}},
+                 {even_light(vec3(3, 6, 9)), even_light(vec3(50, 60, 70))},
+                 {even_light(vec3(0.5f, 1, 2)), {}}};
+  set.probes[0].position = {0, 1, 0};
+  merge_groups(set);
+  return set;
+}
+
+TEST(KeptDirectLight, IsInRecordsOfItsModes) {
+  using enum LightMode;
+  const vec3 reflected = vec3(3, 6, 9) + 0.5f * vec3(50, 60, 70), direct(0.5f, 1, 2);
+  const auto light = [](const ProbeSet& set) { return vec3(set.surface->light[0][3]); };
+  // 16 bit of the largest channel, halved
+  const auto expect_light = [](const vec3& a, const vec3& b) {
+    for (glm::length_t c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 70.0f / 32767);
+  };
+  expect_light(light(with_a_record(realtime, realtime)), reflected);
+  expect_light(light(with_a_record(mixed, diffuse)), reflected);
+  expect_light(light(with_a_record(diffuse, realtime)), reflected + direct);
+  expect_light(light(with_a_record(baked, mixed)), reflected + direct);
+  ProbeSet dimmed = with_a_record(diffuse, realtime);
+  relight(dimmed, "sky", vec3(0));
+  expect_light(light(dimmed), 0.5f * vec3(50, 60, 70));
+}
+
+TEST(KeptDirectLight, OfDiffuseGroupsIsLookedUpWithRecordsAlone) {
+  const OpenSpace space;
+  const ProbeSet set = with_a_record(LightMode::diffuse, LightMode::realtime);
+  const std::vector<std::string> sky = {"sky"};
+  EXPECT_EQ(mirrored_groups(set), sky);
+  EXPECT_TRUE(baked_groups(set).empty());
+  EXPECT_TRUE(mirrored_groups(two_groups(LightMode::diffuse, LightMode::realtime)).empty()) << "no records";
+  const rays::SurfacePoint moving{vec3(0, 0, 0.1f), {0, 1, 0}, true};
+  // Each sends E = π L from all around.
+  const vec3 reflected(510, 1020, 1530), direct(1, 2, 3);
+  const auto by_records = make_lookup(LookupSpec(), set, space);
+  EXPECT_EQ(by_records->direct_groups(), sky);
+  EXPECT_EQ(by_records->mirrored_groups(), sky);
+  expect_equal(by_records->irradiance(moving), pi * (reflected + direct));
+  expect_equal(by_records->glossy(moving, {0, 1, 0}, 0.5f), reflected);
+  const auto by_probes = make_lookup({.weights = WeightMethod::distance}, set, space);
+  EXPECT_TRUE(by_probes->direct_groups().empty());
+  expect_equal(by_probes->irradiance(moving), pi * reflected);
+  ProbeSet baked = with_a_record(LightMode::baked, LightMode::realtime);
+  const auto all = make_lookup(LookupSpec(), baked, space);
+  EXPECT_EQ(all->direct_groups(), sky);
+  EXPECT_TRUE(all->mirrored_groups().empty());
+  expect_equal(all->glossy(moving, {0, 1, 0}, 0.5f), reflected + direct);
+}
+
+TEST(KeptDirectLight, StandsInFiles) {
+  const ProbeSet set = with_a_record(LightMode::diffuse, LightMode::mixed);
+  EXPECT_EQ(probes_from_json(probes_to_json(set), "set").surface, set.surface);
+  EXPECT_EQ(probes_from_binary(probes_to_binary(set), "set").surface, set.surface);
+  ProbeSet spoilt = set;
+  spoilt.surface->direct.pop_back();
+  EXPECT_THROW(probes_to_binary(spoilt), Error) << "tells of one group alone";
+  spoilt = set;
+  spoilt.surface->direct[0].push_back({});
+  EXPECT_THROW(probes_to_json(spoilt), Error);
+  EXPECT_THROW(merge_groups(spoilt), Error);
+}
+
 TEST(BakedGroups, KeepTheirModesInFiles) {
-  for (const LightMode sky : {LightMode::realtime, LightMode::mixed, LightMode::baked}) {
+  for (const LightMode sky : {LightMode::realtime, LightMode::mixed, LightMode::baked, LightMode::diffuse}) {
     const ProbeSet set = two_groups(sky, LightMode::mixed);
     EXPECT_EQ(probes_from_json(probes_to_json(set), "set").light_groups, set.light_groups);
     const ProbeSet again = probes_from_binary(probes_to_binary(set), "set");

@@ -50,7 +50,14 @@ ProbeSet wild_set(const SetShape& shape) {
   if (coin()) hier(set, {HierOperator::mean, static_cast<int>(random.next() % 4) - 1, random.uniform()});
   if (coin()) set.fitted = random_fitted(shape.seed, 7, shape.probes);
   if (coin()) set.baseline = random_baseline(shape.seed + 2, 3, coin() ? shape.probes : 0, shape.groups);
-  if (coin()) set.surface = random_records(shape.seed + 1, 6, shape.groups), merge_groups(set);
+  if (coin()) {
+    set.surface = random_records(shape.seed + 1, 6, shape.groups);
+    if (coin() && shape.groups > 0) {
+      set.surface->direct.resize(static_cast<std::size_t>(shape.groups));
+      set.surface->direct.back() = set.surface->groups.front();
+    }
+    merge_groups(set);
+  }
   return set;
 }
 

@@ -33,6 +33,7 @@ const json::Value valid_document() {
   hier(set, {HierOperator::mean, 2, 0.1f});
   set.fitted = test::random_fitted(7, 3, 2);
   set.surface = test::random_records(8, 2, 2);
+  set.surface->direct = {set.surface->groups[1], {}};
   set.baseline = test::random_baseline(9, 3, 2, 2);
   std::swap(set.fitted->weights[0], set.fitted->weights[2]);  // the first point has two probes
   return test::parse_json(probes_to_json(set));
@@ -157,6 +158,9 @@ TEST(ProbeSchema, SchemaAndReaderRejectTheSameMutations) {
       {"/surface/0/groups/1/3", 0.5},
       {"/surface/0/groups/1/9", 32768},
       {"/surface/0/groups/1/9", -32768},
+      {"/surface/0/direct", nullptr},
+      {"/surface/0/direct/0/0", -0.1},
+      {"/surface/0/direct/0/9", 32768},
       {"/surface/0/groups/0", json::Value(std::vector<int>(9, 0))},
       {"/surface/0/groups/0", json::Value(std::vector<int>(11, 0))},
       {"/baseline", nullptr},
@@ -214,8 +218,9 @@ TEST(ProbeSchema, SchemaAndReaderAgreeOnEveryMissingKey) {
     EXPECT_EQ(conforms, reader_accepts(print(without))) << key;
     optional += conforms;
   }
-  EXPECT_EQ(optional, 4) << "only an edge's matrix, fitted points, records and a baseline may be missing; a "
-                            "hierarchy needs the neighbours' parts and they it";
+  EXPECT_EQ(optional, 5)
+      << "only an edge's matrix, fitted points, records, their direct light and a baseline may be "
+         "missing; a hierarchy needs the neighbours' parts and they it";
 }
 
 TEST(ProbeSchema, SchemaAndReaderAcceptOtherSpellingsOfTheSame) {
@@ -236,7 +241,9 @@ TEST(ProbeSchema, RulesBeyondTheSchemaAreTheReadersAlone) {
       {"/fitted/0/probes/0", 2},                      // no such probe
       {"/fitted/0/probes", json::Value::array({0})},  // two weights
       {"/fitted/0/normal", json::Value::array({1, 1, 0})},
-      {"/surface/0/groups", json::Value::array()},                       // of no light group
+      {"/surface/0/groups", json::Value::array()},  // of no light group
+      {"/surface/0/direct", json::Value::array()},
+      {"/surface/0/direct/0", json::Value(std::vector<int>(9, 0))},
       {"/baseline/trials", json::Value::array({json::Value::array()})},  // of one probe
       {"/baseline/trials/0/1", json::Value::array()},
       {"/surface/0/normal", json::Value::array({1, 1, 0})},

@@ -1,6 +1,7 @@
 #version 450 core
 // What surfaces reflect of one emitter's light. Variants: the kind of emitter (POINT, SPHL, SUN, DISC, SPHERE,
-// MESH, ENVIRONMENT); FULL_BSDF, else surfaces are Lambertian; SHADOW_VIEW gives the light's share that arrives.
+// MESH, ENVIRONMENT); FULL_BSDF, else surfaces are Lambertian; SHADOW_VIEW gives the light's share that arrives; MIRRORED
+// what the specular lobe reflects of an environment alone.
 #include "gbuffer_read.glsl"
 #ifdef FULL_BSDF
 #include "bsdf.glsl"
@@ -225,7 +226,11 @@ void main() {
 #endif
   }
   vec3 scale = whole / max(total, vec3(1e-20));
+#ifdef MIRRORED
+  vec3 reflects = vec3(0);
+#else
   vec3 reflects = sum * scale;
+#endif
 #ifdef FULL_BSDF
   float open = around > 0 ? free / around : 1;
   reflects += bsdf.albedo * open * emitter.light.rgb * through_lobe(mirror, bsdf.roughness);

@@ -191,7 +191,7 @@ Found look_up(Surface s, vec3 mirror, float roughness, bool wanted) {
 #endif
     sum += weight;
     weight *= seen != 0 ? 1 : clamp(HIDDEN_SLOPE * cosine, 0.0, 1.0);
-    found.irradiance += weight * irradiance_of(probe, e_place);
+    found.irradiance += weight * irradiance_of(probe, e_place, s.moves);
 #ifdef FULL_BSDF
     found.glossy += weight * radiance_of(probe, l_place);
 #endif

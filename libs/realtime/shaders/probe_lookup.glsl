@@ -10,7 +10,8 @@ const int CELLS_WIDTH_LOG2 = 11;
 layout(binding = 12) uniform sampler2DArray irradiance_tiles;
 layout(binding = 13) uniform sampler2DArray radiance_tiles;
 
-uniform ivec4 irradiance_layout;  // texels of a tile without its border, log2 of tiles in a row
+uniform ivec4 irradiance_layout;  // texels of a tile without its border, log2 of tiles in a row; z: from a probe's tile to
+                                  // that of what more lights things that move, 0: nothing
 uniform ivec4 radiance_layout;    // likewise; z: tiles of a probe
 const int RADIANCE_LEVELS = 6;
 uniform float level_roughness[RADIANCE_LEVELS];
@@ -36,6 +37,12 @@ vec3 sample_tile(sampler2DArray tiles, ivec2 shape, int tile, vec2 texel) {
 
 vec2 irradiance_at(vec3 n) { return in_tile(n, irradiance_layout.x); }
 vec3 irradiance_of(int probe, vec2 at) { return sample_tile(irradiance_tiles, irradiance_layout.xy, probe, at); }
+// Of what moves, if it does.
+vec3 irradiance_of(int probe, vec2 at, bool moves) {
+  vec3 e = irradiance_of(probe, at);
+  if (moves && irradiance_layout.z != 0) e += irradiance_of(probe + irradiance_layout.z, at);
+  return e;
+}
 
 // Where a probe's tiles hold radiance by direction and roughness: the two levels around it, or the one that it is.
 struct RadiancePlace {

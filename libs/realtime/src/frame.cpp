@@ -39,6 +39,7 @@ const FrameStats& Renderer::draw(const scene::CameraPose& camera, const FrameSet
   if (!d.images.fits(target.width, target.height, samples, scale))
     d.images = FrameImages(target.width, target.height, samples, scale);
   const float aspect = static_cast<float>(target.width) / static_cast<float>(target.height);
+  d.choose_direct(settings);
   d.lights.prepare(camera, aspect, d.scene.bounds(), d.counters);
   const bool lit = settings.view == View::lit;
   const bool wants_direct = settings.direct && (lit || settings.view == View::direct);

@@ -103,7 +103,9 @@ void Renderer::Data::draw_direct(bool shadow_view, bool glass) {
     if (!lit.lights) continue;
     lights.bind_emitter(lit);
     const auto draw_class = [&](bool full, const gl::DrawState& where) {
-      gl::Program& program = shaders.direct(lit.kind, full, shadow_view);
+      if (lit.mirrors && (shadow_view || !full)) return;
+      gl::Program& program =
+          lit.mirrors ? shaders.mirrored_environment() : shaders.direct(lit.kind, full, shadow_view);
       if (full && lit.kind == EmitterKind::environment) bind_sky_lobes(program);
       fullscreen(program, target.id(), images.full(), where);
     };

@@ -171,12 +171,18 @@ void Lights::set(const scene::LightingState& state, const std::vector<mat4>& wor
   }
 }
 
-void Lights::leave_out(const std::vector<std::string>& groups) {
+void Lights::leave_out(const std::vector<std::string>& groups, const std::vector<std::string>& mirrored) {
   for (Source& source : sources_) {
-    const bool left_out =
-        std::ranges::find(groups, groups_[static_cast<std::size_t>(source.group)]) != groups.end();
-    if (left_out == source.left_out) continue;
+    const std::string& name = groups_[static_cast<std::size_t>(source.group)];
+    const auto is_among = [&](const std::vector<std::string>& names) {
+      return std::ranges::find(names, name) != names.end();
+    };
+    const bool environment = emitters_[static_cast<std::size_t>(source.emitter)].items.x ==
+                             static_cast<int>(EmitterKind::environment);
+    const bool left_out = is_among(groups), mirrors = environment && is_among(mirrored);
+    if (left_out == source.left_out && mirrors == source.mirrored) continue;
     source.left_out = left_out;
+    source.mirrored = mirrors;
     want_maps(source);
     emitters_changed_ = true;
   }
@@ -186,15 +192,15 @@ void Lights::want_maps(const Source& source) {
   const ivec4& items = emitters_[static_cast<std::size_t>(source.emitter)].items;
   switch (static_cast<EmitterKind>(items.x)) {
     case EmitterKind::point:
-      return lamps_.want(6 * source.first_map, 6, !source.left_out);
+      return lamps_.want(6 * source.first_map, 6, source.lights());
     case EmitterKind::sun:
     case EmitterKind::disc:
-      return parallel_.want(source.first_map, sun_cascades * items.z, !source.left_out);
+      return parallel_.want(source.first_map, sun_cascades * items.z, source.lights());
     case EmitterKind::environment:
-      return parallel_.want(source.first_map, items.z, !source.left_out);
+      return parallel_.want(source.first_map, items.z, source.lights());
     case EmitterKind::sphere:
     case EmitterKind::mesh:
-      return areas_.want(6 * source.first_map, 6 * items.z, !source.left_out);
+      return areas_.want(6 * source.first_map, 6 * items.z, source.lights());
     case EmitterKind::sphl:
       return;
   }
@@ -333,8 +339,8 @@ void Lights::upload_emitters(FrameCounters& counters) {
 
 void Lights::list_lit() {
   lit_.clear();
-  std::vector<std::uint8_t> left_out(emitters_.size());
-  for (const Source& source : sources_) left_out[static_cast<std::size_t>(source.emitter)] = source.left_out;
+  std::vector<const Source*> source_of(emitters_.size());  // none of SPHLs
+  for (const Source& source : sources_) source_of[static_cast<std::size_t>(source.emitter)] = &source;
   for (std::size_t i = 0; i < emitters_.size(); ++i) {
     const GpuEmitter& e = emitters_[i];
     if (!(max_component(vec3(e.light)) > black)) continue;
@@ -342,7 +348,7 @@ void Lights::list_lit() {
     lit_.push_back(
         {kind, static_cast<int>(i),
          kind == EmitterKind::disc || kind == EmitterKind::sphere || kind == EmitterKind::environment,
-         !left_out[i]});
+         !source_of[i] || source_of[i]->lights(), source_of[i] && source_of[i]->left_out});
   }
 }
 

@@ -23,8 +23,9 @@ class Lights {
   /// Emission of SPHLs apart. `world`: of each node at the state's time.
   void set(const scene::LightingState& state, const std::vector<mat4>& world);
   /// Light groups whose direct light comes to surfaces from elsewhere: their emitters are seen, but light
-  /// nothing and need no shadow maps. Replaces those of before.
-  void leave_out(const std::vector<std::string>& groups);
+  /// nothing and need no shadow maps. Replaces those of before. Of `mirrored` groups among them glossy
+  /// surfaces still mirror the environment.
+  void leave_out(const std::vector<std::string>& groups, const std::vector<std::string>& mirrored = {});
   /// A probe's own light.
   void add_emission(int probe, const vec3& position, float radius, const sh::RadianceSh& leaving);
   void clear_emissions();
@@ -46,8 +47,9 @@ class Lights {
   struct Lit {
     EmitterKind kind;
     int emitter;
-    bool seen;    ///< is no surface, and looked at directly
-    bool lights;  ///< surfaces
+    bool seen;     ///< is no surface, and looked at directly
+    bool lights;   ///< surfaces
+    bool mirrors;  ///< what glossy surfaces mirror of it is all that lights them
   };
   const std::vector<Lit>& lit() const { return lit_; }
   void bind_emitter(const Lit& lit) const;
@@ -73,6 +75,8 @@ class Lights {
     mat4 placed{0};                 ///< pose of what is in the buffers
     int first_map;
     bool left_out = false;
+    bool mirrored = false;  ///< by what is glossy, though left out
+    bool lights() const { return !left_out || mirrored; }
   };
   static int most_sun_parts(const scene::Scene& scene, const RendererParams& params);
   void add_lights(const scene::Scene& scene, const std::vector<mat4>& world,

@@ -9,6 +9,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/require.h>
 #include <ssphh/sh/irradiance.h>
 #include <ssphh/sh/window.h>
 #include <ssphh/sh/zonal.h>
@@ -22,6 +23,8 @@ constexpr int irradiance_tile = 24, radiance_tile = 30;
 /// Roughnesses of which a probe's radiance is kept; shaders interpolate.
 constexpr std::array<float, 6> level_roughness = {0, 0.3f, 0.45f, 0.6f, 0.8f, 1};
 constexpr int largest_face = 256, smallest_face = 32;
+
+constexpr std::array<float, sh::max_degree + 1> ones = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 
 /// The largest face of a power of two with which all probes' maps fit into `bytes`.
 int face_size(std::size_t probes, std::size_t bytes) {
@@ -72,7 +75,8 @@ Probes::Probes(const probes::ProbeSet& set, const probes::LookupParams& params,
   grid_ = probes::make_candidate_grid(places_, all, spacing_);
   cells_ = cell_texture(grid_, places_);
   irradiance_basis_ = TileBasis(irradiance_tile, irradiance_degree_);
-  irradiance_ = TileAtlas(irradiance_tile, count());
+  keeps_direct_ = set.surface && !set.surface->direct.empty();
+  irradiance_ = TileAtlas(irradiance_tile, keeps_direct_ ? 2 * count() : count());
   radiance_ = TileAtlas(radiance_tile, 1);
   levels_ = glossy ? static_cast<int>(level_roughness.size()) : 1;
   counters.bytes_uploaded += cells_.bytes();
@@ -113,6 +117,20 @@ void Probes::set_light(std::span<const int> probes, std::span<const sh::Radiance
   for (std::size_t i = 0; i < probes.size(); ++i) light_[static_cast<std::size_t>(probes[i])] = light[i];
   make_tiles(probes, true, has_radiance_, counters);
   if (fitted_) fitted_->update(probes, irradiance_functions_, irradiance_count(), *surface_, counters);
+}
+
+void Probes::set_light_of_moving(std::span<const sh::RadianceSh> light, FrameCounters& counters) {
+  require(light.empty() || keeps_direct_, "probes", "they keep direct light that their set did not");
+  has_light_of_moving_ = !light.empty();
+  std::vector<vec4> tile(irradiance_basis_.texels());
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    sh::RadianceSh l = light[i];
+    l.values.resize(irradiance_count(), vec3(0));
+    if (dering_) l = sh::dering(l, sh::NonNegative::irradiance);
+    irradiance_basis_.evaluate(sh::irradiance_from_radiance(l).values, ones, tile);
+    irradiance_.upload(count() + static_cast<int>(i), tile);
+    counters.bytes_uploaded += tile.size() * sizeof(vec4);
+  }
 }
 
 void Probes::set_fitted(const probes::FittedSurfaces& fitted, FrameCounters& counters) {
@@ -172,7 +190,6 @@ void Probes::want_radiance(FrameCounters& counters) {
 
 void Probes::make_tiles(std::span<const int> probes, bool irradiance, bool radiance,
                         FrameCounters& counters) {
-  static constexpr std::array<float, sh::max_degree + 1> ones = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
   const std::size_t small = irradiance ? irradiance_basis_.texels() : 0;
   const std::size_t large = radiance ? radiance_basis_.texels() : 0;
   const std::size_t each = small + static_cast<std::size_t>(levels_) * large;
@@ -224,7 +241,9 @@ void Probes::bind_lookup(gl::Program& program) const {
   cells_.bind(unit::probe_cells);
   irradiance_.bind(unit::irradiance_tiles);
   radiance_.bind(unit::radiance_tiles);
-  program.set("irradiance_layout", irradiance_.size(), irradiance_.layout().columns_log2);
+  const bool of_moving = has_light_of_moving_ && uses_light_of_moving_;
+  program.set("irradiance_layout", irradiance_.size(), irradiance_.layout().columns_log2,
+              of_moving ? count() : 0);
   program.set("radiance_layout", radiance_.size(), radiance_.layout().columns_log2, levels_);
   program.set("level_roughness", std::span<const float>(level_roughness));
   if (surface_) surface_->bind(program);

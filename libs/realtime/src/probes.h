@@ -34,6 +34,11 @@ class Probes {
   float near_plane() const { return near_; }
 
   void set_light(std::span<const int> probes, std::span<const sh::RadianceSh> light, FrameCounters& counters);
+  /// Of each probe what more lights things that move; empty: nothing. Of a set whose records keep direct
+  /// light.
+  void set_light_of_moving(std::span<const sh::RadianceSh> light, FrameCounters& counters);
+  /// Whether it does.
+  void use_light_of_moving(bool use) { uses_light_of_moving_ = use; }
   /// Points with weights of their own; empty: none. Throws Error for points that name a probe which there is
   /// not.
   void set_fitted(const probes::FittedSurfaces& fitted, FrameCounters& counters);
@@ -64,6 +69,8 @@ class Probes {
   bool dering_ = true;
   float spacing_ = 1, near_ = 1e-3f;
   std::vector<sh::RadianceSh> light_;
+  bool keeps_direct_ = false;                                        ///< there is room for the next
+  bool has_light_of_moving_ = false, uses_light_of_moving_ = false;  ///< in tiles after the probes' own
   probes::CandidateGrid grid_;
   MapAtlas maps_;
   TileBasis irradiance_basis_, radiance_basis_;

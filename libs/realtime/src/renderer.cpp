@@ -81,6 +81,29 @@ void Renderer::Data::emit(const std::vector<scene::SphlEmission>& emission) {
   }
 }
 
+void Renderer::Data::keep_direct(const probes::ProbeSet& set) {
+  baked_groups = probes::baked_groups(set);
+  mirrored_groups = probes::mirrored_groups(set);
+  if (!set.probes.empty()) probes.set_light_of_moving(probes::light_beside_records(set), counters);
+  direct_choice.reset();
+}
+
+void Renderer::Data::choose_direct(const FrameSettings& settings) {
+  const DirectChoice now{.by_probes = !method,
+                         .by_records = !method && settings.indirect && probes.has_records() &&
+                                       lookup_of(settings) == IndirectLookup::surface};
+  if (direct_choice == now) return;
+  direct_choice = now;
+  std::vector<std::string> groups, mirrored;
+  if (now.by_probes) groups = baked_groups;
+  if (now.by_records) mirrored = mirrored_groups;
+  groups.insert(groups.end(), mirrored.begin(), mirrored.end());
+  // Where nothing is glossy, nothing mirrors
+  if (!scene.any_full() && !scene.any_glass()) mirrored.clear();
+  lights.leave_out(groups, mirrored);
+  probes.use_light_of_moving(now.by_records);
+}
+
 Renderer::Renderer(gl::Context& context, const scene::Scene& scene, const RendererParams& params,
                    float time) {
   scene::check_indices(scene);
@@ -117,6 +140,7 @@ void Renderer::set_material(int index, const scene::Material& material) {
     throw Error(fmt::format("material {}", index),
                 fmt::format("the scene has {}", data_->posed.materials.size()));
   data_->scene.set_material(index, material, data_->counters);
+  data_->direct_choice.reset();  // it may be what is glossy
 }
 
 void Renderer::set_probes(const probes::ProbeSet& set, const probes::LookupParams& params) {
@@ -124,9 +148,14 @@ void Renderer::set_probes(const probes::ProbeSet& set, const probes::LookupParam
   d.forget_emission();
   d.probes =
       Probes(set, params, d.params, d.scene.bounds(), d.scene.any_full() || d.scene.any_glass(), d.counters);
-  d.baked_groups = probes::baked_groups(set);
-  d.choose_direct();
+  d.keep_direct(set);
   d.context.throw_on_error("uploading probes");
+}
+
+void Renderer::set_kept_light(const probes::ProbeSet& set) {
+  require(static_cast<int>(set.probes.size()) == data_->probes.count(), "kept light",
+          "it is of other probes than those that were set");
+  data_->keep_direct(set);
 }
 
 void Renderer::set_fitted(const probes::FittedSurfaces& fitted) {
@@ -153,8 +182,7 @@ void Renderer::update_probes(std::span<const int> probes, std::span<const sh::Ra
 void Renderer::clear_probes() {
   data_->forget_emission();
   data_->probes = Probes();
-  data_->baked_groups.clear();
-  data_->choose_direct();
+  data_->keep_direct({});
 }
 
 int Renderer::probe_count() const {
@@ -167,13 +195,11 @@ void Renderer::set_method_light(const methods::LightData& light) {
     d.method.reset();  // first: the two would not always fit side by side
     d.method = make_method_light(light, d.params, d.scene.bounds(), d.counters);
   }
-  d.choose_direct();
   d.context.throw_on_error("uploading a method's light");
 }
 
 void Renderer::clear_method_light() {
   data_->method.reset();
-  data_->choose_direct();
 }
 
 methods::MethodNumbers Renderer::method_numbers() const {

@@ -2,6 +2,7 @@
 /// What a Renderer holds, and the passes of its frames (frame_passes.cpp).
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include <ssphh/gl/draw.h>
@@ -35,8 +36,11 @@ struct Renderer::Data {
     lights.clear_emissions();
     lighting.emission.clear();
   }
-  /// Leaves out the direct light that the probes hold, as long as they light the scene.
-  void choose_direct() { lights.leave_out(method ? std::vector<std::string>() : baked_groups); }
+  /// Leaves out the direct light that the probes hold, as long as they light the scene, and that of records,
+  /// as long as these do.
+  void choose_direct(const FrameSettings& settings);
+  /// What the set keeps of direct light.
+  void keep_direct(const probes::ProbeSet& set);
   void reload_changed_shaders();
   template <class Draw>
   void run(Pass pass, const Draw& draw_pass) {
@@ -91,8 +95,14 @@ struct Renderer::Data {
   GpuScene scene;
   Lights lights;
   Probes probes;
-  std::vector<std::string> baked_groups;  ///< of the probes
-  std::unique_ptr<MethodLight> method;    ///< null: probes light the scene
+  std::vector<std::string> baked_groups, mirrored_groups;  ///< of the probes
+  /// By what choose_direct() last chose.
+  struct DirectChoice {
+    bool by_probes, by_records;
+    friend bool operator==(const DirectChoice&, const DirectChoice&) = default;
+  };
+  std::optional<DirectChoice> direct_choice;
+  std::unique_ptr<MethodLight> method;  ///< null: probes light the scene
   gl::Texture albedo, sky;
   gl::Sampler sky_sampler;
   TileAtlas sky_lobes;  ///< made when something glossy is first lit by an environment

@@ -54,6 +54,11 @@ gl::Program& Shaders::direct(EmitterKind kind, bool full, bool shadow_view) {
   });
 }
 
+gl::Program& Shaders::mirrored_environment() {
+  return get(mirrored_environment_, fullscreen, "direct.frag",
+             [] { return define("ENVIRONMENT") + define("FULL_BSDF") + define("MIRRORED"); });
+}
+
 gl::Program& Shaders::indirect_pass(Slot& slot, const char* file, bool full, IndirectOutput output,
                                     const std::string& defines) {
   const std::string all = defines + define("FULL_BSDF", full) +
@@ -96,7 +101,7 @@ gl::Program& Shaders::seen(EmitterKind kind) {
 
 std::string Shaders::compile_all() {
   for (int textures = 0; textures < 16; ++textures) geometry(textures, false), geometry(textures, true);
-  occlusion(), mark(), view(), resolve(), display();
+  occlusion(), mark(), view(), resolve(), display(), mirrored_environment();
   for (const bool full : {false, true}) {
     shadow(full);
     depth_bounds(full), agree(full), interpolate(full);

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/image/sphere_map.h>
 #include <ssphh/scene/light_mode.h>
 #include <ssphh/scene/query.h>
 
@@ -15,10 +17,50 @@ std::optional<LightMode> asked_light_mode(const Scene& scene, const std::string&
   return found->mode;
 }
 
+bool casts_sharp_shadows(const Environment& environment) {
+  constexpr double small = 0.02, share = 0.1;
+  const image::Image& image = environment.equirect;
+  struct Texel {
+    double radiance, solid_angle;
+  };
+  std::vector<Texel> texels;
+  double all = 0;
+  for (int y = 0; y < image.height; ++y) {
+    const double solid_angle = image::equirect_solid_angle(y, image.width, image.height);
+    for (int x = 0; x < image.width; ++x) {
+      texels.push_back({static_cast<double>(luminance(environment.color * image.rgb(x, y))), solid_angle});
+      all += texels.back().radiance * solid_angle;
+    }
+  }
+  std::ranges::sort(texels, std::greater(), &Texel::radiance);
+  double brightest = 0, left = small;
+  for (const Texel& texel : texels) {
+    brightest += texel.radiance * std::min(texel.solid_angle, left);
+    left -= texel.solid_angle;
+    if (left <= 0) break;
+  }
+  return brightest >= share * all && all > 0;
+}
+
+LightMode usual_light_mode(const Scene& scene, const std::string& group) {
+  if (!scene.environment || light_group(*scene.environment) != group) return LightMode::realtime;
+  const bool lamps =
+      std::ranges::any_of(scene.lights, [&](const Light& light) { return light_group(light) == group; });
+  const bool surfaces = std::ranges::any_of(scene.instances, [&](const Instance& instance) {
+    const int material = instance_material(scene, instance);
+    return material >= 0 && scene.materials[static_cast<std::size_t>(material)].emissive() &&
+           light_group(scene, instance) == group;
+  });
+  const bool alone = !lamps && !surfaces;
+  return alone && !casts_sharp_shadows(*scene.environment) ? LightMode::diffuse : LightMode::realtime;
+}
+
 std::vector<LightMode> light_modes(const Scene& scene) {
   std::vector<LightMode> modes;
-  for (const std::string& group : light_groups(scene))
-    modes.push_back(asked_light_mode(scene, group).value_or(LightMode::realtime));
+  for (const std::string& group : light_groups(scene)) {
+    const std::optional<LightMode> asked = asked_light_mode(scene, group);
+    modes.push_back(asked ? *asked : usual_light_mode(scene, group));
+  }
   return modes;
 }
 

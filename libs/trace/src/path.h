@@ -76,6 +76,8 @@ struct PathVertex {
   vec3 normal{0};          ///< geometric, toward wo; zero at the camera
   float bsdf_pdf = 0;      ///< of the ray that leaves; 0: nothing else finds the light that it meets
   bool looked_up = false;  ///< a lookup has given its indirect light, and the direct light that it holds
+  /// Then, of the ray that leaves: the specular lobe's share of what the surface reflects of its light.
+  vec3 mirrored{0};
 };
 
 /// Light along a path so far.
@@ -94,6 +96,17 @@ struct PathLight {
 /// All that a surface does to light toward wo but letting it go straight on.
 inline shading::ScatteringFrom scattering_from(const shading::Surface& surface, const vec3& wo) {
   return {surface, Frame::around(surface.normal).to_local(wo)};
+}
+
+/// Share of f(wo, wi) that is its specular lobe's; of an opaque surface, directions in its shading frame.
+inline vec3 specular_share(const shading::Surface& surface, const vec3& wo, const vec3& wi) {
+  const vec3 all = shading::BsdfFrom(surface.bsdf, wo).eval(wi).value;
+  shading::BsdfParams specular = surface.bsdf;
+  specular.diffuse = vec3(0);
+  const vec3 lobe = shading::BsdfFrom(specular, wo).eval(wi).value;
+  vec3 share(0);
+  for (glm::length_t c = 0; c < 3; ++c) share[c] = all[c] > 0 ? std::min(lobe[c] / all[c], 1.0f) : 0;
+  return share;
 }
 
 /// Decides at a hit whether the path goes straight on, as smooth sheets let it, and with `all_glass` any
@@ -203,6 +216,10 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
     vertex = {.position = surface.position,
               .normal = surface.geometric_normal,
               .looked_up = options.looks_up && !looks_up};
+    if constexpr (requires { emitters.mirrored(); }) {
+      const bool mirrors = emitters.mirrored() && max_component(surface.bsdf.f0) > 0;
+      if (vertex.looked_up && mirrors) vertex.mirrored = vec3(1);
+    }
     const vec3 beyond_surface = 2.0f * surface.position - ray_origin;  // where rays start that go through
     const Frame frame = Frame::around(surface.normal);
     const vec3 wo = frame.to_local(-ray.direction);
@@ -249,6 +266,7 @@ void trace_path(const PosedGeometry& scene, const Emitters& emitters, Ray ray, c
     if (sample->glass && !surface.glass.sheet)
       light.absorption = surface.glass.inside == (side > 0) ? surface.glass.absorption : vec3(0);
     vertex.bsdf_pdf = sample->pdf;
+    if (vertex.mirrored != vec3(0)) vertex.mirrored = specular_share(surface, wo, sample->wi);
     ray = {side > 0 ? ray_origin : beyond_surface, wi};
 
     // End paths by Russian roulette.

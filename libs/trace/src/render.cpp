@@ -151,6 +151,16 @@ void add_pass(RenderState& state, const RenderState& pass, bool groups_are_all) 
   ++state.passes_done;
 }
 
+/// The lights of these groups alone; none: there are no groups.
+std::optional<shading::LightSet> mirrored_lights(const shading::LightSet& lights,
+                                                 const std::vector<std::string>& groups) {
+  if (groups.empty()) return std::nullopt;
+  std::vector<int> others;
+  for (std::size_t g = 0; g < lights.groups().size(); ++g)
+    if (std::ranges::find(groups, lights.groups()[g]) == groups.end()) others.push_back(static_cast<int>(g));
+  return lights.without(others);
+}
+
 void run_passes(const TracerData& data, const rays::IndirectLight* indirect, const RenderParams& params,
                 RenderState& state, const Control& control) {
   const std::size_t groups = data.group_count();
@@ -171,9 +181,13 @@ void run_passes(const TracerData& data, const rays::IndirectLight* indirect, con
   // Whose direct light is looked up is sampled nowhere else.
   std::vector<int> looked_up;
   if (indirect && indirect_wanted) looked_up = group_indices(data.lights.groups(), indirect->direct_groups());
-  std::optional<shading::LightSet> sampled;
-  if (!looked_up.empty()) sampled = data.lights.without(looked_up);
-  const SceneEmitters emitters(data.lights, sampled ? *sampled : data.lights, data.found_by_rays);
+  std::optional<shading::LightSet> sampled, mirrored;
+  if (!looked_up.empty()) {
+    sampled = data.lights.without(looked_up);
+    mirrored = mirrored_lights(data.lights, indirect->mirrored_groups());
+  }
+  const SceneEmitters emitters(data.lights, sampled ? *sampled : data.lights, data.found_by_rays,
+                               mirrored ? &*mirrored : nullptr);
   const Tile tile = tile_of(params);
   const auto width = static_cast<std::uint64_t>(tile.width), height = static_cast<std::uint64_t>(tile.height);
   const std::uint64_t row_paths = width * static_cast<std::uint64_t>(params.path.spp);

@@ -8,9 +8,11 @@ namespace ssphh::trace {
 class SceneEmitters {
  public:
   /// `found_by_rays`: whether the scene has lights that are not points in space or direction. `sampled`:
-  /// those whose light comes straight to surfaces with a lookup.
-  SceneEmitters(const shading::LightSet& lights, const shading::LightSet& sampled, bool found_by_rays)
-      : lights_(lights), sampled_(sampled), found_by_rays_(found_by_rays) {
+  /// those whose light comes straight to surfaces with a lookup. `mirrored`, if not null: those at infinity
+  /// that such surfaces mirror, too, but have from the lookup otherwise.
+  SceneEmitters(const shading::LightSet& lights, const shading::LightSet& sampled, bool found_by_rays,
+                const shading::LightSet* mirrored = nullptr)
+      : lights_(lights), sampled_(sampled), mirrored_(mirrored), found_by_rays_(found_by_rays) {
     for (int i = 0; i < sampled.emitter_count(); ++i) sampled_by_rays_ |= !sampled.emitter(i).delta();
   }
   SceneEmitters(const shading::LightSet& lights, bool found_by_rays)
@@ -27,7 +29,12 @@ class SceneEmitters {
     lights.intersect_spheres(ray.origin, ray.direction, distance, [&](const shading::EmitterHit& e) {
       if (e.distance >= ray.t_min) found(e);
     });
-    if (std::isinf(distance)) lights.escaped(ray.direction, found);
+    if (!std::isinf(distance)) return;
+    lights.escaped(ray.direction, found);
+    if (mirrored_ && vertex.looked_up && vertex.mirrored != vec3(0))
+      mirrored_->escaped(ray.direction, [&](const shading::EmitterHit& e) {
+        visit(e.group, vertex.mirrored * e.radiance, 0, -ray.direction);  // nothing else finds it
+      });
   }
 
   template <class Visit>
@@ -47,8 +54,10 @@ class SceneEmitters {
   }
 
   bool found_by_rays(const PathVertex& vertex) const {
-    return vertex.looked_up ? sampled_by_rays_ : found_by_rays_;
+    return vertex.looked_up ? sampled_by_rays_ || vertex.mirrored != vec3(0) : found_by_rays_;
   }
+  /// Whether surfaces with a lookup mirror emitters that it holds.
+  bool mirrored() const { return mirrored_ != nullptr; }
 
  private:
   const shading::LightSet& lights_at(const PathVertex& vertex) const {
@@ -57,6 +66,7 @@ class SceneEmitters {
 
   const shading::LightSet& lights_;
   const shading::LightSet& sampled_;
+  const shading::LightSet* mirrored_ = nullptr;
   bool found_by_rays_, sampled_by_rays_ = false;
 };
 

@@ -60,4 +60,14 @@ void DirectionProjector::project(std::span<const float> radiance, sh::RadianceSh
     project_tile<1>(basis_.data() + k * stride_, radiance.data(), stride_, out.values.data() + k);
 }
 
+sh::RadianceSh project_arriving(std::span<const rays::ArrivingLight> light, int degree) {
+  sh::RadianceSh sum(degree);
+  std::vector<float> basis(sum.values.size());
+  for (const rays::ArrivingLight& part : light) {
+    sh::eval_basis(degree, part.toward, basis);
+    for (std::size_t k = 0; k < basis.size(); ++k) sum.values[k] += basis[k] * part.irradiance;
+  }
+  return sum;
+}
+
 }  // namespace ssphh::transport

@@ -22,6 +22,10 @@ class RecordDirect {
   /// Adds Σ_g scales[g] times the light of each point; `scales` are of all light groups.
   void add_to(std::vector<probes::RecordLight>& light, std::span<const vec3> scales) const;
 
+  const std::vector<int>& groups() const { return groups_; }
+  /// Of each point by groups()[i], unscaled.
+  const std::vector<probes::RecordLight>& found(std::size_t i) const { return found_[i]; }
+
  private:
   std::vector<int> groups_;
   std::vector<std::vector<probes::RecordLight>> found_;  ///< [of groups_][point]

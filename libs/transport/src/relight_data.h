@@ -127,7 +127,8 @@ struct RelightSession::Data {
   std::vector<Irradiance4> direct, indirect;
   std::vector<sh::RadianceSh> reflected, before;
   std::vector<probes::RecordLight> record_light;
-  RecordDirect record_direct;  ///< of params.records.baked, as it was when records began
+  RecordDirect record_direct;         ///< of params.records.baked
+  scene::LightingState direct_state;  ///< in which that was found
 
   void keep_records(const Control& control) {
     gather.reset();
@@ -161,6 +162,7 @@ struct RelightSession::Data {
     }
     gather = gather_where_needed(network, params.records, by_group, lit, control, add_direct);
     extend(gather->points());
+    direct_state = state;
   }
 
   /// At these places, in place of those that keep_records() would choose.
@@ -170,21 +172,27 @@ struct RelightSession::Data {
     gather = std::make_unique<SurfaceGather>(network, std::move(points), params.records.rays,
                                              direct_by_group(), control);
     record_direct.extend(*direct_light, gather->points(), params.records.rays, control);
+    direct_state = state;
   }
 
   /// As lit after the last update.
   void light_records() {
     if (!gather || reflected.empty()) return;
     if (bounce) solve_surfels();
-    light_records(total(direct, indirect), state.group_scales, record_light);
+    gather->light(total(direct, indirect), record_light);
   }
 
-  /// Of the gather's points under a direct light of the surfels; `scales` of the light groups whose direct
-  /// light is kept, too.
-  void light_records(std::span<const Irradiance4> lit, std::span<const vec3> scales,
-                     std::vector<probes::RecordLight>& out) const {
-    gather->light(lit, out);
-    record_direct.add_to(out, scales);
+  /// Whether the direct light that is kept of a group is that of the last state, but for its factor.
+  bool direct_holds(int group) const {
+    if (state.time != direct_state.time) return false;
+    if (group == source.environment_group() &&
+        state.environment_rotation != direct_state.environment_rotation)
+      return false;
+    for (std::size_t i = 0; i < state.lights.size(); ++i) {
+      if (source.light_group_of(static_cast<int>(i)) == group && state.lights[i] != direct_state.lights[i])
+        return false;
+    }
+    return true;
   }
 
   /// Factors that make each group's direct light as bright as another's.

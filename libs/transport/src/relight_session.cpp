@@ -34,7 +34,7 @@ RelightReport RelightSession::update(const scene::LightingState& state, const Co
       d.before.swap(d.reflected);
       project_reflected(d.network, d.projector, total(d.direct, d.indirect), d.reflected);
     }
-    if (d.gather) d.light_records(total(d.direct, d.indirect), state.group_scales, d.record_light);
+    if (d.gather) d.gather->light(total(d.direct, d.indirect), d.record_light);
     for (std::size_t i = 0; i < d.reflected.size(); ++i) {
       if (first || differs(d.reflected[i], d.before[i], d.params.changed))
         report.changed_probes.push_back(static_cast<int>(i));
@@ -137,18 +137,48 @@ probes::SurfaceRecords RelightSession::records_by_group(const Control& control) 
   records.points = d.gather->points();
   std::vector<probes::RecordLight> light;
   const std::vector<std::vector<Irradiance4>> by_group = direct_by_group();
+  const auto packed = [&](const std::vector<probes::RecordLight>& of_points) {
+    std::vector<probes::PackedRecordLight> group;
+    for (std::size_t i = 0; i < of_points.size(); ++i)
+      group.push_back(probes::pack(of_points[i], records.points[i].normal));
+    return group;
+  };
   for (std::size_t g = 0; g < by_group.size(); ++g) {
     control.check();
     SolveReport report;
-    std::vector<vec3> alone(by_group.size(), vec3(0));
-    alone[g] = vec3(1);
-    d.light_records(d.lit_under(by_group[g], report), alone, light);
-    std::vector<probes::PackedRecordLight>& group = records.groups.emplace_back();
-    for (std::size_t i = 0; i < light.size(); ++i)
-      group.push_back(probes::pack(light[i], records.points[i].normal));
+    d.gather->light(d.lit_under(by_group[g], report), light);
+    records.groups.push_back(packed(light));
   }
+  const std::vector<int>& direct = d.record_direct.groups();
+  if (!direct.empty()) records.direct.resize(by_group.size());
+  for (std::size_t k = 0; k < direct.size(); ++k)
+    records.direct[static_cast<std::size_t>(direct[k])] = packed(d.record_direct.found(k));
   probes::merge_groups(records, d.state.group_scales);
   return records;
+}
+
+const std::vector<std::string>& RelightSession::light_groups() const {
+  return data_->source.light_groups();
+}
+
+std::vector<KeptDirect> RelightSession::kept_direct() const {
+  const Data& d = *data_;
+  std::vector<KeptDirect> kept;
+  if (!d.gather) return kept;
+  for (std::size_t k = 0; k < d.record_direct.groups().size(); ++k) {
+    const int group = d.record_direct.groups()[k];
+    kept.push_back({group, d.record_direct.found(k), d.direct_holds(group)});
+  }
+  return kept;
+}
+
+sh::RadianceSh RelightSession::arriving(int group, int probe) const {
+  const Data& d = *data_;
+  d.check_probe(probe);
+  require(d.direct_light != nullptr, "relighting", "all is dark before the first update");
+  return project_arriving(
+      d.direct_light->arriving(group, d.places[static_cast<std::size_t>(probe)].position, arriving_samples),
+      d.params.degree);
 }
 
 const std::vector<Irradiance4>& RelightSession::surfel_irradiance() const {

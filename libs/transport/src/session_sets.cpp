@@ -22,14 +22,31 @@ bool is_dark(const sh::RadianceSh& light) {
   return std::ranges::all_of(light.values, [](const vec3& v) { return v == vec3(0); });
 }
 
+/// A name that no light group has.
+std::string name_of_all(const std::vector<std::string>& groups) {
+  std::string name = "all";
+  while (std::ranges::find(groups, name) != groups.end()) name += '\'';
+  return name;
+}
+
 }  // namespace
 
 probes::ProbeSet lookup_set(const RelightSession& session) {
   probes::ProbeSet set = lookup_set(session.places(), session.reflected());
   if (!session.gather()) return set;
   const std::size_t count = session.gather()->points().size();
-  set.surface = {session.gather()->points(), {std::vector<probes::PackedRecordLight>(count)}, {}};
+  const std::vector<probes::PackedRecordLight> dark(count);
+  set.surface = {session.gather()->points(), {dark}};
   set.surface->light.resize(count);
+  set.light_groups[0].name = name_of_all(session.light_groups());
+  for (const KeptDirect& kept : session.kept_direct()) {
+    set.light_groups.push_back({session.light_groups()[static_cast<std::size_t>(kept.group)]});
+    set.surface->groups.push_back(dark);
+    set.surface->direct.resize(set.light_groups.size());
+    set.surface->direct.back() = dark;
+    for (std::size_t i = 0; i < set.probes.size(); ++i)
+      set.probes[i].groups.push_back({session.arriving(kept.group, static_cast<int>(i)), {}});
+  }
   refresh(set, session);
   return set;
 }
@@ -45,12 +62,27 @@ void refresh(probes::ProbeSet& set, const RelightSession& session) {
   }
   if (!set.surface) return;
   probes::SurfaceRecords& records = *set.surface;
-  require(records.groups.size() == 1 && records.light.size() == session.record_light().size(), "lookup set",
-          "its records are not of this session");
+  const std::vector<KeptDirect> kept = session.kept_direct();
+  require(records.groups.size() == 1 + kept.size() && set.light_groups.size() == records.groups.size() &&
+              records.light.size() == session.record_light().size(),
+          "lookup set", "its records are not of this session");
   for (std::size_t i = 0; i < records.light.size(); ++i) {
     const vec3& normal = records.points[i].normal;
     records.groups[0][i] = probes::pack(session.record_light()[i], normal);
     records.light[i] = probes::unpack(records.groups[0][i], normal);
+  }
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    probes::LightGroup& group = set.light_groups[1 + k];
+    group.mode = kept[k].holds ? scene::LightMode::diffuse : scene::LightMode::realtime;
+    group.scale = session.lighting().group_scales[static_cast<std::size_t>(kept[k].group)];
+    for (std::size_t i = 0; i < records.light.size(); ++i) {
+      const vec3& normal = records.points[i].normal;
+      probes::PackedRecordLight& packed = records.direct[1 + k][i];
+      packed = probes::pack(kept[k].light[i], normal);
+      if (!kept[k].holds) continue;
+      const probes::RecordLight light = probes::unpack(packed, normal);
+      for (glm::length_t c = 0; c < 4; ++c) records.light[i][c] += group.scale * light[c];
+    }
   }
 }
 
@@ -100,6 +132,17 @@ probes::ProbeSet baked_set(const RelightSession& session, const std::vector<std:
   for (std::size_t g = 0; g < groups.size(); ++g) set.light_groups.push_back({groups[g], scales[g]});
   set.probes = dark_probes(session.places());
   if (session.gather()) set.surface = session.records_by_group(control);
+  bool any = false;
+  for (const KeptDirect& kept : session.kept_direct()) {
+    const auto g = static_cast<std::size_t>(kept.group);
+    if (kept.holds) {
+      set.light_groups[g].mode = scene::LightMode::diffuse;
+    } else {
+      set.surface->direct[g].clear();
+    }
+    any |= kept.holds;
+  }
+  if (set.surface && !any) set.surface->direct.clear();
   store_groups(set, std::move(reflected), session.emitted_by_group());
   return set;
 }

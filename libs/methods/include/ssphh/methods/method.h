@@ -18,6 +18,9 @@ namespace ssphh::methods {
 struct MethodScene {
   const scene::Scene& scene;  ///< as loaded; its lights and poses are those of time 0
   const rays::TransportSource& source;
+  /// Whether its light may hold direct light (rays::IndirectLight::direct_groups) of light groups whose mode
+  /// says so, for pictures; not where methods are compared.
+  bool keep_direct = false;
 };
 
 /// Part to world at the state's time, one per part.

@@ -16,7 +16,8 @@ class LiveMethod {
  public:
   /// Bakes. `settings` as "name=value". Keeps a reference to the scene.
   LiveMethod(const std::string& name, const std::vector<std::string>& settings,
-             trace::SharedGeometry geometry, const scene::Scene& scene, const Control& control);
+             trace::SharedGeometry geometry, const scene::Scene& scene, const Control& control,
+             bool keep_direct = false);
 
   /// One frame; its time is added to figures().
   void update(const scene::LightingState& state, const Control& control);

@@ -91,6 +91,7 @@ class IrradianceLookup final : public rays::IndirectLight {
   IrradianceLookup& operator=(IrradianceLookup&&) noexcept;
   vec3 irradiance(const rays::SurfacePoint& at) const override;
   std::vector<std::string> direct_groups() const override;
+  std::vector<std::string> mirrored_groups() const override;
   vec3 glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const override;
 
  private:

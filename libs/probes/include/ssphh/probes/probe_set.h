@@ -92,7 +92,8 @@ struct GeneratorInfo {
 struct LightGroup {
   std::string name;
   vec3 scale{1};  ///< c_g, relative to the bake
-  /// `baked`: surfaces that look the set up get the group's direct light from it, too, and from nowhere else.
+  /// `baked`: surfaces that look the set up get the group's direct light from it, too, and from nowhere else;
+  /// `diffuse`: those that look up its records.
   scene::LightMode mode = scene::LightMode::realtime;
 
   friend bool operator==(const LightGroup&, const LightGroup&) = default;
@@ -178,6 +179,15 @@ void relight(ProbeSet& set, const std::string& group, const vec3& scale);
 
 /// Names of the groups whose direct light surfaces look up: whoever draws with the set leaves theirs out.
 std::vector<std::string> baked_groups(const ProbeSet& set);
+
+/// Names of the `diffuse` groups whose direct light is in the records: whoever draws with records leaves
+/// theirs out, too, but for what mirrors the environment.
+std::vector<std::string> mirrored_groups(const ProbeSet& set);
+
+/// What emitters of mirrored_groups() send straight to each probe: light that things that move look up where
+/// others have records, but for mirrors. (A still surface without a record is a crack or a rim: the sky that
+/// a probe in the open sees would be a white line there.) Empty: there are no such groups.
+std::vector<sh::RadianceSh> light_beside_records(const ProbeSet& set);
 
 /// Number of edges stored in the set.
 std::size_t edge_count(const ProbeSet& set);

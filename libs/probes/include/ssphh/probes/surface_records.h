@@ -28,21 +28,27 @@ struct PackedRecordLight {
 PackedRecordLight pack(const RecordLight& light, const vec3& normal);
 RecordLight unpack(const PackedRecordLight& packed, const vec3& normal);
 
-/// Records with the light that surfaces reflect toward them, every bounce; what emitters send straight to
-/// them is in it of baked light groups alone. Per light group, unscaled.
+/// Records with the light that surfaces reflect toward them, every bounce, and apart from it what emitters of
+/// some light groups send straight to them. Per light group, unscaled.
 struct SurfaceRecords {
   std::vector<rays::SurfacePoint> points;
-  std::vector<std::vector<PackedRecordLight>> groups;  ///< [light group][point]
-  std::vector<RecordLight> light;  ///< Σ_g c_g groups: derived by merge_groups, not stored in files
+  std::vector<std::vector<PackedRecordLight>> groups;  ///< reflected, [light group][point]
+  /// Likewise direct light; nothing of groups that keep none. May be shorter than `groups`.
+  std::vector<std::vector<PackedRecordLight>> direct = {};
+  std::vector<RecordLight> light = {};  ///< Σ_g c_g E_g: derived by merge_groups, not stored in files
+
+  bool keeps_direct(std::size_t group) const { return group < direct.size() && !direct[group].empty(); }
 
   friend bool operator==(const SurfaceRecords&, const SurfaceRecords&);
 };
 
 /// Throws Error unless every point stands at a finite place, and every one of `group_count` groups has a
-/// light for each.
+/// light for each, and direct light for each or none.
 void require_whole(const SurfaceRecords& records, std::size_t group_count);
 
-/// Sets `light` from the groups, each times its scale. Throws Error as require_whole does.
-void merge_groups(SurfaceRecords& records, std::span<const vec3> scales);
+/// Sets `light` from the groups, each times its scale, with the direct light of those marked in `with_direct`
+/// that keep any. Throws Error as require_whole does.
+void merge_groups(SurfaceRecords& records, std::span<const vec3> scales,
+                  const std::vector<bool>& with_direct = {});
 
 }  // namespace ssphh::probes

@@ -69,10 +69,14 @@ class Renderer {
   void set_material(int index, const scene::Material& material);
 
   /// Probes that light the scene, none of which shines until set() says so: copies what it needs. Emitters of
-  /// light groups that are baked light nothing but through them (docs/light-modes.md).
+  /// light groups that are baked light nothing but through them, nor those of `diffuse` ones but for mirrors
+  /// where records do (docs/light-modes.md).
   /// `params.weights` and `params.irradiance_degree` limit what FrameSettings may ask for. Throws Error as
   /// probes::IrradianceLookup does.
   void set_probes(const probes::ProbeSet& set, const probes::LookupParams& params = {});
+  /// Modes and factors of the light groups of the last set_probes' set anew, and which direct light its
+  /// records and probes keep. Throws Error for another number of probes.
+  void set_kept_light(const probes::ProbeSet& set);
   /// Fitted weights of the last set_probes' probes, for FrameSettings::weights `fitted`; set_probes forgets
   /// them. Empty: none. Throws Error for points that name a probe which there is not.
   void set_fitted(const probes::FittedSurfaces& fitted);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <ssphh/rays/transport_source.h>
 #include <ssphh/sh/coefficients.h>
 
 namespace ssphh::transport {
@@ -26,5 +27,10 @@ class DirectionProjector {
   std::size_t stride_;
   std::vector<float> basis_;  ///< [k][direction], weighted
 };
+
+/// Samples of an emitter from a place in the open: what is left of their noise is under a hundredth.
+inline constexpr int arriving_samples = 4096;
+/// S[k] = Σ Y_k(ω) E of the light of DirectLight::arriving().
+sh::RadianceSh project_arriving(std::span<const rays::ArrivingLight> light, int degree);
 
 }  // namespace ssphh::transport

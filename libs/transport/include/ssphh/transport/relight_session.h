@@ -10,6 +10,7 @@
 ///   session.reflected()[i];  // what surfaces look up
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,15 @@ struct RelightReport {
   std::vector<int> changed_probes;
 
   double total_ms() const { return pose_ms + direct_ms + solve_ms + project_ms; }
+};
+
+/// Direct light of a light group that records keep (GatherParams::baked).
+struct KeptDirect {
+  int group;
+  std::span<const probes::RecordLight> light;  ///< of each of the gather's points, unscaled
+  /// Whether it is that of the last update(): lamps, poses and the surroundings are as they were when it was
+  /// found. If not, direct light must be sampled.
+  bool holds;
 };
 
 class RelightSession {
@@ -113,6 +123,12 @@ class RelightSession {
   const SurfaceGather* gather() const;
   /// Of each of the gather's points: reflected light after the last update().
   const std::vector<probes::RecordLight>& record_light() const;
+  /// Direct light beside it. Found when records are: updates do not find it anew.
+  std::vector<KeptDirect> kept_direct() const;
+  /// What a group's emitters send straight to probe i, sampled. Throws Error before the first update().
+  sh::RadianceSh arriving(int group, int probe) const;
+  /// Names, in the order of the state's factors.
+  const std::vector<std::string>& light_groups() const;
   /// The records as a bake stores them: per group, unscaled, and merged by the state's factors.
   probes::SurfaceRecords records_by_group(const Control& control = {}) const;
 

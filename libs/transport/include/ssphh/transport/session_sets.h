@@ -15,7 +15,8 @@ namespace ssphh::transport {
 probes::ProbeSet lookup_set(const std::vector<ProbePlace>& places,
                             const std::vector<sh::RadianceSh>& reflected);
 
-/// The same of a session, with its records where it keeps any.
+/// The same of a session, with its records where it keeps any: reflected light as the first group, and beside
+/// it those whose direct light the records keep, `diffuse` as long as it holds and `realtime` else.
 probes::ProbeSet lookup_set(const RelightSession& session);
 
 /// Brings a set that lookup_set made of this session up to date with the last update(). Does not allocate.
