@@ -47,6 +47,11 @@ Framebuffer::Framebuffer(const Texture& texture, int layer, int level) {
   check();
 }
 
+Framebuffer::Framebuffer(const Texture& color, const Texture& depth, int layer) : Framebuffer(color, layer) {
+  glNamedFramebufferTextureLayer(id(), GL_DEPTH_ATTACHMENT, depth.id(), 0, layer);
+  check();
+}
+
 void Framebuffer::check() const {
   const GLenum status = glCheckNamedFramebufferStatus(id(), GL_DRAW_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
@@ -75,6 +80,13 @@ void clear_color(int attachment, float r, float g, float b, float a) {
   const float color[] = {r, g, b, a};
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glClearBufferfv(GL_COLOR, attachment, color);
+}
+
+void clear_color(const Rect& rect, int attachment, float r, float g, float b, float a) {
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(rect.x, rect.y, rect.width, rect.height);
+  clear_color(attachment, r, g, b, a);
+  glDisable(GL_SCISSOR_TEST);
 }
 
 void clear_color_uint(int attachment, unsigned r, unsigned g, unsigned b, unsigned a) {

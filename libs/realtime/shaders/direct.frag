@@ -61,12 +61,13 @@ void main() {
   vec3 leaving = vec3(0);
   FOR_EACH_HARMONIC(MAX_DEGREE, -wi, leaving += y * emitter.corners[k].rgb)
   e *= max(leaving, vec3(0)) * PI * emitter.place.w * emitter.place.w;
-  float v = probe_visibility(emitter.items.w, emitter.place.xyz, s.position, s.geometric_normal);
+  vec3 passed = vec3(probe_visibility(emitter.items.w, emitter.place.xyz, s.position, s.geometric_normal));
 #else
   float v = cube_visibility(light_maps, frame.maps.x, frame.map_tiles.x, frame.map_near.x, emitter.items.y,
                             emitter.place.xyz, s.position, s.geometric_normal);
+  vec3 passed = v * lamp_filter(emitter.items.y, emitter.place.xyz, s.position);
 #endif
-  store(v * e * reflected(s, wi), luminance(e), luminance(e) * v);
+  store(passed * e * reflected(s, wi), luminance(e), luminance(e * passed));
 }
 #endif
 
@@ -76,14 +77,10 @@ void main() {
   prepare(s);
   vec3 wi = emitter.place.xyz;
   float cosine = dot(s.geometric_normal, wi) > 0 ? max(dot(s.normal, wi), 0.0) : 0;
-  // The finest cascade that holds the point
-  int map = emitter.items.y, last = map + SUN_CASCADES - 1;
-  for (; map < last; ++map) {
-    if (all(lessThan(abs(place_on(sun_maps[map], s.position)), vec2(0.98)))) break;
-  }
-  float v = parallel_visibility(sun_maps[map], s.position, s.geometric_normal);
+  SunMap map = sun_maps[cascade_of(emitter.items.y, s.position)];
+  vec3 passed = parallel_visibility(map, s.position, s.geometric_normal) * parallel_filter(map, s.position);
   vec3 e = emitter.light.rgb * cosine;
-  store(v * e * reflected(s, wi), luminance(e), luminance(e) * v);
+  store(passed * e * reflected(s, wi), luminance(e), luminance(e * passed));
 }
 #endif
 
@@ -102,9 +99,10 @@ void main() {
     total += e;
     if (e <= 0 || dot(s.geometric_normal, wi) <= -sine) continue;
     e *= disc_visibility(i, sine, s.position, s.geometric_normal);
-    lit += e;
+    vec3 passed = parallel_filter(sun_maps[cascade_of(int(emitter.samples[i].normal.w), s.position)], s.position);
+    lit += e * luminance(passed);
     // Half sunk, its middle is that of what is left above the horizon
-    sum += e * reflected(s, normalize(wi + max(0.5 * (sine - cosine), 0.0) * s.normal));
+    sum += e * passed * reflected(s, normalize(wi + max(0.5 * (sine - cosine), 0.0) * s.normal));
   }
   store(emitter.light.rgb * sum, luminance(emitter.light.rgb) * total, luminance(emitter.light.rgb) * lit);
 }
@@ -154,8 +152,9 @@ void main() {
     if (dot(s.geometric_normal, wi) <= 0) weight = 0;
     float v = cube_visibility(area_maps, frame.maps.y, frame.map_tiles.y, frame.map_near.y, int(q.normal.w), q.place.xyz,
                               s.position, s.geometric_normal);
-    lit += weight * v;
-    sum += weight * v * reflected(s, wi);
+    vec3 passed = v * area_filter(int(q.normal.w), q.place.xyz, s.position);
+    lit += weight * luminance(passed);
+    sum += weight * passed * reflected(s, wi);
   }
   float scale = closed < 0 ? 1 : total > 0 ? closed / total : 0;
   store(emitter.light.rgb * sum * scale, luminance(emitter.light.rgb) * total * scale,
@@ -217,12 +216,13 @@ void main() {
     bool above = dot(s.geometric_normal, wi) > 0;
     if (!above) weight = vec3(0);
     float v = parallel_visibility(sun_maps[int(q.normal.w)], s.position, s.geometric_normal);
-    lit += weight * v;
-    sum += weight * v * diffusely(s, wi);
+    vec3 passed = v * parallel_filter(sun_maps[int(q.normal.w)], s.position);
+    lit += weight * passed;
+    sum += weight * passed * diffusely(s, wi);
 #ifdef FULL_BSDF
     float near = above ? luminance(q.light.rgb) * exp(narrow * (dot(mirror, wi) - 1)) : 0;
     around += near;
-    free += near * v;
+    free += near * luminance(passed);
 #endif
   }
   vec3 scale = whole / max(total, vec3(1e-20));

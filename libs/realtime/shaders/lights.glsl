@@ -73,6 +73,39 @@ float parallel_visibility(SunMap map, vec3 x, vec3 n) {
   return compare_tile(parallel_maps, frame.maps.w, frame.map_tiles.w, int(map.forward.w), texel, here, slope, margin);
 }
 
+// What glass leaves of light on its way to x.
+#ifdef GLASS
+layout(binding = 8) uniform sampler2DArray light_glass;
+layout(binding = 9) uniform sampler2DArray area_glass;
+layout(binding = 10) uniform sampler2DArray parallel_glass;
+vec3 lamp_filter(int slot, vec3 light, vec3 x) {
+  return cube_filter(light_glass, frame.maps.x, frame.map_tiles.x, slot, light, x);
+}
+vec3 area_filter(int slot, vec3 light, vec3 x) {
+  return cube_filter(area_glass, frame.maps.y, frame.map_tiles.y, slot, light, x);
+}
+vec3 parallel_filter(SunMap map, vec3 x) {
+  vec2 plane = place_on(map, x);
+  if (any(greaterThan(abs(plane), vec2(1)))) return vec3(1);
+  float size = float(frame.maps.w);
+  return tile_filter(parallel_glass, frame.maps.w, frame.map_tiles.w, int(map.forward.w),
+                     0.5 * plane * (size - 2) + 0.5 * size);
+}
+#else
+vec3 lamp_filter(int slot, vec3 light, vec3 x) { return vec3(1); }
+vec3 area_filter(int slot, vec3 light, vec3 x) { return vec3(1); }
+vec3 parallel_filter(SunMap map, vec3 x) { return vec3(1); }
+#endif
+
+// The finest cascade of a sun that holds x, from its first map on.
+int cascade_of(int first, vec3 x) {
+  int map = first, last = first + SUN_CASCADES - 1;
+  for (; map < last; ++map) {
+    if (all(lessThan(abs(place_on(sun_maps[map], x)), vec2(0.98)))) break;
+  }
+  return map;
+}
+
 // Irradiance / radiance of a triangle above the horizon of n at the origin (Lambert's formula).
 float triangle_irradiance(vec3 n, vec3 a, vec3 b, vec3 c) {
   // Cut off below the horizon: at most four corners are left

@@ -57,6 +57,19 @@ float cube_visibility(sampler2DArray maps, int size, int columns_log2, float nea
   return compare_tile(maps, size, columns_log2, slot * 6 + face, texel, here, slope, here * 1.5 / inner);
 }
 
+// What glass leaves of the light on its way to a place in a tile, and to x.
+vec3 tile_filter(sampler2DArray glass, int size, int columns_log2, int tile, vec2 texel) {
+  ivec3 place = tile_place(tile, columns_log2);
+  vec2 at = vec2(place.xy * size) + clamp(texel, vec2(1), vec2(size - 1));
+  return textureLod(glass, vec3(at / vec2(textureSize(glass, 0).xy), place.z), 0).rgb;
+}
+vec3 cube_filter(sampler2DArray glass, int size, int columns_log2, int slot, vec3 light, vec3 x) {
+  vec3 place;
+  int face = cube_face(x - light, place);
+  vec2 texel = 0.5 * (place.xy / place.z) * float(size - 2) + 0.5 * float(size);
+  return tile_filter(glass, size, columns_log2, slot * 6 + face, texel);
+}
+
 // The same for one texel alone: whether the light is seen from `lift` above x. In the texel's middle only x's own surface
 // may stand nearer than what is asked about; a plane through the lifted place would come as near as one likes to a light
 // at its height, and let that through walls. Without branches, of which software renderers run both sides.

@@ -55,6 +55,7 @@ const FrameStats& Renderer::draw(const scene::CameraPose& camera, const FrameSet
   d.frame_buffer.bind_uniform(binding::frame_block);
   d.view_projection = clip_matrix(block);
 
+  d.albedo.bind(unit::albedo_table);
   d.run(shadows, [&] { d.draw_shadows(); });
   d.run(geometry, [&] {
     const gl::During counting(d.shaded);
@@ -62,7 +63,6 @@ const FrameStats& Renderer::draw(const scene::CameraPose& camera, const FrameSet
   });
   d.images.gbuffer0.bind(unit::gbuffer0);
   d.images.gbuffer1.bind(unit::gbuffer1);
-  d.albedo.bind(unit::albedo_table);
   if (wants_direct || settings.view == View::shadow)
     d.run(direct, [&] { d.draw_direct(settings.view == View::shadow); });
   if (wants_indirect) d.run(indirect, [&] { d.draw_indirect(settings); });

@@ -18,7 +18,8 @@ void Renderer::Data::draw_shadows() {
   int left = params.maps_per_frame;
   int& waiting = stats.shadow_maps_waiting;
   gl::Program &opaque = shaders.shadow(false), &alpha = shaders.shadow(true);
-  const int lamps = lights.update_maps(scene, opaque, alpha, left, waiting, counters);
+  gl::Program* glass = scene.any_glass() ? &shaders.glass_shadow() : nullptr;
+  const int lamps = lights.update_maps(scene, opaque, alpha, glass, left, waiting, counters);
   left = std::max(left - lamps, 0);
   lights.update_bounds(shaders, no_vertices, counters);
   const int of_probes = probes.update_maps(scene, opaque, alpha, left, waiting, counters);
@@ -104,8 +105,10 @@ void Renderer::Data::draw_direct(bool shadow_view, bool glass) {
     lights.bind_emitter(lit);
     const auto draw_class = [&](bool full, const gl::DrawState& where) {
       if (lit.mirrors && (shadow_view || !full)) return;
-      gl::Program& program =
-          lit.mirrors ? shaders.mirrored_environment() : shaders.direct(lit.kind, full, shadow_view);
+      // Glass itself is lit by what has not passed it yet
+      const bool filtered = scene.any_glass() && !glass;
+      gl::Program& program = lit.mirrors ? shaders.mirrored_environment(filtered)
+                                         : shaders.direct(lit.kind, full, shadow_view, filtered);
       if (full && lit.kind == EmitterKind::environment) bind_sky_lobes(program);
       fullscreen(program, target.id(), images.full(), where);
     };

@@ -357,13 +357,17 @@ void Lights::bind_emitter(const Lit& lit) const {
       binding::emitter_block, static_cast<std::size_t>(lit.emitter) * emitter_stride, sizeof(GpuEmitter));
 }
 
-int Lights::update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most,
-                        int& waiting, FrameCounters& counters) {
-  int drawn = lamps_.update(scene, opaque, alpha, most, waiting, counters);
-  drawn += areas_.update(scene, opaque, alpha, most - drawn, waiting, counters);
+int Lights::update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, gl::Program* glass,
+                        int most, int& waiting, FrameCounters& counters) {
+  int drawn = lamps_.update(scene, opaque, alpha, most, waiting, counters, glass);
+  drawn += areas_.update(scene, opaque, alpha, most - drawn, waiting, counters, glass);
   // The sun's maps follow the view: they cannot wait
-  drawn += parallel_.update(scene, opaque, alpha, parallel_.count(), waiting, counters);
+  drawn += parallel_.update(scene, opaque, alpha, parallel_.count(), waiting, counters, glass);
   return drawn;
+}
+
+void Lights::invalidate_all() {
+  for (MapAtlas* atlas : {&lamps_, &areas_, &parallel_}) atlas->invalidate_all();
 }
 
 void Lights::bind() const {
@@ -372,6 +376,10 @@ void Lights::bind() const {
   areas_.texture().bind(unit::area_maps);
   parallel_.texture().bind(unit::parallel_maps);
   if (bounds_) bounds_->bind();
+  if (!lamps_.glass().id()) return;
+  lamps_.glass().bind(unit::light_glass);
+  areas_.glass().bind(unit::area_glass);
+  parallel_.glass().bind(unit::parallel_glass);
 }
 
 std::size_t Lights::bytes() const {

@@ -34,8 +34,9 @@ class Lights {
   /// Brings buffers up to date and fits the sun's cascades to the view.
   void prepare(const scene::CameraPose& camera, float aspect, const scene::Bounds& bounds,
                FrameCounters& counters);
-  int update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most, int& waiting,
-                  FrameCounters& counters);
+  int update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, gl::Program* glass,
+                  int most, int& waiting, FrameCounters& counters);
+  void invalidate_all();
   /// Call it after update_maps.
   void update_bounds(Shaders& shaders, const gl::VertexArray& no_vertices, FrameCounters& counters) {
     if (bounds_) bounds_->update(parallel_, shaders, no_vertices, counters);

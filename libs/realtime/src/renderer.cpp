@@ -141,6 +141,7 @@ void Renderer::set_material(int index, const scene::Material& material) {
                 fmt::format("the scene has {}", data_->posed.materials.size()));
   data_->scene.set_material(index, material, data_->counters);
   data_->direct_choice.reset();  // it may be what is glossy
+  if (material.is_glass()) data_->lights.invalidate_all();
 }
 
 void Renderer::set_probes(const probes::ProbeSet& set, const probes::LookupParams& params) {

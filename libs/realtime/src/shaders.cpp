@@ -43,20 +43,26 @@ gl::Program& Shaders::shadow(bool alpha) {
   return get(shadow_[alpha], "shadow.vert", "shadow.frag", [&] { return define("ALPHA", alpha); });
 }
 
+gl::Program& Shaders::glass_shadow() {
+  return get(glass_shadow_, "shadow.vert", "shadow.frag", [] { return define("ALPHA") + define("GLASS"); });
+}
+
 gl::Program& Shaders::depth_bounds(bool first) {
   return get(depth_bounds_[first], fullscreen, "depth_bounds.frag", [&] { return define("FIRST", first); });
 }
 
-gl::Program& Shaders::direct(EmitterKind kind, bool full, bool shadow_view) {
+gl::Program& Shaders::direct(EmitterKind kind, bool full, bool shadow_view, bool glass) {
   const auto k = static_cast<int>(kind);
-  return get(direct_[k][full][shadow_view], fullscreen, "direct.frag", [&] {
-    return define(kind_names[k]) + define("FULL_BSDF", full) + define("SHADOW_VIEW", shadow_view);
+  return get(direct_[k][full][shadow_view][glass], fullscreen, "direct.frag", [&] {
+    return define(kind_names[k]) + define("FULL_BSDF", full) + define("SHADOW_VIEW", shadow_view) +
+           define("GLASS", glass);
   });
 }
 
-gl::Program& Shaders::mirrored_environment() {
-  return get(mirrored_environment_, fullscreen, "direct.frag",
-             [] { return define("ENVIRONMENT") + define("FULL_BSDF") + define("MIRRORED"); });
+gl::Program& Shaders::mirrored_environment(bool glass) {
+  return get(mirrored_environment_[glass], fullscreen, "direct.frag", [&] {
+    return define("ENVIRONMENT") + define("FULL_BSDF") + define("MIRRORED") + define("GLASS", glass);
+  });
 }
 
 gl::Program& Shaders::indirect_pass(Slot& slot, const char* file, bool full, IndirectOutput output,
@@ -101,15 +107,18 @@ gl::Program& Shaders::seen(EmitterKind kind) {
 
 std::string Shaders::compile_all() {
   for (int textures = 0; textures < 16; ++textures) geometry(textures, false), geometry(textures, true);
-  occlusion(), mark(), view(), resolve(), display(), mirrored_environment();
+  occlusion(), mark(), view(), resolve(), display(), glass_shadow();
   for (const bool full : {false, true}) {
     shadow(full);
-    depth_bounds(full), agree(full), interpolate(full);
+    depth_bounds(full), agree(full), interpolate(full), mirrored_environment(full);
     for (const auto output : {IndirectOutput::radiance, IndirectOutput::images, IndirectOutput::listed}) {
       for (int k = 0; k < method_kinds; ++k) method(static_cast<MethodKind>(k), full, output);
     }
     for (int k = 0; k < emitter_kinds; ++k) {
-      for (const bool shadow_view : {false, true}) direct(static_cast<EmitterKind>(k), full, shadow_view);
+      for (const bool glass : {false, true}) {
+        direct(static_cast<EmitterKind>(k), full, false, glass);
+        direct(static_cast<EmitterKind>(k), full, true, glass);
+      }
     }
     for (int lookup = 0; lookup < indirect_lookups; ++lookup) {
       for (int output = 0; output < indirect_outputs; ++output)

@@ -29,12 +29,15 @@ class Shaders {
   /// `glass`: with the layers of gbuffer.frag.
   gl::Program& geometry(int textures, bool glass);
   gl::Program& shadow(bool alpha);
+  /// What glass leaves of a light on its way.
+  gl::Program& glass_shadow();
   /// A level of the bounds of depth, from the map itself or from the level before.
   gl::Program& depth_bounds(bool first);
-  /// Light of one emitter on surfaces that are Lambertian or not; or the share that arrives.
-  gl::Program& direct(EmitterKind kind, bool full, bool shadow_view);
+  /// Light of one emitter on surfaces that are Lambertian or not; or the share that arrives. `glass`: maps
+  /// tell what glass leaves of it.
+  gl::Program& direct(EmitterKind kind, bool full, bool shadow_view, bool glass);
   /// What surfaces that are not Lambertian mirror of the environment alone.
-  gl::Program& mirrored_environment();
+  gl::Program& mirrored_environment(bool glass);
   gl::Program& indirect(IndirectLookup lookup, bool full, IndirectOutput output);
   /// Whether pixels of images agree, which pixels between may be interpolated, and the light of those.
   gl::Program& agree(bool full);
@@ -69,9 +72,10 @@ class Shaders {
 
   const gl::ShaderFiles* files_;
   std::string warnings_;
-  Slot geometry_[16][2], shadow_[2], depth_bounds_[2], direct_[emitter_kinds][2][2], mirrored_environment_,
-      indirect_[indirect_lookups][2][indirect_outputs], agree_[2], mark_, interpolate_[2], occlusion_,
-      method_[method_kinds][2][indirect_outputs], seen_[emitter_kinds], view_, resolve_, display_;
+  Slot geometry_[16][2], shadow_[2], depth_bounds_[2], glass_shadow_, direct_[emitter_kinds][2][2][2],
+      mirrored_environment_[2], indirect_[indirect_lookups][2][indirect_outputs], agree_[2], mark_,
+      interpolate_[2], occlusion_, method_[method_kinds][2][indirect_outputs], seen_[emitter_kinds], view_,
+      resolve_, display_;
 };
 
 }  // namespace ssphh::realtime

@@ -87,12 +87,21 @@ void MapAtlas::invalidate_all() {
   }
 }
 
+void MapAtlas::begin_glass() {
+  if (glass_.id() || !texture_.id()) return;
+  glass_ = gl::Texture(gl::Format::rgba8, texture_.width(), texture_.height(), layout_.layers);
+  glass_.set_filter(true);
+  for (int i = 0; i < layout_.layers; ++i) glass_layers_.emplace_back(glass_, texture_, i);
+  invalidate_all();
+}
+
 int MapAtlas::update(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most, int& waiting,
-                     FrameCounters& counters) {
+                     FrameCounters& counters, gl::Program* glass) {
   drawn_.clear();
+  if (glass) begin_glass();
   for (std::size_t t = 0; t < fresh_.size() && stale_ > 0 && static_cast<int>(drawn_.size()) < most; ++t) {
     if (fresh_[t] != stale) continue;
-    draw_tile(static_cast<int>(t), scene, opaque, alpha, counters);
+    draw_tile(static_cast<int>(t), scene, opaque, alpha, glass, counters);
     fresh_[t] = fresh;
     --stale_;
     drawn_.push_back(static_cast<int>(t));
@@ -102,9 +111,10 @@ int MapAtlas::update(const GpuScene& scene, gl::Program& opaque, gl::Program& al
 }
 
 void MapAtlas::draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, gl::Program& alpha,
-                         FrameCounters& counters) {
+                         gl::Program* glass, FrameCounters& counters) {
+  const auto layer = static_cast<std::size_t>(layout_.layer(tile));
   const gl::Rect rect{layout_.column(tile) * size_, layout_.row(tile) * size_, size_, size_};
-  gl::bind_framebuffer(layers_[static_cast<std::size_t>(layout_.layer(tile))].id(), rect);
+  gl::bind_framebuffer(layers_[layer].id(), rect);
   gl::apply({.depth = gl::Depth::test_and_write, .color_write = false});
   gl::clear_depth(rect, 0);
 
@@ -131,6 +141,16 @@ void MapAtlas::draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, g
     }
     scene.draw(item, item.filters(), counters);
   }
+  if (!glass) return;
+
+  // What is behind the nearest surface dims nothing before it
+  gl::bind_framebuffer(glass_layers_[layer].id(), rect);
+  gl::clear_color(rect, 0, 1, 1, 1, 1);
+  gl::apply({.depth = gl::Depth::test, .blend = gl::Blend::multiply});
+  use(*glass);
+  scene.begin(false);
+  for (const DrawItem& item : scene.items())
+    if (item.glass && sees_box(view, item.world)) scene.draw(item, true, counters);
 }
 
 }  // namespace ssphh::realtime

@@ -1,6 +1,7 @@
 #pragma once
 /// Shadow maps as tiles of depth arrays: six tiles per cube map, one per parallel map. Tiles are drawn when
-/// they are out of date and kept otherwise.
+/// they are out of date and kept otherwise. Beside depth they may hold what glass leaves of the light on its
+/// way to what is nearest.
 
 #include <algorithm>
 #include <limits>
@@ -45,8 +46,12 @@ class MapAtlas {
   int size() const { return size_; }
   const TileLayout& layout() const { return layout_; }
   int count() const { return static_cast<int>(fresh_.size()); }
-  std::size_t bytes() const { return texture_.id() ? texture_.bytes() : 0; }
+  std::size_t bytes() const {
+    return (texture_.id() ? texture_.bytes() : 0) + (glass_.id() ? glass_.bytes() : 0);
+  }
   const gl::Texture& texture() const { return texture_; }
+  /// Colours, tile by tile; none before an update with a program for glass.
+  const gl::Texture& glass() const { return glass_; }
 
   /// Marks a tile as to be drawn with this view; `used` false: nobody looks at it.
   void set_view(int tile, const MapView& view, bool used = true);
@@ -56,20 +61,22 @@ class MapAtlas {
   void invalidate(const std::vector<scene::Bounds>& moved);
   void invalidate_all();
 
-  /// Draws tiles that are out of date, at most `most`; returns how many. `waiting` grows by those left.
+  /// Draws tiles that are out of date, at most `most`; returns how many. `waiting` grows by those left. With
+  /// a program for `glass` they hold its colours, too.
   int update(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, int most, int& waiting,
-             FrameCounters& counters);
+             FrameCounters& counters, gl::Program* glass = nullptr);
   /// Tiles that the last update drew.
   std::span<const int> drawn() const { return drawn_; }
 
  private:
-  void draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, gl::Program& alpha,
+  void draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, gl::Program* glass,
                  FrameCounters& counters);
+  void begin_glass();
 
   int size_ = 0, stale_ = 0;
   TileLayout layout_;
-  gl::Texture texture_;
-  std::vector<gl::Framebuffer> layers_;
+  gl::Texture texture_, glass_;
+  std::vector<gl::Framebuffer> layers_, glass_layers_;
   std::vector<MapView> views_;
   std::vector<int> drawn_;
   std::vector<std::uint8_t> fresh_;  ///< 0 stale, 1 fresh, 2 unused, 3 not wanted

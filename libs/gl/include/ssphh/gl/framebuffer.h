@@ -16,6 +16,8 @@ class Framebuffer {
   Framebuffer(std::span<const Texture* const> colors, const Texture* depth);
   /// One layer of an array, depth or colour, nothing else; of a mipmap level.
   Framebuffer(const Texture& texture, int layer, int level = 0);
+  /// The same layer of an array of colours and of one of depths.
+  Framebuffer(const Texture& color, const Texture& depth, int layer);
 
   unsigned id() const { return handle_.get(); }
 
@@ -34,6 +36,7 @@ void bind_framebuffer(unsigned id, const Rect& viewport);
 void clear_depth(const Rect& rect, float value);
 void clear_stencil(int value);
 void clear_color(int attachment, float r, float g, float b, float a);
+void clear_color(const Rect& rect, int attachment, float r, float g, float b, float a);
 void clear_color_uint(int attachment, unsigned r, unsigned g, unsigned b, unsigned a);
 /// Colours of `part` of one into `over` of another, which may be smaller: of each of its texels one,
 /// unfiltered.
