@@ -5,10 +5,13 @@
 #include <ssphh/bake/transport_bake.h>
 #include <ssphh/core/sphere.h>
 #include <ssphh/place/init.h>
+#include <ssphh/probes/lookup.h>
 #include <ssphh/scene/primitives.h>
 #include <ssphh/sh/irradiance.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
+#include <ssphh/transport/gather_light.h>
+#include <ssphh/transport/session_sets.h>
 
 namespace ssphh {
 namespace {
@@ -43,6 +46,13 @@ scene::Scene divided_room(std::optional<vec3> tint, float roughness = 0) {
   s.sphls = {{"lit", place(vec3(-1, -0.2f, 0))}, {"behind", place(vec3(1.1f, 0.1f, -0.1f))}};
   return s;
 }
+
+/// Of lookups that nobody asks.
+class NoWeights final : public probes::LookupWeights {
+ public:
+  probes::ProbeWeights at(const rays::SurfacePoint&) const override { return {}; }
+  std::size_t bytes() const override { return 0; }
+};
 
 /// Mean reflected radiance at a point by paths of every bounce.
 vec3 traced_mean(const scene::Scene& scene, const vec3& position) {
@@ -96,6 +106,30 @@ TEST(GlassTransport, RecordsBehindAPaneAreDimmedAsPathsAre) {
   }
   // Undimmed, what comes through the pane alone would be twice as much
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c] / expected[c], 1, 0.05f) << c;
+}
+
+TEST(GlassTransport, GathersThroughAPaneAreDimmedAsPathsAre) {
+  // Toward the lit half, where all that a place behind the pane sees first lies beyond it.
+  for (const float grey : {1.0f, 0.5f}) {
+    const scene::Scene scene = divided_room(vec3(grey));
+    const trace::TransportScene source(scene);
+    transport::RelightParams params;
+    params.transport.surfel_size = 0.2f;
+    transport::RelightSession session(source, transport::places_of(scene::sphl_places(scene, 0)), params);
+    session.update(session.lighting());
+    const auto nothing = std::make_shared<const probes::IrradianceLookup>(transport::lookup_set(session),
+                                                                          std::make_unique<NoWeights>());
+    const transport::GatherLight gather(session, 4096, nothing);
+    vec3 found(0), expected(0);
+    std::vector<rays::SurfacePoint> points;
+    for (const float y : {-0.5f, 0.0f, 0.5f}) points.push_back({vec3(0.05f, y, 0.1f), {-1, 0, 0}});
+    const auto truth = trace::PathTracer(scene).surface_irradiance(
+        points, {.max_depth = 40, .passes = 1, .spp = 1 << 14, .seed = 3}, {});
+    for (std::size_t i = 0; i < points.size(); ++i)
+      found += gather.irradiance(points[i]), expected += truth[i].indirect;
+    // As of bounces; undimmed it would be twice as much
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c] / expected[c], 1, 0.03f) << grey << ' ' << c;
+  }
 }
 
 // A frosted pane spreads light, which transport lets go straight on: as much of it, differently divided. What

@@ -31,13 +31,12 @@ vec3 GatherLight::irradiance(const rays::SurfacePoint& at) const {
   std::vector<rays::RayQuery> rays;
   for (std::uint32_t r = 0; r < rays_; ++r)
     rays.push_back(fan_ray(at, link_lift * d.surfels.size(), r, salt));
-  std::vector<std::int32_t> surfel(rays.size());
-  std::vector<std::uint8_t> escaped(rays.size());
-  d.see(rays, surfel, escaped);
+  std::vector<vec3> light(rays.size(), vec3(0));
+  d.see(rays, [&](std::size_t i, const rays::RayHit& hit, int surfel) {
+    if (surfel != no_surfel) light[i] = hit.through * radiosity_[static_cast<std::size_t>(surfel)];
+  });
   vec3 sum(0);
-  for (const std::int32_t s : surfel) {
-    if (s != no_surfel) sum += radiosity_[static_cast<std::size_t>(s)];
-  }
+  for (const vec3& l : light) sum += l;
   return sum / static_cast<float>(rays_);
 }
 
