@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <ssphh/probes/lookup.h>
+#include <ssphh/probes/lookup_constants.h>
 
 namespace ssphh::probes {
 
@@ -29,7 +30,8 @@ class PackedProbes {
   /// E(n) of what moves or stands still, not negative.
   vec3 irradiance(int probe, const float* basis, bool moves = false) const {
     const vec3 e = irradiance_.dot(probe, basis);
-    return moves && more_of_moving_ ? e + more_of_moving_->dot(probe, basis) : e;
+    if (!more_of_moving_) return e;
+    return e + (moves ? 1 : still_share_of_sky) * more_of_moving_->dot(probe, basis);
   }
 
   /// Y_k(n) for irradiance(), Y_k(ω) for radiance(), and the same for a glossy lobe; zeros after these.

@@ -4,6 +4,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/probes/lookup.h>
+#include <ssphh/probes/lookup_constants.h>
 #include <ssphh/probes/probe_file.h>
 
 namespace ssphh::probes {
@@ -126,6 +127,8 @@ TEST(KeptDirectLight, OfDiffuseGroupsIsLookedUpWithRecordsAlone) {
   EXPECT_EQ(by_records->direct_groups(), sky);
   EXPECT_EQ(by_records->mirrored_groups(), sky);
   expect_equal(by_records->irradiance(moving), pi * (reflected + direct));
+  const rays::SurfacePoint turned{vec3(0, 0, 0.1f), {0, -1, 0}};
+  expect_equal(by_records->irradiance(turned), pi * (reflected + still_share_of_sky * direct));
   expect_equal(by_records->glossy(moving, {0, 1, 0}, 0.5f), reflected);
   const auto by_probes = make_lookup({.weights = WeightMethod::distance}, set, space);
   EXPECT_TRUE(by_probes->direct_groups().empty());

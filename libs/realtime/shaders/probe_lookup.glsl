@@ -37,10 +37,10 @@ vec3 sample_tile(sampler2DArray tiles, ivec2 shape, int tile, vec2 texel) {
 
 vec2 irradiance_at(vec3 n) { return in_tile(n, irradiance_layout.x); }
 vec3 irradiance_of(int probe, vec2 at) { return sample_tile(irradiance_tiles, irradiance_layout.xy, probe, at); }
-// Of what moves, if it does.
+// With what more lights things that move, and less of it what stands still.
 vec3 irradiance_of(int probe, vec2 at, bool moves) {
   vec3 e = irradiance_of(probe, at);
-  if (moves && irradiance_layout.z != 0) e += irradiance_of(probe + irradiance_layout.z, at);
+  if (irradiance_layout.z != 0) e += (moves ? 1 : STILL_SHARE_OF_SKY) * irradiance_of(probe + irradiance_layout.z, at);
   return e;
 }
 

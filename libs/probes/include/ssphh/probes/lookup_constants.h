@@ -43,6 +43,10 @@ inline constexpr float fitted_ridge = 0.05f;
 /// Of their whole weight, points count for less than nothing with no more than this.
 inline constexpr float fitted_negative = 0.25f;
 
+/// Where others have records that keep the sky's direct light, a still surface without one is a crack, a rim
+/// or small: it gets this share of the sky that probes in the open see.
+inline constexpr float still_share_of_sky = 0.5f;
+
 struct ShaderConstant {
   const char* name;
   float value;
@@ -54,6 +58,7 @@ inline constexpr std::array constants_of_shaders = {
     ShaderConstant{"MAX_NEAR", max_weights, true},
     ShaderConstant{"MAX_BLEND", blended_probes, true},
     ShaderConstant{"SIGHT_LIFT", sight_lift},
+    ShaderConstant{"STILL_SHARE_OF_SKY", still_share_of_sky},
     ShaderConstant{"WRAPPED_FLOOR", wrapped_floor},
     ShaderConstant{"HIDDEN_SLOPE", hidden_slope},
     ShaderConstant{"MLS_REACH", mls_reach},

@@ -185,8 +185,8 @@ std::vector<std::string> baked_groups(const ProbeSet& set);
 std::vector<std::string> mirrored_groups(const ProbeSet& set);
 
 /// What emitters of mirrored_groups() send straight to each probe: light that things that move look up where
-/// others have records, but for mirrors. (A still surface without a record is a crack or a rim: the sky that
-/// a probe in the open sees would be a white line there.) Empty: there are no such groups.
+/// others have records, but for mirrors, and still surfaces without a record half of it (still_share_of_sky).
+/// Empty: there are no such groups.
 std::vector<sh::RadianceSh> light_beside_records(const ProbeSet& set);
 
 /// Number of edges stored in the set.
