@@ -28,6 +28,13 @@ Error::Error(std::string where, std::string problem, std::string hint)
 void refuse(const char* where, const char* problem) {
   throw Error(where, problem);
 }
+void refuse(const std::string& where, const std::string& problem) {
+  throw Error(where, problem);
+}
+
+void stop_cancelled() {
+  throw Cancelled();
+}
 
 CheckHandler set_check_handler(CheckHandler handler) {
   return check_handler.exchange(handler);

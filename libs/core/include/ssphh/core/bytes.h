@@ -10,8 +10,8 @@
 #include <type_traits>
 #include <vector>
 
-#include <ssphh/core/error.h>
 #include <ssphh/core/math.h>
+#include <ssphh/core/require.h>
 
 static_assert(std::endian::native == std::endian::little,
               "files are written as the memory of a little-endian machine");
@@ -99,7 +99,7 @@ class ByteReader {
     if (left() != 0) fail("end", "has " + std::to_string(left()) + " bytes too many");
   }
   [[noreturn]] void fail(const char* what, const std::string& problem) const {
-    throw Error(where_ + " at byte " + std::to_string(position_), std::string(what) + " " + problem);
+    refuse(where_ + " at byte " + std::to_string(position_), std::string(what) + " " + problem);
   }
 
  private:

@@ -38,7 +38,7 @@ struct Control {
   bool cancelled() const { return cancel && cancel->requested(); }
   /// Throws Cancelled when a stop was asked for.
   void check() const {
-    if (cancelled()) throw Cancelled();
+    if (cancelled()) stop_cancelled();
   }
 };
 

@@ -76,7 +76,7 @@ std::string none_of(std::string_view name, const std::vector<std::string>& known
 template <class E>
 E enum_named(const std::string& where, std::string_view name) {
   const std::optional<E> value = parse_enum<E>(name);
-  if (!value) throw Error(where, none_of(name, names_of<E>()));
+  if (!value) refuse(where, none_of(name, names_of<E>()));
   return *value;
 }
 

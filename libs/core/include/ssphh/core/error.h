@@ -28,6 +28,9 @@ class Cancelled : public std::exception {
   const char* what() const noexcept override { return "cancelled"; }
 };
 
+/// Throws Cancelled; out of line, as refuse() is (require.h): headers serve programs without exceptions.
+[[noreturn]] void stop_cancelled();
+
 [[noreturn]] void check_failed(const char* expression, const char* file, int line);
 
 }  // namespace ssphh

@@ -100,7 +100,7 @@ class RadianceSource {
   virtual std::vector<IrradianceEstimate> surface_irradiance(std::span<const SurfacePoint> /*points*/,
                                                              const PathParams& /*path*/,
                                                              const Control& /*control*/) const {
-    throw Error("radiance source", "it cannot trace irradiance at surface points");
+    refuse("radiance source", "it cannot trace irradiance at surface points");
   }
 
   /// Whether nothing blocks the open segment between two points.

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include <ssphh/core/error.h>
+#include <ssphh/core/require.h>
 #include <ssphh/scene/lighting_state.h>
 #include <ssphh/scene/query.h>
 
@@ -101,19 +101,19 @@ class DirectLight {
   /// call: for light that is kept, where noise would stay.
   virtual IrradianceByNormal irradiance_by_normal(int /*group*/, const SurfacePoint& /*point*/,
                                                   int /*samples*/) const {
-    throw Error("direct light", "it cannot tell irradiance by normal");
+    refuse("direct light", "it cannot tell irradiance by normal");
   }
   /// The group's light at a place in the open, likewise: with f of the directions summed, ∫ L f dω.
   virtual std::vector<ArrivingLight> arriving(int /*group*/, const vec3& /*place*/, int /*samples*/) const {
-    throw Error("direct light", "it cannot tell what arrives in the open");
+    refuse("direct light", "it cannot tell what arrives in the open");
   }
   /// Luminance of the flux [W] that the group's emitters send out; of those at infinity, through the sphere
   /// around the surfaces. Near enough to share photons out by.
-  virtual float flux(int /*group*/) const { throw Error("direct light", "it cannot emit photons"); }
+  virtual float flux(int /*group*/) const { refuse("direct light", "it cannot emit photons"); }
   /// A photon of the group's emitters, which arrives at surfaces as irradiance() has it; none where `numbers`
   /// fall on darkness.
   virtual std::optional<Photon> emit(int /*group*/, const PhotonNumbers& /*numbers*/) const {
-    throw Error("direct light", "it cannot emit photons");
+    refuse("direct light", "it cannot emit photons");
   }
 };
 
