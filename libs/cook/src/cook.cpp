@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <ssphh/cook/cook.h>
@@ -13,15 +15,22 @@ namespace {
 
 using Irradiance = std::vector<std::vector<sh::IrradianceSh>>;  // [group][probe]
 
+/// As the format knows it: `diffuse` is baked where records keep the group's direct light, else realtime.
+std::uint32_t mode_of(const probes::LightGroup& group, const std::vector<std::string>& mirrored) {
+  if (group.mode != scene::LightMode::diffuse) return static_cast<std::uint32_t>(group.mode);
+  const bool kept = std::ranges::find(mirrored, group.name) != mirrored.end();
+  return static_cast<std::uint32_t>(kept ? scene::LightMode::baked : scene::LightMode::realtime);
+}
+
 void add_groups(Sections& out, const probes::ProbeSet& set) {
+  const std::vector<std::string> mirrored = probes::mirrored_groups(set);
   out.header.group_count = static_cast<std::uint32_t>(set.light_groups.size());
   std::uint32_t at = 0;
   for (const probes::LightGroup& group : set.light_groups) {
     const auto length = static_cast<std::uint32_t>(group.name.size());
     const vec3& s = group.scale;
-    out.append(
-        SSPHH_COOKED_GROUPS,
-        ssphh_cooked_group{at, length, {s.x, s.y, s.z}, static_cast<std::uint32_t>(group.mode), {0, 0}});
+    out.append(SSPHH_COOKED_GROUPS,
+               ssphh_cooked_group{at, length, {s.x, s.y, s.z}, mode_of(group, mirrored), {0, 0}});
     out.append(SSPHH_COOKED_NAMES, std::span<const char>(group.name.c_str(), length + 1));
     at += length + 1;
   }

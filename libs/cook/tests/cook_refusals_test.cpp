@@ -66,6 +66,23 @@ TEST(Cook, ItsOwnPlacesAreNothingNew) {
   }
 }
 
+TEST(Cook, AnEnvironmentWhoseDirectLightRecordsKeepIsBaked) {
+  for (const bool kept : {true, false}) {
+    probes::ProbeSet set = set_of_two_rooms(OnSurfaces::records, 2);
+    set.light_groups[1].mode = scene::LightMode::diffuse;
+    if (kept) {
+      set.surface->direct.resize(3);
+      set.surface->direct[1] = set.surface->groups[1];
+    }
+    probes::merge_groups(set);
+    const OpenedFile file(cook_two_rooms(set, 8));
+    ASSERT_EQ(file.result, SSPHH_RUNTIME_OK) << ssphh_runtime_message(file.result);
+    ssphh_runtime_group group;
+    ASSERT_EQ(ssphh_runtime_describe_group(file.runtime, 1, &group), SSPHH_RUNTIME_OK);
+    EXPECT_EQ(group.baked, kept);
+  }
+}
+
 TEST(Cook, TellsWhatIsLost) {
   probes::ProbeSet set = set_of_two_rooms(OnSurfaces::records, 6);
   set.fitted = set_of_two_rooms(OnSurfaces::fitted).fitted;
