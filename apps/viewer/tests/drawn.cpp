@@ -1,6 +1,7 @@
 #include "drawn.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -80,11 +81,17 @@ class Reader {
   ImVec2 next_;
 };
 
+/// Rounded, halves down: ImGui's lines end near quarters of a pixel by a reciprocal root whose last bits
+/// differ between makers of processors.
+float tenths(float pixels) {
+  return std::ceil(10 * pixels - 0.55f) / 10 + 0.0f;  // + 0: no negative zero
+}
+
 std::string line_of(const DrawnThing& t) {
   if (!t.text.empty())
-    return fmt::format("text {:.1f},{:.1f} #{:08x} {}", t.from.x, t.from.y, t.color, t.text);
-  return fmt::format("shape {:.1f},{:.1f} to {:.1f},{:.1f} #{:08x} {}", t.from.x, t.from.y, t.to.x, t.to.y,
-                     t.color, t.corners);
+    return fmt::format("text {:.1f},{:.1f} #{:08x} {}", tenths(t.from.x), tenths(t.from.y), t.color, t.text);
+  return fmt::format("shape {:.1f},{:.1f} to {:.1f},{:.1f} #{:08x} {}", tenths(t.from.x), tenths(t.from.y),
+                     tenths(t.to.x), tenths(t.to.y), t.color, t.corners);
 }
 
 }  // namespace
