@@ -149,7 +149,9 @@ TEST_F(Limits, EveryVariantOfAShaderIsAProgramOfItsOwn) {
       ask(shaders.interpolate(on));
       for (int k = 0; k < emitter_kinds; ++k)
         for (const bool shadow_view : {false, true})
-          ask(shaders.direct(static_cast<EmitterKind>(k), on, shadow_view));
+          for (const bool glass : {false, true})
+            ask(shaders.direct(static_cast<EmitterKind>(k), on, shadow_view, glass));
+      ask(shaders.mirrored_environment(on));
       for (int output = 0; output < indirect_outputs; ++output) {
         const auto o = static_cast<IndirectOutput>(output);
         for (int k = 0; k < indirect_lookups; ++k)
@@ -161,7 +163,7 @@ TEST_F(Limits, EveryVariantOfAShaderIsAProgramOfItsOwn) {
     for (const EmitterKind kind : {EmitterKind::disc, EmitterKind::sphere, EmitterKind::environment})
       ask(shaders.seen(kind));
     ask(shaders.mark()), ask(shaders.occlusion()), ask(shaders.view()), ask(shaders.resolve());
-    ask(shaders.display());
+    ask(shaders.display()), ask(shaders.glass_shadow());
   };
   ask_all();
   EXPECT_EQ(programs.size(), asked);

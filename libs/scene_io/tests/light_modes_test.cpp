@@ -47,7 +47,7 @@ TEST(LightModesOfFiles, AnOverlaySaysThemOfItsOwnLightsToo) {
 
 TEST(LightModesOfFiles, ErrorsNamePlaceAndNames) {
   EXPECT_EQ(overlay_error(R"({"light_modes": {"sky": "bakd"}})"),
-            "side.json: light_modes.sky: \"bakd\" is none of: realtime, mixed, baked");
+            "side.json: light_modes.sky: \"bakd\" is none of: realtime, mixed, baked, diffuse");
   EXPECT_EQ(overlay_error(R"({"light_modes": {"moon": "baked"}})"),
             "side.json: light_modes.moon: the scene has no light group of that name (its groups: sun, sky)");
   EXPECT_NE(overlay_error(R"({"light_modes": ["sky"]})"), "none");
