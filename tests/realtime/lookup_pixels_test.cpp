@@ -23,7 +23,6 @@ using probes::WeightMethod;
 /// An empty room of walls of other colours, 4 × 3 × 5 m, seen from inside: no probe hides another.
 scene::Scene room(const scene::Material& walls) {
   scene::Scene s;
-  const vec3 low(0), high(4, 3, 5);
   const std::array<std::array<vec3, 3>, 6> quads = {{{vec3(0, 0, 5), vec3(4, 0, 0), vec3(0, 0, -5)},
                                                      {vec3(0, 3, 0), vec3(4, 0, 0), vec3(0, 0, 5)},
                                                      {vec3(0, 0, 5), vec3(0, 0, -5), vec3(0, 3, 0)},

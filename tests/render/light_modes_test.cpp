@@ -109,7 +109,6 @@ struct Difference {
 };
 
 Difference compared(const image::Image& test, const image::Image& truth, float scale) {
-  Difference result;
   vec3 a(0), b(0), off(0);
   for (int y = 0; y < truth.height; y += 8) {
     for (int x = 0; x < truth.width; x += 8) {

@@ -9,6 +9,7 @@
 #include <ssphh/probes/hier.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/scene/builtin.h>
+#include <ssphh/study/leak.h>
 #include <ssphh/study/surface_points.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
