@@ -144,8 +144,9 @@ TEST(CookedLookup, AHierarchysNeighboursAreWithin) {
     for (rays::SurfacePoint at : places_in_the_open(100, 3)) {
       at.position = 10.0f * (at.position + vec3(2)) / 4.0f;
       const vec3 e = lookup.irradiance(at);
-      // Sums of coefficients of either sign, larger than what is left of them
-      EXPECT_LE(glm::distance(file.irradiance(at), e), 5e-5f * std::max(glm::length(e), 1.0f));
+      // Sums of coefficients of either sign, larger than what is left of them, by weights of either sign:
+      // seen to differ by 8e-5 between compilers
+      EXPECT_LE(glm::distance(file.irradiance(at), e), 2e-4f * std::max(glm::length(e), 1.0f));
     }
   }
 }
