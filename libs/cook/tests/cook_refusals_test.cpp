@@ -83,6 +83,32 @@ TEST(Cook, AnEnvironmentWhoseDirectLightRecordsKeepIsBaked) {
   }
 }
 
+TEST(Cook, DirectLightThatRecordsKeepIsInTheirLightAndInThatOfThingsThatMove) {
+  ProbeSet set = set_of_two_rooms(OnSurfaces::records, 2);
+  const OpenedFile without(cook_two_rooms(set, 8));
+  // As much direct light of one group as it reflects
+  set.light_groups[1].mode = scene::LightMode::diffuse;
+  set.surface->direct.resize(3);
+  set.surface->direct[1] = set.surface->groups[1];
+  for (probes::Probe& probe : set.probes) probe.groups[1].emitted = probe.groups[1].reflected;
+  probes::merge_groups(set);
+  const OpenedFile with(cook_two_rooms(set, 8));
+  const vec3 off(0), one(1);
+  for (const OpenedFile* file : {&without, &with}) {
+    for (std::uint32_t g = 0; g < 3; ++g)
+      ssphh_runtime_set_group_scale(file->runtime, g, g == 1 ? &one.x : &off.x);
+  }
+  for (const bool open : {false, true}) {
+    int doubled = 0;
+    for (const rays::SurfacePoint& at : open ? places_in_the_open(500, 8) : places_on_surfaces(500, 8)) {
+      const vec3 once = without.irradiance(at), twice = with.irradiance(at);
+      // Records add to rounding; probes' windows are of other sums
+      doubled += glm::distance(twice, 2.0f * once) <= (open ? 0.3f : 1e-5f) * glm::length(twice);
+    }
+    EXPECT_GT(doubled, 475) << "of 500" << (open ? " in the open" : "");
+  }
+}
+
 TEST(Cook, TellsWhatIsLost) {
   probes::ProbeSet set = set_of_two_rooms(OnSurfaces::records, 6);
   set.fitted = set_of_two_rooms(OnSurfaces::fitted).fitted;
