@@ -115,15 +115,22 @@ TEST(VizPaths, OfDiffuseScatteringAloneAreAllThereAreAmongMattSurfaces) {
     EXPECT_EQ(diffuse.probes[i].edges, all.probes[i].edges) << i;
 }
 
+// Small spheres are sampled and large ones met by rays; with bounces, shadow rays and scattered ones try to
+// pass.
 TEST(VizPaths, OfDiffuseScatteringAloneEndAtGlass) {
   scene::Scene scene = above_a_floor({});
-  add_body(scene, "pane", scene::make_quad({0.5f, 0, -1}, {0, 0, 2}, {0, 2, 0}), vec3(1));
+  add_body(scene, "pane", scene::make_quad({0.5f, 0, -50}, {0, 0, 100}, {0, 100, 0}), vec3(1));
   scene::Material& glass = scene.materials.back();
   glass.transmission = 1, glass.specular_roughness = 0, glass.double_sided = true;
-  bake::BakeParams params = effort(16, 16, 0);
-  EXPECT_EQ(traced(scene, params).probes[0].edges.size(), 1u);
-  params.viz_params.paths = rays::PathSet::diffuse;
-  EXPECT_EQ(traced(scene, params).probes[0].edges.size(), 0u);
+  for (const float radius : {0.2f, 0.45f}) {
+    for (scene::Sphl& sphl : scene.sphls) sphl.radius = radius;
+    for (const int depth : {0, 2}) {
+      bake::BakeParams params = effort(16, 16, depth);
+      EXPECT_EQ(traced(scene, params).probes[0].edges.size(), 1u) << radius << " " << depth;
+      params.viz_params.paths = rays::PathSet::diffuse;
+      EXPECT_EQ(traced(scene, params).probes[0].edges.size(), 0u) << radius << " " << depth;
+    }
+  }
 }
 
 }  // namespace
