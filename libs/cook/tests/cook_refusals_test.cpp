@@ -84,7 +84,7 @@ TEST(Cook, AnEnvironmentWhoseDirectLightRecordsKeepIsBaked) {
 }
 
 TEST(Cook, DirectLightThatRecordsKeepIsInTheirLightAndInThatOfThingsThatMove) {
-  ProbeSet set = set_of_two_rooms(OnSurfaces::records, 2);
+  probes::ProbeSet set = set_of_two_rooms(OnSurfaces::records, 2);
   const OpenedFile without(cook_two_rooms(set, 8));
   // As much direct light of one group as it reflects
   set.light_groups[1].mode = scene::LightMode::diffuse;
