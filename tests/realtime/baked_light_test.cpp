@@ -27,12 +27,13 @@ scene::Scene court() {
   return scene;
 }
 
-probes::ProbeSet baked(const scene::Scene& scene, const std::vector<scene::LightMode>& modes) {
+probes::ProbeSet baked(const scene::Scene& scene, const std::vector<scene::LightMode>& modes,
+                       int points = 2048, int rays = 256) {
   const trace::TransportScene source(scene);
   bake::TransportBakeParams params;
   params.transport.directions = 512;
   params.transport.surfel_size = 0.2f;
-  params.records = {.points = 2048, .rays = 256, .baked = bake::baked_indices(modes)};
+  params.records = {.points = points, .rays = rays, .baked = bake::baked_indices(modes)};
   bake::TransportBakeReport report;
   probes::ProbeSet set = bake::bake_transport(source, place::init_from_scene(scene, 4), params, report);
   bake::set_light_modes(source, set, modes);
@@ -46,7 +47,7 @@ using BakedLight = test::WithGl;
 
 struct Drawn {
   Drawn(gl::Context& gl, const scene::Scene& scene_in, const probes::ProbeSet& set)
-      : scene(scene_in), renderer(gl, scene) {
+      : scene(scene_in), renderer(gl, scene, test::small_maps) {
     renderer.set_probes(set);
     const trace::PathTracer tracer(scene);
     const auto sees = [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); };
@@ -143,7 +144,8 @@ TEST_F(BakedLight, OfADiffuseSkyIsSampledWhereRecordsDoNotLight) {
 
 TEST_F(BakedLight, NeedsNoShadowMapsUntilItIsNotBaked) {
   const scene::Scene scene = court();
-  probes::ProbeSet set = baked(scene, sky_baked);
+  const probes::ProbeSet of_sky = baked(scene, sky_baked, 256, 64);
+  probes::ProbeSet set = of_sky;
   Drawn some(gl(), scene, set);
   some.picture();
   const int with_baked = some.stats.shadow_maps_drawn;
@@ -168,7 +170,7 @@ TEST_F(BakedLight, NeedsNoShadowMapsUntilItIsNotBaked) {
   }
   EXPECT_GT(more, 0);
   // Without the probes the sky must light again.
-  some.renderer.set_probes(baked(scene, sky_baked));
+  some.renderer.set_probes(of_sky);
   some.renderer.clear_probes();
   const image::Image without = some.picture(realtime::View::direct);
   for (std::size_t i = 0; i < of_all.pixels.size(); ++i)

@@ -71,7 +71,7 @@ TEST_F(DirectLight, ABallMirrorsTheEnvironmentByItsRoughnessAsTraced) {
     double most;
   };
   scene::Scene s = ball_under_sky();
-  realtime::Renderer renderer(gl(), s);
+  realtime::Renderer renderer(gl(), s, test::small_maps);
   for (const Case& c : {Case{0.12f, 0.02}, {0.35f, 0.045}, {0.7f, 0.105}, {-0.4f, 0.14}}) {
     SCOPED_TRACE(testing::Message() << "roughness " << c.roughness);
     scene::Material& metal = s.materials[0];
@@ -91,14 +91,14 @@ TEST_F(DirectLight, ASkyTurnedAndColouredIsThatOfASceneWhoseSkyIsSo) {
   const PictureSize size{64, 64};
   s.materials[0].metallic = 0.5f;  // matte and mirroring
   s.materials[0].specular_roughness = 0.12f;
-  realtime::Renderer turned(gl(), s);
+  realtime::Renderer turned(gl(), s, test::small_maps);
   const image::Image before = test::drawn(turned, s, size);
   scene::LightingState state = turned.lighting();
   state.environment_rotation = 1.1f;
   state.group_scales = {{1.5f, 0.5f, 0.8f}};
   turned.set(state);
   const image::Image after = test::drawn(turned, s, size);
-  realtime::Renderer fresh(gl(), scene::with_lighting(s, state));
+  realtime::Renderer fresh(gl(), scene::with_lighting(s, state), test::small_maps);
   // The same 32 directions and tiles; by turning they differ in their last bits
   EXPECT_TRUE(
       test::picture_is(after, test::PictureBounds::around(test::drawn(fresh, s, size), 0.002f, 1e-4f)));
@@ -109,7 +109,7 @@ TEST_F(DirectLight, ASkyTurnedAndColouredIsThatOfASceneWhoseSkyIsSo) {
 
 TEST_F(DirectLight, TheSkyIsWholeWhateverTheScaleOfIndirectLight) {
   const scene::Scene s = ball_under_sky();
-  realtime::Renderer renderer(gl(), s);
+  realtime::Renderer renderer(gl(), s, test::small_maps);
   renderer.set_probes(test::made_up_probes({{0, 1.5f, 1}, {1, -1.5f, 1}}));
   const PictureSize size{64, 64};
   realtime::FrameSettings settings;

@@ -48,7 +48,7 @@ scene::Scene before_a_wall(const std::vector<scene::Material>& glass) {
 class GlassPixels : public WithGl {
  protected:
   image::Image draw(const scene::Scene& scene) {
-    Renderer renderer(gl(), scene, {.light_map_size = 128, .sun_map_size = 128});
+    Renderer renderer(gl(), scene, {.light_map_size = 128, .area_map_size = 128, .sun_map_size = 128});
     renderer.draw(scene::camera_pose(scene, ""), {},
                   {.width = glass_size.width, .height = glass_size.height});
     return renderer.read_back();
@@ -151,7 +151,7 @@ TEST_F(GlassPixels, LightOfEveryKindOfLampIsTintedAsItIsTraced) {
       trace::RenderParams params;
       params.width = glass_size.width, params.height = glass_size.height;
       params.camera = scene::camera_pose(s, "");
-      params.path = {.max_depth = 1, .passes = 1, .spp = 256, .seed = 1};
+      params.path = {.max_depth = 1, .passes = 1, .spp = 64, .seed = 1};
       trace::RenderState state;
       trace::PathTracer(s).render(params, state);
       sums[covered] = sum_of(trace::resolve(state.color, 1));

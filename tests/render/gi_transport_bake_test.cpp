@@ -65,7 +65,7 @@ TEST(GiTransportBake, TheSetTellsHowItWasMade) {
 TEST(GiTransportBake, GroupsAddUpToTheLightOfAll) {
   const scene::Scene scene = scene::make_builtin("gallery1");
   bake::TransportBakeParams params;
-  params.transport.link_rays = 32;
+  params.transport.link_rays = 32, params.transport.surfel_size = 0.3f;
   params.solve.tolerance = 1e-5f;
   const probes::ProbeSet set = transport_baked(scene, 2, params).set;
   ASSERT_GT(set.light_groups.size(), 1u);
@@ -205,7 +205,8 @@ TEST(GiTransportBake, WhatIsWrongIsNamed) {
   probes::ProbeSet buried = place::init_from_scene(cornell, 1);
   buried.probes[1].position = {0.33f, 0.2f, 0.3f};  // in the shorter block
   buried.probes[1].name = "buried";
-  bake::bake_transport(trace::TransportScene(cornell), buried, {}, report);
+  params.transport.directions = 64, params.transport.link_rays = 16, params.transport.surfel_size = 0.2f;
+  bake::bake_transport(trace::TransportScene(cornell), buried, params, report);
   EXPECT_THAT(report.warnings, testing::Contains(testing::AllOf(testing::HasSubstr("inside a body"),
                                                                 testing::HasSubstr("\"buried\""))));
 }

@@ -35,7 +35,9 @@ class TwoRooms : public testing::Test {
   }
 
   probes::ProbeSet lit(float time) const {
-    test::LitSession session(source, places, {}, time);
+    transport::RelightParams coarse;
+    coarse.transport.surfel_size = 0.2f;
+    test::LitSession session(source, places, coarse, time);
     session.update();
     probes::ProbeSet set;
     set.degree = 4;

@@ -61,7 +61,7 @@ scene::Scene house_on_a_plain(float factor) {
 }
 
 TEST(Placement, AHouseGetsItsProbesHoweverFarItsGroundReaches) {
-  for (const float factor : {1.0f, 10.0f, 80.0f}) {
+  for (const float factor : {1.0f, 80.0f}) {
     const scene::Scene scene = house_on_a_plain(factor);
     const trace::TransportScene source(scene);
     const place::Placement placement = place::place_probes(source, place::place_params(scene));

@@ -42,7 +42,7 @@ TEST(TransportScale, LightIsThatOfMetresInMillimetresAndInKilometres) {
   set_log_level(LogLevel::error);
   const scene::Scene cornell = scene::make_builtin("cornell");
   bake::TransportBakeParams params;
-  params.transport.surfels_per_radius = 16;
+  params.transport.surfels_per_radius = 12;
   const TransportBaked metres = transport_baked(cornell, 3, params);
   for (const float factor : {1e-3f, 1e4f}) {
     const TransportBaked other = transport_baked(scaled(cornell, factor), 3, params);
@@ -58,10 +58,10 @@ TEST(TransportScale, FewerSurfelsThanOneSizeWouldMakeHoldTheSameLight) {
   set_log_level(LogLevel::error);
   const scene::Scene scene = scene::make_builtin("two-rooms");
   bake::TransportBakeParams params;
-  params.transport.surfel_size = 0.1f;
+  params.transport.surfel_size = 0.14f;
   params.transport.most_surfels = 1 << 20;
   const TransportBaked fine = transport_baked(scene, 3, params);
-  params.transport.most_surfels = 4000;
+  params.transport.most_surfels = 2000;
   const TransportBaked coarse = transport_baked(scene, 3, params);
   EXPECT_LT(coarse.report.surfels, fine.report.surfels / 4);
   EXPECT_LT(difference(coarse.set, fine.set), 0.05);

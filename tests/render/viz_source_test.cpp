@@ -38,7 +38,7 @@ bake::BakeParams effort(int face, int spp, int depth) {
 // from near.
 TEST(VizSource, PHardlyDependsOnTheRadiusWithIntensityAndGrowsWithItsSquareWithRadiance) {
   for (const probes::VizSource source : {probes::VizSource::intensity, probes::VizSource::radiance}) {
-    bake::BakeParams params = effort(16, 40, 3);
+    bake::BakeParams params = effort(12, 24, 3);
     params.viz_params.source = source;
     const probes::ProbeSet large = traced(dark_room(0.1f), params), small = traced(dark_room(0.05f), params);
     const float expected = source == probes::VizSource::intensity ? 1 : 4;
