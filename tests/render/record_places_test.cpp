@@ -38,7 +38,9 @@ struct SolvedScene {
   }
   const transport::TransportNetwork& network() const { return session.network(); }
   std::unique_ptr<SurfaceGather> where_needed(int most, int rays) const {
-    return gather_where_needed(network(), {most, rays}, {}, lit);
+    return gather_where_needed(network(), {most, rays}, std::array{0.0f}, [&](float) {
+      return transport::PosedIrradiance{{}, lit};
+    });
   }
   /// Mean difference between gathers at some surfels and lookups between those points, of the mean.
   double error_between(const SurfaceGather& gather) const {
@@ -122,6 +124,45 @@ TEST(RecordPlaces, AreEverywhereThatASurfelWouldSeeNone) {
   const auto spread = unlit(transport::spread_points(all, most));
   ASSERT_GT(spread, static_cast<long>(all.size() / 20)) << "so few see all: nothing is tested";
   EXPECT_LT(unlit(gather->points()), spread / 2);
+}
+
+TEST(RecordPlaces, AreWhereLightAsksForThemInEveryPose) {
+  // On the wall beside a door that stands ajar light changes within centimetres; while it is shut nothing
+  // tells. Against gathers of many rays at places around the doorway.
+  const scene::Scene rooms = scene::make_builtin("two-rooms");
+  const trace::TransportScene source(rooms);
+  constexpr float ajar = 0.5f;
+  const auto error_of = [&](float begin, int poses) {
+    transport::RelightParams params;
+    params.transport = small_network();
+    params.records = {.points = 8192, .rays = 256, .poses = poses};
+    LitSession session(source, places_of(rooms), params, begin);
+    session.update();
+    session.state.time = ajar;
+    session.update();
+    std::vector<Irradiance4> lit = session.surfel_direct();
+    for (std::size_t s = 0; s < lit.size(); ++s) lit[s] += session.surfel_irradiance()[s];
+    std::vector<rays::SurfacePoint> around;
+    for (int row = 0; row < 10; ++row) {
+      for (const float z : {-0.65f, -0.6f, -0.55f, -0.5f, 0.5f, 0.55f, 0.6f, 0.65f})
+        around.push_back({{0.075f, 0.15f + 0.2f * static_cast<float>(row), z}, {1, 0, 0}});
+    }
+    std::vector<probes::RecordLight> truth;
+    SurfaceGather(session.network(), around, 4096).light(lit, truth);
+    const rays::PosedWorld world(source, ajar);
+    const probes::SurfaceInterpolation known(
+        session.gather()->points(), [&](const vec3& a, const vec3& b) { return world.visible(a, b); });
+    double error = 0, all = 0;
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      vec3 found(0);
+      known.irradiance(around[i], session.record_light(), found);
+      error += double(glm::distance(found, truth[i][3])), all += double(glm::length(truth[i][3]));
+    }
+    return error / all;
+  };
+  const double begun_there = error_of(ajar, 1);
+  EXPECT_LT(error_of(0, 5), 1.2 * begun_there);
+  EXPECT_GT(error_of(0, 1), 2 * begun_there) << "of the first pose alone";
 }
 
 using PlaceKey = std::array<float, 6>;

@@ -2,6 +2,9 @@
 
 #include "picture.h"
 
+#include <chrono>
+#include <thread>
+
 #include <gmock/gmock.h>
 
 #include <ssphh/core/file.h>
@@ -77,25 +80,28 @@ class PictureTest : public AppStage {
   }
   void TearDown() override { app_.reset(); }
 
-  void settle() {
-    for (int i = 0; i < 4000; ++i) {
+  /// Turns until `done`, however slow the machine is; a minute is too long.
+  template <class Done, class Turn>
+  bool turn_until(const Done& done, const Turn& one) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!done()) {
+      if (std::chrono::steady_clock::now() > end) return false;
       window_->clock += 0.05;
-      turn();
-      if (app().message_is_error) FAIL() << app().message;
-      if (app().settled()) return;
+      one();
       if (app().job.running() || app().reference.status().running)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    FAIL() << "does not settle";
+    return true;
+  }
+  void settle() {
+    turn();
+    const auto done = [&] { return app().settled() || app().message_is_error; };
+    ASSERT_TRUE(turn_until(done, [&] { turn(); })) << "does not settle";
+    if (app().message_is_error) FAIL() << app().message;
   }
   void play(const std::string& text) {
     ScriptPlayer player(parse_script(text + "\nsettle", "script"));
-    for (int i = 0; i < 4000 && !player.done(); ++i) {
-      window_->clock += 0.05;
-      app().turn(player.next(app()));
-      if (app().job.running() || app().reference.status().running)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+    turn_until([&] { return player.done(); }, [&] { app().turn(player.next(app())); });
     EXPECT_TRUE(player.done()) << text;
   }
   std::vector<std::uint8_t> shot(const std::string& script = "") {

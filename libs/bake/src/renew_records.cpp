@@ -45,7 +45,9 @@ std::vector<std::uint8_t> near_probes(std::span<const rays::SurfacePoint> points
 void renew_records(transport::RelightSession& session, probes::ProbeSet& set,
                    const transport::GatherParams& params, const LightScope& scope, const Control& control) {
   if (!scope.groups || !set.surface) {
-    session.keep_records(params, control);
+    transport::GatherParams of_one_pose = params;
+    of_one_pose.poses = 1;
+    session.keep_records(of_one_pose, control);
     probes::SurfaceRecords now = session.records_by_group(control);
     if (scope.probes && set.surface) {
       require(set.surface->groups.size() == now.groups.size(), "surface records",

@@ -4,6 +4,7 @@
 #include <set>
 
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/require.h>
 #include <ssphh/probes/surface_interpolation.h>
 #include <ssphh/transport/fitted_weights.h>
 #include <ssphh/transport/surface_gather.h>
@@ -154,32 +155,39 @@ std::vector<std::size_t> doubtful(std::vector<std::size_t> which, const RecordPl
 }  // namespace
 
 std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& network,
-                                                   const GatherParams& params,
-                                                   std::span<const std::vector<Irradiance4>> direct,
-                                                   std::span<const Irradiance4> lit, const Control& control,
+                                                   const GatherParams& params, std::span<const float> times,
+                                                   const LightOfPose& light_at, const Control& control,
                                                    const AddRecordLight& add_more) {
+  require(!times.empty(), "surface records", "there is no pose to look at");
+  PosedIrradiance now = light_at(times[0]);
   RecordPlaces places(network, params.points, !params.baked.empty());
-  int coarser = 0;
-  std::vector<std::size_t> wanted;
-  if (!places.all().empty()) wanted = places.free(coarser);
-  while (wanted.size() > first_points) wanted = places.free(++coarser);
   const auto gather_at = [&](std::vector<rays::SurfacePoint> points) {
-    return SurfaceGather(network, std::move(points), params.rays, direct, control);
+    return SurfaceGather(network, std::move(points), params.rays, now.direct, control);
   };
+  int first = 0;
+  std::vector<std::size_t> wanted;
+  if (!places.all().empty()) wanted = places.free(first);
+  while (wanted.size() > first_points) wanted = places.free(++first);
   auto gather = std::make_unique<SurfaceGather>(gather_at(places.choose(wanted)));
   std::vector<probes::RecordLight> light;
-  while (coarser-- > 0) {
-    const probes::SurfaceInterpolation known = places.between(gather->points());
-    gather->light(lit, light);
-    std::vector<float> doubt = doubts(*gather, known, light);
-    if (add_more) {
-      // What is brighter hides how the light of other groups changes: either asks for points.
-      add_more(gather->points(), light);
-      const std::vector<float> of_all = doubts(*gather, known, light);
-      for (std::size_t i = 0; i < doubt.size(); ++i) doubt[i] = std::max(doubt[i], of_all[i]);
+  for (std::size_t pose = 0; pose < times.size(); ++pose) {
+    if (pose > 0) {
+      now = light_at(times[pose]);
+      gather->update_pose();
     }
-    wanted = doubtful(places.free(coarser), places, known, doubt, control);
-    gather->append(gather_at(places.choose(wanted)));
+    for (int coarser = first - 1; coarser >= 0; --coarser) {
+      const probes::SurfaceInterpolation known = places.between(gather->points());
+      gather->light(now.lit, light);
+      std::vector<float> doubt = doubts(*gather, known, light);
+      if (add_more && pose == 0) {
+        // What is brighter hides how the light of other groups changes: either asks for points.
+        add_more(gather->points(), light);
+        const std::vector<float> of_all = doubts(*gather, known, light);
+        for (std::size_t i = 0; i < doubt.size(); ++i) doubt[i] = std::max(doubt[i], of_all[i]);
+      }
+      wanted = doubtful(places.free(coarser), places, known, doubt, control);
+      if (!wanted.empty()) gather->append(gather_at(places.choose(wanted)));
+    }
   }
 
   const std::size_t count = gather->points().size(), left = std::min(count, most_records - count);

@@ -141,15 +141,7 @@ struct RelightSession::Data {
       require(group >= 0 && static_cast<std::size_t>(group) < state.group_scales.size(), "light group",
               "there is none of that index");
     update_direct({});
-    const std::vector<std::vector<Irradiance4>> by_group = direct_by_group();
-    const std::vector<vec3> scales = alike(by_group);
-    std::vector<Irradiance4> sum(network.surfel_count(), Irradiance4(0));
-    for (std::size_t g = 0; g < scales.size(); ++g) {
-      if (scales[g].x == 0) continue;
-      for (std::size_t s = 0; s < sum.size(); ++s) sum[s] += scales[g].x * by_group[g][s];
-    }
-    SolveReport report;
-    const std::vector<Irradiance4> lit = lit_under(sum, report);
+    const std::vector<vec3> scales = alike(direct_by_group());
     const auto extend = [&](std::span<const rays::SurfacePoint> points) {
       record_direct.extend(*direct_light, points, params.records.rays, control);
     };
@@ -160,9 +152,54 @@ struct RelightSession::Data {
         record_direct.add_to(light, scales);
       };
     }
-    gather = gather_where_needed(network, params.records, by_group, lit, control, add_direct);
+    const std::vector<float> times = record_times();
+    const auto light_at = [&](float time) {
+      put_into_pose(time);
+      return light_alike();
+    };
+    try {
+      gather = gather_where_needed(network, params.records, times, light_at, control, add_direct);
+      put_into_pose(times[0]);
+    } catch (...) {
+      state.time = times[0];
+      unfinished = true;
+      throw;
+    }
     extend(gather->points());
     direct_state = state;
+  }
+
+  /// Poses in which light asks for records; the present one is the first.
+  std::vector<float> record_times() const {
+    std::vector<float> times = {state.time};
+    const int poses = params.records.poses;
+    for (int i = 0; poses > 1 && i < poses && source.part_count() > 1 && source.duration() > 0; ++i) {
+      const float time = source.duration() * static_cast<float>(i) / static_cast<float>(poses - 1);
+      if (time != times[0]) times.push_back(time);
+    }
+    return times;
+  }
+
+  /// Everything but the light that is bounced.
+  void put_into_pose(float time) {
+    if (time == state.time) return;
+    state.time = time;
+    RelightReport unread;
+    update_direct(move_parts(unread));
+  }
+
+  /// Light at the surfels with every group as bright as another.
+  PosedIrradiance light_alike() const {
+    PosedIrradiance light{direct_by_group(), {}};
+    const std::vector<vec3> scales = alike(light.direct);
+    std::vector<Irradiance4> sum(network.surfel_count(), Irradiance4(0));
+    for (std::size_t g = 0; g < scales.size(); ++g) {
+      if (scales[g].x == 0) continue;
+      for (std::size_t s = 0; s < sum.size(); ++s) sum[s] += scales[g].x * light.direct[g][s];
+    }
+    SolveReport report;
+    light.lit = lit_under(sum, report);
+    return light;
   }
 
   /// At these places, in place of those that keep_records() would choose.

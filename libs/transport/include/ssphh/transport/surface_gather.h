@@ -19,6 +19,9 @@ inline constexpr std::size_t most_records = std::size_t{1} << 16;
 struct GatherParams {
   int points = 0;   ///< of gather_where_needed(): 1..65536; 0: none
   int rays = 1024;  ///< per point, 4..65536
+  /// Where things move: poses of the scene's animations, evenly spaced from the first to the last, in which
+  /// light asks for points, beside the present one; below 2: that alone. A bake looks at no other.
+  int poses = 5;
   /// Light groups whose direct light is kept at the points, too, each once: as many rays per point and
   /// emitter.
   std::vector<int> baked = {};
@@ -97,18 +100,25 @@ class SurfaceGather {
 using AddRecordLight =
     std::function<void(std::span<const rays::SurfacePoint>, std::vector<probes::RecordLight>&)>;
 
+/// Light of the network in a pose: direct irradiance [light group][surfel], as of SurfaceGather, and of each
+/// surfel by all light, by which points are judged.
+struct PosedIrradiance {
+  std::vector<std::vector<Irradiance4>> direct;
+  std::vector<Irradiance4> lit;
+};
+/// Puts the network into the pose of a time [s] and returns its light there.
+using LightOfPose = std::function<PosedIrradiance(float)>;
+
 /// Gathers at places of the network's static surfels, and with baked groups of all other still surfaces,
 /// dense where light asks for it: at first far apart, then wherever the points that are there do not predict
 /// each other's light within a few per cent, surfaces are nearer than points, or no point is seen, between
 /// them, down to an even spread of at most params.points; then at no more than as many again where there are
-/// surfels that see none of those. `direct` as of SurfaceGather; `lit` is of each surfel by all of it, the
-/// light by which this is judged, with what `add_more` adds to that of the points, all of them so far, if
-/// given. Throws as SurfaceGather does.
+/// surfels that see none of those. So in the pose of each of `times` [s], one after the other; what
+/// `add_more` adds to the light of the points, all of them so far, counts in the first. The network is left
+/// in the last pose. Throws as SurfaceGather does, and Error for no time.
 std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& network,
-                                                   const GatherParams& params,
-                                                   std::span<const std::vector<Irradiance4>> direct,
-                                                   std::span<const Irradiance4> lit,
-                                                   const Control& control = {},
+                                                   const GatherParams& params, std::span<const float> times,
+                                                   const LightOfPose& light_at, const Control& control = {},
                                                    const AddRecordLight& add_more = {});
 
 }  // namespace ssphh::transport
