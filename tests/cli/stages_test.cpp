@@ -61,13 +61,14 @@ TEST(Stages, OfWhatMoves) {
                                                 "3",
                                                 "--directions",
                                                 "64"});
-  ASSERT_EQ(done.size(), 10u);
+  ASSERT_GE(done.size(), 10u);
   EXPECT_EQ(done[0], "probe G-buffers: 6 probes");
   EXPECT_EQ(done[5], "poses: 3 poses");
-  EXPECT_THAT(done[6], testing::StartsWith("gathering at surfaces: "));
-  EXPECT_THAT(done[7], testing::StartsWith("gathering at surfaces: ")) << "where more are needed";
-  EXPECT_EQ(done[8], "relighting: 3 frames");
-  EXPECT_EQ(done[9], "path tracing the truth: 2 frames");
+  // Where more are needed, and where the other poses need them
+  EXPECT_THAT(std::vector(done.begin() + 6, done.end() - 2),
+              testing::Each(testing::StartsWith("gathering at surfaces: ")));
+  EXPECT_EQ(done.end()[-2], "relighting: 3 frames");
+  EXPECT_EQ(done.back(), "path tracing the truth: 2 frames");
   EXPECT_THAT(
       stages({"respond", "builtin:two-rooms", "--method", "direct", "--frames", "3", "--points", "4",
               "--truth-spp", "2", "--event", "lamp.scale=0:1"}),
