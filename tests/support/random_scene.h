@@ -144,6 +144,13 @@ inline scene::Scene random_scene(std::uint64_t seed) {
   sky.group = "sky", sky.color = draw.triple(0.1f, 2), sky.rotation = draw.number(0.1f, 3);
   sky.equirect = image::Image(4, 2);
   for (float& x : sky.equirect.pixels) x = draw.number(0.1f, 9);
+  scene::Light fire = draw.light(scene::LightType::sphl);
+  fire.name = "fire", fire.node = add_node("fire ", 0);
+  fire.emission = {{sh::IntensitySh(1), sh::IntensitySh(1)}, draw.number(1, 30), draw.number(0, 1), true};
+  for (sh::IntensitySh& frame : fire.emission.frames) {
+    for (vec3& value : frame.values) value = draw.triple(0.1f, 2);
+  }
+  s.lights.push_back(fire);
   return s;
 }
 

@@ -142,8 +142,9 @@ class SceneFields {
   }
 
   void members(const std::string& at, scene::Light& light) {
-    auto& [name, group, node, type, color, intensity, radius, angular_radius, inner_cone, outer_cone, range] =
-        light;
+    auto& [name, group, node, type, color, intensity, radius, emission, angular_radius, inner_cone,
+           outer_cone, range] = light;
+    auto& [frames, rate, start, repeat] = emission;
     visit_(at + "name", name);
     visit_(at + "group", group);
     visit_(at + "node", node);
@@ -155,6 +156,11 @@ class SceneFields {
     visit_(at + "inner_cone", inner_cone);
     visit_(at + "outer_cone", outer_cone);
     visit_(at + "range", range);
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      visit_(at + "emission.frames[" + std::to_string(i) + "]", frames[i].values);
+    visit_(at + "emission.rate", rate);
+    visit_(at + "emission.start", start);
+    visit_(at + "emission.repeat", repeat);
   }
 
   void members(const std::string& at, scene::Sphl& sphl) {

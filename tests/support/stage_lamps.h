@@ -44,6 +44,13 @@ inline std::vector<StageLamp> lamps_without_extent() {
   point.type = scene::LightType::point, spot.type = scene::LightType::spot,
   sun.type = scene::LightType::directional;
   spot.inner_cone = 0.3f, spot.outer_cone = 0.7f, spot.range = 9;
+  // 20 colour (0.75 + 0.5 z + c x) in the lamp's axes, z against the way it looks, c another for each colour
+  const vec3 sideways(0.25f, -0.1f, 0.15f);
+  scene::Light lobe = point;
+  lobe.type = scene::LightType::sphl, lobe.radius = 0.01f;
+  lobe.emission.frames = {sh::IntensitySh(1)};
+  lobe.emission.frames[0].values = {vec3(0.75f * 3.5449077f), vec3(0), vec3(0.5f / 0.4886025f),
+                                    sideways / 0.4886025f};
   return {{"Point", point, [=](const vec3& x) { return toward(x, 20.0f * colour); }},
           {"Spot", spot,
            [=](const vec3& x) {
@@ -53,6 +60,13 @@ inline std::vector<StageLamp> lamps_without_extent() {
                          inner = std::cos(0.3f);
              const float cone = glm::clamp((cosine - outer) / (inner - outer), 0.0f, 1.0f);
              a.irradiance *= cone * cone * glm::clamp(1 - std::pow(a.distance / 9, 4.0f), 0.0f, 1.0f);
+             return a;
+           }},
+          {"Sphl", lobe,
+           [=](const vec3& x) {
+             Arriving a = toward(x, 20.0f * colour);
+             const mat3 axes = glm::mat3_cast(glm::quatLookAt(stage_lamp_axis, vec3(0, 1, 0)));
+             a.irradiance *= 0.75f - 0.5f * glm::dot(a.wi, axes[2]) - sideways * glm::dot(a.wi, axes[0]);
              return a;
            }},
           {"Sun", sun, [=](const vec3&) {

@@ -35,9 +35,16 @@ void fields(auto& io, auto& i, const scene::Instance*) {
 void fields(auto& io, auto& c, const scene::Camera*) {
   io(c.name), io(c.node), io(c.orthographic), io(c.yfov), io(c.yheight), io(c.aspect);
 }
+void fields(auto& io, auto& s, const sh::IntensitySh*) {
+  io(s.values);
+}
+void fields(auto& io, auto& e, const scene::Emission*) {
+  io(e.frames), io(e.rate), io(e.start), io(e.repeat);
+}
 void fields(auto& io, auto& l, const scene::Light*) {
-  io(l.name), io(l.group), io(l.node), io.choice(l.type, scene::LightType::sphere), io(l.color);
+  io(l.name), io(l.group), io(l.node), io.choice(l.type, scene::LightType::sphl), io(l.color);
   io(l.intensity), io(l.radius), io(l.angular_radius), io(l.inner_cone), io(l.outer_cone), io(l.range);
+  io(l.emission);
 }
 void fields(auto& io, auto& e, const scene::Environment*) {
   io(e.name), io(e.group), io(e.equirect.width), io(e.equirect.height), io(e.equirect.channels);

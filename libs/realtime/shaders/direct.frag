@@ -1,5 +1,5 @@
 #version 450 core
-// What surfaces reflect of one emitter's light. Variants: the kind of emitter (POINT, SPHL, SUN, DISC, SPHERE,
+// What surfaces reflect of one emitter's light. Variants: the kind of emitter (POINT, SPHL, LOBE, SUN, DISC, SPHERE,
 // MESH, ENVIRONMENT); FULL_BSDF, else surfaces are Lambertian; SHADOW_VIEW gives the light's share that arrives; MIRRORED
 // what the specular lobe reflects of an environment alone.
 #include "gbuffer_read.glsl"
@@ -10,6 +10,8 @@
 #include "lights.glsl"
 #ifdef SPHL
 #include "probe_data.glsl"
+#endif
+#if defined(SPHL) || defined(LOBE)
 #include "harmonics.glsl"
 #endif
 #ifdef ENVIRONMENT
@@ -48,7 +50,7 @@ void store(vec3 sum, float possible, float lit) {
 #endif
 }
 
-#if defined(POINT) || defined(SPHL)
+#if defined(POINT) || defined(SPHL) || defined(LOBE)
 void main() {
   Surface s = read_surface(ivec2(gl_FragCoord.xy));
   prepare(s);
@@ -56,7 +58,17 @@ void main() {
   float d2 = max(dot(d, d), 1e-12);
   vec3 wi = d * inversesqrt(d2);
   float cosine = dot(s.geometric_normal, wi) > 0 ? max(dot(s.normal, wi), 0.0) : 0;
+#ifdef LOBE
+  // No point is lit more than from the SPHL's radius
+  vec3 e = emitter.light.rgb * (falloff(wi, d2) / max(d2, emitter.place.w * emitter.place.w) * cosine);
+  vec3 way = normalize(vec3(dot(emitter.samples[0].place.xyz, wi), dot(emitter.samples[1].place.xyz, wi),
+                            dot(emitter.samples[2].place.xyz, wi)));
+  vec3 intensity = vec3(0);
+  FOR_EACH_HARMONIC(MAX_DEGREE, -way, intensity += y * emitter.corners[k].rgb)
+  e *= max(intensity, vec3(0));
+#else
   vec3 e = emitter.light.rgb * (falloff(wi, d2) / d2 * cosine);
+#endif
 #ifdef SPHL
   vec3 leaving = vec3(0);
   FOR_EACH_HARMONIC(MAX_DEGREE, -wi, leaving += y * emitter.corners[k].rgb)

@@ -16,7 +16,7 @@ layout(std140, binding = 2) uniform EmitterBlock {
   vec4 more;   // cone offset, or sine of the radius of a disc's parts; both sides emit (mesh); area [m2]
   ivec4 items; // kind; map or first map; samples; probe of an SPHL, or log2 of tiles in a row (bounds of a disc's maps)
   ivec4 count; // triangles with a closed form, or levels of the bounds of a disc's maps
-  AreaSample samples[MAX_SAMPLES];
+  AreaSample samples[MAX_SAMPLES];  // places of the first three: axes of a lobe
   // Of triangles; coefficients of an SPHL's light; cascades of a disc's parts: centre across the light [m], 1 / half
   // width, tile
   vec4 corners[MAX_CORNERS];

@@ -10,7 +10,6 @@
 #ifdef GLASS
 #include "bsdf.glsl"
 #include "glass.glsl"
-layout(location = 2) in vec3 from_light;
 layout(location = 0) out vec4 left;
 uniform vec3 forward;
 uniform float near_plane;  // 0: parallel light
@@ -18,8 +17,11 @@ uniform float near_plane;  // 0: parallel light
 
 layout(location = 0) in vec4 uv;
 layout(location = 1) in vec4 color;
+layout(location = 2) in vec3 from_light;
+uniform float clear_radius;  // nothing nearer to the light is in its way
 
 void main() {
+  if (dot(from_light, from_light) < clear_radius * clear_radius) discard;
   vec4 base = base_color(uv.xy, uv.zw, color);
   if (!covered(base.a, gl_FragCoord.xy, gl_FragCoord.z)) discard;
   float share = material.glass.x > 0 ? glass_share(uv.xy, uv.zw) : 0;

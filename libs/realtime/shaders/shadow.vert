@@ -11,9 +11,7 @@ layout(location = 2) in vec4 uv;
 layout(location = 4) in vec4 color;
 layout(location = 0) out vec4 uv_out;
 layout(location = 1) out vec4 color_out;
-#ifdef GLASS
 layout(location = 2) out vec3 from_light;
-#endif
 #endif
 
 void main() {
@@ -24,8 +22,6 @@ void main() {
 #ifdef ALPHA
   uv_out = uv;
   color_out = color;
-#ifdef GLASS
   from_light = p;
-#endif
 #endif
 }

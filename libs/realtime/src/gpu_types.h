@@ -47,8 +47,9 @@ static_assert(sizeof(GpuMaterial) <= block_stride && sizeof(GpuInstance) <= bloc
 
 /// AreaSample and EmitterBlock of lights.glsl.
 /// A disc is a sun with an extent.
-enum class EmitterKind : int { point, sphl, sun, disc, sphere, mesh, environment };
-inline constexpr int emitter_kinds = 7;
+/// `lobe`: an SPHL of the scene that shines; `sphl`: a probe to which somebody gave light.
+enum class EmitterKind : int { point, sphl, lobe, sun, disc, sphere, mesh, environment };
+inline constexpr int emitter_kinds = 8;
 struct GpuAreaSample {
   vec4 place{0}, normal{0}, light{0};
 };

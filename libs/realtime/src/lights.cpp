@@ -33,13 +33,13 @@ const mat4& world_of(const std::vector<mat4>& world, int node) {
 
 }  // namespace
 
-Lights::Lights(const scene::Scene& scene, const std::vector<mat4>& world, const scene::Bounds& bounds,
-               const RendererParams& params)
+Lights::Lights(const scene::Scene& scene, float time, const std::vector<mat4>& world,
+               const scene::Bounds& bounds, const RendererParams& params)
     : near_(cube_near(bounds)) {
   const std::vector<std::string> groups = scene::light_groups(scene);
   scales_.assign(groups.size(), vec3(1));
   groups_ = groups;
-  add_lights(scene, world, groups, most_sun_parts(scene, params));
+  add_lights(scene, time, world, groups, most_sun_parts(scene, params));
   add_meshes(scene, world, groups, std::clamp(params.area_samples, 1, max_area_samples));
   add_environment(scene, groups, std::clamp(params.environment_samples, 1, max_area_samples));
   if (parallel_slots_ > max_parallel_maps)
@@ -63,11 +63,12 @@ Lights::Lights(const scene::Scene& scene, const std::vector<mat4>& world, const 
   place_environment(bounds);
 }
 
-void Lights::add_lights(const scene::Scene& scene, const std::vector<mat4>& world,
+void Lights::add_lights(const scene::Scene& scene, float time, const std::vector<mat4>& world,
                         const std::vector<std::string>& groups, int most_parts) {
   for (const scene::Light& light : scene.lights) {
     lights_.push_back(light);
-    states_.push_back({world_of(world, light.node), light.color, light.intensity});
+    states_.push_back({world_of(world, light.node), light.color, light.intensity,
+                       scene::emission_at(light.emission, time)});
     Source source;
     source.emitter = static_cast<int>(emitters_.size());
     source.group = scene::light_group_index(groups, scene::light_group(light));
@@ -88,7 +89,8 @@ void Lights::add_lights(const scene::Scene& scene, const std::vector<mat4>& worl
       source.first_map = parallel_slots_;
       parallel_slots_ += sun_cascades * parts;
     } else {
-      e.items = ivec4(static_cast<int>(EmitterKind::point), lamp_slots_, 1, 0);
+      const bool lobe = light.type == scene::LightType::sphl;
+      e.items = ivec4(static_cast<int>(lobe ? EmitterKind::lobe : EmitterKind::point), lamp_slots_, 1, 0);
       source.first_map = lamp_slots_++;
     }
     emitters_.push_back(e);
@@ -192,6 +194,7 @@ void Lights::want_maps(const Source& source) {
   const ivec4& items = emitters_[static_cast<std::size_t>(source.emitter)].items;
   switch (static_cast<EmitterKind>(items.x)) {
     case EmitterKind::point:
+    case EmitterKind::lobe:
       return lamps_.want(6 * source.first_map, 6, source.lights());
     case EmitterKind::sun:
     case EmitterKind::disc:
@@ -248,7 +251,10 @@ void Lights::place(Source& source, const mat4& world) {
     point_sun(source, axis, std::min(light.angular_radius, pi / 2));
     return;
   }
-  e.place = vec4(vec3(world[3]), 0);
+  const bool lobe = light.type == scene::LightType::sphl;
+  e.place = vec4(vec3(world[3]), lobe ? light.radius : 0);
+  const mat3 axes = scene::emission_axes(world);
+  for (int i = 0; i < 3 && lobe; ++i) e.samples[i].place = vec4(axes[i], 0);
   const bool spot = light.type == scene::LightType::spot;
   if (spot) {
     const float cos_outer = std::cos(light.outer_cone);
@@ -257,7 +263,8 @@ void Lights::place(Source& source, const mat4& world) {
     e.more.x = -cos_outer * scale;
   }
   for (int face = 0; face < 6; ++face) {
-    const MapView view = cube_view(vec3(world[3]), face, near_);
+    MapView view = cube_view(vec3(world[3]), face, near_);
+    view.clear_radius = e.place.w;
     // A face reaches 54.7 degrees from its axis
     const bool lit = glm::dot(view.forward, -axis) > std::cos(std::min(light.outer_cone + 0.956f, pi));
     lamps_.set_view(6 * source.first_map + face, view, !spot || lit);
@@ -297,6 +304,10 @@ void Lights::set_colors() {
       const scene::LightState& state = states_[static_cast<std::size_t>(source.light)];
       light = state.color * state.intensity;
       range = lights_[static_cast<std::size_t>(source.light)].range;
+      // Coefficients of an SPHL
+      for (std::size_t k = 0; k < std::min<std::size_t>(state.emission.values.size(), max_corners); ++k)
+        e.corners[k] = vec4(state.emission.values[k], 0);
+      if (e.items.x == static_cast<int>(EmitterKind::lobe) && state.emission.empty()) light = vec3(0);
     }
     e.light = vec4(scale * light, range);
   }

@@ -17,7 +17,8 @@ class Lights {
  public:
   static constexpr int sun_cascades = 4;
 
-  Lights(const scene::Scene& scene, const std::vector<mat4>& world, const scene::Bounds& bounds,
+  /// As at `time` seconds, when the nodes stand as in `world`.
+  Lights(const scene::Scene& scene, float time, const std::vector<mat4>& world, const scene::Bounds& bounds,
          const RendererParams& params);
 
   /// Emission of SPHLs apart. `world`: of each node at the state's time.
@@ -80,7 +81,7 @@ class Lights {
     bool lights() const { return !left_out || mirrored; }
   };
   static int most_sun_parts(const scene::Scene& scene, const RendererParams& params);
-  void add_lights(const scene::Scene& scene, const std::vector<mat4>& world,
+  void add_lights(const scene::Scene& scene, float time, const std::vector<mat4>& world,
                   const std::vector<std::string>& groups, int most_parts);
   void add_meshes(const scene::Scene& scene, const std::vector<mat4>& world,
                   const std::vector<std::string>& groups, int samples);

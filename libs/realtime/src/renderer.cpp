@@ -52,7 +52,7 @@ Renderer::Data::Data(gl::Context& context_in, const scene::Scene& scene_in, cons
       shaders(files),
       shaders_from(files.newest_change()),
       scene(scene_in, world, context_in.info().software ? 1.0f : 8.0f, counters),
-      lights(scene_in, world, scene.bounds(), params_in),
+      lights(scene_in, time_in, world, scene.bounds(), params_in),
       albedo(make_albedo_table()),
       sky(environment_map(lights.environment())),
       frame_buffer(sizeof(FrameBlock)),

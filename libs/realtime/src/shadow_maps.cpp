@@ -130,16 +130,25 @@ void MapAtlas::draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, g
     program.set("forward", view.forward);
     program.set("near_plane", view.near_plane);
   };
-  use(opaque);
-  scene.begin(true);
+  const auto use_filtering = [&](gl::Program& program) {
+    use(program);
+    program.set("clear_radius", view.clear_radius);
+    scene.begin(false);
+  };
+  const bool all_filter = view.clear_radius > 0;
+  if (all_filter) {
+    use_filtering(alpha);
+  } else {
+    use(opaque);
+    scene.begin(true);
+  }
   for (const DrawItem& item : scene.items()) {
     if (!sees_box(view, item.world)) continue;
-    if (item.filters() && !filters) {
+    if (item.filters() && !filters && !all_filter) {
       filters = true;
-      use(alpha);
-      scene.begin(false);
+      use_filtering(alpha);
     }
-    scene.draw(item, item.filters(), counters);
+    scene.draw(item, item.filters() || all_filter, counters);
   }
   if (!glass) return;
 
@@ -147,8 +156,7 @@ void MapAtlas::draw_tile(int tile, const GpuScene& scene, gl::Program& opaque, g
   gl::bind_framebuffer(glass_layers_[layer].id(), rect);
   gl::clear_color(rect, 0, 1, 1, 1, 1);
   gl::apply({.depth = gl::Depth::test, .blend = gl::Blend::multiply});
-  use(*glass);
-  scene.begin(false);
+  use_filtering(*glass);
   for (const DrawItem& item : scene.items())
     if (item.glass && sees_box(view, item.world)) scene.draw(item, true, counters);
 }

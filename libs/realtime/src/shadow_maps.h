@@ -23,6 +23,7 @@ struct MapView {
   float near_plane = 0;  ///< 0: parallel
   /// Of a cube face, metres: nobody farther away asks, so what stands beyond blocks nothing.
   float reach = std::numeric_limits<float>::infinity();
+  float clear_radius = 0;  ///< of a cube face, metres: nothing nearer to the origin blocks
 };
 
 /// Face 0..5 in the order and with the axes of shadow.glsl.

@@ -17,6 +17,7 @@ void check_light(std::size_t i, const LightState& light) {
     throw Error(fmt::format("light {}", i),
                 "its place, colour and intensity must be finite, the last not negative");
   }
+  if (!light.emission.empty()) check_emission({.frames = {light.emission}}, fmt::format("light {}", i));
 }
 
 void check_emission(const SphlEmission& emission) {
@@ -37,7 +38,7 @@ LightingState lighting_at(const Scene& scene, float time) {
   state.time = time;
   for (const Light& light : scene.lights) {
     const mat4 placed = light.node >= 0 ? world[static_cast<std::size_t>(light.node)] : mat4(1);
-    state.lights.push_back({placed, light.color, light.intensity});
+    state.lights.push_back({placed, light.color, light.intensity, emission_at(light.emission, time)});
   }
   state.group_scales.assign(light_groups(scene).size(), vec3(1));
   return state;

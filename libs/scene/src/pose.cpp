@@ -99,6 +99,7 @@ float animation_duration(const Scene& scene) {
       if (!channel.times.empty()) duration = std::max(duration, channel.times.back());
     }
   }
+  for (const Light& light : scene.lights) duration = std::max(duration, emission_end(light.emission));
   return duration;
 }
 

@@ -110,11 +110,16 @@ void validate_camera(const Camera& camera, const std::string& where) {
 
 void validate_light(Light& light, const std::string& where, Repairs& repairs) {
   check_finite(light.color, where, "colour");
-  check_finite(
-      {light.intensity, light.radius, light.angular_radius, light.inner_cone, light.outer_cone, light.range},
-      where, "a parameter");
+  check_finite({light.intensity, light.radius, light.angular_radius, light.inner_cone, light.outer_cone,
+                light.range, light.emission.rate, light.emission.start},
+               where, "a parameter");
   if (light.type == LightType::sphere && !(light.radius > 0)) {
     throw Error(where, fmt::format("sphere of radius {} m", light.radius), "give it a radius above 0");
+  }
+  if (light.type == LightType::sphl) {
+    if (!(light.radius > 0))
+      throw Error(where, fmt::format("SPHL of radius {} m", light.radius), "give it a radius above 0");
+    check_emission(light.emission, where);
   }
   const std::string kind = "light parameters out of range: clamped";
   clamp(light.color, 0, unlimited, repairs, kind);

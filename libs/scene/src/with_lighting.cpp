@@ -16,6 +16,12 @@ void scale_emission(Scene& scene, Instance& instance, const vec3& factor) {
   instance.material = static_cast<int>(scene.materials.size()) - 1;
 }
 
+/// What the light emits at the time, unless its own sequence says the same.
+void hold_emission(Light& light, const sh::IntensitySh& now, float time) {
+  if (now != emission_at(light.emission, time)) light.emission = {.frames = {now}};
+  if (now.empty()) light.intensity = 0;
+}
+
 }  // namespace
 
 Scene with_lighting(Scene scene, const LightingState& state) {
@@ -30,6 +36,7 @@ Scene with_lighting(Scene scene, const LightingState& state) {
     Light& light = scene.lights[i];
     light.color = state.lights[i].color * scale_of(light_group(light));
     light.intensity = state.lights[i].intensity;
+    if (light.type == LightType::sphl) hold_emission(light, state.lights[i].emission, state.time);
     if (state.lights[i].world == world[static_cast<std::size_t>(light.node)]) continue;
     Node node;
     node.name = light.name;

@@ -45,9 +45,12 @@ Scene scene_with_all_fields() {
   s.instances = {{0, 0, -1, ""}, {0, 1, 0, ""}};
   s.cameras.resize(2);
   s.cameras[1].orthographic = true, s.cameras[1].yheight = 3;
-  s.lights.resize(4);
-  for (int i = 0; i < 4; ++i) s.lights[static_cast<std::size_t>(i)].type = static_cast<LightType>(i);
-  for (Light& l : s.lights) l.node = 0, l.radius = 0.5f;
+  s.lights.resize(5);
+  for (int i = 0; i < 5; ++i) s.lights[static_cast<std::size_t>(i)].type = static_cast<LightType>(i);
+  for (Light& l : s.lights) {
+    l.node = 0, l.radius = 0.5f;
+    l.emission = {.frames = {sh::IntensitySh(1), sh::IntensitySh(1)}, .rate = 2};
+  }
   for (Camera& c : s.cameras) c.node = 0;
   s.sphls.push_back({"s", 0, 0.1f, true});
   s.animations.resize(1);
@@ -137,17 +140,18 @@ std::vector<Field> changed_scenes() {
 /// Fields that no picture and no light depends on, as patterns of paths.
 bool invisible(const std::string& path) {
   static const std::regex patterns(
-      "name|ignored.*"                                             // of the scene: for people
-      "|light_modes.*"                                             // what is to be kept of the light
-      "|(textures|materials|meshes|animations)\\[.*\\]\\.name"     // for people
-      "|(meshes|textures)\\[1\\]\\..*"                             // not used
-      "|materials\\[.\\]\\.thickness"                              // whether there is one counts
-      "|nodes\\[1\\]\\.(translation|rotation|scale)"               // its matrix replaces them
-      "|nodes\\[.\\]\\.movable"                                    // follows from the animations
-      "|cameras\\[0\\]\\.yheight|cameras\\[1\\]\\.yfov"            // of the other projection
-      "|lights\\[[012]\\]\\.radius"                                // spheres have one
-      "|lights\\[[013]\\]\\.angular_radius|lights\\[2\\]\\.range"  // suns have one, and reach everywhere
-      "|lights\\[[023]\\]\\.(inner|outer)_cone");                  // spots have one
+      "name|ignored.*"                                              // of the scene: for people
+      "|light_modes.*"                                              // what is to be kept of the light
+      "|(textures|materials|meshes|animations)\\[.*\\]\\.name"      // for people
+      "|(meshes|textures)\\[1\\]\\..*"                              // not used
+      "|materials\\[.\\]\\.thickness"                               // whether there is one counts
+      "|nodes\\[1\\]\\.(translation|rotation|scale)"                // its matrix replaces them
+      "|nodes\\[.\\]\\.movable"                                     // follows from the animations
+      "|cameras\\[0\\]\\.yheight|cameras\\[1\\]\\.yfov"             // of the other projection
+      "|lights\\[[012]\\]\\.radius"                                 // spheres have one
+      "|lights\\[[0-3]\\]\\.emission.*"                             // SPHLs have one
+      "|lights\\[[0134]\\]\\.angular_radius|lights\\[2\\]\\.range"  // suns have one, and reach everywhere
+      "|lights\\[[0234]\\]\\.(inner|outer)_cone");                  // spots have one
   return std::regex_match(path, patterns);
 }
 

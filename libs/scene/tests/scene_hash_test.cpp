@@ -34,12 +34,15 @@ Scene full_scene() {
   s.cameras.resize(2);
   s.cameras[0].node = s.cameras[1].node = 0;
   s.cameras[1].orthographic = true;
-  s.lights.resize(4);
+  s.lights.resize(5);
   for (Light& l : s.lights) l.node = 0;
   s.lights[1].type = LightType::spot;
   s.lights[2].type = LightType::directional;
   s.lights[3].type = LightType::sphere;
   s.lights[3].radius = 1;
+  s.lights[4].type = LightType::sphl;
+  s.lights[4].radius = 1;
+  s.lights[4].emission.frames = {sh::IntensitySh(1)};
   s.sphls.push_back({"s", 0, 0.1f, true});
   s.animations.resize(1);
   s.animations[0].channels.push_back(
@@ -127,6 +130,12 @@ std::vector<Change> visible_changes() {
       {"outer cone", [](Scene& s) { s.lights[1].outer_cone = 0.1f; }},
       {"angular radius", [](Scene& s) { s.lights[2].angular_radius = 0.1f; }},
       {"sphere radius", [](Scene& s) { s.lights[3].radius = 0.1f; }},
+      {"radius of an SPHL that shines", [](Scene& s) { s.lights[4].radius = 0.1f; }},
+      {"emission", [](Scene& s) { s.lights[4].emission.frames[0][2].y = 1; }},
+      {"emission's frames", [](Scene& s) { s.lights[4].emission.frames.emplace_back(1); }},
+      {"emission's rate", [](Scene& s) { s.lights[4].emission.rate = 1; }},
+      {"emission's start", [](Scene& s) { s.lights[4].emission.start = 1; }},
+      {"emission repeats", [](Scene& s) { s.lights[4].emission.repeat = true; }},
       {"SPHL name", [](Scene& s) { s.sphls[0].name = "z"; }},
       {"SPHL node", [](Scene& s) { s.sphls[0].node = 1; }},
       {"SPHL radius", [](Scene& s) { s.sphls[0].radius = 1; }},

@@ -83,7 +83,8 @@ bool unused(const std::string& name) {
          is("light 0 outer_cone") || is("light 1 radius") || is("light 1 angular_radius") ||
          is("light 2 radius") || is("light 2 inner_cone") || is("light 2 outer_cone") ||
          is("light 2 range") || is("light 3 angular_radius") || is("light 3 inner_cone") ||
-         is("light 3 outer_cone");
+         is("light 3 outer_cone") || is("light 4 angular_radius") || is("light 4 inner_cone") ||
+         is("light 4 outer_cone");
 }
 
 TEST(SceneHashProperty, SeesEveryNumberThatCanChangeAPicture) {

@@ -46,7 +46,7 @@ class Checker {
     for (const char* collection : {"samplers", "materials", "animations"}) each(collection, [](auto&) {});
     if (const auto lights = extension(document_.root(), "KHR_lights_punctual")) {
       if (const auto list = lights->find("lights"))
-        for (const json::Cursor& light : json::elements(*list)) import_light(light);
+        for (const json::Cursor& light : json::elements(*list)) import_light(light, document_);
     }
   }
 

@@ -10,6 +10,7 @@
 #include "gltf_parts.h"
 #include "printable.h"
 #include "read_light_modes.h"
+#include "uri.h"
 
 namespace ssphh::scene_io {
 
@@ -50,7 +51,13 @@ Camera import_camera(const json::Cursor& camera) {
   return out;
 }
 
-Light import_light(const json::Cursor& light) {
+FileOf files_beside(const GltfDocument& document) {
+  return [&document](const json::Cursor& member) {
+    return resolve_uri(member.text(), document.path(), member.place());
+  };
+}
+
+Light import_light(const json::Cursor& light, const GltfDocument& document) {
   Light out;
   out.name = light.text_or("name");
   out.group = light_group_extra(light);
@@ -90,8 +97,14 @@ Light import_light(const json::Cursor& light) {
     out.intensity =
         radiance ? radiance->number(0, HUGE_VALF) : out.intensity / (pi * out.radius * out.radius);
     if (!std::isfinite(out.intensity)) (*more)["radius"].fail("is too small for the light's intensity");
+  } else if (more && more->text_or("type") == "sphl") {
+    if (out.type != LightType::point) more->fail("only a point light can be an SPHL");
+    out.radius = (*more)["radius"].number();
+    if (!(out.radius > 0)) (*more)["radius"].fail("must be greater than 0");
+    out.intensity = 1;
+    read_emission(out, (*more)["emission"], files_beside(document));
   } else if (more && more->find("type")) {
-    (*more)["type"].fail("can only be \"sphere\"");
+    (*more)["type"].fail("can only be \"sphere\" or \"sphl\"");
   }
   if (more && more->find("angular_radius")) {
     if (out.type != LightType::directional) more->fail("only a directional light can have an angular_radius");

@@ -59,6 +59,13 @@ json::Value export_light(const scene::Light& light) {
       out["extras"]["ssphh"] = {
           {"type", "sphere"}, {"radius", number(light.radius)}, {"radiance", number(light.intensity)}};
       break;
+    case LightType::sphl:
+      out["type"] = "point";
+      out["intensity"] = number(light.intensity * luminance(scene::mean_intensity(light.emission.frames[0])));
+      out["extras"]["ssphh"] = {{"type", "sphl"}, {"radius", number(light.radius)}};
+      out["extras"]["ssphh"]["emission"] = frames_to_json(light.emission);
+      out["extras"]["ssphh"]["emission"]["intensity"] = number(light.intensity);
+      break;
   }
   return out;
 }

@@ -104,10 +104,21 @@ void add_light(GltfImport& import, const json::Cursor& file_node, int node) {
   const auto lights = extension(import.document.root(), "KHR_lights_punctual");
   const std::size_t count = lights ? lights->size_of("lights") : 0;
   const int index = (*reference)["light"].index(count, "lights");
-  auto light = import_light((*lights)["lights"][static_cast<std::size_t>(index)]);
+  auto light = import_light((*lights)["lights"][static_cast<std::size_t>(index)], import.document);
   light.node = node;
   if (light.name.empty()) light.name = import.scene.nodes[static_cast<std::size_t>(node)].name;
   if (light.group.empty()) light.group = light_group_extra(file_node);
+  import.scene.lights.push_back(std::move(light));
+}
+
+/// An SPHL that shines: a lamp of its name at its node.
+void add_emission(GltfImport& import, const json::Cursor& settings, const scene::Sphl& sphl) {
+  const auto emission = settings.find("emission");
+  if (!emission) return;
+  scene::Light light;
+  light.name = sphl.name, light.node = sphl.node, light.radius = sphl.radius;
+  light.group = settings.text_or("light_group");
+  read_emission(light, *emission, files_beside(import.document));
   import.scene.lights.push_back(std::move(light));
 }
 
@@ -125,6 +136,7 @@ void add_sphl(GltfImport& import, const json::Cursor& file_node, int node) {
     sphl.radius = settings->number_or("radius", sphl.radius);
     if (!(sphl.radius > 0)) (*settings)["radius"].fail("must be greater than 0");
     sphl.enabled = settings->boolean_or("enabled", true);
+    add_emission(import, *settings, sphl);
   }
   import.scene.sphls.push_back(std::move(sphl));
 }

@@ -8,6 +8,7 @@
 
 #include "gltf_accessor.h"
 #include "gltf_deform.h"
+#include "read_emission.h"
 
 namespace ssphh::scene_io {
 
@@ -46,7 +47,9 @@ const std::vector<int>& import_mesh(GltfImport& import, int mesh);
 void import_nodes(GltfImport& import);
 
 /// Light of KHR_lights_punctual, without its node.
-scene::Light import_light(const json::Cursor& light);
+scene::Light import_light(const json::Cursor& light, const GltfDocument& document);
+/// Files that the document's extras name, beside it.
+FileOf files_beside(const GltfDocument& document);
 /// Camera, without its node.
 scene::Camera import_camera(const json::Cursor& camera);
 /// extras.ssphh.environment of the default scene.

@@ -12,6 +12,7 @@
 #include <ssphh/scene_io/unit.h>
 
 #include "overlay_paths.h"
+#include "read_emission.h"
 #include "read_light_modes.h"
 
 namespace ssphh::scene_io {
@@ -85,10 +86,11 @@ void read_camera(Scene& scene, const json::Cursor& entry, std::size_t number) {
   scene.cameras.push_back(std::move(camera));
 }
 
-void read_light(Scene& scene, const json::Cursor& entry, std::size_t number) {
+void read_light(Scene& scene, const json::Cursor& entry, std::size_t number,
+                const std::filesystem::path& overlay) {
   entry.only({"name", "light_group", "type", "position", "look_at", "direction", "up", "node", "color",
               "intensity", "radius", "angular_diameter_degrees", "inner_cone_degrees", "outer_cone_degrees",
-              "range"});
+              "range", "emission"});
   scene::Light light;
   light.name = entry.text_or("name", fmt::format("light {}", number));
   light.group = entry.text_or("light_group");
@@ -96,7 +98,14 @@ void read_light(Scene& scene, const json::Cursor& entry, std::size_t number) {
   if (const auto color = entry.find("color")) light.color = color->vector3();
   if (const auto intensity = entry.find("intensity")) light.intensity = intensity->number(0, HUGE_VALF);
   if (const auto range = entry.find("range")) light.range = positive(*range);
-  if (light.type == scene::LightType::sphere) light.radius = positive(entry["radius"]);
+  const bool shines = light.type == scene::LightType::sphl;
+  if (light.type == scene::LightType::sphere || shines) light.radius = positive(entry["radius"]);
+  if (shines) {
+    read_emission(light, entry["emission"],
+                  [&](const json::Cursor& file) { return overlay_path(file, overlay); });
+  } else if (const auto emission = entry.find("emission")) {
+    emission->fail("only an SPHL has one");
+  }
   light.angular_radius = degrees(entry, "angular_diameter_degrees", 0, 180, 0) / 2;
   light.inner_cone = degrees(entry, "inner_cone_degrees", 0, 90, 0);
   light.outer_cone = degrees(entry, "outer_cone_degrees", 0, 90, 45);
@@ -109,14 +118,31 @@ void read_light(Scene& scene, const json::Cursor& entry, std::size_t number) {
   scene.lights.push_back(std::move(light));
 }
 
-void read_sphl(Scene& scene, const json::Cursor& entry, std::size_t number) {
-  entry.only({"name", "position", "node", "radius", "enabled"});
+/// An SPHL that shines: a lamp of its name at its node.
+void add_emission(Scene& scene, const json::Cursor& entry, const scene::Sphl& sphl,
+                  const std::filesystem::path& overlay) {
+  const auto emission = entry.find("emission");
+  const auto group = entry.find("light_group");
+  if (!emission && group) group->fail("only an SPHL with \"emission\" has a light group");
+  if (!emission) return;
+  scene::Light light;
+  light.name = sphl.name, light.node = sphl.node, light.radius = sphl.radius;
+  if (group) light.group = group->text();
+  read_emission(light, *emission, [&](const json::Cursor& member) { return overlay_path(member, overlay); });
+  scene.lights.push_back(std::move(light));
+}
+
+void read_sphl(Scene& scene, const json::Cursor& entry, std::size_t number,
+               const std::filesystem::path& overlay) {
+  entry.only({"name", "position", "node", "look_at", "direction", "up", "radius", "enabled", "emission",
+              "light_group"});
   scene::Sphl sphl;
   sphl.name = entry.text_or("name", fmt::format("SPHL-{}", number));
   if (const auto radius = entry.find("radius")) sphl.radius = positive(*radius);
   sphl.enabled = entry.boolean_or("enabled", true);
   entry["position"];
   sphl.node = add_node(scene, entry, sphl.name);
+  add_emission(scene, entry, sphl, overlay);
   scene.sphls.push_back(std::move(sphl));
 }
 
@@ -220,8 +246,12 @@ void apply_overlay(Scene& scene, std::string_view text, const std::filesystem::p
   }
   for_each_entry(scene, root, "materials", override_material);
   for_each_entry(scene, root, "cameras", read_camera);
-  for_each_entry(scene, root, "lights", read_light);
-  for_each_entry(scene, root, "sphls", read_sphl);
+  for_each_entry(scene, root, "lights", [&](Scene& s, const json::Cursor& entry, std::size_t number) {
+    read_light(s, entry, number, path);
+  });
+  for_each_entry(scene, root, "sphls", [&](Scene& s, const json::Cursor& entry, std::size_t number) {
+    read_sphl(s, entry, number, path);
+  });
   const auto environment = root.find("environment"), sun_sky = root.find("sun_sky");
   if (environment && sun_sky) root.fail("has both \"environment\" and \"sun_sky\"");
   if (environment) set_environment(scene, *environment, path);

@@ -113,7 +113,7 @@ Scene full_scene() {
   s.cameras[1].name = "orthographic", s.cameras[1].node = node("c1", -1), s.cameras[1].orthographic = true;
   s.cameras[1].yheight = 3, s.cameras[1].aspect = 1.5f;
 
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < 5; ++i) {
     Light light;
     light.name = "light " + std::to_string(i);
     light.node = node(light.name.c_str(), -1);
@@ -126,6 +126,10 @@ Scene full_scene() {
   s.lights[1].inner_cone = 0.2f, s.lights[1].outer_cone = 0.6f;
   s.lights[2].angular_radius = 0.00465f;
   s.lights[3].radius = 0.15f;
+  s.lights[4].radius = 0.4f;
+  s.lights[4].emission = {{sh::IntensitySh(2), sh::IntensitySh(2)}, 12.5f, -0.3f, true};
+  s.lights[4].emission.frames[0][0] = {1, 0.123456789f, 1e-7f};
+  s.lights[4].emission.frames[1][7] = {-0.1f, 3, 2 / 3.0f};
 
   s.sphls.push_back({"west", node("SPHL 1", -1), 0.07f, true});
   s.sphls.push_back({"SPHL 2", node("SPHL 2", -1), 0.1f, false});

@@ -39,7 +39,7 @@ TracerData::TracerData(SharedGeometry geometry_in, std::shared_ptr<const scene::
       scene(*kept),
       time(time_in),
       world(scene::world_matrices(scene, time_in)),
-      lights(scene, world),
+      lights(scene, world, time),
       shaded(std::move(geometry_in), scene),
       geometry(shaded, shaded.layout().poses(scene, time_in)),
       found_by_rays(has_found_by_rays(scene)) {}

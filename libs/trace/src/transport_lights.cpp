@@ -14,13 +14,7 @@ const std::vector<std::string>& TransportScene::light_groups() const {
 }
 
 std::vector<scene::LightState> TransportScene::lights(float time) const {
-  const std::vector<mat4> world = scene::world_matrices(data_->scene, time);
-  std::vector<scene::LightState> states;
-  for (const scene::Light& light : data_->scene.lights) {
-    states.push_back({light.node < 0 ? mat4(1) : world[static_cast<std::size_t>(light.node)], light.color,
-                      light.intensity});
-  }
-  return states;
+  return scene::lighting_at(data_->scene, time).lights;
 }
 
 const std::vector<std::string>& TransportScene::light_names() const {

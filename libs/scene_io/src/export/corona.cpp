@@ -246,9 +246,10 @@ scene::Bounds bounds_of(const FlatScene& flat) {
 void write_light(Export& e, std::size_t index, const FlatLight& flat, const scene::Bounds& bounds) {
   const scene::Light& light = *flat.light;
   const std::string id = identifier("light", index, light.name);
-  const vec3 strength = light.color * light.intensity;
+  const vec3& strength = flat.strength;
   note_light(light, e.differences);
   switch (light.type) {
+    case scene::LightType::sphl:
     case scene::LightType::point:
       write_emitter(e, id, strength / (pi * point_light_radius * point_light_radius));
       write_mesh(e, light.name, id, sphere_around(flat.position, point_light_radius), {});

@@ -11,6 +11,7 @@
 #include "differences.h"
 #include "export_steps.h"
 #include "flat_scene.h"
+#include "surface_model.h"
 
 namespace ssphh::scene_io {
 namespace {
@@ -115,14 +116,15 @@ void note_material(const scene::Material& m, Differences& differences) {
 
 json::Value light_json(const FlatLight& flat) {
   const scene::Light& l = *flat.light;
+  const bool shaped = l.type == scene::LightType::sphl;
   return {{"name", l.name},
-          {"type", name_of(l.type)},
+          {"type", shaped ? "point" : name_of(l.type)},
           {"position", array(flat.position)},
           {"direction", array(flat.direction)},
           {"world", array(flat.world)},
-          {"color", array(l.color)},
-          {"intensity", l.intensity},
-          {"radius", l.radius},
+          {"color", array(shaped ? flat.strength : l.color)},
+          {"intensity", shaped ? 1 : l.intensity},
+          {"radius", shaped ? 0 : l.radius},
           {"angular_radius", l.angular_radius},
           {"cos_inner", std::cos(l.inner_cone)},
           {"cos_outer", std::cos(l.outer_cone)}};
@@ -185,7 +187,7 @@ ExportReport export_cycles(const scene::Scene& scene, const ExportSettings& sett
   json["lights"] = json::Value::array();
   for (const FlatLight& light : flat.lights) {
     json["lights"].push_back(light_json(light));
-    if (light.light->range > 0) differences.add("lights reach beyond their range", light.light->name);
+    note_light(*light.light, differences);
   }
   if (scene.environment) {
     const scene::Environment& e = *scene.environment;

@@ -45,7 +45,10 @@ FlatScene flatten(const scene::Scene& scene, float time) {
   }
   for (const scene::Light& light : scene.lights) {
     const mat4& m = world[static_cast<std::size_t>(light.node)];
-    flat.lights.push_back({&light, m, vec3(m[3]), -glm::normalize(vec3(m[2]))});
+    vec3 strength = light.color * light.intensity;
+    if (light.type == scene::LightType::sphl)
+      strength *= scene::mean_intensity(scene::emission_at(light.emission, time));
+    flat.lights.push_back({&light, m, vec3(m[3]), -glm::normalize(vec3(m[2])), strength});
   }
   return flat;
 }

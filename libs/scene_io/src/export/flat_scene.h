@@ -21,6 +21,9 @@ struct FlatLight {
   mat4 world;
   vec3 position;
   vec3 direction;  ///< the way the light goes, unit
+  /// Colour times intensity, in units as scene::Light; of an SPHL what a point light has that gives as much
+  /// light.
+  vec3 strength;
 };
 
 struct FlatScene {

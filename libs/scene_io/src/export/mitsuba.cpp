@@ -60,10 +60,11 @@ void write_mesh(Export& e, std::size_t index, const FlatMesh& mesh) {
 
 void write_light(Export& e, const FlatLight& flat) {
   const scene::Light& light = *flat.light;
-  const vec3 strength = light.color * light.intensity;
+  const vec3& strength = flat.strength;
   e.xml.comment(light.name);
   note_light(light, e.differences);
   switch (light.type) {
+    case scene::LightType::sphl:
     case scene::LightType::point:
       e.xml.open("emitter", {{"type", "point"}});
       point(e.xml, "position", flat.position);

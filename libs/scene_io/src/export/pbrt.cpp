@@ -210,11 +210,12 @@ void write_mesh(Export& e, std::size_t index, const FlatMesh& mesh) {
 
 void write_light(Export& e, const FlatLight& flat) {
   const scene::Light& light = *flat.light;
-  const vec3 strength = light.color * light.intensity;
+  const vec3& strength = flat.strength;
   const vec3 aim = flat.position + flat.direction;
   comment(e, light.name);
   note_light(light, e.differences);
   switch (light.type) {
+    case scene::LightType::sphl:
     case scene::LightType::point:
       e.text += "LightSource \"point\"" + rgb("I", strength) + point("from", flat.position) + "\n";
       break;

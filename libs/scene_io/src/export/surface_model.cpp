@@ -130,6 +130,9 @@ void note_material(const scene::Material& m, const TextureAbilities& abilities, 
 
 void note_light(const scene::Light& light, Differences& differences) {
   if (light.range > 0) differences.add("lights reach beyond their range", light.name);
+  if (light.type == scene::LightType::sphl)
+    differences.add("SPHLs that shine become point lights: as much light, into all directions alike",
+                    light.name);
 }
 
 }  // namespace ssphh::scene_io

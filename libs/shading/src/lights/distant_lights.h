@@ -23,6 +23,7 @@ struct DirectionalLight {
 struct PosedLight {
   scene::Light light;
   mat4 world{1};
+  sh::IntensitySh emission{};  ///< now
 };
 
 /// Uniformly bright disc.

@@ -12,6 +12,11 @@
 namespace ssphh::shading {
 
 rays::Photon PointLight::emit(const vec2& u) const {
+  if (shape) {
+    const ShapedIntensity::Direction chosen = shape->sample(u);
+    return {position + radius * chosen.direction, chosen.direction,
+            intensity * shape->toward(chosen.direction) / chosen.pdf, range};
+  }
   if (!(cone_scale > 0)) return {position, sample_uniform_sphere(u), 4 * pi * intensity, range};
   const float one_minus = 1 + cone_offset / cone_scale, x = u.x * one_minus;
   const vec3 local(std::sqrt(glm::max(x * (2 - x), 0.0f)) * unit_circle(u.y), 1 - x);

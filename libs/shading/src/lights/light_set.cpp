@@ -109,7 +109,7 @@ struct LightSet::Data {
   }
 };
 
-LightSet::LightSet(const scene::Scene& scene, const std::vector<mat4>& world)
+LightSet::LightSet(const scene::Scene& scene, const std::vector<mat4>& world, float time)
     : data_(std::make_unique<Data>()) {
   scene::check_indices(scene);
   require(world.size() >= scene.nodes.size(), "light set", "there is not one matrix for each node");
@@ -117,7 +117,8 @@ LightSet::LightSet(const scene::Scene& scene, const std::vector<mat4>& world)
   d.scene = &scene;
   d.groups = scene::light_groups(scene);
   std::vector<PosedLight> lights;
-  for (const scene::Light& light : scene.lights) lights.push_back({light, matrix_at(world, light.node)});
+  for (const scene::Light& light : scene.lights)
+    lights.push_back({light, matrix_at(world, light.node), scene::emission_at(light.emission, time)});
   d.add_lights(lights);
   d.add_meshes(world, nullptr);
   std::shared_ptr<const EnvironmentLight> environment;
@@ -141,7 +142,7 @@ LightSet::LightSet(const LightSet& base, const std::vector<mat4>& world,
   require(states.size() == d.scene->lights.size(), "light set", "there is not one state for each light");
   std::vector<PosedLight> lights;
   for (std::size_t i = 0; i < states.size(); ++i) {
-    lights.push_back({d.scene->lights[i], states[i].world});
+    lights.push_back({d.scene->lights[i], states[i].world, states[i].emission});
     lights.back().light.color = states[i].color;
     lights.back().light.intensity = states[i].intensity;
   }
@@ -157,11 +158,14 @@ LightSet::LightSet(const LightSet& base, const std::vector<mat4>& world,
 }
 
 void LightSet::Data::add_lights(std::span<const PosedLight> lights) {
-  for (const auto& [light, world] : lights) {
+  for (const PosedLight& posed : lights) {
+    const auto& [light, world, emission] = posed;
     if (!(luminance(light.color * light.intensity) > 0)) continue;
     const int group = scene::light_group_index(groups, scene::light_group(light));
     if (light.type == scene::LightType::point || light.type == scene::LightType::spot) {
       points.push_back(make_point_light(light, world, group));
+    } else if (light.type == scene::LightType::sphl && !emission.empty()) {
+      points.push_back(make_sphl_light(posed, group));
     } else if (light.type == scene::LightType::sphere && light.radius > 0) {
       spheres.push_back(make_sphere_light(light, world, group));
     }
@@ -274,7 +278,7 @@ Emitter LightSet::emitter(int index) const {
   auto i = static_cast<std::size_t>(index);
   if (i < d.points.size()) {
     const PointLight& light = d.points[i];
-    return {EmitterKind::point, light.group, {light.position, light.position}};
+    return {EmitterKind::point, light.group, {light.position - light.radius, light.position + light.radius}};
   }
   i -= d.points.size();
   if (i < d.spheres.size()) {

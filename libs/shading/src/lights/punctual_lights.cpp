@@ -19,7 +19,9 @@ float square(float x) {
 }  // namespace
 
 PointLight make_point_light(const scene::Light& light, const mat4& world, int group) {
-  PointLight result{vec3(world[3]), light.color * light.intensity, vec3(0), 0, 1, light.range, group};
+  PointLight result;
+  result.position = vec3(world[3]), result.intensity = light.color * light.intensity;
+  result.range = light.range, result.group = group;
   if (light.type != scene::LightType::spot) return result;
   const vec3 back(world[2]);
   const float length = glm::length(back);
@@ -27,6 +29,13 @@ PointLight make_point_light(const scene::Light& light, const mat4& world, int gr
   const float cos_outer = std::cos(light.outer_cone);
   result.cone_scale = 1 / glm::max(0.001f, std::cos(light.inner_cone) - cos_outer);
   result.cone_offset = -cos_outer * result.cone_scale;
+  return result;
+}
+
+PointLight make_sphl_light(const PosedLight& posed, int group) {
+  PointLight result = make_point_light(posed.light, posed.world, group);
+  result.shape = std::make_shared<const ShapedIntensity>(posed.emission, posed.world);
+  result.radius = posed.light.radius;
   return result;
 }
 
@@ -45,19 +54,25 @@ std::optional<LightSample> PointLight::sample(const vec3& from) const {
   const vec3 wi = d / distance;
   const float factor = falloff(wi, distance2);
   if (!(factor > 0)) return std::nullopt;
-  return LightSample{wi, distance, intensity * (factor / distance2), 1, true, group};
+  if (!shape) return LightSample{wi, distance, intensity * (factor / distance2), 1, true, group};
+  const vec3 irradiance = intensity * shape->toward(-wi) * (factor / glm::max(distance2, radius * radius));
+  if (!(max_component(irradiance) > 0)) return std::nullopt;
+  return LightSample{wi, glm::max(distance - radius, 0.0f), irradiance, 1, true, group};
 }
 
 float PointLight::importance(const vec3& from) const {
   const vec3 d = position - from;
   const float distance2 = glm::max(glm::dot(d, d), least_distance2);
-  const float factor = cone_scale > 0 || range > 0 ? falloff(d / std::sqrt(distance2), distance2) : 1.0f;
-  return luminance(intensity) * factor / distance2;
+  const vec3 wi = d / std::sqrt(distance2);
+  const float factor = cone_scale > 0 || range > 0 ? falloff(wi, distance2) : 1.0f;
+  if (!shape) return luminance(intensity) * factor / distance2;
+  return luminance(intensity * shape->toward(-wi)) * factor / glm::max(distance2, radius * radius);
 }
 
 float PointLight::power() const {
   // Mean of the cone factor over the sphere: s² between the cone's cosines integrates to a third of their
   // difference
+  if (shape) return luminance(intensity * shape->mean());
   float share = 1;
   if (cone_scale > 0) {
     const float cos_outer = -cone_offset / cone_scale;

@@ -1,18 +1,25 @@
 #pragma once
-/// Point, spot and sphere lights.
+/// Point, spot and sphere lights, and SPHLs that shine.
+
+#include <memory>
 
 #include <ssphh/shading/lights.h>
 
+#include "distant_lights.h"
+#include "shaped_intensity.h"
+
 namespace ssphh::shading {
 
-/// Isotropic intensity, narrowed to a cone for spots and to a range if one is given.
+/// Isotropic intensity, narrowed to a cone for spots and to a range if one is given; or the shape of an SPHL.
 struct PointLight {
-  vec3 position;
-  vec3 intensity;  ///< [W/sr]
-  vec3 axis{0};    ///< unit, direction of a spot; zero: point light
+  vec3 position{0};
+  vec3 intensity{0};  ///< [W/sr]; of an SPHL a factor on its shape
+  vec3 axis{0};       ///< unit, direction of a spot; zero: point light
   float cone_scale = 0, cone_offset = 1;
   float range = 0;  ///< 0: unlimited
   int group = 0;
+  std::shared_ptr<const ShapedIntensity> shape{};  ///< of an SPHL
+  float radius = 0;  ///< of an SPHL: within it nothing shadows, and no light is nearer
 
   /// Cone and range factors of KHR_lights_punctual toward `wi`, which points to the light; 0..1.
   float falloff(const vec3& wi, float distance2) const;
@@ -41,6 +48,8 @@ struct SphereLight {
   float power() const;
 };
 
+/// Of emission that is not empty.
+PointLight make_sphl_light(const PosedLight& posed, int group);
 PointLight make_point_light(const scene::Light& light, const mat4& world, int group);
 SphereLight make_sphere_light(const scene::Light& light, const mat4& world, int group);
 

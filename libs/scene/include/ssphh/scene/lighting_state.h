@@ -16,7 +16,8 @@ struct Scene;
 struct LightState {
   mat4 world{1};  ///< light to world: position, and direction −z
   vec3 color{1};
-  float intensity = 1;  ///< units as scene::Light; 0: off
+  float intensity = 1;         ///< units as scene::Light; 0: off
+  sh::IntensitySh emission{};  ///< of an SPHL now, in its axes; empty: of others, and of one that is dark
 
   friend bool operator==(const LightState&, const LightState&) = default;
 };
@@ -50,7 +51,8 @@ struct LightingCounts {
 };
 
 /// Throws Error that names the light, group or probe for another number of lights or groups, for a probe that
-/// there is not or that shines twice, for what is not finite, and for a negative intensity or factor.
+/// there is not or that shines twice, for what is not finite, for coefficients of no degree, and for a
+/// negative intensity or factor.
 void check_lighting(const LightingState& state, const LightingCounts& counts);
 
 }  // namespace ssphh::scene

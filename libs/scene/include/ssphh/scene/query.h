@@ -15,7 +15,8 @@ namespace ssphh::scene {
 /// World matrix of every node with all animations at `time` seconds (clamped to each channel's keys).
 std::vector<mat4> world_matrices(const Scene& scene, float time = 0);
 
-/// Time of the last key of any animation [s]; 0 without animations.
+/// Time of the last key of any animation, or when the last emission that changes has ended or begins again
+/// [s]; 0 where nothing changes.
 float animation_duration(const Scene& scene);
 
 /// Sets `movable` of every node that is animated or stands below an animated one, and clears it on all

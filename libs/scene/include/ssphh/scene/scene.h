@@ -12,6 +12,7 @@
 #include <ssphh/core/enum_names.h>
 #include <ssphh/core/math.h>
 #include <ssphh/image/image.h>
+#include <ssphh/scene/emission.h>
 #include <ssphh/scene/light_mode.h>
 
 namespace ssphh::scene {
@@ -132,11 +133,12 @@ struct Camera {
   std::optional<float> aspect;  ///< width/height as the file asks; a render's own size wins
 };
 
-enum class LightType { point, spot, directional, sphere };
+/// `sphl`: an SPHL that shines, a small lamp whose intensity is a function of the direction (emission.h).
+enum class LightType { point, spot, directional, sphere, sphl };
 constexpr auto enum_table(LightType) {
   using enum LightType;
   return std::to_array<EnumName<LightType>>(
-      {{point, "point"}, {spot, "spot"}, {directional, "directional"}, {sphere, "sphere"}});
+      {{point, "point"}, {spot, "spot"}, {directional, "directional"}, {sphere, "sphere"}, {sphl, "sphl"}});
 }
 
 /// A light that is not a mesh. Position and direction (−z) are its node's.
@@ -147,9 +149,12 @@ struct Light {
   LightType type = LightType::point;
   vec3 color{1};
   /// point, spot: radiant intensity [W/sr] (glTF's candela read as W/sr); directional: irradiance on a facing
-  /// plane [W/m²] (glTF's lux); sphere: emitted radiance [W sr⁻¹ m⁻²].
+  /// plane [W/m²] (glTF's lux); sphere: emitted radiance [W sr⁻¹ m⁻²]; sphl: factor on its emission.
   float intensity = 1;
-  float radius = 0;          ///< sphere, metres, not scaled by the node
+  /// sphere, sphl: metres, not scaled by the node. What stands within an SPHL shadows nothing, since the SPHL
+  /// shines in its place; no point is lit more than from this distance.
+  float radius = 0;
+  Emission emission;         ///< sphl: in the node's axes
   float angular_radius = 0;  ///< directional: radians; 0 is a delta light, the sun's is 0.00465
   float inner_cone = 0, outer_cone = pi / 4;  ///< spot, radians from the axis
   float range = 0;  ///< 0: unlimited; else the falloff KHR_lights_punctual recommends

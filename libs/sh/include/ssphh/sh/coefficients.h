@@ -28,8 +28,8 @@ constexpr int coefficient_index(int l, int m) {
 }
 
 /// RGB coefficients of a spherical function, in coefficient_index order. `Quantity` keeps radiance [W sr⁻¹
-/// m⁻²] and irradiance [W m⁻²] apart: one becomes the other only by irradiance_from_radiance (cosine
-/// convolution, A_l).
+/// m⁻²], irradiance [W m⁻²] and radiant intensity [W sr⁻¹] apart: radiance becomes irradiance only by
+/// irradiance_from_radiance (cosine convolution, A_l).
 template <class Quantity>
 struct RgbSh {
   std::vector<vec3> values;
@@ -66,10 +66,13 @@ struct RgbSh {
 
 struct RadianceQuantity {};
 struct IrradianceQuantity {};
+struct IntensityQuantity {};
 
 /// SH of incident radiance L_i(ω), ω pointing away from the probe.
 using RadianceSh = RgbSh<RadianceQuantity>;
 /// SH of irradiance E(n).
 using IrradianceSh = RgbSh<IrradianceQuantity>;
+/// SH of radiant intensity I(ω), ω pointing away from the lamp.
+using IntensitySh = RgbSh<IntensityQuantity>;
 
 }  // namespace ssphh::sh

@@ -16,7 +16,7 @@ namespace ssphh::shading {
 /// One way from a surface point to a light.
 struct LightSample {
   vec3 wi;         ///< unit, world space, from the point toward the light
-  float distance;  ///< metres to the light; infinity for distant ones
+  float distance;  ///< metres to the light, to its surface if it has one; infinity for distant ones
   vec3 radiance;   ///< incident radiance (not divided by pdf); for delta lights the incident irradiance on a
                    ///< plane that faces wi
   float pdf;   ///< solid-angle density times the probability of choosing this light; delta: that probability
@@ -56,10 +56,10 @@ struct Emitter {
 
 class LightSet {
  public:
-  /// Reads all lights, emissive instances and the environment of `scene` posed by `world`. Keeps a reference
-  /// to the scene.
-  LightSet(const scene::Scene& scene, const std::vector<mat4>& world);
-  LightSet(const scene::Scene&&, const std::vector<mat4>&) = delete;  // it would be gone
+  /// Reads all lights, emissive instances and the environment of `scene` posed by `world`, emission as it is
+  /// at `time` seconds. Keeps a reference to the scene.
+  LightSet(const scene::Scene& scene, const std::vector<mat4>& world, float time = 0);
+  LightSet(const scene::Scene&&, const std::vector<mat4>&, float = 0) = delete;  // it would be gone
   /// The emitters of `base`'s scene with its lights as `lights` say, one state per scene::Light, and its
   /// emissive instances posed by `world`, and its environment turned about +y by so many radians beyond its
   /// own rotation. What has not moved is shared with `base`, and so is the size of the scene, by which
