@@ -86,6 +86,7 @@ class Relighting {
     run_.fps = o_.fps;
     if (!o_.output.empty() && o_.pictures > 0)  // Fails before the work rather than after it.
       start_ = camera_of(scene_, o_.camera, o_.scene.time, geometry_);
+    pipeline::warn_about_lamps(geometry_, scene_, o_.scene.time);
     std::vector<transport::ProbePlace> places = find_places();
     warn_about_places(places, source_, place::place_params(scene_, o_.scene.time).interest,
                       animation_.moves_time(), control_);

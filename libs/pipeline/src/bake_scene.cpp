@@ -8,6 +8,7 @@
 #include <ssphh/core/log.h>
 #include <ssphh/core/memory.h>
 #include <ssphh/pipeline/bake_scene.h>
+#include <ssphh/pipeline/scene_options.h>
 #include <ssphh/place/init.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
@@ -159,6 +160,7 @@ SceneBake bake_scene(const trace::SharedGeometry& geometry, const scene::Scene& 
   BakeSettings o = settings;
   o.params.path.seed = o.seed;
   SceneBake result;
+  warn_about_lamps(geometry, scene, time);
   result.place = place_for(geometry, scene, time, places, "", control);
   result.set = result.place ? place::init_from_placement(scene, result.place->placement, o.degree, time)
                             : place::init_from_scene(scene, o.degree, time);

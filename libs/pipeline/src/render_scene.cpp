@@ -5,6 +5,7 @@
 #include <ssphh/core/log.h>
 #include <ssphh/pipeline/live_method.h>
 #include <ssphh/pipeline/render_scene.h>
+#include <ssphh/pipeline/scene_options.h>
 #include <ssphh/pipeline/scene_probes.h>
 #include <ssphh/study/default_view.h>
 #include <ssphh/trace/path_tracer.h>
@@ -40,6 +41,7 @@ std::optional<MethodFigures> render_scene(const trace::SharedGeometry& geometry,
                                           const trace::RenderParams& params, trace::RenderState& state,
                                           const Control& control) {
   check_method(finder.method, !finder.parameters.empty(), finder.probes != nullptr);
+  warn_about_lamps(geometry, scene, time);
   const trace::PathTracer tracer(geometry, scene, time);
   if (finder.method == "path") {
     tracer.render(params, state, control);

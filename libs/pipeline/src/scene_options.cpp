@@ -7,6 +7,8 @@
 #include <ssphh/scene/query.h>
 #include <ssphh/scene/studio.h>
 #include <ssphh/scene_io/load.h>
+#include <ssphh/trace/path_tracer.h>
+#include <ssphh/trace/thing_emission.h>
 
 namespace ssphh::pipeline {
 
@@ -79,6 +81,17 @@ scene::Scene load_lit_scene(const SceneOptions& options, std::vector<FileStamp>&
   } catch (const Error&) {
     keep();
     throw;
+  }
+}
+
+void warn_about_lamps(const trace::SharedGeometry& geometry, const scene::Scene& scene, float time) {
+  const auto shines = [](const scene::Light& light) { return light.type == scene::LightType::sphl; };
+  if (std::ranges::none_of(scene.lights, shines)) return;
+  for (const std::string& name : trace::buried_lamps(scene, trace::PathTracer(geometry, scene, time), time)) {
+    log_warning(
+        "SPHL \"{}\" seems to shine from inside of a body: most of what it sees are back faces (move it, or "
+        "give it a radius that holds the body)",
+        name);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <ssphh/core/files_read.h>
 #include <ssphh/scene/scene.h>
+#include <ssphh/trace/scene_geometry.h>
 
 namespace ssphh::pipeline {
 
@@ -35,5 +36,8 @@ scene::Scene load_lit_scene(const SceneOptions& options);
 /// The same; `files` are those that it was read from, as far as it came before it threw, and the overlay
 /// beside SCENE, be there one or not.
 scene::Scene load_lit_scene(const SceneOptions& options, std::vector<FileStamp>& files);
+
+/// Warns about SPHLs that shine from inside of a body, where nobody would see their light.
+void warn_about_lamps(const trace::SharedGeometry& geometry, const scene::Scene& scene, float time);
 
 }  // namespace ssphh::pipeline

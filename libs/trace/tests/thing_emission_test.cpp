@@ -1,0 +1,233 @@
+/// What a thing sends out, against closed forms; and the SPHL that shines in its place, against the thing.
+
+#include <gtest/gtest.h>
+
+#include <ssphh/core/sphere.h>
+#include <ssphh/scene/primitives.h>
+#include <ssphh/scene/query.h>
+#include <ssphh/scene/thing_alone.h>
+#include <ssphh/trace/path_tracer.h>
+#include <ssphh/trace/thing_emission.h>
+
+#include "error_message.h"
+
+namespace ssphh::trace {
+namespace {
+
+using glm::dvec3;
+using test::message_of;
+
+int add_node(scene::Scene& s, const std::string& name, const scene::Transform& local, int parent = -1) {
+  scene::Node node;
+  node.name = name, node.parent = parent, node.local = local;
+  s.nodes.push_back(node);
+  return static_cast<int>(s.nodes.size()) - 1;
+}
+
+void add_mesh(scene::Scene& s, scene::Mesh mesh, const vec3& albedo, const vec3& emission, int node) {
+  scene::Material material;
+  material.base_color = albedo, material.specular = 0, material.emission = emission;
+  s.materials.push_back(material);
+  mesh.material = static_cast<int>(s.materials.size()) - 1;
+  s.meshes.push_back(std::move(mesh));
+  s.instances.push_back({static_cast<int>(s.meshes.size()) - 1, node, -1, ""});
+}
+
+scene::Transform placed(const vec3& at, float turn = 0) {
+  return {at, glm::angleAxis(turn, glm::normalize(vec3(1, 2, 0.5f))), vec3(1)};
+}
+
+TEST(ThingEmission, OfAGlowingBallIsItsDiscTimesItsRadianceInAllDirections) {
+  scene::Scene s;
+  const int node = add_node(s, "ball", placed({3, 1, -2}, 0.7f));
+  const vec3 radiance(5, 3, 1);
+  add_mesh(s, scene::make_sphere(0.5f, 128, 64), vec3(0), radiance, node);
+  const ThingEmission seen = thing_emission(s, node, 0, {.degree = 4});
+  const float intensity = pi * 0.25f * 5;
+  // Pixels at the edge are hit or missed: 32 across, 16 paths each
+  EXPECT_NEAR(seen.intensity[0].x / std::sqrt(4 * pi), intensity, 2e-3f * intensity);
+  EXPECT_NEAR(seen.intensity[0].y / seen.intensity[0].x, 0.6f, 1e-4f);
+  EXPECT_NEAR(seen.intensity[0].z / seen.intensity[0].x, 0.2f, 1e-4f);
+  for (int k = 1; k < 25; ++k) EXPECT_NEAR(seen.intensity[k].x, 0, 0.01f * intensity) << k;
+  EXPECT_LT(glm::length(seen.center), 1e-3f);
+  EXPECT_NEAR(seen.radius, 0.5f, 1e-3f);
+}
+
+// Red above, blue below: E = L · area times the clamped cosines, whose coefficients are known.
+TEST(ThingEmission, OfTwoGlowingSquaresBackToBackHasTheirLobesInTheNodesAxes) {
+  scene::Scene s;
+  const int node = add_node(s, "panel", placed({-1, 0, 4}, 1.1f));
+  add_mesh(s, scene::make_quad({-0.1f, 0.001f, 0.1f}, {0.2f, 0, 0}, {0, 0, -0.2f}), vec3(0), {6, 0, 0}, node);
+  add_mesh(s, scene::make_quad({-0.1f, -0.001f, -0.1f}, {0.2f, 0, 0}, {0, 0, 0.2f}), vec3(0), {0, 0, 2},
+           node);
+  const ThingEmission seen = thing_emission(s, node, 0, {.degree = 3, .image_size = 96});
+  const float area = 0.04f, least = 0.01f * 6 * area;
+  EXPECT_NEAR(seen.intensity[0].x, 6 * area * std::sqrt(pi) / 2, least);
+  EXPECT_NEAR(seen.intensity[1].x, 6 * area * std::sqrt(pi / 3), least);
+  EXPECT_NEAR(seen.intensity[0].z, 2 * area * std::sqrt(pi) / 2, least);
+  EXPECT_NEAR(seen.intensity[1].z, -2 * area * std::sqrt(pi / 3), least);
+  for (const int k : {2, 3, 4, 5, 7}) EXPECT_NEAR(seen.intensity[k].x, 0, least) << k;
+  EXPECT_EQ(seen.intensity[0].y, 0);
+  EXPECT_LT(glm::length(seen.center), 2e-3f);
+}
+
+TEST(ThingEmission, OfLampsIsTheirOwnWhereNothingHidesThem) {
+  scene::Scene s;
+  const int node = add_node(s, "lantern", placed({0, 5, 0}));
+  scene::Light bulb;
+  bulb.node = add_node(s, "bulb", placed({0.3f, 0, 0}), node);
+  bulb.color = {1, 0.5f, 0.25f}, bulb.intensity = 8, bulb.range = 2;
+  s.lights.push_back(bulb);
+  const ThingEmission free = thing_emission(s, node, 0, {.degree = 5});
+  EXPECT_NEAR(free.intensity[0].x / std::sqrt(4 * pi), 8, 1e-3f);
+  EXPECT_NEAR(free.intensity[0].z / std::sqrt(4 * pi), 2, 1e-3f);
+  for (int k = 1; k < 36; ++k) EXPECT_NEAR(free.intensity[k].x, 0, 1e-3f) << k;
+  EXPECT_LT(glm::distance(free.center, vec3(0.3f, 0, 0)), 1e-4f);
+  EXPECT_EQ(free.radius, 0.1f);
+  // A black plate that spans the half space of −x, but for what lies beyond its edge
+  add_mesh(s, scene::make_quad({0, -50, -50}, {0, 100, 0}, {0, 0, 100}), vec3(0), vec3(0), node);
+  const ThingEmission half = thing_emission(s, node, 0, {.degree = 5, .image_size = 8});
+  EXPECT_NEAR(half.intensity[0].x / std::sqrt(4 * pi), 4, 0.1f);
+  EXPECT_GT(half.intensity[3].x, 0);
+}
+
+/// A lantern: a small panel, red on one side and blue on the other, a ball that is lit by it and an arm that
+/// holds it; in a room of other colours.
+scene::Scene lantern_in_room(int& node, float& radius) {
+  scene::Scene s;
+  const int world = add_node(s, "room", {});
+  scene::Mesh room = scene::make_box({-2, -1.5f, -2}, {2, 1.5f, 2});
+  for (uvec3& t : room.triangles) std::swap(t.y, t.z);
+  for (vec3& n : room.normals) n = -n;
+  add_mesh(s, room, {0.5f, 0.6f, 0.4f}, vec3(0), world);
+  node = add_node(s, "lantern", placed({0.2f, 0.1f, -0.3f}, 0.9f));
+  add_mesh(s, scene::make_quad({-0.04f, 0.001f, 0.04f}, {0.08f, 0, 0}, {0, 0, -0.08f}), vec3(0.3f),
+           {60, 20, 5}, node);
+  add_mesh(s, scene::make_quad({-0.04f, -0.001f, -0.04f}, {0.08f, 0, 0}, {0, 0, 0.08f}), vec3(0.3f),
+           {4, 10, 40}, node);
+  scene::Mesh ball = scene::make_sphere(0.05f);
+  for (vec3& p : ball.positions) p += vec3(0.15f, 0.1f, 0);
+  add_mesh(s, ball, {0.8f, 0.8f, 0.2f}, vec3(0), node);
+  add_mesh(s, scene::make_box({-0.3f, -0.01f, -0.01f}, {-0.05f, 0.01f, 0.01f}), vec3(0.4f), vec3(0), node);
+  scene::validate(s);
+  radius = 0.32f;
+  return s;
+}
+
+TEST(ThingEmission, LightsWallsAsTheThingItselfBeyondTwoOfItsRadii) {
+  int node = 0;
+  float radius = 0;
+  const scene::Scene lit = lantern_in_room(node, radius);
+  const ThingEmission seen = thing_emission(lit, node, 0, {});
+  EXPECT_LT(seen.radius, radius);
+  scene::Scene stand_in = lit;
+  for (scene::Material& material : stand_in.materials) material.emission = vec3(0);
+  scene::Light& light = stand_in.lights.emplace_back();
+  light.type = scene::LightType::sphl, light.radius = seen.radius;
+  light.emission.frames = {seen.intensity};
+  light.node = add_node(stand_in, "light", {seen.center, quat(1, 0, 0, 0), vec3(1)}, node);
+
+  // Points of the walls
+  std::vector<rays::SurfacePoint> points;
+  const vec3 center(scene::world_matrices(lit)[static_cast<std::size_t>(node)] * vec4(seen.center, 1));
+  float nearest = 1e9f;
+  for (int i = 0; i < 600; ++i) {
+    const vec3 d = spherical_fibonacci(i, 600), half(2, 1.5f, 2);
+    vec3 ways;
+    for (int c = 0; c < 3; ++c)
+      ways[c] =
+          (std::copysign(half[c], d[c]) - center[c]) / std::copysign(std::max(std::abs(d[c]), 1e-6f), d[c]);
+    const int axis = ways.x < ways.y ? (ways.x < ways.z ? 0 : 2) : (ways.y < ways.z ? 1 : 2);
+    vec3 normal(0);
+    normal[axis] = d[axis] > 0 ? -1.0f : 1.0f;
+    points.push_back({center + ways[axis] * d, normal});
+    nearest = std::min(nearest, ways[axis]);
+  }
+  EXPECT_GT(nearest, 2 * radius);
+  const rays::PathParams path{.max_depth = 8, .spp = 1024};
+  // Walls that reflect nothing: what arrives left the thing, perhaps by its ball. The noise of that is taken
+  // off.
+  const auto with_walls = [](scene::Scene s, const vec3& albedo) {
+    s.materials[0].base_color = albedo;
+    return s;
+  };
+  const scene::Scene dark = with_walls(lit, vec3(0)), dark_stand_in = with_walls(stand_in, vec3(0));
+  auto thing = PathTracer(dark).surface_irradiance(points, path, {});
+  auto sphl = PathTracer(dark_stand_in).surface_irradiance(points, path, {});
+  dvec3 sum(0), sum2(0), difference(0), difference2(0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const dvec3 a(thing[i].direct + thing[i].indirect), b(sphl[i].direct);
+    sum += a, sum2 += a * a, difference += b - a,
+        difference2 += (b - a) * (b - a) - dvec3(thing[i].indirect_variance);
+  }
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_LT(std::sqrt(difference2[c] / sum2[c]), 0.05) << c;
+    EXPECT_LT(std::abs(difference[c] / sum[c]), 0.02) << c;
+  }
+  // All of it, bounces from the walls and from the thing, which stands there dark, included
+  thing = PathTracer(lit).surface_irradiance(points, path, {});
+  sphl = PathTracer(stand_in).surface_irradiance(points, path, {});
+  dvec3 all(0), all_sphl(0);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    all += dvec3(thing[i].direct + thing[i].indirect), all_sphl += dvec3(sphl[i].direct + sphl[i].indirect);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(all_sphl[c] / all[c], 1, 0.05) << c;
+}
+
+TEST(ThingEmission, FollowsWhatMovesAndTurns) {
+  scene::Scene s;
+  const int node = add_node(s, "car", placed({0, 0, 0}));
+  s.nodes[0].local.rotation = quat(1, 0, 0, 0);
+  scene::Light lamp;
+  lamp.type = scene::LightType::spot, lamp.intensity = 5, lamp.outer_cone = 0.8f;
+  lamp.node = add_node(s, "lamp", placed({0, 0, -1}), node);
+  s.nodes[1].local.rotation = quat(1, 0, 0, 0);
+  s.lights.push_back(lamp);
+  const quat turned = glm::angleAxis(pi / 2, vec3(0, 1, 0));
+  s.animations.push_back({"drive",
+                          {{node,
+                            scene::AnimationPath::rotation,
+                            scene::Interpolation::linear,
+                            {0, 1},
+                            {{0, 0, 0, 1}, {turned.x, turned.y, turned.z, turned.w}}}}});
+  const ThingEmission before = thing_emission(s, node, 0, {}), after = thing_emission(s, node, 1, {});
+  for (std::size_t k = 0; k < before.intensity.values.size(); ++k)
+    EXPECT_LT(glm::distance(before.intensity.values[k], after.intensity.values[k]), 0.02f) << k;
+  EXPECT_LT(glm::distance(after.center, vec3(0, 0, -1)), 1e-4f);
+}
+
+TEST(ThingEmission, RefusesWhatSendsOutNothing) {
+  scene::Scene s;
+  const int dark = add_node(s, "stone", {}), empty = add_node(s, "empty", {});
+  add_mesh(s, scene::make_box(vec3(0), vec3(1)), vec3(0.5f), vec3(0), dark);
+  s.environment.emplace();
+  EXPECT_EQ(message_of([&] { thing_emission(s, dark, 0, {.image_size = 4}); }),
+            "node \"stone\": it sends out no light of its own (lamps and glowing meshes at the node or below "
+            "it do)");
+  EXPECT_EQ(message_of([&] { thing_emission(s, empty, 0, {}); }),
+            "node \"empty\": nothing stands there that could send out light");
+  EXPECT_EQ(message_of([&] { thing_emission(s, 7, 0, {}); }), "emission of a thing: there is no such node");
+  EXPECT_EQ(message_of([&] { thing_emission(s, dark, 0, {.degree = 11}); }),
+            "emission of a thing: the degree must be 0..10");
+  EXPECT_EQ(message_of([&] { scene::find_node(s, "stove"); }),
+            "node \"stove\": the scene has none of that name (there are: stone)");
+  add_node(s, "stone", {});
+  EXPECT_EQ(message_of([&] { scene::find_node(s, "stone"); }),
+            "node \"stone\": 2 nodes have that name (there are: stone)");
+}
+
+TEST(BuriedLamps, AreThoseInsideOfBodies) {
+  scene::Scene s;
+  add_node(s, "box", {});
+  add_mesh(s, scene::make_box(vec3(-1), vec3(1)), vec3(0.5f), vec3(0), 0);
+  for (const float x : {0.2f, 3.0f}) {
+    scene::Light lamp;
+    lamp.name = x < 1 ? "in" : "out", lamp.type = scene::LightType::sphl, lamp.radius = 0.1f;
+    lamp.emission.frames = {sh::IntensitySh(0)};
+    lamp.node = add_node(s, lamp.name, {{x, 0, 0}, quat(1, 0, 0, 0), vec3(1)});
+    s.lights.push_back(lamp);
+  }
+  EXPECT_EQ(buried_lamps(s, PathTracer(s), 0), std::vector<std::string>{"in"});
+}
+
+}  // namespace
+}  // namespace ssphh::trace
