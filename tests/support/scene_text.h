@@ -103,7 +103,8 @@ inline scene::Scene plain_of(const scene::Scene& scene) {
   plain.nodes.resize(scene.nodes.size());
   plain.instances.resize(scene.instances.size());
   plain.cameras.resize(scene.cameras.size());
-  plain.lights.resize(scene.lights.size());
+  for (const scene::Light& light : scene.lights)
+    plain.lights.emplace_back().emission.frames.resize(light.emission.frames.size());
   plain.sphls.resize(scene.sphls.size());
   for (const scene::Animation& animation : scene.animations) {
     plain.animations.emplace_back();

@@ -149,6 +149,16 @@ void Builder::sphl(const std::string& name, const vec3& position, float radius) 
   scene_.sphls.push_back(std::move(s));
 }
 
+void Builder::sphl(const std::string& name, const vec3& position, float radius, Emission emission,
+                   float intensity) {
+  sphl(name, position, radius);
+  Light l;
+  l.name = name, l.node = scene_.sphls.back().node;
+  l.type = LightType::sphl, l.radius = radius;
+  l.emission = std::move(emission), l.intensity = intensity;
+  scene_.lights.push_back(std::move(l));
+}
+
 Scene Builder::finish() {
   SSPHH_CHECK(validate(scene_).empty());
   return std::move(scene_);

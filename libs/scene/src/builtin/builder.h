@@ -44,6 +44,8 @@ class Builder {
   void spot_light(const std::string& name, const vec3& position, const vec3& target, const vec3& color,
                   float intensity, float inner, float outer, const std::string& group = {});
   void sphl(const std::string& name, const vec3& position, float radius = 0.1f);
+  /// One that shines, too.
+  void sphl(const std::string& name, const vec3& position, float radius, Emission emission, float intensity);
 
   Scene& scene() { return scene_; }
   /// Validates: a built-in scene needs no repair.

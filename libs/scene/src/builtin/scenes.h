@@ -16,6 +16,8 @@ Scene make_gallery3();
 Scene make_house();
 Scene make_ajar();
 Scene make_tunnel();
+Scene make_torch();
+Scene make_car();
 Scene make_town(int houses);
 Scene make_random(int seed);
 
