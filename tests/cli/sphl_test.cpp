@@ -1,11 +1,12 @@
 /// `ssphh sphl sample`: the light of a thing as a file that lights other scenes.
 
+#include "commands/sphl.h"
+
 #include <gtest/gtest.h>
 
 #include <ssphh/core/file.h>
 
 #include "commands/render.h"
-#include "commands/sphl.h"
 #include "error_message.h"
 #include "temp_dir.h"
 
@@ -64,9 +65,10 @@ TEST(SphlSample, SaysWhatThereIsForAnUnknownNode) {
   const test::TempDir dir;
   SphlSampleOptions options = of_the_lamp(dir);
   options.node = "torch";
-  EXPECT_EQ(message_of([&] { run_sphl_sample(options); }),
-            "node \"torch\": the scene has none of that name (there are: floor, ceiling, back wall, left wall, "
-            "right wall, tall box, short box, lamp)");
+  EXPECT_EQ(
+      message_of([&] { run_sphl_sample(options); }),
+      "node \"torch\": the scene has none of that name (there are: floor, ceiling, back wall, left wall, "
+      "right wall, tall box, short box, lamp)");
   EXPECT_FALSE(std::filesystem::exists(options.output));
 }
 

@@ -19,6 +19,13 @@ constexpr PictureSize lamp_size{80, 48};
 /// 0.05 % each. Normals of 16 bits err by 3e-5 rad, which counts at grazing angles: a constant.
 constexpr float lamp_rounding = 0.004f;
 
+StageLamp shining_sphl() {
+  for (const StageLamp& lamp : lamps_without_extent()) {
+    if (lamp.light.type == scene::LightType::sphl) return lamp;
+  }
+  return {};
+}
+
 class LampPixels : public WithGl {
  protected:
   static image::Image draw(realtime::Renderer& renderer, const scene::Scene& scene) {
@@ -55,6 +62,62 @@ TEST_P(LampWithoutExtent, LightsEveryPixelAsItsClosedFormSays) {
 
 INSTANTIATE_TEST_SUITE_P(Lamps, LampWithoutExtent, testing::ValuesIn(lamps_without_extent()),
                          [](const auto& given) { return given.param.name; });
+
+TEST_F(LampPixels, WhatStandsWithinAnSphlShadowsNothing) {
+  const StageLamp lamp = shining_sphl();
+  const auto scene_with = [&](float radius, bool box) {
+    scene::Scene scene = stage(matte({0.9f, 0.3f, 0.5f}));
+    if (box)
+      add_mesh(scene, scene::make_box(vec3(-0.1f), vec3(0.1f)), 0,
+               stage_lamp_place + 0.25f * stage_lamp_axis);
+    scene::Light light = lamp.light;
+    light.radius = radius;
+    add_stage_lamp(scene, light);
+    return scene;
+  };
+  const auto drawn = [&](const scene::Scene& scene) {
+    realtime::Renderer renderer(gl(), scene);
+    return draw(renderer, scene);
+  };
+  const scene::Scene boxed = scene_with(0.5f, true);
+  const trace::TransportScene source(boxed);
+  const PixelPoints points(source, scene::camera_pose(boxed, ""), lamp_size);
+  const image::Image open = drawn(scene_with(0.5f, false)), within = drawn(boxed),
+                     beyond = drawn(scene_with(0.05f, true));
+  int differ_within = 0, differ_beyond = 0;
+  for (int y = 0; y < lamp_size.height; ++y) {
+    for (int x = 0; x < lamp_size.width; ++x) {
+      if (glm::distance(points.at(x, y).point.position, stage_lamp_place) < 0.5f) continue;
+      differ_within += max_component(glm::abs(within.rgb(x, y) - open.rgb(x, y))) > 1e-3f;
+      differ_beyond += max_component(glm::abs(beyond.rgb(x, y) - open.rgb(x, y))) > 1e-3f;
+    }
+  }
+  EXPECT_EQ(differ_within, 0);
+  EXPECT_GT(differ_beyond, 100) << "of a smaller SPHL the box stands in the way";
+}
+
+TEST_F(LampPixels, FollowsTheFramesOfAnSphl) {
+  scene::Scene scene = stage(matte({0.9f, 0.3f, 0.5f}));
+  const StageLamp lamp = shining_sphl();
+  scene::Light light = lamp.light;
+  light.emission.frames.push_back(light.emission.frames[0]);
+  light.emission.frames[1] *= vec3(3, 1, 0);
+  light.emission.rate = 1;
+  add_stage_lamp(scene, light);
+  realtime::Renderer renderer(gl(), scene);
+  const image::Image before = draw(renderer, scene);
+  renderer.set(scene::lighting_at(scene, 0.5f));
+  const image::Image after = draw(renderer, scene);
+  double sum_before = 0, sum_after = 0;
+  for (int y = 0; y < lamp_size.height; ++y) {
+    for (int x = 0; x < lamp_size.width; ++x) {
+      const vec3 a = before.rgb(x, y) * vec3(2, 1, 0.5f), b = after.rgb(x, y);
+      EXPECT_LT(max_component(glm::abs(a - b)), 2e-3f * max_component(a) + 1e-4f) << x << " " << y;
+      sum_before += static_cast<double>(a.x), sum_after += static_cast<double>(b.x);
+    }
+  }
+  EXPECT_NEAR(sum_after / sum_before, 1, 1e-3);
+}
 
 TEST_F(LampPixels, EveryModelOfReflectionIsThatOfTheCpu) {
   struct Model {

@@ -12,7 +12,8 @@ namespace ssphh::viewer {
 namespace {
 
 /// Of the types of lamps, in their order.
-constexpr const char* type_names[] = {"point, W/sr", "spot, W/sr", "directional, W/m²", "sphere, W/(sr m²)"};
+constexpr const char* type_names[] = {"point, W/sr", "spot, W/sr", "directional, W/m²", "sphere, W/(sr m²)",
+                                      "SPHL, times its emission"};
 
 /// One undo step per drag of a widget.
 template <class Change>
@@ -69,7 +70,8 @@ void draw_lamp(App& app, std::size_t i) {
       edit(app, "move " + light.name, [&](Edits& e) { e.lights[i].world = with_position(world, position); });
     seal_after_edit(app);
   }
-  if (light.type == scene::LightType::spot || light.type == scene::LightType::directional) {
+  if (light.type == scene::LightType::spot || light.type == scene::LightType::directional ||
+      light.type == scene::LightType::sphl) {
     row("direction");
     vec3 direction = light_direction(world);
     if (ImGui::DragFloat3("##direction", glm::value_ptr(direction), 0.01f, -1, 1, "%.2f") &&

@@ -21,8 +21,8 @@ int add_car(Builder& b) {
   for (const float x : {-0.6f, 0.6f}) {
     const std::string side = x < 0 ? "left" : "right";
     b.spot_light("head " + side, {x, 0.66f, -2.05f}, {x, 0.4f, -12}, {1, 0.95f, 0.85f}, 60, 14, 38, "head");
-    b.add_emitter("tail " + side, "tail",
-                  make_quad({x - 0.12f, 0.62f, 2.002f}, {0.24f, 0, 0}, {0, 0.1f, 0}), {60, 3, 1});
+    b.add_emitter("tail " + side, "tail", make_quad({x - 0.12f, 0.62f, 2.002f}, {0.24f, 0, 0}, {0, 0.1f, 0}),
+                  {60, 3, 1});
   }
   b.stand_on(-1);
   return car;

@@ -39,7 +39,8 @@ void add_flames(Builder& b, int torch) {
       const float turn = static_cast<float>(k % keys) / keys, phase = 1.7f * static_cast<float>(i);
       const float sway = 0.25f * tongue.height;
       place.times.push_back(period * static_cast<float>(k) / keys);
-      place.values.emplace_back(sway * flicker(turn, phase), tongue.height * (1 + 0.2f * flicker(turn, phase + 1)),
+      place.values.emplace_back(sway * flicker(turn, phase),
+                                tongue.height * (1 + 0.2f * flicker(turn, phase + 1)),
                                 sway * flicker(turn, phase + 2), 0);
       size.times.push_back(place.times.back());
       size.values.emplace_back(1 + 0.25f * flicker(turn, phase + 3), 1.3f + 0.4f * flicker(turn, phase + 4),
@@ -80,7 +81,8 @@ Scene make_torch() {
   b.add("vault", flipped(make_box({-3, 0, -2.5f}, {3, 3, 2.5f})), stone);
   b.add("slabs", make_quad({-2.9f, 0.01f, 2.4f}, {5.8f, 0, 0}, {0, 0, -4.8f}), floor);
   b.add("pillar", make_column(0.2f, 3), white, at({0.3f, 0, -0.6f}));
-  b.add("chest", make_box({-0.4f, 0.01f, -0.3f}, {0.4f, 0.5f, 0.3f}), wood, at({-0.5f, 0, 1.5f}, 20, {0, 1, 0}));
+  b.add("chest", make_box({-0.4f, 0.01f, -0.3f}, {0.4f, 0.5f, 0.3f}), wood,
+        at({-0.5f, 0, 1.5f}, 20, {0, 1, 0}));
   b.add("banner", make_box({-0.5f, 0.8f, -2.48f}, {0.5f, 2.4f, -2.45f}), blue, at({-1.6f, 0, 0}));
   b.add("stand", make_cylinder(0.02f, 1.1f), iron, at({-1.7f, 0.01f, 0.2f}));
 
