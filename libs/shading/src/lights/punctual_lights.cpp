@@ -66,7 +66,9 @@ float PointLight::importance(const vec3& from) const {
   const vec3 wi = d / std::sqrt(distance2);
   const float factor = cone_scale > 0 || range > 0 ? falloff(wi, distance2) : 1.0f;
   if (!shape) return luminance(intensity) * factor / distance2;
-  return luminance(intensity * shape->toward(-wi)) * factor / glm::max(distance2, radius * radius);
+  // By the table of directions: 121 harmonics for each lamp at each point would be most of the work
+  const float share = 4 * pi * shape->pdf(-wi);
+  return luminance(intensity * shape->mean()) * share * factor / glm::max(distance2, radius * radius);
 }
 
 float PointLight::power() const {
