@@ -48,7 +48,7 @@ static_assert(sizeof(GpuMaterial) <= block_stride && sizeof(GpuInstance) <= bloc
 /// AreaSample and EmitterBlock of lights.glsl.
 /// A disc is a sun with an extent.
 /// `lobe`: an SPHL of the scene that shines; `sphl`: a probe to which somebody gave light.
-enum class EmitterKind : int { point, sphl, lobe, sun, disc, sphere, mesh, environment };
+enum class EmitterKind : int { point, sphl, sun, disc, sphere, mesh, environment, lobe };
 inline constexpr int emitter_kinds = 8;
 struct GpuAreaSample {
   vec4 place{0}, normal{0}, light{0};

@@ -7,8 +7,8 @@
 namespace ssphh::realtime {
 namespace {
 
-constexpr const char* kind_names[emitter_kinds] = {"POINT", "SPHL",   "LOBE", "SUN",
-                                                   "DISC",  "SPHERE", "MESH", "ENVIRONMENT"};
+constexpr const char* kind_names[emitter_kinds] = {"POINT",  "SPHL", "SUN",         "DISC",
+                                                   "SPHERE", "MESH", "ENVIRONMENT", "LOBE"};
 
 std::string define(const char* name, bool on = true) {
   return on ? std::string("#define ") + name + "\n" : std::string();

@@ -5,6 +5,7 @@
 
 #include "gltf_export_parts.h"
 #include "gltf_names.h"
+#include "read_emission.h"
 
 namespace ssphh::scene_io {
 

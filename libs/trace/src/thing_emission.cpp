@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/random.h>
 #include <ssphh/core/require.h>
 #include <ssphh/core/sphere.h>
 #include <ssphh/scene/query.h>
