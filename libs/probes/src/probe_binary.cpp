@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include <ssphh/core/hash.h>
 #include <ssphh/probes/byte_parts.h>
@@ -292,6 +293,12 @@ ProbeSet probes_from_binary(std::span<const std::byte> data, const std::string& 
   ByteReader header(data, where);
   if (data.size() < magic.size() ||
       !std::equal(magic.begin(), magic.end(), reinterpret_cast<const char*>(data.data()))) {
+    const std::string_view text(reinterpret_cast<const char*>(data.data()),
+                                std::min<std::size_t>(data.size(), 64));
+    if (text.find("\"ssphh-emission\"") != text.npos) {
+      throw Error(where, "is an emission file: what a thing sends out, not light that probes receive",
+                  "an SPHL shines with it: docs/sphl-lights.md");
+    }
     throw Error(where, "is not a binary probe file", "a JSON probe file's name must end in .json");
   }
   for (std::size_t i = 0; i < magic.size(); ++i) header.value<char>("magic");

@@ -240,6 +240,20 @@ TEST(ProbeFile, JsonErrorsNameFileAndPlace) {
   EXPECT_THAT(error_of("nonsense"), HasSubstr("file: is not valid JSON"));
 }
 
+TEST(ProbeFile, AnEmissionFileIsToldFromABrokenOne) {
+  const auto said = [](std::string_view text) {
+    try {
+      probes_from_binary(std::as_bytes(std::span(text)), "f");
+    } catch (const Error& e) {
+      return e.problem();
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(said(R"({"format":"ssphh-emission","version":1})"),
+            "is an emission file: what a thing sends out, not light that probes receive");
+  EXPECT_EQ(said("{}"), "is not a binary probe file");
+}
+
 TEST(ProbeFile, HostileNestingIsAnErrorAndCheap) {
   EXPECT_THAT(error_of(std::string(1 << 20, '[')), HasSubstr("nested deeper"));
   std::string objects;
