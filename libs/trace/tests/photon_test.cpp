@@ -64,6 +64,13 @@ std::vector<Case> lamps_and_suns() {
       {"sphere",
        [](scene::Scene& s) { s.lights.push_back(lamp(LightType::sphere, 3)), s.lights.back().radius = 0.4f; },
        true},
+      {"sphl",
+       [](scene::Scene& s) {
+         scene::Light light = lamp(LightType::sphl, 6);
+         light.radius = 0.2f;
+         light.emission.frames = {scene::lobe_emission(scene::Lobe::beam, {0, 0, -1}, 0.5f)};
+         s.lights.push_back(light);
+       }},
       {"directional", [](scene::Scene& s) { s.lights.push_back(lamp(LightType::directional, 2)); }, true},
       {"sunDisc",
        [](scene::Scene& s) {
