@@ -304,7 +304,6 @@ void Lights::set_colors() {
       const scene::LightState& state = states_[static_cast<std::size_t>(source.light)];
       light = state.color * state.intensity;
       range = lights_[static_cast<std::size_t>(source.light)].range;
-      // Coefficients of an SPHL
       for (std::size_t k = 0; k < std::min<std::size_t>(state.emission.values.size(), max_corners); ++k)
         e.corners[k] = vec4(state.emission.values[k], 0);
       if (e.items.x == static_cast<int>(EmitterKind::lobe) && state.emission.empty()) light = vec3(0);
