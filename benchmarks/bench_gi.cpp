@@ -1,5 +1,7 @@
 /// HIER, surface lookups and probe files. The sets hold random light: the time does not depend on the values.
 
+#include <algorithm>
+
 #include <benchmark/benchmark.h>
 
 #include <ssphh/core/random.h>

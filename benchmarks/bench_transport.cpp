@@ -16,6 +16,7 @@
 #include <ssphh/place/place.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/trace/transport_scene.h>
+#include <ssphh/transport/network.h>
 #include <ssphh/transport/projection.h>
 #include <ssphh/transport/relight_session.h>
 #include <ssphh/transport/solve.h>

@@ -1,5 +1,7 @@
 // What lights the scene: its probes, found, lit by transport or traced, or read from a file.
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <ssphh/bake/light_modes.h>

@@ -1,5 +1,6 @@
 #include "input.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 

@@ -1,6 +1,7 @@
 // Corners of commands that no other test passes: paths beside an output, pictures for screens, input that is
 // piped, output that cannot be written.
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <sstream>

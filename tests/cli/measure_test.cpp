@@ -1,6 +1,7 @@
 // `ssphh leak`, `measure`, `respond`, `place` and `bake`: figures against the library's, options where they
 // belong.
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 

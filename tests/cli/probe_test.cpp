@@ -1,5 +1,6 @@
 // `ssphh probe` and `ssphh hier` on a small set that was made by hand.
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

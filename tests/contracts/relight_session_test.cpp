@@ -1,5 +1,7 @@
 /// Contracts of transport::RelightSession: refused input, a source that fails, and the light afterwards.
 
+#include <algorithm>
+
 #include <ssphh/scene/query.h>
 #include <ssphh/transport/direct_field.h>
 #include <ssphh/transport/session_sets.h>

@@ -10,6 +10,8 @@
 #include <ssphh/shading/lights.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
+#include <ssphh/transport/bounce.h>
+#include <ssphh/transport/network.h>
 #include <ssphh/transport/relight_session.h>
 
 namespace ssphh::test {

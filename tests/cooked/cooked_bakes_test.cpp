@@ -1,6 +1,8 @@
 /// Cooked files of real bakes against the formulas that they follow, and against the full lookup, which sends
 /// rays.
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 /// The picture as it is shown: tone-mapped, encoded and in its place within somebody's framebuffer.
 
+#include <algorithm>
 #include <array>
 
 #include <gmock/gmock.h>

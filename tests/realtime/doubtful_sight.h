@@ -3,6 +3,7 @@
 /// a ray half a texel aside at most. And OpenGL asks no probe that stands lower than a quarter of its
 /// distance below the surface, where sight begins 1 % of it above.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>

@@ -1,6 +1,7 @@
 /// Ambient occlusion: the share of the hemisphere's cosine lobe that near surfaces close, where that is
 /// known.
 
+#include <algorithm>
 #include <random>
 
 #include <gmock/gmock.h>

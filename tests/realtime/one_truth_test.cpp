@@ -1,5 +1,6 @@
 /// The drawn picture of every built-in scene is the traced one with the same probes.
 
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>

@@ -1,6 +1,7 @@
 /// Shadows of suns with an extent: penumbrae as wide as the disc seen past an edge, and as path tracing has
 /// them.
 
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>

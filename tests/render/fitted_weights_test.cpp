@@ -1,5 +1,7 @@
 /// Weights fitted to transport over Embree, where the answer is known.
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

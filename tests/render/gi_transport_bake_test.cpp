@@ -1,5 +1,7 @@
 /// Sets whose light surfel transport found, through Embree, against closed forms and against the session.
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -258,14 +258,14 @@ TEST(LightModesInPictures, OfASessionHoldAsLongAsSurroundingsAndPoseDo) {
   // The record that gets most of the sky
   std::size_t open = 0;
   for (std::size_t i = 0; i < set.surface->points.size(); ++i) {
-    if (luminance(vec3(session.kept_direct()[0].light[i][3])) >
-        luminance(vec3(session.kept_direct()[0].light[open][3])))
+    if (luminance(vec3(session.kept_direct(0).light[i][3])) >
+        luminance(vec3(session.kept_direct(0).light[open][3])))
       open = i;
   }
   const auto expect_kept = [&](bool kept) {
     transport::refresh(set, session);
     EXPECT_EQ(probes::mirrored_groups(set), kept ? sky : std::vector<std::string>());
-    const vec3 direct = session.kept_direct()[0].light[open][3], reflected = session.record_light()[open][3];
+    const vec3 direct = session.kept_direct(0).light[open][3], reflected = session.record_light()[open][3];
     const vec3 expected = reflected + (kept ? state.group_scales[1] * direct : vec3(0));
     for (glm::length_t c = 0; c < 3; ++c)
       EXPECT_NEAR(light_at(open)[c], expected[c], 1e-3f * max_component(expected));

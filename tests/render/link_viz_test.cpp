@@ -1,5 +1,7 @@
 /// VIZ from links over Embree: closed forms where nothing reflects, path tracing where everything does.
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include <ssphh/bake/bake.h>

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include <ssphh/rays/transport_source.h>
 #include <ssphh/transport/relight_session.h>
 
 namespace ssphh::test {

@@ -1,6 +1,8 @@
 #pragma once
 /// A small room with everything that a relight session can change, for properties of transport.
 
+#include <algorithm>
+
 #include "transport_fixtures.h"
 
 namespace ssphh::test {

@@ -12,6 +12,7 @@
 #include <ssphh/transport/fitted_weights.h>
 #include <ssphh/transport/gather_light.h>
 #include <ssphh/transport/session_sets.h>
+#include <ssphh/transport/surface_gather.h>
 
 #include "transport_fixtures.h"
 

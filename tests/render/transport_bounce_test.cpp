@@ -1,5 +1,7 @@
 /// `bounce` and blended poses over Embree, where the answer is known.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <ssphh/core/error.h>
@@ -17,7 +19,7 @@ TEST(Bounce, AClosedBoxOfEqualWallsReachesTheGeometricSeries) {
     transport::BounceParams params;
     params.tolerance = 1e-5f;
     params.max_iterations = 400;
-    const transport::BounceOperator bounce(box.session.network(), box.source, 2, params);
+    transport::BounceOperator bounce(box.session.network(), box.source, 2, params);
     std::vector<sh::RadianceSh> reflected;
     const transport::BounceReport report = bounce.solve(box.session.surfel_direct(), reflected);
     EXPECT_TRUE(report.converged);
@@ -35,7 +37,7 @@ TEST(Bounce, OneApplicationAddsOneBounceToDirectLight) {
   GlowingBox box(0.5f);
   transport::BounceParams params;
   params.applications = 1;
-  const transport::BounceOperator bounce(box.session.network(), box.source, 2, params);
+  transport::BounceOperator bounce(box.session.network(), box.source, 2, params);
   std::vector<sh::RadianceSh> reflected;
   EXPECT_EQ(bounce.solve(box.session.surfel_direct(), reflected).iterations, 1);
   // D = Le ρ, and one bounce more Le ρ².

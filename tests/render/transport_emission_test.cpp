@@ -1,7 +1,10 @@
 /// SPHLs that are lights (set_emission) against sphere lights and closed forms.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
+#include <ssphh/transport/network.h>
 #include <ssphh/transport/relight_session.h>
 
 #include "transport_fixtures.h"

@@ -6,6 +6,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/transport/network.h>
 #include <ssphh/transport/relight_session.h>
 
 #include "transport_fixtures.h"

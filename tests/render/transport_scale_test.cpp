@@ -1,6 +1,8 @@
 /// A scene of a millimetre or of ten kilometres is baked as that of a few metres: radiance does not know how
 /// long a metre is.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <ssphh/bake/transport_bake.h>

@@ -2,6 +2,8 @@
 /// What a cooked file must give, from the set itself: the formulas of docs/cooked-files.md in double
 /// precision, with rays in place of stored distances, and none of the runtime's code.
 
+#include <algorithm>
+
 #include <ssphh/core/sphere.h>
 #include <ssphh/probes/fitted_surfaces.h>
 #include <ssphh/probes/lookup.h>

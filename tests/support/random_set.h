@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include <ssphh/core/random.h>
 #include <ssphh/probes/probe_set.h>
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include <ssphh/core/math.h>
 #include <ssphh/probes/probe_set.h>
 
 namespace ssphh::test {

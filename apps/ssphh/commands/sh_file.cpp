@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/file.h>
+#include <ssphh/core/math.h>
 
 namespace ssphh::app {
 

@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
 #include <imgui.h>
+
+#include <ssphh/transport/network.h>
 
 #include "app.h"
 #include "overlay.h"

@@ -3,6 +3,7 @@
 
 #include "balls_gl.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <ssphh/gl/draw.h>

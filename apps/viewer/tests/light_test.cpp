@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <ssphh/scene/builtin.h>
+#include <ssphh/transport/network.h>
 
 #include "json_text.h"
 #include "model/document.h"

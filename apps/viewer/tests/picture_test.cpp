@@ -2,6 +2,7 @@
 
 #include "picture.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include <ssphh/core/math.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/require.h>
 

@@ -128,7 +128,7 @@ std::vector<std::vector<sh::RadianceSh>> bounce_by_group(const transport::Religh
                                                          const rays::TransportSource& source,
                                                          const TransportBakeParams& params, int degree,
                                                          TransportBakeReport& report, bool& converged) {
-  const transport::BounceOperator bounce(session.network(), source, degree, params.bounce);
+  transport::BounceOperator bounce(session.network(), source, degree, params.bounce);
   std::vector<std::vector<sh::RadianceSh>> reflected;
   for (const std::vector<transport::Irradiance4>& direct : session.direct_by_group()) {
     const transport::BounceReport done = bounce.solve(direct, reflected.emplace_back());

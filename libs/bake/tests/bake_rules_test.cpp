@@ -1,5 +1,7 @@
 /// What a bake writes down, hands on, warns of and refuses.
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,8 @@
 /// Cooked files give what their formulas say, and at the set's scales what its lookup gives with the same
 /// sight.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <ssphh/probes/hier.h>

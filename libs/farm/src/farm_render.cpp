@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <ssphh/farm/farm_render.h>
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/scene/query.h>

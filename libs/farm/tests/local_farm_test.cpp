@@ -1,5 +1,6 @@
 /// A farm of this machine, with a program in place of the tool that tells what it was started with.
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <functional>

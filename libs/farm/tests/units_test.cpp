@@ -1,5 +1,7 @@
 /// How units are cut into jobs, handed to workers and counted, with a worker that answers anything.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <ssphh/farm/dispatch.h>

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include <ssphh/transport/network.h>
 #include <ssphh/transport/relight_session.h>
 
 namespace ssphh::methods {

@@ -9,6 +9,7 @@
 #include <ssphh/transport/fitted_weights.h>
 #include <ssphh/transport/gather_light.h>
 #include <ssphh/transport/session_sets.h>
+#include <ssphh/transport/surface_gather.h>
 
 #include "kept_weights.h"
 #include "network_memory.h"

@@ -2,6 +2,8 @@
 
 #include "../src/regions.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <ssphh/place/lattice.h>

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <ssphh/core/sphere.h>
 #include <ssphh/probe_export/free_light.h>
 #include <ssphh/sh/irradiance.h>

@@ -1,5 +1,6 @@
 // The text resource for Godot, walked as Godot walks it.
 
+#include <algorithm>
 #include <bit>
 
 #include <gmock/gmock.h>

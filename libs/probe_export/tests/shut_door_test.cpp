@@ -1,6 +1,8 @@
 // Two rooms, one lit, the door between them shut: engines interpolate without asking what sees what, and find
 // next to no light in the dark one.
 
+#include <algorithm>
+
 #include <ssphh/scene/builtin.h>
 
 #include "readers.h"

@@ -1,5 +1,6 @@
 #include "fitted_lookup_weights.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -43,6 +44,14 @@ std::vector<rays::SurfacePoint> lit_points(const FittedPoints& fitted) {
 }
 
 }  // namespace
+
+bool operator==(const FittedPoints& a, const FittedPoints& b) {
+  return std::ranges::equal(a.points, b.points,
+                            [](const rays::SurfacePoint& p, const rays::SurfacePoint& q) {
+                              return p.position == q.position && p.normal == q.normal;
+                            }) &&
+         a.weights == b.weights;
+}
 
 void require_whole(const FittedPoints& fitted, std::size_t probe_count) {
   require(fitted.weights.size() == fitted.points.size(), "fitted points", "not every point has its weights");

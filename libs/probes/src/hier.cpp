@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/math.h>
 #include <ssphh/core/parallel.h>
 #include <ssphh/probes/hier.h>
 #include <ssphh/probes/probe_limits.h>

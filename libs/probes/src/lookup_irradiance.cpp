@@ -6,10 +6,12 @@ namespace ssphh::probes {
 
 struct IrradianceLookup::Data {
   PackedProbes probes;
-  std::unique_ptr<LookupWeights> weights;
+  std::shared_ptr<const LookupWeights> weights;
   std::shared_ptr<const SurfaceInterpolation> places;  ///< of the records; none: weights alone
   std::vector<RecordLight> light;                      ///< of each place
   std::vector<std::string> direct_groups, mirrored_groups;
+  std::vector<std::pair<scene::LightMode, bool>> kinds;  ///< of the set's groups, by which they were named
+  std::vector<sh::RadianceSh> more;                      ///< scratch
 
   /// Σ_j v_j value(j), not negative.
   template <class Value>
@@ -25,19 +27,47 @@ struct IrradianceLookup::Data {
   }
 
   void take(const SurfaceRecords& records, std::shared_ptr<const SurfaceInterpolation> points) {
-    require(records.light.size() == points->count(), "probe lookup",
-            "the records' groups were not merged: call merge_groups");
+    check(records, *points);
     places = std::move(points);
     light = records.light;
   }
+  static void check(const SurfaceRecords& records, const SurfaceInterpolation& points) {
+    require(records.light.size() == points.count(), "probe lookup",
+            "the records' groups were not merged: call merge_groups");
+  }
 
-  /// Of probes beside records.
-  static Data beside(const ProbeSet& set, const LookupParams& params, bool records) {
-    std::vector<std::string> groups = baked_groups(set), mirrored;
-    std::vector<sh::RadianceSh> more;
-    if (records) mirrored = probes::mirrored_groups(set), more = light_beside_records(set);
-    groups.insert(groups.end(), mirrored.begin(), mirrored.end());
-    return {PackedProbes(set, params, more), nullptr, nullptr, {}, std::move(groups), std::move(mirrored)};
+  /// Of probes, perhaps beside records.
+  Data(const ProbeSet& set, const LookupParams& params, bool records)
+      : probes(set, params, records ? light_beside_records(set) : std::vector<sh::RadianceSh>()) {
+    name_groups(set, records);
+  }
+
+  void swap_light(const ProbeSet& set) {
+    if (places) {
+      require(set.surface && set.surface->points.size() == places->count(), "probe lookup",
+              "the new light has other records");
+      check(*set.surface, *places);
+    }
+    more.clear();
+    if (places) light_beside_records(set, more);
+    probes.swap_light(set, more);
+    if (places) light = set.surface->light;
+    name_groups(set, places != nullptr);
+  }
+
+  /// Takes no memory while the groups' modes stay.
+  void name_groups(const ProbeSet& set, bool records) {
+    const auto kind = [&](std::size_t g) {
+      return std::pair(set.light_groups[g].mode, records && set.surface->keeps_direct(g));
+    };
+    bool same = kinds.size() == set.light_groups.size();
+    for (std::size_t g = 0; same && g < kinds.size(); ++g) same = kinds[g] == kind(g);
+    if (same) return;
+    kinds.clear();
+    for (std::size_t g = 0; g < set.light_groups.size(); ++g) kinds.push_back(kind(g));
+    direct_groups = baked_groups(set);
+    mirrored_groups = records ? probes::mirrored_groups(set) : std::vector<std::string>();
+    direct_groups.insert(direct_groups.end(), mirrored_groups.begin(), mirrored_groups.end());
   }
 };
 
@@ -53,8 +83,7 @@ WeightMethod chosen_weights(const ProbeSet& set, const LookupParams& params) {
 
 IrradianceLookup::IrradianceLookup(const ProbeSet& set, const rays::RadianceSource& source,
                                    const LookupParams& params)
-    : data_(std::make_unique<Data>(
-          Data::beside(set, params, chosen_weights(set, params) == WeightMethod::surface))) {
+    : data_(std::make_unique<Data>(set, params, chosen_weights(set, params) == WeightMethod::surface)) {
   const auto sees = [&source](const vec3& a, const vec3& b) { return source.visible(a, b); };
   data_->weights =
       make_weights(data_->probes.positions(), sees, params.weights, set.fitted ? &*set.fitted : nullptr);
@@ -67,7 +96,7 @@ IrradianceLookup::IrradianceLookup(const ProbeSet& set, const rays::RadianceSour
 IrradianceLookup::IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWeights> weights,
                                    const LookupParams& params,
                                    std::shared_ptr<const SurfaceInterpolation> places)
-    : data_(std::make_unique<Data>(Data::beside(set, params, places != nullptr))) {
+    : data_(std::make_unique<Data>(set, params, places != nullptr)) {
   data_->weights = std::move(weights);
   require(data_->weights != nullptr, "probe lookup", "there are no weights");
   if (!places) return;
@@ -77,6 +106,12 @@ IrradianceLookup::IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWe
 IrradianceLookup::~IrradianceLookup() = default;
 IrradianceLookup::IrradianceLookup(IrradianceLookup&&) noexcept = default;
 IrradianceLookup& IrradianceLookup::operator=(IrradianceLookup&&) noexcept = default;
+IrradianceLookup::IrradianceLookup(const IrradianceLookup& other)
+    : data_(std::make_unique<Data>(*other.data_)) {}
+
+void IrradianceLookup::swap_light(const ProbeSet& set) {
+  data_->swap_light(set);
+}
 
 vec3 IrradianceLookup::irradiance(const rays::SurfacePoint& at) const {
   if (vec3 found; data_->places && data_->places->irradiance(at, data_->light, found)) return found;

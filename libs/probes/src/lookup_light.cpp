@@ -5,7 +5,7 @@ namespace ssphh::probes {
 
 struct LightLookup::Data {
   PackedProbes probes;
-  ProbeSight sight;
+  std::shared_ptr<const ProbeSight> sight;
   std::vector<std::string> direct_groups;
 
   /// The nearest probe that the point sees and that stands above its horizon; else the nearest, with `lights`
@@ -17,12 +17,12 @@ struct LightLookup::Data {
   };
   Chosen choose(const vec3& x, const vec3& n) const {
     ProbeSight::NearList near;
-    const int count = sight.nearest(x, near);
+    const int count = sight->nearest(x, near);
     for (int i = 0; i < count; ++i) {
       const geometry::Near& candidate = near[static_cast<std::size_t>(i)];
       if (!(candidate.distance2 > 0)) continue;
       const vec3 direction = (probes.position(candidate.index) - x) / std::sqrt(candidate.distance2);
-      if (glm::dot(n, direction) > 0 && sight.sees(candidate, x, n))
+      if (glm::dot(n, direction) > 0 && sight->sees(candidate, x, n))
         return {candidate.index, direction, true};
     }
     return {count > 0 ? near[0].index : 0, n, false};  // none is near a point that is no number
@@ -32,7 +32,7 @@ struct LightLookup::Data {
 LightLookup::LightLookup(const ProbeSet& set, const rays::RadianceSource& source,
                          const LookupParams& params) {
   PackedProbes packed(set, params);
-  ProbeSight sight(
+  auto sight = std::make_shared<const ProbeSight>(
       packed.positions(), [&source](const vec3& a, const vec3& b) { return source.visible(a, b); },
       params.weights);
   data_ = std::unique_ptr<Data>(new Data{std::move(packed), std::move(sight), baked_groups(set)});
@@ -40,6 +40,20 @@ LightLookup::LightLookup(const ProbeSet& set, const rays::RadianceSource& source
 LightLookup::~LightLookup() = default;
 LightLookup::LightLookup(LightLookup&&) noexcept = default;
 LightLookup& LightLookup::operator=(LightLookup&&) noexcept = default;
+LightLookup::LightLookup(const LightLookup& other) : data_(std::make_unique<Data>(*other.data_)) {}
+
+void LightLookup::swap_light(const ProbeSet& set) {
+  Data& d = *data_;
+  d.probes.swap_light(set);
+  std::size_t baked = 0;
+  bool same = true;
+  for (const LightGroup& group : set.light_groups) {
+    if (group.mode != scene::LightMode::baked) continue;
+    same = same && baked < d.direct_groups.size() && d.direct_groups[baked] == group.name;
+    ++baked;
+  }
+  if (!same || baked != d.direct_groups.size()) d.direct_groups = baked_groups(set);
+}
 
 vec3 LightLookup::irradiance(const rays::SurfacePoint& at) const {
   const vec3 &x = at.position, &n = at.normal;

@@ -16,24 +16,46 @@ int irradiance_degree(const LookupParams& params, int set_degree) {
 
 PackedProbes::PackedProbes(const ProbeSet& set, const LookupParams& params,
                            std::span<const sh::RadianceSh> of_moving)
-    : PackedProbes(set, surface_light(set, params), params, of_moving) {}
-
-PackedProbes::PackedProbes(const ProbeSet& set, std::vector<sh::RadianceSh> lights,
-                           const LookupParams& params, std::span<const sh::RadianceSh> of_moving)
-    : radiance_(set.probes.size(), set.degree),
+    : params_(params),
+      light_(surface_light(set, params)),
+      radiance_(set.probes.size(), set.degree),
       irradiance_(set.probes.size(), irradiance_degree(params, set.degree)) {
-  const auto irradiance_count = static_cast<std::size_t>(sh::coefficient_count(irradiance_.degree));
   for (const Probe& probe : set.probes) positions_.push_back(probe.position);
-  if (!of_moving.empty()) more_of_moving_.emplace(set.probes.size(), irradiance_.degree);
-  const auto set_irradiance = [&](Functions& functions, std::size_t i, sh::RadianceSh light) {
+  pack(of_moving);
+}
+
+void PackedProbes::swap_light(const ProbeSet& set, std::span<const sh::RadianceSh> of_moving) {
+  require(set.degree == radiance_.degree && set.probes.size() == positions_.size(), "probe lookup",
+          "the new light is of other probes");
+  for (std::size_t i = 0; i < positions_.size(); ++i)
+    require(set.probes[i].position == positions_[i], "probe lookup", "the new light is of other probes");
+  surface_light(set, params_, light_);
+  pack(of_moving);
+}
+
+void PackedProbes::pack(std::span<const sh::RadianceSh> of_moving) {
+  const auto irradiance_count = static_cast<std::size_t>(sh::coefficient_count(irradiance_.degree));
+  if (of_moving.empty()) {
+    more_of_moving_.reset();
+  } else if (!more_of_moving_) {
+    more_of_moving_.emplace(positions_.size(), irradiance_.degree);
+  }
+  light_of_moving_.assign(of_moving.begin(), of_moving.end());
+  const auto set_irradiance = [&](Functions& functions, std::size_t i, sh::RadianceSh& light) {
     light.values.resize(irradiance_count);
-    if (params.dering) light = sh::dering(light, sh::NonNegative::irradiance);
-    functions.set(i, sh::irradiance_from_radiance(light).values);
+    if (params_.dering)
+      sh::window_in_place(light,
+                          sh::lanczos_window(sh::choose_window(light, sh::NonNegative::irradiance).width));
+    for (int l = 0; l <= irradiance_.degree; ++l) {
+      for (int k = sh::coefficient_index(l, -l); k <= sh::coefficient_index(l, l); ++k)
+        light[k] *= static_cast<float>(sh::cosine_band_factor(l));
+    }
+    functions.set(i, light.values);
   };
-  parallel_for(set.probes.size(), 4, [&](std::size_t i) {
-    radiance_.set(i, lights[i].values);
-    set_irradiance(irradiance_, i, std::move(lights[i]));
-    if (more_of_moving_) set_irradiance(*more_of_moving_, i, of_moving[i]);
+  parallel_for(positions_.size(), 4, [&](std::size_t i) {
+    radiance_.set(i, light_[i].values);
+    set_irradiance(irradiance_, i, light_[i]);
+    if (more_of_moving_) set_irradiance(*more_of_moving_, i, light_of_moving_[i]);
   });
 }
 

@@ -20,6 +20,9 @@ class PackedProbes {
   /// `of_moving`: of each probe what more lights things that move, but for mirrors; or none.
   PackedProbes(const ProbeSet& set, const LookupParams& params,
                std::span<const sh::RadianceSh> of_moving = {});
+  /// Takes the light of the same probes. Throws Error for others and as the constructor does, changes nothing
+  /// then.
+  void swap_light(const ProbeSet& set, std::span<const sh::RadianceSh> of_moving = {});
 
   int count() const { return static_cast<int>(positions_.size()); }
 
@@ -41,9 +44,6 @@ class PackedProbes {
   void glossy_basis(const vec3& direction, float roughness, Basis& basis) const;
 
  private:
-  PackedProbes(const ProbeSet& set, std::vector<sh::RadianceSh> lights, const LookupParams& params,
-               std::span<const sh::RadianceSh> of_moving);
-
   /// Functions of all probes, laid out so that one is evaluated by whole vectors.
   struct Functions {
     Functions(std::size_t probes, int degree);
@@ -55,9 +55,14 @@ class PackedProbes {
     std::vector<float> values;  ///< probe after probe, in each channel after channel
   };
 
+  void pack(std::span<const sh::RadianceSh> of_moving);
+
+  LookupParams params_;
+  std::vector<sh::RadianceSh> light_;  ///< scratch
   std::vector<vec3> positions_;
   Functions radiance_, irradiance_;
-  std::optional<Functions> more_of_moving_;  ///< irradiance
+  std::optional<Functions> more_of_moving_;      ///< irradiance
+  std::vector<sh::RadianceSh> light_of_moving_;  ///< scratch
 };
 
 }  // namespace ssphh::probes

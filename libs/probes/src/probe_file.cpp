@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/file.h>
+#include <ssphh/core/math.h>
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/probes/probe_limits.h>
 

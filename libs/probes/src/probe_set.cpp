@@ -1,5 +1,8 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
+#include <ssphh/core/math.h>
 #include <ssphh/probes/probe_limits.h>
 #include <ssphh/probes/probe_set.h>
 
@@ -86,29 +89,40 @@ std::vector<std::string> baked_groups(const ProbeSet& set) {
   return names;
 }
 
+namespace {
+
+/// Whether the records keep direct light of a group that mirrors show themselves.
+bool is_mirrored(const ProbeSet& set, std::size_t g) {
+  return set.light_groups[g].mode == scene::LightMode::diffuse && set.surface && set.surface->keeps_direct(g);
+}
+
+}  // namespace
+
 std::vector<std::string> mirrored_groups(const ProbeSet& set) {
   std::vector<std::string> names;
   for (std::size_t g = 0; g < set.light_groups.size(); ++g) {
-    const LightGroup& group = set.light_groups[g];
-    if (group.mode == scene::LightMode::diffuse && set.surface && set.surface->keeps_direct(g))
-      names.push_back(group.name);
+    if (is_mirrored(set, g)) names.push_back(set.light_groups[g].name);
   }
   return names;
 }
 
 std::vector<sh::RadianceSh> light_beside_records(const ProbeSet& set) {
-  const std::vector<std::string> names = mirrored_groups(set);
   std::vector<sh::RadianceSh> light;
-  if (names.empty()) return light;
-  for (const Probe& probe : set.probes) {
-    sh::RadianceSh& sum = light.emplace_back(set.degree);
+  light_beside_records(set, light);
+  return light;
+}
+
+void light_beside_records(const ProbeSet& set, std::vector<sh::RadianceSh>& light) {
+  bool any = false;
+  for (std::size_t g = 0; g < set.light_groups.size(); ++g) any |= is_mirrored(set, g);
+  light.resize(any ? set.probes.size() : 0);
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    const Probe& probe = set.probes[i];
+    light[i].values.assign(static_cast<std::size_t>(sh::coefficient_count(set.degree)), vec3(0));
     for (std::size_t g = 0; g < probe.groups.size(); ++g) {
-      const LightGroup& group = set.light_groups[g];
-      if (std::ranges::find(names, group.name) != names.end())
-        add_scaled(sum, probe.groups[g].emitted, group.scale);
+      if (is_mirrored(set, g)) add_scaled(light[i], probe.groups[g].emitted, set.light_groups[g].scale);
     }
   }
-  return light;
 }
 
 std::size_t edge_count(const ProbeSet& set) {

@@ -1,6 +1,7 @@
 #pragma once
 /// Triangles that stand still, by the cells of a grid that they pass, and points on them.
 
+#include <algorithm>
 #include <vector>
 
 #include <ssphh/probes/surface_lists.h>

@@ -29,6 +29,12 @@ class Checked {
 }  // namespace
 
 std::vector<sh::RadianceSh> surface_light(const ProbeSet& set, const LookupParams& params) {
+  std::vector<sh::RadianceSh> light;
+  surface_light(set, params, light);
+  return light;
+}
+
+void surface_light(const ProbeSet& set, const LookupParams& params, std::vector<sh::RadianceSh>& light) {
   sh::require_degree(set.degree, "probe set");
   if (set.probes.empty()) throw Error("probe lookup", "the probe set is empty", "bake a scene with SPHLs");
   const ProbeLayer layer = params.layer.value_or(set.hierarchy ? ProbeLayer::sum : ProbeLayer::self);
@@ -38,19 +44,18 @@ std::vector<sh::RadianceSh> surface_light(const ProbeSet& set, const LookupParam
     throw Error("probe lookup", "the hierarchy is not of this set's probes", "compute it anew");
 
   const Checked checked(set.degree);
-  std::vector<sh::RadianceSh> light;
+  light.resize(set.probes.size());
   for (std::size_t i = 0; i < set.probes.size(); ++i) {
     const Probe& probe = set.probes[i];
     if (!is_finite(probe.position)) throw Error(fmt::format("probe {}", i), "its position is not finite");
     if (layer == ProbeLayer::neighbor) {
-      light.push_back(checked(set.hierarchy->neighbor[i], i));
+      light[i] = checked(set.hierarchy->neighbor[i], i);
       continue;
     }
     const sh::RadianceSh& own = params.light == ProbeLight::reflected ? probe.reflected : probe.self;
-    light.push_back(checked(own, i, own.empty() ? "its groups were not merged: call merge_groups" : ""));
-    if (layer == ProbeLayer::sum) light.back() += checked(set.hierarchy->neighbor[i], i);
+    light[i] = checked(own, i, own.empty() ? "its groups were not merged: call merge_groups" : "");
+    if (layer == ProbeLayer::sum) light[i] += checked(set.hierarchy->neighbor[i], i);
   }
-  return light;
 }
 
 }  // namespace ssphh::probes

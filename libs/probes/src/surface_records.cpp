@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/core/math.h>
 #include <ssphh/core/require.h>
 #include <ssphh/probes/surface_records.h>
 

@@ -1,5 +1,6 @@
 /// How much each fitted point counts, where closed forms tell: by distance, by tilt, by height, by place.
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

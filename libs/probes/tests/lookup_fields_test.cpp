@@ -1,5 +1,7 @@
 /// Lookups in light that differs by place, direction and colour, against formulas written down here.
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include <ssphh/core/sphere.h>

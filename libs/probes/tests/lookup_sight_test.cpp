@@ -1,5 +1,7 @@
 /// Which probes a lookup asks for, from where, and what those count that nobody sees.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <ssphh/probes/lookup_weights.h>

@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <functional>
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,6 @@
 /// Opening, describing and changing: every entry with what its types allow.
 
+#include <algorithm>
 #include <limits>
 
 #include <gmock/gmock.h>

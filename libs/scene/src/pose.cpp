@@ -2,6 +2,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <ssphh/core/require.h>
 #include <ssphh/scene/query.h>
 
 #include "check_indices.h"
@@ -90,6 +91,26 @@ std::vector<mat4> world_matrices(const Scene& scene, float time) {
     world.push_back(node.parent < 0 ? local : world[static_cast<std::size_t>(node.parent)] * local);
   }
   return world;
+}
+
+mat4 world_matrix(const Scene& scene, int index, float time) {
+  require(index >= 0 && static_cast<std::size_t>(index) < scene.nodes.size(), "node",
+          "there is none of that index");
+  const Node& node = scene.nodes[static_cast<std::size_t>(index)];
+  require(node.parent < index, "node", "its parent does not stand before it");
+  mat4 local(1);
+  if (node.matrix) {
+    local = *node.matrix;
+  } else {
+    Transform posed = node.local;
+    for (const Animation& animation : scene.animations) {
+      for (const AnimationChannel& channel : animation.channels) {
+        if (channel.node == index) apply(channel, time, posed);
+      }
+    }
+    local = posed.matrix();
+  }
+  return node.parent < 0 ? local : world_matrix(scene, node.parent, time) * local;
 }
 
 float animation_duration(const Scene& scene) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/math.h>
 #include <ssphh/sh/convert.h>
 #include <ssphh/sh/irradiance.h>
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <ssphh/core/math.h>
 #include <ssphh/sh/evaluate.h>
 
 #include "recurrence.h"

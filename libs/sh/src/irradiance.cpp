@@ -1,5 +1,6 @@
 #include <array>
 
+#include <ssphh/core/math.h>
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/sh/irradiance.h>
 

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include <ssphh/core/math.h>
 #include <ssphh/sh/rotate.h>
 
 namespace ssphh::sh {

@@ -109,7 +109,10 @@ glm::dvec3 minima(const Sh& sh) {
 /// One channel of a function whose bands are about to be scaled: is it anywhere below a level?
 class WindowedChannel {
  public:
-  WindowedChannel(const Channel& values, int degree) : values_(values), degree_(degree) {
+  void assign(const Channel& values, int degree) {
+    values_ = values;
+    degree_ = degree;
+    bands_.clear();
     for (int l = 0; l <= degree; ++l) {
       double squares = 0;
       for (int k = coefficient_index(l, -l); k <= coefficient_index(l, l); ++k)
@@ -134,7 +137,8 @@ class WindowedChannel {
     // each band is a trigonometric polynomial, whose second derivative Bernstein's inequality bounds.
     const double hidden = 0.5 * sample_reach * sample_reach * curvature;
     sample_bands();
-    std::vector<std::pair<double, std::size_t>> suspects;
+    thread_local std::vector<std::pair<double, std::size_t>> suspects;
+    suspects.clear();
     for (std::size_t i = 0; i < sample_count; ++i) {
       const double* bands = &bands_[i * static_cast<std::size_t>(degree_ + 1)];
       double sum = 0;
@@ -169,17 +173,23 @@ class WindowedChannel {
     }
   }
 
-  Channel values_;
-  int degree_;
+  Channel values_{};
+  int degree_ = 0;
   std::array<double, max_degree + 1> largest_{};
   std::vector<double> bands_;
 };
 
-template <class Sh>
-std::vector<WindowedChannel> channels(const Sh& sh) {
-  std::vector<WindowedChannel> all;
-  for (int c = 0; c < 3; ++c) all.emplace_back(channel_values(sh, c), sh.degree());
-  return all;
+/// Of radiance, or of the irradiance that it gives.
+Channel channel_values(const RadianceSh& radiance, NonNegative goal, int c) {
+  Channel values = channel_values(radiance, c);
+  if (goal == NonNegative::radiance) return values;
+  for (int l = 0; l <= radiance.degree(); ++l) {
+    for (int k = coefficient_index(l, -l); k <= coefficient_index(l, l);
+         ++k)  // rounded as irradiance_from_radiance()
+      values[static_cast<std::size_t>(k)] =
+          static_cast<double>(radiance[k][c] * static_cast<float>(cosine_band_factor(l)));
+  }
+  return values;
 }
 
 template <class Shape>
@@ -205,14 +215,18 @@ BandScales lanczos_window(double width) {
 }
 
 RadianceSh apply_window(const RadianceSh& sh, const BandScales& scales) {
-  require_degree(std::max(sh.degree(), 0), "window");
   RadianceSh result = sh;
+  window_in_place(result, scales);
+  return result;
+}
+
+void window_in_place(RadianceSh& sh, const BandScales& scales) {
+  require_degree(std::max(sh.degree(), 0), "window");
   for (int l = 0; l <= sh.degree(); ++l) {
     const float scale = scales[static_cast<std::size_t>(l)];
     if (scale == 1) continue;
-    for (int k = coefficient_index(l, -l); k <= coefficient_index(l, l); ++k) result[k] *= scale;
+    for (int k = coefficient_index(l, -l); k <= coefficient_index(l, l); ++k) sh[k] *= scale;
   }
-  return result;
 }
 
 vec3 minimum(const RadianceSh& radiance) {
@@ -225,8 +239,9 @@ vec3 minimum(const IrradianceSh& irradiance) {
 AutoWindow choose_window(const RadianceSh& radiance, NonNegative goal) {
   AutoWindow result;
   if (radiance.empty()) return result;
-  std::vector<WindowedChannel> wanted =
-      goal == NonNegative::radiance ? channels(radiance) : channels(irradiance_from_radiance(radiance));
+  thread_local std::array<WindowedChannel, 3> wanted;  // a lookup whose light changes takes no memory for it
+  for (int c = 0; c < 3; ++c)
+    wanted[static_cast<std::size_t>(c)].assign(channel_values(radiance, goal, c), radiance.degree());
   const auto all_above = [&](const glm::dvec3& levels, const BandScales& scales) {
     for (int c = 0; c < 3; ++c) {
       if (wanted[static_cast<std::size_t>(c)].below(levels[c], scales)) return false;

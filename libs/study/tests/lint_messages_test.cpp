@@ -1,5 +1,7 @@
 /// What lint says, word by word, and what each of its thresholds and searches is about.
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -17,7 +17,11 @@ class BoxTree {
  public:
   BoxTree() = default;
   /// Split at the median of the centres along the longest axis.
-  explicit BoxTree(const std::vector<scene::Bounds>& boxes) : order_(boxes.size()) {
+  explicit BoxTree(const std::vector<scene::Bounds>& boxes) { assign(boxes); }
+  /// The same in place of what it was, in the memory of that.
+  void assign(const std::vector<scene::Bounds>& boxes) {
+    nodes_.clear();
+    order_.resize(boxes.size());
     std::iota(order_.begin(), order_.end(), 0u);
     if (!boxes.empty()) build(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
   }

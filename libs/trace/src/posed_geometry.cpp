@@ -12,10 +12,16 @@
 namespace ssphh::trace {
 
 PosedGeometry::PosedGeometry(const ShadedGeometry& geometry, std::span<const mat4> poses)
-    : geometry_(geometry), bounds_(geometry.layout().parts[0].bounds) {
-  std::vector<scene::Bounds> boxes;  // of moving_, in the world
+    : geometry_(geometry) {
+  pose(poses);
+}
+
+void PosedGeometry::pose(std::span<const mat4> poses) {
+  bounds_ = geometry_.layout().parts[0].bounds;
+  moving_.clear();
+  boxes_.clear();
   for (std::size_t i = 1; i < poses.size(); ++i) {
-    const scene::Bounds& bounds = geometry.layout().parts[i].bounds;
+    const scene::Bounds& bounds = geometry_.layout().parts[i].bounds;
     const float det = glm::determinant(mat3(poses[i]));
     if (bounds.empty() || !(std::abs(det) > 0) || !std::isfinite(1 / det)) continue;
     const mat4 from_world = glm::inverse(poses[i]);
@@ -24,9 +30,9 @@ PosedGeometry::PosedGeometry(const ShadedGeometry& geometry, std::span<const mat
                        grown(bounds, rounding)});
     const scene::Bounds box = rays::transformed(bounds, poses[i]);
     bounds_.add(box.min), bounds_.add(box.max);
-    boxes.push_back(grown(box, 4 * position_error(scene_size(box) + max_abs_component(vec3(poses[i][3])))));
+    boxes_.push_back(grown(box, 4 * position_error(scene_size(box) + max_abs_component(vec3(poses[i][3])))));
   }
-  tree_ = BoxTree(boxes);
+  tree_.assign(boxes_);
 }
 
 bool PosedGeometry::MovingPart::may_meet(const Ray& ray) const {

@@ -12,6 +12,8 @@ class PosedGeometry {
  public:
   /// `poses`: part to world, one per part; the first is the identity.
   PosedGeometry(const ShadedGeometry& geometry, std::span<const mat4> poses);
+  /// Poses the parts anew, without allocation.
+  void pose(std::span<const mat4> poses);
 
   /// As ShadedGeometry's, over all parts.
   bool intersect(const Ray& ray, const Passage& passage, RayTask& task, Hit& hit) const;
@@ -46,7 +48,8 @@ class PosedGeometry {
 
   const ShadedGeometry& geometry_;
   std::vector<MovingPart> moving_;
-  BoxTree tree_;  ///< over their boxes in the world
+  std::vector<scene::Bounds> boxes_;  ///< of moving_, in the world
+  BoxTree tree_;                      ///< over their boxes in the world
   scene::Bounds bounds_;
 };
 

@@ -20,14 +20,34 @@ vec3 farthest(const scene::Bounds& box, const vec3& direction) {
           direction.z > 0 ? box.max.z : box.min.z};
 }
 
+std::vector<mat4> node_matrices(const TransportData& data, std::span<const mat4> poses) {
+  std::vector<mat4> world;
+  data.layout().node_matrices(poses, world);
+  return world;
+}
+
 }  // namespace
 
 PosedLight::PosedLight(std::shared_ptr<const TransportData> data, std::span<const scene::LightState> lights,
                        std::span<const mat4> poses, float environment_rotation)
     : data_(std::move(data)),
-      lights_(data_->lights, data_->layout().node_matrices(poses), lights, environment_rotation),
+      world_(node_matrices(*data_, poses)),
+      lights_(data_->lights, world_, lights, environment_rotation),
       geometry_(data_->geometry, poses) {
+  list_emitters();
+}
+
+void PosedLight::pose(std::span<const scene::LightState> lights, std::span<const mat4> poses,
+                      float environment_rotation) {
+  data_->layout().node_matrices(poses, world_);
+  lights_.pose(data_->lights, world_, lights, environment_rotation);
+  geometry_.pose(poses);
+  list_emitters();
+}
+
+void PosedLight::list_emitters() {
   groups_.resize(lights_.groups().size());
+  for (std::vector<GroupEmitter>& group : groups_) group.clear();
   for (int i = 0; i < lights_.emitter_count(); ++i) {
     const shading::Emitter emitter = lights_.emitter(i);
     groups_[static_cast<std::size_t>(emitter.group)].push_back({i, emitter});

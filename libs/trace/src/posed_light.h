@@ -20,6 +20,10 @@ class PosedLight final : public rays::DirectLight {
  public:
   PosedLight(std::shared_ptr<const TransportData> data, std::span<const scene::LightState> lights,
              std::span<const mat4> poses, float environment_rotation);
+  bool is_of(const TransportData* data) const { return data_.get() == data; }
+  /// Becomes what the constructor makes of the same data, in its own memory.
+  void pose(std::span<const scene::LightState> lights, std::span<const mat4> poses,
+            float environment_rotation);
 
   void irradiance(int group, std::span<const rays::SurfacePoint> points, std::span<vec3> out) const override;
   bool may_shadow(int group, const rays::SurfacePoint& point, const scene::Bounds& box) const override;
@@ -59,8 +63,10 @@ class PosedLight final : public rays::DirectLight {
   void sample_sky(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, int count, RayTask& task,
                   const Add& add) const;
   const std::vector<GroupEmitter>& emitters_of(int group) const;
+  void list_emitters();
 
   std::shared_ptr<const TransportData> data_;
+  std::vector<mat4> world_;  ///< of nodes
   shading::LightSet lights_;
   PosedGeometry geometry_;
   std::vector<std::vector<GroupEmitter>> groups_;

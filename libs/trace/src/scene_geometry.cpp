@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <ssphh/core/happens_before.h>
+#include <ssphh/core/parallel.h>
 #include <ssphh/core/require.h>
 #include <ssphh/trace/scene_geometry.h>
 
@@ -74,13 +75,15 @@ void attach(RTCScene scene, RTCGeometry geometry, std::size_t id) {
 
 SceneGeometry::Data::Data(const scene::Scene& scene_in, std::uint64_t flatten_limit)
     : scene(scene_in), layout(scene_in), instances(scene_in.instances.size()) {
-  {
-    const LibraryWrites settings;  // strings that Embree's tasks compare
-    device.reset(rtcNewDevice(nullptr));
-  }
-  if (!device) throw Error("ray tracer", "Embree does not start on this machine");
   try {
-    build(flatten_limit);
+    within_thread_count([&] {
+      {
+        const LibraryWrites settings;  // strings that Embree's tasks compare
+        device.reset(rtcNewDevice(nullptr));
+      }
+      if (!device) throw Error("ray tracer", "Embree does not start on this machine");
+      build(flatten_limit);
+    });
   } catch (const std::bad_alloc&) {
     throw Error("ray tracer", "the scene's geometry does not fit into memory");
   }

@@ -94,12 +94,11 @@ std::vector<mat4> SceneParts::poses(const scene::Scene& scene, float time) const
   return poses;
 }
 
-std::vector<mat4> SceneParts::node_matrices(std::span<const mat4> poses) const {
-  std::vector<mat4> world = frames.to_frame;
+void SceneParts::node_matrices(std::span<const mat4> poses, std::vector<mat4>& world) const {
+  world = frames.to_frame;
   for (std::size_t i = 0; i < world.size(); ++i) {
     if (node_part[i] > 0) world[i] = poses[static_cast<std::size_t>(node_part[i])] * world[i];
   }
-  return world;
 }
 
 }  // namespace ssphh::trace

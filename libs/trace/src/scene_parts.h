@@ -32,7 +32,7 @@ struct SceneParts {
   /// Parts to world at `time`.
   std::vector<mat4> poses(const scene::Scene& scene, float time) const;
   /// World matrix of every node below which a part hangs or that never moves, parts posed by `poses`.
-  std::vector<mat4> node_matrices(std::span<const mat4> poses) const;
+  void node_matrices(std::span<const mat4> poses, std::vector<mat4>& world) const;
 
   std::vector<ScenePart> parts;    ///< the first never moves; then in the order of their nodes
   NodeFrames frames;               ///< of nodes

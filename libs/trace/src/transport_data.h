@@ -20,6 +20,7 @@ struct TransportData {
   ShadedGeometry geometry;
   std::vector<std::string> light_names;
   std::vector<int> light_group;
+  int environment_group = -1;
   shading::LightSet lights;  ///< at time 0
   float gap = 0;             ///< height above given points from which shadow rays start [m]
   mutable SharedCount rays;

@@ -36,18 +36,36 @@ bool TransportScene::group_emits_from(int group, int part) const {
 }
 
 int TransportScene::environment_group() const {
-  const std::optional<scene::Environment>& environment = data_->scene.environment;
-  return environment ? scene::light_group_index(light_groups(), scene::light_group(*environment)) : -1;
+  return data_->environment_group;
 }
+
+namespace {
+
+void check_counts(const TransportData& data, std::span<const scene::LightState> lights,
+                  std::span<const mat4> poses) {
+  require(lights.size() == data.scene.lights.size(), "direct light", "there is not one state for each light");
+  require(poses.size() == data.layout().parts.size(), "direct light", "there is not one pose for each part");
+}
+
+}  // namespace
 
 std::unique_ptr<rays::DirectLight> TransportScene::direct_light(std::span<const scene::LightState> lights,
                                                                 std::span<const mat4> poses,
                                                                 float environment_rotation) const {
-  require(lights.size() == data_->scene.lights.size(), "direct light",
-          "there is not one state for each light");
-  require(poses.size() == data_->layout().parts.size(), "direct light",
-          "there is not one pose for each part");
+  check_counts(*data_, lights, poses);
   return std::make_unique<PosedLight>(data_, lights, poses, environment_rotation);
+}
+
+void TransportScene::renew_direct_light(std::unique_ptr<rays::DirectLight>& light,
+                                        std::span<const scene::LightState> lights,
+                                        std::span<const mat4> poses, float environment_rotation) const {
+  auto* const mine = dynamic_cast<PosedLight*>(light.get());
+  if (mine && mine->is_of(data_.get())) {
+    check_counts(*data_, lights, poses);
+    mine->pose(lights, poses, environment_rotation);
+  } else {
+    light = direct_light(lights, poses, environment_rotation);
+  }
 }
 
 std::unique_ptr<rays::RadianceSource> TransportScene::path_tracing(const scene::LightingState& state) const {

@@ -22,6 +22,8 @@ TransportData::TransportData(SharedGeometry geometry_in, const scene::Scene& sce
       geometry(std::move(geometry_in), scene_in),
       lights(scene_in, scene::world_matrices(scene_in, 0)) {
   gap = options.surface_tolerance * scene_size(scene::world_bounds(scene, scene::world_matrices(scene, 0)));
+  if (scene.environment)
+    environment_group = scene::light_group_index(lights.groups(), scene::light_group(*scene.environment));
   for (const scene::Light& light : scene.lights) {
     light_names.push_back(light.name);
     light_group.push_back(scene::light_group_index(lights.groups(), scene::light_group(light)));
@@ -58,7 +60,7 @@ float TransportScene::duration() const {
 
 mat4 TransportScene::part_pose(int part, float time) const {
   const int node = data_->part(part).node;
-  return node < 0 ? mat4(1) : scene::world_matrices(data_->scene, time)[static_cast<std::size_t>(node)];
+  return node < 0 ? mat4(1) : scene::world_matrix(data_->scene, node, time);
 }
 
 std::uint64_t TransportScene::rays_traced() const {

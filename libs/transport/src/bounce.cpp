@@ -4,6 +4,7 @@
 
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/require.h>
+#include <ssphh/probes/lookup_weights.h>
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/sh/irradiance.h>
 #include <ssphh/transport/bounce.h>
@@ -77,6 +78,8 @@ struct BounceOperator::Data {
   std::vector<probes::ProbeWeight> weights;  ///< lookup weights at the rays' hits
   std::vector<float> basis;                  ///< A_l Y_k(n) at each hit, [ray][k]
   std::size_t edges = 0;
+  std::vector<sh::RadianceSh> before;  ///< scratch of solve(), as the next one
+  std::vector<float> scratch;
 
   std::size_t bands() const {
     return static_cast<std::size_t>(sh::coefficient_count(params.irradiance_degree));
@@ -178,10 +181,12 @@ struct BounceOperator::Data {
 
   /// S = D + B S of all probes.
   void apply(std::span<const Irradiance4> direct, const std::vector<sh::RadianceSh>& before,
-             std::vector<sh::RadianceSh>& after) const {
+             std::vector<sh::RadianceSh>& after) {
     const std::size_t directions = network.gbuffer().directions.size(), stride = projector.stride();
-    parallel_for(after.size(), 4, [&](std::size_t first, std::size_t end) {
-      std::vector<float> radiance(3 * stride, 0.0f);
+    constexpr std::size_t block = 4;
+    scratch.resize((after.size() + block - 1) / block * 3 * stride);
+    parallel_for(after.size(), block, [&](std::size_t first, std::size_t end) {
+      const std::span<float> radiance(scratch.data() + first / block * 3 * stride, 3 * stride);
       for (std::size_t i = first; i < end; ++i) {
         for (std::size_t q = 0; q < directions; ++q) {
           const std::size_t ray = i * directions + q;
@@ -220,15 +225,17 @@ std::size_t BounceOperator::update_pose() {
 }
 
 BounceReport BounceOperator::solve(std::span<const Irradiance4> direct,
-                                   std::vector<sh::RadianceSh>& reflected, bool warm) const {
-  const Data& d = *data_;
+                                   std::vector<sh::RadianceSh>& reflected, bool warm) {
+  Data& d = *data_;
   BounceReport report;
   report.edges = d.edges;
   require(!warm || (reflected.size() == d.network.gbuffer().positions.size() && d.params.applications == 0),
           "bounce", "it can only begin with the light of all probes, and iterate as long as needed");
-  std::vector<sh::RadianceSh> before(d.network.gbuffer().positions.size(),
-                                     sh::RadianceSh(d.projector.degree()));
+  std::vector<sh::RadianceSh>& before = d.before;
+  if (before.empty())
+    before.assign(d.network.gbuffer().positions.size(), sh::RadianceSh(d.projector.degree()));
   if (!warm) {
+    for (sh::RadianceSh& dark : before) std::ranges::fill(dark.values, vec3(0));
     reflected = before;
     d.apply(direct, before, reflected);  // D
   }

@@ -15,45 +15,59 @@ void DirectField::require_group(int group) const {
 }
 
 std::size_t DirectField::update_all(int group, const rays::DirectLight& light) {
+  const std::size_t count = choose_all(group);
+  find(group, light, 0, count);
+  return count;
+}
+
+std::size_t DirectField::update_moved(int group, const rays::DirectLight& light,
+                                      std::span<const scene::Bounds> moved) {
+  const std::size_t count = choose_moved(group, light, moved);
+  find(group, light, 0, count);
+  return count;
+}
+
+std::size_t DirectField::choose_all(int group) {
   require_group(group);
   which_.clear();
   for (std::size_t i = 0; i < network_.samples().size(); ++i) {
     if (network_.sample_exists(i)) which_.push_back(static_cast<std::uint32_t>(i));
   }
-  return update(group, light, which_);
+  return which_.size();
 }
 
-std::size_t DirectField::update_moved(int group, const rays::DirectLight& light,
+std::size_t DirectField::choose_moved(int group, const rays::DirectLight& light,
                                       std::span<const scene::Bounds> moved) {
   require_group(group);
   const auto samples = static_cast<std::size_t>(network_.params().samples);
   const std::vector<Surfel>& surfels = network_.surfels().surfels();
-  std::vector<std::uint8_t> touched(network_.samples().size());
-  parallel_for(touched.size(), 2048, [&](std::size_t begin, std::size_t end) {
+  touched_.assign(network_.samples().size(), 0);
+  parallel_for(touched_.size(), 2048, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!network_.sample_exists(i)) continue;
-      touched[i] = surfels[i / samples].part > 0 || std::ranges::any_of(moved, [&](const scene::Bounds& box) {
-                     return light.may_shadow(group, network_.samples()[i], box);
-                   });
+      touched_[i] =
+          surfels[i / samples].part > 0 || std::ranges::any_of(moved, [&](const scene::Bounds& box) {
+            return light.may_shadow(group, network_.samples()[i], box);
+          });
     }
   });
   which_.clear();
-  for (std::size_t i = 0; i < touched.size(); ++i) {
-    if (touched[i]) which_.push_back(static_cast<std::uint32_t>(i));
+  for (std::size_t i = 0; i < touched_.size(); ++i) {
+    if (touched_[i]) which_.push_back(static_cast<std::uint32_t>(i));
   }
-  return update(group, light, which_);
+  return which_.size();
 }
 
-std::size_t DirectField::update(int group, const rays::DirectLight& light,
-                                std::span<const std::uint32_t> which) {
-  points_.resize(which.size());
-  values_.resize(which.size());
-  for (std::size_t k = 0; k < which.size(); ++k) points_[k] = network_.samples()[which[k]];
+void DirectField::find(int group, const rays::DirectLight& light, std::size_t begin, std::size_t end) {
+  require_group(group);
+  require(begin <= end && end <= which_.size(), "direct light", "so many samples were not chosen");
+  points_.resize(end - begin);
+  values_.resize(end - begin);
+  for (std::size_t k = begin; k < end; ++k) points_[k - begin] = network_.samples()[which_[k]];
   light.irradiance(group, points_, values_);
   require(std::ranges::all_of(values_, is_finite), "transport source", "its direct light is not finite");
   std::vector<vec3>& field = groups_[static_cast<std::size_t>(group)];
-  for (std::size_t k = 0; k < which.size(); ++k) field[which[k]] = values_[k];
-  return which.size();
+  for (std::size_t k = begin; k < end; ++k) field[which_[k]] = values_[k - begin];
 }
 
 void DirectField::sum(std::span<const vec3> group_scales, std::span<const vec3> extra,

@@ -6,7 +6,7 @@ namespace ssphh::transport {
 
 sh::RadianceSh RelightSession::emission_profile(const vec3& center, float radius, int degree,
                                                 int rays) const {
-  const Data& d = *data_;
+  const Data& d = data_->settled();
   if (d.bounce) throw Error("emission profile", "operator bounce does not light surfels", "use surfel");
   if (!is_finite(center) || !(radius > 0) || !std::isfinite(radius))
     throw Error("emission profile", "its sphere must have a finite centre and a positive radius");
@@ -40,9 +40,9 @@ sh::RadianceSh RelightSession::emission_profile(const vec3& center, float radius
               "a surface glows in a group that there is not");
       if (sight.group >= 0)
         mean += d.state.group_scales[static_cast<std::size_t>(sight.group)] * sight.emission;
-      if (sight.surfel == no_surfel || d.direct.empty()) continue;
+      if (sight.surfel == no_surfel || d.light.direct.empty()) continue;
       const auto s = static_cast<std::size_t>(sight.surfel);
-      mean += sight.albedo * (1 / pi) * vec3(d.direct[s] + d.indirect[s]);
+      mean += sight.albedo * (1 / pi) * vec3(d.light.direct[s] + d.light.indirect[s]);
     }
     mean /= static_cast<float>(rays);
     for (std::size_t c = 0; c < 3; ++c)

@@ -5,6 +5,7 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/random.h>
 #include <ssphh/transport/gather_light.h>
+#include <ssphh/transport/network.h>
 
 #include "network_data.h"
 
@@ -32,7 +33,8 @@ vec3 GatherLight::irradiance(const rays::SurfacePoint& at) const {
   for (std::uint32_t r = 0; r < rays_; ++r)
     rays.push_back(fan_ray(at, link_lift * d.surfels.size(), r, salt));
   std::vector<vec3> light(rays.size(), vec3(0));
-  d.see(rays, [&](std::size_t i, const rays::RayHit& hit, int surfel) {
+  std::vector<rays::RayHit> hits;
+  d.see(rays, hits, [&](std::size_t i, const rays::RayHit& hit, int surfel) {
     if (surfel != no_surfel) light[i] = hit.through * radiosity_[static_cast<std::size_t>(surfel)];
   });
   vec3 sum(0);

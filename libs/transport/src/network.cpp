@@ -57,12 +57,10 @@ TransportNetwork& TransportNetwork::operator=(TransportNetwork&&) noexcept = def
 
 PoseReport TransportNetwork::set_time(float time) {
   require(std::isfinite(time), "time", "it must be a finite number of seconds");
-  PoseReport report;
-  data_->place_parts(time);
-  data_->pose_samples();
-  data_->pose_hits(report);
-  data_->pose_links(report);
-  return report;
+  data_->pose_work.step = PoseWork::Step::parts;
+  Pace pace;
+  data_->go_on_to(time, false, pace);
+  return data_->pose_work.report;
 }
 
 const std::vector<MixedHit>& TransportNetwork::mixed_hits() const {
@@ -128,7 +126,7 @@ std::vector<std::int32_t> TransportNetwork::gather(std::span<const rays::Surface
   const auto per_point = static_cast<std::size_t>(rays);
   std::vector<std::int32_t> surfel(points.size() * per_point);
   std::vector<rays::RayQuery> queries;
-  std::vector<std::uint8_t> escaped;
+  std::vector<rays::RayHit> hits;
   ProgressStage progress(control, "gathering", points.size(), "points");
   constexpr std::size_t block = 1024;
   for (std::size_t begin = 0; begin < points.size(); begin += block) {
@@ -139,15 +137,16 @@ std::vector<std::int32_t> TransportNetwork::gather(std::span<const rays::Surface
       for (std::uint32_t r = 0; r < static_cast<std::uint32_t>(rays); ++r)
         queries.push_back(fan_ray(points[i], link_lift * data_->surfels.size(), r, i));
     }
-    escaped.resize(queries.size());
-    data_->see(queries, std::span(surfel).subspan(begin * per_point, queries.size()), escaped);
+    data_->see(queries, hits,
+               [&](std::size_t i, const rays::RayHit&, int found) { surfel[begin * per_point + i] = found; });
     progress.advance(end - begin);
   }
   return surfel;
 }
 std::vector<Sight> TransportNetwork::look(std::span<const rays::RayQuery> rays) const {
   std::vector<Sight> sights(rays.size());
-  data_->see(rays, [&](std::size_t i, const rays::RayHit& hit, int surfel) {
+  std::vector<rays::RayHit> hits;
+  data_->see(rays, hits, [&](std::size_t i, const rays::RayHit& hit, int surfel) {
     sights[i] = {surfel, hit.albedo, hit.emission, hit.group};
   });
   return sights;

@@ -36,6 +36,11 @@ void TransportNetwork::prepare_poses(int count, const Control& control) {
     }
     progress.advance(1);
   }
+  std::size_t most = 0;
+  for (const PreparedPose& pose : d.prepared) most = std::max(most, pose.links.size());
+  d.moving.reserve(2 * most);  // blends take no memory; rows are laid out anew below
+  d.pose_work.links.reserve(2 * most);
+  d.mixed_hits.reserve(d.moving_hits.size());
   set_time(now);
 }
 
@@ -43,21 +48,25 @@ PoseReport TransportNetwork::set_time_between(float time) {
   Data& d = *data_;
   require(d.prepared.size() >= 2, "poses", "none were prepared to blend between");
   require(std::isfinite(time), "time", "it must be a finite number of seconds");
-  PoseReport report;
-  d.place_parts(time);
-  d.pose_samples();
+  d.pose_work.step = PoseWork::Step::parts;
+  Pace pace;
+  d.go_on_to(time, true, pace);
+  return d.pose_work.report;
+}
 
+void TransportNetwork::Data::blend_poses() {
   // Find the two poses around the time.
   std::size_t after = 1;
-  while (after + 1 < d.prepared.size() && d.prepared[after].time < time) ++after;
-  const PreparedPose &a = d.prepared[after - 1], &b = d.prepared[after];
+  while (after + 1 < prepared.size() && prepared[after].time < time) ++after;
+  const PreparedPose &a = prepared[after - 1], &b = prepared[after];
   const float length = b.time - a.time;
   const float share = length > 0 ? std::clamp((time - a.time) / length, 0.0f, 1.0f) : 0;
 
   // Blend the rows: both poses' links, each with its share.
-  std::vector<Link> links;
-  links.reserve(a.links.size() + b.links.size());
-  std::vector<std::pair<std::size_t, std::size_t>> ranges(d.rows.rows.size());
+  std::vector<Link>& links = pose_work.links;
+  auto& ranges = pose_work.ranges;
+  links.clear();
+  ranges.resize(rows.rows.size());
   for (std::size_t s = 0; s < ranges.size(); ++s) {
     const std::size_t first = links.size();
     const auto add = [&](const PreparedPose& pose, float weight) {
@@ -71,22 +80,21 @@ PoseReport TransportNetwork::set_time_between(float time) {
     add(b, share);
     ranges[s] = {first, links.size() - first};
   }
-  d.set_moving(std::move(links), ranges);
+  set_moving();
 
   // Blend what probe rays see.
-  d.mixed_hits.clear();
-  for (std::size_t i = 0; i < d.moving_hits.size(); ++i) {
-    const std::uint32_t owner = d.moving_hits[i].owner;
+  mixed_hits.clear();
+  for (std::size_t i = 0; i < moving_hits.size(); ++i) {
+    const std::uint32_t owner = moving_hits[i].owner;
     const SeenPatch before{a.hits[i].surfel, a.hits[i].albedo}, then{b.hits[i].surfel, b.hits[i].albedo};
     const bool nearer_b = share >= 0.5f;
-    d.set_hit(owner, nearer_b ? b.hits[i] : a.hits[i]);
+    set_hit(owner, nearer_b ? b.hits[i] : a.hits[i]);
     if (before != then) {
-      d.mixed_hits.push_back({owner, nearer_b ? before : then, nearer_b ? 1 - share : share});
-      ++report.hits_changed;
+      mixed_hits.push_back({owner, nearer_b ? before : then, nearer_b ? 1 - share : share});
+      ++pose_work.report.hits_changed;
     }
   }
-  report.rays_near_parts = d.moving_hits.size() + d.moving_links.size();
-  return report;
+  pose_work.report.rays_near_parts = moving_hits.size() + moving_links.size();
 }
 
 std::size_t TransportNetwork::pose_bytes() const {

@@ -48,11 +48,8 @@ class NetworkBuilder {
 
  private:
   void pose(float time) {
-    PoseReport report;
-    d_.place_parts(time);
-    d_.pose_samples();
-    d_.pose_hits(report);
-    d_.pose_links(report);
+    Pace pace;
+    d_.go_on_to(time, false, pace);
   }
 
   /// Of the first and the last pose, whichever comes next: what is solved with it must not depend on when the

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <functional>
-
+#include <ssphh/core/parallel.h>
 #include <ssphh/core/require.h>
 #include <ssphh/transport/network.h>
+
+#include "pace.h"
 
 namespace ssphh::transport {
 
@@ -43,6 +44,23 @@ struct PreparedPose {
   std::vector<Resolved> hits;                             ///< per moving hit
 };
 
+/// How far the parts have come on their way to a pose, and what that takes: kept between poses, so that later
+/// ones allocate nothing.
+struct PoseWork {
+  enum class Step { parts, hits, links, sights, rows } step = Step::parts;
+  std::size_t done = 0;  ///< of the step's rays
+  PoseReport report;
+
+  std::vector<mat4> poses;
+  std::vector<PlacedPart> placed;
+  std::vector<std::uint8_t> changed, counted, lost;
+  std::vector<std::int32_t> target;  ///< of the moving links, then of the parts' links
+  std::vector<rays::RayQuery> world;
+  std::vector<rays::RayHit> hits;
+  std::vector<Link> links;
+  std::vector<std::pair<std::size_t, std::size_t>> ranges;
+};
+
 struct TransportNetwork::Data {
   Data(const rays::TransportSource& source_in, const TransportParams& params_in)
       : source(source_in), params(params_in), surfels(source_in, params_in.surfel_size) {}
@@ -80,6 +98,7 @@ struct TransportNetwork::Data {
   std::vector<scene::Bounds> swept;  ///< per part, all that it ever occupies, world space
   std::vector<mat4> poses;
   std::vector<PlacedPart> placed;
+  PoseWork pose_work;
 
   void check_part(int part) const {
     require(part >= 0 && static_cast<std::size_t>(part) < poses.size(), "part",
@@ -103,29 +122,46 @@ struct TransportNetwork::Data {
   bool near_parts(const rays::RayQuery& ray, const vec3& normal, int surfel) const;
   /// The first part that the ray meets before t_max; shortens t_max.
   bool meet_part(rays::RayQuery& ray, rays::RayHit& hit, int& part) const;
-  /// The surfel that each world-space ray meets, as posed; `escaped` tells empty space from lost light.
-  void see(std::span<const rays::RayQuery> rays, std::span<std::int32_t> surfel,
-           std::span<std::uint8_t> escaped) const;
-  /// The same with the hit, in the part's frame; from several threads.
-  void see(std::span<const rays::RayQuery> rays,
-           const std::function<void(std::size_t, const rays::RayHit&, int surfel)>& visit) const;
+  /// What world-space rays meet, as posed: calls visit(ray, hit in the part's frame, surfel or no_surfel),
+  /// from several threads. `hits` is scratch.
+  template <class Visit>
+  void see(std::span<const rays::RayQuery> rays, std::vector<rays::RayHit>& hits, const Visit& visit) const {
+    hits.resize(rays.size());
+    source.intersect(0, rays, hits);
+    parallel_for(rays.size(), 64, [&](std::size_t i) {
+      int surfel = no_surfel;
+      see_one(rays[i], hits[i], surfel);
+      visit(i, hits[i], surfel);
+    });
+  }
+  /// The same of one ray, whose hit with part 0 is `hit`.
+  void see_one(rays::RayQuery ray, rays::RayHit& hit, int& surfel) const;
   Resolved resolve(const MovingRay& unobstructed) const;
   template <class Sees>
   int find_nearest(int part, const rays::SurfacePoint& point, const Sees& sees) const;
 
   void build(std::span<const vec3> positions, float start_time, const Control& control);
+  /// Goes on toward the pose of `time`, exact or blended between prepared ones, a piece at least; true: it is
+  /// reached.
+  bool go_on_to(float time, bool between, Pace& pace);
   void place_parts(float time);
   void pose_samples();
-  void pose_hits(PoseReport& report);
-  void pose_links(PoseReport& report);
-  /// Makes `links` the moving part of the rows.
-  void set_moving(std::vector<Link>&& links, std::span<const std::pair<std::size_t, std::size_t>> ranges);
+  bool pose_hits(Pace& pace);
+  bool pose_links(Pace& pace);
+  bool pose_part_links(Pace& pace);
+  void pose_rows();
+  void blend_poses();
+  /// Makes the work's links the moving part of the rows.
+  void set_moving();
   void set_hit(std::uint32_t owner, const Resolved& found);
 };
 
 /// Ray of a point's cosine-distributed fan: point `index` of a rank-1 sequence (Roberts 2018, R2), shifted by
 /// `salt` so that neighbours differ. Starts `lift` above the surface.
 rays::RayQuery fan_ray(const rays::SurfacePoint& from, float lift, std::uint32_t index, std::size_t salt);
+
+/// The ray in another frame.
+rays::RayQuery transformed(const rays::RayQuery& ray, const mat4& matrix);
 
 /// Whether the ray meets the box before t_max.
 bool meets(const rays::RayQuery& ray, const scene::Bounds& box);

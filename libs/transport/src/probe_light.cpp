@@ -50,9 +50,19 @@ void project_reflected(const TransportNetwork& network, const DirectionProjector
                        std::span<const Irradiance4> irradiance, std::vector<sh::RadianceSh>& out) {
   const std::size_t probes = network.gbuffer().positions.size();
   out.resize(probes, sh::RadianceSh(projector.degree()));
-  parallel_for(probes, 8, [&](std::size_t begin, std::size_t end) {
-    std::vector<float> radiance(3 * projector.stride(), 0.0f);
-    for (std::size_t i = begin; i < end; ++i)
+  std::vector<float> scratch;
+  project_reflected(network, projector, irradiance, 0, probes, scratch, out);
+}
+
+void project_reflected(const TransportNetwork& network, const DirectionProjector& projector,
+                       std::span<const Irradiance4> irradiance, std::size_t begin, std::size_t end,
+                       std::vector<float>& scratch, std::vector<sh::RadianceSh>& out) {
+  constexpr std::size_t block = 8;
+  const std::size_t floats = 3 * projector.stride();
+  scratch.resize(std::max(scratch.size(), (end - begin + block - 1) / block * floats));
+  parallel_for(end - begin, block, [&](std::size_t first, std::size_t last) {
+    const std::span<float> radiance(scratch.data() + first / block * floats, floats);
+    for (std::size_t i = begin + first; i < begin + last; ++i)
       project_one(network, projector, irradiance, i, radiance, out[i]);
   });
 }

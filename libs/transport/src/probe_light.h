@@ -14,6 +14,11 @@ namespace ssphh::transport {
 void project_reflected(const TransportNetwork& network, const DirectionProjector& projector,
                        std::span<const Irradiance4> irradiance, std::vector<sh::RadianceSh>& out);
 
+/// The same of the probes [begin, end); `out` holds a function for each probe. `scratch` grows once.
+void project_reflected(const TransportNetwork& network, const DirectionProjector& projector,
+                       std::span<const Irradiance4> irradiance, std::size_t begin, std::size_t end,
+                       std::vector<float>& scratch, std::vector<sh::RadianceSh>& out);
+
 /// The same of one probe.
 void project_reflected(const TransportNetwork& network, const DirectionProjector& projector,
                        std::span<const Irradiance4> irradiance, std::size_t probe, sh::RadianceSh& out);

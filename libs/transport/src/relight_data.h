@@ -1,19 +1,23 @@
 #pragma once
-/// What a RelightSession keeps, and the stages of an update.
+/// What a RelightSession keeps.
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include <ssphh/core/require.h>
-#include <ssphh/core/stopwatch.h>
+#include <ssphh/transport/bounce.h>
 #include <ssphh/transport/direct_field.h>
 #include <ssphh/transport/relight_session.h>
+#include <ssphh/transport/surface_gather.h>
 
+#include "pace.h"
 #include "probe_light.h"
 #include "record_direct.h"
 #include "sphl_emission.h"
@@ -24,26 +28,6 @@ inline std::vector<vec3> positions_of(const std::vector<ProbePlace>& places) {
   std::vector<vec3> positions;
   for (const ProbePlace& place : places) positions.push_back(place.position);
   return positions;
-}
-
-/// Runs `body`, adds its time and rays.
-template <class Body>
-void measure(const rays::TransportSource& source, double& ms, std::uint64_t* rays, const Body& body) {
-  const Stopwatch watch;
-  const std::uint64_t before = source.rays_traced();
-  body();
-  if (rays) *rays += source.rays_traced() - before;
-  ms += watch.milliseconds();
-}
-
-inline bool differs(const sh::RadianceSh& a, const sh::RadianceSh& b, float tolerance) {
-  if (a.values.size() != b.values.size()) return true;
-  const float limit =
-      tolerance * std::max(max_component(glm::abs(a.values[0])), max_component(glm::abs(b.values[0])));
-  for (std::size_t k = 0; k < a.values.size(); ++k) {
-    if (max_component(glm::abs(a.values[k] - b.values[k])) > limit) return true;
-  }
-  return false;
 }
 
 /// What a source says of itself must hold together.
@@ -65,12 +49,45 @@ inline void check_places(const std::vector<ProbePlace>& places) {
   }
 }
 
+inline bool differs(const sh::RadianceSh& a, const sh::RadianceSh& b, float tolerance) {
+  if (a.values.size() != b.values.size()) return true;
+  const float limit =
+      tolerance * std::max(max_component(glm::abs(a.values[0])), max_component(glm::abs(b.values[0])));
+  for (std::size_t k = 0; k < a.values.size(); ++k) {
+    if (max_component(glm::abs(a.values[k] - b.values[k])) > limit) return true;
+  }
+  return false;
+}
+
+/// E of each surfel, direct and reflected.
+inline void total(std::span<const Irradiance4> direct, std::span<const Irradiance4> indirect,
+                  std::vector<Irradiance4>& sum) {
+  sum.resize(direct.size());
+  for (std::size_t s = 0; s < sum.size(); ++s) sum[s] = direct[s] + indirect[s];
+}
 inline std::vector<Irradiance4> total(std::span<const Irradiance4> direct,
                                       std::span<const Irradiance4> indirect) {
-  std::vector<Irradiance4> sum(direct.size());
-  for (std::size_t s = 0; s < sum.size(); ++s) sum[s] = direct[s] + indirect[s];
+  std::vector<Irradiance4> sum;
+  total(direct, indirect, sum);
   return sum;
 }
+
+/// Which call of update() asked for what.
+struct PassClock {
+  struct Call {
+    std::uint64_t number = 0;
+    std::chrono::steady_clock::time_point at{};
+  };
+  Call last, pass, shown;  ///< the last one that asked for what the pass finds, and for the light there is
+
+  void call() {
+    last = {last.number + 1, std::chrono::steady_clock::now()};
+    if (shown.at.time_since_epoch().count() == 0) shown.at = last.at;
+  }
+  LightAge age() const {
+    return {last.number - shown.number, std::chrono::duration<double>(last.at - shown.at).count()};
+  }
+};
 
 struct RelightSession::Data {
   Data(const rays::TransportSource& source_in, std::vector<ProbePlace> places_in,
@@ -84,7 +101,9 @@ struct RelightSession::Data {
         emitter_projector(params_in.degree, emitter_view),
         field(network, source_in.light_groups().size()),
         state(rays::lighting_at(source_in, time)),
-        group_dirty(source_in.light_groups().size(), true) {
+        group_dirty(source_in.light_groups().size(), true),
+        given(state),
+        shown(state) {
     check_places(places);
     check_source(source, state.lights.size());
     if (params.op == probes::LightOperator::path)
@@ -101,7 +120,7 @@ struct RelightSession::Data {
     for (std::size_t i = 0; i < places.size(); ++i) emitters[i] = {places[i].position, places[i].radius, {}};
     keep_records(control);
     direct_light.reset();  // all is dark before the first update
-    direct.clear();
+    changed_probes.reserve(places.size());
   }
 
   const rays::TransportSource& source;
@@ -116,7 +135,7 @@ struct RelightSession::Data {
   std::unique_ptr<BounceOperator> bounce;  ///< of that operator alone
   std::unique_ptr<SurfaceGather> gather;   ///< where records are kept
 
-  scene::LightingState state;  ///< that the last update() was asked for
+  scene::LightingState state;  ///< of the pass under way, or the last one
   std::vector<bool> group_dirty;
   std::vector<SphlEmitter> emitters;
   std::vector<vec3> emission;  ///< at each sample, from the emitters; empty: none
@@ -124,99 +143,75 @@ struct RelightSession::Data {
   bool unfinished = false;  ///< an update() threw: nothing that it touched can be relied on
 
   std::unique_ptr<rays::DirectLight> direct_light;
-  std::vector<Irradiance4> direct, indirect;
-  std::vector<sh::RadianceSh> reflected, before;
-  std::vector<probes::RecordLight> record_light;
-  RecordDirect record_direct;         ///< of params.records.baked
-  scene::LightingState direct_state;  ///< in which that was found
+  /// Of surfels, probes and records: what there is, and that of the pass under way.
+  struct Light {
+    std::vector<Irradiance4> direct, indirect;
+    std::vector<sh::RadianceSh> reflected;
+    std::vector<probes::RecordLight> records;
+  } light, next;
+  RecordDirect record_direct;             ///< of params.records.baked
+  scene::LightingState direct_state;      ///< in which that was found
+  std::vector<std::uint8_t> direct_held;  ///< of its groups: whether it is that of `shown`
 
-  void keep_records(const Control& control) {
-    gather.reset();
-    record_light.clear();
-    record_direct = RecordDirect(params.records.baked);
-    if (params.records.points == 0) return;
-    if (params.records.points < 0)
-      throw Error("surface records", fmt::format("{} is no number of points", params.records.points));
-    for (const int group : params.records.baked)
-      require(group >= 0 && static_cast<std::size_t>(group) < state.group_scales.size(), "light group",
-              "there is none of that index");
-    update_direct({});
-    const std::vector<vec3> scales = alike(direct_by_group());
-    const auto extend = [&](std::span<const rays::SurfacePoint> points) {
-      record_direct.extend(*direct_light, points, params.records.rays, control);
-    };
-    AddRecordLight add_direct;
-    if (!params.records.baked.empty()) {
-      add_direct = [&](std::span<const rays::SurfacePoint> points, auto& light) {
-        extend(points);
-        record_direct.add_to(light, scales);
-      };
-    }
-    const std::vector<float> times = record_times();
-    const auto light_at = [&](float time) {
-      put_into_pose(time);
-      return light_alike();
-    };
-    try {
-      gather = gather_where_needed(network, params.records, times, light_at, control, add_direct);
-      put_into_pose(times[0]);
-    } catch (...) {
-      state.time = times[0];
-      unfinished = true;
-      throw;
-    }
-    extend(gather->points());
-    direct_state = state;
+  // Updates.
+  scene::LightingState given;  ///< of the last call
+  scene::LightingState shown;  ///< of `light`
+  /// What an update does, in this order.
+  enum class Stage { idle, place, pose, pose_records, lamps, direct, emission, solve, project, records };
+  Stage stage = Stage::idle;
+  std::size_t done = 0;  ///< of the stage
+  std::size_t group = 0,
+              chosen = 0;  ///< of the stage `direct`: its group, and how many samples that asks for
+  bool is_chosen = false, is_begun = false;  ///< whether they are; whether the solver has begun
+  PassClock clock;
+  std::vector<scene::Bounds> moved, old_bounds;  ///< of parts, in the world
+  std::vector<mat4> old_poses;
+  std::vector<Irradiance4> lit;  ///< direct and indirect
+  std::vector<vec4> radiosity;
+  std::vector<float> scratch;
+  std::vector<std::uint8_t> changed;  ///< of each probe, by the passes that this call finished
+  std::vector<int> changed_probes;
+
+  // The pass, in relight_pass.cpp.
+  /// Begins to find the light of a state; false: it is there already.
+  bool begin(const scene::LightingState& next);
+  /// Goes on with the pass; false: time is over.
+  bool go_on(RelightReport& report, const Control& control, Pace& pace);
+  bool step(RelightReport& report, const Control& control, Pace& pace);
+  bool pose(RelightReport& report, Pace& pace);
+  bool find_direct(Pace& pace);
+  void find_emission();
+  bool solve(RelightReport& report, const Control& control, Pace& pace);
+  bool project(Pace& pace);
+  void publish();
+  /// Nothing is under way.
+  const Data& settled() const {
+    require(stage == Stage::idle, "relighting",
+            "an update is under way; call update() until its report says that it is finished");
+    return *this;
+  }
+  Data& settled() {
+    std::as_const(*this).settled();
+    return *this;
   }
 
+  // Records, in relight_records.cpp.
+  void keep_records(const Control& control);
   /// Poses in which light asks for records; the present one is the first.
-  std::vector<float> record_times() const {
-    std::vector<float> times = {state.time};
-    const int poses = params.records.poses;
-    for (int i = 0; poses > 1 && i < poses && source.part_count() > 1 && source.duration() > 0; ++i) {
-      const float time = source.duration() * static_cast<float>(i) / static_cast<float>(poses - 1);
-      if (time != times[0]) times.push_back(time);
-    }
-    return times;
-  }
-
+  std::vector<float> record_times() const;
   /// Everything but the light that is bounced.
-  void put_into_pose(float time) {
-    if (time == state.time) return;
-    state.time = time;
-    RelightReport unread;
-    update_direct(move_parts(unread));
-  }
-
+  void put_into_pose(float time, const Control& control);
   /// Light at the surfels with every group as bright as another.
-  PosedIrradiance light_alike() const {
-    PosedIrradiance light{direct_by_group(), {}};
-    const std::vector<vec3> scales = alike(light.direct);
-    std::vector<Irradiance4> sum(network.surfel_count(), Irradiance4(0));
-    for (std::size_t g = 0; g < scales.size(); ++g) {
-      if (scales[g].x == 0) continue;
-      for (std::size_t s = 0; s < sum.size(); ++s) sum[s] += scales[g].x * light.direct[g][s];
-    }
-    SolveReport report;
-    light.lit = lit_under(sum, report);
-    return light;
-  }
-
+  PosedIrradiance light_alike() const;
   /// At these places, in place of those that keep_records() would choose.
-  void keep_records_at(std::vector<rays::SurfacePoint> points, const Control& control) {
-    record_direct = RecordDirect(params.records.baked);
-    update_direct({});
-    gather = std::make_unique<SurfaceGather>(network, std::move(points), params.records.rays,
-                                             direct_by_group(), control);
-    record_direct.extend(*direct_light, gather->points(), params.records.rays, control);
-    direct_state = state;
-  }
-
+  void keep_records_at(std::vector<rays::SurfacePoint> points, const Control& control);
   /// As lit after the last update.
-  void light_records() {
-    if (!gather || reflected.empty()) return;
-    if (bounce) solve_surfels();
-    gather->light(total(direct, indirect), record_light);
+  void light_records();
+  /// Brings the direct light up to date without an update.
+  void find_direct_for_records();
+  void note_direct_held() {
+    direct_held.clear();
+    for (const int g : record_direct.groups()) direct_held.push_back(direct_holds(g));
   }
 
   /// Whether the direct light that is kept of a group is that of the last state, but for its factor.
@@ -230,17 +225,6 @@ struct RelightSession::Data {
         return false;
     }
     return true;
-  }
-
-  /// Factors that make each group's direct light as bright as another's.
-  static std::vector<vec3> alike(std::span<const std::vector<Irradiance4>> by_group) {
-    std::vector<vec3> scales;
-    for (const std::vector<Irradiance4>& group : by_group) {
-      double all = 0;
-      for (const Irradiance4& e : group) all += static_cast<double>(luminance(vec3(e)));
-      scales.emplace_back(all > 0 ? static_cast<float>(static_cast<double>(group.size()) / all) : 0.0f);
-    }
-    return scales;
   }
 
   /// Direct irradiance at each surfel per group, unscaled.
@@ -284,88 +268,12 @@ struct RelightSession::Data {
     emission_dirty = unfinished || next.emission != state.emission;
   }
 
-  /// Poses the parts; returns the world bounds that they left or entered.
-  std::vector<scene::Bounds> move_parts(RelightReport& report) {
-    std::vector<scene::Bounds> moved;
-    const std::vector<mat4> old_poses = network.poses();
-    std::vector<scene::Bounds> old_bounds;
-    for (int p = 0; p < source.part_count(); ++p) old_bounds.push_back(network.part_world_bounds(p));
-    const PoseReport pose =
-        params.poses == 0 ? network.set_time(state.time) : network.set_time_between(state.time);
-    if (bounce) bounce->update_pose();
-    if (gather) gather->update_pose();
-    report.hits_changed = pose.hits_changed;
-    for (int p = 1; p < source.part_count(); ++p) {
-      const auto index = static_cast<std::size_t>(p);
-      if (network.poses()[index] == old_poses[index]) continue;
-      moved.push_back(old_bounds[index]);
-      moved.push_back(network.part_world_bounds(p));
-      for (std::size_t g = 0; g < group_dirty.size(); ++g) {
-        if (source.group_emits_from(static_cast<int>(g), p)) group_dirty[g] = true;
-      }
-    }
-    return moved;
-  }
-
-  void place_emission() {
-    for (SphlEmitter& emitter : emitters) emitter.leaving = {};
-    for (const scene::SphlEmission& given : state.emission)
-      emitters[static_cast<std::size_t>(given.probe)].leaving = given.leaving;
-  }
-
-  void update_direct(const std::vector<scene::Bounds>& moved) {
-    if (any_group_dirty() || !moved.empty() || !direct_light) {
-      direct_light = source.direct_light(state.lights, network.poses(), state.environment_rotation);
-      require(direct_light != nullptr, "transport source", "it gives no direct light");
-    }
-    for (std::size_t g = 0; g < group_dirty.size(); ++g) {
-      if (group_dirty[g]) {
-        field.update_all(static_cast<int>(g), *direct_light);
-      } else if (!moved.empty()) {
-        field.update_moved(static_cast<int>(g), *direct_light, moved);
-      }
-      group_dirty[g] = false;
-    }
-    if (emission_dirty) place_emission();
-    if (emission_dirty || (!moved.empty() && !emission.empty())) {
-      emission.clear();
-      for (const SphlEmitter& emitter : emitters) {
-        if (emitter.leaving.empty()) continue;
-        emission.resize(network.samples().size(), vec3(0));
-        add_emission(network, source, emitter, emission);
-      }
-      emission_dirty = false;
-    }
-    field.sum(state.group_scales, emission, direct);
-    scale_dirty = false;
-  }
-
-  /// Lets the direct light bounce: `indirect`, or with bounce the probes themselves; records need both.
-  SolveReport solve(bool first) {
-    SolveReport report;
-    if (bounce) {
-      before = reflected;
-      report = summary(
-          bounce->solve(direct, reflected, params.warm_start && !first && params.bounce.applications == 0));
-      if (!gather) return report;
-    }
-    const SolveReport solved = solve_surfels();
-    return bounce ? report : solved;
-  }
-  SolveReport solve_surfels() {
-    if (!params.warm_start) indirect.clear();
-    return solver.solve(network.links(), network.albedo(), direct, chebyshev_bound(network.contraction()),
-                        params.solve, indirect);
-  }
-  static SolveReport summary(const BounceReport& report) {
-    return {.iterations = report.iterations, .residual = 0, .converged = report.converged};
-  }
-
   /// Reflected light of all probes under another direct light, from darkness.
   std::vector<sh::RadianceSh> reflected_under(std::span<const Irradiance4> other, SolveReport& report) const {
     std::vector<sh::RadianceSh> result;
     if (bounce) {
-      report = summary(bounce->solve(other, result));
+      const BounceReport bounced = bounce->solve(other, result);
+      report = {.iterations = bounced.iterations, .residual = 0, .converged = bounced.converged};
       return result;
     }
     project_reflected(network, projector, lit_under(other, report), result);

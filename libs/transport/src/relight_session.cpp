@@ -11,51 +11,51 @@ RelightSession::~RelightSession() = default;
 RelightSession::RelightSession(RelightSession&&) noexcept = default;
 RelightSession& RelightSession::operator=(RelightSession&&) noexcept = default;
 
-RelightReport RelightSession::update(const scene::LightingState& state, const Control& control) {
+RelightReport RelightSession::update(const scene::LightingState& state, const Control& control,
+                                     double budget_ms) {
   Data& d = *data_;
   scene::check_lighting(state, {d.state.lights.size(), d.state.group_scales.size(), d.places.size()});
+  require(budget_ms >= 0, "update", "its budget must be milliseconds from 0 on");
+  d.clock.call();
+  d.given = state;
+  d.changed.assign(d.places.size(), 0);
+  d.changed_probes.clear();
   RelightReport report;
-  const bool first = d.reflected.empty();
-  d.note_changes(state);
-  const bool posed = d.unfinished || state.time != d.network.time();
-  if (!first && !posed && !d.any_group_dirty() && !d.scale_dirty && !d.emission_dirty) return report;
-
-  d.unfinished = true;
-  d.state = state;
-  std::vector<scene::Bounds> moved;
-  control.check();
-  if (posed) measure(d.source, report.pose_ms, &report.pose_rays, [&] { moved = d.move_parts(report); });
-  control.check();
-  measure(d.source, report.direct_ms, &report.direct_rays, [&] { d.update_direct(moved); });
-  control.check();
-  measure(d.source, report.solve_ms, nullptr, [&] { report.solve = d.solve(first); });
-  measure(d.source, report.project_ms, nullptr, [&] {
-    if (!d.bounce) {
-      d.before.swap(d.reflected);
-      project_reflected(d.network, d.projector, total(d.direct, d.indirect), d.reflected);
-    }
-    if (d.gather) d.gather->light(total(d.direct, d.indirect), d.record_light);
-    for (std::size_t i = 0; i < d.reflected.size(); ++i) {
-      if (first || differs(d.reflected[i], d.before[i], d.params.changed))
-        report.changed_probes.push_back(static_cast<int>(i));
-    }
-  });
-  d.unfinished = false;
+  Pace pace(control, budget_ms);
+  // What was begun comes first; if this call asks for it again, it is as young as this call.
+  if (d.stage != Data::Stage::idle && state == d.state) d.clock.pass = d.clock.last;
+  report.finished = d.go_on(report, control, pace);
+  if (report.finished && d.begin(state)) report.finished = !pace.over() && d.go_on(report, control, pace);
+  if (!d.light.reflected.empty() && state == d.shown) d.clock.shown = d.clock.last;
+  for (std::size_t i = 0; i < d.changed.size(); ++i) {
+    if (d.changed[i]) d.changed_probes.push_back(static_cast<int>(i));
+  }
+  report.changed_probes = d.changed_probes;
+  report.age = d.clock.age();
   return report;
 }
 
 const scene::LightingState& RelightSession::lighting() const {
-  return data_->state;
+  return data_->given;
+}
+const scene::LightingState& RelightSession::shown() const {
+  return data_->shown;
+}
+LightAge RelightSession::age() const {
+  return data_->clock.age();
+}
+bool RelightSession::under_way() const {
+  return data_->stage != Data::Stage::idle;
 }
 const std::vector<ProbePlace>& RelightSession::places() const {
   return data_->places;
 }
 const std::vector<sh::RadianceSh>& RelightSession::reflected() const {
-  return data_->reflected;
+  return data_->light.reflected;
 }
 
 sh::RadianceSh RelightSession::emitted(int probe) const {
-  const Data& d = *data_;
+  const Data& d = data_->settled();
   d.check_probe(probe);
   const auto i = static_cast<std::size_t>(probe);
   sh::RadianceSh sum(d.params.degree);
@@ -74,12 +74,12 @@ sh::RadianceSh RelightSession::emitted(int probe) const {
 }
 
 std::vector<std::vector<Irradiance4>> RelightSession::direct_by_group() const {
-  return data_->direct_by_group();
+  return data_->settled().direct_by_group();
 }
 
 std::vector<std::vector<sh::RadianceSh>> RelightSession::reflected_by_group(const Control& control,
                                                                             SolveReport* slowest) const {
-  const Data& d = *data_;
+  const Data& d = data_->settled();
   SolveReport most;
   const std::vector<std::vector<Irradiance4>> direct = direct_by_group();
   const std::size_t groups = direct.size();
@@ -99,7 +99,7 @@ std::vector<std::vector<sh::RadianceSh>> RelightSession::reflected_by_group(cons
 }
 
 std::vector<std::vector<sh::RadianceSh>> RelightSession::emitted_by_group() const {
-  const Data& d = *data_;
+  const Data& d = data_->settled();
   std::vector<std::vector<sh::RadianceSh>> result(d.state.group_scales.size());
   for (std::size_t i = 0; i < d.places.size(); ++i) {
     const std::vector<sh::RadianceSh> groups = d.emitted(i);
@@ -109,7 +109,7 @@ std::vector<std::vector<sh::RadianceSh>> RelightSession::emitted_by_group() cons
 }
 
 void RelightSession::keep_records(const GatherParams& params, const Control& control) {
-  Data& d = *data_;
+  Data& d = data_->settled();
   d.params.records = params;
   d.keep_records(control);
   d.light_records();
@@ -117,7 +117,7 @@ void RelightSession::keep_records(const GatherParams& params, const Control& con
 
 void RelightSession::keep_records_at(std::vector<rays::SurfacePoint> points, const GatherParams& params,
                                      const Control& control) {
-  Data& d = *data_;
+  Data& d = data_->settled();
   d.params.records = params;
   d.keep_records_at(std::move(points), control);
   d.light_records();
@@ -127,11 +127,11 @@ const SurfaceGather* RelightSession::gather() const {
   return data_->gather.get();
 }
 const std::vector<probes::RecordLight>& RelightSession::record_light() const {
-  return data_->record_light;
+  return data_->light.records;
 }
 
 probes::SurfaceRecords RelightSession::records_by_group(const Control& control) const {
-  const Data& d = *data_;
+  const Data& d = data_->settled();
   require(d.gather != nullptr, "surface records", "the session keeps none");
   probes::SurfaceRecords records;
   records.points = d.gather->points();
@@ -161,19 +161,19 @@ const std::vector<std::string>& RelightSession::light_groups() const {
   return data_->source.light_groups();
 }
 
-std::vector<KeptDirect> RelightSession::kept_direct() const {
+std::size_t RelightSession::kept_direct_count() const {
   const Data& d = *data_;
-  std::vector<KeptDirect> kept;
-  if (!d.gather) return kept;
-  for (std::size_t k = 0; k < d.record_direct.groups().size(); ++k) {
-    const int group = d.record_direct.groups()[k];
-    kept.push_back({group, d.record_direct.found(k), d.direct_holds(group)});
-  }
-  return kept;
+  return d.gather ? d.record_direct.groups().size() : 0;
+}
+
+KeptDirect RelightSession::kept_direct(std::size_t i) const {
+  require(i < kept_direct_count(), "surface records", "they keep direct light of no such group");
+  const Data& d = *data_;
+  return {d.record_direct.groups()[i], d.record_direct.found(i), d.direct_held[i] != 0};
 }
 
 sh::RadianceSh RelightSession::arriving(int group, int probe) const {
-  const Data& d = *data_;
+  const Data& d = data_->settled();
   d.check_probe(probe);
   require(d.direct_light != nullptr, "relighting", "all is dark before the first update");
   return project_arriving(
@@ -182,10 +182,10 @@ sh::RadianceSh RelightSession::arriving(int group, int probe) const {
 }
 
 const std::vector<Irradiance4>& RelightSession::surfel_irradiance() const {
-  return data_->indirect;
+  return data_->light.indirect;
 }
 const std::vector<Irradiance4>& RelightSession::surfel_direct() const {
-  return data_->direct;
+  return data_->light.direct;
 }
 const TransportNetwork& RelightSession::network() const {
   return data_->network;

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/require.h>
+#include <ssphh/transport/network.h>
 #include <ssphh/transport/session_sets.h>
+#include <ssphh/transport/surface_gather.h>
 
 namespace ssphh::transport {
 namespace {
@@ -39,7 +41,8 @@ probes::ProbeSet lookup_set(const RelightSession& session) {
   set.surface = {session.gather()->points(), {dark}};
   set.surface->light.resize(count);
   set.light_groups[0].name = name_of_all(session.light_groups());
-  for (const KeptDirect& kept : session.kept_direct()) {
+  for (std::size_t k = 0; k < session.kept_direct_count(); ++k) {
+    const KeptDirect kept = session.kept_direct(k);
     set.light_groups.push_back({session.light_groups()[static_cast<std::size_t>(kept.group)]});
     set.surface->groups.push_back(dark);
     set.surface->direct.resize(set.light_groups.size());
@@ -62,8 +65,8 @@ void refresh(probes::ProbeSet& set, const RelightSession& session) {
   }
   if (!set.surface) return;
   probes::SurfaceRecords& records = *set.surface;
-  const std::vector<KeptDirect> kept = session.kept_direct();
-  require(records.groups.size() == 1 + kept.size() && set.light_groups.size() == records.groups.size() &&
+  const std::size_t kept_count = session.kept_direct_count();
+  require(records.groups.size() == 1 + kept_count && set.light_groups.size() == records.groups.size() &&
               records.light.size() == session.record_light().size(),
           "lookup set", "its records are not of this session");
   for (std::size_t i = 0; i < records.light.size(); ++i) {
@@ -71,15 +74,16 @@ void refresh(probes::ProbeSet& set, const RelightSession& session) {
     records.groups[0][i] = probes::pack(session.record_light()[i], normal);
     records.light[i] = probes::unpack(records.groups[0][i], normal);
   }
-  for (std::size_t k = 0; k < kept.size(); ++k) {
+  for (std::size_t k = 0; k < kept_count; ++k) {
+    const KeptDirect kept = session.kept_direct(k);
     probes::LightGroup& group = set.light_groups[1 + k];
-    group.mode = kept[k].holds ? scene::LightMode::diffuse : scene::LightMode::realtime;
-    group.scale = session.lighting().group_scales[static_cast<std::size_t>(kept[k].group)];
+    group.mode = kept.holds ? scene::LightMode::diffuse : scene::LightMode::realtime;
+    group.scale = session.shown().group_scales[static_cast<std::size_t>(kept.group)];
     for (std::size_t i = 0; i < records.light.size(); ++i) {
       const vec3& normal = records.points[i].normal;
       probes::PackedRecordLight& packed = records.direct[1 + k][i];
-      packed = probes::pack(kept[k].light[i], normal);
-      if (!kept[k].holds) continue;
+      packed = probes::pack(kept.light[i], normal);
+      if (!kept.holds) continue;
       const probes::RecordLight light = probes::unpack(packed, normal);
       for (glm::length_t c = 0; c < 4; ++c) records.light[i][c] += group.scale * light[c];
     }
@@ -133,7 +137,8 @@ probes::ProbeSet baked_set(const RelightSession& session, const std::vector<std:
   set.probes = dark_probes(session.places());
   if (session.gather()) set.surface = session.records_by_group(control);
   bool any = false;
-  for (const KeptDirect& kept : session.kept_direct()) {
+  for (std::size_t k = 0; k < session.kept_direct_count(); ++k) {
+    const KeptDirect kept = session.kept_direct(k);
     const auto g = static_cast<std::size_t>(kept.group);
     if (kept.holds) {
       set.light_groups[g].mode = scene::LightMode::diffuse;

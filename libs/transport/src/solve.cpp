@@ -74,8 +74,19 @@ double chebyshev_bound(const Contraction& contraction) {
 SolveReport Solver::solve(const LinkRows& links, std::span<const vec3> albedo,
                           std::span<const Irradiance4> direct, double contraction_bound,
                           const SolveParams& params, std::vector<Irradiance4>& indirect) {
+  begin(links, albedo, direct, contraction_bound, params, indirect);
+  while (!iterate()) {
+  }
+  return report_;
+}
+
+void Solver::begin(const LinkRows& links, std::span<const vec3> albedo, std::span<const Irradiance4> direct,
+                   double contraction_bound, const SolveParams& params, std::vector<Irradiance4>& indirect) {
   const std::size_t count = links.rows.size();
   require(albedo.size() == count && direct.size() == count, "solver", "sizes differ from the number of rows");
+  problem_ = {&links, albedo, direct, contraction_bound, params, &indirect};
+  report_ = {};
+  report_.converged = count == 0;
   const std::size_t blocks = (count + rows_per_block - 1) / rows_per_block;
   indirect.resize(count, Irradiance4(0));
   previous_.resize(count);
@@ -83,18 +94,14 @@ SolveReport Solver::solve(const LinkRows& links, std::span<const vec3> albedo,
   next_radiosity_.resize(count);
   block_residual_.assign(blocks, 0);
   block_largest_.assign(blocks, 0);
-  const auto largest_of = [](const std::vector<float>& values) {
-    return values.empty() ? 0 : *std::ranges::max_element(values);
-  };
 
   // Start from what `indirect` holds: the right answer already where all that changed is the lamps' power.
-  glm::dvec3 sum(0);
-  for (const Irradiance4& e : direct) sum += glm::dvec3(e);
+  for (const Irradiance4& e : direct) problem_.sum += glm::dvec3(e);
   Irradiance4 start_scale(1);
   for (int c = 0; last_sum_ && c < 3; ++c) {
-    if ((*last_sum_)[c] > 0) start_scale[c] = static_cast<float>(std::min(sum[c] / (*last_sum_)[c], 4.0));
+    if ((*last_sum_)[c] > 0)
+      start_scale[c] = static_cast<float>(std::min(problem_.sum[c] / (*last_sum_)[c], 4.0));
   }
-  last_sum_ = sum;
   parallel_for(count, rows_per_block, [&](std::size_t begin, std::size_t end) {
     float largest = 0;
     for (std::size_t i = begin; i < end; ++i) {
@@ -105,41 +112,48 @@ SolveReport Solver::solve(const LinkRows& links, std::span<const vec3> albedo,
     }
     block_largest_[begin / rows_per_block] = largest;
   });
+}
 
-  const bool accelerate = contraction_bound < 1;
-  const double c2 = contraction_bound * contraction_bound;
-  double omega = 1;
-  SolveReport report;
-  report.converged = count == 0;
-  while (!report.converged && report.iterations < params.max_iterations) {
-    // One bounce of every surfel, and from it Chebyshev's step; all that the next one reads is written at
-    // once.
-    const auto w = static_cast<float>(omega);
-    const float floor = 1e-3f * largest_of(block_largest_);
-    parallel_for(count, rows_per_block, [&](std::size_t begin, std::size_t end) {
-      float residual = 0, largest = 0;
-      for (std::size_t i = begin; i < end; ++i) {
-        const Irradiance4 bounced = gather(links.rows[i], radiosity_.data());
-        const float scale = max_component(vec3(bounced));
-        const float difference = max_component(glm::abs(vec3(bounced - indirect[i])));
-        residual = std::max(residual, difference / std::max(scale + floor, 1e-30f));
-        largest = std::max(largest, scale);
-        // Chebyshev's steps may overshoot by a hair where next to nothing arrives.
-        const Irradiance4 next = glm::max(w * (bounced - previous_[i]) + previous_[i], Irradiance4(0));
-        previous_[i] = indirect[i];
-        indirect[i] = next;
-        next_radiosity_[i] = vec4(albedo[i], 0) * (direct[i] + next);
-      }
-      block_residual_[begin / rows_per_block] = residual;
-      block_largest_[begin / rows_per_block] = largest;
-    });
-    radiosity_.swap(next_radiosity_);
-    if (accelerate) omega = report.iterations == 0 ? 1 / (1 - c2 / 2) : 1 / (1 - c2 * omega / 4);
-    ++report.iterations;
-    report.residual = largest_of(block_residual_);
-    report.converged = report.residual <= params.tolerance;
-  }
-  return report;
+bool Solver::iterate() {
+  if (!finished()) bounce();
+  if (!finished()) return false;
+  last_sum_ = problem_.sum;
+  return true;
+}
+
+/// One bounce of every surfel, and from it Chebyshev's step; all that the next one reads is written at once.
+void Solver::bounce() {
+  Problem& p = problem_;
+  std::vector<Irradiance4>& indirect = *p.indirect;
+  const auto largest_of = [](const std::vector<float>& values) {
+    return values.empty() ? 0 : *std::ranges::max_element(values);
+  };
+  const auto w = static_cast<float>(p.omega);
+  const float floor = 1e-3f * largest_of(block_largest_);
+  const std::vector<LinkRows::Row>& rows = p.links->rows;
+  parallel_for(rows.size(), rows_per_block, [&](std::size_t begin, std::size_t end) {
+    float residual = 0, largest = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Irradiance4 bounced = gather(rows[i], radiosity_.data());
+      const float scale = max_component(vec3(bounced));
+      const float difference = max_component(glm::abs(vec3(bounced - indirect[i])));
+      residual = std::max(residual, difference / std::max(scale + floor, 1e-30f));
+      largest = std::max(largest, scale);
+      // Chebyshev's steps may overshoot by a hair where next to nothing arrives.
+      const Irradiance4 next = glm::max(w * (bounced - previous_[i]) + previous_[i], Irradiance4(0));
+      previous_[i] = indirect[i];
+      indirect[i] = next;
+      next_radiosity_[i] = vec4(p.albedo[i], 0) * (p.direct[i] + next);
+    }
+    block_residual_[begin / rows_per_block] = residual;
+    block_largest_[begin / rows_per_block] = largest;
+  });
+  radiosity_.swap(next_radiosity_);
+  const double c2 = p.bound * p.bound;
+  if (p.bound < 1) p.omega = report_.iterations == 0 ? 1 / (1 - c2 / 2) : 1 / (1 - c2 * p.omega / 4);
+  ++report_.iterations;
+  report_.residual = largest_of(block_residual_);
+  report_.converged = report_.residual <= p.params.tolerance;
 }
 
 }  // namespace ssphh::transport

@@ -140,9 +140,14 @@ SurfaceGather::Row SurfaceGather::trace_point(std::uint32_t p, const HemisphereP
 }
 
 void SurfaceGather::update_pose() {
+  update_pose(0, moving_.size());
+}
+
+void SurfaceGather::update_pose(std::size_t begin, std::size_t end) {
+  require(begin <= end && end <= moving_.size(), "surface gather", "there are no such rays");
   const TransportNetwork::Data& d = *network_->data_;
-  parallel_for(moving_.size(), 256, [&](std::size_t i) {
-    Moving& m = moving_[i];
+  parallel_for(end - begin, 256, [&](std::size_t i) {
+    Moving& m = moving_[begin + i];
     const Resolved found = d.resolve({m.ray, m.normal, m.surfel, 0, 0, 0, 0});
     m.link.weight = found.surfel == no_surfel ? 0 : m.weight;
     m.link.surfel = static_cast<std::uint32_t>(std::max(found.surfel, 0));
@@ -157,8 +162,16 @@ void SurfaceGather::light(std::span<const Irradiance4> irradiance,
   std::vector<vec4> radiosity(albedo.size());
   for (std::size_t s = 0; s < albedo.size(); ++s) radiosity[s] = vec4(albedo[s], 0) * irradiance[s];
   out.resize(points_.size());
-  parallel_for(points_.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
+  light(radiosity, 0, points_.size(), out);
+}
+
+void SurfaceGather::light(std::span<const vec4> radiosity, std::size_t begin, std::size_t end,
+                          std::span<probes::RecordLight> out) const {
+  require(radiosity.size() == network_->surfel_count() && out.size() == points_.size() && begin <= end &&
+              end <= points_.size(),
+          "surface gather", "there is not one radiosity for each surfel, or one light for each point");
+  parallel_for(end - begin, 64, [&](std::size_t first, std::size_t last) {
+    for (std::size_t p = begin + first; p < begin + last; ++p) {
       vec4 level(0), x(0), y(0);
       const auto add = [&](const Link& link) {
         const vec4 b = radiosity[link.surfel];

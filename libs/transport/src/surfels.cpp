@@ -97,25 +97,8 @@ std::span<const int> SurfelSet::cell(int part, const rays::SurfacePoint& point) 
   return found ? std::span<const int>(*found) : std::span<const int>();
 }
 
-std::vector<int> SurfelSet::candidates(int part, const rays::SurfacePoint& point) const {
-  const int own_level = level(part, point.position), bin = direction_bin(point.normal);
-  const Key own_key = key(part, point);
-  std::vector<int> own, around;
-  for (int l = std::max(own_level - 1, 0); l <= std::min(own_level + 1, SurfelSizes::most_level); ++l) {
-    if (l != own_level && !has_level_[static_cast<std::size_t>(l)]) continue;
-    const Voxel centre = voxel(part, l, point.position);
-    for (int z = -1; z <= 1; ++z) {
-      for (int y = -1; y <= 1; ++y) {
-        for (int x = -1; x <= 1; ++x) {
-          const Key k = key(part, {l, centre.x + x, centre.y + y, centre.z + z}, bin);
-          const std::vector<int>* found = find_cell(k);
-          if (!found) continue;
-          std::vector<int>& list = k == own_key ? own : around;
-          list.insert(list.end(), found->begin(), found->end());
-        }
-      }
-    }
-  }
+std::span<const int> SurfelSet::candidates(int part, const rays::SurfacePoint& point,
+                                           std::span<int> out) const {
   const auto nearer = [&](int a, int b) {
     const auto distance2 = [&](int s) {
       const vec3 d = surfels_[static_cast<std::size_t>(s)].point.position - point.position;
@@ -123,10 +106,35 @@ std::vector<int> SurfelSet::candidates(int part, const rays::SurfacePoint& point
     };
     return std::pair(distance2(a), a) < std::pair(distance2(b), b);
   };
-  std::ranges::sort(own, nearer);
-  std::ranges::sort(around, nearer);
-  own.insert(own.end(), around.begin(), around.end());
-  return own;
+  std::size_t count = 0;
+  // Into its place among those from `first` on; the farthest falls off the end.
+  const auto add = [&](std::size_t first, const std::vector<int>& cell) {
+    for (const int s : cell) {
+      std::size_t at = count;
+      while (at > first && nearer(s, out[at - 1])) --at;
+      if (at == out.size()) continue;
+      count = std::min(count + 1, out.size());
+      for (std::size_t i = count - 1; i > at; --i) out[i] = out[i - 1];
+      out[at] = s;
+    }
+  };
+  const int own_level = level(part, point.position), bin = direction_bin(point.normal);
+  const Key own_key = key(part, point);
+  if (const std::vector<int>* own = find_cell(own_key)) add(0, *own);
+  const std::size_t around = count;
+  for (int l = std::max(own_level - 1, 0); l <= std::min(own_level + 1, SurfelSizes::most_level); ++l) {
+    if (l != own_level && !has_level_[static_cast<std::size_t>(l)]) continue;
+    const Voxel centre = voxel(part, l, point.position);
+    for (int z = -1; z <= 1; ++z) {
+      for (int y = -1; y <= 1; ++y) {
+        for (int x = -1; x <= 1; ++x) {
+          const Key k = key(part, {l, centre.x + x, centre.y + y, centre.z + z}, bin);
+          if (const std::vector<int>* found = k == own_key ? nullptr : find_cell(k)) add(around, *found);
+        }
+      }
+    }
+  }
+  return out.first(count);
 }
 
 std::vector<int> SurfelSet::add(int part, std::span<const ClusterPoint> points) {

@@ -1,5 +1,6 @@
 /// Networks of more surfels than are found, linked or gathered from at one go.
 
+#include <algorithm>
 #include <atomic>
 
 #include <gtest/gtest.h>

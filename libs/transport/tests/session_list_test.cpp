@@ -6,6 +6,7 @@
 #include <ssphh/transport/fitted_weights.h>
 #include <ssphh/transport/link_viz.h>
 #include <ssphh/transport/session_sets.h>
+#include <ssphh/transport/surface_gather.h>
 
 #include "ball_room.h"
 #include "expected_text.h"

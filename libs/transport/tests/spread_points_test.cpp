@@ -1,5 +1,7 @@
 /// Points thinned out evenly: their number, their spread, and both sides of a wall.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <ssphh/core/error.h>

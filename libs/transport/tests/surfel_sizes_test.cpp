@@ -1,5 +1,6 @@
 /// How large surfels are, against the header's words by brute force, and sets of surfels of several sizes.
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -155,7 +156,9 @@ TEST(SurfelSet, SurfelsOfSeveralSizesAreNoWiderThanTheirVoxels) {
   const rays::SurfacePoint outside{{border + 0.05f, 0, 0}, {0, 1, 0}};
   EXPECT_NE(one.level(0, outside.position), one.surfels()[static_cast<std::size_t>(inner)].level);
   EXPECT_TRUE(one.cell(0, outside).empty());
-  EXPECT_EQ(one.candidates(0, outside), std::vector<int>{inner});
+  std::array<int, 4> room;
+  const std::span<const int> found = one.candidates(0, outside, room);
+  EXPECT_EQ(std::vector<int>(found.begin(), found.end()), std::vector<int>{inner});
 }
 
 TEST(SurfelSet, AMovingPartHasOneSizeOfItsOwn) {

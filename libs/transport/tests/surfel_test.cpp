@@ -205,11 +205,19 @@ TEST(SurfelSet, CandidatesAreTheOwnCellsThenThoseAroundByDistance) {
     std::sort(expected.begin(), expected.end());
     std::vector<int> order;
     for (const auto& entry : expected) order.push_back(std::get<2>(entry));
-    EXPECT_EQ(set.candidates(0, x), order);
+    for (const std::size_t room :
+         {order.size() + 1, order.size(), order.size() / 2, own.size(), std::size_t{1}}) {
+      std::vector<int> nearest(room);
+      const std::span<const int> found = set.candidates(0, x, nearest);
+      EXPECT_EQ(std::vector<int>(found.begin(), found.end()),
+                std::vector<int>(order.begin(),
+                                 order.begin() + static_cast<std::ptrdiff_t>(std::min(room, order.size()))));
+    }
     const auto cell = set.cell(0, x);
     EXPECT_EQ(std::vector<int>(cell.begin(), cell.end()), own) << "founded in ascending order here";
   }
-  EXPECT_TRUE(set.candidates(0, {{2, 0, 2}, {0, -1, 0}}).empty()) << "nothing faces down";
+  std::vector<int> room(4);
+  EXPECT_TRUE(set.candidates(0, {{2, 0, 2}, {0, -1, 0}}, room).empty()) << "nothing faces down";
 }
 
 TEST(SurfelSet, SpreadMembersLieFarApart) {

@@ -1,5 +1,6 @@
 #include "probe_grid.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

@@ -4,6 +4,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/place/place.h>
+#include <ssphh/transport/network.h>
 
 #include "network_memory.h"
 

@@ -17,16 +17,17 @@ vec3 node_axis(const mat4& world) {
 
 }  // namespace
 
-DistantLights::DistantLights(std::span<const PosedLight> lights,
-                             std::shared_ptr<const EnvironmentLight> environment,
-                             const std::vector<std::string>& groups)
-    : environment_(std::move(environment)) {
+void DistantLights::assign(std::span<const PosedLight> lights,
+                           std::shared_ptr<const EnvironmentLight> environment) {
+  environment_ = std::move(environment);
+  directional_.clear();
+  discs_.clear();
   for (const PosedLight& posed : lights) {
     const scene::Light& light = posed.light;
     const vec3 irradiance = light.color * light.intensity;
     if (light.type != scene::LightType::directional || !(luminance(irradiance) > 0)) continue;
     const vec3 to_light = node_axis(posed.world);
-    const int group = scene::light_group_index(groups, scene::light_group(light));
+    const int group = posed.group;
     const float sin_radius = std::sin(glm::min(light.angular_radius, pi / 2));
     if (sin_radius > 0) {
       const float sin2 = sin_radius * sin_radius;
@@ -50,7 +51,8 @@ DistantLights DistantLights::without(std::span<const int> groups) const {
 }
 
 void DistantLights::divide_choices() {
-  std::vector<float> power;
+  std::vector<float>& power = power_;
+  power.clear();
   for (const DirectionalLight& light : directional_) power.push_back(luminance(light.irradiance));
   for (const DiscLight& light : discs_) power.push_back(luminance(light.irradiance));
   if (environment_) power.push_back(environment_->mean_irradiance());
@@ -58,7 +60,7 @@ void DistantLights::divide_choices() {
   for (const float p : power) irradiance_ += p;
   // A share for each, so that the sky is not lost beside the sun
   for (float& p : power) p += p > 0 ? 0.1f * irradiance_ / static_cast<float>(power.size()) : 0.0f;
-  choice_ = Distribution(power);
+  choice_.assign(power);
 }
 
 std::optional<LightSample> DistantLights::sample(float u_choice, const vec2& u) const {

@@ -23,6 +23,7 @@ struct DirectionalLight {
 struct PosedLight {
   scene::Light light;
   mat4 world{1};
+  int group = 0;
   sh::IntensitySh emission{};  ///< now
 };
 
@@ -44,6 +45,7 @@ class EnvironmentLight {
 
   /// The same with another rotation [rad]: nothing is computed anew.
   EnvironmentLight turned(float rotation) const;
+  float rotation() const { return rotation_; }
 
   int group() const { return group_; }
   /// Mean luminance over the sphere times π: the irradiance of a mean plane.
@@ -64,7 +66,7 @@ class EnvironmentLight {
 
   const image::Image* image_ = nullptr;  ///< null: constant
   vec3 color_;
-  float cos_, sin_;
+  float rotation_, cos_, sin_;
   int group_;
   float mean_irradiance_ = 0;
   std::vector<float> row_cos_;         ///< cos θ at the rows' edges
@@ -76,8 +78,11 @@ class DistantLights {
  public:
   DistantLights() = default;
   /// Leaves out the lights that are not distant or off. `environment` may be null.
-  DistantLights(std::span<const PosedLight> lights, std::shared_ptr<const EnvironmentLight> environment,
-                const std::vector<std::string>& groups);
+  DistantLights(std::span<const PosedLight> lights, std::shared_ptr<const EnvironmentLight> environment) {
+    assign(lights, std::move(environment));
+  }
+  /// The same in place of what they were, in the memory of that.
+  void assign(std::span<const PosedLight> lights, std::shared_ptr<const EnvironmentLight> environment);
 
   /// Those of other light groups than these.
   DistantLights without(std::span<const int> groups) const;
@@ -110,7 +115,8 @@ class DistantLights {
   std::vector<DirectionalLight> directional_;
   std::vector<DiscLight> discs_;
   std::shared_ptr<const EnvironmentLight> environment_;
-  Distribution choice_;  ///< over directional, discs, environment in this order
+  std::vector<float> power_;  ///< scratch
+  Distribution choice_;       ///< over directional, discs, environment in this order
   float irradiance_ = 0;
 };
 

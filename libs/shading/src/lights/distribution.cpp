@@ -12,7 +12,8 @@ double usable(float weight) {
 
 }  // namespace
 
-Distribution::Distribution(std::span<const float> weights) {
+void Distribution::assign(std::span<const float> weights) {
+  cdf_.clear();
   double total = 0;
   for (const float w : weights) total += usable(w);
   if (!(total > 0)) return;

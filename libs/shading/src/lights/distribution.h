@@ -12,7 +12,9 @@ class Distribution {
   Distribution() = default;
   /// Probabilities proportional to `weights`; negative, NaN and infinite ones count as zero. Empty when all
   /// are zero.
-  explicit Distribution(std::span<const float> weights);
+  explicit Distribution(std::span<const float> weights) { assign(weights); }
+  /// The same in place of what it was, in the memory of that.
+  void assign(std::span<const float> weights);
 
   bool empty() const { return cdf_.empty(); }
   std::size_t size() const { return cdf_.empty() ? 0 : cdf_.size() - 1; }

@@ -35,6 +35,7 @@ std::vector<float> row_importance(const image::Image& image, int y) {
 
 EnvironmentLight::EnvironmentLight(const scene::Environment& environment, int group)
     : color_(environment.color),
+      rotation_(environment.rotation),
       cos_(std::cos(environment.rotation)),
       sin_(std::sin(environment.rotation)),
       group_(group),
@@ -60,6 +61,7 @@ EnvironmentLight::EnvironmentLight(const scene::Environment& environment, int gr
 
 EnvironmentLight EnvironmentLight::turned(float rotation) const {
   EnvironmentLight other = *this;
+  other.rotation_ = rotation;
   other.cos_ = std::cos(rotation), other.sin_ = std::sin(rotation);
   return other;
 }

@@ -31,17 +31,21 @@ struct LightSet::Data {
   const scene::Scene* scene = nullptr;
   float scene_radius = 0;
   std::vector<std::string> groups;
+  std::vector<PosedLight> lights;  ///< of the scene, as they are now
   std::vector<PointLight> points;
   std::vector<SphereLight> spheres;
   std::vector<std::shared_ptr<const MeshLight>> meshes;
   std::vector<int> instance_group, instance_mesh_light;
+  std::vector<std::shared_ptr<const MeshLight>> moved_meshes;  ///< [instance], not as in the base
   DistantLights distant;
+  std::vector<float> powers;      ///< scratch
   Distribution by_power;          ///< local lights: points, spheres, meshes in this order
   float distant_probability = 0;  ///< to choose among the distant lights
 
   std::size_t local_count() const { return points.size() + spheres.size() + meshes.size(); }
 
-  void add_lights(std::span<const PosedLight> lights);
+  void read_lights();
+  void add_lights();
   void add_meshes(const std::vector<mat4>& world, const Data* base);
   void divide_choices();
 
@@ -116,17 +120,19 @@ LightSet::LightSet(const scene::Scene& scene, const std::vector<mat4>& world, fl
   Data& d = *data_;
   d.scene = &scene;
   d.groups = scene::light_groups(scene);
-  std::vector<PosedLight> lights;
-  for (const scene::Light& light : scene.lights)
-    lights.push_back({light, matrix_at(world, light.node), scene::emission_at(light.emission, time)});
-  d.add_lights(lights);
+  d.read_lights();
+  for (PosedLight& light : d.lights) {
+    light.world = matrix_at(world, light.light.node);
+    light.emission = scene::emission_at(light.light.emission, time);
+  }
+  d.add_lights();
   d.add_meshes(world, nullptr);
   std::shared_ptr<const EnvironmentLight> environment;
   if (scene.environment) {
     const int group = scene::light_group_index(d.groups, scene::light_group(*scene.environment));
     environment = std::make_shared<const EnvironmentLight>(*scene.environment, group);
   }
-  d.distant = DistantLights(lights, std::move(environment), d.groups);
+  d.distant.assign(d.lights, std::move(environment));
   if (!d.distant.empty() && d.local_count() > 0) d.scene_radius = scene::world_bounds(scene, world).radius();
   d.divide_choices();
 }
@@ -138,30 +144,47 @@ LightSet::LightSet(const LightSet& base, const std::vector<mat4>& world,
   d.scene = base.data_->scene;
   d.scene_radius = base.data_->scene_radius;
   d.groups = base.data_->groups;
+  d.read_lights();
+  pose(base, world, states, environment_rotation);
+}
+
+void LightSet::pose(const LightSet& base, const std::vector<mat4>& world,
+                    std::span<const scene::LightState> states, float environment_rotation) {
+  Data& d = *data_;
+  require(d.scene == base.data_->scene, "light set", "it was not made of this one");
   require(world.size() >= d.scene->nodes.size(), "light set", "there is not one matrix for each node");
-  require(states.size() == d.scene->lights.size(), "light set", "there is not one state for each light");
-  std::vector<PosedLight> lights;
+  require(states.size() == d.lights.size(), "light set", "there is not one state for each light");
   for (std::size_t i = 0; i < states.size(); ++i) {
-    lights.push_back({d.scene->lights[i], states[i].world, states[i].emission});
-    lights.back().light.color = states[i].color;
-    lights.back().light.intensity = states[i].intensity;
+    d.lights[i].world = states[i].world;
+    d.lights[i].light.color = states[i].color;
+    d.lights[i].light.intensity = states[i].intensity;
+    d.lights[i].emission = states[i].emission;
   }
-  d.add_lights(lights);
+  d.add_lights();
   d.add_meshes(world, base.data_.get());
   std::shared_ptr<const EnvironmentLight> environment = base.data_->distant.environment();
   if (environment && environment_rotation != 0) {
     const float rotation = d.scene->environment->rotation + environment_rotation;
-    environment = std::make_shared<const EnvironmentLight>(environment->turned(rotation));
+    const std::shared_ptr<const EnvironmentLight>& last = d.distant.environment();
+    environment = last && last->rotation() == rotation
+                      ? last
+                      : std::make_shared<const EnvironmentLight>(environment->turned(rotation));
   }
-  d.distant = DistantLights(lights, std::move(environment), d.groups);
+  d.distant.assign(d.lights, std::move(environment));
   d.divide_choices();
 }
 
-void LightSet::Data::add_lights(std::span<const PosedLight> lights) {
+void LightSet::Data::read_lights() {
+  for (const scene::Light& light : scene->lights)
+    lights.push_back({light, mat4(1), scene::light_group_index(groups, scene::light_group(light)), {}});
+}
+
+void LightSet::Data::add_lights() {
+  points.clear();
+  spheres.clear();
   for (const PosedLight& posed : lights) {
-    const auto& [light, world, emission] = posed;
+    const auto& [light, world, group, emission] = posed;
     if (!(luminance(light.color * light.intensity) > 0)) continue;
-    const int group = scene::light_group_index(groups, scene::light_group(light));
     if (light.type == scene::LightType::point || light.type == scene::LightType::spot) {
       points.push_back(make_point_light(light, world, group));
     } else if (light.type == scene::LightType::sphl && !emission.empty()) {
@@ -174,20 +197,33 @@ void LightSet::Data::add_lights(std::span<const PosedLight> lights) {
 
 /// Emissive instances; unlit ones are seen but light nothing. Those that stand as in `base` are shared.
 void LightSet::Data::add_meshes(const std::vector<mat4>& world, const Data* base) {
-  instance_group.assign(scene->instances.size(), -1);
+  if (base) {
+    instance_group = base->instance_group;
+  } else {
+    instance_group.assign(scene->instances.size(), -1);
+    for (std::size_t i = 0; i < scene->instances.size(); ++i) {
+      const scene::Instance& instance = scene->instances[i];
+      if (material_at(*scene, scene::instance_material(*scene, instance)).emissive())
+        instance_group[i] = scene::light_group_index(groups, scene::light_group(*scene, instance));
+    }
+  }
   instance_mesh_light.assign(scene->instances.size(), -1);
+  moved_meshes.resize(scene->instances.size());
+  meshes.clear();
   for (std::size_t i = 0; i < scene->instances.size(); ++i) {
     const scene::Instance& instance = scene->instances[i];
     const scene::Material& material = material_at(*scene, scene::instance_material(*scene, instance));
-    if (!material.emissive()) continue;
-    instance_group[i] = scene::light_group_index(groups, scene::light_group(*scene, instance));
-    if (material.unlit) continue;
+    if (instance_group[i] < 0 || material.unlit) continue;
     const mat4 matrix = matrix_at(world, instance.node);
     std::shared_ptr<const MeshLight> light;
     if (base && base->instance_mesh_light[i] >= 0)
       light = base->meshes[static_cast<std::size_t>(base->instance_mesh_light[i])];
-    if (!light || light->world() != matrix)
-      light = std::make_shared<const MeshLight>(*scene, instance, matrix, instance_group[i]);
+    if (!light || light->world() != matrix) {
+      std::shared_ptr<const MeshLight>& moved = moved_meshes[i];
+      if (!moved || moved->world() != matrix)
+        moved = std::make_shared<const MeshLight>(*scene, instance, matrix, instance_group[i]);
+      light = moved;
+    }
     if (light->empty()) continue;
     instance_mesh_light[i] = static_cast<int>(meshes.size());
     meshes.push_back(std::move(light));
@@ -196,10 +232,10 @@ void LightSet::Data::add_meshes(const std::vector<mat4>& world, const Data* base
 
 /// Divides the samples between distant and local lights by the irradiance they give, neither below a quarter.
 void LightSet::Data::divide_choices() {
-  std::vector<float> powers;
+  powers.clear();
   float total = 0;
   for (std::size_t i = 0; i < local_count(); ++i) powers.push_back(power(i)), total += powers.back();
-  by_power = Distribution(powers);
+  by_power.assign(powers);
   if (distant.empty()) {
     distant_probability = 0;
   } else if (by_power.empty()) {

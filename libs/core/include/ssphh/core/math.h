@@ -5,19 +5,9 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <ssphh/core/vectors.h>
+
 namespace ssphh {
-
-using glm::mat3;
-using glm::mat4;
-using glm::quat;
-using glm::uvec3;
-using glm::vec2;
-using glm::vec3;
-using glm::vec4;
-
-static_assert(alignof(glm::vec4) == alignof(float),
-              "ssphh is built with packed vectors: GLM_FORCE_DEFAULT_ALIGNED_GENTYPES would change what its "
-              "functions take");
 
 inline constexpr float pi = 3.14159265358979323846f;
 inline constexpr double pi_d = 3.14159265358979323846;

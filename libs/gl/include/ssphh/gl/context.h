@@ -1,6 +1,7 @@
 #pragma once
 /// An OpenGL 4.5 core context: a headless one of our own, or one that a window has made current.
 
+#include <memory>
 #include <string>
 
 #include <ssphh/core/held.h>

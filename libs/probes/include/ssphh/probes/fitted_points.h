@@ -2,11 +2,10 @@
 /// Surface points with the weights of the probes that light them: plain data, made by fit_weights
 /// (fitted_weights.h), stored in probe files.
 
-#include <algorithm>
 #include <vector>
 
-#include <ssphh/probes/lookup_weights.h>
-#include <ssphh/rays/transport_source.h>
+#include <ssphh/probes/weight_list.h>
+#include <ssphh/rays/surface_point.h>
 
 namespace ssphh::probes {
 
@@ -15,13 +14,7 @@ struct FittedPoints {
   std::vector<rays::SurfacePoint> points;
   std::vector<PointWeights> weights;
 
-  friend bool operator==(const FittedPoints& a, const FittedPoints& b) {
-    return std::ranges::equal(a.points, b.points,
-                              [](const rays::SurfacePoint& p, const rays::SurfacePoint& q) {
-                                return p.position == q.position && p.normal == q.normal;
-                              }) &&
-           a.weights == b.weights;
-  }
+  friend bool operator==(const FittedPoints&, const FittedPoints&);
 };
 
 /// Throws Error unless every point stands at a finite place and has its weights: finite, at most max_weights,

@@ -43,10 +43,18 @@ int irradiance_degree(const LookupParams& params, int set_degree);
 /// `neighbor` or `sum` without a hierarchy, for groups that were not merged, and for places and functions
 /// that are not finite or not of the set's degree.
 std::vector<sh::RadianceSh> surface_light(const ProbeSet& set, const LookupParams& params);
+/// The same in the memory of `light`.
+void surface_light(const ProbeSet& set, const LookupParams& params, std::vector<sh::RadianceSh>& light);
 
 /// Both are safe to call from several threads, never return a negative or non-finite number for finite input,
 /// and copy what they need of the set; `source` (for visibility) must outlive them. Constructors throw Error
-/// as surface_light does.
+/// as surface_light does. Copies share what light does not change: places, weights, what is visible.
+///
+/// swap_light() makes a lookup that of a set whose light has changed, with the bits that the constructor
+/// gives, in a fraction of its time and without allocation (modes of light groups that change apart): the set
+/// has the same probes in the same order, of the same degree, and the same records or none, as the one that
+/// the lookup was made of. Throws Error for other sets and as the constructor does, and leaves the lookup as
+/// it was. Not while another thread looks up in this one: core/snapshots.h holds several.
 
 /// The paper's SPHL as a light (§3): from the nearest visible SPHL above the horizon the radiance L_S(ω)
 /// arrives, ω from x to it, as I = L_S(ω)/(N·ω), so that the cosine of the rendering equation cancels and ρ L
@@ -59,6 +67,8 @@ class LightLookup final : public rays::IndirectLight {
   ~LightLookup() override;
   LightLookup(LightLookup&&) noexcept;
   LightLookup& operator=(LightLookup&&) noexcept;
+  LightLookup(const LightLookup&);
+  void swap_light(const ProbeSet& set);
   vec3 irradiance(const rays::SurfacePoint& at) const override;
   std::vector<std::string> direct_groups() const override;
   vec3 glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const override;
@@ -89,6 +99,8 @@ class IrradianceLookup final : public rays::IndirectLight {
   ~IrradianceLookup() override;
   IrradianceLookup(IrradianceLookup&&) noexcept;
   IrradianceLookup& operator=(IrradianceLookup&&) noexcept;
+  IrradianceLookup(const IrradianceLookup&);
+  void swap_light(const ProbeSet& set);
   vec3 irradiance(const rays::SurfacePoint& at) const override;
   std::vector<std::string> direct_groups() const override;
   std::vector<std::string> mirrored_groups() const override;

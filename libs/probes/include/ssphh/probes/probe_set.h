@@ -9,11 +9,11 @@
 
 #include <ssphh/core/enum_names.h>
 #include <ssphh/core/hash.h>
-#include <ssphh/core/math.h>
+#include <ssphh/core/vectors.h>
 #include <ssphh/probes/baseline.h>
 #include <ssphh/probes/fitted_points.h>
 #include <ssphh/probes/surface_records.h>
-#include <ssphh/rays/radiance_source.h>
+#include <ssphh/rays/path_set.h>
 #include <ssphh/scene/light_mode.h>
 #include <ssphh/sh/operators.h>
 
@@ -188,6 +188,8 @@ std::vector<std::string> mirrored_groups(const ProbeSet& set);
 /// others have records, but for mirrors, and still surfaces without a record half of it (still_share_of_sky).
 /// Empty: there are no such groups.
 std::vector<sh::RadianceSh> light_beside_records(const ProbeSet& set);
+/// The same in the memory of `light`.
+void light_beside_records(const ProbeSet& set, std::vector<sh::RadianceSh>& light);
 
 /// Number of edges stored in the set.
 std::size_t edge_count(const ProbeSet& set);

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include <ssphh/core/math.h>
-#include <ssphh/rays/transport_source.h>
+#include <ssphh/core/vectors.h>
+#include <ssphh/rays/surface_point.h>
 
 namespace ssphh::probes {
 

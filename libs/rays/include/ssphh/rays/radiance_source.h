@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <ssphh/core/control.h>
-#include <ssphh/core/enum_names.h>
 #include <ssphh/image/cube_map.h>
+#include <ssphh/rays/path_set.h>
 #include <ssphh/rays/transport_source.h>
 #include <ssphh/scene/query.h>
 
@@ -42,14 +42,6 @@ struct GhostPath {
   vec3 emission;    ///< ω_e, the direction in which the sphere emitted the path's light
   vec3 throughput;  ///< radiance contribution times the texel's solid angle / samples: sums to ∫ L dω
 };
-
-/// What may lie between a light and a probe, in Heckbert's notation: L{D|S}*, every scattering; or L{D}*, the
-/// diffuse lobes of opaque surfaces alone, so that mirrors are as black as glass.
-enum class PathSet { all, diffuse };
-constexpr auto enum_table(PathSet) {
-  using enum PathSet;
-  return std::to_array<EnumName<PathSet>>({{all, "all"}, {diffuse, "diffuse"}});
-}
 
 struct CubeRequest {
   vec3 position{0};

@@ -12,17 +12,11 @@
 #include <vector>
 
 #include <ssphh/core/require.h>
+#include <ssphh/rays/surface_point.h>
 #include <ssphh/scene/lighting_state.h>
 #include <ssphh/scene/query.h>
 
 namespace ssphh::rays {
-
-/// A point on a surface with its geometric unit normal, on the side that is lit or seen.
-struct SurfacePoint {
-  vec3 position{0};
-  vec3 normal{0, 1, 0};
-  bool moves = false;  ///< on a body that an animation moves
-};
 
 /// Ray or segment: covers the distances (0, t_max) in units of `direction`, which need not be a unit vector.
 struct RayQuery {
@@ -66,10 +60,6 @@ struct Photon {
     return range > 0 ? glm::clamp(1 - r * r * r * r, 0.0f, 1.0f) : 1;
   }
 };
-
-/// RGB irradiance [W/m²] at a surface point by the unit normal n near the point's own: E(n) = light · (n, 1).
-/// The part that is linear in n lies in the tangent plane; the last column is E of the point's own normal.
-using IrradianceByNormal = glm::mat4x3;
 
 /// Light that arrives at a place along one way.
 struct ArrivingLight {
@@ -158,6 +148,15 @@ class TransportSource {
   virtual std::unique_ptr<DirectLight> direct_light(std::span<const scene::LightState> lights,
                                                     std::span<const mat4> poses,
                                                     float environment_rotation = 0) const = 0;
+
+  /// The same in place of what direct_light() gave before; null: nothing yet. A source that is asked every
+  /// frame makes its own anew without taking memory. When it throws, `light` may be neither the old nor the
+  /// new one.
+  virtual void renew_direct_light(std::unique_ptr<DirectLight>& light,
+                                  std::span<const scene::LightState> lights, std::span<const mat4> poses,
+                                  float environment_rotation) const {
+    light = direct_light(lights, poses, environment_rotation);
+  }
 
   /// Path tracing of the scene in that state, whose SPHLs do not shine. What it returns may outlive this
   /// object, but not the scene.

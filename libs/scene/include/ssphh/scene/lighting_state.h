@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <vector>
 
-#include <ssphh/core/math.h>
+#include <glm/mat4x4.hpp>
+
+#include <ssphh/core/vectors.h>
 #include <ssphh/sh/coefficients.h>
 
 namespace ssphh::scene {

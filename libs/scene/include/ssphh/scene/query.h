@@ -15,6 +15,9 @@ namespace ssphh::scene {
 /// World matrix of every node with all animations at `time` seconds (clamped to each channel's keys).
 std::vector<mat4> world_matrices(const Scene& scene, float time = 0);
 
+/// The same of one node, without allocation: only what it hangs on is posed.
+mat4 world_matrix(const Scene& scene, int node, float time = 0);
+
 /// Time of the last key of any animation, or when the last emission that changes has ended or begins again
 /// [s]; 0 where nothing changes.
 float animation_duration(const Scene& scene);

@@ -8,9 +8,10 @@
 
 #include <ssphh/core/enum_names.h>
 #include <ssphh/core/hash.h>
-#include <ssphh/scene/scene.h>
 
 namespace ssphh::scene {
+
+struct Scene;
 
 enum class ItemKind { object, light, environment };
 constexpr auto enum_table(ItemKind) {

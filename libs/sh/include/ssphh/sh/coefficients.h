@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include <ssphh/core/math.h>
 #include <ssphh/core/require.h>
+#include <ssphh/core/vectors.h>
 
 namespace ssphh::sh {
 

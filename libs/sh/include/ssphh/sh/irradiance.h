@@ -3,6 +3,7 @@
 /// Hanrahan, An Efficient Representation for Irradiance Environment Maps, SIGGRAPH 2001). No hidden 1/π: a
 /// Lambertian surface of albedo ρ leaves ρ E/π.
 
+#include <ssphh/core/math.h>
 #include <ssphh/sh/coefficients.h>
 
 namespace ssphh::sh {

@@ -22,6 +22,7 @@ BandScales lanczos_window(double width);
 
 /// Multiplies each band by its factor. A factor of exactly 1 leaves the bits as they are.
 RadianceSh apply_window(const RadianceSh& sh, const BandScales& scales);
+void window_in_place(RadianceSh& sh, const BandScales& scales);
 
 /// Lowest value of each channel over the sphere, to about 1e-6 of the function's range: dense samples and a
 /// descent from the lowest of them.

@@ -66,6 +66,10 @@ class LightSet {
   /// sample() divides its choices between near and distant lights.
   LightSet(const LightSet& base, const std::vector<mat4>& world, std::span<const scene::LightState> lights,
            float environment_rotation = 0);
+  /// Becomes LightSet(base, …) where it was made of the same base, in its own memory: allocates nothing where
+  /// emissive instances stand still, and the environment, or stays turned.
+  void pose(const LightSet& base, const std::vector<mat4>& world, std::span<const scene::LightState> lights,
+            float environment_rotation = 0);
   /// The emitters of other light groups than these; what both have is shared.
   LightSet without(std::span<const int> groups) const;
   ~LightSet();

@@ -58,6 +58,10 @@ class TransportScene final : public rays::TransportSource {
   std::unique_ptr<rays::DirectLight> direct_light(std::span<const scene::LightState> lights,
                                                   std::span<const mat4> poses,
                                                   float environment_rotation = 0) const override;
+  /// Without allocation, but for emissive instances that move and an environment that turns.
+  void renew_direct_light(std::unique_ptr<rays::DirectLight>& light,
+                          std::span<const scene::LightState> lights, std::span<const mat4> poses,
+                          float environment_rotation) const override;
   std::unique_ptr<rays::RadianceSource> path_tracing(const scene::LightingState& state) const override;
 
   std::uint64_t rays_traced() const override;

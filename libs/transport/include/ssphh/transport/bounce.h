@@ -5,21 +5,13 @@
 /// amplified by the bounces, so `surfel` is better; this form needs no surfels beyond those that carry direct
 /// light.
 
+#include <memory>
 #include <vector>
 
-#include <ssphh/probes/lookup_weights.h>
 #include <ssphh/sh/coefficients.h>
 #include <ssphh/transport/network.h>
 
 namespace ssphh::transport {
-
-struct BounceParams {
-  probes::WeightParams weights{.method = probes::WeightMethod::trilinear};
-  int irradiance_degree = 2;  ///< bands of the probes' irradiance that surfaces look up
-  int applications = 0;       ///< of B; 0: until it changes no probe by more than the tolerance
-  float tolerance = 1e-3f;    ///< of a probe's band 0, relative to the largest one's
-  int max_iterations = 200;
-};
 
 struct BounceReport {
   int iterations = 0;
@@ -48,8 +40,9 @@ class BounceOperator {
 
   /// Reflected light of every probe from the surfels' direct irradiance. `warm`: begins with what `reflected`
   /// holds, the answer of a similar light, instead of darkness; not with a given number of applications.
+  /// Allocates nothing from the second call on. Not from two threads at once.
   BounceReport solve(std::span<const Irradiance4> direct, std::vector<sh::RadianceSh>& reflected,
-                     bool warm = false) const;
+                     bool warm = false);
 
  private:
   struct Data;

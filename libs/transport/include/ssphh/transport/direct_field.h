@@ -20,6 +20,11 @@ class DirectField {
   /// before and after) may shadow the light. Returns the number of samples asked for.
   std::size_t update_moved(int group, const rays::DirectLight& light, std::span<const scene::Bounds> moved);
 
+  /// Both in pieces: choose_all() or choose_moved(), then find() of the `chosen` samples, a range at a time.
+  std::size_t choose_all(int group);
+  std::size_t choose_moved(int group, const rays::DirectLight& light, std::span<const scene::Bounds> moved);
+  void find(int group, const rays::DirectLight& light, std::size_t begin, std::size_t end);
+
   /// Σ_g scale_g · E_g at each surfel: the mean over its samples in use. `extra` is added at each sample when
   /// not empty.
   void sum(std::span<const vec3> group_scales, std::span<const vec3> extra,
@@ -27,11 +32,10 @@ class DirectField {
 
  private:
   void require_group(int group) const;
-  std::size_t update(int group, const rays::DirectLight& light, std::span<const std::uint32_t> which);
-
   const TransportNetwork& network_;
   std::vector<std::vector<vec3>> groups_;  ///< [group][sample]
-  std::vector<std::uint32_t> which_;
+  std::vector<std::uint32_t> which_;       ///< samples that were chosen
+  std::vector<std::uint8_t> touched_;
   std::vector<rays::SurfacePoint> points_;
   std::vector<vec3> values_;
 };

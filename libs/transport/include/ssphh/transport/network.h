@@ -11,24 +11,9 @@
 #include <ssphh/transport/gbuffer.h>
 #include <ssphh/transport/solve.h>
 #include <ssphh/transport/surfels.h>
+#include <ssphh/transport/transport_params.h>
 
 namespace ssphh::transport {
-
-struct TransportParams {
-  int directions = 384;  ///< rays per probe
-  /// Edge of a surfel [m]; 0: the scene's radius over `surfels_per_radius`, but at most the largest of these:
-  /// a quarter of the probes' median distance or 0.5 m, whichever is less; a sixteenth of that distance; a
-  /// 30,000th of the scene's length.
-  float surfel_size = 0;
-  int link_rays = 128;  ///< cosine rays per surfel
-  int samples = 8;      ///< points per surfel at which direct light is found, 1..32
-  float surfels_per_radius = 20;
-  /// Where one size for all would make more surfels than about this, they grow with the distance of probes
-  /// (surfel_sizes.h).
-  int most_surfels = 100000;
-
-  friend bool operator==(const TransportParams&, const TransportParams&) = default;
-};
 
 /// What a probe ray sees: a surfel, or no_surfel, and the albedo of the very point.
 struct SeenPatch {
@@ -137,6 +122,7 @@ class TransportNetwork {
 
  private:
   friend class GatherLight;
+  friend class RelightSession;
   friend class SurfaceGather;
   friend class RecordPlaces;
   Held<Data> data_;

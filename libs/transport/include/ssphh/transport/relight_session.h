@@ -8,8 +8,14 @@
 ///   state.lights[0].intensity = 20;
 ///   const transport::RelightReport report = session.update(state);
 ///   session.reflected()[i];  // what surfaces look up
+///
+/// A session is one thread's at a time: no call beside another, but for several at once of those that are
+/// const and do not say that they find something anew. Threads that read light while another updates it take
+/// it from core/snapshots.h (docs/embed.md#a-game-loop). Updates work on all threads that parallel loops have
+/// (core/executor.h).
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,12 +23,17 @@
 #include <ssphh/core/control.h>
 #include <ssphh/core/held.h>
 #include <ssphh/probes/probe_set.h>
-#include <ssphh/sh/coefficients.h>
-#include <ssphh/transport/bounce.h>
-#include <ssphh/transport/network.h>
-#include <ssphh/transport/surface_gather.h>
+#include <ssphh/scene/lighting_state.h>
+#include <ssphh/transport/transport_params.h>
+
+namespace ssphh::rays {
+class TransportSource;
+}
 
 namespace ssphh::transport {
+
+class SurfaceGather;
+class TransportNetwork;
 
 struct ProbePlace {
   std::string name;
@@ -50,16 +61,28 @@ struct RelightParams {
   GatherParams records = {};  ///< of the light kept at surfaces
 };
 
-/// One update. Times in milliseconds, rays as traced.
+/// How long ago an update() asked for the light that there is; 0 of both: the last one did.
+struct LightAge {
+  std::uint64_t updates = 0;
+  double seconds = 0;  ///< wall time
+};
+
+/// One update. Times in milliseconds, rays as traced, what this call did; the rest tells of all that it
+/// finished.
 struct RelightReport {
   double pose_ms = 0, direct_ms = 0, solve_ms = 0, project_ms = 0;
   std::uint64_t pose_rays = 0, direct_rays = 0;
   SolveReport solve;
   std::size_t hits_changed = 0;
-  std::vector<int> changed_probes;
+  std::span<const int> changed_probes;  ///< ascending; the session's, until its next update()
+  bool finished = true;  ///< false: time was over before all was done; the next update() goes on
+  LightAge age;          ///< of the light now
 
   double total_ms() const { return pose_ms + direct_ms + solve_ms + project_ms; }
 };
+
+/// Of update(): as long as it takes.
+inline constexpr double unlimited_ms = std::numeric_limits<double>::infinity();
 
 /// Direct light of a light group that records keep (GatherParams::baked).
 struct KeptDirect {
@@ -85,15 +108,33 @@ class RelightSession {
   /// Brings the probes up to date with the state; does only what changed since the last call. Factors of
   /// groups cost no ray; emission bounces like any other light (`matrix` transport). Throws Error for a state
   /// that scene::check_lighting refuses, and Cancelled when asked to stop. When it throws, the probes stay as
-  /// they were, and the next call does all that this one should have done. Allocates nothing where nothing
-  /// changed.
-  RelightReport update(const scene::LightingState& state, const Control& control = {});
+  /// they were, and the next call does all that this one should have done.
+  ///
+  /// When `budget_ms` milliseconds are over it stops, after a piece of work at least, and the next call goes
+  /// on: the light stays the finished one of before until all of the new one is there, `finished` says
+  /// whether it is, `age` how old it is. A state that was begun is finished first; then that of the call is,
+  /// the states of calls between are passed over. The light has the bits that unlimited updates to the states
+  /// begun would give. Pieces are rays, probes and bounces by the hundred, some 0.1 ms each in a flat; of
+  /// `bounce` the solution is one piece.
+  ///
+  /// From the second update of a kind on (lamps, doors, factors) it allocates nothing, if the source does not
+  /// either (TransportSource::renew_direct_light); doors with `bounce`, and emission, still do.
+  RelightReport update(const scene::LightingState& state, const Control& control = {},
+                       double budget_ms = unlimited_ms);
 
   /// The state that the last update() was asked for, also where it threw; at first the source's own.
   const scene::LightingState& lighting() const;
+  /// The state whose light this is, that of the last update() that was finished; at first the source's own.
+  const scene::LightingState& shown() const;
+  /// How old that light is. Of no light: since the first update().
+  LightAge age() const;
+  /// Whether an update ran out of time and the next one goes on. What finds light anew throws Error then:
+  /// emitted(), arriving(), emission_profile(), what is by group, keep_records() and keep_records_at();
+  /// network() is on its way.
+  bool under_way() const;
   const std::vector<ProbePlace>& places() const;
   /// S_loop: reflected light alone, for surfaces that get direct light from elsewhere. None before the first
-  /// update(); all other light is dark then.
+  /// finished update(); all other light is dark then.
   const std::vector<sh::RadianceSh>& reflected() const;
   /// Emitters that probe i sees directly; S_full = reflected + emitted. Found when asked for, by at
   /// most 16,384 rays: none where nothing can be met that emits.
@@ -104,6 +145,7 @@ class RelightSession {
   /// of the one that took most iterations, converged if all did.
   std::vector<std::vector<sh::RadianceSh>> reflected_by_group(const Control& control = {},
                                                               SolveReport* slowest = nullptr) const;
+  /// Emitters as each probe sees them, likewise; found as emitted() is.
   std::vector<std::vector<sh::RadianceSh>> emitted_by_group() const;
 
   /// Emission profile of whatever stands in a sphere, as lit after the last update(): the radiance that
@@ -123,8 +165,10 @@ class RelightSession {
   const SurfaceGather* gather() const;
   /// Of each of the gather's points: reflected light after the last update().
   const std::vector<probes::RecordLight>& record_light() const;
-  /// Direct light beside it. Found when records are: updates do not find it anew.
-  std::vector<KeptDirect> kept_direct() const;
+  /// Groups whose direct light is kept beside it, and what is kept of the i-th of them. Found when records
+  /// are: updates do not find it anew.
+  std::size_t kept_direct_count() const;
+  KeptDirect kept_direct(std::size_t i) const;
   /// What a group's emitters send straight to probe i, sampled. Throws Error before the first update().
   sh::RadianceSh arriving(int group, int probe) const;
   /// Names, in the order of the state's factors.

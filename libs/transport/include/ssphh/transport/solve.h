@@ -9,6 +9,7 @@
 
 #include <ssphh/core/contraction.h>
 #include <ssphh/core/math.h>
+#include <ssphh/transport/transport_params.h>
 
 namespace ssphh::transport {
 
@@ -29,9 +30,6 @@ struct LinkRows {
   std::size_t link_count() const;
 };
 
-/// Irradiance with one float of padding: 16 bytes, one load.
-using Irradiance4 = vec4;
-
 /// Bounds of the spectral radius of F ρ, ρ the largest channel's albedo: the factor by which one bounce
 /// shrinks light.
 Contraction contraction(const LinkRows& links, std::span<const vec3> albedo, int steps = 16);
@@ -41,16 +39,6 @@ Contraction contraction(const LinkRows& links, std::span<const vec3> albedo, int
 /// left to find; with this one the pocket still converges, only more slowly than the rest.
 double chebyshev_bound(const Contraction& contraction);
 
-struct SolveParams {
-  float tolerance = 1e-3f;  ///< largest residual of a surfel, relative to its E + 1e-3 · (the largest E)
-  int max_iterations = 300;
-};
-struct SolveReport {
-  int iterations = 0;
-  float residual = 0;  ///< as `tolerance`, before the last iteration
-  bool converged = true;
-};
-
 /// out_i = Σ_j F_ij ρ_j (direct_j + indirect_j): one bounce. `radiosity` is scratch. All sizes are the row
 /// count.
 void bounce_once(const LinkRows& links, std::span<const Irradiance4> radiosity, std::span<Irradiance4> out);
@@ -59,16 +47,38 @@ void bounce_once(const LinkRows& links, std::span<const Irradiance4> radiosity, 
 /// as the direct light's sum has changed since this solver's last call) on entry. Chebyshev's semi-iteration
 /// for eigenvalues within ±`contraction_bound` (Golub & Varga 1961; Saad, Iterative Methods, §12.3); plain
 /// iteration when the bound is 1 or more. Rows are computed independently of each other: the same bits for
-/// any number of threads.
+/// any number of threads. Allocates nothing from the second call of a size on.
 class Solver {
  public:
   SolveReport solve(const LinkRows& links, std::span<const vec3> albedo, std::span<const Irradiance4> direct,
                     double contraction_bound, const SolveParams& params, std::vector<Irradiance4>& indirect);
 
+  /// The same bounce by bounce, to the bit: begin(), then iterate() until it returns true. What begin() is
+  /// given must stay until then. A solve that is given up leaves no trace in later ones.
+  void begin(const LinkRows& links, std::span<const vec3> albedo, std::span<const Irradiance4> direct,
+             double contraction_bound, const SolveParams& params, std::vector<Irradiance4>& indirect);
+  bool iterate();
+  const SolveReport& report() const { return report_; }
+
  private:
+  struct Problem {
+    const LinkRows* links = nullptr;
+    std::span<const vec3> albedo;
+    std::span<const Irradiance4> direct;
+    double bound = 1;
+    SolveParams params;
+    std::vector<Irradiance4>* indirect = nullptr;
+    glm::dvec3 sum{0};  ///< of the direct light
+    double omega = 1;   ///< Chebyshev's
+  };
+  bool finished() const { return report_.converged || report_.iterations >= problem_.params.max_iterations; }
+  void bounce();
+
+  Problem problem_;
+  SolveReport report_;
   std::vector<Irradiance4> radiosity_, next_radiosity_, previous_;
   std::vector<float> block_residual_, block_largest_;
-  std::optional<glm::dvec3> last_sum_;  ///< of the direct light
+  std::optional<glm::dvec3> last_sum_;  ///< of the direct light that was solved last
 };
 
 }  // namespace ssphh::transport

@@ -9,25 +9,9 @@
 
 #include <ssphh/probes/surface_records.h>
 #include <ssphh/transport/network.h>
+#include <ssphh/transport/transport_params.h>
 
 namespace ssphh::transport {
-
-/// What a room or a flat needs.
-inline constexpr int usual_records = 16384;
-inline constexpr std::size_t most_records = std::size_t{1} << 16;
-
-struct GatherParams {
-  int points = 0;   ///< of gather_where_needed(): 1..65536; 0: none
-  int rays = 1024;  ///< per point, 4..65536
-  /// Where things move: poses of the scene's animations, evenly spaced from the first to the last, in which
-  /// light asks for points, beside the present one; below 2: that alone. A bake looks at no other.
-  int poses = 5;
-  /// Light groups whose direct light is kept at the points, too, each once: as many rays per point and
-  /// emitter.
-  std::vector<int> baked = {};
-
-  friend bool operator==(const GatherParams&, const GatherParams&) = default;
-};
 
 class HemisphereParts;
 struct BrightPoint;
@@ -48,6 +32,9 @@ class SurfaceGather {
   /// gather made in this pose: to the bit without `direct`, else within noise, for doors decide what is seen
   /// of what is bright.
   void update_pose();
+  /// The same of the rays [begin, end) of moving_rays().
+  void update_pose(std::size_t begin, std::size_t end);
+  std::size_t moving_rays() const { return moving_.size(); }
 
   /// Takes over the points of another gather of the same network, after its own.
   void append(SurfaceGather&& other);
@@ -58,6 +45,10 @@ class SurfaceGather {
   const std::vector<float>& openness() const { return openness_; }
   /// Light of each point, when each surfel gets `irradiance`, direct and reflected.
   void light(std::span<const Irradiance4> irradiance, std::vector<probes::RecordLight>& out) const;
+  /// The same of the points [begin, end), by the radiosity of each surfel, albedo times irradiance; `out` has
+  /// room for each of the points.
+  void light(std::span<const vec4> radiosity, std::size_t begin, std::size_t end,
+             std::span<probes::RecordLight> out) const;
   std::size_t bytes() const;
 
  private:

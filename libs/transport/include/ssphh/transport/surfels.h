@@ -65,8 +65,8 @@ class SurfelSet {
   }
 
   /// Surfels of the point's own cell, then of those around it (of the next finer and coarser voxels, too),
-  /// nearest representative first. In the part's frame.
-  std::vector<int> candidates(int part, const rays::SurfacePoint& point) const;
+  /// nearest representative first: the first of them that fit into `out`. In the part's frame.
+  std::span<const int> candidates(int part, const rays::SurfacePoint& point, std::span<int> out) const;
   /// Those of its own cell alone, in the order they were founded.
   std::span<const int> cell(int part, const rays::SurfacePoint& point) const;
 

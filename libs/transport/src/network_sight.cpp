@@ -1,0 +1,188 @@
+/// What rays of the world meet, and the surfels of it.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <ssphh/core/random.h>
+#include <ssphh/core/sphere.h>
+
+#include "network_data.h"
+
+namespace ssphh::transport {
+namespace {
+
+rays::SurfacePoint transformed(const rays::SurfacePoint& p, const mat4& matrix) {
+  const mat3 linear(matrix);
+  return {vec3(matrix * vec4(p.position, 1)),
+          glm::normalize(glm::transpose(glm::inverse(linear)) * p.normal)};
+}
+
+}  // namespace
+
+rays::RayQuery transformed(const rays::RayQuery& ray, const mat4& matrix) {
+  return {vec3(matrix * vec4(ray.origin, 1)), mat3(matrix) * ray.direction, ray.t_max};
+}
+
+rays::RayQuery fan_ray(const rays::SurfacePoint& from, float lift, std::uint32_t index, std::size_t salt) {
+  const std::uint64_t h = mix64(salt);
+  const double u = 0.7548776662466927 * (index + 1) + static_cast<double>(h >> 32) * 0x1p-32;
+  const double v = 0.5698402909980532 * (index + 1) + static_cast<double>(h & 0xffffffffu) * 0x1p-32;
+  const vec2 p{static_cast<float>(u - std::floor(u)), static_cast<float>(v - std::floor(v))};
+  const vec3 local = sample_cosine_hemisphere(glm::min(p, vec2(0x1.fffffep-1f)));
+  return {from.position + lift * from.normal, Frame::around(from.normal).to_world(local)};
+}
+
+bool meets(const rays::RayQuery& ray, const scene::Bounds& box) {
+  float near = 0, far = ray.t_max;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float inverse = 1 / ray.direction[axis];
+    const float a = (box.min[axis] - ray.origin[axis]) * inverse;
+    const float b = (box.max[axis] - ray.origin[axis]) * inverse;
+    // A ray in the plane of a side gives NaN, which min and max of this form pass over.
+    near = std::max(near, std::fmin(a, b));
+    far = std::min(far, std::fmax(a, b) * (1 + 1e-5f) + 1e-6f);
+  }
+  return near <= far;
+}
+
+bool meets_any(const rays::RayQuery& ray, const std::vector<scene::Bounds>& boxes) {
+  return std::any_of(boxes.begin(), boxes.end(),
+                     [&](const scene::Bounds& box) { return !box.empty() && meets(ray, box); });
+}
+
+rays::SurfacePoint TransportNetwork::Data::to_world(int part, const rays::SurfacePoint& point) const {
+  return part == 0 ? point : transformed(point, poses[static_cast<std::size_t>(part)]);
+}
+
+rays::RayQuery TransportNetwork::Data::sample_segment(std::size_t sample) const {
+  const std::size_t s = sample / sample_count();
+  return surfels.segment(local_samples[s * sample_count()], local_samples[sample],
+                         surfels.surfels()[s].level);
+}
+
+bool TransportNetwork::Data::parts_block(const rays::RayQuery& segment) const {
+  for (const PlacedPart& p : placed) {
+    const rays::RayQuery local = transformed(segment, p.to_part);
+    if (!meets(local, p.bounds)) continue;
+    std::uint8_t hit = 0;
+    source.occluded(p.part, {&local, 1}, {&hit, 1});
+    if (hit) return true;
+  }
+  return false;
+}
+
+bool TransportNetwork::Data::blocked(const rays::RayQuery& segment) const {
+  std::uint8_t hit = 0;
+  source.occluded(0, {&segment, 1}, {&hit, 1});
+  return hit || parts_block(segment);
+}
+
+bool TransportNetwork::Data::covered(int part, const rays::SurfacePoint& point) const {
+  const vec3 lift = link_lift * surfels.size() * point.normal;
+  const rays::RayQuery through{point.position - lift, 2.0f * lift, 1};
+  std::uint8_t hit = 0;
+  if (part != 0) source.occluded(0, {&through, 1}, {&hit, 1});
+  for (std::size_t p = 0; p < placed.size() && !hit; ++p) {
+    if (placed[p].part == part) continue;
+    const rays::RayQuery local = transformed(through, placed[p].to_part);
+    if (meets(local, placed[p].bounds)) source.occluded(placed[p].part, {&local, 1}, {&hit, 1});
+  }
+  return hit != 0;
+}
+
+int TransportNetwork::Data::find(int part, const rays::SurfacePoint& point) const {
+  if (part > 0) {
+    // A ray that starts within a body, where another touches it, meets its inside: nothing lights that, and
+    // within a body thinner than the lift sight would start on its far side.
+    const float start = link_lift * surfels.size();
+    const rays::RayQuery lift{point.position + start * point.normal,
+                              1.05f * surfels.lift(surfels.level(part, point.position)) * point.normal, 1};
+    std::uint8_t inside = 0;
+    source.occluded(part, {&lift, 1}, {&inside, 1});
+    if (inside) return no_surfel;
+  }
+  const rays::SurfacePoint world = to_world(part, point);
+  return find_nearest(part, point, [&](int s) {
+    const Surfel& surfel = surfels.surfels()[static_cast<std::size_t>(s)];
+    return !blocked(surfels.segment(world, to_world(part, surfel.point), surfel.level));
+  });
+}
+
+int TransportNetwork::Data::find_static(const rays::SurfacePoint& point) const {
+  return find_nearest(0, point, [&](int s) {
+    const Surfel& surfel = surfels.surfels()[static_cast<std::size_t>(s)];
+    const rays::RayQuery way = surfels.segment(point, surfel.point, surfel.level);
+    std::uint8_t hit = 0;
+    source.occluded(0, {&way, 1}, {&hit, 1});
+    return !hit;
+  });
+}
+
+bool TransportNetwork::Data::near_parts(const rays::RayQuery& ray, const vec3& normal, int surfel) const {
+  if (swept.size() < 2) return false;
+  if (meets_any(ray, swept)) return true;
+  if (surfel == no_surfel) return false;
+  const rays::SurfacePoint point{ray.origin + ray.t_max * ray.direction, normal};
+  const Surfel& met = surfels.surfels()[static_cast<std::size_t>(surfel)];
+  return meets_any(surfels.segment(point, met.point, met.level), swept);
+}
+
+template <class Sees>
+int TransportNetwork::Data::find_nearest(int part, const rays::SurfacePoint& point, const Sees& sees) const {
+  for (const int s : surfels.cell(part, point)) {
+    if (sees(s)) return s;
+  }
+  std::array<int, 12> room;
+  for (const int s : surfels.candidates(part, point, room)) {
+    if (sees(s)) return s;
+  }
+  return no_surfel;
+}
+
+bool TransportNetwork::Data::meet_part(rays::RayQuery& ray, rays::RayHit& hit, int& part) const {
+  bool any = false;
+  for (const PlacedPart& p : placed) {
+    const rays::RayQuery local = transformed(ray, p.to_part);
+    if (!meets(local, p.bounds)) continue;
+    rays::RayHit found;
+    source.intersect(p.part, {&local, 1}, {&found, 1});
+    if (!(found.distance < ray.t_max)) continue;
+    ray.t_max = found.distance;
+    hit = found;
+    part = p.part;
+    any = true;
+  }
+  return any;
+}
+
+Resolved TransportNetwork::Data::resolve(const MovingRay& unobstructed) const {
+  rays::RayQuery ray = unobstructed.ray;
+  rays::RayHit hit;
+  int part = 0;
+  if (meet_part(ray, hit, part)) {
+    const PlacedPart& p = placed[static_cast<std::size_t>(part - 1)];
+    const vec3 position = vec3(p.to_part * vec4(ray.origin + ray.t_max * ray.direction, 1));
+    // The part's palette entries were made when the network was built.
+    return {find(part, {position, hit.normal}), pack_albedo(hit.albedo),
+            gbuffer.palette.find(hit.emission, hit.group), ray.t_max};
+  }
+  if (unobstructed.surfel == no_surfel)
+    return {no_surfel, unobstructed.albedo, unobstructed.emission, ray.t_max};
+  const rays::SurfacePoint point{ray.origin + ray.t_max * ray.direction, unobstructed.normal};
+  const Surfel& surfel = surfels.surfels()[static_cast<std::size_t>(unobstructed.surfel)];
+  const bool hidden = parts_block(surfels.segment(point, surfel.point, surfel.level));
+  return {hidden ? find(0, point) : unobstructed.surfel, unobstructed.albedo, unobstructed.emission,
+          ray.t_max};
+}
+
+void TransportNetwork::Data::see_one(rays::RayQuery ray, rays::RayHit& hit, int& surfel) const {
+  ray.t_max = std::min(ray.t_max, hit.distance);
+  int part = 0;
+  if (!meet_part(ray, hit, part) && hit.escaped()) return;
+  vec3 position = ray.origin + ray.t_max * ray.direction;
+  if (part > 0) position = vec3(placed[static_cast<std::size_t>(part - 1)].to_part * vec4(position, 1));
+  surfel = find(part, {position, hit.normal});
+}
+
+}  // namespace ssphh::transport

@@ -1,0 +1,131 @@
+/// The light that a session keeps at surfaces.
+
+#include "relight_data.h"
+
+namespace ssphh::transport {
+namespace {
+
+/// Factors that make each group's direct light as bright as another's.
+std::vector<vec3> alike(std::span<const std::vector<Irradiance4>> by_group) {
+  std::vector<vec3> scales;
+  for (const std::vector<Irradiance4>& group : by_group) {
+    double all = 0;
+    for (const Irradiance4& e : group) all += static_cast<double>(luminance(vec3(e)));
+    scales.emplace_back(all > 0 ? static_cast<float>(static_cast<double>(group.size()) / all) : 0.0f);
+  }
+  return scales;
+}
+
+}  // namespace
+
+void RelightSession::Data::find_direct_for_records() {
+  if (unfinished) group_dirty.assign(group_dirty.size(), true);
+  if (any_group_dirty() || !direct_light) {
+    source.renew_direct_light(direct_light, state.lights, network.poses(), state.environment_rotation);
+    require(direct_light != nullptr, "transport source", "it gives no direct light");
+  }
+  for (std::size_t g = 0; g < group_dirty.size(); ++g) {
+    if (group_dirty[g]) field.update_all(static_cast<int>(g), *direct_light);
+    group_dirty[g] = false;
+  }
+}
+
+std::vector<float> RelightSession::Data::record_times() const {
+  std::vector<float> times = {state.time};
+  const int poses = params.records.poses;
+  for (int i = 0; poses > 1 && i < poses && source.part_count() > 1 && source.duration() > 0; ++i) {
+    const float time = source.duration() * static_cast<float>(i) / static_cast<float>(poses - 1);
+    if (time != times[0]) times.push_back(time);
+  }
+  return times;
+}
+
+void RelightSession::Data::put_into_pose(float time, const Control& control) {
+  if (time == state.time) return;
+  state.time = time;
+  moved.clear();
+  RelightReport unread;
+  Pace pace(control);
+  for (stage = Stage::place; stage != Stage::emission; done = 0) step(unread, control, pace);
+  stage = Stage::idle;
+}
+
+PosedIrradiance RelightSession::Data::light_alike() const {
+  PosedIrradiance light_now{direct_by_group(), {}};
+  const std::vector<vec3> scales = alike(light_now.direct);
+  std::vector<Irradiance4> sum(network.surfel_count(), Irradiance4(0));
+  for (std::size_t g = 0; g < scales.size(); ++g) {
+    if (scales[g].x == 0) continue;
+    for (std::size_t s = 0; s < sum.size(); ++s) sum[s] += scales[g].x * light_now.direct[g][s];
+  }
+  SolveReport report;
+  light_now.lit = lit_under(sum, report);
+  return light_now;
+}
+
+void RelightSession::Data::keep_records(const Control& control) {
+  gather.reset();
+  light.records.clear();
+  record_direct = RecordDirect(params.records.baked);
+  direct_held.clear();
+  if (params.records.points == 0) return;
+  if (params.records.points < 0)
+    throw Error("surface records", fmt::format("{} is no number of points", params.records.points));
+  for (const int group : params.records.baked)
+    require(group >= 0 && static_cast<std::size_t>(group) < state.group_scales.size(), "light group",
+            "there is none of that index");
+  find_direct_for_records();
+  const std::vector<vec3> scales = alike(direct_by_group());
+  const auto extend = [&](std::span<const rays::SurfacePoint> points) {
+    record_direct.extend(*direct_light, points, params.records.rays, control);
+  };
+  AddRecordLight add_direct;
+  if (!params.records.baked.empty()) {
+    add_direct = [&](std::span<const rays::SurfacePoint> points, auto& light) {
+      extend(points);
+      record_direct.add_to(light, scales);
+    };
+  }
+  const std::vector<float> times = record_times();
+  const auto light_at = [&](float time) {
+    put_into_pose(time, control);
+    return light_alike();
+  };
+  try {
+    std::unique_ptr<SurfaceGather> made =
+        gather_where_needed(network, params.records, times, light_at, control, add_direct);
+    put_into_pose(times[0], control);
+    if (times.size() > 1) made->update_pose();
+    gather = std::move(made);
+  } catch (...) {
+    state.time = times[0];
+    stage = Stage::idle;
+    unfinished = true;
+    throw;
+  }
+  extend(gather->points());
+  direct_state = state;
+  note_direct_held();
+}
+
+void RelightSession::Data::keep_records_at(std::vector<rays::SurfacePoint> points, const Control& control) {
+  record_direct = RecordDirect(params.records.baked);
+  find_direct_for_records();
+  gather = std::make_unique<SurfaceGather>(network, std::move(points), params.records.rays, direct_by_group(),
+                                           control);
+  record_direct.extend(*direct_light, gather->points(), params.records.rays, control);
+  direct_state = state;
+  note_direct_held();
+}
+
+void RelightSession::Data::light_records() {
+  if (!gather || light.reflected.empty()) return;
+  if (bounce) {
+    if (!params.warm_start) light.indirect.clear();
+    solver.solve(network.links(), network.albedo(), light.direct, chebyshev_bound(network.contraction()),
+                 params.solve, light.indirect);
+  }
+  gather->light(total(light.direct, light.indirect), light.records);
+}
+
+}  // namespace ssphh::transport

@@ -1,0 +1,9 @@
+#pragma once
+
+namespace ssphh::test {
+
+/// How often this program called operator new so far, on any thread. OpenGL's driver and oneTBB have their
+/// own allocators.
+long allocations();
+
+}  // namespace ssphh::test
