@@ -163,7 +163,7 @@ ProbeLight::Update ProbeLight::update(const Document& document, const Settings& 
   } else if (relit || hierarchy_new) {
     std::vector<int> changed;
     if (live_ && !hierarchy_new && !light_new_) {
-      changed = report_.changed_probes;
+      changed.assign(report_.changed_probes.begin(), report_.changed_probes.end());
     } else {
       changed.resize(set_->probes.size());
       std::iota(changed.begin(), changed.end(), 0);

@@ -115,7 +115,7 @@ class Session {
         run(progress, [&](const Control& control) { return session_->update(state, control); });
     return py::dict("milliseconds"_a = r.total_ms(), "iterations"_a = r.solve.iterations,
                     "converged"_a = r.solve.converged, "rays"_a = r.pose_rays + r.direct_rays,
-                    "changed_probes"_a = r.changed_probes);
+                    "changed_probes"_a = std::vector<int>(r.changed_probes.begin(), r.changed_probes.end()));
   }
 
   FloatArray positions() const {

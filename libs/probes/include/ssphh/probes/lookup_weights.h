@@ -15,7 +15,8 @@ namespace ssphh::probes {
 
 struct FittedPoints;
 
-/// Whether nothing blocks the way between two points, the first just above a surface.
+/// Whether nothing blocks the way between two points, the first just above a surface. Asked by several
+/// threads at once.
 using SeesProbe = std::function<bool(const vec3& from, const vec3& probe)>;
 
 /// Defaults with the method of that name; empty: none. Throws Error for an unknown name.

@@ -66,7 +66,7 @@ struct IrradianceEstimate {
   vec3 indirect_covariance{0};  ///< of the same: red with green, green with blue, blue with red
 };
 
-/// Implemented by trace::PathTracer.
+/// Implemented by trace::PathTracer. All calls may come from several threads at once.
 class RadianceSource {
  public:
   virtual ~RadianceSource() = default;
@@ -106,8 +106,8 @@ class RadianceSource {
   virtual std::uint64_t rays_traced() const = 0;
 };
 
-/// Indirect light at surface points. Implemented by probes::IrradianceLookup, probes::LightLookup and the
-/// light of every method in libs/methods.
+/// Indirect light at surface points: all calls may come from several threads at once. Implemented by
+/// probes::IrradianceLookup, probes::LightLookup and the light of every method in libs/methods.
 class IndirectLight {
  public:
   virtual ~IndirectLight() = default;

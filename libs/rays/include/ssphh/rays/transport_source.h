@@ -74,7 +74,8 @@ struct PhotonNumbers {
 };
 
 /// Light that comes straight from emitters, for one state of the lights and one pose of the parts.
-/// Implemented by what trace::TransportScene::direct_light returns.
+/// Implemented by what trace::TransportScene::direct_light returns. All calls may come from several threads
+/// at once.
 class DirectLight {
  public:
   virtual ~DirectLight() = default;
@@ -109,7 +110,8 @@ class DirectLight {
 
 class RadianceSource;
 
-/// Implemented by trace::TransportScene.
+/// Implemented by trace::TransportScene. All calls may come from several threads at once, but
+/// renew_direct_light() for one `light`.
 class TransportSource {
  public:
   virtual ~TransportSource() = default;
