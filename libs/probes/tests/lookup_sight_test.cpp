@@ -1,6 +1,7 @@
 /// Which probes a lookup asks for, from where, and what those count that nobody sees.
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <ssphh/core/enum_names.h>
+#include <ssphh/core/math.h>
 #include <ssphh/sh/coefficients.h>
 
 namespace ssphh::scene {
