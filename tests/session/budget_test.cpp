@@ -54,7 +54,7 @@ class Budget : public testing::TestWithParam<Kind> {
     return calls;
   }
 
-  const GameRooms rooms_;
+  const GameRooms rooms_{};
 };
 
 TEST_P(Budget, PiecesEndWithTheBitsOfTheWhole) {
