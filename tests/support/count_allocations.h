@@ -3,7 +3,7 @@
 namespace ssphh::test {
 
 /// How often this program called operator new so far, on any thread. OpenGL's driver and oneTBB have their
-/// own allocators.
+/// own allocators. 0 in builds with sanitizers.
 long allocations();
 
 }  // namespace ssphh::test
