@@ -41,7 +41,8 @@ sh::IntensitySh emission_at(const Emission& emission, float time) {
   double place =
       (static_cast<double>(time) - static_cast<double>(emission.start)) * static_cast<double>(emission.rate);
   if (emission.repeat) {
-    place -= count * std::floor(place / count);
+    place = std::fmod(place, count);  // exact, however far away
+    if (place < 0) place += count;
     if (!(place < count)) place = 0;  // by rounding
   } else {
     place = std::clamp(place, 0.0, count - 1);
