@@ -1,0 +1,108 @@
+#pragma once
+/// What a LightSet holds, and how it chooses one of its lights.
+
+#include <array>
+#include <cmath>
+
+#include <ssphh/shading/lights.h>
+
+#include "distant_lights.h"
+#include "mesh_light.h"
+#include "punctual_lights.h"
+
+namespace ssphh::shading {
+
+/// Up to so many local lights are weighed anew at each point; more are chosen by their power.
+inline constexpr std::size_t max_weighed = 16;
+
+/// Probability to choose any light in reach, however weak; the rest goes by importance. A strong light may be
+/// hidden.
+inline constexpr float uniform_share = 0.2f;
+
+struct LightSet::Data {
+  const scene::Scene* scene = nullptr;
+  float scene_radius = 0;
+  std::vector<std::string> groups;
+  std::vector<PosedLight> lights;  ///< of the scene, as they are now
+  std::vector<PointLight> points;
+  std::vector<SphereLight> spheres;
+  std::vector<std::shared_ptr<const MeshLight>> meshes;
+  std::vector<int> instance_group, instance_mesh_light;
+  std::vector<std::shared_ptr<const MeshLight>> moved_meshes;  ///< [instance], not as in the base
+  DistantLights distant;
+  std::vector<float> powers;      ///< scratch
+  Distribution by_power;          ///< local lights: points, spheres, meshes in this order
+  float distant_probability = 0;  ///< to choose among the distant lights
+
+  std::size_t local_count() const { return points.size() + spheres.size() + meshes.size(); }
+
+  void read_lights();
+  void add_lights();
+  void add_meshes(const std::vector<mat4>& world, const Data* base);
+  void divide_choices();
+
+  float importance(std::size_t i, const vec3& from) const {
+    if (i < points.size()) return points[i].importance(from);
+    i -= points.size();
+    if (i < spheres.size()) return spheres[i].importance(from);
+    return meshes[i - spheres.size()]->importance(from);
+  }
+  float power(std::size_t i) const {
+    if (i < points.size()) return points[i].power();
+    i -= points.size();
+    if (i < spheres.size()) return spheres[i].power();
+    return meshes[i - spheres.size()]->power();
+  }
+  std::optional<LightSample> sample(std::size_t i, const vec3& from, float u_choice, const vec2& u) const {
+    if (i < points.size()) return points[i].sample(from);
+    i -= points.size();
+    if (i < spheres.size()) return spheres[i].sample(from, u);
+    return meshes[i - spheres.size()]->sample(from, u_choice, u);
+  }
+
+  /// Probabilities of the local lights as seen from a point, few lights only. False: none reaches the point.
+  bool weigh(const vec3& from, std::array<float, max_weighed>& probability) const {
+    const std::size_t count = local_count();
+    if (count == 1) {
+      probability[0] = 1;
+      return true;
+    }
+    float total = 0, active = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float w = importance(i, from);
+      probability[i] = w;
+      total += w;
+      active += w > 0 ? 1.0f : 0.0f;
+    }
+    if (!(total > 0 && std::isfinite(total))) return false;
+    const float scale = (1 - uniform_share) / total, base = uniform_share / active;
+    for (std::size_t i = 0; i < count; ++i)
+      probability[i] = probability[i] > 0 ? base + scale * probability[i] : 0;
+    return true;
+  }
+
+  float local_probability(std::size_t i, const vec3& from) const {
+    const float any = 1 - distant_probability;
+    if (local_count() > max_weighed) return any * by_power.probability(i);
+    std::array<float, max_weighed> probability;
+    return weigh(from, probability) ? any * probability[i] : 0;
+  }
+
+  Distribution::Choice choose_local(const vec3& from, float u) const {
+    if (local_count() > max_weighed) return by_power.sample(u);
+    std::array<float, max_weighed> probability;
+    if (!weigh(from, probability)) return {0, 0, 0};
+    std::size_t chosen = 0;
+    float below = 0;
+    for (std::size_t i = 0; i < local_count(); ++i) {
+      if (!(probability[i] > 0)) continue;
+      chosen = i;
+      if (u < below + probability[i]) break;
+      below += i + 1 < local_count() ? probability[i] : 0;
+    }
+    const float p = probability[chosen];
+    return {chosen, glm::clamp((u - below) / p, 0.0f, 0x1.fffffep-1f), p};
+  }
+};
+
+}  // namespace ssphh::shading

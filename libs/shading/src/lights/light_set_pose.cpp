@@ -1,0 +1,175 @@
+/// Lights read from a scene, and posed anew.
+
+#include <algorithm>
+
+#include <ssphh/core/require.h>
+
+#include "../surface/material_lookup.h"
+#include "light_set_data.h"
+
+namespace ssphh::shading {
+namespace {
+
+mat4 matrix_at(const std::vector<mat4>& world, int node) {
+  return node < 0 ? mat4(1) : world[static_cast<std::size_t>(node)];
+}
+
+}  // namespace
+
+LightSet::LightSet(const scene::Scene& scene, const std::vector<mat4>& world, float time)
+    : data_(std::make_unique<Data>()) {
+  scene::check_indices(scene);
+  require(world.size() >= scene.nodes.size(), "light set", "there is not one matrix for each node");
+  Data& d = *data_;
+  d.scene = &scene;
+  d.groups = scene::light_groups(scene);
+  d.read_lights();
+  for (PosedLight& light : d.lights) {
+    light.world = matrix_at(world, light.light.node);
+    light.emission = scene::emission_at(light.light.emission, time);
+  }
+  d.add_lights();
+  d.add_meshes(world, nullptr);
+  std::shared_ptr<const EnvironmentLight> environment;
+  if (scene.environment) {
+    const int group = scene::light_group_index(d.groups, scene::light_group(*scene.environment));
+    environment = std::make_shared<const EnvironmentLight>(*scene.environment, group);
+  }
+  d.distant.assign(d.lights, std::move(environment));
+  if (!d.distant.empty() && d.local_count() > 0) d.scene_radius = scene::world_bounds(scene, world).radius();
+  d.divide_choices();
+}
+
+LightSet::LightSet(const LightSet& base, const std::vector<mat4>& world,
+                   std::span<const scene::LightState> states, float environment_rotation)
+    : data_(std::make_unique<Data>()) {
+  Data& d = *data_;
+  d.scene = base.data_->scene;
+  d.scene_radius = base.data_->scene_radius;
+  d.groups = base.data_->groups;
+  d.read_lights();
+  pose(base, world, states, environment_rotation);
+}
+
+void LightSet::pose(const LightSet& base, const std::vector<mat4>& world,
+                    std::span<const scene::LightState> states, float environment_rotation) {
+  Data& d = *data_;
+  require(d.scene == base.data_->scene, "light set", "it was not made of this one");
+  require(world.size() >= d.scene->nodes.size(), "light set", "there is not one matrix for each node");
+  require(states.size() == d.lights.size(), "light set", "there is not one state for each light");
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    d.lights[i].world = states[i].world;
+    d.lights[i].light.color = states[i].color;
+    d.lights[i].light.intensity = states[i].intensity;
+    d.lights[i].emission = states[i].emission;
+  }
+  d.add_lights();
+  d.add_meshes(world, base.data_.get());
+  std::shared_ptr<const EnvironmentLight> environment = base.data_->distant.environment();
+  if (environment && environment_rotation != 0) {
+    const float rotation = d.scene->environment->rotation + environment_rotation;
+    const std::shared_ptr<const EnvironmentLight>& last = d.distant.environment();
+    environment = last && last->rotation() == rotation
+                      ? last
+                      : std::make_shared<const EnvironmentLight>(environment->turned(rotation));
+  }
+  d.distant.assign(d.lights, std::move(environment));
+  d.divide_choices();
+}
+
+void LightSet::Data::read_lights() {
+  for (const scene::Light& light : scene->lights)
+    lights.push_back({light, mat4(1), scene::light_group_index(groups, scene::light_group(light)), {}});
+}
+
+void LightSet::Data::add_lights() {
+  points.clear();
+  spheres.clear();
+  for (const PosedLight& posed : lights) {
+    const auto& [light, world, group, emission] = posed;
+    if (!(luminance(light.color * light.intensity) > 0)) continue;
+    if (light.type == scene::LightType::point || light.type == scene::LightType::spot) {
+      points.push_back(make_point_light(light, world, group));
+    } else if (light.type == scene::LightType::sphl && !emission.empty()) {
+      points.push_back(make_sphl_light(posed, group));
+    } else if (light.type == scene::LightType::sphere && light.radius > 0) {
+      spheres.push_back(make_sphere_light(light, world, group));
+    }
+  }
+}
+
+/// Emissive instances; unlit ones are seen but light nothing. Those that stand as in `base` are shared.
+void LightSet::Data::add_meshes(const std::vector<mat4>& world, const Data* base) {
+  if (base) {
+    instance_group = base->instance_group;
+  } else {
+    instance_group.assign(scene->instances.size(), -1);
+    for (std::size_t i = 0; i < scene->instances.size(); ++i) {
+      const scene::Instance& instance = scene->instances[i];
+      if (material_at(*scene, scene::instance_material(*scene, instance)).emissive())
+        instance_group[i] = scene::light_group_index(groups, scene::light_group(*scene, instance));
+    }
+  }
+  instance_mesh_light.assign(scene->instances.size(), -1);
+  moved_meshes.resize(scene->instances.size());
+  meshes.clear();
+  for (std::size_t i = 0; i < scene->instances.size(); ++i) {
+    const scene::Instance& instance = scene->instances[i];
+    const scene::Material& material = material_at(*scene, scene::instance_material(*scene, instance));
+    if (instance_group[i] < 0 || material.unlit) continue;
+    const mat4 matrix = matrix_at(world, instance.node);
+    std::shared_ptr<const MeshLight> light;
+    if (base && base->instance_mesh_light[i] >= 0)
+      light = base->meshes[static_cast<std::size_t>(base->instance_mesh_light[i])];
+    if (!light || light->world() != matrix) {
+      std::shared_ptr<const MeshLight>& moved = moved_meshes[i];
+      if (!moved || moved->world() != matrix)
+        moved = std::make_shared<const MeshLight>(*scene, instance, matrix, instance_group[i]);
+      light = moved;
+    }
+    if (light->empty()) continue;
+    instance_mesh_light[i] = static_cast<int>(meshes.size());
+    meshes.push_back(std::move(light));
+  }
+}
+
+/// Divides the samples between distant and local lights by the irradiance they give, neither below a quarter.
+void LightSet::Data::divide_choices() {
+  powers.clear();
+  float total = 0;
+  for (std::size_t i = 0; i < local_count(); ++i) powers.push_back(power(i)), total += powers.back();
+  by_power.assign(powers);
+  if (distant.empty()) {
+    distant_probability = 0;
+  } else if (by_power.empty()) {
+    distant_probability = 1;
+  } else {
+    const float local = scene_radius > 0 ? total / (scene_radius * scene_radius) : distant.irradiance();
+    distant_probability = glm::clamp(distant.irradiance() / (distant.irradiance() + local), 0.25f, 0.75f);
+  }
+}
+
+LightSet::LightSet() : data_(std::make_unique<Data>()) {}
+
+LightSet LightSet::without(std::span<const int> groups) const {
+  const auto is_one = [&](int group) { return std::ranges::find(groups, group) != groups.end(); };
+  LightSet rest;
+  Data& d = *rest.data_;
+  d = *data_;
+  std::erase_if(d.points, [&](const PointLight& light) { return is_one(light.group); });
+  std::erase_if(d.spheres, [&](const SphereLight& light) { return is_one(light.group); });
+  d.meshes.clear();
+  for (std::size_t i = 0; i < d.instance_group.size(); ++i) {
+    int& mesh = d.instance_mesh_light[i];
+    const int before = mesh;
+    if (is_one(d.instance_group[i])) d.instance_group[i] = mesh = -1;
+    if (mesh < 0) continue;
+    mesh = static_cast<int>(d.meshes.size());
+    d.meshes.push_back(data_->meshes[static_cast<std::size_t>(before)]);
+  }
+  d.distant = d.distant.without(groups);
+  d.divide_choices();
+  return rest;
+}
+
+}  // namespace ssphh::shading
