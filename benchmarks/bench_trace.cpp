@@ -197,7 +197,7 @@ BENCHMARK_CAPTURE(ray_rate, sponza_260k, "sponza_260k")->UseManualTime()->Unit(b
 
 /// Six places: the scene's SPHLs, repeated around if there are fewer.
 std::vector<rays::CubeRequest> six_probes(const scene::Scene& scene) {
-  const std::vector<scene::SphlPlace> places = scene::sphl_places(scene);
+  const std::vector<scene::ProbePlace> places = scene::sphl_places(scene);
   std::vector<rays::CubeRequest> requests;
   for (std::size_t i = 0; i < 6; ++i) {
     const vec3 position =

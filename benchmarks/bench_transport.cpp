@@ -188,7 +188,7 @@ struct Relit {
   Relit(const std::string& name, float spacing) : scene(scene::make_builtin(name)), source(scene) {
     place::PlaceParams place = place::place_params(scene, 1.0f);
     place.spacing = spacing;
-    std::vector<transport::ProbePlace> places;
+    std::vector<scene::ProbePlace> places;
     for (const auto& probe : place::place_probes(source, place).probes)
       places.push_back({probe.name, probe.position, 0.1f});
     const auto start = Clock::now();

@@ -20,7 +20,7 @@ int main() {
   const trace::PathTracer eye(scene);  // which probes a point sees
   transport::RelightParams params;
   params.transport = {.directions = 96, .surfel_size = 0.4f, .link_rays = 24, .samples = 4};
-  transport::RelightSession session(source, transport::places_of(scene::sphl_places(scene)), params);
+  transport::RelightSession session(source, scene::sphl_places(scene), params);
   const scene::LightingState start = session.lighting();
 
   // The first light, and what the threads exchange: the state that is wanted, the light that is finished.

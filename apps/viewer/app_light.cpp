@@ -14,10 +14,10 @@
 namespace ssphh::viewer {
 namespace {
 
-std::vector<transport::ProbePlace> places_of(const Document& document) {
+std::vector<scene::ProbePlace> places_of(const Document& document) {
   const scene::Scene& scene = *document.scene;
   const std::vector<mat4> world = scene::world_matrices(scene, document.time);
-  std::vector<transport::ProbePlace> places;
+  std::vector<scene::ProbePlace> places;
   for (const SphlEdit& sphl : document.edits().sphls) {
     if (sphl.enabled) places.push_back({sphl.name, sphl_position(scene, world, sphl), sphl.radius});
   }
@@ -108,7 +108,7 @@ void App::place_probes(float spacing) {
 }
 
 void App::start_gen(bool viz_only) {
-  const std::vector<transport::ProbePlace> places = places_of(document);
+  const std::vector<scene::ProbePlace> places = places_of(document);
   if (places.empty()) throw Error("GEN", "there are no SPHLs", "place some first");
   auto scene =
       std::make_shared<const scene::Scene>(edited_scene(*document.scene, document.edits(), document.time));

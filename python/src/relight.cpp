@@ -25,7 +25,7 @@ namespace ssphh::python {
 namespace {
 
 using probes::ProbeSet;
-using transport::ProbePlace;
+using scene::ProbePlace;
 
 /// Held while a session is at work: the GIL is free then, and its other methods must wait for a better time.
 class AtWork {
@@ -74,7 +74,7 @@ class Session {
     std::vector<ProbePlace> places;
     std::string words;
     if (py::isinstance<ProbeSet>(probes)) {
-      places = transport::places_of(probes.cast<const ProbeSet&>().probes);
+      places = scene::places_of(probes.cast<const ProbeSet&>().probes);
     } else {
       words = places_in_words(probes);
     }
@@ -193,8 +193,7 @@ class Session {
   std::vector<ProbePlace> find_places(const std::string& words, const Control& control) const {
     const auto placed =
         pipeline::place_for(scene_->geometry(), scene_->scene(), time_, {.probes = words}, "", control);
-    return placed ? transport::places_of(placed->placement.probes)
-                  : transport::places_of(scene::sphl_places(scene_->scene(), time_));
+    return placed ? scene::places_of(placed->placement.probes) : scene::sphl_places(scene_->scene(), time_);
   }
 
   scene::LightingState wanted() const {

@@ -167,13 +167,13 @@ void add_scene(py::module_& m) {
       .def_readonly("orthographic", &View::orthographic)
       .def_readonly("yfov_degrees", &View::yfov_degrees, "Vertical field of view.")
       .def("__repr__", [](const View& v) { return "<ssphh.Camera '" + v.name + "'>"; });
-  py::class_<scene::SphlPlace> sphl(m, "ProbePlace", "A place that a scene names for a probe.");
+  py::class_<scene::ProbePlace> sphl(m, "ProbePlace", "A place that a scene names for a probe.");
   at_home(sphl)
-      .def_readonly("name", &scene::SphlPlace::name)
+      .def_readonly("name", &scene::ProbePlace::name)
       .def_property_readonly(
-          "position", [](const scene::SphlPlace& s) { return array_of(s.position); }, "World [m].")
-      .def_readonly("radius", &scene::SphlPlace::radius, "[m].")
-      .def("__repr__", [](const scene::SphlPlace& s) { return "<ssphh.ProbePlace '" + s.name + "'>"; });
+          "position", [](const scene::ProbePlace& s) { return array_of(s.position); }, "World [m].")
+      .def_readonly("radius", &scene::ProbePlace::radius, "[m].")
+      .def("__repr__", [](const scene::ProbePlace& s) { return "<ssphh.ProbePlace '" + s.name + "'>"; });
 
   py::class_<LoadedScene, SceneHandle> scene(m, "Scene", "A scene as load() read it; it never changes.");
   at_home(scene)

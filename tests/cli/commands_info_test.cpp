@@ -87,7 +87,7 @@ TEST(Commands, SceneInfoCountsWhatTheSceneHoldsInItsPose) {
   EXPECT_EQ(info.bounds.min, bounds.min);
   EXPECT_EQ(info.bounds.max, bounds.max);
   EXPECT_NE(bounds.max, scene::world_bounds(scene, scene::world_matrices(scene)).max) << "the pose counts";
-  const std::vector<scene::SphlPlace> places = scene::sphl_places(scene, 0.75f);
+  const std::vector<scene::ProbePlace> places = scene::sphl_places(scene, 0.75f);
   EXPECT_NE(places[0].position, scene::sphl_places(scene)[0].position);
   EXPECT_EQ(info.sphls.size(), places.size() + 1) << "one is disabled";
   ASSERT_EQ(info.places.size(), places.size());

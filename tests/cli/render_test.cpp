@@ -98,7 +98,7 @@ TEST_F(Render, ProjectionsAreThoseOfTheWholeSphere) {
   json_here(command({"--projection", "equirect"}));
   EXPECT_EQ(image::read_image(out_).pixels, picture().pixels);
   // Where an SPHL stands, its axes the world's.
-  const scene::SphlPlace sphl = scene::sphl_places(scene_, 0.5f)[1];
+  const scene::ProbePlace sphl = scene::sphl_places(scene_, 0.5f)[1];
   params_.camera.world = mat4(1);
   params_.camera.world[3] = vec4(sphl.position, 1);
   json_here(command({"--projection", "equirect", "--at", sphl.name}));

@@ -12,9 +12,9 @@
 namespace ssphh::test {
 namespace {
 
-std::vector<transport::ProbePlace> door_places() {
-  std::vector<transport::ProbePlace> places;
-  for (const scene::SphlPlace& place : scene::sphl_places(door_scene()))
+std::vector<scene::ProbePlace> door_places() {
+  std::vector<scene::ProbePlace> places;
+  for (const scene::ProbePlace& place : scene::sphl_places(door_scene()))
     places.push_back({place.name, place.position, place.radius});
   places.resize(std::min<std::size_t>(places.size(), 3));
   return places;
@@ -76,7 +76,7 @@ Contract refuses_state(const std::string& given, std::function<void(scene::Light
 }
 
 void make_session(std::function<void(UnrulySource&)> spoil, transport::RelightParams params = coarse(),
-                  std::vector<transport::ProbePlace> places = door_places(), float time = 0) {
+                  std::vector<scene::ProbePlace> places = door_places(), float time = 0) {
   UnrulySource source(door_scene());
   spoil(source);
   transport::RelightSession session(source, std::move(places), params, time);
@@ -175,7 +175,7 @@ std::vector<Contract> of_input() {
               {"time"}),
       refuses("RelightSession", "OfARadiusThatIsNone",
               [] {
-                std::vector<transport::ProbePlace> places = door_places();
+                std::vector<scene::ProbePlace> places = door_places();
                 places[1].radius = nan;
                 make_session(sound, coarse(), places);
               },

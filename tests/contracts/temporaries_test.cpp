@@ -22,7 +22,7 @@ using probes::ProbeSet;
 using scene::Scene;
 using trace::PathTracer;
 using trace::TransportScene;
-using Places = std::vector<transport::ProbePlace>;
+using Places = std::vector<scene::ProbePlace>;
 using Matrices = std::vector<mat4>;
 
 /// Whether `T` can be made from an object that stays and the rest, and not from one that goes.

@@ -39,7 +39,7 @@ inline probes::ProbeSet made_up_probes(const std::vector<vec3>& places, unsigned
 
 inline std::vector<vec3> probe_places(const scene::Scene& scene) {
   std::vector<vec3> places;
-  for (const scene::SphlPlace& p : scene::sphl_places(scene)) places.push_back(p.position);
+  for (const scene::ProbePlace& p : scene::sphl_places(scene)) places.push_back(p.position);
   return places;
 }
 

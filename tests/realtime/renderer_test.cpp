@@ -322,7 +322,7 @@ TEST_F(RendererTest, AStateThatDidNotChangeAllocatesNothing) {
   params.transport = {.directions = 64, .surfel_size = 0.5f, .link_rays = 16};
   params.degree = 2;
   const probes::ProbeSet set = test::made_up_probes(scene_);
-  transport::RelightSession session(source, transport::places_of(set.probes), params);
+  transport::RelightSession session(source, scene::places_of(set.probes), params);
   Renderer renderer(gl(), scene_);
   renderer.set_probes(set);
   scene::LightingState state = rays::lighting_at(source, 0.5f);

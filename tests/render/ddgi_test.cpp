@@ -36,7 +36,7 @@ double number(const methods::Method& method, const std::string& name) {
 std::vector<rays::SurfacePoint> points_of(const scene::Scene& scene, const trace::TransportScene& source,
                                           float time, int count) {
   std::vector<vec3> origins = place::place_params(scene, time).interest;
-  for (const scene::SphlPlace& place : scene::sphl_places(scene, time)) origins.push_back(place.position);
+  for (const scene::ProbePlace& place : scene::sphl_places(scene, time)) origins.push_back(place.position);
   return study::reachable_points(source, origins, time, {count, 1, 0.05f});
 }
 

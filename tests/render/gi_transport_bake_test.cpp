@@ -73,7 +73,7 @@ TEST(GiTransportBake, GroupsAddUpToTheLightOfAll) {
   ASSERT_GT(set.light_groups.size(), 1u);
 
   const trace::TransportScene source(scene);
-  std::vector<transport::ProbePlace> places;
+  std::vector<scene::ProbePlace> places;
   for (const probes::Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
   transport::RelightParams relight{params.transport, params.solve};
   relight.degree = 2;
@@ -97,7 +97,7 @@ TEST(GiTransportBake, GroupsAddUpToTheLightOfAll) {
 probes::FittedPoints fitted_by_session(const scene::Scene& scene, const probes::ProbeSet& set,
                                        const transport::FitParams& params) {
   const trace::TransportScene source(scene);
-  std::vector<transport::ProbePlace> places;
+  std::vector<scene::ProbePlace> places;
   for (const probes::Probe& probe : set.probes) places.push_back({probe.name, probe.position, probe.radius});
   transport::RelightParams same;
   same.transport.directions = set.generator.directions;

@@ -115,7 +115,7 @@ TEST(GlassTransport, GathersThroughAPaneAreDimmedAsPathsAre) {
     const trace::TransportScene source(scene);
     transport::RelightParams params;
     params.transport.surfel_size = 0.2f;
-    transport::RelightSession session(source, transport::places_of(scene::sphl_places(scene, 0)), params);
+    transport::RelightSession session(source, scene::sphl_places(scene, 0), params);
     session.update(session.lighting());
     const auto nothing = std::make_shared<const probes::IrradianceLookup>(transport::lookup_set(session),
                                                                           std::make_unique<NoWeights>());

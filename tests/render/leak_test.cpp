@@ -18,8 +18,8 @@ namespace {
 /// builtin:two-rooms with probes on a 0.7 m grid in both rooms, lit by surfels.
 class TwoRooms : public testing::Test {
  protected:
-  static std::vector<transport::ProbePlace> grid() {
-    std::vector<transport::ProbePlace> places;
+  static std::vector<scene::ProbePlace> grid() {
+    std::vector<scene::ProbePlace> places;
     for (const float x0 : {-4.075f, 0.075f}) {
       for (int i = 0; i < 6; ++i) {
         for (int j = 0; j < 4; ++j) {
@@ -53,13 +53,13 @@ class TwoRooms : public testing::Test {
 
   std::vector<rays::SurfacePoint> points(float time) const {
     std::vector<vec3> positions;
-    for (const transport::ProbePlace& place : places) positions.push_back(place.position);
+    for (const scene::ProbePlace& place : places) positions.push_back(place.position);
     return study::reachable_points(source, positions, time, {400, 1});
   }
 
   const scene::Scene scene = scene::make_builtin("two-rooms");
   const trace::TransportScene source{scene};
-  const std::vector<transport::ProbePlace> places = grid();
+  const std::vector<scene::ProbePlace> places = grid();
   const study::LeakParams params{.path = {.max_depth = 25, .passes = 1, .spp = 64, .seed = 1}};
 };
 
@@ -84,7 +84,7 @@ TEST_F(TwoRooms, WithoutVisibilityLightPassesTheWall) {
   const trace::PathTracer tracer(scene, 0);
   const probes::ProbeSet set = lit(0);
   std::vector<vec3> positions;
-  for (const transport::ProbePlace& place : places) positions.push_back(place.position);
+  for (const scene::ProbePlace& place : places) positions.push_back(place.position);
   probes::WeightParams blind;
   blind.method = probes::WeightMethod::trilinear;
   const auto sees_all = [](const vec3&, const vec3&) { return true; };

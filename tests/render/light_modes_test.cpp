@@ -249,7 +249,7 @@ TEST(LightModesInPictures, OfASessionHoldAsLongAsSurroundingsAndPoseDo) {
   transport::RelightParams params;
   params.transport.directions = 256;
   params.records = {.points = 512, .rays = 256, .baked = {1}};
-  transport::RelightSession session(bake.source, transport::places_of(bake.set.probes), params);
+  transport::RelightSession session(bake.source, scene::places_of(bake.set.probes), params);
   scene::LightingState state = session.lighting();
   session.update(state);
   probes::ProbeSet set = transport::lookup_set(session);

@@ -9,7 +9,7 @@
 namespace ssphh::test {
 
 struct LitSession : transport::RelightSession {
-  LitSession(const rays::TransportSource& source, std::vector<transport::ProbePlace> places,
+  LitSession(const rays::TransportSource& source, std::vector<scene::ProbePlace> places,
              const transport::RelightParams& params = {}, float time = 0)
       : RelightSession(source, std::move(places), params, time), state(lighting()) {}
 

@@ -38,7 +38,7 @@ inline std::vector<rays::SurfacePoint> points_of(const scene::Scene& scene, int 
   const trace::TransportScene source(scene);
   const place::PlaceParams seen = place::place_params(scene, time);
   std::vector<vec3> origins = seen.interest;
-  for (const scene::SphlPlace& place : seen.manual) origins.push_back(place.position);
+  for (const scene::ProbePlace& place : seen.manual) origins.push_back(place.position);
   return study::reachable_points(source, origins, time, {count, 1});
 }
 

@@ -41,7 +41,7 @@ struct Framed : MadeMethod {
 struct Network {
   transport::TransportNetwork network;
   explicit Network(const trace::TransportScene& source)
-      : network(source, test::positions_of(test::places_of(room())), params()) {}
+      : network(source, scene::positions_of(test::places_of(room())), params()) {}
   static transport::TransportParams params() {
     transport::TransportParams p;
     p.directions = 64, p.surfel_size = 0.5f;

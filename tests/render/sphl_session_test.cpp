@@ -23,7 +23,7 @@ scene::Scene fire_alone() {
   return scene;
 }
 
-std::vector<transport::ProbePlace> places() {
+std::vector<scene::ProbePlace> places() {
   return {{"a", {-2.3f, 1.6f, 1.5f}, 0.1f}, {"b", {-0.4f, 1.7f, 0.2f}, 0.1f}, {"c", {2, 1.8f, -1.3f}, 0.1f}};
 }
 

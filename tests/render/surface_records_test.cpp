@@ -139,7 +139,7 @@ TEST(SurfaceRecords, GatheredLightIsThatOfRecordsAtTheirPlaces) {
   EXPECT_EQ(light.glossy(points[0], {0, 1, 0}, 0.5f), vec3(0, 0.5f, 0));
   EXPECT_THROW(transport::GatherLight(room.session, 2, glossy), Error);
   EXPECT_THROW(transport::GatherLight(room.session, 64, nullptr), Error);
-  const transport::RelightSession dark(room.source, transport::places_of(places_of(room.scene)),
+  const transport::RelightSession dark(room.source, scene::places_of(places_of(room.scene)),
                                        RecordRoom::params());
   EXPECT_THROW(transport::GatherLight(dark, 64, glossy), Error) << "before its first update";
 }

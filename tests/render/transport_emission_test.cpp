@@ -74,7 +74,7 @@ TEST(RelightEmission, AnIsotropicSphlIsASphereLight) {
 
 TEST(RelightEmission, OtherProbesSeeTheSphereAsADisc) {
   const DarkRoom room;
-  const std::vector<transport::ProbePlace> places = places_of(room.scene);
+  const std::vector<scene::ProbePlace> places = places_of(room.scene);
   LitSession session(room.source, places, fine_session());
   const vec3 radiance(5, 3, 2);
   session.shine(0, isotropic(radiance));
@@ -112,7 +112,7 @@ TEST(RelightEmission, SphereLightsAndSmallLampsAreSeenAtTheirTrueSize) {
            vec3(1));
   scene::validate(scene);
   const trace::TransportScene source(scene);
-  const std::vector<transport::ProbePlace> places = places_of(scene);
+  const std::vector<scene::ProbePlace> places = places_of(scene);
   LitSession session(source, places, fine_session());
   session.update();
   const auto groups = session.emitted_by_group();

@@ -7,6 +7,7 @@
 #include <ssphh/core/random.h>
 #include <ssphh/scene/builtin.h>
 #include <ssphh/scene/primitives.h>
+#include <ssphh/scene/probe_place.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/trace/transport_scene.h>
 #include <ssphh/transport/relight_session.h>
@@ -17,17 +18,11 @@
 namespace ssphh::test {
 
 /// The scene's own SPHLs.
-inline std::vector<transport::ProbePlace> places_of(const scene::Scene& scene) {
-  std::vector<transport::ProbePlace> places;
-  for (const scene::SphlPlace& place : scene::sphl_places(scene))
+inline std::vector<scene::ProbePlace> places_of(const scene::Scene& scene) {
+  std::vector<scene::ProbePlace> places;
+  for (const scene::ProbePlace& place : scene::sphl_places(scene))
     places.push_back({place.name, place.position, place.radius});
   return places;
-}
-
-inline std::vector<vec3> positions_of(const std::vector<transport::ProbePlace>& places) {
-  std::vector<vec3> positions;
-  for (const transport::ProbePlace& place : places) positions.push_back(place.position);
-  return positions;
 }
 
 /// Adds a diffuse body at a node of its own; returns the node.

@@ -321,7 +321,7 @@ TEST(TransportNetworkPose, ContractionBoundsTheFirstAndTheLastPose) {
     for (scene::AnimationChannel& channel : rooms.animations[0].channels)
       if (backward) std::ranges::reverse(channel.values);
     const trace::TransportScene source(rooms);
-    transport::TransportNetwork network(source, test::positions_of(test::places_of(rooms)),
+    transport::TransportNetwork network(source, scene::positions_of(test::places_of(rooms)),
                                         test::small_network(), 0.3f);
     const Contraction bounds = network.contraction();
     network.set_time(0);

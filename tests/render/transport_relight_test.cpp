@@ -30,7 +30,7 @@ RelightParams small_session(bool warm_start = true) {
 struct TwoRooms {
   scene::Scene scene = scene::make_builtin("two-rooms");
   trace::TransportScene source{scene};
-  std::vector<transport::ProbePlace> places = places_of(scene);
+  std::vector<scene::ProbePlace> places = places_of(scene);
 };
 
 TEST(RelightSession, AClosedBoxOfEqualWallsReachesTheGeometricSeries) {
@@ -328,7 +328,7 @@ TEST(RelightSession, WhatIsCancelledIsDoneByTheNextUpdate) {
 // to be.
 TEST(RelightSession, LightsADoorAnewThatWasMovedInVain) {
   const scene::Scene scene = scene::make_builtin("two-rooms");
-  const std::vector<transport::ProbePlace> places = places_of(scene);
+  const std::vector<scene::ProbePlace> places = places_of(scene);
   UnrulySource source(scene);
   LitSession session(source, places, small_session(false)), other(source, places, small_session(false));
   session.update(), other.update();
@@ -359,7 +359,7 @@ TEST(RelightSession, IsMovedWithItsLight) {
 TEST(RelightSession, AProbeThatSeesNothingIsDarkAmongOthersThatSee) {
   const scene::Scene scene = scene::make_builtin("cornell");
   const trace::TransportScene source(scene);
-  std::vector<transport::ProbePlace> places = places_of(scene);
+  std::vector<scene::ProbePlace> places = places_of(scene);
   places.push_back({"lost", {0, 1000, 0}});
   EXPECT_THROW(RelightSession(source, {places.back()}), Error) << "alone it has nothing to show";
   LitSession session(source, places, small_session());

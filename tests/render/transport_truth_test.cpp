@@ -49,7 +49,7 @@ TEST_P(TransportTruth, MeanLightOfTheScenesOwnProbes) {
   params.transport.surfel_size = 0.2f;
   params.transport.directions = 1536;
   params.transport.link_rays = 64;
-  const std::vector<transport::ProbePlace> places = places_of(scene);
+  const std::vector<scene::ProbePlace> places = places_of(scene);
   LitSession session(source, places, params, time);
   session.update();
   const trace::PathTracer tracer(scene, time);
@@ -83,7 +83,7 @@ TEST(TransportTruthBands, ASurfaceThatGlowsIsCountedOnce) {
   params.transport.surfel_size = 0.125f;
   params.transport.directions = 4096;
   params.transport.link_rays = 64;
-  const std::vector<transport::ProbePlace> places = places_of(scene);
+  const std::vector<scene::ProbePlace> places = places_of(scene);
   LitSession session(source, places, params);
   session.update();
   const trace::PathTracer tracer(scene);

@@ -34,7 +34,7 @@ struct Subject {
   explicit Subject(const std::string& name, int count = 150, int spp = 256, float at = 0)
       : scene(scene::make_builtin(name)), source(scene), time(at) {
     std::vector<vec3> origins;
-    for (const scene::SphlPlace& place : scene::sphl_places(scene)) origins.push_back(place.position);
+    for (const scene::ProbePlace& place : scene::sphl_places(scene)) origins.push_back(place.position);
     points = study::reachable_points(source, origins, time, {count, 1});
     const trace::PathTracer tracer(scene, time);
     for (const auto& e : tracer.surface_irradiance(points, {2, 1, spp, 1}, {}))

@@ -13,7 +13,7 @@ namespace ssphh::test {
 struct GameRooms {
   scene::Scene scene = scene::make_builtin("two-rooms");
   trace::TransportScene source{scene};
-  std::vector<transport::ProbePlace> places = transport::places_of(scene::sphl_places(scene));
+  std::vector<scene::ProbePlace> places = scene::sphl_places(scene);
 };
 
 /// Much smaller than the defaults.

@@ -34,7 +34,7 @@ void require_updatable(const std::string& file, const probes::ProbeSet& old, std
 
 /// Places stay in an update, so what the scene says of them must be what it said.
 void require_same_places(const std::string& file, const probes::ProbeSet& old, const scene::Scene& scene) {
-  for (const scene::SphlPlace& place : scene::sphl_places(scene, old.generator.time)) {
+  for (const scene::ProbePlace& place : scene::sphl_places(scene, old.generator.time)) {
     const bool known = std::ranges::any_of(old.probes, [&](const probes::Probe& probe) {
       return probe.name == place.name && probe.position == place.position && probe.radius == place.radius;
     });

@@ -46,12 +46,12 @@ struct RelightOptions {
 
 struct RelightResult {
   RelightRun run;
-  std::vector<transport::ProbePlace> places;  ///< of the probes
-  std::size_t surfels = 0, links = 0;         ///< of the network
-  float surfel_size = 0;                      ///< edge of a surfel [m]
-  std::optional<float> exposure;              ///< EV of all frames; none: they are not tone mapped
-  bool saved = false;                         ///< whether the probe file was written
-  std::uint64_t geometry_builds = 0;          ///< acceleration structures that were built
+  std::vector<scene::ProbePlace> places;  ///< of the probes
+  std::size_t surfels = 0, links = 0;     ///< of the network
+  float surfel_size = 0;                  ///< edge of a surfel [m]
+  std::optional<float> exposure;          ///< EV of all frames; none: they are not tone mapped
+  bool saved = false;                     ///< whether the probe file was written
+  std::uint64_t geometry_builds = 0;      ///< acceleration structures that were built
 };
 
 /// Times all frames one after the other, then saves the probes, path traces and draws. When asked to stop

@@ -32,10 +32,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Warns of places inside bodies, and of those that a moving part passes if parts are to move.
-void warn_about_places(const std::vector<transport::ProbePlace>& places, const rays::TransportSource& source,
+void warn_about_places(const std::vector<scene::ProbePlace>& places, const rays::TransportSource& source,
                        const std::vector<vec3>& interest, bool parts_move, const Control& control) {
   probes::ProbeSet set;
-  for (const transport::ProbePlace& place : places) {
+  for (const scene::ProbePlace& place : places) {
     probes::Probe& probe = set.probes.emplace_back();
     probe.name = place.name;
     probe.position = place.position;
@@ -87,7 +87,7 @@ class Relighting {
     if (!o_.output.empty() && o_.pictures > 0)  // Fails before the work rather than after it.
       start_ = camera_of(scene_, o_.camera, o_.scene.time, geometry_);
     pipeline::warn_about_lamps(geometry_, scene_, o_.scene.time);
-    std::vector<transport::ProbePlace> places = find_places();
+    std::vector<scene::ProbePlace> places = find_places();
     warn_about_places(places, source_, place::place_params(scene_, o_.scene.time).interest,
                       animation_.moves_time(), control_);
     const Stopwatch watch;
@@ -121,14 +121,14 @@ class Relighting {
   }
 
  private:
-  std::vector<transport::ProbePlace> find_places() {
-    std::vector<transport::ProbePlace> places;
+  std::vector<scene::ProbePlace> find_places() {
+    std::vector<scene::ProbePlace> places;
     if (is_probe_file(o_.place)) {
-      places = transport::places_of(read_probes_of(scene_, o_.place.probes, {}, o_.force).probes);
+      places = scene::places_of(read_probes_of(scene_, o_.place.probes, {}, o_.force).probes);
     } else if (const auto placed = place_for(geometry_, scene_, o_.scene.time, o_.place, "", control_)) {
-      places = transport::places_of(placed->placement.probes);
+      places = scene::places_of(placed->placement.probes);
     } else {
-      places = transport::places_of(scene::sphl_places(scene_, o_.scene.time));
+      places = scene::sphl_places(scene_, o_.scene.time);
     }
     if (places.empty()) throw Error("--probes", "there are no probes", "let --probes auto find places");
     return places;
@@ -197,7 +197,7 @@ class Relighting {
     const std::vector<mat4> world = scene::world_matrices(scene_, kept.state.time);
     for (const scene::Camera& camera : scene_.cameras)
       origins.emplace_back(world[static_cast<std::size_t>(camera.node)][3]);
-    for (const transport::ProbePlace& place : session.places()) origins.push_back(place.position);
+    for (const scene::ProbePlace& place : session.places()) origins.push_back(place.position);
     const std::vector<rays::SurfacePoint> points =
         study::reachable_points(source_, origins, kept.state.time, {o_.points, o_.seed}, control);
 

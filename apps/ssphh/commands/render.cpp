@@ -28,7 +28,7 @@ std::filesystem::path checkpoint_path(const RenderOptions& o) {
 // A SPHL by its name, or "X,Y,Z".
 vec3 place_of(const scene::Scene& scene, const std::string& text, float time) {
   std::string names;
-  for (const scene::SphlPlace& sphl : scene::sphl_places(scene, time)) {
+  for (const scene::ProbePlace& sphl : scene::sphl_places(scene, time)) {
     if (sphl.name == text) return sphl.position;
     names += (names.empty() ? "" : ", ") + sphl.name;
   }

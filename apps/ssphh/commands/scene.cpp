@@ -87,7 +87,7 @@ SceneInfo run_scene_info(const SceneOptions& options, const Control&) {
 
 json::Value to_json(const SceneInfo& info, const SceneOptions& options) {
   json::Value places = json::Value::array(), bounds;
-  for (const scene::SphlPlace& place : info.places)
+  for (const scene::ProbePlace& place : info.places)
     places.push_back({{"name", place.name}, {"position", to_json(place.position)}, {"radius", place.radius}});
   if (!info.bounds.empty()) bounds = {{"min", to_json(info.bounds.min)}, {"max", to_json(info.bounds.max)}};
   return {{"scene", options.source},

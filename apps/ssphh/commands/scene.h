@@ -39,7 +39,7 @@ struct SceneInfo {
   std::vector<std::string> light_groups;           ///< names, in order of first use
   std::vector<std::string> cameras;                ///< names
   std::vector<std::string> sphls;                  ///< names, of disabled ones too
-  std::vector<scene::SphlPlace> places;            ///< of the enabled SPHLs, at the options' time
+  std::vector<scene::ProbePlace> places;           ///< of the enabled SPHLs, at the options' time
   float animation_seconds = 0;                     ///< time of the last key; 0 without animations
   scene::Bounds bounds;              ///< of all vertices at the options' time, in metres; may be empty
   Hash128 hash;                      ///< scene::scene_hash

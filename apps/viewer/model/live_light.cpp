@@ -6,13 +6,13 @@
 namespace ssphh::viewer {
 namespace {
 
-std::vector<transport::ProbePlace> find_places(const scene::Scene& scene, const rays::TransportSource& source,
-                                               const LiveLightParams& params, float time,
-                                               const Control& control) {
+std::vector<scene::ProbePlace> find_places(const scene::Scene& scene, const rays::TransportSource& source,
+                                           const LiveLightParams& params, float time,
+                                           const Control& control) {
   if (!params.places.empty()) return params.places;
   place::PlaceParams place = place::place_params(scene, time);
   place.spacing = params.spacing;
-  return transport::places_of(place::place_probes(source, place, control).probes);
+  return scene::places_of(place::place_probes(source, place, control).probes);
 }
 
 }  // namespace
@@ -21,7 +21,7 @@ LiveLight::LiveLight(std::shared_ptr<const scene::Scene> scene, const LiveLightP
                      const Control& control)
     : scene_(std::move(scene)),
       source_(params.geometry ? params.geometry : trace::geometry_of(scene_), *scene_) {
-  std::vector<transport::ProbePlace> places = find_places(*scene_, source_, params, time, control);
+  std::vector<scene::ProbePlace> places = find_places(*scene_, source_, params, time, control);
   transport::RelightParams relight = params.relight;
   const std::vector<scene::LightMode> modes = scene::light_modes(*scene_);
   for (std::size_t g = 0; g < modes.size() && relight.records.points > 0; ++g)

@@ -11,10 +11,10 @@
 namespace ssphh::viewer {
 
 struct LiveLightParams {
-  trace::SharedGeometry geometry;             ///< of the scene's surfaces; null: it is built
-  std::vector<transport::ProbePlace> places;  ///< empty: place_probes() finds them
-  float spacing = 0;                          ///< of the places to be found [m]; 0: some 100 to 200 probes
-  transport::RelightParams relight;  ///< with records: whoever looks at surfaces sees what probes miss
+  trace::SharedGeometry geometry;         ///< of the scene's surfaces; null: it is built
+  std::vector<scene::ProbePlace> places;  ///< empty: place_probes() finds them
+  float spacing = 0;                      ///< of the places to be found [m]; 0: some 100 to 200 probes
+  transport::RelightParams relight;       ///< with records: whoever looks at surfaces sees what probes miss
 
   LiveLightParams() { relight.records.points = transport::usual_records; }
 };

@@ -17,7 +17,7 @@ namespace {
 TEST(LiveLight, AnOpenedDoorLightsRoomB) {
   const Document document = make_document("rooms", scene::make_builtin("two-rooms"), 0);
   LiveLightParams params;
-  for (const scene::SphlPlace& place : scene::sphl_places(*document.scene, 0))
+  for (const scene::ProbePlace& place : scene::sphl_places(*document.scene, 0))
     params.places.push_back({place.name, place.position, place.radius});
   LiveLight light(document.scene, params, 0);
   const auto update = [&](float time) {

@@ -153,7 +153,7 @@ class LitSession {
         params_(params),
         report_(report),
         degree_(set.degree),
-        session_(source, transport::places_of(set.probes), relight_params(set, params), set.generator.time,
+        session_(source, scene::places_of(set.probes), relight_params(set, params), set.generator.time,
                  control) {
     session_.update(session_.lighting(), control);
   }
@@ -256,8 +256,8 @@ void add_transport(const rays::TransportSource& source, probes::ProbeSet& set,
              records = params.records.points > 0;
   if (!edges && !params.fit && !records) return;
   const std::uint64_t rays_before = source.rays_traced();
-  transport::RelightSession session(source, transport::places_of(set.probes),
-                                    {params.transport, params.solve}, set.generator.time, control);
+  transport::RelightSession session(source, scene::places_of(set.probes), {params.transport, params.solve},
+                                    set.generator.time, control);
   const transport::TransportNetwork& network = session.network();
   describe_network(network, set, report);
   if (edges) find_edges(network, source, set, params.viz_params, scope.edges, report, control);

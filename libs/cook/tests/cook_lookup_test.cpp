@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/probes/hier.h>
+#include <ssphh/scene/probe_place.h>
 
 #include "cooked_reference.h"
 #include "cooked_room.h"
@@ -98,8 +99,7 @@ TEST(CookedLookup, AGroupThatIsOffIsWindowedByItself) {
     ssphh_runtime_set_group_scale(file.runtime, g, g == 2 ? &one.x : &off.x);
   for (probes::LightGroup& group : set.light_groups) group.scale = vec3(group.name.starts_with("night"));
   probes::merge_groups(set);
-  std::vector<vec3> positions;
-  for (const probes::Probe& probe : set.probes) positions.push_back(probe.position);
+  const std::vector<vec3> positions = scene::positions_of(set.probes);
   const probes::IrradianceLookup lookup(
       set, probes::make_weights(positions, [](const vec3&, const vec3&) { return true; }));
   for (const rays::SurfacePoint& at : places_in_the_open(200, 3))
@@ -136,8 +136,7 @@ TEST(CookedLookup, AHierarchysNeighboursAreWithin) {
   for (const probes::HierOperator op : {probes::HierOperator::coefficient, probes::HierOperator::mean}) {
     probes::hier(set, {op, 3, 0.1f});
     const OpenedFile file(cook::cook(set, nullptr).bytes);
-    std::vector<vec3> places;
-    for (const probes::Probe& probe : set.probes) places.push_back(probe.position);
+    const std::vector<vec3> places = scene::positions_of(set.probes);
     probes::WeightParams mls;
     mls.method = probes::WeightMethod::mls;
     const probes::IrradianceLookup lookup(set,
@@ -156,8 +155,7 @@ TEST(CookedLookup, AHierarchysNeighboursAreWithin) {
 TEST(CookedLookup, WithoutASceneNothingHides) {
   const ProbeSet set = set_of_two_rooms(OnSurfaces::nothing);
   const OpenedFile file(cook::cook(set, nullptr).bytes);
-  std::vector<vec3> places;
-  for (const probes::Probe& probe : set.probes) places.push_back(probe.position);
+  const std::vector<vec3> places = scene::positions_of(set.probes);
   const probes::IrradianceLookup lookup(
       set, probes::make_weights(places, [](const vec3&, const vec3&) { return true; }));
   for (const rays::SurfacePoint& at : places_in_the_open(300, 3))

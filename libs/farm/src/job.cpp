@@ -40,7 +40,7 @@ void check(const ProbeJob& job) {
     require(job.probes[i] < (viz ? job.places.size() : job_limits::places), "probes",
             "an index is out of range");
   }
-  for (const ProbePlace& place : job.places) {
+  for (const ProbeSphere& place : job.places) {
     require(is_finite(place.position), "places", "a position is not finite");
     require(place.radius > 0 && std::isfinite(place.radius), "places", "a radius is not positive");
   }

@@ -43,7 +43,7 @@ json::Value put(const ProbeJob& job, MessageWriter& out) {
   json::Value places = json::Value::array();
   if (job.places.size() > 0) {
     std::vector<float> values;
-    for (const ProbePlace& p : job.places)
+    for (const ProbeSphere& p : job.places)
       values.insert(values.end(), {p.position.x, p.position.y, p.position.z, p.radius});
     places = out.floats(values);
   }

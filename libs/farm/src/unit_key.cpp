@@ -8,7 +8,7 @@ namespace {
 
 using bake::BakeStage;
 
-void add(Hasher& h, const ProbePlace& place) {
+void add(Hasher& h, const ProbeSphere& place) {
   for (int c = 0; c < 3; ++c) h.value(place.position[c]);
   h.value(place.radius);
 }
@@ -44,7 +44,7 @@ Hash128 unit_key(const ProbeJob& all, std::uint32_t probe) {
   } else {
     const bake::VizParams& viz = all.viz_params;
     h.value(viz.matrix).value(viz.neighbors).value(viz.threshold).value(viz.source).value(viz.paths);
-    for (const ProbePlace& place : all.places) add(h, place);
+    for (const ProbeSphere& place : all.places) add(h, place);
   }
   return h.finish();
 }

@@ -21,7 +21,7 @@ TEST(FarmDefaults, OfJobs) {
   EXPECT_EQ(scene.manifest_bytes, 0u);
   EXPECT_EQ(scene.light, Hash128());
   EXPECT_EQ(scene.time, 0);
-  const ProbePlace place;
+  const ProbeSphere place;
   EXPECT_EQ(place.position, vec3(0));
   EXPECT_EQ(place.radius, 0.1f);
   const ProbeJob job;

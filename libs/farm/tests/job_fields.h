@@ -15,7 +15,7 @@ void fields(auto& visit, farm::SceneRef& s) {
   visit("package", package), visit("manifest_bytes", manifest_bytes), visit("light", light);
   visit("time", time);
 }
-void fields(auto& visit, farm::ProbePlace& p) {
+void fields(auto& visit, farm::ProbeSphere& p) {
   auto& [position, radius] = p;
   visit("position", position), visit("radius", radius);
 }

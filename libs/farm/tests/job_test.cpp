@@ -162,7 +162,7 @@ TEST(Job, CodecsKeepEveryBitOfAFloat) {
   const PackedScene packed("cornell");
   ProbeJob job = test::viz_job(PackedScene("gallery1"));
   std::uint32_t bits = 12345;
-  for (ProbePlace& place : job.places) {
+  for (ProbeSphere& place : job.places) {
     for (int c = 0; c < 3; ++c) {
       do bits = bits * 1664525u + 1013904223u;
       while ((bits & 0x7f800000u) == 0x7f800000u);

@@ -4,7 +4,6 @@
 #include <ssphh/probes/lookup.h>
 #include <ssphh/transport/session_sets.h>
 
-#include "kept_weights.h"
 #include "probe_volume/probe_volume.h"
 
 namespace ssphh::methods::irradiance_volume {
@@ -23,8 +22,7 @@ class IrradianceVolume final : public Method {
     volume_.update(state, -1, control);
     probes::LookupParams params;
     params.irradiance_degree = irradiance_degree;
-    lookup_.emplace(transport::lookup_set(volume_.places(), volume_.radiance()),
-                    std::make_unique<KeptWeights>(volume_.weights()), params);
+    lookup_.emplace(transport::lookup_set(volume_.places(), volume_.radiance()), volume_.weights(), params);
   }
 
   const rays::IndirectLight& light() const override { return *lookup_; }

@@ -7,10 +7,10 @@
 #include <ssphh/core/parallel.h>
 #include <ssphh/methods/method_list.h>
 #include <ssphh/probes/lookup.h>
+#include <ssphh/scene/probe_place.h>
 #include <ssphh/sh/rotate.h>
 #include <ssphh/transport/session_sets.h>
 
-#include "kept_weights.h"
 #include "probe_volume/probe_volume.h"
 #include "sky_transfer.h"
 
@@ -74,7 +74,7 @@ class Prt final : public Method {
     const TransferMesh mesh = make_transfer_mesh(scene.scene, source_, mesh_params);
     light_.triangles = mesh.triangles;
     light_.index = MeshIndex(mesh, mesh_reach * radius);
-    probes_.emplace(mesh, volume_.weights());
+    probes_.emplace(mesh, *volume_.weights());
 
     const VertexRings rings(mesh);
     const VertexRays rays = find_vertex_rays(mesh, rings, light_.index, source_, p.integer("rays"), control);
@@ -88,8 +88,7 @@ class Prt final : public Method {
     sky_ = project_environment(*scene.scene.environment, params.degree);
     sky_rotation_ = scene.scene.environment->rotation;
     from_sky_ = find_transfer(mesh, rings, rays, params, control);
-    std::vector<vec3> places;
-    for (const transport::ProbePlace& place : volume_.places()) places.push_back(place.position);
+    const std::vector<vec3> places = scene::positions_of(volume_.places());
     sky_to_probes_ =
         find_place_transfer(places, mesh, light_.index, from_sky_, source_, p.integer("directions"), control);
     from_sky_.direct = {};  // renderers find direct light themselves
@@ -113,8 +112,7 @@ class Prt final : public Method {
       around[i] += sky_to_probes_.radiance(i, sky);
     probes::LookupParams params;
     params.irradiance_degree = moving_degree;
-    light_.between_probes.emplace(transport::lookup_set(volume_.places(), around),
-                                  std::make_unique<KeptWeights>(volume_.weights()), params);
+    light_.between_probes.emplace(transport::lookup_set(volume_.places(), around), volume_.weights(), params);
   }
 
   const rays::IndirectLight& light() const override { return light_; }

@@ -10,7 +10,7 @@ std::vector<rays::SurfacePoint> points_in_reach(const MethodScene& scene, float 
                                                 const Control& control) {
   const place::PlaceParams seen_from = place::place_params(scene.scene, time);
   std::vector<vec3> origins = seen_from.interest;
-  for (const scene::SphlPlace& place : seen_from.manual) origins.push_back(place.position);
+  for (const scene::ProbePlace& place : seen_from.manual) origins.push_back(place.position);
   if (origins.empty()) origins.push_back(rays::PosedWorld(scene.source, time).bounds().center());
   return study::reachable_points(scene.source, origins, time, {count, 0}, {nullptr, control.cancel});
 }

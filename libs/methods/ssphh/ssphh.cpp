@@ -6,28 +6,28 @@
 #include <ssphh/probes/lookup.h>
 #include <ssphh/rays/posed_world.h>
 #include <ssphh/scene/light_mode.h>
+#include <ssphh/scene/probe_place.h>
 #include <ssphh/transport/fitted_weights.h>
 #include <ssphh/transport/gather_light.h>
 #include <ssphh/transport/session_sets.h>
 #include <ssphh/transport/surface_gather.h>
 
-#include "kept_weights.h"
 #include "network_memory.h"
 
 namespace ssphh::methods::ssphh {
 namespace {
 
-std::vector<transport::ProbePlace> find_places(const MethodScene& scene, const MethodParameters& p,
-                                               const Control& control) {
+std::vector<scene::ProbePlace> find_places(const MethodScene& scene, const MethodParameters& p,
+                                           const Control& control) {
   place::PlaceParams params = place::place_params(scene.scene);
   if (p.choice("places") == "scene") {
     if (params.manual.empty())
       throw Error("method ssphh", "the scene has no SPHLs of its own", "let places=auto find some");
-    return transport::places_of(params.manual);
+    return params.manual;
   }
   params.spacing = static_cast<float>(p.number("spacing"));
   params.count = p.integer("probes");
-  return transport::places_of(place::place_probes(scene.source, params, control).probes);
+  return scene::places_of(place::place_probes(scene.source, params, control).probes);
 }
 
 /// What lookups blend or ask beside weights of probes.
@@ -76,8 +76,7 @@ class Ssphh final : public Method {
     std::optional<probes::FittedPoints> fitted;
     if (weights.method == probes::WeightMethod::fitted)
       fitted = fit(p.integer("fit_poses"), p.integer("fit_points"), control);
-    std::vector<vec3> positions;
-    for (const transport::ProbePlace& place : session_.places()) positions.push_back(place.position);
+    const std::vector<vec3> positions = scene::positions_of(session_.places());
     weights_ = probes::make_weights(
         positions, [this](const vec3& a, const vec3& b) { return surfaces_->visible(a, b); }, weights,
         fitted ? &*fitted : nullptr);
@@ -92,8 +91,7 @@ class Ssphh final : public Method {
   void update(const scene::LightingState& state, const Control& control) override {
     session_.update(state, control);
     surfaces_.emplace(source_, state.time);
-    lookup_ = std::make_shared<const probes::IrradianceLookup>(transport::lookup_set(session_),
-                                                               std::make_unique<KeptWeights>(*weights_),
+    lookup_ = std::make_shared<const probes::IrradianceLookup>(transport::lookup_set(session_), weights_,
                                                                probes::LookupParams{}, records_);
     if (gathers_) gathered_.emplace(session_, gather_rays, lookup_);
   }
@@ -144,7 +142,7 @@ class Ssphh final : public Method {
   transport::RelightSession session_;
   std::optional<rays::PosedWorld> surfaces_;
   std::size_t fitted_points_ = 0;
-  std::unique_ptr<probes::LookupWeights> weights_;
+  std::shared_ptr<const probes::LookupWeights> weights_;
   std::shared_ptr<const probes::SurfaceInterpolation> records_;  ///< places of the session's; or null
   std::shared_ptr<const probes::IrradianceLookup> lookup_;
   bool gathers_ = false;

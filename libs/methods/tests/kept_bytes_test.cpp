@@ -6,18 +6,12 @@
 #include <ssphh/methods/vct/pyramid.h>
 
 #include "ddgi/field.h"
-#include "kept_weights.h"
 #include "probe_volume/probe_grid.h"
 
 namespace ssphh::methods {
 namespace {
 
 const std::vector<vec3> five{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 2, 2}};
-
-TEST(KeptBytes, OfWeightsAreThoseThatAreKept) {
-  const auto weights = probes::make_weights(five, [](const vec3&, const vec3&) { return true; });
-  EXPECT_EQ(KeptWeights(*weights).bytes(), weights->bytes());
-}
 
 TEST(KeptBytes, OfGridsAndMapsAreThoseOfTheirArrays) {
   probe_volume::ProbeGrid grid;

@@ -73,7 +73,7 @@ std::vector<vec3> viewpoints(const scene::Scene& scene, const rays::TransportSou
   if (sets.empty()) {
     const place::PlaceParams own = place::place_params(scene, time);
     places.insert(places.end(), own.interest.begin(), own.interest.end());
-    for (const scene::SphlPlace& place : own.manual) places.push_back(place.position);
+    for (const scene::ProbePlace& place : own.manual) places.push_back(place.position);
   }
   if (places.empty()) places.emplace_back(study::default_view(scene, source, time).world[3]);
   return places;

@@ -136,7 +136,7 @@ void count_invalid(const Site& site, const SiteRules& rules, PlaceCounts& counts
 
 std::vector<Draft> grid_drafts(const PlaceContext& context, const Lattice& lattice, PlaceCounts& counts) {
   Collector collector(context, counts);
-  for (const scene::SphlPlace& place : context.params.manual) {
+  for (const scene::ProbePlace& place : context.params.manual) {
     collector.take({place.name, place.position, look_around(context.source, place.position),
                     PlaceKind::manual, context.spacing, link_distance * context.spacing, place.radius});
   }

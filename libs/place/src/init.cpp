@@ -34,7 +34,7 @@ void add_probe(probes::ProbeSet& set, const std::string& name, const vec3& posit
 probes::ProbeSet init_from_scene(const scene::Scene& scene, int degree, float time) {
   probes::ProbeSet set = empty_set(scene, degree, time);
   const std::string where = "scene " + (scene.name.empty() ? std::string("without a name") : scene.name);
-  const std::vector<scene::SphlPlace> places = scene::sphl_places(scene, time);
+  const std::vector<scene::ProbePlace> places = scene::sphl_places(scene, time);
   if (places.empty()) {
     throw Error(where, "has no enabled SPHL, so there is nothing to bake",
                 "let --probes auto find places, or name a node \"SPHL...\" or give it extras {\"sphl\": "
@@ -44,7 +44,7 @@ probes::ProbeSet init_from_scene(const scene::Scene& scene, int degree, float ti
     throw Error(where, "has " + std::to_string(places.size()) + " SPHLs; at most " +
                            std::to_string(probes::limits::probes) + " are supported");
   }
-  for (const scene::SphlPlace& place : places) add_probe(set, place.name, place.position, place.radius);
+  for (const scene::ProbePlace& place : places) add_probe(set, place.name, place.position, place.radius);
   return set;
 }
 

@@ -50,7 +50,7 @@ void check(const PlaceParams& p) {
                      p.count, manual),
          "ask for more, or use --probes scene");
   }
-  for (const scene::SphlPlace& place : p.manual) {
+  for (const scene::ProbePlace& place : p.manual) {
     if (!is_finite(place.position) || !std::isfinite(place.radius) || place.radius <= 0) {
       throw Error("SPHL \"" + place.name + "\"", "its position must be finite and its radius positive");
     }
@@ -200,7 +200,7 @@ Placement finish(const rays::TransportSource& source, Attempt&& a) {
 PlaceParams place_params(const scene::Scene& scene, float time) {
   PlaceParams params;
   params.manual = scene::sphl_places(scene, time);
-  for (const scene::SphlPlace& place : params.manual) params.interest.push_back(place.position);
+  for (const scene::ProbePlace& place : params.manual) params.interest.push_back(place.position);
   const std::vector<mat4> world = scene::world_matrices(scene, time);
   const auto add = [&](int node) { params.interest.emplace_back(world[static_cast<std::size_t>(node)][3]); };
   for (const scene::Camera& camera : scene.cameras) add(camera.node);

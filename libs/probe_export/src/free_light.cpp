@@ -2,6 +2,7 @@
 
 #include <ssphh/core/sphere.h>
 #include <ssphh/probe_export/free_light.h>
+#include <ssphh/scene/probe_place.h>
 #include <ssphh/sh/irradiance.h>
 #include <ssphh/sh/project.h>
 
@@ -42,8 +43,7 @@ FreeLight::FreeLight(const probes::ProbeSet& set, const rays::TransportSource& s
   probes::LookupParams params;
   params.light = light;
   params.weights.method = params.weights.fallback;
-  std::vector<vec3> positions;
-  for (const probes::Probe& probe : set.probes) positions.push_back(probe.position);
+  const std::vector<vec3> positions = scene::positions_of(set.probes);
   const auto sees = [this](const vec3&, const vec3& probe) {
     Sight& sight = *current_sight;
     for (const auto& [position, seen] : sight.probes)

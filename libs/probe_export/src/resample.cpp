@@ -7,6 +7,7 @@
 #include <ssphh/core/parallel.h>
 #include <ssphh/place/site.h>
 #include <ssphh/probe_export/light_grid.h>
+#include <ssphh/scene/probe_place.h>
 
 namespace ssphh::probe_export {
 namespace {
@@ -57,8 +58,7 @@ LightGrid resample(const probes::ProbeSet& set, const FreeLight& light, const ra
                    const GridShape& shape, const Control& control) {
   LightGrid grid{shape, std::vector<sh::RadianceSh>(shape.count()), {}};
   std::vector<std::uint8_t> good(shape.count(), 0);
-  std::vector<vec3> positions;
-  for (const probes::Probe& probe : set.probes) positions.push_back(probe.position);
+  const std::vector<vec3> positions = scene::positions_of(set.probes);
   place::SiteRules rules;
   rules.back_limit = place::calibrated_back_limit(source, positions);
   {

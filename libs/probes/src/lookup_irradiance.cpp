@@ -93,7 +93,7 @@ IrradianceLookup::IrradianceLookup(const ProbeSet& set, const rays::RadianceSour
                 "bake some, leave out the hierarchy, or choose other weights");
   data_->take(*set.surface, std::make_shared<const SurfaceInterpolation>(set.surface->points, sees));
 }
-IrradianceLookup::IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWeights> weights,
+IrradianceLookup::IrradianceLookup(const ProbeSet& set, std::shared_ptr<const LookupWeights> weights,
                                    const LookupParams& params,
                                    std::shared_ptr<const SurfaceInterpolation> places)
     : data_(std::make_unique<Data>(set, params, places != nullptr)) {

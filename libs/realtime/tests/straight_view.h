@@ -5,6 +5,7 @@
 
 #include <ssphh/probes/lookup.h>
 #include <ssphh/realtime/renderer.h>
+#include <ssphh/scene/probe_place.h>
 
 #include "gl_context.h"
 
@@ -52,11 +53,7 @@ class MadeUpProbes {
     set.probes.push_back(probe);
     probes::merge_groups(set);
   }
-  std::vector<vec3> positions() const {
-    std::vector<vec3> all;
-    for (const probes::Probe& probe : set.probes) all.push_back(probe.position);
-    return all;
-  }
+  std::vector<vec3> positions() const { return scene::positions_of(set.probes); }
 
   probes::ProbeSet set;
 

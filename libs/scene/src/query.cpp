@@ -131,9 +131,9 @@ CameraPose camera_pose(const Scene& scene, const std::string& name, float time) 
   return {pose, camera};
 }
 
-std::vector<SphlPlace> sphl_places(const Scene& scene, float time) {
+std::vector<ProbePlace> sphl_places(const Scene& scene, float time) {
   const std::vector<mat4> world = world_matrices(scene, time);
-  std::vector<SphlPlace> places;
+  std::vector<ProbePlace> places;
   for (const Sphl& sphl : scene.sphls) {
     if (sphl.enabled) places.push_back({sphl.name, vec3(matrix_of(world, sphl.node)[3]), sphl.radius});
   }

@@ -35,7 +35,7 @@ TEST(TwoRooms, LampCamerasAndSphlsStandInside) {
   const auto expect_inside = [&](const vec3& p, const std::string& name) {
     EXPECT_NEAR(winding_number(p, inside), -1, 1e-4) << name;
   };
-  for (const SphlPlace& place : sphl_places(scene)) expect_inside(place.position, place.name);
+  for (const ProbePlace& place : sphl_places(scene)) expect_inside(place.position, place.name);
   for (const Camera& camera : scene.cameras) {
     expect_inside(vec3(camera_pose(scene, camera.name).world[3]), camera.name);
   }
@@ -136,7 +136,7 @@ TEST(GlowingBox, IsClosedFacesInwardAndHoldsItsSphls) {
   const auto walls = world_triangles(scene);
   EXPECT_EQ(open_edges(walls), 0);
   EXPECT_DOUBLE_EQ(signed_volume(walls), -8);
-  for (const SphlPlace& place : sphl_places(scene)) {
+  for (const ProbePlace& place : sphl_places(scene)) {
     EXPECT_NEAR(winding_number(place.position, walls), -1, 1e-4) << place.name;
   }
   EXPECT_NEAR(winding_number(vec3(camera_pose(scene, "").world[3]), walls), -1, 1e-4);
@@ -154,7 +154,7 @@ TEST(Furnace, BodyIsConvexWithFlatNormals) {
     for (const vec3& p : scene.meshes[0].positions) worst = std::max(worst, glm::dot(n, p - t[0]));
   }
   EXPECT_LT(worst, 1e-6f);  // float rounding of a body of radius 1
-  for (const SphlPlace& place : sphl_places(scene))
+  for (const ProbePlace& place : sphl_places(scene))
     EXPECT_NEAR(winding_number(place.position, body), 0, 1e-4);
 }
 
@@ -183,7 +183,7 @@ TEST_P(Gallery, BodiesAreClosedSoThatSphlsAreOutsideOfAll) {
     ++bodies;
     EXPECT_EQ(open_edges(triangles_of(scene.meshes[static_cast<std::size_t>(instance.mesh)])), 0)
         << scene.nodes[node].name;
-    for (const SphlPlace& place : sphl_places(scene)) {
+    for (const ProbePlace& place : sphl_places(scene)) {
       EXPECT_NEAR(winding_number(place.position, body), 0, 1e-4)
           << place.name << " in " << scene.nodes[node].name;
     }

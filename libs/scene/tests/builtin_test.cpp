@@ -48,7 +48,7 @@ TEST_P(Builtin, HasFourToSixSphlsWithNamesOfTheirOwnOrLeavesThemToPlacement) {
 TEST_P(Builtin, SphlSpheresTouchNoSurface) {
   for (const float time : {0.0f, 0.5f, 1.0f}) {
     const std::vector<Triangle> triangles = world_triangles(scene_, time);
-    for (const SphlPlace& place : sphl_places(scene_, time)) {
+    for (const ProbePlace& place : sphl_places(scene_, time)) {
       float nearest = std::numeric_limits<float>::infinity();
       for (const Triangle& t : triangles) nearest = std::min(nearest, distance(place.position, t));
       EXPECT_GT(nearest, std::max(0.05f, place.radius)) << place.name << " at time " << time;

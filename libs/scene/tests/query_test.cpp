@@ -126,7 +126,7 @@ TEST(SphlPlaces, LeaveOutDisabledOnesAndFollowAnimations) {
   scene.animations.resize(1);
   scene.animations[0].channels.push_back(
       {1, AnimationPath::translation, Interpolation::linear, {0, 1}, {vec4(0), vec4(4)}});
-  const std::vector<SphlPlace> places = sphl_places(scene, 0.5f);
+  const std::vector<ProbePlace> places = sphl_places(scene, 0.5f);
   ASSERT_EQ(places.size(), 2u);
   EXPECT_EQ(places[0].name, "a");
   EXPECT_EQ(places[0].position, vec3(1, 2, 3));

@@ -222,7 +222,7 @@ TEST(GltfExport, MoreThanOneOfAKindAtANodeGoToNodesOfTheirOwn) {
   const Scene again = round_trip(scene);
   ASSERT_EQ(again.sphls.size(), 3u);
   EXPECT_EQ(again.lights.size(), 2u);
-  for (const SphlPlace& place : sphl_places(again)) {
+  for (const ProbePlace& place : sphl_places(again)) {
     EXPECT_EQ(place.position, place.name == "c" ? vec3(0) : vec3(1, 2, 3)) << place.name;
   }
 }

@@ -40,7 +40,7 @@ class Lint : public testing::Test {
  protected:
   Lint() {
     std::vector<vec3> positions;
-    for (const scene::SphlPlace& place : scene::sphl_places(scene_)) positions.push_back(place.position);
+    for (const scene::ProbePlace& place : scene::sphl_places(scene_)) positions.push_back(place.position);
     set_ = probes_at(positions);
     params_.interest = place::place_params(scene_).interest;
     params_.spacing = 1;

@@ -180,12 +180,12 @@ struct BounceOperator::Data {
   }
 
   /// S = D + B S of all probes.
-  void apply(std::span<const Irradiance4> direct, const std::vector<sh::RadianceSh>& before,
-             std::vector<sh::RadianceSh>& after) {
+  void apply(std::span<const Irradiance4> direct, const std::vector<sh::RadianceSh>& from,
+             std::vector<sh::RadianceSh>& to) {
     const std::size_t directions = network.gbuffer().directions.size(), stride = projector.stride();
     constexpr std::size_t block = 4;
-    scratch.resize((after.size() + block - 1) / block * 3 * stride);
-    parallel_for(after.size(), block, [&](std::size_t first, std::size_t end) {
+    scratch.resize((to.size() + block - 1) / block * 3 * stride);
+    parallel_for(to.size(), block, [&](std::size_t first, std::size_t end) {
       const std::span<float> radiance(scratch.data() + first / block * 3 * stride, 3 * stride);
       for (std::size_t i = first; i < end; ++i) {
         for (std::size_t q = 0; q < directions; ++q) {
@@ -193,12 +193,12 @@ struct BounceOperator::Data {
           const SeenPatch& patch = network.seen()[ray];
           vec3 value(0);
           if (patch.surfel != no_surfel) {
-            const vec3 e = vec3(direct[static_cast<std::size_t>(patch.surfel)]) + look_up(ray, before);
+            const vec3 e = vec3(direct[static_cast<std::size_t>(patch.surfel)]) + look_up(ray, from);
             value = unpack_albedo(patch.albedo) * (1 / pi) * e;
           }
           radiance[q] = value.x, radiance[stride + q] = value.y, radiance[2 * stride + q] = value.z;
         }
-        projector.project(radiance, after[i]);
+        projector.project(radiance, to[i]);
       }
     });
   }

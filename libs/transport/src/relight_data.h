@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/require.h>
+#include <ssphh/scene/probe_place.h>
 #include <ssphh/transport/bounce.h>
 #include <ssphh/transport/direct_field.h>
 #include <ssphh/transport/relight_session.h>
@@ -23,12 +24,6 @@
 #include "sphl_emission.h"
 
 namespace ssphh::transport {
-
-inline std::vector<vec3> positions_of(const std::vector<ProbePlace>& places) {
-  std::vector<vec3> positions;
-  for (const ProbePlace& place : places) positions.push_back(place.position);
-  return positions;
-}
 
 /// What a source says of itself must hold together.
 inline void check_source(const rays::TransportSource& source, std::size_t lights) {
@@ -42,7 +37,7 @@ inline void check_source(const rays::TransportSource& source, std::size_t lights
           "the environment is of a group that there is not");
 }
 
-inline void check_places(const std::vector<ProbePlace>& places) {
+inline void check_places(const std::vector<scene::ProbePlace>& places) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!(places[i].radius >= 0) || !std::isfinite(places[i].radius))
       throw Error(fmt::format("probe {}", i), fmt::format("its radius {} is no length", places[i].radius));
@@ -90,12 +85,12 @@ struct PassClock {
 };
 
 struct RelightSession::Data {
-  Data(const rays::TransportSource& source_in, std::vector<ProbePlace> places_in,
+  Data(const rays::TransportSource& source_in, std::vector<scene::ProbePlace> places_in,
        const RelightParams& params_in, float time, const Control& control)
       : source(source_in),
         places(std::move(places_in)),
         params(params_in),
-        network(source_in, positions_of(places), params_in.transport, time, control),
+        network(source_in, scene::positions_of(places), params_in.transport, time, control),
         projector(params_in.degree, network.gbuffer().directions),
         emitter_view(emitter_directions()),
         emitter_projector(params_in.degree, emitter_view),
@@ -124,7 +119,7 @@ struct RelightSession::Data {
   }
 
   const rays::TransportSource& source;
-  std::vector<ProbePlace> places;
+  std::vector<scene::ProbePlace> places;
   RelightParams params;
   TransportNetwork network;
   DirectionProjector projector;
@@ -174,7 +169,7 @@ struct RelightSession::Data {
 
   // The pass, in relight_pass.cpp.
   /// Begins to find the light of a state; false: it is there already.
-  bool begin(const scene::LightingState& next);
+  bool begin(const scene::LightingState& wanted);
   /// Goes on with the pass; false: time is over.
   bool go_on(RelightReport& report, const Control& control, Pace& pace);
   bool step(RelightReport& report, const Control& control, Pace& pace);
@@ -215,13 +210,13 @@ struct RelightSession::Data {
   }
 
   /// Whether the direct light that is kept of a group is that of the last state, but for its factor.
-  bool direct_holds(int group) const {
+  bool direct_holds(int asked) const {
     if (state.time != direct_state.time) return false;
-    if (group == source.environment_group() &&
+    if (asked == source.environment_group() &&
         state.environment_rotation != direct_state.environment_rotation)
       return false;
     for (std::size_t i = 0; i < state.lights.size(); ++i) {
-      if (source.light_group_of(static_cast<int>(i)) == group && state.lights[i] != direct_state.lights[i])
+      if (source.light_group_of(static_cast<int>(i)) == asked && state.lights[i] != direct_state.lights[i])
         return false;
     }
     return true;
@@ -255,17 +250,17 @@ struct RelightSession::Data {
 
   /// What must be found anew to come from the last state to the next one, all of it after an update() that
   /// threw.
-  void note_changes(const scene::LightingState& next) {
+  void note_changes(const scene::LightingState& wanted) {
     if (unfinished) group_dirty.assign(group_dirty.size(), true);
-    for (std::size_t i = 0; i < next.lights.size(); ++i) {
-      if (next.lights[i] != state.lights[i])
+    for (std::size_t i = 0; i < wanted.lights.size(); ++i) {
+      if (wanted.lights[i] != state.lights[i])
         group_dirty[static_cast<std::size_t>(source.light_group_of(static_cast<int>(i)))] = true;
     }
     const int environment = source.environment_group();
-    if (environment >= 0 && next.environment_rotation != state.environment_rotation)
+    if (environment >= 0 && wanted.environment_rotation != state.environment_rotation)
       group_dirty[static_cast<std::size_t>(environment)] = true;
-    scale_dirty = unfinished || next.group_scales != state.group_scales;
-    emission_dirty = unfinished || next.emission != state.emission;
+    scale_dirty = unfinished || wanted.group_scales != state.group_scales;
+    emission_dirty = unfinished || wanted.emission != state.emission;
   }
 
   /// Reflected light of all probes under another direct light, from darkness.

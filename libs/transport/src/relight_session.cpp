@@ -2,7 +2,7 @@
 
 namespace ssphh::transport {
 
-RelightSession::RelightSession(const rays::TransportSource& source, std::vector<ProbePlace> places,
+RelightSession::RelightSession(const rays::TransportSource& source, std::vector<scene::ProbePlace> places,
                                const RelightParams& params, float time, const Control& control)
     : data_(std::make_unique<Data>(source, std::move(places), params, time, control)) {}
 
@@ -47,7 +47,7 @@ LightAge RelightSession::age() const {
 bool RelightSession::under_way() const {
   return data_->stage != Data::Stage::idle;
 }
-const std::vector<ProbePlace>& RelightSession::places() const {
+const std::vector<scene::ProbePlace>& RelightSession::places() const {
   return data_->places;
 }
 const std::vector<sh::RadianceSh>& RelightSession::reflected() const {

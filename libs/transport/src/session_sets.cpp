@@ -10,7 +10,7 @@
 namespace ssphh::transport {
 namespace {
 
-std::vector<probes::Probe> dark_probes(const std::vector<ProbePlace>& places) {
+std::vector<probes::Probe> dark_probes(const std::vector<scene::ProbePlace>& places) {
   std::vector<probes::Probe> probes(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     probes[i].name = places[i].name;
@@ -90,7 +90,7 @@ void refresh(probes::ProbeSet& set, const RelightSession& session) {
   }
 }
 
-probes::ProbeSet lookup_set(const std::vector<ProbePlace>& places,
+probes::ProbeSet lookup_set(const std::vector<scene::ProbePlace>& places,
                             const std::vector<sh::RadianceSh>& reflected) {
   require(!places.empty(), "lookup set", "there are no probes");
   if (reflected.size() != places.size())

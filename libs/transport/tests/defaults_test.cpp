@@ -20,7 +20,7 @@ TEST(Defaults, OfTransport) {
   EXPECT_EQ(relight.changed, 1e-3f);
   EXPECT_TRUE(relight.warm_start);
   EXPECT_EQ(relight.op, probes::LightOperator::surfel);
-  EXPECT_EQ(ProbePlace().radius, 0.1f);
+  EXPECT_EQ(scene::ProbePlace().radius, 0.1f);
   EXPECT_TRUE(SolveReport().converged);
   EXPECT_TRUE(BounceReport().converged);
   EXPECT_EQ(RelightReport().total_ms(), 0);
@@ -28,8 +28,8 @@ TEST(Defaults, OfTransport) {
 }
 
 TEST(ProbePlaces, TakeNamePositionAndRadius) {
-  const std::vector<ProbePlace> places =
-      places_of(std::vector<probes::Probe>{{"a", vec3(1, 2, 3), 0.25f, {}, {}, {}, {}}});
+  const std::vector<scene::ProbePlace> places =
+      scene::places_of(std::vector<probes::Probe>{{"a", vec3(1, 2, 3), 0.25f, {}, {}, {}, {}}});
   ASSERT_EQ(places.size(), 1u);
   EXPECT_EQ(places[0].name, "a");
   EXPECT_EQ(places[0].position, vec3(1, 2, 3));

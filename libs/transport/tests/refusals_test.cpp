@@ -21,7 +21,7 @@ constexpr float endless = std::numeric_limits<float>::infinity();
 
 TEST(Refusals, OfLookupSets) {
   EXPECT_EQ(message_of([] { lookup_set({}, {}); }), "lookup set: there are no probes");
-  EXPECT_EQ(message_of([] { lookup_set(std::vector<ProbePlace>(2), {sh::RadianceSh(0)}); }),
+  EXPECT_EQ(message_of([] { lookup_set(std::vector<scene::ProbePlace>(2), {sh::RadianceSh(0)}); }),
             "lookup set: there are 1 functions for 2 probes (a session has light after its first update())");
 }
 
@@ -98,7 +98,7 @@ TEST(Refusals, OfSourcesThatContradictThemselves) {
 }
 
 TEST(Refusals, OfPlacesWithoutARadius) {
-  std::vector<ProbePlace> places(3);
+  std::vector<scene::ProbePlace> places(3);
   places[0].radius = 0;
   EXPECT_EQ(message_of([&] { check_places(places); }), "no error");
   for (const float bad : {-1.0f, none, endless}) {

@@ -115,11 +115,11 @@ class SessionList : public testing::Test {
   }
 
   const test::BallRoom room_{};
-  const std::vector<ProbePlace> places_ = {{"a", {-1.1f, 0.4f, 0.6f}, 0.2f},
-                                           {"b", {0.9f, -0.7f, 0.5f}, 0.15f},
-                                           {"c", {0.2f, 0.8f, -1.2f}, 0.1f},
-                                           {"d", {0.1f, -1.3f, -0.4f}, 0.1f},
-                                           {"e", {1.2f, 0.5f, -0.6f}, 0.1f}};
+  const std::vector<scene::ProbePlace> places_ = {{"a", {-1.1f, 0.4f, 0.6f}, 0.2f},
+                                                  {"b", {0.9f, -0.7f, 0.5f}, 0.15f},
+                                                  {"c", {0.2f, 0.8f, -1.2f}, 0.1f},
+                                                  {"d", {0.1f, -1.3f, -0.4f}, 0.1f},
+                                                  {"e", {1.2f, 0.5f, -0.6f}, 0.1f}};
   Listing list_;
 
  private:
@@ -214,7 +214,7 @@ TEST_F(SessionList, OfBounce) {
 TEST_F(SessionList, OfEdgesAndFittedWeights) {
   std::vector<vec3> positions;
   std::vector<probes::Probe> probes;
-  for (const ProbePlace& place : places_) {
+  for (const scene::ProbePlace& place : places_) {
     positions.push_back(place.position);
     probes.emplace_back().position = place.position;
     probes.back().radius = place.radius;

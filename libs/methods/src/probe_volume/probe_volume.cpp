@@ -4,6 +4,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/place/place.h>
+#include <ssphh/scene/probe_place.h>
 #include <ssphh/transport/network.h>
 
 #include "network_memory.h"
@@ -11,14 +12,14 @@
 namespace ssphh::methods::probe_volume {
 namespace {
 
-std::vector<transport::ProbePlace> manual_places(const place::PlaceParams& params) {
+std::vector<scene::ProbePlace> manual_places(const place::PlaceParams& params) {
   if (params.manual.empty())
     throw Error("light probes", "the scene has no SPHLs of its own", "let places=auto find some");
-  return transport::places_of(params.manual);
+  return params.manual;
 }
 
-std::vector<transport::ProbePlace> grid_places(const ProbeGrid& grid) {
-  std::vector<transport::ProbePlace> places;
+std::vector<scene::ProbePlace> grid_places(const ProbeGrid& grid) {
+  std::vector<scene::ProbePlace> places;
   for (std::size_t i = 0; i < grid.positions.size(); ++i)
     places.push_back({fmt::format("grid {}", i), grid.positions[i]});
   return places;
@@ -30,21 +31,15 @@ ProbeGrid grid_of(const MethodScene& scene, const place::PlaceParams& seen, cons
   params.spacing = static_cast<float>(p.number("spacing"));
   if (p.integer("probes") > 0) params.places = p.integer("probes");
   params.interest = seen.interest;
-  for (const scene::SphlPlace& place : seen.manual) params.interest.push_back(place.position);
+  for (const scene::ProbePlace& place : seen.manual) params.interest.push_back(place.position);
   return make_probe_grid(scene.source, params, control);
 }
 
-std::vector<transport::ProbePlace> found_places(const MethodScene& scene, place::PlaceParams params,
-                                                const MethodParameters& p, const Control& control) {
+std::vector<scene::ProbePlace> found_places(const MethodScene& scene, place::PlaceParams params,
+                                            const MethodParameters& p, const Control& control) {
   params.spacing = static_cast<float>(p.number("spacing"));
   params.count = p.integer("probes");
-  return transport::places_of(place::place_probes(scene.source, params, control).probes);
-}
-
-std::vector<vec3> positions_of(const std::vector<transport::ProbePlace>& places) {
-  std::vector<vec3> positions;
-  for (const transport::ProbePlace& place : places) positions.push_back(place.position);
-  return positions;
+  return scene::places_of(place::place_probes(scene.source, params, control).probes);
 }
 
 }  // namespace
@@ -71,19 +66,19 @@ ProbeVolume::ProbeVolume(const MethodScene& scene, const MethodParameters& p, in
     : environment_group_(scene.source.environment_group()) {
   const place::PlaceParams seen = place::place_params(scene.scene);
   const bool trilinear = p.choice("interpolation") == "trilinear";
-  std::vector<transport::ProbePlace> places;
+  std::vector<scene::ProbePlace> places;
   if (p.choice("places") == "grid") {
     const ProbeGrid grid = grid_of(scene, seen, p, control);
     places = grid_places(grid);
-    if (trilinear) weights_ = std::make_unique<VolumeWeights>(grid);
+    if (trilinear) weights_ = std::make_shared<const VolumeWeights>(grid);
   } else {
     if (trilinear)
       throw Error("light probes", "interpolation=trilinear needs probes on a grid",
                   "add places=grid, or interpolate within tetrahedra");
     places = p.choice("places") == "scene" ? manual_places(seen) : found_places(scene, seen, p, control);
   }
-  const std::vector<vec3> positions = positions_of(places);
-  if (!weights_) weights_ = std::make_unique<VolumeWeights>(positions);
+  const std::vector<vec3> positions = scene::positions_of(places);
+  if (!weights_) weights_ = std::make_shared<const VolumeWeights>(positions);
   spacing_ = probes::median_spacing(positions);
 
   transport::RelightParams params;

@@ -39,17 +39,17 @@ class ProbeVolume {
   /// `dark`: a light group that does not light the probes; −1: none.
   void update(const scene::LightingState& state, int dark, const Control& control);
 
-  const std::vector<transport::ProbePlace>& places() const { return session_->places(); }
+  const std::vector<scene::ProbePlace>& places() const { return session_->places(); }
   /// Reflected light, after any number of bounces, of each probe.
   const std::vector<sh::RadianceSh>& radiance() const { return session_->reflected(); }
-  const VolumeWeights& weights() const { return *weights_; }
+  std::shared_ptr<const VolumeWeights> weights() const { return weights_; }
   /// Median distance between neighbours [m].
   float spacing() const { return spacing_; }
   MethodMemory memory() const;
   MethodNumbers numbers() const;
 
  private:
-  std::unique_ptr<VolumeWeights> weights_;
+  std::shared_ptr<const VolumeWeights> weights_;
   std::unique_ptr<transport::RelightSession> session_;
   scene::LightingState state_;  ///< what the session was given last
   float spacing_ = 0;

@@ -23,11 +23,12 @@ struct SceneRef {
   friend bool operator==(const SceneRef&, const SceneRef&) = default;
 };
 
-struct ProbePlace {
+/// Where VIZ looks for a probe.
+struct ProbeSphere {
   vec3 position{0};     ///< world, metres
   float radius = 0.1f;  ///< of the emitter sphere of VIZ, metres
 
-  friend bool operator==(const ProbePlace&, const ProbePlace&) = default;
+  friend bool operator==(const ProbeSphere&, const ProbeSphere&) = default;
 };
 
 /// GEN or VIZ of some probes of a set.
@@ -40,7 +41,7 @@ struct ProbeJob {
   bake::VizParams viz_params;  ///< VIZ: which edges, and whether with T_{j→i}
   std::vector<std::uint32_t> probes;  ///< indices in the set, ascending
   /// GEN: the places of `probes`, in that order. VIZ: those of the whole set.
-  std::vector<ProbePlace> places;
+  std::vector<ProbeSphere> places;
 };
 
 /// Probes that light a render's first hits.

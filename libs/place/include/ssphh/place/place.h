@@ -20,11 +20,11 @@ struct PlaceParams {
   /// So many probes, `manual` ones included: the most spread ones of a grid that gives at least as many (the
   /// others are counted as `surplus`). 0: as many as the spacing gives.
   int count = 0;
-  float clearance = 0.04f;               ///< from a surface [m]; at most a tenth of the spacing is asked for
-  int levels = 1;                        ///< times that the grid may be halved near surfaces, 0..3
-  int max_probes = 4096;                 ///< more are an Error, not a long wait
-  std::vector<scene::SphlPlace> manual;  ///< kept as they are, first in the placement
-  std::vector<vec3> interest;            ///< places that somebody is or light comes from: cameras, lamps
+  float clearance = 0.04f;                ///< from a surface [m]; at most a tenth of the spacing is asked for
+  int levels = 1;                         ///< times that the grid may be halved near surfaces, 0..3
+  int max_probes = 4096;                  ///< more are an Error, not a long wait
+  std::vector<scene::ProbePlace> manual;  ///< kept as they are, first in the placement
+  std::vector<vec3> interest;             ///< places that somebody is or light comes from: cameras, lamps
 };
 
 /// `manual` from the scene's enabled SPHLs, `interest` from these, its cameras and its lamps that have a

@@ -93,7 +93,7 @@ class IrradianceLookup final : public rays::IndirectLight {
   IrradianceLookup(const ProbeSet& set, const rays::RadianceSource& source, const LookupParams& params = {});
   IrradianceLookup(const ProbeSet&, const rays::RadianceSource&&, const LookupParams& = {}) = delete;
   /// `places` are the points of the set's records, in their order; none: the records are not looked up.
-  IrradianceLookup(const ProbeSet& set, std::unique_ptr<LookupWeights> weights,
+  IrradianceLookup(const ProbeSet& set, std::shared_ptr<const LookupWeights> weights,
                    const LookupParams& params = {},
                    std::shared_ptr<const SurfaceInterpolation> places = nullptr);
   ~IrradianceLookup() override;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <ssphh/core/hash.h>
+#include <ssphh/scene/probe_place.h>
 #include <ssphh/scene/scene.h>
 
 namespace ssphh::scene {
@@ -64,13 +65,8 @@ struct CameraPose {
 };
 CameraPose camera_pose(const Scene& scene, const std::string& name, float time = 0);
 
-/// World positions of the enabled SPHLs.
-struct SphlPlace {
-  std::string name;
-  vec3 position;
-  float radius;
-};
-std::vector<SphlPlace> sphl_places(const Scene& scene, float time = 0);
+/// Of the enabled SPHLs.
+std::vector<ProbePlace> sphl_places(const Scene& scene, float time = 0);
 
 /// Content hash of everything that can change a picture.
 Hash128 scene_hash(const Scene& scene);

@@ -24,6 +24,7 @@
 #include <ssphh/core/held.h>
 #include <ssphh/probes/probe_set.h>
 #include <ssphh/scene/lighting_state.h>
+#include <ssphh/scene/probe_place.h>
 #include <ssphh/transport/transport_params.h>
 
 namespace ssphh::rays {
@@ -34,20 +35,6 @@ namespace ssphh::transport {
 
 class SurfaceGather;
 class TransportNetwork;
-
-struct ProbePlace {
-  std::string name;
-  vec3 position{0};
-  float radius = 0.1f;  ///< of the sphere that emits LightingState::emission
-};
-
-/// Those of whatever has a name, a position and a radius: probes, SPHLs, what place_probes() finds.
-template <class Probes>
-std::vector<ProbePlace> places_of(const Probes& probes) {
-  std::vector<ProbePlace> places;
-  for (const auto& probe : probes) places.push_back({probe.name, probe.position, probe.radius});
-  return places;
-}
 
 struct RelightParams {
   TransportParams transport;
@@ -97,10 +84,10 @@ class RelightSession {
  public:
   /// Keeps a reference to `source`. Throws Error as TransportNetwork does, for an operator that is none of
   /// transport, and for blended poses with bounce. The first update() lights everything.
-  RelightSession(const rays::TransportSource& source, std::vector<ProbePlace> places,
+  RelightSession(const rays::TransportSource& source, std::vector<scene::ProbePlace> places,
                  const RelightParams& params = {}, float time = 0, const Control& control = {});
-  RelightSession(const rays::TransportSource&&, std::vector<ProbePlace>, const RelightParams& = {}, float = 0,
-                 const Control& = {}) = delete;  // it would be gone
+  RelightSession(const rays::TransportSource&&, std::vector<scene::ProbePlace>, const RelightParams& = {},
+                 float = 0, const Control& = {}) = delete;  // it would be gone
   ~RelightSession();
   RelightSession(RelightSession&&) noexcept;
   RelightSession& operator=(RelightSession&&) noexcept;
@@ -132,7 +119,7 @@ class RelightSession {
   /// emitted(), arriving(), emission_profile(), what is by group, keep_records() and keep_records_at();
   /// network() is on its way.
   bool under_way() const;
-  const std::vector<ProbePlace>& places() const;
+  const std::vector<scene::ProbePlace>& places() const;
   /// S_loop: reflected light alone, for surfaces that get direct light from elsewhere. None before the first
   /// finished update(); all other light is dark then.
   const std::vector<sh::RadianceSh>& reflected() const;

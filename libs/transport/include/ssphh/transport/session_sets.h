@@ -12,7 +12,7 @@ namespace ssphh::transport {
 
 /// The places with their reflected light as one group, as lookups want it. Throws Error when there is not one
 /// function of one degree for each place, as before a session's first update().
-probes::ProbeSet lookup_set(const std::vector<ProbePlace>& places,
+probes::ProbeSet lookup_set(const std::vector<scene::ProbePlace>& places,
                             const std::vector<sh::RadianceSh>& reflected);
 
 /// The same of a session, with its records where it keeps any: reflected light as the first group, and beside
