@@ -7,6 +7,8 @@
 #include <ssphh/probes/lookup_constants.h>
 #include <ssphh/probes/surface_interpolation.h>
 
+#include "surface_shares.h"
+
 namespace ssphh::probes {
 namespace {
 
@@ -51,19 +53,6 @@ geometry::Balls surface_reach(std::span<const rays::SurfacePoint> points, std::s
   return {centres, radii};
 }
 
-float share_by_distance(float distance2, float spacing) {
-  float t = std::max(1 - distance2 / (fitted_reach * fitted_reach * spacing * spacing), 0.0f);
-  for (int i = 0; i < 3; ++i) t *= t;
-  return t;
-}
-
-float share_by_surface(const vec3& offset, float cosine, const vec3& normal, float spacing) {
-  const float facing = (cosine - fitted_cosine) / (1 - fitted_cosine);
-  const float most = fitted_off_plane * spacing + fitted_off_plane_slope * glm::length(offset);
-  const float off = glm::dot(offset, normal) / most, level = 1 - off * off;
-  return facing > 0 && level > 0 ? facing * level * level : 0;
-}
-
 bool see_along_surface(const rays::SurfacePoint& a, const rays::SurfacePoint& b, float spacing,
                        const SeesProbe& sees) {
   const float least = fitted_lift * spacing;
@@ -93,12 +82,6 @@ int surface_cover(const rays::SurfacePoint& point, float spacing, const SeesProb
   return cover;
 }
 
-float cover_factor(int cover, float distance2, float spacing) {
-  if (cover == 0) return 1;
-  const float open = spacing / static_cast<float>(1 << cover), q = distance2 / (open * open);
-  return 1 / (1 + q * q);
-}
-
 SurfaceInterpolation::SurfaceInterpolation(std::span<const rays::SurfacePoint> points, SeesProbe sees)
     : SurfaceInterpolation(points, surface_spacings(points), std::move(sees)) {}
 
@@ -126,7 +109,8 @@ std::span<const SurfaceShare> SurfaceInterpolation::at(const rays::SurfacePoint&
     if (p == without) return;
     const Point& point = points_[p];
     const float spacing = point.spacing, cosine = glm::dot(vec3(point.normal), n) / 32767.0f;
-    const float by_surface = share_by_surface(point.position - x, cosine, n, spacing);
+    const float by_surface =
+        share_by_surface(std::sqrt(distance2), glm::dot(point.position - x, n), cosine, spacing);
     if (by_surface == 0) return;
     const SurfaceShare share{p, by_surface * share_by_distance(distance2, spacing) *
                                     cover_factor(point.cover, distance2, spacing)};

@@ -11,24 +11,10 @@
 
 #include "still_surface.h"
 #include "surface_entry.h"
+#include "surface_samples.h"
 
 namespace ssphh::probes {
 namespace {
-
-// By how much less than SurfaceInterpolation takes a point's normal may agree with the surface's:
-// shading normals are not those.
-constexpr float least_cosine = 0.2f;
-
-/// A point is left out of a list where nearer ones that are seen outweigh it so many times.
-constexpr float outweighed = 4096;
-
-struct Sample {
-  vec3 position, normal;  ///< of one side; the other's is −normal
-  /// Whether any point that faces this side's way, or the other's, is seen from there. What sees none lies
-  /// within a body, and has no say.
-  std::array<bool, 2> alive{};
-  std::array<float, 2> weight{};  ///< of those that are seen and lie on its very surface
-};
 
 /// What one thread needs while it makes a cell's list.
 struct Work {
@@ -39,7 +25,7 @@ struct Work {
     std::vector<char> seen;            ///< by those; empty: by all
     std::uint64_t outweighed = 0;      ///< squares with samples at which it does not count
   };
-  std::vector<Sample> samples;
+  SurfaceSamples samples;
   std::vector<unsigned char> taken;
   std::vector<Candidate> candidates;
   std::vector<uvec4> list;
@@ -102,7 +88,7 @@ class Preparation {
     const vec3 number(c % out_.cells.x, c / out_.cells.x % out_.cells.y, c / (out_.cells.x * out_.cells.y));
     const vec3 corner = out_.origin + out_.cell_size * number;
     take_samples(cell, corner, work);
-    if (work.samples.empty()) return {};
+    if (work.samples.size() == 0) return {};
 
     find_candidates(corner, work);
     work.list.clear();
@@ -110,7 +96,7 @@ class Preparation {
       if (work.list.size() == static_cast<std::size_t>(SurfaceLists::longest)) break;
       const std::uint32_t p = candidate.point;
       const int axis = surface_axis(out_.points[p].normal);
-      const std::uint64_t squares = squares_of(candidate, corner, work);
+      const std::uint64_t squares = squares_of(candidate, axis, work);
       if (squares != 0) work.list.push_back(pack_surface_entry(p, cover_[p], axis, squares, spacings_[p]));
     }
     return work.list;
@@ -132,7 +118,7 @@ class Preparation {
         if (glm::any(glm::lessThan(at, ivec3(0))) || glm::any(glm::greaterThan(at, ivec3(7)))) return;
         unsigned char& taken =
             work.taken[static_cast<std::size_t>(((at.z * 8 + at.y) * 8 + at.x) * 3 + axis)];
-        if (taken++ < 2) work.samples.push_back({x, normal});
+        if (taken++ < 2) work.samples.add(x, normal, (x - corner) / size);
         taken = std::min<unsigned char>(taken, 2);
       });
     }
@@ -151,13 +137,14 @@ class Preparation {
       return a.order < b.order || (a.order == b.order && a.point < b.point);
     });
     for (Work::Candidate& candidate : work.candidates) {
+      const int axis = surface_axis(out_.points[candidate.point].normal);
+      work.samples.judge(out_.points[candidate.point], spacings_[candidate.point]);
       for (std::size_t i = 0; i < work.samples.size(); ++i) {
-        const Sample& s = work.samples[i];
-        if (!may_light(candidate.point, s)) continue;
-        if (is_outweighed(candidate.point, s)) {
-          candidate.outweighed |= square_bit(s, candidate.point, corner);
-        } else {
+        const SurfaceSamples::Verdict verdict = work.samples.verdict(i);
+        if (verdict == SurfaceSamples::asked) {
           candidate.asked.push_back(static_cast<std::uint32_t>(i));
+        } else if (verdict == SurfaceSamples::outweighed) {
+          candidate.outweighed |= work.samples.square(i, axis);
         }
       }
       if (!candidate.asked.empty()) ask(candidate, work);
@@ -165,35 +152,11 @@ class Preparation {
     std::erase_if(work.candidates, [](const Work::Candidate& c) { return c.asked.empty(); });
   }
 
-  bool may_light(std::uint32_t p, const Sample& s) const {
+  bool sees(const SurfaceSamples& samples, std::size_t i, std::uint32_t p) const {
     const rays::SurfacePoint& point = out_.points[p];
-    const float spacing = spacings_[p];
-    const vec3 d = point.position - s.position;
-    const float distance2 = glm::dot(d, d), share = share_by_distance(distance2, spacing);
-    // A shading normal may lean toward the point
-    return share > 0 && std::abs(glm::dot(s.normal, point.normal)) >= least_cosine &&
-           std::abs(glm::dot(d, s.normal)) <= 0.75f * spacing + 0.3f * std::sqrt(distance2);
-  }
-
-  bool is_outweighed(std::uint32_t p, const Sample& s) const {
-    const vec3 d = out_.points[p].position - s.position;
-    return outweighed * share_by_distance(glm::dot(d, d), spacings_[p]) <= s.weight[side(s, p)];
-  }
-
-  std::uint64_t square_bit(const Sample& s, std::uint32_t p, const vec3& corner) const {
-    return std::uint64_t{1} << surface_square((s.position - corner) / out_.cell_size,
-                                              surface_axis(out_.points[p].normal));
-  }
-
-  /// 1 where the point faces the other side's way.
-  std::size_t side(const Sample& sample, std::uint32_t p) const {
-    return glm::dot(sample.normal, out_.points[p].normal) < 0;
-  }
-
-  bool sees(const Sample& sample, std::uint32_t p) const {
-    const rays::SurfacePoint& point = out_.points[p];
-    const vec3 n = side(sample, p) ? -sample.normal : sample.normal;
-    return see_along_surface({sample.position, n}, point, spacings_[p], sees_);
+    const vec3 n = samples.normal(i);
+    return see_along_surface({samples.position(i), samples.side(i, point.normal) == 1 ? -n : n}, point,
+                             spacings_[p], sees_);
   }
 
   /// Asks a few samples first, then all where those disagree.
@@ -202,38 +165,32 @@ class Preparation {
     const std::size_t count = candidate.asked.size(), step = (count + few - 1) / few;
     std::size_t asked = 0, seen = 0;
     for (std::size_t i = 0; i < count; i += step, ++asked)
-      seen += sees(work.samples[candidate.asked[i]], candidate.point);
+      seen += sees(work.samples, candidate.asked[i], candidate.point);
     if (seen < asked) candidate.seen.assign(count, 0);
     if (seen < asked && seen > 0) {
       for (std::size_t i = 0; i < count; ++i)
-        candidate.seen[i] = sees(work.samples[candidate.asked[i]], candidate.point);
+        candidate.seen[i] = sees(work.samples, candidate.asked[i], candidate.point);
     }
+    if (seen == 0) return;
+    const rays::SurfacePoint& point = out_.points[candidate.point];
+    work.samples.weigh(point, spacings_[candidate.point], cover_[candidate.point]);
     for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t sample = candidate.asked[i];
       if (candidate.seen.empty() || candidate.seen[i])
-        count_in(candidate.point, work.samples[candidate.asked[i]]);
+        work.samples.count_in(sample, work.samples.side(sample, point.normal));
     }
-  }
-
-  void count_in(std::uint32_t p, Sample& s) const {
-    const rays::SurfacePoint& point = out_.points[p];
-    const std::size_t k = side(s, p);
-    s.alive[k] = true;
-    const vec3 d = point.position - s.position, n = k == 1 ? -s.normal : s.normal;
-    const float spacing = spacings_[p];
-    s.weight[k] += share_by_distance(glm::dot(d, d), spacing) *
-                   share_by_surface(d, glm::dot(point.normal, n), n, spacing) *
-                   cover_factor(cover_[p], glm::dot(d, d), spacing);
   }
 
   /// Squares in which every sample sees the point, sides within bodies apart. A square
   /// without samples is as those around it.
-  std::uint64_t squares_of(const Work::Candidate& candidate, const vec3& corner, const Work& work) const {
+  std::uint64_t squares_of(const Work::Candidate& candidate, int axis, const Work& work) const {
     if (candidate.seen.empty() && candidate.outweighed == 0) return ~std::uint64_t{0};
     std::uint64_t known = candidate.outweighed, hidden = candidate.outweighed;
     for (std::size_t i = 0; i < candidate.asked.size(); ++i) {
-      const Sample& s = work.samples[candidate.asked[i]];
-      if (!s.alive[side(s, candidate.point)]) continue;
-      const std::uint64_t bit = square_bit(s, candidate.point, corner);
+      const std::size_t sample = candidate.asked[i];
+      const std::size_t side = work.samples.side(sample, out_.points[candidate.point].normal);
+      if (!work.samples.alive(sample, side)) continue;
+      const std::uint64_t bit = work.samples.square(sample, axis);
       known |= bit;
       if (!candidate.seen.empty() && !candidate.seen[i]) hidden |= bit;
     }

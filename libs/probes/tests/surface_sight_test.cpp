@@ -8,6 +8,8 @@
 #include <ssphh/probes/lookup_constants.h>
 #include <ssphh/probes/surface_interpolation.h>
 
+#include "surface_shares.h"
+
 namespace ssphh::probes {
 namespace {
 

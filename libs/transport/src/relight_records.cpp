@@ -71,8 +71,8 @@ void RelightSession::Data::keep_records(const Control& control) {
   if (params.records.points == 0) return;
   if (params.records.points < 0)
     throw Error("surface records", fmt::format("{} is no number of points", params.records.points));
-  for (const int group : params.records.baked)
-    require(group >= 0 && static_cast<std::size_t>(group) < state.group_scales.size(), "light group",
+  for (const int baked : params.records.baked)
+    require(baked >= 0 && static_cast<std::size_t>(baked) < state.group_scales.size(), "light group",
             "there is none of that index");
   find_direct_for_records();
   const std::vector<vec3> scales = alike(direct_by_group());
@@ -81,9 +81,9 @@ void RelightSession::Data::keep_records(const Control& control) {
   };
   AddRecordLight add_direct;
   if (!params.records.baked.empty()) {
-    add_direct = [&](std::span<const rays::SurfacePoint> points, auto& light) {
+    add_direct = [&](std::span<const rays::SurfacePoint> points, auto& to) {
       extend(points);
-      record_direct.add_to(light, scales);
+      record_direct.add_to(to, scales);
     };
   }
   const std::vector<float> times = record_times();

@@ -21,13 +21,6 @@ inline constexpr std::uint32_t no_surface_point = ~std::uint32_t{0};
 
 /// Where each point counts at all.
 geometry::Balls surface_reach(std::span<const rays::SurfacePoint> points, std::span<const float> spacings);
-/// What a point counts at a squared distance [m²]: 1 there, 0 from three of its spacings on. Most of a
-/// lookup's weight lies within two.
-float share_by_distance(float distance2, float spacing);
-/// What it counts on a surface: less as that turns away from it, or lies off its plane. `offset` leads from
-/// the place to the point; 0 from 45° on, and from half a spacing and a tenth of the distance.
-float share_by_surface(const vec3& offset, float cosine, const vec3& normal, float spacing);
-
 /// Whether two points of one surface see each other: above bulges of that surface, but not above what stands
 /// on it.
 bool see_along_surface(const rays::SurfacePoint& a, const rays::SurfacePoint& b, float spacing,
@@ -37,9 +30,6 @@ bool see_along_surface(const rays::SurfacePoint& a, const rays::SurfacePoint& b,
 /// spacing, else one more for each halving of that distance, 4 at most. What lies behind a picture's frame
 /// says little of the wall beside it.
 int surface_cover(const rays::SurfacePoint& point, float spacing, const SeesProbe& sees);
-/// What such a point keeps of its weight at this distance.
-float cover_factor(int cover, float distance2, float spacing);
-
 struct SurfaceShare {
   std::uint32_t point;
   float weight;  ///< may be negative

@@ -1,0 +1,72 @@
+#include "surface_samples.h"
+
+#include <cmath>
+
+#include "surface_entry.h"
+#include "surface_shares.h"
+
+namespace ssphh::probes {
+namespace {
+
+// By how much less than SurfaceInterpolation takes a point's normal may agree with the surface's:
+// shading normals are not those.
+constexpr float least_cosine = 0.2f;
+
+/// A point is left out of a list where nearer ones that are seen outweigh it so many times.
+constexpr float most_outweighed = 4096;
+
+}  // namespace
+
+void SurfaceSamples::clear() {
+  for (std::vector<float>& numbers : numbers_) numbers.clear();
+  for (std::vector<std::uint8_t>& of_side : alive_) of_side.clear();
+  squares_.clear(), verdicts_.clear(), weights_.clear();
+}
+
+void SurfaceSamples::add(const vec3& position, const vec3& normal, const vec3& local) {
+  const float all[]{position.x, position.y, position.z, normal.x, normal.y, normal.z, 0, 0};
+  for (std::size_t k = 0; k < numbers_.size(); ++k) numbers_[k].push_back(all[k]);
+  for (std::vector<std::uint8_t>& of_side : alive_) of_side.push_back(0);
+  const auto square = [&](int axis) { return static_cast<std::uint8_t>(surface_square(local, axis)); };
+  squares_.push_back({square(0), square(1), square(2)});
+  verdicts_.push_back(out_of_reach), weights_.push_back(0);
+}
+
+void SurfaceSamples::judge(const rays::SurfacePoint& point, float spacing) {
+  const vec3 p = point.position, n = point.normal;
+  const float *x = numbers_[0].data(), *y = numbers_[1].data(), *z = numbers_[2].data();
+  const float *nx = numbers_[3].data(), *ny = numbers_[4].data(), *nz = numbers_[5].data();
+  const float* __restrict front = numbers_[6].data(), * __restrict back = numbers_[7].data();
+  std::int32_t* const verdicts = verdicts_.data();
+  for (std::size_t i = 0, count = size(); i < count; ++i) {
+    const float dx = p.x - x[i], dy = p.y - y[i], dz = p.z - z[i];
+    const float distance2 = dx * dx + dy * dy + dz * dz;
+    const float cosine = nx[i] * n.x + ny[i] * n.y + nz[i] * n.z;
+    const float off_plane = std::abs(dx * nx[i] + dy * ny[i] + dz * nz[i]);
+    const float share = share_by_distance(distance2, spacing), counted = cosine < 0 ? back[i] : front[i];
+    std::int32_t verdict = most_outweighed * share <= counted ? outweighed : asked;
+    verdict = share > 0 ? verdict : out_of_reach;
+    verdict = std::abs(cosine) >= least_cosine ? verdict : out_of_reach;
+    // A shading normal may lean toward the point
+    verdict = off_plane <= 0.75f * spacing + 0.3f * std::sqrt(distance2) ? verdict : out_of_reach;
+    verdicts[i] = verdict;
+  }
+}
+
+void SurfaceSamples::weigh(const rays::SurfacePoint& point, float spacing, int cover) {
+  const vec3 p = point.position, n = point.normal;
+  const float *x = numbers_[0].data(), *y = numbers_[1].data(), *z = numbers_[2].data();
+  const float *nx = numbers_[3].data(), *ny = numbers_[4].data(), *nz = numbers_[5].data();
+  float* const weights = weights_.data();
+  for (std::size_t i = 0, count = size(); i < count; ++i) {
+    const float dx = p.x - x[i], dy = p.y - y[i], dz = p.z - z[i];
+    const float distance2 = dx * dx + dy * dy + dz * dz;
+    const float cosine = nx[i] * n.x + ny[i] * n.y + nz[i] * n.z;
+    const float off_plane = dx * nx[i] + dy * ny[i] + dz * nz[i];
+    weights[i] = share_by_distance(distance2, spacing) *
+                 share_by_surface(std::sqrt(distance2), off_plane, std::abs(cosine), spacing) *
+                 cover_factor(cover, distance2, spacing);
+  }
+}
+
+}  // namespace ssphh::probes

@@ -1,0 +1,60 @@
+#pragma once
+/// Places on the surfaces within a cell, and which of them a point may light.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include <ssphh/rays/surface_point.h>
+
+namespace ssphh::probes {
+
+/// Numbers lie by kind, and loops over them have no branches: all places of a cell, for each point near it,
+/// are what lists cost.
+class SurfaceSamples {
+ public:
+  /// Of a point at one of the places.
+  enum Verdict : std::int32_t { out_of_reach, outweighed, asked };
+
+  void clear();
+  /// `local`: where the position is in the cell, from 0 to 1.
+  void add(const vec3& position, const vec3& normal, const vec3& local);
+
+  std::size_t size() const { return verdicts_.size(); }
+  vec3 position(std::size_t i) const { return {numbers_[0][i], numbers_[1][i], numbers_[2][i]}; }
+  /// Of one side; the other's is −normal.
+  vec3 normal(std::size_t i) const { return {numbers_[3][i], numbers_[4][i], numbers_[5][i]}; }
+  /// The bit of the square in which it lies, of the cell seen along an axis.
+  std::uint64_t square(std::size_t i, int axis) const {
+    return std::uint64_t{1} << squares_[i][static_cast<std::size_t>(axis)];
+  }
+  /// 1 where a normal faces the other side's way.
+  std::size_t side(std::size_t i, const vec3& n) const { return glm::dot(normal(i), n) < 0; }
+
+  /// Whether a point may light the places, and is not outweighed there by those counted in.
+  void judge(const rays::SurfacePoint& point, float spacing);
+  Verdict verdict(std::size_t i) const { return static_cast<Verdict>(verdicts_[i]); }
+  /// Finds what a point counts at the places.
+  void weigh(const rays::SurfacePoint& point, float spacing, int cover);
+  /// Counts in the point that was weighed last: it is seen from there.
+  void count_in(std::size_t i, std::size_t side) {
+    alive_[side][i] = 1;
+    numbers_[6 + side][i] += weights_[i];
+  }
+
+  /// Whether any point that faces this side's way is seen from there. What sees none lies within a body, and
+  /// has no say.
+  bool alive(std::size_t i, std::size_t side) const { return alive_[side][i] != 0; }
+
+ private:
+  /// Position, normal, and the weight of what is counted on either side.
+  std::array<std::vector<float>, 8> numbers_;
+  std::vector<std::array<std::uint8_t, 3>> squares_;  ///< along each axis
+  std::array<std::vector<std::uint8_t>, 2> alive_;
+  std::vector<std::int32_t> verdicts_;
+  std::vector<float> weights_;
+};
+
+}  // namespace ssphh::probes

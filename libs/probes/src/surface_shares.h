@@ -1,0 +1,35 @@
+#pragma once
+/// How much a point on a surface counts at a place near it, factor by factor.
+
+#include <algorithm>
+#include <cmath>
+
+#include <ssphh/core/vectors.h>
+#include <ssphh/probes/lookup_constants.h>
+
+namespace ssphh::probes {
+
+/// At a squared distance [m²]: 1 there, 0 from three of the point's spacings on. Most of a lookup's weight
+/// lies within two.
+inline float share_by_distance(float distance2, float spacing) {
+  float t = std::max(1 - distance2 / (fitted_reach * fitted_reach * spacing * spacing), 0.0f);
+  for (int i = 0; i < 3; ++i) t *= t;
+  return t;
+}
+
+/// On a surface: less as that turns away from the point, or the point lies off its plane; 0 from 45° on, and
+/// from half a spacing and a tenth of the distance. `off_plane` is the part of the offset along the normal.
+inline float share_by_surface(float distance, float off_plane, float cosine, float spacing) {
+  const float facing = std::max((cosine - fitted_cosine) / (1 - fitted_cosine), 0.0f);
+  const float off = off_plane / (fitted_off_plane * spacing + fitted_off_plane_slope * distance);
+  const float level = std::max(1 - off * off, 0.0f);
+  return facing * level * level;
+}
+
+/// What a point keeps of its weight at this distance where something stands that near before it.
+inline float cover_factor(int cover, float distance2, float spacing) {
+  const float open = spacing / static_cast<float>(1 << cover), q = distance2 / (open * open);
+  return cover == 0 ? 1 : 1 / (1 + q * q);
+}
+
+}  // namespace ssphh::probes
