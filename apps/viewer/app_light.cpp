@@ -175,16 +175,17 @@ void App::take_probe_file(const std::string& file) {
 void App::prepare_surfaces() {
   const probes::ProbeSet& set = light.set();
   if (!set.surface && !set.fitted) return;
+  const auto sight = set.surface ? &trace::PathTracer::joined : &trace::PathTracer::visible;
   // What a door hides at any of these times lights nothing behind it at any other
-  const auto prepare = [geometry = geometry_, scene = document.scene,
-                        time = document.time](const auto& with_sight) {
+  const auto prepare = [geometry = geometry_, scene = document.scene, time = document.time,
+                        sight](const auto& with_sight) {
     std::vector<std::unique_ptr<trace::PathTracer>> poses;
     for (const float t : {time, 0.0f, scene::animation_duration(*scene)}) {
       if (poses.empty() || t != time)
         poses.push_back(std::make_unique<trace::PathTracer>(geometry, *scene, t));
     }
     return with_sight(*scene, time, probes::SeesProbe([&](const vec3& a, const vec3& b) {
-      return std::ranges::all_of(poses, [&](const auto& pose) { return pose->visible(a, b); });
+      return std::ranges::all_of(poses, [&](const auto& pose) { return ((*pose).*sight)(a, b); });
     }));
   };
   if (set.surface) {

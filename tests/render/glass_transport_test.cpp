@@ -12,13 +12,14 @@
 #include <ssphh/trace/transport_scene.h>
 #include <ssphh/transport/gather_light.h>
 #include <ssphh/transport/session_sets.h>
+#include <ssphh/transport/surface_gather.h>
 
 namespace ssphh {
 namespace {
 
 /// A closed room of 4 × 2 × 2 m that a pane divides, if there is one; a lamp in one half and an SPHL in
-/// either. The pane mirrors nothing, which transport would leave out.
-scene::Scene divided_room(std::optional<vec3> tint, float roughness = 0) {
+/// either. The pane mirrors nothing but as asked.
+scene::Scene divided_room(std::optional<vec3> tint, float roughness = 0, float specular = 0) {
   scene::Scene s;
   const auto add = [&](scene::Mesh mesh, const scene::Material& material) {
     mesh.material = static_cast<int>(s.materials.size());
@@ -33,7 +34,8 @@ scene::Scene divided_room(std::optional<vec3> tint, float roughness = 0) {
   add(scene::flipped(scene::make_box(vec3(-2, -1, -1), vec3(2, 1, 1))), wall);
   if (tint) {
     scene::Material pane;
-    pane.base_color = *tint, pane.specular = 0, pane.transmission = 1, pane.specular_roughness = roughness;
+    pane.base_color = *tint, pane.specular = specular, pane.transmission = 1,
+    pane.specular_roughness = roughness;
     add(scene::make_quad(vec3(0, -1, -1), vec3(0, 0, 2), vec3(0, 2, 0)), pane);
   }
   const auto place = [&](const vec3& at) {
@@ -130,6 +132,99 @@ TEST(GlassTransport, GathersThroughAPaneAreDimmedAsPathsAre) {
     // As of bounces; undimmed it would be twice as much
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c] / expected[c], 1, 0.03f) << grey << ' ' << c;
   }
+}
+
+/// With a lamp that paths find by way of the pane, in colour.
+scene::Scene mirroring_room(const vec3& tint) {
+  scene::Scene scene = divided_room(tint, 0, 1);
+  scene.lights[0].type = scene::LightType::sphere, scene.lights[0].radius = 0.2f;
+  scene.lights[0].color = vec3(1, 0.6f, 0.3f);
+  for (scene::Material& material : scene.materials) {
+    if (!material.is_glass()) material.base_color = vec3(0.1f, 0.2f, 0.3f);
+  }
+  return scene;
+}
+
+TEST(GlassTransport, ProbesSeeWhatAPaneMirrors) {
+  expect_as_traced(mirroring_room(vec3(1)), 0.04f);
+}
+
+TEST(GlassTransport, LinksLoseNothingToAClearPane) {
+  const scene::Scene scene = divided_room(vec3(1), 0, 1);
+  const trace::TransportScene source(scene);
+  transport::TransportParams params;
+  params.surfel_size = 0.2f;
+  const std::vector<vec3> places{vec3(-1, -0.2f, 0), vec3(1.1f, 0.1f, -0.1f)};
+  const transport::TransportNetwork network(source, places, params);
+  double sum = 0;
+  for (const transport::LinkRows::Row& row : network.links().rows) {
+    float whole = 0;
+    for (const transport::Link& link : row.fixed) whole += link.weight;
+    EXPECT_LE(whole, 1 + 1e-5f);
+    sum += static_cast<double>(whole);
+  }
+  // What three mirrors in a row pass on
+  EXPECT_NEAR(sum / static_cast<double>(network.links().rows.size()), 1, 2e-3);
+}
+
+TEST(GlassTransport, RecordsAndGathersHoldWhatAPaneMirrors) {
+  const scene::Scene scene = mirroring_room(vec3(1));
+  const trace::TransportScene source(scene);
+  transport::RelightParams params;
+  params.transport.surfel_size = 0.2f;
+  transport::RelightSession session(source, scene::sphl_places(scene, 0), params);
+  session.update(session.lighting());
+  // On the lit half's floor and wall, where the pane shows the lamp and the lit walls
+  std::vector<rays::SurfacePoint> points{{vec3(-0.7f, -1, 0.3f), {0, 1, 0}},
+                                         {vec3(-1.2f, -1, -0.4f), {0, 1, 0}},
+                                         {vec3(-2, 0.2f, 0), {1, 0, 0}}};
+  session.keep_records_at(points, {.points = 3, .rays = 4096});
+  const auto nothing = std::make_shared<const probes::IrradianceLookup>(transport::lookup_set(session),
+                                                                        std::make_unique<NoWeights>());
+  const transport::GatherLight gather(session, 4096, nothing);
+  const auto truth = trace::PathTracer(scene).surface_irradiance(
+      points, {.max_depth = 40, .passes = 1, .spp = 1 << 16, .seed = 3}, {});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const vec3 record = session.record_light()[i][3], gathered = gather.irradiance(points[i]);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(record[c] / truth[i].indirect[c], 1, 0.05f) << i << ' ' << c;
+      EXPECT_NEAR(gathered[c] / truth[i].indirect[c], 1, 0.05f) << i << ' ' << c;
+    }
+    // Without the lamp's image it would fail by more than that
+    EXPECT_GT(session.mirrored(points[i]).x, 0.08f * truth[i].indirect.x) << i;
+  }
+}
+
+TEST(GlassTransport, MirroredLightFollowsALampToTheBit) {
+  const scene::Scene scene = mirroring_room(vec3(1));
+  const trace::TransportScene source(scene);
+  transport::RelightParams params;
+  params.transport.surfel_size = 0.3f;
+  params.warm_start = false;
+  params.records = {.points = 200, .rays = 64};
+  const auto places = scene::sphl_places(scene, 0);
+  scene::LightingState moved = rays::lighting_at(source);
+  moved.lights[0].world[3] = vec4(-0.6f, 0.1f, -0.3f, 1);
+  moved.group_scales[0] = vec3(2, 1, 0.5f);
+  transport::RelightSession session(source, places, params);
+  session.update(session.lighting());
+  const auto records = session.gather()->points();
+  const std::vector<probes::RecordLight> before = session.record_light();
+  session.update(moved);
+  EXPECT_NE(session.record_light(), before);
+  transport::RelightSession anew(source, places, params);
+  anew.keep_records_at(records, params.records);
+  anew.update(moved);
+  EXPECT_EQ(session.reflected(), anew.reflected());
+
+  // A frame's time at once or in pieces, it comes to the same.
+  transport::RelightSession pieces(source, places, params);
+  pieces.update(pieces.lighting());
+  int calls = 1;
+  while (!pieces.update(moved, {}, 1e-3).finished) ++calls;
+  EXPECT_GT(calls, 8);
+  EXPECT_EQ(pieces.reflected(), session.reflected());
+  EXPECT_EQ(pieces.record_light(), session.record_light());
 }
 
 // A frosted pane spreads light, which transport lets go straight on: as much of it, differently divided. What

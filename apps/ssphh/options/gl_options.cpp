@@ -20,7 +20,8 @@ void set_probes(realtime::Renderer& renderer, const GlLookup& options, const sce
   const auto sees = [&](const vec3& a, const vec3& b) { return tracer.visible(a, b); };
   if (chosen == probes::WeightMethod::fitted)
     return renderer.set_fitted(probes::prepare_fitted(scene, time, *set.fitted, sees));
-  renderer.set_records(probes::prepare_surfaces(scene, time, set.surface->points, sees));
+  const auto joined = [&](const vec3& a, const vec3& b) { return tracer.joined(a, b); };
+  renderer.set_records(probes::prepare_surfaces(scene, time, set.surface->points, joined));
   renderer.set_record_light(set.surface->light);
 }
 

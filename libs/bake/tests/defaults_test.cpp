@@ -5,6 +5,7 @@
 
 #include <ssphh/bake/bake.h>
 #include <ssphh/bake/transport_bake.h>
+#include <ssphh/bake/update.h>
 
 #include "checkpoint.h"
 
@@ -64,6 +65,10 @@ TEST(BakeValues, OfBakes) {
   EXPECT_EQ(record.probe, 0u);
   EXPECT_EQ(record.seconds, 0);
   EXPECT_EQ(record.rays, 0u);
+  const UpdatePlan plan;
+  EXPECT_EQ(plan.noise, 0) << "where nothing is compared";
+  EXPECT_EQ(plan.tolerance, 0);
+  EXPECT_EQ(plan.seconds, 0);
   const TransportBakeReport report;
   EXPECT_EQ(report.surfels, 0u);
   EXPECT_EQ(report.links, 0u);

@@ -45,6 +45,7 @@ using testing::ElementsAre;
 
 TEST_F(VizEdges, AreTheStrongestInTheOrderOfTheirNeighbours) {
   EXPECT_THAT(kept({}), ElementsAre(0, 2, 3, 4, 5));
+  EXPECT_THAT(kept({.neighbors = 9}), ElementsAre(0, 2, 3, 4, 5)) << "all that there are";
   EXPECT_THAT(kept({.neighbors = 3}), ElementsAre(2, 3, 5));
   EXPECT_THAT(kept({.neighbors = 2}), ElementsAre(2, 5));
   EXPECT_THAT(kept({.neighbors = 0}), ElementsAre());

@@ -91,11 +91,12 @@ OnSurfaces prepare(Sections& out, const probes::ProbeSet& set, const CookScene& 
                    const rays::PosedWorld& world, const Control& control) {
   OnSurfaces found;
   const float time = set.generator.time;
-  const probes::SeesProbe sees = [&](const vec3& a, const vec3& b) { return world.visible(a, b); };
+  const auto sees = [&](const vec3& a, const vec3& b) { return world.visible(a, b); };
+  const auto joined = [&](const vec3& a, const vec3& b) { return world.joined(a, b); };
   const probes::WeightMethod chosen = probes::chosen_weights(set, {});
   if (chosen == probes::WeightMethod::surface) {
     const probes::SurfaceLists lists =
-        probes::prepare_surfaces(scene.scene, time, set.surface->points, sees, control);
+        probes::prepare_surfaces(scene.scene, time, set.surface->points, joined, control);
     if (lists.empty()) return found;
     found.records = &*set.surface;
     out.header.point_floats = SSPHH_COOKED_RECORD_FLOATS;
@@ -137,7 +138,7 @@ Cooked cook(const probes::ProbeSet& set, const CookScene* scene, const CookParam
     require(scene != nullptr, "cook", "places of another set need a scene");
     const rays::PosedWorld world(scene->source, set.generator.time);
     const probes::ProbeSet moved = at_places_of(
-        *params.places, set, [&](const vec3& a, const vec3& b) { return world.visible(a, b); }, control);
+        *params.places, set, [&](const vec3& a, const vec3& b) { return world.joined(a, b); }, control);
     CookParams own = params;
     own.places = nullptr;
     return cook(moved, scene, own, control);

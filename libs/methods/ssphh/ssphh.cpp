@@ -84,7 +84,7 @@ class Ssphh final : public Method {
     if (session_.gather()) {
       records_ = std::make_shared<const probes::SurfaceInterpolation>(
           session_.gather()->points(),
-          [this](const vec3& a, const vec3& b) { return surfaces_->visible(a, b); });
+          [this](const vec3& a, const vec3& b) { return surfaces_->joined(a, b); });
     }
   }
 

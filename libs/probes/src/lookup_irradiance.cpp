@@ -91,7 +91,8 @@ IrradianceLookup::IrradianceLookup(const ProbeSet& set, const rays::RadianceSour
   if (!has_records(set, params))
     throw Error("probe lookup", "there are no surface records of that light",
                 "bake some, leave out the hierarchy, or choose other weights");
-  data_->take(*set.surface, std::make_shared<const SurfaceInterpolation>(set.surface->points, sees));
+  const auto joined = [&source](const vec3& a, const vec3& b) { return source.joined(a, b); };
+  data_->take(*set.surface, std::make_shared<const SurfaceInterpolation>(set.surface->points, joined));
 }
 IrradianceLookup::IrradianceLookup(const ProbeSet& set, std::shared_ptr<const LookupWeights> weights,
                                    const LookupParams& params,

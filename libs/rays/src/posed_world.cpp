@@ -83,6 +83,13 @@ void PosedWorld::occluded(std::span<const RayQuery> segments, std::span<std::uin
   });
 }
 
+bool PosedWorld::joined(const vec3& a, const vec3& b) const {
+  const RayQuery way{a, b - a, 1};
+  RayHit hit;
+  intersect({&way, 1}, {&hit, 1});
+  return hit.escaped() && hit.through == vec3(1);
+}
+
 bool PosedWorld::occluded(const RayQuery& segment) const {
   const auto blocks = [&](int part, const RayQuery& local) {
     std::uint8_t blocked = 0;

@@ -120,7 +120,9 @@ std::uint64_t PathTracer::rays_traced() const {
   return data_->rays.total();
 }
 
-bool PathTracer::visible(const vec3& a, const vec3& b) const {
+namespace {
+
+bool nothing_between(const TracerData& data, const vec3& a, const vec3& b, PassedGlass glass) {
   // Shorten both ends, which may lie on surfaces, by more than their rounding error.
   const vec3 d = b - a;
   const float length = glm::length(d);
@@ -129,9 +131,20 @@ bool PathTracer::visible(const vec3& a, const vec3& b) const {
   if (!(length > 2 * gap)) return true;
   const vec3 direction = d / length;
   RayTask task;
-  const bool blocked = data_->geometry.occluded({a + gap * direction, direction, length - 2 * gap}, 0, task);
-  data_->rays.add(task.rays);
+  const Ray way{a + gap * direction, direction, length - 2 * gap};
+  const bool blocked = data.geometry.occluded(way, {0, glass}, task);
+  data.rays.add(task.rays);
   return !blocked;
+}
+
+}  // namespace
+
+bool PathTracer::visible(const vec3& a, const vec3& b) const {
+  return nothing_between(*data_, a, b, PassedGlass::all);
+}
+
+bool PathTracer::joined(const vec3& a, const vec3& b) const {
+  return nothing_between(*data_, a, b, PassedGlass::none);
 }
 
 float PathTracer::backface_fraction(const vec3& position) const {

@@ -5,6 +5,7 @@
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/require.h>
 
+#include "mirror_images.h"
 #include "sample_sky.h"
 #include "surface_gap.h"
 #include "sweep.h"
@@ -13,12 +14,6 @@ namespace ssphh::trace {
 namespace {
 
 constexpr std::size_t many_points = 256, points_at_once = 32;
-
-/// The corner of the box farthest along the direction.
-vec3 farthest(const scene::Bounds& box, const vec3& direction) {
-  return {direction.x > 0 ? box.max.x : box.min.x, direction.y > 0 ? box.max.y : box.min.y,
-          direction.z > 0 ? box.max.z : box.min.z};
-}
 
 std::vector<mat4> node_matrices(const TransportData& data, std::span<const mat4> poses) {
   std::vector<mat4> world;
@@ -71,20 +66,19 @@ vec3 PosedLight::visible_share(const Receiver& at, std::uint64_t seed, float sin
   // A ratio of sums: less noise than the plain mean, and none where all or nothing is hidden. Few points lie
   // in a penumbra, and only they need all rays. In it, agreement of the first ones by chance makes light
   // places lighter and dark ones darker, as much on one side as on the other. Penumbrae of small lights are
-  // narrow.
+  // narrow. Through the frame of a pane it would leave out light that many points see a little of.
   constexpr float small = 0.03f;  // 10° from the centre to the edge
   const int count = data_->options.light_samples, first = std::max(count / (sine2 < small ? 8 : 4), 1);
   vec3 seen(0);
   float all = 0;
   for (int s = 0; s < count; ++s) {
-    if (s >= first && all > 0 && (seen == vec3(0) || seen == vec3(all))) break;
+    if (!at.pane && s >= first && all > 0 && (seen == vec3(0) || seen == vec3(all))) break;
     const std::optional<shading::LightSample> sample =
         draw(SampleSequence(seed, static_cast<std::uint32_t>(s)).next2());
     if (!sample || !(sample->pdf > 0)) continue;
     const float weight = std::max(glm::dot(sample->wi, at.normal), 0.0f) / sample->pdf;
     all += weight;
-    if (weight > 0)
-      seen += weight * geometry_.transmittance(shadow_ray(at.start, at.position, *sample), 0, task);
+    if (weight > 0) seen += weight * arriving_share(at, *sample, task);
   }
   return all > 0 ? seen / all : vec3(0);
 }
@@ -111,6 +105,13 @@ vec3 PosedLight::sphere_irradiance(const GroupEmitter& light, const Receiver& at
     if (sample && sample->pdf > 0) sum += std::max(glm::dot(sample->wi, at.normal), 0.0f) / sample->pdf;
   }
   return any->radiance * (sum / static_cast<float>(count));
+}
+
+vec3 PosedLight::arriving_share(const Receiver& at, const shading::LightSample& sample, RayTask& task) const {
+  if (!at.pane) return geometry_.transmittance(shadow_ray(at.start, at.position, sample), 0, task);
+  shading::LightSample toward = sample;
+  toward.wi = at.pane->mirrored_direction(sample.wi);
+  return mirrored_share(*at.pane, at.start, at.pane->mirrored(at.position), toward, task);
 }
 
 vec3 PosedLight::irradiance_of(const GroupEmitter& light, const Receiver& at, std::uint64_t seed,
@@ -142,8 +143,7 @@ vec3 PosedLight::irradiance_of(const GroupEmitter& light, const Receiver& at, st
     brightest = glm::max(brightest, sample->radiance);
     const float cosine = glm::dot(sample->wi, at.normal);
     if (cosine > 0 && max_component(sample->radiance) > 0)
-      sum += geometry_.transmittance(shadow_ray(at.start, at.position, *sample), 0, task) * sample->radiance *
-             (cosine / sample->pdf);
+      sum += arriving_share(at, *sample, task) * sample->radiance * (cosine / sample->pdf);
   }
   sum /= static_cast<float>(count);
   // Samples by area vary without bound near a mesh; irradiance does not.
@@ -194,7 +194,17 @@ bool PosedLight::may_shadow(int group, const rays::SurfacePoint& point, const sc
     const float t_max = emitter.distant() ? std::numeric_limits<float>::infinity() : 1;
     if (lights && sweep_meets(point.position, way, t_max, body)) return true;
   }
-  return false;
+  bool on_the_way = false;
+  for_images(group, receiver(point), [&](const GroupEmitter& light, const Receiver& image, std::uint64_t) {
+    scene::Bounds pane = image.pane->bounds, way = light.emitter.extent;
+    pane.min -= point.position, pane.max -= point.position;
+    const bool distant = light.emitter.distant();
+    if (!distant) way.min -= image.position, way.max -= image.position;
+    const float t_max = distant ? std::numeric_limits<float>::infinity() : 1;
+    on_the_way = on_the_way || sweep_meets(point.position, pane, 1, body) ||
+                 sweep_meets(image.position, way, t_max, body);
+  });
+  return on_the_way;
 }
 
 vec3 PosedLight::emitted(int group, const rays::RayQuery& ray, float distance) const {

@@ -31,6 +31,12 @@ class PosedLight final : public rays::DirectLight {
   rays::IrradianceByNormal irradiance_by_normal(int group, const rays::SurfacePoint& point,
                                                 int samples) const override;
   std::vector<rays::ArrivingLight> arriving(int group, const vec3& place, int samples) const override;
+  bool mirrors() const override { return !data_->panes.empty(); }
+  void mirrored(int group, std::span<const rays::SurfacePoint> points, std::span<vec3> out) const override;
+  rays::IrradianceByNormal mirrored_by_normal(int group, const rays::SurfacePoint& point,
+                                              int samples) const override;
+  std::vector<rays::ArrivingLight> mirrored_arriving(int group, const vec3& place,
+                                                     int samples) const override;
   float flux(int group) const override;
   std::optional<rays::Photon> emit(int group, const rays::PhotonNumbers& numbers) const override;
 
@@ -39,13 +45,36 @@ class PosedLight final : public rays::DirectLight {
     int index;  ///< in lights_
     shading::Emitter emitter;
   };
-  /// A lit point with the place where its shadow rays start.
+  /// A lit point with the place where its shadow rays start. With a pane: its mirror image there, to which
+  /// lamps send what the point gets by way of the pane; `start` is still the point's own.
   struct Receiver {
     vec3 position, normal, start;
     std::uint64_t seed;
+    const Pane* pane = nullptr;
   };
 
   Receiver receiver(const rays::SurfacePoint& point) const;
+  /// The point's mirror image in pane `index`, if that lies before it.
+  std::optional<Receiver> mirrored_receiver(const Receiver& at, std::size_t index) const;
+  /// Whether light of an emitter that is no sky may come to a mirror image through its pane.
+  bool may_arrive(const GroupEmitter& light, const Receiver& image) const;
+  /// Calls add(emitter, image, seed) for all mirror images of the point in which emitters of the group may
+  /// be seen.
+  template <class Add>
+  void for_images(int group, const Receiver& at, const Add& add) const;
+  /// Share of a sample's light that arrives.
+  vec3 arriving_share(const Receiver& at, const shading::LightSample& sample, RayTask& task) const;
+  /// The same by way of a pane that lies in direction `toward.wi`, whose distance is the whole way.
+  vec3 mirrored_share(const Pane& pane, const vec3& start, const vec3& position,
+                      const shading::LightSample& toward, RayTask& task) const;
+  /// Calls add(direction, L / density) for about `count` times the pane's share of the hemisphere: what the
+  /// image's point gets of a sky by way of its pane.
+  template <class Add>
+  void sample_mirrored_sky(const GroupEmitter& light, const Receiver& image, std::uint64_t seed, int count,
+                           RayTask& task, const Add& add) const;
+  /// irradiance_by_normal() of one emitter, no sky with an image.
+  void add_by_normal(const GroupEmitter& light, const Receiver& at, std::uint64_t seed, int samples,
+                     RayTask& task, rays::IrradianceByNormal& sum) const;
   /// Share of a light's irradiance that arrives, past what holds it back and through glass. `draw(u)` gives a
   /// LightSample toward it, or none; `sine2` is the squared sine of the angle from its centre to its edge, 1
   /// if that is not known.

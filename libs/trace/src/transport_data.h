@@ -4,6 +4,7 @@
 #include <ssphh/shading/lights.h>
 #include <ssphh/trace/transport_scene.h>
 
+#include "panes.h"
 #include "posed_geometry.h"
 #include "shared_count.h"
 
@@ -22,7 +23,8 @@ struct TransportData {
   std::vector<int> light_group;
   int environment_group = -1;
   shading::LightSet lights;  ///< at time 0
-  float gap = 0;             ///< height above given points from which shadow rays start [m]
+  std::vector<Pane> panes;
+  float gap = 0;  ///< height above given points from which shadow rays start [m]
   mutable SharedCount rays;
 };
 

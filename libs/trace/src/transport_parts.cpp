@@ -20,7 +20,8 @@ TransportData::TransportData(SharedGeometry geometry_in, const scene::Scene& sce
     : scene(scene_in),
       options(options_in),
       geometry(std::move(geometry_in), scene_in),
-      lights(scene_in, scene::world_matrices(scene_in, 0)) {
+      lights(scene_in, scene::world_matrices(scene_in, 0)),
+      panes(find_panes(geometry)) {
   gap = options.surface_tolerance * scene_size(scene::world_bounds(scene, scene::world_matrices(scene, 0)));
   if (scene.environment)
     environment_group = scene::light_group_index(lights.groups(), scene::light_group(*scene.environment));

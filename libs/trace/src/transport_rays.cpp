@@ -2,33 +2,16 @@
 
 #include <cmath>
 
-#include <ssphh/core/parallel.h>
 #include <ssphh/core/random.h>
 #include <ssphh/core/require.h>
 #include <ssphh/shading/bsdf.h>
 
+#include "for_rays.h"
 #include "glass_passage.h"
 #include "transport_data.h"
 
 namespace ssphh::trace {
 namespace {
-
-constexpr std::size_t many_rays = 1024, rays_at_once = 256;
-
-/// Calls body(begin, end, task) over [0, count), in parallel where that pays, and books the rays.
-template <class Body>
-void for_rays(std::size_t count, SharedCount& rays, const Body& body) {
-  const auto range = [&](std::size_t begin, std::size_t end) {
-    RayTask task;
-    body(begin, end, task);
-    rays.add(task.rays);
-  };
-  if (count < many_rays) {
-    range(0, count);
-  } else {
-    parallel_for(count, rays_at_once, range);
-  }
-}
 
 vec3 lambertian_albedo(const shading::Surface& surface, const vec3& wo) {
   if (surface.unlit) return vec3(0);

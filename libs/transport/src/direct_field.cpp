@@ -65,6 +65,11 @@ void DirectField::find(int group, const rays::DirectLight& light, std::size_t be
   values_.resize(end - begin);
   for (std::size_t k = begin; k < end; ++k) points_[k - begin] = network_.samples()[which_[k]];
   light.irradiance(group, points_, values_);
+  if (light.mirrors()) {
+    mirrored_.resize(end - begin);
+    light.mirrored(group, points_, mirrored_);
+    for (std::size_t k = 0; k < mirrored_.size(); ++k) values_[k] += mirrored_[k];
+  }
   require(std::ranges::all_of(values_, is_finite), "transport source", "its direct light is not finite");
   std::vector<vec3>& field = groups_[static_cast<std::size_t>(group)];
   for (std::size_t k = begin; k < end; ++k) field[which_[k]] = values_[k - begin];

@@ -7,13 +7,17 @@
 #include <ssphh/transport/gather_light.h>
 #include <ssphh/transport/network.h>
 
+#include "mirrors.h"
 #include "network_data.h"
 
 namespace ssphh::transport {
 
 GatherLight::GatherLight(const RelightSession& session, int rays,
                          std::shared_ptr<const rays::IndirectLight> glossy)
-    : network_(&session.network()), rays_(static_cast<std::uint32_t>(rays)), glossy_(std::move(glossy)) {
+    : session_(&session),
+      network_(&session.network()),
+      rays_(static_cast<std::uint32_t>(rays)),
+      glossy_(std::move(glossy)) {
   if (rays < 4 || rays > 1 << 16) throw Error("gather rays", fmt::format("{} is outside 4..65536", rays));
   require(glossy_ != nullptr, "gathered light", "nothing answers for glossy light");
   const std::vector<vec3>& albedo = network_->albedo();
@@ -39,7 +43,17 @@ vec3 GatherLight::irradiance(const rays::SurfacePoint& at) const {
   });
   vec3 sum(0);
   for (const vec3& l : light) sum += l;
-  return sum / static_cast<float>(rays_);
+
+  // What panes show.
+  for (const MirrorSight& sight : follow_mirrors(d.source, rays, hits)) {
+    const Resolved found = d.resolve(
+        {.ray = sight.ray,
+         .normal = sight.normal,
+         .surfel = d.find_static({sight.ray.origin + sight.ray.t_max * sight.ray.direction, sight.normal}),
+         .from = sight.from});
+    if (found.surfel != no_surfel) sum += sight.share * radiosity_[static_cast<std::size_t>(found.surfel)];
+  }
+  return sum / static_cast<float>(rays_) + session_->mirrored(at);
 }
 
 vec3 GatherLight::glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const {

@@ -69,9 +69,9 @@ class RecordPlaces {
   probes::SurfaceInterpolation between(std::span<const rays::SurfacePoint> points) const {
     return {points, [&source = source_](const vec3& a, const vec3& b) {
               const rays::RayQuery way{a, b - a, 1};
-              std::uint8_t hit = 0;
-              source.occluded(0, {&way, 1}, {&hit, 1});
-              return !hit;
+              rays::RayHit hit;
+              source.intersect(0, {&way, 1}, {&hit, 1});
+              return hit.escaped() && hit.through == vec3(1);
             }};
   }
 

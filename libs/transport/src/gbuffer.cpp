@@ -4,6 +4,8 @@
 #include <ssphh/core/sphere.h>
 #include <ssphh/transport/gbuffer.h>
 
+#include "mirrors.h"
+
 namespace ssphh::transport {
 namespace {
 
@@ -130,6 +132,10 @@ ProbeGBuffer trace_gbuffer(const rays::TransportSource& source, std::span<const 
       buffer.through.assign(buffer.hits.size(), pack_albedo(vec3(1)));
     for (std::size_t r = 0; r < hits.size() && !buffer.through.empty(); ++r)
       buffer.through[begin * count + r] = pack_albedo(hits[r].through);
+    for (const MirrorSight& sight : follow_mirrors(source, rays, hits)) {
+      buffer.mirrored.push_back({static_cast<std::uint32_t>(begin * count) + sight.of, sight.from, sight.ray,
+                                 sight.normal, sight.albedo, sight.share});
+    }
     progress.advance(end - begin);
   }
   return buffer;

@@ -122,6 +122,8 @@ class LinkViz {
     glm::dvec3 sum(0);
     for (std::size_t ray = i * directions; ray < (i + 1) * directions; ++ray)
       sum += glm::dvec3(radiance_of(network_.seen()[ray], direct_));
+    for (const MirroredPatch& mirrored : mirrored_of(network_, i))
+      sum += glm::dvec3(mirrored.share * radiance_of(mirrored.patch, direct_));
     return luminance(vec3(sum / double(directions)));
   }
 

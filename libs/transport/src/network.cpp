@@ -100,6 +100,9 @@ const Contraction& TransportNetwork::contraction() const {
 const std::vector<SeenPatch>& TransportNetwork::seen() const {
   return data_->seen;
 }
+const std::vector<MirroredPatch>& TransportNetwork::seen_mirrored() const {
+  return data_->seen_mirrored;
+}
 const std::vector<float>& TransportNetwork::seen_distance() const {
   return data_->seen_distance;
 }

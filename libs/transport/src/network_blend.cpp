@@ -82,7 +82,8 @@ void TransportNetwork::Data::blend_poses() {
   }
   set_moving();
 
-  // Blend what probe rays see.
+  // Blend what probe rays see; what panes show is as it is now.
+  pose_mirrored();
   mixed_hits.clear();
   for (std::size_t i = 0; i < moving_hits.size(); ++i) {
     const std::uint32_t owner = moving_hits[i].owner;

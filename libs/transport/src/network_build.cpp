@@ -5,6 +5,7 @@
 
 #include <ssphh/core/error.h>
 
+#include "mirrors.h"
 #include "network_data.h"
 
 namespace ssphh::transport {
@@ -20,6 +21,10 @@ constexpr double part_samples_per_surfel = 24;
 /// the other one, and all that is behind would be discovered.
 vec3 just_before(const rays::RayQuery& ray, float distance) {
   return ray.origin + (1 - 2e-5f) * distance * ray.direction;
+}
+
+float mean_of(const vec3& v) {
+  return (v.x + v.y + v.z) / 3;
 }
 
 /// Fills a network's data step by step.
@@ -69,7 +74,9 @@ class NetworkBuilder {
     rays::RayQuery ray;  ///< t_max: distance of the hit
     vec3 normal;
     std::int32_t surfel;
-    float through = 1;  ///< what glass leaves of the light, mean over the channels
+    float share = 1;                ///< what glass leaves of the light, mean over the channels
+    std::size_t of = 0;             ///< index of the ray, of what it shows in a pane, too
+    std::optional<vec3> from = {};  ///< of what a pane shows: MovingRay::from
   };
 
   std::size_t rays_per_surfel() const { return static_cast<std::size_t>(d_.params.link_rays); }
@@ -103,14 +110,22 @@ class NetworkBuilder {
     }
     if (points.empty())
       throw Error("transport", "no probe sees any surface", "move the probes to where the scene is");
+    for (const MirroredHit& hit : g.mirrored)
+      points.push_back({{just_before(hit.ray, hit.ray.t_max), hit.normal}, hit.albedo});
     const std::vector<int> surfel = d_.surfels.add(0, points);
-    for (std::size_t k = 0; k < points.size(); ++k) d_.seen[owner[k]].surfel = surfel[k];
+    for (std::size_t k = 0; k < owner.size(); ++k) d_.seen[owner[k]].surfel = surfel[k];
+    for (std::size_t k = 0; k < g.mirrored.size(); ++k) {
+      d_.seen_mirrored.push_back({g.mirrored[k].owner,
+                                  {surfel[owner.size() + k], pack_albedo(g.mirrored[k].albedo)},
+                                  g.mirrored[k].share});
+    }
     if (!emits) return;
     d_.seen_emission.resize(g.hits.size());
     for (std::size_t i = 0; i < g.hits.size(); ++i) d_.seen_emission[i] = g.hits[i].emission;
   }
 
-  /// Traces rays of part 0 and adds what they meet to the surfels; `surfel` of each ray, or no_surfel.
+  /// Traces rays of part 0 and adds what they meet to the surfels; `surfel` of each ray, or no_surfel. What
+  /// they meet by way of panes follows after them all.
   void trace_and_add(std::vector<RawLink>& links) {
     std::vector<rays::RayQuery> rays;
     for (const RawLink& link : links) rays.push_back(link.ray);
@@ -118,14 +133,20 @@ class NetworkBuilder {
     d_.source.intersect(0, rays, hits);
     std::vector<ClusterPoint> points;
     std::vector<std::size_t> owner;
-    for (std::size_t i = 0; i < links.size(); ++i) {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
       links[i].ray.t_max = hits[i].distance;
       links[i].normal = hits[i].normal;
       links[i].surfel = no_surfel;
-      links[i].through = (hits[i].through.x + hits[i].through.y + hits[i].through.z) / 3;
+      links[i].share = mean_of(hits[i].through);
+      links[i].of = i;
       if (hits[i].escaped()) continue;
       points.push_back({{just_before(rays[i], hits[i].distance), hits[i].normal}, hits[i].albedo});
       owner.push_back(i);
+    }
+    for (const MirrorSight& sight : follow_mirrors(d_.source, rays, hits)) {
+      points.push_back({{just_before(sight.ray, sight.ray.t_max), sight.normal}, sight.albedo});
+      owner.push_back(links.size());
+      links.push_back({sight.ray, sight.normal, no_surfel, mean_of(sight.share), sight.of, sight.from});
     }
     const std::vector<int> surfel = d_.surfels.add(0, points);
     for (std::size_t k = 0; k < points.size(); ++k) links[owner[k]].surfel = surfel[k];
@@ -177,13 +198,12 @@ class NetworkBuilder {
         links.push_back({link_ray(d_.local_samples[s * m() + r % used], r, s), vec3(0), no_surfel});
       }
     };
-    const std::size_t begin =
-        in_rounds("linking surfels", 4096, add_rays,
-                  [&](const std::vector<RawLink>& links, std::size_t b) { keep(links, b); });
+    const std::size_t begin = in_rounds("linking surfels", 4096, add_rays,
+                                        [&](std::vector<RawLink>& links, std::size_t b) { keep(links, b); });
     // What the last round found has no links: dark, but of no weight.
     for (std::size_t s = begin; s < d_.surfels.count(); ++s) {
       choose_samples(s);
-      links_of_.emplace_back();
+      fixed_rows_.emplace_back(d_.fixed.size(), 0);
     }
   }
 
@@ -201,34 +221,46 @@ class NetworkBuilder {
     return s * m() + ray % d_.used_samples(s);
   }
 
-  /// Keeps of each link only the surfel, and all of it where a part may come. All links weigh the same: of
-  /// those through glass as many are left out as it takes from the light of all.
-  void keep(const std::vector<RawLink>& links, std::size_t first_surfel) {
-    float taken = 0;  // by glass, and not yet by leaving out links
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      const std::size_t s = first_surfel + i / rays_per_surfel();
-      if (i % rays_per_surfel() == 0) {
-        links_of_.emplace_back();
-        links_of_.back().all_moving = near_parts_surfel(s);
-        taken = 0;
+  /// Keeps of each link only the surfel and its share, and all of it where a part may come.
+  void keep(std::vector<RawLink>& links, std::size_t first_surfel) {
+    std::ranges::stable_sort(links, {}, &RawLink::of);
+    std::vector<Link> fixed;
+    for (std::size_t i = 0; i < links.size();) {
+      const std::size_t begin = links[i].of / rays_per_surfel(), s = first_surfel + begin;
+      const bool all_moving = near_parts_surfel(s);
+      fixed.clear();
+      for (; i < links.size() && links[i].of / rays_per_surfel() == begin; ++i) {
+        const RawLink& link = links[i];
+        const MovingRay moving{
+            .ray = link.ray,
+            .normal = link.normal,
+            .surfel = link.surfel,
+            .owner = static_cast<std::uint32_t>(s),
+            .sample = static_cast<std::uint32_t>(sample_of_ray(s, link.of % rays_per_surfel())),
+            .share = link.share,
+            .from = link.from};
+        if (all_moving || d_.near_parts(moving)) {
+          d_.moving_links.push_back(moving);
+        } else if (link.surfel != no_surfel) {
+          fixed.push_back({static_cast<std::uint32_t>(link.surfel), link.share});
+        }
       }
-      RawLink link = links[i];
-      taken += 1 - link.through;
-      if (taken > 0.5f) taken -= 1, link.surfel = no_surfel;
-      SurfelLinks& row = links_of_.back();
-      if (row.all_moving || d_.near_parts(link.ray, link.normal, link.surfel)) {
-        MovingRay moving{link.ray,
-                         link.normal,
-                         link.surfel,
-                         0,
-                         static_cast<std::uint32_t>(s),
-                         static_cast<std::uint32_t>(sample_of_ray(s, i % rays_per_surfel())),
-                         0};
-        d_.moving_links.push_back(moving);
-      } else if (link.surfel != no_surfel) {
-        row.fixed.push_back(static_cast<std::uint32_t>(link.surfel));
-      }
+      add_fixed_row(fixed);
     }
+  }
+
+  /// One link for each surfel; `links` have shares of a ray as weights.
+  void add_fixed_row(std::vector<Link>& links) {
+    std::ranges::stable_sort(links, {}, &Link::surfel);
+    const float weight = 1 / static_cast<float>(d_.params.link_rays);
+    const std::size_t first = d_.fixed.size();
+    for (std::size_t i = 0; i < links.size();) {
+      const std::uint32_t surfel = links[i].surfel;
+      float rays = 0;
+      for (; i < links.size() && links[i].surfel == surfel; ++i) rays += links[i].weight;
+      d_.fixed.push_back({surfel, weight * rays});
+    }
+    fixed_rows_.emplace_back(first, d_.fixed.size() - first);
   }
 
   /// Whether some part may come between a surfel and one of its samples.
@@ -296,9 +328,23 @@ class NetworkBuilder {
       const rays::RayQuery ray{g.positions[i / g.directions.size()], g.directions[i % g.directions.size()],
                                hit.distance};
       const vec3 normal = std::isinf(hit.distance) ? vec3(0) : unpack_normal(hit);
-      if (!d_.near_parts(ray, normal, d_.seen[i].surfel)) continue;
-      d_.moving_hits.push_back({ray, normal, d_.seen[i].surfel, d_.seen[i].albedo,
-                                static_cast<std::uint32_t>(i), 0, hit.emission});
+      const MovingRay moving{.ray = ray,
+                             .normal = normal,
+                             .surfel = d_.seen[i].surfel,
+                             .albedo = d_.seen[i].albedo,
+                             .owner = static_cast<std::uint32_t>(i),
+                             .emission = hit.emission};
+      if (d_.near_parts(moving)) d_.moving_hits.push_back(moving);
+    }
+    for (std::size_t k = 0; k < g.mirrored.size(); ++k) {
+      const MirroredHit& hit = g.mirrored[k];
+      const MovingRay moving{.ray = hit.ray,
+                             .normal = hit.normal,
+                             .surfel = d_.seen_mirrored[k].patch.surfel,
+                             .albedo = d_.seen_mirrored[k].patch.albedo,
+                             .owner = static_cast<std::uint32_t>(k),
+                             .from = hit.from};
+      if (d_.near_parts(moving)) d_.moving_mirrored.push_back(moving);
     }
     add_part_emission();
   }
@@ -319,32 +365,15 @@ class NetworkBuilder {
   }
 
   void make_fixed_rows() {
-    const float weight = 1 / static_cast<float>(d_.params.link_rays);
-    std::vector<std::pair<std::size_t, std::size_t>> ranges;
-    for (SurfelLinks& row : links_of_) {
-      const std::size_t first = d_.fixed.size();
-      std::ranges::sort(row.fixed);
-      for (std::size_t i = 0; i < row.fixed.size();) {
-        std::size_t end = i;
-        while (end < row.fixed.size() && row.fixed[end] == row.fixed[i]) ++end;
-        d_.fixed.push_back({row.fixed[i], weight * static_cast<float>(end - i)});
-        i = end;
-      }
-      ranges.emplace_back(first, d_.fixed.size() - first);
-    }
+    d_.fixed.shrink_to_fit();
     d_.rows.rows.resize(d_.surfels.count());
-    for (std::size_t s = 0; s < ranges.size(); ++s)
-      d_.rows.rows[s].fixed = {d_.fixed.data() + ranges[s].first, ranges[s].second};
+    for (std::size_t s = 0; s < fixed_rows_.size(); ++s)
+      d_.rows.rows[s].fixed = {d_.fixed.data() + fixed_rows_[s].first, fixed_rows_[s].second};
   }
-
-  struct SurfelLinks {
-    std::vector<std::uint32_t> fixed;
-    bool all_moving = false;
-  };
 
   TransportNetwork::Data& d_;
   const Control& control_;
-  std::vector<SurfelLinks> links_of_;
+  std::vector<std::pair<std::size_t, std::size_t>> fixed_rows_;  ///< first link and count, per surfel
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include <ssphh/core/parallel.h>
 #include <ssphh/core/require.h>
 #include <ssphh/transport/network.h>
@@ -17,6 +19,14 @@ struct MovingRay {
   std::uint32_t owner = 0;   ///< probe ray, or surfel that a link leaves
   std::uint32_t sample = 0;  ///< of a link: where it starts
   std::uint16_t emission = 0;
+  float share = 1;                ///< of a link: what arrives of its light, past glass
+  std::optional<vec3> from = {};  ///< of what a pane mirrors: the way to ray.origin starts here
+
+  /// The way before `ray`.
+  std::optional<rays::RayQuery> way_before() const {
+    if (!from) return std::nullopt;
+    return rays::RayQuery{*from, ray.origin - *from, 1};
+  }
 };
 
 /// A moving part where it is now.
@@ -91,6 +101,8 @@ struct TransportNetwork::Data {
   std::vector<float> seen_distance;
   std::vector<std::uint16_t> seen_emission;
   std::vector<MovingRay> moving_hits;
+  std::vector<MirroredPatch> seen_mirrored;
+  std::vector<MovingRay> moving_mirrored;  ///< owner: index into seen_mirrored
   std::vector<MixedHit> mixed_hits;
   std::vector<PreparedPose> prepared;  ///< by time
 
@@ -118,8 +130,9 @@ struct TransportNetwork::Data {
   /// Of a point of part 0: as find(0, point) with no part in the way.
   int find_static(const rays::SurfacePoint& point) const;
   int find(int part, const rays::SurfacePoint& point) const;
-  /// Whether some part may come into the ray's way, or between its hit and the hit's surfel.
-  bool near_parts(const rays::RayQuery& ray, const vec3& normal, int surfel) const;
+  /// Whether some part may come into the ray's way, also before a pane that mirrors it, or between its hit
+  /// and the hit's surfel.
+  bool near_parts(const MovingRay& ray) const;
   /// The first part that the ray meets before t_max; shortens t_max.
   bool meet_part(rays::RayQuery& ray, rays::RayHit& hit, int& part) const;
   /// What world-space rays meet, as posed: calls visit(ray, hit in the part's frame, surfel or no_surfel),
@@ -137,6 +150,8 @@ struct TransportNetwork::Data {
   /// The same of one ray, whose hit with part 0 is `hit`.
   void see_one(rays::RayQuery ray, rays::RayHit& hit, int& surfel) const;
   Resolved resolve(const MovingRay& unobstructed) const;
+  /// What the way meets that some part has come into.
+  std::optional<Resolved> resolve_part(rays::RayQuery way) const;
   template <class Sees>
   int find_nearest(int part, const rays::SurfacePoint& point, const Sees& sees) const;
 
@@ -147,6 +162,7 @@ struct TransportNetwork::Data {
   void place_parts(float time);
   void pose_samples();
   bool pose_hits(Pace& pace);
+  void pose_mirrored();
   bool pose_links(Pace& pace);
   bool pose_part_links(Pace& pace);
   void pose_rows();

@@ -147,7 +147,15 @@ bool TransportNetwork::Data::pose_hits(Pace& pace) {
   if (!all) return false;
   work.report.hits_changed += static_cast<std::size_t>(std::ranges::count(work.changed, 1));
   work.report.rays_near_parts += moving_hits.size();
+  pose_mirrored();
   return true;
+}
+
+void TransportNetwork::Data::pose_mirrored() {
+  parallel_for(moving_mirrored.size(), 256, [&](std::size_t i) {
+    const Resolved found = resolve(moving_mirrored[i]);
+    seen_mirrored[moving_mirrored[i].owner].patch = {found.surfel, found.albedo};
+  });
 }
 
 void TransportNetwork::Data::set_hit(std::uint32_t owner, const Resolved& found) {
@@ -208,14 +216,16 @@ void TransportNetwork::Data::pose_rows() {
   work.links.clear();
   work.links.reserve(work.target.size());
   work.ranges.assign(surfels.count(), {0, 0});
+  const auto mirrored = [&](std::size_t i) { return i < moving_links.size() && moving_links[i].from; };
+  const auto share = [&](std::size_t i) { return i < moving_links.size() ? moving_links[i].share : 1.0f; };
   const auto add_row = [&](std::size_t s, std::size_t begin, std::size_t end, std::size_t row_rays) {
     std::size_t used = row_rays;
-    for (std::size_t i = begin; i < end; ++i) used -= work.counted[i] ? 0 : 1;
+    for (std::size_t i = begin; i < end; ++i) used -= work.counted[i] || mirrored(i) ? 0 : 1;
     const std::size_t first = work.links.size();
     const float weight = used ? 1 / static_cast<float>(used) : 0;
     for (std::size_t i = begin; i < end; ++i) {
       if (work.counted[i] && work.target[i] != no_surfel)
-        work.links.push_back({static_cast<std::uint32_t>(work.target[i]), weight});
+        work.links.push_back({static_cast<std::uint32_t>(work.target[i]), weight * share(i)});
     }
     work.ranges[s] = {first, work.links.size() - first};
   };

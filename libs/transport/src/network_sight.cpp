@@ -119,12 +119,13 @@ int TransportNetwork::Data::find_static(const rays::SurfacePoint& point) const {
   });
 }
 
-bool TransportNetwork::Data::near_parts(const rays::RayQuery& ray, const vec3& normal, int surfel) const {
+bool TransportNetwork::Data::near_parts(const MovingRay& way) const {
   if (swept.size() < 2) return false;
-  if (meets_any(ray, swept)) return true;
-  if (surfel == no_surfel) return false;
-  const rays::SurfacePoint point{ray.origin + ray.t_max * ray.direction, normal};
-  const Surfel& met = surfels.surfels()[static_cast<std::size_t>(surfel)];
+  const auto before = way.way_before();
+  if (meets_any(way.ray, swept) || (before && meets_any(*before, swept))) return true;
+  if (way.surfel == no_surfel) return false;
+  const rays::SurfacePoint point{way.ray.origin + way.ray.t_max * way.ray.direction, way.normal};
+  const Surfel& met = surfels.surfels()[static_cast<std::size_t>(way.surfel)];
   return meets_any(surfels.segment(point, met.point, met.level), swept);
 }
 
@@ -156,17 +157,23 @@ bool TransportNetwork::Data::meet_part(rays::RayQuery& ray, rays::RayHit& hit, i
   return any;
 }
 
-Resolved TransportNetwork::Data::resolve(const MovingRay& unobstructed) const {
-  rays::RayQuery ray = unobstructed.ray;
+std::optional<Resolved> TransportNetwork::Data::resolve_part(rays::RayQuery ray) const {
   rays::RayHit hit;
   int part = 0;
-  if (meet_part(ray, hit, part)) {
-    const PlacedPart& p = placed[static_cast<std::size_t>(part - 1)];
-    const vec3 position = vec3(p.to_part * vec4(ray.origin + ray.t_max * ray.direction, 1));
-    // The part's palette entries were made when the network was built.
-    return {find(part, {position, hit.normal}), pack_albedo(hit.albedo),
-            gbuffer.palette.find(hit.emission, hit.group), ray.t_max};
+  if (!meet_part(ray, hit, part)) return std::nullopt;
+  const PlacedPart& p = placed[static_cast<std::size_t>(part - 1)];
+  const vec3 position = vec3(p.to_part * vec4(ray.origin + ray.t_max * ray.direction, 1));
+  // The part's palette entries were made when the network was built.
+  return Resolved{find(part, {position, hit.normal}), pack_albedo(hit.albedo),
+                  gbuffer.palette.find(hit.emission, hit.group), ray.t_max};
+}
+
+Resolved TransportNetwork::Data::resolve(const MovingRay& unobstructed) const {
+  if (const auto before = unobstructed.way_before()) {
+    if (const auto met = resolve_part(*before)) return *met;
   }
+  const rays::RayQuery& ray = unobstructed.ray;
+  if (const auto met = resolve_part(ray)) return *met;
   if (unobstructed.surfel == no_surfel)
     return {no_surfel, unobstructed.albedo, unobstructed.emission, ray.t_max};
   const rays::SurfacePoint point{ray.origin + ray.t_max * ray.direction, unobstructed.normal};

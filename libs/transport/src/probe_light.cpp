@@ -26,6 +26,11 @@ void project_one(const TransportNetwork& network, const DirectionProjector& proj
     }
     radiance[q] = value.x, radiance[stride + q] = value.y, radiance[2 * stride + q] = value.z;
   }
+  for (const MirroredPatch& mirrored : mirrored_of(network, probe)) {
+    const std::size_t q = mirrored.owner - probe * directions;
+    const vec3 value = mirrored.share * radiance_of(mirrored.patch, irradiance);
+    radiance[q] += value.x, radiance[stride + q] += value.y, radiance[2 * stride + q] += value.z;
+  }
   projector.project(radiance, out);
 }
 
@@ -40,6 +45,15 @@ bool surfaces_emit(const rays::TransportSource& source) {
 }
 
 }  // namespace
+
+std::span<const MirroredPatch> mirrored_of(const TransportNetwork& network, std::size_t probe) {
+  const std::size_t directions = network.gbuffer().directions.size();
+  const std::vector<MirroredPatch>& all = network.seen_mirrored();
+  const auto begin = std::ranges::lower_bound(all, probe * directions, {}, &MirroredPatch::owner);
+  const auto end =
+      std::ranges::lower_bound(begin, all.end(), (probe + 1) * directions, {}, &MirroredPatch::owner);
+  return {begin, end};
+}
 
 vec3 radiance_of(const SeenPatch& patch, std::span<const Irradiance4> irradiance) {
   if (patch.surfel == no_surfel) return vec3(0);

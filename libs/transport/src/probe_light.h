@@ -23,6 +23,9 @@ void project_reflected(const TransportNetwork& network, const DirectionProjector
 void project_reflected(const TransportNetwork& network, const DirectionProjector& projector,
                        std::span<const Irradiance4> irradiance, std::size_t probe, sh::RadianceSh& out);
 
+/// What one probe sees by way of panes.
+std::span<const MirroredPatch> mirrored_of(const TransportNetwork& network, std::size_t probe);
+
 /// Radiance of a patch that reflects the irradiance of its surfel.
 vec3 radiance_of(const SeenPatch& patch, std::span<const Irradiance4> irradiance);
 

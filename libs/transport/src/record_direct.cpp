@@ -10,12 +10,14 @@ void RecordDirect::extend(const rays::DirectLight& light, std::span<const rays::
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     std::vector<probes::RecordLight>& found = found_[i];
     const std::size_t known = found.size();
+    if (known >= points.size()) continue;
     found.resize(points.size());
     parallel_for(
         points.size() - known, 16,
         [&](std::size_t k) {
           const std::size_t p = known + k;
-          found[p] = light.irradiance_by_normal(groups_[i], points[p], samples);
+          found[p] = way_ == Way::straight ? light.irradiance_by_normal(groups_[i], points[p], samples)
+                                           : light.mirrored_by_normal(groups_[i], points[p], samples);
           for (glm::length_t c = 0; c < 4; ++c)
             require(is_finite(found[p][c]), "transport source", "its direct light is not finite");
         },

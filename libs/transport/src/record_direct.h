@@ -1,5 +1,6 @@
 #pragma once
-/// Direct light at records, of light groups that are baked.
+/// Light of emitters at records that is found there and not by way of surfels: direct light of light groups
+/// that are baked, and of any group what panes mirror.
 
 #include <span>
 #include <vector>
@@ -13,11 +14,19 @@ namespace ssphh::transport {
 class RecordDirect {
  public:
   RecordDirect() = default;
-  explicit RecordDirect(std::vector<int> groups) : groups_(std::move(groups)), found_(groups_.size()) {}
+  enum class Way { straight, mirrored };
+  explicit RecordDirect(std::vector<int> groups, Way way = Way::straight)
+      : groups_(std::move(groups)), way_(way), found_(groups_.size()) {}
 
   /// Finds the light of those points that come after the ones it knows, from `samples` of each emitter.
   void extend(const rays::DirectLight& light, std::span<const rays::SurfacePoint> points, int samples,
               const Control& control);
+
+  /// Forgets a group's light, for it to be found anew.
+  void forget(int group) {
+    for (std::size_t i = 0; i < groups_.size(); ++i)
+      if (groups_[i] == group) found_[i].clear();
+  }
 
   /// Adds Σ_g scales[g] times the light of each point; `scales` are of all light groups.
   void add_to(std::vector<probes::RecordLight>& light, std::span<const vec3> scales) const;
@@ -28,6 +37,7 @@ class RecordDirect {
 
  private:
   std::vector<int> groups_;
+  Way way_ = Way::straight;
   std::vector<std::vector<probes::RecordLight>> found_;  ///< [of groups_][point]
 };
 

@@ -19,6 +19,7 @@
 #include <ssphh/transport/surface_gather.h>
 
 #include "pace.h"
+#include "pane_light.h"
 #include "probe_light.h"
 #include "record_direct.h"
 #include "sphl_emission.h"
@@ -146,13 +147,26 @@ struct RelightSession::Data {
   } light, next;
   RecordDirect record_direct;             ///< of params.records.baked
   scene::LightingState direct_state;      ///< in which that was found
+  PaneLight pane_light;                   ///< of the pass under way, or the last one
   std::vector<std::uint8_t> direct_held;  ///< of its groups: whether it is that of `shown`
 
   // Updates.
   scene::LightingState given;  ///< of the last call
   scene::LightingState shown;  ///< of `light`
   /// What an update does, in this order.
-  enum class Stage { idle, place, pose, pose_records, lamps, direct, emission, solve, project, records };
+  enum class Stage {
+    idle,
+    place,
+    pose,
+    pose_records,
+    lamps,
+    direct,
+    emission,
+    panes,
+    solve,
+    project,
+    records
+  };
   Stage stage = Stage::idle;
   std::size_t done = 0;  ///< of the stage
   std::size_t group = 0,
@@ -176,6 +190,9 @@ struct RelightSession::Data {
   bool pose(RelightReport& report, Pace& pace);
   bool find_direct(Pace& pace);
   void find_emission();
+  /// Notes whose light panes mirror anew, before the marks of `group_dirty` go.
+  void mark_panes();
+  bool find_pane_light(Pace& pace);
   bool solve(RelightReport& report, const Control& control, Pace& pace);
   bool project(Pace& pace);
   void publish();
@@ -200,6 +217,8 @@ struct RelightSession::Data {
   PosedIrradiance light_alike() const;
   /// At these places, in place of those that keep_records() would choose.
   void keep_records_at(std::vector<rays::SurfacePoint> points, const Control& control);
+  /// What panes mirror to all records and probes.
+  void light_by_panes(const Control& control);
   /// As lit after the last update.
   void light_records();
   /// Brings the direct light up to date without an update.

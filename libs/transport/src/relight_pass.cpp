@@ -69,6 +69,7 @@ bool RelightSession::Data::step(RelightReport& report, const Control& control, P
     case Stage::lamps:
     case Stage::direct:
     case Stage::emission:
+    case Stage::panes:
       return measure(source, report.direct_ms, &report.direct_rays, [&] { return find_direct(pace); });
     case Stage::solve:
       return measure(source, report.solve_ms, nullptr, [&] { return solve(report, control, pace); });
@@ -118,6 +119,7 @@ bool RelightSession::Data::find_direct(Pace& pace) {
       source.renew_direct_light(direct_light, state.lights, network.poses(), state.environment_rotation);
       require(direct_light != nullptr, "transport source", "it gives no direct light");
     }
+    mark_panes();
     group = 0;
     is_chosen = false;
     stage = Stage::direct;
@@ -126,6 +128,11 @@ bool RelightSession::Data::find_direct(Pace& pace) {
   if (stage == Stage::emission) {
     find_emission();
     field.sum(state.group_scales, emission, next.direct);
+    stage = Stage::panes;
+    return true;
+  }
+  if (stage == Stage::panes) {
+    if (!find_pane_light(pace)) return false;
     stage = Stage::solve;
     is_begun = false;
     return true;
@@ -146,6 +153,20 @@ bool RelightSession::Data::find_direct(Pace& pace) {
   }
   stage = Stage::emission;
   return true;
+}
+
+void RelightSession::Data::mark_panes() {
+  if (pane_light.empty()) pane_light.reset(*direct_light, group_dirty.size());
+  for (std::size_t g = 0; g < group_dirty.size(); ++g) {
+    if (group_dirty[g] || !moved.empty()) pane_light.mark(g);
+  }
+}
+
+bool RelightSession::Data::find_pane_light(Pace& pace) {
+  const std::vector<vec3>& positions = network.gbuffer().positions;
+  PaneLight::Lit lit_by{positions, params.degree, {}, params.records.rays};
+  if (gather) lit_by.records = gather->points();
+  return pane_light.find(*direct_light, lit_by, done, pace);
 }
 
 void RelightSession::Data::find_emission() {
@@ -200,6 +221,8 @@ bool RelightSession::Data::project(Pace& pace) {
             project_reflected(network, projector, lit, begin, end, scratch, next.reflected);
           }))
         return false;
+      for (std::size_t g = 0; g < group_dirty.size(); ++g)
+        pane_light.add_to(g, state.group_scales[g], next.reflected);
     }
     stage = Stage::records;
     if (gather) return true;
@@ -215,6 +238,7 @@ bool RelightSession::Data::project(Pace& pace) {
           gather->light(radiosity, begin, end, next.records);
         }))
       return false;
+    pane_light.add_to(next.records, state.group_scales);
   }
   publish();
   return true;

@@ -24,6 +24,7 @@ void RelightSession::Data::find_direct_for_records() {
     source.renew_direct_light(direct_light, state.lights, network.poses(), state.environment_rotation);
     require(direct_light != nullptr, "transport source", "it gives no direct light");
   }
+  mark_panes();
   for (std::size_t g = 0; g < group_dirty.size(); ++g) {
     if (group_dirty[g]) field.update_all(static_cast<int>(g), *direct_light);
     group_dirty[g] = false;
@@ -80,10 +81,13 @@ void RelightSession::Data::keep_records(const Control& control) {
     record_direct.extend(*direct_light, points, params.records.rays, control);
   };
   AddRecordLight add_direct;
-  if (!params.records.baked.empty()) {
+  RecordDirect by_panes = records_by_panes(*direct_light, state.group_scales.size());
+  if (!params.records.baked.empty() || !by_panes.groups().empty()) {
     add_direct = [&](std::span<const rays::SurfacePoint> points, auto& to) {
       extend(points);
       record_direct.add_to(to, scales);
+      by_panes.extend(*direct_light, points, params.records.rays, control);
+      by_panes.add_to(to, scales);
     };
   }
   const std::vector<float> times = record_times();
@@ -104,8 +108,17 @@ void RelightSession::Data::keep_records(const Control& control) {
     throw;
   }
   extend(gather->points());
+  light_by_panes(control);
   direct_state = state;
   note_direct_held();
+}
+
+void RelightSession::Data::light_by_panes(const Control& control) {
+  pane_light.mark_all();
+  done = 0;
+  Pace pace(control);
+  find_pane_light(pace);
+  done = 0;
 }
 
 void RelightSession::Data::keep_records_at(std::vector<rays::SurfacePoint> points, const Control& control) {
@@ -114,6 +127,7 @@ void RelightSession::Data::keep_records_at(std::vector<rays::SurfacePoint> point
   gather = std::make_unique<SurfaceGather>(network, std::move(points), params.records.rays, direct_by_group(),
                                            control);
   record_direct.extend(*direct_light, gather->points(), params.records.rays, control);
+  light_by_panes(control);
   direct_state = state;
   note_direct_held();
 }
@@ -126,6 +140,7 @@ void RelightSession::Data::light_records() {
                  params.solve, light.indirect);
   }
   gather->light(total(light.direct, light.indirect), light.records);
+  pane_light.add_to(light.records, state.group_scales);
 }
 
 }  // namespace ssphh::transport

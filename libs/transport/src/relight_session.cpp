@@ -89,6 +89,7 @@ std::vector<std::vector<sh::RadianceSh>> RelightSession::reflected_by_group(cons
     control.check();
     SolveReport solve;
     result[g] = d.reflected_under(direct[g], solve);
+    if (!d.bounce) d.pane_light.add_to(g, vec3(1), result[g]);
     const bool converged = most.converged && solve.converged;
     if (solve.iterations > most.iterations) most = solve;
     most.converged = converged;
@@ -147,6 +148,9 @@ probes::SurfaceRecords RelightSession::records_by_group(const Control& control) 
     control.check();
     SolveReport report;
     d.gather->light(d.lit_under(by_group[g], report), light);
+    std::vector<vec3> alone(by_group.size(), vec3(0));
+    alone[g] = vec3(1);
+    d.pane_light.add_to(light, alone);
     records.groups.push_back(packed(light));
   }
   const std::vector<int>& direct = d.record_direct.groups();
@@ -179,6 +183,17 @@ sh::RadianceSh RelightSession::arriving(int group, int probe) const {
   return project_arriving(
       d.direct_light->arriving(group, d.places[static_cast<std::size_t>(probe)].position, arriving_samples),
       d.params.degree);
+}
+
+vec3 RelightSession::mirrored(const rays::SurfacePoint& at) const {
+  const Data& d = data_->settled();
+  vec3 sum(0), found;
+  if (!d.direct_light || !d.direct_light->mirrors()) return sum;
+  for (std::size_t g = 0; g < d.shown.group_scales.size(); ++g) {
+    d.direct_light->mirrored(static_cast<int>(g), {&at, 1}, {&found, 1});
+    sum += d.shown.group_scales[g] * found;
+  }
+  return sum;
 }
 
 const std::vector<Irradiance4>& RelightSession::surfel_irradiance() const {

@@ -9,6 +9,7 @@
 #include <ssphh/transport/surface_gather.h>
 
 #include "gather_guide.h"
+#include "mirrors.h"
 
 namespace ssphh::transport {
 namespace {
@@ -111,6 +112,15 @@ SurfaceGather::Row SurfaceGather::trace_point(std::uint32_t p, const HemisphereP
   for (std::size_t i = 0; i < rays.size(); ++i) nearness += weights[i] / std::max(hits[i].distance, 1e-30f);
   row.openness = 1 / nearness;
   std::vector<Link> all;
+  const auto add = [&](const rays::RayQuery& ray, const vec3& normal, std::int32_t surfel,
+                       const std::optional<vec3>& from, float weight, const vec2& slope) {
+    const Link link{static_cast<std::uint32_t>(std::max(surfel, 0)), weight, slope};
+    if (d.near_parts({.ray = ray, .normal = normal, .surfel = surfel, .from = from})) {
+      row.moving.push_back({ray, normal, surfel, from, link, weight});
+    } else if (surfel != no_surfel) {
+      all.push_back(link);
+    }
+  };
   for (std::size_t i = 0; i < rays.size(); ++i) {
     rays[i].t_max = hits[i].distance;
     std::int32_t surfel = no_surfel;
@@ -118,13 +128,14 @@ SurfaceGather::Row SurfaceGather::trace_point(std::uint32_t p, const HemisphereP
       surfel = d.find_static({rays[i].origin + hits[i].distance * rays[i].direction, hits[i].normal});
     // As of the surfels' links, glass takes the mean of its channels
     const float weight = weights[i] * (hits[i].through.x + hits[i].through.y + hits[i].through.z) / 3;
-    const Link link{static_cast<std::uint32_t>(std::max(surfel, 0)), weight,
-                    weight * (slope_of(rays[i], point.normal) - mean)};
-    if (d.near_parts(rays[i], hits[i].normal, surfel)) {
-      row.moving.push_back({rays[i], hits[i].normal, surfel, link, weight});
-    } else if (surfel != no_surfel) {
-      all.push_back(link);
-    }
+    add(rays[i], hits[i].normal, surfel, {}, weight, weight * (slope_of(rays[i], point.normal) - mean));
+  }
+  for (const MirrorSight& sight : follow_mirrors(d.source, rays, hits)) {
+    const std::int32_t surfel =
+        d.find_static({sight.ray.origin + sight.ray.t_max * sight.ray.direction, sight.normal});
+    const float weight = weights[sight.of] * (sight.share.x + sight.share.y + sight.share.z) / 3;
+    add(sight.ray, sight.normal, surfel, sight.from, weight,
+        weight * (slope_of(rays[sight.of], point.normal) - mean));
   }
   // One link for each surfel; the stable order makes sums the same on every machine.
   std::ranges::stable_sort(all, {}, &Link::surfel);
@@ -148,7 +159,7 @@ void SurfaceGather::update_pose(std::size_t begin, std::size_t end) {
   const TransportNetwork::Data& d = *network_->data_;
   parallel_for(end - begin, 256, [&](std::size_t i) {
     Moving& m = moving_[begin + i];
-    const Resolved found = d.resolve({m.ray, m.normal, m.surfel, 0, 0, 0, 0});
+    const Resolved found = d.resolve({.ray = m.ray, .normal = m.normal, .surfel = m.surfel, .from = m.from});
     m.link.weight = found.surfel == no_surfel ? 0 : m.weight;
     m.link.surfel = static_cast<std::uint32_t>(std::max(found.surfel, 0));
   });

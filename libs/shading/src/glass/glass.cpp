@@ -18,6 +18,13 @@ float ggx_masking(float alpha, float cosine) {
   return 2 * c / (c + ggx_root(alpha, c));
 }
 
+/// What the lobe of rough glass keeps of its light: the directional albedo of GGX.
+float lobe_share(const GlassParams& glass, float cosine) {
+  if (is_smooth(glass)) return 1;
+  const vec2 ab = albedo_table(false).directional(cosine, glass.roughness);
+  return ab.x + ab.y;
+}
+
 vec3 mirrored(const vec3& w) {
   return {w.x, w.y, -w.z};
 }
@@ -56,9 +63,11 @@ vec3 straight_transmittance(const GlassParams& glass, float cosine) {
   GlassParams outside = glass;
   outside.inside = false;
   const vec3 transmitted = glass_shares(outside, cosine).transmitted;
-  if (is_smooth(glass)) return transmitted;
-  const vec2 ab = albedo_table(false).directional(cosine, glass.roughness);
-  return (ab.x + ab.y) * transmitted;
+  return lobe_share(glass, cosine) * transmitted;
+}
+
+vec3 sheet_reflectance(const GlassParams& glass, float cosine) {
+  return lobe_share(glass, cosine) * glass_shares(glass, cosine).reflected;
 }
 
 bool is_smooth(const GlassParams& glass) {
@@ -128,6 +137,17 @@ std::optional<GlassSample> GlassFrom::sample_smooth(float u_lobe) const {
   const float spread = 1 / (eta_ * eta_);
   return GlassSample{
       {-wo_.x / eta_, -wo_.y / eta_, -below}, shares.transmitted * (spread / (1 - chance)), 0, spread};
+}
+
+std::optional<GlassSample> GlassFrom::sample_mirrored(const vec2& u) const {
+  if (!(wo_.z > 0)) return std::nullopt;
+  if (smooth_) return GlassSample{{-wo_.x, -wo_.y, wo_.z}, glass_shares(glass_, wo_.z).reflected, 0};
+  const vec3 h = sample_ggx_normal(alpha_, wo_, u);
+  const vec3 wi = glm::normalize(2 * glm::dot(wo_, h) * h - wo_);
+  const float pdf = ggx_pdf(alpha_, wo_, h);
+  if (!(wi.z > 0 && pdf > 0)) return std::nullopt;
+  const GlassShares shares = glass_shares(glass_, glm::dot(wo_, h));
+  return GlassSample{wi, shares.reflected * (ggx(alpha_, wo_, wi, h) / pdf), pdf};
 }
 
 std::optional<GlassSample> GlassFrom::sample(float u_lobe, const vec2& u) const {

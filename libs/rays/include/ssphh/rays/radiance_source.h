@@ -98,6 +98,10 @@ class RadianceSource {
   /// Whether nothing blocks the open segment between two points.
   virtual bool visible(const vec3& a, const vec3& b) const = 0;
 
+  /// Whether nothing at all is between them, glass neither: light on either side of a pane says nothing of
+  /// the other.
+  virtual bool joined(const vec3& a, const vec3& b) const { return visible(a, b); }
+
   /// Fraction of the directions around a point whose first hit is the back of a surface: near 1 inside a
   /// closed body, where a probe is of no use. 0 where the source cannot tell.
   virtual float backface_fraction(const vec3& /*position*/) const { return 0; }

@@ -40,6 +40,15 @@ struct RayHit {
   bool escaped() const { return !(distance < std::numeric_limits<float>::infinity()); }
 };
 
+/// A ray after a sheet of glass has mirrored it.
+struct MirroredRay {
+  std::uint32_t of = 0;  ///< index of the ray
+  RayQuery ray;          ///< from the sheet on; without end
+  /// Of the light that comes along it, glass on its own way left out, as much as arrives at the origin of the
+  /// ray that it was.
+  vec3 share{0};
+};
+
 /// A place on a part that sample_part chose.
 struct PartPoint {
   SurfacePoint point;  ///< in the part's frame, front side
@@ -98,6 +107,23 @@ class DirectLight {
   virtual std::vector<ArrivingLight> arriving(int /*group*/, const vec3& /*place*/, int /*samples*/) const {
     refuse("direct light", "it cannot tell what arrives in the open");
   }
+  /// Whether there are panes that mirror light of emitters: flat sheets of glass that stand still. They do
+  /// so for emitters with an extent and the environment; what follows adds it to nothing above.
+  virtual bool mirrors() const { return false; }
+  /// Irradiance [W/m²] at each point by the group's light that one pane has mirrored.
+  virtual void mirrored(int /*group*/, std::span<const SurfacePoint> /*points*/, std::span<vec3> out) const {
+    for (vec3& e : out) e = vec3(0);
+  }
+  /// As irradiance_by_normal() of it.
+  virtual IrradianceByNormal mirrored_by_normal(int /*group*/, const SurfacePoint& /*point*/,
+                                                int /*samples*/) const {
+    return IrradianceByNormal(0);
+  }
+  /// As arriving() of it.
+  virtual std::vector<ArrivingLight> mirrored_arriving(int /*group*/, const vec3& /*place*/,
+                                                       int /*samples*/) const {
+    return {};
+  }
   /// Luminance of the flux [W] that the group's emitters send out; of those at infinity, through the sphere
   /// around the surfaces. Near enough to share photons out by.
   virtual float flux(int /*group*/) const { refuse("direct light", "it cannot emit photons"); }
@@ -131,6 +157,13 @@ class TransportSource {
 
   /// Nearest hit of each ray with one part alone, rays and hits in the part's frame.
   virtual void intersect(int part, std::span<const RayQuery> rays, std::span<RayHit> hits) const = 0;
+  /// Rays that sheets of glass of the part mirror before they end; `hits` are what intersect() tells of them.
+  /// One at most for each ray, in their order: where several sheets are on its way, the ray's bits choose one
+  /// as light does, with a share that makes up for the others. In the part's frame.
+  virtual std::vector<MirroredRay> mirrored(int /*part*/, std::span<const RayQuery> /*rays*/,
+                                            std::span<const RayHit> /*hits*/) const {
+    return {};
+  }
   /// blocked[i] = 1 where the part alone meets segment i, else 0; in the part's frame.
   virtual void occluded(int part, std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const = 0;
 

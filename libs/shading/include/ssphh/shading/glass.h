@@ -39,6 +39,9 @@ GlassShares glass_shares(const GlassParams& glass, float cosine);
 /// of it as its lobe keeps (the directional albedo of GGX).
 vec3 straight_transmittance(const GlassParams& glass, float cosine);
 
+/// What a sheet mirrors, 0..1: `reflected`; of a rough one, as much of it as its lobe keeps.
+vec3 sheet_reflectance(const GlassParams& glass, float cosine);
+
 /// Whether it shows things sharply: mirrors and refracts in one direction, of which no density can be told.
 bool is_smooth(const GlassParams& glass);
 
@@ -59,6 +62,8 @@ class GlassFrom {
   BsdfValue eval(const vec3& wi) const;
   /// Empty where the direction drawn lies on the wrong side, or nothing goes anywhere.
   std::optional<GlassSample> sample(float u_lobe, const vec2& u) const;
+  /// The same of what is mirrored alone.
+  std::optional<GlassSample> sample_mirrored(const vec2& u) const;
   /// Mean over the channels of the light that sample() spreads, seen from wo: near enough to divide samples
   /// by.
   float power() const;

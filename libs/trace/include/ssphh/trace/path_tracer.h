@@ -44,6 +44,7 @@ class PathTracer final : public rays::RadianceSource {
   /// for lookups that hold it (rays::IndirectLight::direct_groups).
   void count_as_indirect(std::span<const std::string> groups);
   bool visible(const vec3& a, const vec3& b) const override;
+  bool joined(const vec3& a, const vec3& b) const override;
   /// From 128 rays; a miss and a double-sided material count as front.
   float backface_fraction(const vec3& position) const override;
   std::uint64_t rays_traced() const override;

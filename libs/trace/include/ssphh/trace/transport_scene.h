@@ -45,6 +45,8 @@ class TransportScene final : public rays::TransportSource {
   std::vector<rays::PartPoint> sample_part(int part, double points_per_square_metre) const override;
 
   void intersect(int part, std::span<const rays::RayQuery> rays, std::span<rays::RayHit> hits) const override;
+  std::vector<rays::MirroredRay> mirrored(int part, std::span<const rays::RayQuery> rays,
+                                          std::span<const rays::RayHit> hits) const override;
   void occluded(int part, std::span<const rays::RayQuery> rays,
                 std::span<std::uint8_t> blocked) const override;
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Direct irradiance at the surfels, per light group, kept as long as nothing changes it.
+/// Direct irradiance at the surfels, per light group, kept as long as nothing changes it: straight from
+/// emitters, and what panes mirror of their light.
 
 #include <span>
 #include <vector>
@@ -37,7 +38,7 @@ class DirectField {
   std::vector<std::uint32_t> which_;       ///< samples that were chosen
   std::vector<std::uint8_t> touched_;
   std::vector<rays::SurfacePoint> points_;
-  std::vector<vec3> values_;
+  std::vector<vec3> values_, mirrored_;
 };
 
 }  // namespace ssphh::transport

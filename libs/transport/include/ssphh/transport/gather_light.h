@@ -21,6 +21,7 @@ class GatherLight final : public rays::IndirectLight {
   vec3 glossy(const rays::SurfacePoint& at, const vec3& r, float roughness) const override;
 
  private:
+  const RelightSession* session_;
   const TransportNetwork* network_;
   std::uint32_t rays_;
   std::vector<vec3> radiosity_;  ///< of each surfel

@@ -53,6 +53,16 @@ vec3 unpack_albedo(const PackedHit& hit);
 std::uint32_t pack_albedo(const vec3& albedo);
 vec3 unpack_albedo(std::uint32_t packed);
 
+/// What a probe ray meets by way of a pane that mirrors it.
+struct MirroredHit {
+  std::uint32_t owner;  ///< probe · directions + direction
+  vec3
+      from;  ///< the probe, or where the pane before hangs that mirrors it: the way to ray.origin starts here
+  rays::RayQuery ray;  ///< from the pane on; t_max is the distance of the hit
+  vec3 normal, albedo;
+  vec3 share;  ///< of the hit's light, what panes and other glass leave of it
+};
+
 struct ProbeGBuffer {
   std::vector<vec3> positions;   ///< of the probes
   std::vector<vec3> directions;  ///< unit, the same for every probe; weight 4π / count each
@@ -60,6 +70,7 @@ struct ProbeGBuffer {
   /// Of each hit, RayHit::through packed as an albedo; empty where no ray meets glass. Emission is kept as
   /// seen through it.
   std::vector<std::uint32_t> through;
+  std::vector<MirroredHit> mirrored;  ///< by owner
   EmissionPalette palette;
 
   /// Albedo of a hit as the probe sees it, packed: dimmed by glass in front of it.

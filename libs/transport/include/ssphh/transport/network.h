@@ -23,6 +23,13 @@ struct SeenPatch {
   friend bool operator==(const SeenPatch&, const SeenPatch&) = default;
 };
 
+/// What a probe ray sees by way of a pane that mirrors it.
+struct MirroredPatch {
+  std::uint32_t owner;  ///< probe · directions + direction
+  SeenPatch patch;
+  vec3 share;  ///< of the patch's light, what the pane and other glass leave of it
+};
+
 /// What a ray meets that is no probe's.
 struct Sight {
   std::int32_t surfel = no_surfel;  ///< of the surface; no_surfel where nothing is met or known
@@ -92,6 +99,8 @@ class TransportNetwork {
 
   /// [probe · directions + direction]
   const std::vector<SeenPatch>& seen() const;
+  /// By owner.
+  const std::vector<MirroredPatch>& seen_mirrored() const;
   /// Metres to what each probe ray sees; infinite: nothing.
   const std::vector<float>& seen_distance() const;
   /// Palette index of the emission that each probe ray sees; empty when no surface emits.

@@ -163,8 +163,12 @@ class RelightSession {
   /// The records as a bake stores them: per group, unscaled, and merged by the state's factors.
   probes::SurfaceRecords records_by_group(const Control& control = {}) const;
 
+  /// Irradiance at a surface point by light of emitters that panes mirror, of the last update().
+  vec3 mirrored(const rays::SurfacePoint& at) const;
+
   /// Indirect irradiance at each surfel; with bounce empty unless records are kept.
   const std::vector<Irradiance4>& surfel_irradiance() const;
+  /// Straight from emitters, and mirrored by panes.
   const std::vector<Irradiance4>& surfel_direct() const;
   const TransportNetwork& network() const;
 

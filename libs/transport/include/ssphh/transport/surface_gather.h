@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,7 +23,7 @@ class SurfaceGather {
   /// `direct`, [light group][surfel], makes bright; none: evenly. It decides on noise alone: any light can be
   /// asked for later. The points stand still in every pose; the network must outlive the gather. Throws Error
   /// for more than 65536 points, for a number of rays out of range, and Cancelled. Takes up to 16 bytes a
-  /// ray, 80 where moving parts come near it.
+  /// ray, 96 where moving parts come near it.
   SurfaceGather(const TransportNetwork& network, std::vector<rays::SurfacePoint> points, int rays,
                 std::span<const std::vector<Irradiance4>> direct = {}, const Control& control = {});
   SurfaceGather(const TransportNetwork&&, std::vector<rays::SurfacePoint>, int,
@@ -64,8 +65,9 @@ class SurfaceGather {
     rays::RayQuery ray;  ///< t_max: distance of what stands still
     vec3 normal;         ///< of that
     std::int32_t surfel;
-    Link link;     ///< as posed; of no weight where the ray escapes
-    float weight;  ///< where it does not
+    std::optional<vec3> from;  ///< of what a pane mirrors: the way to ray.origin starts here
+    Link link;                 ///< as posed; of no weight where the ray escapes
+    float weight;              ///< where it does not
   };
   struct Row {
     std::vector<Link> links;
