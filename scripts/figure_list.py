@@ -99,6 +99,7 @@ def depths(figure, sizes, show):
                      (f"difference-{depth}.png", f"absolute difference; the last colour is {scale}"),
                      (f"{pair[1]}.png", f"depth {depth}, 1 pass")])
     figure.panels(rows)
+    figure.note("Depth 0 is black: the SPHL sees none of the hidden lamps themselves.")
 
 
 def figure14(figure, sizes):
