@@ -117,9 +117,9 @@ TEST_P(CookedBake, IsNearTheFullLookup) {
                                          surfaces.within(0.5), surfaces.within(0.9)));
   RecordProperty("open", fmt::format("ratio {:.4f}, half {:.2g}, 90 % {:.2g}", open.ratio, open.within(0.5),
                                      open.within(0.9)));
-  // A ninth of gallery1's surfaces lies in a lamp's cove and behind pictures, where lists name no points
   EXPECT_LT(surfaces.within(0.5), 1e-4);
-  EXPECT_LT(surfaces.within(0.8), 1e-3);
+  EXPECT_LT(surfaces.within(0.9), 1e-3)
+      << "also where a band of wall and pictures hang a hand before another wall";
   EXPECT_NEAR(surfaces.ratio, 1, 0.03);
   EXPECT_LT(open.within(0.5), 1e-5);
   EXPECT_LT(open.within(0.9), 1e-4);

@@ -6,6 +6,7 @@
 
 #include <ssphh/core/error.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/probes/lookup_constants.h>
 #include <ssphh/probes/surface_interpolation.h>
 #include <ssphh/probes/surface_lists.h>
 
@@ -181,18 +182,29 @@ class Preparation {
     }
   }
 
-  /// Squares in which every sample sees the point, sides within bodies apart. A square
+  /// Whether something else stands so near before a sample that nobody looks in there: the wall behind a
+  /// picture must not take light from the picture before it.
+  bool is_narrow(SurfaceSamples& samples, std::size_t i, std::size_t side) const {
+    return samples.narrow(i, side, [&] {
+      const vec3 n = side == 1 ? -samples.normal(i) : samples.normal(i), x = samples.position(i);
+      return !sees_(x + fitted_lift * out_.cell_size * n, x + 0.25f * out_.cell_size * n);
+    });
+  }
+
+  /// Squares in which every sample sees the point, sides within bodies and narrow gaps apart. A square
   /// without samples is as those around it.
-  std::uint64_t squares_of(const Work::Candidate& candidate, int axis, const Work& work) const {
+  std::uint64_t squares_of(const Work::Candidate& candidate, int axis, Work& work) const {
     if (candidate.seen.empty() && candidate.outweighed == 0) return ~std::uint64_t{0};
     std::uint64_t known = candidate.outweighed, hidden = candidate.outweighed;
     for (std::size_t i = 0; i < candidate.asked.size(); ++i) {
       const std::size_t sample = candidate.asked[i];
       const std::size_t side = work.samples.side(sample, out_.points[candidate.point].normal);
       if (!work.samples.alive(sample, side)) continue;
+      const bool hides = !candidate.seen.empty() && !candidate.seen[i];
+      if (hides && is_narrow(work.samples, sample, side)) continue;
       const std::uint64_t bit = work.samples.square(sample, axis);
       known |= bit;
-      if (!candidate.seen.empty() && !candidate.seen[i]) hidden |= bit;
+      if (hides) hidden |= bit;
     }
     std::uint64_t seen = known & ~hidden;
     if (seen == 0) return 0;

@@ -48,11 +48,19 @@ class SurfaceSamples {
   /// has no say.
   bool alive(std::size_t i, std::size_t side) const { return alive_[side][i] != 0; }
 
+  /// What `find` tells of a side, asked once.
+  template <class Find>
+  bool narrow(std::size_t i, std::size_t side, const Find& find) {
+    std::uint8_t& known = narrow_[side][i];
+    if (known == 0) known = find() ? 2 : 1;
+    return known == 2;
+  }
+
  private:
   /// Position, normal, and the weight of what is counted on either side.
   std::array<std::vector<float>, 8> numbers_;
-  std::vector<std::array<std::uint8_t, 3>> squares_;  ///< along each axis
-  std::array<std::vector<std::uint8_t>, 2> alive_;
+  std::vector<std::array<std::uint8_t, 3>> squares_;         ///< along each axis
+  std::array<std::vector<std::uint8_t>, 2> alive_, narrow_;  ///< of each side; narrow_: 0 where nobody asked
   std::vector<std::int32_t> verdicts_;
   std::vector<float> weights_;
 };

@@ -20,10 +20,10 @@ inline float share_by_distance(float distance2, float spacing) {
 /// On a surface: less as that turns away from the point, or the point lies off its plane; 0 from 45° on, and
 /// from half a spacing and a tenth of the distance. `off_plane` is the part of the offset along the normal.
 inline float share_by_surface(float distance, float off_plane, float cosine, float spacing) {
-  const float facing = std::max((cosine - fitted_cosine) / (1 - fitted_cosine), 0.0f);
+  const float facing = (cosine - fitted_cosine) / (1 - fitted_cosine);
   const float off = off_plane / (fitted_off_plane * spacing + fitted_off_plane_slope * distance);
-  const float level = std::max(1 - off * off, 0.0f);
-  return facing * level * level;
+  const float level = 1 - off * off;
+  return (facing > 0) & (level > 0) ? facing * level * level : 0;
 }
 
 /// What a point keeps of its weight at this distance where something stands that near before it.

@@ -138,6 +138,17 @@ TEST(CoverFactor, FallsBeyondTheOpenDistance) {
   }
 }
 
+TEST(ShareBySurface, FallsWithTheAngleAndOffThePlane) {
+  EXPECT_EQ(share_by_surface(0, 0, 1, 2), 1);
+  EXPECT_EQ(share_by_surface(0, 0, fitted_cosine, 2), 0);
+  EXPECT_EQ(share_by_surface(1, 0, -1, 2), 0);
+  EXPECT_NEAR(share_by_surface(1, 0, 0.5f * (1 + fitted_cosine), 2), 0.5f, 1e-6f);
+  const float most = fitted_off_plane * 2 + fitted_off_plane_slope * 3;
+  EXPECT_NEAR(share_by_surface(3, -0.5f * most, 1, 2), 9.0f / 16, 1e-6f);
+  EXPECT_EQ(share_by_surface(3, 1.01f * most, 1, 2), 0);
+  EXPECT_EQ(share_by_surface(0, 0, 1, 0), 0) << "of a point without room";
+}
+
 TEST(SurfaceInterpolation, WhatLiesBehindAPictureDarkensNothingBesideIt) {
   // Records on a wall, those of x > 1 behind a plate a twentieth of a spacing before it
   const std::vector<rays::SurfacePoint> wall = floor_grid(9, 0.25f);
