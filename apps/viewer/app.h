@@ -142,6 +142,8 @@ class App {
   /// SPHLs at these places of probes, which light has been or will be found for, in place of all there were.
   template <class Places>
   void take_places(const std::string& what, const Places& places);
+  /// The selected SPHL is the same one as among those of `before`, if it is still there.
+  void keep_selection(const std::vector<SphlEdit>& before);
   std::optional<float> suitable_exposure() const;
   bool show_exposure(float ev);
   void update_time(double seconds);

@@ -219,14 +219,24 @@ void App::frame_selection() {
 
 void App::undo() {
   const std::string what = document.history.undo_name();
-  if (document.history.undo()) say("undone: " + what);
-  selection = {};
+  const std::vector<SphlEdit> before = document.edits().sphls;
+  if (!document.history.undo()) return;
+  keep_selection(before);
+  say("undone: " + what);
 }
 
 void App::redo() {
   const std::string what = document.history.redo_name();
-  if (document.history.redo()) say("done again: " + what);
-  selection = {};
+  const std::vector<SphlEdit> before = document.edits().sphls;
+  if (!document.history.redo()) return;
+  keep_selection(before);
+  say("done again: " + what);
+}
+
+void App::keep_selection(const std::vector<SphlEdit>& before) {
+  if (!selection.is(Kind::sphl)) return;
+  selection.index = same_sphl(before, selection.index, document.edits().sphls);
+  if (selection.index < 0) selection = {};
 }
 
 void App::delete_selection() {

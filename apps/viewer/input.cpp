@@ -35,7 +35,7 @@ constexpr Shortcut all_shortcuts[] = {
     {"T", "ground truth: off, beside the picture, alone, difference"},
     {"1 … 8", "all, direct, indirect, albedo, normal, shadow, SPHL, leak"},
     {"[ ] \\", "darker, brighter, as suits the picture"},
-    {"Ctrl+Z, Ctrl+Y", "undo, redo"},
+    {"Ctrl+Z, Ctrl+Y", "undo, redo (also Ctrl+Shift+Z)"},
     {"Ctrl+S", "save the scene as a new GLB file"},
     {"F12", "screenshot"},
     {"Tab", "panels on, off"},
@@ -75,7 +75,7 @@ void press_setting_key(App& app, char key) {
 }
 
 void handle_control_keys(App& app) {
-  if (pressed(GLFW_KEY_Z)) app.undo();
+  if (pressed(GLFW_KEY_Z)) ImGui::GetIO().KeyShift ? app.redo() : app.undo();
   if (pressed(GLFW_KEY_Y)) app.redo();
   if (pressed(GLFW_KEY_S)) app.save_scene(numbered_file(app, ".glb"));
 }

@@ -2,10 +2,9 @@
 
 #include <filesystem>
 
-#include <fmt/format.h>
-
 #include "app.h"
 #include "glfw_window.h"
+#include "model/frame_files.h"
 #include "script_player.h"
 
 namespace ssphh::viewer {
@@ -67,10 +66,10 @@ void export_path(App& app, Session& session, const ViewerOptions& options, const
     app.go_to(at(path, path.keys.front().time + static_cast<float>(f / options.fps)));
     if (!session.settle(f == 0)) throw Cancelled();
     if (app.follow_exposure() && !session.settle(false)) throw Cancelled();
-    app.screenshot((std::filesystem::path(options.export_dir) / fmt::format("frame-{:04}.png", f)).string(),
-                   false);
+    app.screenshot((std::filesystem::path(options.export_dir) / frame_name(f)).string(), false);
     progress.advance(1);
   }
+  remove_frames_from(options.export_dir, frames);
 }
 
 void play(App& app, Session& session, const ViewerOptions& options) {

@@ -250,8 +250,32 @@ TEST_F(AppTest, OnlyWhatHasAPlaceMovesAndOnlySphlsAreDeleted) {
   EXPECT_EQ(app().message, "x") << "there is nothing to undo";
   app().selection = {Kind::light, 0};
   app().redo();
-  EXPECT_EQ(app().selection, Selection{});
+  EXPECT_EQ(app().selection, (Selection{Kind::light, 0}));
   EXPECT_EQ(app().message, "done again: move doorway");
+}
+
+TEST_F(AppTest, UndoAndRedoKeepWhatIsSelected) {
+  app().take_document(document("two-rooms"));
+  app().document.edit_at_once("delete SPHL", [](Edits& e) { e.sphls.erase(e.sphls.begin()); });
+  app().document.edit_at_once("rename", [](Edits& e) { e.sphls[4].name = "other"; });
+  app().selection = {Kind::sphl, 4};
+  app().undo();
+  EXPECT_EQ(app().selection, (Selection{Kind::sphl, 4}));
+  app().undo();
+  EXPECT_EQ(app().selection, (Selection{Kind::sphl, 5})) << "the same one, now behind the restored first";
+  app().redo();
+  EXPECT_EQ(app().selection, (Selection{Kind::sphl, 4}));
+  app().undo();
+  app().selection = {Kind::sphl, 0};
+  app().redo();
+  EXPECT_EQ(app().selection, Selection{}) << "it is not there";
+  for (const Kind kind : {Kind::light, Kind::material}) {
+    app().selection = {kind, 0};
+    app().undo();
+    EXPECT_EQ(app().selection, (Selection{kind, 0}));
+    app().redo();
+    EXPECT_EQ(app().selection, (Selection{kind, 0}));
+  }
 }
 
 }  // namespace

@@ -71,6 +71,10 @@ TEST_F(Input, KeysDoWhatTheHelpSays) {
   press({GLFW_KEY_Y}, true);
   EXPECT_EQ(app().document.edits().sphls.size(), 5u);
   EXPECT_EQ(app().message, "done again: delete SPHL");
+  press({GLFW_KEY_Z}, true);
+  press({GLFW_KEY_Z}, true, true);
+  EXPECT_EQ(app().document.edits().sphls.size(), 5u) << "with Shift: again";
+  EXPECT_EQ(app().message, "done again: delete SPHL");
   press({GLFW_KEY_HOME});
   EXPECT_EQ(app().view, start_view(app().document, ""));
   app().document.time = 0.5f;
