@@ -111,7 +111,7 @@ void App::update_time(double seconds) {
 
 /// A software renderer takes a second for a large picture: while something moves it gets a small one.
 void App::resize_picture() {
-  const bool moving = drag.what != Drag::What::none || settings.play || path_plays;
+  const bool moving = drag.changes_picture() || settings.play || path_plays;
   if (!moving) coarse_ = false;
   if (moving && last_stats.cpu_ms > 80) coarse_ = true;
   const float scale = settings.scale * (coarse_ ? 0.4f : 1.0f);

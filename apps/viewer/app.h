@@ -41,7 +41,11 @@ struct Rect2 {
 /// What the mouse drags.
 struct Drag {
   enum class What { none, view, look, pan, object, axis, wipe } what = What::none;
-  Grip grip;  ///< of objects
+  Grip grip;           ///< of objects
+  bool moved = false;  ///< since the press
+
+  /// Whether view or scene follow the mouse: not before it moves, and the wipe's line is neither.
+  bool changes_picture() const { return moved && what != What::none && what != What::wipe; }
 };
 /// Whether the name ends as a probe file's does.
 bool is_probe_file(const std::string& name);

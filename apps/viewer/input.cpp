@@ -184,6 +184,7 @@ void begin_left(App& app) {
 void continue_drag(App& app) {
   const ImVec2 delta = ImGui::GetIO().MouseDelta;
   if (delta.x == 0 && delta.y == 0) return;
+  app.drag.moved = true;
   const auto drag_view = [&](ViewDrag drag) {
     app.view = dragged(app.view, drag, {delta.x, delta.y}, app.viewport.height);
   };
@@ -206,7 +207,7 @@ void handle_mouse(App& app) {
   const ImGuiIO& io = ImGui::GetIO();
   const bool inside = !io.WantCaptureMouse && app.viewport.contains(io.MousePos.x, io.MousePos.y);
   if (app.drag.what != Drag::What::none && !ImGui::IsAnyMouseDown()) {
-    app.drag.what = Drag::What::none;
+    app.drag = {};
     app.document.history.seal();
     app.redraw();
   }

@@ -286,6 +286,10 @@ TEST_F(Input, TheWipesLineIsDragged) {
   app().view = look_at({-1, 1.5f, 1.9f}, {5, 1.5f, 1.9f}, 1);
   drag(207, 250, 100, 250);
   EXPECT_FLOAT_EQ(app().settings.wipe, 0.25f);
+  mouse(100, 250), mouse(100, 250, {true}), mouse(150, 250, {true});
+  EXPECT_TRUE(app().drag.moved);
+  EXPECT_FALSE(app().drag.changes_picture());
+  mouse(100, 250, {true}), mouse(100, 250);
   drag(93, 250, 500, 250);
   EXPECT_FLOAT_EQ(app().settings.wipe, 1);
   app().settings.wipe = 0.5f;
