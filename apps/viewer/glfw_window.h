@@ -2,6 +2,7 @@
 /// A GLFW window with OpenGL 4.5 core and Dear ImGui; nothing of this project's scenes or light.
 
 #include "injection.h"
+#include "input_queue.h"
 #include "window.h"
 
 struct GLFWwindow;
@@ -36,6 +37,7 @@ class GlfwWindow : public Window {
   int width_ = 0, height_ = 0;
   bool input_ = true;
   std::vector<std::string> dropped_;
+  InputQueue queue_;
   Injection injection_;
 };
 

@@ -51,6 +51,11 @@ bool pressed(int key) {
   return ImGui::IsKeyPressed(key, false);
 }
 
+/// As pressed(), again and again while the key is held.
+bool repeated(int key) {
+  return ImGui::IsKeyPressed(key, true);
+}
+
 void toggle(App& app, bool& value) {
   value = !value;
   app.redraw();
@@ -75,8 +80,8 @@ void press_setting_key(App& app, char key) {
 }
 
 void handle_control_keys(App& app) {
-  if (pressed(GLFW_KEY_Z)) ImGui::GetIO().KeyShift ? app.redo() : app.undo();
-  if (pressed(GLFW_KEY_Y)) app.redo();
+  if (repeated(GLFW_KEY_Z)) ImGui::GetIO().KeyShift ? app.redo() : app.undo();
+  if (repeated(GLFW_KEY_Y)) app.redo();
   if (pressed(GLFW_KEY_S)) app.save_scene(numbered_file(app, ".glb"));
 }
 
@@ -95,7 +100,8 @@ void handle_keys(App& app) {
   if (pressed(GLFW_KEY_N)) toggle(app, app.place_mode);
   if (pressed(GLFW_KEY_DELETE)) app.delete_selection();
   for (const char key : setting_keys) {
-    if (pressed(key)) press_setting_key(app, key);
+    const bool steps = key == '[' || key == ']';
+    if (steps ? repeated(key) : pressed(key)) press_setting_key(app, key);
   }
   if (pressed(GLFW_KEY_F12)) app.screenshot(numbered_file(app, ".png"), false);
 }
