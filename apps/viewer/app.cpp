@@ -37,7 +37,7 @@ double App::turn(const InjectedInput& input) {
   if (window.take_input()) redraw();
   for (const std::string& file : window.take_dropped()) {
     try {
-      open(file);
+      request_open(file);
     } catch (const std::exception& e) {
       complain(e.what());
     }
@@ -69,6 +69,7 @@ double App::turn(const InjectedInput& input) {
     update_truth();
     draw_picture(*this);
     draw_overlay(*this, visible_);
+    update_title();
   }
   const auto ui = window.seconds();
   finish_frame();

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -79,12 +80,27 @@ void App::take_document(Document next) {
   scene_dirty_ = true;
   light_stale_ = false;
   fly_speed = document.bounds.empty() ? 2 : std::max(0.2f, 0.25f * document.bounds.radius());
-  window.set_title(document.source + " – ssphh");
+  update_title();
   redraw();
+}
+
+std::string App::free_file(const std::string& ending) const {
+  const std::string stem =
+      std::filesystem::path(document.source.substr(document.source.rfind(':') + 1)).stem().string();
+  for (int n = 1;; ++n) {
+    std::string name = fmt::format("{}-{:02}{}", stem.empty() ? "view" : stem, n, ending);
+    if (!std::filesystem::exists(name)) return name;
+  }
+}
+
+void App::save() {
+  save_scene(free_file(".glb"));
 }
 
 void App::save_scene(const std::string& file) {
   save_document(document, file);
+  document.history.seal();
+  document.saved = document.history.serial();
   written("saved", file);
 }
 

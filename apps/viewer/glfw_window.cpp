@@ -119,6 +119,10 @@ void GlfwWindow::close() {
   glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }
 
+void GlfwWindow::keep_open() {
+  glfwSetWindowShouldClose(window_, GLFW_FALSE);
+}
+
 void GlfwWindow::set_title(const std::string& title) {
   glfwSetWindowTitle(window_, title.c_str());
 }

@@ -17,6 +17,7 @@ class GlfwWindow : public Window {
 
   bool should_close() const override;
   void close() override;
+  void keep_open() override;
   void set_title(const std::string& title) override;
   void events(double timeout) override;
   bool take_input() override;

@@ -61,15 +61,6 @@ void toggle(App& app, bool& value) {
   app.redraw();
 }
 
-std::string numbered_file(const App& app, const std::string& ending) {
-  const std::string stem =
-      std::filesystem::path(app.document.source.substr(app.document.source.rfind(':') + 1)).stem().string();
-  for (int n = 1;; ++n) {
-    std::string name = fmt::format("{}-{:02}{}", stem.empty() ? "view" : stem, n, ending);
-    if (!std::filesystem::exists(name)) return name;
-  }
-}
-
 void press_setting_key(App& app, char key) {
   const Show shown = app.settings.show;
   app.settings = after_key(app.settings, key, app.document.duration > 0);
@@ -82,7 +73,7 @@ void press_setting_key(App& app, char key) {
 void handle_control_keys(App& app) {
   if (repeated(GLFW_KEY_Z)) ImGui::GetIO().KeyShift ? app.redo() : app.undo();
   if (repeated(GLFW_KEY_Y)) app.redo();
-  if (pressed(GLFW_KEY_S)) app.save_scene(numbered_file(app, ".glb"));
+  if (pressed(GLFW_KEY_S)) app.save();
 }
 
 void handle_keys(App& app) {
@@ -103,7 +94,7 @@ void handle_keys(App& app) {
     const bool steps = key == '[' || key == ']';
     if (steps ? repeated(key) : pressed(key)) press_setting_key(app, key);
   }
-  if (pressed(GLFW_KEY_F12)) app.screenshot(numbered_file(app, ".png"), false);
+  if (pressed(GLFW_KEY_F12)) app.screenshot(app.free_file(".png"), false);
 }
 
 void fly(App& app, float seconds) {
@@ -237,6 +228,7 @@ const Shortcut* shortcuts(int& count) {
 }
 
 void handle_input(App& app, float seconds) {
+  if (app.question.then != Question::Then::nothing) return;
   try {
     if (!ImGui::GetIO().WantTextInput) handle_keys(app);
     if (!app.scene_open()) return;

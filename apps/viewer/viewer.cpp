@@ -28,7 +28,7 @@ class Session {
 
   /// False once the window is to close.
   bool turn(const InjectedInput& input = {}) {
-    if (control_.cancelled() || app_.window.should_close()) return false;
+    if (control_.cancelled() || (app_.window.should_close() && app_.may_close())) return false;
     const double wait = app_.turn(input);
     app_.window.events(wait);
     return true;

@@ -13,7 +13,8 @@ namespace {
 void draw_file_menu(App& app) {
   if (ImGui::BeginMenu("Open a built-in scene")) {
     for (const scene::BuiltinScene& scene : scene::builtin_scenes()) {
-      if (ImGui::MenuItem(scene.name.c_str())) attempt(app, [&] { app.open("builtin:" + scene.name); });
+      if (ImGui::MenuItem(scene.name.c_str()))
+        attempt(app, [&] { app.request_open("builtin:" + scene.name); });
       tip(scene.description.c_str());
     }
     ImGui::EndMenu();

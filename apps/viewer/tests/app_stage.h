@@ -36,6 +36,7 @@ class StillWindow : public Window {
 
   bool should_close() const override { return closed; }
   void close() override { closed = true; }
+  void keep_open() override { closed = false; }
   void set_title(const std::string& text) override { title = text; }
   void events(double timeout) override { waits.push_back(timeout), clock += timeout; }
   bool take_input() override { return std::exchange(touched, false) || !queue.empty(); }

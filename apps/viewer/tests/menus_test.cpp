@@ -117,6 +117,12 @@ TEST_F(Menus, MenusDoWhatTheySay) {
   choose("View", "Panels");
   EXPECT_FALSE(app().panels);
   app().panels = true;
+  app().document.edit_at_once("dim", [](Edits& e) { e.lights[0].intensity = 0.5f; });
+  choose("File", "Open a built-in scene");
+  click_text("cornell");
+  EXPECT_EQ(app().question.source, "builtin:cornell") << "asked first";
+  app().answer(Answer::stay);
+  rest();
   choose("File", "Quit");
   EXPECT_TRUE(window_->closed);
 }
