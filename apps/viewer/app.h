@@ -76,8 +76,12 @@ class App {
   std::string what_is_lost() const;
   /// Puts a document in the place of what is open; its renderer is the caller's business.
   void take_document(Document next);
-  /// The scene, to a file of its own.
+  /// The scene, over the file where it was saved last; the first time to a new one in the current folder. The
+  /// file that was opened stays as it is.
   void save();
+  /// As save_scene(). Throws Error for the file that was opened.
+  void save_as(const std::string& file);
+  /// The scene, to this file, which is its own from then on.
   void save_scene(const std::string& file);
   void save_probes(const std::string& file);
   void save_path(const std::string& file);

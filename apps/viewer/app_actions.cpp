@@ -94,14 +94,24 @@ std::string App::free_file(const std::string& ending) const {
 }
 
 void App::save() {
-  save_scene(free_file(".glb"));
+  save_scene(document.file.empty() ? free_file(".glb") : document.file);
+}
+
+void App::save_as(const std::string& file) {
+  std::error_code ignored;
+  if (file != document.file && std::filesystem::equivalent(file, document.source, ignored))
+    throw Error(file, "is the scene as it was opened, which stays as it is", "save under another name");
+  save_scene(file);
 }
 
 void App::save_scene(const std::string& file) {
   save_document(document, file);
   document.history.seal();
   document.saved = document.history.serial();
+  document.file = file;
   written("saved", file);
+  const std::filesystem::path path = std::filesystem::absolute(file);
+  say(fmt::format("saved {} in {}", path.filename().string(), path.parent_path().string()));
 }
 
 void App::save_probes(const std::string& file) {

@@ -36,7 +36,7 @@ constexpr Shortcut all_shortcuts[] = {
     {"1 … 8", "all, direct, indirect, albedo, normal, shadow, SPHL, leak"},
     {"[ ] \\", "darker, brighter, as suits the picture"},
     {"Ctrl+Z, Ctrl+Y", "undo, redo (also Ctrl+Shift+Z)"},
-    {"Ctrl+S", "save the scene as a new GLB file"},
+    {"Ctrl+S", "save the scene over its own GLB file"},
     {"F12", "screenshot"},
     {"Tab", "panels on, off"},
     {"F1 or H", "this help"},

@@ -14,6 +14,7 @@ struct Document {
   std::string source;                         ///< as the user named it
   std::shared_ptr<const scene::Scene> scene;  ///< as loaded
   History<Edits> history;
+  std::string file;         ///< its own, where it was saved last; empty: it has none yet
   std::uint64_t saved = 0;  ///< History::serial() of what the file has
   float time = 0;           ///< pose of the animations [s]
   float duration = 0;       ///< of the animations [s]

@@ -46,6 +46,8 @@ void draw_question(App& app) {
   ImGui::Spacing();
   std::optional<Answer> answer;
   if (app.document.dirty()) {
+    ImGui::TextDisabled("%s", app.document.file.empty() ? "Saving makes a new GLB file in the current folder."
+                                                        : ("Saving replaces " + app.document.file).c_str());
     if (choice(fmt::format("Save and {} (S)", then), {GLFW_KEY_S, GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER}))
       answer = Answer::save;
     ImGui::SameLine();
