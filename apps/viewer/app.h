@@ -67,7 +67,10 @@ class App {
 
   // What can be done
   void open(const std::string& source);
-  /// As open(), but asks before a scene takes the place of one with edits or of a bake that runs.
+  /// open(), and light for the scene: as the option --probes has it unless that names a file; else of its
+  /// SPHLs, if it has any.
+  void open_lit(const std::string& source);
+  /// As open_lit(), but asks before a scene takes the place of one with edits or of a bake that runs.
   void request_open(const std::string& source);
   /// Whether the window may go. Where edits or a bake would be lost it stays and the user is asked.
   bool may_close();

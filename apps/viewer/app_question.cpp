@@ -1,5 +1,8 @@
 // What is not saved, and the question before it is lost.
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "app.h"
@@ -20,6 +23,17 @@ bool is_scene(const std::string& source) {
 
 }  // namespace
 
+void App::open_lit(const std::string& source) {
+  open(source);
+  if (!is_scene(source)) return;
+  const auto enabled = [](const SphlEdit& sphl) { return sphl.enabled; };
+  if (options.probes == "off" || options.probes.starts_with("auto")) {
+    use_probes(options.probes);
+  } else if (std::ranges::any_of(document.edits().sphls, enabled)) {
+    light_scene_probes();
+  }
+}
+
 std::string App::what_is_lost() const {
   if (!by_hand(options) || !scene_open()) return {};
   const JobStatus status = job.status();
@@ -31,7 +45,7 @@ std::string App::what_is_lost() const {
 }
 
 void App::request_open(const std::string& source) {
-  if (!is_scene(source) || what_is_lost().empty()) return open(source);
+  if (!is_scene(source) || what_is_lost().empty()) return open_lit(source);
   question = {Question::Then::open, source};
   redraw();
 }
@@ -50,7 +64,7 @@ void App::answer(Answer answer) {
   if (answer == Answer::stay) return;
   try {
     if (answer == Answer::save && document.dirty()) save();
-    if (asked.then == Question::Then::open) open(asked.source);
+    if (asked.then == Question::Then::open) open_lit(asked.source);
     if (asked.then == Question::Then::close) {
       closes_ = true;
       window.close();

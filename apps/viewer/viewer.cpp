@@ -12,14 +12,14 @@ namespace {
 
 void begin(App& app, const ViewerOptions& options) {
   if (options.source.empty()) return;
-  app.open(options.source);
+  if (options.probes.empty()) {
+    app.open_lit(options.source);
+  } else {
+    app.open(options.source);
+    app.use_probes(options.probes);
+  }
   if (!options.camera.empty()) app.go_to_camera(options.camera);
   if (!options.path.empty()) app.load_path(options.path);
-  if (!options.probes.empty()) {
-    app.use_probes(options.probes);
-  } else if (!app.document.edits().sphls.empty()) {
-    app.light_scene_probes();
-  }
 }
 
 class Session {

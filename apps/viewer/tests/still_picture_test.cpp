@@ -44,6 +44,41 @@ class StillPicture : public AppStage {
   std::shared_ptr<const image::Image> truth_;
 };
 
+TEST_F(StillPicture, ASceneGetsItsLightHoweverItIsOpened) {
+  // Work for a scene that is gone ends when it can; its result is dropped.
+  const auto is_lit = [&] {
+    while (app().job.running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return app().job.poll() && !app().light.empty();
+  };
+  EXPECT_FALSE(is_lit()) << "open() alone leaves the light to its caller";
+  window_->dropped = {"builtin:two-rooms"};
+  turn();
+  EXPECT_TRUE(is_lit());
+  options_.load = [](const std::string& source) {
+    scene::Scene scene = scene::make_builtin("two-rooms");
+    if (source == "bare.glb") scene.sphls.clear();
+    return scene;
+  };
+  window_->dropped = {"bare.glb"};
+  turn();
+  EXPECT_FALSE(is_lit()) << "it has no SPHLs";
+  options_.probes = "auto";
+  app().request_open("bare.glb");
+  EXPECT_EQ(app().job.status().name, "placing probes");
+  app().job.cancel();
+  options_.probes = "off";
+  app().request_open("builtin:two-rooms");
+  EXPECT_FALSE(is_lit());
+  // After a question, too. A probe file is of the first scene.
+  options_.probes = "first.sphl";
+  app().document.edit_at_once("dim", [](Edits& e) { e.lights[0].intensity = 0.5f; });
+  app().request_open("builtin:two-rooms");
+  EXPECT_FALSE(is_lit());
+  app().answer(Answer::discard);
+  EXPECT_TRUE(is_lit());
+  EXPECT_FALSE(app().document.dirty());
+}
+
 TEST_F(StillPicture, ThePressAndTheWipesLineRestartNothingAndTheViewDoes) {
   truth_ = app().reference.image().color;
   ASSERT_NE(truth_, nullptr);
