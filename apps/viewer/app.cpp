@@ -37,7 +37,7 @@ double App::turn(const InjectedInput& input) {
   if (window.take_input()) redraw();
   for (const std::string& file : window.take_dropped()) {
     try {
-      open(file);
+      request_open(file);
     } catch (const std::exception& e) {
       complain(e.what());
     }
@@ -69,6 +69,7 @@ double App::turn(const InjectedInput& input) {
     update_truth();
     draw_picture(*this);
     draw_overlay(*this, visible_);
+    update_title();
   }
   const auto ui = window.seconds();
   finish_frame();
@@ -111,7 +112,7 @@ void App::update_time(double seconds) {
 
 /// A software renderer takes a second for a large picture: while something moves it gets a small one.
 void App::resize_picture() {
-  const bool moving = drag.what != Drag::What::none || settings.play || path_plays;
+  const bool moving = drag.changes_picture() || settings.play || path_plays;
   if (!moving) coarse_ = false;
   if (moving && last_stats.cpu_ms > 80) coarse_ = true;
   const float scale = settings.scale * (coarse_ ? 0.4f : 1.0f);

@@ -41,8 +41,19 @@ struct Rect2 {
 /// What the mouse drags.
 struct Drag {
   enum class What { none, view, look, pan, object, axis, wipe } what = What::none;
-  Grip grip;  ///< of objects
+  Grip grip;           ///< of objects
+  bool moved = false;  ///< since the press
+
+  /// Whether view or scene follow the mouse: not before it moves, and the wipe's line is neither.
+  bool changes_picture() const { return moved && what != What::none && what != What::wipe; }
 };
+/// What the user is asked before edits or a bake are lost.
+struct Question {
+  enum class Then { nothing, close, open } then = Then::nothing;
+  std::string source;  ///< to open
+};
+enum class Answer { save, discard, stay };
+
 /// Whether the name ends as a probe file's does.
 bool is_probe_file(const std::string& name);
 
@@ -56,8 +67,24 @@ class App {
 
   // What can be done
   void open(const std::string& source);
+  /// open(), and light for the scene: as the option --probes has it unless that names a file; else of its
+  /// SPHLs, if it has any.
+  void open_lit(const std::string& source);
+  /// As open_lit(), but asks before a scene takes the place of one with edits or of a bake that runs.
+  void request_open(const std::string& source);
+  /// Whether the window may go. Where edits or a bake would be lost it stays and the user is asked.
+  bool may_close();
+  void answer(Answer answer);
+  /// What would be lost, for the user; empty: nothing, or nobody is there to be asked.
+  std::string what_is_lost() const;
   /// Puts a document in the place of what is open; its renderer is the caller's business.
   void take_document(Document next);
+  /// The scene, over the file where it was saved last; the first time to a new one in the current folder. The
+  /// file that was opened stays as it is.
+  void save();
+  /// As save_scene(). Throws Error for the file that was opened.
+  void save_as(const std::string& file);
+  /// The scene, to this file, which is its own from then on.
   void save_scene(const std::string& file);
   void save_probes(const std::string& file);
   void save_path(const std::string& file);
@@ -102,6 +129,8 @@ class App {
   /// Something changed that the window must show.
   void redraw() { redraw_ = 3; }
   std::vector<std::string> camera_names() const;
+  /// Name of a new file in the current folder: "rooms-01.png".
+  std::string free_file(const std::string& ending) const;
   /// Of the selected lamp or SPHL; none for other selections and for lamps without a place.
   std::optional<vec3> selected_position() const;
   void move_selected(const vec3& position);
@@ -126,6 +155,7 @@ class App {
   std::string open_tab;          ///< tab of the sidebar to bring to the front once; empty: none
   Rect2 viewport;
   Drag drag;
+  Question question;
   std::string message;
   bool message_is_error = false;
   double message_since = 0;  ///< of Window::seconds(), as the members below
@@ -142,6 +172,8 @@ class App {
   /// SPHLs at these places of probes, which light has been or will be found for, in place of all there were.
   template <class Places>
   void take_places(const std::string& what, const Places& places);
+  /// The selected SPHL is the same one as among those of `before`, if it is still there.
+  void keep_selection(const std::vector<SphlEdit>& before);
   std::optional<float> suitable_exposure() const;
   bool show_exposure(float ev);
   void update_time(double seconds);
@@ -151,6 +183,7 @@ class App {
   void update_truth();
   void update_visible();
   void finish_frame();
+  void update_title();
   void resize_picture();
   std::optional<gl::Context> gl_;  ///< adopted with the first scene
   std::unique_ptr<realtime::Renderer> renderer_;
@@ -178,7 +211,9 @@ class App {
   bool coarse_ = false;                      ///< something moves and frames are slow: fewer pixels meanwhile
   std::optional<Settings> truth_settings_;   ///< that the truth on the screen was made for
   std::pair<std::string, int> truth_asked_;  ///< method and depth of what is traced
-  std::string window_shot_;                  ///< file that is to get the window's next frame; empty: none
+  bool closes_ = false;                      ///< the user does not mind what is lost
+  std::string title_;
+  std::string window_shot_;  ///< file that is to get the window's next frame; empty: none
 };
 
 }  // namespace ssphh::viewer

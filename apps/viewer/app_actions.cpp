@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -79,13 +80,38 @@ void App::take_document(Document next) {
   scene_dirty_ = true;
   light_stale_ = false;
   fly_speed = document.bounds.empty() ? 2 : std::max(0.2f, 0.25f * document.bounds.radius());
-  window.set_title(document.source + " – ssphh");
+  update_title();
   redraw();
+}
+
+std::string App::free_file(const std::string& ending) const {
+  const std::string stem =
+      std::filesystem::path(document.source.substr(document.source.rfind(':') + 1)).stem().string();
+  for (int n = 1;; ++n) {
+    std::string name = fmt::format("{}-{:02}{}", stem.empty() ? "view" : stem, n, ending);
+    if (!std::filesystem::exists(name)) return name;
+  }
+}
+
+void App::save() {
+  save_scene(document.file.empty() ? free_file(".glb") : document.file);
+}
+
+void App::save_as(const std::string& file) {
+  std::error_code ignored;
+  if (file != document.file && std::filesystem::equivalent(file, document.source, ignored))
+    throw Error(file, "is the scene as it was opened, which stays as it is", "save under another name");
+  save_scene(file);
 }
 
 void App::save_scene(const std::string& file) {
   save_document(document, file);
+  document.history.seal();
+  document.saved = document.history.serial();
+  document.file = file;
   written("saved", file);
+  const std::filesystem::path path = std::filesystem::absolute(file);
+  say(fmt::format("saved {} in {}", path.filename().string(), path.parent_path().string()));
 }
 
 void App::save_probes(const std::string& file) {
@@ -219,14 +245,24 @@ void App::frame_selection() {
 
 void App::undo() {
   const std::string what = document.history.undo_name();
-  if (document.history.undo()) say("undone: " + what);
-  selection = {};
+  const std::vector<SphlEdit> before = document.edits().sphls;
+  if (!document.history.undo()) return;
+  keep_selection(before);
+  say("undone: " + what);
 }
 
 void App::redo() {
   const std::string what = document.history.redo_name();
-  if (document.history.redo()) say("done again: " + what);
-  selection = {};
+  const std::vector<SphlEdit> before = document.edits().sphls;
+  if (!document.history.redo()) return;
+  keep_selection(before);
+  say("done again: " + what);
+}
+
+void App::keep_selection(const std::vector<SphlEdit>& before) {
+  if (!selection.is(Kind::sphl)) return;
+  selection.index = same_sphl(before, selection.index, document.edits().sphls);
+  if (selection.index < 0) selection = {};
 }
 
 void App::delete_selection() {

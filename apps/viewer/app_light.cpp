@@ -35,11 +35,14 @@ void add_dark_groups(probes::ProbeSet& set, const std::vector<std::string>& grou
 
 template <class Places>
 void App::take_places(const std::string& what, const Places& places) {
-  document.edit_at_once(what, [&](Edits& edits) {
-    edits.sphls.clear();
-    for (const auto& place : places)
-      edits.sphls.push_back({-1, place.position, place.name, place.radius, true});
-  });
+  Edits edits = document.edits();
+  edits.sphls.clear();
+  for (const auto& place : places)
+    edits.sphls.push_back({-1, place.position, place.name, place.radius, true});
+  // They are found again, or stand in a file: nothing is lost with them.
+  document.history.seal();
+  document.history.change(std::move(edits), what, false);
+  document.history.seal();
   applied_sphls_ = document.edits().sphls;
   selection = {};
 }

@@ -47,12 +47,29 @@ struct GlfwWindow::Callbacks {
     });
     glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).input_ = true; });
     glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { of(w).input_ = true; });
-    glfwSetKeyCallback(window, [](GLFWwindow* w, int, int, int, int) { of(w).input_ = true; });
-    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { of(w).input_ = true; });
-    glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { of(w).input_ = true; });
-    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { of(w).input_ = true; });
-    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { of(w).input_ = true; });
-    glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { of(w).input_ = true; });
+    // A repeat is no event, but a key that is held may do something in a new frame.
+    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
+      if (action != GLFW_REPEAT) of(w).queue_.key(key, action == GLFW_PRESS);
+      of(w).input_ = true;
+    });
+    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned code) { of(w).queue_.character(code); });
+    glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+      of(w).queue_.wheel(static_cast<float>(x), static_cast<float>(y));
+    });
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+      of(w).queue_.button(button, action == GLFW_PRESS);
+    });
+    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+      of(w).queue_.mouse(static_cast<float>(x), static_cast<float>(y));
+    });
+    glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int entered) {
+      ImGui_ImplGlfw_CursorEnterCallback(w, entered);
+      of(w).input_ = true;
+    });
+    glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
+      ImGui_ImplGlfw_WindowFocusCallback(w, focused);
+      of(w).input_ = true;
+    });
   }
 };
 
@@ -71,7 +88,6 @@ GlfwWindow::GlfwWindow(const std::string& title, int width, int height) {
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
   glfwSetWindowUserPointer(window_, this);
-  Callbacks::install(window_);
 
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
@@ -81,8 +97,9 @@ GlfwWindow::GlfwWindow(const std::string& title, int width, int height) {
   const float scale = std::max(x_scale, 1.0f);
   load_font(scale);
   apply_look(scale);
-  ImGui_ImplGlfw_InitForOpenGL(window_, true);  // Keeps our callbacks and calls them.
+  ImGui_ImplGlfw_InitForOpenGL(window_, false);
   ImGui_ImplOpenGL3_Init("#version 450");
+  Callbacks::install(window_);
   glfwGetFramebufferSize(window_, &width_, &height_);
 }
 
@@ -100,6 +117,10 @@ bool GlfwWindow::should_close() const {
 
 void GlfwWindow::close() {
   glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
+
+void GlfwWindow::keep_open() {
+  glfwSetWindowShouldClose(window_, GLFW_FALSE);
 }
 
 void GlfwWindow::set_title(const std::string& title) {
@@ -124,7 +145,8 @@ double GlfwWindow::seconds() const {
 }
 
 bool GlfwWindow::take_input() {
-  return std::exchange(input_, false);
+  // What waits in the queue needs frames as what is new does.
+  return std::exchange(input_, false) || !queue_.empty();
 }
 
 std::vector<std::string> GlfwWindow::take_dropped() {
@@ -134,6 +156,7 @@ std::vector<std::string> GlfwWindow::take_dropped() {
 void GlfwWindow::begin_frame(const InjectedInput& injected) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  queue_.give(ImGui::GetIO());
   injection_.apply(injected);
   ImGui::NewFrame();
 }

@@ -2,6 +2,7 @@
 /// A GLFW window with OpenGL 4.5 core and Dear ImGui; nothing of this project's scenes or light.
 
 #include "injection.h"
+#include "input_queue.h"
 #include "window.h"
 
 struct GLFWwindow;
@@ -16,6 +17,7 @@ class GlfwWindow : public Window {
 
   bool should_close() const override;
   void close() override;
+  void keep_open() override;
   void set_title(const std::string& title) override;
   void events(double timeout) override;
   bool take_input() override;
@@ -36,6 +38,7 @@ class GlfwWindow : public Window {
   int width_ = 0, height_ = 0;
   bool input_ = true;
   std::vector<std::string> dropped_;
+  InputQueue queue_;
   Injection injection_;
 };
 

@@ -35,8 +35,8 @@ constexpr Shortcut all_shortcuts[] = {
     {"T", "ground truth: off, beside the picture, alone, difference"},
     {"1 … 8", "all, direct, indirect, albedo, normal, shadow, SPHL, leak"},
     {"[ ] \\", "darker, brighter, as suits the picture"},
-    {"Ctrl+Z, Ctrl+Y", "undo, redo"},
-    {"Ctrl+S", "save the scene as a new GLB file"},
+    {"Ctrl+Z, Ctrl+Y", "undo, redo (also Ctrl+Shift+Z)"},
+    {"Ctrl+S", "save the scene over its own GLB file"},
     {"F12", "screenshot"},
     {"Tab", "panels on, off"},
     {"F1 or H", "this help"},
@@ -51,18 +51,14 @@ bool pressed(int key) {
   return ImGui::IsKeyPressed(key, false);
 }
 
+/// As pressed(), again and again while the key is held.
+bool repeated(int key) {
+  return ImGui::IsKeyPressed(key, true);
+}
+
 void toggle(App& app, bool& value) {
   value = !value;
   app.redraw();
-}
-
-std::string numbered_file(const App& app, const std::string& ending) {
-  const std::string stem =
-      std::filesystem::path(app.document.source.substr(app.document.source.rfind(':') + 1)).stem().string();
-  for (int n = 1;; ++n) {
-    std::string name = fmt::format("{}-{:02}{}", stem.empty() ? "view" : stem, n, ending);
-    if (!std::filesystem::exists(name)) return name;
-  }
 }
 
 void press_setting_key(App& app, char key) {
@@ -75,9 +71,9 @@ void press_setting_key(App& app, char key) {
 }
 
 void handle_control_keys(App& app) {
-  if (pressed(GLFW_KEY_Z)) app.undo();
-  if (pressed(GLFW_KEY_Y)) app.redo();
-  if (pressed(GLFW_KEY_S)) app.save_scene(numbered_file(app, ".glb"));
+  if (repeated(GLFW_KEY_Z)) ImGui::GetIO().KeyShift ? app.redo() : app.undo();
+  if (repeated(GLFW_KEY_Y)) app.redo();
+  if (pressed(GLFW_KEY_S)) app.save();
 }
 
 void handle_keys(App& app) {
@@ -95,9 +91,10 @@ void handle_keys(App& app) {
   if (pressed(GLFW_KEY_N)) toggle(app, app.place_mode);
   if (pressed(GLFW_KEY_DELETE)) app.delete_selection();
   for (const char key : setting_keys) {
-    if (pressed(key)) press_setting_key(app, key);
+    const bool steps = key == '[' || key == ']';
+    if (steps ? repeated(key) : pressed(key)) press_setting_key(app, key);
   }
-  if (pressed(GLFW_KEY_F12)) app.screenshot(numbered_file(app, ".png"), false);
+  if (pressed(GLFW_KEY_F12)) app.screenshot(app.free_file(".png"), false);
 }
 
 void fly(App& app, float seconds) {
@@ -184,6 +181,7 @@ void begin_left(App& app) {
 void continue_drag(App& app) {
   const ImVec2 delta = ImGui::GetIO().MouseDelta;
   if (delta.x == 0 && delta.y == 0) return;
+  app.drag.moved = true;
   const auto drag_view = [&](ViewDrag drag) {
     app.view = dragged(app.view, drag, {delta.x, delta.y}, app.viewport.height);
   };
@@ -206,7 +204,7 @@ void handle_mouse(App& app) {
   const ImGuiIO& io = ImGui::GetIO();
   const bool inside = !io.WantCaptureMouse && app.viewport.contains(io.MousePos.x, io.MousePos.y);
   if (app.drag.what != Drag::What::none && !ImGui::IsAnyMouseDown()) {
-    app.drag.what = Drag::What::none;
+    app.drag = {};
     app.document.history.seal();
     app.redraw();
   }
@@ -230,6 +228,7 @@ const Shortcut* shortcuts(int& count) {
 }
 
 void handle_input(App& app, float seconds) {
+  if (app.question.then != Question::Then::nothing) return;
   try {
     if (!ImGui::GetIO().WantTextInput) handle_keys(app);
     if (!app.scene_open()) return;

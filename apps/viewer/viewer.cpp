@@ -2,10 +2,9 @@
 
 #include <filesystem>
 
-#include <fmt/format.h>
-
 #include "app.h"
 #include "glfw_window.h"
+#include "model/frame_files.h"
 #include "script_player.h"
 
 namespace ssphh::viewer {
@@ -13,14 +12,14 @@ namespace {
 
 void begin(App& app, const ViewerOptions& options) {
   if (options.source.empty()) return;
-  app.open(options.source);
+  if (options.probes.empty()) {
+    app.open_lit(options.source);
+  } else {
+    app.open(options.source);
+    app.use_probes(options.probes);
+  }
   if (!options.camera.empty()) app.go_to_camera(options.camera);
   if (!options.path.empty()) app.load_path(options.path);
-  if (!options.probes.empty()) {
-    app.use_probes(options.probes);
-  } else if (!app.document.edits().sphls.empty()) {
-    app.light_scene_probes();
-  }
 }
 
 class Session {
@@ -29,7 +28,7 @@ class Session {
 
   /// False once the window is to close.
   bool turn(const InjectedInput& input = {}) {
-    if (control_.cancelled() || app_.window.should_close()) return false;
+    if (control_.cancelled() || (app_.window.should_close() && app_.may_close())) return false;
     const double wait = app_.turn(input);
     app_.window.events(wait);
     return true;
@@ -67,10 +66,10 @@ void export_path(App& app, Session& session, const ViewerOptions& options, const
     app.go_to(at(path, path.keys.front().time + static_cast<float>(f / options.fps)));
     if (!session.settle(f == 0)) throw Cancelled();
     if (app.follow_exposure() && !session.settle(false)) throw Cancelled();
-    app.screenshot((std::filesystem::path(options.export_dir) / fmt::format("frame-{:04}.png", f)).string(),
-                   false);
+    app.screenshot((std::filesystem::path(options.export_dir) / frame_name(f)).string(), false);
     progress.advance(1);
   }
+  remove_frames_from(options.export_dir, frames);
 }
 
 void play(App& app, Session& session, const ViewerOptions& options) {

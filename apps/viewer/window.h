@@ -28,6 +28,8 @@ class Window {
 
   virtual bool should_close() const = 0;
   virtual void close() = 0;
+  /// Takes close(), or what the user did for it, back.
+  virtual void keep_open() = 0;
   virtual void set_title(const std::string& title) = 0;
 
   /// Handles what the user did. Waits up to `timeout` seconds for that; 0: not at all.

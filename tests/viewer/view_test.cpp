@@ -118,10 +118,16 @@ TEST_F(View, SavesWhatWasEdited) {
   const json::Value again = run_json({"view", path("rooms.glb"), "--probes", path("rooms.sphl"), "--size",
                                       "160x100", "--no-panels", "--screenshot", path("again.png")});
   EXPECT_EQ(again["probes"], 7);
+  // An export replaces the frames of an older, longer one.
+  std::filesystem::create_directory(path("frames"));
+  std::ofstream(path("frames/frame-0003.png")) << "old";
+  std::ofstream(path("frames/notes.txt")) << "mine";
   const json::Value frames = run_json(joined(
       two_rooms, {"--probes", "off", "--path", path("path.json"), "--export", path("frames"), "--fps", "1"}));
   EXPECT_EQ(frames["written"].size(), 3u);
   EXPECT_TRUE(exists("frames/frame-0002.png"));
+  EXPECT_FALSE(exists("frames/frame-0003.png"));
+  EXPECT_TRUE(exists("frames/notes.txt"));
 }
 
 TEST_F(View, FramesOfAPathGlideToWhatSuitsThemAlike) {

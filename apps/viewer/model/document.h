@@ -14,11 +14,15 @@ struct Document {
   std::string source;                         ///< as the user named it
   std::shared_ptr<const scene::Scene> scene;  ///< as loaded
   History<Edits> history;
-  float time = 0;      ///< pose of the animations [s]
-  float duration = 0;  ///< of the animations [s]
+  std::string file;         ///< its own, where it was saved last; empty: it has none yet
+  std::uint64_t saved = 0;  ///< History::serial() of what the file has
+  float time = 0;           ///< pose of the animations [s]
+  float duration = 0;       ///< of the animations [s]
   scene::Bounds bounds;
 
   const Edits& edits() const { return history.now(); }
+  /// Whether there are edits that no file has.
+  bool dirty() const { return history.serial() != saved; }
   /// What lights the scene now, edits and time included.
   scene::LightingState lighting() const { return edited_lighting(*scene, edits(), time); }
   /// One edit, by name for undo. See History::change for what counts as one step.

@@ -97,6 +97,14 @@ vec3 sphl_position(const scene::Scene& scene, const std::vector<mat4>& world, co
   return vec3(world[index(scene.sphls[index(sphl.source)].node)][3]);
 }
 
+int same_sphl(const std::vector<SphlEdit>& before, int index, const std::vector<SphlEdit>& after) {
+  if (before.size() == after.size()) return index;
+  const SphlEdit& sphl = before[static_cast<std::size_t>(index)];
+  const auto found = std::ranges::find_if(
+      after, [&](const SphlEdit& s) { return s.source == sphl.source && s.name == sphl.name; });
+  return found == after.end() ? -1 : static_cast<int>(found - after.begin());
+}
+
 std::string new_sphl_name(const Edits& edits) {
   for (std::size_t n = edits.sphls.size() + 1;; ++n) {
     std::string name = fmt::format("SPHL {}", n);

@@ -62,6 +62,10 @@ bool same_places(const std::vector<SphlEdit>& a, const std::vector<SphlEdit>& b)
 /// World position of an SPHL at `time`.
 vec3 sphl_position(const scene::Scene& scene, const std::vector<mat4>& world, const SphlEdit& sphl);
 
+/// Index in `after` of the SPHL that is before[index]; −1: it is not there. In lists of one length each keeps
+/// its place; else it is known by its source and name.
+int same_sphl(const std::vector<SphlEdit>& before, int index, const std::vector<SphlEdit>& after);
+
 /// A name that no other SPHL has: "SPHL 7".
 std::string new_sphl_name(const Edits& edits);
 

@@ -13,7 +13,8 @@ namespace {
 void draw_file_menu(App& app) {
   if (ImGui::BeginMenu("Open a built-in scene")) {
     for (const scene::BuiltinScene& scene : scene::builtin_scenes()) {
-      if (ImGui::MenuItem(scene.name.c_str())) attempt(app, [&] { app.open("builtin:" + scene.name); });
+      if (ImGui::MenuItem(scene.name.c_str()))
+        attempt(app, [&] { app.request_open("builtin:" + scene.name); });
       tip(scene.description.c_str());
     }
     ImGui::EndMenu();
@@ -21,8 +22,7 @@ void draw_file_menu(App& app) {
   ImGui::MenuItem("Drop files on the window to open them", nullptr, false, false);
   ImGui::Separator();
   const bool open = app.scene_open();
-  if (ImGui::MenuItem("Save scene as scene.glb", nullptr, false, open))
-    attempt(app, [&] { app.save_scene("scene.glb"); });
+  if (ImGui::MenuItem("Save scene", "Ctrl+S", false, open)) attempt(app, [&] { app.save(); });
   if (ImGui::MenuItem("Save probes as probes.sphl", nullptr, false, open && !app.light.empty()))
     attempt(app, [&] { app.save_probes("probes.sphl"); });
   if (ImGui::MenuItem("Save times as times.csv", nullptr, false, open))

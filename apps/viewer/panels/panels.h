@@ -20,5 +20,7 @@ void draw_picture_panel(App& app);
 void draw_stats_panel(App& app);
 void draw_time_bar(App& app);
 void draw_help(App& app);
+/// Asks App::question and takes the answer, by mouse or key.
+void draw_question(App& app);
 
 }  // namespace ssphh::viewer

@@ -55,7 +55,7 @@ void draw_picture_panel(App& app) {
   if (wide_button("Write picture")) attempt(app, [&] { app.screenshot(file, false); });
   static char scene_file[256] = "scene.glb";
   file_row("scene", scene_file);
-  if (wide_button("Save scene")) attempt(app, [&] { app.save_scene(scene_file); });
+  if (wide_button("Save scene")) attempt(app, [&] { app.save_as(scene_file); });
 }
 
 }  // namespace ssphh::viewer

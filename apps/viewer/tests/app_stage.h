@@ -15,6 +15,7 @@
 #include "app.h"
 #include "injection.h"
 #include "input.h"
+#include "input_queue.h"
 #include "overlay.h"
 #include "panels/panels.h"
 #include "style.h"
@@ -35,9 +36,10 @@ class StillWindow : public Window {
 
   bool should_close() const override { return closed; }
   void close() override { closed = true; }
+  void keep_open() override { closed = false; }
   void set_title(const std::string& text) override { title = text; }
   void events(double timeout) override { waits.push_back(timeout), clock += timeout; }
-  bool take_input() override { return std::exchange(touched, false); }
+  bool take_input() override { return std::exchange(touched, false) || !queue.empty(); }
   std::vector<std::string> take_dropped() override { return std::exchange(dropped, {}); }
   int width() const override { return width_; }
   int height() const override { return height_; }
@@ -47,6 +49,7 @@ class StillWindow : public Window {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(width_), static_cast<float>(height_)};
     io.DeltaTime = 0.2f;  // No click follows another so soon that both are a double one.
+    queue.give(io);
     injection_.apply(input);
     if (wheel != 0) io.MouseWheel = std::exchange(wheel, 0.0f);
     for (const char c : typed) io.AddInputCharacter(static_cast<unsigned char>(c));
@@ -58,6 +61,7 @@ class StillWindow : public Window {
   void show_frame() override { ++frames; }
 
   bool closed = false, touched = false;
+  InputQueue queue;
   std::string title, typed;
   float wheel = 0;
   int frames = 0;

@@ -250,8 +250,68 @@ TEST_F(AppTest, OnlyWhatHasAPlaceMovesAndOnlySphlsAreDeleted) {
   EXPECT_EQ(app().message, "x") << "there is nothing to undo";
   app().selection = {Kind::light, 0};
   app().redo();
-  EXPECT_EQ(app().selection, Selection{});
+  EXPECT_EQ(app().selection, (Selection{Kind::light, 0}));
   EXPECT_EQ(app().message, "done again: move doorway");
+}
+
+TEST_F(AppTest, ASceneIsSavedOverItsOwnFileAndNeverOverTheOneThatWasOpened) {
+  const std::string input = "rooms-01.glb";
+  save_document(document("two-rooms"), input);
+  const auto before = read_file(input);
+  app().take_document(make_document(input, scene::make_builtin("two-rooms"), 0));
+  const auto dim = [&](float value) {
+    app().document.edit_at_once("dim", [&](Edits& e) { e.lights[0].intensity = value; });
+  };
+  dim(1);
+  EXPECT_TRUE(app().document.dirty());
+  app().save();
+  EXPECT_FALSE(app().document.dirty());
+  const std::string own = "rooms-01-01.glb";
+  EXPECT_EQ(app().document.file, own);
+  EXPECT_EQ(app().message, "saved " + own + " in " + std::filesystem::current_path().string());
+  const auto first = read_file(own);
+  dim(2);
+  app().save();
+  EXPECT_NE(read_file(own), first);
+  EXPECT_FALSE(std::filesystem::exists("rooms-01-02.glb"));
+  for (const std::string& name : {input, "./" + input, std::filesystem::absolute(input).string()})
+    EXPECT_THROW(app().save_as(name), Error) << name;
+  EXPECT_EQ(read_file(input), before);
+  app().save_as("other.glb");
+  dim(3);
+  app().save();
+  EXPECT_THAT(app().report.written, testing::ElementsAre(own, own, "other.glb", "other.glb"));
+  // Who names it in a script, or has saved there before, means it.
+  app().save_scene(input);
+  app().save_as(input);
+  EXPECT_NE(read_file(input), before);
+  app().take_document(document("two-rooms"));
+  app().save();
+  EXPECT_EQ(app().document.file, "two-rooms-01.glb") << "another document has a file of its own";
+}
+
+TEST_F(AppTest, UndoAndRedoKeepWhatIsSelected) {
+  app().take_document(document("two-rooms"));
+  app().document.edit_at_once("delete SPHL", [](Edits& e) { e.sphls.erase(e.sphls.begin()); });
+  app().document.edit_at_once("rename", [](Edits& e) { e.sphls[4].name = "other"; });
+  app().selection = {Kind::sphl, 4};
+  app().undo();
+  EXPECT_EQ(app().selection, (Selection{Kind::sphl, 4}));
+  app().undo();
+  EXPECT_EQ(app().selection, (Selection{Kind::sphl, 5})) << "the same one, now behind the restored first";
+  app().redo();
+  EXPECT_EQ(app().selection, (Selection{Kind::sphl, 4}));
+  app().undo();
+  app().selection = {Kind::sphl, 0};
+  app().redo();
+  EXPECT_EQ(app().selection, Selection{}) << "it is not there";
+  for (const Kind kind : {Kind::light, Kind::material}) {
+    app().selection = {kind, 0};
+    app().undo();
+    EXPECT_EQ(app().selection, (Selection{kind, 0}));
+    app().redo();
+    EXPECT_EQ(app().selection, (Selection{kind, 0}));
+  }
 }
 
 }  // namespace

@@ -58,8 +58,52 @@ TEST(History, NamesWhatItWouldDo) {
   EXPECT_EQ(history.now(), 1) << "undo ends a gesture: what follows is a step of its own";
 }
 
+TEST(History, EachStateHasItsSerial) {
+  History<int> history(7);
+  EXPECT_EQ(history.serial(), 0u);
+  history.change(1, "move");
+  const auto first = history.serial();
+  history.change(2, "move");
+  const auto second = history.serial();
+  EXPECT_TRUE(first != 0 && second != 0 && first != second) << "one step, but two states";
+  history.seal();
+  history.change(3, "places", false);
+  EXPECT_EQ(history.serial(), second) << "counts for nothing";
+  history.change(4, "colour");
+  const auto third = history.serial();
+  EXPECT_GT(third, second);
+  history.undo(), history.undo();
+  EXPECT_EQ(history.serial(), second);
+  history.undo();
+  EXPECT_EQ(history.serial(), 0u);
+  history.redo(), history.redo(), history.redo();
+  EXPECT_EQ(history.serial(), third);
+  history.undo();
+  history.change(4, "colour");
+  EXPECT_GT(history.serial(), third) << "the same value after other edits is another state";
+}
+
 Document two_rooms(float time = 0) {
   return make_document("builtin:two-rooms", scene::make_builtin("two-rooms"), time);
+}
+
+TEST(Edits, AreLostUntilTheyAreSavedOrUndone) {
+  Document document = two_rooms();
+  EXPECT_FALSE(document.dirty());
+  const auto intensity = [&](float value) {
+    document.edit_at_once("dim", [&](Edits& e) { e.lights[0].intensity = value; });
+  };
+  intensity(1);
+  EXPECT_TRUE(document.dirty());
+  document.history.undo();
+  EXPECT_FALSE(document.dirty());
+  document.history.redo();
+  document.saved = document.history.serial();
+  EXPECT_FALSE(document.dirty());
+  document.history.undo();
+  EXPECT_TRUE(document.dirty()) << "the file has the edit";
+  intensity(2);
+  EXPECT_TRUE(document.dirty());
 }
 
 TEST(Edits, NoneLeaveTheSceneAsItIs) {

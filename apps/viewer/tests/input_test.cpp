@@ -71,6 +71,10 @@ TEST_F(Input, KeysDoWhatTheHelpSays) {
   press({GLFW_KEY_Y}, true);
   EXPECT_EQ(app().document.edits().sphls.size(), 5u);
   EXPECT_EQ(app().message, "done again: delete SPHL");
+  press({GLFW_KEY_Z}, true);
+  press({GLFW_KEY_Z}, true, true);
+  EXPECT_EQ(app().document.edits().sphls.size(), 5u) << "with Shift: again";
+  EXPECT_EQ(app().message, "done again: delete SPHL");
   press({GLFW_KEY_HOME});
   EXPECT_EQ(app().view, start_view(app().document, ""));
   app().document.time = 0.5f;
@@ -93,11 +97,12 @@ TEST_F(Input, KeysDoWhatTheHelpSays) {
   EXPECT_EQ(app().message, "picture: leak") << "not told";
   press({GLFW_KEY_S}, true);
   press({GLFW_KEY_S}, true);
-  EXPECT_THAT(app().report.written, testing::ElementsAre("two-rooms-01.glb", "two-rooms-02.glb"));
+  EXPECT_THAT(app().report.written, testing::ElementsAre("two-rooms-01.glb", "two-rooms-01.glb"));
+  EXPECT_EQ(app().message, "saved two-rooms-01.glb in " + std::filesystem::current_path().string());
   app().selection = {Kind::sphl, 0};
   press({GLFW_KEY_F, GLFW_KEY_B}, true);
   EXPECT_EQ(app().bookmarks.keys.size(), 2u) << "with Ctrl these keys mean nothing";
-  app().document.source = "";
+  app().document.source = app().document.file = "";
   press({GLFW_KEY_S}, true);
   EXPECT_EQ(app().report.written.back(), "view-01.glb");
 }
@@ -282,6 +287,10 @@ TEST_F(Input, TheWipesLineIsDragged) {
   app().view = look_at({-1, 1.5f, 1.9f}, {5, 1.5f, 1.9f}, 1);
   drag(207, 250, 100, 250);
   EXPECT_FLOAT_EQ(app().settings.wipe, 0.25f);
+  mouse(100, 250), mouse(100, 250, {true}), mouse(150, 250, {true});
+  EXPECT_TRUE(app().drag.moved);
+  EXPECT_FALSE(app().drag.changes_picture());
+  mouse(100, 250, {true}), mouse(100, 250);
   drag(93, 250, 500, 250);
   EXPECT_FLOAT_EQ(app().settings.wipe, 1);
   app().settings.wipe = 0.5f;

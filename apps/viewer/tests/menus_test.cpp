@@ -108,15 +108,21 @@ TEST_F(Menus, MenusDoWhatTheySay) {
   EXPECT_EQ(app().document.edits().sphls.size(), 6u);
   choose("Edit", "Redo delete SPHL");
   EXPECT_EQ(app().document.edits().sphls.size(), 5u);
-  choose("File", "Save scene as scene.glb");
+  choose("File", "Save scene");
   choose("File", "Save times as times.csv");
   EXPECT_FALSE(shows("Save probes as"));
   take_probes();
   choose("File", "Save probes as probes.sphl");
-  EXPECT_THAT(app().report.written, ElementsAre("scene.glb", "times.csv", "probes.sphl"));
+  EXPECT_THAT(app().report.written, ElementsAre("stage-01.glb", "times.csv", "probes.sphl"));
   choose("View", "Panels");
   EXPECT_FALSE(app().panels);
   app().panels = true;
+  app().document.edit_at_once("dim", [](Edits& e) { e.lights[0].intensity = 0.5f; });
+  choose("File", "Open a built-in scene");
+  click_text("cornell");
+  EXPECT_EQ(app().question.source, "builtin:cornell") << "asked first";
+  app().answer(Answer::stay);
+  rest();
   choose("File", "Quit");
   EXPECT_TRUE(window_->closed);
 }

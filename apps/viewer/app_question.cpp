@@ -1,0 +1,83 @@
+// What is not saved, and the question before it is lost.
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app.h"
+
+namespace ssphh::viewer {
+namespace {
+
+/// Without hands nobody is there to answer.
+bool by_hand(const ViewerOptions& options) {
+  return options.script.empty() && options.screenshot.empty() && options.export_dir.empty() &&
+         options.frames == 0;
+}
+
+bool is_scene(const std::string& source) {
+  const bool path = source.ends_with(".json") && !source.ends_with(".ssphh.json");
+  return !path && !is_probe_file(source);
+}
+
+}  // namespace
+
+void App::open_lit(const std::string& source) {
+  open(source);
+  if (!is_scene(source)) return;
+  const auto enabled = [](const SphlEdit& sphl) { return sphl.enabled; };
+  if (options.probes == "off" || options.probes.starts_with("auto")) {
+    use_probes(options.probes);
+  } else if (std::ranges::any_of(document.edits().sphls, enabled)) {
+    light_scene_probes();
+  }
+}
+
+std::string App::what_is_lost() const {
+  if (!by_hand(options) || !scene_open()) return {};
+  const JobStatus status = job.status();
+  const bool bake = status.running && (status.name == "GEN" || status.name == "VIZ");
+  std::string text;
+  if (document.dirty()) text = fmt::format("{} has changes that are not saved.", document.source);
+  if (bake) text += fmt::format("{}{} is not done yet.", text.empty() ? "" : "\n", status.name);
+  return text;
+}
+
+void App::request_open(const std::string& source) {
+  if (!is_scene(source) || what_is_lost().empty()) return open_lit(source);
+  question = {Question::Then::open, source};
+  redraw();
+}
+
+bool App::may_close() {
+  if (closes_ || what_is_lost().empty()) return true;
+  window.keep_open();
+  question = {Question::Then::close, {}};
+  redraw();
+  return false;
+}
+
+void App::answer(Answer answer) {
+  const Question asked = std::exchange(question, {});
+  redraw();
+  if (answer == Answer::stay) return;
+  try {
+    if (answer == Answer::save && document.dirty()) save();
+    if (asked.then == Question::Then::open) open_lit(asked.source);
+    if (asked.then == Question::Then::close) {
+      closes_ = true;
+      window.close();
+    }
+  } catch (const std::exception& e) {
+    complain(e.what());
+  }
+}
+
+void App::update_title() {
+  const std::string title = (document.dirty() ? "*" : "") + document.source + " – ssphh";
+  if (title != title_) window.set_title(title);
+  title_ = title;
+}
+
+}  // namespace ssphh::viewer
