@@ -185,7 +185,7 @@ void App::draw_scene() {
     look.view = view;
     look.radius = settings.ball_size > 0 ? settings.ball_size : default_ball_size(light.set());
     look.lobes = settings.lobes;
-    look.tone = {shown_exposure(settings), settings.curve, 0};
+    look.tone = shown_tone(settings);
     look.selected = selection.is(Kind::sphl) ? probe_of_sphl(*this, selection.index) : -1;
     balls_->draw(light.set(), look, {renderer_->depth_texture(), renderer_->view_projection()},
                  picture.framebuffer(), picture.width(), picture.height());

@@ -55,7 +55,7 @@ void Picture::update_truth(const ReferenceImage& truth, const Settings& settings
     difference_ = leak_picture(*truth.indirect, linear_);
     truth_picture_ = difference_->picture;
   } else if (settings.show == Show::truth || settings.show == Show::wipe) {
-    truth_picture_ = image::to_display(*truth.color, {shown_exposure(settings), settings.curve, 0});
+    truth_picture_ = image::to_display(*truth.color, shown_tone(settings));
   } else {
     if (linear_.empty()) return;
     difference_ = difference(*truth.color, linear_, settings.show, settings.block);
@@ -65,18 +65,19 @@ void Picture::update_truth(const ReferenceImage& truth, const Settings& settings
   have_truth_ = true;
 }
 
-float shown_exposure(const Settings& settings) {
+image::ToneMap shown_tone(const Settings& settings) {
   using enum DebugView;
   const DebugView view = settings.debug;
   const bool light = view == none || view == direct || view == indirect || view == leak;
-  return settings.auto_exposure && !light ? 0 : settings.exposure;
+  return {settings.auto_exposure && !light ? 0 : settings.exposure,
+          light ? settings.curve : image::ToneCurve::clip, 0};
 }
 
 realtime::FrameSettings frame_settings(const Settings& settings) {
   realtime::FrameSettings out;
   out.lookup = settings.lookup;
   out.weights = settings.weights;
-  out.tone = {shown_exposure(settings), settings.curve, 0};
+  out.tone = shown_tone(settings);
   out.indirect_scale = needs_truth(settings) ? 1 : settings.indirect_scale;
   using enum realtime::View;
   constexpr realtime::View views[] = {lit, direct, indirect, albedo, normal, shadow, chosen_sphl, indirect};
@@ -85,11 +86,11 @@ realtime::FrameSettings frame_settings(const Settings& settings) {
 }
 
 bool same_picture(const Settings& a, const Settings& b) {
-  return shown_exposure(a) == shown_exposure(b) && a.auto_exposure == b.auto_exposure && a.curve == b.curve &&
-         a.debug == b.debug && a.indirect_scale == b.indirect_scale && a.lookup == b.lookup &&
-         a.weights == b.weights && a.layer == b.layer && a.degree == b.degree && a.hier == b.hier &&
-         a.hier_params == b.hier_params && a.balls == b.balls && a.lobes == b.lobes && a.ball == b.ball &&
-         a.ball_size == b.ball_size;
+  return shown_tone(a).exposure == shown_tone(b).exposure && a.auto_exposure == b.auto_exposure &&
+         a.curve == b.curve && a.debug == b.debug && a.indirect_scale == b.indirect_scale &&
+         a.lookup == b.lookup && a.weights == b.weights && a.layer == b.layer && a.degree == b.degree &&
+         a.hier == b.hier && a.hier_params == b.hier_params && a.balls == b.balls && a.lobes == b.lobes &&
+         a.ball == b.ball && a.ball_size == b.ball_size;
 }
 
 bool needs_truth(const Settings& settings) {

@@ -62,8 +62,9 @@ class Picture {
   std::optional<Difference> difference_;
 };
 
-/// EV of what is shown: surfaces' colours, normals and the like are no light, which an automatic one is for.
-float shown_exposure(const Settings& settings);
+/// EV and curve of what is shown: surfaces' colours, normals and the like are no light, which an automatic EV
+/// and curves are for.
+image::ToneMap shown_tone(const Settings& settings);
 
 /// How the renderer shall draw for these settings.
 realtime::FrameSettings frame_settings(const Settings& settings);

@@ -68,7 +68,7 @@ struct Settings {
   // Picture
   bool auto_exposure = true;  ///< `exposure` follows the picture
   float exposure = 0;         ///< EV
-  image::ToneCurve curve = image::ToneCurve::clip;
+  image::ToneCurve curve = image::ToneCurve::filmic;
   Show show = Show::realtime;
   DebugView debug = DebugView::none;
   float wipe = 0.5f;  ///< place of the line, share of the width

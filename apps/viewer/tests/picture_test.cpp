@@ -31,6 +31,7 @@ TEST(PictureSettings, EachDebugViewIsTheRenderersView) {
     Settings s;
     s.debug = debug;
     EXPECT_EQ(frame_settings(s).view, view) << name_of(debug);
+    EXPECT_EQ(shown_tone(s).curve == s.curve, debug < DebugView::albedo || debug == DebugView::leak);
     EXPECT_EQ(needs_truth(s), debug == DebugView::leak);
     EXPECT_EQ(frame_settings(s).indirect_scale, debug == DebugView::leak ? 1 : 3);
   }
@@ -167,9 +168,9 @@ class PictureTest : public AppStage {
     EXPECT_EQ(truth.color->width, 64);
     EXPECT_EQ(truth.color->height, 48);
     EXPECT_EQ(app().picture.truth_pixels().rgba,
-              image::to_display(*truth.color, {0, image::ToneCurve::clip, 0}).rgba);
+              image::to_display(*truth.color, {0, image::ToneCurve::filmic, 0}).rgba);
     play("screenshot truth.png\nset show pixelated\nset block 8");
-    EXPECT_EQ(file("truth.png").rgba, image::to_display(*truth.color, {0, image::ToneCurve::clip, 0}).rgba);
+    EXPECT_EQ(file("truth.png").rgba, image::to_display(*truth.color, {0, image::ToneCurve::filmic, 0}).rgba);
     const Difference blocks = difference(*truth.color, app().picture.linear(), Show::pixelated, 8);
     EXPECT_EQ(app().picture.truth_pixels().rgba, blocks.picture.rgba);
     EXPECT_EQ(app().picture.shown_difference()->scale, blocks.scale);

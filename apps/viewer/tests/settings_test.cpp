@@ -52,7 +52,7 @@ TEST(Settings, EveryNameSetsAndTellsItsValue) {
 /// The defaults of the tool's options, of scripts and of the panels.
 TEST(Settings, StartAtTheirDefaults) {
   const std::map<std::string, std::string> wanted = {
-      {"exposure", "auto"}, {"tonemap", "clip"},      {"debug", "none"},    {"scale", "1"},
+      {"exposure", "auto"}, {"tonemap", "filmic"},    {"debug", "none"},    {"scale", "1"},
       {"wipe", "0.5"},      {"indirect-scale", "3"},  {"show", "realtime"}, {"block", "16"},
       {"against", "path"},  {"truth-depth", "25"},    {"degree", "4"},      {"truth-spp", "256"},
       {"hier", "off"},      {"lookup", "irradiance"}, {"layer", "sum"},     {"weights", "surface"},
@@ -99,7 +99,7 @@ TEST(Settings, GoWhereTheirNameSays) {
   };
   const Case cases[] = {
       {"exposure", "2", [](Settings& s) { s.exposure = 2, s.auto_exposure = false; }},
-      {"tonemap", "filmic", [](Settings& s) { s.curve = image::ToneCurve::filmic; }},
+      {"tonemap", "clip", [](Settings& s) { s.curve = image::ToneCurve::clip; }},
       {"debug", "leak", [](Settings& s) { s.debug = DebugView::leak; }},
       {"scale", "0.5", [](Settings& s) { s.scale = 0.5f; }},
       {"indirect-scale", "2", [](Settings& s) { s.indirect_scale = 2; }},
