@@ -31,7 +31,8 @@ void PaneLight::reset(const rays::DirectLight& light, std::size_t groups) {
   records_ = records_by_panes(light, groups);
 }
 
-bool PaneLight::find(const rays::DirectLight& light, const Lit& lit, std::size_t& done, const Pace& pace) {
+bool PaneLight::find(const rays::DirectLight& light, const Lit& lit, std::size_t& done, const Pace& pace,
+                     const Control& control) {
   if (std::ranges::count(marked_, 1) == 0) return true;
   const std::size_t probes = lit.probes.size();
   if (done == 0) {
@@ -44,15 +45,19 @@ bool PaneLight::find(const rays::DirectLight& light, const Lit& lit, std::size_t
   const bool all =
       pace.go_on(done, probes + lit.records.size(), least, [&](std::size_t begin, std::size_t end) {
         const std::size_t first = std::min(begin, probes), last = std::min(end, probes);
-        parallel_for(last - first, 4, [&](std::size_t k) {
-          for (std::size_t g = 0; g < marked_.size(); ++g) {
-            if (!marked_[g]) continue;
-            probes_[g][first + k] = project_arriving(
-                light.mirrored_arriving(static_cast<int>(g), lit.probes[first + k], probe_samples),
-                lit.degree);
-          }
-        });
-        if (end > probes) records_.extend(light, lit.records.first(end - probes), lit.record_samples, {});
+        parallel_for(
+            last - first, 4,
+            [&](std::size_t k) {
+              for (std::size_t g = 0; g < marked_.size(); ++g) {
+                if (!marked_[g]) continue;
+                probes_[g][first + k] = project_arriving(
+                    light.mirrored_arriving(static_cast<int>(g), lit.probes[first + k], probe_samples),
+                    lit.degree);
+              }
+            },
+            control);
+        if (end > probes)
+          records_.extend(light, lit.records.first(end - probes), lit.record_samples, control);
       });
   if (all) marked_.assign(marked_.size(), 0);
   return all;

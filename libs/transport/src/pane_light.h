@@ -32,8 +32,10 @@ class PaneLight {
   }
   void mark_all() { marked_.assign(marked_.size(), 1); }
 
-  /// Finds what is marked, or as much of it as there is time for, from `done` on; true: that is all.
-  bool find(const rays::DirectLight& light, const Lit& lit, std::size_t& done, const Pace& pace);
+  /// Finds what is marked, or as much of it as there is time for, from `done` on; true: that is all. Throws
+  /// Cancelled; all of it is still marked then.
+  bool find(const rays::DirectLight& light, const Lit& lit, std::size_t& done, const Pace& pace,
+            const Control& control);
 
   /// Adds a group's to the probes' light.
   void add_to(std::size_t group, const vec3& scale, std::vector<sh::RadianceSh>& probes) const;

@@ -188,11 +188,11 @@ struct RelightSession::Data {
   bool go_on(RelightReport& report, const Control& control, Pace& pace);
   bool step(RelightReport& report, const Control& control, Pace& pace);
   bool pose(RelightReport& report, Pace& pace);
-  bool find_direct(Pace& pace);
+  bool find_direct(Pace& pace, const Control& control);
   void find_emission();
   /// Notes whose light panes mirror anew, before the marks of `group_dirty` go.
   void mark_panes();
-  bool find_pane_light(Pace& pace);
+  bool find_pane_light(Pace& pace, const Control& control);
   bool solve(RelightReport& report, const Control& control, Pace& pace);
   bool project(Pace& pace);
   void publish();

@@ -70,7 +70,8 @@ bool RelightSession::Data::step(RelightReport& report, const Control& control, P
     case Stage::direct:
     case Stage::emission:
     case Stage::panes:
-      return measure(source, report.direct_ms, &report.direct_rays, [&] { return find_direct(pace); });
+      return measure(source, report.direct_ms, &report.direct_rays,
+                     [&] { return find_direct(pace, control); });
     case Stage::solve:
       return measure(source, report.solve_ms, nullptr, [&] { return solve(report, control, pace); });
     case Stage::project:
@@ -113,7 +114,7 @@ bool RelightSession::Data::pose(RelightReport& report, Pace& pace) {
   return true;
 }
 
-bool RelightSession::Data::find_direct(Pace& pace) {
+bool RelightSession::Data::find_direct(Pace& pace, const Control& control) {
   if (stage == Stage::lamps) {
     if (any_group_dirty() || !moved.empty() || !direct_light) {
       source.renew_direct_light(direct_light, state.lights, network.poses(), state.environment_rotation);
@@ -132,7 +133,7 @@ bool RelightSession::Data::find_direct(Pace& pace) {
     return true;
   }
   if (stage == Stage::panes) {
-    if (!find_pane_light(pace)) return false;
+    if (!find_pane_light(pace, control)) return false;
     stage = Stage::solve;
     is_begun = false;
     return true;
@@ -162,11 +163,11 @@ void RelightSession::Data::mark_panes() {
   }
 }
 
-bool RelightSession::Data::find_pane_light(Pace& pace) {
+bool RelightSession::Data::find_pane_light(Pace& pace, const Control& control) {
   const std::vector<vec3>& positions = network.gbuffer().positions;
   PaneLight::Lit lit_by{positions, params.degree, {}, params.records.rays};
   if (gather) lit_by.records = gather->points();
-  return pane_light.find(*direct_light, lit_by, done, pace);
+  return pane_light.find(*direct_light, lit_by, done, pace, control);
 }
 
 void RelightSession::Data::find_emission() {

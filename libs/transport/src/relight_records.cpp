@@ -117,7 +117,7 @@ void RelightSession::Data::light_by_panes(const Control& control) {
   pane_light.mark_all();
   done = 0;
   Pace pace(control);
-  find_pane_light(pace);
+  find_pane_light(pace, control);
   done = 0;
 }
 
