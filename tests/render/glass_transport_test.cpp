@@ -7,6 +7,7 @@
 #include <ssphh/place/init.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/scene/primitives.h>
+#include <ssphh/scene/with_lighting.h>
 #include <ssphh/sh/irradiance.h>
 #include <ssphh/trace/path_tracer.h>
 #include <ssphh/trace/transport_scene.h>
@@ -225,6 +226,31 @@ TEST(GlassTransport, MirroredLightFollowsALampToTheBit) {
   EXPECT_GT(calls, 8);
   EXPECT_EQ(pieces.reflected(), session.reflected());
   EXPECT_EQ(pieces.record_light(), session.record_light());
+}
+
+TEST(GlassTransport, UpdatedRecordsHoldWhatAPaneMirrorsOfALampWhereItIsNow) {
+  const scene::Scene scene = mirroring_room(vec3(1));
+  const trace::TransportScene source(scene);
+  transport::RelightParams params;
+  params.transport.surfel_size = 0.2f;
+  transport::RelightSession session(source, scene::sphl_places(scene, 0), params);
+  // As above
+  const std::vector<rays::SurfacePoint> points{{vec3(-0.7f, -1, 0.3f), {0, 1, 0}},
+                                               {vec3(-1.2f, -1, -0.4f), {0, 1, 0}}};
+  session.keep_records_at(points, {.points = 2, .rays = 4096});
+  session.update(session.lighting());
+  scene::LightingState moved = rays::lighting_at(source);
+  moved.lights[0].world[3] = vec4(-0.6f, 0.1f, -0.3f, 1);
+  session.update(moved);
+  const scene::Scene lit = scene::with_lighting(scene, moved);
+  const auto truth = trace::PathTracer(lit).surface_irradiance(
+      points, {.max_depth = 40, .passes = 1, .spp = 1 << 16, .seed = 3}, {});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(session.record_light()[i][3][c] / truth[i].indirect[c], 1, 0.05f) << i << ' ' << c;
+    // Without the lamp's image it would fail by more than that
+    EXPECT_GT(session.mirrored(points[i]).x, 0.08f * truth[i].indirect.x) << i;
+  }
 }
 
 // A frosted pane spreads light, which transport lets go straight on: as much of it, differently divided. What
