@@ -11,9 +11,8 @@
 #include <ssphh/core/file.h>
 #include <ssphh/probes/probe_file.h>
 
-#include "app_stage.h"
 #include "drawn.h"
-#include "gl_context.h"
+#include "gl_stage.h"
 #include "script_player.h"
 
 namespace ssphh::viewer {
@@ -66,21 +65,13 @@ TEST(PictureSettings, ThoseOfTheScreenAndTheTruthLeaveThePictureAsItIs) {
 }
 
 /// One App after the other in one context: compiling the renderer's shaders is what takes time.
-class PictureTest : public AppStage {
+class PictureTest : public GlStage {
  protected:
-  void SetUp() override {
-    try {
-      context_.emplace(gl::Context::headless());
-    } catch (const Error& e) {
-      GTEST_SKIP() << e.what();
-    }
-    options_.panels = false;
+  void prepare() override {
     options_.time = 0.25f;
     options_.settings = {{"exposure", "0"}};
-    start(64, 48);
-    window_->tick = 1.0 / 1024;
   }
-  void TearDown() override { app_.reset(); }
+  void ready() override { window_->tick = 1.0 / 1024; }
 
   /// Turns until `done`, however slow the machine is; a minute is too long.
   template <class Done, class Turn>
@@ -360,8 +351,6 @@ class PictureTest : public AppStage {
     input.mouse = {32, 40}, input.buttons = {held, false, false};
     turn(input);
   }
-
-  std::optional<gl::Context> context_;
 };
 
 TEST_F(PictureTest, FollowsTheSession) {

@@ -1,22 +1,16 @@
 // What leaves the picture, and the truth traced of it, as they are while frames are slow.
 
-#include "app_stage.h"
-#include "gl_context.h"
+#include "gl_stage.h"
 
 namespace ssphh::viewer {
 namespace {
 
-class StillPicture : public AppStage {
+class StillPicture : public GlStage {
  protected:
-  void SetUp() override {
-    try {
-      context_.emplace(gl::Context::headless());
-    } catch (const Error& e) {
-      GTEST_SKIP() << e.what();
-    }
-    options_.panels = false;
+  void prepare() override {
     options_.settings = {{"exposure", "0"}, {"show", "wipe"}, {"truth-spp", "1"}, {"truth-depth", "1"}};
-    start(64, 48);
+  }
+  void ready() override {
     app().open("builtin:two-rooms");
     // Over a point where no lamp is.
     app().view = look_at({-1, 1.5f, 1.9f}, {5, 1.5f, 1.9f}, 1);
@@ -26,7 +20,6 @@ class StillPicture : public AppStage {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   }
-  void TearDown() override { app_.reset(); }
 
   /// A turn with the mouse at a point, after a frame that took a tenth of a second.
   void mouse_at(float x, float y, std::array<bool, 3> buttons = {}) {
@@ -40,7 +33,6 @@ class StillPicture : public AppStage {
     EXPECT_EQ(app().reference.image().color, truth_) << "the truth has begun anew";
   }
 
-  std::optional<gl::Context> context_;
   std::shared_ptr<const image::Image> truth_;
 };
 
