@@ -17,7 +17,7 @@
 
 namespace ssphh::viewer {
 App::App(Window& window_, const ViewerOptions& options_, const Control&)
-    : window(window_), options(options_) {
+    : window(window_), options(options_), autosave_(options_.autosave) {
   view = look_at({4, 3, 6}, {0, 1, 0}, 0.9f);
   panels = options.panels;
   report.renderer = window.renderer();
@@ -26,6 +26,12 @@ App::App(Window& window_, const ViewerOptions& options_, const Control&)
   bake_params.path.spp = 8;
   bake_params.face_size = 20;
   last_turn_ = last_change_ = window.seconds();
+  if (options.preferences.empty()) return;
+  try {
+    preferences = read_preferences(options.preferences);
+  } catch (const std::exception& e) {
+    complain(e.what());
+  }
 }
 
 double App::turn(const InjectedInput& input) {
@@ -45,6 +51,7 @@ double App::turn(const InjectedInput& input) {
   if (job.poll()) redraw();
   if (reference.poll()) truth_dirty_ = true, redraw();
   if (const std::string error = job.take_error(); !error.empty()) complain(error);
+  keep_unsaved();
   update_time(std::min(elapsed, 0.25));
 
   const bool busy = job.running() || reference.status().running;

@@ -8,11 +8,14 @@
 #include <ssphh/bake/bake.h>
 #include <ssphh/gl/context.h>
 
+#include "model/autosave.h"
 #include "model/camera_path.h"
 #include "model/document.h"
 #include "model/exposure_follower.h"
+#include "model/file_browser.h"
 #include "model/frame_times.h"
 #include "model/gestures.h"
+#include "model/preferences.h"
 #include "model/reference.h"
 #include "picture.h"
 #include "probe_light.h"
@@ -47,12 +50,21 @@ struct Drag {
   /// Whether view or scene follow the mouse: not before it moves, and the wipe's line is neither.
   bool changes_picture() const { return moved && what != What::none && what != What::wipe; }
 };
-/// What the user is asked before edits or a bake are lost.
+/// What the user is asked before edits or a bake are lost, or where an earlier session left some.
 struct Question {
-  enum class Then { nothing, close, open } then = Then::nothing;
+  enum class Then { nothing, close, open, recover } then = Then::nothing;
   std::string source;  ///< to open
+  Kept kept;           ///< to recover
 };
-enum class Answer { save, discard, stay };
+enum class Answer { save, discard, stay, recover };
+
+/// A file that the user is about to choose.
+struct FileDialog {
+  enum class For { open, scene, probes } what = For::open;
+  FileBrowser browser;
+  std::string problem;             ///< with what was chosen last
+  std::filesystem::path replaces;  ///< file that is there, and is written over once it is chosen again
+};
 
 /// Whether the name ends as a probe file's does.
 bool is_probe_file(const std::string& name);
@@ -60,6 +72,10 @@ bool is_probe_file(const std::string& name);
 class App {
  public:
   App(Window& window, const ViewerOptions& options, const Control& control);
+  /// Work that is not saved, and that the user did not discard, is kept for the next session.
+  ~App();
+  App(const App&) = delete;
+  App& operator=(const App&) = delete;
 
   /// One turn: takes over finished work, brings light and picture up to date, draws the window if anything
   /// changed. Returns the seconds that may be waited for input afterwards.
@@ -77,10 +93,26 @@ class App {
   void answer(Answer answer);
   /// What would be lost, for the user; empty: nothing, or nobody is there to be asked.
   std::string what_is_lost() const;
+  /// Edits, or a bake, that no file has.
+  bool unsaved() const { return document.dirty() || !light.unsaved().empty(); }
+  /// Asks whether what an earlier session left shall be taken up: of the open scene, or of any where none is.
+  void offer_recovery();
+  void recover(const Kept& kept);
+  /// Every minute in which something is not saved it is written to the folder of autosaves, in the
+  /// background.
+  void keep_unsaved();
+  /// Lets the user choose a file.
+  void ask_for_file(FileDialog::For what);
+  /// What Enter does in the dialog: goes into a folder, or opens or writes the file. A file that is there is
+  /// written over when it is chosen twice.
+  void choose_file();
+  /// Notes a scene among those that were opened recently, or takes it away.
+  void remember_scene(const std::string& source, bool stays = true);
   /// Puts a document in the place of what is open; its renderer is the caller's business.
   void take_document(Document next);
   /// The scene, over the file where it was saved last; the first time to a new one in the current folder. The
-  /// file that was opened stays as it is.
+  /// file that was opened stays as it is. A bake that is not saved becomes a probe file beside it; where only
+  /// that is not saved, it alone.
   void save();
   /// As save_scene(). Throws Error for the file that was opened.
   void save_as(const std::string& file);
@@ -144,6 +176,8 @@ class App {
   ProbeLight light;
   Reference reference;
   BackgroundJob job;
+  Preferences preferences;
+  std::optional<FileDialog> dialog;
   Picture picture;
   FrameTimes times;
   realtime::FrameStats last_stats;
@@ -184,6 +218,9 @@ class App {
   void update_visible();
   void finish_frame();
   void update_title();
+  bool by_hand() const;
+  void leave();
+  bool keeps() const { return autosave_.keeps() && by_hand(); }
   void resize_picture();
   std::optional<gl::Context> gl_;  ///< adopted with the first scene
   std::unique_ptr<realtime::Renderer> renderer_;
@@ -212,6 +249,10 @@ class App {
   std::optional<Settings> truth_settings_;   ///< that the truth on the screen was made for
   std::pair<std::string, int> truth_asked_;  ///< method and depth of what is traced
   bool closes_ = false;                      ///< the user does not mind what is lost
+  Autosave autosave_;
+  BackgroundJob keeper_;                       ///< writes what is not saved
+  std::pair<std::uint64_t, int> kept_{0, -1};  ///< History::serial() and ProbeLight::works() of what was kept
+  std::optional<double> unsaved_since_;        ///< or since it was kept
   std::string title_;
   std::string window_shot_;  ///< file that is to get the window's next frame; empty: none
 };

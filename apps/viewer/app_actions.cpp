@@ -45,6 +45,7 @@ void App::open(const std::string& source) {
   if (is_probe_file(source)) return take_probe_file(source);
   say(fmt::format("loading {} …", source));
   take_scene(source, options.load(source));
+  remember_scene(source);
   say(fmt::format("{}: {} triangles, lights: {}, SPHLs: {}", source, scene::triangle_count(*document.scene),
                   document.scene->lights.size(), document.scene->sphls.size()));
 }
@@ -70,6 +71,9 @@ void App::take_document(Document next) {
   geometry_ = std::move(geometry);
   document = std::move(next);
   light.clear();
+  autosave_.drop();
+  question = {};
+  unsaved_since_.reset();
   selection = {};
   view = view_from("");
   applied_materials_ = document.edits().materials;
@@ -94,7 +98,9 @@ std::string App::free_file(const std::string& ending) const {
 }
 
 void App::save() {
-  save_scene(document.file.empty() ? free_file(".glb") : document.file);
+  const bool probes_alone = !document.dirty() && !light.unsaved().empty();
+  if (!probes_alone) save_scene(document.file.empty() ? free_file(".glb") : document.file);
+  if (!light.unsaved().empty()) save_probes(free_file(".sphl"));
 }
 
 void App::save_as(const std::string& file) {
@@ -110,6 +116,7 @@ void App::save_scene(const std::string& file) {
   document.saved = document.history.serial();
   document.file = file;
   written("saved", file);
+  remember_scene(file);
   const std::filesystem::path path = std::filesystem::absolute(file);
   say(fmt::format("saved {} in {}", path.filename().string(), path.parent_path().string()));
 }
@@ -129,6 +136,7 @@ void App::save_probes(const std::string& file) {
   } else {
     probes::write_probe_file(light.set(), file);
   }
+  light.saved();
   written("saved", file);
 }
 

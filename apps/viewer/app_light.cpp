@@ -146,9 +146,11 @@ void App::start_gen(bool viz_only) {
               const bool keep = params.keep_light;
               return [this, baked, keep] {
                 if (keep) {
+                  light.not_saved("VIZ");
                   say(fmt::format("VIZ: {} edges", probes::edge_count(*baked)));
                 } else {
                   light.take(std::move(*baked), "GEN");
+                  light.not_saved("GEN");
                   say("GEN is done");
                 }
               };

@@ -10,18 +10,18 @@
 namespace ssphh::viewer {
 namespace {
 
-/// Without hands nobody is there to answer.
-bool by_hand(const ViewerOptions& options) {
-  return options.script.empty() && options.screenshot.empty() && options.export_dir.empty() &&
-         options.frames == 0;
-}
-
 bool is_scene(const std::string& source) {
   const bool path = source.ends_with(".json") && !source.ends_with(".ssphh.json");
   return !path && !is_probe_file(source);
 }
 
 }  // namespace
+
+/// Without hands nobody is there to answer.
+bool App::by_hand() const {
+  return options.script.empty() && options.screenshot.empty() && options.export_dir.empty() &&
+         options.frames == 0;
+}
 
 void App::open_lit(const std::string& source) {
   open(source);
@@ -32,28 +32,31 @@ void App::open_lit(const std::string& source) {
   } else if (std::ranges::any_of(document.edits().sphls, enabled)) {
     light_scene_probes();
   }
+  offer_recovery();
 }
 
 std::string App::what_is_lost() const {
-  if (!by_hand(options) || !scene_open()) return {};
+  if (!by_hand() || !scene_open()) return {};
   const JobStatus status = job.status();
   const bool bake = status.running && (status.name == "GEN" || status.name == "VIZ");
   std::string text;
   if (document.dirty()) text = fmt::format("{} has changes that are not saved.", document.source);
+  if (!light.unsaved().empty())
+    text += fmt::format("{}What {} has found is not saved.", text.empty() ? "" : "\n", light.unsaved());
   if (bake) text += fmt::format("{}{} is not done yet.", text.empty() ? "" : "\n", status.name);
   return text;
 }
 
 void App::request_open(const std::string& source) {
   if (!is_scene(source) || what_is_lost().empty()) return open_lit(source);
-  question = {Question::Then::open, source};
+  question = {Question::Then::open, source, {}};
   redraw();
 }
 
 bool App::may_close() {
   if (closes_ || what_is_lost().empty()) return true;
   window.keep_open();
-  question = {Question::Then::close, {}};
+  question = {Question::Then::close, {}, {}};
   redraw();
   return false;
 }
@@ -63,7 +66,9 @@ void App::answer(Answer answer) {
   redraw();
   if (answer == Answer::stay) return;
   try {
-    if (answer == Answer::save && document.dirty()) save();
+    if (answer == Answer::recover) return recover(asked.kept);
+    if (asked.then == Question::Then::recover) return autosave_.remove(asked.kept);
+    if (answer == Answer::save && unsaved()) save();
     if (asked.then == Question::Then::open) open_lit(asked.source);
     if (asked.then == Question::Then::close) {
       closes_ = true;
@@ -75,7 +80,7 @@ void App::answer(Answer answer) {
 }
 
 void App::update_title() {
-  const std::string title = (document.dirty() ? "*" : "") + document.source + " – ssphh";
+  const std::string title = (unsaved() ? "*" : "") + document.source + " – ssphh";
   if (title != title_) window.set_title(title);
   title_ = title;
 }

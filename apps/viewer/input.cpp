@@ -36,7 +36,8 @@ constexpr Shortcut all_shortcuts[] = {
     {"1 … 8", "all, direct, indirect, albedo, normal, shadow, SPHL, leak"},
     {"[ ] \\", "darker, brighter, as suits the picture"},
     {"Ctrl+Z, Ctrl+Y", "undo, redo (also Ctrl+Shift+Z)"},
-    {"Ctrl+S", "save the scene over its own GLB file"},
+    {"Ctrl+O", "open a file"},
+    {"Ctrl+S, Ctrl+Shift+S", "save the scene over its own GLB file, under a name"},
     {"F12", "screenshot"},
     {"Tab", "panels on, off"},
     {"F1 or H", "this help"},
@@ -73,13 +74,14 @@ void press_setting_key(App& app, char key) {
 void handle_control_keys(App& app) {
   if (repeated(GLFW_KEY_Z)) ImGui::GetIO().KeyShift ? app.redo() : app.undo();
   if (repeated(GLFW_KEY_Y)) app.redo();
-  if (pressed(GLFW_KEY_S)) app.save();
+  if (pressed(GLFW_KEY_S)) ImGui::GetIO().KeyShift ? app.ask_for_file(FileDialog::For::scene) : app.save();
 }
 
 void handle_keys(App& app) {
   if (pressed(GLFW_KEY_F1) || pressed(GLFW_KEY_H)) toggle(app, app.help);
   if (pressed(GLFW_KEY_TAB)) toggle(app, app.panels);
   if (pressed(GLFW_KEY_ESCAPE)) app.help = app.place_mode = false, app.selection = {};
+  if (ImGui::GetIO().KeyCtrl && pressed(GLFW_KEY_O)) return app.ask_for_file(FileDialog::For::open);
   if (!app.scene_open()) return;
   if (ImGui::GetIO().KeyCtrl) return handle_control_keys(app);
   if (pressed(GLFW_KEY_F)) app.frame_selection();
@@ -228,7 +230,7 @@ const Shortcut* shortcuts(int& count) {
 }
 
 void handle_input(App& app, float seconds) {
-  if (app.question.then != Question::Then::nothing) return;
+  if (app.question.then != Question::Then::nothing || app.dialog) return;
   try {
     if (!ImGui::GetIO().WantTextInput) handle_keys(app);
     if (!app.scene_open()) return;

@@ -26,6 +26,7 @@ void ProbeLight::take(std::shared_ptr<LiveLight> live) {
   records_ = {};
   lighting_.reset();
   places_new_ = light_new_ = true;
+  unsaved_.clear();
 }
 
 void ProbeLight::take(probes::ProbeSet set, const std::string& origin) {
@@ -39,6 +40,7 @@ void ProbeLight::take(probes::ProbeSet set, const std::string& origin) {
   records_ = {};
   lighting_.reset();
   places_new_ = light_new_ = true;
+  unsaved_.clear();
 }
 
 void ProbeLight::take_fitted(probes::FittedSurfaces fitted) {
@@ -55,6 +57,7 @@ void ProbeLight::clear() {
   live_.reset();
   set_.reset();
   places_new_ = true;
+  unsaved_.clear();
 }
 
 void ProbeLight::take_probe(std::size_t i, const probes::Probe& probe) {

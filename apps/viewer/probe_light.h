@@ -25,6 +25,12 @@ class ProbeLight {
   /// Surfaces of its records, likewise.
   void take_records(probes::SurfaceLists records);
   void clear();
+  /// Fixed light that took long and that no file has: by what it was made, GEN or VIZ. Whatever replaces the
+  /// light takes this away, as saved() does.
+  void not_saved(const std::string& work) { unsaved_ = work, ++works_; }
+  void saved() { unsaved_.clear(); }
+  const std::string& unsaved() const { return unsaved_; }  ///< empty: nothing
+  int works() const { return works_; }                     ///< a number of its own for each work
   /// Light of one probe of a bake that is under way: `set` was taken at its start.
   void take_probe(std::size_t i, const probes::Probe& probe);
   /// Edges of VIZ for the same places.
@@ -57,7 +63,8 @@ class ProbeLight {
 
   std::shared_ptr<LiveLight> live_;
   std::optional<probes::ProbeSet> set_;
-  std::string origin_;
+  std::string origin_, unsaved_;
+  int works_ = 0;
   transport::RelightReport report_;
   probes::FittedSurfaces fitted_;
   probes::SurfaceLists records_;

@@ -11,12 +11,13 @@ namespace ssphh::viewer {
 namespace {
 
 void begin(App& app, const ViewerOptions& options) {
-  if (options.source.empty()) return;
+  if (options.source.empty()) return app.offer_recovery();
   if (options.probes.empty()) {
     app.open_lit(options.source);
   } else {
     app.open(options.source);
     app.use_probes(options.probes);
+    app.offer_recovery();
   }
   if (!options.camera.empty()) app.go_to_camera(options.camera);
   if (!options.path.empty()) app.load_path(options.path);

@@ -1,6 +1,7 @@
 #pragma once
 /// The viewer: a scene lit by probes in a window, lamps and doors moving (docs/viewer.md).
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <utility>
@@ -31,6 +32,10 @@ struct ViewerOptions {
   std::string screenshot;  ///< written once everything has settled
   std::string stats;       ///< .json or .csv, written at the end
   int frames = 0;          ///< end after so many; 0: when the user closes the window
+
+  // Of the user; empty: nothing is kept. Where nobody is there to be asked, nothing is either.
+  std::filesystem::path preferences;  ///< file (model/preferences.h)
+  std::filesystem::path autosave;     ///< folder (model/autosave.h)
 };
 
 /// What a session was, for the tool to print.

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <ssphh/core/user_folder.h>
+
 #include "commands/command.h"
 #include "model/settings.h"
 
@@ -48,6 +50,8 @@ viewer::ViewerReport run_view(const ViewOptions& o, const Control& control) {
   v.time = o.scene.time;
   v.panels = !o.no_panels;
   parse_size(o.size, v.width, v.height);
+  v.preferences = user_folder("XDG_CONFIG_HOME", ".config") / "preferences.json";
+  v.autosave = user_folder("XDG_STATE_HOME", ".local/state") / "autosave";
   v.load = [&o](const std::string& source) {
     SceneOptions scene = o.scene;
     // The overlay was named for the first scene; one that is dropped later has its own.

@@ -1,3 +1,7 @@
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -10,7 +14,33 @@
 namespace ssphh::viewer {
 namespace {
 
+/// Scenes of before; those that are gone are grey, and can be taken out.
+void draw_recent(App& app) {
+  static std::vector<bool> there;
+  const std::vector<std::string> recent = app.preferences.recent;
+  std::error_code ignored;
+  // Once for each time that it is opened: a file may lie on a slow disk.
+  if (ImGui::IsWindowAppearing() || there.size() != recent.size()) {
+    there.clear();
+    for (const std::string& scene : recent) there.push_back(std::filesystem::exists(scene, ignored));
+  }
+  for (std::size_t i = 0; i < recent.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    if (there[i]) {
+      if (ImGui::MenuItem(recent[i].c_str())) attempt(app, [&] { app.request_open(recent[i]); });
+    } else {
+      ImGui::TextDisabled("%s", recent[i].c_str());
+      tip("This file is not there any more.");
+      ImGui::SameLine();
+      if (ImGui::SmallButton("Remove")) app.remember_scene(recent[i], false);
+    }
+    ImGui::PopID();
+  }
+}
+
 void draw_file_menu(App& app) {
+  if (ImGui::MenuItem("Open…", "Ctrl+O")) app.ask_for_file(FileDialog::For::open);
+  if (ImGui::BeginMenu("Open recent", !app.preferences.recent.empty())) draw_recent(app), ImGui::EndMenu();
   if (ImGui::BeginMenu("Open a built-in scene")) {
     for (const scene::BuiltinScene& scene : scene::builtin_scenes()) {
       if (ImGui::MenuItem(scene.name.c_str()))
@@ -19,12 +49,14 @@ void draw_file_menu(App& app) {
     }
     ImGui::EndMenu();
   }
-  ImGui::MenuItem("Drop files on the window to open them", nullptr, false, false);
+  ImGui::MenuItem("Dropping a file on the window opens it, too", nullptr, false, false);
   ImGui::Separator();
   const bool open = app.scene_open();
   if (ImGui::MenuItem("Save scene", "Ctrl+S", false, open)) attempt(app, [&] { app.save(); });
-  if (ImGui::MenuItem("Save probes as probes.sphl", nullptr, false, open && !app.light.empty()))
-    attempt(app, [&] { app.save_probes("probes.sphl"); });
+  if (ImGui::MenuItem("Save scene as…", "Ctrl+Shift+S", false, open))
+    app.ask_for_file(FileDialog::For::scene);
+  if (ImGui::MenuItem("Save probes as…", nullptr, false, open && !app.light.empty()))
+    app.ask_for_file(FileDialog::For::probes);
   if (ImGui::MenuItem("Save times as times.csv", nullptr, false, open))
     attempt(app, [&] { app.save_stats("times.csv"); });
   ImGui::Separator();

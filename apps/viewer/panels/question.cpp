@@ -20,11 +20,52 @@ bool choice(const std::string& label, std::initializer_list<int> keys) {
   return chosen;
 }
 
+/// What an earlier session left.
+std::optional<Answer> ask_to_recover(const Kept& kept) {
+  const char* what = kept.scene && kept.probes ? "changes and a bake" : kept.scene ? "changes" : "a bake";
+  ImGui::PushTextWrapPos(30 * ImGui::GetFontSize());
+  ImGui::TextUnformatted(kept.source.c_str());
+  ImGui::Text("An earlier session ended with %s that no file has, kept at %s.", what, kept.when.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::Spacing();
+  std::optional<Answer> answer;
+  if (choice("Recover (R)", {GLFW_KEY_R, GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER})) answer = Answer::recover;
+  ImGui::SameLine();
+  if (choice("Discard (D)", {GLFW_KEY_D})) answer = Answer::discard;
+  ImGui::SameLine();
+  if (choice("Ask again later (Escape)", {GLFW_KEY_ESCAPE})) answer = Answer::stay;
+  return answer;
+}
+
+std::optional<Answer> ask_to_lose(const App& app, const std::string& lost) {
+  const char* then = app.question.then == Question::Then::close ? "close" : "open";
+  ImGui::PushTextWrapPos(30 * ImGui::GetFontSize());
+  ImGui::TextUnformatted(lost.c_str());
+  if (app.question.then == Question::Then::open) ImGui::Text("To be opened: %s", app.question.source.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::Spacing();
+  std::optional<Answer> answer;
+  if (app.unsaved()) {
+    const std::string how = !app.document.dirty()       ? "Saving makes a probe file in the current folder."
+                            : app.document.file.empty() ? "Saving makes a new GLB file in the current folder."
+                                                        : "Saving replaces " + app.document.file;
+    ImGui::TextDisabled("%s", how.c_str());
+    if (choice(fmt::format("Save and {} (S)", then), {GLFW_KEY_S, GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER}))
+      answer = Answer::save;
+    ImGui::SameLine();
+  }
+  if (choice(fmt::format("Discard and {} (D)", then), {GLFW_KEY_D})) answer = Answer::discard;
+  ImGui::SameLine();
+  if (choice("Stay (Escape)", {GLFW_KEY_ESCAPE})) answer = Answer::stay;
+  return answer;
+}
+
 }  // namespace
 
 void draw_question(App& app) {
   const std::string lost = app.what_is_lost();
-  const bool asks = app.question.then != Question::Then::nothing && !lost.empty();
+  const bool recovers = app.question.then == Question::Then::recover;
+  const bool asks = recovers || (app.question.then != Question::Then::nothing && !lost.empty());
   if (asks && !ImGui::IsPopupOpen(popup)) ImGui::OpenPopup(popup);
   const Rect2& r = app.viewport;
   ImGui::SetNextWindowPos({r.x + 0.5f * r.width, r.y + 0.5f * r.height}, ImGuiCond_Always, {0.5f, 0.5f});
@@ -38,23 +79,7 @@ void draw_question(App& app) {
     if (app.question.then != Question::Then::nothing) app.answer(Answer::discard);
     return;
   }
-  const char* then = app.question.then == Question::Then::close ? "close" : "open";
-  ImGui::PushTextWrapPos(30 * ImGui::GetFontSize());
-  ImGui::TextUnformatted(lost.c_str());
-  if (app.question.then == Question::Then::open) ImGui::Text("To be opened: %s", app.question.source.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::Spacing();
-  std::optional<Answer> answer;
-  if (app.document.dirty()) {
-    ImGui::TextDisabled("%s", app.document.file.empty() ? "Saving makes a new GLB file in the current folder."
-                                                        : ("Saving replaces " + app.document.file).c_str());
-    if (choice(fmt::format("Save and {} (S)", then), {GLFW_KEY_S, GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER}))
-      answer = Answer::save;
-    ImGui::SameLine();
-  }
-  if (choice(fmt::format("Discard and {} (D)", then), {GLFW_KEY_D})) answer = Answer::discard;
-  ImGui::SameLine();
-  if (choice("Stay (Escape)", {GLFW_KEY_ESCAPE})) answer = Answer::stay;
+  const std::optional<Answer> answer = recovers ? ask_to_recover(app.question.kept) : ask_to_lose(app, lost);
   if (answer) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
   if (answer) app.answer(*answer);

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <optional>
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <imgui.h>
@@ -30,6 +32,12 @@ class StillWindow : public Window {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
     ImGui::GetIO().Fonts->Build();
+    // What ImGui itself does with keys while text is typed, as ImGui_ImplGlfw tells it.
+    constexpr std::pair<int, int> keys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
+                                            {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
+                                            {ImGuiKey_Enter, GLFW_KEY_ENTER},
+                                            {ImGuiKey_Escape, GLFW_KEY_ESCAPE}};
+    for (const auto& [key, number] : keys) ImGui::GetIO().KeyMap[key] = number;
     apply_look(1);
   }
   ~StillWindow() override { ImGui::DestroyContext(); }

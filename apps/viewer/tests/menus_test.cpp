@@ -112,8 +112,10 @@ TEST_F(Menus, MenusDoWhatTheySay) {
   choose("File", "Save times as times.csv");
   EXPECT_FALSE(shows("Save probes as"));
   take_probes();
-  choose("File", "Save probes as probes.sphl");
-  EXPECT_THAT(app().report.written, ElementsAre("stage-01.glb", "times.csv", "probes.sphl"));
+  choose("File", "Save probes as?");
+  press({GLFW_KEY_ENTER});
+  const std::string probe_file = (std::filesystem::current_path() / "stage-01.sphl").string();
+  EXPECT_THAT(app().report.written, ElementsAre("stage-01.glb", "times.csv", probe_file));
   choose("View", "Panels");
   EXPECT_FALSE(app().panels);
   app().panels = true;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 
 #include <fcntl.h>
@@ -9,6 +8,7 @@
 #include <ssphh/core/error.h>
 #include <ssphh/core/file.h>
 #include <ssphh/core/log.h>
+#include <ssphh/core/user_folder.h>
 #include <ssphh/farm/disk_cache.h>
 
 namespace ssphh::farm {
@@ -132,10 +132,7 @@ DiskCache::Counts DiskCache::counts() const {
 }
 
 fs::path default_cache_dir(const std::string& name) {
-  const char* base = std::getenv("XDG_CACHE_HOME");
-  if (base && *base) return fs::path(base) / "ssphh" / name;
-  const char* home = std::getenv("HOME");
-  return (home && *home ? fs::path(home) / ".cache" : fs::temp_directory_path()) / "ssphh" / name;
+  return user_folder("XDG_CACHE_HOME", ".cache") / name;
 }
 
 }  // namespace ssphh::farm

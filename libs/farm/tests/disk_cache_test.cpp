@@ -184,6 +184,7 @@ TEST(DiskCache, LiesWhereTheUsersCachesLie) {
   };
   EXPECT_EQ(dir("/caches", "/home/me"), "/caches/ssphh/jobs");
   EXPECT_EQ(dir("", "/home/me"), "/home/me/.cache/ssphh/jobs");
+  EXPECT_EQ(dir("caches", "/home/me"), "/home/me/.cache/ssphh/jobs") << "no absolute path";
   EXPECT_EQ(dir(nullptr, "/home/me"), "/home/me/.cache/ssphh/jobs");
   for (const char* home : {static_cast<const char*>(nullptr), ""})
     EXPECT_EQ(dir(nullptr, home), std::filesystem::temp_directory_path() / "ssphh" / "jobs");

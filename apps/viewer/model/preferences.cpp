@@ -1,0 +1,56 @@
+#include "preferences.h"
+
+#include <algorithm>
+
+#include <ssphh/core/file.h>
+#include <ssphh/core/json_cursor.h>
+
+namespace ssphh::viewer {
+namespace {
+
+constexpr const char* preferences_format = "ssphh-preferences";
+constexpr int preferences_version = 1;
+
+}  // namespace
+
+std::string lasting_name(const std::string& source) {
+  if (source.starts_with("builtin:")) return source;
+  return std::filesystem::absolute(source).lexically_normal().string();
+}
+
+Preferences read_preferences(const std::filesystem::path& file) {
+  Preferences preferences;
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return preferences;
+  const std::string name = file.string();
+  const json::Value value = json::parse(read_text_file(file, 1 << 20), name);
+  const json::Cursor in(value, name);
+  in.expect_format(preferences_format, preferences_version);
+  in.members({"format", "version"}, {"recent"});
+  if (in.has("recent")) {
+    for (const json::Cursor& scene : json::elements(in["recent"]))
+      preferences.recent.push_back(scene.text(4096));
+  }
+  return preferences;
+}
+
+void write_preferences(const Preferences& preferences, const std::filesystem::path& file) {
+  std::error_code ignored;
+  std::filesystem::create_directories(file.parent_path(), ignored);
+  const json::Value out = {
+      {"format", preferences_format}, {"version", preferences_version}, {"recent", preferences.recent}};
+  write_file(file, json::print(out, 2) + "\n");
+}
+
+void remember(Preferences& preferences, const std::string& source) {
+  forget(preferences, source);
+  preferences.recent.insert(preferences.recent.begin(), lasting_name(source));
+  if (preferences.recent.size() > Preferences::most_recent)
+    preferences.recent.resize(Preferences::most_recent);
+}
+
+void forget(Preferences& preferences, const std::string& source) {
+  std::erase(preferences.recent, lasting_name(source));
+}
+
+}  // namespace ssphh::viewer

@@ -1,0 +1,29 @@
+#pragma once
+/// What the viewer remembers from one session to the next, as preferences.json keeps it.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace ssphh::viewer {
+
+struct Preferences {
+  std::vector<std::string>
+      recent;  ///< scenes that were opened or saved, by lasting_name(), the last one first
+
+  static constexpr std::size_t most_recent = 12;
+};
+
+/// The name of a scene in every folder: absolute paths of files, builtin:NAME as it is.
+std::string lasting_name(const std::string& source);
+
+/// Defaults where there is no such file. Throws Error for one that is broken or of another version.
+Preferences read_preferences(const std::filesystem::path& file);
+/// Makes the folder, too. Throws Error as write_file() does.
+void write_preferences(const Preferences& preferences, const std::filesystem::path& file);
+
+/// Puts a scene in front, once, and forgets the oldest beyond `most_recent`; or takes it away.
+void remember(Preferences& preferences, const std::string& source);
+void forget(Preferences& preferences, const std::string& source);
+
+}  // namespace ssphh::viewer
