@@ -26,8 +26,8 @@ FloatArray read_image(const py::object& path) {
 }
 
 image::ToneMap tone_map_of(const Image& picture, std::optional<float> exposure, const std::string& curve) {
-  return {.exposure = exposure.value_or(0) + (exposure ? 0 : pipeline::suitable_exposure(picture)),
-          .curve = enum_named<image::ToneCurve>("tonemap", curve)};
+  const auto tone = enum_named<image::ToneCurve>("tonemap", curve);
+  return {.exposure = exposure ? *exposure : pipeline::suitable_exposure(picture, tone), .curve = tone};
 }
 
 void write_image(const py::object& path, const py::object& array, std::optional<float> exposure,

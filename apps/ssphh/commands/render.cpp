@@ -218,7 +218,7 @@ RenderResult run_render(const RenderOptions& o, const Control& control) {
 
 void write_rendered(RenderResult& result, const RenderOptions& o) {
   if (is_display_format(o.output) || !o.png.empty())
-    result.exposure = SharedExposure(o.exposure).of(result.picture);
+    result.exposure = SharedExposure(o.exposure, o.tonemap).of(result.picture);
   const image::ToneMap map{.exposure = result.exposure.value_or(0), .curve = o.tonemap};
   write_picture(o.output, result.picture, map);
   if (!o.png.empty()) write_display(o.png, result.picture, map);

@@ -12,7 +12,7 @@ namespace ssphh::app {
 float SharedExposure::of(const image::Image& linear) {
   if (chosen_) return *chosen_;
   const auto is_light = [](float x) { return x > 0 && std::isfinite(x); };
-  if (std::ranges::any_of(linear.pixels, is_light)) chosen_ = suitable_exposure(linear);
+  if (std::ranges::any_of(linear.pixels, is_light)) chosen_ = suitable_exposure(linear, curve_);
   return chosen_.value_or(0);
 }
 

@@ -18,7 +18,8 @@ using pipeline::suitable_exposure;
 /// black.
 class SharedExposure {
  public:
-  explicit SharedExposure(std::optional<float> asked) : chosen_(asked) {}
+  explicit SharedExposure(std::optional<float> asked, image::ToneCurve curve = image::ToneCurve::clip)
+      : chosen_(asked), curve_(curve) {}
 
   /// EV for this picture and, if it is not black, for all that follow.
   float of(const image::Image& linear);
@@ -27,6 +28,7 @@ class SharedExposure {
 
  private:
   std::optional<float> chosen_;
+  image::ToneCurve curve_;
 };
 
 /// Whether a file of that name holds 8 bits that are shown as they are: PNG or JPEG.

@@ -31,7 +31,7 @@ float quantile(std::vector<float>& values, double share) {
 
 }  // namespace
 
-float automatic_exposure(const Image& image) {
+float automatic_exposure(const Image& image, ToneCurve curve) {
   require_whole(image, "automatic exposure");
   std::vector<float> light = lit(image);
   if (light.empty()) return 0;
@@ -53,7 +53,13 @@ float automatic_exposure(const Image& image) {
   constexpr double middle_grey = 0.18, white = 0.9;
   const double grey = std::log2(middle_grey) - mean;
   const double unburnt = std::log2(white) - std::log2(static_cast<double>(highlights));
-  const double ev = std::clamp(unburnt, grey - 0.5, grey + 0.75);
+  const double clipped = std::clamp(unburnt, grey - 0.5, grey + 0.75);
+  double ev = clipped;
+  if (curve != ToneCurve::clip) {
+    // The mean is shown as bright as clip shows it.
+    const auto shown = static_cast<float>(std::exp2(mean + clipped));
+    ev = std::log2(static_cast<double>(light_shown_as(curve, shown))) - mean;
+  }
   return static_cast<float>(std::round(4 * ev) / 4 - unit);
 }
 

@@ -21,6 +21,14 @@ std::uint8_t encode(float x, float gamma) {
 
 }  // namespace
 
+float light_shown_as(ToneCurve curve, float shown) {
+  if (curve == ToneCurve::clip) return shown;
+  // y (2.43 x² + 0.59 x + 0.14) = 2.51 x² + 0.03 x
+  const double y = static_cast<double>(shown);
+  const double a = 2.51 - 2.43 * y, b = 0.59 * y - 0.03, c = 0.14 * y;
+  return static_cast<float>((b + std::sqrt(b * b + 4 * a * c)) / (2 * a));
+}
+
 vec3 tone_map(const vec3& color, const ToneMap& params) {
   const vec3 exposed = std::exp2(params.exposure) * color;
   return {apply(params.curve, exposed.x), apply(params.curve, exposed.y), apply(params.curve, exposed.z)};

@@ -37,6 +37,31 @@ TEST(AutomaticExposure, PutsWhatIsLitAlikeAMediumGreyNotWhite) {
   EXPECT_EQ(automatic_exposure(constant(0.36f)), -0.25f);
 }
 
+TEST(AutomaticExposure, ACurveShowsTheMeanAsBrightAsClipDoes) {
+  for (const float y : {0.01f, 0.127f, 0.18f, 0.3f, 0.9f, 0.99f}) {
+    EXPECT_EQ(light_shown_as(ToneCurve::clip, y), y);
+    const vec3 light(light_shown_as(ToneCurve::filmic, y));
+    EXPECT_NEAR(tone_map(light, {0, ToneCurve::filmic, 0}).x, y, 1e-5f);
+  }
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    // Of one light, and of as much as a highlight allows
+    Image image = seed < 10 ? constant(std::exp2(0.3f * static_cast<float>(seed))) : room(seed);
+    const auto mean_shown = [&](ToneCurve curve) {
+      double sum = 0;
+      for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x)
+          sum += std::log2(static_cast<double>(luminance(image.rgb(x, y))));
+      }
+      const auto mean = static_cast<float>(std::exp2(sum / (image.width * image.height)));
+      return tone_map(vec3(mean), {automatic_exposure(image, curve), curve, 0}).x;
+    };
+    // Both are rounded to a quarter; filmic's slope is up to 1.3 there.
+    const float stops = std::log2(mean_shown(ToneCurve::filmic) / mean_shown(ToneCurve::clip));
+    EXPECT_NEAR(stops, 0, seed < 10 ? 0.125f + 0.17f : 0.35f) << seed;
+    EXPECT_LT(automatic_exposure(image, ToneCurve::filmic), automatic_exposure(image));
+  }
+}
+
 TEST(AutomaticExposure, TwiceTheLightIsOneStopLess) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const Image image = room(seed);

@@ -18,6 +18,9 @@ constexpr auto enum_table(ToneCurve) {
   return std::to_array<EnumName<ToneCurve>>({{clip, "clip"}, {filmic, "filmic"}});
 }
 
+/// The exposed light that the curve shows as display-linear `shown`, 0 to below 1: its inverse.
+float light_shown_as(ToneCurve curve, float shown);
+
 struct ToneMap {
   float exposure = 0;  ///< EV: light is multiplied by 2^exposure first
   ToneCurve curve = ToneCurve::clip;
