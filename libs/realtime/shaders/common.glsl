@@ -12,6 +12,7 @@ layout(std140, binding = 0) uniform FrameBlock {
   ivec4 map_tiles;       // log2 of tiles in a row, likewise
   vec4 map_near;         // near plane of the cube maps, likewise
   vec4 extra;            // occlusion radius, 0 off; indirect scale, tolerance
+  vec4 shift;            // of the picture, from -1..1 being its whole
 } frame;
 
 #include "hash.glsl"

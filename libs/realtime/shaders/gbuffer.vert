@@ -26,6 +26,7 @@ void main() {
   vec3 up = frame.camera_up.xyz / dot(frame.camera_up.xyz, frame.camera_up.xyz);
   float z = dot(from_camera, frame.camera_forward.xyz);
   vec2 plane = vec2(dot(from_camera, right), dot(from_camera, up));
+  plane += frame.shift.xy * (frame.camera_position.w != 0 ? 1 : z);
   gl_Position = frame.camera_position.w != 0 ? vec4(plane, 1 - z / frame.camera_forward.w, 1)
                                              : vec4(plane, frame.camera_forward.w, z);
 }

@@ -13,7 +13,7 @@ struct Surface {
 
 // Direction to the viewer's world through a pixel; for an orthographic camera its offset on the image plane.
 vec3 pixel_ray(vec2 pixel) {
-  vec2 plane = 2 * pixel / vec2(frame.camera_right.w, frame.camera_up.w) - 1;
+  vec2 plane = 2 * pixel / vec2(frame.camera_right.w, frame.camera_up.w) - 1 - frame.shift.xy;
   return plane.x * frame.camera_right.xyz + plane.y * frame.camera_up.xyz;
 }
 bool orthographic() { return frame.camera_position.w != 0; }

@@ -23,7 +23,7 @@ void main() {
     vec3 p = s.position + 0.01 * radius * s.normal + reach * d - frame.camera_position.xyz;
     float z = dot(p, frame.camera_forward.xyz);
     if (z <= 0) continue;
-    vec2 plane = vec2(dot(p, right), dot(p, up)) / (orthographic() ? 1 : z);
+    vec2 plane = vec2(dot(p, right), dot(p, up)) / (orthographic() ? 1 : z) + frame.shift.xy;
     ivec2 q = ivec2((0.5 + 0.5 * plane) * size);
     if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, ivec2(size)))) continue;
     float depth = depth_at(q);

@@ -42,6 +42,7 @@ FrameBlock frame_block(const scene::CameraPose& camera, const FrameSettings& set
   b.map_tiles = ivec4(lights.lamp_maps().layout().columns_log2, lights.area_maps().layout().columns_log2,
                       probes.maps().layout().columns_log2, lights.parallel_maps().layout().columns_log2);
   b.map_near = vec4(lights.near_plane(), lights.near_plane(), probes.near_plane(), 0);
+  b.shift = vec4(2.0f * settings.shift * static_cast<float>(images.supersample) / vec2(width, height), 0, 0);
   b.extra = vec4(settings.ambient_occlusion ? settings.occlusion_radius : 0,
                  static_cast<float>(images.indirect_scale), settings.indirect_tolerance, 0);
   return b;
@@ -52,9 +53,10 @@ mat4 clip_matrix(const FrameBlock& b) {
   const bool orthographic = b.camera_position.w != 0;
   const auto along = [&](const vec3& axis) { return vec4(axis, -glm::dot(axis, eye)); };
   const vec4 x = along(right / glm::dot(right, right)), y = along(up / glm::dot(up, up)), z = along(forward);
-  const vec4 one(0, 0, 0, 1);
-  return glm::transpose(orthographic ? mat4(x, y, one - z / b.camera_forward.w, one)
-                                     : mat4(x, y, b.camera_forward.w * one, z));
+  const vec4 one(0, 0, 0, 1), plane = orthographic ? one : z;  // w of clip space
+  const vec4 moved_x = x + b.shift.x * plane, moved_y = y + b.shift.y * plane;
+  return glm::transpose(orthographic ? mat4(moved_x, moved_y, one - z / b.camera_forward.w, one)
+                                     : mat4(moved_x, moved_y, b.camera_forward.w * one, z));
 }
 
 }  // namespace ssphh::realtime

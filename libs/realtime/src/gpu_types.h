@@ -20,9 +20,9 @@ struct FrameBlock {
   ivec4 grid_size;
   vec4 grid_origin, tone, environment;
   ivec4 maps, map_tiles;
-  vec4 map_near, extra;
+  vec4 map_near, extra, shift;
 };
-static_assert(sizeof(FrameBlock) == 12 * 16);
+static_assert(sizeof(FrameBlock) == 13 * 16);
 static_assert(offsetof(FrameBlock, grid_origin) == 5 * 16 && offsetof(FrameBlock, extra) == 11 * 16);
 
 /// TextureUse, MaterialBlock, InstanceBlock of material.glsl; each stands where a uniform block may begin.

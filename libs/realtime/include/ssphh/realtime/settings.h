@@ -33,6 +33,8 @@ struct FrameSettings {
   /// elsewhere.
   int indirect_scale = 1;
   float indirect_tolerance = 0.1f;
+  /// Pixels by which the picture is moved to the right and up: parts of one, for frames that are averaged.
+  vec2 shift{0};
   int supersample = 1;  ///< samples per pixel along each side, 1..4
   bool ambient_occlusion = false;
   float occlusion_radius = 0.5f;  ///< metres
