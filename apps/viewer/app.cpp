@@ -72,6 +72,7 @@ double App::turn(const InjectedInput& input) {
     apply_edits();
     update_light();
     draw_scene();
+    draw_outline();
     update_visible();
     update_truth();
     draw_picture(*this);
@@ -167,9 +168,10 @@ void App::update_light() {
 void App::draw_scene() {
   const bool changed = !drawn_ || !(drawn_->view == view) || !same_picture(drawn_->settings, settings) ||
                        (settings.balls && !(drawn_->selection == selection)) ||
+                       needs_truth(drawn_->settings) != needs_truth(settings) ||
                        drawn_->width != picture.width() || drawn_->height != picture.height();
   const bool linear_missing = needs_truth(settings) && picture.linear().empty();
-  if (!changed && !scene_dirty_ && waiting_maps_ == 0 && !linear_missing) return;
+  if (!changed && !scene_dirty_ && waiting_maps_ == 0 && !linear_missing) return smooth();
   const bool light_path_changed = scene_dirty_ || !drawn_ || !(drawn_->view == view) ||
                                   drawn_->width != picture.width() || drawn_->height != picture.height();
   if (light_path_changed) {
@@ -184,6 +186,29 @@ void App::draw_scene() {
   for (const realtime::PassTime& pass : last_stats.passes)
     times.add(pass.name, std::max(pass.cpu_ms, pass.gpu_ms));
 
+  draw_balls();
+  if (smooths()) picture.average();
+  drawn_ = {view, settings, selection, picture.width(), picture.height()};
+  scene_dirty_ = false;
+  truth_dirty_ = true;
+  // Not of those that follow for the mean: a moved one may stand on the other side of a quarter.
+  suits_ = suitable_exposure();
+  if (follows_exposure) follow_exposure();
+  redraw();
+}
+
+/// Another picture of the same for the mean: one a turn, so that the mouse never waits for all of them.
+void App::smooth() {
+  if (!smooths() || picture.averaged() >= smooth_pictures) return;
+  realtime::FrameSettings moved = frame_settings(settings);
+  moved.shift = place_in_pixel(picture.averaged());
+  picture.draw(*renderer_, pose_of(view), moved, false);
+  draw_balls();
+  picture.average();
+  redraw();
+}
+
+void App::draw_balls() {
   if (settings.balls && !light.empty()) {
     if (balls_dirty_ || !drawn_ || drawn_->settings.ball != settings.ball)
       balls_->update(light.set(), settings.ball);
@@ -197,19 +222,15 @@ void App::draw_scene() {
     balls_->draw(light.set(), look, {renderer_->depth_texture(), renderer_->view_projection()},
                  picture.framebuffer(), picture.width(), picture.height());
   }
-  drawn_ = {view, settings, selection, picture.width(), picture.height()};
-  scene_dirty_ = false;
-  truth_dirty_ = true;
-  if (follows_exposure) follow_exposure();
-  redraw();
 }
 
+/// Of the frame that was drawn last.
 std::optional<float> App::suitable_exposure() const {
   // Of all the light: views of its parts are compared with it.
-  if (!settings.auto_exposure || settings.debug != DebugView::none || !drawn_) return {};
+  if (!settings.auto_exposure || settings.debug != DebugView::none) return {};
   const image::Image some = renderer_->read_some(160, 90);
   if (std::ranges::none_of(some.pixels, [](float x) { return x > 0; })) return {};
-  return image::automatic_exposure(some);
+  return image::automatic_exposure(some, settings.curve);
 }
 
 bool App::show_exposure(float ev) {
@@ -217,13 +238,11 @@ bool App::show_exposure(float ev) {
 }
 
 bool App::follow_exposure() {
-  const auto suits = suitable_exposure();
-  return suits && show_exposure(exposure_.follow(*suits));
+  return suits_ && show_exposure(exposure_.follow(*suits_));
 }
 
 bool App::take_exposure() {
-  const auto suits = suitable_exposure();
-  return suits && show_exposure(exposure_.take(*suits));
+  return suits_ && show_exposure(exposure_.take(*suits_));
 }
 
 /// Which probes the eye sees: their names are shown, the others' are not.
@@ -280,6 +299,10 @@ void App::update_truth() {
 }
 
 bool App::settled() const {
+  return current() && (!scene_open() || !smooths() || picture.averaged() >= smooth_pictures);
+}
+
+bool App::current() const {
   if (!scene_open()) return job.idle();
   if (!job.idle() || light_stale_ || scene_dirty_ || waiting_maps_ > 0 || !drawn_) return false;
   if (!(drawn_->view == view) || !same_picture(drawn_->settings, settings) || coarse_) return false;

@@ -17,6 +17,7 @@
 #include "model/gestures.h"
 #include "model/preferences.h"
 #include "model/reference.h"
+#include "outline_gl.h"
 #include "picture.h"
 #include "probe_light.h"
 #include "viewer.h"
@@ -24,13 +25,16 @@
 
 namespace ssphh::viewer {
 
-enum class Kind { none, light, sphl, material };
+enum class Kind { none, light, sphl, material, object };
 
 struct Selection {
   Kind kind = Kind::none;
-  int index = -1;
+  int index = -1;        ///< of an object: its node
+  int of_material = -1;  ///< of an object: the material where it was clicked
 
   bool is(Kind k) const { return kind == k && index >= 0; }
+  /// Chosen itself, or with an object; −1: none.
+  int material() const { return kind == Kind::material ? index : kind == Kind::object ? of_material : -1; }
   friend bool operator==(const Selection&, const Selection&) = default;
 };
 
@@ -44,8 +48,10 @@ struct Rect2 {
 /// What the mouse drags.
 struct Drag {
   enum class What { none, view, look, pan, object, axis, wipe } what = What::none;
-  Grip grip;           ///< of objects
-  bool moved = false;  ///< since the press
+  Grip grip;                  ///< of objects
+  bool moved = false;         ///< since the press
+  float way = 0;              ///< of the mouse since then [pixels]
+  std::optional<vec3> pivot;  ///< what a turn of the view turns about; none: the view's focus
 
   /// Whether view or scene follow the mouse: not before it moves, and the wipe's line is neither.
   bool changes_picture() const { return moved && what != What::none && what != What::wipe; }
@@ -101,6 +107,8 @@ class App {
   /// Every minute in which something is not saved it is written to the folder of autosaves, in the
   /// background.
   void keep_unsaved();
+  /// Whether that is under way.
+  bool keeping() const { return !keeper_.idle(); }
   /// Lets the user choose a file.
   void ask_for_file(FileDialog::For what);
   /// What Enter does in the dialog: goes into a folder, or opens or writes the file. A file that is there is
@@ -128,7 +136,14 @@ class App {
   /// The view of a bookmark, and its pose of the scene.
   void go_to(const CameraKey& key);
   void add_bookmark();
+  /// Frames what is selected, or everything, without going through a wall.
   void frame_selection();
+  /// Selects, and tells what.
+  void select(const Selection& selected);
+  /// What the ray meets: a body and its material. Nothing there: nothing is selected.
+  void select_on_ray(const rays::RayQuery& ray);
+  /// The outline of what is selected, to lie over the picture; null: there is none.
+  const gl::Texture* outline() const;
   void undo();
   void redo();
   /// Probes at these places: the scene's (as edited), or found automatically, `spacing` 0 for some 150.
@@ -154,7 +169,10 @@ class App {
   bool take_exposure();
 
   /// No background work, light and picture up to date, and ground truth complete where it is shown.
+  bool current() const;
+  /// current(), and edges as smooth as they get.
   bool settled() const;
+  static constexpr int smooth_pictures = 16;  ///< in the mean of a picture that stands still
   bool scene_open() const { return document.scene != nullptr; }
   /// The geometry for picking; null while the light is being built for the first time.
   const trace::TransportScene* picking() const { return picking_ ? picking_.get() : nullptr; }
@@ -214,6 +232,10 @@ class App {
   void apply_edits();
   void update_light();
   void draw_scene();
+  void draw_balls();
+  void draw_outline();
+  bool smooths() const { return settings.antialias && !needs_truth(settings); }
+  void smooth();
   void update_truth();
   void update_visible();
   void finish_frame();
@@ -225,9 +247,11 @@ class App {
   std::optional<gl::Context> gl_;  ///< adopted with the first scene
   std::unique_ptr<realtime::Renderer> renderer_;
   std::unique_ptr<BallsGl> balls_;
+  std::unique_ptr<OutlineGl> outline_;
   trace::SharedGeometry geometry_;  ///< of document.scene
   std::unique_ptr<trace::TransportScene> picking_;
   ExposureFollower exposure_;
+  std::optional<float> suits_;          ///< EV that suits the picture, where it is to be followed
   std::vector<unsigned char> visible_;  ///< per probe, from the eye
 
   // What the picture on the screen was drawn with.
@@ -238,6 +262,8 @@ class App {
     int width = 0, height = 0;
   };
   std::optional<Drawn> drawn_;
+  /// What the outline was drawn with, and when in the scene.
+  std::optional<std::pair<Drawn, float>> outlined_;
   std::optional<std::pair<View, float>> visible_seen_;  ///< from where and when `visible_` holds
   bool scene_dirty_ = true, balls_dirty_ = true, truth_dirty_ = true, light_stale_ = false;
   std::vector<scene::Material> applied_materials_;

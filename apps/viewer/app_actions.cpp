@@ -81,6 +81,7 @@ void App::take_document(Document next) {
   drawn_.reset();
   exposure_.forget();
   visible_seen_.reset();
+  outlined_.reset();
   scene_dirty_ = true;
   light_stale_ = false;
   fly_speed = document.bounds.empty() ? 2 : std::max(0.2f, 0.25f * document.bounds.radius());
@@ -238,16 +239,6 @@ void App::move_selected(const vec3& position) {
     document.edit("move " + document.edits().sphls[i].name,
                   [&](Edits& edits) { edits.sphls[i].position = position; });
   }
-  redraw();
-}
-
-void App::frame_selection() {
-  scene::Bounds bounds = document.bounds;
-  if (const auto position = selected_position()) {
-    bounds = {};
-    bounds.add(*position - 0.5f), bounds.add(*position + 0.5f);
-  }
-  view = framed(view, bounds, viewport.aspect());
   redraw();
 }
 

@@ -10,6 +10,7 @@
 #include <imgui.h>
 
 #include "app.h"
+#include "model/framing.h"
 #include "model/gestures.h"
 #include "model/pick.h"
 #include "overlay.h"
@@ -18,12 +19,13 @@ namespace ssphh::viewer {
 namespace {
 
 constexpr Shortcut all_shortcuts[] = {
-    {"left drag", "turn about the scene; on a lamp or probe: move it"},
+    {"click", "select an object, a lamp or a probe's ball"},
+    {"left drag", "turn about what is under the mouse; on a lamp or probe: move it"},
     {"right drag", "look around"},
     {"middle or Shift drag", "move sideways"},
     {"wheel", "nearer, farther"},
     {"W A S D, Q E", "fly; with Shift faster"},
-    {"F", "frame the selection, or all"},
+    {"F", "frame the selection, or all, from within the room"},
     {"Home", "the scene's first camera"},
     {"B", "add a bookmark"},
     {"Space", "play or stop the animation"},
@@ -121,7 +123,7 @@ rays::RayQuery mouse_ray(const App& app) {
 /// `axis` −1: in the plane that faces the view.
 void grab(App& app, Drag::What what, int axis) {
   app.document.history.seal();
-  app.drag = {what, taken(mouse_ray(app), *app.selected_position(), axis, app.view.forward())};
+  app.drag = {what, taken(mouse_ray(app), *app.selected_position(), axis, app.view.forward()), false, 0, {}};
 }
 
 /// The SPHL whose ball is under the mouse; −1: none.
@@ -174,9 +176,13 @@ void begin_left(App& app) {
   }
   if (hit.kind == Kind::none) {
     app.drag.what = Drag::What::view;
+    if (app.picking()) {
+      if (const auto surface = pick_surface(*app.picking(), app.document.time, mouse_ray(app)))
+        app.drag.pivot = surface->position;
+    }
     return;
   }
-  app.selection = hit;
+  app.select(hit);
   if (app.selected_position()) grab(app, Drag::What::object, -1);
 }
 
@@ -184,12 +190,16 @@ void continue_drag(App& app) {
   const ImVec2 delta = ImGui::GetIO().MouseDelta;
   if (delta.x == 0 && delta.y == 0) return;
   app.drag.moved = true;
+  app.drag.way += std::hypot(delta.x, delta.y);
   const auto drag_view = [&](ViewDrag drag) {
     app.view = dragged(app.view, drag, {delta.x, delta.y}, app.viewport.height);
   };
   using What = Drag::What;
   const What what = app.drag.what;
-  if (what == What::view) drag_view(ViewDrag::orbit);
+  if (what == What::view && app.drag.pivot)
+    app.view = orbited_about(app.view, *app.drag.pivot, -0.005f * delta.x, -0.005f * delta.y);
+  else if (what == What::view)
+    drag_view(ViewDrag::orbit);
   if (what == What::look) drag_view(ViewDrag::look);
   if (what == What::pan) drag_view(ViewDrag::pan);
   if (what == What::object || what == What::axis) {
@@ -206,7 +216,10 @@ void handle_mouse(App& app) {
   const ImGuiIO& io = ImGui::GetIO();
   const bool inside = !io.WantCaptureMouse && app.viewport.contains(io.MousePos.x, io.MousePos.y);
   if (app.drag.what != Drag::What::none && !ImGui::IsAnyMouseDown()) {
+    // A hand is not quite still while it clicks.
+    const bool click = app.drag.what == Drag::What::view && app.drag.way < 4;
     app.drag = {};
+    if (click) app.select_on_ray(mouse_ray(app));
     app.document.history.seal();
     app.redraw();
   }

@@ -21,11 +21,18 @@ void Picture::resize(int width, int height) {
   const gl::Texture* const colors[] = {&color_};
   framebuffer_ = gl::Framebuffer(colors, &depth_);
   linear_ = {};
+  if (average_) average_->clear();
   have_truth_ = false;
+}
+
+void Picture::average() {
+  if (!average_) average_ = std::make_unique<AverageGl>();
+  average_->add(color_);
 }
 
 const realtime::FrameStats& Picture::draw(realtime::Renderer& renderer, const scene::CameraPose& camera,
                                           const realtime::FrameSettings& settings, bool linear) {
+  if (average_ && settings.shift == vec2(0)) average_->clear();
   const realtime::FrameStats& stats =
       renderer.draw(camera, settings, {width_, height_, framebuffer_.id(), 0, 0});
   if (linear) linear_ = renderer.read_back();
@@ -34,7 +41,7 @@ const realtime::FrameStats& Picture::draw(realtime::Renderer& renderer, const sc
 
 image::Rgba8 Picture::pixels() const {
   std::vector<float> values(4 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  color_.read(values, 4);
+  shown().read(values, 4);
   image::Rgba8 out{width_, height_, std::vector<std::uint8_t>(values.size())};
   const auto row = 4 * static_cast<std::size_t>(width_);
   for (int y = 0; y < height_; ++y) {
@@ -86,11 +93,11 @@ realtime::FrameSettings frame_settings(const Settings& settings) {
 }
 
 bool same_picture(const Settings& a, const Settings& b) {
-  return shown_tone(a).exposure == shown_tone(b).exposure && a.auto_exposure == b.auto_exposure &&
-         a.curve == b.curve && a.debug == b.debug && a.indirect_scale == b.indirect_scale &&
-         a.lookup == b.lookup && a.weights == b.weights && a.layer == b.layer && a.degree == b.degree &&
-         a.hier == b.hier && a.hier_params == b.hier_params && a.balls == b.balls && a.lobes == b.lobes &&
-         a.ball == b.ball && a.ball_size == b.ball_size;
+  return a.antialias == b.antialias && shown_tone(a).exposure == shown_tone(b).exposure &&
+         a.auto_exposure == b.auto_exposure && a.curve == b.curve && a.debug == b.debug &&
+         a.indirect_scale == b.indirect_scale && a.lookup == b.lookup && a.weights == b.weights &&
+         a.layer == b.layer && a.degree == b.degree && a.hier == b.hier && a.hier_params == b.hier_params &&
+         a.balls == b.balls && a.lobes == b.lobes && a.ball == b.ball && a.ball_size == b.ball_size;
 }
 
 bool needs_truth(const Settings& settings) {

@@ -1,12 +1,14 @@
 #pragma once
 /// What stands behind the panels: the real-time picture, the ground truth, or their difference, as textures.
 
+#include <memory>
 #include <optional>
 
 #include <ssphh/gl/framebuffer.h>
 #include <ssphh/gl/texture.h>
 #include <ssphh/realtime/renderer.h>
 
+#include "average_gl.h"
 #include "model/comparison.h"
 #include "model/reference.h"
 
@@ -35,10 +37,15 @@ class Picture {
   const realtime::FrameStats& draw(realtime::Renderer& renderer, const scene::CameraPose& camera,
                                    const realtime::FrameSettings& settings, bool linear);
   unsigned framebuffer() const { return framebuffer_.id(); }
-  unsigned realtime_texture() const { return color_.id(); }
+  /// Takes what stands in the framebuffer into a mean that is shown in its place; the first one since draw()
+  /// without a shift begins it.
+  void average();
+  /// Pictures in the mean that is shown; 0: what stands in the framebuffer is.
+  int averaged() const { return average_ ? average_->count() : 0; }
+  unsigned realtime_texture() const { return shown().id(); }
   /// Of the last draw() with `linear`; empty before.
   const image::Image& linear() const { return linear_; }
-  /// The target as it is now, balls included. Row 0 on top.
+  /// What is shown, balls included. Row 0 on top.
   image::Rgba8 pixels() const;
 
   /// Makes what the settings ask for of the truth so far: tone-mapped, or the difference. Does nothing
@@ -53,7 +60,10 @@ class Picture {
 
  private:
   int width_ = 0, height_ = 0;
+  const gl::Texture& shown() const { return averaged() > 0 ? average_->mean() : color_; }
+
   gl::Texture color_, depth_;
+  std::unique_ptr<AverageGl> average_;
   gl::Framebuffer framebuffer_;
   image::Image linear_;
   PictureTexture truth_;

@@ -12,7 +12,8 @@ namespace ssphh::viewer {
 const char* const script_help =
     "set NAME VALUE | time T | camera NAME | view X Y Z TO_X TO_Y TO_Z | tab NAME | "
     "light NAME on|off | light NAME intensity V | light NAME color R G B | light NAME position X Y Z | "
-    "group NAME FACTOR | environment DEGREES | material NAME R G B | select light|sphl|material NAME | sphl "
+    "group NAME FACTOR | environment DEGREES | material NAME R G B | select light|sphl|material|object NAME "
+    "| sphl "
     "X Y Z | "
     "probes auto|auto:M|scene|FILE | gen | viz | bookmark | undo | redo | key NAME | click X Y | "
     "drag X Y TO_X TO_Y [right] | wait FRAMES | settle | screenshot FILE [panels] | save FILE | quit";
@@ -69,7 +70,7 @@ void edit_light(App& app, const ScriptLine& line) {
 }
 
 void select(App& app, const ScriptLine& line) {
-  expect_words(line, 2, "select light|sphl|material NAME");
+  expect_words(line, 2, "select light|sphl|material|object NAME");
   const std::string &kind = line.words[1], &name = line.words[2];
   const auto take = [&](Kind k, const auto& items) {
     app.selection = {k, static_cast<int>(find_named(line, items, name, by_name))};
@@ -77,7 +78,8 @@ void select(App& app, const ScriptLine& line) {
   if (kind == "light") return take(Kind::light, app.document.scene->lights);
   if (kind == "sphl") return take(Kind::sphl, app.document.edits().sphls);
   if (kind == "material") return take(Kind::material, app.document.edits().materials);
-  throw Error(line.where, fmt::format("\"{}\" is none of: light, sphl, material", kind));
+  if (kind == "object") return take(Kind::object, app.document.scene->nodes);
+  throw Error(line.where, fmt::format("\"{}\" is none of: light, sphl, material, object", kind));
 }
 
 void save(App& app, const std::string& file) {
@@ -218,7 +220,7 @@ InjectedInput ScriptPlayer::next(App& app) {
     --wait_frames_;
     return {};
   }
-  if (settling_ && (!app.settled() || app.take_exposure())) return {};
+  if (settling_ && (!app.current() || app.take_exposure() || !app.settled())) return {};
   settling_ = false;
   if (at_ < lines_.size()) {
     const ScriptLine& line = lines_[at_++];

@@ -35,16 +35,19 @@ class Session {
     return true;
   }
 
-  /// With the exposure that suits what is shown then; or the one it has.
-  bool settle(bool take_exposure = true) {
+  /// Turns until that is true after one; false as turn().
+  template <class Done>
+  bool until(const Done& done) {
     do {
-      do {
-        if (!app_.job.running() && !app_.reference.status().running) app_.redraw();
-        if (!turn()) return false;
-        if (app_.message_is_error) throw Error("view", app_.message);
-      } while (!app_.settled());
-    } while (take_exposure && app_.take_exposure());
+      if (!app_.job.running() && !app_.reference.status().running) app_.redraw();
+      if (!turn()) return false;
+      if (app_.message_is_error) throw Error("view", app_.message);
+    } while (!done());
     return true;
+  }
+  /// With the exposure that suits what is shown then.
+  bool settle() {
+    return until([&] { return app_.current() && !app_.take_exposure() && app_.settled(); });
   }
 
  private:
@@ -65,8 +68,13 @@ void export_path(App& app, Session& session, const ViewerOptions& options, const
   app.follows_exposure = false;
   for (int f = 0; f < frames; ++f) {
     app.go_to(at(path, path.keys.front().time + static_cast<float>(f / options.fps)));
-    if (!session.settle(f == 0)) throw Cancelled();
-    if (app.follow_exposure() && !session.settle(false)) throw Cancelled();
+    if (f == 0) {
+      if (!session.settle()) throw Cancelled();
+    } else {
+      if (!session.until([&] { return app.current(); })) throw Cancelled();
+      app.follow_exposure();
+      if (!session.until([&] { return app.settled(); })) throw Cancelled();
+    }
     app.screenshot((std::filesystem::path(options.export_dir) / frame_name(f)).string(), false);
     progress.advance(1);
   }

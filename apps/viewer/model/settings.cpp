@@ -99,6 +99,11 @@ const std::vector<SettingName>& setting_names() {
              "What the real-time picture holds: none (all), direct or indirect light only, albedo, normal, "
              "shadow, sphl (which one lights a place), leak (looked-up light that no path brings)",
              &Settings::debug),
+      toggle(
+          "antialias", "Picture",
+          "A picture that stands still is drawn 16 times, moved by parts of a pixel, and shown as the mean: "
+          "edges without steps. Not while it is compared with a truth",
+          &Settings::antialias),
       number("scale", "Picture", "Pixels drawn per pixel of the window, along each axis", 0.1f, 2,
              &Settings::scale),
       number("indirect-scale", "Picture",

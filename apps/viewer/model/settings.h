@@ -71,8 +71,9 @@ struct Settings {
   image::ToneCurve curve = image::ToneCurve::filmic;
   Show show = Show::realtime;
   DebugView debug = DebugView::none;
-  float wipe = 0.5f;  ///< place of the line, share of the width
-  int block = 16;     ///< pixels, of `pixelated`
+  bool antialias = true;  ///< while the picture stands still
+  float wipe = 0.5f;      ///< place of the line, share of the width
+  int block = 16;         ///< pixels, of `pixelated`
   std::string against =
       "path";  ///< what the truth's place holds: path, or a method of methods::all_methods()
   int truth_depth = rays::usual_max_depth;  ///< scattering events of the ground truth

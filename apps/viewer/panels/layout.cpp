@@ -80,7 +80,8 @@ void draw_sidebar(App& app, float y, float width, float height) {
       void (*draw)(App&);
     } tabs[] = {{"Light", draw_light_panel},      {"Probes", draw_probe_panel},
                 {"Surfaces", draw_surface_panel}, {"Camera", draw_camera_panel},
-                {"Picture", draw_picture_panel},  {"Times", draw_stats_panel}};
+                {"Picture", draw_picture_panel},  {"Times", draw_stats_panel},
+                {"Scene", draw_scene_panel}};
     for (const auto& tab : tabs) {
       const ImGuiTabItemFlags flags =
           app.open_tab == tab.name ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
@@ -111,8 +112,11 @@ void draw_picture(const App& app) {
       app.settings.show == Show::wipe && app.settings.debug != DebugView::leak ? app.settings.wipe : 0;
   // OpenGL's first row is the lowest one, a file's the highest.
   list.AddImage(texture_id(app.picture.realtime_texture()), from, to, {0, 1}, {1, 0});
-  if (!truth) return;
-  list.AddImage(texture_id(app.picture.truth_texture()), {r.x + line * r.width, r.y}, to, {line, 0}, {1, 1});
+  if (truth)
+    list.AddImage(texture_id(app.picture.truth_texture()), {r.x + line * r.width, r.y}, to, {line, 0},
+                  {1, 1});
+  if (const gl::Texture* const outline = app.outline())
+    list.AddImage(texture_id(outline->id()), from, to, {0, 1}, {1, 0});
 }
 
 void draw_help(App& app) {

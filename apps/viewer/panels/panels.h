@@ -15,6 +15,7 @@ void draw_menu(App& app);
 void draw_light_panel(App& app);
 void draw_probe_panel(App& app);
 void draw_surface_panel(App& app);
+void draw_scene_panel(App& app);
 void draw_camera_panel(App& app);
 void draw_picture_panel(App& app);
 void draw_stats_panel(App& app);

@@ -46,6 +46,7 @@ void draw_picture_panel(App& app) {
   setting_widget(app, "debug view", "debug");
   if (app.settings.debug == DebugView::leak)
     note("Looked-up indirect light on places where path tracing finds next to none, as it comes in.");
+  setting_widget(app, "smooth edges", "antialias");
   setting_slider(app, "pixels", "scale", 0.25f, 2, "× %.2f");
   setting_slider(app, "probe light at", "indirect-scale", 1, 8, "1 of %.0f pixels");
   draw_truth(app);

@@ -65,15 +65,15 @@ void draw_surface_panel(App& app) {
     ImGui::SameLine();
     const Selection self{Kind::material, static_cast<int>(i)};
     const std::string label = materials[i].name.empty() ? fmt::format("material {}", i) : materials[i].name;
-    if (ImGui::Selectable(label.c_str(), app.selection == self)) app.selection = self;
+    if (ImGui::Selectable(label.c_str(), app.selection.material() == self.index)) app.select(self);
     ImGui::PopID();
   }
   ImGui::EndChild();
-  if (app.selection.is(Kind::material)) {
-    draw_material(app, static_cast<std::size_t>(app.selection.index));
+  if (app.selection.material() >= 0) {
+    draw_material(app, static_cast<std::size_t>(app.selection.material()));
     note("Live probes find their light anew once a change is done; textures multiply these values.");
   } else {
-    note("Choose a material to change it.");
+    note("Choose a material to change it, here or by a click on a surface.");
   }
 }
 

@@ -18,6 +18,8 @@
 #include "injection.h"
 #include "input.h"
 #include "input_queue.h"
+#include "model/framing.h"
+#include "model/pick.h"
 #include "overlay.h"
 #include "panels/panels.h"
 #include "style.h"
@@ -144,6 +146,19 @@ class AppStage : public testing::Test {
     down[static_cast<std::size_t>(button)] = true;
     mouse(x, y), mouse(x, y), mouse(x, y, down), mouse(to_x, to_y, down), mouse(to_x, to_y), frame();
   }
+
+  /// `before` as a drag from one point of the picture to another leaves it: turned about what stands under
+  /// the first.
+  View orbited_by(const View& before, const vec2& from, const vec2& to) const {
+    const Rect2& r = app_->viewport;
+    const vec2 point((from.x - r.x) / r.width, 1 - (from.y - r.y) / r.height);
+    const auto surface =
+        pick_surface(*app_->picking(), app_->document.time, pixel_ray(before, point, r.aspect()));
+    const vec2 turn = -0.005f * (to - from);
+    return surface ? orbited_about(before, surface->position, turn.x, turn.y)
+                   : orbited(before, turn.x, turn.y);
+  }
+  rays::PosedWorld posed() const { return {*app_->picking(), app_->document.time}; }
 
   test::TempDir dir_;
   std::filesystem::path before_ = std::filesystem::current_path();

@@ -47,11 +47,10 @@ class Autosaved : public PanelStage {
   void pass(double seconds) {
     app().keep_unsaved();
     window_->clock += seconds;
-    for (int i = 0; i < 500; ++i) {
-      app().keep_unsaved();
+    app().keep_unsaved();
+    while (app().keeping()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      if (i > 20 && !kept("").empty()) break;
-      if (i > 60) break;
+      app().keep_unsaved();
     }
   }
   /// Files of the folder with this ending.

@@ -64,7 +64,7 @@ TEST_F(Queue, ADragBetweenTwoFramesIsFromItsPressToItsEnd) {
   queue().mouse(10, 10), queue().mouse(100, 250), queue().button(0, true), queue().mouse(110, 250);
   queue().mouse(130, 240), queue().button(0, false), queue().mouse(300, 20);
   drain();
-  EXPECT_EQ(app().view, dragged(before, ViewDrag::orbit, {30, -10}, 300));
+  EXPECT_EQ(app().view, orbited_by(before, {100, 250}, {130, 240}));
   EXPECT_EQ(ImGui::GetIO().MousePos.x, 300);
   queue().wheel(0, 1), queue().wheel(0, 1);
   const View turned = app().view;

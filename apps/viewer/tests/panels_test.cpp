@@ -311,8 +311,8 @@ TEST_F(Panels, BookmarksAreMadeSeenPlayedAndDeleted) {
   app().selection = {Kind::light, 0};
   click_text("Frame everything (F)");
   EXPECT_EQ(app().selection, Selection{});
-  EXPECT_EQ(app().view,
-            framed(start_view(app().document, "room-b"), app().document.bounds, app().viewport.aspect()));
+  EXPECT_EQ(app().view, framed_within(start_view(app().document, "room-b"), app().document.bounds,
+                                      app().viewport.aspect(), posed()));
 }
 
 }  // namespace

@@ -1,0 +1,92 @@
+// What is selected: found in the picture, outlined, brought into sight.
+
+#include <fmt/format.h>
+
+#include <ssphh/rays/posed_world.h>
+
+#include "app.h"
+#include "model/framing.h"
+#include "model/objects.h"
+
+namespace ssphh::viewer {
+namespace {
+
+std::string material_name(const Edits& edits, int material) {
+  const std::string& name = edits.materials[static_cast<std::size_t>(material)].name;
+  return name.empty() ? fmt::format("material {}", material) : name;
+}
+
+std::vector<int> instances_of(const scene::Scene& scene, const Selection& selection) {
+  std::vector<int> out;
+  for (int i = 0; i < static_cast<int>(scene.instances.size()); ++i) {
+    const scene::Instance& instance = scene.instances[static_cast<std::size_t>(i)];
+    const bool chosen =
+        selection.is(Kind::object)
+            ? instance.node == selection.index
+            : selection.is(Kind::material) && scene::instance_material(scene, instance) == selection.index;
+    if (chosen) out.push_back(i);
+  }
+  return out;
+}
+
+}  // namespace
+
+void App::select(const Selection& selected) {
+  selection = selected;
+  const auto i = static_cast<std::size_t>(selected.index);
+  if (selected.is(Kind::light)) say(document.scene->lights[i].name);
+  if (selected.is(Kind::sphl)) say(document.edits().sphls[i].name);
+  if (selected.is(Kind::material)) say(material_name(document.edits(), selected.index));
+  if (selected.is(Kind::object)) {
+    const std::string name = node_name(*document.scene, selected.index);
+    const int material = selected.of_material;
+    say(material < 0 ? name : fmt::format("{}, of {}", name, material_name(document.edits(), material)));
+  }
+  redraw();
+}
+
+void App::select_on_ray(const rays::RayQuery& ray) {
+  const scene::Scene& scene = *document.scene;
+  const auto picked = pick_body(scene, scene::world_matrices(scene, document.time), ray);
+  if (!picked) return select({});
+  const scene::Instance& instance = scene.instances[static_cast<std::size_t>(picked->instance)];
+  select({Kind::object, instance.node, scene::instance_material(scene, instance)});
+}
+
+void App::frame_selection() {
+  const std::vector<mat4> world = scene::world_matrices(*document.scene, document.time);
+  scene::Bounds bounds = document.bounds;
+  if (const auto position = selected_position()) {
+    bounds = {};
+    bounds.add(*position - 0.5f), bounds.add(*position + 0.5f);
+  } else if (selection.is(Kind::object)) {
+    bounds = node_bounds(*document.scene, world, selection.index);
+  } else if (selection.is(Kind::material)) {
+    bounds = material_bounds(*document.scene, world, selection.index);
+  }
+  view = framed_within(view, bounds, viewport.aspect(), rays::PosedWorld(*picking_, document.time));
+  path_plays = false;
+  redraw();
+}
+
+const gl::Texture* App::outline() const {
+  return outlined_ && !outline_->empty() ? &outline_->picture() : nullptr;
+}
+
+void App::draw_outline() {
+  if (!selection.is(Kind::object) && !selection.is(Kind::material)) return outlined_.reset();
+  if (!drawn_) return;
+  const bool same_bodies = outlined_ && outlined_->first.selection == selection;
+  const Drawn now{drawn_->view, {}, selection, picture.width(), picture.height()};
+  if (same_bodies && outlined_->first.view == now.view && outlined_->first.width == now.width &&
+      outlined_->first.height == now.height && outlined_->second == document.time)
+    return;
+  if (!outline_) outline_ = std::make_unique<OutlineGl>();
+  if (!same_bodies) outline_->set(*document.scene, instances_of(*document.scene, selection));
+  outline_->draw(scene::world_matrices(*document.scene, document.time), renderer_->depth_texture(),
+                 renderer_->view_projection(), now.width, now.height);
+  outlined_ = {now, document.time};
+  redraw();
+}
+
+}  // namespace ssphh::viewer

@@ -1,0 +1,21 @@
+#pragma once
+/// Views of a thing that go through no wall.
+
+#include <ssphh/rays/posed_world.h>
+
+#include "view_camera.h"
+
+namespace ssphh::viewer {
+
+/// As much of `bounds` in sight as there is room for: the eye stands where it can be reached from where it is
+/// without passing a surface, by choice looking as it does now, else along the line on which it sees the
+/// middle now. A thing that no such place sees, as one in the next room, is seen from within its own room.
+/// Where there is no place either, the eye stays and turns toward it. Unchanged for empty bounds.
+View framed_within(const View& view, const scene::Bounds& bounds, float aspect,
+                   const rays::PosedWorld& world);
+
+/// The same turn as orbited() has, about another point, which stays where it is in the picture and becomes
+/// the focus' distance. Unchanged for a point that is not before the eye.
+View orbited_about(const View& view, const vec3& point, float yaw, float pitch);
+
+}  // namespace ssphh::viewer
