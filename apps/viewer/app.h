@@ -261,6 +261,7 @@ class App {
     Selection selection;
     int width = 0, height = 0;
   };
+  scene::Bounds clicked_;  ///< part of the selected object that was clicked; empty: it was not
   std::optional<Drawn> drawn_;
   /// What the outline was drawn with, and when in the scene.
   std::optional<std::pair<Drawn, float>> outlined_;

@@ -33,6 +33,7 @@ std::vector<int> instances_of(const scene::Scene& scene, const Selection& select
 
 void App::select(const Selection& selected) {
   selection = selected;
+  clicked_ = {};
   const auto i = static_cast<std::size_t>(selected.index);
   if (selected.is(Kind::light)) say(document.scene->lights[i].name);
   if (selected.is(Kind::sphl)) say(document.edits().sphls[i].name);
@@ -51,6 +52,7 @@ void App::select_on_ray(const rays::RayQuery& ray) {
   if (!picked) return select({});
   const scene::Instance& instance = scene.instances[static_cast<std::size_t>(picked->instance)];
   select({Kind::object, instance.node, scene::instance_material(scene, instance)});
+  clicked_ = part_bounds(scene, scene::world_matrices(scene, document.time), *picked);
 }
 
 void App::frame_selection() {
@@ -61,6 +63,8 @@ void App::frame_selection() {
     bounds.add(*position - 0.5f), bounds.add(*position + 0.5f);
   } else if (selection.is(Kind::object)) {
     bounds = node_bounds(*document.scene, world, selection.index);
+    // Of things far apart that are one mesh the one that was clicked.
+    if (!clicked_.empty() && clicked_.radius() < 0.5f * bounds.radius()) bounds = clicked_;
   } else if (selection.is(Kind::material)) {
     bounds = material_bounds(*document.scene, world, selection.index);
   }

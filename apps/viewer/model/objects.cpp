@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -50,15 +52,48 @@ std::optional<PickedBody> pick_body(const scene::Scene& scene, const std::vector
     const mat4 inverse = glm::inverse(matrix);
     // A ray's distances are the same in every frame.
     const rays::RayQuery in_frame{vec3(inverse * vec4(ray.origin, 1)), mat3(inverse) * ray.direction};
-    for (const uvec3& t : mesh.triangles) {
+    for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+      const uvec3 t = mesh.triangles[k];
       const float distance =
           meet(in_frame, mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z], limit);
       if (!(distance < limit)) continue;
       limit = distance;
-      best = {static_cast<int>(i), distance};
+      best = {static_cast<int>(i), k, distance};
     }
   }
   return best;
+}
+
+scene::Bounds part_bounds(const scene::Scene& scene, const std::vector<mat4>& world,
+                          const PickedBody& picked) {
+  const scene::Instance& instance = scene.instances[at(picked.instance)];
+  const scene::Mesh& mesh = scene.meshes[at(instance.mesh)];
+  const std::size_t count = mesh.positions.size();
+  // Trees of vertices: each leads to another one of its part, the root to itself.
+  std::vector<std::uint32_t> toward(count), order(count);
+  std::iota(toward.begin(), toward.end(), 0u);
+  std::iota(order.begin(), order.end(), 0u);
+  const auto root = [&](std::uint32_t v) {
+    while (toward[v] != v) v = toward[v] = toward[toward[v]];
+    return v;
+  };
+  // Where normals or texture coordinates part, vertices stand twice at one place.
+  const auto place = [&](std::uint32_t v) {
+    const vec3& p = mesh.positions[v];
+    return std::tuple(p.x, p.y, p.z);
+  };
+  std::ranges::sort(order, {}, place);
+  for (std::size_t i = 1; i < count; ++i) {
+    if (place(order[i]) == place(order[i - 1])) toward[root(order[i])] = root(order[i - 1]);
+  }
+  for (const uvec3& t : mesh.triangles) toward[root(t.x)] = toward[root(t.y)] = root(t.z);
+  const std::uint32_t wanted = root(mesh.triangles[picked.triangle].x);
+  scene::Bounds bounds;
+  for (const uvec3& t : mesh.triangles) {
+    if (root(t.x) != wanted) continue;
+    for (int k = 0; k < 3; ++k) bounds.add(vec3(world[at(instance.node)] * vec4(mesh.positions[t[k]], 1)));
+  }
+  return bounds;
 }
 
 scene::Bounds node_bounds(const scene::Scene& scene, const std::vector<mat4>& world, int node) {

@@ -13,13 +13,19 @@ namespace ssphh::viewer {
 /// What a ray meets.
 struct PickedBody {
   int instance = -1;
-  float distance = 0;  ///< in units of the ray's direction
+  std::size_t triangle = 0;  ///< of its mesh
+  float distance = 0;        ///< in units of the ray's direction
 };
 
 /// The nearest triangle of any instance before the ray's end, from either side; glass and what alpha cuts out
 /// count as surfaces. `world` as scene::world_matrices() gives it.
 std::optional<PickedBody> pick_body(const scene::Scene& scene, const std::vector<mat4>& world,
                                     const rays::RayQuery& ray);
+
+/// Of the part of the body that hangs together with the triangle, by corners at the same places: of a mesh
+/// that holds all chairs, one chair.
+scene::Bounds part_bounds(const scene::Scene& scene, const std::vector<mat4>& world,
+                          const PickedBody& picked);
 
 /// Of all instances at the node; empty where there are none.
 scene::Bounds node_bounds(const scene::Scene& scene, const std::vector<mat4>& world, int node);

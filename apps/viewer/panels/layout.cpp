@@ -46,7 +46,9 @@ void draw_offer(App& app) {
     ImGui::SameLine();
     if (ImGui::Button("Light them")) attempt(app, [&] { app.light_scene_probes(); });
   }
-  ImGui::SameLine();
+  // In a small window the button stands below.
+  const float needed = 39 * ImGui::GetFontSize();
+  if (r.width > needed) ImGui::SameLine();
   if (ImGui::Button("Place probes and light them")) attempt(app, [&] { app.place_probes(0); });
   ImGui::End();
 }

@@ -86,6 +86,27 @@ TEST_F(Rooms, BothSidesCountAndARaysEnd) {
   EXPECT_TRUE(material_bounds(scene, world, 0).empty());
 }
 
+TEST_F(Rooms, APartIsWhatHangsTogether) {
+  scene::Scene scene;
+  scene.nodes.resize(1);
+  scene.nodes[0].local.translation = {0, 0, 5};
+  // Two squares of two triangles, one with all its vertices twice; they share no place.
+  scene::Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {3, 0, 0},
+                    {4, 0, 0}, {4, 1, 0}, {3, 0, 0}, {4, 1, 0}, {3, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {4, 5, 6}, {0, 2, 3}, {7, 8, 9}};
+  scene.meshes = {mesh};
+  scene.instances = {{0, 0, -1, ""}};
+  const auto world = scene::world_matrices(scene, 0);
+  for (std::size_t triangle = 0; triangle < 4; ++triangle) {
+    const bool first = triangle % 2 == 0;
+    const scene::Bounds bounds = part_bounds(scene, world, {0, triangle, 1});
+    EXPECT_EQ(bounds.min, vec3(first ? 0 : 3, 0, 5)) << triangle;
+    EXPECT_EQ(bounds.max, vec3(first ? 1 : 4, 1, 5)) << triangle;
+  }
+  EXPECT_EQ(pick_body(scene, world, {{3.2f, 0.9f, 9}, {0, 0, -1}})->triangle, 3u);
+}
+
 TEST_F(Rooms, TheTreeHasAllBodiesAndWhatHoldsThem) {
   scene::Scene scene;
   scene.nodes.resize(5);

@@ -67,6 +67,31 @@ TEST_F(Click, FramesItFromWithinTheRoom) {
   EXPECT_TRUE(posed().visible(before.eye, app().view.eye)) << "everything, from here";
 }
 
+TEST_F(Click, OfThingsInOneMeshTheClickedOneIsFramed) {
+  scene::Scene scene;
+  scene.nodes.resize(1);
+  scene::Mesh mesh;
+  for (const float x : {-20.0f, 20.0f}) {
+    const auto first = static_cast<unsigned>(mesh.positions.size());
+    for (const vec3& p : {vec3(-1, -1, 0), vec3(1, -1, 0), vec3(0, 1, 0)})
+      mesh.positions.push_back(p + vec3(x, 0, 0));
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  mesh.material = 0;
+  scene.materials.emplace_back();
+  scene.meshes = {mesh};
+  scene.instances = {{0, 0, -1, ""}};
+  app().take_document(make_document("two.glb", std::move(scene), 0));
+  app().view = look_at({20, 0, 8}, {20, 0, 0}, 1);
+  frames(2);
+  click(200, 150);
+  press({'F'});
+  EXPECT_NEAR(app().view.eye.x, 20, 1e-3f);
+  app().select({Kind::object, 0});
+  press({'F'});
+  EXPECT_NEAR(app().view.eye.x, 0, 1e-3f) << "all, where it was chosen in the list";
+}
+
 class List : public PanelStage {
  protected:
   List() { open("Scene"); }
