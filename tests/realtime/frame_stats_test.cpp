@@ -92,7 +92,7 @@ TEST_F(FrameStatsTest, DrawsAndTrianglesAreCounted) {
   EXPECT_EQ(second.shadow_maps_waiting, 0);
   EXPECT_EQ(second.draw_calls, 2u);
   EXPECT_EQ(second.triangles, 2u);
-  EXPECT_EQ(second.bytes_uploaded, 12u * 16) << "what shaders ask of a frame";
+  EXPECT_EQ(second.bytes_uploaded, 13u * 16) << "what shaders ask of a frame";
   renderer.set_probes(one_probe());
   frame(renderer);
   EXPECT_EQ(frame(renderer).draw_calls, 3u) << "and the probe's light";
@@ -180,13 +180,14 @@ TEST_F(FrameStatsTest, WhatIsSwitchedOffDoesNotShine) {
 }
 
 TEST_F(FrameStatsTest, FrameWithoutAWordShowsAllLightAtEveryPixel) {
-  const auto& [direct, indirect, lookup, weights, scale, tolerance, supersample, occlusion, radius, view, sky,
-               tone, wireframe] = FrameSettings{};
+  const auto& [direct, indirect, lookup, weights, scale, tolerance, shift, supersample, occlusion, radius,
+               view, sky, tone, wireframe] = FrameSettings{};
   EXPECT_TRUE(direct && indirect);
   EXPECT_EQ(lookup, probes::LookupMethod::irradiance);
   EXPECT_EQ(weights, probes::WeightMethod::surface);
   EXPECT_EQ(scale, 1);
   EXPECT_EQ(tolerance, 0.1f);
+  EXPECT_EQ(shift, vec2(0));
   EXPECT_EQ(supersample, 1);
   EXPECT_FALSE(occlusion);
   EXPECT_EQ(radius, 0.5f);

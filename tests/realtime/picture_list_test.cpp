@@ -49,7 +49,7 @@ class PictureList : public WithGl {
   void list_state(const std::string& name, GLuint first_unit, GLuint end_unit, bool all = false) {
     constexpr std::pair<std::size_t, std::size_t> none;
     state_ += name + "\n" +
-              uniform_blocks({{192, 192},
+              uniform_blocks({{208, 208},
                               all ? std::pair<std::size_t, std::size_t>{16384, 8592} : none,
                               all ? std::pair<std::size_t, std::size_t>{5120, 5104} : none,
                               all ? std::pair<std::size_t, std::size_t>{256, 192} : none,
