@@ -28,7 +28,8 @@ struct SolvedScene {
       : scene(std::move(scene_in)), source(scene), session(source, places_of(scene), params(surfel_size)) {
     session.update();
     lit = session.surfel_direct();
-    for (std::size_t s = 0; s < lit.size(); ++s) lit[s] += session.surfel_irradiance()[s];
+    reflected = session.surfel_irradiance();
+    for (std::size_t s = 0; s < lit.size(); ++s) lit[s] += reflected[s];
   }
   static transport::RelightParams params(float surfel_size) {
     transport::RelightParams params;
@@ -39,7 +40,7 @@ struct SolvedScene {
   const transport::TransportNetwork& network() const { return session.network(); }
   std::unique_ptr<SurfaceGather> where_needed(int most, int rays) const {
     return gather_where_needed(network(), {most, rays}, std::array{0.0f}, [&](float) {
-      return transport::PosedIrradiance{{}, lit};
+      return transport::PosedIrradiance{{}, lit, reflected};
     });
   }
   /// Mean difference between gathers at some surfels and lookups between those points, of the mean.
@@ -64,7 +65,7 @@ struct SolvedScene {
   scene::Scene scene;
   trace::TransportScene source;
   LitSession session;
-  std::vector<Irradiance4> lit;
+  std::vector<Irradiance4> lit, reflected;
 };
 
 TEST(RecordPlaces, AreFewerThanOnesSpreadEvenlyAndKnowMore) {
@@ -87,6 +88,7 @@ TEST(RecordPlaces, AreDenseWhereSurfacesMeet) {
   // In darkness only nearness asks for points.
   SolvedScene box(scene::make_builtin("box"), 0.05f);
   box.lit.assign(box.lit.size(), Irradiance4(0));
+  box.reflected = box.lit;
   const auto gather = box.where_needed(static_cast<int>(transport::most_records), 64);
   EXPECT_LT(gather->points().size(), transport::surfel_points(box.network()).size() / 2)
       << "however many it may be";
@@ -104,6 +106,30 @@ TEST(RecordPlaces, AreDenseWhereSurfacesMeet) {
   }
   // A quarter of each wall is that far from its rims.
   EXPECT_GT(outer, 4 * 3 * inner) << "twice as dense as without regard to nearness, at least";
+}
+
+TEST(RecordPlaces, AreDenseWhereSurfelsGotWhatPointsDoNotGive) {
+  // Of a room in darkness a patch of the floor is said to have got light, which no point tells.
+  SolvedScene box(scene::make_builtin("box"), 0.05f);
+  box.lit.assign(box.lit.size(), Irradiance4(0));
+  const std::vector<rays::SurfacePoint> all = transport::surfel_points(box.network());
+  scene::Bounds bounds;
+  for (const rays::SurfacePoint& p : all) bounds.add(p.position);
+  const auto in_patch = [&](const rays::SurfacePoint& p) {
+    const vec3 share = (p.position - bounds.min) / (bounds.max - bounds.min);
+    return p.normal.y > 0.5f && glm::length(vec2(share.x, share.z) - 0.5f) < 0.15f;
+  };
+  const auto points_of = [&](float told) {
+    box.reflected.assign(box.lit.size(), Irradiance4(0));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (in_patch(all[i])) box.reflected[i] = Irradiance4(told, told, told, 0);
+    }
+    const auto gather = box.where_needed(static_cast<int>(transport::most_records), 64);
+    return std::ranges::count_if(gather->points(), in_patch);
+  };
+  const auto surfels = std::ranges::count_if(all, in_patch);
+  EXPECT_LT(points_of(0), surfels / 4);
+  EXPECT_GT(points_of(1), surfels * 3 / 4);
 }
 
 TEST(RecordPlaces, AreEverywhereThatASurfelWouldSeeNone) {

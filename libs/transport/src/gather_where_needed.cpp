@@ -24,13 +24,16 @@ class RecordPlaces {
     // As surfels do, records stand farther apart where probes are far
     for (const rays::SurfacePoint& point : all_)
       levels_.push_back(network.surfels().level(0, point.position));
+    surfels_ = all_.size();
     // Cubes too small for two surfels, however few there are, would not differ from larger ones
     const auto apart = static_cast<int>(std::min<std::size_t>(all_.size() - all_.size() / 10, most_records));
     if (!all_.empty()) grid_ = finest_grid(all_, levels_, std::min(most, apart));
     if (everywhere) add_unseen(network, most / 4);
   }
 
+  /// First those of the network's still surfels, in their order.
   const std::vector<rays::SurfacePoint>& all() const { return all_; }
+  std::size_t surfels() const { return surfels_; }
 
   /// Of each cube, `coarser` levels above its points' own, in which none of the chosen stands, the middle
   /// one.
@@ -93,6 +96,7 @@ class RecordPlaces {
 
   const rays::TransportSource& source_;
   std::vector<rays::SurfacePoint> all_;
+  std::size_t surfels_ = 0;
   std::vector<int> levels_;
   PointGrid grid_{vec3(0), 1};
   std::vector<std::size_t> chosen_;
@@ -106,6 +110,10 @@ constexpr std::size_t first_points = 512;
 constexpr float tolerance = 0.04f;
 /// The same of the mean light: the dark may be less exact.
 constexpr float tolerance_of_mean = 0.002f;
+
+/// What surfels got, by few rays and over all their extent, may be missed by so much.
+constexpr float surfel_tolerance = 0.25f;
+constexpr float surfel_tolerance_of_mean = 0.02f;
 
 /// How far each point is from being known by those around it, by the points' light: 1 where it just is.
 std::vector<float> doubts(const SurfaceGather& gather, const probes::SurfaceInterpolation& known,
@@ -140,16 +148,48 @@ float doubt_at(const rays::SurfacePoint& place, const probes::SurfaceInterpolati
   return all > 0 ? sum / all : 1;
 }
 
-/// Those of `which` at which `doubts` are 1 at least.
-std::vector<std::size_t> doubtful(std::vector<std::size_t> which, const RecordPlaces& places,
-                                  const probes::SurfaceInterpolation& known, std::span<const float> doubts,
-                                  const Control& control) {
-  std::vector<std::uint8_t> is(places.all().size());
+/// What surfels got of reflected light, beside what points would give them: points that are far apart know
+/// nothing of a roof between them.
+class SurfelDoubts {
+ public:
+  SurfelDoubts(const RecordPlaces& places, std::span<const Irradiance4> reflected,
+               const probes::SurfaceInterpolation& known, std::span<const probes::RecordLight> light)
+      : places_(places), reflected_(reflected), known_(known), light_(light) {
+    double sum = 0;
+    for (std::size_t i = 0; i < places.surfels(); ++i)
+      sum += static_cast<double>(max_component(vec3(reflected[i])));
+    least_ = surfel_tolerance_of_mean * static_cast<float>(sum / static_cast<double>(places.surfels()));
+  }
+
+  /// Of a place: 1 where it just is within what may be missed; 0 where no surfel or no point tells.
+  float at(std::size_t place) const {
+    vec3 predicted;
+    if (place >= places_.surfels() || !known_.irradiance(places_.all()[place], light_, predicted)) return 0;
+    const vec3 got(reflected_[place]);
+    const float allowed = surfel_tolerance * max_component(glm::max(got, predicted)) + least_;
+    return allowed > 0 ? max_component(glm::abs(predicted - got)) / allowed : 0;
+  }
+
+ private:
+  const RecordPlaces& places_;
+  std::span<const Irradiance4> reflected_;
+  const probes::SurfaceInterpolation& known_;
+  std::span<const probes::RecordLight> light_;
+  float least_ = 0;
+};
+
+/// Those of `which` of which `doubt` is 1 at least.
+template <class Doubt>
+std::vector<std::size_t> doubtful(std::span<const std::size_t> which, const Control& control,
+                                  const Doubt& doubt) {
+  std::vector<std::uint8_t> is(which.size());
   parallel_for(
-      which.size(), 64,
-      [&](std::size_t i) { is[which[i]] = doubt_at(places.all()[which[i]], known, doubts) >= 1; }, control);
-  std::erase_if(which, [&](std::size_t i) { return !is[i]; });
-  return which;
+      which.size(), 64, [&](std::size_t i) { is[i] = doubt(which[i]) >= 1; }, control);
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < which.size(); ++i) {
+    if (is[i]) found.push_back(which[i]);
+  }
+  return found;
 }
 
 }  // namespace
@@ -159,7 +199,13 @@ std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& netwo
                                                    const LightOfPose& light_at, const Control& control,
                                                    const AddRecordLight& add_more) {
   require(!times.empty(), "surface records", "there is no pose to look at");
-  PosedIrradiance now = light_at(times[0]);
+  const auto light_in = [&](float time) {
+    PosedIrradiance light = light_at(time);
+    require(light.reflected.size() == network.surfel_count(), "surface records",
+            "there is not the reflected light of each surfel");
+    return light;
+  };
+  PosedIrradiance now = light_in(times[0]);
   RecordPlaces places(network, params.points, !params.baked.empty());
   const auto gather_at = [&](std::vector<rays::SurfacePoint> points) {
     return SurfaceGather(network, std::move(points), params.rays, now.direct, control);
@@ -172,20 +218,25 @@ std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& netwo
   std::vector<probes::RecordLight> light;
   for (std::size_t pose = 0; pose < times.size(); ++pose) {
     if (pose > 0) {
-      now = light_at(times[pose]);
+      now = light_in(times[pose]);
       gather->update_pose();
     }
     for (int coarser = first - 1; coarser >= 0; --coarser) {
       const probes::SurfaceInterpolation known = places.between(gather->points());
       gather->light(now.lit, light);
       std::vector<float> doubt = doubts(*gather, known, light);
+      const std::vector<probes::RecordLight> reflected = light;
       if (add_more && pose == 0) {
         // What is brighter hides how the light of other groups changes: either asks for points.
         add_more(gather->points(), light);
         const std::vector<float> of_all = doubts(*gather, known, light);
         for (std::size_t i = 0; i < doubt.size(); ++i) doubt[i] = std::max(doubt[i], of_all[i]);
       }
-      wanted = doubtful(places.free(coarser), places, known, doubt, control);
+      const SurfelDoubts by_surfels(places, now.reflected, known, reflected);
+      wanted = doubtful(places.free(coarser), control, [&](std::size_t place) {
+        const float by_points = doubt_at(places.all()[place], known, doubt);
+        return by_points >= 1 ? by_points : by_surfels.at(place);
+      });
       if (!wanted.empty()) gather->append(gather_at(places.choose(wanted)));
     }
   }
@@ -194,9 +245,10 @@ std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& netwo
   if (left == 0) return gather;
   std::vector<std::size_t> all(places.all().size());
   std::iota(all.begin(), all.end(), std::size_t{0});
+  const probes::SurfaceInterpolation known = places.between(gather->points());
   const std::vector<float> sure(count, 0);
   const std::vector<std::size_t> unlit =
-      doubtful(std::move(all), places, places.between(gather->points()), sure, control);
+      doubtful(all, control, [&](std::size_t place) { return doubt_at(places.all()[place], known, sure); });
   if (!unlit.empty()) gather->append(gather_at(places.spread(unlit, static_cast<int>(left))));
   return gather;
 }

@@ -52,7 +52,7 @@ void RelightSession::Data::put_into_pose(float time, const Control& control) {
 }
 
 PosedIrradiance RelightSession::Data::light_alike() const {
-  PosedIrradiance light_now{direct_by_group(), {}};
+  PosedIrradiance light_now{direct_by_group(), {}, {}};
   const std::vector<vec3> scales = alike(light_now.direct);
   std::vector<Irradiance4> sum(network.surfel_count(), Irradiance4(0));
   for (std::size_t g = 0; g < scales.size(); ++g) {
@@ -61,6 +61,8 @@ PosedIrradiance RelightSession::Data::light_alike() const {
   }
   SolveReport report;
   light_now.lit = lit_under(sum, report);
+  light_now.reflected = light_now.lit;
+  for (std::size_t s = 0; s < sum.size(); ++s) light_now.reflected[s] -= sum[s];
   return light_now;
 }
 
