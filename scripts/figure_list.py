@@ -14,6 +14,7 @@ class Sizes:
     def __init__(self, quick):
         self.view = ["--width", 96, "--height", 54] if quick else ["--width", 480, "--height", 270]
         self.truth, self.spp, self.probe = (2, 1, 1) if quick else (512, 16, 64)
+        self.lobe = 8 if quick else 96
         self.face, self.many = (8, 4) if quick else (64, 256)
         self.plan = ["width=96", "height=54", "face=8"] if quick else []
 
@@ -40,6 +41,11 @@ def cube(figure, sizes, scene, name, depth, passes):
     """A light probe of six faces in a row."""
     figure.run("render", scene, "--projection", "cube", "--at", "middle", "--width", 6 * sizes.face, "--height", sizes.face, "--max-depth",
                depth, "--passes", passes, "--spp", 1, "--exposure", 0, "-o", f"{name}.exr", "--png", f"{name}.png")
+
+
+def figure2(figure, sizes):
+    figure.run("sh", "plot", "--degree", 10, "--size", sizes.lobe, "-o", "lobes.png")
+    figure.panels([[("lobes.png", "Y_lm: row l from 0 at the top, column m from −10 to 10; blue positive, orange negative; the pole is up")]])
 
 
 def figure3(figure, sizes):
@@ -129,7 +135,7 @@ NO_SHOW = "needs overlays in pictures (`--draw`) for {}"
 # name: (title, what it shows, how it is made, or the reason why it cannot be made yet)
 FIGURES = {
     "1": ("Figure 1: global illumination by SSPHH", "Gallery 2, whose lamps are hidden.", figure1),
-    "2": ("Figure 2: spherical harmonics of degree 0 to 10", "Lobes with colours of their sign.", "needs `ssphh sh plot`"),
+    "2": ("Figure 2: spherical harmonics of degree 0 to 10", "Lobes with colours of their sign; each as large as its cell lets it be.", figure2),
     "3": ("Figure 3: a light probe and its spherical harmonics", "The SPHL `middle` of gallery 1.", figure3),
     "4": ("Figure 4: irradiance volumes and PRT", "", NO_SHOW.format("tetrahedra and transfer lobes")),
     "5": ("Figure 5: virtual point lights", "", NO_SHOW.format("photons")),
