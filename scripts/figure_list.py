@@ -57,6 +57,15 @@ def figure3(figure, sizes):
                     ("sh.png", f"(b) the same as spherical harmonics of degree {DEGREE}; what is negative (ringing) is black")]])
 
 
+def figure8(figure, sizes):
+    figure.run("bake", "builtin:gallery1", "--probes", "scene", "--degree", DEGREE, "--face", sizes.face, "--spp", sizes.probe, "--max-depth",
+               3, "--viz", "path", "--viz-paths", "diffuse", "--viz-max-depth", 3, "--viz-spp", sizes.probe, "-o", "gallery1.sphl")
+    figure.run("hier", "gallery1.sphl", "-o", "hier.sphl")
+    figure.run("probe", "preview", "hier.sphl", "--edges", "middle", "--width", 4 * sizes.face, "-o", "edges.png")
+    figure.panels([[("edges.png", "A row for each neighbour j of i = middle, the strongest first: S_i, H_{j→i}, S_j, H ⊗ S_j, and S_i with the "
+                                  "products so far; the last row's is S'_i. Equirectangular, +y on top; S_i, S_j and sums share an exposure")]])
+
+
 def figure11(figure, sizes):
     rows = []
     for scene in ("gallery1", "gallery2"):
@@ -141,7 +150,7 @@ FIGURES = {
     "5": ("Figure 5: virtual point lights", "", NO_SHOW.format("photons")),
     "6": ("Figure 6: voxel cone tracing", "", NO_SHOW.format("voxels")),
     "7": ("Figure 7: the steps of SSPHH", "", NO_SHOW.format("surfels and links")),
-    "8": ("Figure 8: S'_i from GEN and VIZ", "", "needs `ssphh probe preview --edges`"),
+    "8": ("Figure 8: S'_i from GEN and VIZ", "The SPHL `middle` of gallery 1, by the operator coefficient.", figure8),
     "9": ("Figure 9: hierarchies and previews of SPHLs", "", NO_SHOW.format("the hierarchy")),
     "10": ("Figure 10: probes rendered elsewhere, sent as JSON", "", "needs a command that keeps the messages of a job"),
     "11": ("Figure 11: scenes that need indirect light", "What hidden lamps light directly, and all light.", figure11),
