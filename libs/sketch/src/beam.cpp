@@ -5,26 +5,30 @@
 
 namespace ssphh::sketch {
 
-Beam Beam::of(const Eye& eye, float x0, float y0, float x1, float y1, float margin) {
-  Beam beam{.axis = eye.ray(0.5f * (x0 + x1), 0.5f * (y0 + y1))};
-  const float xs[] = {x0 - margin, 0.5f * (x0 + x1), x1 + margin},
-              ys[] = {y0 - margin, 0.5f * (y0 + y1), y1 + margin};
-  float least_cosine = 1;
+Beam Beam::of(const Eye& eye, const vec4& rectangle, float margin, bool parallel) {
+  // Just within the edges: beyond some the next face of a cube begins.
+  constexpr float inset = 1e-3f;
+  const float x0 = rectangle.x + inset, y0 = rectangle.y + inset, x1 = rectangle.z - inset,
+              y1 = rectangle.w - inset;
+  const float xs[] = {x0, 0.5f * (x0 + x1), x1}, ys[] = {y0, 0.5f * (y0 + y1), y1};
+  Beam beam{.axis = eye.ray(xs[1], ys[1])};
+  float widest = 0;
   for (const float x : xs) {
     for (const float y : ys) {
       const Ray ray = eye.ray(x, y);
       const vec3 off = ray.origin - beam.axis.origin;
       beam.radius =
           std::max(beam.radius, glm::length(off - glm::dot(off, beam.axis.direction) * beam.axis.direction));
-      least_cosine = std::min(least_cosine, glm::dot(ray.direction, beam.axis.direction));
+      const float sine = glm::length(glm::cross(ray.direction, beam.axis.direction));
+      widest = std::max(widest, std::atan2(sine, glm::dot(ray.direction, beam.axis.direction)));
     }
   }
   // Edges of a rectangle bulge between the rays looked at where a projection bends them.
-  constexpr float widest = 0.2f, bulge = 1.1f;
-  beam.bounded = least_cosine > widest;
-  if (beam.bounded)
-    beam.tangent = bulge * std::sqrt(std::max(1 - least_cosine * least_cosine, 0.0f)) / least_cosine;
-  beam.radius *= bulge;
+  constexpr float bulge = 1.1f, most = 1.3f;
+  const float angle = bulge * widest + (parallel ? 0 : margin);
+  beam.bounded = angle < most;
+  if (beam.bounded) beam.tangent = std::tan(angle);
+  beam.radius = bulge * beam.radius + (parallel ? margin : 0);
   return beam;
 }
 

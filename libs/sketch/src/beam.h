@@ -13,8 +13,9 @@ struct Beam {
   float tangent = 0;    ///< of the half angle
   bool bounded = true;  ///< false: it is wider than a cone can be, and meets everything
 
-  /// Of the rays of [x0, x1] × [y0, y1], and of all within `margin` pixels of these.
-  static Beam of(const Eye& eye, float x0, float y0, float x1, float y1, float margin);
+  /// Of the rays of a rectangle x0, y0, x1, y1 [pixels], and of all within `margin` of these: an angle [rad],
+  /// or a distance [m] where rays are `parallel`.
+  static Beam of(const Eye& eye, const vec4& rectangle, float margin, bool parallel);
 
   bool meets_ball(const vec3& center, float ball_radius) const;
   bool meets_line(const vec3& a, const vec3& b) const;

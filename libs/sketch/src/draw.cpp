@@ -52,12 +52,13 @@ class Drawing {
 
   void tile(int x0, int y0) const {
     const int x1 = std::min(x0 + tile_size, picture_.width), y1 = std::min(y0 + tile_size, picture_.height);
-    const Marks near = within(x0, y0, x1, y1, all_);
+    const Marks near =
+        within(Beam::of(eye_, rectangle(x0, y0, x1, y1), margin(x0, y0, x1, y1), parallel_), all_);
     if (near.empty()) return;
     std::vector<Sample> samples;
     std::vector<Ray> rays;
     for (int y = y0; y < y1; ++y)
-      for (int x = x0; x < x1; ++x) take(x, y, within(x, y, x + 1, y + 1, near), samples, rays);
+      for (int x = x0; x < x1; ++x) take(x, y, near, samples, rays);
     if (samples.empty()) return;
     std::vector<float> distances(rays.size(), std::numeric_limits<float>::infinity());
     if (eye_.surfaces) eye_.surfaces(rays, distances);
@@ -65,9 +66,20 @@ class Drawing {
   }
 
  private:
-  Marks within(int x0, int y0, int x1, int y1, const Marks& among) const {
-    const Beam beam = Beam::of(eye_, static_cast<float>(x0), static_cast<float>(y0), static_cast<float>(x1),
-                               static_cast<float>(y1), 0.5f * widest_ + 1);
+  static vec4 rectangle(int x0, int y0, int x1, int y1) {
+    return {static_cast<float>(x0), static_cast<float>(y0), static_cast<float>(x1), static_cast<float>(y1)};
+  }
+
+  /// How far lines reach beyond their rays where pixels are largest.
+  float margin(int x0, int y0, int x1, int y1) const {
+    float most = 0;
+    for (const int x : {x0, (x0 + x1) / 2, x1 - 1}) {
+      for (const int y : {y0, (y0 + y1) / 2, y1 - 1}) most = std::max(most, pixel_size(x, y));
+    }
+    return 0.5f * widest_ * most;
+  }
+
+  Marks within(const Beam& beam, const Marks& among) const {
     Marks out;
     const auto keep = [](const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to,
                          const auto& meets) { std::ranges::copy_if(from, std::back_inserter(to), meets); };
@@ -87,9 +99,10 @@ class Drawing {
     return out;
   }
 
-  /// Angle between the rays of this pixel and its neighbours, or their distance.
-  float pixel_size(float x, float y, const Ray& ray) const {
-    const Ray right = eye_.ray(x + 0.25f, y), down = eye_.ray(x, y + 0.25f);
+  /// Angle between the rays of a pixel and its neighbours, or their distance.
+  float pixel_size(int x, int y) const {
+    const float cx = static_cast<float>(x) + 0.5f, cy = static_cast<float>(y) + 0.5f;
+    const Ray ray = eye_.ray(cx, cy), right = eye_.ray(cx + 0.25f, cy), down = eye_.ray(cx, cy + 0.25f);
     const auto apart = [&](const Ray& other) {
       return parallel_ ? glm::length(other.origin - ray.origin)
                        : glm::length(glm::cross(other.direction, ray.direction));
@@ -110,11 +123,13 @@ class Drawing {
     return best;
   }
 
-  void take(int x, int y, const Marks& marks, std::vector<Sample>& samples, std::vector<Ray>& rays) const {
+  void take(int x, int y, const Marks& near, std::vector<Sample>& samples, std::vector<Ray>& rays) const {
+    const float pixel = pixel_size(x, y);
+    const Marks marks =
+        within(Beam::of(eye_, rectangle(x, y, x + 1, y + 1), 0.5f * widest_ * pixel, parallel_), near);
     if (marks.empty()) return;
     const auto fx = static_cast<float>(x), fy = static_cast<float>(y),
                n = static_cast<float>(params_.samples);
-    const float pixel = pixel_size(fx + 0.5f, fy + 0.5f, eye_.ray(fx + 0.5f, fy + 0.5f));
     for (int j = 0; j < params_.samples; ++j) {
       for (int i = 0; i < params_.samples; ++i) {
         const Ray ray =

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <ssphh/sh/reconstruct.h>
@@ -74,8 +75,7 @@ std::optional<Hit> hit(const Box& box, const Ray& ray) {
     leave = std::min(leave, far);
   }
   if (side < 0 || !(enter < leave)) return {};
-  const float size = glm::length(box.max - box.min);
-  return Hit{enter, box.colors[static_cast<std::size_t>(side)], box.light, 0.5f * size};
+  return Hit{enter, box.colors[static_cast<std::size_t>(side)], box.light, 0};
 }
 
 std::optional<Hit> hit(const Ball& ball, const Ray& ray) {

@@ -63,8 +63,9 @@ struct Sketch {
   std::vector<Ball> balls = {};
   std::vector<Lobe> lobes = {};
 
-  bool empty() const {
-    return lines.empty() && discs.empty() && boxes.empty() && balls.empty() && lobes.empty();
+  bool empty() const { return size() == 0; }
+  std::size_t size() const {
+    return lines.size() + discs.size() + boxes.size() + balls.size() + lobes.size();
   }
   Sketch& operator+=(const Sketch& other);
 };
