@@ -15,7 +15,7 @@ body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 90rem
 .panels { display: grid; gap: .8rem; }
 figure { margin: 0; } img { width: 100%; background: #000; display: block; } figcaption { color: #333; font-size: .9em; }
 table { border-collapse: collapse; margin: .5rem 0 1rem; } td, th { border: 1px solid #999; padding: .2rem .7rem; text-align: right; }
-td:first-child, th:first-child { text-align: left; } pre { overflow-x: auto; background: #eee; padding: .7rem; }
+td:first-child, th:first-child { text-align: left; } pre { overflow-x: auto; white-space: pre-wrap; overflow-wrap: anywhere; background: #eee; padding: .7rem; }
 """
 
 
@@ -50,6 +50,9 @@ class FigureFolder:
         def line(cells, tag):
             return "<tr>" + "".join(f"<{tag}>{html.escape(str(c))}</{tag}>" for c in cells) + "</tr>"
         self.body += "<table>" + line(head, "th") + "".join(line(row, "td") for row in rows) + "</table>"
+
+    def text(self, title, words):
+        self.body += f"<h2>{html.escape(title)}</h2><pre>{html.escape(words)}</pre>"
 
     def note(self, text):
         self.body += f"<p>{html.escape(text)}</p>"
