@@ -136,7 +136,7 @@ class Prt final : public Method {
                     (near_.reflected.size() + from_sky_.reflected.size()) * sizeof(vec3) +
                     sky_to_probes_.matrix.size() * sizeof(vec3) +
                     probes_->weights.size() * sizeof(probes::ProbeWeight) +
-                    probes_->begin.size() * sizeof(std::uint32_t) + shown_.size() * sizeof(ShownVertex);
+                    probes_->begin.size() * sizeof(std::uint32_t);
     return bytes;
   }
 
@@ -185,7 +185,7 @@ class Prt final : public Method {
   sh::RadianceSh sky_;  ///< at rotation 0; empty: the environment lights the probes as all else does
   float sky_rotation_ = 0;
   VertexLight light_;
-  std::vector<ShownVertex> shown_;
+  std::vector<ShownVertex> shown_;  ///< for drawing() alone
   float shown_spacing_ = 0;
 };
 

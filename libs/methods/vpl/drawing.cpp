@@ -16,7 +16,7 @@ sketch::Sketch photons_drawing(std::span<const Vpl> lights, float size) {
     const float radius = size * std::clamp(std::sqrt(luminance(light.power) / mean), 0.5f, 2.0f);
     const vec3 color = light.power / brightest;
     marks.balls.push_back({.center = light.position, .radius = radius, .color = color});
-    marks.lines.push_back({light.position, light.position + 4 * radius * light.normal, color, 1});
+    marks.lines.push_back({light.position, light.position + 3 * radius * light.normal, color, 1});
   }
   return marks;
 }

@@ -47,7 +47,7 @@ class Vpls final : public Method {
   LightData light_data() const override { return VirtualLights{field_->lights(), field_->params()}; }
 
   sketch::Sketch drawing(Drawing what) const override {
-    constexpr float share_of_scene = 4e-3f;
+    constexpr float share_of_scene = 7e-3f;
     if (what != Drawing::photons) return {};
     return photons_drawing(field_->lights(), share_of_scene * surfaces_->bounds().radius());
   }
