@@ -96,7 +96,7 @@ def figure10(figure, sizes, degree=10):
     figure.run("sh", "reconstruct", "sh.json", "--layout", "strip-h", "--size", sizes.face, "-o", "sh.png")
     figure.run("bake", "builtin:gallery1", "--probes", "scene", "--degree", degree, "--face", sizes.face, "--spp", sizes.probe, "--max-depth", 3,
                "--viz", "off", "--local", 1, "--cache", "none", "--keep-messages", "messages", "-o", "gallery1.sphl")
-    figure.panels([[("probe.png", "the probe as a worker renders it"), ("sh.png", f"what is sent of it: degree {degree}")]])
+    figure.panels([[("probe.png", "(a) a probe with the settings that the worker is sent"), ("sh.png", f"(b) as spherical harmonics of degree {degree}: what the worker sends back")]])
     kept = sorted((figure.folder / "messages").glob("*.json"))
     figure.table(("message", "kind", "probes", "bytes"), [(path.name, (body := json.loads(path.read_text()))["kind"], len(body["probes"]),
                                                          path.stat().st_size) for path in kept])
