@@ -29,7 +29,7 @@ class Sizes:
 
 
 def truth(figure, sizes, scene, name, look):
-    figure.run("render", scene, *sizes.view, *look, "--max-depth", 25, "--spp", sizes.truth, "-o", f"{name}.exr", "--png", f"{name}.png")
+    figure.picture(name, "render", scene, *sizes.view, *look, "--max-depth", 25, "--spp", sizes.truth)
 
 
 def figure1(figure, sizes):

@@ -5,6 +5,7 @@ import html
 import json
 import os
 import shlex
+import shutil
 import subprocess
 import time
 
@@ -35,6 +36,20 @@ class FigureFolder:
         if done.returncode != 0:
             raise SystemExit(f"{self.commands[-1]}\n{done.stderr}")
         return json.loads(done.stdout)
+
+    made = {}  # pictures of this run: by what was asked for, the path without its ending
+
+    def picture(self, name, *arguments):
+        """Runs a command that writes NAME.exr and NAME.png; both are copied where another figure of this run has made the same."""
+        words = [str(a) for a in arguments]
+        line = [*words, "-o", f"{name}.exr", "--png", f"{name}.png"]
+        first = self.made.setdefault(tuple(words), self.folder / name)
+        if first == self.folder / name:
+            self.run(*line)
+            return
+        self.commands.append("ssphh " + shlex.join(line))
+        for ending in ("exr", "png"):
+            shutil.copyfile(f"{first}.{ending}", f"{self.folder / name}.{ending}")
 
     def panels(self, rows):
         """Rows of (PNG file's name, caption), or None for an empty place; rows are equally long."""

@@ -36,6 +36,13 @@ class Figures(unittest.TestCase):
                 self.assertEqual(len(lines), commands, name)
                 self.assertTrue(all(line.startswith("ssphh ") for line in lines), name)
 
+    def test_a_reference_of_two_figures_is_made_once(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(figures(folder, "1", "11").returncode, 0)
+            first, second = pathlib.Path(folder) / "1/truth.exr", pathlib.Path(folder) / "11/gallery2.exr"
+            self.assertEqual(first.read_bytes(), second.read_bytes())
+            self.assertIn("-o gallery2.exr", (pathlib.Path(folder) / "11/commands.txt").read_text())
+
     def test_depth_0_of_figure_14_shows_lamps_alone(self):
         with tempfile.TemporaryDirectory() as folder:
             self.assertEqual(figures(folder, "14").returncode, 0)
