@@ -3,6 +3,8 @@
 import csv
 import pathlib
 
+from figure_overlays import baked, figure10, figure4, figure5, figure6, figure7, figure9
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # The paper's settings of an SPHL: its degree, and 64×64×6 texels.
 DEGREE = 10
@@ -14,7 +16,10 @@ class Sizes:
     def __init__(self, quick):
         self.view = ["--width", 96, "--height", 54] if quick else ["--width", 480, "--height", 270]
         self.truth, self.spp, self.probe = (2, 1, 1) if quick else (512, 16, 64)
+        self.lobe = 8 if quick else 96
         self.face, self.many = (8, 4) if quick else (64, 256)
+        self.overlay_spp, self.photons, self.voxels = (1, 16, 8) if quick else (4, 128, 32)
+        self.mesh = ["rays=16", "edge=2"] if quick else []
         self.plan = ["width=96", "height=54", "face=8"] if quick else []
 
     def paper(self):
@@ -24,7 +29,7 @@ class Sizes:
 
 
 def truth(figure, sizes, scene, name, look):
-    figure.run("render", scene, *sizes.view, *look, "--max-depth", 25, "--spp", sizes.truth, "-o", f"{name}.exr", "--png", f"{name}.png")
+    figure.picture(name, "render", scene, *sizes.view, *look, "--max-depth", 25, "--spp", sizes.truth)
 
 
 def figure1(figure, sizes):
@@ -42,6 +47,11 @@ def cube(figure, sizes, scene, name, depth, passes):
                depth, "--passes", passes, "--spp", 1, "--exposure", 0, "-o", f"{name}.exr", "--png", f"{name}.png")
 
 
+def figure2(figure, sizes):
+    figure.run("sh", "plot", "--degree", 10, "--size", sizes.lobe, "-o", "lobes.png")
+    figure.panels([[("lobes.png", "Y_lm: row l from 0 at the top, column m from −10 to 10; blue positive, orange negative; the pole is up")]])
+
+
 def figure3(figure, sizes):
     cube(figure, sizes, "builtin:gallery1", "strip", 3, sizes.many)
     figure.run("cubemap", "convert", "strip.exr", "--from", "strip-h", "--to", "cross-h", "-o", "probe.png")
@@ -49,6 +59,14 @@ def figure3(figure, sizes):
     figure.run("sh", "reconstruct", "sh.json", "--layout", "cross-h", "--size", sizes.face, "-o", "sh.png")
     figure.panels([[("probe.png", f"(a) light probe, 6 faces of {sizes.face}×{sizes.face} texels, path traced to depth 3"),
                     ("sh.png", f"(b) the same as spherical harmonics of degree {DEGREE}; what is negative (ringing) is black")]])
+
+
+def figure8(figure, sizes):
+    baked(figure, sizes, "gallery1", DEGREE)
+    figure.run("hier", "gallery1.sphl", "-o", "hier.sphl")
+    figure.run("probe", "preview", "hier.sphl", "--edges", "middle", "--width", 4 * sizes.face, "-o", "edges.png")
+    figure.panels([[("edges.png", "A row for each neighbour j of i = middle, the strongest first: S_i, H_{j→i}, S_j, H ⊗ S_j, and S_i with the "
+                                  "products so far; the last row's is S'_i. Equirectangular, +y on top; S_i, S_j and sums share an exposure")]])
 
 
 def figure11(figure, sizes):
@@ -125,19 +143,18 @@ def table1(figure, sizes):
     figure.note("mrd: maximum ray depth; pl: passes, of one sample a pixel. The paper's numbers are beside these in report/report.html.")
 
 
-NO_SHOW = "needs overlays in pictures (`--draw`) for {}"
-# name: (title, what it shows, how it is made, or the reason why it cannot be made yet)
+# name: (title, what it shows, how it is made)
 FIGURES = {
     "1": ("Figure 1: global illumination by SSPHH", "Gallery 2, whose lamps are hidden.", figure1),
-    "2": ("Figure 2: spherical harmonics of degree 0 to 10", "Lobes with colours of their sign.", "needs `ssphh sh plot`"),
+    "2": ("Figure 2: spherical harmonics of degree 0 to 10", "Lobes with colours of their sign; each as large as its cell lets it be.", figure2),
     "3": ("Figure 3: a light probe and its spherical harmonics", "The SPHL `middle` of gallery 1.", figure3),
-    "4": ("Figure 4: irradiance volumes and PRT", "", NO_SHOW.format("tetrahedra and transfer lobes")),
-    "5": ("Figure 5: virtual point lights", "", NO_SHOW.format("photons")),
-    "6": ("Figure 6: voxel cone tracing", "", NO_SHOW.format("voxels")),
-    "7": ("Figure 7: the steps of SSPHH", "", NO_SHOW.format("surfels and links")),
-    "8": ("Figure 8: S'_i from GEN and VIZ", "", "needs `ssphh probe preview --edges`"),
-    "9": ("Figure 9: hierarchies and previews of SPHLs", "", NO_SHOW.format("the hierarchy")),
-    "10": ("Figure 10: probes rendered elsewhere, sent as JSON", "", "needs a command that keeps the messages of a job"),
+    "4": ("Figure 4: irradiance volumes and PRT", "Gallery 1, 24 probes.", figure4),
+    "5": ("Figure 5: virtual point lights", "Gallery 1.", figure5),
+    "6": ("Figure 6: voxel cone tracing", "Gallery 1.", figure6),
+    "7": ("Figure 7: the steps of SSPHH", "Gallery 1: the paper's way, and ours.", figure7),
+    "8": ("Figure 8: S'_i from GEN and VIZ", "The SPHL `middle` of gallery 1, by the operator coefficient.", figure8),
+    "9": ("Figure 9: hierarchies and previews of SPHLs", "Balls show the radiance of S'_i; what surfaces hide is dimmed.", figure9),
+    "10": ("Figure 10: probes rendered elsewhere, sent as JSON", "A worker renders the probes of gallery 1; messages as they were sent.", figure10),
     "11": ("Figure 11: scenes that need indirect light", "What hidden lamps light directly, and all light.", figure11),
     "12": ("Figure 12: SPHLs as complex emitters", "A vault lit by a torch and by an SPHL that is a fire, path traced at four moments.", figure12),
     "13": ("Figure 13: error of the paper's SSPHH", "SPHLs of depth 3 against path tracing of depth 25.", figure13),

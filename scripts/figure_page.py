@@ -5,6 +5,7 @@ import html
 import json
 import os
 import shlex
+import shutil
 import subprocess
 import time
 
@@ -15,7 +16,7 @@ body { font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 90rem
 .panels { display: grid; gap: .8rem; }
 figure { margin: 0; } img { width: 100%; background: #000; display: block; } figcaption { color: #333; font-size: .9em; }
 table { border-collapse: collapse; margin: .5rem 0 1rem; } td, th { border: 1px solid #999; padding: .2rem .7rem; text-align: right; }
-td:first-child, th:first-child { text-align: left; } pre { overflow-x: auto; background: #eee; padding: .7rem; }
+td:first-child, th:first-child { text-align: left; } pre { overflow-x: auto; white-space: pre-wrap; overflow-wrap: anywhere; background: #eee; padding: .7rem; }
 """
 
 
@@ -36,6 +37,20 @@ class FigureFolder:
             raise SystemExit(f"{self.commands[-1]}\n{done.stderr}")
         return json.loads(done.stdout)
 
+    made = {}  # pictures of this run: by what was asked for, the path without its ending
+
+    def picture(self, name, *arguments):
+        """Runs a command that writes NAME.exr and NAME.png; both are copied where another figure of this run has made the same."""
+        words = [str(a) for a in arguments]
+        line = [*words, "-o", f"{name}.exr", "--png", f"{name}.png"]
+        first = self.made.setdefault(tuple(words), self.folder / name)
+        if first == self.folder / name:
+            self.run(*line)
+            return
+        self.commands.append("ssphh " + shlex.join(line))
+        for ending in ("exr", "png"):
+            shutil.copyfile(f"{first}.{ending}", f"{self.folder / name}.{ending}")
+
     def panels(self, rows):
         """Rows of (PNG file's name, caption), or None for an empty place; rows are equally long."""
         places = "".join("<div></div>" if place is None else self._panel(*place) for row in rows for place in row)
@@ -50,6 +65,9 @@ class FigureFolder:
         def line(cells, tag):
             return "<tr>" + "".join(f"<{tag}>{html.escape(str(c))}</{tag}>" for c in cells) + "</tr>"
         self.body += "<table>" + line(head, "th") + "".join(line(row, "td") for row in rows) + "</table>"
+
+    def text(self, title, words):
+        self.body += f"<h2>{html.escape(title)}</h2><pre>{html.escape(words)}</pre>"
 
     def note(self, text):
         self.body += f"<p>{html.escape(text)}</p>"

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "error_message.h"
+
 namespace ssphh::app {
 namespace {
 
@@ -35,6 +37,18 @@ TEST(FarmOptions, AFarmElsewhereIsThatOfItsBroker) {
   const FarmSession session(choice);
   EXPECT_EQ(session.options().broker.endpoint, "ipc:///nowhere");
   EXPECT_EQ(session.options().results, nullptr);
+  EXPECT_EQ(session.options().content, farm::ContentType::binary);
+}
+
+TEST(FarmOptions, MessagesThatAreKeptAreSentAsJson) {
+  FarmChoice choice;
+  choice.messages = "kept";
+  EXPECT_EQ(test::message_of([&] { farm_session(choice); }),
+            "--keep-messages: without a farm nothing is sent (add --local 1 or --broker)");
+  choice.broker.endpoint = "ipc:///nowhere", choice.cache = "none";
+  const FarmSession session(choice);
+  EXPECT_EQ(session.options().messages, "kept");
+  EXPECT_EQ(session.options().content, farm::ContentType::json);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <ssphh/image/cube_layout.h>
 #include <ssphh/image/tonemap.h>
 #include <ssphh/majordomo/client.h>
+#include <ssphh/methods/drawing.h>
 #include <ssphh/methods/vct/pyramid.h>
 #include <ssphh/methods/vpl/virtual_lights.h>
 #include <ssphh/probes/lookup.h>
@@ -22,8 +23,8 @@ using Tables =
                    scene::AlphaMode, scene::LightType, trace::Projection, probes::LightOperator,
                    rays::PathSet, probes::VizMethod, probes::VizSource, probes::GenMode, probes::HierOperator,
                    probes::WeightMethod, probes::LookupMethod, probes::ProbeLayer, study::ProbeProblem,
-                   bake::BakeStage, methods::vct::Storage, methods::vpl::VplKind, majordomo::Outcome,
-                   farm::JobKind>;
+                   bake::BakeStage, methods::Drawing, methods::vct::Storage, methods::vpl::VplKind,
+                   majordomo::Outcome, farm::JobKind>;
 INSTANTIATE_TYPED_TEST_SUITE_P(OfLibraries, EnumTable, Tables);
 
 }  // namespace

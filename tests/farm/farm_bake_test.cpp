@@ -1,6 +1,9 @@
+#include <map>
 #include <random>
 
 #include "farm_process.h"
+#include "json_schema.h"
+#include "places.h"
 
 namespace ssphh::test {
 namespace {
@@ -54,6 +57,27 @@ TEST(FarmBake, LocalOptionAndJsonSayWhatWasDone) {
   object = run_json(command);
   EXPECT_EQ(object["farm"]["cached"], 0);
   EXPECT_EQ(read_file(file), bake.wanted);
+}
+
+TEST(FarmBake, KeepsItsMessagesAsJsonOfTheSchemas) {
+  const TempDir dir;
+  const SmallBake bake(dir, "2");
+  auto command = bake.arguments;
+  const std::string file = (dir / "out.sphl").string(), kept = (dir / "kept").string();
+  command.insert(command.end(), {"-o", file, "--local", "1", "--cache", "none", "--keep-messages", kept});
+  const json::Value object = run_json(command);
+  EXPECT_EQ(read_file(file), bake.wanted) << "JSON keeps every bit";
+  std::map<std::string, int> count;
+  for (const auto& entry : std::filesystem::directory_iterator(kept)) {
+    const std::string name = entry.path().filename(), text = read_text_file(entry.path());
+    const std::string what = name.substr(5, name.find('.', 5) - 5);  // 0001.job.json
+    EXPECT_THAT(schema_errors(source_dir() / ("schemas/farm-" + what + ".schema.json"), text),
+                testing::IsEmpty())
+        << name;
+    ++count[what];
+  }
+  EXPECT_EQ(count["job"], object["farm"]["jobs"].number());
+  EXPECT_EQ(count["result"], object["farm"]["jobs"].number());
 }
 
 TEST(FarmBake, KilledWorkersCostNothingButTime) {

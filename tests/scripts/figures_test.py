@@ -1,4 +1,4 @@
-"""scripts/figures at its quick size: panels, self-contained pages, command lines, and what cannot be made is named."""
+"""scripts/figures at its quick size: panels, self-contained pages, command lines, what is drawn over pictures, and messages."""
 
 import pathlib
 import re
@@ -36,6 +36,13 @@ class Figures(unittest.TestCase):
                 self.assertEqual(len(lines), commands, name)
                 self.assertTrue(all(line.startswith("ssphh ") for line in lines), name)
 
+    def test_a_reference_of_two_figures_is_made_once(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(figures(folder, "1", "11").returncode, 0)
+            first, second = pathlib.Path(folder) / "1/truth.exr", pathlib.Path(folder) / "11/gallery2.exr"
+            self.assertEqual(first.read_bytes(), second.read_bytes())
+            self.assertIn("-o gallery2.exr", (pathlib.Path(folder) / "11/commands.txt").read_text())
+
     def test_depth_0_of_figure_14_shows_lamps_alone(self):
         with tempfile.TemporaryDirectory() as folder:
             self.assertEqual(figures(folder, "14").returncode, 0)
@@ -50,12 +57,25 @@ class Figures(unittest.TestCase):
         self.assertEqual((width, height), (48, 8))
         return sum(map(sum, rows)) / (3 * width * height)
 
-    def test_what_cannot_be_made_is_named_with_the_reason(self):
+    def test_overlays_cover_pictures_and_messages_are_shown(self):
         with tempfile.TemporaryDirectory() as folder:
-            run = figures(folder, "8")
-            self.assertEqual(run.returncode, 1)
-            self.assertIn("8: not made: needs `ssphh probe preview --edges`", run.stderr)
-            self.assertFalse((pathlib.Path(folder) / "8").exists())
+            run = figures(folder, "2", "4", "5", "6", "7", "8", "9", "10")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            here = pathlib.Path(folder)
+            for drawn, plain in (("4/tetrahedra", "4/volume"), ("4/transfer", "4/prt"), ("5/all", "5/vpl"), ("6/bounced", "6/vct"),
+                                 ("7/edges", "7/light"), ("7/surfels", "7/ssphh"), ("7/links", "7/ssphh")):
+                differ = self.differing(here / f"{drawn}.png", here / f"{plain}.png")
+                self.assertGreater(differ, 0.002, drawn)
+            self.assertGreater(self.differing(here / "9/gallery1-all.png", here / "9/gallery1-two.png"), 0.002)
+            page = (here / "10/index.html").read_text()
+            for words in ("0001.job.json", "0001.result.json", "&quot;format&quot;:&quot;ssphh-result&quot;"):
+                self.assertIn(words, page)
+
+    def differing(self, one, other):
+        """Share of the bytes of two pictures of one size."""
+        (width, height, a), (w, h, b) = read_png(one), read_png(other)
+        self.assertEqual((width, height), (w, h))
+        return sum(x != y for row, line in zip(a, b) for x, y in zip(row, line)) / (3 * width * height)
 
     def test_unknown_names_are_refused(self):
         run = figures("/nowhere", "16")

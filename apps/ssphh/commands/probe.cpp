@@ -164,7 +164,9 @@ std::string to_text(const ProbeInfo& info, const ProbeInfoOptions& options) {
 
 ProbePreviewResult run_probe_preview(const ProbePreviewOptions& options, const Control&) {
   ProbePreviewResult result{probes::read_probe_file(options.input), {}};
-  result.sheet = probe_sheet(result.set, options.width, options.exposure);
+  result.sheet = options.edges.empty()
+                     ? probe_sheet(result.set, options.width, options.exposure)
+                     : edge_sheet(result.set, options.edges, options.width, options.exposure);
   image::write_image(options.output, result.sheet.image);
   return result;
 }
@@ -173,7 +175,7 @@ json::Value to_json(const ProbePreviewResult& result, const ProbePreviewOptions&
   json::Value columns = json::Value::array(), rows = json::Value::array();
   for (const ProbeSheet::Column& column : result.sheet.columns)
     columns.push_back({{"layer", column.name}, {"exposure", column.exposure}});
-  for (const probes::Probe& probe : result.set.probes) rows.push_back(probe.name);
+  for (const std::string& name : result.sheet.rows) rows.push_back(name);
   return {{"output", options.output},
           {"width", result.sheet.image.width},
           {"height", result.sheet.image.height},
@@ -183,9 +185,9 @@ json::Value to_json(const ProbePreviewResult& result, const ProbePreviewOptions&
 
 std::string to_text(const ProbePreviewResult& result, const ProbePreviewOptions& options) {
   const ProbeSheet& sheet = result.sheet;
-  std::string text =
-      fmt::format("{}: {} x {} pixels, one row per probe, columns from the left:", options.output,
-                  sheet.image.width, sheet.image.height);
+  std::string text = fmt::format("{}: {} x {} pixels, one row per {}, columns from the left:", options.output,
+                                 sheet.image.width, sheet.image.height,
+                                 options.edges.empty() ? "probe" : "neighbour of " + options.edges);
   for (const ProbeSheet::Column& column : sheet.columns)
     text += fmt::format(" {} (exposure {:+.2f} EV)", column.name, column.exposure);
   if (!result.set.hierarchy) text += "\nrun `ssphh hier` on the file for the neighbours' part and the sum";
@@ -221,10 +223,17 @@ void add_probe_commands(Command app, Context& context) {
   preview.option("--width", look.width, "Pixels of one equirectangular picture, twice its height")
       .range(8, 2048);
   preview.option("--exposure", look.exposure, "EV added to the automatic exposure").range(-60.0, 60.0);
+  preview
+      .option("--edges", look.edges,
+              "Draw how this probe's sum comes about: a row for each neighbour that HIER took")
+      .kind("PROBE");
   preview.footer(
       "One row per probe in the file's order. Columns: self, neighbour, sum (self and sum share an "
       "exposure). Each picture\n"
-      "is equirectangular: +y on top, +x in the middle. Negative lobes are black.");
+      "is equirectangular: +y on top, +x in the middle. Negative lobes are black. With --edges: S of the "
+      "probe, "
+      "H of the\n"
+      "edge, S of the neighbour, their product H x S, and what S and the products so far sum up to.");
 
   auto [convert, files] = add_command(group, context, "convert",
                                       "Convert between .sphl (binary) and .sphl.json", run_probe_convert);

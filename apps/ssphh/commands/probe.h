@@ -32,12 +32,14 @@ struct ProbePreviewOptions {
   std::string output;  ///< picture to write: .png .jpg .exr .hdr
   int width = 256;     ///< pixels of one equirectangular picture, twice its height
   float exposure = 0;  ///< added to the automatic one [EV]
+  std::string edges =
+      {};  ///< probe whose sum is drawn, a row for each neighbour; empty: a row for each probe
 };
 struct ProbePreviewResult {
   probes::ProbeSet set;  ///< what the file holds
   ProbeSheet sheet;      ///< as it was written, before the file's format rounds it
 };
-/// Throws Error as probe_sheet() does.
+/// Throws Error as probe_sheet() and edge_sheet() do.
 ProbePreviewResult run_probe_preview(const ProbePreviewOptions& options, const Control& control = {});
 json::Value to_json(const ProbePreviewResult& result, const ProbePreviewOptions& options);
 std::string to_text(const ProbePreviewResult& result, const ProbePreviewOptions& options);

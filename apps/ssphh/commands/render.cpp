@@ -12,6 +12,7 @@
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/farm/farm_render.h>
 #include <ssphh/image/io.h>
+#include <ssphh/pipeline/draw_marks.h>
 
 #include "commands/command.h"
 #include "options/probe_options.h"
@@ -132,11 +133,13 @@ Hash128 content_hash(const RenderOptions& o, const scene::Scene& scene) {
 
 std::optional<MethodFigures> render_here(const trace::SharedGeometry& geometry, const scene::Scene& scene,
                                          const RenderOptions& o, const trace::RenderParams& params,
-                                         trace::RenderState& state, const Control& control) {
+                                         trace::RenderState& state, sketch::Sketch& drawn,
+                                         const Control& control) {
   std::optional<probes::ProbeSet> set;
   if (!o.probes.empty()) set = read_probes(o, scene);
   const pipeline::LightFinder finder{o.method, o.parameters, set ? &*set : nullptr, o.probes, o.lookup};
-  return pipeline::render_scene(geometry, scene, o.scene.time, finder, params, state, control);
+  return pipeline::render_scene(geometry, scene, o.scene.time, finder, params, state, control, drawings_of(o),
+                                &drawn);
 }
 
 void check_method(const RenderOptions& o) {
@@ -155,12 +158,13 @@ std::vector<std::string> wanted_layers(const RenderOptions& o) {
 
 trace::RenderState render_on_farm(const FarmSession& session, const scene::Scene& scene,
                                   const RenderOptions& o, const trace::RenderParams& params,
-                                  farm::FarmReport& report, const Control& control) {
+                                  farm::FarmReport& report, sketch::Sketch& drawn, const Control& control) {
   std::optional<probes::ProbeSet> set;
   std::optional<farm::RenderProbes> probes;
   if (o.method == "ssphh") {
     set = read_probes(o, scene);
     probes = farm::RenderProbes{&*set, o.lookup};
+    drawn = pipeline::drawn_of(*set, drawings_of(o));
   }
   return farm::render(session.options(), scene, o.scene.time, params, probes, wanted_layers(o), report,
                       control);
@@ -186,6 +190,7 @@ RenderResult run_render(const RenderOptions& o, const Control& control) {
   const GeometryBuilds builds;
   check_method(o);
   check_backend(o);
+  pipeline::check_drawings(o.method, !o.probes.empty(), drawings_of(o));
   const std::optional<FarmSession> session = farm_session(o.farm);
   if (o.lookup.weights && o.lookup.method == probes::LookupMethod::light)
     throw Error("--weights", "blends probes, but --lookup light takes one alone", "leave out one of them");
@@ -202,27 +207,41 @@ RenderResult run_render(const RenderOptions& o, const Control& control) {
   }
   const Stopwatch watch;
   RenderResult result;
+  sketch::Sketch drawn;
   if (session) {
-    state = render_on_farm(*session, scene, o, params, result.farm.emplace(), control);
+    state = render_on_farm(*session, scene, o, params, result.farm.emplace(), drawn, control);
   } else {
-    run_passes(o, state, [&] { result.method = render_here(geometry, scene, o, params, state, control); });
+    run_passes(o, state,
+               [&] { result.method = render_here(geometry, scene, o, params, state, drawn, control); });
   }
   result.seconds = watch.seconds();
   result.passes = state.passes_done, result.paths = state.paths, result.rays = state.rays;
   result.picture = trace::resolve(state.color, state.passes_done);
-  write_rendered(result, o);
+  draw_and_write(result, o, drawn, geometry, scene, params, control);
   write_aovs(o, state, groups);
   result.geometry_builds = builds.count();
   return result;
 }
 
-void write_rendered(RenderResult& result, const RenderOptions& o) {
-  if (is_display_format(o.output) || !o.png.empty())
-    result.exposure = SharedExposure(o.exposure, o.tonemap).of(result.picture);
+void draw_and_write(RenderResult& result, const RenderOptions& o, const sketch::Sketch& marks,
+                    trace::SharedGeometry geometry, const scene::Scene& scene,
+                    const trace::RenderParams& params, const Control& control) {
+  result.marks = marks.size();
+  if (marks.empty()) return write_rendered(result, o);
+  if (!geometry) geometry = std::make_shared<const trace::SceneGeometry>(scene);
+  write_rendered(result, o, [&](image::Image& picture, float white) {
+    pipeline::draw_marks(picture, marks, geometry, scene, o.scene.time, params, white, control);
+  });
+}
+
+void write_rendered(RenderResult& result, const RenderOptions& o, const DrawOver& over) {
+  SharedExposure exposure(o.exposure, o.tonemap);
+  if (is_display_format(o.output) || !o.png.empty()) result.exposure = exposure.of(result.picture);
+  result.mean = mean_radiance(result.picture);
+  if (over) over(result.picture, std::exp2(-exposure.of(result.picture)));
   const image::ToneMap map{.exposure = result.exposure.value_or(0), .curve = o.tonemap};
   write_picture(o.output, result.picture, map);
   if (!o.png.empty()) write_display(o.png, result.picture, map);
-  result.mean = mean_radiance(result.picture);
 }
 
 json::Value to_json(const RenderResult& r, const RenderOptions& o) {
@@ -236,6 +255,7 @@ json::Value to_json(const RenderResult& r, const RenderOptions& o) {
   }
   if (r.exposure) object["exposure"] = *r.exposure;
   object.update({{"mean", r.mean}, {"geometry_builds", r.geometry_builds}});
+  if (!o.draw.empty()) object["marks"] = r.marks;
   if (r.method) object.update(to_json(*r.method));
   if (r.gl) {
     for (const auto& [name, value] : r.gl->numbers) object[name] = value;
@@ -254,6 +274,7 @@ std::string to_text(const RenderResult& r, const RenderOptions& o) {
   if (r.gl) {
     for (const auto& [name, value] : r.gl->numbers) text += fmt::format(", {} {:.6g}", name, value);
   }
+  if (!o.draw.empty()) text += fmt::format(", {} marks drawn", r.marks);
   if (r.farm) text += "\n" + farm_text(*r.farm);
   return text;
 }

@@ -2,6 +2,7 @@
 /// `ssphh render`: a picture of a scene.
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -24,8 +25,8 @@ struct GlFigures {
 };
 
 struct RenderResult {
-  image::Image picture;           ///< linear radiance
-  std::array<double, 3> mean{};   ///< of the picture, per channel
+  image::Image picture;           ///< linear radiance, with what is drawn over it
+  std::array<double, 3> mean{};   ///< of the picture before that, per channel
   std::optional<float> exposure;  ///< EV of what was tone mapped; none: nothing was
   double seconds = 0;             ///< of the picture, without reading the scene and writing files
   int passes = 0;                 ///< that the picture holds; this and the next two are 0 by OpenGL
@@ -33,6 +34,7 @@ struct RenderResult {
   std::optional<MethodFigures> method;   ///< of a method that was made for the picture
   std::optional<farm::FarmReport> farm;  ///< of a farm that made the picture
   std::optional<GlFigures> gl;           ///< where OpenGL drew the picture
+  std::size_t marks = 0;                 ///< lines, discs, boxes, balls and lobes that were drawn over it
   std::uint64_t geometry_builds = 0;     ///< acceleration structures that were built
 };
 
@@ -48,8 +50,18 @@ RenderResult run_render(const RenderOptions& options, const Control& control = {
 /// options that it has no answer to.
 RenderResult render_gl(const RenderOptions& options, const Control& control);
 
-/// What both backends end with: writes the picture as the options say, and finds its exposure and mean.
-void write_rendered(RenderResult& result, const RenderOptions& options);
+/// Draws over a picture that shows this radiance as 1.
+using DrawOver = std::function<void(image::Image& picture, float white)>;
+
+/// Ends a picture of these parameters with write_rendered(). Without a geometry one is built where there are
+/// marks.
+void draw_and_write(RenderResult& result, const RenderOptions& options, const sketch::Sketch& marks,
+                    trace::SharedGeometry geometry, const scene::Scene& scene,
+                    const trace::RenderParams& params, const Control& control);
+
+/// What both backends end with: writes the picture as the options say, with what is drawn over it, and finds
+/// its exposure and mean.
+void write_rendered(RenderResult& result, const RenderOptions& options, const DrawOver& over = {});
 
 json::Value to_json(const RenderResult& result, const RenderOptions& options);
 std::string to_text(const RenderResult& result, const RenderOptions& options);

@@ -6,6 +6,8 @@
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/image/io.h>
 #include <ssphh/pipeline/live_method.h>
+#include <ssphh/pipeline/render_scene.h>
+#include <ssphh/probes/probe_file.h>
 #include <ssphh/realtime/renderer.h>
 
 #include "commands/render.h"
@@ -34,6 +36,9 @@ void refuse_with_gl(const RenderOptions& o) {
   if (o.farm.any()) refuse("--broker or --local", "a farm");
   if (!o.probes.empty() && o.method != "ssphh")
     throw Error("--probes", fmt::format("is of method ssphh, not of {}", o.method));
+  pipeline::check_drawings(o.method, !o.probes.empty(), drawings_of(o));
+  if (!o.draw.empty() && o.method == "ssphh" && o.probes.empty())
+    throw Error("--draw " + o.draw.front(), "needs a probe file with --backend gl", "give --probes");
   if (!o.parameters.empty() && o.method == "ssphh") refuse("--param", "making probes for one picture");
   if (o.method == "ssphh" && o.probes.empty() && o.max_depth >= 2)
     throw Error(
@@ -80,7 +85,15 @@ RenderResult render_gl(const RenderOptions& o, const Control& control) {
   RenderResult result;
   result.picture = draw(realtime::View::lit);
   result.seconds = watch.seconds();
-  write_rendered(result, o);
+  sketch::Sketch marks;
+  if (live)
+    marks = pipeline::drawn_of(live->method(), drawings_of(o));
+  else if (!o.draw.empty())
+    marks = pipeline::drawn_of(probes::read_probe_file(o.probes), drawings_of(o));
+  trace::RenderParams params;
+  params.width = o.width, params.height = o.height, params.camera = camera;
+  params.projection = pipeline::projection_of(o.projection, camera.camera);
+  draw_and_write(result, o, marks, geometry, scene, params, control);
   for (const std::string& aov : o.aovs) {
     using realtime::View;
     const View view = aov == "direct"     ? View::direct

@@ -54,6 +54,23 @@ void add_reconstruct(Command group, Context& context) {
   command.flag("--irradiance", o.irradiance, "Show irradiance E(n) instead of radiance");
 }
 
+void add_plot(Command group, Context& context) {
+  auto [command, o] =
+      add_command(group, context, "plot", "Draws lobes: every Y_lm, or the function of a file", run_sh_plot);
+  const Option file = command.option("file", o.file, file_help);
+  command.option("--degree", o.degree, "Highest band l, 0..10; of every Y_lm")
+      .range(0, sh::max_degree)
+      .excludes(file);
+  command.option("--size", o.size, "Edge of a lobe's cell [pixels]; a file's picture has 4 times that")
+      .range(8, 1024);
+  command.option("-o,--output", o.output, ".png, .jpg, .exr or .hdr").required();
+  command.footer(
+      "A lobe's surface is |f| from its middle, the largest as far as the cell lets it be; blue: positive, "
+      "orange:\n"
+      "negative. Row l from the top, m from -l to l, the pole (+z) up; a file's luminance stands in the "
+      "world, +y up.");
+}
+
 void add_rotate(Command group, Context& context) {
   auto [command, o] = add_command(group, context, "rotate",
                                   "Turns the light: what came from d then comes from R d", run_sh_rotate);
@@ -124,6 +141,7 @@ void add_sh_commands(Command app, Context& context) {
   add_project(group, context);
   add_irradiance(group, context);
   add_reconstruct(group, context);
+  add_plot(group, context);
   add_rotate(group, context);
   add_convert(group, context);
   add_window(group, context);

@@ -66,6 +66,21 @@ struct ShReconstructResult {
 /// or written.
 ShReconstructResult run_sh_reconstruct(const ShReconstructOptions& options, const Control& control = {});
 
+struct ShPlotOptions {
+  std::string file = {};    ///< whose luminance is drawn; empty: all Y_lm are, row by row
+  int degree = 10;          ///< without a file, highest band, 0..10
+  int size = 96;            ///< edge of a lobe's cell [pixels]; with a file, of the picture, 4 times that
+  std::string output = {};  ///< image to write: .exr .hdr .png .jpg
+};
+struct ShPlotResult {
+  image::Image picture;  ///< as it was written, before the file's format rounds it
+  int degree = 0;        ///< of what is drawn
+};
+/// Lobes: distance from the middle |f(ω)|, blue where f is positive and orange where it is negative
+/// (results/lobe_sheet.h). Throws Error for an output of unknown extension (before anything else) and for
+/// files that cannot be read or written.
+ShPlotResult run_sh_plot(const ShPlotOptions& options, const Control& control = {});
+
 /// What came from d comes from R d then.
 struct ShRotateOptions {
   std::string file;
@@ -106,6 +121,8 @@ json::Value to_json(const ShIrradianceResult& result, const ShIrradianceOptions&
 std::string to_text(const ShIrradianceResult& result, const ShIrradianceOptions& options);
 json::Value to_json(const ShReconstructResult& result, const ShReconstructOptions& options);
 std::string to_text(const ShReconstructResult& result, const ShReconstructOptions& options);
+json::Value to_json(const ShPlotResult& result, const ShPlotOptions& options);
+std::string to_text(const ShPlotResult& result, const ShPlotOptions& options);
 /// The object that such a file holds.
 json::Value to_json(const ShCoefficients& result);
 std::string to_text(const ShCoefficients& result);

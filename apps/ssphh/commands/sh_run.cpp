@@ -15,6 +15,7 @@
 
 #include "commands/sh.h"
 #include "commands/sh_file.h"
+#include "results/lobe_sheet.h"
 
 namespace ssphh::app {
 namespace {
@@ -124,6 +125,19 @@ ShReconstructResult run_sh_reconstruct(const ShReconstructOptions& o, const Cont
   return result;
 }
 
+ShPlotResult run_sh_plot(const ShPlotOptions& o, const Control& control) {
+  image::format_of_extension(o.output);
+  ShPlotResult result;
+  if (o.file.empty()) {
+    result = {basis_sheet(o.degree, o.size, control), o.degree};
+  } else {
+    const sh::RadianceSh light = read_radiance_sh(o.file);
+    result = {lobe_picture(light, 4 * o.size, control), light.degree()};
+  }
+  image::write_image(o.output, result.picture);
+  return result;
+}
+
 ShCoefficients run_sh_rotate(const ShRotateOptions& o, const Control&) {
   const glm::dquat q = rotation_of(o);
   const sh::RadianceSh radiance = read_radiance_sh(o.file);
@@ -190,6 +204,19 @@ json::Value to_json(const ShReconstructResult& result, const ShReconstructOption
 
 std::string to_text(const ShReconstructResult& result, const ShReconstructOptions& o) {
   return fmt::format("{}: {} × {}", o.output, result.picture.width, result.picture.height);
+}
+
+json::Value to_json(const ShPlotResult& result, const ShPlotOptions& o) {
+  return {{"output", o.output},
+          {"width", result.picture.width},
+          {"height", result.picture.height},
+          {"degree", result.degree}};
+}
+
+std::string to_text(const ShPlotResult& result, const ShPlotOptions& o) {
+  const char* shown = o.file.empty() ? "Y_lm: row l from the top, m from -l to l" : "luminance";
+  return fmt::format("{}: {} × {}, degree {}, {}; blue positive, orange negative", o.output,
+                     result.picture.width, result.picture.height, result.degree, shown);
 }
 
 json::Value to_json(const ShCoefficients& result) {

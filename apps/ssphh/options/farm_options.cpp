@@ -34,6 +34,9 @@ void add_farm_options(Command command, FarmChoice& choice) {
                 "Folder of finished results, which need not be computed again; none: keep none; default: " +
                     farm::default_cache_dir("results").string());
   shared.option("--cache-size", choice.cache_mb, "Of --cache, MB").range(1, 1 << 30);
+  shared.option("--keep-messages", choice.messages,
+                "Folder that gets every job and result, sent as JSON (docs/protocol-jobs.md); results from "
+                "--cache are not sent");
 }
 
 FarmSession::FarmSession(const FarmChoice& choice) {
@@ -47,6 +50,8 @@ FarmSession::FarmSession(const FarmChoice& choice) {
   } else {
     options_.broker = broker_address(choice.broker);
   }
+  options_.messages = choice.messages;
+  if (!choice.messages.empty()) options_.content = farm::ContentType::json;
   if (const std::optional<ResultCache> cache = result_cache(choice)) {
     results_ = std::make_unique<farm::DiskCache>(cache->folder, cache->bytes);
     options_.results = results_.get();
@@ -60,6 +65,8 @@ std::optional<ResultCache> result_cache(const FarmChoice& choice) {
 }
 
 std::optional<FarmSession> farm_session(const FarmChoice& choice) {
+  if (!choice.any() && !choice.messages.empty())
+    throw Error("--keep-messages", "without a farm nothing is sent", "add --local 1 or --broker");
   return choice.any() ? std::make_optional<FarmSession>(choice) : std::nullopt;
 }
 

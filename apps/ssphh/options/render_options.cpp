@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/nearest_word.h>
 #include <ssphh/methods/method_list.h>
 
 #include "options/method_options.h"
@@ -12,6 +13,18 @@ namespace ssphh::app {
 const std::vector<std::string>& aov_names() {
   static const std::vector<std::string> names = {"direct", "indirect", "albedo", "normal", "depth", "groups"};
   return names;
+}
+
+std::vector<methods::Drawing> drawings_of(const RenderOptions& o) {
+  std::vector<methods::Drawing> drawings;
+  for (const std::string& name : o.draw) {
+    const auto drawing = parse_enum<methods::Drawing>(name);
+    if (!drawing)
+      throw Error("--draw " + name, "is nothing that can be drawn",
+                  nearest_hint(name, names_of<methods::Drawing>()));
+    drawings.push_back(*drawing);
+  }
+  return drawings;
 }
 
 void add_render_options(Command command, RenderOptions& o) {
@@ -73,6 +86,12 @@ void add_render_options(Command command, RenderOptions& o) {
               "Extra float images beside the output: direct indirect albedo normal depth groups")
       .separated_by(',')
       .one_of(aov_names());
+  output
+      .option("--draw", o.draw,
+              "Draw over the picture what the method holds: tetrahedra, hierarchy, links, surfels, photons, "
+              "voxels or transfer; dimmed where surfaces hide it")
+      .separated_by(',')
+      .kind("WHAT");
   add_exposure_option(output, o.exposure,
                       "Exposure of tone-mapped output in stops; auto: what suits the picture");
   output.choice("--tonemap", o.tonemap, "clip at white, or filmic");

@@ -7,6 +7,7 @@
 
 #include <ssphh/core/enum_names.h>
 #include <ssphh/image/tonemap.h>
+#include <ssphh/methods/drawing.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/rays/radiance_source.h>
 
@@ -35,6 +36,8 @@ struct RenderOptions {
   std::string png;     ///< tone-mapped PNG to write as well; empty: none
   /// Of aov_names(): float images to write beside the output, as OUT.NAME.exr. OpenGL draws the first four.
   std::vector<std::string> aovs;
+  /// Names of methods::Drawing: of the method, drawn over the finished picture.
+  std::vector<std::string> draw;
   std::optional<float> exposure;  ///< of tone-mapped pictures, in stops; none: what suits the picture
   image::ToneCurve tonemap = image::ToneCurve::clip;
 
@@ -59,6 +62,9 @@ struct RenderOptions {
 
 /// direct, indirect, albedo, normal, depth and groups, which is a file for each light group.
 const std::vector<std::string>& aov_names();
+
+/// Throws Error for a name that none has, with the nearest.
+std::vector<methods::Drawing> drawings_of(const RenderOptions& options);
 
 void add_render_options(Command command, RenderOptions& options);
 

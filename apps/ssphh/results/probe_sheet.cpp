@@ -1,89 +1,93 @@
 #include "results/probe_sheet.h"
 
-#include <algorithm>
-#include <cmath>
+#include <fmt/format.h>
 
-#include <ssphh/core/parallel.h>
-#include <ssphh/image/sphere_map.h>
-#include <ssphh/sh/reconstruct.h>
+#include <ssphh/core/nearest_word.h>
+#include <ssphh/probes/hier.h>
+
+#include "results/light_table.h"
 
 namespace ssphh::app {
 namespace {
 
-constexpr int gap = 4;
-
-/// Directions of the pixels of one picture, row by row.
-std::vector<vec3> pixel_directions(int width, int height) {
-  std::vector<vec3> directions;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      directions.push_back(
-          image::equirect_direction((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
-                                    (static_cast<float>(y) + 0.5f) / static_cast<float>(height)));
-    }
-  }
-  return directions;
+ProbeSheet sheet_of(const std::vector<LightColumn>& columns, const std::vector<std::string>& names,
+                    std::vector<std::string> rows, int width, float exposure) {
+  LightTable table = light_table(columns, width, exposure);
+  ProbeSheet sheet{{}, std::move(rows), std::move(table.image)};
+  for (std::size_t c = 0; c < names.size(); ++c) sheet.columns.push_back({names[c], table.exposures[c]});
+  return sheet;
 }
 
-/// EV that puts the 99th percentile of the brightest channel at 0.8; 0 when all is dark.
-float automatic_exposure(const std::vector<std::vector<vec3>>& pictures) {
-  std::vector<float> levels;
-  for (const auto& picture : pictures) {
-    for (const vec3& color : picture) levels.push_back(max_component(color));
+const probes::Probe& probe_of(const probes::ProbeSet& set, const std::string& name, std::size_t& index) {
+  std::vector<std::string> names;
+  for (index = 0; index < set.probes.size(); ++index) {
+    if (set.probes[index].name == name) return set.probes[index];
+    names.push_back(set.probes[index].name);
   }
-  if (levels.empty()) return 0;
-  const auto at = levels.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(levels.size() - 1));
-  std::nth_element(levels.begin(), at, levels.end());
-  return *at > 0 ? std::log2(0.8f / *at) : 0;
+  throw Error("--edges " + name, "there is no such probe", nearest_hint(name, names));
 }
 
 }  // namespace
 
 ProbeSheet probe_sheet(const probes::ProbeSet& set, int width, float exposure) {
   if (set.probes.empty()) throw Error("probe preview", "the file holds no probes");
-  const int height = width / 2, rows = static_cast<int>(set.probes.size());
-  const int column_count = set.hierarchy ? 3 : 1;
-  const std::int64_t pixels = std::int64_t{column_count} * (width + gap) * rows * (height + gap);
-  if (pixels > std::int64_t{1} << 28)
-    throw Error("probe preview", "the sheet would be too large", "lower --width");
-
-  // Evaluate every picture.
-  const std::vector<vec3> directions = pixel_directions(width, height);
-  std::vector<std::vector<std::vector<vec3>>> pictures(static_cast<std::size_t>(column_count));
-  for (auto& column : pictures) column.resize(set.probes.size());
-  parallel_for(set.probes.size(), 1, [&](std::size_t i) {
-    for (std::size_t c = 0; c < pictures.size(); ++c) {
-      const sh::RadianceSh& light = c == 0   ? set.probes[i].self
-                                    : c == 1 ? set.hierarchy->neighbor[i]
-                                             : set.hierarchy->sum[i];
-      pictures[c][i].resize(directions.size());
-      sh::eval(light, directions, pictures[c][i]);
-    }
-  });
-
   // Self and sum share an exposure, so that they can be compared.
-  ProbeSheet sheet;
-  const float own = automatic_exposure(pictures.back()) + exposure;
-  sheet.columns.push_back({"self", own});
+  const std::size_t last = set.hierarchy ? 2 : 0;
+  std::vector<LightColumn> columns = {{{}, last}};
+  std::vector<std::string> names = {"self"}, rows;
+  for (const probes::Probe& probe : set.probes) {
+    columns[0].lights.push_back(&probe.self);
+    rows.push_back(probe.name);
+  }
   if (set.hierarchy) {
-    sheet.columns.push_back({"neighbour", automatic_exposure(pictures[1]) + exposure});
-    sheet.columns.push_back({"sum", own});
+    columns.insert(columns.end(), {{{}, 1}, {{}, last}});
+    names.insert(names.end(), {"neighbour", "sum"});
+    for (const sh::RadianceSh& light : set.hierarchy->neighbor) columns[1].lights.push_back(&light);
+    for (const sh::RadianceSh& light : set.hierarchy->sum) columns[2].lights.push_back(&light);
   }
-  sheet.image = image::Image(column_count * (width + gap) - gap, rows * (height + gap) - gap);
-  std::ranges::fill(sheet.image.pixels, 0.5f);
-  for (int c = 0; c < column_count; ++c) {
-    const float factor = std::exp2(sheet.columns[static_cast<std::size_t>(c)].exposure);
-    for (int row = 0; row < rows; ++row) {
-      const vec3* color = pictures[static_cast<std::size_t>(c)][static_cast<std::size_t>(row)].data();
-      for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-          sheet.image.set_rgb(c * (width + gap) + x, row * (height + gap) + y,
-                              glm::max(factor * *color++, vec3(0)));
-        }
-      }
+  return sheet_of(columns, names, std::move(rows), width, exposure);
+}
+
+ProbeSheet edge_sheet(const probes::ProbeSet& set, const std::string& name, int width, float exposure) {
+  std::size_t index = 0;
+  const probes::Probe& probe = probe_of(set, name, index);
+  if (!set.hierarchy)
+    throw Error("--edges " + name, "the file holds no hierarchy", "run `ssphh hier` on it first");
+  const probes::Hierarchy& h = *set.hierarchy;
+  const std::vector<int> order = probes::select_neighbors(probe, {h.op, h.neighbors, h.threshold});
+  if (order.empty()) throw Error("--edges " + name, "HIER took none of the probe's neighbours");
+
+  std::vector<sh::RadianceSh> products, sums;
+  for (const int e : order) {
+    const probes::Edge& edge = probe.edges[static_cast<std::size_t>(e)];
+    sh::RadianceSh product(set.degree);
+    probes::add_neighbor(product, edge, set.probes[static_cast<std::size_t>(edge.from)].self, h.op);
+    sums.push_back(sums.empty() ? probe.self : sums.back());
+    sums.back() += product;
+    products.push_back(std::move(product));
+  }
+  sums.back() = h.sum[index];  // added up in HIER's order, to the bit
+
+  constexpr std::size_t sum = 4;
+  std::vector<LightColumn> columns = {{{}, sum}, {{}, 1}, {{}, sum}, {{}, 3}, {{}, sum}};
+  std::vector<std::string> rows;
+  for (std::size_t r = 0; r < order.size(); ++r) {
+    const probes::Edge& edge = probe.edges[static_cast<std::size_t>(order[r])];
+    const probes::Probe& from = set.probes[static_cast<std::size_t>(edge.from)];
+    const sh::RadianceSh* lights[] = {&probe.self, &edge.h, &from.self, &products[r], &sums[r]};
+    const bool last = r + 1 == order.size();
+    const std::string labels[] = {
+        "S of " + name, fmt::format("H {} > {}, P {:.3g}", from.name, name, edge.transfer),
+        "S of " + from.name, "H x S of " + from.name,
+        last ? "S' of " + name : fmt::format("S + {} of {} products", r + 1, order.size())};
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      columns[c].lights.push_back(lights[c]);
+      columns[c].labels.push_back(labels[c]);
     }
+    rows.push_back(from.name);
   }
-  return sheet;
+  return sheet_of(columns, {"self", "response", "neighbour", "product", "sum"}, std::move(rows), width,
+                  exposure);
 }
 
 }  // namespace ssphh::app

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/counted.h>
+#include <ssphh/core/file.h>
 #include <ssphh/core/json.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/stopwatch.h>
@@ -27,6 +28,7 @@ class Dispatcher {
       : groups_(groups),
         report_(report),
         finished_(finished),
+        messages_(options.messages),
         patience_(options.patience),
         client_(client_options(options.broker)) {
     for (const UnitGroup& group : groups) {
@@ -56,6 +58,7 @@ class Dispatcher {
   struct Sent {
     std::size_t group = 0;
     std::vector<std::size_t> units;
+    std::uint64_t number = 0;  ///< of the job, from 1
   };
 
   static majordomo::ClientOptions client_options(const BrokerAddress& broker) {
@@ -70,17 +73,17 @@ class Dispatcher {
     const auto window = std::max<std::size_t>(4, 2 * static_cast<std::size_t>(workers_));
     for (std::size_t g = 0; g < groups_.size() && sent_.size() < window; ++g) {
       while (next_[g] < groups_[g].count && sent_.size() < window) {
-        Sent job{g, {}};
+        Sent job{g, {}, ++report_.jobs};
         const std::size_t left = groups_[g].count - next_[g];
         job.units.resize(cutters_[g].next(left, static_cast<std::size_t>(workers_)));
         std::iota(job.units.begin(), job.units.end(), next_[g]);
         next_[g] += job.units.size();
         std::string body = groups_[g].body(job.units);
+        keep(job.number, "job", body);
         majordomo::RequestOptions request;
         request.content_key = Hasher().text(body).finish();
         const RequestId id = client_.submit(job_service(), {std::move(body)}, request);
         sent_.emplace(id, std::move(job));
-        ++report_.jobs;
       }
     }
   }
@@ -104,6 +107,7 @@ class Dispatcher {
           event.outcome == majordomo::Outcome::parked ? "the broker keeps it: see `ssphh farm parked`" : "");
     }
     if (event.body.empty()) throw Error("the farm", "a worker answered without a result");
+    keep(job.number, "result", event.body[0]);
     JobResult result = decode_result(event.body[0]);
     cutters_[job.group].learn(job.units.size(), result.stats.seconds);
     report_.compute_seconds += result.stats.seconds;
@@ -127,6 +131,12 @@ class Dispatcher {
     report_.workers = std::max(report_.workers, workers_);
   }
 
+  void keep(std::uint64_t job, const char* what, const std::string& body) const {
+    if (messages_.empty()) return;
+    const char* ending = content_type(body) == ContentType::json ? "json" : "bin";
+    write_file(messages_ / fmt::format("{:04}.{}.{}", job, what, ending), body);
+  }
+
   /// Says once what it waits for.
   void complain() {
     if (complained_ || heard_ || watch_.seconds() < patience_) return;
@@ -143,6 +153,7 @@ class Dispatcher {
   const std::vector<UnitGroup>& groups_;
   FarmReport& report_;
   const std::function<void(std::size_t, const FarmReport&)>& finished_;
+  std::filesystem::path messages_;
   double patience_;
   majordomo::Client client_;
   std::vector<std::size_t> next_;  ///< first unit of each group that no job has
@@ -160,6 +171,11 @@ class Dispatcher {
 void dispatch(const FarmOptions& options, const std::vector<UnitGroup>& groups, FarmReport& report,
               const std::function<void(std::size_t, const FarmReport&)>& finished, const Control& control) {
   const Stopwatch watch;
+  if (!options.messages.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(options.messages, error);
+    if (error) throw Error(options.messages.string(), "cannot be created: " + error.message());
+  }
   Dispatcher(options, groups, report, finished).run(control);
   report.seconds += watch.seconds();
 }

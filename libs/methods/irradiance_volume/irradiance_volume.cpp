@@ -27,6 +27,8 @@ class IrradianceVolume final : public Method {
 
   const rays::IndirectLight& light() const override { return *lookup_; }
 
+  sketch::Sketch drawing(Drawing what) const override { return volume_.drawing(what); }
+
   MethodMemory memory() const override {
     MethodMemory bytes = volume_.memory();
     // beside the radiance for glossy lookups, irradiance without negative values
@@ -45,10 +47,13 @@ class IrradianceVolume final : public Method {
 MethodEntry entry() {
   std::vector<MethodParameter> parameters = probe_volume::probe_volume_parameters();
   parameters.push_back({"degree", 4, 2, 10, "of a probe's radiance, for glossy lookups", true});
-  return {"irradiance-volume", "radiance probes interpolated within tetrahedra, without visibility",
+  return {"irradiance-volume",
+          "radiance probes interpolated within tetrahedra, without visibility",
           std::move(parameters),
           [](const MethodScene& scene, const MethodParameters& p, const Control& control)
-              -> std::unique_ptr<Method> { return std::make_unique<IrradianceVolume>(scene, p, control); }};
+              -> std::unique_ptr<Method> { return std::make_unique<IrradianceVolume>(scene, p, control); },
+          false,
+          {Drawing::tetrahedra, Drawing::surfels, Drawing::links}};
 }
 
 }  // namespace ssphh::methods::irradiance_volume

@@ -11,6 +11,7 @@
 #include <ssphh/sh/rotate.h>
 #include <ssphh/transport/session_sets.h>
 
+#include "drawing.h"
 #include "probe_volume/probe_volume.h"
 #include "sky_transfer.h"
 
@@ -20,6 +21,8 @@ namespace {
 constexpr int moving_degree = 2;  ///< of irradiance where there are no transfer vectors
 /// Of the scene's radius: how far surface points may lie off the mesh, and the longest edge.
 constexpr float mesh_reach = 2e-3f, usual_edge = 1.0f / 14;
+/// Of the scene's radius: between vertices whose transfer vectors are drawn; of that, a lobe's value of 1.
+constexpr float shown_share = 1.0f / 6, lobe_share = 0.3f;
 
 /// Irradiance kept at vertices; between probes for what moves, and for glossy lobes.
 class VertexLight final : public rays::IndirectLight {
@@ -75,6 +78,8 @@ class Prt final : public Method {
     light_.triangles = mesh.triangles;
     light_.index = MeshIndex(mesh, mesh_reach * radius);
     probes_.emplace(mesh, *volume_.weights());
+    shown_spacing_ = shown_share * radius;
+    shown_ = shown_vertices(mesh, shown_spacing_);
 
     const VertexRings rings(mesh);
     const VertexRays rays = find_vertex_rays(mesh, rings, light_.index, source_, p.integer("rays"), control);
@@ -116,6 +121,11 @@ class Prt final : public Method {
   }
 
   const rays::IndirectLight& light() const override { return light_; }
+
+  sketch::Sketch drawing(Drawing what) const override {
+    if (what != Drawing::transfer) return volume_.drawing(what);
+    return transfer_drawing(near_, shown_, lobe_share * shown_spacing_);
+  }
 
   MethodMemory memory() const override {
     MethodMemory bytes = volume_.memory();
@@ -175,6 +185,8 @@ class Prt final : public Method {
   sh::RadianceSh sky_;  ///< at rotation 0; empty: the environment lights the probes as all else does
   float sky_rotation_ = 0;
   VertexLight light_;
+  std::vector<ShownVertex> shown_;  ///< for drawing() alone
+  float shown_spacing_ = 0;
 };
 
 }  // namespace
@@ -192,10 +204,13 @@ MethodEntry entry() {
       {"edge", 0, 0, 1e4, "longest of the mesh [m]; 0: a 14th of the scene's radius"},
       {"vertices", 1 << 18, 3, 1 << 26, "more are refused", true}};
   parameters.insert(parameters.end(), std::begin(own), std::end(own));
-  return {"prt", "precomputed radiance transfer: vertices that know how distant light reaches them",
+  return {"prt",
+          "precomputed radiance transfer: vertices that know how distant light reaches them",
           std::move(parameters),
           [](const MethodScene& scene, const MethodParameters& p, const Control& control)
-              -> std::unique_ptr<Method> { return std::make_unique<Prt>(scene, p, control); }};
+              -> std::unique_ptr<Method> { return std::make_unique<Prt>(scene, p, control); },
+          false,
+          {Drawing::transfer, Drawing::tetrahedra, Drawing::surfels, Drawing::links}};
 }
 
 }  // namespace ssphh::methods::prt

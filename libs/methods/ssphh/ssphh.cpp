@@ -101,6 +101,15 @@ class Ssphh final : public Method {
     return *lookup_;
   }
 
+  sketch::Sketch drawing(Drawing what) const override {
+    if (what == Drawing::surfels) return surfels_drawing(session_.network());
+    if (what == Drawing::links) return links_drawing(session_.network());
+    if (what != Drawing::hierarchy) return {};
+    probes::ProbeSet set = transport::lookup_set(session_.places(), session_.reflected());
+    probes::merge_groups(set);
+    return hierarchy_drawing(set);
+  }
+
   MethodMemory memory() const override {
     // Of each probe radiance for glossy lookups, and irradiance without negative values
     const int kept = probes::irradiance_degree({}, session_.reflected().front().degree());
@@ -169,7 +178,9 @@ MethodEntry entry() {
        {"directions", 384, 16, 65536, "rays of a probe", true},
        {"warm_start", 1, 0, 1, "solve from the last frame's light", true}},
       [](const MethodScene& scene, const MethodParameters& p, const Control& control)
-          -> std::unique_ptr<Method> { return std::make_unique<Ssphh>(scene, p, control); }};
+          -> std::unique_ptr<Method> { return std::make_unique<Ssphh>(scene, p, control); },
+      false,
+      {Drawing::surfels, Drawing::links, Drawing::hierarchy}};
 }
 
 }  // namespace ssphh::methods::ssphh

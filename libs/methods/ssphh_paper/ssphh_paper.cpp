@@ -60,6 +60,10 @@ class SsphhPaper final : public Method {
 
   const rays::IndirectLight& light() const override { return *lookup_; }
 
+  sketch::Sketch drawing(Drawing what) const override {
+    return what == Drawing::hierarchy ? hierarchy_drawing(set_) : sketch::Sketch{};
+  }
+
   MethodMemory memory() const override {
     const auto coefficients = static_cast<std::size_t>(sh::coefficient_count(set_.degree));
     const auto looked_up = static_cast<std::size_t>(
@@ -132,7 +136,9 @@ MethodEntry entry() {
        choice_parameter("lookup", probes::LookupMethod::light,
                         "the nearest visible SPHL as a light, or irradiance blended from those in sight")},
       [](const MethodScene& scene, const MethodParameters& p, const Control& control)
-          -> std::unique_ptr<Method> { return std::make_unique<SsphhPaper>(scene, p, control); }};
+          -> std::unique_ptr<Method> { return std::make_unique<SsphhPaper>(scene, p, control); },
+      false,
+      {Drawing::hierarchy}};
 }
 
 }  // namespace ssphh::methods::ssphh_paper

@@ -7,6 +7,7 @@
 #include <ssphh/methods/vct/cone_light.h>
 #include <ssphh/rays/posed_world.h>
 
+#include "drawing.h"
 #include "gather_points.h"
 #include "inject.h"
 #include "patch_light.h"
@@ -75,6 +76,13 @@ class Vct final : public Method {
 
   const rays::IndirectLight& light() const override { return *light_; }
   LightData light_data() const override { return VoxelCones{&*pyramid_, params_.cones}; }
+
+  sketch::Sketch drawing(Drawing what) const override {
+    if (what != Drawing::voxels) return {};
+    std::vector<VoxelKey> keys;
+    for (const VoxelPatches& voxel : voxels_) keys.push_back(voxel.voxel);
+    return voxels_drawing(*pyramid_, keys);
+  }
 
   MethodMemory memory() const override {
     return {pyramid_->bytes(),
@@ -234,7 +242,8 @@ MethodEntry entry() {
            {"samples", 4, 1, 16, "points of a voxel's side at which lamps are asked for", true}},
           [](const MethodScene& scene, const MethodParameters& p, const Control& control)
               -> std::unique_ptr<Method> { return std::make_unique<Vct>(scene, vct_params(p), control); },
-          true};
+          true,
+          {Drawing::voxels}};
 }
 
 }  // namespace ssphh::methods::vct

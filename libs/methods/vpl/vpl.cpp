@@ -2,6 +2,7 @@
 
 #include <ssphh/methods/method_list.h>
 
+#include "drawing.h"
 #include "field.h"
 #include "points_in_reach.h"
 
@@ -45,6 +46,12 @@ class Vpls final : public Method {
   const rays::IndirectLight& light() const override { return *field_; }
   LightData light_data() const override { return VirtualLights{field_->lights(), field_->params()}; }
 
+  sketch::Sketch drawing(Drawing what) const override {
+    constexpr float share_of_scene = 7e-3f;
+    if (what != Drawing::photons) return {};
+    return photons_drawing(field_->lights(), share_of_scene * surfaces_->bounds().radius());
+  }
+
   MethodMemory memory() const override { return {field_->bytes(), 0}; }
 
   MethodNumbers numbers() const override {
@@ -87,7 +94,8 @@ MethodEntry entry() {
           [](const MethodScene& scene, const MethodParameters& p, const Control&) -> std::unique_ptr<Method> {
             return std::make_unique<Vpls>(scene, p);
           },
-          true};
+          true,
+          {Drawing::photons}};
 }
 
 }  // namespace ssphh::methods::vpl

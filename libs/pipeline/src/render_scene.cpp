@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
@@ -36,10 +37,42 @@ void check_method(const std::string& method, bool with_parameters, bool with_pro
                 "leave out one of them");
 }
 
+void check_drawings(const std::string& method, bool with_probes, std::span<const methods::Drawing> drawings) {
+  for (const methods::Drawing what : drawings) {
+    const auto has = [&](const methods::MethodEntry& entry) {
+      return std::ranges::find(entry.drawings, what) != entry.drawings.end();
+    };
+    const std::string where = fmt::format("--draw {}", name_of(what));
+    if (with_probes && what != methods::Drawing::hierarchy)
+      throw Error(where, "a probe file holds a hierarchy alone", "leave out --probes");
+    if (method != "path" && has(methods::find_method(method))) continue;
+    std::string names;
+    for (const methods::MethodEntry& entry : methods::all_methods())
+      if (has(entry)) names += fmt::format("{}{}", names.empty() ? "" : ", ", entry.name);
+    throw Error(where, fmt::format("method {} has none", method), "take --method " + names);
+  }
+}
+
+sketch::Sketch drawn_of(const methods::Method& method, std::span<const methods::Drawing> drawings) {
+  sketch::Sketch marks;
+  for (const methods::Drawing what : drawings) {
+    const sketch::Sketch found = method.drawing(what);
+    if (found.empty()) log_warning("--draw {}: with these parameters the method has none", name_of(what));
+    marks += found;
+  }
+  return marks;
+}
+
+sketch::Sketch drawn_of(const probes::ProbeSet& set, std::span<const methods::Drawing> drawings) {
+  return drawings.empty() ? sketch::Sketch{} : methods::hierarchy_drawing(set);
+}
+
 std::optional<MethodFigures> render_scene(const trace::SharedGeometry& geometry, const scene::Scene& scene,
                                           float time, const LightFinder& finder,
                                           const trace::RenderParams& params, trace::RenderState& state,
-                                          const Control& control) {
+                                          const Control& control, std::span<const methods::Drawing> drawings,
+                                          sketch::Sketch* drawn) {
+  check_drawings(finder.method, finder.probes != nullptr, drawings);
   check_method(finder.method, !finder.parameters.empty(), finder.probes != nullptr);
   warn_about_lamps(geometry, scene, time);
   const trace::PathTracer tracer(geometry, scene, time);
@@ -52,12 +85,14 @@ std::optional<MethodFigures> render_scene(const trace::SharedGeometry& geometry,
         probes::make_lookup(finder.lookup.method, *finder.probes, tracer,
                             lookup_params(finder.probes_name, *finder.probes, finder.lookup));
     tracer.render_with(*indirect, params, state, control);
+    if (drawn) *drawn = drawn_of(*finder.probes, drawings);
     return std::nullopt;
   }
   LiveMethod live(finder.method, finder.parameters, geometry, scene, control, true);
   live.update(rays::lighting_at(live.source(), time), control);
   log_info("{}: {}", finder.method, live.text());
   tracer.render_with(live.method().light(), params, state, control);
+  if (drawn) *drawn = drawn_of(live.method(), drawings);
   return live.figures();
 }
 

@@ -41,10 +41,7 @@ void gather(const ProbeSet& set, const HierParams& params, std::size_t i, std::v
   for (const int e : order) {
     const Edge& edge = probe.edges[static_cast<std::size_t>(e)];
     const sh::RadianceSh& source = set.probes[static_cast<std::size_t>(edge.from)].self;
-    if (params.op == HierOperator::coefficient) sh::add_coefficient_product(neighbor, edge.h, source);
-    if (params.op == HierOperator::raw) sh::add_raw_product(neighbor, edge.h, source);
-    if (params.op == HierOperator::mean) sh::add_mean_product(neighbor, edge.h, source);
-    if (params.op == HierOperator::matrix) sh::add_matrix_product(neighbor, edge.matrix, source);
+    add_neighbor(neighbor, edge, source, params.op);
   }
   sum.values.assign(probe.self.values.begin(), probe.self.values.end());
   sum += neighbor;
@@ -83,6 +80,13 @@ std::vector<int> select_neighbors(const Probe& probe, const HierParams& params) 
   std::vector<int> order;
   select(probe, params, order);
   return order;
+}
+
+void add_neighbor(sh::RadianceSh& sum, const Edge& edge, const sh::RadianceSh& source, HierOperator op) {
+  if (op == HierOperator::coefficient) sh::add_coefficient_product(sum, edge.h, source);
+  if (op == HierOperator::raw) sh::add_raw_product(sum, edge.h, source);
+  if (op == HierOperator::mean) sh::add_mean_product(sum, edge.h, source);
+  if (op == HierOperator::matrix) sh::add_matrix_product(sum, edge.matrix, source);
 }
 
 std::size_t hier(ProbeSet& set, const HierParams& params) {

@@ -6,6 +6,7 @@
 #include <ssphh/core/require.h>
 #include <ssphh/core/sphere.h>
 #include <ssphh/image/sphere_map.h>
+#include <ssphh/trace/primary_rays.h>
 
 namespace ssphh::trace {
 
@@ -61,6 +62,17 @@ Ray CameraRays::ray(float x, float y) const {
 float CameraRays::depth(const Ray& ray, float distance) const {
   const bool has_axis = projection_ == Projection::pinhole || projection_ == Projection::orthographic;
   return has_axis ? distance * glm::dot(ray.direction, forward_) : distance;
+}
+
+std::function<rays::RayQuery(float x, float y)> primary_rays(const RenderParams& params) {
+  const bool sphere =
+      params.projection == Projection::equirect || params.projection == Projection::cube_strip;
+  const vec2 size(params.width, params.height);
+  return [rays = CameraRays(params), sphere, size](float x, float y) -> rays::RayQuery {
+    if (sphere) x = std::clamp(x, 0.0f, size.x), y = std::clamp(y, 0.0f, size.y);
+    const Ray ray = rays.ray(x, y);
+    return {ray.origin, ray.direction};
+  };
 }
 
 }  // namespace ssphh::trace

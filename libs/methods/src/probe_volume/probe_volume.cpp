@@ -57,8 +57,7 @@ std::size_t VolumeWeights::bytes() const {
 }
 
 std::size_t VolumeWeights::cell_count() const {
-  const auto* tetrahedra = std::get_if<geometry::Tetrahedra>(&by_);
-  return tetrahedra ? tetrahedra->cells().size() : 0;
+  return tetrahedra() ? tetrahedra()->cells().size() : 0;
 }
 
 ProbeVolume::ProbeVolume(const MethodScene& scene, const MethodParameters& p, int degree,
@@ -98,6 +97,13 @@ void ProbeVolume::update(const scene::LightingState& state, int dark, const Cont
     if (dark == environment_group_) state_.environment_rotation = session_->lighting().environment_rotation;
   }
   session_->update(state_, control);
+}
+
+sketch::Sketch ProbeVolume::drawing(Drawing what) const {
+  if (what == Drawing::surfels) return surfels_drawing(session_->network());
+  if (what == Drawing::links) return links_drawing(session_->network());
+  if (what != Drawing::tetrahedra || weights_->tetrahedra() == nullptr) return {};
+  return tetrahedra_drawing(*weights_->tetrahedra(), scene::positions_of(places()));
 }
 
 MethodMemory ProbeVolume::memory() const {

@@ -23,6 +23,8 @@ class VolumeWeights final : public probes::LookupWeights {
   probes::ProbeWeights at(const rays::SurfacePoint& point) const override { return at(point.position); }
   probes::ProbeWeights at(const vec3& position) const;
   std::size_t bytes() const override;
+  /// Null on a grid.
+  const geometry::Tetrahedra* tetrahedra() const { return std::get_if<geometry::Tetrahedra>(&by_); }
   /// Of tetrahedra; 0 on a grid.
   std::size_t cell_count() const;
 
@@ -45,6 +47,8 @@ class ProbeVolume {
   std::shared_ptr<const VolumeWeights> weights() const { return weights_; }
   /// Median distance between neighbours [m].
   float spacing() const { return spacing_; }
+  /// Tetrahedra, surfels and links.
+  sketch::Sketch drawing(Drawing what) const;
   MethodMemory memory() const;
   MethodNumbers numbers() const;
 

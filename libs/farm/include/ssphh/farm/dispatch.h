@@ -1,6 +1,7 @@
 #pragma once
 /// Work in many units, done by whatever workers a broker has.
 
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
@@ -18,7 +19,10 @@ struct FarmOptions {
   ContentType content = ContentType::binary;
   double job_seconds = 1.5;      ///< aimed at for one job
   DiskCache* results = nullptr;  ///< finished units are kept and found here; must outlive the work
-  double patience = 5;           ///< seconds without a result after which it says once what it waits for
+  /// Folder in which every job and its result is kept, as sent: NNNN.job.json and NNNN.result.json (.bin
+  /// where `content` is binary); empty: none.
+  std::filesystem::path messages = {};
+  double patience = 5;  ///< seconds without a result after which it says once what it waits for
 };
 
 /// What spread work took.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <ssphh/core/control.h>
+#include <ssphh/methods/drawing.h>
 #include <ssphh/methods/light_data.h>
 #include <ssphh/rays/radiance_source.h>
 
@@ -50,6 +51,13 @@ class Method {
 
   /// The same light as data, where the method's entry says so. As long valid as light().
   virtual LightData light_data() const { return {}; }
+
+  /// What the method holds after the last update(), as marks in the world; empty for what its entry does not
+  /// list.
+  virtual sketch::Sketch drawing(Drawing what) const {
+    static_cast<void>(what);
+    return {};
+  }
 
   virtual MethodMemory memory() const = 0;
 

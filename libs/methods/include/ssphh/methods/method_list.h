@@ -19,7 +19,8 @@ struct MethodEntry {
   /// Bakes whatever the method keeps for all frames. Throws Error for a scene that the method cannot do.
   std::unique_ptr<Method> (*make)(const MethodScene& scene, const MethodParameters& parameters,
                                   const Control& control);
-  bool has_light_data = false;  ///< Method::light_data() gives some: OpenGL can draw it
+  bool has_light_data = false;         ///< Method::light_data() gives some: OpenGL can draw it
+  std::vector<Drawing> drawings = {};  ///< of what Method::drawing() gives marks
 };
 
 /// Makes the list of what entry() of each method's folder says; written by CMake (ssphh_method_entries).

@@ -7,6 +7,7 @@
 
 #include <ssphh/core/control.h>
 #include <ssphh/core/enum_names.h>
+#include <ssphh/methods/drawing.h>
 #include <ssphh/pipeline/method_figures.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/trace/render_state.h>
@@ -40,12 +41,24 @@ struct LightFinder {
 /// Throws Error for probes and parameters that the method does not take.
 void check_method(const std::string& method, bool with_parameters, bool with_probes);
 
+/// Throws Error, with the methods that could, where the method, or its made probes, has nothing of that to
+/// draw.
+void check_drawings(const std::string& method, bool with_probes, std::span<const methods::Drawing> drawings);
+
+/// Of a method made for the picture. Warns in the log where there is nothing of that.
+sketch::Sketch drawn_of(const methods::Method& method, std::span<const methods::Drawing> drawings);
+/// Of made probes: their hierarchy.
+sketch::Sketch drawn_of(const probes::ProbeSet& set, std::span<const methods::Drawing> drawings);
+
 /// Adds passes to `state`, as trace::PathTracer::render does, of the scene posed at `time`. Returns what a
-/// method took that was made for the picture; none for the others. Throws Error for unknown methods and
-/// parameters, for weights that the probes do not have, and as the method does; Cancelled.
+/// method took that was made for the picture; none for the others. Marks of `drawings` go to `drawn`. Throws
+/// Error for unknown methods and parameters, for weights that the probes do not have, and as the method does;
+/// Cancelled.
 std::optional<MethodFigures> render_scene(const trace::SharedGeometry& geometry, const scene::Scene& scene,
                                           float time, const LightFinder& finder,
                                           const trace::RenderParams& params, trace::RenderState& state,
-                                          const Control& control = {});
+                                          const Control& control = {},
+                                          std::span<const methods::Drawing> drawings = {},
+                                          sketch::Sketch* drawn = nullptr);
 
 }  // namespace ssphh::pipeline

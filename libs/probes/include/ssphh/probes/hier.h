@@ -25,6 +25,10 @@ struct HierParams {
 /// neighbour.
 std::vector<int> select_neighbors(const Probe& probe, const HierParams& params);
 
+/// sum ⊕= H_{j→i} ⊗ S_j: what one neighbour, whose light is `source`, adds. All are of one degree, and
+/// `matrix` needs the edge's matrix: unchecked, as hier() has looked.
+void add_neighbor(sh::RadianceSh& sum, const Edge& edge, const sh::RadianceSh& source, HierOperator op);
+
 /// Adds the neighbours' light to every probe: fills set.hierarchy. Memory of an existing hierarchy is used
 /// again, so that a call per frame takes little more than lists of edges. S_j is `self`: emitters seen
 /// directly and reflected light. Returns the number of edges used. Throws Error, and leaves the set as it
