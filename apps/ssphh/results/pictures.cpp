@@ -1,6 +1,7 @@
 #include "results/pictures.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>

@@ -2,6 +2,7 @@
 #include <tuple>
 
 #include <ssphh/lightmap/lit_scene.h>
+#include <ssphh/scene/query.h>
 
 namespace ssphh::lightmap {
 namespace {
