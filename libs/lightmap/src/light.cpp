@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <ssphh/core/parallel.h>
+#include <ssphh/core/require.h>
 #include <ssphh/core/sphere.h>
 #include <ssphh/lightmap/light.h>
 
@@ -186,6 +187,8 @@ Places find_places(const Texels& texels, const rays::PosedWorld& world, const Co
 
 image::Image light_texels(const Texels& texels, const Places& places, const IrradianceAt& irradiance,
                           const Control& control) {
+  require(places.points.size() == texels.texels.size() && places.hidden.size() == texels.texels.size(),
+          "lightmap", "the places are of other texels");
   image::Image atlas(texels.width, texels.height);
   ProgressStage stage(control, "light of texels", texels.texels.size(), "texels");
   parallel_for(

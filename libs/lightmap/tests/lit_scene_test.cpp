@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <gmock/gmock.h>
 
@@ -62,6 +63,24 @@ TEST(LitScene, TexturesThatTookTheSecondCoordinatesTakeTheFirst) {
     EXPECT_EQ(made.uvs[0][v], vec2(made.positions[v]) * vec2(2, 3));
     EXPECT_TRUE(glm::all(glm::lessThan(made.uvs[1][v], vec2(1))));
   }
+}
+
+TEST(LitScene, WhatDoesNotBelongTogetherIsRefused) {
+  const Unwrapped u(scene_of({scene::make_box(vec3(0), vec3(1))}), {.size = 64});
+  const std::span<const Chart> fewer = std::span(u.charts.charts).first(3);
+  const scene::Scene empty;
+  using test::message_of;
+  EXPECT_EQ(message_of([&] { with_lightmap(u.scene, fewer, u.layout); }),
+            "lightmap scene: the layout is of other charts");
+  EXPECT_EQ(message_of([&] { with_lightmap(empty, u.charts.charts, u.layout); }),
+            "lightmap scene: the charts are of another scene");
+  EXPECT_EQ(message_of([&] { make_texels(u.scene, 0, fewer, u.layout); }),
+            "lightmap texels: the layout is of other charts");
+  EXPECT_EQ(message_of([&] { make_texels(empty, 0, u.charts.charts, u.layout); }),
+            "lightmap texels: the charts are of another scene");
+  EXPECT_EQ(
+      message_of([&] { light_texels(u.texels, {}, [](const rays::SurfacePoint&) { return vec3(1); }); }),
+      "lightmap: the places are of other texels");
 }
 
 TEST(Rgbm, ValuesComeBackWithin) {

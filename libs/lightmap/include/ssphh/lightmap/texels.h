@@ -36,7 +36,8 @@ struct Texels {
   std::vector<PlacedChart> places;  ///< of each chart
 };
 
-/// `charts` and `layout` are of this scene and time. Throws Cancelled when asked to stop.
+/// `charts` and `layout` are of this scene and time. Throws Error where they cannot be, Cancelled when asked
+/// to stop.
 Texels make_texels(const scene::Scene& scene, float time, std::span<const Chart> charts, const Layout& layout,
                    const Control& control = {});
 
