@@ -15,6 +15,6 @@ pixels = bytearray()
 for i in range(0, len(values), 3):
     colour = values[i:i + 3]
     exponent = math.frexp(max(max(colour), 1e-30))[1]
-    pixels += bytes(min(255, max(0, int(c * 256 / 2.0**exponent))) for c in colour) + bytes([exponent + 128])
+    pixels += bytes(min(255, max(0, round(c * 256 / 2.0**exponent))) for c in colour) + bytes([exponent + 128])
 header = f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {HEIGHT} +X {WIDTH}\n".encode()
 pathlib.Path(sys.argv[2]).write_bytes(header + pixels)

@@ -61,20 +61,6 @@ trace::RenderParams render_params(const RenderOptions& o, const scene::Scene& sc
   return params;
 }
 
-/// Of names, parts of file names, each another: "desk lamp" gives "desk_lamp", and a second one that would,
-/// "desk_lamp_2".
-std::vector<std::string> file_parts(const std::vector<std::string>& names) {
-  std::vector<std::string> parts;
-  for (const std::string& name : names) {
-    std::string plain = name;
-    for (char& c : plain) c = std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
-    std::string part = plain;
-    for (int k = 2; std::ranges::find(parts, part) != parts.end(); ++k) part = fmt::format("{}_{}", plain, k);
-    parts.push_back(std::move(part));
-  }
-  return parts;
-}
-
 // OUT.exr gives OUT.albedo.exr and so on: float data, whatever the format of the picture.
 void write_aovs(const RenderOptions& o, const trace::RenderState& state,
                 const std::vector<std::string>& groups) {

@@ -1,6 +1,7 @@
 #include "results/pictures.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -39,6 +40,18 @@ void write_picture(const std::filesystem::path& path, const image::Image& linear
 
 std::filesystem::path beside(const std::filesystem::path& picture, const std::string& ending) {
   return (picture.parent_path() / picture.stem()).string() + "." + ending;
+}
+
+std::vector<std::string> file_parts(const std::vector<std::string>& names) {
+  std::vector<std::string> parts;
+  for (const std::string& name : names) {
+    std::string plain = name;
+    for (char& c : plain) c = std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
+    std::string part = plain;
+    for (int k = 2; std::ranges::find(parts, part) != parts.end(); ++k) part = fmt::format("{}_{}", plain, k);
+    parts.push_back(std::move(part));
+  }
+  return parts;
 }
 
 std::array<double, 3> mean_radiance(const image::Image& picture) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <ssphh/image/image.h>
 #include <ssphh/image/tonemap.h>
@@ -45,6 +46,10 @@ void write_picture(const std::filesystem::path& path, const image::Image& linear
 
 /// The name of a file that belongs to a picture: OUT.exr and "a.exr" give OUT.a.exr.
 std::filesystem::path beside(const std::filesystem::path& picture, const std::string& ending);
+
+/// Of names, parts of file names, each another: "desk lamp" gives "desk_lamp", and a second one that would,
+/// "desk_lamp_2".
+std::vector<std::string> file_parts(const std::vector<std::string>& names);
 
 /// Per channel.
 std::array<double, 3> mean_radiance(const image::Image& picture);

@@ -7,6 +7,7 @@
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
 
+#include <ssphh/image/half.h>
 #include <ssphh/image/io.h>
 
 namespace ssphh::image {
@@ -31,7 +32,38 @@ class MemoryOutput final : public Imf::OStream {
   std::uint64_t position_ = 0;
 };
 
+constexpr std::array<const char*, 4> rgba{"R", "G", "B", "A"};
+
+std::vector<std::byte> written(const Imf::Header& header, const Imf::FrameBuffer& buffer, int height) {
+  MemoryOutput stream;
+  {
+    Imf::OutputFile file(stream, header, 0);
+    file.setFrameBuffer(buffer);
+    file.writePixels(height);
+  }
+  return stream.take();
+}
+
 }  // namespace
+
+std::vector<std::byte> encode_half_exr(const Image& image) {
+  require_whole(image, "OpenEXR");
+  std::vector<std::uint16_t> halves;
+  halves.reserve(image.pixels.size());
+  for (const float value : image.pixels) halves.push_back(to_half(value, "OpenEXR"));
+  Imf::Header header(image.width, image.height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  Imf::FrameBuffer buffer;
+  const auto channels = static_cast<std::size_t>(image.channels);
+  const std::size_t pixel = channels * sizeof(std::uint16_t);
+  for (std::size_t c = 0; c < channels; ++c) {
+    const char* name = channels == 1 ? "Y" : rgba[c];
+    header.channels().insert(name, Imf::Channel(Imf::HALF));
+    buffer.insert(name, Imf::Slice(Imf::HALF, reinterpret_cast<char*>(halves.data() + c), pixel,
+                                   pixel * static_cast<std::size_t>(image.width)));
+  }
+  return written(header, buffer, image.height);
+}
 
 std::vector<std::byte> encode_exr(const Image& image, std::span<const NamedChannel> extra) {
   require_whole(image, "OpenEXR");
@@ -48,7 +80,6 @@ std::vector<std::byte> encode_exr(const Image& image, std::span<const NamedChann
     const std::size_t pixel = stride * sizeof(float);
     buffer.insert(name, Imf::Slice(Imf::FLOAT, base, pixel, pixel * static_cast<std::size_t>(image.width)));
   };
-  static constexpr std::array<const char*, 4> rgba{"R", "G", "B", "A"};
   const auto channels = static_cast<std::size_t>(image.channels);
   for (std::size_t c = 0; c < channels; ++c) {
     add(channels == 1 ? "Y" : rgba[c], image.pixels.data() + c, channels);
@@ -58,13 +89,7 @@ std::vector<std::byte> encode_exr(const Image& image, std::span<const NamedChann
       throw Error("OpenEXR", "channel " + channel.name + " has not one value for each pixel");
     add(channel.name, channel.values.data(), 1);
   }
-  MemoryOutput stream;
-  {
-    Imf::OutputFile file(stream, header, 0);
-    file.setFrameBuffer(buffer);
-    file.writePixels(image.height);
-  }
-  return stream.take();
+  return written(header, buffer, image.height);
 }
 
 }  // namespace ssphh::image

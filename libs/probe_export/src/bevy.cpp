@@ -2,9 +2,9 @@
 
 #include <ssphh/core/json.h>
 #include <ssphh/core/parallel.h>
+#include <ssphh/image/ktx2.h>
 #include <ssphh/sh/irradiance.h>
 
-#include "ktx2.h"
 #include "writers.h"
 
 namespace ssphh::probe_export {
@@ -101,7 +101,7 @@ Exported write_bevy(const ExportSource& source, const std::string& name, const C
                              {"scale", json::Value::array({extent.x, extent.y, extent.z})},
                              {"intensity", 1.0}};
   return {
-      {{"", ktx2_of_half_volume(atlas, texels.bytes())}, {".json", bytes_of(json::print(place, 2) + "\n")}},
+      {{"", image::ktx2_of_halves(atlas, texels.bytes())}, {".json", bytes_of(json::print(place, 2) + "\n")}},
       shape.count(),
       grid.filled.size(),
       {fmt::format("Transform: translation {:g} {:g} {:g}, scale {:g} {:g} {:g}; intensity 1 before "

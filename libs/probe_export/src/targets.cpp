@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <array>
 
-#include <fmt/format.h>
-#include <glm/gtc/packing.hpp>
-
 #include <ssphh/core/enum_names.h>
+#include <ssphh/image/half.h>
 #include <ssphh/probe_export/target.h>
 
 #include "writers.h"
@@ -51,12 +49,7 @@ std::vector<std::byte> bytes_of(std::string_view text) {
 }
 
 void write_half(ByteWriter& out, float value, const char* what) {
-  constexpr float most = 65504;
-  if (!(std::abs(value) <= most)) {
-    throw Error(what, fmt::format("{:g} is more than a half float holds", value),
-                "scale the scene's lights down, and the engine's exposure up");
-  }
-  out.value(glm::packHalf1x16(value));
+  out.value(image::to_half(value, what));
 }
 
 LightGrid make_grid(const ExportSource& source, const Control& control) {

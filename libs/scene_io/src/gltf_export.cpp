@@ -36,7 +36,7 @@ std::vector<std::byte> pack(std::string text, const std::vector<std::byte>& bina
 
 }  // namespace
 
-std::vector<std::byte> export_glb(const scene::Scene& scene) {
+std::vector<std::byte> export_glb(const scene::Scene& scene, const json::Value& extras) {
   scene::check_indices(scene);
   GltfExport out(scene);
   export_materials(out);
@@ -49,6 +49,8 @@ std::vector<std::byte> export_glb(const scene::Scene& scene) {
     shown["extras"]["ssphh"]["environment"] = std::move(environment);
   if (json::Value modes = export_light_modes(out); !modes.is_null())
     shown["extras"]["ssphh"]["light_modes"] = std::move(modes);
+  if (extras.is_object())
+    for (const auto& [name, value] : extras.members()) shown["extras"]["ssphh"][name] = value;
   if (shown.is_null()) shown = json::Value::object();
 
   json::Value document;

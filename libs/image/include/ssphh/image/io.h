@@ -63,6 +63,9 @@ struct NamedChannel {
 /// 32-bit float channels Y, RGB or RGBA, ZIP compression: every bit survives.
 std::vector<std::byte> encode_exr(const Image& image, std::span<const NamedChannel> extra = {});
 
+/// 16-bit float channels Y, RGB or RGBA, ZIP compression. Throws Error for values beyond 65504 and NaN.
+std::vector<std::byte> encode_half_exr(const Image& image);
+
 /// RGBE, run-length encoded, mantissas rounded to nearest: each channel is off by at most 1/256 of the
 /// pixel's largest. RGBE holds no negative or infinite numbers: negatives and NaN become 0, too large values
 /// the largest; alpha is lost.

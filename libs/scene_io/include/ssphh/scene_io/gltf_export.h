@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include <ssphh/core/json.h>
 #include <ssphh/scene/scene.h>
 
 namespace ssphh::scene_io {
@@ -14,8 +15,9 @@ namespace ssphh::scene_io {
 /// −1 or several of a kind at one node: they get nodes of their own; and unless nodes stand otherwise than
 /// depth first, as load_gltf() orders them). `scene` must be valid
 /// (scene::validate). What has no triangles, and Scene::ignored, is not written. Throws Error when the file
-/// would not fit GLB's 4 GiB.
-std::vector<std::byte> export_glb(const scene::Scene& scene);
+/// would not fit GLB's 4 GiB. The members of `extras`, an object or null, are added to the
+/// scene's extras.ssphh.
+std::vector<std::byte> export_glb(const scene::Scene& scene, const json::Value& extras = {});
 
 /// export_glb() to a file, which is replaced as a whole.
 void write_glb(const std::filesystem::path& path, const scene::Scene& scene);

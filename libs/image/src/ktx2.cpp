@@ -1,10 +1,10 @@
-#include "ktx2.h"
-
 #include <array>
 
 #include <ssphh/core/bytes.h>
+#include <ssphh/image/half.h>
+#include <ssphh/image/ktx2.h>
 
-namespace ssphh::probe_export {
+namespace ssphh::image {
 namespace {
 
 using u8 = std::uint8_t;
@@ -41,7 +41,7 @@ std::vector<std::byte> format_descriptor() {
 
 }  // namespace
 
-std::vector<std::byte> ktx2_of_half_volume(const glm::ivec3& size, std::span<const std::byte> texels) {
+std::vector<std::byte> ktx2_of_halves(const glm::ivec3& size, std::span<const std::byte> texels) {
   const std::vector<std::byte> descriptor = format_descriptor();
   const u32 descriptor_at = header_size + level_index_size;
   const u64 end = descriptor_at + descriptor.size();
@@ -62,4 +62,17 @@ std::vector<std::byte> ktx2_of_half_volume(const glm::ivec3& size, std::span<con
   return out.take();
 }
 
-}  // namespace ssphh::probe_export
+std::vector<std::byte> encode_ktx2(const Image& image) {
+  require_whole(image, "KTX2");
+  ByteWriter texels;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const vec3 colour = image.rgb(x, y);
+      for (int c = 0; c < 3; ++c) texels.value(to_half(colour[c], "KTX2"));
+      texels.value(to_half(image.channels == 4 ? image.at(x, y)[3] : 1.0f, "KTX2"));
+    }
+  }
+  return ktx2_of_halves({image.width, image.height, 0}, texels.bytes());
+}
+
+}  // namespace ssphh::image
