@@ -53,13 +53,19 @@ struct ListedShares {
     using namespace probes;
     using glm::dvec3;
     if (at.moves || lists.empty()) return;
-    const vec3 u = (at.position - lists.origin) / lists.cell_size;
+    const auto holds = [&](const SurfaceGrid& g) {
+      return glm::all(glm::greaterThanEqual(at.position, g.origin)) &&
+             glm::all(glm::lessThan((at.position - g.origin) / g.cell_size, vec3(g.cells)));
+    };
+    const auto grid = std::ranges::find_if(lists.grids, holds);
+    if (grid == lists.grids.end()) return;
+    const vec3 u = (at.position - grid->origin) / grid->cell_size;
     const ivec3 cell(glm::floor(u));
-    if (glm::any(glm::lessThan(cell, ivec3(0))) || glm::any(glm::greaterThanEqual(cell, lists.cells))) return;
     const ivec3 q(glm::floor(8.0f * (u - vec3(cell))));
     const std::array squares = {q.y + 8 * q.z, q.x + 8 * q.z, q.x + 8 * q.y};
     const uvec2 range =
-        lists.ranges[static_cast<std::size_t>((cell.z * lists.cells.y + cell.y) * lists.cells.x + cell.x)];
+        lists.ranges[grid->first +
+                     static_cast<std::size_t>((cell.z * grid->cells.y + cell.y) * grid->cells.x + cell.x)];
     const Frame frame = Frame::around(at.normal);
     std::vector<dvec3> places;
     double total = 0, square = 0;

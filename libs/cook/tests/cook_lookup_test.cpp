@@ -23,11 +23,12 @@ struct Compared {
   std::size_t by_points = 0;
 };
 
-Compared compare(const ProbeSet& set, const std::vector<rays::SurfacePoint>& places) {
-  const scene::Scene scene = two_rooms_with_a_wall();
+Compared compare(const ProbeSet& set, const std::vector<rays::SurfacePoint>& places,
+                 const scene::Scene& scene = two_rooms_with_a_wall()) {
   const TriangleSource source(scene);
   const CookedReference reference(scene, source, set, 16);
-  const OpenedFile file(cook_two_rooms(set, 16));
+  const cook::CookScene cook_scene{scene, source};
+  const OpenedFile file(cook::cook(set, &cook_scene, {16}).bytes);
   EXPECT_EQ(file.result, SSPHH_RUNTIME_OK) << ssphh_runtime_message(file.result);
   std::vector<double> differences;
   double sum = 0;
@@ -50,6 +51,36 @@ TEST(CookedLookup, RecordsOfSurfacesToFiveDigits) {
   const Compared found = compare(set_of_two_rooms(OnSurfaces::records), places_on_surfaces(2000, 8));
   EXPECT_LT(found.worst, 1e-5);
   EXPECT_GT(found.by_points, 1900u) << "the records serve";
+}
+
+TEST(CookedLookup, RecordsOfAWidePlainBesideTheRooms) {
+  // Two grids: one of the rooms' small cells, and one over the plain, whose records are 300 m apart
+  scene::Scene scene = two_rooms_with_a_wall();
+  scene.meshes.push_back(scene::make_quad({-1500, -0.5f, -1500}, {0, 0, 3000}, {3000, 0, 0}));
+  scene.meshes.back().material = 0;
+  scene.instances.push_back({static_cast<int>(scene.instances.size()), 0, -1, ""});
+  ProbeSet set = set_of_two_rooms(OnSurfaces::records);
+  std::vector<rays::SurfacePoint> places = places_on_surfaces(1000, 8);
+  Pcg32 random(3);
+  for (int i = 0; i < 100; ++i) {
+    const vec3 place(300 * static_cast<float>(i % 10) - 1350, -0.5f, 300 * static_cast<float>(i / 10) - 1350);
+    set.surface->points.push_back({place, {0, 1, 0}});
+    for (auto& group : set.surface->groups) {
+      probes::RecordLight light;
+      for (glm::length_t c = 0; c < 4; ++c) light[c] = random.uniform3() + vec3(c == 3 ? 2 : 0);
+      group.push_back(probes::pack(light, {0, 1, 0}));
+    }
+    places.push_back({place + 280.0f * vec3(random.uniform() - 0.5f, 0, random.uniform() - 0.5f), {0, 1, 0}});
+  }
+  probes::merge_groups(set);
+  const TriangleSource source(scene);
+  const auto lists =
+      probes::prepare_surfaces(scene, 0, set.surface->points, [&](const vec3&, const vec3&) { return true; });
+  EXPECT_LT(lists.grids[0].cell_size, 0.3f);
+  EXPECT_GT(lists.grids[1].cell_size, 1.5f);
+  const Compared found = compare(set, places, scene);
+  EXPECT_LT(found.worst, 1e-5);
+  EXPECT_GT(found.by_points, 1050u) << "of 1100: the records serve";
 }
 
 TEST(CookedLookup, ProbesToFiveDigits) {

@@ -1,6 +1,7 @@
 #include "still_surface.h"
 
 #include <algorithm>
+#include <array>
 
 namespace ssphh::probes {
 
@@ -24,16 +25,42 @@ std::vector<StillTriangle> still_triangles(const scene::Scene& scene, float time
   return out;
 }
 
+std::optional<vec3> middle_within(const StillTriangle& t, const vec3& min, const vec3& max) {
+  const vec3 middle = (t.a + t.b + t.c) / 3.0f;
+  if (glm::all(glm::greaterThanEqual(middle, min)) && glm::all(glm::lessThan(middle, max))) return middle;
+  // Cut off at each side of the box in turn: a corner more each, at most
+  std::array<vec3, 9> corners{t.a, t.b, t.c}, kept;
+  std::size_t count = 3;
+  for (glm::length_t axis = 0; axis < 3; ++axis) {
+    for (const float side : {1.0f, -1.0f}) {
+      const float limit = side > 0 ? min[axis] : max[axis];
+      std::size_t left = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const vec3 &from = corners[i], &to = corners[(i + 1) % count];
+        const float a = side * (from[axis] - limit), b = side * (to[axis] - limit);
+        if (a >= 0) kept[left++] = from;
+        if ((a >= 0) != (b >= 0)) kept[left++] = from + a / (a - b) * (to - from);
+      }
+      std::copy_n(kept.begin(), left, corners.begin());
+      count = left;
+    }
+  }
+  if (count == 0) return {};
+  vec3 sum(0);
+  for (std::size_t i = 0; i < count; ++i) sum += corners[i];
+  return sum / static_cast<float>(count);
+}
+
 TriangleCells triangle_cells(const std::vector<StillTriangle>& triangles, const vec3& origin, float size,
                              const ivec3& cells) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  // cell, triangle
-  const vec3 all(1e30f);
+  const vec3 end = origin + size * vec3(cells);
   const auto cell_of = [&](const vec3& x) {
     return glm::clamp(ivec3(glm::floor((x - origin) / size)), ivec3(0), cells - 1);
   };
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const std::size_t begin = pairs.size();
-    visit_parts(triangles[i], -all, all, 0.5f * size, [&](const StillTriangle& t) {
+    visit_parts(triangles[i], origin, end, 0.5f * size, [&](const StillTriangle& t) {
       const ivec3 low = cell_of(glm::min(t.a, glm::min(t.b, t.c)));
       const ivec3 high = cell_of(glm::max(t.a, glm::max(t.b, t.c)));
       for (int z = low.z; z <= high.z; ++z) {

@@ -2,6 +2,7 @@
 /// Triangles that stand still, by the cells of a grid that they pass, and points on them.
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include <ssphh/probes/surface_lists.h>
@@ -38,12 +39,16 @@ void visit_parts(const StillTriangle& whole, const vec3& min, const vec3& max, f
   visit_part(visit_part, whole);
 }
 
+/// The middle of what of a triangle lies in a box; none where that is nothing.
+std::optional<vec3> middle_within(const StillTriangle& t, const vec3& min, const vec3& max);
+
 /// Lists of triangles for each cell, one after the other.
 struct TriangleCells {
   std::vector<std::size_t> first;  ///< of each cell, and the end
   std::vector<std::uint32_t> triangles;
 };
-/// Cells of side `size` from `origin`; a list may name a few triangles that pass the cell by.
+/// Cells of side `size` from `origin`; a list may name a few triangles that pass the cell by. What lies
+/// outside all of them is in none.
 TriangleCells triangle_cells(const std::vector<StillTriangle>& triangles, const vec3& origin, float size,
                              const ivec3& cells);
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -16,6 +17,9 @@
 
 namespace ssphh::probes {
 namespace {
+
+/// Side of a cell, in spacings of points.
+constexpr float cell_share = 2.0f / 3;
 
 /// What one thread needs while it makes a cell's list.
 struct Work {
@@ -40,54 +44,101 @@ class Preparation {
         sees_(sees),
         spacings_(surface_spacings(out.points)),
         reach_(surface_reach(out.points, spacings_)) {
-    place_grid();
+    place_grids();
     cover_.resize(out_.points.size());
     parallel_for(cover_.size(), 64,
                  [&](std::size_t i) { cover_[i] = surface_cover(out_.points[i], spacings_[i], sees_); });
-    in_cells_ = triangle_cells(triangles_, out_.origin, out_.cell_size, out_.cells);
   }
 
   void run(const Control& control) {
-    const std::size_t count = in_cells_.first.size() - 1;
-    std::vector<std::vector<uvec4>> lists(count);
-    parallel_for(
-        count, 16,
-        [&](std::size_t begin, std::size_t end) {
-          Work work;
-          for (std::size_t cell = begin; cell < end; ++cell) {
-            if (in_cells_.first[cell] < in_cells_.first[cell + 1]) lists[cell] = list_of(cell, work);
-          }
-        },
-        control);
-    for (std::vector<uvec4>& list : lists) {
-      out_.ranges.emplace_back(out_.lists.size(), list.size());
-      out_.lists.insert(out_.lists.end(), list.begin(), list.end());
-      list = {};
+    for (SurfaceGrid& grid : out_.grids) {
+      grid.first = out_.ranges.size();
+      const std::size_t count = grid.count();
+      if (count == 0) continue;
+      grid_ = &grid;
+      in_cells_ = triangle_cells(triangles_, grid.origin, grid.cell_size, grid.cells);
+      std::vector<std::vector<uvec4>> lists(count);
+      parallel_for(
+          count, 16,
+          [&](std::size_t begin, std::size_t end) {
+            Work work;
+            for (std::size_t cell = begin; cell < end; ++cell) {
+              if (in_cells_.first[cell] < in_cells_.first[cell + 1]) lists[cell] = list_of(cell, work);
+            }
+          },
+          control);
+      for (std::vector<uvec4>& list : lists) {
+        out_.ranges.emplace_back(out_.lists.size(), list.size());
+        out_.lists.insert(out_.lists.end(), list.begin(), list.end());
+        list = {};
+      }
     }
   }
 
  private:
-  void place_grid() {
-    constexpr float most_cells = 1 << 21;
-    scene::Bounds bounds;
-    for (const StillTriangle& t : triangles_) bounds.add(t.a), bounds.add(t.b), bounds.add(t.c);
-    std::vector<float> sorted = spacings_;
+  void place_grids() {
+    scene::Bounds all;
+    for (const StillTriangle& t : triangles_) all.add(t.a), all.add(t.b), all.add(t.c);
+    std::vector<std::uint32_t> points(spacings_.size());
+    std::iota(points.begin(), points.end(), 0);
+    const float spacing = median_spacing(points);
+    out_.grids[0] = grid_over(all, spacing);
+    if (out_.grids[0].cell_size <= cell_share * spacing) return;
+
+    const scene::Bounds dense = where_dense(all, spacing);
+    std::erase_if(points, [&](std::uint32_t p) {
+      const vec3& place = out_.points[p].position;
+      return place == glm::clamp(place, dense.min, dense.max);
+    });
+    out_.grids[0] = grid_over(dense, spacing);
+    out_.grids[1] = grid_over(all, points.empty() ? spacing : std::max(spacing, median_spacing(points)));
+  }
+
+  float median_spacing(std::span<const std::uint32_t> points) const {
+    std::vector<float> sorted;
+    for (const std::uint32_t p : points) sorted.push_back(spacings_[p]);
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::ranges::nth_element(sorted, middle);
-    const float spacing = *middle;
-    out_.cell_size = 2 * spacing / 3;
+    return *middle;
+  }
+
+  /// What holds nearly all points that are not much farther apart than the median, and what they reach.
+  scene::Bounds where_dense(const scene::Bounds& all, float spacing) const {
+    constexpr std::size_t left_out = 200;  // one of so many at each end of each axis
+    std::vector<vec3> places;
+    for (std::size_t p = 0; p < spacings_.size(); ++p) {
+      if (spacings_[p] <= 2 * spacing) places.push_back(out_.points[p].position);
+    }
+    scene::Bounds dense = all;
+    for (glm::length_t axis = 0; axis < 3; ++axis) {
+      std::ranges::sort(places, {}, [&](const vec3& place) { return place[axis]; });
+      const std::size_t few = places.size() / left_out;
+      const float margin = fitted_reach * spacing;
+      dense.min[axis] = std::max(all.min[axis], places[few][axis] - margin);
+      dense.max[axis] = std::min(all.max[axis], places[places.size() - 1 - few][axis] + margin);
+    }
+    return dense;
+  }
+
+  static SurfaceGrid grid_over(const scene::Bounds& bounds, float spacing) {
+    constexpr float most_cells = 1 << 21;
+    SurfaceGrid grid;
+    grid.cell_size = cell_share * spacing;
     // Surfaces of a wall in a cell's plane must not fall into either of two
     const vec3 extent = bounds.max - bounds.min + 0.5f * spacing;
-    out_.origin = bounds.min - 0.25f * spacing;
-    const auto number = [&] { return glm::ceil(extent / out_.cell_size); };
-    while (number().x * number().y * number().z > most_cells) out_.cell_size *= 1.26f;
-    out_.cells = ivec3(number());
+    grid.origin = bounds.min - 0.25f * spacing;
+    const auto number = [&] { return glm::ceil(extent / grid.cell_size); };
+    while (number().x * number().y * number().z > most_cells) grid.cell_size *= 1.26f;
+    grid.cells = ivec3(number());
+    return grid;
   }
 
   std::vector<uvec4> list_of(std::size_t cell, Work& work) const {
     const auto c = static_cast<int>(cell);
-    const vec3 number(c % out_.cells.x, c / out_.cells.x % out_.cells.y, c / (out_.cells.x * out_.cells.y));
-    const vec3 corner = out_.origin + out_.cell_size * number;
+    const ivec3& cells = grid_->cells;
+    const vec3 number(c % cells.x, c / cells.x % cells.y, c / (cells.x * cells.y));
+    const vec3 corner = grid_->origin + grid_->cell_size * number;
+    if (hidden_by_first(corner)) return {};
     take_samples(cell, corner, work);
     if (work.samples.size() == 0) return {};
 
@@ -103,23 +154,33 @@ class Preparation {
     return work.list;
   }
 
-  /// At most two points in each of the cell's 8³ parts for each direction that a surface may face.
+  /// Whether the first grid is asked in all of a cell of the second.
+  bool hidden_by_first(const vec3& corner) const {
+    const SurfaceGrid& first = out_.grids[0];
+    return grid_ != &first && glm::all(glm::greaterThanEqual(corner, first.origin)) &&
+           glm::all(glm::lessThanEqual(corner + grid_->cell_size, first.end()));
+  }
+
+  /// At most two points in each of the cell's 8³ parts for each direction that a surface may face, and in
+  /// half a part around it: where a room ends a finger within the cell, all else in there may be of other
+  /// rooms.
   void take_samples(std::size_t cell, const vec3& corner, Work& work) const {
+    constexpr int parts = 8, along = parts + 2;
     work.samples.clear();
-    work.taken.assign(512 * 3, 0);
-    const float size = out_.cell_size;
+    work.taken.assign(along * along * along * 3, 0);
+    const float size = grid_->cell_size, part = size / parts;
+    const vec3 low = corner - 0.5f * part, high = corner + size + 0.5f * part;
     for (std::size_t i = in_cells_.first[cell]; i < in_cells_.first[cell + 1]; ++i) {
       const StillTriangle& whole = triangles_[in_cells_.triangles[i]];
       const vec3 normal = glm::normalize(glm::cross(whole.b - whole.a, whole.c - whole.a));
       const int axis = surface_axis(normal);
-      visit_parts(whole, corner, corner + size, size / 8, [&](const StillTriangle& t) {
-        const vec3 x = (t.a + t.b + t.c) / 3.0f;
-        const ivec3 at(glm::floor((x - corner) * (8 / size)));
-        // A part that sticks out belongs to the neighbour, but for slivers at the very edge
-        if (glm::any(glm::lessThan(at, ivec3(0))) || glm::any(glm::greaterThan(at, ivec3(7)))) return;
+      visit_parts(whole, low, high, part, [&](const StillTriangle& t) {
+        const std::optional<vec3> x = middle_within(t, low, high);
+        if (!x) return;
+        const ivec3 at = glm::clamp(ivec3(glm::floor((*x - corner) / part)), -1, parts) + 1;
         unsigned char& taken =
-            work.taken[static_cast<std::size_t>(((at.z * 8 + at.y) * 8 + at.x) * 3 + axis)];
-        if (taken++ < 2) work.samples.add(x, normal, (x - corner) / size);
+            work.taken[static_cast<std::size_t>(((at.z * along + at.y) * along + at.x) * 3 + axis)];
+        if (taken++ < 2) work.samples.add(*x, normal, glm::clamp((*x - corner) / size, 0.0f, 1.0f));
         taken = std::min<unsigned char>(taken, 2);
       });
     }
@@ -127,7 +188,7 @@ class Preparation {
 
   /// Those that light some sample, and are not outweighed there; asks the samples.
   void find_candidates(const vec3& corner, Work& work) const {
-    const float size = out_.cell_size;
+    const float size = grid_->cell_size;
     work.candidates.clear();
     reach_.visit_box(corner, corner + size, [&](std::uint32_t p, float) {
       const vec3 d = out_.points[p].position - (corner + 0.5f * size);
@@ -187,7 +248,7 @@ class Preparation {
   bool is_narrow(SurfaceSamples& samples, std::size_t i, std::size_t side) const {
     return samples.narrow(i, side, [&] {
       const vec3 n = side == 1 ? -samples.normal(i) : samples.normal(i), x = samples.position(i);
-      return !sees_(x + fitted_lift * out_.cell_size * n, x + 0.25f * out_.cell_size * n);
+      return !sees_(x + fitted_lift * grid_->cell_size * n, x + 0.25f * grid_->cell_size * n);
     });
   }
 
@@ -228,7 +289,8 @@ class Preparation {
   std::vector<float> spacings_;
   std::vector<int> cover_;
   geometry::Balls reach_;
-  TriangleCells in_cells_;
+  const SurfaceGrid* grid_ = nullptr;  ///< whose lists are made
+  TriangleCells in_cells_;             ///< of that
 };
 
 }  // namespace

@@ -4,8 +4,9 @@ layout(binding = 8) uniform usampler2D fitted_ranges;  // of each cell: first en
 layout(binding = 9) uniform usampler2D fitted_lists;   // points (surface_entry.h)
 layout(binding = 10) uniform usampler2D fitted_light;  // of each point, four texels: ten halves for each colour
 layout(binding = 11) uniform usampler2D fitted_points;  // of each, its place and its normal
-uniform vec4 fitted_origin;  // w: side of a cell
-uniform ivec4 fitted_cells;
+// Of the grid where points are dense and of that of all the rest: origin, w: side of a cell; cells, w: first range
+uniform vec4 fitted_origin, fitted_far_origin;
+uniform ivec4 fitted_cells, fitted_far_cells;
 const int FITTED_WIDTH_LOG2 = 11;
 
 ivec2 fitted_place(int i) { return ivec2(i & (1 << FITTED_WIDTH_LOG2) - 1, i >> FITTED_WIDTH_LOG2); }
@@ -63,12 +64,15 @@ int fitted_next(inout uvec3 left) {
 // Whether any point lights the surface; then its irradiance.
 bool fitted_irradiance(Surface s, out vec3 irradiance) {
   irradiance = vec3(0);
-  vec3 u = (s.position - fitted_origin.xyz) / fitted_origin.w;
+  vec3 u = (s.position - fitted_origin.xyz) / fitted_origin.w, far = (s.position - fitted_far_origin.xyz) / fitted_far_origin.w;
+  bool near = u == clamp(u, vec3(0), vec3(fitted_cells.xyz)) && all(lessThan(u, vec3(fitted_cells.xyz)));
+  ivec4 cells = near ? fitted_cells : fitted_far_cells;
+  u = near ? u : far;
   ivec3 cell = ivec3(floor(u));
-  bool inside = !s.moves && cell == clamp(cell, ivec3(0), fitted_cells.xyz - 1);
-  cell = clamp(cell, ivec3(0), fitted_cells.xyz - 1);
+  bool inside = !s.moves && cell == clamp(cell, ivec3(0), cells.xyz - 1);
+  cell = clamp(cell, ivec3(0), max(cells.xyz - 1, 0));
   vec3 f = u - vec3(cell);
-  uvec2 range = texelFetch(fitted_ranges, fitted_place((cell.z * fitted_cells.y + cell.y) * fitted_cells.x + cell.x), 0).xy;
+  uvec2 range = texelFetch(fitted_ranges, fitted_place(cells.w + (cell.z * cells.y + cell.y) * cells.x + cell.x), 0).xy;
   int first = int(range.x), count = inside ? int(range.y) : 0;
 
   ivec3 q = clamp(ivec3(f * 8), ivec3(0), ivec3(7));

@@ -33,9 +33,7 @@ std::vector<glm::uvec4> places_of(std::span<const rays::SurfacePoint> points) {
 
 SurfaceLight::SurfaceLight(const probes::SurfaceLists& lists, FrameCounters& counters)
     : count_(lists.points.size()),
-      cell_size_(lists.cell_size),
-      origin_(lists.origin),
-      cells_(lists.cells),
+      grids_(lists.grids),
       ranges_(list_texture(gl::Format::rg32ui, lists.ranges, counters)),
       lists_(list_texture(gl::Format::rgba32ui, lists.lists, counters)),
       places_(list_texture(gl::Format::rgba32ui, places_of(lists.points), counters)) {
@@ -77,8 +75,12 @@ void SurfaceLight::bind(gl::Program& program) const {
   lists_.bind(unit::fitted_lists);
   places_.bind(unit::fitted_points);
   light_.bind(unit::fitted_light);
-  program.set("fitted_origin", vec4(origin_, cell_size_));
-  program.set("fitted_cells", cells_.x, cells_.y, cells_.z);
+  const auto set = [&](const char* origin, const char* cells, const probes::SurfaceGrid& grid) {
+    program.set(origin, vec4(grid.origin, grid.cell_size));
+    program.set(cells, grid.cells.x, grid.cells.y, grid.cells.z, static_cast<int>(grid.first));
+  };
+  set("fitted_origin", "fitted_cells", grids_[0]);
+  set("fitted_far_origin", "fitted_far_cells", grids_[1]);
 }
 
 std::size_t SurfaceLight::bytes() const {

@@ -44,9 +44,7 @@ class SurfaceLight {
   void upload(std::span<const std::uint32_t> points, FrameCounters& counters);
 
   std::size_t count_;
-  float cell_size_;
-  vec3 origin_;
-  glm::ivec3 cells_;
+  std::array<probes::SurfaceGrid, 2> grids_;
   std::vector<glm::uvec4> texels_;
   gl::Texture ranges_, lists_, places_, light_;
 };

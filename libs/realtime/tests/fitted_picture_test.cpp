@@ -35,12 +35,19 @@ class FittedPicture : public test::WithGl {
       const std::string& what,
       const std::function<bool(const vec2&)>& skip = [](const vec2&) { return false; }) {
     const Frame& f = view_.frame;
-    const scene::Scene scene =
-        coloured(scene::make_quad(f.to_world({-1.6f, -1.6f, 0}), 3.2f * f.x, 3.2f * f.y));
+    scene::Scene scene = coloured(scene::make_quad(f.to_world({-1.6f, -1.6f, 0}), 3.2f * f.x, 3.2f * f.y));
+    if (wide_) {
+      scene.meshes.push_back(scene::make_quad(f.to_world({3000, 3000, 0}), f.x, f.y));
+      scene.meshes.back().material = 0;
+      scene.instances.push_back(scene.instances.back());
+      scene.instances.back().mesh = 1;
+    }
     const probes::FittedPoints& fitted = *probes_.set.fitted;
     Renderer renderer(gl(), scene);
     renderer.set_probes(probes_.set);
-    renderer.set_fitted(probes::prepare_fitted(scene, 0, fitted, everything_sees));
+    const probes::FittedSurfaces surfaces = probes::prepare_fitted(scene, 0, fitted, everything_sees);
+    EXPECT_EQ(surfaces.surfaces.grids[1].count() > 0, wide_) << "whether there are two grids";
+    renderer.set_fitted(surfaces);
     const image::Image drawn = view_.draw(renderer);
     const probes::IrradianceLookup lookup(
         probes_.set, probes::make_weights(probes_.positions(), everything_sees, {}, &fitted));
@@ -54,6 +61,8 @@ class FittedPicture : public test::WithGl {
     }
     for (int c = 0; c < 3; ++c) EXPECT_LT(worst.share()[c], 0.02f) << what << ", channel " << c;
   }
+
+  bool wide_ = false;  ///< whether something else lies kilometres away
 
  private:
   StraightView view_;
@@ -69,6 +78,19 @@ TEST_F(FittedPicture, WeighsNinePointsAsTheCpuDoes) {
           {0, 0, 1}, vec3(1 + i, 10 - i, 1 + i % 4));
     expect_the_cpus_lookup("nine points");
   }
+}
+
+TEST_F(FittedPicture, OfAWideSceneIsFoundInSmallCellsWherePointsAreDenseAndInLargeOnesElsewhere) {
+  stand({0, 1, 0});
+  wide_ = true;
+  for (int i = 0; i < 25; ++i)
+    add({0.25f * static_cast<float>(i % 5) - 1.4f + 0.01f * static_cast<float>(i % 7),
+         0.25f * static_cast<float>(i / 5) - 1.4f, 0},
+        {0, 0, 1}, vec3(5 + i % 9, 10 - i % 5, 4 + i % 4));
+  for (int i = 0; i < 8; ++i)
+    add({0.9f * static_cast<float>(i % 2) + 0.5f, 0.8f * static_cast<float>(i / 2) - 1.3f, 0}, {0, 0, 1},
+        vec3(5 + i, 10 - i, 5 + i % 4));
+  expect_the_cpus_lookup("25 points and eight");
 }
 
 TEST_F(FittedPicture, LeavesOutPointsThatAreTiltedByMoreThanFortyFiveDegrees) {

@@ -29,24 +29,29 @@ static int bits_below(uint64_t mask, unsigned bit) {
 }
 
 static found_cell find_cell(const ssphh_runtime* rt, const float x[3]) {
-  const ssphh_cooked_header* h = rt->header;
   found_cell found = {NULL, {0, 0, 0}};
-  uint32_t at[3];
-  int square[3];
-  for (int c = 0; c < 3; ++c) {
-    const float u = (x[c] - h->surface_origin[c]) / h->surface_cell_size;
-    if (!(u >= 0 && u < (float)h->surface_cells[c])) return found;
-    at[c] = (uint32_t)u;
-    square[c] = (int)((u - (float)at[c]) * 8);
+  for (int g = 0; g < SSPHH_COOKED_GRIDS; ++g) {
+    const ssphh_cooked_grid* grid = &rt->header->surface_grids[g];
+    uint32_t at[3];
+    int square[3], inside = 1;
+    for (int c = 0; c < 3 && inside; ++c) {
+      const float u = (x[c] - grid->origin[c]) / grid->cell_size;
+      inside = u >= 0 && u < (float)grid->cells[c];
+      at[c] = inside ? (uint32_t)u : 0;
+      square[c] = inside ? (int)((u - (float)at[c]) * 8) : 0;
+    }
+    if (!inside) continue;
+    const uint32_t bricks_x = (grid->cells[0] + 3) / 4, bricks_y = (grid->cells[1] + 3) / 4;
+    const ssphh_cooked_brick* brick =
+        &rt->bricks[grid->first_brick + ((at[2] / 4) * bricks_y + at[1] / 4) * bricks_x + at[0] / 4];
+    const unsigned bit = at[0] % 4 + 4 * (at[1] % 4) + 16 * (at[2] % 4);
+    if (!(brick->mask >> bit & 1)) return found;
+    found.cell = &rt->cells[brick->first + (uint32_t)bits_below(brick->mask, bit)];
+    found.squares[0] = square[1] + 8 * square[2];
+    found.squares[1] = square[0] + 8 * square[2];
+    found.squares[2] = square[0] + 8 * square[1];
+    return found;
   }
-  const uint32_t bricks_x = (h->surface_cells[0] + 3) / 4, bricks_y = (h->surface_cells[1] + 3) / 4;
-  const ssphh_cooked_brick* brick = &rt->bricks[((at[2] / 4) * bricks_y + at[1] / 4) * bricks_x + at[0] / 4];
-  const unsigned bit = at[0] % 4 + 4 * (at[1] % 4) + 16 * (at[2] % 4);
-  if (!(brick->mask >> bit & 1)) return found;
-  found.cell = &rt->cells[brick->first + (uint32_t)bits_below(brick->mask, bit)];
-  found.squares[0] = square[1] + 8 * square[2];
-  found.squares[1] = square[0] + 8 * square[2];
-  found.squares[2] = square[0] + 8 * square[1];
   return found;
 }
 
@@ -75,7 +80,7 @@ static uint32_t find_shares(const ssphh_runtime* rt, const float x[3], const flo
   const found_cell found = find_cell(rt, x);
   if (!found.cell) return 0;
   const uint64_t* mask = rt->masks + found.cell[0].mask;
-  const float unit = 1 / rt->header->surface_cell_size;
+  const float unit = 1 / rt->header->surface_grids[0].cell_size;
   float tx[3], ty[3];
   tangents(n, tx, ty);
   uint32_t count = 0;

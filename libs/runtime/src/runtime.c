@@ -4,7 +4,7 @@
 
 #include "state.h"
 
-_Static_assert(sizeof(ssphh_cooked_header) == 344, "the header is what docs/cooked-files.md says");
+_Static_assert(sizeof(ssphh_cooked_header) == 376, "the header is what docs/cooked-files.md says");
 _Static_assert(sizeof(ssphh_cooked_group) == 32 && sizeof(ssphh_cooked_point) == 32, "no padding");
 _Static_assert(sizeof(_Atomic float) == sizeof(float), "scales are read without a lock");
 

@@ -29,10 +29,30 @@ static uint64_t cells_of(const uint32_t cells[3]) {
   return product;
 }
 
-static uint64_t bricks_of(const ssphh_cooked_header* h) {
+static uint64_t bricks_of_grid(const ssphh_cooked_grid* grid) {
   uint64_t product = 1;
-  for (int c = 0; c < 3; ++c) product *= ((uint64_t)h->surface_cells[c] + 3) / 4;
+  for (int c = 0; c < 3; ++c) product *= ((uint64_t)grid->cells[c] + 3) / 4;
   return product;
+}
+
+static uint64_t bricks_of(const ssphh_cooked_header* h) {
+  uint64_t sum = 0;
+  for (int g = 0; g < SSPHH_COOKED_GRIDS; ++g) sum += bricks_of_grid(&h->surface_grids[g]);
+  return sum;
+}
+
+/// The first holds something, the second perhaps, and its bricks are behind those of the first.
+static int grids_hold(const ssphh_cooked_grid grids[SSPHH_COOKED_GRIDS]) {
+  uint64_t first = 0;
+  for (int g = 0; g < SSPHH_COOKED_GRIDS; ++g) {
+    const ssphh_cooked_grid* grid = &grids[g];
+    const int empty = g > 0 && grid->cells[0] == 0 && grid->cells[1] == 0 && grid->cells[2] == 0;
+    if ((!empty && cells_of(grid->cells) == 0) || !is_length(grid->cell_size) ||
+        !are_finite(grid->origin, 3) || grid->first_brick != first)
+      return 0;
+    first += bricks_of_grid(grid);
+  }
+  return 1;
 }
 
 /// Bytes of each section by the header's counts; of names no more than these.
@@ -58,15 +78,14 @@ static int counts_hold(const ssphh_cooked_header* h) {
       h->degree > 4 || h->degree == 3 || h->probe_stride != (coefficients + 7) / 8 * 8 ||
       h->sight_size > 1024 || h->probe_list_length < 1 ||
       h->probe_list_length > SSPHH_COOKED_MOST_LISTED_PROBES || cells_of(h->probe_cells) == 0 ||
-      h->point_count > SSPHH_COOKED_MOST_POINTS || h->reserved != 0)
+      h->point_count > SSPHH_COOKED_MOST_POINTS)
     return 0;
   if (!(h->probe_spacing >= 0) || !are_finite(&h->probe_spacing, 1) || !are_finite(h->probe_origin, 3) ||
       !is_length(h->probe_cell_size) || !are_finite(&h->time, 1))
     return 0;
   if (h->point_count == 0) return h->point_floats == 0 && h->entry_count == 0 && h->mask_count == 0;
   return (h->point_floats == SSPHH_COOKED_RECORD_FLOATS || h->point_floats == SSPHH_COOKED_FITTED_FLOATS) &&
-         cells_of(h->surface_cells) != 0 && is_length(h->surface_cell_size) &&
-         are_finite(h->surface_origin, 3);
+         grids_hold(h->surface_grids);
 }
 
 static int sections_hold(const ssphh_cooked_header* h) {

@@ -3,6 +3,8 @@
 /// rays: which of them light which part of the surfaces. Made once for a scene and its points; light that
 /// changes costs nothing here.
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -16,7 +18,21 @@ using glm::ivec3;
 using glm::uvec2;
 using glm::uvec4;
 
-/// A grid of cells over the surfaces. A cell that holds surface lists the points that may light it, as
+/// Cells over surfaces, numbered x fastest.
+struct SurfaceGrid {
+  vec3 origin{0};
+  float cell_size = 1;  ///< metres
+  ivec3 cells{0};
+  std::size_t first = 0;  ///< of SurfaceLists::ranges
+
+  std::size_t count() const {
+    return static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y) *
+           static_cast<std::size_t>(cells.z);
+  }
+  vec3 end() const { return origin + cell_size * vec3(cells); }
+};
+
+/// Grids of cells over the surfaces. A cell that holds surface lists the points that may light it, as
 /// SurfaceInterpolation finds them, and for each which of 8 × 8 squares of the cell see it: squares of
 /// the plane across the axis that the point's normal is nearest to.
 struct SurfaceLists {
@@ -25,11 +41,13 @@ struct SurfaceLists {
   static constexpr std::size_t most_points = std::size_t{1} << 19;
 
   std::vector<rays::SurfacePoint> points;
-  vec3 origin{0};
-  float cell_size = 1;  ///< metres: ⅔ of the median spacing, or more in a scene of too many cells
-  ivec3 cells{0};
-  std::vector<uvec2> ranges;  ///< of each cell, x fastest: first of `lists`, number of points; 0: no surface
-  std::vector<uvec4> lists;   ///< of each cell its points, as pack_surface_entry makes them
+  /// A place is in the first whose box holds it. Cells are ⅔ of the median spacing, or more where those would
+  /// be too many. In a scene so wide, the first holds the places where points are dense, and the second all,
+  /// in cells for the other points; else the second has no cells.
+  std::array<SurfaceGrid, 2> grids;
+  std::vector<uvec2>
+      ranges;                ///< of each cell of each grid: first of `lists`, number of points; 0: no surface
+  std::vector<uvec4> lists;  ///< of each cell its points, as pack_surface_entry makes them
 
   bool empty() const { return lists.empty(); }
 };

@@ -10,11 +10,12 @@ extern "C" {
 #endif
 
 #define SSPHH_COOKED_MAGIC "SPHC\r\n\x1a\n"
-#define SSPHH_COOKED_VERSION 1u
+#define SSPHH_COOKED_VERSION 2u
 /// Sections begin at multiples of this.
 #define SSPHH_COOKED_ALIGNMENT 64u
 
 #define SSPHH_COOKED_MOST_GROUPS 256u
+#define SSPHH_COOKED_GRIDS 2
 /// The list of a cell of probes ends at this number, if it does not end before.
 #define SSPHH_COOKED_NO_PROBE 0xffffu
 #define SSPHH_COOKED_MOST_LISTED_PROBES 32u
@@ -33,7 +34,7 @@ enum {
   SSPHH_COOKED_PROBES,       ///< ssphh_cooked_probe
   SSPHH_COOKED_PROBE_CELLS,  ///< uint16: probe_list_length probes for each cell, x fastest
   SSPHH_COOKED_SIGHT,        ///< uint16: of each probe six faces of sight_size² distances
-  SSPHH_COOKED_BRICKS,       ///< ssphh_cooked_brick of each 4 × 4 × 4 cells of the surfaces, x fastest
+  SSPHH_COOKED_BRICKS,       ///< ssphh_cooked_brick of each 4 × 4 × 4 cells of the surfaces
   SSPHH_COOKED_CELLS,        ///< ssphh_cooked_cell of each cell that holds surface, and one behind the last
   SSPHH_COOKED_ENTRIES,      ///< uint32: points that light a cell
   SSPHH_COOKED_MASKS,        ///< uint64: of the entries that have one, in their order
@@ -53,6 +54,14 @@ typedef struct {
   uint32_t mode;    ///< 0 realtime, 1 mixed, 2 baked: its direct light is within
   uint32_t reserved[2];
 } ssphh_cooked_group;
+
+/// Cells of the surfaces.
+typedef struct {
+  float origin[3];
+  float cell_size;       ///< [m]
+  uint32_t cells[3];     ///< 0: the grid holds nothing
+  uint32_t first_brick;  ///< the grid's bricks are those of 4 × 4 × 4 of its cells, x fastest
+} ssphh_cooked_grid;
 
 typedef struct {
   float position[3];  ///< world [m]
@@ -101,10 +110,7 @@ typedef struct {
   uint32_t point_floats;  ///< of a point's light: SSPHH_COOKED_RECORD_FLOATS, SSPHH_COOKED_FITTED_FLOATS or 0
   uint32_t cell_count;    ///< cells that hold surface
   uint32_t entry_count, mask_count;
-  float surface_origin[3];
-  float surface_cell_size;  ///< [m]
-  uint32_t surface_cells[3];
-  uint32_t reserved;
+  ssphh_cooked_grid surface_grids[SSPHH_COOKED_GRIDS];  ///< a place is in the first that holds it
   ssphh_cooked_section sections[SSPHH_COOKED_SECTIONS];
 } ssphh_cooked_header;
 
