@@ -97,10 +97,11 @@ TEST(StillSurface, CellsListTheTrianglesThatPassThem) {
   EXPECT_THAT(list(3), testing::IsEmpty());
   EXPECT_THAT(list(4), testing::ElementsAre(1u));
   EXPECT_THAT(list(5), testing::IsEmpty());
-  // What lies beyond the grid belongs to its edge
-  const TriangleCells moved = triangle_cells(triangles, {5, 5, 5}, 1, {2, 2, 2});
-  EXPECT_EQ(moved.first[1] - moved.first[0], 2u);
-  EXPECT_EQ(moved.first.back(), 2u);
+  // What lies beyond the grid belongs to no cell of it
+  EXPECT_EQ(triangle_cells(triangles, {5, 5, 5}, 1, {2, 2, 2}).first.back(), 0u);
+  const TriangleCells within = triangle_cells(triangles, {2, 0, 0}, 1, {2, 2, 2});
+  EXPECT_EQ(within.first[1], 1u);
+  EXPECT_EQ(within.first.back(), 1u) << "the long one's end";
 }
 
 }  // namespace
