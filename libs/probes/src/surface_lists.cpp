@@ -91,7 +91,9 @@ class Preparation {
       return place == glm::clamp(place, dense.min, dense.max);
     });
     out_.grids[0] = grid_over(dense, spacing);
-    out_.grids[1] = grid_over(all, points.empty() ? spacing : std::max(spacing, median_spacing(points)));
+    constexpr float far = 8;  // where there are no points: what reaches out of the first is all
+    out_.grids[1] =
+        grid_over(all, points.empty() ? far * spacing : std::max(spacing, median_spacing(points)));
   }
 
   float median_spacing(std::span<const std::uint32_t> points) const {
@@ -114,8 +116,9 @@ class Preparation {
       std::ranges::sort(places, {}, [&](const vec3& place) { return place[axis]; });
       const std::size_t few = places.size() / left_out;
       const float margin = fitted_reach * spacing;
-      dense.min[axis] = std::max(all.min[axis], places[few][axis] - margin);
-      dense.max[axis] = std::min(all.max[axis], places[places.size() - 1 - few][axis] + margin);
+      dense.min[axis] = std::clamp(places[few][axis] - margin, all.min[axis], all.max[axis]);
+      dense.max[axis] =
+          std::clamp(places[places.size() - 1 - few][axis] + margin, dense.min[axis], all.max[axis]);
     }
     return dense;
   }
