@@ -4,14 +4,10 @@
 #include <ssphh/gl/program.h>
 #include <ssphh/gl/vertex_array.h>
 
+#include "whole_picture.h"
+
 namespace ssphh::viewer {
 namespace {
-
-constexpr std::string_view whole_picture = R"(#version 450 core
-void main() {
-  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
-}
-)";
 
 constexpr std::string_view add_shader = R"(#version 450 core
 layout(binding = 0) uniform sampler2D picture;

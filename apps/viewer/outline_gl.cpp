@@ -8,6 +8,8 @@
 #include <ssphh/gl/program.h>
 #include <ssphh/gl/vertex_array.h>
 
+#include "whole_picture.h"
+
 namespace ssphh::viewer {
 namespace {
 
@@ -25,12 +27,6 @@ void main() {
   // Nearer is greater; the frame drew the same triangles by other sums.
   float surface = texelFetch(scene_depth, ivec2(gl_FragCoord.xy * depth_scale), 0).x;
   mask = vec4(1.0, gl_FragCoord.z * 1.001 >= surface ? 1.0 : 0.0, 0.0, 1.0);
-}
-)";
-
-constexpr std::string_view line_vertex = R"(#version 450 core
-void main() {
-  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
 }
 )";
 
@@ -54,7 +50,7 @@ void main() {
 
 const gl::ShaderFiles::Embedded outline_sources[] = {{"body.vert", body_vertex},
                                                      {"body.frag", body_fragment},
-                                                     {"line.vert", line_vertex},
+                                                     {"line.vert", whole_picture},
                                                      {"line.frag", line_fragment}};
 
 }  // namespace

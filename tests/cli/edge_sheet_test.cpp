@@ -14,6 +14,7 @@
 #include "here.h"
 #include "results/label.h"
 #include "results/probe_sheet.h"
+#include "sloped_light.h"
 #include "temp_dir.h"
 
 namespace ssphh::app {
@@ -21,12 +22,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-sh::RadianceSh light_of(float mean, float slope) {
-  sh::RadianceSh light(1);
-  light[0] = mean * vec3(1, 2, 3), light[1] = slope * vec3(1, 0.5f, 0.25f), light[3] = vec3(-slope);
-  return light;
-}
 
 /// Three probes, each of which sees the others: the last one best.
 probes::ProbeSet three_probes() {
@@ -37,12 +32,12 @@ probes::ProbeSet three_probes() {
     const auto x = static_cast<float>(i);
     probes::Probe probe;
     probe.name = std::string(1, static_cast<char>('a' + i));
-    probe.groups = {{{}, light_of(1 + x, 0.5f)}};
+    probe.groups = {{{}, test::sloped_light(1 + x, 0.5f)}};
     for (int from = 0; from < 3; ++from) {
       if (from == i) continue;
       const float transfer = 0.125f * static_cast<float>(1 + from);
       probe.edges.push_back(
-          {.from = from, .transfer = transfer, .h = light_of(transfer, 0.05f), .matrix = {}});
+          {.from = from, .transfer = transfer, .h = test::sloped_light(transfer, 0.05f), .matrix = {}});
     }
     set.probes.push_back(probe);
   }

@@ -16,6 +16,7 @@
 #include "error_message.h"
 #include "here.h"
 #include "results/probe_sheet.h"
+#include "sloped_light.h"
 #include "temp_dir.h"
 
 namespace ssphh {
@@ -26,12 +27,6 @@ using test::json_here;
 using test::problem_here;
 using test::text_here;
 using testing::HasSubstr;
-
-sh::RadianceSh light_of(float mean, float slope) {
-  sh::RadianceSh light(1);
-  light[0] = mean * vec3(1, 2, 3), light[1] = slope * vec3(1, 0.5f, 0.25f), light[3] = vec3(-slope);
-  return light;
-}
 
 /// Three probes in a row, each lit by a lamp and the sky; edges of different strength.
 probes::ProbeSet example_set() {
@@ -48,12 +43,13 @@ probes::ProbeSet example_set() {
     probes::Probe probe;
     probe.name = std::string(1, static_cast<char>('a' + i));
     probe.position = {x, 1 + x, -2}, probe.radius = 0.125f * (x + 1);
-    probe.groups = {{light_of(0.5f, 0.2f), light_of(1 + x, 0.25f)}, {{}, light_of(0.25f, 0.5f * x)}};
+    probe.groups = {{test::sloped_light(0.5f, 0.2f), test::sloped_light(1 + x, 0.25f)},
+                    {{}, test::sloped_light(0.25f, 0.5f * x)}};
     for (int from = 0; from < 3; ++from) {
       if (from == i) continue;
       probes::Edge edge;
       edge.from = from, edge.transfer = 0.125f * static_cast<float>(1 + from + i);
-      edge.h = light_of(edge.transfer, 0.01f);
+      edge.h = test::sloped_light(edge.transfer, 0.01f);
       probe.edges.push_back(edge);
     }
     set.probes.push_back(probe);
@@ -341,7 +337,7 @@ TEST_F(ProbeTool, SheetsThatNobodyCouldOpenAreRefused) {
   EXPECT_THAT(test::message_of([] { app::probe_sheet({}, 16, 0); }), HasSubstr("holds no probes"));
   probes::ProbeSet many;
   many.probes.resize(127);  // 2052 · 1028 pixels each: 128 of them are over 2^28
-  for (probes::Probe& probe : many.probes) probe.self = light_of(1, 0);
+  for (probes::Probe& probe : many.probes) probe.self = test::sloped_light(1, 0);
   many.probes.resize(128, many.probes[0]);
   EXPECT_THAT(test::message_of([&] { app::probe_sheet(many, 2048, 0); }),
               HasSubstr("too large (lower --width)"));
