@@ -1,0 +1,147 @@
+/** Irradiance from points on surfaces: a linear fit in the tangent plane to those around that the place sees. libs/runtime's points.c, in float32. */
+import { groupFloats, probeFloats, type CookedFile } from './file.js';
+import { bitCount, dot, type Float3 } from './float.js';
+import { mostListedPoints, recordFloats } from './layout.js';
+
+const f = Math.fround;
+const reach = 3, leastCosine = f(0.7), offPlane = f(0.5), offPlaneSlope = f(0.1), ridge = f(0.05), mostNegative = f(0.25);
+
+const sharePoint = new Uint32Array(mostListedPoints);
+const shareWeight = new Float32Array(mostListedPoints), shareX = new Float32Array(mostListedPoints), shareY = new Float32Array(mostListedPoints);
+const squares = new Uint8Array(3), at = new Uint32Array(3), square = new Uint8Array(3);
+const tangentX = new Float32Array(3), tangentY = new Float32Array(3), offset = new Float32Array(3), normal = new Float32Array(3);
+const basis = new Float32Array(10), sum = new Float32Array(32), e = new Float32Array(3);
+
+/** The place's cell that holds surface, and its squares of 8 × 8 across each axis; −1: there is none. */
+function findCell(file: CookedFile, x: Float3): number {
+  for (const grid of file.header.grids) {
+    let inside = true;
+    for (let c = 0; c < 3 && inside; ++c) {
+      const u = f(f(x[c]! - grid.origin[c]!) / grid.cellSize);
+      inside = u >= 0 && u < f(grid.cells[c]!);
+      if (!inside) break;
+      at[c] = u;
+      square[c] = f(f(u - at[c]!) * 8);
+    }
+    if (!inside) continue;
+    const [i, j, k] = at as unknown as [number, number, number];
+    const bricksX = (grid.cells[0]! + 3) >>> 2, bricksY = (grid.cells[1]! + 3) >>> 2;
+    const brick = 4 * (grid.firstBrick + ((k >> 2) * bricksY + (j >> 2)) * bricksX + (i >> 2));
+    const bit = (i & 3) + 4 * (j & 3) + 16 * (k & 3), low = file.bricks[brick]!, high = file.bricks[brick + 1]!;
+    if ((((bit < 32 ? low : high) >>> (bit & 31)) & 1) === 0) return -1;
+    const below = bit < 32 ? bitCount(low & ((1 << bit) - 1)) : bitCount(low) + bitCount(high & ((1 << (bit & 31)) - 1));
+    squares[0] = square[1]! + 8 * square[2]!;
+    squares[1] = square[0]! + 8 * square[2]!;
+    squares[2] = square[0]! + 8 * square[1]!;
+    return file.bricks[brick + 2]! + below;
+  }
+  return -1;
+}
+
+function setTangents(n: Float3): void {
+  const x = n[0]!, y = n[1]!, z = n[2]!, sign = z < 0 ? -1 : 1, a = f(-1 / f(sign + z)), b = f(f(x * y) * a);
+  tangentX[0] = 1 + f(f(f(sign * x) * x) * a), tangentX[1] = sign * b, tangentX[2] = -sign * x;
+  tangentY[0] = b, tangentY[1] = sign + f(f(y * y) * a), tangentY[2] = -y;
+}
+
+/** `offset` leads from the place to the point. */
+function weightOf(file: CookedFile, point: number, n: Float3): number {
+  const p = 8 * point, spacing = file.points[p + 3]!;
+  const d2 = dot(offset, offset), s2 = f(spacing * spacing);
+  let t = f(1 - f(d2 / f(reach * reach * s2)));
+  for (let c = 0; c < 3; ++c) normal[c] = file.points[p + 4 + c]!;
+  const facing = f(f(dot(normal, n) - leastCosine) / f(1 - leastCosine));
+  if (!(t > 0) || !(facing > 0)) return 0;
+  const off = f(dot(offset, n) / f(f(offPlane * spacing) + f(offPlaneSlope * f(Math.sqrt(d2)))));
+  const level = f(1 - f(off * off));
+  if (!(level > 0)) return 0;
+  t = f(t * t), t = f(t * t), t = f(t * t);
+  const cover = file.pointWords[p + 7]! & 7, open = 1 << cover, q = f(f(f(d2 * open) * open) / s2);
+  return f(f(f(f(t * facing) * level) * level) * (cover === 0 ? 1 : f(1 / f(1 + f(q * q)))));
+}
+
+/** The points of the cell that count, and the linear fit's weights. */
+function findShares(file: CookedFile, x: Float3, n: Float3): number {
+  const cell = findCell(file, x);
+  if (cell < 0) return 0;
+  const end = file.cells[2 * cell + 2]!, unit = f(1 / file.header.grids[0].cellSize);
+  let mask = 2 * file.cells[2 * cell + 1]!, count = 0;
+  let total = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, spacings = 0;
+  setTangents(n);
+  for (let i = file.cells[2 * cell]!; i < end; ++i) {
+    const entry = file.entries[i]!, point = entry & 0x7fffffff, p = 8 * point;
+    if (entry >>> 31) {
+      const of = squares[(file.pointWords[p + 7]! >>> 3) & 3]!, word = file.masks[of < 32 ? mask : mask + 1]!;
+      mask += 2;
+      if (((word >>> (of & 31)) & 1) === 0) continue;
+    }
+    for (let c = 0; c < 3; ++c) offset[c] = file.points[p + c]! - x[c]!;
+    const w = weightOf(file, point, n);
+    if (!(w > 0)) continue;
+    sharePoint[count] = point;
+    shareWeight[count] = w;
+    shareX[count] = dot(offset, tangentX) * unit;
+    shareY[count] = dot(offset, tangentY) * unit;
+    const dx = shareX[count]!, dy = shareY[count]!, spacing = f(file.points[p + 3]! * unit);
+    ++count;
+    total += w, sx += w * dx, sy += w * dy;
+    sxx += w * dx * dx, sxy += w * dx * dy, syy += w * dy * dy;
+    spacings += w * spacing * spacing;
+  }
+  if (!(total > 0)) return 0;
+  // First row of the inverse of [1 x y; x xx xy; y xy yy], to a factor
+  const mx = sx / total, my = sy / total, r = (ridge * spacings) / total;
+  const xx = sxx / total + r, xy = sxy / total, yy = syy / total + r;
+  const c0 = xx * yy - xy * xy, c1 = my * xy - mx * yy, c2 = mx * xy - my * xx, determinant = c0 + mx * c1 + my * c2;
+  const row0 = f(c0 / determinant), row1 = f(c1 / determinant), row2 = f(c2 / determinant);
+  const relative = (i: number) => f(f(row0 + f(row1 * shareX[i]!)) + f(row2 * shareY[i]!));
+  let negative = 0, all = 0;
+  for (let i = 0; i < count; ++i) negative = f(negative + f(shareWeight[i]! * Math.max(-relative(i), 0)));
+  // Of the way from the mean to the fit
+  const allowed = f(mostNegative * f(total)), most = negative > allowed ? f(allowed / negative) : 1;
+  for (let i = 0; i < count; ++i) {
+    shareWeight[i] = shareWeight[i]! * f(f(1 - most) + f(most * relative(i)));
+    all = f(all + shareWeight[i]!);
+  }
+  for (let i = 0; i < count; ++i) shareWeight[i] = shareWeight[i]! / all;
+  return count;
+}
+
+/** What each three floats of a point's light count for; how many there are. */
+function setBasis(floats: number, n: Float3): number {
+  const x = n[0]!, y = n[1]!, z = n[2]!;
+  if (floats === recordFloats) {
+    basis[0] = x, basis[1] = y, basis[2] = z, basis[3] = 1;
+    return 4;
+  }
+  const h1 = f(0.488602512), h2 = f(1.092548431);
+  basis[0] = 0.282094792;
+  basis[1] = h1 * y, basis[2] = h1 * z, basis[3] = h1 * x;
+  basis[4] = f(h2 * x) * y, basis[5] = f(h2 * y) * z;
+  basis[6] = f(0.315391565) * f(f(f(3 * z) * z) - 1), basis[7] = f(h2 * x) * z;
+  basis[8] = f(0.546274215) * f(f(x * x) - f(y * y)), basis[9] = 1;
+  return 10;
+}
+
+/** Whether any point lights the place; then its irradiance is in `rgb`. */
+export function byPoints(file: CookedFile, light: Float32Array, scales: Float32Array, x: Float3, n: Float3, rgb: Float3): boolean {
+  const h = file.header;
+  if (h.pointCount === 0) return false;
+  const count = findShares(file, x, n);
+  if (count === 0) return false;
+  const floats = h.pointFloats, terms = setBasis(floats, n), numbers = 3 * terms;
+  e.fill(0);
+  for (let g = 0; g < h.groupCount; ++g) {
+    if (scales[3 * g] === 0 && scales[3 * g + 1] === 0 && scales[3 * g + 2] === 0) continue;
+    const first = g * groupFloats(h) + probeFloats(h);
+    sum.fill(0);
+    for (let i = 0; i < count; ++i) {
+      const from = first + floats * sharePoint[i]!, w = shareWeight[i]!;
+      for (let k = 0; k < numbers; ++k) sum[k] = sum[k]! + f(w * light[from + k]!);
+    }
+    for (let k = 0; k < terms; ++k)
+      for (let c = 0; c < 3; ++c) e[c] = e[c]! + f(f(scales[3 * g + c]! * basis[k]!) * sum[3 * k + c]!);
+  }
+  for (let c = 0; c < 3; ++c) rgb[c] = e[c]! > 0 ? e[c]! : 0;
+  return true;
+}
