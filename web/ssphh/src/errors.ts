@@ -8,8 +8,10 @@ export type ErrorCode =
   | 'other-geometry'
   | 'other-groups'
   | 'bad-argument'
-  | 'bad-file'
-  | 'too-large';
+  | 'not-sphl'
+  | 'not-gltf'
+  | 'bad-file';
+
 
 /** Everything that this package throws by intent: `message` is a sentence for people, `code` is for programs. */
 export class SsphhError extends Error {

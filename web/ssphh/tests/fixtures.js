@@ -14,7 +14,7 @@ export function run(...words) {
   return execFileSync(tool, [...words, '--progress', 'none'], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] });
 }
 
-function made(name, make) {
+export function made(name, make) {
   mkdirSync(folder, { recursive: true });
   const path = folder + name, dot = name.indexOf('.'), part = `${folder}${name.slice(0, dot)}-${process.pid}${name.slice(dot)}`;
   if (!existsSync(path)) {
