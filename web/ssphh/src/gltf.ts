@@ -20,7 +20,8 @@ export interface GltfSphl {
 
 export interface GltfEmission {
   lightGroup: string;
-  /** Factor on the coefficients. */
+  /** Factors on the coefficients. */
+  color: [number, number, number];
   intensity: number;
   /** RGB intensity [W/sr] of each frame, r₀ g₀ b₀ r₁ …, in the node's axes (`shEvaluate`; what is negative sends nothing). Empty where the file names a lobe or another file. */
   frames: Float32Array[];
@@ -108,14 +109,18 @@ function worldTransforms(document: Json): Map<number, Matrix> {
   return world;
 }
 
-function readEmission(at: Place, lightGroup: string): GltfEmission {
+function readEmission(at: Place, lightGroup: string, light: unknown): GltfEmission {
   const json = at.value, floats = (p: Place) => p.floats(Array.isArray(p.value) ? p.value.length : 0, limits.coefficient);
   const listed = member(json, 'frames'), one = member(json, 'coefficients');
   const number = (key: string, otherwise: number) => (member(json, key) === undefined ? otherwise : at.at(key).number(-1e30, 1e30));
   const frames = listed !== undefined ? at.at('frames').list(1 << 16, 1).map(floats) : one !== undefined ? [floats(at.at('coefficients'))] : [];
   if (frames.some(f => !Number.isInteger(Math.sqrt(f.length / 3)) || f.length === 0 || f.length > 363 || f.length !== frames[0]!.length))
     at.fail('frames must have 3 (degree + 1)² numbers each, of one degree from 0 to 10');
-  return { lightGroup, intensity: number('intensity', 1), frames, rate: number('rate', 0), start: number('start', 0), repeat: member(json, 'repeat') === true };
+  const color = member(json, 'color') ?? member(light, 'color') ?? [1, 1, 1];
+  return {
+    lightGroup, color: place(color, `${at.path}.color`).three(1e30, 0), intensity: number('intensity', 1), frames, rate: number('rate', 0), start: number('start', 0),
+    repeat: member(json, 'repeat') === true,
+  };
 }
 
 function sphlOf(document: Json, node: number, world: Matrix): GltfSphl | null {
@@ -136,7 +141,7 @@ function sphlOf(document: Json, node: number, world: Matrix): GltfSphl | null {
     name, node, position: [world[12]!, world[13]!, world[14]!],
     radius: place(radius, `${path}.extras.sphl.radius`).number(limits.smallestRadius, limits.coordinate),
     enabled: isProbe && member(settings, 'enabled') !== false,
-    emission: emission === undefined ? null : readEmission(place(emission, `${path}: emission`), group),
+    emission: emission === undefined ? null : readEmission(place(emission, `${path}: emission`), group, light),
   };
 }
 

@@ -11,7 +11,7 @@ export const scenes = ['cornell', 'two-rooms', 'random?seed=7'];
 export const kinds = { points: ['--records', '600'], weights: ['--records', '0', '--fit'] };
 
 export function run(...words) {
-  return execFileSync(tool, [...words, '--progress', 'none'], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] });
+  return execFileSync(tool, [...words, '--progress', 'none'], { encoding: 'utf8', stdio: 'pipe' });
 }
 
 export function made(name, make) {
@@ -27,7 +27,8 @@ export function made(name, make) {
 /** Path of a probe file; `extra` are options of the bake. */
 export function probeFile(scene, kind, extra = [], end = '.sphl') {
   return made(`${scene.replace(/\W+/g, '-')}-${kind}${extra.join('').replace(/\W+/g, '-')}${end}`, path =>
-    run('bake', `builtin:${scene}`, '-o', path, '--operator', 'surfel', '--viz', 'off', '--quality', 'draft', '--probes', '12', ...kinds[kind], ...extra));
+    run('bake', `builtin:${scene}`, '-o', path, '--operator', 'surfel', '--viz', 'off', '--quality', 'draft', '--probes', '12', ...kinds[kind],
+      '--surfel-size', scene.startsWith('random') ? '1' : '0.25', ...extra));
 }
 
 export function cookedFile(scene, kind, extra = [], cookOptions = ['--scene', `builtin:${scene}`, '--sight', '16']) {

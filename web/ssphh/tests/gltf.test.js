@@ -29,7 +29,7 @@ test('an SPHL that shines, light modes', () => {
   assert(Math.abs(torch.radius - 0.2) < 1e-6);
   assert.equal(torch.emission.lightGroup, 'torch');
   assert.equal(torch.emission.frames.length, 1);
-  const ahead = shEvaluate(torch.emission.frames[0], [0, 0, -1]).map(v => v * torch.emission.intensity);
+  const ahead = shEvaluate(torch.emission.frames[0], [0, 0, -1]).map((v, c) => v * torch.emission.intensity * torch.emission.color[c]);
   [20, 10, 5].forEach((v, c) => assert(Math.abs(ahead[c] - v) < 0.05 * v, `${ahead}`));
   assert.equal(lightModes.lamp, 'mixed');
 });

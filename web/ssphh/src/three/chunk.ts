@@ -8,10 +8,16 @@ import { probesGlsl } from './probes.glsl.js';
 
 const widthLog2 = 11, width = 1 << widthLog2, mostTexels = width * 16384;
 
+/** What is known here of three's `DataTexture`. */
+export interface LightTexture {
+  needsUpdate: boolean;
+  dispose(): void;
+}
+
 /** The file and its light on the graphics card, shared by all materials of a `CookedLight`. */
 export class LightTextures {
-  readonly file: DataTexture;
-  readonly light: DataTexture;
+  readonly file: LightTexture;
+  readonly light: LightTexture;
   readonly #numbers: Float32Array;
   #version: number;
 
@@ -22,10 +28,12 @@ export class LightTextures {
     const texels = new Uint32Array(padded(words));
     texels.set(new Uint32Array(bytes.buffer, bytes.byteOffset, words));
     this.#numbers = new Float32Array(padded(floats));
-    this.file = new DataTexture(texels, width, texels.length / 4 / width, RGBAIntegerFormat, UnsignedIntType);
-    this.file.internalFormat = 'RGBA32UI';
-    this.light = new DataTexture(this.#numbers, width, this.#numbers.length / 4 / width, RGBAFormat, FloatType);
-    for (const texture of [this.file, this.light]) {
+    const file = new DataTexture(texels, width, texels.length / 4 / width, RGBAIntegerFormat, UnsignedIntType);
+    const light = new DataTexture(this.#numbers, width, this.#numbers.length / 4 / width, RGBAFormat, FloatType);
+    file.internalFormat = 'RGBA32UI';
+    this.file = file;
+    this.light = light;
+    for (const texture of [file, light]) {
       texture.minFilter = texture.magFilter = NearestFilter;
       texture.generateMipmaps = false;
       texture.needsUpdate = true;
@@ -108,7 +116,7 @@ ${points ? '  vec3 irradiance;\n  if (ssphhByPoints(position, n, shading, irradi
 
 export interface LightChunk {
   /** `ssphhFile`, `ssphhLight`: textures. */
-  uniforms: { ssphhFile: { value: DataTexture }; ssphhLight: { value: DataTexture } };
+  uniforms: { ssphhFile: { value: LightTexture }; ssphhLight: { value: LightTexture } };
   /**
    * GLSL ES 3.00 for a fragment shader: `vec3 ssphhIrradiance(vec3 position, vec3 geometryNormal, vec3 shadingNormal)`, the irradiance [W/m²] at a
    * place of the world. Weights and sight are by the geometry's normal, light is for the shading one.

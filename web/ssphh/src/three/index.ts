@@ -2,7 +2,7 @@ import type { CookedLight, PlaceKind } from '../cooked/light.js';
 import { SsphhError } from '../errors.js';
 import { probeLightChunk } from './chunk.js';
 
-export { lightTextures, probeLightChunk, type LightChunk, type LightTextures } from './chunk.js';
+export { lightTextures, probeLightChunk, type LightChunk, type LightTexture, type LightTextures } from './chunk.js';
 
 /** What of three's `Material` is used here, so that no type of three is needed. */
 export interface LitMaterial {
