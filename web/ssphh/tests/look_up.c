@@ -1,8 +1,8 @@
-/* What the C run-time says of a cooked file, to compare with:
-     look_up FILE still|open [SCALE...]  reads places (six floats each) from stdin, writes their irradiance (three each); the
-                                         processor time of a place in microseconds goes to stderr. SCALE: of each light group, grey
-     look_up FILE verdicts               reads lines "OFFSET BYTE", sets that byte of the file, mends the checksum, and writes the
-                                         number of ssphh_runtime_open's result, a line each */
+/* What the C run-time says of a cooked file, to compare with.
+   look_up FILE still|open [SCALE...]: reads places (six floats each) from stdin, writes their irradiance
+   (three each); microseconds of processor time for a place go to stderr. SCALE: of each light group, grey.
+   look_up FILE verdicts: reads lines "OFFSET BYTE", sets that byte of the file, mends the checksum, and
+   writes the number of ssphh_runtime_open's result, a line each. */
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -6,6 +6,10 @@ const f = Math.fround;
 export function dot(a: Float3, b: Float3): number {
   return f(f(f(a[0]! * b[0]!) + f(a[1]! * b[1]!)) + f(a[2]! * b[2]!));
 }
+/** The same of single numbers, which are float32. */
+export function dot3(ax: number, ay: number, az: number, bx: number, by: number, bz: number): number {
+  return f(f(f(ax * bx) + f(ay * by)) + f(az * bz));
+}
 export function clamp(v: number, low: number, high: number): number {
   return v < low ? low : v > high ? high : v;
 }

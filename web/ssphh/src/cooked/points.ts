@@ -1,6 +1,6 @@
 /** Irradiance from points on surfaces: a linear fit in the tangent plane to those around that the place sees. libs/runtime's points.c, in float32. */
 import { groupFloats, probeFloats, type CookedFile } from './file.js';
-import { bitCount, dot, type Float3 } from './float.js';
+import { bitCount, dot3, type Float3 } from './float.js';
 import { mostListedPoints, recordFloats } from './layout.js';
 
 const f = Math.fround;
@@ -9,7 +9,7 @@ const reach = 3, leastCosine = f(0.7), offPlane = f(0.5), offPlaneSlope = f(0.1)
 const sharePoint = new Uint32Array(mostListedPoints);
 const shareWeight = new Float32Array(mostListedPoints), shareX = new Float32Array(mostListedPoints), shareY = new Float32Array(mostListedPoints);
 const squares = new Uint8Array(3), at = new Uint32Array(3), square = new Uint8Array(3);
-const tangentX = new Float32Array(3), tangentY = new Float32Array(3), offset = new Float32Array(3), normal = new Float32Array(3);
+const tangentX = new Float32Array(3), tangentY = new Float32Array(3);
 const basis = new Float32Array(10), sum = new Float32Array(32), e = new Float32Array(3);
 
 /** The place's cell that holds surface, and its squares of 8 × 8 across each axis; −1: there is none. */
@@ -44,45 +44,48 @@ function setTangents(n: Float3): void {
   tangentY[0] = b, tangentY[1] = sign + f(f(y * y) * a), tangentY[2] = -y;
 }
 
-/** `offset` leads from the place to the point. */
-function weightOf(file: CookedFile, point: number, n: Float3): number {
-  const p = 8 * point, spacing = file.points[p + 3]!;
-  const d2 = dot(offset, offset), s2 = f(spacing * spacing);
+/** Of the point that begins at `p`; (x, y, z) leads to it from the place. */
+function weightOf(points: Float32Array, cover: number, p: number, x: number, y: number, z: number, nx: number, ny: number, nz: number): number {
+  const spacing = points[p + 3]!, d2 = dot3(x, y, z, x, y, z), s2 = f(spacing * spacing);
   let t = f(1 - f(d2 / f(reach * reach * s2)));
-  for (let c = 0; c < 3; ++c) normal[c] = file.points[p + 4 + c]!;
-  const facing = f(f(dot(normal, n) - leastCosine) / f(1 - leastCosine));
-  if (!(t > 0) || !(facing > 0)) return 0;
-  const off = f(dot(offset, n) / f(f(offPlane * spacing) + f(offPlaneSlope * f(Math.sqrt(d2)))));
+  if (!(t > 0)) return 0;
+  const facing = f(f(dot3(points[p + 4]!, points[p + 5]!, points[p + 6]!, nx, ny, nz) - leastCosine) / f(1 - leastCosine));
+  if (!(facing > 0)) return 0;
+  const off = f(dot3(x, y, z, nx, ny, nz) / f(f(offPlane * spacing) + f(offPlaneSlope * f(Math.sqrt(d2)))));
   const level = f(1 - f(off * off));
   if (!(level > 0)) return 0;
   t = f(t * t), t = f(t * t), t = f(t * t);
-  const cover = file.pointWords[p + 7]! & 7, open = 1 << cover, q = f(f(f(d2 * open) * open) / s2);
-  return f(f(f(f(t * facing) * level) * level) * (cover === 0 ? 1 : f(1 / f(1 + f(q * q)))));
+  const weight = f(f(f(t * facing) * level) * level);
+  if (cover === 0) return weight;
+  const open = 1 << cover, q = f(f(f(d2 * open) * open) / s2);
+  return f(weight * f(1 / f(1 + f(q * q))));
 }
 
 /** The points of the cell that count, and the linear fit's weights. */
 function findShares(file: CookedFile, x: Float3, n: Float3): number {
   const cell = findCell(file, x);
   if (cell < 0) return 0;
+  const { points, pointWords, entries, masks } = file, nx = n[0]!, ny = n[1]!, nz = n[2]!, x0 = x[0]!, x1 = x[1]!, x2 = x[2]!;
   const end = file.cells[2 * cell + 2]!, unit = f(1 / file.header.grids[0].cellSize);
   let mask = 2 * file.cells[2 * cell + 1]!, count = 0;
   let total = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0, spacings = 0;
   setTangents(n);
+  const ax = tangentX[0]!, ay = tangentX[1]!, az = tangentX[2]!, bx = tangentY[0]!, by = tangentY[1]!, bz = tangentY[2]!;
   for (let i = file.cells[2 * cell]!; i < end; ++i) {
-    const entry = file.entries[i]!, point = entry & 0x7fffffff, p = 8 * point;
+    const entry = entries[i]!, point = entry & 0x7fffffff, p = 8 * point, kind = pointWords[p + 7]!;
     if (entry >>> 31) {
-      const of = squares[(file.pointWords[p + 7]! >>> 3) & 3]!, word = file.masks[of < 32 ? mask : mask + 1]!;
+      const of = squares[(kind >>> 3) & 3]!, word = masks[of < 32 ? mask : mask + 1]!;
       mask += 2;
       if (((word >>> (of & 31)) & 1) === 0) continue;
     }
-    for (let c = 0; c < 3; ++c) offset[c] = file.points[p + c]! - x[c]!;
-    const w = weightOf(file, point, n);
+    const ox = f(points[p]! - x0), oy = f(points[p + 1]! - x1), oz = f(points[p + 2]! - x2);
+    const w = weightOf(points, kind & 7, p, ox, oy, oz, nx, ny, nz);
     if (!(w > 0)) continue;
+    const dx = f(dot3(ox, oy, oz, ax, ay, az) * unit), dy = f(dot3(ox, oy, oz, bx, by, bz) * unit), spacing = f(points[p + 3]! * unit);
     sharePoint[count] = point;
     shareWeight[count] = w;
-    shareX[count] = dot(offset, tangentX) * unit;
-    shareY[count] = dot(offset, tangentY) * unit;
-    const dx = shareX[count]!, dy = shareY[count]!, spacing = f(file.points[p + 3]! * unit);
+    shareX[count] = dx;
+    shareY[count] = dy;
     ++count;
     total += w, sx += w * dx, sy += w * dy;
     sxx += w * dx * dx, sxy += w * dx * dy, syy += w * dy * dy;
@@ -94,13 +97,16 @@ function findShares(file: CookedFile, x: Float3, n: Float3): number {
   const xx = sxx / total + r, xy = sxy / total, yy = syy / total + r;
   const c0 = xx * yy - xy * xy, c1 = my * xy - mx * yy, c2 = mx * xy - my * xx, determinant = c0 + mx * c1 + my * c2;
   const row0 = f(c0 / determinant), row1 = f(c1 / determinant), row2 = f(c2 / determinant);
-  const relative = (i: number) => f(f(row0 + f(row1 * shareX[i]!)) + f(row2 * shareY[i]!));
   let negative = 0, all = 0;
-  for (let i = 0; i < count; ++i) negative = f(negative + f(shareWeight[i]! * Math.max(-relative(i), 0)));
+  for (let i = 0; i < count; ++i) {
+    const relative = f(f(row0 + f(row1 * shareX[i]!)) + f(row2 * shareY[i]!));
+    shareX[i] = relative;
+    if (relative < 0) negative = f(negative + f(shareWeight[i]! * -relative));
+  }
   // Of the way from the mean to the fit
   const allowed = f(mostNegative * f(total)), most = negative > allowed ? f(allowed / negative) : 1;
   for (let i = 0; i < count; ++i) {
-    shareWeight[i] = shareWeight[i]! * f(f(1 - most) + f(most * relative(i)));
+    shareWeight[i] = shareWeight[i]! * f(f(1 - most) + f(most * shareX[i]!));
     all = f(all + shareWeight[i]!);
   }
   for (let i = 0; i < count; ++i) shareWeight[i] = shareWeight[i]! / all;

@@ -1,18 +1,18 @@
 /** Irradiance from the probes around: moving least squares over those in sight, or inverse squared distances. libs/runtime's probes.c, in float32. */
 import { groupFloats, type CookedFile } from './file.js';
-import { clamp, dot, type Float3 } from './float.js';
-import { noProbe } from './layout.js';
+import { clamp, dot, dot3, type Float3 } from './float.js';
+import { mostGroups, noProbe } from './layout.js';
 import { sees } from './sight.js';
 
 const f = Math.fround;
 const mlsReach = 2, leastBump = f(1e-6), mlsRidge = f(0.05), wrappedFloor = f(0.05), hiddenSlope = 4, sightLift = f(0.01);
-const mostNear = 16, mostBlended = 8, lanes = 8;
+const mostNear = 16, mostBlended = 8;
 
 const nearDistance2 = new Float32Array(mostNear), nearProbe = new Uint16Array(mostNear);
 const usedProbe = new Uint16Array(mostNear), usedWeight = new Float32Array(mostNear);
 const place = new Float32Array(4 * mostNear), way = new Float32Array(3), row = new Float32Array(4);
 const matrix = new Float64Array(16), factor = new Float64Array(16), solved = new Float64Array(4);
-const harmonics = new Float32Array(24), sums = new Float32Array(lanes), sum = new Float32Array(3);
+const harmonics = new Float32Array(24), sum = new Float32Array(3);
 
 function setWay(file: CookedFile, probe: number, x: Float3): void {
   for (let c = 0; c < 3; ++c) way[c] = file.probes[4 * probe + c]! - x[c]!;
@@ -26,12 +26,11 @@ function findNear(file: CookedFile, x: Float3): number {
     const u = f(f(x[c]! - h.probeOrigin[c]!) / h.probeCellSize);
     cell = cell * h.probeCells[c]! + Math.trunc(clamp(u, 0, f(h.probeCells[c]!) - 1));
   }
-  const first = cell * h.probeListLength, end = first + h.probeListLength;
+  const first = cell * h.probeListLength, end = first + h.probeListLength, { probes, probeCells } = file, x0 = x[0]!, x1 = x[1]!, x2 = x[2]!;
   let count = 0;
-  for (let i = first; i < end && file.probeCells[i] !== noProbe; ++i) {
-    const probe = file.probeCells[i]!;
-    setWay(file, probe, x);
-    const distance2 = dot(way, way);
+  for (let i = first; i < end && probeCells[i] !== noProbe; ++i) {
+    const probe = probeCells[i]!, dx = f(probes[4 * probe]! - x0), dy = f(probes[4 * probe + 1]! - x1), dz = f(probes[4 * probe + 2]! - x2);
+    const distance2 = dot3(dx, dy, dz, dx, dy, dz);
     if (count === mostNear && !(distance2 < nearDistance2[count - 1]!)) continue;
     let k = count < mostNear ? count++ : count - 1;
     for (; k > 0 && distance2 < nearDistance2[k - 1]!; --k) {
@@ -156,17 +155,42 @@ function setHarmonics(degree: number, n: Float3): void {
   harmonics[17] = f(0.625835735) * f(f(f(x2 * x2) - f(f(6 * x2) * y2)) + f(y2 * y2));
 }
 
-/** Irradiance of one colour of a probe by all groups, not negative. */
-function irradianceOf(file: CookedFile, light: Float32Array, scales: Float32Array, probe: number, colour: number): number {
-  const h = file.header, stride = h.probeStride, each = groupFloats(h);
-  sums.fill(0);
-  for (let g = 0; g < h.groupCount; ++g) {
-    const scale = scales[3 * g + colour]!, at = g * each + (3 * probe + colour) * stride;
-    if (scale === 0) continue;
-    for (let k = 0; k < stride; ++k) sums[k % lanes] = sums[k % lanes]! + f(f(scale * harmonics[k]!) * light[at + k]!);
+/** Harmonics times the scales of groups that are on: 24 for each colour of each. */
+let scaled = new Float32Array(0);
+const groupsOn = [new Uint16Array(mostGroups), new Uint16Array(mostGroups), new Uint16Array(mostGroups)], countOn = [0, 0, 0];
+
+function setScaled(groups: number, scales: Float32Array): void {
+  if (scaled.length < 72 * groups) scaled = new Float32Array(72 * groups);
+  for (let c = 0; c < 3; ++c) {
+    let on = 0;
+    for (let g = 0; g < groups; ++g) {
+      const scale = scales[3 * g + c]!, to = 72 * g + 24 * c;
+      if (scale === 0) continue;
+      groupsOn[c]![on++] = g;
+      for (let k = 0; k < 24; ++k) scaled[to + k] = scale * harmonics[k]!;
+    }
+    countOn[c] = on;
   }
-  let e = 0;
-  for (let i = 0; i < lanes; ++i) e = f(e + sums[i]!);
+}
+
+/** Irradiance of one colour of a probe by all groups, not negative: eight sums side by side, as the C code has them. */
+function irradianceOf(file: CookedFile, light: Float32Array, probe: number, colour: number): number {
+  const h = file.header, stride = h.probeStride, each = groupFloats(h), on = groupsOn[colour]!, count = countOn[colour]!;
+  let s0 = 0, s1 = 0, s2 = 0, s3 = 0, s4 = 0, s5 = 0, s6 = 0, s7 = 0;
+  for (let i = 0; i < count; ++i) {
+    const g = on[i]!, y = 72 * g + 24 * colour, at = g * each + (3 * probe + colour) * stride;
+    for (let k = 0; k < stride; k += 8) {
+      s0 = f(s0 + f(scaled[y + k]! * light[at + k]!));
+      s1 = f(s1 + f(scaled[y + k + 1]! * light[at + k + 1]!));
+      s2 = f(s2 + f(scaled[y + k + 2]! * light[at + k + 2]!));
+      s3 = f(s3 + f(scaled[y + k + 3]! * light[at + k + 3]!));
+      s4 = f(s4 + f(scaled[y + k + 4]! * light[at + k + 4]!));
+      s5 = f(s5 + f(scaled[y + k + 5]! * light[at + k + 5]!));
+      s6 = f(s6 + f(scaled[y + k + 6]! * light[at + k + 6]!));
+      s7 = f(s7 + f(scaled[y + k + 7]! * light[at + k + 7]!));
+    }
+  }
+  const e = f(f(f(f(f(f(f(s0 + s1) + s2) + s3) + s4) + s5) + s6) + s7);
   return e > 0 ? e : 0;
 }
 
@@ -176,8 +200,9 @@ export function byProbes(file: CookedFile, light: Float32Array, scales: Float32A
   let used = file.header.probeSpacing > 0 ? byLeastSquares(file, count, still, x, n) : 0;
   if (used === 0) used = byDistance(file, count, still, x, n);
   setHarmonics(file.header.degree, n);
+  setScaled(file.header.groupCount, scales);
   sum.fill(0);
   for (let i = 0; i < used; ++i)
-    for (let c = 0; c < 3; ++c) sum[c] = sum[c]! + f(usedWeight[i]! * irradianceOf(file, light, scales, usedProbe[i]!, c));
+    for (let c = 0; c < 3; ++c) sum[c] = sum[c]! + f(usedWeight[i]! * irradianceOf(file, light, usedProbe[i]!, c));
   for (let c = 0; c < 3; ++c) rgb[c] = sum[c]! > 0 ? sum[c]! : 0;
 }

@@ -1,57 +1,34 @@
 /** What stands between a place and a probe, by six faces of distances around the probe: libs/runtime's sight.c, in float32. */
 import type { CookedFile } from './file.js';
-import { clamp, dot, type Float3 } from './float.js';
+import { clamp, dot3, type Float3 } from './float.js';
 
 const f = Math.fround;
-const unit = f(1 / 65535), belowSurface = 0.0625;
-
-const away = new Float32Array(3), d = new Float32Array(3), ray = new Float32Array(3);
-
-/** Face of a direction in the order of cube maps; `on`: along its axis, and right and down on the face for 1 along the axis. */
-const on = new Float32Array(3);
-function faceOf(v: Float3): number {
-  const x = v[0]!, y = v[1]!, z = v[2]!, ax = Math.abs(x), ay = Math.abs(y), az = Math.abs(z);
-  if (ax >= ay && ax >= az) {
-    on[0] = ax, on[1] = x > 0 ? -z : z, on[2] = -y;
-    return x > 0 ? 0 : 1;
-  }
-  if (ay >= az) {
-    on[0] = ay, on[1] = x, on[2] = y > 0 ? z : -z;
-    return y > 0 ? 2 : 3;
-  }
-  on[0] = az, on[1] = z > 0 ? x : -x, on[2] = -y;
-  return z > 0 ? 4 : 5;
-}
-
-function setRay(face: number, right: number, down: number): void {
-  const side = face % 2 === 0 ? 1 : -1;
-  if (face < 2) ray[0] = side, ray[1] = -down, ray[2] = -side * right;
-  else if (face < 4) ray[0] = right, ray[1] = side, ray[2] = side * down;
-  else ray[0] = side * right, ray[1] = -down, ray[2] = side;
-}
+const unit = f(1 / 65535);
 
 /** Whether probe and place see each other, sight beginning `lift` metres above it. `still`: the place is on a surface. */
 export function sees(file: CookedFile, probe: number, still: boolean, x: Float3, n: Float3, lift: number): boolean {
-  const size = file.header.sightSize;
+  const size = file.header.sightSize, probes = file.probes, nx = n[0]!, ny = n[1]!, nz = n[2]!;
   if (size === 0) return true;
-  for (let c = 0; c < 3; ++c) {
-    away[c] = x[c]! - file.probes[4 * probe + c]!;
-    d[c] = away[c]! + f(lift * n[c]!);
-  }
-  const height = -dot(n, away);
-  if (still && height < 0 && f(height * height) > f(belowSurface * dot(away, away))) return false;
-  const face = faceOf(d), major = on[0]!;
+  const awayX = f(x[0]! - probes[4 * probe]!), awayY = f(x[1]! - probes[4 * probe + 1]!), awayZ = f(x[2]! - probes[4 * probe + 2]!);
+  const dx = f(awayX + f(lift * nx)), dy = f(awayY + f(lift * ny)), dz = f(awayZ + f(lift * nz));
+  const height = -dot3(nx, ny, nz, awayX, awayY, awayZ);
+  // From so far below a surface, light reaches a place only over an edge nearer than a 25th of the way
+  if (still && height < 0 && f(height * height) > f(0.0625 * dot3(awayX, awayY, awayZ, awayX, awayY, awayZ))) return false;
+  const sizeX = Math.abs(dx), sizeY = Math.abs(dy), sizeZ = Math.abs(dz);
+  const axis = sizeX >= sizeY && sizeX >= sizeZ ? 0 : sizeY >= sizeZ ? 1 : 2, major = axis === 0 ? sizeX : axis === 1 ? sizeY : sizeZ;
   if (!(major > 0)) return true; // the probe stands there
-  const half = f(0.5 * size);
-  const i = Math.trunc(clamp(f(f(f(on[1]! / major) + 1) * half), 0, size - 1));
-  const j = Math.trunc(clamp(f(f(f(on[2]! / major) + 1) * half), 0, size - 1));
+  const side = (axis === 0 ? dx : axis === 1 ? dy : dz) > 0 ? 1 : -1, half = f(0.5 * size);
+  // Right and down on the face, in the order and orientation of cube maps
+  const right = axis === 0 ? -side * dz : axis === 1 ? dx : side * dx, down = axis === 1 ? side * dz : -dy;
+  const i = Math.trunc(clamp(f(f(f(right / major) + 1) * half), 0, size - 1)), j = Math.trunc(clamp(f(f(f(down / major) + 1) * half), 0, size - 1));
   let asked = major;
   if (still && height > 0) {
     // Along the texel's ray the surface itself may stand nearer
-    setRay(face, f(f((i + 0.5) / half) - 1), f(f((j + 0.5) / half) - 1));
-    const slope = -dot(n, ray);
+    const u = f(f((i + 0.5) / half) - 1), v = f(f((j + 0.5) / half) - 1);
+    const slope = -(axis === 0 ? dot3(nx, ny, nz, side, -v, -side * u) : axis === 1 ? dot3(nx, ny, nz, u, side, side * v) : dot3(nx, ny, nz, side * u, -v, side));
     if (height < f(asked * slope)) asked = f(height / slope);
   }
-  const stored = file.sight[((probe * 6 + face) * size + j) * size + i]!;
-  return stored === 0xffff || f(f(f(stored * unit) * file.probes[4 * probe + 3]!) * f(1 + f(1.5 / size))) >= asked;
+  const face = 2 * axis + (side > 0 ? 0 : 1), stored = file.sight[((probe * 6 + face) * size + j) * size + i]!;
+  // Nothing was found as far as anything asks
+  return stored === 0xffff || f(f(f(stored * unit) * probes[4 * probe + 3]!) * f(1 + f(1.5 / size))) >= asked;
 }
