@@ -33,6 +33,7 @@ test('every byte of the header and groups changed, and bytes all over, with the 
       changes.push([at, i % 2 ? 0xff : whole[at] ^ (1 << Math.floor(8 * random()))]);
     }
   }
+  for (let i = 0; i < 20; ++i) changes.push([sections.points.offset + 32 * i + 28, 20 + i], [sections.names.offset + i, 0]);
   const theirs = referenceVerdicts(path, changes), seen = new Map();
   assert.equal(theirs.length, changes.length);
   const sum = whole.slice(24, 32);
@@ -66,6 +67,12 @@ test('single bits without a mended checksum are damage, any length but its own i
   const longer = new Uint8Array(whole.length + 64);
   longer.set(whole);
   assert.equal(codeOf(longer), 'cut-off');
+  // As long as its header says, with the checksum of that, but nothing stands in the last bytes
+  const view = new DataView(longer.buffer);
+  view.setBigUint64(16, BigInt(longer.length), true);
+  assert.equal(codeOf(longer), 'damaged');
+  checksum(longer).forEach((half, k) => view.setUint32(24 + 4 * k, half, true));
+  assert.equal(codeOf(longer), 'invalid');
 });
 
 test('bytes in the middle of a buffer, aligned or not, and sources that give them', async () => {

@@ -150,6 +150,15 @@ test('hostile binary files', () => {
   assert(seen.ok > 100 && seen.invalid > 100, JSON.stringify(seen));
 });
 
+test('a count that the file cannot hold is refused before memory is taken', () => {
+  const whole = new Uint8Array(bytesOf(everything())), view = new DataView(whole.buffer), { generator, lightGroups } = readSphl(whole);
+  const groups = 36 + 4 + 77 + generator.scene.length, probes = groups + 4 + 17 + lightGroups[0].name.length;
+  assert.deepEqual([view.getUint32(groups, true), view.getUint32(probes, true)], [1, 6]);
+  view.setUint32(probes, 65536, true);
+  xxh3(whole.subarray(36)).forEach((half, k) => view.setBigUint64(20 + 8 * k, half, true));
+  assert.throws(() => readSphl(whole), { code: 'invalid', message: /probe count of 65536 needs more bytes/ });
+});
+
 test('hostile JSON files', () => {
   const document = JSON.parse(readFileSync(asJson(everything()), 'utf8')), encode = v => new TextEncoder().encode(typeof v === 'string' ? v : JSON.stringify(v));
   const changed = change => {
@@ -167,6 +176,7 @@ test('hostile JSON files', () => {
     d => (d.probes[0].groups = []), d => d.probes[2].groups[0].reflected.pop(), d => (d.probes[2].groups[0].reflected[1] = 'x'), d => (d.probes = 3),
     d => (d.light_groups[0].scale = [1, -1, 1]), d => (d.light_groups[0].mode = 'off'), d => (d.surface[0].normal = [1, 1, 0]), d => (d.fitted[0].weights = [0.5]),
     d => (d.fitted[0].probes = [6]), d => (d.surface[0].groups[0][1] = 40000), d => (d.probes.find(p => p.edges.length).edges[0].from = 77), d => delete d.hierarchy,
+    d => d.probes.find(p => p.edges.length).edges.push(structuredClone(d.probes.find(p => p.edges.length).edges.at(-1))),
   ];
   wrong.forEach((change, i) => assert.equal(changed(change), 'invalid', `change ${i}: ${change}`));
 });
