@@ -23,7 +23,10 @@ export interface GltfEmission {
   /** Factors on the coefficients. */
   color: [number, number, number];
   intensity: number;
-  /** RGB intensity [W/sr] of each frame, r₀ g₀ b₀ r₁ …, in the node's axes (`shEvaluate`; what is negative sends nothing). Empty where the file names a lobe or another file. */
+  /**
+   * RGB intensity [W/sr] of each frame, r₀ g₀ b₀ r₁ …, in the node's axes (`shEvaluate`; what is negative sends nothing). Empty where the file
+   * names a lobe or another file.
+   */
   frames: Float32Array[];
   /** Frames per second, from `start` [s]; `repeat`: after the last comes the first. */
   rate: number;
@@ -58,7 +61,8 @@ function documentOf(bytes: Uint8Array): Json {
   let text = bytes;
   if (bytes.length >= 12 && utf8(bytes.subarray(0, 4)) === 'glTF') {
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-    if (view.getUint32(4, true) !== 2 || view.getUint32(8, true) !== bytes.length) throw new SsphhError('not-gltf', 'the GLB file is of another version than 2, or cut off');
+    if (view.getUint32(4, true) !== 2 || view.getUint32(8, true) !== bytes.length)
+      throw new SsphhError('not-gltf', 'the GLB file is of another version than 2, or cut off');
     const size = bytes.length >= 20 ? view.getUint32(12, true) : 0;
     if (size > bytes.length - 20 || view.getUint32(16, true) !== 0x4e4f534a) throw new SsphhError('not-gltf', "the GLB file's first chunk is no JSON");
     text = bytes.subarray(20, 20 + size);

@@ -1,9 +1,8 @@
 import { SsphhError } from './errors.js';
 
-export type Vec3 = readonly [number, number, number];
 export type Rgb = [number, number, number];
 /** Three numbers of any kind: an array, a typed array. */
-export type Three = ArrayLike<number>;
+export type Triple = ArrayLike<number>;
 
 /** Highest degree of this project's files. */
 export const maxDegree = 10;
@@ -25,7 +24,7 @@ export function degreeOf(coefficients: number): number {
  * Y_lm(d) of all bands up to `degree` (0 to 10), coefficient k = l(l+1) + m. Real, orthonormal, without Condon–Shortley's sign:
  * Y₀₀ = 0.282095, Y₁₋₁ = 0.488603 y, Y₁₀ = 0.488603 z, Y₁₁ = 0.488603 x, as in three.js. `direction` is of length 1, y is up.
  */
-export function shBasis(degree: number, direction: Three, out: Float64Array = new Float64Array(coefficientCount(degree))): Float64Array {
+export function shBasis(degree: number, direction: Triple, out: Float64Array = new Float64Array(coefficientCount(degree))): Float64Array {
   if (!Number.isInteger(degree) || degree < 0 || degree > maxDegree)
     throw new SsphhError('bad-argument', `a degree is a whole number from 0 to ${maxDegree}, not ${degree}`);
   const x = direction[0]!, y = direction[1]!, z = direction[2]!;
@@ -64,7 +63,7 @@ export function cosineFactor(l: number): number {
 }
 
 /** The value in a direction of an RGB function r₀ g₀ b₀ r₁ g₁ b₁ … of degree 0 to 10: radiance of radiance, irradiance of irradiance. */
-export function shEvaluate(coefficients: ArrayLike<number>, direction: Three): Rgb {
+export function shEvaluate(coefficients: ArrayLike<number>, direction: Triple): Rgb {
   const y = shBasis(degreeOf(coefficients.length / 3), direction);
   const rgb: Rgb = [0, 0, 0];
   for (let k = 0; k < y.length; ++k) for (let c = 0; c < 3; ++c) rgb[c]! += coefficients[3 * k + c]! * y[k]!;
@@ -80,6 +79,6 @@ export function irradianceFromRadiance(coefficients: ArrayLike<number>): Float32
 }
 
 /** Irradiance [W/m²] by coefficients of radiance on a surface with a unit normal; not negative. */
-export function shIrradiance(radiance: ArrayLike<number>, normal: Three): Rgb {
+export function shIrradiance(radiance: ArrayLike<number>, normal: Triple): Rgb {
   return shEvaluate(irradianceFromRadiance(radiance), normal).map(v => Math.max(v, 0)) as Rgb;
 }

@@ -1,6 +1,6 @@
 import { fetchBytes, viewOf, type Bytes, type BytesSource } from '../bytes.js';
 import { SsphhError } from '../errors.js';
-import type { Rgb, Three } from '../sh.js';
+import type { Rgb, Triple } from '../sh.js';
 import type { CookedFile } from './file.js';
 import { byPoints } from './points.js';
 import { byProbes } from './probes.js';
@@ -38,7 +38,7 @@ export interface LightInfo {
 
 const position = new Float32Array(3), normal = new Float32Array(3), found = new Float32Array(3);
 
-function setThree(out: Float32Array, from: Three, at: number): boolean {
+function setThree(out: Float32Array, from: Triple, at: number): boolean {
   for (let c = 0; c < 3; ++c) out[c] = from[at + c]!;
   return Number.isFinite(out[0]!) && Number.isFinite(out[1]!) && Number.isFinite(out[2]!);
 }
@@ -80,7 +80,7 @@ export class CookedLight {
    * Indirect irradiance [W/m²] (and the direct irradiance of baked groups) at a place [m] for a unit normal; never negative. A
    * Lambertian surface of albedo a leaves a E/π. Error `bad-argument` where position or normal is not finite.
    */
-  irradiance(at: Three, unitNormal: Three, kind: PlaceKind = 'still'): Rgb {
+  irradiance(at: Triple, unitNormal: Triple, kind: PlaceKind = 'still'): Rgb {
     if (!setThree(position, at, 0) || !setThree(normal, unitNormal, 0))
       throw new SsphhError('bad-argument', 'position and normal must be three finite numbers each');
     this.#lookUp(kind);
@@ -111,7 +111,7 @@ export class CookedLight {
   }
 
   /** Dims, switches or colours a light group, by name or number: `scale` is RGB of 0 to 1e6 (or one number), relative to the bake. */
-  setGroupScale(group: string | number, scale: Three | number): void {
+  setGroupScale(group: string | number, scale: Triple | number): void {
     const g = typeof group === 'number' ? group : this.file.groups.findIndex(({ name }) => name === group);
     if (!Number.isInteger(g) || g < 0 || g >= this.file.groups.length)
       throw new SsphhError('bad-argument', `there is no light group ${JSON.stringify(group)}; there are: ${this.file.groups.map(({ name }) => name).join(', ')}`);

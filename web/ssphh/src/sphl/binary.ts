@@ -1,7 +1,7 @@
 import { SsphhError } from '../errors.js';
 import { coefficientCount, maxDegree } from '../sh.js';
 import { Reader } from './reader.js';
-import { fileVersion, limits, names, type FittedPoint, type Generator, type Probe, type ProbeLightGroup, type ProbeSet, type SurfaceRecords } from './types.js';
+import { expectVersion, limits, names, type FittedPoint, type Generator, type Probe, type ProbeLightGroup, type ProbeSet, type SurfaceRecords } from './types.js';
 import { xxh3 } from './xxh3.js';
 
 export const magic = [0x53, 0x50, 0x48, 0x4c, 0x0d, 0x0a, 0x1a, 0x0a];
@@ -99,7 +99,8 @@ function readPayload(r: Reader): ProbeSet {
   const probes = Array.from({ length: probeCount }, (_, i) => readProbe(r, i, probeCount, groupCount, floats));
   let hierarchy: ProbeSet['hierarchy'] = null;
   if (r.u8('hierarchy flag', 1)) {
-    hierarchy = { operator: r.name('operator', names.hierOperator), neighbors: r.i32('neighbors', -1, limits.probes), threshold: r.f32('threshold', 0, limits.coefficient) };
+    const operator = r.name('operator', names.hierOperator), neighbors = r.i32('neighbors', -1, limits.probes);
+    hierarchy = { operator, neighbors, threshold: r.f32('threshold', 0, limits.coefficient) };
     for (const probe of probes) probe.neighbor = (r.u8('neighbour part', 1, 1), r.floats('neighbour part', floats, limits.coefficient));
   }
   const fitted = r.u8('fitted flag', 1) ? readFitted(r, probeCount) : null;
@@ -115,7 +116,7 @@ export function readBinary(bytes: Uint8Array): ProbeSet {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   if (bytes.length < 12) throw new SsphhError('cut-off', 'the probe file is cut off');
   const version = view.getUint32(8, true);
-  if (version !== fileVersion) throw new SsphhError('bad-version', `the probe file is of version ${version}, not ${fileVersion}: bake it anew, or take a package that reads it`);
+  expectVersion(version);
   if (bytes.length < headerSize || Number(view.getBigUint64(12, true)) !== bytes.length - headerSize)
     throw new SsphhError('cut-off', 'the probe file has another size than it says: it was cut off or added to');
   const payload = bytes.subarray(headerSize);

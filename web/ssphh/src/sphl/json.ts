@@ -2,7 +2,7 @@ import { utf8 } from '../bytes.js';
 import { SsphhError } from '../errors.js';
 import { coefficientCount, maxDegree } from '../sh.js';
 import { Place } from './place.js';
-import { fileVersion, limits, names, type FittedPoint, type Generator, type Probe, type ProbeSet, type SurfaceRecords } from './types.js';
+import { expectVersion, limits, names, type FittedPoint, type Generator, type Probe, type ProbeSet, type SurfaceRecords } from './types.js';
 
 function readGenerator(at: Place): Generator {
   at.members(['operator', 'gen', 'max_depth', 'passes', 'spp', 'viz', 'viz_source', 'viz_paths', 'viz_max_depth', 'viz_passes', 'viz_spp',
@@ -33,7 +33,8 @@ function readProbe(at: Place, index: number, probeCount: number, groupCount: num
       const from = edge.members(['from', 'transfer', 'h'], ['matrix']).at('from').integer(0, probeCount - 1);
       if (from <= last || from === index) edge.at('from').fail("must be another probe's index, in ascending order");
       last = from;
-      return { from, transfer: edge.at('transfer').number(0, limits.coefficient), h: vector(edge.at('h')), matrix: edge.has('matrix') ? vector(edge.at('matrix'), floats * (floats / 3)) : null };
+      const matrix = edge.has('matrix') ? vector(edge.at('matrix'), floats * (floats / 3)) : null;
+      return { from, transfer: edge.at('transfer').number(0, limits.coefficient), h: vector(edge.at('h')), matrix };
     }),
     neighbor: withNeighbor ? vector(at.at('neighbor')) : null,
   };
@@ -86,8 +87,7 @@ export function readJson(bytes: Uint8Array): ProbeSet {
   const root = new Place(document, 'probe file');
   if (typeof document !== 'object' || document === null || (document as { format?: unknown }).format !== 'ssphh-probes')
     throw new SsphhError('not-sphl', 'this is no probe file: its "format" must be "ssphh-probes"');
-  const version = root.at('version').value;
-  if (version !== fileVersion) throw new SsphhError('bad-version', `the probe file is of version ${version}, not ${fileVersion}: bake it anew, or take a package that reads it`);
+  expectVersion(root.at('version').value);
   root.members(['format', 'version', 'degree', 'generator', 'light_groups', 'probes'], ['hierarchy', 'fitted', 'surface', 'baseline']);
   const degree = root.at('degree').integer(0, maxDegree), floats = 3 * coefficientCount(degree);
   const lightGroups = root.at('light_groups').list(limits.lightGroups).map(group => {
@@ -100,7 +100,8 @@ export function readJson(bytes: Uint8Array): ProbeSet {
     degree, generator: readGenerator(root.at('generator')), lightGroups,
     probes: probes.map((probe, i) => readProbe(probe, i, probes.length, lightGroups.length, floats, hier !== null)),
     hierarchy: hier && {
-      operator: hier.at('operator').named(names.hierOperator), neighbors: hier.at('neighbors').integer(-1, limits.probes), threshold: hier.at('threshold').number(0, limits.coefficient),
+      operator: hier.at('operator').named(names.hierOperator), neighbors: hier.at('neighbors').integer(-1, limits.probes),
+      threshold: hier.at('threshold').number(0, limits.coefficient),
     },
     fitted: root.has('fitted') ? readFitted(root.at('fitted'), probes.length) : null,
     surface: root.has('surface') ? readSurface(root.at('surface'), lightGroups.length) : null,

@@ -1,6 +1,6 @@
 import { viewOf, type Bytes } from '../bytes.js';
 import { SsphhError } from '../errors.js';
-import type { Three } from '../sh.js';
+import type { Triple } from '../sh.js';
 import { coefficientCount } from '../sh.js';
 import { magic, readBinary } from './binary.js';
 import { readJson } from './json.js';
@@ -22,10 +22,11 @@ export function readSphl(bytes: Bytes): ProbeSet {
  * Radiance that arrives at a probe, all light groups at their scales (`scales`: RGB of each group in place of the file's): `all` of it, what
  * surfaces have `reflected` (indirect light), or what is `emitted` straight towards it.
  */
-export function probeRadiance(set: ProbeSet, probe: number, part: 'all' | 'reflected' | 'emitted' = 'all', scales?: readonly Three[]): Coefficients {
+export function probeRadiance(set: ProbeSet, probe: number, part: 'all' | 'reflected' | 'emitted' = 'all', scales?: readonly Triple[]): Coefficients {
   const from = set.probes[probe];
   if (!from) throw new SsphhError('bad-argument', `there is no probe ${probe}; there are ${set.probes.length}`);
-  if (scales && scales.length !== set.lightGroups.length) throw new SsphhError('bad-argument', `a scale for each of the ${set.lightGroups.length} light groups is needed`);
+  if (scales && scales.length !== set.lightGroups.length)
+    throw new SsphhError('bad-argument', `a scale for each of the ${set.lightGroups.length} light groups is needed`);
   const sum = new Float64Array(3 * coefficientCount(set.degree));
   from.groups.forEach(({ emitted, reflected }, g) => {
     const scale = scales?.[g] ?? set.lightGroups[g]!.scale;
@@ -36,7 +37,7 @@ export function probeRadiance(set: ProbeSet, probe: number, part: 'all' | 'refle
 }
 
 /** The tangents x and y of surface records at a unit normal (Duff et al., Building an Orthonormal Basis, Revisited, JCGT 2017). */
-export function tangentsOf(normal: Three): { x: [number, number, number]; y: [number, number, number] } {
+export function tangentsOf(normal: Triple): { x: [number, number, number]; y: [number, number, number] } {
   const nx = normal[0]!, ny = normal[1]!, nz = normal[2]!, sign = nz < 0 ? -1 : 1, a = -1 / (sign + nz), b = nx * ny * a;
   return { x: [1 + sign * nx * nx * a, sign * b, -sign * nx], y: [b, sign + ny * ny * a, -ny] };
 }

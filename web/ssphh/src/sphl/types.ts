@@ -1,3 +1,4 @@
+import { SsphhError } from '../errors.js';
 import type { Rgb } from '../sh.js';
 
 /** RGB function on the sphere: r₀ g₀ b₀ r₁ g₁ b₁ …, coefficient k = l(l+1) + m, in the basis of `shBasis`. */
@@ -95,4 +96,10 @@ export const names = {
   vizPaths: ['all', 'diffuse'], mode: ['realtime', 'mixed', 'baked', 'diffuse'], hierOperator: ['coefficient', 'mean', 'matrix', 'raw'],
 } as const;
 
-export const fileVersion = 7;
+const fileVersion = 7;
+
+/** Error `bad-version` for any other. */
+export function expectVersion(version: unknown): void {
+  if (version === fileVersion) return;
+  throw new SsphhError('bad-version', `the probe file is of version ${version}, not ${fileVersion}: bake it anew, or take a package that reads it`);
+}

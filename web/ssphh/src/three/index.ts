@@ -38,7 +38,8 @@ const vertexPlace = /* glsl */ `
 `;
 const fragmentLight = /* glsl */ `
 #if defined( RE_IndirectDiffuse )
-  irradiance += ssphhIntensity * ssphhIrradiance(vSsphhPosition, normalize((vec4(nonPerturbedNormal, 0.0) * viewMatrix).xyz), normalize((vec4(normal, 0.0) * viewMatrix).xyz));
+  irradiance += ssphhIntensity * ssphhIrradiance(vSsphhPosition, normalize((vec4(nonPerturbedNormal, 0.0) * viewMatrix).xyz),
+    normalize((vec4(normal, 0.0) * viewMatrix).xyz));
 #endif
 `;
 
