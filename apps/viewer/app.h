@@ -203,8 +203,9 @@ class App {
   float path_time = 0;
   bool path_plays = false;
   bool panels = true, help = false, place_mode = false;
-  bool follows_exposure = true;  ///< with every frame; else only where follow_exposure() is called
-  std::string open_tab;          ///< tab of the sidebar to bring to the front once; empty: none
+  bool follows_exposure = true;    ///< with every frame; else only where follow_exposure() is called
+  std::string open_tab = "Light";  ///< of the sidebar
+  float side_width = 0;            ///< of the sidebar, in heights of the text; 0: as suits the window
   Rect2 viewport;
   Drag drag;
   Question question;

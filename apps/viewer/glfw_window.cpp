@@ -80,6 +80,12 @@ GlfwWindow::GlfwWindow(const std::string& title, int width, int height) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  // No larger than the screen.
+  int x = 0, y = 0, most_wide = 0, most_high = 0;
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor())
+    glfwGetMonitorWorkarea(monitor, &x, &y, &most_wide, &most_high);
+  if (most_wide > 0 && most_high > 0)
+    width = std::min(width, most_wide), height = std::min(height, most_high);
   window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
   if (!window_) {
     glfwTerminate();

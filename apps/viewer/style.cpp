@@ -22,8 +22,13 @@ void load_font(float scale) {
   static const ImWchar ranges[] = {0x20,   0xff,   0x370,  0x3ff,  0x2013, 0x2044, 0x2080, 0x208e,
                                    0x2190, 0x2193, 0x2212, 0x2265, 0x25a0, 0x25ff, 0};
   std::error_code ignored;
-  if (std::filesystem::exists(font_file, ignored))
+  if (std::filesystem::exists(font_file, ignored)) {
     io.Fonts->AddFontFromFileTTF(font_file, 14 * scale, nullptr, ranges);
+  } else {
+    ImFontConfig config;
+    config.SizePixels = 13 * scale;
+    io.Fonts->AddFontDefault(&config);
+  }
 }
 
 void apply_look(float scale) {

@@ -102,7 +102,7 @@ void draw_file_dialog(App& app) {
   heading(title_of(dialog.what));
   if (ImGui::SmallButton("Up")) browser.up();
   ImGui::SameLine();
-  ImGui::TextUnformatted(browser.folder().c_str());
+  ImGui::TextWrapped("%s", browser.folder().c_str());
 
   // Where nothing is typed there is nothing to take back but the way here; not while the key is held.
   const bool opens = dialog.what == FileDialog::For::open;
@@ -120,14 +120,15 @@ void draw_file_dialog(App& app) {
   if (!dialog.replaces.empty())
     line = dialog.replaces.filename().string() + " is there already: choose it again to replace it.";
   ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1, 0.5f, 0.45f, 1));
-  ImGui::TextUnformatted(line.c_str());
+  ImGui::TextWrapped("%s", line.c_str());
   ImGui::PopStyleColor();
   const char* verb = opens ? "Open (Enter)" : dialog.replaces.empty() ? "Save (Enter)" : "Replace (Enter)";
   chosen |= ImGui::Button(verb);
-  ImGui::SameLine();
+  beside("Cancel (Escape)");
   const bool leaves = ImGui::Button("Cancel (Escape)") || pressed({GLFW_KEY_ESCAPE});
-  ImGui::SameLine();
-  ImGui::TextDisabled(opens ? "Tab completes, Backspace goes up" : "Tab completes, ../ goes up");
+  const char* hint = opens ? "Tab completes, Backspace goes up" : "Tab completes, ../ goes up";
+  beside(hint);
+  ImGui::TextDisabled("%s", hint);
   if (leaves) {
     app.dialog.reset();
   } else if (chosen) {

@@ -4,7 +4,6 @@
 #include <imgui.h>
 
 #include "app.h"
-#include "input.h"
 #include "panels.h"
 #include "widgets.h"
 
@@ -39,17 +38,19 @@ void draw_offer(App& app) {
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::Begin("offer", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::AlignTextToFramePadding();
+  // In a small window text wraps and the button stands below.
+  ImGui::PushTextWrapPos(0.9f * r.width);
   if (app.document.edits().sphls.empty()) {
     ImGui::TextUnformatted("This scene has no probes: only direct light is shown.");
   } else {
     ImGui::Text("%zu SPHLs, not lit yet.", app.document.edits().sphls.size());
-    ImGui::SameLine();
+    beside("Light them", 0.9f * r.width);
     if (ImGui::Button("Light them")) attempt(app, [&] { app.light_scene_probes(); });
   }
-  // In a small window the button stands below.
-  const float needed = 39 * ImGui::GetFontSize();
-  if (r.width > needed) ImGui::SameLine();
-  if (ImGui::Button("Place probes and light them")) attempt(app, [&] { app.place_probes(0); });
+  ImGui::PopTextWrapPos();
+  const char* place = r.width > 20 * ImGui::GetFontSize() ? "Place probes and light them" : "Place probes";
+  if (r.width > 39 * ImGui::GetFontSize()) ImGui::SameLine();
+  if (ImGui::Button(place)) attempt(app, [&] { app.place_probes(0); });
   ImGui::End();
 }
 
@@ -66,40 +67,6 @@ void draw_message(App& app) {
   ImGui::TextUnformatted(app.message.c_str());
   ImGui::PopTextWrapPos();
   if (app.message_is_error) ImGui::PopStyleColor();
-  ImGui::End();
-}
-
-void draw_sidebar(App& app, float y, float width, float height) {
-  ImGui::SetNextWindowPos({0, y});
-  ImGui::SetNextWindowSize({width, height});
-  ImGui::Begin("side", nullptr, fixed);
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {3, 4});
-  const bool tab_bar = ImGui::BeginTabBar("tabs");
-  ImGui::PopStyleVar();
-  if (tab_bar) {
-    const struct {
-      const char* name;
-      void (*draw)(App&);
-    } tabs[] = {{"Light", draw_light_panel},      {"Probes", draw_probe_panel},
-                {"Surfaces", draw_surface_panel}, {"Camera", draw_camera_panel},
-                {"Picture", draw_picture_panel},  {"Times", draw_stats_panel},
-                {"Scene", draw_scene_panel}};
-    for (const auto& tab : tabs) {
-      const ImGuiTabItemFlags flags =
-          app.open_tab == tab.name ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None;
-      if (!ImGui::BeginTabItem(tab.name, nullptr, flags)) continue;
-      ImGui::BeginChild("panel");
-      if (app.scene_open()) {
-        tab.draw(app);
-      } else {
-        note("No scene is open. Drop a file on the window.");
-      }
-      ImGui::EndChild();
-      ImGui::EndTabItem();
-    }
-    app.open_tab.clear();
-    ImGui::EndTabBar();
-  }
   ImGui::End();
 }
 
@@ -121,36 +88,14 @@ void draw_picture(const App& app) {
     list.AddImage(texture_id(outline->id()), from, to, {0, 1}, {1, 0});
 }
 
-void draw_help(App& app) {
-  if (!app.help) return;
-  const Rect2& r = app.viewport;
-  ImGui::SetNextWindowPos({r.x + 0.5f * r.width, r.y + 0.5f * r.height}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowBgAlpha(0.93f);
-  ImGui::Begin("help", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize);
-  int count = 0;
-  const Shortcut* list = shortcuts(count);
-  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-    for (int i = 0; i < count; ++i) {
-      ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextColored({0.95f, 0.72f, 0.38f, 1}, "%s", list[i].keys);
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(list[i].what);
-    }
-    ImGui::EndTable();
-  }
-  ImGui::End();
-}
-
 void draw_panels(App& app) {
   const auto width = static_cast<float>(app.window.width()), height = static_cast<float>(app.window.height());
   float top = 0, left = 0, bottom = 0;
   if (app.panels) {
     draw_menu(app);
     top = ImGui::GetFrameHeight();
-    left = std::min(29 * ImGui::GetFontSize(), 0.4f * width);
     bottom = ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().WindowPadding.y;
-    draw_sidebar(app, top, left, height - top);
+    left = draw_sidebar(app, top, height - top);
   }
   app.viewport = {left, top, std::max(width - left, 1.0f), std::max(height - top - bottom, 1.0f)};
   if (app.panels) draw_time_bar(app);

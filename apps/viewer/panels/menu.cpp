@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -106,9 +107,17 @@ void draw_menu(App& app) {
     ImGui::EndMenu();
   }
   if (app.scene_open()) {
-    const std::string title = app.document.source;
-    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(title.c_str()).x - 12);
-    ImGui::TextDisabled("%s", title.c_str());
+    // The whole path, its name, or nothing: what there is room for.
+    const float margin = std::max(12.0f, 1.5f * ImGui::GetStyle().WindowPadding.x);
+    const float room = ImGui::GetWindowWidth() - ImGui::GetCursorPosX() - margin;
+    const std::string& source = app.document.source;
+    for (const std::string& title : {source, std::filesystem::path(source).filename().string()}) {
+      const float width = ImGui::CalcTextSize(title.c_str()).x;
+      if (width > room) continue;
+      ImGui::SameLine(ImGui::GetWindowWidth() - width - margin);
+      ImGui::TextDisabled("%s", title.c_str());
+      break;
+    }
   }
   ImGui::EndMainMenuBar();
 }

@@ -12,6 +12,8 @@ void draw_panels(App& app);
 void draw_picture(const App& app);
 
 void draw_menu(App& app);
+/// From `y` on, at the window's left; its width [pixels].
+float draw_sidebar(App& app, float y, float height);
 void draw_light_panel(App& app);
 void draw_probe_panel(App& app);
 void draw_surface_panel(App& app);

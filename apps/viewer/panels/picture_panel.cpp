@@ -27,10 +27,10 @@ void draw_truth(App& app) {
   const auto& difference = app.picture.shown_difference();
   if (!difference || app.settings.debug == DebugView::leak) return;
   const metrics::ImageError& e = difference->error;
-  ImGui::Text("relMSE  %.4g", e.relmse);
-  ImGui::Text("mean |difference|  %.4g", e.mae);
-  ImGui::Text("mean ratio  %.3f %.3f %.3f", e.mean_ratio[0], e.mean_ratio[1], e.mean_ratio[2]);
-  ImGui::Text("last colour  %.3g", static_cast<double>(difference->scale));
+  ImGui::TextWrapped("relMSE  %.4g", e.relmse);
+  ImGui::TextWrapped("mean |difference|  %.4g", e.mae);
+  ImGui::TextWrapped("mean ratio  %.3f %.3f %.3f", e.mean_ratio[0], e.mean_ratio[1], e.mean_ratio[2]);
+  ImGui::TextWrapped("last colour  %.3g", static_cast<double>(difference->scale));
   note("The truth's noise counts as difference: let it take some hundred samples.");
 }
 

@@ -145,8 +145,8 @@ void draw_selected(App& app) {
   if (probe < 0) return;
   const probes::Probe& p = app.light.set().probes[static_cast<std::size_t>(probe)];
   const vec3 mean = p.self.empty() ? vec3(0) : p.self[0] * 0.28209479f;
-  ImGui::Text("mean radiance  %.3g %.3g %.3g", mean.x, mean.y, mean.z);
-  ImGui::Text("degree %d, %zu edges", p.self.degree(), p.edges.size());
+  ImGui::TextWrapped("mean radiance  %.3g %.3g %.3g", mean.x, mean.y, mean.z);
+  ImGui::TextWrapped("degree %d, %zu edges", p.self.degree(), p.edges.size());
   if (!p.self.empty()) draw_coefficients(p.self);
   if (app.light.set().hierarchy) {
     note("with its neighbours' light:");

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #define GLFW_INCLUDE_NONE
@@ -7,6 +8,7 @@
 
 #include "app.h"
 #include "panels.h"
+#include "widgets.h"
 
 namespace ssphh::viewer {
 namespace {
@@ -20,26 +22,30 @@ bool choice(const std::string& label, std::initializer_list<int> keys) {
   return chosen;
 }
 
+float text_width(const App& app) {
+  return std::min(30 * ImGui::GetFontSize(), 0.9f * static_cast<float>(app.window.width()));
+}
+
 /// What an earlier session left.
-std::optional<Answer> ask_to_recover(const Kept& kept) {
+std::optional<Answer> ask_to_recover(const App& app, const Kept& kept) {
   const char* what = kept.scene && kept.probes ? "changes and a bake" : kept.scene ? "changes" : "a bake";
-  ImGui::PushTextWrapPos(30 * ImGui::GetFontSize());
+  ImGui::PushTextWrapPos(text_width(app));
   ImGui::TextUnformatted(kept.source.c_str());
   ImGui::Text("An earlier session ended with %s that no file has, kept at %s.", what, kept.when.c_str());
   ImGui::PopTextWrapPos();
   ImGui::Spacing();
   std::optional<Answer> answer;
   if (choice("Recover (R)", {GLFW_KEY_R, GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER})) answer = Answer::recover;
-  ImGui::SameLine();
+  beside("Discard (D)", text_width(app));
   if (choice("Discard (D)", {GLFW_KEY_D})) answer = Answer::discard;
-  ImGui::SameLine();
+  beside("Ask again later (Escape)", text_width(app));
   if (choice("Ask again later (Escape)", {GLFW_KEY_ESCAPE})) answer = Answer::stay;
   return answer;
 }
 
 std::optional<Answer> ask_to_lose(const App& app, const std::string& lost) {
   const char* then = app.question.then == Question::Then::close ? "close" : "open";
-  ImGui::PushTextWrapPos(30 * ImGui::GetFontSize());
+  ImGui::PushTextWrapPos(text_width(app));
   ImGui::TextUnformatted(lost.c_str());
   if (app.question.then == Question::Then::open) ImGui::Text("To be opened: %s", app.question.source.c_str());
   ImGui::PopTextWrapPos();
@@ -49,13 +55,14 @@ std::optional<Answer> ask_to_lose(const App& app, const std::string& lost) {
     const std::string how = !app.document.dirty()       ? "Saving makes a probe file in the current folder."
                             : app.document.file.empty() ? "Saving makes a new GLB file in the current folder."
                                                         : "Saving replaces " + app.document.file;
-    ImGui::TextDisabled("%s", how.c_str());
+    note(how, text_width(app));
     if (choice(fmt::format("Save and {} (S)", then), {GLFW_KEY_S, GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER}))
       answer = Answer::save;
-    ImGui::SameLine();
   }
-  if (choice(fmt::format("Discard and {} (D)", then), {GLFW_KEY_D})) answer = Answer::discard;
-  ImGui::SameLine();
+  const std::string discard = fmt::format("Discard and {} (D)", then);
+  if (app.unsaved()) beside(discard.c_str(), text_width(app));
+  if (choice(discard, {GLFW_KEY_D})) answer = Answer::discard;
+  beside("Stay (Escape)", text_width(app));
   if (choice("Stay (Escape)", {GLFW_KEY_ESCAPE})) answer = Answer::stay;
   return answer;
 }
@@ -79,7 +86,8 @@ void draw_question(App& app) {
     if (app.question.then != Question::Then::nothing) app.answer(Answer::discard);
     return;
   }
-  const std::optional<Answer> answer = recovers ? ask_to_recover(app.question.kept) : ask_to_lose(app, lost);
+  const std::optional<Answer> answer =
+      recovers ? ask_to_recover(app, app.question.kept) : ask_to_lose(app, lost);
   if (answer) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
   if (answer) app.answer(*answer);

@@ -32,23 +32,23 @@ void draw_graph(const FrameTimes::Stage& stage) {
 void draw_stats_panel(App& app) {
   heading("Last frame");
   const realtime::FrameStats& s = app.last_stats;
-  ImGui::Text("%s", app.report.renderer.c_str());
-  ImGui::Text("%d × %d pixels", app.picture.width(), app.picture.height());
-  ImGui::Text("%llu draw calls, %llu triangles", static_cast<unsigned long long>(s.draw_calls),
-              static_cast<unsigned long long>(s.triangles));
-  ImGui::Text("%.1f kB uploaded, %d shadow maps drawn", static_cast<double>(s.bytes_uploaded) / 1024,
-              s.shadow_maps_drawn);
+  ImGui::TextWrapped("%s", app.report.renderer.c_str());
+  ImGui::TextWrapped("%d × %d pixels", app.picture.width(), app.picture.height());
+  ImGui::TextWrapped("%llu draw calls, %llu triangles", static_cast<unsigned long long>(s.draw_calls),
+                     static_cast<unsigned long long>(s.triangles));
+  ImGui::TextWrapped("%.1f kB uploaded, %d shadow maps drawn", static_cast<double>(s.bytes_uploaded) / 1024,
+                     s.shadow_maps_drawn);
   if (app.light.live()) {
     const transport::RelightReport& r = app.light.report();
-    ImGui::Text("relight %.1f ms: pose %.1f, direct %.1f,", r.total_ms(), r.pose_ms, r.direct_ms);
-    ImGui::Text("solve %.1f (%d steps), project %.1f", r.solve_ms, r.solve.iterations, r.project_ms);
+    ImGui::TextWrapped("relight %.1f ms: pose %.1f, direct %.1f,", r.total_ms(), r.pose_ms, r.direct_ms);
+    ImGui::TextWrapped("solve %.1f (%d steps), project %.1f", r.solve_ms, r.solve.iterations, r.project_ms);
   }
   heading("Times [ms], last 240 frames drawn");
   for (const FrameTimes::Stage& stage : app.times.stages()) draw_graph(stage);
   static char file[256] = "times.csv";
   file_row("file", file);
   if (ImGui::Button("Save .csv or .json")) attempt(app, [&] { app.save_stats(file); });
-  ImGui::SameLine();
+  beside("Begin anew");
   if (ImGui::Button("Begin anew")) app.times.clear();
 }
 

@@ -10,13 +10,24 @@
 namespace ssphh::viewer {
 namespace {
 
+/// Of the pixels that are left.
 void draw_job(App& app, const JobStatus& status) {
-  const std::string text =
-      status.fraction < 0 ? fmt::format("{} … {:.0f} s", status.name, status.seconds)
-                          : fmt::format("{}: {} {:.0f} %", status.name, status.stage, 100 * status.fraction);
-  ImGui::SetNextItemWidth(18 * ImGui::GetFontSize());
-  ImGui::ProgressBar(status.fraction < 0 ? 0.0f : static_cast<float>(status.fraction),
-                     {18 * ImGui::GetFontSize(), 0}, text.c_str());
+  const float em = ImGui::GetFontSize();
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float button = ImGui::CalcTextSize("Cancel").x + 2 * style.FramePadding.x;
+  const float width =
+      std::clamp(ImGui::GetContentRegionAvail().x - button - style.ItemSpacing.x, 3 * em, 18 * em);
+  const bool known = status.fraction >= 0;
+  const std::string amount =
+      known ? fmt::format("{:.0f} %", 100 * status.fraction) : fmt::format("{:.0f} s", status.seconds);
+  const std::string longest = known ? fmt::format("{}: {} {}", status.name, status.stage, amount)
+                                    : fmt::format("{} … {}", status.name, amount);
+  // The longest that fits
+  std::string text = amount;
+  for (const std::string& t : {fmt::format("{} {}", status.name, amount), longest})
+    if (ImGui::CalcTextSize(t.c_str()).x + 2 * style.FramePadding.x <= width) text = t;
+  ImGui::ProgressBar(known ? static_cast<float>(status.fraction) : 0.0f, {width, 0}, text.c_str());
+  if (text != longest) tip(longest.c_str());
   ImGui::SameLine();
   if (ImGui::Button("Cancel")) app.job.cancel();
 }
@@ -28,8 +39,14 @@ void draw_summary(const App& app) {
     if (stage.name == "frame") frame = static_cast<double>(stage.ms.median());
     if (stage.name == "relight") relight = static_cast<double>(stage.ms.median());
   }
-  const std::string text = fmt::format("{} probes   frame {:.1f} ms   relight {:.1f} ms",
-                                       app.light.empty() ? 0 : app.light.set().probes.size(), frame, relight);
+  std::string text = fmt::format("{} probes", app.light.empty() ? 0 : app.light.set().probes.size());
+  const std::string more[] = {fmt::format("   frame {:.1f} ms", frame),
+                              fmt::format("   relight {:.1f} ms", relight)};
+  for (const std::string& part : more) {
+    if (ImGui::CalcTextSize((text + part).c_str()).x > ImGui::GetContentRegionAvail().x) break;
+    text += part;
+  }
+  if (ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x) return;
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", text.c_str());
 }

@@ -27,21 +27,25 @@ void set(App& app, const SettingName& setting, const std::string& value) {
 void row(const char* label) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(label);
-  ImGui::SameLine(0.36f * ImGui::GetWindowContentRegionMax().x);
+  const float width = ImGui::GetWindowContentRegionMax().x;
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  // Where there is room for one beside the other
+  if (width > 20 * ImGui::GetFontSize())
+    ImGui::SameLine(std::max(0.36f * width, ImGui::CalcTextSize(label).x + gap));
   ImGui::SetNextItemWidth(-1);
 }
 
 void heading(const char* text) {
   ImGui::Spacing();
   ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.95f, 0.72f, 0.38f, 1));
-  ImGui::TextUnformatted(text);
+  ImGui::TextWrapped("%s", text);
   ImGui::PopStyleColor();
   ImGui::Separator();
 }
 
-void note(const std::string& text) {
+void note(const std::string& text, float width) {
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::PushTextWrapPos(0);
+  ImGui::PushTextWrapPos(width);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
@@ -49,6 +53,13 @@ void note(const std::string& text) {
 
 bool wide_button(const char* label) {
   return ImGui::Button(label, {-1, 0});
+}
+
+void beside(const char* label, float room) {
+  const float width = ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x;
+  const float end = ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + width;
+  if (room == 0) room = ImGui::GetWindowContentRegionMax().x;
+  if (end <= ImGui::GetWindowPos().x + room) ImGui::SameLine();
 }
 
 void tip(const char* text) {

@@ -15,17 +15,21 @@ void setting_widget(App& app, const char* label, const char* name);
 void setting_slider(App& app, const char* label, const char* name, float low, float high,
                     const char* format = "%.2f");
 
-/// Starts a row: the label on the left, the next item fills the rest.
+/// Starts a row: the label on the left, the next item fills the rest; in a narrow panel it stands below.
 void row(const char* label);
 
 /// Heading of a part of a panel.
 void heading(const char* text);
 
-/// A grey note that wraps.
-void note(const std::string& text);
+/// A grey note that wraps at so many pixels of the window, or where its content ends.
+void note(const std::string& text, float width = 0);
 
 /// A button over the panel's full width; true when pressed.
 bool wide_button(const char* label);
+
+/// The button of this label, which comes next, stands in the line of the item before if it ends within `room`
+/// pixels of the window; 0: those that its content has.
+void beside(const char* label, float room = 0);
 
 /// Explains the item before when the mouse rests on it.
 void tip(const char* text);

@@ -27,12 +27,14 @@
 
 namespace ssphh::viewer {
 
-/// ImGui's own font, so that what is drawn does not depend on the fonts of a machine.
+/// ImGui's own font, so that what is drawn does not depend on the fonts of a machine; with a scale that of a
+/// screen so dense.
 class StillWindow : public Window {
  public:
-  StillWindow(int width, int height) : width_(width), height_(height) {
+  StillWindow(int width, int height, float scale = 0) : width_(width), height_(height) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
+    if (scale > 0) load_font(scale);
     ImGui::GetIO().Fonts->Build();
     // What ImGui itself does with keys while text is typed, as ImGui_ImplGlfw tells it.
     constexpr std::pair<int, int> keys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
@@ -40,7 +42,7 @@ class StillWindow : public Window {
                                             {ImGuiKey_Enter, GLFW_KEY_ENTER},
                                             {ImGuiKey_Escape, GLFW_KEY_ESCAPE}};
     for (const auto& [key, number] : keys) ImGui::GetIO().KeyMap[key] = number;
-    apply_look(1);
+    apply_look(scale > 0 ? scale : 1);
   }
   ~StillWindow() override { ImGui::DestroyContext(); }
 
@@ -101,10 +103,10 @@ class AppStage : public testing::Test {
   }
 
   /// An App without a scene.
-  App& start(int width, int height) {
+  App& start(int width, int height, float scale = 0) {
     app_.reset();
     window_.reset();
-    window_.emplace(width, height);
+    window_.emplace(width, height, scale);
     app_.emplace(*window_, options_, Control{});
     return *app_;
   }

@@ -30,7 +30,7 @@ class Reader {
     const ImDrawIdx* index = list.IdxBuffer.Data + command.IdxOffset;
     int first = -1, last = -1;
     const auto end = [&] {
-      if (first >= 0) add(list.VtxBuffer.Data + command.VtxOffset, first, last);
+      if (first >= 0) add(list.VtxBuffer.Data + command.VtxOffset, first, last, command.ClipRect);
     };
     for (unsigned i = 0; i + 2 < command.ElemCount; i += 3) {
       const auto [low, high] = std::minmax({int{index[i]}, int{index[i + 1]}, int{index[i + 2]}});
@@ -42,10 +42,10 @@ class Reader {
   }
 
  private:
-  void add(const ImDrawVert* corners, int first, int last) {
+  void add(const ImDrawVert* corners, int first, int last, const ImVec4& clip) {
     if (last - first == 3) {
       const auto glyph = glyphs_.find({corners[first].uv.x, corners[first].uv.y});
-      if (glyph != glyphs_.end()) return add_letter(*glyph->second, corners[first]);
+      if (glyph != glyphs_.end()) return add_letter(*glyph->second, corners + first, clip);
     }
     text_ = false;
     DrawnThing thing{"", corners[first].pos, corners[first].pos, corners[first].col, last - first + 1};
@@ -59,7 +59,8 @@ class Reader {
     things.push_back(thing);
   }
 
-  void add_letter(const ImFontGlyph& glyph, const ImDrawVert& corner) {
+  void add_letter(const ImFontGlyph& glyph, const ImDrawVert* corners, const ImVec4& clip) {
+    const ImDrawVert& corner = corners[0];
     const ImVec2 pen{corner.pos.x - glyph.X0, corner.pos.y - glyph.Y0};
     const float gap = pen.x - next_.x;
     const bool goes_on = text_ && next_.y == pen.y && gap > -0.5f && gap < 1.5f * glyph.AdvanceX &&
@@ -72,6 +73,11 @@ class Reader {
     else
       things.back().text += fmt::format("<{:x}>", c);
     next_ = {pen.x + glyph.AdvanceX, pen.y};
+    const ImVec2 from = corner.pos, to = corners[2].pos;
+    things.back().end = next_.x;
+    if (to.y > clip.y && from.y < clip.w)
+      things.back().cut |=
+          to.x - from.x < glyph.X1 - glyph.X0 - 0.01f || to.x > clip.z + 0.5f || pen.x < clip.x - 0.5f;
     text_ = true;
   }
 

@@ -14,6 +14,8 @@ struct DrawnThing {
   ImVec2 from, to;   ///< box; of a text the upper left corner of its line, twice
   unsigned color;    ///< 0xRRGGBBAA, of the most opaque corner
   int corners = 0;
+  float end = 0;     ///< of a text: where its last letter ends
+  bool cut = false;  ///< of a text: a letter is not whole, at its right or left
 };
 
 /// Of one list, e.g. ImGui::GetBackgroundDrawList().

@@ -1,0 +1,128 @@
+// Every word of the window is whole, on small screens and on dense ones.
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+
+#include "panel_stage.h"
+
+namespace ssphh::viewer {
+namespace {
+
+constexpr const char* names[] = {"Light", "Probes", "Surfaces", "Camera", "Picture", "Times", "Scene"};
+
+struct Screen {
+  int width, height;
+  float scale;
+};
+constexpr Screen screens[] = {{800, 600, 1}, {1280, 800, 1}, {800, 600, 2}, {1280, 800, 2}};
+
+class PanelsFit : public PanelStage {
+ protected:
+  void open_on(const Screen& screen) {
+    const std::shared_ptr<const scene::Scene> scene = app().document.scene;
+    start(screen.width, screen.height, screen.scale);
+    app().take_document(make_document("builtin:stage", *scene, 0));
+    take_probes();
+    where_ = fmt::format("{}x{}, {}x: ", screen.width, screen.height, screen.scale);
+  }
+  /// Of what is drawn now: texts that are not whole, and those that a widget in their line covers.
+  void expect_whole(const std::string& what) {
+    const ImDrawData& data = *ImGui::GetDrawData();
+    for (int i = 0; i < data.CmdListsCount; ++i) expect_whole(what, drawn_things(*data.CmdLists[i]));
+  }
+  void expect_whole(const std::string& what, const std::vector<DrawnThing>& things) {
+    for (const DrawnThing& thing : things) {
+      if (thing.text.empty()) continue;
+      EXPECT_FALSE(thing.cut) << where_ << what << ": \"" << thing.text << "\" is cut";
+      for (const DrawnThing& over : things) {
+        const bool frame = over.text.empty() && over.color == 0x303032ff && over.from.y < thing.from.y + 3 &&
+                           over.to.y > thing.from.y + 3;
+        EXPECT_FALSE(frame && over.from.x > thing.from.x && over.from.x < thing.end - 0.5f)
+            << where_ << what << ": \"" << thing.text << "\" goes on under a widget";
+      }
+    }
+  }
+
+  std::string where_;
+};
+
+TEST_F(PanelsFit, EveryWordOfEveryTab) {
+  for (const Screen& screen : screens) {
+    open_on(screen);
+    app().settings.hier = true;
+    app().settings.show = Show::pixelated;
+    append(app().bookmarks, {"mark", 0, 0.5f, app().view});
+    append(app().bookmarks, {"mark", 0, 0.5f, app().view});
+    for (const double ms : {1.0, 4.0}) app().times.add("frame", ms), app().times.add("relight", 2 * ms);
+    for (const char* tab : names) {
+      for (const Selection& chosen : {Selection{Kind::light, 1}, {Kind::sphl, 3}, {Kind::material, 2}}) {
+        app().selection = chosen;
+        open(tab);
+        expect_whole(tab);
+      }
+      // What lies below, too
+      while (std::string(tab) != "Scene") {
+        const DrawnThing before = all_things().back();
+        window_->wheel = -4;
+        mouse(30, 0.7f * static_cast<float>(screen.height));
+        frames(1);
+        expect_whole(tab);
+        const DrawnThing after = all_things().back();
+        if (before.text == after.text && before.from.y == after.from.y) break;
+      }
+    }
+    for (const char* name : names) EXPECT_TRUE(shows(name)) << where_ << "no tab is hidden";
+  }
+}
+
+TEST_F(PanelsFit, HelpQuestionsMessagesAndWork) {
+  for (const Screen& screen : screens) {
+    open_on(screen);
+    rest();
+    app().help = true;
+    rest();
+    expect_whole("help");
+    const DrawnThing first = text("click");
+    EXPECT_GE(first.from.y, 0) << where_;
+    if (screen.scale == 1) {
+      EXPECT_LT(text("Escape").from.y + 14, static_cast<float>(screen.height)) << where_;
+    }
+    app().help = false;
+    app().say(
+        "a message of some length that tells what was done and where it was written to, for whom it minds");
+    rest();
+    expect_whole("message");
+    app().light.clear();
+    for (int i = 0; i < 8; ++i) rest();
+    expect_whole("offer");
+    app().question = {Question::Then::recover, {}, {"a", "/home/someone/scenes/kitchen.glb", "", "12:34"}};
+    rest();
+    expect_whole("question");
+    app().question = {};
+    rest();
+    app().ask_for_file(FileDialog::For::scene);
+    rest();
+    expect_whole("files");
+    app().dialog.reset();
+    rest();
+  }
+}
+
+TEST_F(PanelsFit, TheEdgeOfThePanelsFollowsTheMouse) {
+  rest();
+  const float before = app().viewport.x;
+  drag(before - 2, 700, before + 98, 700);
+  EXPECT_NEAR(app().viewport.x, before + 98, 3);
+  drag(app().viewport.x - 2, 700, 2, 700);
+  EXPECT_GT(app().viewport.x, 100) << "words still have room";
+  drag(app().viewport.x - 2, 700, 990, 700);
+  EXPECT_NEAR(app().viewport.x, 750, 1) << "a part of the picture stays";
+  // Wider panels show their labels beside their fields.
+  app().side_width = 0;
+  rest();
+  EXPECT_EQ(app().viewport.x, before);
+}
+
+}  // namespace
+}  // namespace ssphh::viewer
