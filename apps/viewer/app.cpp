@@ -55,7 +55,7 @@ double App::turn(const InjectedInput& input) {
   update_time(std::min(elapsed, 0.25));
 
   const bool busy = job.running() || reference.status().running;
-  const bool moving = settings.play || path_plays || light_stale_ || waiting_maps_ > 0;
+  const bool moving = settings.play || path_plays || light_stale_ || waiting_maps_ > 0 || drawing_;
   if (redraw_ == 0 && !moving) return busy ? 0.1 : 0.5;
   redraw_ = std::max(redraw_ - 1, 0);
 
@@ -68,13 +68,8 @@ double App::turn(const InjectedInput& input) {
 
   // Bring everything up to date with it.
   if (scene_open()) {
-    resize_picture();
-    apply_edits();
-    update_light();
     draw_scene();
-    draw_outline();
     update_visible();
-    update_truth();
     draw_picture(*this);
     draw_overlay(*this, visible_);
     update_title();
@@ -165,13 +160,39 @@ void App::update_light() {
   times.add("probe upload", update.upload_ms);
 }
 
-void App::draw_scene() {
+/// Whether the picture on the screen, or the one that is being drawn, is not that of now.
+bool App::picture_stale() const {
   const bool changed = !drawn_ || !(drawn_->view == view) || !same_picture(drawn_->settings, settings) ||
                        (settings.balls && !(drawn_->selection == selection)) ||
                        needs_truth(drawn_->settings) != needs_truth(settings) ||
                        drawn_->width != picture.width() || drawn_->height != picture.height();
   const bool linear_missing = needs_truth(settings) && picture.linear().empty();
-  if (!changed && !scene_dirty_ && waiting_maps_ == 0 && !linear_missing) return smooth();
+  return changed || scene_dirty_ || waiting_maps_ > 0 || linear_missing;
+}
+
+/// A picture that is begun is drawn to its end, however often the view changes meanwhile, so that something
+/// moves; one of those for smooth edges is dropped.
+void App::draw_scene() {
+  if (!awaits_picture()) {
+    resize_picture();
+    apply_edits();
+    update_light();
+    if (picture_stale()) {
+      begin_picture();
+    } else if (!drawing_ && smooths() && picture.averaged() < smooth_pictures) {
+      realtime::FrameSettings moved = frame_settings(settings);
+      moved.shift = place_in_pixel(picture.averaged());
+      picture.begin(*renderer_, pose_of(view), moved);
+      drawing_ = Drawing{true, 0};
+    }
+  }
+  if (drawing_) continue_picture();
+  if (awaits_picture()) return;
+  draw_outline();
+  update_truth();
+}
+
+void App::begin_picture() {
   const bool light_path_changed = scene_dirty_ || !drawn_ || !(drawn_->view == view) ||
                                   drawn_->width != picture.width() || drawn_->height != picture.height();
   if (light_path_changed) {
@@ -179,49 +200,55 @@ void App::draw_scene() {
     reference.clear();
     last_change_ = window.seconds();
   }
-  const auto start = window.seconds();
-  last_stats = picture.draw(*renderer_, pose_of(view), frame_settings(settings), needs_truth(settings));
-  waiting_maps_ = last_stats.shadow_maps_waiting;
-  times.add("frame", 1e3 * (window.seconds() - start));
-  for (const realtime::PassTime& pass : last_stats.passes)
-    times.add(pass.name, std::max(pass.cpu_ms, pass.gpu_ms));
-
-  draw_balls();
-  if (smooths()) picture.average();
+  picture.begin(*renderer_, pose_of(view), frame_settings(settings));
+  drawing_ = Drawing{false, 0};
   drawn_ = {view, settings, selection, picture.width(), picture.height()};
   scene_dirty_ = false;
+}
+
+/// As many pieces as leave time for the interface, at least one; where nobody sits there, all.
+void App::continue_picture() {
+  const double start = window.seconds(), patience = by_hand() ? 0.02 : 1e30;
+  const bool linear = !drawing_->smooth && needs_truth(drawn_->settings);
+  bool more = true;
+  while ((more = picture.step(*renderer_, linear)) && window.seconds() - start < patience) {
+  }
+  drawing_->seconds += window.seconds() - start;
+  if (!more) finish_picture(*std::exchange(drawing_, std::nullopt));
+  redraw();
+}
+
+void App::finish_picture(const Drawing& done) {
+  draw_balls();
+  if (done.smooth) return picture.average();
+  last_stats = renderer_->stats();
+  waiting_maps_ = last_stats.shadow_maps_waiting;
+  times.add("frame", 1e3 * done.seconds);
+  for (const realtime::PassTime& pass : last_stats.passes)
+    times.add(pass.name, std::max(pass.cpu_ms, pass.gpu_ms));
+  if (drawn_->settings.antialias && !needs_truth(drawn_->settings)) picture.average();
   truth_dirty_ = true;
   // Not of those that follow for the mean: a moved one may stand on the other side of a quarter.
   suits_ = suitable_exposure();
   if (follows_exposure) follow_exposure();
-  redraw();
 }
 
-/// Another picture of the same for the mean: one a turn, so that the mouse never waits for all of them.
-void App::smooth() {
-  if (!smooths() || picture.averaged() >= smooth_pictures) return;
-  realtime::FrameSettings moved = frame_settings(settings);
-  moved.shift = place_in_pixel(picture.averaged());
-  picture.draw(*renderer_, pose_of(view), moved, false);
-  draw_balls();
-  picture.average();
-  redraw();
-}
-
+/// Into the picture that is whole now, as it was when that was begun.
 void App::draw_balls() {
-  if (settings.balls && !light.empty()) {
-    if (balls_dirty_ || !drawn_ || drawn_->settings.ball != settings.ball)
-      balls_->update(light.set(), settings.ball);
-    balls_dirty_ = false;
-    BallsGl::Look look;
-    look.view = view;
-    look.radius = settings.ball_size > 0 ? settings.ball_size : default_ball_size(light.set());
-    look.lobes = settings.lobes;
-    look.tone = shown_tone(settings);
-    look.selected = selection.is(Kind::sphl) ? probe_of_sphl(*this, selection.index) : -1;
-    balls_->draw(light.set(), look, {renderer_->depth_texture(), renderer_->view_projection()},
-                 picture.framebuffer(), picture.width(), picture.height());
-  }
+  const Settings& shown = drawn_->settings;
+  if (!shown.balls || light.empty()) return;
+  if (balls_dirty_ || balls_are_ != shown.ball) balls_->update(light.set(), shown.ball);
+  balls_dirty_ = false;
+  balls_are_ = shown.ball;
+  const Selection& chosen = drawn_->selection;
+  BallsGl::Look look;
+  look.view = drawn_->view;
+  look.radius = shown.ball_size > 0 ? shown.ball_size : default_ball_size(light.set());
+  look.lobes = shown.lobes;
+  look.tone = shown_tone(shown);
+  look.selected = chosen.is(Kind::sphl) ? probe_of_sphl(*this, chosen.index) : -1;
+  balls_->draw(light.set(), look, {renderer_->depth_texture(), renderer_->view_projection()},
+               picture.framebuffer(), picture.width(), picture.height());
 }
 
 /// Of the frame that was drawn last.
@@ -304,7 +331,8 @@ bool App::settled() const {
 
 bool App::current() const {
   if (!scene_open()) return job.idle();
-  if (!job.idle() || light_stale_ || scene_dirty_ || waiting_maps_ > 0 || !drawn_) return false;
+  if (!job.idle() || light_stale_ || scene_dirty_ || waiting_maps_ > 0 || !drawn_ || awaits_picture())
+    return false;
   if (!(drawn_->view == view) || !same_picture(drawn_->settings, settings) || coarse_) return false;
   return !needs_truth(settings) || (reference.image().passes >= settings.truth_passes && !truth_dirty_);
 }

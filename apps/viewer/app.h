@@ -232,11 +232,13 @@ class App {
   void update_time(double seconds);
   void apply_edits();
   void update_light();
+  bool picture_stale() const;
   void draw_scene();
+  void begin_picture();
+  void continue_picture();
   void draw_balls();
   void draw_outline();
   bool smooths() const { return settings.antialias && !needs_truth(settings); }
-  void smooth();
   void update_truth();
   void update_visible();
   void finish_frame();
@@ -262,7 +264,16 @@ class App {
     Selection selection;
     int width = 0, height = 0;
   };
-  scene::Bounds clicked_;  ///< part of the selected object that was clicked; empty: it was not
+  /// The picture that is being drawn, piece by piece.
+  struct Drawing {
+    bool smooth = false;  ///< another one for the mean
+    double seconds = 0;   ///< so far
+  };
+  void finish_picture(const Drawing& done);
+  bool awaits_picture() const { return drawing_ && !drawing_->smooth; }
+  std::optional<Drawing> drawing_;
+  std::optional<Ball> balls_are_;  ///< coloured by
+  scene::Bounds clicked_;          ///< part of the selected object that was clicked; empty: it was not
   std::optional<Drawn> drawn_;
   /// What the outline was drawn with, and when in the scene.
   std::optional<std::pair<Drawn, float>> outlined_;

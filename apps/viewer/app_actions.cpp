@@ -79,6 +79,7 @@ void App::take_document(Document next) {
   applied_materials_ = document.edits().materials;
   applied_sphls_ = document.edits().sphls;
   drawn_.reset();
+  drawing_.reset();
   exposure_.forget();
   visible_seen_.reset();
   outlined_.reset();

@@ -1,5 +1,7 @@
 #include "average_gl.h"
 
+#include <utility>
+
 #include <ssphh/gl/draw.h>
 #include <ssphh/gl/program.h>
 #include <ssphh/gl/vertex_array.h>
@@ -78,6 +80,12 @@ void AverageGl::add(const gl::Texture& picture) {
   d.draw(d.add, picture, d.sum_target, count_ == 0 ? gl::Blend::off : gl::Blend::add);
   d.draw(d.mean, d.sum, d.shown_target, gl::Blend::off);
   ++count_;
+}
+
+gl::Texture AverageGl::take() {
+  count_ = 0;
+  data_->sum = {};
+  return std::move(data_->shown);
 }
 
 const gl::Texture& AverageGl::mean() const {

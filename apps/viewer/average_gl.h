@@ -25,6 +25,8 @@ class AverageGl {
   void add(const gl::Texture& picture);
   /// Of all since clear(), at least one; encoded as they are.
   const gl::Texture& mean() const;
+  /// mean(), and forgets all pictures.
+  gl::Texture take();
 
  private:
   struct Data;

@@ -15,13 +15,18 @@ void PictureTexture::upload(const image::Rgba8& picture) {
 void Picture::resize(int width, int height) {
   if (width == width_ && height == height_) return;
   width_ = width, height_ = height;
+  if (averaged() > 0) {
+    before_ = average_->take();
+  } else if (whole_) {
+    before_ = std::move(color_);
+  }
+  whole_ = false;
   color_ = gl::Texture(gl::Format::rgba8, width, height);
   color_.set_filter(true);
   depth_ = gl::Texture(gl::Format::depth32f, width, height);
   const gl::Texture* const colors[] = {&color_};
   framebuffer_ = gl::Framebuffer(colors, &depth_);
   linear_ = {};
-  if (average_) average_->clear();
   have_truth_ = false;
 }
 
@@ -30,13 +35,25 @@ void Picture::average() {
   average_->add(color_);
 }
 
+void Picture::begin(realtime::Renderer& renderer, const scene::CameraPose& camera,
+                    const realtime::FrameSettings& settings) {
+  if (average_ && settings.shift == vec2(0)) average_->clear();
+  renderer.begin(camera, settings, {width_, height_, framebuffer_.id(), 0, 0});
+}
+
+bool Picture::step(realtime::Renderer& renderer, bool linear) {
+  if (renderer.step()) return true;
+  whole_ = true;
+  if (linear) linear_ = renderer.read_back();
+  return false;
+}
+
 const realtime::FrameStats& Picture::draw(realtime::Renderer& renderer, const scene::CameraPose& camera,
                                           const realtime::FrameSettings& settings, bool linear) {
-  if (average_ && settings.shift == vec2(0)) average_->clear();
-  const realtime::FrameStats& stats =
-      renderer.draw(camera, settings, {width_, height_, framebuffer_.id(), 0, 0});
-  if (linear) linear_ = renderer.read_back();
-  return stats;
+  begin(renderer, camera, settings);
+  while (step(renderer, linear)) {
+  }
+  return renderer.stats();
 }
 
 image::Rgba8 Picture::pixels() const {

@@ -28,7 +28,8 @@ class PictureTexture {
 
 class Picture {
  public:
-  /// The real-time picture's size [pixels]; makes the target anew when it changed.
+  /// The real-time picture's size [pixels]; makes the target anew when it changed. What was shown stays until
+  /// a picture of the new size is whole.
   void resize(int width, int height);
   int width() const { return width_; }
   int height() const { return height_; }
@@ -36,6 +37,10 @@ class Picture {
   /// Draws a frame; keeps its linear light for comparisons when `linear` is asked for.
   const realtime::FrameStats& draw(realtime::Renderer& renderer, const scene::CameraPose& camera,
                                    const realtime::FrameSettings& settings, bool linear);
+  /// The same in pieces: begin(), then step() while it is true and there is time.
+  void begin(realtime::Renderer& renderer, const scene::CameraPose& camera,
+             const realtime::FrameSettings& settings);
+  bool step(realtime::Renderer& renderer, bool linear);
   unsigned framebuffer() const { return framebuffer_.id(); }
   /// Takes what stands in the framebuffer into a mean that is shown in its place; the first one since draw()
   /// without a shift begins it.
@@ -60,9 +65,11 @@ class Picture {
 
  private:
   int width_ = 0, height_ = 0;
-  const gl::Texture& shown() const { return averaged() > 0 ? average_->mean() : color_; }
+  const gl::Texture& shown() const { return averaged() > 0 ? average_->mean() : whole_ ? color_ : before_; }
 
   gl::Texture color_, depth_;
+  gl::Texture before_;  ///< of another size
+  bool whole_ = false;  ///< `color_` holds a picture
   std::unique_ptr<AverageGl> average_;
   gl::Framebuffer framebuffer_;
   image::Image linear_;

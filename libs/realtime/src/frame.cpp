@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <ssphh/core/log.h>
 #include <ssphh/core/stopwatch.h>
@@ -22,76 +23,158 @@ void Renderer::Data::reload_changed_shaders() {
   }
 }
 
-const FrameStats& Renderer::draw(const scene::CameraPose& camera, const FrameSettings& settings,
-                                 const Target& target) {
-  Data& d = *data_;
+namespace {
+
+constexpr double piece_ms = 8;
+constexpr int most_pieces = 64, first_pieces = 16;
+
+}  // namespace
+
+int Renderer::Data::pieces_of(Pass pass) const {
+  if (!in_pieces) return 1;
+  const double ms = pass_ms[pass];
+  // Of a pass that was not seen yet a software renderer may take a second.
+  if (ms == 0) return context.info().software ? first_pieces : 1;
+  return std::clamp(static_cast<int>(std::ceil(ms / piece_ms)), 1, most_pieces);
+}
+
+void Renderer::Data::in_bands(Pass pass, void (Data::*draw)()) {
+  const int count = pieces_of(pass);
+  for (int i = 0; i < count; ++i) todo.push_back({pass, draw, i, count});
+}
+
+void Renderer::Data::plan() {
+  const FrameSettings& settings = frame_settings;
+  const bool lit = settings.view == View::lit;
+  const bool wants_direct = settings.direct && (lit || settings.view == View::direct);
+  const bool wants_method = method && settings.indirect && (lit || settings.view == View::indirect);
+  const bool wants_indirect =
+      !wants_method && probes.count() > 0 &&
+      (settings.view == View::chosen_sphl || (settings.indirect && (lit || settings.view == View::indirect)));
+  if (wants_indirect &&
+      (scene.any_full() || scene.any_glass() || settings.lookup == probes::LookupMethod::light))
+    probes.want_radiance(counters);
+  shadow_maps_left = params.maps_per_frame;
+  todo.push_back({shadows, &Data::draw_shadows});
+  todo.push_back({geometry, &Data::draw_geometry});
+  if (wants_direct || settings.view == View::shadow) in_bands(direct, &Data::draw_direct);
+  if (wants_indirect) {
+    if (settings.ambient_occlusion) in_bands(indirect, &Data::draw_occlusion);
+    const bool everywhere = images.indirect_scale == 1 || settings.view == View::chosen_sphl;
+    in_bands(indirect, everywhere ? &Data::draw_indirect : &Data::draw_some_indirect);
+    if (!everywhere) {
+      todo.push_back({indirect, &Data::interpolate_indirect});
+      todo.push_back({indirect, &Data::draw_other_indirect});
+    }
+  }
+  if (wants_method) todo.push_back({indirect, &Data::draw_method});
+  if (wants_direct) in_bands(seen, &Data::draw_seen);
+  const bool shows_light = wants_direct || wants_indirect || wants_method;
+  if (scene.any_glass() && shows_light && settings.view != View::chosen_sphl) {
+    todo.push_back({glass, &Data::draw_glass});
+    if (wants_direct) in_bands(glass, &Data::draw_direct_on_glass);
+    if (wants_indirect) in_bands(glass, &Data::draw_indirect_on_glass);
+  }
+  if (settings.view >= View::albedo && settings.view != View::chosen_sphl)
+    todo.push_back({seen, &Data::draw_view});
+  if (images.supersample > 1) todo.push_back({resolve, &Data::draw_resolved});
+  if (frame_target.framebuffer != Target::none) todo.push_back({display, &Data::draw_display});
+}
+
+void Renderer::begin(const scene::CameraPose& camera, const FrameSettings& settings, const Target& target) {
+  data_->begin(camera, settings, target, true);
+}
+
+void Renderer::Data::begin(const scene::CameraPose& camera, const FrameSettings& settings,
+                           const Target& target, bool in_pieces_now) {
   if (target.width < 1 || target.height < 1) throw Error("frame size", "width and height must be positive");
   const Stopwatch watch;
-  d.reload_changed_shaders();
-  d.stats.passes.clear();
-  d.stats.shadow_maps_waiting = 0;
+  todo.clear();
+  next_piece = 0;
+  frame_settings = settings;
+  frame_target = target;
+  in_pieces = in_pieces_now;
+  reload_changed_shaders();
+  stats.passes.clear();
+  stats.shadow_maps_waiting = stats.shadow_maps_drawn = 0;
+  now_ms.fill({});
   gl::apply_conventions();
   for (unsigned i = 0; i < unit::count; ++i) gl::Sampler::unbind(i);
 
   // Make room and tell the shaders what the frame is
   const int samples = std::clamp(settings.supersample, 1, 4),
             scale = std::clamp(settings.indirect_scale, 1, 8);
-  if (!d.images.fits(target.width, target.height, samples, scale))
-    d.images = FrameImages(target.width, target.height, samples, scale);
+  if (!images.fits(target.width, target.height, samples, scale))
+    images = FrameImages(target.width, target.height, samples, scale);
   const float aspect = static_cast<float>(target.width) / static_cast<float>(target.height);
-  d.choose_direct(settings);
-  d.lights.prepare(camera, aspect, d.scene.bounds(), d.counters);
-  const bool lit = settings.view == View::lit;
-  const bool wants_direct = settings.direct && (lit || settings.view == View::direct);
-  const bool wants_method = d.method && settings.indirect && (lit || settings.view == View::indirect);
-  const bool wants_indirect =
-      !wants_method && d.probes.count() > 0 &&
-      (settings.view == View::chosen_sphl || (settings.indirect && (lit || settings.view == View::indirect)));
-  if (wants_indirect &&
-      (d.scene.any_full() || d.scene.any_glass() || settings.lookup == probes::LookupMethod::light))
-    d.probes.want_radiance(d.counters);
-  const FrameBlock block = frame_block(camera, settings, d.images, d.lights, d.probes, d.scene.bounds());
-  upload(d.counters, d.frame_buffer, std::span<const FrameBlock>(&block, 1));
-  d.frame_buffer.bind_uniform(binding::frame_block);
-  d.view_projection = clip_matrix(block);
+  choose_direct(settings);
+  lights.prepare(camera, aspect, scene.bounds(), counters);
+  plan();
+  const FrameBlock block = frame_block(camera, settings, images, lights, probes, scene.bounds());
+  upload(counters, frame_buffer, std::span<const FrameBlock>(&block, 1));
+  view_projection = clip_matrix(block);
+  drawn = false;
+  stats.cpu_ms = watch.milliseconds();
+}
 
-  d.albedo.bind(unit::albedo_table);
-  d.run(shadows, [&] { d.draw_shadows(); });
-  d.run(geometry, [&] {
-    const gl::During counting(d.shaded);
-    d.draw_geometry(settings);
-  });
-  d.images.gbuffer0.bind(unit::gbuffer0);
-  d.images.gbuffer1.bind(unit::gbuffer1);
-  if (wants_direct || settings.view == View::shadow)
-    d.run(direct, [&] { d.draw_direct(settings.view == View::shadow); });
-  if (wants_indirect) d.run(indirect, [&] { d.draw_indirect(settings); });
-  if (wants_method) d.run(indirect, [&] { d.draw_method(settings); });
-  if (wants_direct) d.run(seen, [&] { d.draw_seen(settings); });
-  const bool shows_light = wants_direct || wants_indirect || wants_method;
-  if (d.scene.any_glass() && shows_light && settings.view != View::chosen_sphl)
-    d.run(glass, [&] { d.draw_glass(settings, wants_direct, wants_indirect); });
-  if (settings.view >= View::albedo && settings.view != View::chosen_sphl)
-    d.run(seen, [&] { d.draw_view(); });
-  if (samples > 1) {
-    d.run(resolve, [&] {
-      gl::Program& program = d.shaders.resolve();
-      program.set_at(0, samples);
-      d.images.color.bind(0);
-      d.fullscreen(program, d.images.resolve_pass.id(), d.images.picture());
-    });
+bool Renderer::step() {
+  Data& d = *data_;
+  if (d.next_piece >= d.todo.size()) return false;
+  const Stopwatch watch;
+  // The host may have drawn something of its own since the piece before.
+  if (d.in_pieces) {
+    gl::apply_conventions();
+    for (unsigned i = 0; i < unit::count; ++i) gl::Sampler::unbind(i);
+    d.images.gbuffer0.bind(unit::gbuffer0);
+    d.images.gbuffer1.bind(unit::gbuffer1);
   }
-  if (target.framebuffer != Target::none) d.run(display, [&] { d.draw_display(settings, target); });
-
-  d.drawn = true;
-  d.stats.samples_shaded = d.shaded.count();
-  d.stats.draw_calls = d.counters.draw_calls;
-  d.stats.triangles = d.counters.triangles;
-  d.stats.bytes_uploaded = d.counters.bytes_uploaded;
-  d.counters = {};
-  d.stats.cpu_ms = watch.milliseconds();
+  d.frame_buffer.bind_uniform(binding::frame_block);
+  d.albedo.bind(unit::albedo_table);
+  const Data::Piece piece = d.todo[d.next_piece];
+  d.band = {piece.index, piece.count};
+  {
+    const gl::During timing(d.timers[piece.pass]);
+    (d.*piece.draw)();
+  }
+  if (d.in_pieces && piece.count > 1 && !d.context.info().software) gl::finish();
+  PassTime& sum = d.now_ms[piece.pass];
+  sum.name = pass_names[piece.pass];
+  sum.cpu_ms += d.timers[piece.pass].cpu_ms(), sum.gpu_ms += d.timers[piece.pass].gpu_ms();
+  const bool again = piece.pass == shadows && d.in_pieces && d.more_shadows;
+  if (!again) ++d.next_piece;
+  const bool more = d.next_piece < d.todo.size();
+  if (!more) d.finish_frame();
+  d.stats.cpu_ms += watch.milliseconds();
   d.context.throw_on_error("drawing a frame");
-  return d.stats;
+  return more;
+}
+
+void Renderer::Data::finish_frame() {
+  for (int pass = 0; pass < pass_count; ++pass) {
+    const PassTime& time = now_ms[pass];
+    if (*time.name == 0) continue;
+    stats.passes.push_back(time);
+    pass_ms[pass] = std::max(time.cpu_ms, time.gpu_ms);
+  }
+  band = {0, 1};
+  drawn = true;
+  stats.samples_shaded = shaded.count();
+  stats.draw_calls = counters.draw_calls;
+  stats.triangles = counters.triangles;
+  stats.bytes_uploaded = counters.bytes_uploaded;
+  counters = {};
+}
+
+const FrameStats& Renderer::stats() const {
+  return data_->stats;
+}
+
+const FrameStats& Renderer::draw(const scene::CameraPose& camera, const FrameSettings& settings,
+                                 const Target& target) {
+  data_->begin(camera, settings, target, false);
+  while (step()) {
+  }
+  return data_->stats;
 }
 
 }  // namespace ssphh::realtime

@@ -6,7 +6,9 @@ namespace ssphh::realtime {
 
 void Renderer::Data::fullscreen(gl::Program& program, unsigned framebuffer, const gl::Rect& rect,
                                 const gl::DrawState& where) {
-  gl::bind_framebuffer(framebuffer, rect);
+  const int from = rect.height * band.index / band.count, to = rect.height * (band.index + 1) / band.count;
+  if (from == to) return;
+  gl::bind_framebuffer(framebuffer, {rect.x, rect.y + from, rect.width, to - from});
   gl::apply(where);
   program.use();
   no_vertices.bind();
@@ -15,21 +17,25 @@ void Renderer::Data::fullscreen(gl::Program& program, unsigned framebuffer, cons
 }
 
 void Renderer::Data::draw_shadows() {
-  int left = params.maps_per_frame;
+  int left = in_pieces ? std::min(shadow_maps_left, 1) : shadow_maps_left;
   int& waiting = stats.shadow_maps_waiting;
+  waiting = 0;
   gl::Program &opaque = shaders.shadow(false), &alpha = shaders.shadow(true);
   gl::Program* glass = scene.any_glass() ? &shaders.glass_shadow() : nullptr;
   const int lamps = lights.update_maps(scene, opaque, alpha, glass, left, waiting, counters);
   left = std::max(left - lamps, 0);
   lights.update_bounds(shaders, no_vertices, counters);
   const int of_probes = probes.update_maps(scene, opaque, alpha, left, waiting, counters);
-  stats.shadow_maps_drawn = lamps + of_probes;
-  if (!method) return;
   left -= of_probes;
-  stats.shadow_maps_drawn += method->update_maps(scene, opaque, alpha, left, waiting, counters);
+  int drawn_now = lamps + of_probes;
+  if (method) drawn_now += method->update_maps(scene, opaque, alpha, left, waiting, counters);
+  stats.shadow_maps_drawn += lamps + of_probes;
+  shadow_maps_left -= drawn_now;
+  more_shadows = waiting > 0 && drawn_now > 0 && shadow_maps_left > 0;
 }
 
-void Renderer::Data::draw_geometry(const FrameSettings& settings) {
+void Renderer::Data::draw_geometry() {
+  const gl::During counting(shaded);
   gl::bind_framebuffer(images.geometry_pass.id(), images.full());
   gl::apply({.depth = gl::Depth::test_and_write});
   gl::clear_depth(images.full(), 0);
@@ -37,13 +43,15 @@ void Renderer::Data::draw_geometry(const FrameSettings& settings) {
   gl::clear_color_uint(0, 0, 0, 0, 0);
   gl::clear_color_uint(1, 0, 0, 0, 0);
   gl::clear_color(2, 0, 0, 0, 0);
-  draw_items(settings, GlassLayer::opaque, {.depth = gl::Depth::test_and_write, .lines = settings.wireframe},
+  draw_items(GlassLayer::opaque, {.depth = gl::Depth::test_and_write, .lines = frame_settings.wireframe},
              [](const DrawItem&) { return true; });
+  images.gbuffer0.bind(unit::gbuffer0);
+  images.gbuffer1.bind(unit::gbuffer1);
 }
 
 template <class Wanted>
-void Renderer::Data::draw_items(const FrameSettings& settings, GlassLayer layer, gl::DrawState state,
-                                const Wanted& wanted) {
+void Renderer::Data::draw_items(GlassLayer layer, gl::DrawState state, const Wanted& wanted) {
+  const FrameSettings& settings = frame_settings;
   const bool emission = settings.direct && (settings.view == View::lit || settings.view == View::direct);
   scene.begin(false);
   int surface = -1, textures = -1, glass_programs = -1;
@@ -67,22 +75,20 @@ void Renderer::Data::draw_items(const FrameSettings& settings, GlassLayer layer,
   for (unsigned i = 0; i < unit::count; ++i) gl::Sampler::unbind(i);
 }
 
-void Renderer::Data::draw_glass(const FrameSettings& settings, bool wants_direct, bool wants_indirect) {
+void Renderer::Data::draw_glass() {
   const auto is_glass = [](const DrawItem& item) { return item.glass; };
   gl::bind_framebuffer(images.geometry_pass.id(), images.full());
   constexpr int color_image = 2;
-  draw_items(settings, GlassLayer::through,
+  draw_items(GlassLayer::through,
              {.depth = gl::Depth::test, .blend = gl::Blend::multiply, .color_attachment = color_image},
              is_glass);
   gl::clear_stencil(surface_class::nothing);
-  draw_items(settings, GlassLayer::reflecting, {.depth = gl::Depth::test_and_write, .blend = gl::Blend::add},
-             is_glass);
-  if (wants_direct) draw_direct(false, true);
-  if (wants_indirect) {
-    gl::Program& program = shaders.indirect(lookup_of(settings), true, IndirectOutput::radiance);
-    probes.bind_lookup(program);
-    fullscreen(program, images.light_pass.id(), images.full(), of_class(surface_class::full));
-  }
+  draw_items(GlassLayer::reflecting, {.depth = gl::Depth::test_and_write, .blend = gl::Blend::add}, is_glass);
+}
+
+void Renderer::Data::draw_indirect_on_glass() {
+  fullscreen(indirect_program(true, IndirectOutput::radiance), images.light_pass.id(), images.full(),
+             of_class(surface_class::full));
 }
 
 void Renderer::Data::bind_sky_lobes(gl::Program& program) {
@@ -92,11 +98,12 @@ void Renderer::Data::bind_sky_lobes(gl::Program& program) {
   program.set("environment_roughness", std::span<const float>(environment_roughness));
 }
 
-void Renderer::Data::draw_direct(bool shadow_view, bool glass) {
+void Renderer::Data::add_direct(bool glass) {
+  const bool shadow_view = frame_settings.view == View::shadow;
   lights.bind();
   if (probes.count() > 0) probes.bind_sight();
   const gl::Framebuffer& target = shadow_view ? images.shadow_pass : images.light_pass;
-  if (shadow_view) {
+  if (shadow_view && band.index == 0) {
     gl::bind_framebuffer(target.id(), images.full());
     gl::clear_color(0, 0, 0, 0, 0);
   }
@@ -128,25 +135,27 @@ IndirectLookup Renderer::Data::lookup_of(const FrameSettings& settings) const {
                                                              : IndirectLookup::mls;
 }
 
-void Renderer::Data::draw_indirect(const FrameSettings& settings) {
-  const bool chosen = settings.view == View::chosen_sphl;
-  const auto prepared = [&](bool full, IndirectOutput output) -> gl::Program& {
-    gl::Program& program = shaders.indirect(lookup_of(settings), full, output);
-    probes.bind_lookup(program);
-    return program;
-  };
-  if (settings.ambient_occlusion) draw_occlusion();
-  if (images.indirect_scale > 1 && !chosen) {
-    fullscreen(prepared(scene.any_full(), IndirectOutput::images), images.indirect_pass.id(),
-               images.indirect());
-    interpolate_indirect();
-    draw_listed(prepared(scene.any_full(), IndirectOutput::listed));
-    return;
-  }
+gl::Program& Renderer::Data::indirect_program(bool full, IndirectOutput output) {
+  gl::Program& program = shaders.indirect(lookup_of(frame_settings), full, output);
+  probes.bind_lookup(program);
+  return program;
+}
+
+void Renderer::Data::draw_indirect() {
+  const bool chosen = frame_settings.view == View::chosen_sphl;
   for_each_class([&](bool full, const gl::DrawState& where) {
-    fullscreen(prepared(full, chosen ? IndirectOutput::chosen : IndirectOutput::radiance),
+    fullscreen(indirect_program(full, chosen ? IndirectOutput::chosen : IndirectOutput::radiance),
                images.light_pass.id(), images.full(), where);
   });
+}
+
+void Renderer::Data::draw_some_indirect() {
+  fullscreen(indirect_program(scene.any_full(), IndirectOutput::images), images.indirect_pass.id(),
+             images.indirect());
+}
+
+void Renderer::Data::draw_other_indirect() {
+  draw_listed(indirect_program(scene.any_full(), IndirectOutput::listed));
 }
 
 void Renderer::Data::draw_occlusion() {
@@ -177,12 +186,12 @@ void Renderer::Data::draw_listed(gl::Program& program) {
   gl::shader_memory_barrier();
 }
 
-void Renderer::Data::draw_seen(const FrameSettings& settings) {
+void Renderer::Data::draw_seen() {
   lights.bind();
   for (const Lights::Lit& lit : lights.lit()) {
     if (!lit.seen) continue;
     const bool behind = lit.kind != EmitterKind::sphere;
-    if (behind && settings.sky == Sky::black) continue;
+    if (behind && frame_settings.sky == Sky::black) continue;
     lights.bind_emitter(lit);
     if (lit.kind == EmitterKind::environment) {
       sky.bind(unit::environment);
@@ -202,9 +211,17 @@ void Renderer::Data::draw_view() {
   });
 }
 
-void Renderer::Data::draw_display(const FrameSettings& settings, const Target& target) {
-  const bool light =
-      settings.view == View::lit || settings.view == View::direct || settings.view == View::indirect;
+void Renderer::Data::draw_resolved() {
+  gl::Program& program = shaders.resolve();
+  program.set_at(0, images.supersample);
+  images.color.bind(0);
+  fullscreen(program, images.resolve_pass.id(), images.picture());
+}
+
+void Renderer::Data::draw_display() {
+  const View view = frame_settings.view;
+  const bool light = view == View::lit || view == View::direct || view == View::indirect;
+  const Target& target = frame_target;
   gl::Program& program = shaders.display();
   program.set("plain", light ? 0 : 1);
   program.set("corner", target.x, target.y);

@@ -4,8 +4,8 @@
 
 namespace ssphh::realtime {
 
-void Renderer::Data::draw_method(const FrameSettings& settings) {
-  if (settings.ambient_occlusion) draw_occlusion();
+void Renderer::Data::draw_method() {
+  if (frame_settings.ambient_occlusion) draw_occlusion();
   if (images.indirect_scale > 1) {
     gl::bind_framebuffer(images.indirect_pass.id(), images.indirect());
     gl::clear_color(0, 0, 0, 0, 0);

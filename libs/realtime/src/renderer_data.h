@@ -1,6 +1,7 @@
 #pragma once
 /// What a Renderer holds, and the passes of its frames (frame_passes.cpp).
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -42,15 +43,15 @@ struct Renderer::Data {
   /// What the set keeps of direct light.
   void keep_direct(const probes::ProbeSet& set);
   void reload_changed_shaders();
-  template <class Draw>
-  void run(Pass pass, const Draw& draw_pass) {
-    {
-      const gl::During timing(timers[pass]);
-      draw_pass();
-    }
-    stats.passes.push_back({pass_names[pass], timers[pass].cpu_ms(), timers[pass].gpu_ms()});
-  }
-  /// One triangle over the rectangle; `where` tells which pixels and how.
+  /// A frame in pieces: begin() lists them, Renderer::step() draws one.
+  void begin(const scene::CameraPose& camera, const FrameSettings& settings, const Target& target,
+             bool in_pieces_now);
+  void plan();
+  int pieces_of(Pass pass) const;
+  /// The pass in bands of rows, a piece each.
+  void in_bands(Pass pass, void (Data::*draw)());
+  void finish_frame();
+  /// One triangle over the band of the rectangle; `where` tells which pixels and how.
   void fullscreen(gl::Program& program, unsigned framebuffer, const gl::Rect& rect,
                   const gl::DrawState& where = {});
   /// Adds light where such surfaces are.
@@ -61,27 +62,36 @@ struct Renderer::Data {
     draw_class(false, of_class(surface_class::lambertian));
     if (scene.any_full()) draw_class(true, of_class(surface_class::full));
   }
+  // Of the frame that begin() was asked for. What fullscreen() draws keeps to the band of the piece.
+  /// In pieces one map, and `more_shadows` tells whether others wait.
   void draw_shadows();
-  void draw_geometry(const FrameSettings& settings);
+  void draw_geometry();
   /// Items of the scene as one layer has them; `wanted(item)` chooses, `state` says how.
   template <class Wanted>
-  void draw_items(const FrameSettings& settings, GlassLayer layer, gl::DrawState state, const Wanted& wanted);
-  /// Dims what stands behind glass, and adds what the nearest glass reflects.
-  void draw_glass(const FrameSettings& settings, bool wants_direct, bool wants_indirect);
+  void draw_items(GlassLayer layer, gl::DrawState state, const Wanted& wanted);
+  /// Dims what stands behind glass, and puts the nearest into the G-buffer, for what it reflects.
+  void draw_glass();
   void bind_sky_lobes(gl::Program& program);
-  /// `glass`: of glass alone, which stands in the G-buffer then.
-  void draw_direct(bool shadow_view, bool glass = false);
+  void draw_direct() { add_direct(false); }
+  void draw_direct_on_glass() { add_direct(true); }
+  void add_direct(bool glass);
   IndirectLookup lookup_of(const FrameSettings& settings) const;
-  void draw_indirect(const FrameSettings& settings);
+  gl::Program& indirect_program(bool full, IndirectOutput output);
+  /// At every pixel; or at some for the images that interpolate_indirect() takes, then at the others.
+  void draw_indirect();
+  void draw_some_indirect();
+  void draw_other_indirect();
+  void draw_indirect_on_glass();
   void draw_occlusion();
   /// Images of indirect light to the pixels between, as far as they agree; lists the others.
   void interpolate_indirect();
   /// Adds what the program, a compute shader, finds at the listed pixels.
   void draw_listed(gl::Program& program);
-  void draw_method(const FrameSettings& settings);
-  void draw_seen(const FrameSettings& settings);
+  void draw_method();
+  void draw_seen();
   void draw_view();
-  void draw_display(const FrameSettings& settings, const Target& target);
+  void draw_resolved();
+  void draw_display();
 
   gl::Context& context;
   RendererParams params;
@@ -115,6 +125,23 @@ struct Renderer::Data {
   mat4 view_projection{1};  ///< of the last frame
   std::vector<scene::Bounds> moved;
   bool drawn = false;
+
+  struct Piece {
+    Pass pass;
+    void (Data::*draw)();
+    int index = 0, count = 1;  ///< which band of rows, of how many equal ones
+  };
+  FrameSettings frame_settings;  ///< of the frame that is being drawn, as all that follows
+  Target frame_target;
+  std::vector<Piece> todo;
+  std::size_t next_piece = 0;
+  bool in_pieces = false, more_shadows = false;
+  int shadow_maps_left = 0;
+  struct {
+    int index = 0, count = 1;
+  } band;
+  std::array<double, pass_count> pass_ms{};   ///< of the last frame
+  std::array<PassTime, pass_count> now_ms{};  ///< of this one so far
 };
 
 }  // namespace ssphh::realtime

@@ -104,6 +104,14 @@ class Renderer {
   /// Draws a frame. Restores no OpenGL state. Throws Error when OpenGL reports an error.
   const FrameStats& draw(const scene::CameraPose& camera, const FrameSettings& settings,
                          const Target& target);
+  /// The same frame, bit for bit, in pieces of some milliseconds on a software renderer, so that the host's
+  /// window goes on between them: begin(), then step() until it is false. What the host draws in between may
+  /// leave any state behind; this renderer's set functions may be called only after the last piece, and
+  /// another begin() or draw() drops what is left. Nothing is read back before the last piece.
+  void begin(const scene::CameraPose& camera, const FrameSettings& settings, const Target& target);
+  bool step();
+  /// Of the last frame, whole once step() was false.
+  const FrameStats& stats() const;
   /// The last frame as scene-linear radiance, before exposure and tone curve; row 0 on top.
   image::Image read_back() const;
   /// So many of its pixels, spread evenly, or all of a smaller one: little to read, and enough to tell how
