@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include <imgui.h>
@@ -25,7 +26,7 @@ App::App(Window& window_, const ViewerOptions& options_, const Control&)
   // For looking at: a twentieth of the work of `ssphh bake`.
   bake_params.path.spp = 8;
   bake_params.face_size = 20;
-  last_turn_ = last_change_ = window.seconds();
+  last_turn_ = last_change_ = last_frame_ = window.seconds();
   if (options.preferences.empty()) return;
   try {
     preferences = read_preferences(options.preferences);
@@ -41,20 +42,20 @@ double App::turn(const InjectedInput& input) {
 
   // Take over what others did.
   if (window.take_input()) redraw();
-  for (const std::string& file : window.take_dropped()) {
-    try {
-      request_open(file);
-    } catch (const std::exception& e) {
-      complain(e.what());
-    }
+  try {
+    if (const std::vector<std::string> files = window.take_dropped(); !files.empty()) take_dropped(files);
+  } catch (const std::exception& e) {
+    complain(e.what());
   }
-  if (job.poll()) redraw();
+  take_work();
   if (reference.poll()) truth_dirty_ = true, redraw();
-  if (const std::string error = job.take_error(); !error.empty()) complain(error);
+  watch_file();
   keep_unsaved();
   update_time(std::min(elapsed, 0.25));
 
   const bool busy = job.running() || reference.status().running;
+  // How far it is
+  if (job.running() && now - last_frame_ > 0.2) redraw();
   const bool moving = settings.play || path_plays || light_stale_ || waiting_maps_ > 0 || drawing_;
   if (redraw_ == 0 && !moving) return busy ? 0.1 : 0.5;
   redraw_ = std::max(redraw_ - 1, 0);
@@ -80,6 +81,22 @@ double App::turn(const InjectedInput& input) {
   return redraw_ > 0 || moving ? 0 : busy ? 0.05 : 0.5;
 }
 
+void App::take_work() {
+  std::string error;
+  try {
+    if (job.poll()) redraw();
+    error = job.take_error();
+  } catch (const std::exception& e) {
+    error = e.what();
+  }
+  if (error.empty()) return;
+  if (failures_end) throw std::runtime_error(error);
+  complain(error);
+  if (!mended_) return;
+  dialog = std::exchange(mended_, std::nullopt);
+  dialog->problem = error;
+}
+
 void App::finish_frame() {
   window.end_frame();
   if (!window_shot_.empty()) {
@@ -92,6 +109,7 @@ void App::finish_frame() {
     }
   }
   window.show_frame();
+  last_frame_ = window.seconds();
   ++report.frames;
 }
 

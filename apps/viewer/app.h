@@ -2,6 +2,7 @@
 /// The viewer's state, and what can be done with it. Panels, keys, scripts and the command line all call the
 /// same functions.
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -58,7 +59,7 @@ struct Drag {
 };
 /// What the user is asked before edits or a bake are lost, or where an earlier session left some.
 struct Question {
-  enum class Then { nothing, close, open, recover } then = Then::nothing;
+  enum class Then { nothing, close, open, recover, reload } then = Then::nothing;
   std::string source;  ///< to open
   Kept kept;           ///< to recover
 };
@@ -70,6 +71,13 @@ struct FileDialog {
   FileBrowser browser;
   std::string problem;             ///< with what was chosen last
   std::filesystem::path replaces;  ///< file that is there, and is written over once it is chosen again
+};
+
+/// By which a file on the disk is known to have changed.
+struct FileState {
+  std::filesystem::file_time_type written;
+  std::uintmax_t size = 0;
+  friend bool operator==(const FileState&, const FileState&) = default;
 };
 
 /// Whether the name ends as a probe file's does.
@@ -87,11 +95,21 @@ class App {
   /// changed. Returns the seconds that may be waited for input afterwards.
   double turn(const InjectedInput& input);
 
+  /// Takes over what is done in the background; of what failed the user is told.
+  void take_work();
+
   // What can be done
   void open(const std::string& source);
-  /// open(), and light for the scene: as the option --probes has it unless that names a file; else of its
-  /// SPHLs, if it has any.
+  /// open(), and `then`. By hand a scene is loaded in the background, and what is open stays until that is
+  /// done; it can be cancelled as any job.
+  void open_then(const std::string& source, std::function<void()> then);
+  /// open_then(), and light for the scene: as the option --probes has it unless that names a file; else of
+  /// its SPHLs, if it has any.
   void open_lit(const std::string& source);
+  /// What open_lit() does once the scene is there.
+  void light_opened();
+  /// Of many files the first scene is opened, or all that belongs to the open one; a folder is shown.
+  void take_dropped(const std::vector<std::string>& files);
   /// As open_lit(), but asks before a scene takes the place of one with edits or of a bake that runs.
   void request_open(const std::string& source);
   /// Whether the window may go. Where edits or a bake would be lost it stays and the user is asked.
@@ -109,8 +127,8 @@ class App {
   void keep_unsaved();
   /// Whether that is under way.
   bool keeping() const { return !keeper_.idle(); }
-  /// Lets the user choose a file.
-  void ask_for_file(FileDialog::For what);
+  /// Lets the user choose a file, at first in this folder; empty: in the scene's.
+  void ask_for_file(FileDialog::For what, const std::filesystem::path& in = {});
   /// What Enter does in the dialog: goes into a folder, or opens or writes the file. A file that is there is
   /// written over when it is chosen twice.
   void choose_file();
@@ -203,6 +221,7 @@ class App {
   float path_time = 0;
   bool path_plays = false;
   bool panels = true, help = false, place_mode = false;
+  bool failures_end = false;       ///< work in the background that fails ends the session with its message
   bool follows_exposure = true;    ///< with every frame; else only where follow_exposure() is called
   std::string open_tab = "Light";  ///< of the sidebar
   float side_width = 0;            ///< of the sidebar, in heights of the text; 0: as suits the window
@@ -217,7 +236,20 @@ class App {
   float fly_speed = 2;  ///< m/s
 
  private:
+  struct Loaded;
+  void take_loaded(const std::string& source, Loaded loaded);
   void take_scene(std::string source, scene::Scene scene);
+  void take_scene(Loaded loaded);
+  void take_document(Loaded loaded);
+  void watch_file();
+  std::optional<FileDialog> mended_;  ///< comes back if what was chosen there cannot be loaded
+  /// The scene's file: as it was loaded, as it was seen last, when that was, and whether the user knows that
+  /// it is gone.
+  struct {
+    std::optional<FileState> loaded, seen;
+    double looked = 0;
+    bool told = false;
+  } watched_;
   /// start_view(), or of a scene without cameras study::default_view().
   View view_from(const std::string& camera) const;
   /// Notes a file that was written and says so.
@@ -282,7 +314,7 @@ class App {
   std::vector<scene::Material> applied_materials_;
   std::vector<SphlEdit> applied_sphls_;
   int redraw_ = 3;
-  double last_turn_ = 0, last_change_ = 0, stale_since_ = 0;
+  double last_turn_ = 0, last_change_ = 0, last_frame_ = 0, stale_since_ = 0;
   int waiting_maps_ = 0;
   bool coarse_ = false;                      ///< something moves and frames are slow: fewer pixels meanwhile
   std::optional<Settings> truth_settings_;   ///< that the truth on the screen was made for

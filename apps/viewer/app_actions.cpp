@@ -39,57 +39,6 @@ void App::written(const std::string& verb, const std::string& file) {
   say(verb + " " + file);
 }
 
-void App::open(const std::string& source) {
-  if (source.ends_with(".json") && !source.ends_with(".sphl.json") && !source.ends_with(".ssphh.json"))
-    return load_path(source);
-  if (is_probe_file(source)) return take_probe_file(source);
-  say(fmt::format("loading {} …", source));
-  take_scene(source, options.load(source));
-  remember_scene(source);
-  say(fmt::format("{}: {} triangles, lights: {}, SPHLs: {}", source, scene::triangle_count(*document.scene),
-                  document.scene->lights.size(), document.scene->sphls.size()));
-}
-
-void App::take_scene(std::string source, scene::Scene scene) {
-  job.cancel();
-  reference.clear();
-  Document next = make_document(std::move(source), std::move(scene), 0);
-  next.time = std::clamp(document.source.empty() ? options.time : 0, 0.0f, next.duration);
-  if (!gl_) gl_.emplace(gl::Context::adopt_current());
-  if (!balls_) balls_ = std::make_unique<BallsGl>();
-  auto renderer =
-      std::make_unique<realtime::Renderer>(*gl_, *next.scene, realtime::RendererParams{}, next.time);
-  take_document(std::move(next));
-  renderer_ = std::move(renderer);
-}
-
-void App::take_document(Document next) {
-  trace::SharedGeometry geometry = trace::geometry_of(next.scene);
-  auto picking = std::make_unique<trace::TransportScene>(geometry, *next.scene);
-  // Nothing is thrown from here on: a file that is refused leaves the open one alone.
-  picking_ = std::move(picking);
-  geometry_ = std::move(geometry);
-  document = std::move(next);
-  light.clear();
-  autosave_.drop();
-  question = {};
-  unsaved_since_.reset();
-  selection = {};
-  view = view_from("");
-  applied_materials_ = document.edits().materials;
-  applied_sphls_ = document.edits().sphls;
-  drawn_.reset();
-  drawing_.reset();
-  exposure_.forget();
-  visible_seen_.reset();
-  outlined_.reset();
-  scene_dirty_ = true;
-  light_stale_ = false;
-  fly_speed = document.bounds.empty() ? 2 : std::max(0.2f, 0.25f * document.bounds.radius());
-  update_title();
-  redraw();
-}
-
 std::string App::free_file(const std::string& ending) const {
   const std::string stem =
       std::filesystem::path(document.source.substr(document.source.rfind(':') + 1)).stem().string();

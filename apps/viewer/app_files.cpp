@@ -124,12 +124,14 @@ void App::remember_scene(const std::string& source, bool stays) {
   }
 }
 
-void App::ask_for_file(FileDialog::For what) {
+void App::ask_for_file(FileDialog::For what, const std::filesystem::path& in) {
   using enum FileDialog::For;
   namespace fs = std::filesystem;
   const fs::path own = document.file.empty() ? document.source : document.file;
   const bool in_folder = !document.file.empty() || fs::exists(own);
-  const fs::path folder = in_folder && own.has_parent_path() ? own.parent_path() : fs::current_path();
+  const fs::path folder = !in.empty()                          ? in
+                          : in_folder && own.has_parent_path() ? own.parent_path()
+                                                               : fs::current_path();
   if (what == open) {
     dialog = {what,
               FileBrowser(folder, {".glb", ".gltf", ".obj", ".ssphh.json", ".sphl", ".sphl.json", ".json"}),
@@ -156,7 +158,8 @@ void App::choose_file() {
     if (asked.what == open) {
       if (!std::filesystem::exists(*path)) throw Error(path->string(), "there is no such file");
       request_open(path->string());
-      return dialog.reset();
+      mended_ = std::exchange(dialog, std::nullopt);
+      return;
     }
     const std::string ending = asked.what == scene ? ".glb" : ".sphl";
     const bool ends = asked.what == scene ? path->extension() == ".glb" : is_probe_file(path->string());

@@ -8,31 +8,10 @@
 #include "app.h"
 
 namespace ssphh::viewer {
-namespace {
-
-bool is_scene(const std::string& source) {
-  const bool path = source.ends_with(".json") && !source.ends_with(".ssphh.json");
-  return !path && !is_probe_file(source);
-}
-
-}  // namespace
-
 /// Without hands nobody is there to answer.
 bool App::by_hand() const {
   return options.script.empty() && options.screenshot.empty() && options.export_dir.empty() &&
          options.frames == 0;
-}
-
-void App::open_lit(const std::string& source) {
-  open(source);
-  if (!is_scene(source)) return;
-  const auto enabled = [](const SphlEdit& sphl) { return sphl.enabled; };
-  if (options.probes == "off" || options.probes.starts_with("auto")) {
-    use_probes(options.probes);
-  } else if (std::ranges::any_of(document.edits().sphls, enabled)) {
-    light_scene_probes();
-  }
-  offer_recovery();
 }
 
 std::string App::what_is_lost() const {
@@ -45,12 +24,6 @@ std::string App::what_is_lost() const {
     text += fmt::format("{}What {} has found is not saved.", text.empty() ? "" : "\n", light.unsaved());
   if (bake) text += fmt::format("{}{} is not done yet.", text.empty() ? "" : "\n", status.name);
   return text;
-}
-
-void App::request_open(const std::string& source) {
-  if (!is_scene(source) || what_is_lost().empty()) return open_lit(source);
-  question = {Question::Then::open, source, {}};
-  redraw();
 }
 
 bool App::may_close() {
@@ -69,7 +42,7 @@ void App::answer(Answer answer) {
     if (answer == Answer::recover) return recover(asked.kept);
     if (asked.then == Question::Then::recover) return autosave_.remove(asked.kept);
     if (answer == Answer::save && unsaved()) save();
-    if (asked.then == Question::Then::open) open_lit(asked.source);
+    if (asked.then == Question::Then::open || asked.then == Question::Then::reload) open_lit(asked.source);
     if (asked.then == Question::Then::close) {
       closes_ = true;
       window.close();

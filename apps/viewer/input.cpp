@@ -82,6 +82,7 @@ void handle_control_keys(App& app) {
 void handle_keys(App& app) {
   if (pressed(GLFW_KEY_F1) || pressed(GLFW_KEY_H)) toggle(app, app.help);
   if (pressed(GLFW_KEY_TAB)) toggle(app, app.panels);
+  if (pressed(GLFW_KEY_ESCAPE) && app.job.status().name.starts_with("loading")) app.job.cancel();
   if (pressed(GLFW_KEY_ESCAPE)) app.help = app.place_mode = false, app.selection = {};
   if (ImGui::GetIO().KeyCtrl && pressed(GLFW_KEY_O)) return app.ask_for_file(FileDialog::For::open);
   if (!app.scene_open()) return;

@@ -15,8 +15,9 @@ void PictureTexture::upload(const image::Rgba8& picture) {
 void Picture::resize(int width, int height) {
   if (width == width_ && height == height_) return;
   width_ = width, height_ = height;
-  if (averaged() > 0) {
+  if (averaged() > 0 || mean_stays_) {
     before_ = average_->take();
+    mean_stays_ = false;
   } else if (whole_) {
     before_ = std::move(color_);
   }
@@ -37,13 +38,17 @@ void Picture::average() {
 
 void Picture::begin(realtime::Renderer& renderer, const scene::CameraPose& camera,
                     const realtime::FrameSettings& settings) {
-  if (average_ && settings.shift == vec2(0)) average_->clear();
+  if (average_ && settings.shift == vec2(0)) {
+    mean_stays_ = mean_stays_ || averaged() > 0;
+    average_->clear();
+  }
   renderer.begin(camera, settings, {width_, height_, framebuffer_.id(), 0, 0});
 }
 
 bool Picture::step(realtime::Renderer& renderer, bool linear) {
   if (renderer.step()) return true;
   whole_ = true;
+  mean_stays_ = false;
   if (linear) linear_ = renderer.read_back();
   return false;
 }

@@ -65,11 +65,14 @@ class Picture {
 
  private:
   int width_ = 0, height_ = 0;
-  const gl::Texture& shown() const { return averaged() > 0 ? average_->mean() : whole_ ? color_ : before_; }
+  const gl::Texture& shown() const {
+    return averaged() > 0 || mean_stays_ ? average_->mean() : whole_ ? color_ : before_;
+  }
 
   gl::Texture color_, depth_;
-  gl::Texture before_;  ///< of another size
-  bool whole_ = false;  ///< `color_` holds a picture
+  gl::Texture before_;       ///< of another size
+  bool whole_ = false;       ///< `color_` holds a picture
+  bool mean_stays_ = false;  ///< is shown until the next picture is whole
   std::unique_ptr<AverageGl> average_;
   gl::Framebuffer framebuffer_;
   image::Image linear_;

@@ -10,19 +10,6 @@
 namespace ssphh::viewer {
 namespace {
 
-void begin(App& app, const ViewerOptions& options) {
-  if (options.source.empty()) return app.offer_recovery();
-  if (options.probes.empty()) {
-    app.open_lit(options.source);
-  } else {
-    app.open(options.source);
-    app.use_probes(options.probes);
-    app.offer_recovery();
-  }
-  if (!options.camera.empty()) app.go_to_camera(options.camera);
-  if (!options.path.empty()) app.load_path(options.path);
-}
-
 class Session {
  public:
   Session(App& app, const Control& control) : app_(app), control_(control) {}
@@ -54,6 +41,29 @@ class Session {
   App& app_;
   const Control& control_;
 };
+
+/// Opens what the options name. A scene that cannot be opened ends the session, for it is all that was asked
+/// for; the window handles input meanwhile.
+void begin(App& app, Session& session, const ViewerOptions& options) {
+  if (options.source.empty()) return app.offer_recovery();
+  app.failures_end = true;
+  app.open_then(options.source, [&] {
+    if (!options.camera.empty()) app.go_to_camera(options.camera);
+    if (!options.path.empty()) app.load_path(options.path);
+    if (options.probes.empty()) {
+      app.light_opened();
+    } else {
+      app.use_probes(options.probes);
+      app.offer_recovery();
+    }
+    app.failures_end = false;
+  });
+  // Until it is there, refused or cancelled
+  while (app.failures_end && (!app.job.idle() || !app.job.status().error.empty())) {
+    if (!session.turn()) break;
+  }
+  app.failures_end = false;
+}
 
 /// Pictures of a camera path, each once its light is complete.
 void export_path(App& app, Session& session, const ViewerOptions& options, const Control& control) {
@@ -101,7 +111,7 @@ ViewerReport run_viewer(const ViewerOptions& options, const Control& control) {
 ViewerReport run_session(Window& window, const ViewerOptions& options, const Control& control) {
   App app(window, options, control);
   Session session(app, control);
-  begin(app, options);
+  begin(app, session, options);
   const bool batch = !options.screenshot.empty() || !options.export_dir.empty();
   if (!options.script.empty() || !batch || options.frames > 0) play(app, session, options);
   if (batch && !control.cancelled()) session.settle();

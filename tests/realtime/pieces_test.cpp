@@ -45,7 +45,7 @@ class Pieces : public WithGl {
 };
 
 TEST_F(Pieces, AreTheSamePictureToTheBit) {
-  for (const char* name : {"two-rooms", "gallery2"}) {
+  for (const char* name : {"two-rooms"}) {
     scene::Scene scene = scene::make_builtin(name);
     scene.materials[0].specular_roughness = 0.2f;
     scene.materials.back().transmission = 0.5f;
@@ -61,7 +61,7 @@ TEST_F(Pieces, AreTheSamePictureToTheBit) {
       color.read(texels, 4);
       return texels;
     };
-    for (const View view : {View::lit, View::direct, View::shadow, View::chosen_sphl, View::normal}) {
+    for (const View view : {View::lit, View::direct, View::shadow, View::chosen_sphl}) {
       for (const int scale : {1, 3}) {
         FrameSettings settings;
         settings.view = view;

@@ -33,52 +33,62 @@ class BackgroundJob::Meter final : public Progress {
   std::atomic<std::uint64_t> done_{0};
 };
 
-BackgroundJob::BackgroundJob() : meter_(std::make_unique<Meter>()), token_(std::make_unique<CancelToken>()) {}
+BackgroundJob::BackgroundJob() : meter_(std::make_shared<Meter>()), token_(std::make_shared<CancelToken>()) {}
 
 BackgroundJob::~BackgroundJob() {
   cancel();
-  join();
-}
-
-void BackgroundJob::join() {
   if (thread_.joinable()) thread_.join();
 }
 
 void BackgroundJob::start(const std::string& name, Work work) {
   cancel();
-  join();
-  {
-    const std::lock_guard lock(mutex_);
-    name_ = name;
-    error_.clear();
-    running_ = true;
-    start_ = std::chrono::steady_clock::now();
-    meter_ = std::make_unique<Meter>();
-    token_ = std::make_unique<CancelToken>();
-  }
-  thread_ = std::thread([this, work = std::move(work), control = Control{meter_.get(), token_.get()}] {
+  const std::lock_guard lock(mutex_);
+  name_ = name;
+  error_.clear();
+  running_ = true;
+  start_ = std::chrono::steady_clock::now();
+  meter_ = std::make_shared<Meter>();
+  token_ = std::make_shared<CancelToken>();
+  next_ = std::move(work);
+  if (executing_) return;
+  // A thread that is not at work any more takes no lock on its way to the end.
+  if (thread_.joinable()) thread_.join();
+  executing_ = token_;
+  thread_ = std::thread([this] { run(); });
+}
+
+void BackgroundJob::run() {
+  std::unique_lock lock(mutex_);
+  while (next_) {
+    const Work work = std::exchange(next_, {});
+    const std::shared_ptr<Meter> meter = meter_;
+    const std::shared_ptr<CancelToken> token = executing_ = token_;
+    lock.unlock();
     Finish finish;
     std::string error;
     try {
-      finish = work(control);
+      finish = work({meter.get(), token.get()});
     } catch (const Cancelled&) {
     } catch (const std::exception& e) {
       error = e.what();
     }
-    const std::lock_guard lock(mutex_);
-    if (!control.cancelled()) {
-      if (finish) handed_.push_back(std::move(finish));
-      error_ = error;
-    }
+    lock.lock();
+    if (token->requested()) continue;
+    if (finish) handed_.push_back(std::move(finish));
+    error_ = error;
     running_ = false;
     end_ = std::chrono::steady_clock::now();
-  });
+  }
+  executing_.reset();
 }
 
 void BackgroundJob::cancel() {
-  token_->request();
   const std::lock_guard lock(mutex_);
+  token_->request();
   handed_.clear();
+  next_ = {};
+  if (!std::exchange(running_, false)) return;
+  end_ = std::chrono::steady_clock::now();
 }
 
 JobStatus BackgroundJob::status() const {
@@ -107,7 +117,7 @@ std::string BackgroundJob::take_error() {
 
 void BackgroundJob::hand_over(Finish step) {
   const std::lock_guard lock(mutex_);
-  if (!token_->requested()) handed_.push_back(std::move(step));
+  if (executing_ == token_ && !token_->requested()) handed_.push_back(std::move(step));
 }
 
 bool BackgroundJob::poll() {

@@ -35,9 +35,10 @@ class BackgroundJob {
   BackgroundJob(const BackgroundJob&) = delete;
   BackgroundJob& operator=(const BackgroundJob&) = delete;
 
-  /// Cancels what runs, waits for it and begins anew. What the old job would have handed over is dropped.
+  /// Cancels what runs, and begins anew once that has ended; nobody waits for it here. What the old job would
+  /// have handed over is dropped.
   void start(const std::string& name, Work work);
-  /// Asks the job to stop; its result is dropped.
+  /// Asks the job to stop; its result is dropped. It counts as ended at once.
   void cancel();
   JobStatus status() const;
   bool running() const { return status().running; }
@@ -54,11 +55,13 @@ class BackgroundJob {
 
  private:
   class Meter;
-  void join();
+  void run();
 
   mutable std::mutex mutex_;
-  std::unique_ptr<Meter> meter_;
-  std::unique_ptr<CancelToken> token_;
+  std::shared_ptr<Meter> meter_;
+  std::shared_ptr<CancelToken> token_;      ///< of the job that was started last
+  std::shared_ptr<CancelToken> executing_;  ///< of the one whose work is being done; null: none
+  Work next_;                               ///< to be done after that
   std::thread thread_;
   std::string name_, error_;
   std::vector<Finish> handed_;

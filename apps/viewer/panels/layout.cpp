@@ -19,11 +19,15 @@ ImTextureID texture_id(unsigned texture) {
 
 void draw_welcome(const App& app) {
   const Rect2& r = app.viewport;
-  const char* lines[] = {"Drop a scene here", ".glb .gltf .obj .ssphh.json", "",
+  const JobStatus status = app.job.status();
+  const std::string loading =
+      status.running ? fmt::format("{} … {:.0f} s", status.name, status.seconds) : std::string();
+  const char* loads[] = {loading.c_str(), "", "", "Escape cancels"};
+  const char* drops[] = {"Drop a scene here", ".glb .gltf .obj .ssphh.json", "",
                          "or begin with   ssphh view builtin:two-rooms"};
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   float y = r.y + 0.42f * r.height;
-  for (const char* line : lines) {
+  for (const char* line : status.running ? loads : drops) {
     const ImVec2 size = ImGui::CalcTextSize(line);
     list.AddText({r.x + 0.5f * (r.width - size.x), y}, IM_COL32(200, 200, 205, 255), line);
     y += 1.6f * size.y;

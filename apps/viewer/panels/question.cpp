@@ -43,6 +43,20 @@ std::optional<Answer> ask_to_recover(const App& app, const Kept& kept) {
   return answer;
 }
 
+std::optional<Answer> ask_to_reload(const App& app) {
+  ImGui::PushTextWrapPos(text_width(app));
+  ImGui::Text("%s has changed on the disk.", app.question.source.c_str());
+  if (app.unsaved())
+    ImGui::TextUnformatted("What was changed here is not saved, and goes when it is loaded anew.");
+  ImGui::PopTextWrapPos();
+  ImGui::Spacing();
+  std::optional<Answer> answer;
+  if (choice("Load anew (R)", {GLFW_KEY_R, GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER})) answer = Answer::discard;
+  beside("Keep what is open (Escape)", text_width(app));
+  if (choice("Keep what is open (Escape)", {GLFW_KEY_ESCAPE})) answer = Answer::stay;
+  return answer;
+}
+
 std::optional<Answer> ask_to_lose(const App& app, const std::string& lost) {
   const char* then = app.question.then == Question::Then::close ? "close" : "open";
   ImGui::PushTextWrapPos(text_width(app));
@@ -72,7 +86,8 @@ std::optional<Answer> ask_to_lose(const App& app, const std::string& lost) {
 void draw_question(App& app) {
   const std::string lost = app.what_is_lost();
   const bool recovers = app.question.then == Question::Then::recover;
-  const bool asks = recovers || (app.question.then != Question::Then::nothing && !lost.empty());
+  const bool reloads = app.question.then == Question::Then::reload;
+  const bool asks = recovers || reloads || (app.question.then != Question::Then::nothing && !lost.empty());
   if (asks && !ImGui::IsPopupOpen(popup)) ImGui::OpenPopup(popup);
   const Rect2& r = app.viewport;
   ImGui::SetNextWindowPos({r.x + 0.5f * r.width, r.y + 0.5f * r.height}, ImGuiCond_Always, {0.5f, 0.5f});
@@ -86,8 +101,9 @@ void draw_question(App& app) {
     if (app.question.then != Question::Then::nothing) app.answer(Answer::discard);
     return;
   }
-  const std::optional<Answer> answer =
-      recovers ? ask_to_recover(app, app.question.kept) : ask_to_lose(app, lost);
+  const std::optional<Answer> answer = recovers  ? ask_to_recover(app, app.question.kept)
+                                       : reloads ? ask_to_reload(app)
+                                                 : ask_to_lose(app, lost);
   if (answer) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
   if (answer) app.answer(*answer);

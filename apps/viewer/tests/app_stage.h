@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <thread>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -127,6 +128,13 @@ class AppStage : public testing::Test {
   double turn(const InjectedInput& input = {}) {
     app_->redraw();
     return app_->turn(input);
+  }
+  /// Waits until nothing is under way in the background, and takes it over.
+  void finish_work() {
+    while (!app_->job.idle() || !app_->job.status().error.empty()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      app_->take_work();
+    }
   }
   void frames(int count) {
     for (int i = 0; i < count; ++i) frame();

@@ -75,7 +75,7 @@ TEST_F(AppTest, FilesThatAreDroppedAreOpened) {
   options_.load = [](const std::string& source) -> scene::Scene { throw Error(source, "asked for"); };
   for (const char* scene : {"a.ssphh.json", "a.glb"}) {
     window_->dropped = {scene};
-    turn();
+    turn(), finish_work();
     EXPECT_EQ(app().message, std::string(scene) + ": asked for");
   }
   EXPECT_TRUE(is_probe_file("a.sphl") && is_probe_file("a.sphl.json"));

@@ -52,7 +52,9 @@ TEST_F(Dialog, KeysFindAScene) {
   press({GLFW_KEY_DOWN}), press({GLFW_KEY_DOWN}), press({GLFW_KEY_UP});
   frames(2);
   press({GLFW_KEY_ENTER});
+  finish_work();
   EXPECT_THAT(loaded_, ElementsAre(here("scene-a.glb")));
+  ASSERT_TRUE(app().dialog);
   EXPECT_THAT(app().dialog->problem, testing::HasSubstr("was asked for")) << "it stays to be mended";
   press({GLFW_KEY_ESCAPE});
   EXPECT_FALSE(app().dialog);
@@ -77,6 +79,7 @@ TEST_F(Dialog, WhatIsTypedIsCompleted) {
   EXPECT_EQ(app().dialog->browser.folder(), fs::current_path());
   type("b");
   press({GLFW_KEY_ENTER});
+  finish_work();
   EXPECT_THAT(loaded_, ElementsAre(here("models/hut.glb")));
 }
 
@@ -85,6 +88,7 @@ TEST_F(Dialog, TheMouseChoosesToo) {
   frames(3);
   click_text("scene-b.glb");
   click_text("Open (Enter)");
+  finish_work(), frames(3);
   EXPECT_THAT(loaded_, ElementsAre(here("scene-b.glb")));
   click_text("Up");
   EXPECT_EQ(app().dialog->browser.folder(), fs::current_path().parent_path());
@@ -183,7 +187,7 @@ TEST_F(Recent, ScenesStandInTheMenu) {
   click(remove.from.x + 3, remove.from.y + 5), frames(3);
   EXPECT_THAT(read_preferences(options_.preferences).recent, ElementsAre(here("scene-a.glb")));
   const DrawnThing there = text(here("scene-a.glb"));
-  click(there.from.x + 3, there.from.y + 5), frames(2);
+  click(there.from.x + 3, there.from.y + 5), frames(2), finish_work();
   EXPECT_THAT(loaded_, ElementsAre(here("scene-a.glb")));
 }
 

@@ -117,6 +117,7 @@ TEST_F(Asked, AnotherSceneWaitsForTheAnswer) {
   app().request_open("b.ssphh.json");
   rest();
   press({GLFW_KEY_D});
+  finish_work();
   EXPECT_THAT(loaded, testing::ElementsAre("b.ssphh.json"));
   EXPECT_EQ(app().message, "b.ssphh.json: was asked for");
   EXPECT_TRUE(app().document.dirty()) << "what is refused takes nothing away";
