@@ -50,6 +50,7 @@ double App::turn(const InjectedInput& input) {
   take_work();
   if (reference.poll()) truth_dirty_ = true, redraw();
   watch_file();
+  note_view();
   keep_unsaved();
   update_time(std::min(elapsed, 0.25));
 
@@ -184,7 +185,7 @@ bool App::picture_stale() const {
                        (settings.balls && !(drawn_->selection == selection)) ||
                        needs_truth(drawn_->settings) != needs_truth(settings) ||
                        drawn_->width != picture.width() || drawn_->height != picture.height();
-  const bool linear_missing = needs_truth(settings) && picture.linear().empty();
+  const bool linear_missing = wants_linear() && picture.linear().empty();
   return changed || scene_dirty_ || waiting_maps_ > 0 || linear_missing;
 }
 
@@ -218,6 +219,7 @@ void App::begin_picture() {
     reference.clear();
     last_change_ = window.seconds();
   }
+  if (!wants_linear()) picture.forget_linear();
   picture.begin(*renderer_, pose_of(view), frame_settings(settings));
   drawing_ = Drawing{false, 0};
   drawn_ = {view, settings, selection, picture.width(), picture.height()};
@@ -227,7 +229,7 @@ void App::begin_picture() {
 /// As many pieces as leave time for the interface, at least one; where nobody sits there, all.
 void App::continue_picture() {
   const double start = window.seconds(), patience = by_hand() ? 0.02 : 1e30;
-  const bool linear = !drawing_->smooth && needs_truth(drawn_->settings);
+  const bool linear = !drawing_->smooth && (inspecting || needs_truth(drawn_->settings));
   bool more = true;
   while ((more = picture.step(*renderer_, linear)) && window.seconds() - start < patience) {
   }
@@ -238,6 +240,7 @@ void App::continue_picture() {
 
 void App::finish_picture(const Drawing& done) {
   draw_balls();
+  ++pictures_;
   if (done.smooth) return picture.average();
   last_stats = renderer_->stats();
   waiting_maps_ = last_stats.shadow_maps_waiting;

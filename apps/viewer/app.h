@@ -16,6 +16,7 @@
 #include "model/file_browser.h"
 #include "model/frame_times.h"
 #include "model/gestures.h"
+#include "model/inspection.h"
 #include "model/preferences.h"
 #include "model/reference.h"
 #include "outline_gl.h"
@@ -57,6 +58,14 @@ struct Drag {
   /// Whether view or scene follow the mouse: not before it moves, and the wipe's line is neither.
   bool changes_picture() const { return moved && what != What::none && what != What::wipe; }
 };
+/// What the pixel inspector shows.
+struct Inspection {
+  vec2 point{0};  ///< of the picture, (0, 0) its lower left and (1, 1) its upper right corner
+  std::optional<InspectedSurface> surface;
+  std::optional<vec3> radiance, truth;  ///< of the picture's pixel; none: not drawn yet, not traced
+  InspectedLight light;
+};
+
 /// What the user is asked before edits or a bake are lost, or where an earlier session left some.
 struct Question {
   enum class Then { nothing, close, open, recover, reload } then = Then::nothing;
@@ -154,6 +163,16 @@ class App {
   /// The view of a bookmark, and its pose of the scene.
   void go_to(const CameraKey& key);
   void add_bookmark();
+  /// Brings `inspection` up to date for a point of the picture.
+  void inspect(const vec2& point);
+  void toggle_inspector();
+  /// Notes a view that somebody stays at, for view_back(). Every turn.
+  void note_view();
+  void view_back();
+  void view_forward();
+  /// What is looked at from another side; direction as seen_along().
+  void view_along(const vec3& direction);
+  void toggle_orthographic();
   /// Frames what is selected, or everything, without going through a wall.
   void frame_selection();
   /// Selects, and tells what.
@@ -221,6 +240,9 @@ class App {
   float path_time = 0;
   bool path_plays = false;
   bool panels = true, help = false, place_mode = false;
+  bool inspecting = false;
+  std::optional<vec2> pinned;            ///< point that is inspected; none: the one under the mouse
+  std::optional<Inspection> inspection;  ///< of the point that was inspected last
   bool failures_end = false;       ///< work in the background that fails ends the session with its message
   bool follows_exposure = true;    ///< with every frame; else only where follow_exposure() is called
   std::string open_tab = "Light";  ///< of the sidebar
@@ -302,8 +324,25 @@ class App {
     double seconds = 0;   ///< so far
   };
   void finish_picture(const Drawing& done);
+  bool wants_linear() const { return needs_truth(settings) || inspecting; }
   bool awaits_picture() const { return drawing_ && !drawing_->smooth; }
   std::optional<Drawing> drawing_;
+  int pictures_ = 0;  ///< that became whole
+  /// What `inspection` holds for.
+  struct Inspected {
+    vec2 point;
+    View view;
+    float time;
+    std::uint64_t edits;
+    int pictures;
+    const void* scene;
+    friend bool operator==(const Inspected&, const Inspected&) = default;
+  };
+  std::optional<Inspected> inspected_;
+  void keep_view();
+  History<View> views_;
+  View view_seen_;
+  double view_since_ = 0;
   std::optional<Ball> balls_are_;  ///< coloured by
   scene::Bounds clicked_;          ///< part of the selected object that was clicked; empty: it was not
   std::optional<Drawn> drawn_;

@@ -108,6 +108,8 @@ void App::take_document(Loaded loaded) {
   unsaved_since_.reset();
   selection = {};
   view = view_from("");
+  views_ = History<View>(view);
+  pinned.reset(), inspection.reset();
   applied_materials_ = document.edits().materials;
   applied_sphls_ = document.edits().sphls;
   drawn_.reset();

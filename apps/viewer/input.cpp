@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -27,7 +28,10 @@ constexpr Shortcut all_shortcuts[] = {
     {"W A S D, Q E", "fly; with Shift faster"},
     {"F", "frame the selection, or all, from within the room"},
     {"Home", "the scene's first camera"},
+    {"numpad 1 3 7, 5", "from the front, right, above (Ctrl: opposite), orthographic"},
+    {"Alt+Left, Alt+Right", "the view before, after"},
     {"B", "add a bookmark"},
+    {"I", "values under the mouse; a click pins the point"},
     {"Space", "play or stop the animation"},
     {"P", "probes: off, as balls"},
     {"L", "lobes: balls bulge where light comes from"},
@@ -79,13 +83,25 @@ void handle_control_keys(App& app) {
   if (pressed(GLFW_KEY_S)) ImGui::GetIO().KeyShift ? app.ask_for_file(FileDialog::For::scene) : app.save();
 }
 
+void handle_view_keys(App& app) {
+  constexpr std::pair<int, vec3> sides[] = {
+      {GLFW_KEY_KP_1, {0, 0, -1}}, {GLFW_KEY_KP_3, {-1, 0, 0}}, {GLFW_KEY_KP_7, {0, -1, 0}}};
+  for (const auto& [key, direction] : sides) {
+    if (pressed(key)) app.view_along(ImGui::GetIO().KeyCtrl ? -direction : direction);
+  }
+  if (pressed(GLFW_KEY_KP_5)) app.toggle_orthographic();
+  if (ImGui::GetIO().KeyAlt && repeated(GLFW_KEY_LEFT)) app.view_back();
+  if (ImGui::GetIO().KeyAlt && repeated(GLFW_KEY_RIGHT)) app.view_forward();
+}
+
 void handle_keys(App& app) {
   if (pressed(GLFW_KEY_F1) || pressed(GLFW_KEY_H)) toggle(app, app.help);
   if (pressed(GLFW_KEY_TAB)) toggle(app, app.panels);
   if (pressed(GLFW_KEY_ESCAPE) && app.job.status().name.starts_with("loading")) app.job.cancel();
-  if (pressed(GLFW_KEY_ESCAPE)) app.help = app.place_mode = false, app.selection = {};
+  if (pressed(GLFW_KEY_ESCAPE)) app.help = app.place_mode = app.inspecting = false, app.selection = {};
   if (ImGui::GetIO().KeyCtrl && pressed(GLFW_KEY_O)) return app.ask_for_file(FileDialog::For::open);
   if (!app.scene_open()) return;
+  handle_view_keys(app);
   if (ImGui::GetIO().KeyCtrl) return handle_control_keys(app);
   if (pressed(GLFW_KEY_F)) app.frame_selection();
   if (pressed(GLFW_KEY_HOME)) app.go_to_camera("");
@@ -94,6 +110,7 @@ void handle_keys(App& app) {
     app.say("bookmark added");
   }
   if (pressed(GLFW_KEY_N)) toggle(app, app.place_mode);
+  if (pressed('I')) app.toggle_inspector();
   if (pressed(GLFW_KEY_DELETE)) app.delete_selection();
   for (const char key : setting_keys) {
     const bool steps = key == '[' || key == ']';
@@ -220,7 +237,11 @@ void handle_mouse(App& app) {
     // A hand is not quite still while it clicks.
     const bool click = app.drag.what == Drag::What::view && app.drag.way < 4;
     app.drag = {};
-    if (click) app.select_on_ray(mouse_ray(app));
+    if (click && app.inspecting) {
+      app.pinned = picture_point(app, io.MousePos);
+    } else if (click) {
+      app.select_on_ray(mouse_ray(app));
+    }
     app.document.history.seal();
     app.redraw();
   }

@@ -50,6 +50,7 @@ class Picture {
   unsigned realtime_texture() const { return shown().id(); }
   /// Of the last draw() with `linear`; empty before.
   const image::Image& linear() const { return linear_; }
+  void forget_linear() { linear_ = {}; }
   /// What is shown, balls included. Row 0 on top.
   image::Rgba8 pixels() const;
 

@@ -44,6 +44,9 @@ class ProbeLight {
   const LiveLight* live_light() const { return live_.get(); }
   const transport::RelightReport& report() const { return report_; }
 
+  /// How surfaces look it up, apart from the weights.
+  probes::LookupParams lookup_params(const Settings& settings) const;
+
   struct Update {
     bool relit = false;     ///< light changed
     bool replaced = false;  ///< places changed
@@ -59,7 +62,6 @@ class ProbeLight {
   bool choose_modes(const scene::LightingState& state);
   bool rebuild_hierarchy(const Settings& settings);
   sh::RadianceSh looked_up(std::size_t i, const Settings& settings) const;
-  probes::LookupParams lookup_params(const Settings& settings) const;
 
   std::shared_ptr<LiveLight> live_;
   std::optional<probes::ProbeSet> set_;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <ssphh/gl/draw.h>
+#include <ssphh/gl/framebuffer.h>
 #include <ssphh/scene/builtin.h>
 
 #include "gl_context.h"

@@ -91,6 +91,27 @@ View dollied(const View& view, float factor) {
   return out;
 }
 
+View seen_along(const View& view, const vec3& direction) {
+  const vec3 center = view.center();
+  const View turned = look_at(center - view.focus * glm::normalize(direction), center, view.yfov);
+  View out = view;
+  out.eye = turned.eye, out.orientation = turned.orientation;
+  return out;
+}
+
+View with_other_projection(const View& view) {
+  View out = view;
+  out.orthographic = !view.orthographic;
+  const float extent = 2 * std::tan(0.5f * view.yfov);
+  if (out.orthographic) {
+    out.yheight = view.focus * extent;
+  } else {
+    out.focus = std::max(view.yheight / extent, 1e-3f);
+    out.eye = view.center() - out.focus * view.forward();
+  }
+  return out;
+}
+
 View framed(const View& view, const scene::Bounds& bounds, float aspect) {
   if (bounds.empty()) return view;
   View out = view;

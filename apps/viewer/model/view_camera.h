@@ -42,6 +42,12 @@ View moved(const View& view, const vec3& right_up_forward);
 /// Nearer to the focus (factor under 1) or farther away from it; at least 1 mm remains.
 View dollied(const View& view, float factor);
 
+/// What is in focus, seen along a direction (any length but 0) from as far away, level.
+View seen_along(const View& view, const vec3& direction);
+
+/// Orthographic instead of perspective, or the other way round: what is in focus keeps its size.
+View with_other_projection(const View& view);
+
 /// The whole of `bounds` in sight, from the same direction. Unchanged for empty bounds.
 View framed(const View& view, const scene::Bounds& bounds, float aspect);
 

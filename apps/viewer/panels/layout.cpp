@@ -106,6 +106,7 @@ void draw_panels(App& app) {
   if (!app.scene_open()) draw_welcome(app);
   if (app.panels) draw_offer(app);
   draw_message(app);
+  draw_inspector(app);
   draw_help(app);
   draw_file_dialog(app);
   draw_question(app);

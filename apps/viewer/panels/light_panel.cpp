@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include "app.h"
+#include "model/lamp_color.h"
 #include "panels.h"
 #include "widgets.h"
 
@@ -42,6 +43,37 @@ void draw_lamp_list(App& app) {
     note("The scene has no lamps; emissive surfaces and the environment are below, as groups.");
 }
 
+/// The same colour by its digits, and by its temperature.
+void draw_color_names(App& app, std::size_t i) {
+  const std::string what = "colour " + app.document.scene->lights[i].name;
+  const vec3 now = app.document.edits().lights[i].color;
+  row("sRGB");
+  char text[16] = "";
+  hex_of(now).copy(text, sizeof text - 1);
+  if (ImGui::InputText("##hex", text, sizeof text,
+                       ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll)) {
+    const auto color = color_of_hex(text);
+    if (!color) app.complain(fmt::format("\"{}\" is no colour like #ffe0b0", text));
+    app.document.history.seal();
+    if (color) edit(app, what, [&](Edits& e) { e.lights[i].color = *color; });
+    app.document.history.seal();
+  }
+  tip("in hexadecimal digits, as #ffe0b0; Enter takes it");
+  row("temperature");
+  // What was chosen last is kept exactly, so that a drag goes on from it.
+  static float chosen = 6500;
+  const float was = now == color_of_kelvin(chosen) ? chosen : kelvin_of(now).value_or(6500);
+  float kelvin = was;
+  ImGui::DragFloat("##kelvin", &kelvin, 20, least_kelvin, most_kelvin, "%.0f K",
+                   ImGuiSliderFlags_AlwaysClamp);
+  if (kelvin != was) {
+    chosen = kelvin;
+    edit(app, what, [&](Edits& e) { e.lights[i].color = color_of_kelvin(kelvin); });
+  }
+  seal_after_edit(app);
+  tip("of the black body whose colour is nearest; changing it takes that colour, its largest channel 1");
+}
+
 void draw_lamp(App& app, std::size_t i) {
   const scene::Light& light = app.document.scene->lights[i];
   const LightEdit& now = app.document.edits().lights[i];
@@ -63,6 +95,7 @@ void draw_lamp(App& app, std::size_t i) {
     edit(app, "colour " + light.name, [&](Edits& e) { e.lights[i].color = color; });
   seal_after_edit(app);
   tip("linear Rec.709");
+  draw_color_names(app, i);
 
   if (light.type != scene::LightType::directional) {
     row("position");

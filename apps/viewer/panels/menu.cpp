@@ -93,6 +93,14 @@ void draw_view_menu(App& app) {
   ImGui::MenuItem("Lobes", "L", &s.lobes);
   ImGui::MenuItem("Graph of the hierarchy", "G", &s.graph);
   ImGui::MenuItem("Panels", "Tab", &app.panels);
+  if (ImGui::MenuItem("Values under the mouse", "I", app.inspecting)) app.toggle_inspector();
+  ImGui::Separator();
+  if (ImGui::MenuItem("From the front", "Num 1")) app.view_along({0, 0, -1});
+  if (ImGui::MenuItem("From the right", "Num 3")) app.view_along({-1, 0, 0});
+  if (ImGui::MenuItem("From above", "Num 7")) app.view_along({0, -1, 0});
+  if (ImGui::MenuItem("Orthographic", "Num 5", app.view.orthographic)) app.toggle_orthographic();
+  if (ImGui::MenuItem("View before", "Alt+Left")) app.view_back();
+  if (ImGui::MenuItem("View after", "Alt+Right")) app.view_forward();
 }
 
 }  // namespace
