@@ -14,6 +14,7 @@
 #include <ssphh/lightmap/light.h>
 #include <ssphh/lightmap/lit_scene.h>
 #include <ssphh/pipeline/bake_scene.h>
+#include <ssphh/pipeline/surface_light.h>
 #include <ssphh/probe_export/target.h>
 #include <ssphh/scene_io/gltf_export.h>
 #include <ssphh/trace/path_tracer.h>
@@ -25,49 +26,6 @@
 
 namespace ssphh::app {
 namespace {
-
-probes::ProbeSet baked(const LightmapOptions& o, const trace::SharedGeometry& geometry,
-                       const scene::Scene& scene, const Control& control) {
-  pipeline::BakeSettings settings;
-  set_effort(settings, o.quality);
-  settings.op = probes::LightOperator::surfel;
-  settings.viz = probes::VizMethod::none;
-  settings.seed = o.seed;
-  return pipeline::bake_scene(geometry, scene, o.scene.time, {}, settings, {}, control).set;
-}
-
-/// Light straight from emitters of the groups that a lookup leaves out, each at its scale.
-class Direct {
- public:
-  Direct(const trace::TransportScene& source, const probes::ProbeSet& set, float time,
-         const std::vector<std::string>& held, int samples)
-      : samples_(samples) {
-    std::vector<mat4> poses;
-    for (int part = 0; part < source.part_count(); ++part) poses.push_back(source.part_pose(part, time));
-    light_ = source.direct_light(source.lights(time), poses);
-    for (std::size_t g = 0; g < source.light_groups().size(); ++g) {
-      const std::string& name = source.light_groups()[g];
-      const auto group = std::ranges::find(set.light_groups, name, &probes::LightGroup::name);
-      const vec3 scale = group == set.light_groups.end() ? vec3(1) : group->scale;
-      if (std::ranges::find(held, name) == held.end() && scale != vec3(0))
-        groups_.emplace_back(static_cast<int>(g), scale);
-    }
-  }
-
-  vec3 operator()(const rays::SurfacePoint& at) const {
-    vec3 sum(0);
-    for (const auto& [group, scale] : groups_) {
-      sum += scale * light_->irradiance_by_normal(group, at, samples_)[3];
-      if (light_->mirrors()) sum += scale * light_->mirrored_by_normal(group, at, samples_)[3];
-    }
-    return sum;
-  }
-
- private:
-  std::unique_ptr<rays::DirectLight> light_;
-  std::vector<std::pair<int, vec3>> groups_;
-  int samples_;
-};
 
 /// What textures are made of.
 struct Baked {
@@ -82,19 +40,12 @@ struct Baked {
 image::Image atlas_of(const Baked& b, const probes::ProbeSet& set, LightmapResult& result,
                       const Control& control) {
   const LightmapOptions& o = b.options;
-  const auto lookup =
-      probes::make_lookup(probes::LookupMethod::irradiance, set, b.tracer, lookup_params(o.probes, set, {}));
-  std::vector<std::string> held = lookup->direct_groups();
-  std::optional<Direct> direct;
-  if (o.direct) direct.emplace(b.source, set, o.scene.time, held, o.direct_samples);
-  result.direct_groups = o.direct ? b.source.light_groups() : held;
+  const pipeline::SurfaceLight light(b.source, b.tracer, set, lookup_params(o.probes, set, {}), o.scene.time,
+                                     o.direct ? o.direct_samples : 0);
+  result.direct_groups = o.direct ? b.source.light_groups() : light.held_groups();
   const float factor = o.divide_by_pi ? 1 / pi : 1;
   return lightmap::light_texels(
-      b.texels, b.places,
-      [&](const rays::SurfacePoint& at) {
-        const vec3 e = lookup->irradiance(at);
-        return factor * (direct ? e + (*direct)(at) : e);
-      },
+      b.texels, b.places, [&](const rays::SurfacePoint& at) { return factor * light.irradiance(at); },
       control);
 }
 
@@ -177,8 +128,9 @@ LightmapResult run_lightmap(const LightmapOptions& o, const Control& control) {
   const trace::TransportScene source(geometry, scene);
   const trace::PathTracer tracer(geometry, scene, o.scene.time);
   const Stopwatch bake;
-  const probes::ProbeSet set = o.probes.empty() ? baked(o, geometry, scene, control)
-                                                : read_probes_of(scene, o.probes, o.scene.time, o.force);
+  const probes::ProbeSet set =
+      o.probes.empty() ? pipeline::bake_surfaces(geometry, scene, o.scene.time, o.quality, o.seed, control)
+                       : read_probes_of(scene, o.probes, o.scene.time, o.force);
   result.bake_seconds = bake.seconds();
   if (!probes::has_records(set, lookup_params(o.probes, set, {})))
     result.notes.push_back(

@@ -12,7 +12,7 @@ namespace ssphh::app {
 namespace {
 
 template <class T>
-std::vector<std::string> names_of(const std::vector<T>& items) {
+std::vector<std::string> item_names(const std::vector<T>& items) {
   std::vector<std::string> names;
   for (const T& item : items) names.push_back(item.name);
   return names;
@@ -75,8 +75,8 @@ SceneInfo run_scene_info(const SceneOptions& options, const Control&) {
   info.movable = static_cast<std::size_t>(std::ranges::count(scene.nodes, true, &scene::Node::movable));
   info.environment = scene.environment.has_value();
   info.light_groups = scene::light_groups(scene);
-  info.cameras = names_of(scene.cameras);
-  info.sphls = names_of(scene.sphls);
+  info.cameras = item_names(scene.cameras);
+  info.sphls = item_names(scene.sphls);
   info.places = scene::sphl_places(scene, options.time);
   info.animation_seconds = scene::animation_duration(scene);
   info.bounds = scene::world_bounds(scene, scene::world_matrices(scene, options.time));

@@ -125,8 +125,9 @@ void uv_charts(const WorldMesh& mesh, std::uint32_t instance, std::vector<Chart>
 }
 
 /// Why an instance gets no lightmap; empty: it gets one.
-std::string reason_against(const scene::Scene& scene, const scene::Instance& instance) {
-  if (instance.node >= 0 && scene.nodes[static_cast<std::size_t>(instance.node)].movable) return "it moves";
+std::string reason_against(const scene::Scene& scene, const scene::Instance& instance, bool moving) {
+  if (!moving && instance.node >= 0 && scene.nodes[static_cast<std::size_t>(instance.node)].movable)
+    return "it moves";
   const int index = scene::instance_material(scene, instance);
   if (index < 0) return "";
   const scene::Material& material = scene.materials[static_cast<std::size_t>(index)];
@@ -179,7 +180,7 @@ Charts make_charts(const scene::Scene& scene, float time, const ChartParams& par
     if (instance.mesh < 0) continue;
     const scene::Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
     if (mesh.triangles.empty()) continue;
-    if (const std::string reason = reason_against(scene, instance); !reason.empty()) {
+    if (const std::string reason = reason_against(scene, instance, params.moving); !reason.empty()) {
       ++left_out[reason];
       continue;
     }

@@ -63,6 +63,7 @@ void add_faces(const WorldMesh& mesh, const Chart& chart, const PlacedChart& pla
     Face face;
     face.front = glm::normalize(mesh.front(t));
     face.open = flat.open;
+    face.moves = mesh.moves;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = t[static_cast<int>(k)];
       face.position[k] = mesh.positions[v];
@@ -167,7 +168,7 @@ rays::SurfacePoint place_of(const Texels& texels, const Texel& texel, const vec2
   };
   const vec3 normal = mean(face.normal);
   const float length = glm::length(normal);
-  return {mean(face.position), length > 0 ? normal / length : face.front, false};
+  return {mean(face.position), length > 0 ? normal / length : face.front, face.moves};
 }
 
 }  // namespace ssphh::lightmap

@@ -12,6 +12,7 @@ struct WorldMesh {
   std::vector<vec3> positions;  ///< [m]
   std::vector<vec3> normals;    ///< unit; empty: geometric ones
   bool mirrored = false;        ///< fronts are clockwise
+  bool moves = false;           ///< an animation moves it
 
   WorldMesh(const scene::Scene& scene, const scene::Instance& instance, std::span<const mat4> world);
 

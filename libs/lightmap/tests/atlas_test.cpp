@@ -215,6 +215,31 @@ TEST(Atlas, HasTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(bits(1), bits(3));
 }
 
+TEST(Atlas, OfWhatMovesIsThatOfItsPose) {
+  scene::Scene scene = scene_of({scene::make_quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0})});
+  scene.nodes[0].matrix.reset();
+  scene::Animation animation;
+  animation.channels.push_back({.node = 0,
+                                .path = scene::AnimationPath::translation,
+                                .times = {0, 2},
+                                .values = {vec4(0), vec4(0, 0, 6, 0)}});
+  scene.animations.push_back(animation);
+  scene::mark_movable(scene);
+  EXPECT_TRUE(make_charts(scene, 0).charts.empty());
+  const Charts charts = make_charts(scene, 0, {.moving = true});
+  EXPECT_TRUE(charts.notes.empty());
+  const Layout layout = lay_out(charts.charts, {.size = 32});
+  for (const float time : {0.0f, 1.0f}) {
+    const Texels texels = make_texels(scene, time, charts.charts, layout);
+    ASSERT_FALSE(texels.texels.empty());
+    for (const Texel& texel : texels.texels) {
+      const rays::SurfacePoint at = place_of(texels, texel);
+      EXPECT_TRUE(at.moves);
+      EXPECT_NEAR(at.position.z, 3 * time, 1e-5f);
+    }
+  }
+}
+
 TEST(Atlas, StopsWhenAsked) {
   const Unwrapped u(scene_of({scene::make_box(vec3(0), vec3(1))}), {.size = 64});
   CancelToken stop;

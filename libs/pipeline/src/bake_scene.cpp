@@ -183,4 +183,14 @@ SceneBake bake_scene(const trace::SharedGeometry& geometry, const scene::Scene& 
   return result;
 }
 
+probes::ProbeSet bake_surfaces(const trace::SharedGeometry& geometry, const scene::Scene& scene, float time,
+                               bake::Quality quality, std::uint64_t seed, const Control& control) {
+  BakeSettings settings;
+  set_effort(settings, quality);
+  settings.op = probes::LightOperator::surfel;
+  settings.viz = probes::VizMethod::none;
+  settings.seed = seed;
+  return bake_scene(geometry, scene, time, {}, settings, {}, control).set;
+}
+
 }  // namespace ssphh::pipeline

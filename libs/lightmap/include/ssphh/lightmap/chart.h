@@ -39,6 +39,7 @@ constexpr auto enum_table(UvChoice) {
 struct ChartParams {
   UvChoice uvs = UvChoice::automatic;
   float cone = 0.87f;    ///< most between the normals of a chart's triangles and its plane's [radians]
+  bool moving = false;   ///< also of what moves: its light is that of one time
   float crease = 0.35f;  ///< an edge where shading normals turn by more parts charts [radians]
 };
 
@@ -47,7 +48,7 @@ struct Charts {
   std::vector<std::string> notes;  ///< what has none and why, a line each
 };
 
-/// Of all surfaces that stand still, posed at `time`: not of what moves, of unlit materials and of clear
+/// Of all surfaces that stand still, or of all, posed at `time`: not of unlit materials and of clear
 /// glass, of triangles without area, nor where a material's textures take both sets of coordinates, which
 /// leaves none for a lightmap. Throws Error with UvChoice::scene for a mesh without second coordinates, or
 /// whose second coordinates leave [0, 1] or overlap; Cancelled when asked to stop.

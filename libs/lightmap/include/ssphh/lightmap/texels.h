@@ -16,6 +16,7 @@ struct Face {
   vec3 front{0};                         ///< geometric normal of its front side, unit
   std::array<vec2, 3> at;                ///< in texels, as PlacedChart::texel
   std::uint8_t open = 0;                 ///< as FlatTriangle::open
+  bool moves = false;                    ///< it is of a body that an animation moves
 };
 
 struct Texel {

@@ -76,4 +76,9 @@ SceneBake bake_scene(const trace::SharedGeometry& geometry, const scene::Scene& 
                      const std::filesystem::path& checkpoint, const Control& control = {},
                      bake::BakeCrew* crew = nullptr);
 
+/// The same with places found by themselves and light by surfels, kept in records of surfaces, without VIZ:
+/// for what is made of light at surfaces.
+probes::ProbeSet bake_surfaces(const trace::SharedGeometry& geometry, const scene::Scene& scene, float time,
+                               bake::Quality quality, std::uint64_t seed, const Control& control = {});
+
 }  // namespace ssphh::pipeline

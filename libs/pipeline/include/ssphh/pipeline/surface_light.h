@@ -1,0 +1,39 @@
+#pragma once
+/// Light that surfaces get of a probe set, as a picture of the set has it.
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <ssphh/probes/lookup.h>
+#include <ssphh/trace/path_tracer.h>
+#include <ssphh/trace/transport_scene.h>
+
+namespace ssphh::pipeline {
+
+/// Irradiance at surface points: what a lookup of the set holds, and light straight from emitters of the
+/// groups that it leaves out, each at the set's scale. Safe to call from several threads. Keeps references to
+/// the tracer.
+class SurfaceLight {
+ public:
+  /// `source` and `tracer` are of one scene, at `time` [s]. `direct_samples`: of each emitter with an extent;
+  /// 0: only what the lookup holds. Throws Error as probes::make_lookup does.
+  SurfaceLight(const trace::TransportScene& source, const trace::PathTracer& tracer,
+               const probes::ProbeSet& set, const probes::LookupParams& params, float time,
+               int direct_samples);
+
+  /// [W/m²] at the point's side, by its normal; the same bits at every call.
+  vec3 irradiance(const rays::SurfacePoint& at) const;
+  /// Light groups whose direct light the lookup holds.
+  const std::vector<std::string>& held_groups() const { return held_; }
+
+ private:
+  std::unique_ptr<rays::IndirectLight> lookup_;
+  std::vector<std::string> held_;
+  std::unique_ptr<rays::DirectLight> direct_;
+  std::vector<std::pair<int, vec3>> groups_;
+  int samples_;
+};
+
+}  // namespace ssphh::pipeline
