@@ -310,7 +310,8 @@ WebResult run_web(const WebOptions& o, const Control& control) {
   check_size(o, o.merge_groups ? 1 : scene::light_groups(scene).size(), result.times.size(), layout);
 
   const LitStage stage{o, scene, std::make_shared<const trace::SceneGeometry>(scene), charts, layout};
-  if (views.empty()) views.push_back({"view", camera_of(scene, "", o.scene.time, stage.geometry), 0, ""});
+  if (views.empty())
+    views.push_back({"view", pipeline::camera_of(scene, "", o.scene.time, stage.geometry), 0, ""});
   std::vector<PageGroup> groups;
   std::vector<FolderFile> made;
   probes::ProbeSet shown;  // of the pose nearest to --time
