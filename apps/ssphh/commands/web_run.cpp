@@ -31,6 +31,8 @@ namespace {
 /// What a page may take of a graphics card for its lightmaps, 4 bytes a texel.
 constexpr double most_bytes = double{512} * 1024 * 1024;
 constexpr int usual_poses = 5;
+/// Texels per metre under which a wall may be thinner than one.
+constexpr float coarse_density = 8;
 
 /// The first digits of the content's hash stand in the name: a changed file is no old one of a cache.
 FolderFile hashed_file(const std::string& stem, const std::string& ending, std::vector<std::byte> data) {
@@ -360,6 +362,11 @@ WebResult run_web(const WebOptions& o, const Control& control) {
   for (const PageView& view : views) result.cameras.push_back(view.name);
   for (const PageGroup& group : groups) result.groups.push_back(group.name);
   result.width = layout.width, result.height = layout.height, result.density = layout.density;
+  if (layout.density < coarse_density)
+    result.notes.push_back(fmt::format(
+        "{:.2g} texels per metre: shadows are blurred over {:.2g} m, and light leaks through walls "
+        "that are thinner; give a higher --size",
+        layout.density, 1 / layout.density));
   result.notes.insert(result.notes.end(), charts.notes.begin(), charts.notes.end());
   result.seconds = all.seconds() - result.bake_seconds;
   return result;

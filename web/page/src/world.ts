@@ -71,6 +71,8 @@ export class World {
   private dress(mesh: Mesh, known: Map<string, Material>): void {
     const material = mesh.material as Material;
     if (!(material instanceof MeshStandardMaterial)) return;
+    for (const texture of [material.map, material.normalMap, material.roughnessMap, material.metalnessMap])
+      if (texture) texture.anisotropy = 16;  // as much of it as there is
     const glows = material.emissive.getHex() !== 0 || material.emissiveMap !== null, group = glows ? groupOf(mesh) : undefined;
     const inAtlas = mesh.geometry.hasAttribute('uv1'), key = `${material.uuid} ${inAtlas} ${group}`;
     if (inAtlas) mesh.geometry.setAttribute('atlasAt', mesh.geometry.getAttribute('uv1'));
