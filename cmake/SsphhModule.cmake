@@ -69,15 +69,6 @@ function(ssphh_module name)
   endif()
 endfunction()
 
-# ssphh_test(<name> SOURCES <file>... LINK <target>...): a GoogleTest program, one ctest entry per test.
-function(ssphh_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
-  add_executable(${name} ${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE ${ARG_LINK} ssphh_test_support GTest::gmock_main ssphh_compile_options)
-  ssphh_unity(${name})
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 600)
-endfunction()
-
 # ssphh_benchmark(<name> SOURCES <file>... LINK <target>...): a Google Benchmark program.
 function(ssphh_benchmark name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})

@@ -1,0 +1,19 @@
+# ssphh_test(<name> SOURCES <file>... LINK <target>...): a GoogleTest program, one ctest entry NAME.SUITE for each of its suites.
+#
+# gtest_discover_tests of CMake starts a process for each test: what a suite makes once for all of its tests (a bake, a context
+# of OpenGL with its shaders) would be made for each of them.
+function(ssphh_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} ssphh_test_support GTest::gmock_main ssphh_compile_options)
+  ssphh_unity(${name})
+  # Read by ctest, which asks the program itself: there is none yet when CMake runs.
+  set(file ${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake)
+  file(CONFIGURE OUTPUT ${file} @ONLY CONTENT
+"set(name @name@)
+set(program \"@CMAKE_RUNTIME_OUTPUT_DIRECTORY@/@name@\")
+set(results \"@PROJECT_BINARY_DIR@/test-results\")
+include(\"@PROJECT_SOURCE_DIR@/cmake/test_suites.cmake\")
+")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${file})
+endfunction()
