@@ -20,6 +20,7 @@ class Sizes:
         self.face, self.many = (8, 4) if quick else (64, 256)
         self.overlay_spp, self.photons, self.voxels = (1, 16, 8) if quick else (4, 128, 32)
         self.mesh = ["rays=16", "edge=2"] if quick else []
+        self.surfels, self.records = (["surfel_size=0.5"], ["records=512"]) if quick else ([], [])
         self.plan = ["width=96", "height=54", "face=8"] if quick else []
 
     def paper(self):

@@ -11,7 +11,7 @@ def overlay(figure, sizes, name, method, draw=None, parameters=(), scene="builti
 
 
 def figure4(figure, sizes):
-    probes = ["probes=24"]
+    probes = ["probes=24", *sizes.surfels]
     overlay(figure, sizes, "tetrahedra", "irradiance-volume", "tetrahedra", probes)
     overlay(figure, sizes, "volume", "irradiance-volume", None, probes)
     overlay(figure, sizes, "transfer", "prt", "transfer", [*probes, *sizes.mesh])
@@ -62,8 +62,8 @@ def figure7(figure, sizes, degree=10):
     hierarchy(figure, sizes, "gallery1", "edges", -1)
     hierarchy(figure, sizes, "gallery1", "light", -1, None)
     for draw in ("surfels", "links"):
-        overlay(figure, sizes, draw, "ssphh", draw)
-    overlay(figure, sizes, "ssphh", "ssphh")
+        overlay(figure, sizes, draw, "ssphh", draw, [*sizes.surfels, *sizes.records])
+    overlay(figure, sizes, "ssphh", "ssphh", None, [*sizes.surfels, *sizes.records])
     figure.panels([[("sphls.png", "(a) SPHLs, each path traced: balls of the radiance that they see"),
                     ("edges.png", "(b) what they add to each other (HIER): wide and yellow edges where P is large"),
                     ("light.png", "the picture, lookup light")],

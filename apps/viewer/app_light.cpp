@@ -78,6 +78,7 @@ void App::use_probes(const std::string& what) {
 void App::rebuild_light() {
   LiveLightParams params;
   params.geometry = geometry_;
+  params.relight.records.points = options.records;
   params.places = places_of(document);
   if (params.places.empty()) {
     light.clear();
@@ -98,6 +99,7 @@ void App::place_probes(float spacing) {
   auto scene = std::make_shared<const scene::Scene>(with_materials(*document.scene, document.edits()));
   LiveLightParams params;
   params.geometry = geometry_;
+  params.relight.records.points = options.records;
   params.spacing = spacing;
   job.start("placing probes", [this, scene, params, time = document.time](const Control& control) {
     auto live = std::make_shared<LiveLight>(scene, params, time, control);

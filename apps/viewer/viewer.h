@@ -9,6 +9,7 @@
 
 #include <ssphh/core/control.h>
 #include <ssphh/scene/scene.h>
+#include <ssphh/transport/transport_params.h>
 
 namespace ssphh::viewer {
 
@@ -21,6 +22,7 @@ struct ViewerOptions {
   std::string probes;  ///< a probe file; scene, auto, auto:METRES; off; empty: the scene's SPHLs, if any
   bool force = false;  ///< take a probe file of another scene, with a warning
   bool live = false;   ///< light a file's probes anew, so that they follow lamps and doors
+  int records = transport::usual_records;  ///< surface points that keep light while it follows lamps, at most
   int width = 1440, height = 810;
   bool panels = true;
   std::vector<std::pair<std::string, std::string>> settings;  ///< by setting_names()

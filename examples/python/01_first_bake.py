@@ -24,7 +24,7 @@ print(f"mean indirect irradiance {looked_up.mean():.3f} W/m2, path traced {indir
 print(f"relative error, root mean square: {error:.2f}")
 
 # %% Draw both.
-size = dict(width=320, height=180, spp=16) if example.small else dict(width=960, height=540, spp=128)
+size = dict(width=96, height=54, spp=16) if example.small else dict(width=960, height=540, spp=128)
 with_probes = ssphh.render(scene, "ssphh", probes=probes, **size)
 by_paths = ssphh.render(scene, "path", **size)
 errors = ssphh.compare(by_paths, with_probes)

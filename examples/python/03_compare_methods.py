@@ -9,7 +9,7 @@ import example
 import ssphh
 
 scene = ssphh.load("builtin:cornell")
-size = dict(width=96, height=96) if example.small else dict(width=400, height=400)
+size = dict(width=48, height=48) if example.small else dict(width=400, height=400)
 reference = ssphh.render(scene, "path", spp=64 if example.small else 1024, seed=1, **size)
 
 # %% Each by its defaults; ssphh.methods() tells of their parameters.

@@ -1,10 +1,9 @@
 """Spherical harmonics: real, orthonormal, no Condon-Shortley sign; index k = l (l + 1) + m. Coefficients are Kx3, red, green
 and blue, K = (degree + 1)^2; directions are unit vectors."""
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-_Floats = NDArray[np.float32]
+from ._common import Floats as _Floats
 
 max_degree: int
 

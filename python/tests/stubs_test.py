@@ -21,7 +21,7 @@ def stub(name):
 
 
 def defined(body):
-    """Name to node of what a stub defines, without private aliases."""
+    """Name to node of what a stub defines, or takes from the stub of a topic, without private aliases."""
     found = {}
     for node in body:
         if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
@@ -29,7 +29,8 @@ def defined(body):
         elif isinstance(node, ast.AnnAssign):
             found[node.target.id] = node
         elif isinstance(node, ast.ImportFrom) and node.level:
-            found.update({alias.asname: node for alias in node.names})
+            topic = defined(stub(f"{node.module}.pyi").body) if node.module else {}
+            found.update({alias.asname: topic.get(alias.name, node) for alias in node.names if alias.asname})
     return {name: node for name, node in found.items() if not name.startswith("_") or name.startswith("__")}
 
 

@@ -2,6 +2,7 @@
 /// rays.
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -86,15 +87,20 @@ struct Differences {
 
 class CookedBake : public testing::TestWithParam<std::string> {
  protected:
-  static scene::Scene scene() {
+  /// Both tests look into one bake of each.
+  static const Baked& baked() {
+    static std::map<std::string, Baked> bakes;
     const std::string name = GetParam().substr(0, GetParam().find('_'));
-    return name == "rooms" ? lit_two_rooms() : scene::make_builtin(name);
+    if (const auto found = bakes.find(GetParam()); found != bakes.end()) return found->second;
+    return bakes
+        .try_emplace(GetParam(), name == "rooms" ? lit_two_rooms() : scene::make_builtin(name), records())
+        .first->second;
   }
   static bool records() { return GetParam().find("fitted") == std::string::npos; }
 };
 
 TEST_P(CookedBake, GivesWhatItsFormulaSays) {
-  const Baked baked(scene(), records());
+  const Baked& baked = CookedBake::baked();
   const CookedReference reference(baked.scene, baked.source, baked.set, cook::CookParams{}.sight_size);
   std::size_t by_points = 0;
   for (const rays::SurfacePoint& at : baked.surfaces) by_points += reference.by_points(at);
@@ -110,7 +116,7 @@ TEST_P(CookedBake, GivesWhatItsFormulaSays) {
 }
 
 TEST_P(CookedBake, IsNearTheFullLookup) {
-  const Baked baked(scene(), records());
+  const Baked& baked = CookedBake::baked();
   const probes::IrradianceLookup full(baked.set, baked.tracer);
   const Differences surfaces(*baked.file, full, baked.surfaces), open(*baked.file, full, baked.open);
   RecordProperty("surfaces", fmt::format("ratio {:.4f}, half {:.2g}, 90 % {:.2g}", surfaces.ratio,

@@ -11,8 +11,8 @@ namespace {
 TEST(IrradianceVolume, ErrorsFallWithMoreProbes) {
   // What is left of the error of 8 probes; walls and statues hide much in the gallery. Measured: 0.74 to 0.81
   // and 0.51 to 0.53, of which 0.08 W/m² per W/m² are the truth's own noise.
-  const std::tuple<std::string, double, std::string> cases[] = {{"cornell", 0.9, "0.08"},
-                                                                {"gallery1", 0.65, "0.3"}};
+  const std::tuple<std::string, double, std::string> cases[] = {{"cornell", 0.9, "0.12"},
+                                                                {"gallery1", 0.65, "0.45"}};
   for (const auto& [name, share, size] : cases) {
     const scene::Scene scene = scene::make_builtin(name);
     const std::vector<rays::SurfacePoint> points = test::points_of(scene, 200);

@@ -92,6 +92,11 @@ void add_view_command(Command app, Context& context) {
                 "A probe file, shown as it was baked; scene: the scene's SPHLs, kept lit while lamps and "
                 "doors move; auto, auto:METRES: find places first; off. Default: scene, if it has SPHLs");
   probes.flag("--live", o.viewer.live, "Light the probes of a file anew and keep them lit");
+  probes
+      .option("--records", o.viewer.records,
+              "Surface points that keep light while it follows lamps and doors, at most: fewer start sooner; "
+              "0: none")
+      .range(0, 1 << 16);
   probes.flag("--force", o.viewer.force, "Take a probe file of another scene, with a warning");
   add_setting_options(command, o);
 

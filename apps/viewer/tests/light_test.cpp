@@ -42,6 +42,7 @@ LiveLightParams few_directions() {
   LiveLightParams params;
   params.relight.transport = {.directions = 32, .surfel_size = 0.5f, .link_rays = 8};
   params.relight.degree = 2;
+  params.relight.records.points = 256;
   return params;
 }
 

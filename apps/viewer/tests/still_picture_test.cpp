@@ -8,6 +8,7 @@ namespace {
 class StillPicture : public GlStage {
  protected:
   void prepare() override {
+    options_.records = 256;
     options_.settings = {{"exposure", "0"}, {"show", "wipe"}, {"truth-spp", "1"}, {"truth-depth", "1"}};
   }
   void ready() override {
