@@ -7,8 +7,8 @@ from support import InAFolder, error_of, run_tool
 
 # Arguments of both. Every default is at work in one of the first two, which leave out what takes longest.
 CASES = [
-    ("builtin:box", dict(face=4)),
-    ("builtin:box", dict(spp=1, degree=1, records=16, link_rays=8, surfel_size=0.2)),
+    ("builtin:box", dict(face=4, surfel_size=0.2)),
+    ("builtin:box", dict(spp=1, degree=1, records=16, link_rays=8)),
     ("builtin:cornell", dict(spp=2, face=8, degree=3, seed=7, max_depth=4, passes=2, neighbors=2, threshold=0.001)),
     ("builtin:cornell", dict(operator="surfel", quality="draft", directions=64, surfel_size=0.2, link_rays=16, records=64,
                              degree=2, fit=True, viz="links")),

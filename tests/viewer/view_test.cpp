@@ -60,7 +60,7 @@ class View : public testing::Test {
 
 const std::vector<std::string> two_rooms = {"view",        "builtin:two-rooms", "--size", "160x100",
                                             "--no-panels", "--exposure",        "0",      "--tonemap",
-                                            "clip",        "--records",         "1024"};
+                                            "clip",        "--records",         "256"};
 
 TEST_F(View, AnOpenedDoorBrightensTheRoomBehindIt) {
   const json::Value run = run_json(joined(
@@ -81,7 +81,7 @@ TEST_F(View, AnOpenedDoorBrightensTheRoomBehindIt) {
 
 TEST_F(View, MouseAndKeysChangeWhatIsShown) {
   // A drag turns the view, a key shows the probes, Tab hides the panels, undo takes an edit back.
-  run_json({"view", "builtin:two-rooms", "--size", "480x300", "--tonemap", "clip", "--records", "1024",
+  run_json({"view", "builtin:two-rooms", "--size", "480x300", "--tonemap", "clip", "--records", "0",
             "--script",
             script("settle\nscreenshot " + path("a.png") + "\nsettle\nscreenshot " + path("same.png") +
                    "\ndrag 400 150 460 170\nsettle\nscreenshot " + path("turned.png") +
@@ -140,8 +140,8 @@ TEST_F(View, FramesOfAPathGlideToWhatSuitsThemAlike) {
   };
   std::ofstream(dir_ / "walk.json") << R"({"keys": [)" << view(0, -3) << ", " << view(1, 3) << "]}";
   const auto drawn = [&](const std::string& folder, const std::string& exposure) {
-    run_json({"view", "builtin:two-rooms", "--time", "1", "--size", "64x64", "--no-panels", "--records",
-              "1024", "--tonemap", "clip", "--exposure", exposure, "--path", path("walk.json"), "--export",
+    run_json({"view", "builtin:two-rooms", "--time", "1", "--size", "64x64", "--no-panels", "--records", "0",
+              "--tonemap", "clip", "--exposure", exposure, "--path", path("walk.json"), "--export",
               path(folder), "--fps", "3"});
     std::vector<double> light;
     for (int i = 0; i < 4; ++i) light.push_back(brightness(fmt::format("{}/frame-{:04}.png", folder, i)));
