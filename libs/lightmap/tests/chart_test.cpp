@@ -150,6 +150,12 @@ TEST(Charts, IslandsOfTheScenesCoordinatesAreAsLargeAsTheirSurface) {
   ASSERT_EQ(charts.size(), 1u);
   EXPECT_NEAR(charts[0].size.x, 2, 1e-4f);
   EXPECT_NEAR(charts[0].size.y, 2, 1e-4f);
+  // Its triangles reach from rim to rim
+  vec2 least(9), most(-9);
+  for (const FlatTriangle& triangle : charts[0].triangles)
+    for (const vec2& at : triangle.at) least = glm::min(least, at), most = glm::max(most, at);
+  EXPECT_LT(glm::distance(least, vec2(0)), 1e-4f);
+  EXPECT_LT(glm::distance(most, charts[0].size), 1e-4f);
 }
 
 TEST(Charts, CoordinatesOfTheSceneThatAreNotFitAreRefusedOrReplaced) {
