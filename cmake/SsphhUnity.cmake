@@ -3,11 +3,11 @@
 # a new one changes that batch alone. What has compile options of its own, and what says SKIP_UNITY_BUILD_INCLUSION, stays apart.
 #
 # UNITY_BUILD of CMake writes absolute paths, so that a clone elsewhere would find nothing in the compiler's cache.
-option(SSPHH_UNITY "Compile the files of a target in batches: quicker from nothing, slower after a change" OFF)
+set(SSPHH_UNITY OFF CACHE STRING "ON: compile the files of a target in batches, quicker from nothing, slower after a change; TESTS: those of test programs alone")
 set(SSPHH_UNITY_BATCH 8 CACHE STRING "Files in a batch, about; a large number compiles each target as one")
 
 function(ssphh_unity target)
-  if(NOT SSPHH_UNITY)
+  if(NOT SSPHH_UNITY OR (SSPHH_UNITY STREQUAL "TESTS" AND NOT target MATCHES "^test_"))
     return()
   endif()
   get_target_property(sources ${target} SOURCES)

@@ -29,7 +29,7 @@ void Renderer::Data::draw_shadows() {
   left -= of_probes;
   int drawn_now = lamps + of_probes;
   if (method) drawn_now += method->update_maps(scene, opaque, alpha, left, waiting, counters);
-  stats.shadow_maps_drawn += lamps + of_probes;
+  stats.shadow_maps_drawn += drawn_now;
   shadow_maps_left -= drawn_now;
   more_shadows = waiting > 0 && drawn_now > 0 && shadow_maps_left > 0;
 }
