@@ -9,6 +9,8 @@ import platform
 import subprocess
 import sys
 
+import demo_lead
+
 # Metzgar & Semwal, Table 1, rows with maximum ray depth 3 and pass limit 1 (seconds; Corona Renderer, CPU not stated).
 PAPER = {
     "gallery1": ("Gallery 1", 15.03, 48.40, 197.46, 0.91512),
@@ -72,7 +74,7 @@ def section(name):
         errors.append((label, f"{r['seconds']:.2f}", f"{c['mae']:.4g}", f"{c['rmse']:.4g}", f"{c['relmse']:.4g}",
                        f"{c['mape']:.4g}", ratio))
     return "".join([
-        f"<section><h2>{name}</h2>",
+        f"<section><h3>{name}</h3>",
         f"<p>{info['triangles']:,} triangles, {info['lights']} lights, {bake['probes']} SPHLs of 64×64×6 texels, "
         f"16 samples per texel.</p>",
         '<div class="pair">',
@@ -82,10 +84,10 @@ def section(name):
         picture(f"{name}.self.absolute.png", "absolute error"),
         picture(f"{name}.self.pixelated.png", "pixelated: sum of absolute error in 16×16 blocks"),
         "</div>",
-        "<h3>Times in seconds, as the paper's Table 1</h3>",
+        "<h4>Times in seconds, as the paper's Table 1</h4>",
         table(("", "REF", "GEN", "VIZ", "HIER"), times),
         "<p>REF: 1280×720. The paper's figures are for another machine, renderer and scene of the same kind.</p>",
-        "<h3>Error against the ground truth</h3>",
+        "<h4>Error against the ground truth</h4>",
         table(("method", "seconds", "MAE", "RMSE", "relMSE", "MAPE", "ratio of means R, G, B"), errors),
         "<p>The two HIER operators add neighbours' light to probes that already hold every bounce, so they are expected "
         "to be too bright: libs/methods/ssphh/README.md.</p>",
@@ -96,7 +98,7 @@ def section(name):
         picture(f"{name}.mean.png", "ssphh: HIER with operator mean"),
         picture(f"{name}.light.png", "ssphh: lookup light"),
         "</div>",
-        "<h3>Probes</h3>",
+        "<h4>Probes</h4>",
         picture(f"{name}.probes.png", "one row a probe: self, neighbours, sum (operator coefficient)"),
         "</section>",
     ])
@@ -104,20 +106,23 @@ def section(name):
 
 page = f"""<!doctype html>
 <html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">
-<title>ssphh: first light</title>
+<title>ssphh</title>
 <style>
 body {{ font: 15px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 90rem; padding: 0 1rem; background: #111; color: #ddd; }}
 .pair {{ display: grid; grid-template-columns: 1fr 1fr; gap: 1rem; }}
 figure {{ margin: 0 0 1rem; }} img {{ width: 100%; background: #000; }} figcaption {{ color: #aaa; }}
 table {{ border-collapse: collapse; margin: .5rem 0 1rem; }} td, th {{ border: 1px solid #444; padding: .2rem .7rem; text-align: right; }}
 td:first-child, th:first-child {{ text-align: left; }} a {{ color: #8bf; }}
-</style>
-<h1>ssphh: first light</h1>
+{demo_lead.STYLE}</style>
+<h1>ssphh</h1>
 <p>Made by <code>scripts/demo</code> at commit {commit()} on {html.escape(machine())}.</p>
+{demo_lead.lead(out)}
+<h2>The paper's chain, step by step</h2>
 {"".join(section(name) for name in scenes)}
 </html>
 """
 (out / "index.html").write_text(page)
 print(f"page:   {(out / 'index.html').resolve()}")
+print(f"images: {(out / 'lead').resolve()}.path.png .ssphh.png; {(out / 'door.webp').resolve()}")
 for name in scenes:
     print(f"images: {(out / name).resolve()}.path.png .self.png .coefficient.png .self.absolute.png .probes.png")

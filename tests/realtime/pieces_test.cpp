@@ -108,6 +108,9 @@ TEST_F(Pieces, AnotherFrameDropsWhatIsLeft) {
   renderer.draw(camera, {}, {.width = 40, .height = 30});
   EXPECT_EQ(renderer.read_back().pixels, expected.pixels);
   EXPECT_FALSE(renderer.step()) << "nothing is left";
+  const std::uint64_t calls = renderer.draw(camera, {}, {.width = 40, .height = 30}).draw_calls;
+  renderer.begin(camera, {}, {.width = 40, .height = 30});
+  EXPECT_EQ(renderer.draw(camera, {}, {.width = 40, .height = 30}).draw_calls, calls);
 }
 
 }  // namespace
