@@ -3,8 +3,7 @@ import type { CookedLight, PlaceKind } from '../cooked/light.js';
 import { groupFloats, probeFloats } from '../cooked/file.js';
 import type { Header, SectionName } from '../cooked/layout.js';
 import { SsphhError } from '../errors.js';
-import { pointsGlsl } from './points.glsl.js';
-import { probesGlsl } from './probes.glsl.js';
+import { lookupGlsl } from './lookup.glsl.js';
 
 const widthLog2 = 11, width = 1 << widthLog2, mostTexels = width * 16384;
 
@@ -76,15 +75,17 @@ function float(v: number): string {
   return /[.e]/.test(text) ? text : `${text}.0`;
 }
 
-function constants(h: Header, kind: PlaceKind): string {
+/** What `lookupGlsl` asks of a file, as `file.glsl` beside it reads it from the header. */
+function constants(h: Header): string {
   const vec = (numbers: ArrayLike<number>, w: number) => `vec4(${[...Array.from(numbers), w].map(float).join(', ')})`;
   const ivec = (numbers: readonly number[]) => `ivec3(${numbers.join(', ')})`;
   const section = (name: SectionName) => h.sections[name].offset / 16;
   const values: Record<string, string | number> = {
-    STILL: kind === 'still' ? 'true' : 'false', DEGREE: h.degree, PROBE_TEXELS: h.probeStride / 4, SIGHT_SIZE: h.sightSize, LIST_LENGTH: h.probeListLength,
+    DEGREE: h.degree, PROBE_TEXELS: h.probeStride / 4, SIGHT_SIZE: h.sightSize, LIST_LENGTH: h.probeListLength,
     SPACING: float(h.probeSpacing), PROBE_GRID: vec(h.probeOrigin, h.probeCellSize), PROBE_CELL_COUNTS: ivec(h.probeCells),
     PROBES: section('probes'), PROBE_CELLS: section('probeCells'), SIGHT: section('sight'), BRICKS: section('bricks'), CELLS: section('cells'),
-    ENTRIES: section('entries'), MASKS: section('masks'), POINTS: section('points'), POINT_LIGHT: probeFloats(h) / 4, POINT_TEXELS: h.pointFloats / 4,
+    ENTRIES: section('entries'), MASKS: section('masks'), POINTS: section('points'), POINT_COUNT: h.pointCount, POINT_LIGHT: probeFloats(h) / 4,
+    POINT_TEXELS: h.pointFloats / 4,
     NEAR_GRID: vec(h.grids[0].origin, h.grids[0].cellSize), NEAR_CELLS: ivec(h.grids[0].cells),
     FAR_GRID: vec(h.grids[1].origin, h.grids[1].cellSize), FAR_CELLS: ivec(h.grids[1].cells), FAR_BRICK: h.grids[1].firstBrick,
   };
@@ -95,22 +96,16 @@ const accessGlsl = /* glsl */ `
 uniform highp usampler2D ssphhFile;  // the cooked file up to its light, 16 bytes a texel
 uniform highp sampler2D ssphhLight;  // of all groups: probes, then points
 
-uvec4 ssphhTexel(int i) { return texelFetch(ssphhFile, ivec2(i & ${width - 1}, i >> ${widthLog2}), 0); }
-vec4 ssphhLightTexel(int i) { return texelFetch(ssphhLight, ivec2(i & ${width - 1}, i >> ${widthLog2}), 0); }
-vec4 ssphhFloats(int i) { return uintBitsToFloat(ssphhTexel(i)); }
-uint ssphhWord(int section, int i) { return ssphhTexel(section + (i >> 2))[i & 3]; }
-uint ssphhShort(int section, int i) { return ssphhWord(section, i >> 1) >> uint(16 * (i & 1)) & 0xffffu; }
-int ssphhBits(uint v) {
-  v -= v >> 1u & 0x55555555u;
-  v = (v & 0x33333333u) + (v >> 2u & 0x33333333u);
-  return int(((v + (v >> 4u)) & 0x0f0f0f0fu) * 0x01010101u >> 24u);
-}
+uvec4 ssphh_texel(int i) { return texelFetch(ssphhFile, ivec2(i & ${width - 1}, i >> ${widthLog2}), 0); }
+#define SSPHH_TEXEL(i) ssphh_texel(i)
+vec4 ssphh_light_texel(int i) { return texelFetch(ssphhLight, ivec2(i & ${width - 1}, i >> ${widthLog2}), 0); }
+vec4 ssphh_probe_light(int probe, int colour, int k) { return ssphh_light_texel((probe * 3 + colour) * SSPHH_PROBE_TEXELS + k); }
+vec4 ssphh_point_light(int point_index, int k) { return ssphh_light_texel(SSPHH_POINT_LIGHT + point_index * SSPHH_POINT_TEXELS + k); }
 `;
 
-const entryGlsl = (points: boolean) => /* glsl */ `
-// Irradiance [W/m²] at a place for a unit normal, whose surface looks along \`n\`; never negative
-vec3 ssphhIrradiance(vec3 position, vec3 n, vec3 shading) {
-${points ? '  vec3 irradiance;\n  if (ssphhByPoints(position, n, shading, irradiance)) return irradiance;\n' : ''}  return ssphhByProbes(position, n, shading);
+const entryGlsl = (still: boolean) => /* glsl */ `
+vec3 ssphhIrradiance(vec3 position, vec3 geometryNormal, vec3 shadingNormal) {
+  return ssphh_irradiance_for(position, geometryNormal, shadingNormal, ${still});
 }
 `;
 
@@ -129,10 +124,10 @@ export interface LightChunk {
 /** The lookup of `CookedLight.irradiance` in GLSL, for own materials; those of three take `applyProbeLight`. */
 export function probeLightChunk(light: CookedLight, kind: PlaceKind = 'still'): LightChunk {
   if (kind !== 'still' && kind !== 'open') throw new SsphhError('bad-argument', `a place is "still" or "open", not ${JSON.stringify(kind)}`);
-  const textures = lightTextures(light), h = light.file.header, points = h.pointCount > 0 && kind === 'still';
+  const textures = lightTextures(light);
   return {
     uniforms: { ssphhFile: { value: textures.file }, ssphhLight: { value: textures.light } },
-    functions: constants(h, kind) + accessGlsl + (points ? pointsGlsl : '') + probesGlsl + entryGlsl(points),
+    functions: constants(light.file.header) + accessGlsl + lookupGlsl + entryGlsl(kind === 'still'),
     update: () => textures.update(),
   };
 }
