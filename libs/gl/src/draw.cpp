@@ -4,6 +4,8 @@
 
 #include <ssphh/gl/draw.h>
 
+#include "switches.h"
+
 namespace ssphh::gl {
 namespace {
 
@@ -46,7 +48,7 @@ void apply(const DrawState& state) {
 void apply_conventions() {
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glFrontFace(GL_CCW);
-  glDisable(GL_FRAMEBUFFER_SRGB);
+  for (const GLenum unwanted : unwanted_switches) glDisable(unwanted);
   glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 }
 

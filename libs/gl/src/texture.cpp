@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <ssphh/core/error.h>
 #include <ssphh/core/require.h>
 #include <ssphh/gl/texture.h>
 
@@ -132,6 +133,21 @@ void Texture::bind(unsigned unit) const {
 
 void Texture::bind_image(unsigned unit) const {
   glBindImageTexture(unit, id(), 0, layers_ > 0, 0, GL_READ_WRITE, info_of(format_).internal);
+}
+
+Size size_of_texture(unsigned id, const std::string& what) {
+  GLint target = 0;
+  Size size;
+  if (glIsTexture(id)) glGetTextureParameteriv(id, GL_TEXTURE_TARGET, &target);
+  if (target != GL_TEXTURE_2D) throw Error(what, fmt::format("OpenGL has no 2-D texture of number {}", id));
+  glGetTextureLevelParameteriv(id, 0, GL_TEXTURE_WIDTH, &size.width);
+  glGetTextureLevelParameteriv(id, 0, GL_TEXTURE_HEIGHT, &size.height);
+  if (size.width < 1 || size.height < 1) throw Error(what, fmt::format("texture {} has no texels", id));
+  return size;
+}
+
+void bind_texture(unsigned unit, unsigned id) {
+  glBindTextureUnit(unit, id);
 }
 
 Sampler::Sampler(Address u, Address v, bool nearest, float anisotropy) {

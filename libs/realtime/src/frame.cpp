@@ -43,7 +43,7 @@ void Renderer::Data::in_bands(Pass pass, void (Data::*draw)()) {
   for (int i = 0; i < count; ++i) todo.push_back({pass, draw, i, count});
 }
 
-void Renderer::Data::plan() {
+void Renderer::Data::plan(const Eye& eye) {
   const FrameSettings& settings = frame_settings;
   const bool lit = settings.view == View::lit;
   const bool wants_direct = settings.direct && (lit || settings.view == View::direct);
@@ -56,7 +56,7 @@ void Renderer::Data::plan() {
     probes.want_radiance(counters);
   shadow_maps_left = params.maps_per_frame;
   todo.push_back({shadows, &Data::draw_shadows});
-  todo.push_back({geometry, &Data::draw_geometry});
+  todo.push_back({geometry, taken ? &Data::take_geometry : &Data::draw_geometry});
   if (wants_direct || settings.view == View::shadow) in_bands(direct, &Data::draw_direct);
   if (wants_indirect) {
     if (settings.ambient_occlusion) in_bands(indirect, &Data::draw_occlusion);
@@ -70,7 +70,7 @@ void Renderer::Data::plan() {
   if (wants_method) todo.push_back({indirect, &Data::draw_method});
   if (wants_direct) in_bands(seen, &Data::draw_seen);
   const bool shows_light = wants_direct || wants_indirect || wants_method;
-  if (scene.any_glass() && shows_light && settings.view != View::chosen_sphl) {
+  if (scene.any_glass() && !taken && shows_light && settings.view != View::chosen_sphl) {
     todo.push_back({glass, &Data::draw_glass});
     if (wants_direct) in_bands(glass, &Data::draw_direct_on_glass);
     if (wants_indirect) in_bands(glass, &Data::draw_indirect_on_glass);
@@ -79,6 +79,9 @@ void Renderer::Data::plan() {
     todo.push_back({seen, &Data::draw_view});
   if (images.supersample > 1) todo.push_back({resolve, &Data::draw_resolved});
   if (frame_target.framebuffer != Target::none) todo.push_back({display, &Data::draw_display});
+  const FrameBlock block = frame_block(eye, settings, images, lights, probes, scene.bounds());
+  upload(counters, frame_buffer, std::span<const FrameBlock>(&block, 1));
+  view_projection = clip_matrix(block);
 }
 
 void Renderer::begin(const scene::CameraPose& camera, const FrameSettings& settings, const Target& target) {
@@ -89,11 +92,21 @@ void Renderer::Data::begin(const scene::CameraPose& camera, const FrameSettings&
                            const Target& target, bool in_pieces_now) {
   if (target.width < 1 || target.height < 1) throw Error("frame size", "width and height must be positive");
   const Stopwatch watch;
+  in_pieces = in_pieces_now;
+  taken.reset();
+  make_room(settings, target);
+  const float aspect = static_cast<float>(target.width) / static_cast<float>(target.height);
+  choose_direct(settings);
+  lights.prepare(camera, aspect, scene.bounds(), counters);
+  plan(eye_of(camera, settings, images));
+  stats.cpu_ms = watch.milliseconds();
+}
+
+void Renderer::Data::make_room(const FrameSettings& settings, const Target& target) {
   todo.clear();
   next_piece = 0;
   frame_settings = settings;
   frame_target = target;
-  in_pieces = in_pieces_now;
   reload_changed_shaders();
   stats.passes.clear();
   stats.shadow_maps_waiting = stats.shadow_maps_drawn = 0;
@@ -101,20 +114,11 @@ void Renderer::Data::begin(const scene::CameraPose& camera, const FrameSettings&
   gl::apply_conventions();
   for (unsigned i = 0; i < unit::count; ++i) gl::Sampler::unbind(i);
 
-  // Make room and tell the shaders what the frame is
   const int samples = std::clamp(settings.supersample, 1, 4),
             scale = std::clamp(settings.indirect_scale, 1, 8);
   if (!images.fits(target.width, target.height, samples, scale))
     images = FrameImages(target.width, target.height, samples, scale);
-  const float aspect = static_cast<float>(target.width) / static_cast<float>(target.height);
-  choose_direct(settings);
-  lights.prepare(camera, aspect, scene.bounds(), counters);
-  plan();
-  const FrameBlock block = frame_block(camera, settings, images, lights, probes, scene.bounds());
-  upload(counters, frame_buffer, std::span<const FrameBlock>(&block, 1));
-  view_projection = clip_matrix(block);
   drawn = false;
-  stats.cpu_ms = watch.milliseconds();
 }
 
 bool Renderer::step() {

@@ -3,32 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ssphh/core/error.h>
-
 namespace ssphh::realtime {
 
-FrameBlock frame_block(const scene::CameraPose& camera, const FrameSettings& settings,
-                       const FrameImages& images, const Lights& lights, const Probes& probes,
-                       const scene::Bounds& bounds) {
-  const scene::Camera& lens = camera.camera;
-  const vec3 eye(camera.world[3]), right = glm::normalize(vec3(camera.world[0])),
-                                   up = glm::normalize(vec3(camera.world[1])),
-                                   forward = -glm::normalize(vec3(camera.world[2]));
-  if (!is_finite(eye) || !is_finite(right) || !is_finite(up) || !is_finite(forward))
-    throw Error("camera \"" + lens.name + "\"", "its pose is not finite or has no extent");
+FrameBlock frame_block(const Eye& eye, const FrameSettings& settings, const FrameImages& images,
+                       const Lights& lights, const Probes& probes, const scene::Bounds& bounds) {
   const gl::Rect full = images.full();
-  const auto width = static_cast<float>(full.width), height = static_cast<float>(full.height);
-  const float half_height = lens.orthographic ? 0.5f * lens.yheight : std::tan(0.5f * lens.yfov);
-  const float half_width = half_height * width / height;
   // Depth has the precision of floats at every distance: the near plane may be as near as one likes
-  const float far = 1.01f * (glm::length(bounds.center() - eye) + bounds.radius()) + 1e-3f;
+  const float far = 1.01f * (glm::length(bounds.center() - eye.position) + bounds.radius()) + 1e-3f;
   const float near = 1e-4f * std::max(bounds.radius(), 1e-3f);
 
   FrameBlock b{};
-  b.camera_position = vec4(eye, lens.orthographic ? 1 : 0);
-  b.camera_right = vec4(half_width * right, width);
-  b.camera_up = vec4(half_height * up, height);
-  b.camera_forward = vec4(forward, lens.orthographic ? far : near);
+  b.camera_position = vec4(eye.position, eye.orthographic ? 1 : 0);
+  b.camera_right = vec4(eye.right, static_cast<float>(full.width));
+  b.camera_up = vec4(eye.up, static_cast<float>(full.height));
+  b.camera_forward = vec4(eye.forward, eye.orthographic ? far : near);
   const probes::CandidateGrid& grid = probes.grid();
   b.grid_size = ivec4(grid.cells, grid.length);
   b.grid_origin = vec4(grid.origin, grid.cell_size);
@@ -42,7 +30,7 @@ FrameBlock frame_block(const scene::CameraPose& camera, const FrameSettings& set
   b.map_tiles = ivec4(lights.lamp_maps().layout().columns_log2, lights.area_maps().layout().columns_log2,
                       probes.maps().layout().columns_log2, lights.parallel_maps().layout().columns_log2);
   b.map_near = vec4(lights.near_plane(), lights.near_plane(), probes.near_plane(), 0);
-  b.shift = vec4(2.0f * settings.shift * static_cast<float>(images.supersample) / vec2(width, height), 0, 0);
+  b.shift = vec4(eye.shift, 0, 0);
   b.extra = vec4(settings.ambient_occlusion ? settings.occlusion_radius : 0,
                  static_cast<float>(images.indirect_scale), settings.indirect_tolerance, 0);
   return b;

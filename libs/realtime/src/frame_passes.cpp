@@ -21,10 +21,13 @@ void Renderer::Data::draw_shadows() {
   int& waiting = stats.shadow_maps_waiting;
   waiting = 0;
   gl::Program &opaque = shaders.shadow(false), &alpha = shaders.shadow(true);
-  gl::Program* glass = scene.any_glass() ? &shaders.glass_shadow() : nullptr;
-  const int lamps = lights.update_maps(scene, opaque, alpha, glass, left, waiting, counters);
-  left = std::max(left - lamps, 0);
-  lights.update_bounds(shaders, no_vertices, counters);
+  int lamps = 0;
+  if (!taken) {
+    gl::Program* glass = scene.any_glass() ? &shaders.glass_shadow() : nullptr;
+    lamps = lights.update_maps(scene, opaque, alpha, glass, left, waiting, counters);
+    left = std::max(left - lamps, 0);
+    lights.update_bounds(shaders, no_vertices, counters);
+  }
   const int of_probes = probes.update_maps(scene, opaque, alpha, left, waiting, counters);
   left -= of_probes;
   int drawn_now = lamps + of_probes;

@@ -58,6 +58,7 @@ Renderer::Data::Data(gl::Context& context_in, const scene::Scene& scene_in, cons
       frame_buffer(sizeof(FrameBlock)),
       shaded(context_in.info().software) {
   sky_sampler = gl::Sampler(gl::Address::repeat, gl::Address::clamp, false);
+  texel_sampler = gl::Sampler(gl::Address::clamp, gl::Address::clamp, true);
   for (int i = 0; i < pass_count; ++i) timers.emplace_back(context.info().software);
   stats.passes.reserve(pass_count);
 }

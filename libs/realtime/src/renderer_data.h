@@ -12,6 +12,7 @@
 #include <ssphh/realtime/renderer.h>
 
 #include "environment_tiles.h"
+#include "eye.h"
 #include "frame_images.h"
 #include "gpu_scene.h"
 #include "lights.h"
@@ -46,7 +47,9 @@ struct Renderer::Data {
   /// A frame in pieces: begin() lists them, Renderer::step() draws one.
   void begin(const scene::CameraPose& camera, const FrameSettings& settings, const Target& target,
              bool in_pieces_now);
-  void plan();
+  /// The same in common with a frame on an engine's G-buffer.
+  void make_room(const FrameSettings& settings, const Target& target);
+  void plan(const Eye& eye);
   int pieces_of(Pass pass) const;
   /// The pass in bands of rows, a piece each.
   void in_bands(Pass pass, void (Data::*draw)());
@@ -66,6 +69,7 @@ struct Renderer::Data {
   /// In pieces one map, and `more_shadows` tells whether others wait.
   void draw_shadows();
   void draw_geometry();
+  void take_geometry();
   /// Items of the scene as one layer has them; `wanted(item)` chooses, `state` says how.
   template <class Wanted>
   void draw_items(GlassLayer layer, gl::DrawState state, const Wanted& wanted);
@@ -114,7 +118,7 @@ struct Renderer::Data {
   std::optional<DirectChoice> direct_choice;
   std::unique_ptr<MethodLight> method;  ///< null: probes light the scene
   gl::Texture albedo, sky;
-  gl::Sampler sky_sampler;
+  gl::Sampler sky_sampler, texel_sampler;
   TileAtlas sky_lobes;  ///< made when something glossy is first lit by an environment
   gl::Buffer frame_buffer;
   gl::VertexArray no_vertices;
@@ -132,6 +136,7 @@ struct Renderer::Data {
     int index = 0, count = 1;  ///< which band of rows, of how many equal ones
   };
   FrameSettings frame_settings;  ///< of the frame that is being drawn, as all that follows
+  std::optional<GBuffer> taken;  ///< an engine's, in place of the scene's geometry
   Target frame_target;
   std::vector<Piece> todo;
   std::size_t next_piece = 0;

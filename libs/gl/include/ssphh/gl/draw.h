@@ -27,7 +27,8 @@ struct DrawState {
 
 /// Sets all of it, also what somebody else may have left behind.
 void apply(const DrawState& state);
-/// Sets what every pass of this project takes for granted: depth range 0..1, no sRGB conversion on write.
+/// Sets what every pass of this project takes for granted: depth range 0..1, no sRGB conversion on write, and
+/// nothing that discards, offsets or masks what is drawn.
 void apply_conventions();
 
 void draw_triangles(int vertex_count);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 
 #include <ssphh/gl/handle.h>
 
@@ -56,6 +57,16 @@ class Texture {
   Format format_ = Format::rgba8;
   int width_ = 0, height_ = 0, layers_ = 0, levels_ = 1;
 };
+
+struct Size {
+  int width = 0, height = 0;
+  friend bool operator==(const Size&, const Size&) = default;
+};
+/// Of level 0 of a 2-D texture that somebody else made, by OpenGL's number. Throws Error that begins with
+/// `what` where there is none.
+Size size_of_texture(unsigned id, const std::string& what);
+/// By OpenGL's number.
+void bind_texture(unsigned unit, unsigned id);
 
 enum class Address { repeat, mirror, clamp };
 

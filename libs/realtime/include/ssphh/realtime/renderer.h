@@ -20,6 +20,7 @@
 #include <ssphh/probes/fitted_surfaces.h>
 #include <ssphh/probes/probe_set.h>
 #include <ssphh/realtime/frame_stats.h>
+#include <ssphh/realtime/gbuffer.h>
 #include <ssphh/realtime/settings.h>
 #include <ssphh/scene/lighting_state.h>
 #include <ssphh/scene/query.h>
@@ -101,7 +102,7 @@ class Renderer {
   /// room for shadow maps were merged, and "gl_map_size". Empty: none is set.
   methods::MethodNumbers method_numbers() const;
 
-  /// Draws a frame. Restores no OpenGL state. Throws Error when OpenGL reports an error.
+  /// Draws a frame. Restores no OpenGL state (gl::SavedState does). Throws Error when OpenGL reports an error.
   const FrameStats& draw(const scene::CameraPose& camera, const FrameSettings& settings,
                          const Target& target);
   /// The same frame, bit for bit, in pieces of some milliseconds on a software renderer, so that the host's
@@ -110,6 +111,13 @@ class Renderer {
   /// another begin() or draw() drops what is left. Nothing is read back before the last piece.
   void begin(const scene::CameraPose& camera, const FrameSettings& settings, const Target& target);
   bool step();
+  /// Indirect light on what an engine has drawn: finds it at each texel of the G-buffer as draw() does for
+  /// the scene, with `settings`' lookup, weights, indirect_scale and ambient occlusion, or of the method that
+  /// is set. Returns the radiance [W/(m² sr)] that Lambertian surfaces of the albedo send, albedo E / π, as
+  /// 32-bit floats of linear RGB, 0 where nothing stands, of the G-buffer's size; the texture is this
+  /// renderer's, until its next frame. Leaves OpenGL's state as it was (gl::SavedState). Throws Error for
+  /// numbers of no texture, textures of several sizes and matrices of no camera.
+  const gl::Texture& draw_indirect(const GBuffer& gbuffer, const FrameSettings& settings = {});
   /// Of the last frame, whole once step() was false.
   const FrameStats& stats() const;
   /// The last frame as scene-linear radiance, before exposure and tone curve; row 0 on top.
