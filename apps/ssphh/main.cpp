@@ -82,10 +82,5 @@ int run(int argc, char** argv) {
 }  // namespace ssphh::app
 
 int main(int argc, char** argv) {
-  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
-    ssphh::log(ssphh::LogLevel::error,
-               "this build needs a CPU with AVX2 and FMA (configure with -DSSPHH_ARCH=x86-64)");
-    return 1;
-  }
   return ssphh::app::run(argc, argv);
 }

@@ -102,7 +102,8 @@ class Renderer {
   /// room for shadow maps were merged, and "gl_map_size". Empty: none is set.
   methods::MethodNumbers method_numbers() const;
 
-  /// Draws a frame. Restores no OpenGL state (gl::SavedState does). Throws Error when OpenGL reports an error.
+  /// Draws a frame. Restores no OpenGL state (gl::SavedState does). Throws Error when OpenGL reports an
+  /// error.
   const FrameStats& draw(const scene::CameraPose& camera, const FrameSettings& settings,
                          const Target& target);
   /// The same frame, bit for bit, in pieces of some milliseconds on a software renderer, so that the host's
