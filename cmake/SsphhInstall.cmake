@@ -14,5 +14,9 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/ssphhConfigVersion.cmake 
 install(FILES ${PROJECT_BINARY_DIR}/ssphhConfig.cmake ${PROJECT_BINARY_DIR}/ssphhConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/SsphhPackages.cmake DESTINATION ${package_dir})
 install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/schemas/ DESTINATION ${CMAKE_INSTALL_DATADIR}/ssphh/schemas)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/schemas/ DESTINATION ${CMAKE_INSTALL_DATADIR}/ssphh/schemas COMPONENT tool)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT tool)
+include(SsphhPkgConfig)
+if(PROJECT_IS_TOP_LEVEL)
+  include(SsphhPack)
+endif()

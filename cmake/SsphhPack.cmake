@@ -1,0 +1,43 @@
+# Packages of a build for /usr (scripts/package): ssphh-VERSION-linux-ARCH.tar.gz with all of it, and for Debian three:
+# ssphh (the tool), libssphh-dev (the library), python3-ssphh. Their shared libraries are asked of dpkg-shlibdeps.
+set(CPACK_PACKAGE_VENDOR ssphh)
+set(CPACK_PACKAGE_CONTACT "ssphh <ssphh@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_THREADS 2)
+string(TOLOWER ${CMAKE_SYSTEM_NAME} system)
+set(CPACK_SYSTEM_NAME ${system}-${CMAKE_SYSTEM_PROCESSOR})
+set(CPACK_COMPONENTS_ALL tool library)
+if(TARGET ssphh_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  # The module is for one minor version of Python
+  get_target_property(python_version ssphh_python SSPHH_PYTHON_VERSION)
+  string(REPLACE "." ";" parts ${python_version})
+  list(GET parts 0 major)
+  list(GET parts 1 minor)
+  math(EXPR next "${minor} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= ${major}.${minor}), python3 (<< ${major}.${next}), python3-numpy")
+endif()
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_TOOL_PACKAGE_NAME ssphh)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libssphh-dev)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-ssphh)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_COMPONENT_TOOL_DESCRIPTION "The tool ssphh: bakes, renders, views and compares light probes")
+set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "Headers, static libraries, run-time library and shaders for engines")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The package ssphh of Python")
+# A component asks for what it links alone (find_package, pkg-config); `sh` and all above it for these.
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libfmt-dev, libglm-dev")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS
+  "libspdlog-dev, libtbb-dev, libxxhash-dev, nlohmann-json3-dev, libopenexr-dev, libimath-dev, libspng-dev, libjpeg62-turbo-dev, libwebp-dev, libmeshoptimizer-dev, libdraco-dev, libembree-dev, zlib1g-dev, libepoxy-dev, libegl-dev, libyaml-cpp-dev, libzmq3-dev, libsqlite3-dev, prometheus-cpp-dev")
+# What draws where there is no graphics card
+set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri, libegl-mesa0")
+include(CPack)
