@@ -91,7 +91,8 @@ bool ProbeLight::relight(const Document& document) {
 }
 
 bool ProbeLight::choose_modes(const scene::LightingState& state) {
-  const bool as_baked = state.environment_rotation == 0 && state.time == set_->generator.time;
+  const bool as_baked =
+      state.environment() == scene::EnvironmentState() && state.time == set_->generator.time;
   bool changed = false;
   for (std::size_t g = 0; g < modes_.size(); ++g) {
     if (modes_[g] != scene::LightMode::diffuse) continue;

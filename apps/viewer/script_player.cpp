@@ -6,13 +6,15 @@
 #include <fmt/format.h>
 
 #include "injection.h"
+#include "model/sky_edit.h"
 
 namespace ssphh::viewer {
 
 const char* const script_help =
     "set NAME VALUE | time T | camera NAME | view X Y Z TO_X TO_Y TO_Z | tab NAME | "
     "light NAME on|off | light NAME intensity V | light NAME color R G B | light NAME position X Y Z | "
-    "group NAME FACTOR | environment DEGREES | material NAME R G B | select light|sphl|material|object NAME "
+    "group NAME FACTOR | environment DEGREES | sun ELEVATION AZIMUTH | time-of-day HH:MM | material NAME R G "
+    "B | select light|sphl|material|object NAME "
     "| sphl "
     "X Y Z | "
     "probes auto|auto:M|scene|FILE | gen | viz | bookmark | undo | redo | key NAME | click X Y | "
@@ -160,6 +162,20 @@ void ScriptPlayer::run(App& app, const ScriptLine& line) {
     if (!app.document.scene->environment) throw Error(line.where, "the scene has no environment");
     const float turn = glm::radians(number(line, 1));
     app.document.edit("turn the environment", [&](Edits& e) { e.environment_rotation = turn; });
+  } else if (verb == "sun" || verb == "time-of-day") {
+    const auto shown = shown_sky(app.document);
+    if (!shown)
+      throw Error(line.where, "the scene has no computed sky", "start the viewer with --sky physical");
+    scene::SunSkyParams sky = *shown;
+    if (verb == "sun") {
+      expect(2, "sun ELEVATION AZIMUTH");
+      sky.elevation = glm::radians(number(line, 1)), sky.azimuth = glm::radians(number(line, 2) - 90);
+      sky.time.reset();
+    } else {
+      expect(1, "time-of-day HH:MM");
+      sky = at_hour(sky, scene::read_hour(words[1], line.where));
+    }
+    change_sky(app.document, sky);
   } else if (verb == "material") {
     expect(4, "material NAME R G B");
     const std::size_t i = find_named(line, app.document.edits().materials, words[1], by_name);

@@ -107,10 +107,10 @@ SceneHandle load_scene(const py::object& source, const py::object& overlay, cons
   options.environment_intensity = environment_intensity;
   options.environment_rotation = environment_rotation;
   options.lambert = lambert;
-  options.sun_sky = sun_sky;
-  options.sun_elevation = sun_elevation;
-  options.sun_azimuth = sun_azimuth;
-  options.turbidity = turbidity;
+  options.sky.preetham = sun_sky;
+  options.sky.elevation = sun_elevation;
+  options.sky.azimuth = sun_azimuth;
+  options.sky.turbidity = turbidity;
   options.time = time;
   for (const auto& [group, mode] : light_mode) options.light_modes.push_back(group + "=" + mode);
   if (sun_sky && !options.environment.empty())

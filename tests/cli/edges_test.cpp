@@ -34,14 +34,14 @@ using testing::HasSubstr;
 
 TEST(SceneOptions, TheSunStandsWhereTheCompassSays) {
   app::SceneOptions options;
-  options.source = "builtin:cornell", options.sun_sky = true;
-  options.sun_elevation = 30, options.sun_azimuth = 90, options.turbidity = 6;
+  options.source = "builtin:cornell", options.sky.preetham = true;
+  options.sky.elevation = 30, options.sky.azimuth = 90, options.sky.turbidity = 6;
   scene::Scene expected = scene::make_builtin("cornell");
   const scene::SunSkyParams east = {.elevation = pi / 6, .azimuth = 0, .turbidity = 6};
   EXPECT_NEAR(scene::sun_direction(east).x, std::cos(pi / 6), 1e-6);
   scene::add_sun_sky(expected, east);
   EXPECT_EQ(scene::light_hash(pipeline::load_scene(options)), scene::light_hash(expected));
-  options.turbidity = 3;
+  options.sky.turbidity = 3;
   EXPECT_NE(scene::light_hash(pipeline::load_scene(options)), scene::light_hash(expected));
 }
 

@@ -107,7 +107,7 @@ TEST(EmptyValues, OfOptions) {
   EXPECT_FALSE(FarmChoice().any());
   const SceneOptions scene;
   EXPECT_FALSE(scene.lambert);
-  EXPECT_FALSE(scene.sun_sky);
+  EXPECT_FALSE(pipeline::sun_sky_of(scene.sky));
   EXPECT_EQ(scene.environment_rotation, 0);
   EXPECT_EQ(scene.time, 0);
 }

@@ -187,7 +187,9 @@ class SceneFields {
   }
 
   void members(const std::string& at, scene::Environment& environment) {
-    auto& [name, group, equirect, color, rotation] = environment;
+    // Where the image is from changes no picture
+    auto& [name, group, equirect, color, rotation, sun_sky] = environment;
+    static_cast<void>(sun_sky);
     auto& [width, height, channels, pixels] = equirect;
     visit_(at + "name", name);
     visit_(at + "group", group);

@@ -15,7 +15,7 @@ class UnlitSource : public rays::TransportSource {
   int light_group_of(int) const override { return -1; }
   bool group_emits_from(int, int) const override { return false; }
   std::unique_ptr<rays::DirectLight> direct_light(std::span<const scene::LightState>, std::span<const mat4>,
-                                                  float) const override {
+                                                  const scene::EnvironmentState&) const override {
     return nullptr;
   }
 

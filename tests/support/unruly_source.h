@@ -57,10 +57,10 @@ class UnrulySource : public rays::TransportSource {
   int environment_group() const override { return sound_.environment_group(); }
   std::unique_ptr<rays::DirectLight> direct_light(std::span<const scene::LightState> lights,
                                                   std::span<const mat4> poses,
-                                                  float rotation) const override {
+                                                  const scene::EnvironmentState& environment) const override {
     tire();
     if (!gives_direct_light) return nullptr;
-    auto light = sound_.direct_light(lights, poses, rotation);
+    auto light = sound_.direct_light(lights, poses, environment);
     if (dazzles) return std::make_unique<Dazzling>(std::move(light));
     return light;
   }

@@ -8,6 +8,7 @@
 
 #include <ssphh/core/parse_number.h>
 #include <ssphh/pipeline/relit.h>
+#include <ssphh/scene/sun_sky.h>
 #include <ssphh/scene/turn_surroundings.h>
 
 namespace ssphh::app {
@@ -56,12 +57,32 @@ int find(const std::string& where, const char* kind, const char* kinds, const st
   return static_cast<int>(found - names.begin());
 }
 
+/// Hours of "06:00..12:30..20:00"; a time that is earlier than the one before it is of the next day.
+std::vector<vec3> read_hours(const std::string& where, std::string_view text) {
+  std::vector<vec3> keys;
+  for (std::size_t begin = 0;; begin += 2) {
+    const std::size_t end = std::min(text.find("..", begin), text.size());
+    auto hour = static_cast<float>(scene::read_hour(text.substr(begin, end - begin), where));
+    if (!keys.empty() && hour < keys.back().x) hour += 24;
+    if (!keys.empty() && hour < keys.back().x) throw Error(where, "lasts longer than two days");
+    keys.emplace_back(hour);
+    if (end == text.size()) return keys;
+    begin = end;
+  }
+}
+
 Track read_track(const std::string& spec, const rays::TransportSource& source, const scene::Scene& scene) {
   const std::string where = fmt::format("--animate \"{}\"", spec);
   const std::size_t equals = spec.rfind('=');
   if (equals == std::string::npos) throw Error(where, "has no '='", "write time=0:1 or lamp.intensity=0:4");
   const std::string what = spec.substr(0, equals);
   Track track;
+  if (what == "time-of-day") {
+    if (!scene.environment || !scene.environment->sun_sky || !scene.environment->sun_sky->time)
+      throw Error(where, "the scene has no sky of a date and place",
+                  "give --sky physical --date 2026-06-21 --place 48.1,11.6 --time-of-day 06:00..20:00");
+    return {TrackProperty::time_of_day, -1, read_hours(where, std::string_view(spec).substr(equals + 1))};
+  }
   if (what == "environment.rotation") {
     if (source.environment_group() < 0) throw Error(where, "the scene has no environment");
     track.property = TrackProperty::turn;
@@ -71,7 +92,8 @@ Track read_track(const std::string& spec, const rays::TransportSource& source, c
     const auto* known = std::ranges::find_if(properties, [&](const auto& p) { return property == p.name; });
     if (known == std::end(properties)) {
       throw Error(where, fmt::format("\"{}\" cannot be animated", what),
-                  "time, environment.rotation, LIGHT.position, LIGHT.direction, LIGHT.intensity, LIGHT.color "
+                  "time, time-of-day, environment.rotation, LIGHT.position, LIGHT.direction, "
+                  "LIGHT.intensity, LIGHT.color "
                   "or GROUP.scale");
     }
     track.property = known->property;
@@ -106,7 +128,8 @@ Track read_track(const std::string& spec, const rays::TransportSource& source, c
 
 const char* const animation_help =
     "What moves, as NAME=KEY[:KEY ...]; the keys are spread evenly over the frames. time (the scene's "
-    "animations [s]), environment.rotation (degrees), LIGHT.position, LIGHT.direction, LIGHT.color (x,y,z), "
+    "animations [s]), environment.rotation (degrees), time-of-day (of a sky with "
+    "date and place: 06:00..20:00), LIGHT.position, LIGHT.direction, LIGHT.color (x,y,z), "
     "LIGHT.intensity, GROUP.scale (number or r,g,b). May be repeated. Default: time=0:END if the scene has "
     "animations";
 
@@ -129,12 +152,46 @@ RelightAnimation::RelightAnimation(const rays::TransportSource& source, const sc
   }
   if (specs.empty() && source.duration() > 0)
     tracks_.push_back({TrackProperty::time, -1, {vec3(0), vec3(source.duration())}});
+  check_sun();
   if (tracks_.empty()) {
     throw Error("--animate", "nothing moves: the scene has no animations of its own",
                 source.light_names().empty() ? "and no lights"
                                              : fmt::format("animate a light, as in \"{}.intensity=0:4\"",
                                                            source.light_names().front()));
   }
+}
+
+void RelightAnimation::check_sun() const {
+  for (const Track& track : tracks_) {
+    if (track.property != TrackProperty::time_of_day) continue;
+    const scene::SunSkyParams& sky = *scene_.environment->sun_sky;
+    if (sky.model == scene::SkyModel::physical) continue;
+    constexpr int steps = 96;
+    for (int i = 0; i <= steps; ++i) {
+      const float hour = track.at(static_cast<float>(i) / steps).x;
+      if (sun_at(hour).elevation >= 0) continue;
+      throw Error("time-of-day",
+                  fmt::format("the sun is below the horizon at {}, of which Preetham's sky knows nothing",
+                              scene::clock_text(static_cast<double>(hour))),
+                  "give --sky physical");
+    }
+  }
+}
+
+scene::SunSkyParams RelightAnimation::sun_at(float hour) const {
+  const scene::SunSkyParams& sky = *scene_.environment->sun_sky;
+  scene::SunTime time = *sky.time;
+  time.hour = static_cast<double>(hour);
+  return scene::at_time(sky, time);
+}
+
+SceneOptions at_start_of_day(SceneOptions scene, std::vector<std::string>& specs) {
+  std::string& day = scene.sky.time_of_day;
+  const std::size_t dots = day.find("..");
+  if (dots == std::string::npos) return scene;
+  specs.push_back("time-of-day=" + day);
+  day.resize(dots);
+  return scene;
 }
 
 bool RelightAnimation::moves_time() const {
@@ -149,6 +206,10 @@ scene::LightingState RelightAnimation::frame(float u) const {
     if (track.property == TrackProperty::turn) turn = track.at(u).x;
   }
   scene::LightingState state = rays::lighting_at(source_, time);
+  for (const Track& track : tracks_) {
+    if (track.property == TrackProperty::time_of_day)
+      scene::set_sun_sky(state, scene_, scene::make_sun_sky(sun_at(track.at(u).x)));
+  }
   scene::turn_surroundings(state, scene_, turn);
   for (const Track& track : tracks_) {
     const vec3 value = track.at(u);

@@ -6,16 +6,19 @@
 
 #include <ssphh/rays/transport_source.h>
 
+#include "options/scene_options.h"
+
 namespace ssphh::app {
 
 enum class TrackProperty {
-  time,       ///< seconds of the scene's own animations
-  position,   ///< of a light, world [m]
-  direction,  ///< of a spot or directional light, world, the way the light goes
-  intensity,  ///< of a light, units as scene::Light
-  color,      ///< of a light, linear RGB
-  scale,      ///< factor on a light group, one number or linear RGB
-  turn        ///< of environment and directional lights about +y, radians
+  time,        ///< seconds of the scene's own animations
+  position,    ///< of a light, world [m]
+  direction,   ///< of a spot or directional light, world, the way the light goes
+  intensity,   ///< of a light, units as scene::Light
+  color,       ///< of a light, linear RGB
+  scale,       ///< factor on a light group, one number or linear RGB
+  turn,        ///< of environment and directional lights about +y, radians
+  time_of_day  ///< of the sun in a computed sky, hours
 };
 
 /// Values at evenly spaced times, linear between them.
@@ -30,10 +33,9 @@ struct Track {
 
 class RelightAnimation {
  public:
-  /// Reads "time=0:1", "LIGHT.position=x,y,z:x,y,z", "GROUP.scale=1:0" … Throws Error that lists the scene's
-  /// lights or groups for an unknown name, and for values that are no numbers, of a wrong count or out of
-  /// range.
-  /// Keeps references to source and scene.
+  /// Reads "time=0:1", "LIGHT.position=x,y,z:x,y,z", "GROUP.scale=1:0", "time-of-day=06:00..20:00" … Throws
+  /// Error that lists the scene's lights or groups for an unknown name, and for values that are no numbers,
+  /// of a wrong count or out of range. Keeps references to source and scene.
   RelightAnimation(const rays::TransportSource& source, const scene::Scene& scene, float time,
                    const std::vector<std::string>& specs);
 
@@ -42,11 +44,18 @@ class RelightAnimation {
   bool moves_time() const;
 
  private:
+  /// Preetham's sun must not set.
+  void check_sun() const;
+  scene::SunSkyParams sun_at(float hour) const;
+
   const rays::TransportSource& source_;
   const scene::Scene& scene_;
   float time_;
   std::vector<Track> tracks_;
 };
+
+/// Of a --time-of-day that is a range its start; the range becomes one more of `specs`.
+SceneOptions at_start_of_day(SceneOptions scene, std::vector<std::string>& specs);
 
 /// How a spec is written, for --help.
 extern const char* const animation_help;

@@ -75,10 +75,11 @@ class Relighting {
   Relighting(const RelightOptions& options, const Control& control)
       : control_(control),
         o_(options),
-        scene_(load_lit_scene(options.scene)),
+        moves_(options.animate),
+        scene_(load_lit_scene(at_start_of_day(options.scene, moves_))),
         geometry_(std::make_shared<const trace::SceneGeometry>(scene_)),
         source_(geometry_, scene_),
-        animation_(source_, scene_, options.scene.time, options.animate),
+        animation_(source_, scene_, options.scene.time, moves_),
         exposure_(options.exposure) {}
 
   RelightResult run() {
@@ -227,6 +228,7 @@ class Relighting {
   const Control& control_;
   const RelightOptions& o_;
   GeometryBuilds builds_;
+  std::vector<std::string> moves_;  ///< --animate, and a day that --time-of-day tells of
   scene::Scene scene_;
   trace::SharedGeometry geometry_;
   trace::TransportScene source_;

@@ -58,10 +58,11 @@ int frames_to_settle(const std::vector<RespondFrame>& frames) {
 
 RespondResult run_respond(const RespondOptions& o, const Control& control) {
   if (o.frames < 1 || o.before < 1) throw Error("respond", "needs a frame before and one after the event");
-  const scene::Scene scene = load_lit_scene(o.scene);
+  std::vector<std::string> events = o.events;
+  const scene::Scene scene = load_lit_scene(at_start_of_day(o.scene, events));
   const auto geometry = std::make_shared<const trace::SceneGeometry>(scene);
   const trace::TransportScene surfaces(geometry, scene);
-  const RelightAnimation event(surfaces, scene, o.scene.time, o.events);
+  const RelightAnimation event(surfaces, scene, o.scene.time, events);
   const scene::LightingState before = event.frame(0), after = event.frame(1);
   if (before == after) throw Error("--event", "nothing changes", "give two different keys, as in time=0:1");
   pipeline::LiveMethod live(o.method, o.parameters, geometry, scene, control);
@@ -141,7 +142,8 @@ void add_respond_command(Command app, Context& context) {
   command
       .option("--event", o.events,
               "What changes, NAME=BEFORE:AFTER with the names of `relight --animate`: time (doors), "
-              "LIGHT.position, LIGHT.intensity, GROUP.scale ...; may be repeated. Default: time=0:END "
+              "LIGHT.position, LIGHT.intensity, GROUP.scale, time-of-day ...; may be repeated. Default: "
+              "time=0:END "
               "if the scene has animations")
       .repeatable();
   command.option("--frames", o.frames, "Frames after the event").range(1, 1 << 20);

@@ -15,6 +15,36 @@ std::string light_mode_problem(const std::string& text) {
   }
 }
 
+void add_sky_options(const Command& sky, pipeline::SkyOptions& options, const Option& environment) {
+  sky.choice(
+         "--sky", options.model,
+         "Computed sky and sun in place of the environment: physical (air, haze and ozone around the earth; "
+         "dusk and night, too) or preetham (an analytic fit for days)")
+      .excludes(environment);
+  sky.flag("--sun-sky", options.preetham, "As --sky preetham").excludes(environment);
+  const Option elevation =
+      sky.option("--sun-elevation", options.elevation, "Degrees above the horizon; below it negative")
+          .range(-90.0f, 90.0f);
+  const Option azimuth =
+      sky.option("--sun-azimuth", options.azimuth, "Degrees by compass: 0 is −z, 90 is +x");
+  sky.option("--turbidity", options.turbidity, "Haze: 2 very clear, 10 hazy").range(1.7f, 10.0f);
+  sky.option("--date", options.date,
+             "The sun by the calendar: YEAR-MONTH-DAY, with --time-of-day and --place")
+      .excludes(environment)
+      .excludes(elevation)
+      .excludes(azimuth);
+  sky.option(
+      "--time-of-day", options.time_of_day,
+      "By the clock: HOUR:MINUTE, 00:00 to 24:00; where light moves, as in relight and respond, also a way: "
+      "06:00..20:00");
+  sky.option("--place", options.place, "LATITUDE,LONGITUDE in degrees, north and east positive");
+  sky.option("--utc-offset", options.utc_offset,
+             "Hours by which clocks are ahead of UTC, summer time included; default: longitude / 15, rounded")
+      .range(-14.0, 14.0);
+  sky.option("--north", options.north, "Where north lies: degrees from −z, clockwise seen from above")
+      .range(-360.0, 360.0);
+}
+
 }  // namespace
 
 void add_scene_options(Command command, SceneOptions& options, bool posed, const std::string& source) {
@@ -43,11 +73,6 @@ void add_scene_options(Command command, SceneOptions& options, bool posed, const
       .non_negative();
   scene.option("--environment-rotation", options.environment_rotation,
                "Degrees about +y, counter-clockwise seen from above; also turns a scene's own");
-  scene.flag("--sun-sky", options.sun_sky, "Analytic sun and sky (Preetham) in place of the environment")
-      .excludes(environment);
-  scene.option("--sun-elevation", options.sun_elevation, "Degrees above the horizon").range(0.0f, 90.0f);
-  scene.option("--sun-azimuth", options.sun_azimuth, "Degrees by compass: 0 is −z, 90 is +x");
-  scene.option("--turbidity", options.turbidity, "Haze: 2 very clear, 10 hazy").range(1.7f, 10.0f);
   scene
       .option("--light-mode", options.light_modes,
               "How a light group's light reaches pictures with probes: realtime, mixed (indirect light as "
@@ -56,6 +81,7 @@ void add_scene_options(Command command, SceneOptions& options, bool posed, const
               "sun and realtime for lamps")
       .check(light_mode_problem, "GROUP=MODE")
       .repeatable();
+  add_sky_options(command.under("Sky"), options.sky, environment);
 }
 
 }  // namespace ssphh::app

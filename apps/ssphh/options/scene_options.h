@@ -12,8 +12,7 @@ namespace ssphh::app {
 using pipeline::SceneOptions;
 
 /// Adds the positional SCENE (or the option that `source` names) and --overlay, --unit, --lambert,
-/// --environment,
-/// --sun-sky and so on; --time where a pose matters.
+/// --environment, --sky and so on; --time where a pose matters.
 void add_scene_options(Command command, SceneOptions& options, bool posed = true,
                        const std::string& source = "SCENE");
 

@@ -58,12 +58,19 @@ bool same_surface(const scene::Material& a, const scene::Material& b) {
 
 scene::LightingState edited_lighting(const scene::Scene& scene, const Edits& edits, float time) {
   scene::LightingState state = scene::lighting_at(scene, time);
+  if (edits.sky) scene::set_sun_sky(state, scene, *edits.sky);
+  const int sun = edits.sky ? scene::sun_light(scene) : -1;
   scene::turn_surroundings(state, scene, edits.environment_rotation);
   for (std::size_t i = 0; i < state.lights.size(); ++i) {
     const LightEdit& edit = edits.lights[i];
+    const scene::Light& own = scene.lights[i];
     if (edit.world) state.lights[i].world = *edit.world;
-    state.lights[i].color = edit.color;
-    state.lights[i].intensity = edit.on ? edit.intensity : 0;
+    // The sky knows how bright its sun is, until somebody says otherwise
+    if (index(sun) != i || edit.color != own.color || edit.intensity != own.intensity) {
+      state.lights[i].color = edit.color;
+      state.lights[i].intensity = edit.intensity;
+    }
+    if (!edit.on) state.lights[i].intensity = 0;
   }
   const std::vector<std::string> groups = scene::light_groups(scene);
   for (std::size_t g = 0; g < groups.size(); ++g) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <ssphh/scene/query.h>
+#include <ssphh/scene/sun_sky.h>
 #include <ssphh/scene/with_lighting.h>
 
 namespace ssphh::viewer {
@@ -34,6 +35,7 @@ struct Edits {
   std::vector<LightEdit> lights;           ///< one per light of the scene
   std::map<std::string, vec3> groups;      ///< factors on light groups; a group that is left out has 1
   float environment_rotation = 0;          ///< about +y beyond the scene's own [rad]
+  std::optional<scene::SunSky> sky;        ///< in place of the scene's computed one; none: that one
   std::vector<scene::Material> materials;  ///< one per material of the scene
   std::vector<SphlEdit> sphls;
 };

@@ -150,6 +150,7 @@ void draw_light_panel(App& app) {
   heading("Lamps");
   draw_lamp_list(app);
   if (app.selection.is(Kind::light)) draw_lamp(app, static_cast<std::size_t>(app.selection.index));
+  draw_sky(app);
   draw_groups(app);
 }
 

@@ -18,8 +18,8 @@ class Even final : public Method {
   Even(const MethodScene& scene, float share) : scene_(scene), share_(share) {}
 
   void update(const scene::LightingState& state, const Control&) override {
-    const auto lights = scene_.source.direct_light(state.lights, part_poses(scene_.source, state.time),
-                                                   state.environment_rotation);
+    const auto lights =
+        scene_.source.direct_light(state.lights, part_poses(scene_.source, state.time), state.environment());
     float flux = 0;
     for (std::size_t g = 0; g < state.group_scales.size(); ++g)
       flux += luminance(state.group_scales[g]) * lights->flux(static_cast<int>(g));

@@ -48,8 +48,8 @@ class Ambient final : public Method {
     }
 
     vec3 direct(0), bounced(0);
-    const auto lights = scene_.source.direct_light(state.lights, part_poses(scene_.source, state.time),
-                                                   state.environment_rotation);
+    const auto lights =
+        scene_.source.direct_light(state.lights, part_poses(scene_.source, state.time), state.environment());
     for (const vec3& e : scaled_direct(*lights, state.group_scales, points)) direct += e;
     const std::vector<vec3> at_met = scaled_direct(*lights, state.group_scales, met);
     for (std::size_t i = 0; i < met.size(); ++i) bounced += albedo[i] * at_met[i];

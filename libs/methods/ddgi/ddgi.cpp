@@ -51,7 +51,7 @@ class Ddgi final : public Method {
       const std::size_t rays = relocate(field_, *surfaces_, first ? 16 : 2, relocates_, fresh_);
       if (!first) relocation_rays_ = rays;
     }
-    const auto lights = source_.direct_light(state.lights, poses, state.environment_rotation);
+    const auto lights = source_.direct_light(state.lights, poses, state.environment());
     const int frames = first ? warmup_ : 1;
     ProgressStage progress({frames > 1 ? control.progress : nullptr, nullptr}, "warm-up",
                            static_cast<std::uint64_t>(frames), "frames");

@@ -90,8 +90,9 @@ class Prt final : public Method {
 
     if (!by_transfer) return;
     params.reach = std::numeric_limits<float>::infinity();
-    sky_ = project_environment(*scene.scene.environment, params.degree);
-    sky_rotation_ = scene.scene.environment->rotation;
+    environment_ = &*scene.scene.environment;
+    sky_ = project_environment(*environment_, params.degree);
+    sky_rotation_ = environment_->rotation;
     from_sky_ = find_transfer(mesh, rings, rays, params, control);
     const std::vector<vec3> places = scene::positions_of(volume_.places());
     sky_to_probes_ =
@@ -102,6 +103,7 @@ class Prt final : public Method {
   void update(const scene::LightingState& state, const Control& control) override {
     const int group = sky_.empty() ? -1 : source_.environment_group();
     volume_.update(state, group, control);
+    if (!sky_.empty() && state.environment_image != sky_image_) take_sky(state.environment_image);
     std::vector<sh::RadianceSh> around = volume_.radiance();
     sh::RadianceSh sky;
     if (!sky_.empty()) {
@@ -167,6 +169,14 @@ class Prt final : public Method {
     }
   }
 
+  /// Of this image in place of the scene's own.
+  void take_sky(const std::shared_ptr<const image::Image>& image) {
+    scene::Environment environment = *environment_;
+    if (image) environment.equirect = *image;
+    sky_ = project_environment(environment, sky_.degree());
+    sky_image_ = image;
+  }
+
   vec3 at_vertex(std::size_t v, const sh::RadianceSh& sky) const {
     vec3 sum(0);
     for (const probes::ProbeWeight& probe : probes_->of(v)) {
@@ -184,6 +194,8 @@ class Prt final : public Method {
   PlaceTransfer sky_to_probes_;
   sh::RadianceSh sky_;  ///< at rotation 0; empty: the environment lights the probes as all else does
   float sky_rotation_ = 0;
+  const scene::Environment* environment_ = nullptr;  ///< of the scene, where sky_ is not empty
+  std::shared_ptr<const image::Image> sky_image_;    ///< that sky_ is of; null: the environment's own
   VertexLight light_;
   std::vector<ShownVertex> shown_;  ///< for drawing() alone
   float shown_spacing_ = 0;

@@ -149,8 +149,8 @@ class OpenRoom final : public ssphh::test::TriangleSource {
   int environment_group() const override { return 2; }
   std::unique_ptr<rays::DirectLight> direct_light(std::span<const scene::LightState> lights,
                                                   std::span<const mat4> poses,
-                                                  float rotation) const override {
-    return std::make_unique<RoomLight>(*this, *scene_.environment, lights, poses, rotation);
+                                                  const scene::EnvironmentState& environment) const override {
+    return std::make_unique<RoomLight>(*this, *scene_.environment, lights, poses, environment.rotation);
   }
 
  private:

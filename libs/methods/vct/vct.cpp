@@ -64,9 +64,9 @@ class Vct final : public Method {
       boxes = boxes_of_moved(poses);
       place(state.time, control);
     }
-    if (moved || state.lights != lights_ || state.environment_rotation != environment_rotation_)
+    if (moved || state.lights != lights_ || state.environment() != environment_)
       relight(state, poses, first ? nullptr : &boxes, moved);
-    poses_ = poses, lights_ = state.lights, environment_rotation_ = state.environment_rotation;
+    poses_ = poses, lights_ = state.lights, environment_ = state.environment();
 
     still_.light.sum(state.group_scales, still_.irradiance);
     moving_.light.sum(state.group_scales, moving_.irradiance);
@@ -145,7 +145,7 @@ class Vct final : public Method {
   /// Asks for direct light where lamps or shadows changed; `boxes` null: everywhere.
   void relight(const scene::LightingState& state, const std::vector<mat4>& poses,
                const std::vector<scene::Bounds>* boxes, bool moved) {
-    const auto direct = scene_.source.direct_light(state.lights, poses, state.environment_rotation);
+    const auto direct = scene_.source.direct_light(state.lights, poses, state.environment());
     points_relit_ = 0;
     for (int g = 0; g < static_cast<int>(state.group_scales.size()); ++g) {
       if (!boxes || group_changed(g, state, poses)) {
@@ -160,8 +160,7 @@ class Vct final : public Method {
 
   /// Whether emitters of the group changed or went elsewhere.
   bool group_changed(int group, const scene::LightingState& state, const std::vector<mat4>& poses) const {
-    if (group == scene_.source.environment_group() && state.environment_rotation != environment_rotation_)
-      return true;
+    if (group == scene_.source.environment_group() && state.environment() != environment_) return true;
     for (std::size_t i = 0; i < state.lights.size(); ++i) {
       if (scene_.source.light_group_of(static_cast<int>(i)) == group && !(state.lights[i] == lights_[i]))
         return true;
@@ -207,7 +206,7 @@ class Vct final : public Method {
   std::optional<ConeLight> light_;
   std::vector<mat4> poses_;  ///< of the last update; empty: none yet
   std::vector<scene::LightState> lights_;
-  float environment_rotation_ = 0;
+  scene::EnvironmentState environment_;
   std::size_t points_relit_ = 0;
 };
 

@@ -26,8 +26,8 @@ class Vpls final : public Method {
     state_ = state;
     field_.reset();
     surfaces_.emplace(scene_.source, state.time);
-    const auto lights = scene_.source.direct_light(state.lights, part_poses(scene_.source, state.time),
-                                                   state.environment_rotation);
+    const auto lights =
+        scene_.source.direct_light(state.lights, part_poses(scene_.source, state.time), state.environment());
     std::vector<Vpl> vpls = trace_photons(*lights, state.group_scales, *surfaces_, photons_, control);
     VplParams params;
     params.kind = kind_;

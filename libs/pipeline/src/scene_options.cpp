@@ -31,13 +31,9 @@ scene::Scene load_file(const SceneOptions& options) {
   load.environment = options.environment;
   load.environment_intensity = options.environment_intensity;
   load.environment_rotation = glm::radians(options.environment_rotation);
-  if (options.sun_sky) {
-    scene::SunSkyParams& sky = load.sun_sky.emplace();
-    sky.elevation = glm::radians(options.sun_elevation);
-    sky.azimuth = glm::radians(options.sun_azimuth - 90);
-    sky.turbidity = options.turbidity;
-  }
+  load.sun_sky = sun_sky_of(options.sky);
   scene::Scene scene = scene_io::load_scene(options.source, load);
+  tell_of_sun(scene);
   return options.lambert ? scene::lambertian(std::move(scene)) : scene;
 }
 
@@ -60,7 +56,7 @@ scene::Scene load_lit_scene(const SceneOptions& options) {
   if (scene::light_groups(scene).empty()) {
     log_warning(
         "{}: no lights: a neutral studio lights it (add lights to the file or by --overlay, or give "
-        "--sun-sky or --environment FILE)",
+        "--sky or --environment FILE)",
         options.source);
     scene::add_studio(scene);
   }

@@ -64,7 +64,7 @@ class Balls : public TransportSource {
   int light_group_of(int) const override { return 0; }
   bool group_emits_from(int, int) const override { return false; }
   std::unique_ptr<DirectLight> direct_light(std::span<const scene::LightState>, std::span<const mat4>,
-                                            float) const override {
+                                            const scene::EnvironmentState&) const override {
     return nullptr;
   }
   std::uint64_t rays_traced() const override { return 0; }

@@ -135,24 +135,19 @@ void Lights::add_meshes(const scene::Scene& scene, const std::vector<mat4>& worl
 void Lights::add_environment(const scene::Scene& scene, const std::vector<std::string>& groups, int samples) {
   if (!scene.environment) return;
   environment_ = scene.environment;
-  directions_ = environment_directions(*environment_, samples);
-  sky_irradiance_ = environment_irradiance(*environment_);
+  own_environment_ = environment_->equirect;
+  environment_samples_ = samples;
   Source source;
   source.emitter = static_cast<int>(emitters_.size());
   source.group = scene::light_group_index(groups, scene::light_group(*environment_));
   source.radiance = vec3(1);  // its colour is in the samples and the image
   source.first_map = parallel_slots_;
   GpuEmitter e;
-  e.items = ivec4(static_cast<int>(EmitterKind::environment), 0, static_cast<int>(directions_.size()), 0);
-  for (std::size_t i = 0; i < directions_.size(); ++i) {
-    GpuAreaSample& s = e.samples[i];
-    s.normal.w = static_cast<float>(parallel_slots_ + static_cast<int>(i));
-    s.light = vec4(directions_[i].weight, 0);
-  }
-  parallel_slots_ += static_cast<int>(directions_.size());
+  e.items = ivec4(static_cast<int>(EmitterKind::environment), 0, 0, 0);
+  parallel_slots_ += samples;
   emitters_.push_back(e);
   sources_.push_back(std::move(source));
-  turn_environment();
+  find_environment();
 }
 
 void Lights::set(const scene::LightingState& state, const std::vector<mat4>& world) {
@@ -166,7 +161,13 @@ void Lights::set(const scene::LightingState& state, const std::vector<mat4>& wor
       place(source, world_of(world, source.node));
     }
   }
-  if (environment_ && turn_ != state.environment_rotation) {
+  if (environment_ && other_image_ != state.environment_image) {
+    other_image_ = state.environment_image;
+    environment_->equirect = other_image_ ? *other_image_ : own_environment_;
+    turn_ = state.environment_rotation;
+    find_environment();
+    place_environment(environment_bounds_);
+  } else if (environment_ && turn_ != state.environment_rotation) {
     turn_ = state.environment_rotation;
     turn_environment();
     place_environment(environment_bounds_);

@@ -60,6 +60,8 @@ class Lights {
   const MapAtlas& parallel_maps() const { return parallel_; }
   float near_plane() const { return near_; }
   const scene::Environment* environment() const { return environment_ ? &*environment_ : nullptr; }
+  /// In place of the scene's own image; null: that one.
+  const std::shared_ptr<const image::Image>& other_environment() const { return other_image_; }
   /// About +y, the scene's own rotation included [rad].
   float environment_rotation() const { return environment_ ? environment_->rotation + turn_ : 0; }
   std::size_t bytes() const;
@@ -91,6 +93,7 @@ class Lights {
   void point_sun(const Source& source, const vec3& axis, float radius);
   void place_sun(const Source& source, const scene::CameraPose& camera, float aspect,
                  const scene::Bounds& bounds);
+  void find_environment();
   void turn_environment();
   void place_environment(const scene::Bounds& bounds);
   void set_colors();
@@ -104,10 +107,13 @@ class Lights {
   std::vector<scene::LightState> states_;
   std::vector<vec3> scales_;
   std::vector<std::string> groups_;
-  std::optional<scene::Environment> environment_;
-  std::vector<EnvironmentSample> directions_;  ///< by the scene's own rotation
-  sh::IrradianceSh sky_irradiance_;            ///< likewise
-  float turn_ = 0;                             ///< of the environment beyond it [rad]
+  std::optional<scene::Environment> environment_;    ///< as it is now
+  image::Image own_environment_;                     ///< the scene's image
+  std::shared_ptr<const image::Image> other_image_;  ///< in place of it; null: none
+  int environment_samples_ = 0;                      ///< directions at most
+  std::vector<EnvironmentSample> directions_;        ///< by the scene's own rotation
+  sh::IrradianceSh sky_irradiance_;                  ///< likewise
+  float turn_ = 0;                                   ///< of the environment beyond it [rad]
   std::vector<Source> sources_;
   std::vector<GpuEmitter> emitters_;  ///< of sources_, then of probes
   std::vector<GpuEmitter> uploaded_;  ///< as they stand in the buffer

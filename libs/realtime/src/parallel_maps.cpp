@@ -101,6 +101,23 @@ void Lights::place_sun(const Source& source, const scene::CameraPose& camera, fl
   }
 }
 
+/// The directions that stand for the environment's image, and their light.
+void Lights::find_environment() {
+  directions_ = environment_directions(*environment_, environment_samples_);
+  sky_irradiance_ = environment_irradiance(*environment_);
+  for (const Source& source : sources_) {
+    GpuEmitter& e = emitters_[static_cast<std::size_t>(source.emitter)];
+    if (e.items.x != static_cast<int>(EmitterKind::environment)) continue;
+    e.items.z = static_cast<int>(directions_.size());
+    for (std::size_t i = 0; i < directions_.size(); ++i) {
+      GpuAreaSample& s = e.samples[i];
+      s.normal.w = static_cast<float>(source.first_map + static_cast<int>(i));
+      s.light = vec4(directions_[i].weight, 0);
+    }
+  }
+  turn_environment();
+}
+
 void Lights::turn_environment() {
   const sh::IrradianceSh turned =
       sh::Rotation::about_axis(sky_irradiance_.degree(), vec3(0, 1, 0), turn_).apply(sky_irradiance_);

@@ -72,6 +72,11 @@ void Renderer::Data::pose(float time) {
   if (method) method->invalidate(moved);
 }
 
+void Renderer::Data::show_environment() {
+  sky = environment_map(lights.environment());
+  sky_lobes = TileAtlas();
+}
+
 void Renderer::Data::emit(const std::vector<scene::SphlEmission>& emission) {
   lights.clear_emissions();
   for (const scene::SphlEmission& sphl : emission) {
@@ -127,7 +132,9 @@ void Renderer::set(const scene::LightingState& state) {
     if (state.group_scales[g] != d.lighting.group_scales[g])
       d.scene.set_group_scale(static_cast<int>(g), state.group_scales[g], d.counters);
   }
+  const bool other_sky = state.environment_image != d.lights.other_environment();
   d.lights.set(state, d.world);
+  if (other_sky) d.show_environment();
   if (state.emission != d.lighting.emission) d.emit(state.emission);
   d.lighting = state;
 }

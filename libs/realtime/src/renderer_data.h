@@ -33,6 +33,8 @@ struct Renderer::Data {
   Data(gl::Context& context, const scene::Scene& scene, const RendererParams& params, float time);
 
   void pose(float time);
+  /// What is infinitely far away, after lights.set() has it.
+  void show_environment();
   void emit(const std::vector<scene::SphlEmission>& emission);
   void forget_emission() {
     lights.clear_emissions();

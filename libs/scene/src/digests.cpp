@@ -2,8 +2,6 @@
 
 namespace ssphh::scene {
 
-namespace {
-
 // −0 + 0 is 0: the sign of a zero is no difference, and files that leave out defaults lose it.
 Hasher& add(Hasher& h, const vec2& v) {
   return h.value(v.x + 0.0f).value(v.y + 0.0f);
@@ -14,7 +12,6 @@ Hasher& add(Hasher& h, const vec3& v) {
 Hasher& add(Hasher& h, const quat& q) {
   return add(h, vec3(q.x, q.y, q.z)).value(q.w + 0.0f);
 }
-}  // namespace
 
 Hasher& add(Hasher& h, const Hash128& hash) {
   return h.value(hash.high).value(hash.low);

@@ -8,6 +8,9 @@
 
 namespace ssphh::scene {
 
+Hasher& add(Hasher& h, const vec2& v);
+Hasher& add(Hasher& h, const vec3& v);
+Hasher& add(Hasher& h, const quat& q);
 Hasher& add(Hasher& h, const Hash128& hash);
 Hash128 digest(const Texture& texture);
 /// `textures` are the digests of the scene's.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/require.h>
+#include <ssphh/image/image.h>
 #include <ssphh/scene/lighting_state.h>
 #include <ssphh/scene/query.h>
 
@@ -47,6 +48,9 @@ LightingState lighting_at(const Scene& scene, float time) {
 void check_lighting(const LightingState& state, const LightingCounts& counts) {
   require(std::isfinite(state.time), "time", "it must be a finite number of seconds");
   require(std::isfinite(state.environment_rotation), "environment", "its rotation must be a finite angle");
+  require(!state.environment_image ||
+              (!state.environment_image->empty() && state.environment_image->channels == 3),
+          "environment", "its image must have pixels of three channels");
   if (state.lights.size() != counts.lights || state.group_scales.size() != counts.groups) {
     throw Error("lighting",
                 fmt::format("it has {} lights and {} groups, but the scene has {} and {}",

@@ -53,6 +53,10 @@ Scene with_lighting(Scene scene, const LightingState& state) {
   if (scene.environment) {
     scene.environment->color *= scale_of(light_group(*scene.environment));
     scene.environment->rotation += state.environment_rotation;
+    if (state.environment_image) {
+      scene.environment->equirect = *state.environment_image;
+      scene.environment->sun_sky.reset();
+    }
   }
   return scene;
 }

@@ -184,9 +184,11 @@ TEST(SceneMessages, OfTheSky) {
   EXPECT_EQ(said([](auto& p) { p.elevation = 0; }), "no error");
   EXPECT_EQ(said([](auto& p) { p.elevation = pi / 2; }), "no error");
   EXPECT_EQ(said([](auto& p) { p.elevation = -0.5f; }),
-            "sun and sky: elevation: -0.5 is out of range (the model knows 0 to π/2 (90°))");
+            "sun and sky: elevation: -0.5 is out of range (Preetham's model knows 0 to π/2 (90°); the "
+            "physical sky has dusk and night, too)");
   EXPECT_EQ(said([](auto& p) { p.elevation = 1.75f; }),
-            "sun and sky: elevation: 1.75 is out of range (the model knows 0 to π/2 (90°))");
+            "sun and sky: elevation: 1.75 is out of range (Preetham's model knows 0 to π/2 (90°); the "
+            "physical sky has dusk and night, too)");
   EXPECT_EQ(said([](auto& p) { p.turbidity = 1.7f; }), "no error");
   EXPECT_EQ(said([](auto& p) { p.turbidity = 10; }), "no error");
   EXPECT_EQ(said([](auto& p) { p.turbidity = 1.5f; }),

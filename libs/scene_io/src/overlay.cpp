@@ -195,10 +195,39 @@ void set_environment(Scene& scene, const json::Cursor& entry, const std::filesys
   scene.environment = std::move(environment);
 }
 
+// "date", "time_of_day" and "place", in place of the sun's angles.
+scene::SunTime sun_time(const json::Cursor& entry) {
+  scene::SunTime time;
+  const auto read = [&](const char* key, const auto& take) {
+    const json::Cursor member = entry[key];
+    try {
+      take(member.text());
+    } catch (const Error& e) {
+      member.fail(e.problem(), e.hint());
+    }
+  };
+  read("date", [&](const std::string& text) { scene::read_date(time, text, "date"); });
+  read("time_of_day", [&](const std::string& text) { time.hour = scene::read_hour(text, "time_of_day"); });
+  read("place", [&](const std::string& text) { scene::read_place(time, text, "place"); });
+  const auto number = [&](const char* key, float most, double fallback) {
+    const auto member = entry.find(key);
+    return member ? static_cast<double>(member->number(-most, most)) : fallback;
+  };
+  time.utc_offset = number("utc_offset_hours", 14, scene::nautical_utc_offset(time.longitude));
+  time.north = number("north_degrees", 360, 0);
+  if (entry.find("elevation_degrees") || entry.find("azimuth_degrees"))
+    entry.fail("has the sun's angles and its date, which give others");
+  return time;
+}
+
 void set_sun_sky(Scene& scene, const json::Cursor& entry) {
-  entry.only({"elevation_degrees", "azimuth_degrees", "turbidity", "ground_albedo", "sun", "width"});
+  entry.only({"model", "elevation_degrees", "azimuth_degrees", "date", "time_of_day", "place",
+              "utc_offset_hours", "north_degrees", "turbidity", "ground_albedo", "sun", "width"});
   scene::SunSkyParams params;
-  params.elevation = degrees(entry, "elevation_degrees", 0, 90, glm::degrees(params.elevation));
+  const bool by_time = entry.find("date") || entry.find("time_of_day") || entry.find("place");
+  if (by_time) params.model = scene::SkyModel::physical;
+  if (const auto model = entry.find("model")) params.model = model->named<scene::SkyModel>();
+  params.elevation = degrees(entry, "elevation_degrees", -90, 90, glm::degrees(params.elevation));
   // By compass: 0 is −z, 90 is +x
   const float azimuth = degrees(entry, "azimuth_degrees", -360, 360, glm::degrees(params.azimuth) + 90);
   params.azimuth = azimuth - pi / 2;
@@ -206,6 +235,7 @@ void set_sun_sky(Scene& scene, const json::Cursor& entry) {
   if (const auto albedo = entry.find("ground_albedo")) params.ground_albedo = albedo->vector3();
   params.sun = entry.boolean_or("sun", params.sun);
   if (const auto width = entry.find("width")) params.width = static_cast<int>(width->unsigned_integer(4096));
+  if (by_time) params = scene::at_time(params, sun_time(entry));
   try {
     scene::add_sun_sky(scene, params);
   } catch (const Error& e) {

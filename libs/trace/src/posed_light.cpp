@@ -24,18 +24,18 @@ std::vector<mat4> node_matrices(const TransportData& data, std::span<const mat4>
 }  // namespace
 
 PosedLight::PosedLight(std::shared_ptr<const TransportData> data, std::span<const scene::LightState> lights,
-                       std::span<const mat4> poses, float environment_rotation)
+                       std::span<const mat4> poses, const scene::EnvironmentState& environment)
     : data_(std::move(data)),
       world_(node_matrices(*data_, poses)),
-      lights_(data_->lights, world_, lights, environment_rotation),
+      lights_(data_->lights, world_, lights, environment),
       geometry_(data_->geometry, poses) {
   list_emitters();
 }
 
 void PosedLight::pose(std::span<const scene::LightState> lights, std::span<const mat4> poses,
-                      float environment_rotation) {
+                      const scene::EnvironmentState& environment) {
   data_->layout().node_matrices(poses, world_);
-  lights_.pose(data_->lights, world_, lights, environment_rotation);
+  lights_.pose(data_->lights, world_, lights, environment);
   geometry_.pose(poses);
   list_emitters();
 }

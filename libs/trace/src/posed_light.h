@@ -19,11 +19,11 @@ inline std::uint64_t position_seed(const vec3& p) {
 class PosedLight final : public rays::DirectLight {
  public:
   PosedLight(std::shared_ptr<const TransportData> data, std::span<const scene::LightState> lights,
-             std::span<const mat4> poses, float environment_rotation);
+             std::span<const mat4> poses, const scene::EnvironmentState& environment);
   bool is_of(const TransportData* data) const { return data_.get() == data; }
   /// Becomes what the constructor makes of the same data, in its own memory.
   void pose(std::span<const scene::LightState> lights, std::span<const mat4> poses,
-            float environment_rotation);
+            const scene::EnvironmentState& environment);
 
   void irradiance(int group, std::span<const rays::SurfacePoint> points, std::span<vec3> out) const override;
   bool may_shadow(int group, const rays::SurfacePoint& point, const scene::Bounds& box) const override;

@@ -49,22 +49,23 @@ void check_counts(const TransportData& data, std::span<const scene::LightState> 
 
 }  // namespace
 
-std::unique_ptr<rays::DirectLight> TransportScene::direct_light(std::span<const scene::LightState> lights,
-                                                                std::span<const mat4> poses,
-                                                                float environment_rotation) const {
+std::unique_ptr<rays::DirectLight> TransportScene::direct_light(
+    std::span<const scene::LightState> lights, std::span<const mat4> poses,
+    const scene::EnvironmentState& environment) const {
   check_counts(*data_, lights, poses);
-  return std::make_unique<PosedLight>(data_, lights, poses, environment_rotation);
+  return std::make_unique<PosedLight>(data_, lights, poses, environment);
 }
 
 void TransportScene::renew_direct_light(std::unique_ptr<rays::DirectLight>& light,
                                         std::span<const scene::LightState> lights,
-                                        std::span<const mat4> poses, float environment_rotation) const {
+                                        std::span<const mat4> poses,
+                                        const scene::EnvironmentState& environment) const {
   auto* const mine = dynamic_cast<PosedLight*>(light.get());
   if (mine && mine->is_of(data_.get())) {
     check_counts(*data_, lights, poses);
-    mine->pose(lights, poses, environment_rotation);
+    mine->pose(lights, poses, environment);
   } else {
-    light = direct_light(lights, poses, environment_rotation);
+    light = direct_light(lights, poses, environment);
   }
 }
 

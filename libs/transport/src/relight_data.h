@@ -231,8 +231,7 @@ struct RelightSession::Data {
   /// Whether the direct light that is kept of a group is that of the last state, but for its factor.
   bool direct_holds(int asked) const {
     if (state.time != direct_state.time) return false;
-    if (asked == source.environment_group() &&
-        state.environment_rotation != direct_state.environment_rotation)
+    if (asked == source.environment_group() && state.environment() != direct_state.environment())
       return false;
     for (std::size_t i = 0; i < state.lights.size(); ++i) {
       if (source.light_group_of(static_cast<int>(i)) == asked && state.lights[i] != direct_state.lights[i])
@@ -276,7 +275,7 @@ struct RelightSession::Data {
         group_dirty[static_cast<std::size_t>(source.light_group_of(static_cast<int>(i)))] = true;
     }
     const int environment = source.environment_group();
-    if (environment >= 0 && wanted.environment_rotation != state.environment_rotation)
+    if (environment >= 0 && wanted.environment() != state.environment())
       group_dirty[static_cast<std::size_t>(environment)] = true;
     scale_dirty = unfinished || wanted.group_scales != state.group_scales;
     emission_dirty = unfinished || wanted.emission != state.emission;

@@ -117,7 +117,7 @@ bool RelightSession::Data::pose(RelightReport& report, Pace& pace) {
 bool RelightSession::Data::find_direct(Pace& pace, const Control& control) {
   if (stage == Stage::lamps) {
     if (any_group_dirty() || !moved.empty() || !direct_light) {
-      source.renew_direct_light(direct_light, state.lights, network.poses(), state.environment_rotation);
+      source.renew_direct_light(direct_light, state.lights, network.poses(), state.environment());
       require(direct_light != nullptr, "transport source", "it gives no direct light");
     }
     mark_panes();

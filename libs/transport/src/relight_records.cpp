@@ -21,7 +21,7 @@ std::vector<vec3> alike(std::span<const std::vector<Irradiance4>> by_group) {
 void RelightSession::Data::find_direct_for_records() {
   if (unfinished) group_dirty.assign(group_dirty.size(), true);
   if (any_group_dirty() || !direct_light) {
-    source.renew_direct_light(direct_light, state.lights, network.poses(), state.environment_rotation);
+    source.renew_direct_light(direct_light, state.lights, network.poses(), state.environment());
     require(direct_light != nullptr, "transport source", "it gives no direct light");
   }
   mark_panes();

@@ -58,7 +58,8 @@ class BallRoom final : public rays::TransportSource {
   int light_group_of(int) const override { return 0; }
   bool group_emits_from(int group, int) const override { return group == 1; }
   std::unique_ptr<rays::DirectLight> direct_light(std::span<const scene::LightState> lights,
-                                                  std::span<const mat4> poses, float) const override {
+                                                  std::span<const mat4> poses,
+                                                  const scene::EnvironmentState&) const override {
     return std::make_unique<Direct>(*this, lights[0], poses[1]);
   }
   std::uint64_t rays_traced() const override { return traced_; }

@@ -94,7 +94,10 @@ void ProbeVolume::update(const scene::LightingState& state, int dark, const Cont
   if (dark >= 0) {
     state_.group_scales[static_cast<std::size_t>(dark)] = vec3(0);
     // What does not light the probes need not be found anew for them
-    if (dark == environment_group_) state_.environment_rotation = session_->lighting().environment_rotation;
+    if (dark == environment_group_) {
+      state_.environment_rotation = session_->lighting().environment_rotation;
+      state_.environment_image = session_->lighting().environment_image;
+    }
   }
   session_->update(state_, control);
 }

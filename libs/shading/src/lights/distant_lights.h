@@ -42,10 +42,14 @@ struct DiscLight {
 class EnvironmentLight {
  public:
   EnvironmentLight(const scene::Environment& environment, int group);
+  /// Of another image than the scene's.
+  EnvironmentLight(std::shared_ptr<const image::Image> image, const vec3& color, float rotation, int group);
 
   /// The same with another rotation [rad]: nothing is computed anew.
   EnvironmentLight turned(float rotation) const;
   float rotation() const { return rotation_; }
+  /// In place of the scene's own; null: that one.
+  const std::shared_ptr<const image::Image>& image() const { return held_; }
 
   int group() const { return group_; }
   /// Mean luminance over the sphere times π: the irradiance of a mean plane.
@@ -64,6 +68,9 @@ class EnvironmentLight {
   vec3 to_world(const vec3& d) const { return {cos_ * d.x + sin_ * d.z, d.y, cos_ * d.z - sin_ * d.x}; }
   vec3 lookup(const vec3& image_direction) const;
 
+  EnvironmentLight(const vec3& color, float rotation, int group, const image::Image* image);
+
+  std::shared_ptr<const image::Image> held_;
   const image::Image* image_ = nullptr;  ///< null: constant
   vec3 color_;
   float rotation_, cos_, sin_;

@@ -34,14 +34,24 @@ std::vector<float> row_importance(const image::Image& image, int y) {
 }  // namespace
 
 EnvironmentLight::EnvironmentLight(const scene::Environment& environment, int group)
-    : color_(environment.color),
-      rotation_(environment.rotation),
-      cos_(std::cos(environment.rotation)),
-      sin_(std::sin(environment.rotation)),
+    : EnvironmentLight(environment.color, environment.rotation, group,
+                       environment.equirect.empty() ? nullptr : &environment.equirect) {}
+
+EnvironmentLight::EnvironmentLight(std::shared_ptr<const image::Image> image, const vec3& color,
+                                   float rotation, int group)
+    : EnvironmentLight(color, rotation, group, image.get()) {
+  held_ = std::move(image);
+}
+
+EnvironmentLight::EnvironmentLight(const vec3& color, float rotation, int group, const image::Image* image)
+    : image_(image),
+      color_(color),
+      rotation_(rotation),
+      cos_(std::cos(rotation)),
+      sin_(std::sin(rotation)),
       group_(group),
-      mean_irradiance_(pi * luminance(environment.color)) {
-  if (environment.equirect.empty()) return;
-  image_ = &environment.equirect;
+      mean_irradiance_(pi * luminance(color)) {
+  if (image_ == nullptr) return;
   const int width = image_->width, height = image_->height;
   std::vector<float> row_power(static_cast<std::size_t>(height));
   double total = 0;

@@ -14,6 +14,21 @@ mat4 matrix_at(const std::vector<mat4>& world, int node) {
   return node < 0 ? mat4(1) : world[static_cast<std::size_t>(node)];
 }
 
+/// The light of the scene's own environment as it is now; `last` is kept where it is the same.
+std::shared_ptr<const EnvironmentLight> environment_light(const std::shared_ptr<const EnvironmentLight>& own,
+                                                          const std::shared_ptr<const EnvironmentLight>& last,
+                                                          const scene::Scene& scene,
+                                                          const scene::EnvironmentState& now) {
+  if (!own || now == scene::EnvironmentState()) return own;
+  const float rotation = scene.environment->rotation + now.rotation;
+  if (last && last->rotation() == rotation && last->image() == now.image) return last;
+  if (!now.image) return std::make_shared<const EnvironmentLight>(own->turned(rotation));
+  if (last && last->image() == now.image)
+    return std::make_shared<const EnvironmentLight>(last->turned(rotation));
+  return std::make_shared<const EnvironmentLight>(now.image, scene.environment->color, rotation,
+                                                  own->group());
+}
+
 }  // namespace
 
 LightSet::LightSet(const scene::Scene& scene, const std::vector<mat4>& world, float time)
@@ -41,18 +56,18 @@ LightSet::LightSet(const scene::Scene& scene, const std::vector<mat4>& world, fl
 }
 
 LightSet::LightSet(const LightSet& base, const std::vector<mat4>& world,
-                   std::span<const scene::LightState> states, float environment_rotation)
+                   std::span<const scene::LightState> states, const scene::EnvironmentState& surroundings)
     : data_(std::make_unique<Data>()) {
   Data& d = *data_;
   d.scene = base.data_->scene;
   d.scene_radius = base.data_->scene_radius;
   d.groups = base.data_->groups;
   d.read_lights();
-  pose(base, world, states, environment_rotation);
+  pose(base, world, states, surroundings);
 }
 
 void LightSet::pose(const LightSet& base, const std::vector<mat4>& world,
-                    std::span<const scene::LightState> states, float environment_rotation) {
+                    std::span<const scene::LightState> states, const scene::EnvironmentState& surroundings) {
   Data& d = *data_;
   require(d.scene == base.data_->scene, "light set", "it was not made of this one");
   require(world.size() >= d.scene->nodes.size(), "light set", "there is not one matrix for each node");
@@ -65,15 +80,8 @@ void LightSet::pose(const LightSet& base, const std::vector<mat4>& world,
   }
   d.add_lights();
   d.add_meshes(world, base.data_.get());
-  std::shared_ptr<const EnvironmentLight> environment = base.data_->distant.environment();
-  if (environment && environment_rotation != 0) {
-    const float rotation = d.scene->environment->rotation + environment_rotation;
-    const std::shared_ptr<const EnvironmentLight>& last = d.distant.environment();
-    environment = last && last->rotation() == rotation
-                      ? last
-                      : std::make_shared<const EnvironmentLight>(environment->turned(rotation));
-  }
-  d.distant.assign(d.lights, std::move(environment));
+  d.distant.assign(d.lights, environment_light(base.data_->distant.environment(), d.distant.environment(),
+                                               *d.scene, surroundings));
   d.divide_choices();
 }
 

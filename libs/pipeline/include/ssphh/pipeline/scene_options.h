@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <ssphh/core/files_read.h>
+#include <ssphh/pipeline/sky_options.h>
 #include <ssphh/scene/scene.h>
 #include <ssphh/trace/scene_geometry.h>
 
@@ -17,9 +18,7 @@ struct SceneOptions {
   float environment_intensity = 1;
   float environment_rotation = 0;  ///< degrees
   bool lambert = false;
-  bool sun_sky = false;
-  float sun_elevation = 45, sun_azimuth = 120;  ///< degrees; azimuth 0: −z, 90: +x
-  float turbidity = 3;
+  SkyOptions sky;
   float time = 0;                        ///< seconds
   std::vector<std::string> light_modes;  ///< "GROUP=MODE"; the group's name may hold a "=", too
 };

@@ -178,19 +178,19 @@ class TransportSource {
   virtual bool group_emits_from(int group, int part) const = 0;
   /// Group index of the environment; −1: there is none.
   virtual int environment_group() const { return -1; }
-  /// `lights` as from lights(), perhaps changed; `poses` one matrix per part; the environment turned about +y
-  /// by so many radians beyond its own rotation.
-  virtual std::unique_ptr<DirectLight> direct_light(std::span<const scene::LightState> lights,
-                                                    std::span<const mat4> poses,
-                                                    float environment_rotation = 0) const = 0;
+  /// `lights` as from lights(), perhaps changed; `poses` one matrix per part; the environment as
+  /// it is now.
+  virtual std::unique_ptr<DirectLight> direct_light(
+      std::span<const scene::LightState> lights, std::span<const mat4> poses,
+      const scene::EnvironmentState& environment = {}) const = 0;
 
   /// The same in place of what direct_light() gave before; null: nothing yet. A source that is asked every
   /// frame makes its own anew without taking memory. When it throws, `light` may be neither the old nor the
   /// new one.
   virtual void renew_direct_light(std::unique_ptr<DirectLight>& light,
                                   std::span<const scene::LightState> lights, std::span<const mat4> poses,
-                                  float environment_rotation) const {
-    light = direct_light(lights, poses, environment_rotation);
+                                  const scene::EnvironmentState& environment) const {
+    light = direct_light(lights, poses, environment);
   }
 
   /// Path tracing of the scene in that state, whose SPHLs do not shine. What it returns may outlive this

@@ -3,12 +3,18 @@
 /// it whole and find out by themselves what has changed.
 
 #include <cstddef>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
 
 #include <ssphh/core/vectors.h>
 #include <ssphh/sh/coefficients.h>
+
+namespace ssphh::image {
+struct Image;
+}
 
 namespace ssphh::scene {
 
@@ -32,6 +38,18 @@ struct SphlEmission {
   friend bool operator==(const SphlEmission&, const SphlEmission&) = default;
 };
 
+/// What is infinitely far away, as it is now.
+struct EnvironmentState {
+  float rotation = 0;  ///< about +y beyond the scene's own, counter-clockwise seen from above [rad]
+  /// Equirectangular radiance in place of that of the scene's environment, whose factor and rotation it gets;
+  /// null: the scene's own. An image that was given is not changed.
+  std::shared_ptr<const image::Image> image;
+
+  EnvironmentState(float turned = 0, std::shared_ptr<const image::Image> other = nullptr)
+      : rotation(turned), image(std::move(other)) {}
+  friend bool operator==(const EnvironmentState&, const EnvironmentState&) = default;
+};
+
 struct LightingState {
   float time = 0;                  ///< poses the moving parts [s]
   std::vector<LightState> lights;  ///< one for each light of the scene, in its order
@@ -40,7 +58,9 @@ struct LightingState {
   /// from above [rad].
   float environment_rotation = 0;
   std::vector<SphlEmission> emission;  ///< of the probes that shine, each once; the others do not
+  std::shared_ptr<const image::Image> environment_image{};  ///< as EnvironmentState::image
 
+  EnvironmentState environment() const { return {environment_rotation, environment_image}; }
   friend bool operator==(const LightingState&, const LightingState&) = default;
 };
 

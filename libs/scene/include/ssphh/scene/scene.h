@@ -14,6 +14,7 @@
 #include <ssphh/image/image.h>
 #include <ssphh/scene/emission.h>
 #include <ssphh/scene/light_mode.h>
+#include <ssphh/scene/sun_sky_params.h>
 
 namespace ssphh::scene {
 
@@ -163,10 +164,11 @@ struct Light {
 /// Infinitely distant light: an equirectangular image (see docs/conventions.md for its axes) or a constant.
 struct Environment {
   std::string name = "environment";
-  std::string group;      ///< empty: the name
-  image::Image equirect;  ///< radiance; empty: `color` everywhere
-  vec3 color{1};          ///< factor on the image, or the constant radiance
-  float rotation = 0;     ///< radians about +y, counter-clockwise seen from above
+  std::string group;                      ///< empty: the name
+  image::Image equirect;                  ///< radiance; empty: `color` everywhere
+  vec3 color{1};                          ///< factor on the image, or the constant radiance
+  float rotation = 0;                     ///< radians about +y, counter-clockwise seen from above
+  std::optional<SunSkyParams> sun_sky{};  ///< what the image was computed from; none: it was not
 };
 
 /// A spherical-harmonics light of the paper: a probe, and an emitter for VIZ.

@@ -61,15 +61,15 @@ class LightSet {
   LightSet(const scene::Scene& scene, const std::vector<mat4>& world, float time = 0);
   LightSet(const scene::Scene&&, const std::vector<mat4>&, float = 0) = delete;  // it would be gone
   /// The emitters of `base`'s scene with its lights as `lights` say, one state per scene::Light, and its
-  /// emissive instances posed by `world`, and its environment turned about +y by so many radians beyond its
-  /// own rotation. What has not moved is shared with `base`, and so is the size of the scene, by which
-  /// sample() divides its choices between near and distant lights.
+  /// emissive instances posed by `world`, and its environment as it is now. What has not moved is shared with
+  /// `base`, and so is the size of the scene, by which sample() divides its choices between near and distant
+  /// lights.
   LightSet(const LightSet& base, const std::vector<mat4>& world, std::span<const scene::LightState> lights,
-           float environment_rotation = 0);
+           const scene::EnvironmentState& environment = {});
   /// Becomes LightSet(base, …) where it was made of the same base, in its own memory: allocates nothing where
-  /// emissive instances stand still, and the environment, or stays turned.
+  /// emissive instances stand still, and the environment stays as it was.
   void pose(const LightSet& base, const std::vector<mat4>& world, std::span<const scene::LightState> lights,
-            float environment_rotation = 0);
+            const scene::EnvironmentState& environment = {});
   /// The emitters of other light groups than these; what both have is shared.
   LightSet without(std::span<const int> groups) const;
   ~LightSet();

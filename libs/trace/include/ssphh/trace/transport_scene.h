@@ -57,13 +57,13 @@ class TransportScene final : public rays::TransportSource {
   bool group_emits_from(int group, int part) const override;
   int environment_group() const override;
   /// What it returns may outlive this object, but not the scene.
-  std::unique_ptr<rays::DirectLight> direct_light(std::span<const scene::LightState> lights,
-                                                  std::span<const mat4> poses,
-                                                  float environment_rotation = 0) const override;
-  /// Without allocation, but for emissive instances that move and an environment that turns.
+  std::unique_ptr<rays::DirectLight> direct_light(
+      std::span<const scene::LightState> lights, std::span<const mat4> poses,
+      const scene::EnvironmentState& environment = {}) const override;
+  /// Without allocation, but for emissive instances that move and an environment that changes.
   void renew_direct_light(std::unique_ptr<rays::DirectLight>& light,
                           std::span<const scene::LightState> lights, std::span<const mat4> poses,
-                          float environment_rotation) const override;
+                          const scene::EnvironmentState& environment) const override;
   std::unique_ptr<rays::RadianceSource> path_tracing(const scene::LightingState& state) const override;
 
   std::uint64_t rays_traced() const override;
