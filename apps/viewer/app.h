@@ -191,6 +191,7 @@ class App {
   /// Builds the light of the probes anew, in the background.
   void rebuild_light();
   void start_gen(bool viz_only);
+  /// Of one name, or of keys that play with the scene's animations, as probes::read_probe_keys() has them.
   void take_probe_file(const std::string& file);
   /// Makes the surface records or fitted weights of the probes ready, in the background.
   void prepare_surfaces();
@@ -283,6 +284,8 @@ class App {
   void keep_selection(const std::vector<SphlEdit>& before);
   std::optional<float> suitable_exposure() const;
   bool show_exposure(float ev);
+  /// Throws Error where a set is not of the scene; with options.force warns.
+  void fit_to_scene(probes::ProbeSet& set, const std::string& file) const;
   void update_time(double seconds);
   void apply_edits();
   void update_light();

@@ -7,6 +7,7 @@
 #include <ssphh/bake/light_modes.h>
 #include <ssphh/core/log.h>
 #include <ssphh/place/init.h>
+#include <ssphh/probes/keyed_files.h>
 #include <ssphh/trace/path_tracer.h>
 
 #include "app.h"
@@ -65,7 +66,7 @@ void App::use_probes(const std::string& what) {
     const float spacing = parse_number("probes", what.substr(automatic.size()));
     if (!(spacing > 0)) throw Error("probes", "a spacing must be over 0", "as in auto:0.7");
     place_probes(spacing);
-  } else if (is_probe_file(what)) {
+  } else if (what.find(".sphl") != std::string::npos) {
     take_probe_file(what);
     if (options.live) light_scene_probes();
   } else {
@@ -161,22 +162,36 @@ void App::start_gen(bool viz_only) {
 
 void App::take_probe_file(const std::string& file) {
   if (!scene_open()) throw Error(file, "there is no scene for these probes", "open the scene first");
-  probes::ProbeSet set = probes::read_probe_file(file);
+  const std::vector<probes::ProbeKey> keys = probes::read_probe_keys(file);
+  std::vector<probes::KeyedSet> sets;
+  if (keys.size() > 1) {
+    sets = probes::read_keyed_sets(keys);
+  } else {
+    sets.push_back({0, probes::read_probe_file(keys.front().file)});
+  }
+  for (probes::KeyedSet& key : sets) fit_to_scene(key.set, file);
+  const std::vector<probes::Probe>& places = sets.front().set.probes;
+  take_places("probes of a file", places);
+  say(fmt::format("{}: {} probes", file, places.size()));
+  if (sets.size() > 1) {
+    light.take(std::move(sets), document.time, file);
+  } else {
+    light.take(std::move(sets.front().set), file);
+  }
+  prepare_surfaces();
+}
+
+void App::fit_to_scene(probes::ProbeSet& set, const std::string& file) const {
   if (set.generator.scene_hash != scene::light_hash(*document.scene)) {
     const std::string problem = fmt::format("was baked in another scene (\"{}\")", set.generator.scene);
     if (!options.force) throw Error(file, problem, "open that scene, or go on with --force");
     log_warning("{}: {}", file, problem);
   }
-  if (const std::string modes = bake::mode_difference(set, *document.scene); !modes.empty()) {
-    const std::string problem = "was baked with " + modes;
-    if (!options.force) throw Error(file, problem, "bake it anew, or go on with --force as it was baked");
-    log_warning("{}: {}", file, problem);
-  }
-  if (bake::mode_difference(set, *document.scene).empty()) bake::adopt_modes(set, *document.scene);
-  take_places("probes of a file", set.probes);
-  say(fmt::format("{}: {} probes", file, set.probes.size()));
-  light.take(std::move(set), file);
-  prepare_surfaces();
+  const std::string modes = bake::mode_difference(set, *document.scene);
+  if (modes.empty()) return bake::adopt_modes(set, *document.scene);
+  const std::string problem = "was baked with " + modes;
+  if (!options.force) throw Error(file, problem, "bake it anew, or go on with --force as it was baked");
+  log_warning("{}: {}", file, problem);
 }
 
 void App::prepare_surfaces() {

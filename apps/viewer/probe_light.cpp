@@ -19,6 +19,7 @@ void ProbeLight::take(std::shared_ptr<LiveLight> live) {
     }
   }
   live_ = std::move(live);
+  keys_.clear();
   set_ = live_->probes();
   for (std::size_t i = 0; i < edges.size(); ++i) set_->probes[i].edges = std::move(edges[i]);
   origin_ = "live";
@@ -31,6 +32,7 @@ void ProbeLight::take(std::shared_ptr<LiveLight> live) {
 
 void ProbeLight::take(probes::ProbeSet set, const std::string& origin) {
   live_.reset();
+  keys_.clear();
   set_ = std::move(set);
   modes_.clear();
   for (const probes::LightGroup& group : set_->light_groups) modes_.push_back(group.mode);
@@ -41,6 +43,17 @@ void ProbeLight::take(probes::ProbeSet set, const std::string& origin) {
   lighting_.reset();
   places_new_ = light_new_ = true;
   unsaved_.clear();
+}
+
+void ProbeLight::take(std::vector<probes::KeyedSet> keys, float time, const std::string& origin) {
+  take(probes::light_at(keys, time).set, origin);
+  keys_ = std::move(keys);
+}
+
+bool ProbeLight::follow_keys(float time) {
+  if (keys_.empty() || (lighting_ && lighting_->time == time)) return false;
+  *set_ = probes::light_at(keys_, time).set;
+  return true;
 }
 
 void ProbeLight::take_fitted(probes::FittedSurfaces fitted) {
@@ -81,8 +94,10 @@ bool ProbeLight::relight(const Document& document) {
     live_->refresh(*set_);
   } else {
     const std::vector<vec3>& scales = state.group_scales;
+    const bool played = follow_keys(state.time);
     const bool dimmed = !lighting_ || lighting_->group_scales != scales;
-    if (scales.size() != set_->light_groups.size() || !(choose_modes(state) || dimmed)) return false;
+    if (scales.size() != set_->light_groups.size() || !(choose_modes(state) || dimmed || played))
+      return played;
     for (std::size_t g = 0; g < scales.size(); ++g) set_->light_groups[g].scale = scales[g];
     probes::merge_groups(*set_);
   }

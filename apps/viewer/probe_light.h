@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include <ssphh/probes/blend.h>
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/realtime/renderer.h>
 
@@ -20,6 +21,8 @@ class ProbeLight {
   void take(std::shared_ptr<LiveLight> live);
   /// Fixed light, of a file or a bake. Only its light groups can still be scaled.
   void take(probes::ProbeSet set, const std::string& origin);
+  /// Fixed light that is blended between keys as the scene's animations go on; two or more.
+  void take(std::vector<probes::KeyedSet> keys, float time, const std::string& origin);
   /// Fitted weights of the set that was taken last, made ready.
   void take_fitted(probes::FittedSurfaces fitted);
   /// Surfaces of its records, likewise.
@@ -58,12 +61,15 @@ class ProbeLight {
 
  private:
   bool relight(const Document& document);
+  /// Takes the light of the keys at a time, if there are keys and it is another time; whether it did.
+  bool follow_keys(float time);
   /// Groups of a file that are `diffuse` are so as long as surroundings and pose are as baked.
   bool choose_modes(const scene::LightingState& state);
   bool rebuild_hierarchy(const Settings& settings);
   sh::RadianceSh looked_up(std::size_t i, const Settings& settings) const;
 
   std::shared_ptr<LiveLight> live_;
+  std::vector<probes::KeyedSet> keys_;  ///< of a light that plays; empty: it does not
   std::optional<probes::ProbeSet> set_;
   std::string origin_, unsaved_;
   int works_ = 0;

@@ -239,6 +239,7 @@ void add_probe_commands(Command app, Context& context) {
                                       "Convert between .sphl (binary) and .sphl.json", run_probe_convert);
   add_probe_file(convert, "FILE", files.input, "Probe file to read").required();
   add_probe_file(convert, "-o,--output", files.output, "Probe file to write").required();
+  add_probe_blend_command(group, context);
   add_probe_lint_command(group, context);
   add_probe_export_command(group, context);
 }

@@ -8,6 +8,7 @@
 
 #include <ssphh/core/control.h>
 #include <ssphh/core/json.h>
+#include <ssphh/probes/blend.h>
 #include <ssphh/probes/probe_set.h>
 #include <ssphh/study/lint.h>
 
@@ -55,6 +56,19 @@ struct ProbeConvertResult {
 ProbeConvertResult run_probe_convert(const ProbeConvertOptions& options, const Control& control = {});
 json::Value to_json(const ProbeConvertResult& result, const ProbeConvertOptions& options);
 std::string to_text(const ProbeConvertResult& result, const ProbeConvertOptions& options);
+
+struct ProbeBlendOptions {
+  std::string from, to;  ///< probe files to read
+  std::string output;    ///< probe file to write
+  float t = 0.5f;        ///< 0: `from`; 1: `to`
+};
+struct ProbeBlendResult {
+  probes::BlendedSet blended;
+};
+/// Throws Error as probes::blend() does.
+ProbeBlendResult run_probe_blend(const ProbeBlendOptions& options, const Control& control = {});
+json::Value to_json(const ProbeBlendResult& result, const ProbeBlendOptions& options);
+std::string to_text(const ProbeBlendResult& result, const ProbeBlendOptions& options);
 
 struct ProbeLintOptions {
   SceneOptions scene;        ///< in which the probes were baked; its time is not read

@@ -26,6 +26,12 @@ void add_transport_options(const Command& transport, RelightOptions& o) {
       .option("--poses", o.params.poses,
               "Blend doors and the like between so many poses found beforehand, 2 or more; 0: pose exactly")
       .range(0, 1 << 16);
+  transport
+      .option("--keys", o.keys,
+              "Blend the light of all frames between so many moments of the run, 2 or more, as a game plays "
+              "keyed "
+              "bakes, and tell its error against exact posing; 0: every frame has its own")
+      .range(0, 1 << 16);
   transport.option("--link-rays", o.params.transport.link_rays, "Rays of a surface patch").range(8, 65536);
 }
 

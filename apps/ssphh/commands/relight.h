@@ -27,6 +27,8 @@ struct RelightOptions {
   std::uint64_t seed = 0;           ///< of truth and pictures
   transport::RelightParams params;  ///< operator surfel or bounce
 
+  int keys =
+      0;  ///< light is blended between so many moments of the run, 2 or more; 0: every frame has its own
   int truth = 0;         ///< every so-many-th frame is path traced, and the lookup's error found; 0: none
   int points = 256;      ///< surface points of the truth, over 0
   int truth_spp = 1024;  ///< paths per point
@@ -57,8 +59,9 @@ struct RelightResult {
 /// Times all frames one after the other, then saves the probes, path traces and draws. When asked to stop
 /// after the first frame it says so in the log and returns what there is, with run.cancelled; before that it
 /// throws Cancelled. Warns in the log about places and networks that cannot light what they should. Throws
-/// Error for poses with operator bounce, where there are no frames or no probes, for files that cannot be
-/// read or written, for unknown names of cameras, lights and groups, and as transport::RelightSession does.
+/// Error for poses with operator bounce, for one key, where there are no frames or no probes, for files that
+/// cannot be read or written, for unknown names of cameras, lights and groups, and as
+/// transport::RelightSession does.
 RelightResult run_relight(const RelightOptions& options, const Control& control = {});
 
 /// Whether it was stopped before its end.

@@ -8,6 +8,7 @@
 #include <ssphh/core/log.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/pipeline/relit.h>
+#include <ssphh/probes/blend.h>
 #include <ssphh/probes/lookup.h>
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/scene/with_lighting.h>
@@ -94,13 +95,15 @@ class Relighting {
     const Stopwatch watch;
     transport::RelightParams params = o_.params;
     if (o_.weights == probes::WeightMethod::surface &&
-        (o_.truth > 0 || !o_.output.empty() || !o_.save.empty()))
+        (o_.truth > 0 || o_.keys > 0 || !o_.output.empty() || !o_.save.empty()))
       params.records.points = transport::usual_records;
     transport::RelightSession session(source_, std::move(places), params, animation_.frame(0).time, control_);
     run_.build_ms = 1e3 * watch.seconds();
     warn_about_network(session);
     try {
+      if (o_.keys > 0) find_keys(session);
       play(session);
+      if (o_.keys > 0) compare_keys(session);
       if (!o_.save.empty()) save(session);
       look_back(session);
     } catch (const Cancelled&) {
@@ -148,9 +151,66 @@ class Relighting {
       scene::LightingState state = animation_.frame(share(f));
       run_.updates.push_back(session.update(state));
       if (is_due(f, o_.truth) || (!o_.output.empty() && is_due(f, o_.pictures)))
-        kept_.push_back({f, std::move(state), transport::lookup_set(session)});
+        kept_.push_back(
+            {f, std::move(state),
+             keys_.empty() ? transport::lookup_set(session) : probes::light_at(keys_, share(f)).set});
       progress.advance(1);
     }
+  }
+
+  /// The light of so many moments, evenly spaced over the run.
+  void find_keys(transport::RelightSession& session) {
+    const Stopwatch watch;
+    for (int k = 0; k < o_.keys; ++k) {
+      const float u = static_cast<float>(k) / static_cast<float>(o_.keys - 1);
+      session.update(animation_.frame(u), control_);
+      keys_.push_back({u, transport::lookup_set(session)});
+    }
+    run_.keyed.keys = o_.keys;
+    run_.keyed.find_ms = 1e3 * watch.seconds();
+  }
+
+  /// Blended light against that of the frame itself, at the same points.
+  void compare_keys(transport::RelightSession& session) {
+    ProgressStage progress(control_, "comparing blended light", static_cast<std::uint64_t>(o_.frames),
+                           "frames");
+    const Control quiet{nullptr, control_.cancel};
+    for (int f = 0; f < o_.frames; ++f) {
+      const scene::LightingState state = animation_.frame(share(f));
+      session.update(state, quiet);
+      const Stopwatch watch;
+      const probes::ProbeSet blended = probes::light_at(keys_, share(f)).set;
+      run_.keyed.blend_ms.push_back(1e3 * watch.seconds());
+      const scene::Scene lit = scene::with_lighting(scene_, state);
+      const trace::PathTracer tracer(geometry_, lit, state.time);
+      const std::vector<rays::SurfacePoint> points = points_of(session, state.time, quiet);
+      std::vector<rays::IrradianceEstimate> exact;
+      for (const vec3& e : look_up(transport::lookup_set(session), tracer, points))
+        exact.push_back({.indirect = e});
+      run_.keyed.errors.push_back({f, study::lookup_error(look_up(blended, tracer, points), exact)});
+      progress.advance(1);
+    }
+  }
+
+  std::vector<vec3> look_up(const probes::ProbeSet& light, const trace::PathTracer& tracer,
+                            const std::vector<rays::SurfacePoint>& points) const {
+    probes::LookupParams params;
+    params.weights.method = o_.weights;
+    const probes::IrradianceLookup lookup(light, tracer, params);
+    std::vector<vec3> found;
+    for (const rays::SurfacePoint& point : points) found.push_back(lookup.irradiance(point));
+    return found;
+  }
+
+  /// Of surfaces that cameras and probes can reach.
+  std::vector<rays::SurfacePoint> points_of(const transport::RelightSession& session, float time,
+                                            const Control& control) const {
+    std::vector<vec3> origins;
+    const std::vector<mat4> world = scene::world_matrices(scene_, time);
+    for (const scene::Camera& camera : scene_.cameras)
+      origins.emplace_back(world[static_cast<std::size_t>(camera.node)][3]);
+    for (const scene::ProbePlace& place : session.places()) origins.push_back(place.position);
+    return study::reachable_points(source_, origins, time, {o_.points, o_.seed}, control);
   }
 
   void save(const transport::RelightSession& session) {
@@ -194,13 +254,7 @@ class Relighting {
 
   void measure(const transport::RelightSession& session, const KeptFrame& kept,
                const trace::PathTracer& tracer, const rays::IndirectLight& lookup, const Control& control) {
-    std::vector<vec3> origins;
-    const std::vector<mat4> world = scene::world_matrices(scene_, kept.state.time);
-    for (const scene::Camera& camera : scene_.cameras)
-      origins.emplace_back(world[static_cast<std::size_t>(camera.node)][3]);
-    for (const scene::ProbePlace& place : session.places()) origins.push_back(place.position);
-    const std::vector<rays::SurfacePoint> points =
-        study::reachable_points(source_, origins, kept.state.time, {o_.points, o_.seed}, control);
+    const std::vector<rays::SurfacePoint> points = points_of(session, kept.state.time, control);
 
     std::vector<vec3> looked_up;
     for (const rays::SurfacePoint& point : points) looked_up.push_back(lookup.irradiance(point));
@@ -236,6 +290,7 @@ class Relighting {
   RelightRun run_;
   scene::CameraPose start_;  ///< where pictures are taken from a camera that the scene lacks
   std::vector<KeptFrame> kept_;
+  std::vector<probes::KeyedSet> keys_;  ///< by share of the run
   SharedExposure exposure_;
   std::optional<float> shown_at_;  ///< EV of the frames that were written
   bool saved_ = false;
@@ -247,6 +302,9 @@ RelightResult run_relight(const RelightOptions& options, const Control& control)
   if (options.frames < 1) throw Error("relight", "needs a frame");
   if (options.params.op == probes::LightOperator::bounce && options.params.poses != 0)
     throw Error("--poses", "is of --operator surfel");
+  if (options.keys == 1) throw Error("--keys", "one key is no motion", "give 2 or more");
+  if (options.keys > 0 && options.weights == probes::WeightMethod::fitted)
+    throw Error("--keys", "blends light, not fitted weights", "choose other --weights");
   if (!options.output.empty()) {
     std::error_code error;
     fs::create_directories(options.output, error);

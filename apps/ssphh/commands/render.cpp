@@ -13,6 +13,7 @@
 #include <ssphh/farm/farm_render.h>
 #include <ssphh/image/io.h>
 #include <ssphh/pipeline/draw_marks.h>
+#include <ssphh/probes/keyed_files.h>
 
 #include "commands/command.h"
 #include "options/probe_options.h"
@@ -111,7 +112,10 @@ Hash128 content_hash(const RenderOptions& o, const scene::Scene& scene) {
   hasher.value(hash.high).value(hash.low).text(o.method);
   for (const std::string& parameter : o.parameters) hasher.text(parameter);
   if (!o.probes.empty()) {
-    hasher.bytes(read_file(o.probes)).text(name_of(o.lookup.method)).text(name_of(o.lookup.layer));
+    const std::vector<probes::ProbeKey> keys = probes::read_probe_keys(o.probes);
+    for (const probes::ProbeKey& key : keys) hasher.bytes(read_file(key.file));
+    if (keys.size() > 1) hasher.text(o.probes);
+    hasher.text(name_of(o.lookup.method)).text(name_of(o.lookup.layer));
     hasher.text(o.lookup.weights ? name_of(*o.lookup.weights) : "");
   }
   return hasher.finish();

@@ -89,7 +89,7 @@ RenderResult render_gl(const RenderOptions& o, const Control& control) {
   if (live)
     marks = pipeline::drawn_of(live->method(), drawings_of(o));
   else if (!o.draw.empty())
-    marks = pipeline::drawn_of(probes::read_probe_file(o.probes), drawings_of(o));
+    marks = pipeline::drawn_of(read_probes_of(scene, o.probes, o.scene.time, o.force), drawings_of(o));
   trace::RenderParams params;
   params.width = o.width, params.height = o.height, params.camera = camera;
   params.projection = pipeline::projection_of(o.projection, camera.camera);

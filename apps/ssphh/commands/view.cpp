@@ -89,7 +89,8 @@ void add_view_command(Command app, Context& context) {
 
   const Command probes = command.under("Probes");
   probes.option("--probes", o.viewer.probes,
-                "A probe file, shown as it was baked; scene: the scene's SPHLs, kept lit while lamps and "
+                "A probe file, shown as it was baked, or several as keys that play with the animations "
+                "(a.sphl@0,b.sphl@1); scene: the scene's SPHLs, kept lit while lamps and "
                 "doors move; auto, auto:METRES: find places first; off. Default: scene, if it has SPHLs");
   probes.flag("--live", o.viewer.live, "Light the probes of a file anew and keep them lit");
   probes

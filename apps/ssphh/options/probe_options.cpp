@@ -1,5 +1,7 @@
 #include "options/probe_options.h"
 
+#include <ssphh/probes/keyed_files.h>
+
 namespace ssphh::app {
 namespace {
 
@@ -12,7 +14,27 @@ std::string probe_file_problem(const std::string& name) {
   }
 }
 
+std::string probe_keys_problem(const std::string& text) {
+  try {
+    probes::read_probe_keys(text);
+    return {};
+  } catch (const Error& e) {
+    return e.what();
+  }
+}
+
 }  // namespace
+
+Option add_keyed_probes(const Command& command, const std::string& names, std::string& files,
+                        const std::string& help) {
+  return command
+      .option(
+          names, files,
+          help +
+              "; several, as a.sphl@0,b.sphl@1, are keys whose light is blended at --time [s] (without @: at "
+              "that of their bake)")
+      .check(probe_keys_problem, ".sphl|.sphl.json");
+}
 
 Option add_probe_file(const Command& command, const std::string& names, std::string& file,
                       const std::string& help) {

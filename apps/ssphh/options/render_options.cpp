@@ -60,8 +60,8 @@ void add_render_options(Command command, RenderOptions& o) {
   paths.flag("--resume", o.resume, "Continue from OUT.state, left by a cancelled run of the same command");
 
   const Command probes = command.under("Method ssphh");
-  probes.option("--probes", o.probes,
-                "Probe file (.sphl or .sphl.json); none: probes are placed and lit for this picture");
+  add_keyed_probes(probes, "--probes", o.probes,
+                   "Probe file (.sphl or .sphl.json); none: probes are placed and lit for this picture");
   add_lookup_option(probes, o.lookup.method);
   probes.choice("--backend", o.backend,
                 "cpu: traced, any number of samples; gl: a frame of the real-time renderer (methods ssphh, "

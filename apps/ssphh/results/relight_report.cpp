@@ -44,6 +44,36 @@ std::size_t over_budget(const RelightRun& run) {
       std::ranges::count_if(times, [&](double ms) { return ms > 1000 / run.fps; }));
 }
 
+/// Mean and largest of the frames' mean errors, and the frame of the largest.
+struct KeyedError {
+  double mean = 0, most = 0;
+  int worst = 0;
+};
+
+KeyedError keyed_error(const KeyedRun& keyed) {
+  KeyedError result;
+  for (const FrameError& e : keyed.errors) {
+    const double error = study::worst_channel(e.error).mean_relative;
+    result.mean += error / static_cast<double>(keyed.errors.size());
+    if (error > result.most) result.most = error, result.worst = e.frame;
+  }
+  return result;
+}
+
+json::Value keyed_json(const KeyedRun& keyed) {
+  json::Value frames = json::Value::array();
+  for (const FrameError& e : keyed.errors)
+    frames.push_back({{"frame", e.frame}, {"mean_error", study::worst_channel(e.error).mean_relative}});
+  const KeyedError error = keyed_error(keyed);
+  return {{"keys", keyed.keys},
+          {"find_ms", keyed.find_ms},
+          {"blend_median_ms", percentile(keyed.blend_ms, 0.5)},
+          {"mean_error", error.mean},
+          {"most_error", error.most},
+          {"worst_frame", error.worst},
+          {"frames", std::move(frames)}};
+}
+
 }  // namespace
 
 json::Value relight_json(const RelightRun& run) {
@@ -68,20 +98,23 @@ json::Value relight_json(const RelightRun& run) {
   const std::vector<double> times = of_frames(run, &RelightReport::total_ms);
   const auto unconverged = std::ranges::count_if(
       run.updates, [](const transport::RelightReport& r) { return !r.solve.converged; });
-  return {{"frames", run.updates.size()},
-          {"frames_asked", run.frames_asked},
-          {"cancelled", run.cancelled},
-          {"fps", run.fps},
-          {"build_ms", run.build_ms},
-          {"first_ms", run.updates.empty() ? 0 : run.updates.front().total_ms()},
-          {"median_ms", percentile(times, 0.5)},
-          {"p99_ms", percentile(times, 0.99)},
-          {"over_budget", over_budget(run)},
-          {"unconverged", unconverged},
-          {"stages", std::move(stage_times)},
-          {"rays_per_frame", mean(run, &RelightReport::pose_rays) + mean(run, &RelightReport::direct_rays)},
-          {"frame_ms", std::move(frame_ms)},
-          {"error", std::move(errors)}};
+  json::Value object = {
+      {"frames", run.updates.size()},
+      {"frames_asked", run.frames_asked},
+      {"cancelled", run.cancelled},
+      {"fps", run.fps},
+      {"build_ms", run.build_ms},
+      {"first_ms", run.updates.empty() ? 0 : run.updates.front().total_ms()},
+      {"median_ms", percentile(times, 0.5)},
+      {"p99_ms", percentile(times, 0.99)},
+      {"over_budget", over_budget(run)},
+      {"unconverged", unconverged},
+      {"stages", std::move(stage_times)},
+      {"rays_per_frame", mean(run, &RelightReport::pose_rays) + mean(run, &RelightReport::direct_rays)},
+      {"frame_ms", std::move(frame_ms)},
+      {"error", std::move(errors)}};
+  if (run.keyed.keys > 0) object["keyed"] = keyed_json(run.keyed);
+  return object;
 }
 
 std::string relight_text(const RelightRun& run) {
@@ -102,6 +135,15 @@ std::string relight_text(const RelightRun& run) {
                       percentile(times, 0.99),
                       mean(run, &RelightReport::pose_rays) + mean(run, &RelightReport::direct_rays));
   text += fmt::format("\n{} of {} frames took longer than 1/{:g} s", over_budget(run), times.size(), run.fps);
+  if (const KeyedRun& keyed = run.keyed; keyed.keys > 0) {
+    const KeyedError error = keyed_error(keyed);
+    text += fmt::format(
+        "\n{} keys found in {:.0f} ms; blended in {:.2f} ms (median); against exact posing: mean error "
+        "{:.2f} %, in "
+        "the worst frame ({}) {:.2f} %",
+        keyed.keys, keyed.find_ms, percentile(keyed.blend_ms, 0.5), 100 * error.mean, error.worst,
+        100 * error.most);
+  }
   if (!run.errors.empty()) {
     text += fmt::format("\n\n{:>5}{:>9}{:>9}{:>7}{:>7}{:>11}{:>9}{:>9}{:>9}{:>10}{:>9}", "frame", "seconds",
                         "ratio R", "G", "B", "mean rel.", "median", "95 %", "noise", "relMSE", "colour");

@@ -16,6 +16,14 @@ struct FrameError {
   study::LookupError error;
 };
 
+/// Light blended between keys, against that of exact posing.
+struct KeyedRun {
+  int keys = 0;                    ///< 0: there were none
+  double find_ms = 0;              ///< of all keys, the network apart
+  std::vector<double> blend_ms;    ///< of the frames
+  std::vector<FrameError> errors;  ///< of the frames
+};
+
 struct RelightRun {
   int frames_asked = 0;
   double fps = 30;
@@ -23,6 +31,7 @@ struct RelightRun {
   std::vector<transport::RelightReport>
       updates;  ///< of the frames that were done; the first lights everything
   std::vector<FrameError> errors;
+  KeyedRun keyed;
   bool cancelled = false;
 };
 

@@ -7,6 +7,7 @@
 #include <ssphh/core/log.h>
 #include <ssphh/pipeline/scene_probes.h>
 #include <ssphh/place/place.h>
+#include <ssphh/probes/keyed_files.h>
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/scene/query.h>
 #include <ssphh/study/default_view.h>
@@ -55,8 +56,20 @@ void require_same_scene(const std::string& file, const probes::ProbeSet& set, co
 
 probes::ProbeSet read_probes_of(const scene::Scene& scene, const std::string& file, std::optional<float> time,
                                 bool force) {
-  probes::ProbeSet set = probes::read_probe_file(file);
-  require_same_scene(file, set, scene, scene::light_groups(scene), time, force);
+  probes::ProbeSet set;
+  if (const std::vector<probes::ProbeKey> keys = probes::read_probe_keys(file);
+      keys.size() == 1 && !keys.front().time) {
+    set = probes::read_probe_file(file);
+    require_same_scene(file, set, scene, scene::light_groups(scene), time, force);
+  } else {
+    const std::vector<probes::KeyedSet> sets = probes::read_keyed_sets(keys);
+    for (const probes::KeyedSet& key : sets)
+      require_same_scene(file, key.set, scene, scene::light_groups(scene), {}, force);
+    probes::BlendedSet blended = probes::light_at(sets, time.value_or(0));
+    if (!blended.left_out.empty())
+      log_warning("{}: not blended: {}", file, fmt::join(blended.left_out, ", "));
+    set = std::move(blended.set);
+  }
   if (bake::mode_difference(set, scene).empty()) bake::adopt_modes(set, scene);
   return set;
 }

@@ -23,7 +23,8 @@ std::string scene_difference(const probes::ProbeSet& set, const scene::Scene& sc
 void require_same_scene(const std::string& file, const probes::ProbeSet& set, const scene::Scene& scene,
                         const std::vector<std::string>& light_groups, std::optional<float> time, bool force);
 
-/// Reads a probe file and holds its set against the scene, as require_same_scene() does.
+/// Reads a probe file and holds its set against the scene, as require_same_scene() does; of keys, as
+/// probes::read_probe_keys() has them, the light at `time`.
 probes::ProbeSet read_probes_of(const scene::Scene& scene, const std::string& file, std::optional<float> time,
                                 bool force);
 

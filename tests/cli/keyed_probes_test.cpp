@@ -1,0 +1,88 @@
+// Bakes that are blended, and played as keys.
+
+#include <gmock/gmock.h>
+
+#include <ssphh/image/io.h>
+#include <ssphh/probes/probe_file.h>
+
+#include "here.h"
+#include "options/command_line.h"
+#include "temp_dir.h"
+
+namespace ssphh {
+namespace {
+
+using test::json_here;
+using test::problem_here;
+using test::run_here;
+using testing::HasSubstr;
+
+class Keys : public testing::Test {
+ protected:
+  /// Two bakes of two-rooms, its door shut and open.
+  Keys() {
+    bake("0", shut);
+    bake("1", open);
+  }
+  void bake(const std::string& time, const std::string& file) const {
+    run_here({"bake", "builtin:two-rooms", "--time", time, "--operator", "surfel", "--probes", "6",
+              "--degree", "2", "--directions", "64", "--surfel-size", "0.5", "--viz", "off", "-o", file});
+  }
+
+  const test::TempDir dir;
+  const std::string shut = dir / "shut.sphl", open = dir / "open.sphl", half = dir / "half.sphl";
+};
+
+TEST_F(Keys, AreBlendedAndPlayed) {
+  const json::Value blended = json_here({"probe", "blend", shut, open, "--t", "0.25", "-o", half});
+  EXPECT_EQ(blended["time"], 0.25);
+  const probes::ProbeSet a = probes::read_probe_file(shut), b = probes::read_probe_file(open),
+                         c = probes::read_probe_file(half);
+  const vec3 expected = 0.75f * a.probes[0].reflected[0] + 0.25f * b.probes[0].reflected[0];
+  EXPECT_LT(glm::distance(c.probes[0].reflected[0], expected), 1e-4f * luminance(expected));
+
+  const auto render = [&](const std::string& probes, const std::string& output) {
+    run_here({"render", "builtin:two-rooms", "--time", "0.25", "--probes", probes, "--method", "ssphh",
+              "--width", "16", "--height", "9", "--spp", "4", "-o", output});
+    return image::read_image(output);
+  };
+  const image::Image by_file = render(half, dir / "file.exr"),
+                     by_keys = render(shut + "," + open, dir / "keys.exr");
+  for (std::size_t i = 0; i < by_file.pixels.size(); ++i)
+    EXPECT_NEAR(by_file.pixels[i], by_keys.pixels[i], 1e-3f * by_file.pixels[i] + 1e-5f);
+}
+
+TEST_F(Keys, OfOtherPlacesAreRefused) {
+  run_here({"bake", "builtin:two-rooms", "--operator", "surfel", "--probes", "7", "--degree", "2",
+            "--directions", "64", "--surfel-size", "0.5", "--viz", "off", "-o", half});
+  EXPECT_THAT(problem_here({"probe", "blend", shut, half, "-o", dir / "x.sphl"}),
+              testing::AllOf(HasSubstr("shut.sphl"), HasSubstr("half.sphl"), HasSubstr("cannot be blended")));
+  EXPECT_FALSE(std::filesystem::exists(dir / "x.sphl"));
+  const auto refused = [&](const std::string& probes) {
+    return problem_here(
+        {"render", "builtin:two-rooms", "--method", "ssphh", "--probes", probes, "-o", dir / "x.exr"});
+  };
+  EXPECT_THAT(refused(shut + "@1," + open), HasSubstr("is a key at 1 s, as another is"));
+  EXPECT_THAT(refused(shut + "," + half + "@1"), HasSubstr("cannot be blended"));
+  EXPECT_THROW(refused(shut + "@soon," + open), app::ParsingEnded);
+}
+
+TEST(KeyedRelight, MoreKeysAreNearerToExactPosing) {
+  const auto error = [](const char* keys) {
+    const json::Value run =
+        json_here({"relight", "builtin:two-rooms", "--probes", "6", "--degree", "2", "--directions", "64",
+                   "--surfel-size", "0.5", "--frames", "9", "--points", "128", "--keys", keys});
+    EXPECT_EQ(run["keyed"]["frames"].size(), 9U);
+    EXPECT_LT(run["keyed"]["frames"][0]["mean_error"].number(), 1e-3) << "a key is exact";
+    EXPECT_LT(run["keyed"]["frames"][8]["mean_error"].number(), 1e-3);
+    return run["keyed"]["mean_error"].number();
+  };
+  const double two = error("2"), five = error("5"), nine = error("9");
+  EXPECT_GT(two, 2 * five);
+  EXPECT_LT(nine, 1e-3);
+  EXPECT_THAT(problem_here({"relight", "builtin:two-rooms", "--probes", "6", "--keys", "1"}),
+              HasSubstr("one key is no motion"));
+}
+
+}  // namespace
+}  // namespace ssphh
