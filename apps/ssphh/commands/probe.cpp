@@ -240,6 +240,7 @@ void add_probe_commands(Command app, Context& context) {
   add_probe_file(convert, "FILE", files.input, "Probe file to read").required();
   add_probe_file(convert, "-o,--output", files.output, "Probe file to write").required();
   add_probe_blend_command(group, context);
+  add_probe_import_command(group, context);
   add_probe_lint_command(group, context);
   add_probe_export_command(group, context);
 }
