@@ -67,6 +67,22 @@ TEST_F(Keys, OfOtherPlacesAreRefused) {
   EXPECT_THROW(refused(shut + "@soon," + open), app::ParsingEnded);
 }
 
+TEST(KeyedRelight, KeysAreSavedWithTheirRecordsAndPlayed) {
+  const test::TempDir dir;
+  run_here({"relight", "builtin:two-rooms", "--probes", "6", "--degree", "2", "--directions", "64",
+            "--surfel-size", "0.5", "--frames", "3", "--points", "16", "--keys", "3", "--save",
+            dir / "door.sphl"});
+  const std::string shut = dir / "door-0.sphl", open = dir / "door-2.sphl", half = dir / "half.sphl";
+  const json::Value blended = json_here({"probe", "blend", shut, open, "-o", half});
+  EXPECT_GT(blended["records"].number(), 0);
+  EXPECT_EQ(blended["left_out"].size(), 0U);
+  EXPECT_EQ(probes::read_probe_file(half).generator.time,
+            probes::read_probe_file(dir / "door-1.sphl").generator.time);
+  run_here({"render", "builtin:two-rooms", "--time", "0.25", "--probes", shut + "," + open, "--method",
+            "ssphh", "--weights", "surface", "--width", "8", "--height", "6", "--spp", "1", "-o",
+            dir / "x.exr"});
+}
+
 TEST(KeyedRelight, MoreKeysAreNearerToExactPosing) {
   const auto error = [](const char* keys) {
     const json::Value run =

@@ -43,7 +43,7 @@ struct RelightOptions {
   int width = 640, height = 360;  ///< pixels
   int spp = 8;                    ///< samples per pixel
   std::optional<float> exposure;  ///< of png, in stops; none: what suits the first frame that is not black
-  std::string save;               ///< probe file to write of the last frame; empty: none
+  std::string save;  ///< probe file to write of the last frame, or, numbered, of every key; empty: none
 };
 
 struct RelightResult {

@@ -64,6 +64,12 @@ void warn_about_network(const transport::RelightSession& session) {
     log_warning("no surface sees another: there is no light from surface to surface, only to the probes");
 }
 
+/// "door-3.sphl" of door.sphl: the file of a key.
+std::string key_file(const std::string& name, int key) {
+  const std::size_t ending = name.rfind(".sphl");
+  return fmt::format("{}-{}{}", name.substr(0, ending), key, name.substr(ending));
+}
+
 /// A frame whose light is kept for what comes after the timed run.
 struct KeptFrame {
   int frame;
@@ -104,7 +110,7 @@ class Relighting {
       if (o_.keys > 0) find_keys(session);
       play(session);
       if (o_.keys > 0) compare_keys(session);
-      if (!o_.save.empty()) save(session);
+      if (!o_.save.empty() && o_.keys == 0) save(session, o_.save);
       look_back(session);
     } catch (const Cancelled&) {
       if (run_.updates.empty()) throw;
@@ -165,6 +171,7 @@ class Relighting {
       const float u = static_cast<float>(k) / static_cast<float>(o_.keys - 1);
       session.update(animation_.frame(u), control_);
       keys_.push_back({u, transport::lookup_set(session)});
+      if (!o_.save.empty()) save(session, key_file(o_.save, k));
     }
     run_.keyed.keys = o_.keys;
     run_.keyed.find_ms = 1e3 * watch.seconds();
@@ -213,9 +220,9 @@ class Relighting {
     return study::reachable_points(source_, origins, time, {o_.points, o_.seed}, control);
   }
 
-  void save(const transport::RelightSession& session) {
+  void save(const transport::RelightSession& session, const std::string& file) {
     probes::write_probe_file(
-        pipeline::baked_session(session, scene_, source_.light_groups(), o_.params.op, control_), o_.save);
+        pipeline::baked_session(session, scene_, source_.light_groups(), o_.params.op, control_), file);
     saved_ = true;
   }
 
