@@ -161,15 +161,12 @@ void Lights::set(const scene::LightingState& state, const std::vector<mat4>& wor
       place(source, world_of(world, source.node));
     }
   }
-  if (environment_ && other_image_ != state.environment_image) {
+  const bool other = other_image_ != state.environment_image;
+  if (environment_ && (other || turn_ != state.environment_rotation)) {
+    turn_ = state.environment_rotation;
     other_image_ = state.environment_image;
-    environment_->equirect = other_image_ ? *other_image_ : own_environment_;
-    turn_ = state.environment_rotation;
-    find_environment();
-    place_environment(environment_bounds_);
-  } else if (environment_ && turn_ != state.environment_rotation) {
-    turn_ = state.environment_rotation;
-    turn_environment();
+    if (other) environment_->equirect = other_image_ ? *other_image_ : own_environment_;
+    other ? find_environment() : turn_environment();
     place_environment(environment_bounds_);
   }
 }

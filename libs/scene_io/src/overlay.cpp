@@ -227,7 +227,8 @@ void set_sun_sky(Scene& scene, const json::Cursor& entry) {
   const bool by_time = entry.find("date") || entry.find("time_of_day") || entry.find("place");
   if (by_time) params.model = scene::SkyModel::physical;
   if (const auto model = entry.find("model")) params.model = model->named<scene::SkyModel>();
-  params.elevation = degrees(entry, "elevation_degrees", -90, 90, glm::degrees(params.elevation));
+  const float least = params.model == scene::SkyModel::physical ? -90 : 0;
+  params.elevation = degrees(entry, "elevation_degrees", least, 90, glm::degrees(params.elevation));
   // By compass: 0 is −z, 90 is +x
   const float azimuth = degrees(entry, "azimuth_degrees", -360, 360, glm::degrees(params.azimuth) + 90);
   params.azimuth = azimuth - pi / 2;
