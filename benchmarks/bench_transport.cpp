@@ -78,7 +78,7 @@ void write_synthetic_links(std::size_t count, std::size_t per_row, transport::Li
       row[k] = {static_cast<std::uint32_t>(((at % n) + n) % n), 1 / static_cast<float>(per_row)};
     }
     std::sort(row.begin(), row.end(),
-              [](const transport::Link& a, const transport::Link& b) { return a.surfel < b.surfel; });
+              [](const transport::Link& a, const transport::Link& b) { return a.patch < b.patch; });
     if (file) {
       file->add_row(row);
     } else {

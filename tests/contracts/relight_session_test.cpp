@@ -247,7 +247,7 @@ TEST_P(FailingUpdate, IsDoneAgainByTheNextOne) {
     s.source.fails_after = -1;
     EXPECT_FALSE(s.session.update(next).changed_probes.empty());
     EXPECT_EQ(s.session.reflected(), undisturbed.session.reflected());
-    EXPECT_EQ(s.session.surfel_direct(), undisturbed.session.surfel_direct());
+    EXPECT_EQ(s.session.patch_direct(), undisturbed.session.patch_direct());
   }
 }
 

@@ -58,14 +58,14 @@ struct Compared {
   Compared(const probes::FittedPoints& fitted, const transport::RelightSession& session, int rays) {
     const transport::TransportNetwork& network = session.network();
     const std::vector<std::int32_t> seen = network.gather(fitted.points, rays);
+    const std::vector<transport::Irradiance4> irradiance = session.patch_irradiance();
     const auto count = static_cast<std::size_t>(rays);
     for (std::size_t p = 0; p < fitted.points.size(); ++p) {
       vec3& t = truth.emplace_back(0);
       for (std::size_t r = p * count; r < (p + 1) * count; ++r) {
-        if (seen[r] == transport::no_surfel) continue;
+        if (seen[r] == transport::no_patch) continue;
         const auto s = static_cast<std::size_t>(seen[r]);
-        t += network.albedo()[s] * vec3(session.surfel_direct()[s] + session.surfel_irradiance()[s]) /
-             static_cast<float>(rays);
+        t += network.albedo()[s] * vec3(irradiance[s]) / static_cast<float>(rays);
       }
       vec3& e = looked_up.emplace_back(0);
       for (const probes::ProbeWeight& entry : fitted.weights[p].used()) {

@@ -28,9 +28,8 @@ struct SolvedScene {
   explicit SolvedScene(scene::Scene scene_in, float surfel_size = 0)
       : scene(std::move(scene_in)), source(scene), session(source, places_of(scene), params(surfel_size)) {
     session.update();
-    lit = session.surfel_direct();
+    lit = session.patch_irradiance();
     reflected = session.surfel_irradiance();
-    for (std::size_t s = 0; s < lit.size(); ++s) lit[s] += reflected[s];
   }
   static transport::RelightParams params(float surfel_size) {
     transport::RelightParams params;
@@ -184,8 +183,7 @@ TEST(RecordPlaces, AreWhereLightAsksForThemInEveryPose) {
     session.update();
     session.state.time = ajar;
     session.update();
-    std::vector<Irradiance4> lit = session.surfel_direct();
-    for (std::size_t s = 0; s < lit.size(); ++s) lit[s] += session.surfel_irradiance()[s];
+    const std::vector<Irradiance4> lit = session.patch_irradiance();
     std::vector<rays::SurfacePoint> around;
     for (int row = 0; row < 10; ++row) {
       for (const float z : {-0.65f, -0.6f, -0.55f, -0.5f, 0.5f, 0.55f, 0.6f, 0.65f})
@@ -274,7 +272,7 @@ TEST(RecordPlaces, GathersThatAreJoinedHoldWhatEachHeld) {
   };
   SurfaceGather joined = part(0, half), first = part(0, half), second = part(half, all.size());
   joined.append(part(half, all.size()));
-  std::vector<Irradiance4> irradiance(network.surfel_count());
+  std::vector<Irradiance4> irradiance(network.patch_count());
   for (std::size_t s = 0; s < irradiance.size(); ++s)
     irradiance[s] = vec4(1 + s % 7, 1 + s % 5, 1 + s % 3, 0);
   for (const float time : {0.0f, 0.7f * source.duration()}) {

@@ -60,8 +60,7 @@ TEST(SurfaceRecords, HoldWhatCosineRaysMeetOfTheSurfels) {
   const std::vector<rays::SurfacePoint> points = spread_places(network, 60);
   constexpr int rays = 4096;
   const SurfaceGather gather(network, points, rays, room.session.direct_by_group());
-  std::vector<transport::Irradiance4> total = room.session.surfel_direct();
-  for (std::size_t s = 0; s < total.size(); ++s) total[s] += room.session.surfel_irradiance()[s];
+  const std::vector<transport::Irradiance4> total = room.session.patch_irradiance();
   std::vector<probes::RecordLight> light;
   gather.light(total, light);
   // Other rays, and no more of them where it is bright
@@ -70,7 +69,7 @@ TEST(SurfaceRecords, HoldWhatCosineRaysMeetOfTheSurfels) {
   for (std::size_t p = 0; p < points.size(); ++p) {
     vec3 sum(0);
     for (std::size_t r = p * rays; r < (p + 1) * rays; ++r) {
-      if (seen[r] == transport::no_surfel) continue;
+      if (seen[r] == transport::no_patch) continue;
       const auto s = static_cast<std::size_t>(seen[r]);
       sum += network.albedo()[s] * vec3(total[s]) / float{rays};
     }
@@ -96,8 +95,10 @@ TEST(SurfaceRecords, GuidedRaysFindAPatchOfLightThatEvenOnesMeetByChance) {
   const transport::TransportNetwork& network = room.session.network();
   const std::vector<rays::SurfacePoint> points = spread_places(network, 60);
   const auto patch = [&](std::size_t first) {
-    std::vector<transport::Irradiance4> irradiance(network.surfel_count(), vec4(0));
-    for (std::size_t s = first; s < first + 3; ++s) irradiance[s] = vec4(1);
+    std::vector<transport::Irradiance4> irradiance(network.patch_count(), vec4(0));
+    for (std::size_t p = 0; p < irradiance.size(); ++p) {
+      if (network.surfel_of(p) >= first && network.surfel_of(p) < first + 3) irradiance[p] = vec4(1);
+    }
     return irradiance;
   };
   const std::vector<std::vector<transport::Irradiance4>> right = {patch(5)},
@@ -127,8 +128,7 @@ TEST(SurfaceRecords, GatheredLightIsThatOfRecordsAtTheirPlaces) {
   const auto glossy = std::make_shared<const Glossy>();
   const transport::GatherLight light(room.session, 4096, glossy);
   const std::vector<rays::SurfacePoint> points = spread_places(room.session.network(), 40);
-  std::vector<transport::Irradiance4> total = room.session.surfel_direct();
-  for (std::size_t s = 0; s < total.size(); ++s) total[s] += room.session.surfel_irradiance()[s];
+  const std::vector<transport::Irradiance4> total = room.session.patch_irradiance();
   std::vector<probes::RecordLight> records;
   SurfaceGather(room.session.network(), points, 4096).light(total, records);
   for (std::size_t p = 0; p < points.size(); ++p) {
@@ -164,8 +164,7 @@ TEST(SurfaceRecords, TurnAsTheLightAroundThemSays) {
       turned[k].push_back({p.position, std::cos(a) * p.normal + std::sin(a) * tangent});
     }
   }
-  std::vector<transport::Irradiance4> total = room.session.surfel_direct();
-  for (std::size_t s = 0; s < total.size(); ++s) total[s] += room.session.surfel_irradiance()[s];
+  const std::vector<transport::Irradiance4> total = room.session.patch_irradiance();
   const auto light_at = [&](const std::vector<rays::SurfacePoint>& places) {
     std::vector<probes::RecordLight> light;
     SurfaceGather(network, places, 4096).light(total, light);
@@ -190,7 +189,7 @@ TEST(SurfaceRecords, FollowADoorToTheBitsOfAGatherMadeThere) {
   const std::vector<rays::SurfacePoint> points = spread_places(network, 200);
   const float time = 0.7f * source.duration();
   SurfaceGather moved(network, points, 48);
-  std::vector<transport::Irradiance4> irradiance(network.surfel_count());
+  std::vector<transport::Irradiance4> irradiance(network.patch_count());
   for (std::size_t s = 0; s < irradiance.size(); ++s)
     irradiance[s] = vec4(1 + s % 7, 1 + s % 5, 1 + s % 3, 0);
   std::vector<probes::RecordLight> before, after, anew;

@@ -21,7 +21,7 @@ TEST(Bounce, AClosedBoxOfEqualWallsReachesTheGeometricSeries) {
     params.max_iterations = 400;
     transport::BounceOperator bounce(box.session.network(), box.source, 2, params);
     std::vector<sh::RadianceSh> reflected;
-    const transport::BounceReport report = bounce.solve(box.session.surfel_direct(), reflected);
+    const transport::BounceReport report = bounce.solve(box.session.patch_direct(), reflected);
     EXPECT_TRUE(report.converged);
     EXPECT_NEAR(report.contraction, double(rho), 0.01 * double(rho));
     EXPECT_GT(report.edges, reflected.size());
@@ -39,7 +39,7 @@ TEST(Bounce, OneApplicationAddsOneBounceToDirectLight) {
   params.applications = 1;
   transport::BounceOperator bounce(box.session.network(), box.source, 2, params);
   std::vector<sh::RadianceSh> reflected;
-  EXPECT_EQ(bounce.solve(box.session.surfel_direct(), reflected).iterations, 1);
+  EXPECT_EQ(bounce.solve(box.session.patch_direct(), reflected).iterations, 1);
   // D = Le ρ, and one bounce more Le ρ².
   for (const sh::RadianceSh& s : reflected) EXPECT_NEAR(s[0].y / root_4pi, 0.75f, 3e-3f);
 }
@@ -78,7 +78,7 @@ TEST(BounceSession, EqualsTheOperatorAndTheGeometricSeries) {
   EXPECT_TRUE(report.solve.converged);
   EXPECT_GT(report.solve.iterations, 2);
   std::vector<sh::RadianceSh> reflected;
-  transport::BounceOperator(session.network(), box.source, 2).solve(session.surfel_direct(), reflected);
+  transport::BounceOperator(session.network(), box.source, 2).solve(session.patch_direct(), reflected);
   EXPECT_EQ(session.reflected(), reflected);
   ASSERT_EQ(session.reflected_by_group().size(), 1u);
   EXPECT_EQ(session.reflected_by_group()[0], reflected);

@@ -56,12 +56,12 @@ TEST(RelightEmission, AnIsotropicSphlIsASphereLight) {
   LitSession reference(lit_source, places_of(lit), fine_session());
   reference.update();
 
-  ASSERT_EQ(session.surfel_direct().size(), reference.surfel_direct().size());
+  ASSERT_EQ(session.patch_direct().size(), reference.patch_direct().size());
   // The sphere stands above every wall's horizon, where π (r/d)² cosθ is exact; 256 stratified shadow rays
   // leave under 1e-4 of noise, as radiance and cosine hardly vary over the disc.
-  for (std::size_t s = 0; s < session.surfel_direct().size(); ++s) {
+  for (std::size_t s = 0; s < session.patch_direct().size(); ++s) {
     for (glm::length_t c = 0; c < 3; ++c)
-      EXPECT_NEAR(session.surfel_direct()[s][c] / reference.surfel_direct()[s][c], 1, 2e-4f) << s;
+      EXPECT_NEAR(session.patch_direct()[s][c] / reference.patch_direct()[s][c], 1, 2e-4f) << s;
   }
   for (std::size_t i = 0; i < session.reflected().size(); ++i) {
     const sh::RadianceSh &a = session.reflected()[i], &b = reference.reflected()[i];
@@ -146,22 +146,15 @@ TEST(RelightEmission, ADirectedSphlLightsItsSideByItsOwnFunction) {
   session.shine(0, leaving);
   session.update();
   const transport::TransportNetwork& network = session.network();
-  const auto samples = static_cast<std::size_t>(network.params().samples);
   std::size_t lit = 0, dark = 0;
-  for (std::size_t s = 0; s < network.surfel_count(); ++s) {
-    double expected = 0;
-    int used = 0;
-    for (std::size_t i = s * samples; i < (s + 1) * samples; ++i) {
-      if (!network.sample_used()[i]) continue;
-      ++used;
-      const rays::SurfacePoint& p = network.samples()[i];
-      const double d = double(glm::length(p.position));
-      const vec3 away = p.position / static_cast<float>(d);
-      const double cosine = double(-glm::dot(away, p.normal));
-      expected += pi_d * 0.01 / (d * d) * cosine * std::max(0.0, 2 * double(away.x));
-    }
-    expected /= used;
-    EXPECT_NEAR(double(session.surfel_direct()[s].y), expected, 1e-5 * expected + 1e-7);
+  for (std::size_t i = 0; i < network.patch_count(); ++i) {
+    if (!network.sample_used()[i]) continue;
+    const rays::SurfacePoint& p = network.samples()[i];
+    const double d = double(glm::length(p.position));
+    const vec3 away = p.position / static_cast<float>(d);
+    const double cosine = double(-glm::dot(away, p.normal));
+    const double expected = pi_d * 0.01 / (d * d) * cosine * std::max(0.0, 2 * double(away.x));
+    EXPECT_NEAR(double(session.patch_direct()[i].y), expected, 1e-5 * expected + 1e-7);
     ++(expected > 0 ? lit : dark);
   }
   EXPECT_GT(lit, 100u);

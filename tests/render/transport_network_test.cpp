@@ -45,12 +45,13 @@ struct Areas {
       const int s = network.find(0, walls.at(wall, random.uniform2()));
       const double share = walls.area(wall) / points;
       total += share;
-      if (s == transport::no_surfel) {
+      if (s == transport::no_patch) {
         lost += share;
         continue;
       }
-      area[static_cast<std::size_t>(s)] += share;
-      group[static_cast<std::size_t>(s)] = group_of_wall;
+      const std::size_t surfel = network.surfel_of(static_cast<std::size_t>(s));
+      area[surfel] += share;
+      group[surfel] = group_of_wall;
     }
   }
 
@@ -60,7 +61,8 @@ struct Areas {
       if (group[s] != from) continue;
       double f = 0;
       for (const auto links : {network.links().rows[s].fixed, network.links().rows[s].moving}) {
-        for (const transport::Link& link : links) f += group[link.surfel] == to ? double(link.weight) : 0;
+        for (const transport::Link& link : links)
+          f += group[network.surfel_of(link.patch)] == to ? double(link.weight) : 0;
       }
       e.value += area[s] * f;
       // Rays of a surfel are spread evenly; as many independent ones would have more variance.
@@ -129,7 +131,7 @@ struct Answers {
     for (const rays::SurfacePoint& p : n.samples()) samples.insert(samples.end(), {p.position, p.normal});
     const auto copy = [](std::span<const transport::Link> links) {
       std::vector<std::pair<std::uint32_t, float>> out;
-      for (const transport::Link& link : links) out.emplace_back(link.surfel, link.weight);
+      for (const transport::Link& link : links) out.emplace_back(link.patch, link.weight);
       return out;
     };
     for (const transport::LinkRows::Row& row : n.links().rows)
@@ -286,26 +288,29 @@ TEST(TransportNetworkPose, NothingCrossesAShutDoor) {
     const auto crossings = [&] {
       std::vector<Place> places;
       for (std::size_t s = 0; s < network.surfel_count(); ++s) {
-        // A surfel stands where its first sample is; that one is always in use.
-        places.push_back(place_of(network.samples()[s * static_cast<std::size_t>(params.samples)]));
+        const transport::Surfel& surfel = network.surfels().surfels()[s];
+        const vec3 at(network.poses()[static_cast<std::size_t>(surfel.part)] *
+                      vec4(surfel.point.position, 1));
+        places.push_back(place_of({at, surfel.point.normal}));
       }
       std::size_t count = 0;
       for (std::size_t s = 0; s < places.size(); ++s) {
         for (const auto links : {network.links().rows[s].fixed, network.links().rows[s].moving})
-          count += static_cast<std::size_t>(
-              std::count_if(links.begin(), links.end(),
-                            [&](const transport::Link& l) { return places[l.surfel] != places[s]; }));
-        for (int i = 1; i < params.samples; ++i) {
+          count += static_cast<std::size_t>(std::count_if(
+              links.begin(), links.end(),
+              [&](const transport::Link& l) { return places[network.surfel_of(l.patch)] != places[s]; }));
+        for (int i = 0; i < params.samples; ++i) {
           const std::size_t sample =
               s * static_cast<std::size_t>(params.samples) + static_cast<std::size_t>(i);
           count += network.sample_used()[sample] && place_of(network.samples()[sample]) != places[s];
         }
       }
       for (std::size_t i = 0; i < network.seen().size(); ++i) {
-        const int s = network.seen()[i].surfel;
+        const int s = network.seen()[i].index;
         const Place of_probe =
             positions[i / network.gbuffer().directions.size()].x < 0 ? Place::room_a : Place::room_b;
-        count += s != transport::no_surfel && places[static_cast<std::size_t>(s)] != of_probe;
+        count +=
+            s != transport::no_patch && places[network.surfel_of(static_cast<std::size_t>(s))] != of_probe;
       }
       return count;
     };

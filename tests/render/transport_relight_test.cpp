@@ -46,10 +46,11 @@ TEST(RelightSession, AClosedBoxOfEqualWallsReachesTheGeometricSeries) {
     // Probes keep albedo in 10 bits: an error of 5e-4 changes ρ/(1 − ρ) by that over ρ(1 − ρ).
     const float left = 1e-4f / (1 - rho) + 5e-4f / (rho * (1 - rho));
     const float indirect = pi * rho / (1 - rho);
-    for (std::size_t s = 0; s < session.surfel_direct().size(); ++s) {
+    for (std::size_t p = 0; p < session.patch_direct().size(); ++p) {
+      const std::size_t s = session.network().surfel_of(p);
       for (glm::length_t c = 0; c < 3; ++c) {
         // All directions are as bright: sampling adds rounding alone.
-        EXPECT_NEAR(session.surfel_direct()[s][c], pi, 1e-4f);
+        EXPECT_NEAR(session.patch_direct()[p][c], pi, 1e-4f);
         EXPECT_NEAR(session.surfel_irradiance()[s][c] / indirect, 1, left) << rho;
       }
     }
@@ -68,14 +69,16 @@ struct RoomLight {
 
   explicit RoomLight(const transport::RelightSession& session) {
     const transport::TransportNetwork& network = session.network();
-    for (std::size_t s = 0; s < network.surfel_count(); ++s) {
-      const rays::SurfacePoint& p = network.samples()[s * static_cast<std::size_t>(network.params().samples)];
+    const std::vector<transport::Irradiance4> irradiance = session.patch_irradiance();
+    for (std::size_t s = 0; s < network.patch_count(); ++s) {
+      if (!network.sample_used()[s]) continue;
+      const rays::SurfacePoint& p = network.samples()[s];
       const vec3 x = p.position + 1e-3f * p.normal;
       if (!(x.y > 0) || !(x.y < 3) || !(std::abs(x.z) < 2)) continue;
       // The shut leaf stands at 0.075 < x < 0.115.
       const int room = x.x < -0.075f && x.x > -4.075f ? 0 : x.x > 0.115f && x.x < 4.075f ? 1 : -1;
       if (room < 0) continue;
-      const vec3 e = vec3(session.surfel_direct()[s] + session.surfel_irradiance()[s]);
+      const vec3 e(irradiance[s]);
       walls[room] = std::max(walls[room], double(max_component(e)));
     }
     for (std::size_t i = 0; i < session.places().size(); ++i) {
@@ -180,7 +183,7 @@ TEST(RelightSession, ColdBitsTellNothingOfThePast) {
   LitSession fresh(rooms.source, rooms.places, params, 0.45f);
   set_up(fresh);
   fresh.update();
-  EXPECT_TRUE(walked.surfel_direct() == fresh.surfel_direct());
+  EXPECT_TRUE(walked.patch_direct() == fresh.patch_direct());
   EXPECT_TRUE(walked.surfel_irradiance() == fresh.surfel_irradiance());
   EXPECT_TRUE(walked.reflected() == fresh.reflected());
   for (int i = 0; i < 6; ++i) EXPECT_TRUE(walked.emitted(i) == fresh.emitted(i)) << i;
@@ -337,7 +340,7 @@ TEST(RelightSession, LightsADoorAnewThatWasMovedInVain) {
   EXPECT_THROW(session.update(), Error);
   source.gives_direct_light = true;
   session.update(), other.update();
-  EXPECT_TRUE(session.surfel_direct() == other.surfel_direct());
+  EXPECT_TRUE(session.patch_direct() == other.patch_direct());
   EXPECT_TRUE(session.reflected() == other.reflected());
 }
 

@@ -93,7 +93,7 @@ TEST(TransportRotation, BounceProbesTurnWithTheSceneBeyondSamplingOnly) {
     transport::BounceParams params;
     params.weights.method = probes::WeightMethod::mls;
     Functions reflected;
-    transport::BounceOperator(session.network(), source, 4, params).solve(session.surfel_direct(), reflected);
+    transport::BounceOperator(session.network(), source, 4, params).solve(session.patch_direct(), reflected);
     return reflected;
   });
 }

@@ -41,7 +41,7 @@ class Budget : public testing::TestWithParam<Kind> {
   }
   static void expect_same(const RelightSession& a, const RelightSession& b) {
     EXPECT_TRUE(a.reflected() == b.reflected());
-    EXPECT_TRUE(a.surfel_direct() == b.surfel_direct());
+    EXPECT_TRUE(a.patch_direct() == b.patch_direct());
     EXPECT_TRUE(a.surfel_irradiance() == b.surfel_irradiance());
     EXPECT_TRUE(a.record_light() == b.record_light());
     EXPECT_TRUE(a.shown() == b.shown());

@@ -57,7 +57,7 @@ void warn_about_network(const transport::RelightSession& session) {
   const auto directions = static_cast<std::ptrdiff_t>(network.gbuffer().directions.size());
   for (std::size_t i = 0; i < session.places().size(); ++i) {
     const auto begin = network.seen().begin() + static_cast<std::ptrdiff_t>(i) * directions;
-    if (std::all_of(begin, begin + directions, [](const auto& patch) { return patch.surfel < 0; }))
+    if (std::all_of(begin, begin + directions, [](const auto& patch) { return patch.index < 0; }))
       log_warning("probe \"{}\" sees no surface: it holds no light", session.places()[i].name);
   }
   if (network.links().link_count() == 0)

@@ -13,9 +13,9 @@ inline std::size_t network_bytes(const transport::TransportNetwork& network) {
          network.seen().size() * sizeof(transport::SeenPatch) +
          network.seen_distance().size() * sizeof(float) +
          network.gbuffer().hits.size() * sizeof(transport::PackedHit) +
-         network.samples().size() * (sizeof(rays::SurfacePoint) + 1) +
-         network.surfel_count() *
-             (sizeof(transport::Surfel) + sizeof(vec3) + 4 * sizeof(transport::Irradiance4));
+         network.patch_count() *
+             (sizeof(rays::SurfacePoint) + 1 + sizeof(vec3) + 3 * sizeof(transport::Irradiance4)) +
+         network.surfel_count() * (sizeof(transport::Surfel) + 2 * sizeof(transport::Irradiance4));
 }
 
 }  // namespace ssphh::methods

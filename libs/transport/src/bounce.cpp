@@ -36,7 +36,7 @@ struct BounceOperator::Data {
   /// What the weights of a ray were found for.
   static constexpr std::int32_t unknown = -2;  ///< not even that: the source threw
   struct KnownHit {
-    std::int32_t surfel = no_surfel;
+    std::int32_t patch = no_patch;
     float distance = 0;
     bool near_part = false;
   };
@@ -90,17 +90,17 @@ struct BounceOperator::Data {
                                [&](const scene::Bounds& box) { return !box.empty() && meets(segment, box); });
   }
 
-  int part_of(std::int32_t surfel) const {
-    return network.surfels().surfels()[static_cast<std::size_t>(surfel)].part;
+  const Surfel& surfel_of(std::int32_t patch) const {
+    return network.surfels().surfels()[network.surfel_of(static_cast<std::size_t>(patch))];
   }
 
   /// Whether the pose may have changed what was found at the ray's hit.
   bool is_stale(std::size_t ray) const {
     const SeenPatch& patch = network.seen()[ray];
     const KnownHit& hit = known[ray];
-    if (patch.surfel != hit.surfel) return true;
-    if (patch.surfel == no_surfel) return false;
-    return hit.near_part || hit.distance != network.seen_distance()[ray] || part_of(patch.surfel) > 0;
+    if (patch.index != hit.patch) return true;
+    if (patch.index == no_patch) return false;
+    return hit.near_part || hit.distance != network.seen_distance()[ray] || surfel_of(patch.index).part > 0;
   }
 
   /// Weights and basis functions at the hit of one ray; `at` stays empty where nothing is seen.
@@ -108,9 +108,9 @@ struct BounceOperator::Data {
     const ProbeGBuffer& g = network.gbuffer();
     const std::size_t directions = g.directions.size(), count = bands();
     const SeenPatch& patch = network.seen()[ray];
-    known[ray] = {patch.surfel, network.seen_distance()[ray], false};
-    if (patch.surfel == no_surfel) return;
-    const Surfel& surfel = network.surfels().surfels()[static_cast<std::size_t>(patch.surfel)];
+    known[ray] = {patch.index, network.seen_distance()[ray], false};
+    if (patch.index == no_patch) return;
+    const Surfel& surfel = surfel_of(patch.index);
     const mat3 turn(network.poses()[static_cast<std::size_t>(surfel.part)]);
     const vec3 n = glm::normalize(glm::transpose(glm::inverse(turn)) * surfel.point.normal);
     const vec3 x = g.positions[ray / directions] + known[ray].distance * g.directions[ray % directions];
@@ -135,7 +135,7 @@ struct BounceOperator::Data {
         for (std::size_t i = first; i < end; ++i) look_up_anew(lookup, which[i], found[i]);
       });
     } catch (...) {
-      for (const std::uint32_t ray : which) known[ray].surfel = unknown;
+      for (const std::uint32_t ray : which) known[ray].patch = unknown;
       throw;
     }
     std::vector<probes::ProbeWeight> row;
@@ -192,8 +192,8 @@ struct BounceOperator::Data {
           const std::size_t ray = i * directions + q;
           const SeenPatch& patch = network.seen()[ray];
           vec3 value(0);
-          if (patch.surfel != no_surfel) {
-            const vec3 e = vec3(direct[static_cast<std::size_t>(patch.surfel)]) + look_up(ray, from);
+          if (patch.index != no_patch) {
+            const vec3 e = vec3(direct[static_cast<std::size_t>(patch.index)]) + look_up(ray, from);
             value = unpack_albedo(patch.albedo) * (1 / pi) * e;
           }
           radiance[q] = value.x, radiance[stride + q] = value.y, radiance[2 * stride + q] = value.z;

@@ -82,18 +82,24 @@ void DirectField::sum(std::span<const vec3> group_scales, std::span<const vec3> 
           "what is added is not one colour for each sample");
   const auto samples = static_cast<std::size_t>(network_.params().samples);
   const std::vector<std::uint8_t>& used = network_.sample_used();
-  out.resize(network_.surfel_count());
-  parallel_for(out.size(), 512, [&](std::size_t begin, std::size_t end) {
+  out.resize(network_.patch_count());
+  parallel_for(network_.surfel_count(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
       vec3 total(0);
       float count = 0;
       for (std::size_t i = s * samples; i < (s + 1) * samples; ++i) {
         if (!used[i]) continue;
+        vec3 here(0);
+        for (std::size_t g = 0; g < groups_.size(); ++g) here += group_scales[g] * groups_[g][i];
+        if (!extra.empty()) here += extra[i];
+        out[i] = vec4(here, 0);
+        total += here;
         ++count;
-        for (std::size_t g = 0; g < groups_.size(); ++g) total += group_scales[g] * groups_[g][i];
-        if (!extra.empty()) total += extra[i];
       }
-      out[s] = vec4(total / std::max(count, 1.0f), 0);
+      const vec4 mean(total / std::max(count, 1.0f), 0);
+      for (std::size_t i = s * samples; i < (s + 1) * samples; ++i) {
+        if (!used[i]) out[i] = mean;
+      }
     }
   });
 }

@@ -40,9 +40,9 @@ sh::RadianceSh RelightSession::emission_profile(const vec3& center, float radius
               "a surface glows in a group that there is not");
       if (sight.group >= 0)
         mean += d.state.group_scales[static_cast<std::size_t>(sight.group)] * sight.emission;
-      if (sight.surfel == no_surfel || d.light.direct.empty()) continue;
-      const auto s = static_cast<std::size_t>(sight.surfel);
-      mean += sight.albedo * (1 / pi) * vec3(d.light.direct[s] + d.light.indirect[s]);
+      if (sight.patch == no_patch || d.light.direct.empty()) continue;
+      const auto p = static_cast<std::size_t>(sight.patch);
+      mean += sight.albedo * (1 / pi) * vec3(d.light.direct[p] + d.light.indirect[d.network.surfel_of(p)]);
     }
     mean /= static_cast<float>(rays);
     for (std::size_t c = 0; c < 3; ++c)

@@ -9,6 +9,7 @@
 #include <ssphh/probes/lookup_weights.h>
 #include <ssphh/sh/evaluate.h>
 #include <ssphh/sh/irradiance.h>
+#include <ssphh/transport/direct_field.h>
 #include <ssphh/transport/fitted_weights.h>
 
 #include "probe_light.h"
@@ -42,35 +43,26 @@ std::vector<std::size_t> spread_probes(const std::vector<vec3>& positions, std::
   return chosen;
 }
 
-/// Direct irradiance at the surfels from an isotropic light at a probe.
+/// Direct irradiance of patches from an isotropic light at a probe.
 std::vector<Irradiance4> light_at(const TransportNetwork& network, const rays::TransportSource& source,
                                   std::size_t probe) {
-  const std::size_t samples = static_cast<std::size_t>(network.params().samples);
   SphlEmitter light{network.gbuffer().positions[probe], 0.01f, sh::RadianceSh(0)};
   light.leaving[0] = vec3(1e4f);
   std::vector<vec3> at_samples(network.samples().size(), vec3(0));
   add_emission(network, source, light, at_samples);
-  std::vector<Irradiance4> direct(network.surfel_count(), Irradiance4(0));
-  for (std::size_t s = 0; s < direct.size(); ++s) {
-    float used = 0;
-    for (std::size_t i = s * samples; i < (s + 1) * samples; ++i) {
-      if (!network.sample_used()[i]) continue;
-      direct[s] += vec4(at_samples[i], 0);
-      ++used;
-    }
-    direct[s] /= std::max(used, 1.0f);
-  }
+  std::vector<Irradiance4> direct;
+  DirectField(network, 0).sum({}, at_samples, direct);
   return direct;
 }
 
 Lesson solve_light(const TransportNetwork& network, const DirectionProjector& projector,
                    std::span<const std::int32_t> seen, std::size_t rays, std::span<const Irradiance4> direct,
                    double weight) {
-  std::vector<Irradiance4> all;
+  std::vector<Irradiance4> bounced, all(direct.begin(), direct.end());
   Solver solver;
   solver.solve(network.links(), network.albedo(), direct, chebyshev_bound(network.contraction()),
-               {1e-4f, 300}, all);
-  for (std::size_t s = 0; s < all.size(); ++s) all[s] += direct[s];
+               {1e-4f, 300}, bounced);
+  for (std::size_t p = 0; p < all.size(); ++p) all[p] += bounced[network.surfel_of(p)];
   std::vector<sh::RadianceSh> radiance;
   project_reflected(network, projector, all, radiance);
 
@@ -82,9 +74,9 @@ Lesson solve_light(const TransportNetwork& network, const DirectionProjector& pr
     for (std::size_t p = begin; p < end; ++p) {
       vec3 sum(0);
       for (std::size_t r = p * rays; r < (p + 1) * rays; ++r) {
-        if (seen[r] == no_surfel) continue;
-        const auto s = static_cast<std::size_t>(seen[r]);
-        sum += network.albedo()[s] * vec3(all[s]);
+        if (seen[r] == no_patch) continue;
+        const auto p_seen = static_cast<std::size_t>(seen[r]);
+        sum += network.albedo()[p_seen] * vec3(all[p_seen]);
       }
       lesson.points[p] = sum / static_cast<float>(rays);
     }

@@ -11,8 +11,6 @@ namespace {
 
 /// Bright surfels that a place is guided by, and before those that nothing sees are left out.
 constexpr std::size_t most_bright = 256, most_asked = 1024;
-/// Points that a bright surfel stands for.
-constexpr std::size_t places_of_surfel = 4;
 /// Of the rays that are guided, the share that is not.
 constexpr float even_share = 0.25f;
 
@@ -60,19 +58,23 @@ void HemisphereParts::spread(std::vector<float>& weights) const {
   }
 }
 
-std::vector<float> surfel_flux(const TransportNetwork::Data& d,
-                               std::span<const std::vector<Irradiance4>> direct) {
+std::vector<float> patch_flux(const TransportNetwork::Data& d,
+                              std::span<const std::vector<Irradiance4>> direct) {
   const std::vector<Surfel>& surfels = d.surfels.surfels();
-  std::vector<float> flux(surfels.size(), 0), of_group(surfels.size());
+  const std::size_t m = d.sample_count();
+  std::vector<float> flux(d.albedo.size(), 0), of_group(d.albedo.size(), 0);
   for (const std::vector<Irradiance4>& group : direct) {
     double total = 0;
     for (std::size_t s = 0; s < surfels.size(); ++s) {
       const float size = d.surfels.size(surfels[s].level);
-      of_group[s] = luminance(d.albedo[s] * vec3(group[s])) * size * size;
-      total += of_group[s];
+      const std::size_t used = d.used_samples(s);
+      for (std::size_t p = s * m; p < s * m + used; ++p) {
+        of_group[p] = luminance(d.albedo[p] * vec3(group[p])) * size * size / static_cast<float>(used);
+        total += of_group[p];
+      }
     }
     if (!(total > 0)) continue;
-    for (std::size_t s = 0; s < surfels.size(); ++s) flux[s] += static_cast<float>(of_group[s] / total);
+    for (std::size_t p = 0; p < flux.size(); ++p) flux[p] += static_cast<float>(of_group[p] / total);
   }
   return flux;
 }
@@ -111,11 +113,14 @@ std::vector<BrightPoint> bright_points(const TransportNetwork::Data& d, std::spa
     radius2 = std::max(radius2, glm::dot(away, away));
   }
   const std::vector<Surfel>& surfels = d.surfels.surfels();
+  const std::size_t m = d.sample_count();
   std::vector<std::pair<float, std::uint32_t>> found;
   for (std::size_t s = 0; s < d.static_count; ++s) {
     const vec3 away = surfels[s].point.position - middle;
     const float size = d.surfels.size(surfels[s].level);
-    const float there = flux[s] / (glm::dot(away, away) + radius2 + size * size);
+    float leaving = 0;
+    for (std::size_t p = s * m; p < (s + 1) * m; ++p) leaving += flux[p];
+    const float there = leaving / (glm::dot(away, away) + radius2 + size * size);
     if (there > 0) found.emplace_back(-there, static_cast<std::uint32_t>(s));
   }
   const std::size_t asked = std::min(most_asked, found.size());
@@ -137,10 +142,9 @@ std::vector<BrightPoint> bright_points(const TransportNetwork::Data& d, std::spa
     }
     if (!seen) continue;
     ++taken;
-    const std::span<const rays::SurfacePoint> members = d.surfels.members(static_cast<int>(s));
-    const std::size_t count = std::min(places_of_surfel, members.size());
-    for (std::size_t k = 0; k < count; ++k)
-      bright.push_back({members[k * members.size() / count], flux[s] / static_cast<float>(count)});
+    for (std::size_t p = s * m; p < (s + 1) * m; ++p) {
+      if (flux[p] > 0) bright.push_back({d.samples[p], flux[p]});
+    }
   }
   return bright;
 }

@@ -34,13 +34,13 @@ class HemisphereParts {
 /// What is bright, as seen from one place.
 struct BrightPoint {
   rays::SurfacePoint point;
-  float flux;  ///< share of all flux that leaves surfels by direct light, per light group and summed
+  float flux;  ///< patch_flux()
 };
 
-/// Of each surfel: its share of the light that leaves all surfels at first, summed over light groups, each as
-/// bright as another. `direct` is [group][surfel].
-std::vector<float> surfel_flux(const TransportNetwork::Data& d,
-                               std::span<const std::vector<Irradiance4>> direct);
+/// Of each patch: its share of the light that leaves all of them at first, summed over light groups, each as
+/// bright as another. `direct` is [group][patch].
+std::vector<float> patch_flux(const TransportNetwork::Data& d,
+                              std::span<const std::vector<Irradiance4>> direct);
 
 /// Orders points so that neighbours in the list are neighbours in space.
 std::vector<std::uint32_t> spatial_order(std::span<const rays::SurfacePoint> points);

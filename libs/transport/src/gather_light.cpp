@@ -21,11 +21,11 @@ GatherLight::GatherLight(const RelightSession& session, int rays,
   if (rays < 4 || rays > 1 << 16) throw Error("gather rays", fmt::format("{} is outside 4..65536", rays));
   require(glossy_ != nullptr, "gathered light", "nothing answers for glossy light");
   const std::vector<vec3>& albedo = network_->albedo();
-  require(
-      session.surfel_direct().size() == albedo.size() && session.surfel_irradiance().size() == albedo.size(),
-      "gathered light", "the session has lit no surfels: update it first, with operator surfel");
-  for (std::size_t s = 0; s < albedo.size(); ++s)
-    radiosity_.push_back(albedo[s] * vec3(session.surfel_direct()[s] + session.surfel_irradiance()[s]));
+  require(session.patch_direct().size() == albedo.size() &&
+              session.surfel_irradiance().size() == network_->surfel_count(),
+          "gathered light", "the session has lit no surfels: update it first, with operator surfel");
+  const std::vector<Irradiance4> irradiance = session.patch_irradiance();
+  for (std::size_t p = 0; p < albedo.size(); ++p) radiosity_.push_back(albedo[p] * vec3(irradiance[p]));
 }
 
 vec3 GatherLight::irradiance(const rays::SurfacePoint& at) const {
@@ -38,8 +38,8 @@ vec3 GatherLight::irradiance(const rays::SurfacePoint& at) const {
     rays.push_back(fan_ray(at, link_lift * d.surfels.size(), r, salt));
   std::vector<vec3> light(rays.size(), vec3(0));
   std::vector<rays::RayHit> hits;
-  d.see(rays, hits, [&](std::size_t i, const rays::RayHit& hit, int surfel) {
-    if (surfel != no_surfel) light[i] = hit.through * radiosity_[static_cast<std::size_t>(surfel)];
+  d.see(rays, hits, [&](std::size_t i, const rays::RayHit& hit, int patch) {
+    if (patch != no_patch) light[i] = hit.through * radiosity_[static_cast<std::size_t>(patch)];
   });
   vec3 sum(0);
   for (const vec3& l : light) sum += l;
@@ -49,9 +49,9 @@ vec3 GatherLight::irradiance(const rays::SurfacePoint& at) const {
     const Resolved found = d.resolve(
         {.ray = sight.ray,
          .normal = sight.normal,
-         .surfel = d.find_static({sight.ray.origin + sight.ray.t_max * sight.ray.direction, sight.normal}),
+         .patch = d.find_static({sight.ray.origin + sight.ray.t_max * sight.ray.direction, sight.normal}),
          .from = sight.from});
-    if (found.surfel != no_surfel) sum += sight.share * radiosity_[static_cast<std::size_t>(found.surfel)];
+    if (found.patch != no_patch) sum += sight.share * radiosity_[static_cast<std::size_t>(found.patch)];
   }
   return sum / static_cast<float>(rays_) + session_->mirrored(at);
 }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
 #include <ssphh/core/parallel.h>
@@ -20,7 +19,10 @@ class RecordPlaces {
  public:
   /// `everywhere`: also on surfaces that no surfel stands on.
   RecordPlaces(const TransportNetwork& network, int most, bool everywhere)
-      : source_(network.data_->source), all_(surfel_points(network)) {
+      : source_(network.data_->source),
+        surfel_sizes_(network.surfels()),
+        all_(surfel_points(network)),
+        patches_(surfel_points(network, network.params().samples)) {
     // As surfels do, records stand farther apart where probes are far
     for (const rays::SurfacePoint& point : all_)
       levels_.push_back(network.surfels().level(0, point.position));
@@ -57,15 +59,27 @@ class RecordPlaces {
     return points;
   }
 
-  /// At most so many of these, spread evenly.
-  std::vector<rays::SurfacePoint> spread(std::span<const std::size_t> which, int most) const {
+  /// Of all places, or of the surfels' patches, those that no known point lights, at most so many, spread
+  /// evenly.
+  std::vector<rays::SurfacePoint> unlit(const probes::SurfaceInterpolation& known, bool patches,
+                                        std::size_t most, const Control& control) const {
+    const std::vector<rays::SurfacePoint>& asked = patches ? patches_ : all_;
+    std::vector<std::uint8_t> is(asked.size());
+    parallel_for(
+        asked.size(), 64,
+        [&](std::size_t i) {
+          probes::SurfaceShares storage;
+          is[i] = known.at(asked[i], storage).empty();
+        },
+        control);
     std::vector<rays::SurfacePoint> points;
     std::vector<int> levels;
-    for (const std::size_t i : which) {
-      points.push_back(all_[i]);
-      levels.push_back(levels_[i]);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      if (!is[i]) continue;
+      points.push_back(asked[i]);
+      levels.push_back(patches ? surfel_sizes_.level(0, asked[i].position) : levels_[i]);
     }
-    return spread_points(points, most, levels);
+    return points.empty() ? points : spread_points(points, static_cast<int>(most), levels);
   }
 
   /// Lookups between points, in the scene as posed.
@@ -95,7 +109,8 @@ class RecordPlaces {
   }
 
   const rays::TransportSource& source_;
-  std::vector<rays::SurfacePoint> all_;
+  const SurfelSet& surfel_sizes_;
+  std::vector<rays::SurfacePoint> all_, patches_;
   std::size_t surfels_ = 0;
   std::vector<int> levels_;
   PointGrid grid_{vec3(0), 1};
@@ -241,15 +256,14 @@ std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& netwo
     }
   }
 
-  const std::size_t count = gather->points().size(), left = std::min(count, most_records - count);
-  if (left == 0) return gather;
-  std::vector<std::size_t> all(places.all().size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  const probes::SurfaceInterpolation known = places.between(gather->points());
-  const std::vector<float> sure(count, 0);
-  const std::vector<std::size_t> unlit =
-      doubtful(all, control, [&](std::size_t place) { return doubt_at(places.all()[place], known, sure); });
-  if (!unlit.empty()) gather->append(gather_at(places.spread(unlit, static_cast<int>(left))));
+  // Then where surfels, and at last their patches, see none of these: pockets between the points of surfels
+  const std::size_t most = std::min(2 * gather->points().size(), most_records);
+  for (const bool patches : {false, true}) {
+    if (gather->points().size() >= most) break;
+    const std::vector<rays::SurfacePoint> unlit =
+        places.unlit(places.between(gather->points()), patches, most - gather->points().size(), control);
+    if (!unlit.empty()) gather->append(gather_at(unlit));
+  }
   return gather;
 }
 

@@ -18,12 +18,12 @@ namespace {
 
 struct Header {
   char magic[8];
-  std::uint32_t version, zero;
+  std::uint32_t version, patches;
   std::uint64_t rows, links;
 };
 static_assert(sizeof(Header) == 32 && sizeof(Link) == 8);
 constexpr char magic[] = "SPHLLINK";
-constexpr std::uint32_t link_file_version = 1;
+constexpr std::uint32_t link_file_version = 2;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
   throw Error(path.string(), what);
@@ -34,7 +34,8 @@ constexpr std::uint32_t link_file_version = 1;
 
 }  // namespace
 
-LinkFileWriter::LinkFileWriter(std::filesystem::path path) : path_(std::move(path)) {
+LinkFileWriter::LinkFileWriter(std::filesystem::path path, std::size_t patches)
+    : path_(std::move(path)), patches_(patches) {
   temporary_ = path_;
   temporary_ += fmt::format(".{}.part", ::getpid());
   file_ = std::fopen(temporary_.c_str(), "wb");
@@ -61,7 +62,8 @@ void LinkFileWriter::add_row(std::span<const Link> links) {
 
 void LinkFileWriter::finish() {
   write(first_.data(), first_.size() * sizeof(first_[0]));
-  Header header{{}, link_file_version, 0, first_.size() - 1, first_.back()};
+  Header header{
+      {}, link_file_version, static_cast<std::uint32_t>(patches_), first_.size() - 1, first_.back()};
   std::memcpy(header.magic, magic, sizeof(header.magic));
   if (std::fseek(file_, 0, SEEK_SET) != 0) fail_by_system(temporary_, "cannot write");
   write(&header, sizeof(header));
@@ -76,7 +78,7 @@ void LinkFileWriter::finish() {
 }
 
 void write_link_file(const LinkRows& links, const std::filesystem::path& path) {
-  LinkFileWriter writer(path);
+  LinkFileWriter writer(path, links.patches);
   std::vector<Link> row;
   for (const LinkRows::Row& r : links.rows) {
     row.assign(r.fixed.begin(), r.fixed.end());
@@ -124,14 +126,16 @@ void MappedLinks::check(const std::filesystem::path& path) {
 
   const auto* links = reinterpret_cast<const Link*>(static_cast<const std::byte*>(data_) + sizeof(Header));
   const auto* first = reinterpret_cast<const std::uint64_t*>(links + header.links);
+  if (header.patches == 0) fail(path, "its rows have no patch");
   rows_.rows.resize(header.rows);
+  rows_.patches = header.patches;
   for (std::uint64_t i = 0; i < header.rows; ++i) {
     if (first[0] != 0 || first[i + 1] < first[i] || first[i + 1] > header.links)
       fail(path, fmt::format("row {} lies outside of the links", i));
     rows_.rows[i].fixed = {links + first[i], static_cast<std::size_t>(first[i + 1] - first[i])};
     for (const Link& link : rows_.rows[i].fixed) {
-      if (link.surfel >= header.rows || !std::isfinite(link.weight) || link.weight < 0)
-        fail(path, fmt::format("row {} links to surfel {} with weight {}", i, link.surfel, link.weight));
+      if (link.patch / header.patches >= header.rows || !std::isfinite(link.weight) || link.weight < 0)
+        fail(path, fmt::format("row {} links to patch {} with weight {}", i, link.patch, link.weight));
     }
   }
 }

@@ -2,8 +2,8 @@
 /// Links on disk, for networks that memory does not hold: rows are read in place through a memory map, in the
 /// order in which the solver walks them, so the system streams them in and out by pages.
 ///
-/// Format version 1, little-endian: "SPHLLINK", u32 version, u32 0, u64 rows, u64 links; the links as (u32
-/// surfel, f32 weight); the index of each row's first link and the end, u64.
+/// Format version 2, little-endian: "SPHLLINK", u32 version, u32 patches of a row, u64 rows, u64 links; the
+/// links as (u32 patch, f32 weight); the index of each row's first link and the end, u64.
 
 #include <cstdio>
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace ssphh::transport {
 class LinkFileWriter {
  public:
   /// Writes under a temporary name beside `path`. Throws Error with the system's reason, here and below.
-  explicit LinkFileWriter(std::filesystem::path path);
+  explicit LinkFileWriter(std::filesystem::path path, std::size_t patches = 1);
   /// Removes the temporary file unless finish() was called.
   ~LinkFileWriter();
   LinkFileWriter(const LinkFileWriter&) = delete;
@@ -30,6 +30,7 @@ class LinkFileWriter {
   void write(const void* data, std::size_t bytes);
 
   std::filesystem::path path_, temporary_;
+  std::size_t patches_;
   std::FILE* file_ = nullptr;
   std::vector<std::uint64_t> first_{0};
 };
@@ -40,7 +41,7 @@ void write_link_file(const LinkRows& links, const std::filesystem::path& path);
 class MappedLinks {
  public:
   /// Reads the whole file once to check it. Throws Error that says what is wrong: missing, truncated, of
-  /// another version, rows or surfels out of range, weights that are not finite.
+  /// another version, rows or patches out of range, weights that are not finite.
   explicit MappedLinks(const std::filesystem::path& path);
   ~MappedLinks();
   MappedLinks(const MappedLinks&) = delete;

@@ -102,7 +102,7 @@ class LinkViz {
   }
 
  private:
-  /// Irradiance of every surfel while probe j is the only light.
+  /// Irradiance of every patch while probe j is the only light.
   void light_sphere(std::size_t j) {
     sphere_ = {probes_[j].position, probes_[j].radius, sh::RadianceSh(0)};
     radiance_ = probes::emitter_radiance(params_.source, sphere_.radius);
@@ -113,7 +113,7 @@ class LinkViz {
     indirect_.clear();
     Solver().solve(network_.links(), network_.albedo(), direct_, chebyshev_bound(network_.contraction()),
                    params_.solve, indirect_);
-    for (std::size_t s = 0; s < direct_.size(); ++s) direct_[s] += indirect_[s];
+    for (std::size_t p = 0; p < direct_.size(); ++p) direct_[p] += indirect_[network_.surfel_of(p)];
   }
 
   /// P of what probe i sees on surfaces.

@@ -127,7 +127,7 @@ std::vector<std::int32_t> TransportNetwork::gather(std::span<const rays::Surface
                                                    const Control& control) const {
   require(rays >= 1, "gather rays", "there must be at least one for each point");
   const auto per_point = static_cast<std::size_t>(rays);
-  std::vector<std::int32_t> surfel(points.size() * per_point);
+  std::vector<std::int32_t> patches(points.size() * per_point);
   std::vector<rays::RayQuery> queries;
   std::vector<rays::RayHit> hits;
   ProgressStage progress(control, "gathering", points.size(), "points");
@@ -140,17 +140,18 @@ std::vector<std::int32_t> TransportNetwork::gather(std::span<const rays::Surface
       for (std::uint32_t r = 0; r < static_cast<std::uint32_t>(rays); ++r)
         queries.push_back(fan_ray(points[i], link_lift * data_->surfels.size(), r, i));
     }
-    data_->see(queries, hits,
-               [&](std::size_t i, const rays::RayHit&, int found) { surfel[begin * per_point + i] = found; });
+    data_->see(queries, hits, [&](std::size_t i, const rays::RayHit&, int found) {
+      patches[begin * per_point + i] = found;
+    });
     progress.advance(end - begin);
   }
-  return surfel;
+  return patches;
 }
 std::vector<Sight> TransportNetwork::look(std::span<const rays::RayQuery> rays) const {
   std::vector<Sight> sights(rays.size());
   std::vector<rays::RayHit> hits;
-  data_->see(rays, hits, [&](std::size_t i, const rays::RayHit& hit, int surfel) {
-    sights[i] = {surfel, hit.albedo, hit.emission, hit.group};
+  data_->see(rays, hits, [&](std::size_t i, const rays::RayHit& hit, int patch) {
+    sights[i] = {patch, hit.albedo, hit.emission, hit.group};
   });
   return sights;
 }

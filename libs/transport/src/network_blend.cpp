@@ -30,7 +30,7 @@ void TransportNetwork::prepare_poses(int count, const Control& control) {
           row.moving.size());
     for (const MovingRay& ray : d.moving_hits) {
       const SeenPatch& patch = d.seen[ray.owner];
-      pose.hits.push_back({patch.surfel, patch.albedo,
+      pose.hits.push_back({patch.index, patch.albedo,
                            d.seen_emission.empty() ? std::uint16_t{0} : d.seen_emission[ray.owner],
                            d.seen_distance[ray.owner]});
     }
@@ -73,7 +73,7 @@ void TransportNetwork::Data::blend_poses() {
       if (weight == 0) return;
       for (std::size_t i = 0; i < pose.rows[s].second; ++i) {
         const Link& link = pose.links[pose.rows[s].first + i];
-        links.push_back({link.surfel, weight * link.weight});
+        links.push_back({link.patch, weight * link.weight});
       }
     };
     add(a, 1 - share);
@@ -87,7 +87,7 @@ void TransportNetwork::Data::blend_poses() {
   mixed_hits.clear();
   for (std::size_t i = 0; i < moving_hits.size(); ++i) {
     const std::uint32_t owner = moving_hits[i].owner;
-    const SeenPatch before{a.hits[i].surfel, a.hits[i].albedo}, then{b.hits[i].surfel, b.hits[i].albedo};
+    const SeenPatch before{a.hits[i].patch, a.hits[i].albedo}, then{b.hits[i].patch, b.hits[i].albedo};
     const bool nearer_b = share >= 0.5f;
     set_hit(owner, nearer_b ? b.hits[i] : a.hits[i]);
     if (before != then) {

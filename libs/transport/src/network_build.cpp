@@ -14,6 +14,9 @@ namespace {
 /// Rays per surfel and round while surfaces are still being found.
 constexpr int discovery_rays = 32;
 constexpr int most_rounds = 12;
+/// Of a surfel with fewer evenly spread places (a sliver, a steep one) those that rays happened to find
+/// count, too.
+constexpr int least_places = 3;
 /// Points per surfel that moving parts are sampled with.
 constexpr double part_samples_per_surfel = 24;
 
@@ -40,9 +43,10 @@ class NetworkBuilder {
     discover();
     link_static_surfels();
     d_.static_count = d_.surfels.count();
+    find_seen_patches();
     add_part_surfels();
     d_.surfels.update_albedo();
-    for (const Surfel& surfel : d_.surfels.surfels()) d_.albedo.push_back(surfel.albedo);
+    find_patch_albedo();
     find_hidden_samples();
     find_moving_rays();
     make_fixed_rows();
@@ -73,7 +77,7 @@ class NetworkBuilder {
   struct RawLink {
     rays::RayQuery ray;  ///< t_max: distance of the hit
     vec3 normal;
-    std::int32_t surfel;
+    std::int32_t patch;
     float share = 1;                ///< what glass leaves of the light, mean over the channels
     std::size_t of = 0;             ///< index of the ray, of what it shows in a pane, too
     std::optional<vec3> from = {};  ///< of what a pane shows: MovingRay::from
@@ -100,7 +104,7 @@ class NetworkBuilder {
     bool emits = false;
     for (std::size_t i = 0; i < g.hits.size(); ++i) {
       const PackedHit& hit = g.hits[i];
-      d_.seen[i] = {no_surfel, g.seen_albedo(i)};
+      d_.seen[i] = {no_patch, g.seen_albedo(i)};
       d_.seen_distance[i] = hit.distance;
       emits |= hit.emission != 0;
       if (std::isinf(hit.distance)) continue;
@@ -113,7 +117,7 @@ class NetworkBuilder {
     for (const MirroredHit& hit : g.mirrored)
       points.push_back({{just_before(hit.ray, hit.ray.t_max), hit.normal}, hit.albedo});
     const std::vector<int> surfel = d_.surfels.add(0, points);
-    for (std::size_t k = 0; k < owner.size(); ++k) d_.seen[owner[k]].surfel = surfel[k];
+    for (std::size_t k = 0; k < owner.size(); ++k) d_.seen[owner[k]].index = surfel[k];
     for (std::size_t k = 0; k < g.mirrored.size(); ++k) {
       d_.seen_mirrored.push_back({g.mirrored[k].owner,
                                   {surfel[owner.size() + k], pack_albedo(g.mirrored[k].albedo)},
@@ -124,7 +128,7 @@ class NetworkBuilder {
     for (std::size_t i = 0; i < g.hits.size(); ++i) d_.seen_emission[i] = g.hits[i].emission;
   }
 
-  /// Traces rays of part 0 and adds what they meet to the surfels; `surfel` of each ray, or no_surfel. What
+  /// Traces rays of part 0 and adds what they meet to the surfels; `patch` of each ray, or no_patch. What
   /// they meet by way of panes follows after them all.
   void trace_and_add(std::vector<RawLink>& links) {
     std::vector<rays::RayQuery> rays;
@@ -136,7 +140,7 @@ class NetworkBuilder {
     for (std::size_t i = 0; i < rays.size(); ++i) {
       links[i].ray.t_max = hits[i].distance;
       links[i].normal = hits[i].normal;
-      links[i].surfel = no_surfel;
+      links[i].patch = no_patch;
       links[i].share = mean_of(hits[i].through);
       links[i].of = i;
       if (hits[i].escaped()) continue;
@@ -146,10 +150,11 @@ class NetworkBuilder {
     for (const MirrorSight& sight : follow_mirrors(d_.source, rays, hits)) {
       points.push_back({{just_before(sight.ray, sight.ray.t_max), sight.normal}, sight.albedo});
       owner.push_back(links.size());
-      links.push_back({sight.ray, sight.normal, no_surfel, mean_of(sight.share), sight.of, sight.from});
+      links.push_back({sight.ray, sight.normal, no_patch, mean_of(sight.share), sight.of, sight.from});
     }
     const std::vector<int> surfel = d_.surfels.add(0, points);
-    for (std::size_t k = 0; k < points.size(); ++k) links[owner[k]].surfel = surfel[k];
+    for (std::size_t k = 0; k < points.size(); ++k)
+      links[owner[k]].patch = d_.patch_at(surfel[k], points[k].point.position);
   }
 
   rays::RayQuery link_ray(const rays::SurfacePoint& from, std::uint32_t index, std::size_t surfel) const {
@@ -184,7 +189,7 @@ class NetworkBuilder {
     const auto add_rays = [&](std::size_t s, std::vector<RawLink>& links) {
       const auto members = d_.surfels.members(static_cast<int>(s));
       for (std::uint32_t r = 0; r < discovery_rays; ++r) {
-        links.push_back({link_ray(members[r % members.size()], r, s), vec3(0), no_surfel});
+        links.push_back({link_ray(members[r % members.size()].point, r, s), vec3(0), no_patch});
       }
     };
     in_rounds("finding surfels", 8192, add_rays, [](const std::vector<RawLink>&, std::size_t) {});
@@ -193,28 +198,72 @@ class NetworkBuilder {
   /// Chooses every surfel's samples and traces its links; those that are found on the way follow.
   void link_static_surfels() {
     const auto add_rays = [&](std::size_t s, std::vector<RawLink>& links) {
-      const std::size_t used = choose_samples(s);
+      if (s * m() == d_.local_samples.size()) choose_samples();
+      const std::size_t used = d_.used_samples(s);
       for (std::uint32_t r = 0; r < rays_per_surfel(); ++r) {
-        links.push_back({link_ray(d_.local_samples[s * m() + r % used], r, s), vec3(0), no_surfel});
+        links.push_back({link_ray(d_.local_samples[s * m() + r % used], r, s), vec3(0), no_patch});
       }
     };
     const std::size_t begin = in_rounds("linking surfels", 4096, add_rays,
                                         [&](std::vector<RawLink>& links, std::size_t b) { keep(links, b); });
     // What the last round found has no links: dark, but of no weight.
+    choose_samples();
     for (std::size_t s = begin; s < d_.surfels.count(); ++s) {
-      choose_samples(s);
       fixed_rows_.emplace_back(d_.fixed.size(), 0);
     }
   }
 
-  std::size_t choose_samples(std::size_t s) {
-    const std::vector<rays::SurfacePoint> chosen =
-        d_.surfels.spread_members(static_cast<int>(s), d_.params.samples);
-    for (std::size_t i = 0; i < m(); ++i) {
-      d_.local_samples.push_back(i < chosen.size() ? chosen[i] : chosen[0]);
-      d_.sample_exists.push_back(i < chosen.size());
+  /// Of all surfels that have none yet.
+  void choose_samples() {
+    const std::size_t first = d_.local_samples.size() / m();
+    std::vector<std::vector<ClusterPoint>> chosen(d_.surfels.count() - first);
+    parallel_for(chosen.size(), 16, [&](std::size_t i) {
+      const int s = static_cast<int>(first + i), count = d_.params.samples;
+      // Points found on a moving part are spread over its area already
+      if (d_.surfels.surfels()[first + i].part == 0) chosen[i] = d_.surfels.spread_places(s, count);
+      if (static_cast<int>(chosen[i].size()) >= std::min(least_places, count)) return;
+      for (const ClusterPoint& member : d_.surfels.spread_members(s, count)) {
+        if (static_cast<int>(chosen[i].size()) < count) chosen[i].push_back(member);
+      }
+    });
+    for (const std::vector<ClusterPoint>& of_surfel : chosen) {
+      for (std::size_t i = 0; i < m(); ++i) {
+        const bool exists = i < of_surfel.size();
+        d_.local_samples.push_back(of_surfel[exists ? i : 0].point);
+        d_.albedo.push_back(of_surfel[exists ? i : 0].albedo);
+        d_.sample_exists.push_back(exists);
+      }
     }
-    return chosen.size();
+  }
+
+  /// Of each patch, over the points found on it.
+  void find_patch_albedo() {
+    parallel_for(d_.surfels.count(), 64, [&](std::size_t s) {
+      const std::size_t first = s * m();
+      std::vector<float> count(m(), 1);
+      for (const ClusterPoint& member : d_.surfels.members(static_cast<int>(s))) {
+        const auto patch = static_cast<std::size_t>(d_.patch_at(static_cast<int>(s), member.point.position));
+        d_.albedo[patch] += member.albedo;
+        ++count[patch - first];
+      }
+      for (std::size_t i = 0; i < m(); ++i) d_.albedo[first + i] /= count[i];
+    });
+  }
+
+  /// What probes' rays see was found before there were patches.
+  void find_seen_patches() {
+    const ProbeGBuffer& g = d_.gbuffer;
+    const auto patch_of = [&](const rays::RayQuery& ray, float distance, std::int32_t surfel) {
+      return surfel == no_surfel ? no_patch : d_.patch_at(surfel, ray.origin + distance * ray.direction);
+    };
+    parallel_for(g.hits.size(), 1024, [&](std::size_t i) {
+      const rays::RayQuery ray{g.positions[i / g.directions.size()], g.directions[i % g.directions.size()]};
+      d_.seen[i].index = patch_of(ray, g.hits[i].distance, d_.seen[i].index);
+    });
+    for (std::size_t k = 0; k < g.mirrored.size(); ++k) {
+      std::int32_t& index = d_.seen_mirrored[k].patch.index;
+      index = patch_of(g.mirrored[k].ray, g.mirrored[k].ray.t_max, index);
+    }
   }
 
   std::size_t sample_of_ray(std::size_t s, std::size_t ray) const {
@@ -234,31 +283,31 @@ class NetworkBuilder {
         const MovingRay moving{
             .ray = link.ray,
             .normal = link.normal,
-            .surfel = link.surfel,
+            .patch = link.patch,
             .owner = static_cast<std::uint32_t>(s),
             .sample = static_cast<std::uint32_t>(sample_of_ray(s, link.of % rays_per_surfel())),
             .share = link.share,
             .from = link.from};
         if (all_moving || d_.near_parts(moving)) {
           d_.moving_links.push_back(moving);
-        } else if (link.surfel != no_surfel) {
-          fixed.push_back({static_cast<std::uint32_t>(link.surfel), link.share});
+        } else if (link.patch != no_patch) {
+          fixed.push_back({static_cast<std::uint32_t>(link.patch), link.share});
         }
       }
       add_fixed_row(fixed);
     }
   }
 
-  /// One link for each surfel; `links` have shares of a ray as weights.
+  /// One link for each patch; `links` have shares of a ray as weights.
   void add_fixed_row(std::vector<Link>& links) {
-    std::ranges::stable_sort(links, {}, &Link::surfel);
+    std::ranges::stable_sort(links, {}, &Link::patch);
     const float weight = 1 / static_cast<float>(d_.params.link_rays);
     const std::size_t first = d_.fixed.size();
     for (std::size_t i = 0; i < links.size();) {
-      const std::uint32_t surfel = links[i].surfel;
+      const std::uint32_t patch = links[i].patch;
       float rays = 0;
-      for (; i < links.size() && links[i].surfel == surfel; ++i) rays += links[i].weight;
-      d_.fixed.push_back({surfel, weight * rays});
+      for (; i < links.size() && links[i].patch == patch; ++i) rays += links[i].weight;
+      d_.fixed.push_back({patch, weight * rays});
     }
     fixed_rows_.emplace_back(first, d_.fixed.size() - first);
   }
@@ -285,8 +334,9 @@ class NetworkBuilder {
       points = without_enclosed(part, points);
       d_.surfels.add(part, points);
     }
+    choose_samples();
     for (std::size_t s = d_.static_count; s < d_.surfels.count(); ++s) {
-      const std::size_t used = choose_samples(s);
+      const std::size_t used = d_.used_samples(s);
       for (std::size_t r = 0; r < rays_per_surfel(); ++r) {
         d_.part_links.push_back(
             link_ray(d_.local_samples[s * m() + r % used], static_cast<std::uint32_t>(r), s));
@@ -330,7 +380,7 @@ class NetworkBuilder {
       const vec3 normal = std::isinf(hit.distance) ? vec3(0) : unpack_normal(hit);
       const MovingRay moving{.ray = ray,
                              .normal = normal,
-                             .surfel = d_.seen[i].surfel,
+                             .patch = d_.seen[i].index,
                              .albedo = d_.seen[i].albedo,
                              .owner = static_cast<std::uint32_t>(i),
                              .emission = hit.emission};
@@ -340,7 +390,7 @@ class NetworkBuilder {
       const MirroredHit& hit = g.mirrored[k];
       const MovingRay moving{.ray = hit.ray,
                              .normal = hit.normal,
-                             .surfel = d_.seen_mirrored[k].patch.surfel,
+                             .patch = d_.seen_mirrored[k].patch.index,
                              .albedo = d_.seen_mirrored[k].patch.albedo,
                              .owner = static_cast<std::uint32_t>(k),
                              .from = hit.from};
@@ -353,7 +403,8 @@ class NetworkBuilder {
   void add_part_emission() {
     for (std::size_t s = d_.static_count; s < d_.surfels.count(); ++s) {
       const Surfel& surfel = d_.surfels.surfels()[s];
-      for (const rays::SurfacePoint& p : d_.surfels.members(static_cast<int>(s))) {
+      for (const ClusterPoint& member : d_.surfels.members(static_cast<int>(s))) {
+        const rays::SurfacePoint& p = member.point;
         const rays::RayQuery ray{p.position + 0.5f * d_.surfels.size() * p.normal, -p.normal,
                                  d_.surfels.size()};
         rays::RayHit hit;
@@ -367,6 +418,7 @@ class NetworkBuilder {
   void make_fixed_rows() {
     d_.fixed.shrink_to_fit();
     d_.rows.rows.resize(d_.surfels.count());
+    d_.rows.patches = m();
     for (std::size_t s = 0; s < fixed_rows_.size(); ++s)
       d_.rows.rows[s].fixed = {d_.fixed.data() + fixed_rows_[s].first, fixed_rows_[s].second};
   }

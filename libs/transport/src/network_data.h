@@ -12,9 +12,9 @@ namespace ssphh::transport {
 
 /// A ray that some part comes near at some time, or whose surfel it may hide.
 struct MovingRay {
-  rays::RayQuery ray;               ///< world; t_max is the distance of the static hit
-  vec3 normal{0};                   ///< of the static hit
-  std::int32_t surfel = no_surfel;  ///< that it meets when no part is in the way
+  rays::RayQuery ray;             ///< world; t_max is the distance of the static hit
+  vec3 normal{0};                 ///< of the static hit
+  std::int32_t patch = no_patch;  ///< that it meets when no part is in the way
   std::uint32_t albedo = 0;
   std::uint32_t owner = 0;   ///< probe ray, or surfel that a link leaves
   std::uint32_t sample = 0;  ///< of a link: where it starts
@@ -40,7 +40,7 @@ struct PlacedPart {
 inline constexpr float link_lift = 2e-3f;
 
 struct Resolved {
-  std::int32_t surfel = no_surfel;
+  std::int32_t patch = no_patch;
   std::uint32_t albedo = 0;
   std::uint16_t emission = 0;
   float distance = 0;
@@ -81,7 +81,7 @@ struct TransportNetwork::Data {
   ProbeGBuffer gbuffer;
   SurfelSet surfels;
   std::size_t static_count = 0;  ///< surfels of part 0; those of moving parts follow
-  std::vector<vec3> albedo;
+  std::vector<vec3> albedo;      ///< of each patch
 
   // Samples, `params.samples` per surfel.
   std::vector<rays::SurfacePoint> local_samples, samples;  ///< in the part's frame; as posed
@@ -117,6 +117,11 @@ struct TransportNetwork::Data {
             "there is none of that index");
   }
   std::size_t sample_count() const { return static_cast<std::size_t>(params.samples); }
+  const Surfel& surfel_of(std::int32_t patch) const {
+    return surfels.surfels()[static_cast<std::size_t>(patch) / sample_count()];
+  }
+  /// The patch of a surfel that holds a point, in the part's frame. Before samples are chosen, its first.
+  std::int32_t patch_at(int surfel, const vec3& point) const;
   /// Samples of a surfel that are no padding.
   std::size_t used_samples(std::size_t surfel) const;
   rays::SurfacePoint to_world(int part, const rays::SurfacePoint& point) const;
@@ -127,7 +132,7 @@ struct TransportNetwork::Data {
   /// Whether another body touches a part's surface there, or lies over it: nothing lights the point, and rays
   /// from it would start within that body.
   bool covered(int part, const rays::SurfacePoint& world_point) const;
-  /// Of a point of part 0: as find(0, point) with no part in the way.
+  /// A patch, or no_patch. Of a point of part 0: as find(0, point) with no part in the way.
   int find_static(const rays::SurfacePoint& point) const;
   int find(int part, const rays::SurfacePoint& point) const;
   /// Whether some part may come into the ray's way, also before a pane that mirrors it, or between its hit
@@ -135,20 +140,20 @@ struct TransportNetwork::Data {
   bool near_parts(const MovingRay& ray) const;
   /// The first part that the ray meets before t_max; shortens t_max.
   bool meet_part(rays::RayQuery& ray, rays::RayHit& hit, int& part) const;
-  /// What world-space rays meet, as posed: calls visit(ray, hit in the part's frame, surfel or no_surfel),
+  /// What world-space rays meet, as posed: calls visit(ray, hit in the part's frame, patch or no_patch),
   /// from several threads. `hits` is scratch.
   template <class Visit>
   void see(std::span<const rays::RayQuery> rays, std::vector<rays::RayHit>& hits, const Visit& visit) const {
     hits.resize(rays.size());
     source.intersect(0, rays, hits);
     parallel_for(rays.size(), 64, [&](std::size_t i) {
-      int surfel = no_surfel;
-      see_one(rays[i], hits[i], surfel);
-      visit(i, hits[i], surfel);
+      int patch = no_patch;
+      see_one(rays[i], hits[i], patch);
+      visit(i, hits[i], patch);
     });
   }
   /// The same of one ray, whose hit with part 0 is `hit`.
-  void see_one(rays::RayQuery ray, rays::RayHit& hit, int& surfel) const;
+  void see_one(rays::RayQuery ray, rays::RayHit& hit, int& patch) const;
   Resolved resolve(const MovingRay& unobstructed) const;
   /// What the way meets that some part has come into.
   std::optional<Resolved> resolve_part(rays::RayQuery way) const;

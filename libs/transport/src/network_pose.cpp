@@ -139,7 +139,7 @@ bool TransportNetwork::Data::pose_hits(Pace& pace) {
           const std::size_t i = first + k;
           const MovingRay& moving_ray = moving_hits[i];
           const Resolved found = resolve(moving_ray);
-          const SeenPatch patch{found.surfel, found.albedo};
+          const SeenPatch patch{found.patch, found.albedo};
           work.changed[i] = patch != seen[moving_ray.owner];
           set_hit(moving_ray.owner, found);
         });
@@ -154,12 +154,12 @@ bool TransportNetwork::Data::pose_hits(Pace& pace) {
 void TransportNetwork::Data::pose_mirrored() {
   parallel_for(moving_mirrored.size(), 256, [&](std::size_t i) {
     const Resolved found = resolve(moving_mirrored[i]);
-    seen_mirrored[moving_mirrored[i].owner].patch = {found.surfel, found.albedo};
+    seen_mirrored[moving_mirrored[i].owner].patch = {found.patch, found.albedo};
   });
 }
 
 void TransportNetwork::Data::set_hit(std::uint32_t owner, const Resolved& found) {
-  seen[owner] = {found.surfel, found.albedo};
+  seen[owner] = {found.patch, found.albedo};
   seen_distance[owner] = found.distance;
   if (!seen_emission.empty()) seen_emission[owner] = found.emission;
 }
@@ -182,8 +182,8 @@ bool TransportNetwork::Data::pose_links(Pace& pace) {
       const std::size_t i = first + k;
       const MovingRay& link = moving_links[i];
       work.counted[i] = sample_used[link.sample];
-      work.target[i] = work.counted[i] ? resolve(link).surfel : no_surfel;
-      work.lost[i] = work.counted[i] && work.target[i] == no_surfel && std::isfinite(link.ray.t_max);
+      work.target[i] = work.counted[i] ? resolve(link).patch : no_patch;
+      work.lost[i] = work.counted[i] && work.target[i] == no_patch && std::isfinite(link.ray.t_max);
     });
   });
 }
@@ -199,11 +199,11 @@ bool TransportNetwork::Data::pose_part_links(Pace& pace) {
       const int part = surfels.surfels()[static_count + i / rays].part;
       work.world[i - first] = transformed(part_links[i], poses[static_cast<std::size_t>(part)]);
     }
-    see(work.world, work.hits, [&](std::size_t k, const rays::RayHit& hit, int surfel) {
+    see(work.world, work.hits, [&](std::size_t k, const rays::RayHit& hit, int patch) {
       const std::size_t i = first + k, slot = moving_links.size() + i, s = static_count + i / rays;
-      work.target[slot] = surfel;
+      work.target[slot] = patch;
       work.counted[slot] = sample_used[s * m + (i % rays) % used_samples(s)];
-      work.lost[slot] = work.counted[slot] && surfel == no_surfel && !hit.escaped();
+      work.lost[slot] = work.counted[slot] && patch == no_patch && !hit.escaped();
     });
   });
 }
@@ -224,7 +224,7 @@ void TransportNetwork::Data::pose_rows() {
     const std::size_t first = work.links.size();
     const float weight = used ? 1 / static_cast<float>(used) : 0;
     for (std::size_t i = begin; i < end; ++i) {
-      if (work.counted[i] && work.target[i] != no_surfel)
+      if (work.counted[i] && work.target[i] != no_patch)
         work.links.push_back({static_cast<std::uint32_t>(work.target[i]), weight * share(i)});
     }
     work.ranges[s] = {first, work.links.size() - first};
@@ -240,7 +240,7 @@ void TransportNetwork::Data::pose_rows() {
 
   std::size_t same = 0;
   for (std::size_t i = 0; i < std::min(work.links.size(), moving.size()); ++i)
-    same += work.links[i].surfel == moving[i].surfel;
+    same += work.links[i].patch == moving[i].patch;
   work.report.hits_changed += std::max(work.links.size(), moving.size()) - same;
   work.report.rays_near_parts += work.target.size();
   set_moving();

@@ -57,8 +57,8 @@ rays::SurfacePoint TransportNetwork::Data::to_world(int part, const rays::Surfac
 
 rays::RayQuery TransportNetwork::Data::sample_segment(std::size_t sample) const {
   const std::size_t s = sample / sample_count();
-  return surfels.segment(local_samples[s * sample_count()], local_samples[sample],
-                         surfels.surfels()[s].level);
+  const Surfel& surfel = surfels.surfels()[s];
+  return surfels.segment(surfel.point, local_samples[sample], surfel.level);
 }
 
 bool TransportNetwork::Data::parts_block(const rays::RayQuery& segment) const {
@@ -100,7 +100,7 @@ int TransportNetwork::Data::find(int part, const rays::SurfacePoint& point) cons
                               1.05f * surfels.lift(surfels.level(part, point.position)) * point.normal, 1};
     std::uint8_t inside = 0;
     source.occluded(part, {&lift, 1}, {&inside, 1});
-    if (inside) return no_surfel;
+    if (inside) return no_patch;
   }
   const rays::SurfacePoint world = to_world(part, point);
   return find_nearest(part, point, [&](int s) {
@@ -123,22 +123,33 @@ bool TransportNetwork::Data::near_parts(const MovingRay& way) const {
   if (swept.size() < 2) return false;
   const auto before = way.way_before();
   if (meets_any(way.ray, swept) || (before && meets_any(*before, swept))) return true;
-  if (way.surfel == no_surfel) return false;
+  if (way.patch == no_patch) return false;
   const rays::SurfacePoint point{way.ray.origin + way.ray.t_max * way.ray.direction, way.normal};
-  const Surfel& met = surfels.surfels()[static_cast<std::size_t>(way.surfel)];
+  const Surfel& met = surfel_of(way.patch);
   return meets_any(surfels.segment(point, met.point, met.level), swept);
 }
 
 template <class Sees>
 int TransportNetwork::Data::find_nearest(int part, const rays::SurfacePoint& point, const Sees& sees) const {
   for (const int s : surfels.cell(part, point)) {
-    if (sees(s)) return s;
+    if (sees(s)) return patch_at(s, point.position);
   }
   std::array<int, 12> room;
   for (const int s : surfels.candidates(part, point, room)) {
-    if (sees(s)) return s;
+    if (sees(s)) return patch_at(s, point.position);
   }
-  return no_surfel;
+  return no_patch;
+}
+
+std::int32_t TransportNetwork::Data::patch_at(int surfel, const vec3& point) const {
+  const std::size_t m = sample_count(), first = static_cast<std::size_t>(surfel) * m;
+  std::size_t nearest = first;
+  float least = std::numeric_limits<float>::infinity();
+  for (std::size_t i = first; i < first + m && i < sample_exists.size() && sample_exists[i]; ++i) {
+    const vec3 away = local_samples[i].position - point;
+    if (const float distance2 = glm::dot(away, away); distance2 < least) least = distance2, nearest = i;
+  }
+  return static_cast<std::int32_t>(nearest);
 }
 
 bool TransportNetwork::Data::meet_part(rays::RayQuery& ray, rays::RayHit& hit, int& part) const {
@@ -174,22 +185,22 @@ Resolved TransportNetwork::Data::resolve(const MovingRay& unobstructed) const {
   }
   const rays::RayQuery& ray = unobstructed.ray;
   if (const auto met = resolve_part(ray)) return *met;
-  if (unobstructed.surfel == no_surfel)
-    return {no_surfel, unobstructed.albedo, unobstructed.emission, ray.t_max};
+  if (unobstructed.patch == no_patch)
+    return {no_patch, unobstructed.albedo, unobstructed.emission, ray.t_max};
   const rays::SurfacePoint point{ray.origin + ray.t_max * ray.direction, unobstructed.normal};
-  const Surfel& surfel = surfels.surfels()[static_cast<std::size_t>(unobstructed.surfel)];
+  const Surfel& surfel = surfel_of(unobstructed.patch);
   const bool hidden = parts_block(surfels.segment(point, surfel.point, surfel.level));
-  return {hidden ? find(0, point) : unobstructed.surfel, unobstructed.albedo, unobstructed.emission,
+  return {hidden ? find(0, point) : unobstructed.patch, unobstructed.albedo, unobstructed.emission,
           ray.t_max};
 }
 
-void TransportNetwork::Data::see_one(rays::RayQuery ray, rays::RayHit& hit, int& surfel) const {
+void TransportNetwork::Data::see_one(rays::RayQuery ray, rays::RayHit& hit, int& patch) const {
   ray.t_max = std::min(ray.t_max, hit.distance);
   int part = 0;
   if (!meet_part(ray, hit, part) && hit.escaped()) return;
   vec3 position = ray.origin + ray.t_max * ray.direction;
   if (part > 0) position = vec3(placed[static_cast<std::size_t>(part - 1)].to_part * vec4(position, 1));
-  surfel = find(part, {position, hit.normal});
+  patch = find(part, {position, hit.normal});
 }
 
 }  // namespace ssphh::transport

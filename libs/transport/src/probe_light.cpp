@@ -56,8 +56,8 @@ std::span<const MirroredPatch> mirrored_of(const TransportNetwork& network, std:
 }
 
 vec3 radiance_of(const SeenPatch& patch, std::span<const Irradiance4> irradiance) {
-  if (patch.surfel == no_surfel) return vec3(0);
-  return unpack_albedo(patch.albedo) * (1 / pi) * vec3(irradiance[static_cast<std::size_t>(patch.surfel)]);
+  if (patch.index == no_patch) return vec3(0);
+  return unpack_albedo(patch.albedo) * (1 / pi) * vec3(irradiance[static_cast<std::size_t>(patch.index)]);
 }
 
 void project_reflected(const TransportNetwork& network, const DirectionProjector& projector,

@@ -55,11 +55,12 @@ inline bool differs(const sh::RadianceSh& a, const sh::RadianceSh& b, float tole
   return false;
 }
 
-/// E of each surfel, direct and reflected.
+/// E of each patch, direct and reflected; `indirect` is that of surfels.
 inline void total(std::span<const Irradiance4> direct, std::span<const Irradiance4> indirect,
                   std::vector<Irradiance4>& sum) {
   sum.resize(direct.size());
-  for (std::size_t s = 0; s < sum.size(); ++s) sum[s] = direct[s] + indirect[s];
+  const std::size_t patches = indirect.empty() ? 1 : direct.size() / indirect.size();
+  for (std::size_t p = 0; p < sum.size(); ++p) sum[p] = direct[p] + indirect[p / patches];
 }
 inline std::vector<Irradiance4> total(std::span<const Irradiance4> direct,
                                       std::span<const Irradiance4> indirect) {
@@ -139,7 +140,7 @@ struct RelightSession::Data {
   bool unfinished = false;  ///< an update() threw: nothing that it touched can be relied on
 
   std::unique_ptr<rays::DirectLight> direct_light;
-  /// Of surfels, probes and records: what there is, and that of the pass under way.
+  /// Of patches, surfels, probes and records: what there is, and that of the pass under way.
   struct Light {
     std::vector<Irradiance4> direct, indirect;
     std::vector<sh::RadianceSh> reflected;
@@ -240,7 +241,7 @@ struct RelightSession::Data {
     return true;
   }
 
-  /// Direct irradiance at each surfel per group, unscaled.
+  /// Direct irradiance of each patch per group, unscaled.
   std::vector<std::vector<Irradiance4>> direct_by_group() const {
     std::vector<std::vector<Irradiance4>> result(state.group_scales.size());
     for (std::size_t g = 0; g < result.size(); ++g) {
@@ -293,7 +294,7 @@ struct RelightSession::Data {
     return result;
   }
 
-  /// E at every surfel, direct and reflected, under another direct light, from darkness.
+  /// E of every patch, direct and reflected, under another direct light, from darkness.
   std::vector<Irradiance4> lit_under(std::span<const Irradiance4> other, SolveReport& report) const {
     std::vector<Irradiance4> bounced;
     report = Solver().solve(network.links(), network.albedo(), other, chebyshev_bound(network.contraction()),

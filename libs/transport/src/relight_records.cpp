@@ -54,15 +54,14 @@ void RelightSession::Data::put_into_pose(float time, const Control& control) {
 PosedIrradiance RelightSession::Data::light_alike() const {
   PosedIrradiance light_now{direct_by_group(), {}, {}};
   const std::vector<vec3> scales = alike(light_now.direct);
-  std::vector<Irradiance4> sum(network.surfel_count(), Irradiance4(0));
+  std::vector<Irradiance4> sum(network.patch_count(), Irradiance4(0));
   for (std::size_t g = 0; g < scales.size(); ++g) {
     if (scales[g].x == 0) continue;
-    for (std::size_t s = 0; s < sum.size(); ++s) sum[s] += scales[g].x * light_now.direct[g][s];
+    for (std::size_t p = 0; p < sum.size(); ++p) sum[p] += scales[g].x * light_now.direct[g][p];
   }
-  SolveReport report;
-  light_now.lit = lit_under(sum, report);
-  light_now.reflected = light_now.lit;
-  for (std::size_t s = 0; s < sum.size(); ++s) light_now.reflected[s] -= sum[s];
+  Solver().solve(network.links(), network.albedo(), sum, chebyshev_bound(network.contraction()), params.solve,
+                 light_now.reflected);
+  light_now.lit = total(sum, light_now.reflected);
   return light_now;
 }
 

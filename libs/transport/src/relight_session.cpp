@@ -199,8 +199,11 @@ vec3 RelightSession::mirrored(const rays::SurfacePoint& at) const {
 const std::vector<Irradiance4>& RelightSession::surfel_irradiance() const {
   return data_->light.indirect;
 }
-const std::vector<Irradiance4>& RelightSession::surfel_direct() const {
+const std::vector<Irradiance4>& RelightSession::patch_direct() const {
   return data_->light.direct;
+}
+std::vector<Irradiance4> RelightSession::patch_irradiance() const {
+  return total(data_->light.direct, data_->light.indirect);
 }
 const TransportNetwork& RelightSession::network() const {
   return data_->network;

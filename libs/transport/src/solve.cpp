@@ -24,10 +24,10 @@ void gather(std::span<const Link> links, const Irradiance4* values, float4 (&sum
   for (; i + 4 <= links.size(); i += 4) {
     for (std::size_t k = 0; k < 4; ++k) {
       const Link& link = links[i + k];
-      sums[k] += link.weight * load(values[link.surfel]);
+      sums[k] += link.weight * load(values[link.patch]);
     }
   }
-  for (; i < links.size(); ++i) sums[0] += links[i].weight * load(values[links[i].surfel]);
+  for (; i < links.size(); ++i) sums[0] += links[i].weight * load(values[links[i].patch]);
 }
 
 Irradiance4 gather(const LinkRows::Row& row, const Irradiance4* values) {
@@ -47,7 +47,7 @@ std::size_t LinkRows::link_count() const {
 }
 
 void bounce_once(const LinkRows& links, std::span<const Irradiance4> radiosity, std::span<Irradiance4> out) {
-  require(radiosity.size() == links.rows.size() && out.size() == links.rows.size(), "bounce",
+  require(radiosity.size() == links.patch_count() && out.size() == links.rows.size(), "bounce",
           "sizes differ from the number of rows");
   parallel_for(links.rows.size(), rows_per_block,
                [&](std::size_t i) { out[i] = gather(links.rows[i], radiosity.data()); });
@@ -59,7 +59,8 @@ Contraction contraction(const LinkRows& links, std::span<const vec3> albedo, int
       y[i] = 0;
       for (const auto& part : {links.rows[i].fixed, links.rows[i].moving}) {
         for (const Link& link : part)
-          y[i] += double(link.weight) * double(max_component(albedo[link.surfel])) * x[link.surfel];
+          y[i] +=
+              double(link.weight) * double(max_component(albedo[link.patch])) * x[link.patch / links.patches];
       }
     }
   };
@@ -82,16 +83,17 @@ SolveReport Solver::solve(const LinkRows& links, std::span<const vec3> albedo,
 
 void Solver::begin(const LinkRows& links, std::span<const vec3> albedo, std::span<const Irradiance4> direct,
                    double contraction_bound, const SolveParams& params, std::vector<Irradiance4>& indirect) {
-  const std::size_t count = links.rows.size();
-  require(albedo.size() == count && direct.size() == count, "solver", "sizes differ from the number of rows");
+  const std::size_t count = links.rows.size(), patches = links.patch_count();
+  require(albedo.size() == patches && direct.size() == patches, "solver",
+          "sizes differ from the number of rows");
   problem_ = {&links, albedo, direct, contraction_bound, params, &indirect};
   report_ = {};
   report_.converged = count == 0;
   const std::size_t blocks = (count + rows_per_block - 1) / rows_per_block;
   indirect.resize(count, Irradiance4(0));
   previous_.resize(count);
-  radiosity_.resize(count);
-  next_radiosity_.resize(count);
+  radiosity_.resize(patches);
+  next_radiosity_.resize(patches);
   block_residual_.assign(blocks, 0);
   block_largest_.assign(blocks, 0);
 
@@ -107,11 +109,18 @@ void Solver::begin(const LinkRows& links, std::span<const vec3> albedo, std::spa
     for (std::size_t i = begin; i < end; ++i) {
       indirect[i] *= start_scale;
       previous_[i] = indirect[i];
-      radiosity_[i] = vec4(albedo[i], 0) * (direct[i] + indirect[i]);
+      set_radiosity(i, indirect[i], radiosity_);
       largest = std::max(largest, max_component(vec3(indirect[i])));
     }
     block_largest_[begin / rows_per_block] = largest;
   });
+}
+
+void Solver::set_radiosity(std::size_t row, const Irradiance4& indirect,
+                           std::vector<Irradiance4>& radiosity) const {
+  const std::size_t patches = problem_.links->patches;
+  for (std::size_t p = row * patches; p < (row + 1) * patches; ++p)
+    radiosity[p] = vec4(problem_.albedo[p], 0) * (problem_.direct[p] + indirect);
 }
 
 bool Solver::iterate() {
@@ -143,7 +152,7 @@ void Solver::bounce() {
       const Irradiance4 next = glm::max(w * (bounced - previous_[i]) + previous_[i], Irradiance4(0));
       previous_[i] = indirect[i];
       indirect[i] = next;
-      next_radiosity_[i] = vec4(p.albedo[i], 0) * (p.direct[i] + next);
+      set_radiosity(i, next, next_radiosity_);
     }
     block_residual_[begin / rows_per_block] = residual;
     block_largest_[begin / rows_per_block] = largest;

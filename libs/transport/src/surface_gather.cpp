@@ -33,8 +33,8 @@ SurfaceGather::SurfaceGather(const TransportNetwork& network, std::vector<rays::
     throw Error("surface records",
                 fmt::format("{} points, at most {} can be kept", points_.size(), most_records));
   for (const std::vector<Irradiance4>& group : direct)
-    require(group.size() == network.surfel_count(), "surface gather",
-            "there is not one irradiance for each surfel");
+    require(group.size() == network.patch_count(), "surface gather",
+            "there is not one irradiance for each patch");
   Rows rows(points_.size());
   trace(static_cast<std::uint32_t>(rays), direct, rows, control);
   first_.push_back(0);
@@ -69,7 +69,7 @@ void SurfaceGather::trace(std::uint32_t rays, std::span<const std::vector<Irradi
                           const Control& control) {
   const TransportNetwork::Data& d = *network_->data_;
   const HemisphereParts parts(rays);
-  const std::vector<float> flux = surfel_flux(d, direct);
+  const std::vector<float> flux = patch_flux(d, direct);
   const std::vector<std::uint32_t> order = spatial_order(points_);
   constexpr std::size_t together = 64;  // are guided by the same list of what is bright
   ProgressStage progress(control, "gathering at surfaces", points_.size(), "points");
@@ -112,35 +112,35 @@ SurfaceGather::Row SurfaceGather::trace_point(std::uint32_t p, const HemisphereP
   for (std::size_t i = 0; i < rays.size(); ++i) nearness += weights[i] / std::max(hits[i].distance, 1e-30f);
   row.openness = 1 / nearness;
   std::vector<Link> all;
-  const auto add = [&](const rays::RayQuery& ray, const vec3& normal, std::int32_t surfel,
+  const auto add = [&](const rays::RayQuery& ray, const vec3& normal, std::int32_t patch,
                        const std::optional<vec3>& from, float weight, const vec2& slope) {
-    const Link link{static_cast<std::uint32_t>(std::max(surfel, 0)), weight, slope};
-    if (d.near_parts({.ray = ray, .normal = normal, .surfel = surfel, .from = from})) {
-      row.moving.push_back({ray, normal, surfel, from, link, weight});
-    } else if (surfel != no_surfel) {
+    const Link link{static_cast<std::uint32_t>(std::max(patch, 0)), weight, slope};
+    if (d.near_parts({.ray = ray, .normal = normal, .patch = patch, .from = from})) {
+      row.moving.push_back({ray, normal, patch, from, link, weight});
+    } else if (patch != no_patch) {
       all.push_back(link);
     }
   };
   for (std::size_t i = 0; i < rays.size(); ++i) {
     rays[i].t_max = hits[i].distance;
-    std::int32_t surfel = no_surfel;
+    std::int32_t patch = no_patch;
     if (!hits[i].escaped())
-      surfel = d.find_static({rays[i].origin + hits[i].distance * rays[i].direction, hits[i].normal});
+      patch = d.find_static({rays[i].origin + hits[i].distance * rays[i].direction, hits[i].normal});
     // As of the surfels' links, glass takes the mean of its channels
     const float weight = weights[i] * (hits[i].through.x + hits[i].through.y + hits[i].through.z) / 3;
-    add(rays[i], hits[i].normal, surfel, {}, weight, weight * (slope_of(rays[i], point.normal) - mean));
+    add(rays[i], hits[i].normal, patch, {}, weight, weight * (slope_of(rays[i], point.normal) - mean));
   }
   for (const MirrorSight& sight : follow_mirrors(d.source, rays, hits)) {
-    const std::int32_t surfel =
+    const std::int32_t patch =
         d.find_static({sight.ray.origin + sight.ray.t_max * sight.ray.direction, sight.normal});
     const float weight = weights[sight.of] * (sight.share.x + sight.share.y + sight.share.z) / 3;
-    add(sight.ray, sight.normal, surfel, sight.from, weight,
+    add(sight.ray, sight.normal, patch, sight.from, weight,
         weight * (slope_of(rays[sight.of], point.normal) - mean));
   }
-  // One link for each surfel; the stable order makes sums the same on every machine.
-  std::ranges::stable_sort(all, {}, &Link::surfel);
+  // One link for each patch; the stable order makes sums the same on every machine.
+  std::ranges::stable_sort(all, {}, &Link::patch);
   for (const Link& link : all) {
-    if (!row.links.empty() && row.links.back().surfel == link.surfel) {
+    if (!row.links.empty() && row.links.back().patch == link.patch) {
       row.links.back().weight += link.weight;
       row.links.back().slope += link.slope;
     } else {
@@ -159,17 +159,16 @@ void SurfaceGather::update_pose(std::size_t begin, std::size_t end) {
   const TransportNetwork::Data& d = *network_->data_;
   parallel_for(end - begin, 256, [&](std::size_t i) {
     Moving& m = moving_[begin + i];
-    const Resolved found = d.resolve({.ray = m.ray, .normal = m.normal, .surfel = m.surfel, .from = m.from});
-    m.link.weight = found.surfel == no_surfel ? 0 : m.weight;
-    m.link.surfel = static_cast<std::uint32_t>(std::max(found.surfel, 0));
+    const Resolved found = d.resolve({.ray = m.ray, .normal = m.normal, .patch = m.patch, .from = m.from});
+    m.link.weight = found.patch == no_patch ? 0 : m.weight;
+    m.link.patch = static_cast<std::uint32_t>(std::max(found.patch, 0));
   });
 }
 
 void SurfaceGather::light(std::span<const Irradiance4> irradiance,
                           std::vector<probes::RecordLight>& out) const {
   const std::vector<vec3>& albedo = network_->albedo();
-  require(irradiance.size() == albedo.size(), "surface gather",
-          "there is not one irradiance for each surfel");
+  require(irradiance.size() == albedo.size(), "surface gather", "there is not one irradiance for each patch");
   std::vector<vec4> radiosity(albedo.size());
   for (std::size_t s = 0; s < albedo.size(); ++s) radiosity[s] = vec4(albedo[s], 0) * irradiance[s];
   out.resize(points_.size());
@@ -178,14 +177,14 @@ void SurfaceGather::light(std::span<const Irradiance4> irradiance,
 
 void SurfaceGather::light(std::span<const vec4> radiosity, std::size_t begin, std::size_t end,
                           std::span<probes::RecordLight> out) const {
-  require(radiosity.size() == network_->surfel_count() && out.size() == points_.size() && begin <= end &&
+  require(radiosity.size() == network_->patch_count() && out.size() == points_.size() && begin <= end &&
               end <= points_.size(),
-          "surface gather", "there is not one radiosity for each surfel, or one light for each point");
+          "surface gather", "there is not one radiosity for each patch, or one light for each point");
   parallel_for(end - begin, 64, [&](std::size_t first, std::size_t last) {
     for (std::size_t p = begin + first; p < begin + last; ++p) {
       vec4 level(0), x(0), y(0);
       const auto add = [&](const Link& link) {
-        const vec4 b = radiosity[link.surfel];
+        const vec4 b = radiosity[link.patch];
         level += link.weight * b;
         x += link.slope.x * b;
         y += link.slope.y * b;

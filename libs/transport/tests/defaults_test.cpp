@@ -45,8 +45,9 @@ TEST(RelightReport, TotalIsOfAllFourStages) {
 TEST(TransportValues, OfTransport) {
   EXPECT_EQ(EmissionEntry(), (EmissionEntry{vec3(0), -1}));
   EXPECT_EQ(no_surfel, -1);
+  EXPECT_EQ(no_patch, -1);
   const Sight sight;
-  EXPECT_EQ(sight.surfel, no_surfel);
+  EXPECT_EQ(sight.patch, no_patch);
   EXPECT_EQ(sight.albedo, vec3(0));
   EXPECT_EQ(sight.emission, vec3(0));
   EXPECT_EQ(sight.group, -1);
@@ -57,13 +58,13 @@ TEST(TransportValues, OfTransport) {
   EXPECT_EQ(Surfel().part, 0);
   const MovingRay ray;
   EXPECT_EQ(ray.normal, vec3(0));
-  EXPECT_EQ(ray.surfel, no_surfel);
+  EXPECT_EQ(ray.patch, no_patch);
   EXPECT_EQ(ray.albedo, 0u);
   EXPECT_EQ(ray.owner, 0u);
   EXPECT_EQ(ray.sample, 0u);
   EXPECT_EQ(ray.emission, 0u);
   const Resolved resolved;
-  EXPECT_EQ(resolved.surfel, no_surfel);
+  EXPECT_EQ(resolved.patch, no_patch);
   EXPECT_EQ(resolved.albedo, 0u);
   EXPECT_EQ(resolved.emission, 0u);
   EXPECT_EQ(resolved.distance, 0);

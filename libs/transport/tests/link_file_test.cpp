@@ -75,9 +75,10 @@ TEST(LinkFile, RefusesWhatIsBroken) {
     refused({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size)}, "too short");
   refused({good.begin(), good.end() - 8}, "do not make");
   refused(changed(0, 'x'), "no link file");
-  refused(changed(8, std::uint32_t{2}), "format version 2");
+  refused(changed(8, std::uint32_t{3}), "format version 3");
+  refused(changed(12, std::uint32_t{0}), "no patch");
   refused(changed(16, std::numeric_limits<std::uint64_t>::max()), "do not make");
-  refused(changed(32, std::uint32_t{50}), "links to surfel 50");
+  refused(changed(32, std::uint32_t{50}), "links to patch 50");
   refused(changed(36, std::numeric_limits<float>::quiet_NaN()), "weight nan");
   refused(changed(good.size() - 16, ~std::uint64_t{0}), "outside of the links");
   EXPECT_THROW(MappedLinks(dir.path() / "absent"), Error);

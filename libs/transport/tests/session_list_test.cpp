@@ -74,12 +74,12 @@ class SessionList : public testing::Test {
     list_.means("moving links", network.links().rows,
                 [](const LinkRows::Row& row) { return sums(row.moving); });
     list_.means("seen", network.seen(), [](const SeenPatch& s) {
-      return vec3(static_cast<float>(s.surfel), unpack_albedo(s.albedo).x, unpack_albedo(s.albedo).z);
+      return vec3(static_cast<float>(s.index), unpack_albedo(s.albedo).x, unpack_albedo(s.albedo).z);
     });
     list_.means("distances", network.seen_distance(), [](float d) { return vec3(d); });
     list_.means("emission", network.seen_emission(), [](std::uint16_t e) { return vec3(e); });
     list_.means("mixed", network.mixed_hits(), [](const MixedHit& m) {
-      return vec3(static_cast<float>(m.owner), static_cast<float>(m.other.surfel), m.share);
+      return vec3(static_cast<float>(m.owner), static_cast<float>(m.other.index), m.share);
     });
     list_.line("palette, lost", static_cast<double>(network.palette().size()),
                static_cast<double>(network.lost_links()));
@@ -87,7 +87,7 @@ class SessionList : public testing::Test {
   }
   void list_light(const RelightSession& session) {
     const auto colour = [](const Irradiance4& e) { return vec3(e); };
-    list_.means("direct", session.surfel_direct(), colour);
+    list_.means("direct", session.patch_direct(), colour);
     list_.means("indirect", session.surfel_irradiance(), colour);
     for (const sh::RadianceSh& f : session.reflected()) list_.function("reflected", f);
     for (int i = 0; i < static_cast<int>(places_.size()); ++i) list_.function("emitted", session.emitted(i));
@@ -126,8 +126,8 @@ class SessionList : public testing::Test {
   static vec3 sums(std::span<const Link> links) {
     vec3 sum(0);
     for (const Link& link : links)
-      sum += vec3(link.weight, link.weight * static_cast<float>(link.surfel % 16),
-                  static_cast<float>(link.surfel % 7));
+      sum += vec3(link.weight, link.weight * static_cast<float>(link.patch % 16),
+                  static_cast<float>(link.patch % 7));
     return sum;
   }
 };
@@ -174,7 +174,7 @@ TEST_F(SessionList, OfRecordsThatWereTakenOverFollowTheBallAsBefore) {
       second(points.begin() + static_cast<long>(half), points.end());
   SurfaceGather alone(network, second, 64), joined(network, first, 64);
   joined.append(SurfaceGather(network, second, 64));
-  std::vector<Irradiance4> lit(network.surfel_count());
+  std::vector<Irradiance4> lit(network.patch_count());
   for (std::size_t s = 0; s < lit.size(); ++s) lit[s] = Irradiance4(0.5f + static_cast<float>(s % 7));
   std::vector<probes::RecordLight> before, of_joined, of_alone;
   alone.light(lit, before);

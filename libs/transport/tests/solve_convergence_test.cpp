@@ -55,6 +55,28 @@ TEST(SolveConvergence, WaitsForASlowRowWhereverItStandsAndWhicheverChannelIsSlow
   }
 }
 
+TEST(SolveConvergence, PatchesOfARowDifferInDirectLightAndAlbedoAlone) {
+  // E = w0 ρ0 (D0 + E) + w1 ρ1 (D1 + E), and row 1 sees one patch of row 0.
+  const std::vector<Link> own = {{0, 0.5f}, {1, 0.25f}}, other = {{1, 0.5f}};
+  LinkRows rows;
+  rows.patches = 2;
+  rows.rows = {{own, {}}, {other, {}}};
+  const std::vector<vec3> albedo = {vec3(0.2f, 0.4f, 0.6f), vec3(0.8f, 0.5f, 0.1f), vec3(0), vec3(0)};
+  const std::vector<Irradiance4> direct = {{1, 2, 3, 0}, {7, 5, 4, 0}, {9, 9, 9, 0}, {9, 9, 9, 0}};
+  std::vector<Irradiance4> indirect;
+  EXPECT_TRUE(Solver().solve(rows, albedo, direct, 0.6, {1e-6f, 300}, indirect).converged);
+  ASSERT_EQ(indirect.size(), 2u);
+  for (int c = 0; c < 3; ++c) {
+    const float a = 0.5f * albedo[0][c], b = 0.25f * albedo[1][c];
+    const float e = (a * direct[0][c] + b * direct[1][c]) / (1 - a - b);
+    EXPECT_NEAR(indirect[0][c], e, 1e-5f * e);
+    EXPECT_NEAR(indirect[1][c], 0.5f * albedo[1][c] * (direct[1][c] + e), 1e-4f);
+  }
+  const Contraction bounds = contraction(rows, albedo);
+  const double most = 0.5 * 0.6 + 0.25 * 0.8;
+  EXPECT_NEAR(bounds.upper, most, 1e-6);
+}
+
 TEST(SolveConvergence, DimRowsAreJudgedByAThousandthOfTheBrightest) {
   // Row 0 is done at once and gives the largest E of the last iteration; row 300 is slow and dim. Plain
   // iteration changes it by d ρⁿ in iteration n, to E = d ρ (1 − ρⁿ) / (1 − ρ).
@@ -147,7 +169,7 @@ TEST(SolveConvergence, OneBounceIsTheMatrixTimesTheRadiosity) {
     glm::dvec3 expected(0);
     for (std::size_t k = 0; k < i; ++k) {
       const Link& link = links[i * count + k];
-      expected += double(link.weight) * glm::dvec3(radiosity[link.surfel]);
+      expected += double(link.weight) * glm::dvec3(radiosity[link.patch]);
     }
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(double(out[i][c]), expected[c], 1e-5 * expected[c]) << i;
   }

@@ -114,7 +114,7 @@ TEST(SeenPatches, ReflectTheirSurfelsIrradiance) {
   const std::vector<Irradiance4> light{{1, 2, 3, 0}, {pi, 2 * pi, 3 * pi, 0}};
   const vec3 seen = radiance_of({1, pack_albedo({1, 0.5f, 0.25f})}, light);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], vec3(1, 1, 0.75f)[c], 3e-3f) << "albedo is kept to 5e-4";
-  EXPECT_EQ(radiance_of({no_surfel, pack_albedo(vec3(1))}, light), vec3(0));
+  EXPECT_EQ(radiance_of({no_patch, pack_albedo(vec3(1))}, light), vec3(0));
 }
 
 TEST(RelightDifference, IsRelativeToTheLargerMeanInAnyCoefficientAndChannel) {

@@ -16,7 +16,7 @@ sketch::Disc disc_of(const transport::TransportNetwork& network, std::size_t sur
   return {.center = vec3(pose * vec4(s.point.position, 1)),
           .normal = glm::normalize(mat3(pose) * s.point.normal),
           .radius = share_of_voxel * network.surfels().size(s.level),
-          .color = network.albedo()[surfel]};
+          .color = s.albedo};
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ sketch::Sketch links_drawing(const transport::TransportNetwork& network) {
     for (const auto& links : {rows[i].fixed, rows[i].moving}) {
       for (const transport::Link& link : links) {
         const float share = link.weight / largest;
-        marks.lines.push_back({from.center, disc_of(network, link.surfel).center,
+        marks.lines.push_back({from.center, disc_of(network, network.surfel_of(link.patch)).center,
                                glm::mix(vec3(0.03f, 0.15f, 0.9f), vec3(1, 1, 0.8f), share), 0.8f + share});
       }
     }

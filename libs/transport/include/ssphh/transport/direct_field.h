@@ -1,6 +1,6 @@
 #pragma once
-/// Direct irradiance at the surfels, per light group, kept as long as nothing changes it: straight from
-/// emitters, and what panes mirror of their light.
+/// Direct irradiance of patches of surfels, per light group, kept as long as nothing changes it: straight
+/// from emitters, and what panes mirror of their light.
 
 #include <span>
 #include <vector>
@@ -26,8 +26,8 @@ class DirectField {
   std::size_t choose_moved(int group, const rays::DirectLight& light, std::span<const scene::Bounds> moved);
   void find(int group, const rays::DirectLight& light, std::size_t begin, std::size_t end);
 
-  /// Σ_g scale_g · E_g at each surfel: the mean over its samples in use. `extra` is added at each sample when
-  /// not empty.
+  /// Σ_g scale_g · E_g of each patch: at its sample; where that is not in use, the mean of the surfel's other
+  /// ones. `extra` is added at each sample when not empty.
   void sum(std::span<const vec3> group_scales, std::span<const vec3> extra,
            std::vector<Irradiance4>& out) const;
 

@@ -24,7 +24,7 @@ class GatherLight final : public rays::IndirectLight {
   const RelightSession* session_;
   const TransportNetwork* network_;
   std::uint32_t rays_;
-  std::vector<vec3> radiosity_;  ///< of each surfel
+  std::vector<vec3> radiosity_;  ///< of each patch
   std::shared_ptr<const rays::IndirectLight> glossy_;
 };
 

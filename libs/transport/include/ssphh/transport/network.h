@@ -15,9 +15,9 @@
 
 namespace ssphh::transport {
 
-/// What a probe ray sees: a surfel, or no_surfel, and the albedo of the very point.
+/// What a probe ray sees: a patch, or no_patch, and the albedo of the very point.
 struct SeenPatch {
-  std::int32_t surfel;
+  std::int32_t index;
   std::uint32_t albedo;  ///< pack_albedo
 
   friend bool operator==(const SeenPatch&, const SeenPatch&) = default;
@@ -32,7 +32,7 @@ struct MirroredPatch {
 
 /// What a ray meets that is no probe's.
 struct Sight {
-  std::int32_t surfel = no_surfel;  ///< of the surface; no_surfel where nothing is met or known
+  std::int32_t patch = no_patch;  ///< of the surface; no_patch where nothing is met or known
   vec3 albedo{0};
   vec3 emission{0};  ///< radiance toward the ray's origin
   int group = -1;    ///< of the emission
@@ -82,12 +82,17 @@ class TransportNetwork {
   const TransportParams& params() const;
   const ProbeGBuffer& gbuffer() const;
   const SurfelSet& surfels() const;
-  /// Of each surfel.
+  std::size_t surfel_count() const { return surfels().count(); }
+  /// Each surfel's samples part it into patches, [s · params().samples, …): what is nearest to a sample has
+  /// its direct light and the albedo around it. Light that was reflected is the surfel's, the same in all.
+  std::size_t patch_count() const { return albedo().size(); }
+  std::size_t surfel_of(std::size_t patch) const {
+    return patch / static_cast<std::size_t>(params().samples);
+  }
+  /// Of each patch.
   const std::vector<vec3>& albedo() const;
-  std::size_t surfel_count() const { return albedo().size(); }
 
-  /// Direct light of surfel s is the mean over those of its samples [s · params().samples, …) that are in
-  /// use. World space, as posed.
+  /// Of each patch, where its direct light is found. World space, as posed.
   const std::vector<rays::SurfacePoint>& samples() const;
   const std::vector<std::uint8_t>& sample_used() const;
   /// False for the padding of a surfel with fewer samples: never in use.
@@ -111,16 +116,16 @@ class TransportNetwork {
   const std::vector<mat4>& poses() const;
   scene::Bounds part_world_bounds(int part) const;
 
-  /// What cosine rays from each point meet, as posed: `rays` per point, no_surfel for those that escape. Ray
-  /// directions depend on the point's index alone.
+  /// Patches that cosine rays from each point meet, as posed: `rays` per point, no_patch for those that
+  /// escape. Ray directions depend on the point's index alone.
   std::vector<std::int32_t> gather(std::span<const rays::SurfacePoint> points, int rays,
                                    const Control& control = {}) const;
 
   /// What world-space rays meet, as posed.
   std::vector<Sight> look(std::span<const rays::RayQuery> rays) const;
 
-  /// The surfel that stands for a surface point of a part (in the part's frame): the nearest one seen from
-  /// it.
+  /// The patch that stands for a surface point of a part (in the part's frame): of the nearest surfel seen
+  /// from it.
   int find(int part, const rays::SurfacePoint& point) const;
 
   /// Links that ended where no surfel is: their light is lost. A few are normal, where the underside of a

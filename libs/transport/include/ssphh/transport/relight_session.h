@@ -126,7 +126,7 @@ class RelightSession {
   /// Emitters that probe i sees directly; S_full = reflected + emitted. Found when asked for, by at
   /// most 16,384 rays: none where nothing can be met that emits.
   sh::RadianceSh emitted(int probe) const;
-  /// Direct irradiance at each surfel per group, unscaled.
+  /// Direct irradiance of each patch per group, unscaled.
   std::vector<std::vector<Irradiance4>> direct_by_group() const;
   /// Per group, unscaled: the light as a bake stores it. Solves anew for each group; `slowest` tells
   /// of the one that took most iterations, converged if all did.
@@ -168,8 +168,10 @@ class RelightSession {
 
   /// Indirect irradiance at each surfel; with bounce empty unless records are kept.
   const std::vector<Irradiance4>& surfel_irradiance() const;
-  /// Straight from emitters, and mirrored by panes.
-  const std::vector<Irradiance4>& surfel_direct() const;
+  /// Of each patch: straight from emitters, and mirrored by panes.
+  const std::vector<Irradiance4>& patch_direct() const;
+  /// E of each patch, direct and indirect.
+  std::vector<Irradiance4> patch_irradiance() const;
   const TransportNetwork& network() const;
 
  private:

@@ -13,9 +13,9 @@
 
 namespace ssphh::transport {
 
-/// Share `weight` of what a surfel's cosine rays meet is surfel `surfel`.
+/// Share `weight` of what a surfel's cosine rays meet is patch `patch`.
 struct Link {
-  std::uint32_t surfel;
+  std::uint32_t patch;
   float weight;
 };
 
@@ -26,12 +26,15 @@ struct LinkRows {
     std::span<const Link> fixed, moving;
   };
   std::vector<Row> rows;
+  /// Patches that a row has, of its direct light and albedo: those of row i are [i · patches, …).
+  std::size_t patches = 1;
 
+  std::size_t patch_count() const { return patches * rows.size(); }
   std::size_t link_count() const;
 };
 
-/// Bounds of the spectral radius of F ρ, ρ the largest channel's albedo: the factor by which one bounce
-/// shrinks light.
+/// Bounds of the spectral radius of F ρ, ρ the largest channel's albedo of each patch: the factor by which
+/// one bounce shrinks light.
 Contraction contraction(const LinkRows& links, std::span<const vec3> albedo, int steps = 16);
 
 /// The bound to accelerate with: the upper one, but at most 0.98. Where a white pocket holds its light for
@@ -39,15 +42,15 @@ Contraction contraction(const LinkRows& links, std::span<const vec3> albedo, int
 /// left to find; with this one the pocket still converges, only more slowly than the rest.
 double chebyshev_bound(const Contraction& contraction);
 
-/// out_i = Σ_j F_ij ρ_j (direct_j + indirect_j): one bounce. `radiosity` is scratch. All sizes are the row
-/// count.
+/// out_i = Σ_p F_ip radiosity_p: one bounce. Sizes are those of patches and rows.
 void bounce_once(const LinkRows& links, std::span<const Irradiance4> radiosity, std::span<Irradiance4> out);
 
-/// Solves for `indirect`, which holds the first guess (zero, or the last frame's answer, which is then scaled
-/// as the direct light's sum has changed since this solver's last call) on entry. Chebyshev's semi-iteration
-/// for eigenvalues within ±`contraction_bound` (Golub & Varga 1961; Saad, Iterative Methods, §12.3); plain
-/// iteration when the bound is 1 or more. Rows are computed independently of each other: the same bits for
-/// any number of threads. Allocates nothing from the second call of a size on.
+/// Solves for `indirect`, of each row, under direct light of each patch. It holds the first guess (zero, or
+/// the last frame's answer, which is then scaled as the direct light's sum has changed since this solver's
+/// last call) on entry. Chebyshev's semi-iteration for eigenvalues within ±`contraction_bound` (Golub & Varga
+/// 1961; Saad, Iterative Methods, §12.3); plain iteration when the bound is 1 or more. Rows are computed
+/// independently of each other: the same bits for any number of threads. Allocates nothing from the second
+/// call of a size on.
 class Solver {
  public:
   SolveReport solve(const LinkRows& links, std::span<const vec3> albedo, std::span<const Irradiance4> direct,
@@ -73,6 +76,8 @@ class Solver {
   };
   bool finished() const { return report_.converged || report_.iterations >= problem_.params.max_iterations; }
   void bounce();
+  /// Of a row's patches.
+  void set_radiosity(std::size_t row, const Irradiance4& indirect, std::vector<Irradiance4>& radiosity) const;
 
   Problem problem_;
   SolveReport report_;

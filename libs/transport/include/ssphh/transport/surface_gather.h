@@ -20,7 +20,7 @@ struct BrightPoint;
 class SurfaceGather {
  public:
   /// Traces the rays: some into every part of a point's hemisphere, more to where surfels may be seen that
-  /// `direct`, [light group][surfel], makes bright; none: evenly. It decides on noise alone: any light can be
+  /// `direct`, [light group][patch], makes bright; none: evenly. It decides on noise alone: any light can be
   /// asked for later. The points stand still in every pose; the network must outlive the gather. Throws Error
   /// for more than 65536 points, for a number of rays out of range, and Cancelled. Takes up to 16 bytes a
   /// ray, 96 where moving parts come near it.
@@ -44,19 +44,19 @@ class SurfaceGather {
   /// How far surfaces are from each point: the harmonic mean over its cosine rays [m], infinite where all
   /// escape (Ward 1988: the light of a point holds for a share of it).
   const std::vector<float>& openness() const { return openness_; }
-  /// Light of each point, when each surfel gets `irradiance`, direct and reflected.
+  /// Light of each point, when each patch gets `irradiance`, direct and reflected.
   void light(std::span<const Irradiance4> irradiance, std::vector<probes::RecordLight>& out) const;
-  /// The same of the points [begin, end), by the radiosity of each surfel, albedo times irradiance; `out` has
+  /// The same of the points [begin, end), by the radiosity of each patch, albedo times irradiance; `out` has
   /// room for each of the points.
   void light(std::span<const vec4> radiosity, std::size_t begin, std::size_t end,
              std::span<probes::RecordLight> out) const;
   std::size_t bytes() const;
 
  private:
-  /// Rays of one point that meet one surfel: their share, and the sum of their slopes against the normal
+  /// Rays of one point that meet one patch: their share, and the sum of their slopes against the normal
   /// along both tangents.
   struct Link {
-    std::uint32_t surfel;
+    std::uint32_t patch;
     float weight;
     vec2 slope;
   };
@@ -64,7 +64,7 @@ class SurfaceGather {
   struct Moving {
     rays::RayQuery ray;  ///< t_max: distance of what stands still
     vec3 normal;         ///< of that
-    std::int32_t surfel;
+    std::int32_t patch;
     std::optional<vec3> from;  ///< of what a pane mirrors: the way to ray.origin starts here
     Link link;                 ///< as posed; of no weight where the ray escapes
     float weight;              ///< where it does not
@@ -93,8 +93,8 @@ class SurfaceGather {
 using AddRecordLight =
     std::function<void(std::span<const rays::SurfacePoint>, std::vector<probes::RecordLight>&)>;
 
-/// Light of the network in a pose: direct irradiance [light group][surfel], as of SurfaceGather, and of each
-/// surfel by all light and by what was reflected, by which points are judged.
+/// Light of the network in a pose: direct irradiance [light group][patch], as of SurfaceGather, that of each
+/// patch by all light, and of each surfel by what was reflected, by which points are judged.
 struct PosedIrradiance {
   std::vector<std::vector<Irradiance4>> direct;
   std::vector<Irradiance4> lit, reflected;

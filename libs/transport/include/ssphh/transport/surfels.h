@@ -28,6 +28,8 @@ struct Surfel {
 };
 
 inline constexpr int no_surfel = -1;
+/// Likewise, of what rays meet: a patch of a surfel (network.h).
+inline constexpr int no_patch = -1;
 
 class SurfelSet {
  public:
@@ -58,9 +60,12 @@ class SurfelSet {
   void update_albedo();
 
   /// At most `count` members of a surfel that lie far apart, of those first added.
-  std::vector<rays::SurfacePoint> spread_members(int surfel, int count) const;
+  std::vector<ClusterPoint> spread_members(int surfel, int count) const;
+  /// At most `count` places of a surfel, spread evenly over the area that its voxel cuts out of the surface
+  /// as seen along the voxel's main direction.
+  std::vector<ClusterPoint> spread_places(int surfel, int count) const;
   /// At most `count` of the members kept, in the order they were added.
-  std::span<const rays::SurfacePoint> members(int surfel) const {
+  std::span<const ClusterPoint> members(int surfel) const {
     return members_[static_cast<std::size_t>(surfel)];
   }
 
@@ -100,7 +105,7 @@ class SurfelSet {
   std::vector<Surfel> surfels_;
   std::vector<glm::dvec3> albedo_sum_;
   std::vector<double> member_count_;
-  std::vector<std::vector<rays::SurfacePoint>> members_;
+  std::vector<std::vector<ClusterPoint>> members_;
   std::unordered_map<Key, std::vector<int>, KeyHash> cells_;
 };
 

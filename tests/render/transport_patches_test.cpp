@@ -1,0 +1,81 @@
+/// Light and colour that differ within a surfel: its patches tell them apart, whatever its size.
+
+#include <gtest/gtest.h>
+
+#include <ssphh/trace/path_tracer.h>
+#include <ssphh/transport/gather_light.h>
+
+#include "transport_fixtures.h"
+
+namespace ssphh::test {
+namespace {
+
+/// Nothing is glossy here.
+class NoGloss final : public rays::IndirectLight {
+ public:
+  vec3 irradiance(const rays::SurfacePoint&) const override { return vec3(0); }
+  vec3 glossy(const rays::SurfacePoint&, const vec3&, float) const override { return vec3(0); }
+};
+
+/// What the points get of light that was reflected, by surfels of `size` and by path tracing.
+struct Beside {
+  vec3 ours{0}, truth{0};
+
+  Beside(const scene::Scene& scene, std::span<const rays::SurfacePoint> points, float size) {
+    const trace::TransportScene source(scene);
+    transport::RelightParams params;
+    params.transport = {.directions = 1024, .surfel_size = size, .link_rays = 256};
+    LitSession session(source, places_of(scene), params);
+    session.update();
+    const transport::GatherLight light(session, 8192, std::make_shared<const NoGloss>());
+    for (const rays::SurfacePoint& point : points) ours += light.irradiance(point);
+    for (const rays::IrradianceEstimate& e :
+         trace::PathTracer(scene).surface_irradiance(points, {.max_depth = 24, .passes = 1, .spp = 8192}, {}))
+      truth += e.indirect;
+  }
+};
+
+std::vector<rays::SurfacePoint> on_floor(float y) {
+  std::vector<rays::SurfacePoint> points;
+  for (const float x : {-0.7f, -0.2f, 0.3f, 0.8f}) {
+    for (const float z : {-0.6f, 0.1f, 0.7f}) points.push_back({{x, y, z}, {0, 1, 0}});
+  }
+  return points;
+}
+
+TEST(TransportPatches, ALampCloseUnderTheCeilingLightsTheRoomAsBrightAsItDoes) {
+  // Nine tenths of what the lamp sends up falls on a disc of 0.24 m, a fifth of a surfel's area.
+  double sum = 0, truth = 0;
+  for (const vec3& place : {vec3(0.13f, 0.92f, 0.21f), vec3(-0.35f, 0.92f, 0.4f), vec3(0.52f, 0.92f, -0.3f),
+                            vec3(-0.1f, 0.92f, -0.57f)}) {
+    scene::Scene scene = coloured_room(vec3(0));
+    scene::Light lamp;
+    lamp.kind = scene::LightKind::point;
+    lamp.intensity = 10;
+    scene.nodes.emplace_back().local.translation = place;
+    lamp.node = static_cast<int>(scene.nodes.size()) - 1;
+    scene.lights.push_back(lamp);
+    scene::validate(scene);
+    const Beside beside(scene, on_floor(-1), 0.5f);
+    sum += double(luminance(beside.ours)), truth += double(luminance(beside.truth));
+  }
+  EXPECT_NEAR(sum / truth, 1, 0.04);
+}
+
+TEST(TransportPatches, AWallOfTwoColoursGlowsInEachWhereItIs) {
+  // The floor's halves meet within a row of surfels; a shelf close above each half sees little else.
+  scene::Scene scene = coloured_room(vec3(1));
+  add_body(scene, "half", scene::make_quad({-0.13f, -0.999f, 1}, {1.13f, 0, 0}, {0, 0, -2}),
+           {0.9f, 0.05f, 0.05f});
+  scene::validate(scene);
+  for (const float x : {-0.23f, -0.03f}) {
+    std::vector<rays::SurfacePoint> points;
+    for (const float z : {-0.6f, -0.1f, 0.4f, 0.7f}) points.push_back({{x, -0.93f, z}, {0, -1, 0}});
+    const Beside beside(scene, points, 0.4f);
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(beside.ours[c] / beside.truth[c], 1, 0.1f) << "channel " << c << " at x = " << x;
+  }
+}
+
+}  // namespace
+}  // namespace ssphh::test
