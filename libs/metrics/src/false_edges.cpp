@@ -153,13 +153,15 @@ class Windows {
       const Opponent near = near_step(x, y, o);
       bool worth = false;
       for (std::size_t c = 0; c < 3; ++c) worth |= std::abs(near[c]) >= sharp * threshold(c);
-      if (!worth || !has_room(x, y, o)) continue;
+      if (!worth || !has_room(x, y, o) || std::abs(albedo_across(x, y, o)) > albedo_step) continue;
+      const std::array<bool, 3> steepest = find_steepest(x, y, o, near);
+      if (std::ranges::find(steepest, true) == steepest.end()) continue;  // a fit is what costs
       const std::optional<Step> own = fit(x, y, o, 1);
       if (!own) continue;
       for (std::size_t c = 0; c < 3; ++c) {
         const double test = own->test[c];
-        if (std::abs(test) <= threshold(c) || (near[c] - 2 * own->slope[c]) / test < sharp) continue;
-        if (!is_steepest(x, y, o, c, near[c]) || std::abs(albedo_across(x, y, o)) > albedo_step) continue;
+        if (!steepest[c] || std::abs(test) <= threshold(c) || (near[c] - 2 * own->slope[c]) / test < sharp)
+          continue;
         if (const std::optional<double> truth = true_step(x, y, o, c, *own))
           largest = std::max(largest, std::abs(test - *truth));
       }
@@ -210,25 +212,29 @@ class Windows {
     return {};
   }
 
-  /// body(pixel, i, j) for the window's pixels of the pair's surface, i from 1 − across to across over the
-  /// edge, j from −along to along.
+  /// body(pixel, i) for pixels of the pair's surface in row j of a window, i from `first` to `last` over the
+  /// edge.
+  template <class Body>
+  void visit_row(int x, int y, const Orientation& o, int j, int first, int last, const Body& body) const {
+    const std::uint32_t surface = at(x, y)->surface;
+    const int shift = static_cast<int>(std::lround(o.lean * j));
+    for (int i = first; i <= last; ++i) {
+      const Pixel* pixel = o.turned ? at(x + j, y + i + shift) : at(x + i + shift, y + j);
+      if (pixel && pixel->surface == surface) body(*pixel, i);
+    }
+  }
+
+  /// The same for the rows −along to along of a window, each from 1 − across to across.
   template <class Body>
   void visit(int x, int y, const Orientation& o, int across, int along, const Body& body) const {
-    const std::uint32_t surface = at(x, y)->surface;
-    for (int j = -along; j <= along; ++j) {
-      const int shift = static_cast<int>(std::lround(o.lean * j));
-      for (int i = 1 - across; i <= across; ++i) {
-        const Pixel* pixel = o.turned ? at(x + j, y + i + shift) : at(x + i + shift, y + j);
-        if (pixel && pixel->surface == surface) body(*pixel, i, j);
-      }
-    }
+    for (int j = -along; j <= along; ++j) visit_row(x, y, o, j, 1 - across, across, body);
   }
 
   bool has_room(int x, int y, const Orientation& o) const {
     const Pixel *first = at(x, y), *second = o.turned ? at(x, y + 1) : at(x + 1, y);
     if (!second || first->surface == 0 || second->surface != first->surface) return false;
     std::array<int, 2> near{}, all{};
-    visit(x, y, o, params_.across, params_.along, [&](const Pixel&, int i, int) {
+    visit(x, y, o, params_.across, params_.along, [&](const Pixel&, int i) {
       ++all[i > 0];
       near[i > 0] += i >= -1 && i <= 2;
     });
@@ -241,7 +247,7 @@ class Windows {
     Opponent sums[2] = {};
     double counts[2] = {};
     if (at(x, y)->surface == 0) return {};
-    visit(x, y, o, 2, params_.along, [&](const Pixel& pixel, int i, int) {
+    visit(x, y, o, 2, params_.along, [&](const Pixel& pixel, int i) {
       ++counts[i > 0];
       for (std::size_t c = 0; c < 3; ++c) sums[i > 0][c] += pixel.test[c];
     });
@@ -251,20 +257,24 @@ class Windows {
     return step;
   }
 
-  /// Whether the test steps no more at the pair before and the pair after: an edge is a line, not a band.
-  bool is_steepest(int x, int y, const Orientation& o, std::size_t channel, double near) const {
+  /// Whether the test steps no more at the pair before and the pair after, colour by colour: an edge is a
+  /// line, not a band.
+  std::array<bool, 3> find_steepest(int x, int y, const Orientation& o, const Opponent& near) const {
+    std::array<bool, 3> steepest = {true, true, true};
     for (const int i : {-1, 1}) {
       const int u = o.turned ? x : x + i, v = o.turned ? y + i : y;
-      if (at(u, v) && std::abs(near_step(u, v, o)[channel]) > 1.05 * std::abs(near)) return false;
+      if (!at(u, v)) continue;
+      const Opponent beside = near_step(u, v, o);
+      for (std::size_t c = 0; c < 3; ++c) steepest[c] &= !(std::abs(beside[c]) > 1.05 * std::abs(near[c]));
     }
-    return true;
+    return steepest;
   }
 
   /// Step of the albedo's logarithm from one side's two nearest pixels to the other's.
   double albedo_across(int x, int y, const Orientation& o) const {
     double sums[2] = {}, counts[2] = {};
     visit(x, y, o, 2, params_.along,
-          [&](const Pixel& pixel, int i, int) { ++counts[i > 0], sums[i > 0] += pixel.albedo; });
+          [&](const Pixel& pixel, int i) { ++counts[i > 0], sums[i > 0] += pixel.albedo; });
     return sums[1] / counts[1] - sums[0] / counts[0];
   }
 
@@ -276,19 +286,33 @@ class Windows {
     double count = 0;
     const int across = static_cast<int>(scale * params_.across),
               along = static_cast<int>(scale * params_.along);
-    visit(x, y, o, across, along, [&](const Pixel& pixel, int i, int j) {
-      const Column row = {1, i - 0.5, static_cast<double>(j), i > 0 ? 0.5 : -0.5};
-      for (std::size_t a = 0; a < terms; ++a) {
-        for (std::size_t b = 0; b < terms; ++b) matrix[a][b] += row[a] * row[b];
-        for (std::size_t c = 0; c < 3; ++c)
-          error[c][a] += row[a] * pixel.error[c], test[c][a] += row[a] * pixel.test[c];
+    for (int j = -along; j <= along; ++j) {
+      for (const double step : {-0.5, 0.5}) {
+        // On one side of a row only the second term changes.
+        double n = 0, sum_x = 0, sum_xx = 0;
+        Opponent sum_e{}, sum_xe{}, sum_t{}, sum_xt{};
+        visit_row(x, y, o, j, step < 0 ? 1 - across : 1, step < 0 ? 0 : across,
+                  [&](const Pixel& pixel, int i) {
+                    const double u = i - 0.5;
+                    n += 1, sum_x += u, sum_xx += u * u;
+                    for (std::size_t c = 0; c < 3; ++c) {
+                      const double e = pixel.error[c], t = pixel.test[c];
+                      sum_e[c] += e, sum_xe[c] += u * e, squares[c] += e * e;
+                      sum_t[c] += t, sum_xt[c] += u * t, test_squares[c] += t * t;
+                    }
+                  });
+        const Column row = {1, 0, static_cast<double>(j), step};
+        for (std::size_t a = 0; a < terms; ++a) {
+          for (std::size_t b = 0; b < terms; ++b) matrix[a][b] += n * row[a] * row[b];
+          matrix[a][1] += sum_x * row[a], matrix[1][a] += sum_x * row[a];
+          for (std::size_t c = 0; c < 3; ++c)
+            error[c][a] += row[a] * sum_e[c], test[c][a] += row[a] * sum_t[c];
+        }
+        matrix[1][1] += sum_xx;
+        for (std::size_t c = 0; c < 3; ++c) error[c][1] += sum_xe[c], test[c][1] += sum_xt[c];
+        count += n;
       }
-      for (std::size_t c = 0; c < 3; ++c) {
-        squares[c] += pixel.error[c] * pixel.error[c];
-        test_squares[c] += pixel.test[c] * pixel.test[c];
-      }
-      ++count;
-    });
+    }
     if (params_.along == 0) matrix[2][2] = 1;  // a line has no slope along the edge
     const auto inverted = inverse(matrix);
     if (!inverted || count <= terms) return {};
