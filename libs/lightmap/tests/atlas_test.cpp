@@ -16,6 +16,11 @@ namespace {
 
 const vec3 constant(1, 2, 3);
 
+vec3 value_of(const image::Image& atlas, std::uint32_t index) {
+  const auto w = static_cast<std::uint32_t>(atlas.width);
+  return atlas.rgb(static_cast<int>(index % w), static_cast<int>(index / w));
+}
+
 /// A field with a slope in each direction, different for each colour.
 constexpr float slope = 0.7f;
 vec3 linear(const vec3& at) {
@@ -196,10 +201,65 @@ TEST(Atlas, TexelsWithinOrUnderABodyTakeTheLightAroundIt) {
     return within(at.position, -0.5f, 0.5f) || within(at.position, 1.45f, 2.1f) ? vec3(1000) : constant;
   });
   for (std::size_t i = 0; i < u.texels.first[1]; ++i) {
-    const auto w = static_cast<std::uint32_t>(u.layout.width);
-    const std::uint32_t index = u.texels.texels[i].index;
-    EXPECT_NEAR(atlas.rgb(static_cast<int>(index % w), static_cast<int>(index / w)).z, 3, 1e-4f);
+    EXPECT_NEAR(value_of(atlas, u.texels.texels[i].index).z, 3, 1e-4f);
   }
+}
+
+TEST(Atlas, OneOpenTexelLightsItsWholeChart) {
+  const Unwrapped u(scene_of({scene::make_quad({0, 0, 0}, {2, 0, 0}, {0, 0, -1})}), {.size = 32});
+  const std::size_t count = u.texels.texels.size();
+  for (const std::size_t open : {std::size_t{0}, count / 2, count - 1}) {
+    Places places = find_places(u.texels, rays::PosedWorld(open_space, 0));
+    std::ranges::fill(places.hidden, std::uint8_t{1});
+    places.hidden[open] = 0;
+    const vec3 lit = places.points[open].position;
+    const image::Image atlas = light_texels(
+        u.texels, places, [&](const rays::SurfacePoint& at) { return vec3(at.position == lit ? 3 : 1000); });
+    for (const Texel& texel : u.texels.texels) EXPECT_NEAR(value_of(atlas, texel.index).x, 3, 1e-5f) << open;
+  }
+}
+
+TEST(Atlas, EachTexelKeepsTheLightOfItsOwnPlace) {
+  const Unwrapped u(scene_of({scene::make_quad({0, 0, 0}, {2, 0, 0}, {0, 0, -1})}), {.size = 32});
+  const Places places = find_places(u.texels, rays::PosedWorld(open_space, 0));
+  for (std::size_t i = 0; i < u.texels.texels.size(); ++i) {
+    const vec3 lit = places.points[i].position;
+    const image::Image atlas = light_texels(
+        u.texels, places, [&](const rays::SurfacePoint& at) { return vec3(at.position == lit ? 2 : 1); });
+    // A centre outside of the chart is led on along the slope of 1 a texel; where the place before has a
+    // part of this light the slope is less.
+    const float value = value_of(atlas, u.texels.texels[i].index).x;
+    const float way = glm::length(u.texels.texels[i].way);
+    EXPECT_GE(value, way > 0 ? 2 : 2 - 1e-5f) << i;
+    EXPECT_NEAR(value, 2 + way, 0.1f * way + 1e-5f) << i;
+  }
+}
+
+TEST(Atlas, PlacesOnASpikeNarrowerThanATexelLieWithinIt) {
+  // A square of 10 texels, and on its side a spike of a fiftieth of a texel's breadth: no place has a tenth
+  // of a texel to its border, so all lie in the middle, with three tenths of either open edge.
+  scene::Mesh mesh;
+  mesh.positions = {{0, 0, 0},   {10, 0, 0}, {10, 5, 0},    {10, 5.02f, 0},
+                    {10, 10, 0}, {0, 10, 0}, {13, 5.01f, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 5}, {3, 4, 5}, {2, 6, 3}};
+  const Unwrapped u(scene_of({mesh}), {.density = 1.0f});
+  std::size_t on_spike = 0;
+  float farthest = 0;
+  for (const Texel& texel : u.texels.texels) {
+    const Face& face = u.texels.faces[texel.face];
+    std::size_t tip = 3;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (face.position[k].x == 13) tip = k;
+    if (tip == 3) continue;
+    ++on_spike;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float share = texel.share[static_cast<int>(k)];
+      if (k == tip) farthest = std::max(farthest, share);
+      EXPECT_GE(share, k == tip ? 0 : 0.3f - 1e-5f);
+    }
+  }
+  EXPECT_GT(on_spike, 2u);
+  EXPECT_NEAR(farthest, 0.4f, 1e-5f);
 }
 
 TEST(Atlas, HasTheSameBitsForAnyNumberOfThreads) {
