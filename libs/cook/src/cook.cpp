@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/cook/cook.h>
+#include <ssphh/core/counted.h>
 #include <ssphh/probes/fitted_surfaces.h>
 #include <ssphh/sh/evaluate.h>
 
@@ -125,7 +126,8 @@ std::vector<std::string> lost(const probes::ProbeSet& set, const Sections& secti
                     : "points of surfaces: they need --scene");
   say(set.fitted && sections.header.point_floats == SSPHH_COOKED_RECORD_FLOATS,
       "fitted weights: records serve surfaces");
-  say(probes::edge_count(set) > 0, fmt::format("{} edges between probes", probes::edge_count(set)));
+  say(probes::edge_count(set) > 0,
+      counted(probes::edge_count(set), "edge between probes", "edges between probes"));
   say(set.baseline.has_value(), "what bake --update compares a scene with");
   return lines;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/core/enum_names.h>
 #include <ssphh/probe_export/target.h>
 
@@ -39,10 +40,11 @@ std::vector<std::string> lost(const probes::ProbeSet& set, const Target& target)
                   "engine",
                   fmt::join(baked, ", ")));
   say(set.surface && !set.surface->points.empty(),
-      fmt::format("{} surface records: still surfaces get the probes' light",
-                  set.surface ? set.surface->points.size() : 0));
+      counted(set.surface ? set.surface->points.size() : 0, "surface record") +
+          ": still surfaces get the probes' light");
   say(set.fitted.has_value(), "fitted weights of surface points");
-  say(probes::edge_count(set) > 0, fmt::format("{} edges between probes", probes::edge_count(set)));
+  say(probes::edge_count(set) > 0,
+      counted(probes::edge_count(set), "edge between probes", "edges between probes"));
   say(set.hierarchy.has_value(), "the hierarchy apart: neighbours' light is in the sum");
   say(true, fmt::format("other poses than that at {:g} s", set.generator.time));
   say(!target.hides, "visibility: the engine does not ask what stands between a point and what lights it");
