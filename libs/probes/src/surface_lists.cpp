@@ -224,17 +224,22 @@ class Preparation {
                              spacings_[p], sees_);
   }
 
-  /// Asks a few samples first, then all where those disagree.
+  /// Asks a few samples first, then the others where those disagree.
   void ask(Work::Candidate& candidate, Work& work) const {
     constexpr std::size_t few = 16;
     const std::size_t count = candidate.asked.size(), step = (count + few - 1) / few;
     std::size_t asked = 0, seen = 0;
-    for (std::size_t i = 0; i < count; i += step, ++asked)
-      seen += sees(work.samples, candidate.asked[i], candidate.point);
-    if (seen < asked) candidate.seen.assign(count, 0);
-    if (seen < asked && seen > 0) {
+    candidate.seen.assign(count, 0);
+    const auto look = [&](std::size_t i) {
+      candidate.seen[i] = sees(work.samples, candidate.asked[i], candidate.point);
+      seen += candidate.seen[i] != 0, ++asked;
+    };
+    for (std::size_t i = 0; i < count; i += step) look(i);
+    if (seen == asked) {
+      candidate.seen.clear();
+    } else if (seen > 0) {
       for (std::size_t i = 0; i < count; ++i)
-        candidate.seen[i] = sees(work.samples, candidate.asked[i], candidate.point);
+        if (i % step != 0) look(i);
     }
     if (seen == 0) return;
     const rays::SurfacePoint& point = out_.points[candidate.point];

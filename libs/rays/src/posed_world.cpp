@@ -85,9 +85,9 @@ void PosedWorld::occluded(std::span<const RayQuery> segments, std::span<std::uin
 
 bool PosedWorld::joined(const vec3& a, const vec3& b) const {
   const RayQuery way{a, b - a, 1};
-  RayHit hit;
-  intersect({&way, 1}, {&hit, 1});
-  return hit.escaped() && hit.through == vec3(1);
+  return source_.joined(0, way) && std::ranges::all_of(moving_, [&](const Part& part) {
+           return source_.joined(part.index, part.in_frame(way));
+         });
 }
 
 bool PosedWorld::occluded(const RayQuery& segment) const {

@@ -3,6 +3,12 @@
 
 namespace ssphh::rays {
 
+bool TransportSource::joined(int part, const RayQuery& segment) const {
+  RayHit hit;
+  intersect(part, {&segment, 1}, {&hit, 1});
+  return hit.escaped() && hit.through == vec3(1);
+}
+
 std::unique_ptr<RadianceSource> TransportSource::path_tracing(const scene::LightingState&) const {
   throw Error("transport source", "it cannot trace paths");
 }

@@ -192,6 +192,29 @@ TEST(PosedWorld, SegmentsAreBlockedByAnyPart) {
   EXPECT_TRUE(world.visible({-5, 4, 0}, {-1.5f, 4, 0})) << "it ends before the ball";
 }
 
+TEST(PosedWorld, GlassOfAnyPartPartsWhatSeesEachOther) {
+  class Veiled : public Balls {
+   public:
+    Veiled() : Balls(2) {}
+    void intersect(int part, std::span<const RayQuery> rays, std::span<RayHit> hits) const override {
+      Balls::intersect(part, rays, hits);
+      if (part != glass) return;
+      for (RayHit& hit : hits) {
+        if (!hit.escaped()) hit = {.through = vec3(1, 0.5f, 1)};
+      }
+    }
+    int glass = -1;
+  };
+  Veiled source;
+  const PosedWorld world(source, 0);
+  const vec3 low(-5, 2, 0), far(5, 2, 0), high(-5, 4, 0), beside(-5, 2, 3);
+  EXPECT_FALSE(world.joined(low, far) || world.joined(high, {5, 4, 0}) || world.joined(low, {-5, -1, 0}));
+  EXPECT_TRUE(world.joined(low, high) && world.joined(beside, {5, 2, 3}));
+  EXPECT_TRUE(world.joined(low, {-1.5f, 2, 0})) << "it ends before the ball";
+  for (source.glass = 0; source.glass < 3; ++source.glass)
+    EXPECT_FALSE(world.joined(low, far) || world.joined(high, {5, 4, 0}) || world.joined(low, {-5, -1, 0}));
+}
+
 TEST(PosedWorld, WhatIsScaledToNothingIsNotThere) {
   const Balls source(2);
   const std::vector<mat4> poses = {mat4(1), glm::translate(mat4(1), vec3(0, 40, 0)),

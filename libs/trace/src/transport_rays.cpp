@@ -111,6 +111,17 @@ void TransportScene::occluded(int part, std::span<const rays::RayQuery> rays,
   });
 }
 
+bool TransportScene::joined(int part, const rays::RayQuery& segment) const {
+  data_->part(part);  // throws where there is none
+  const Ray way{segment.origin, segment.direction, segment.t_max};
+  RayTask task{1};
+  bool met_glass = false;
+  const bool joined = !data_->geometry.occluded(part, way, 0, met_glass) &&
+                      (!met_glass || data_->geometry.through_glass(part, way, 0, task) == vec3(1));
+  data_->rays.add(task.rays);
+  return joined;
+}
+
 std::vector<rays::PartPoint> TransportScene::sample_part(int part_index,
                                                          double points_per_square_metre) const {
   if (!(points_per_square_metre >= 0)) throw Error("points per square metre", "they must not be negative");

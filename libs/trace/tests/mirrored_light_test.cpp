@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ssphh/core/random.h>
 #include <ssphh/core/sphere.h>
 #include <ssphh/rays/posed_world.h>
 #include <ssphh/scene/primitives.h>
@@ -186,6 +187,27 @@ TEST(MirroredLight, APanePartsWhatItLetsSeeEachOther) {
   const vec3 a(0.5f, 1, 0), b(-0.5f, 1, 0), c(0.5f, 0.5f, 0);
   EXPECT_TRUE(tracer.visible(a, b) && tracer.joined(a, c) && world.joined(a, c));
   EXPECT_FALSE(tracer.joined(a, b) || world.joined(a, b));
+}
+
+TEST(MirroredLight, WhatIsJoinedIsWhatNearestHitsSay) {
+  scene::Scene s = pane_scene(true, false);
+  s.animations.emplace_back().channels.push_back(
+      {.node = 0, .path = scene::AnimationPath::translation, .times = {0}, .values = {vec4(0)}});
+  s.meshes.push_back(scene::make_box({-0.4f, 0, -0.4f}, {-0.2f, 1, 0.4f}));
+  s.instances.push_back({1, -1, -1, ""});
+  const TransportScene source(s);
+  ASSERT_EQ(source.part_count(), 2);
+  Pcg32 random(6);
+  int joined[2] = {};
+  for (int i = 0; i < 400; ++i) {
+    const vec3 from = 2.0f * random.uniform3() - vec3(1, 0, 1), to = 2.0f * random.uniform3() - vec3(1, 0, 1);
+    for (int part = 0; part < 2; ++part) {
+      const rays::RayQuery way{from, to - from, 1};
+      joined[part] += source.joined(part, way);
+      EXPECT_EQ(source.joined(part, way), source.rays::TransportSource::joined(part, way)) << i;
+    }
+  }
+  for (const int count : joined) EXPECT_TRUE(count > 100 && count < 380) << count;
 }
 
 }  // namespace

@@ -166,6 +166,9 @@ class TransportSource {
   }
   /// blocked[i] = 1 where the part alone meets segment i, else 0; in the part's frame.
   virtual void occluded(int part, std::span<const RayQuery> rays, std::span<std::uint8_t> blocked) const = 0;
+  /// Whether the part alone neither meets the segment nor has glass on it that dims light; in the part's
+  /// frame. What intersect() tells; a source that knows it for less says so here.
+  virtual bool joined(int part, const RayQuery& segment) const;
 
   virtual const std::vector<std::string>& light_groups() const = 0;
   /// The scene's lights posed at `time`, in the scene's order.

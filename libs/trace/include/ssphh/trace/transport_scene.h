@@ -49,6 +49,7 @@ class TransportScene final : public rays::TransportSource {
                                           std::span<const rays::RayHit> hits) const override;
   void occluded(int part, std::span<const rays::RayQuery> rays,
                 std::span<std::uint8_t> blocked) const override;
+  bool joined(int part, const rays::RayQuery& segment) const override;
 
   const std::vector<std::string>& light_groups() const override;
   std::vector<scene::LightState> lights(float time) const override;
