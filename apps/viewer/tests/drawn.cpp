@@ -16,7 +16,8 @@ unsigned in_order(ImU32 c) {
   return (c & 255) << 24 | (c >> 8 & 255) << 16 | (c >> 16 & 255) << 8 | c >> 24;
 }
 
-/// Reads the triangles of one command; a thing ends where corners follow that it has not touched.
+/// Reads the triangles of one command; a thing ends where corners follow that it has not touched: later ones,
+/// or earlier ones, as a table's columns are drawn one after the other and their rows' corners made in turns.
 class Reader {
  public:
   Reader() {
@@ -34,7 +35,7 @@ class Reader {
     };
     for (unsigned i = 0; i + 2 < command.ElemCount; i += 3) {
       const auto [low, high] = std::minmax({int{index[i]}, int{index[i + 1]}, int{index[i + 2]}});
-      if (low > last || first < 0) end(), first = low, last = high;
+      if (first < 0 || low > last || high < first) end(), first = low, last = high;
       last = std::max(last, high);
     }
     end();
