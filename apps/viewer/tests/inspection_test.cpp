@@ -2,6 +2,10 @@
 
 #include "model/inspection.h"
 
+#include <algorithm>
+#include <span>
+
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <ssphh/scene/primitives.h>
@@ -129,8 +133,26 @@ TEST_F(Inspector, FollowsTheMouseUntilAClickPinsIt) {
   for (int i = 0; i < 4; ++i) mouse(700, 700);
   ASSERT_TRUE(app().inspection && app().inspection->surface);
   EXPECT_EQ(app().inspection->surface->material, "wall");
-  EXPECT_TRUE(shows("diffuse albedo"));
-  EXPECT_TRUE(shows("lit by probes"));
+  // Every row: what it is, and the value beside it, two spaces between its parts.
+  const Inspection& now = *app().inspection;
+  const auto shows_all = [&](const char* format, const vec3& v) {
+    for (int c = 0; c < 3; ++c) EXPECT_TRUE(shows(fmt::format(fmt::runtime(format), v[c]))) << v[c];
+  };
+  for (const char* name : {"indirect irradiance", "diffuse albedo", "normal", "position [m]", "distance [m]",
+                           "object", "material", "lit by probes"})
+    EXPECT_TRUE(shows(name)) << name;
+  shows_all("{:.4g}", now.light.irradiance);
+  shows_all("{:.4g}", now.surface->albedo);
+  shows_all("{:.3f}", now.surface->normal);
+  shows_all("{:.3f}", now.surface->position);
+  EXPECT_TRUE(shows(fmt::format("{:.3f}", now.surface->distance)));
+  EXPECT_TRUE(shows("wall"));
+  ASSERT_GE(now.light.shares.size(), 2u);
+  for (const LightShare& share :
+       std::span(now.light.shares).first(std::min<std::size_t>(now.light.shares.size(), 6))) {
+    EXPECT_TRUE(shows(fmt::format("{:.1f} %", 100 * share.weight)));
+    EXPECT_TRUE(shows(share.name)) << share.name;
+  }
   const vec3 first = app().inspection->surface->position;
   mouse(620, 720), mouse(620, 720);
   EXPECT_NE(app().inspection->surface->position, first);
