@@ -138,6 +138,18 @@ TEST(Godot, WalkFindsTheTetrahedronThatHoldsAPoint) {
   }
 }
 
+TEST(Godot, BoundsReachBeyondProbesAndSurfacesOnEverySide) {
+  const probes::ProbeSet set = scattered(false);
+  scene::Bounds probes;
+  for (const probes::Probe& probe : set.probes) probes.add(probe.position);
+  const GodotReader reader = exported(set);
+  const vec3 low = probes.min - reader.low(), high = reader.low() + reader.size() - probes.max;
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_GT(low[c], 0.01f) << c;
+    EXPECT_NEAR(high[c], low[c], 1e-4f) << c << ": as far on both sides";
+  }
+}
+
 TEST(Godot, ReadsIrradianceOverPi) {
   for (const bool linear : {false, true}) {
     const GodotReader reader = exported(scattered(linear));

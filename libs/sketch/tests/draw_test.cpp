@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -83,6 +84,24 @@ TEST(Draw, ALineOfParallelRaysHasItsWidth) {
       drawn({.lines = {{{-0.5f, 0.0f, 0}, {0.5f, 0.0f, 0}, vec3(1), 4}}}, parallel());
   for (int y = 0; y < size; ++y)
     EXPECT_EQ(picture.rgb(size / 2, y).x, y >= size / 2 - 2 && y < size / 2 + 2 ? 1 : 0) << y;
+}
+
+/// Of lines down the picture: a fifth of a pixel wide anywhere within one, and so wide that their middle lies
+/// tiles before their rim.
+TEST(Draw, ALineHasItsWidthWhereverItLies) {
+  struct Case {
+    float at, width;  // pixels
+  };
+  for (const auto& [at, width] :
+       {Case{28.1f, 0.2f}, {28.9f, 0.2f}, {31.6f, 1}, {34.4f, 21}, {-170, 400}, {234, 400}}) {
+    const float x = at / size - 0.5f;
+    const image::Image picture =
+        drawn({.lines = {{{x, -0.5f, 0}, {x, 0.5f, 0}, vec3(1), width}}}, parallel(), {.samples = 10});
+    float row = 0;
+    for (int i = 0; i < size; ++i) row += picture.rgb(i, 20).x;
+    const float from = std::max(0.0f, at - width / 2), to = std::min(float{size}, at + width / 2);
+    EXPECT_NEAR(row, to - from, 0.11f) << "at " << at << ": samples are a tenth of a pixel apart";
+  }
 }
 
 TEST(Draw, ABallIsARoundDisc) {
