@@ -50,7 +50,6 @@ TEST(TransportPatches, ALampCloseUnderTheCeilingLightsTheRoomAsBrightAsItDoes) {
                             vec3(-0.1f, 0.92f, -0.57f)}) {
     scene::Scene scene = coloured_room(vec3(0));
     scene::Light lamp;
-    lamp.kind = scene::LightKind::point;
     lamp.intensity = 10;
     scene.nodes.emplace_back().local.translation = place;
     lamp.node = static_cast<int>(scene.nodes.size()) - 1;

@@ -126,13 +126,18 @@ constexpr float tolerance = 0.04f;
 /// The same of the mean light: the dark may be less exact.
 constexpr float tolerance_of_mean = 0.002f;
 
+/// Halvings below an even spread of all points, where light alone asks for more: a plain takes most cubes of
+/// that spread and few of its points.
+constexpr int levels_below = 2;
+
 /// What surfels got, by few rays and over all their extent, may be missed by so much.
 constexpr float surfel_tolerance = 0.25f;
 constexpr float surfel_tolerance_of_mean = 0.02f;
 
-/// How far each point is from being known by those around it, by the points' light: 1 where it just is.
+/// How far each point is from being known by those around it, by the points' light, and at `near_surfaces` by
+/// how near those are: 1 where it just is.
 std::vector<float> doubts(const SurfaceGather& gather, const probes::SurfaceInterpolation& known,
-                          std::span<const probes::RecordLight> light) {
+                          std::span<const probes::RecordLight> light, bool near_surfaces) {
   const std::vector<rays::SurfacePoint>& points = gather.points();
   double sum = 0;
   for (const probes::RecordLight& l : light) sum += static_cast<double>(max_component(l[3]));
@@ -146,7 +151,7 @@ std::vector<float> doubts(const SurfaceGather& gather, const probes::SurfaceInte
     const vec3 e = light[i][3], missed = glm::abs(predicted * vec4(points[i].normal, 1) - e);
     const float allowed = tolerance * max_component(e) + least;
     const float of_light = shares.empty() ? 1 : allowed > 0 ? max_component(missed) / allowed : 0;
-    result[i] = std::max(of_light, known.spacing(i) / gather.openness()[i]);
+    result[i] = near_surfaces ? std::max(of_light, known.spacing(i) / gather.openness()[i]) : of_light;
   });
   return result;
 }
@@ -193,18 +198,23 @@ class SurfelDoubts {
   float least_ = 0;
 };
 
-/// Those of `which` of which `doubt` is 1 at least.
+/// Those of `which` of which `doubt` is 1 at least; the most doubtful `most`.
 template <class Doubt>
-std::vector<std::size_t> doubtful(std::span<const std::size_t> which, const Control& control,
-                                  const Doubt& doubt) {
-  std::vector<std::uint8_t> is(which.size());
+std::vector<std::size_t> doubtful(std::span<const std::size_t> which, std::size_t most,
+                                  const Control& control, const Doubt& doubt) {
+  std::vector<float> doubts(which.size());
   parallel_for(
-      which.size(), 64, [&](std::size_t i) { is[i] = doubt(which[i]) >= 1; }, control);
-  std::vector<std::size_t> found;
+      which.size(), 64, [&](std::size_t i) { doubts[i] = doubt(which[i]); }, control);
+  std::vector<std::pair<float, std::size_t>> found;
   for (std::size_t i = 0; i < which.size(); ++i) {
-    if (is[i]) found.push_back(which[i]);
+    if (doubts[i] >= 1) found.emplace_back(-doubts[i], which[i]);
   }
-  return found;
+  std::ranges::sort(found);
+  if (found.size() > most) found.resize(most);
+  std::vector<std::size_t> result;
+  for (const auto& [doubt_of, place] : found) result.push_back(place);
+  std::ranges::sort(result);
+  return result;
 }
 
 }  // namespace
@@ -236,19 +246,22 @@ std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& netwo
       now = light_in(times[pose]);
       gather->update_pose();
     }
-    for (int coarser = first - 1; coarser >= 0; --coarser) {
+    for (int coarser = first - 1; coarser >= -levels_below; --coarser) {
+      const std::size_t count = gather->points().size(), points = static_cast<std::size_t>(params.points);
+      const std::size_t room = coarser >= 0 ? most_records - count : points - std::min(count, points);
+      if (room == 0) break;
       const probes::SurfaceInterpolation known = places.between(gather->points());
       gather->light(now.lit, light);
-      std::vector<float> doubt = doubts(*gather, known, light);
+      std::vector<float> doubt = doubts(*gather, known, light, coarser >= 0);
       const std::vector<probes::RecordLight> reflected = light;
       if (add_more && pose == 0) {
         // What is brighter hides how the light of other groups changes: either asks for points.
         add_more(gather->points(), light);
-        const std::vector<float> of_all = doubts(*gather, known, light);
+        const std::vector<float> of_all = doubts(*gather, known, light, coarser >= 0);
         for (std::size_t i = 0; i < doubt.size(); ++i) doubt[i] = std::max(doubt[i], of_all[i]);
       }
       const SurfelDoubts by_surfels(places, now.reflected, known, reflected);
-      wanted = doubtful(places.free(coarser), control, [&](std::size_t place) {
+      wanted = doubtful(places.free(coarser), room, control, [&](std::size_t place) {
         const float by_points = doubt_at(places.all()[place], known, doubt);
         return by_points >= 1 ? by_points : by_surfels.at(place);
       });

@@ -102,13 +102,13 @@ struct PosedIrradiance {
 /// Puts the network into the pose of a time [s] and returns its light there.
 using LightOfPose = std::function<PosedIrradiance(float)>;
 
-/// Gathers at places of the network's static surfels, and with baked groups of all other still surfaces,
-/// dense where light asks for it: at first far apart, then wherever the points that are there do not predict
-/// each other's light within a few per cent or that of surfels within a quarter, surfaces are nearer than
-/// points, or no point is seen, between them, down to an even spread of at most params.points; then at no
-/// more than as many again where there are surfels that see none of those. So in the pose of each of `times`
-/// [s], one after the other; what `add_more` adds to the light of the points, all of them so far, counts in
-/// the first. The network is left in the last pose. Throws as SurfaceGather does, and Error for no time.
+/// Gathers at places of the network's static surfels, and with baked groups of all other still surfaces: at
+/// first far apart, then wherever points do not predict each other's light within a few per cent or that of
+/// surfels within a quarter, surfaces are nearer than points, or no point is seen, down to an even spread of
+/// at most params.points; below that where light alone asks for it, while there are fewer; then at no more
+/// than as many again where surfels or their patches see none. So in the pose of each of `times` [s], one
+/// after the other; what `add_more` adds to the light of the points, all of them so far, counts in the first.
+/// The network is left in the last pose. Throws as SurfaceGather does, and Error for no time.
 std::unique_ptr<SurfaceGather> gather_where_needed(const TransportNetwork& network,
                                                    const GatherParams& params, std::span<const float> times,
                                                    const LightOfPose& light_at, const Control& control = {},
