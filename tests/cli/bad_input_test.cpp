@@ -82,7 +82,7 @@ TEST(BadInput, WarningsDoNotStopTheWork) {
   const ToolResult no_lights = run_tool(joined({"render", dir / "plain.obj", "-o", dir / "x.exr"}, small));
   EXPECT_EQ(no_lights.exit_code, 0) << no_lights.err;
   EXPECT_THAT(no_lights.err, AllOf(HasSubstr("warning"), HasSubstr("no lights"), HasSubstr("gone.mtl"),
-                                   HasSubstr("--sun-sky or --environment FILE")));
+                                   HasSubstr("--sky or --environment FILE")));
 }
 
 TEST(BadInput, ASceneWithoutLightsStandsInAStudioUnlessItIsMeantToBeDark) {

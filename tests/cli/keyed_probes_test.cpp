@@ -17,10 +17,10 @@ using test::problem_here;
 using test::run_here;
 using testing::HasSubstr;
 
-class Keys : public testing::Test {
+class KeyedProbes : public testing::Test {
  protected:
   /// Two bakes of two-rooms, its door shut and open.
-  Keys() {
+  KeyedProbes() {
     bake("0", shut);
     bake("1", open);
   }
@@ -33,7 +33,7 @@ class Keys : public testing::Test {
   const std::string shut = dir / "shut.sphl", open = dir / "open.sphl", half = dir / "half.sphl";
 };
 
-TEST_F(Keys, AreBlendedAndPlayed) {
+TEST_F(KeyedProbes, AreBlendedAndPlayed) {
   const json::Value blended = json_here({"probe", "blend", shut, open, "--t", "0.25", "-o", half});
   EXPECT_EQ(blended["time"], 0.25);
   const probes::ProbeSet a = probes::read_probe_file(shut), b = probes::read_probe_file(open),
@@ -52,7 +52,7 @@ TEST_F(Keys, AreBlendedAndPlayed) {
     EXPECT_NEAR(by_file.pixels[i], by_keys.pixels[i], 1e-3f * by_file.pixels[i] + 1e-5f);
 }
 
-TEST_F(Keys, OfOtherPlacesAreRefused) {
+TEST_F(KeyedProbes, OfOtherPlacesAreRefused) {
   run_here({"bake", "builtin:two-rooms", "--operator", "surfel", "--probes", "7", "--degree", "2",
             "--directions", "64", "--surfel-size", "0.5", "--viz", "off", "-o", half});
   EXPECT_THAT(problem_here({"probe", "blend", shut, half, "-o", dir / "x.sphl"}),

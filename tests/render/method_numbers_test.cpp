@@ -50,9 +50,10 @@ struct Network {
   double surfels() const { return static_cast<double>(network.surfel_count()); }
   std::size_t bytes() const {
     const std::size_t rays = 4u * 64;
-    // Links; what rays see, how far, and as packed; eight samples a surfel; and the surfels with their light.
-    return network.links().link_count() * 8 + rays * (8 + 4 + 16) + network.surfel_count() * 8 * (28 + 1) +
-           network.surfel_count() * (sizeof(transport::Surfel) + 12 + 4 * 16);
+    // Links; what rays see, how far, and as packed; eight patches a surfel; and the surfels with their light.
+    return network.links().link_count() * 8 + rays * (8 + 4 + 16) +
+           network.surfel_count() * 8 * (28 + 1 + 12 + 3 * 16) +
+           network.surfel_count() * (sizeof(transport::Surfel) + 2 * 16);
   }
 };
 

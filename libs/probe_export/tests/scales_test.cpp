@@ -148,7 +148,7 @@ TEST(Losses, NameWhatASetHasAndATargetHasNot) {
   set.hierarchy.emplace();
   const std::vector<std::string> many = lost(set, find_target("three"));
   for (const char* word : {"bands 3 to 4", "lamp, sky are summed", "baked groups is within (sky)",
-                           "3 surface records", "fitted weights", "1 edges", "hierarchy"})
+                           "3 surface records", "fitted weights", "1 edge between", "hierarchy"})
     EXPECT_THAT(many, testing::Contains(testing::HasSubstr(word)));
   EXPECT_THAT(test::message_of([&] { only_group(set, "sky"); }), testing::HasSubstr("hierarchy"));
 }

@@ -79,7 +79,8 @@ SceneGeometry::Data::Data(const scene::Scene& scene_in, std::uint64_t flatten_li
     within_thread_count([&] {
       {
         const LibraryWrites settings;  // strings that Embree's tasks compare
-        device.reset(rtcNewDevice(nullptr));
+        // AVX-512 rounds otherwise: a farm's machines would not find the same bits
+        device.reset(rtcNewDevice("max_isa=avx2"));
       }
       if (!device) throw Error("ray tracer", "Embree does not start on this machine");
       build(flatten_limit);
