@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -23,6 +24,19 @@ void check(std::span<const rays::SurfacePoint> points, const LeakParams& params)
     throw Error("leak", fmt::format("a mean irradiance of {:g} is none", params.mean));
 }
 
+/// The mean with no value counted more than that which a twentieth of them exceeds: one lucky path, of the
+/// sun's image in a pane, outshines all others.
+double usual_mean(std::span<const rays::IrradianceEstimate> estimates) {
+  std::vector<double> values;
+  for (const rays::IrradianceEstimate& estimate : estimates) values.push_back(true_luminance(estimate));
+  std::vector<double> sorted = values;
+  const auto most = sorted.end() - 1 - static_cast<std::ptrdiff_t>(sorted.size() / 20);
+  std::ranges::nth_element(sorted, most);
+  double sum = 0;
+  for (const double value : values) sum += std::min(value, *most);
+  return sum / static_cast<double>(values.size());
+}
+
 }  // namespace
 
 TruthAtPoints trace_truth(const rays::RadianceSource& source, std::span<const rays::SurfacePoint> points,
@@ -41,7 +55,7 @@ TruthAtPoints trace_truth(const rays::RadianceSource& source, std::span<const ra
   truth.noise = sum > 0 ? deviations / sum : 0;
 
   // What looks dark gets a second look.
-  const double mean = params.mean > 0 ? static_cast<double>(params.mean) : truth.mean;
+  const double mean = params.mean > 0 ? static_cast<double>(params.mean) : usual_mean(truth.estimates);
   const double limit = static_cast<double>(params.dark_share) * mean;
   const auto is_dark = [&](const rays::IrradianceEstimate& estimate) {
     return true_luminance(estimate) + static_cast<double>(params.sigmas) * true_deviation(estimate) <= limit;

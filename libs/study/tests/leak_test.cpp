@@ -82,6 +82,17 @@ TEST(Leak, APointWhoseNoiseReachesOverTheLimitIsNotDark) {
   EXPECT_NEAR(report.truth_noise, (2 * 0.1 + 3e-5) / (3 + 1e-4), 1e-6);
 }
 
+TEST(Leak, ALuckyPathMakesNoOtherPointDark) {
+  TruthSource source;
+  source.truth = [](const vec3& x, const rays::PathParams&) {
+    return PlaceTruth{x.x < 1 ? 0.0f : x.x < 2 ? 1e7f : 1.0f, 0};
+  };
+  const LeakReport report = measure_leak(source, FakeLookup([](const vec3&) { return 1.0f; }), row(40));
+  EXPECT_EQ(report.dark, 1u);
+  EXPECT_NEAR(report.ratio, 1.0 / 40, 1e-6);
+  EXPECT_GT(report.mean_truth, 1e5) << "which is told as it is";
+}
+
 TEST(Leak, WhatASecondLookFindsLitIsNotDark) {
   TruthSource source;
   source.truth = [](const vec3& x, const rays::PathParams& path) {

@@ -9,8 +9,8 @@
 
 namespace ssphh::transport {
 
-/// S_i[k] = Σ_q w Y_k(ω_q) ρ_q/π · E(surfel seen): reflected light of every probe. `irradiance` is E_direct +
-/// E_indirect per surfel.
+/// S_i[k] = Σ_q w Y_k(ω_q) ρ_q/π · E(patch seen): reflected light of every probe. `irradiance` is E_direct +
+/// E_indirect per patch.
 void project_reflected(const TransportNetwork& network, const DirectionProjector& projector,
                        std::span<const Irradiance4> irradiance, std::vector<sh::RadianceSh>& out);
 
@@ -26,7 +26,7 @@ void project_reflected(const TransportNetwork& network, const DirectionProjector
 /// What one probe sees by way of panes.
 std::span<const MirroredPatch> mirrored_of(const TransportNetwork& network, std::size_t probe);
 
-/// Radiance of a patch that reflects the irradiance of its surfel.
+/// Radiance of a patch that reflects the irradiance given.
 vec3 radiance_of(const SeenPatch& patch, std::span<const Irradiance4> irradiance);
 
 /// Where a probe looks for emitters: more directions than for reflected light, since small lamps are bright

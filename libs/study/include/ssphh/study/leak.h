@@ -19,7 +19,7 @@ struct LeakParams {
   rays::PathParams path{.max_depth = rays::usual_max_depth, .passes = 1, .spp = 256, .seed = 0};
   double noise =
       0;           ///< that more paths are to bring the truth to, as converged_truth has it; 0: `path` alone
-  float mean = 0;  ///< that dark_share refers to [W/m²]; 0: the mean over the points
+  float mean = 0;  ///< that dark_share refers to [W/m²]; 0: of the points, the brightest 5 % as the next one
 };
 
 /// All irradiances are indirect, as Rec.709 luminance [W/m²].

@@ -38,7 +38,7 @@ class BounceOperator {
   /// whose way to a probe some part may cross. Equals a new operator to the bit. Returns the number of rays.
   std::size_t update_pose();
 
-  /// Reflected light of every probe from the surfels' direct irradiance. `warm`: begins with what `reflected`
+  /// Reflected light of every probe from the patches' direct irradiance. `warm`: begins with what `reflected`
   /// holds, the answer of a similar light, instead of darkness; not with a given number of applications.
   /// Allocates nothing from the second call on. Not from two threads at once.
   BounceReport solve(std::span<const Irradiance4> direct, std::vector<sh::RadianceSh>& reflected,

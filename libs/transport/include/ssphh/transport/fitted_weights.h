@@ -24,7 +24,7 @@ struct FitParams {
   int degree = 2;            ///< bands of the probes' irradiance
 };
 
-/// Direct irradiance at every surfel of a network from one light: what weights are fitted to.
+/// Direct irradiance of every patch of a network from one light: what weights are fitted to.
 using SurfelLight = std::vector<Irradiance4>;
 
 /// A fit to one or several poses of the doors at once.
