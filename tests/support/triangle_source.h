@@ -135,7 +135,7 @@ class TriangleSource : public UnlitSource {
           const float b = (d.x * qx + d.y * qy + d.z * qz) / determinant;
           const float t = (vx[i] * qx + vy[i] * qy + vz[i] * qz) / determinant;
           const bool within = (a >= 0) & (a <= 1) & (b >= 0) & (a + b <= 1) & (t > 0) & (t <= t_max);
-          found[i] = within & (determinant != 0) ? t : miss;
+          found[i] = (within & (determinant != 0)) ? t : miss;
         }
         for (std::size_t i = 0; i < n; ++i)
           if (found[i] < miss && !met(first + i, found[i])) return;
