@@ -14,9 +14,6 @@ namespace {
 /// Rays per surfel and round while surfaces are still being found.
 constexpr int discovery_rays = 32;
 constexpr int most_rounds = 12;
-/// Of a surfel with fewer evenly spread places (a sliver, a steep one) those that rays happened to find
-/// count, too.
-constexpr int least_places = 3;
 /// Points per surfel that moving parts are sampled with.
 constexpr double part_samples_per_surfel = 24;
 
@@ -43,10 +40,10 @@ class NetworkBuilder {
     discover();
     link_static_surfels();
     d_.static_count = d_.surfels.count();
-    find_seen_patches();
+    d_.find_seen_patches();
     add_part_surfels();
     d_.surfels.update_albedo();
-    find_patch_albedo();
+    d_.find_patch_albedo();
     find_hidden_samples();
     find_moving_rays();
     make_fixed_rows();
@@ -198,7 +195,7 @@ class NetworkBuilder {
   /// Chooses every surfel's samples and traces its links; those that are found on the way follow.
   void link_static_surfels() {
     const auto add_rays = [&](std::size_t s, std::vector<RawLink>& links) {
-      if (s * m() == d_.local_samples.size()) choose_samples();
+      if (s * m() == d_.local_samples.size()) d_.choose_samples();
       const std::size_t used = d_.used_samples(s);
       for (std::uint32_t r = 0; r < rays_per_surfel(); ++r) {
         links.push_back({link_ray(d_.local_samples[s * m() + r % used], r, s), vec3(0), no_patch});
@@ -207,62 +204,9 @@ class NetworkBuilder {
     const std::size_t begin = in_rounds("linking surfels", 4096, add_rays,
                                         [&](std::vector<RawLink>& links, std::size_t b) { keep(links, b); });
     // What the last round found has no links: dark, but of no weight.
-    choose_samples();
+    d_.choose_samples();
     for (std::size_t s = begin; s < d_.surfels.count(); ++s) {
       fixed_rows_.emplace_back(d_.fixed.size(), 0);
-    }
-  }
-
-  /// Of all surfels that have none yet.
-  void choose_samples() {
-    const std::size_t first = d_.local_samples.size() / m();
-    std::vector<std::vector<ClusterPoint>> chosen(d_.surfels.count() - first);
-    parallel_for(chosen.size(), 16, [&](std::size_t i) {
-      const int s = static_cast<int>(first + i), count = d_.params.samples;
-      // Points found on a moving part are spread over its area already
-      if (d_.surfels.surfels()[first + i].part == 0) chosen[i] = d_.surfels.spread_places(s, count);
-      if (static_cast<int>(chosen[i].size()) >= std::min(least_places, count)) return;
-      for (const ClusterPoint& member : d_.surfels.spread_members(s, count)) {
-        if (static_cast<int>(chosen[i].size()) < count) chosen[i].push_back(member);
-      }
-    });
-    for (const std::vector<ClusterPoint>& of_surfel : chosen) {
-      for (std::size_t i = 0; i < m(); ++i) {
-        const bool exists = i < of_surfel.size();
-        d_.local_samples.push_back(of_surfel[exists ? i : 0].point);
-        d_.albedo.push_back(of_surfel[exists ? i : 0].albedo);
-        d_.sample_exists.push_back(exists);
-      }
-    }
-  }
-
-  /// Of each patch, over the points found on it.
-  void find_patch_albedo() {
-    parallel_for(d_.surfels.count(), 64, [&](std::size_t s) {
-      const std::size_t first = s * m();
-      std::vector<float> count(m(), 1);
-      for (const ClusterPoint& member : d_.surfels.members(static_cast<int>(s))) {
-        const auto patch = static_cast<std::size_t>(d_.patch_at(static_cast<int>(s), member.point.position));
-        d_.albedo[patch] += member.albedo;
-        ++count[patch - first];
-      }
-      for (std::size_t i = 0; i < m(); ++i) d_.albedo[first + i] /= count[i];
-    });
-  }
-
-  /// What probes' rays see was found before there were patches.
-  void find_seen_patches() {
-    const ProbeGBuffer& g = d_.gbuffer;
-    const auto patch_of = [&](const rays::RayQuery& ray, float distance, std::int32_t surfel) {
-      return surfel == no_surfel ? no_patch : d_.patch_at(surfel, ray.origin + distance * ray.direction);
-    };
-    parallel_for(g.hits.size(), 1024, [&](std::size_t i) {
-      const rays::RayQuery ray{g.positions[i / g.directions.size()], g.directions[i % g.directions.size()]};
-      d_.seen[i].index = patch_of(ray, g.hits[i].distance, d_.seen[i].index);
-    });
-    for (std::size_t k = 0; k < g.mirrored.size(); ++k) {
-      std::int32_t& index = d_.seen_mirrored[k].patch.index;
-      index = patch_of(g.mirrored[k].ray, g.mirrored[k].ray.t_max, index);
     }
   }
 
@@ -334,7 +278,7 @@ class NetworkBuilder {
       points = without_enclosed(part, points);
       d_.surfels.add(part, points);
     }
-    choose_samples();
+    d_.choose_samples();
     for (std::size_t s = d_.static_count; s < d_.surfels.count(); ++s) {
       const std::size_t used = d_.used_samples(s);
       for (std::size_t r = 0; r < rays_per_surfel(); ++r) {

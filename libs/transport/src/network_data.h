@@ -160,6 +160,14 @@ struct TransportNetwork::Data {
   template <class Sees>
   int find_nearest(int part, const rays::SurfacePoint& point, const Sees& sees) const;
 
+  // Patches, in network_patches.cpp.
+  /// Samples of all surfels that have none yet.
+  void choose_samples();
+  /// Of each patch, over the points found on it.
+  void find_patch_albedo();
+  /// What probes' rays see was found before there were patches.
+  void find_seen_patches();
+
   void build(std::span<const vec3> positions, float start_time, const Control& control);
   /// Goes on toward the pose of `time`, exact or blended between prepared ones, a piece at least; true: it is
   /// reached.

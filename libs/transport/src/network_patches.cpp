@@ -1,0 +1,66 @@
+/// The patches of surfels: where their direct light is found, and their albedo.
+
+#include <algorithm>
+
+#include "network_data.h"
+
+namespace ssphh::transport {
+namespace {
+
+/// Of a surfel with fewer evenly spread places (a sliver, a steep one) those that rays happened to find
+/// count, too.
+constexpr int least_places = 3;
+
+}  // namespace
+
+void TransportNetwork::Data::choose_samples() {
+  const std::size_t first = local_samples.size() / sample_count();
+  std::vector<std::vector<ClusterPoint>> chosen(surfels.count() - first);
+  parallel_for(chosen.size(), 16, [&](std::size_t i) {
+    const int s = static_cast<int>(first + i), count = params.samples;
+    // Points found on a moving part are spread over its area already
+    if (surfels.surfels()[first + i].part == 0) chosen[i] = surfels.spread_places(s, count);
+    if (static_cast<int>(chosen[i].size()) >= std::min(least_places, count)) return;
+    for (const ClusterPoint& member : surfels.spread_members(s, count)) {
+      if (static_cast<int>(chosen[i].size()) < count) chosen[i].push_back(member);
+    }
+  });
+  for (const std::vector<ClusterPoint>& of_surfel : chosen) {
+    for (std::size_t i = 0; i < sample_count(); ++i) {
+      const bool exists = i < of_surfel.size();
+      local_samples.push_back(of_surfel[exists ? i : 0].point);
+      albedo.push_back(of_surfel[exists ? i : 0].albedo);
+      sample_exists.push_back(exists);
+    }
+  }
+}
+
+void TransportNetwork::Data::find_patch_albedo() {
+  parallel_for(surfels.count(), 64, [&](std::size_t s) {
+    const std::size_t first = s * sample_count();
+    std::vector<float> count(sample_count(), 1);
+    for (const ClusterPoint& member : surfels.members(static_cast<int>(s))) {
+      const auto patch = static_cast<std::size_t>(patch_at(static_cast<int>(s), member.point.position));
+      albedo[patch] += member.albedo;
+      ++count[patch - first];
+    }
+    for (std::size_t i = 0; i < sample_count(); ++i) albedo[first + i] /= count[i];
+  });
+}
+
+void TransportNetwork::Data::find_seen_patches() {
+  const ProbeGBuffer& g = gbuffer;
+  const auto patch_of = [&](const rays::RayQuery& ray, float distance, std::int32_t surfel) {
+    return surfel == no_surfel ? no_patch : patch_at(surfel, ray.origin + distance * ray.direction);
+  };
+  parallel_for(g.hits.size(), 1024, [&](std::size_t i) {
+    const rays::RayQuery ray{g.positions[i / g.directions.size()], g.directions[i % g.directions.size()]};
+    seen[i].index = patch_of(ray, g.hits[i].distance, seen[i].index);
+  });
+  for (std::size_t k = 0; k < g.mirrored.size(); ++k) {
+    std::int32_t& index = seen_mirrored[k].patch.index;
+    index = patch_of(g.mirrored[k].ray, g.mirrored[k].ray.t_max, index);
+  }
+}
+
+}  // namespace ssphh::transport
