@@ -63,6 +63,50 @@ TEST_P(LampWithoutExtent, LightsEveryPixelAsItsClosedFormSays) {
 INSTANTIATE_TEST_SUITE_P(Lamps, LampWithoutExtent, testing::ValuesIn(lamps_without_extent()),
                          [](const auto& given) { return given.param.name; });
 
+StageLamp stage_sun() {
+  for (const StageLamp& lamp : lamps_without_extent()) {
+    if (lamp.light.type == scene::LightType::directional) return lamp;
+  }
+  return {};
+}
+
+TEST_F(LampPixels, OfASunThatShinesOnAPlainAreAsExactBeforeIt) {
+  scene::Scene scene = stage(matte({0.9f, 0.3f, 0.5f}));
+  add_mesh(scene, scene::make_quad({-2e3f, -0.02f, 2e3f}, {4e3f, 0, 0}, {0, 0, -4e3f}), 0);
+  const StageLamp sun = stage_sun();
+  add_stage_lamp(scene, sun.light);
+  const LampPicture truth(scene, lamp_size, sun.arriving, lambertian);
+  realtime::Renderer renderer(gl(), scene);
+  EXPECT_TRUE(picture_is(draw(renderer, scene), bounds_of(truth)));
+}
+
+TEST_F(LampPixels, OfASunThatRunsAlongAWallAreDarkUnderItsEaves) {
+  for (const float radius : {0.0f, 0.0046f}) {
+    scene::Scene scene = stage(matte({0.9f, 0.3f, 0.5f}));
+    add_mesh(scene, scene::make_box({-6, 3, -2}, {6, 3.1f, -1.5f}), 0);
+    add_mesh(scene, scene::make_quad({-60, -0.02f, 60}, {120, 0, 0}, {0, 0, -120}), 0);
+    scene::Light sun = stage_sun().light;
+    sun.angular_radius = radius;
+    add_stage_lamp(scene, sun);
+    const vec3 toward_sun = glm::normalize(vec3(0.3f, 1, 0.02f));
+    scene.nodes.back().local.rotation = glm::quatLookAt(-toward_sun, vec3(0, 0, 1));
+    const trace::TransportScene source(scene);
+    const PixelPoints points(source, scene::camera_pose(scene, ""), lamp_size);
+    realtime::Renderer renderer(gl(), scene);
+    const image::Image drawn = draw(renderer, scene);
+    int under = 0, lit = 0;
+    for (const PixelPoint& p : points.pixels) {
+      const vec3& x = p.point.position;
+      if (p.hit.escaped() || p.point.normal.z < 0.9f || std::abs(x.z + 2) > 1e-3f || x.y > 2.9f) continue;
+      const std::size_t i = points.index(p);
+      const int column = static_cast<int>(i) % lamp_size.width, row = static_cast<int>(i) / lamp_size.width;
+      ++under, lit += max_component(drawn.rgb(column, row)) > 0;
+    }
+    EXPECT_GT(under, 500);
+    EXPECT_EQ(lit, 0) << "of a sun with a radius of " << radius;
+  }
+}
+
 TEST_F(LampPixels, WhatStandsWithinAnSphlShadowsNothing) {
   const StageLamp lamp = shining_sphl();
   const auto scene_with = [&](float radius, bool box) {

@@ -80,10 +80,10 @@ TEST_F(RendererInput, LightsThatNeedMoreMapsThanThereAreAreRefused) {
   sun.type = scene::LightType::directional;
   scene_.lights.assign(32, sun);
   const realtime::RendererParams small{.sun_map_size = 16};
-  EXPECT_NO_THROW(Renderer(gl(), scene_, small)) << "four cascades each";
+  EXPECT_NO_THROW(Renderer(gl(), scene_, small)) << "six cascades each";
   scene_.lights.push_back(sun);
   EXPECT_EQ(message_of([&] { Renderer(gl(), scene_, small); }),
-            "real-time renderer: the lights need 132 parallel shadow maps, 128 is the most");
+            "real-time renderer: the lights need 198 parallel shadow maps, 192 is the most");
 }
 
 TEST_F(RendererInput, BeginsWithTheScenesOwnLighting) {

@@ -229,11 +229,11 @@ TEST_F(SoftShadow, ADoorThatMovesCostsTheMapsThatSeeIt) {
     return counts;
   };
   const std::vector<int> sharp = maps_of(0), narrow = maps_of(0.00465f), wide = maps_of(0.07f);
-  EXPECT_THAT(sharp, testing::ElementsAre(4, 0, testing::AllOf(testing::Gt(0), testing::Le(4)), 0));
+  EXPECT_THAT(sharp, testing::ElementsAre(6, 0, testing::AllOf(testing::Gt(0), testing::Le(6)), 0));
   EXPECT_EQ(narrow, sharp);
-  EXPECT_EQ(wide[0], 16) << "four parts";
+  EXPECT_EQ(wide[0], 24) << "four parts";
   EXPECT_EQ(wide[1], 0);
-  EXPECT_LE(wide[2], 16);
+  EXPECT_LE(wide[2], 24);
   EXPECT_EQ(wide[3], 0);
 }
 
@@ -244,12 +244,12 @@ TEST_F(SoftShadow, ManyWideSunsShareTheMapsThatThereAre) {
     realtime::Renderer renderer(gl(), s, {.sun_map_size = 64, .sun_samples = 16});
     return renderer.draw(scene::camera_pose(s, ""), {}, {.width = 16, .height = 9}).shadow_maps_drawn;
   };
-  // 32 of the 128 are the environment's
-  EXPECT_EQ(maps(), 32 + 4 * 16);
+  // 32 of the 192 are the environment's
+  EXPECT_EQ(maps(), 32 + 6 * 16);
   add_sun(s, {0.1f, -1, 0.2f}, 0.2f);
-  EXPECT_EQ(maps(), 32 + 2 * 4 * 12);
+  EXPECT_EQ(maps(), 32 + 2 * 6 * 12);
   add_sun(s, {0.1f, -1, -0.2f}, 0.2f);
-  EXPECT_EQ(maps(), 32 + 3 * 4 * 7);
+  EXPECT_EQ(maps(), 32 + 3 * 6 * 7);
 }
 
 }  // namespace

@@ -20,14 +20,19 @@ float disc_irradiance(float cosine, float sine) {
 // A point of a surface, in metres across and toward the light.
 struct Receiver {
   vec2 place;
-  vec2 slope;   // of its plane: toward the light for each metre across
-  float here;   // depth
-  float range;  // that depth 1 stands for
+  vec2 across;   // of its normal
+  float facing;  // cosine of its normal, above 0
+  vec2 slope;    // of its plane: toward the light for each metre across
+  float here;    // depth
+  float range;   // that depth 1 stands for
 };
-// One of the maps: centre [m], 1 / half width, tile. As emitter.corners holds them, four for each part of the disc.
+// One of the maps: centre [m], 1 / half width, tile. As emitter.corners holds them, SUN_CASCADES for each part of the
+// disc. The receiver stands in it lifted (grazing_lift).
 struct Spot {
   vec4 map;
   vec2 texel;    // of the receiver, in the tile
+  float here;    // depth of it
+  float below;   // its plane, away from the light [m]
   float width;   // of a texel [m]
   float margin;  // [m]
 };
@@ -42,9 +47,12 @@ Spot spot_of(int first, Receiver r, float radius) {
   Spot s;
   float inner = float(frame.maps.w - 2);
   s.map = map;
-  s.texel = 0.5 * (r.place - map.xy) * map.z * inner + 0.5 * float(frame.maps.w);
   s.width = 2 / (inner * map.z);
-  s.margin = 1.5 * s.width;
+  s.margin = shadow_margin(r.facing, s.width, r.range);
+  float lift = grazing_lift(r.facing, s.width);
+  s.texel = 0.5 * (r.place + lift * r.across - map.xy) * map.z * inner + 0.5 * float(frame.maps.w);
+  s.here = r.here + lift * r.facing / r.range;
+  s.below = lift / r.facing;
   return s;
 }
 
@@ -52,7 +60,8 @@ Spot spot_of(int first, Receiver r, float radius) {
 // than `height` metres.
 float lit_at(Receiver r, Spot s, vec2 off, float height) {
   return compare_tile(parallel_maps, frame.maps.w, frame.map_tiles.w, int(s.map.w), s.texel + off,
-                      r.here + height / r.range, r.slope * (s.width / r.range), s.margin / r.range);
+                      s.here + height / r.range, s.here + (height - s.below) / r.range, r.slope * (s.width / r.range),
+                      s.margin / r.range);
 }
 
 // Greatest and least depth in a square of 2^level texels.
@@ -71,15 +80,15 @@ float narrowed(Receiver r, Spot s, float tangent, float radius) {
   ivec2 low = ivec2(floor((s.texel - t) / square));
   vec2 v0 = bounds_in(s, level, low), v1 = bounds_in(s, level, low + ivec2(1, 0)),
        v2 = bounds_in(s, level, low + ivec2(0, 1)), v3 = bounds_in(s, level, low + 1);
-  vec4 highest = (vec4(v0.x, v1.x, v2.x, v3.x) - r.here) * r.range;
-  vec4 lowest = (vec4(v0.y, v1.y, v2.y, v3.y) - r.here) * r.range;
+  vec4 highest = (vec4(v0.x, v1.x, v2.x, v3.x) - s.here) * r.range;
+  vec4 lowest = (vec4(v0.y, v1.y, v2.y, v3.y) - s.here) * r.range;
   // Metres to the squares' middles
   vec2 m0 = ((vec2(low) + 0.5) * square - s.texel) * s.width;
   float edge = square * s.width;
   vec4 x = vec4(m0.x, m0.x + edge, m0.x, m0.x + edge), y = vec4(m0.y, m0.y, m0.y + edge, m0.y + edge);
   vec4 away_x = max(abs(x) - 0.5 * edge, 0.0), away_y = max(abs(y) - 0.5 * edge, 0.0);
   vec4 away2 = away_x * away_x + away_y * away_y;
-  vec4 plane = r.slope.x * x + r.slope.y * y + 0.5 * edge * (abs(r.slope.x) + abs(r.slope.y));
+  vec4 plane = r.slope.x * x + r.slope.y * y + 0.5 * edge * (abs(r.slope.x) + abs(r.slope.y)) - s.below;
   vec4 reaches = max(highest * tangent, 0.0);
   reaches *= vec4(greaterThan(reaches * reaches, away2));
   vec4 open = vec4(lessThan(away2, vec4(radius * radius))) * vec4(lessThanEqual(lowest, max(plane, 0.0) + s.margin));
@@ -91,14 +100,14 @@ float narrowed_further(Receiver r, Spot s, float tangent, float radius) {
   float t = radius / s.width, reach = 0;
   int level = clamp(int(ceil(log2(0.5 * t))), 1, emitter.count.x);
   float square = float(1 << level), edge = square * s.width;
-  float rise = 0.5 * edge * (abs(r.slope.x) + abs(r.slope.y)) + s.margin;
+  float rise = 0.5 * edge * (abs(r.slope.x) + abs(r.slope.y)) - s.below;
   ivec2 low = ivec2(floor((s.texel - t) / square)), high = ivec2(floor((s.texel + t) / square));
   for (int j = low.y; j <= high.y; ++j) {
     for (int i = low.x; i <= high.x; ++i) {
       vec2 middle = ((vec2(i, j) + 0.5) * square - s.texel) * s.width;
-      float height = (bounds_in(s, level, ivec2(i, j)).x - r.here) * r.range;
+      float height = (bounds_in(s, level, ivec2(i, j)).x - s.here) * r.range;
       float away = length(max(abs(middle) - 0.5 * edge, 0.0));
-      bool blocks = height > max(dot(r.slope, middle) + rise, 0.0) && height * tangent > away;
+      bool blocks = height > max(dot(r.slope, middle) + rise, 0.0) + s.margin && height * tangent > away;
       reach = blocks ? max(reach, height * tangent) : reach;
     }
   }
@@ -116,8 +125,8 @@ float blocker_height(Receiver r, Spot s, float radius) {
     ivec2 at = ivec2(s.texel + radius * share / s.width * to);
     ivec2 inside = clamp(at, 0, frame.maps.w - 1);
     float depth = texelFetch(parallel_maps, ivec3(place.xy * frame.maps.w + inside, place.z), 0).x;
-    float height = (depth - r.here) * r.range;
-    float plane = max(dot(r.slope, vec2(at) + 0.5 - s.texel) * s.width, 0.0);
+    float height = (depth - s.here) * r.range;
+    float plane = max(dot(r.slope, vec2(at) + 0.5 - s.texel) * s.width - s.below, 0.0);
     float hides = height > plane + s.margin ? share / (height * height) : 0;
     heights += hides * height;
     shares += hides;
@@ -131,10 +140,11 @@ float disc_visibility(int part, float sine, vec3 x, vec3 n) {
   int first = SUN_CASCADES * part;
   float tangent = sine / sqrt(max(1 - sine * sine, 1e-2));
   float facing = -dot(n, axes.forward.xyz);
-  vec2 across = vec2(dot(n, axes.right.xyz), dot(n, axes.up.xyz));
   Receiver r;
   r.place = vec2(dot(x, axes.right.xyz), dot(x, axes.up.xyz));
-  r.slope = -across / max(facing, 1e-3);
+  r.across = vec2(dot(n, axes.right.xyz), dot(n, axes.up.xyz));
+  r.facing = max(facing, 1e-3);
+  r.slope = -r.across / r.facing;
   r.here = 1 - dot(x - axes.origin.xyz, axes.forward.xyz) * axes.origin.w;
   r.range = 1 / axes.origin.w;
 
@@ -164,7 +174,7 @@ float disc_visibility(int part, float sine, vec3 x, vec3 n) {
   for (int i = 0; i < SHADOW_TAPS; ++i, to = GOLDEN_TURN * to) {
     float share2 = (float(i) + 0.5) / float(SHADOW_TAPS);
     vec2 lean = sine * sqrt(share2 / max(1 - share2 * sine * sine, 1e-2)) * to;
-    float weight = max(facing + dot(across, lean), 0.0), least = met ? 0 : height * sqrt(share2);
+    float weight = max(facing + dot(r.across, lean), 0.0), least = met ? 0 : height * sqrt(share2);
     total += weight;
     seen += weight * lit_at(r, s, height / s.width * lean, max(dot(r.slope, height * lean), least));
   }

@@ -2,7 +2,7 @@
 
 // One emitter of the scene; mirrors GpuEmitter, GpuAreaSample in gpu_types.h. Passes light the scene by one
 // emitter each.
-const int MAX_SAMPLES = 64, MAX_CORNERS = 121, SUN_CASCADES = 4;
+const int MAX_SAMPLES = 64, MAX_CORNERS = 121, SUN_CASCADES = 6;
 
 struct AreaSample {
   vec4 place;   // position, or direction toward it (environment, disc); w: share of the area or light
@@ -28,7 +28,7 @@ struct SunMap {
   vec4 up;       // w: 1 / half height
   vec4 forward;  // away from the light; w: tile
 };
-const int MAX_PARALLEL_MAPS = 128;
+const int MAX_PARALLEL_MAPS = 192;
 layout(std140, binding = 1) uniform DistantBlock {
   SunMap sun_maps[MAX_PARALLEL_MAPS];
   vec4 environment_sh[25];
@@ -58,19 +58,28 @@ vec2 place_on(SunMap map, vec3 x) {
   return vec2(dot(d, map.right.xyz) * map.right.w, dot(d, map.up.xyz) * map.up.w);
 }
 
+// Texels by which a receiver is lifted along its normal where light grazes it: the plane of a wall that the light
+// runs along rises within a texel by more than what stands before it, so nothing in the wall's own texels tells.
+const float GRAZING_LIFT = 1.5;
+float grazing_lift(float facing, float texel) { return GRAZING_LIFT * texel * (1 - facing) * (1 - facing); }
+// What may stand before a receiver and not block [m]: round things that it touches rise within a texel, too, and depths
+// are rounded to some 2^-22 of their `range`.
+float shadow_margin(float facing, float texel, float range) { return mix(0.25, 1.5, facing) * texel + 2.5e-7 * range; }
+
 float parallel_visibility(SunMap map, vec3 x, vec3 n) {
-  vec2 plane = place_on(map, x);
-  float here = 1 - dot(x - map.origin.xyz, map.forward.xyz) * map.origin.w;
-  if (any(greaterThan(abs(plane), vec2(1)))) return 1;
-  float size = float(frame.maps.w);
-  float inner = size - 2;
-  float facing = min(dot(n, map.forward.xyz), -1e-3);
+  float inner = float(frame.maps.w) - 2;
+  float width = 2 / (inner * map.right.w), facing = max(-dot(n, map.forward.xyz), 1e-3);
+  float lift = grazing_lift(facing, width);
+  vec3 lifted = x + lift * n;
+  vec2 across = place_on(map, lifted);
+  if (any(greaterThan(abs(across), vec2(1)))) return 1;
+  float here = 1 - dot(lifted - map.origin.xyz, map.forward.xyz) * map.origin.w;
   // dz along the map's axes on the receiver's plane, in metres, then in depth per texel
-  vec2 slope = vec2(dot(n, map.right.xyz) / map.right.w, dot(n, map.up.xyz) / map.up.w) / facing * map.origin.w *
-               (2 / inner);
-  vec2 texel = 0.5 * plane * inner + 0.5 * size;
-  float margin = 3 / (inner * map.right.w) * map.origin.w;
-  return compare_tile(parallel_maps, frame.maps.w, frame.map_tiles.w, int(map.forward.w), texel, here, slope, margin);
+  vec2 slope = -vec2(dot(n, map.right.xyz), dot(n, map.up.xyz)) / facing * (width * map.origin.w);
+  float plane = here - lift / facing * map.origin.w;
+  vec2 texel = 0.5 * across * inner + 0.5 * float(frame.maps.w);
+  float margin = shadow_margin(facing, width, 1 / map.origin.w) * map.origin.w;
+  return compare_tile(parallel_maps, frame.maps.w, frame.map_tiles.w, int(map.forward.w), texel, here, plane, slope, margin);
 }
 
 // What glass leaves of light on its way to x.

@@ -27,16 +27,17 @@ vec3 in_face(int face, vec3 v) {
 }
 
 // Share of light in the 2 x 2 texels around `texel` (in the tile) of tile `tile`. `here` is the receiver's own
-// depth value, `slope` its change per texel; what is nearer than both by `margin` blocks.
-float compare_tile(sampler2DArray maps, int size, int columns_log2, int tile, vec2 texel, float here, vec2 slope,
-                   float margin) {
+// depth value, its plane stands at `plane_here` there and changes by `slope` per texel; what is nearer than both by
+// `margin` blocks.
+float compare_tile(sampler2DArray maps, int size, int columns_log2, int tile, vec2 texel, float here, float plane_here,
+                   vec2 slope, float margin) {
   ivec3 place = tile_place(tile, columns_log2);
   vec2 corner = vec2(place.xy * size);
   vec2 at = clamp(texel, vec2(1), vec2(size - 1));
   vec2 low = floor(at - 0.5), f = at - 0.5 - low;
   vec4 stored = textureGather(maps, vec3((corner + low + 1) / vec2(textureSize(maps, 0).xy), place.z));
   vec2 from = low + 0.5 - texel;
-  vec4 plane = here + vec4(dot(slope, from + vec2(0, 1)), dot(slope, from + vec2(1, 1)),
+  vec4 plane = plane_here + vec4(dot(slope, from + vec2(0, 1)), dot(slope, from + vec2(1, 1)),
                            dot(slope, from + vec2(1, 0)), dot(slope, from));
   vec4 lit = vec4(lessThanEqual(stored, max(plane, vec4(here)) + margin));
   return mix(mix(lit.w, lit.z, f.x), mix(lit.x, lit.y, f.x), f.y);
@@ -54,7 +55,7 @@ float cube_visibility(sampler2DArray maps, int size, int columns_log2, float nea
   vec3 local = in_face(face, n);
   float across = min(-abs(dot(n, d)), -1e-3 * place.z);
   vec2 slope = (dot(n, d) <= 0 ? 1 : -1) * near * local.xy / across * (2 / inner);
-  return compare_tile(maps, size, columns_log2, slot * 6 + face, texel, here, slope, here * 1.5 / inner);
+  return compare_tile(maps, size, columns_log2, slot * 6 + face, texel, here, here, slope, here * 1.5 / inner);
 }
 
 // What glass leaves of the light on its way to a place in a tile, and to x.

@@ -55,8 +55,9 @@ void Renderer::Data::plan(const Eye& eye) {
       (scene.any_full() || scene.any_glass() || settings.lookup == probes::LookupMethod::light))
     probes.want_radiance(counters);
   shadow_maps_left = params.maps_per_frame;
-  todo.push_back({shadows, &Data::draw_shadows});
   todo.push_back({geometry, taken ? &Data::take_geometry : &Data::draw_geometry});
+  if (!taken) todo.push_back({shadows, &Data::prepare_lights});
+  todo.push_back({shadows, &Data::draw_shadows});
   if (wants_direct || settings.view == View::shadow) in_bands(direct, &Data::draw_direct);
   if (wants_indirect) {
     if (settings.ambient_occlusion) in_bands(indirect, &Data::draw_occlusion);
@@ -95,9 +96,8 @@ void Renderer::Data::begin(const scene::CameraPose& camera, const FrameSettings&
   in_pieces = in_pieces_now;
   taken.reset();
   make_room(settings, target);
-  const float aspect = static_cast<float>(target.width) / static_cast<float>(target.height);
+  frame_camera = camera;
   choose_direct(settings);
-  lights.prepare(camera, aspect, scene.bounds(), counters);
   plan(eye_of(camera, settings, images));
   stats.cpu_ms = watch.milliseconds();
 }

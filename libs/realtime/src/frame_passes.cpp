@@ -16,6 +16,12 @@ void Renderer::Data::fullscreen(gl::Program& program, unsigned framebuffer, cons
   ++counters.draw_calls;
 }
 
+void Renderer::Data::prepare_lights() {
+  const float aspect = static_cast<float>(frame_target.width) / static_cast<float>(frame_target.height);
+  const DepthSpread spread = lights.any_sun() ? view_depths.measure(shaders, no_vertices) : DepthSpread{};
+  lights.prepare(frame_camera, aspect, spread, scene.bounds(), counters);
+}
+
 void Renderer::Data::draw_shadows() {
   int left = in_pieces ? std::min(shadow_maps_left, 1) : shadow_maps_left;
   int& waiting = stats.shadow_maps_waiting;

@@ -73,7 +73,7 @@ struct GpuSunMap {
 static_assert(sizeof(GpuSunMap) == 4 * 16);
 
 /// DistantBlock of lights.glsl.
-inline constexpr int max_parallel_maps = 128;
+inline constexpr int max_parallel_maps = 192;
 struct DistantBlock {
   GpuSunMap maps[max_parallel_maps];
   vec4 environment_sh[25];

@@ -310,12 +310,19 @@ void Lights::set_colors() {
   }
 }
 
-void Lights::prepare(const scene::CameraPose& camera, float aspect, const scene::Bounds& bounds,
-                     FrameCounters& counters) {
+bool Lights::is_sun(const Source& source) const {
+  return source.light >= 0 &&
+         lights_[static_cast<std::size_t>(source.light)].type == scene::LightType::directional;
+}
+
+bool Lights::any_sun() const {
+  return std::ranges::any_of(sources_, [&](const Source& s) { return is_sun(s) && s.lights(); });
+}
+
+void Lights::prepare(const scene::CameraPose& camera, float aspect, const DepthSpread& seen,
+                     const scene::Bounds& bounds, FrameCounters& counters) {
   for (const Source& source : sources_) {
-    if (source.light >= 0 &&
-        lights_[static_cast<std::size_t>(source.light)].type == scene::LightType::directional)
-      place_sun(source, camera, aspect, bounds);
+    if (is_sun(source)) place_sun(source, camera, aspect, seen, bounds);
   }
   sun_bounds_ = bounds;
   if (environment_ && (bounds.min != environment_bounds_.min || bounds.max != environment_bounds_.max))

@@ -10,12 +10,13 @@
 #include "depth_bounds.h"
 #include "emitter_samples.h"
 #include "shadow_maps.h"
+#include "view_depths.h"
 
 namespace ssphh::realtime {
 
 class Lights {
  public:
-  static constexpr int sun_cascades = 4;
+  static constexpr int sun_cascades = 6;
 
   /// As at `time` seconds, when the nodes stand as in `world`.
   Lights(const scene::Scene& scene, float time, const std::vector<mat4>& world, const scene::Bounds& bounds,
@@ -32,9 +33,11 @@ class Lights {
   void clear_emissions();
   void invalidate(const std::vector<scene::Bounds>& moved);
 
-  /// Brings buffers up to date and fits the sun's cascades to the view.
-  void prepare(const scene::CameraPose& camera, float aspect, const scene::Bounds& bounds,
-               FrameCounters& counters);
+  /// Whether any sun's maps follow the view.
+  bool any_sun() const;
+  /// Brings buffers up to date and fits the sun's cascades to the view, by the depths of what is seen.
+  void prepare(const scene::CameraPose& camera, float aspect, const DepthSpread& seen,
+               const scene::Bounds& bounds, FrameCounters& counters);
   int update_maps(const GpuScene& scene, gl::Program& opaque, gl::Program& alpha, gl::Program* glass,
                   int most, int& waiting, FrameCounters& counters);
   void invalidate_all();
@@ -82,6 +85,7 @@ class Lights {
     bool mirrored = false;  ///< by what is glossy, though left out
     bool lights() const { return !left_out || mirrored; }
   };
+  bool is_sun(const Source& source) const;
   static int most_sun_parts(const scene::Scene& scene, const RendererParams& params);
   void add_lights(const scene::Scene& scene, float time, const std::vector<mat4>& world,
                   const std::vector<std::string>& groups, int most_parts);
@@ -91,7 +95,7 @@ class Lights {
   void place(Source& source, const mat4& world);
   void place_samples(Source& source, const mat4& world);
   void point_sun(const Source& source, const vec3& axis, float radius);
-  void place_sun(const Source& source, const scene::CameraPose& camera, float aspect,
+  void place_sun(const Source& source, const scene::CameraPose& camera, float aspect, const DepthSpread& seen,
                  const scene::Bounds& bounds);
   void find_environment();
   void turn_environment();

@@ -2,6 +2,7 @@
 /// scene for each direction that stands for the environment.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -13,9 +14,21 @@
 namespace ssphh::realtime {
 namespace {
 
-/// Distances at which cascades end, as shares of the farthest: each a quarter of the next.
-constexpr float cascade_share[] = {1.0f / 64, 1.0f / 16, 1.0f / 4};
-static_assert(std::size(cascade_share) + 1 == Lights::sun_cascades);
+/// Depths at which all cascades but the last end, which holds the whole scene: all but one in equal ratios up to
+/// where most of the picture stands, one halfway to the farthest that is seen.
+std::array<float, Lights::sun_cascades - 1> cascade_ends(const DepthSpread& seen, float whole) {
+  constexpr int fine = Lights::sun_cascades - 2;
+  constexpr float least_spread = 4;  // nothing is gained by maps that hardly differ
+  const float far = seen.far > 0 ? std::min(seen.far, whole) : whole;
+  const float most = seen.far > 0 ? std::min(seen.most, far) : whole / least_spread;
+  const float near = std::min(seen.far > 0 ? seen.near : most / 64, most / least_spread);
+  std::array<float, Lights::sun_cascades - 1> ends;
+  for (int i = 0; i < fine; ++i)
+    ends[static_cast<std::size_t>(i)] =
+        near * std::pow(most / near, static_cast<float>(i + 1) / static_cast<float>(fine));
+  ends.back() = std::sqrt(most * far);
+  return ends;
+}
 
 }  // namespace
 
@@ -63,13 +76,13 @@ void Lights::set_parallel(int map, const vec3& forward, const vec3& center, floa
 }
 
 void Lights::place_sun(const Source& source, const scene::CameraPose& camera, float aspect,
-                       const scene::Bounds& bounds) {
+                       const DepthSpread& seen, const scene::Bounds& bounds) {
   GpuEmitter& emitter = emitters_[static_cast<std::size_t>(source.emitter)];
   const vec3 eye(camera.world[3]), ahead = -glm::normalize(vec3(camera.world[2]));
   const float half_height =
       camera.camera.orthographic ? 0.5f * camera.camera.yheight : std::tan(0.5f * camera.camera.yfov);
   const float across = half_height * std::sqrt(1 + aspect * aspect);
-  const float farthest = 2 * bounds.radius();
+  const auto ends = cascade_ends(seen, 2 * bounds.radius());
   // Depth is measured through the whole scene, by all cascades alike
   const bool stretched = bounds.min != sun_bounds_.min || bounds.max != sun_bounds_.max;
   for (int i = 0; i < emitter.items.z * sun_cascades; ++i) {
@@ -78,7 +91,7 @@ void Lights::place_sun(const Source& source, const scene::CameraPose& camera, fl
     vec3 center = bounds.center();
     float radius = bounds.radius();
     if (cascade + 1 < sun_cascades) {
-      const float end = farthest * cascade_share[cascade];
+      const float end = ends[static_cast<std::size_t>(cascade)];
       const float side = camera.camera.orthographic ? across : across * end;
       const float own = 0.5f * std::sqrt(end * end + 4 * side * side);
       if (own < radius) {

@@ -19,6 +19,7 @@
 #include "method_light.h"
 #include "probes.h"
 #include "shaders.h"
+#include "view_depths.h"
 
 namespace ssphh::realtime {
 
@@ -68,6 +69,8 @@ struct Renderer::Data {
     if (scene.any_full()) draw_class(true, of_class(surface_class::full));
   }
   // Of the frame that begin() was asked for. What fullscreen() draws keeps to the band of the piece.
+  /// Sees how far the picture reaches.
+  void prepare_lights();
   /// In pieces one map, and `more_shadows` tells whether others wait.
   void draw_shadows();
   void draw_geometry();
@@ -125,6 +128,7 @@ struct Renderer::Data {
   gl::Buffer frame_buffer;
   gl::VertexArray no_vertices;
   FrameImages images;
+  ViewDepths view_depths;
   std::vector<gl::Timer> timers;
   gl::SampleCounter shaded;
   FrameStats stats;
@@ -140,6 +144,7 @@ struct Renderer::Data {
   FrameSettings frame_settings;  ///< of the frame that is being drawn, as all that follows
   std::optional<GBuffer> taken;  ///< an engine's, in place of the scene's geometry
   Target frame_target;
+  scene::CameraPose frame_camera;
   std::vector<Piece> todo;
   std::size_t next_piece = 0;
   bool in_pieces = false, more_shadows = false;

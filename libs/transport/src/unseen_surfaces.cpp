@@ -29,7 +29,8 @@ std::vector<rays::PartPoint> spread_over(const rays::TransportSource& source, fl
   return points;
 }
 
-/// Whether most of what the point sees is the back of surfaces.
+/// Whether half of what the point sees, or more, is the back of surfaces: where bodies touch, one shows its front
+/// within the other.
 bool is_inside(const rays::TransportSource& source, const rays::SurfacePoint& point, float lift) {
   constexpr std::uint32_t count = 8;
   const Frame frame = Frame::around(point.normal);
@@ -40,7 +41,7 @@ bool is_inside(const rays::TransportSource& source, const rays::SurfacePoint& po
                                                               static_cast<float>(i * 3 % count) / count)))});
   std::vector<rays::RayHit> hits(count);
   source.intersect(0, rays, hits);
-  return 2 * std::ranges::count_if(hits, [](const rays::RayHit& hit) { return hit.back; }) > count;
+  return 2 * std::ranges::count_if(hits, [](const rays::RayHit& hit) { return hit.back; }) >= count;
 }
 
 }  // namespace
