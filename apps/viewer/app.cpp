@@ -145,6 +145,10 @@ void App::resize_picture() {
 /// What the user changed since the last turn goes to the renderer; places and surfaces make the light stale.
 void App::apply_edits() {
   const Edits& edits = document.edits();
+  // While somebody drags a cone the renderer keeps the one of before, which lines show beside the new one.
+  const bool shapes_alone = lamps_of_->lights.size() == document.scene->lights.size() &&
+                            scene::light_groups(*lamps_of_) == scene::light_groups(*document.scene);
+  if (lamps_of_ != document.scene && !(shapes_alone && ImGui::IsAnyMouseDown())) renew_renderer();
   const scene::LightingState lighting = document.lighting();
   if (renderer_->lighting() != lighting) {
     renderer_->set(lighting);
@@ -167,6 +171,21 @@ void App::apply_edits() {
     light_stale_ = false;
     rebuild_light();
   }
+}
+
+/// Lamps are built into renderers and transport. The picture has them at once, indirect light follows in the
+/// background.
+void App::renew_renderer() {
+  const Edits& edits = document.edits();
+  renderer_ = std::make_unique<realtime::Renderer>(*gl_, with_materials(*document.scene, edits),
+                                                   realtime::RendererParams{}, document.time);
+  lamps_of_ = document.scene;
+  applied_materials_ = edits.materials;
+  drawing_.reset();
+  outlined_.reset();
+  scene_dirty_ = true;
+  light.renderer_is_new();
+  if (light.live()) light_stale_ = true, stale_since_ = window.seconds();
 }
 
 void App::update_light() {
@@ -329,8 +348,7 @@ void App::update_truth() {
     redraw();
     if (window.seconds() - last_change_ < 0.25 || light_stale_) return;
     ReferenceParams params;
-    params.scene =
-        std::make_shared<const scene::Scene>(edited_scene(*document.scene, document.edits(), document.time));
+    params.scene = std::make_shared<const scene::Scene>(document.edited());
     params.geometry = geometry_;
     params.time = document.time;
     params.camera = pose_of(view);

@@ -15,6 +15,10 @@ void draw_menu(App& app);
 /// From `y` on, at the window's left; its width [pixels].
 float draw_sidebar(App& app, float y, float height);
 void draw_light_panel(App& app);
+/// A part of it: the lamp that is selected.
+void draw_lamp(App& app);
+/// Entries of a menu: a lamp of each kind to add.
+void draw_lamp_kinds(App& app);
 /// A part of it, of scenes with a computed sky.
 void draw_sky(App& app);
 void draw_probe_panel(App& app);

@@ -88,7 +88,7 @@ TEST_F(Panels, FieldsFollowTheMouseAtTheirSpeed) {
   open("Light");
   expect_pulled(
       "intensity", [&] { return edits().lights[0].intensity; }, 0.08f, 0, 1e6f);
-  EXPECT_EQ(app().document.history.undo_name(), "dim lamp");
+  EXPECT_EQ(app().document.history.undo_name(), "intensity of lamp");
   expect_pulled(
       "position",
       [&] {
