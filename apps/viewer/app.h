@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <tuple>
 
 #include <ssphh/bake/bake.h>
 #include <ssphh/gl/context.h>
@@ -18,6 +19,7 @@
 #include "model/gestures.h"
 #include "model/inspection.h"
 #include "model/preferences.h"
+#include "model/reading.h"
 #include "model/reference.h"
 #include "outline_gl.h"
 #include "picture.h"
@@ -138,6 +140,12 @@ class App {
   bool keeping() const { return !keeper_.idle(); }
   /// Lets the user choose a file, at first in this folder; empty: in the scene's.
   void ask_for_file(FileDialog::For what, const std::filesystem::path& in = {});
+  /// What is kept of the window beside scenes, and taken up by the next session. Where nobody sits nothing
+  /// is.
+  WindowLook look() const;
+  void take_look();
+  /// Writes it where it has changed, once nothing is being dragged.
+  void keep_look();
   /// As for a scene, with the name of an overlay.
   void ask_for_overlay();
   /// What Enter does in the dialog: goes into a folder, or opens or writes the file. A file that is there is
@@ -264,6 +272,7 @@ class App {
   Picture picture;
   FrameTimes times;
   realtime::FrameStats last_stats;
+  std::optional<StopHistogram> histogram, truth_histogram;  ///< of the pictures that are shown
   CameraPath bookmarks;
   float path_time = 0;
   bool path_plays = false;
@@ -327,7 +336,7 @@ class App {
   void continue_picture();
   void draw_balls();
   void draw_outline();
-  bool smooths() const { return settings.antialias && !needs_truth(settings); }
+  bool smooths() const { return settings.antialias && !needs_truth(settings) && !settings.false_color; }
   void update_truth();
   void update_visible();
   void finish_frame();
@@ -360,7 +369,14 @@ class App {
     double seconds = 0;   ///< so far
   };
   void finish_picture(const Drawing& done);
-  bool wants_linear() const { return needs_truth(settings) || inspecting; }
+  bool wants_linear() const {
+    return needs_truth(settings) || inspecting || settings.histogram || settings.false_color;
+  }
+  WindowLook kept_look_;  ///< in the preferences
+  /// Brings histograms and false colours up to date with the picture.
+  void update_readings();
+  std::optional<std::tuple<int, int, float, bool>>
+      read_;  ///< picture, passes, EV, false colours that they hold for
   bool awaits_picture() const { return drawing_ && !drawing_->smooth; }
   std::optional<Drawing> drawing_;
   int pictures_ = 0;  ///< that became whole

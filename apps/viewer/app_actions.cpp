@@ -134,7 +134,7 @@ void App::screenshot(const std::string& file, bool with_panels) {
   if (needs_truth(settings) && settings.show != Show::wipe) {
     pixels = picture.truth_pixels();
   } else {
-    pixels = picture.pixels();
+    pixels = settings.false_color ? picture.false_color_pixels() : picture.pixels();
     if (settings.show == Show::wipe && picture.has_truth()) {
       const image::Rgba8& truth = picture.truth_pixels();
       const auto from = static_cast<int>(settings.wipe * static_cast<float>(pixels.width));

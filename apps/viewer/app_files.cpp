@@ -127,6 +127,30 @@ void App::remember_scene(const std::string& source, bool stays) {
   }
 }
 
+WindowLook App::look() const {
+  return {side_width, settings.histogram, settings.false_color};
+}
+
+void App::take_look() {
+  if (!by_hand()) return;
+  side_width = preferences.look.side_width;
+  settings.histogram = preferences.look.histogram;
+  settings.false_color = preferences.look.false_color;
+}
+
+void App::keep_look() {
+  const WindowLook now = look();
+  if (options.preferences.empty() || !by_hand() || now == kept_look_) return;
+  kept_look_ = now;
+  try {
+    preferences = read_preferences(options.preferences);
+    preferences.look = now;
+    write_preferences(preferences, options.preferences);
+  } catch (const std::exception& e) {
+    complain(e.what());
+  }
+}
+
 void App::ask_for_overlay() {
   ask_for_file(FileDialog::For::scene);
   if (document.file.ends_with(overlay_ending)) return;

@@ -120,6 +120,7 @@ void App::take_document(Loaded loaded) {
   exposure_.forget();
   visible_seen_.reset();
   outlined_.reset();
+  read_.reset();
   scene_dirty_ = true;
   light_stale_ = false;
   fly_speed = document.bounds.empty() ? 2 : std::max(0.2f, 0.25f * document.bounds.radius());

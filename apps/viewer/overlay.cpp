@@ -140,9 +140,15 @@ void draw_lamp_shape(const App& app, ImDrawList& list) {
   mat4 world = app.document.lighting().lights[i].world;
   if (const auto origin = app.aim_origin()) world = with_position(world, *origin);
   constexpr ImU32 color = IM_COL32(255, 190, 80, 170);
+  // Eighths of pixels are the same on every processor.
+  const auto steady = [&](const vec3& point) {
+    auto at = on_screen(app, point);
+    if (at) *at = {std::round(8 * at->x) / 8, std::round(8 * at->y) / 8};
+    return at;
+  };
   for (const std::vector<vec3>& line : lamp_lines(lamp, world, aim_length(app))) {
     for (std::size_t k = 1; k < line.size(); ++k) {
-      const auto a = on_screen(app, line[k - 1]), b = on_screen(app, line[k]);
+      const auto a = steady(line[k - 1]), b = steady(line[k]);
       if (a && b) list.AddLine(*a, *b, color, 1.5f);
     }
   }

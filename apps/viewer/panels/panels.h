@@ -29,6 +29,8 @@ void draw_picture_panel(App& app);
 void draw_stats_panel(App& app);
 void draw_time_bar(App& app);
 void draw_help(App& app);
+/// Over the picture: the histogram, and the legend of false colours.
+void draw_readings(App& app);
 /// What stands under the mouse, or at the pinned point, and what lights it.
 void draw_inspector(App& app);
 /// Lets the user choose the file of App::dialog, and opens or writes it.
