@@ -151,6 +151,13 @@ void App::apply_edits() {
   const bool shapes_alone = lamps_of_->lights.size() == document.scene->lights.size() &&
                             scene::light_groups(*lamps_of_) == scene::light_groups(*document.scene);
   if (lamps_of_ != document.scene && !(shapes_alone && ImGui::IsAnyMouseDown())) renew_renderer();
+  // Also where lamps changed while the light was on its way; once, so that it can be cancelled.
+  const std::pair asked(document.scene, light.live_light());
+  if (light.live() && relit_for_ != asked && !has_lamps(light.live_light()->scene(), edits)) {
+    relit_for_ = asked;
+    light_stale_ = true;
+    stale_since_ = window.seconds();
+  }
   const scene::LightingState lighting = document.lighting();
   if (renderer_->lighting() != lighting) {
     renderer_->set(lighting);
@@ -187,7 +194,6 @@ void App::renew_renderer() {
   outlined_.reset();
   scene_dirty_ = true;
   light.renderer_is_new();
-  if (light.live()) light_stale_ = true, stale_since_ = window.seconds();
 }
 
 void App::update_light() {

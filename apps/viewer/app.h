@@ -347,6 +347,8 @@ class App {
   void resize_picture();
   std::optional<gl::Context> gl_;  ///< adopted with the first scene
   std::unique_ptr<realtime::Renderer> renderer_;
+  /// Scene with whose lamps live light was asked for last, and the light that did not have them.
+  std::pair<std::shared_ptr<const scene::Scene>, const LiveLight*> relit_for_{};
   std::shared_ptr<const scene::Scene> lamps_of_;  ///< scene whose lamps the renderer has
   std::unique_ptr<BallsGl> balls_;
   std::unique_ptr<OutlineGl> outline_;

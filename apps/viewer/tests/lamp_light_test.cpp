@@ -94,6 +94,17 @@ TEST_F(LampLight, EveryKindIsDrawnAsItIsTraced) {
   }
 }
 
+TEST_F(LampLight, ALampThatComesWhileTheLightIsBuiltIsInIt) {
+  app().open("builtin:two-rooms");
+  app().light_scene_probes();
+  play("add-light point key 2 1 0.5");
+  ASSERT_TRUE(app().light.live());
+  EXPECT_EQ(app().light.live_light()->scene().lights.size(), 2u);
+  EXPECT_GT(probe(), 0.01f);
+  play("undo");
+  EXPECT_NEAR(probe(), 0, 1e-4f) << "the scene that was opened is another one again";
+}
+
 /// While a button is held counts may change by keys; shapes wait until it is let go.
 TEST_F(LampLight, InputGoesOnWhileTheLightIsBuiltAnew) {
   app().open("builtin:two-rooms");
