@@ -22,17 +22,18 @@ App::App(Window& window_, const ViewerOptions& options_, const Control&)
   view = look_at({4, 3, 6}, {0, 1, 0}, 0.9f);
   panels = options.panels;
   report.renderer = window.renderer();
-  for (const auto& [name, value] : options.settings) set_setting(settings, name, value);
   // For looking at: a twentieth of the work of `ssphh bake`.
   bake_params.path.spp = 8;
   bake_params.face_size = 20;
   last_turn_ = last_change_ = last_frame_ = window.seconds();
-  if (options.preferences.empty()) return;
   try {
-    preferences = read_preferences(options.preferences);
+    if (!options.preferences.empty()) preferences = read_preferences(options.preferences);
   } catch (const std::exception& e) {
     complain(e.what());
   }
+  take_look();
+  kept_look_ = look();
+  for (const auto& [name, value] : options.settings) set_setting(settings, name, value);
 }
 
 double App::turn(const InjectedInput& input) {
@@ -66,6 +67,7 @@ double App::turn(const InjectedInput& input) {
   window.begin_frame(input);
   handle_input(*this, static_cast<float>(std::min(elapsed, 0.1)));
   draw_panels(*this);
+  if (!ImGui::IsAnyMouseDown()) keep_look();
   const double panel_ms = 1e3 * (window.seconds() - start);
 
   // Bring everything up to date with it.
@@ -145,6 +147,17 @@ void App::resize_picture() {
 /// What the user changed since the last turn goes to the renderer; places and surfaces make the light stale.
 void App::apply_edits() {
   const Edits& edits = document.edits();
+  // While somebody drags a cone the renderer keeps the one of before, which lines show beside the new one.
+  const bool shapes_alone = lamps_of_->lights.size() == document.scene->lights.size() &&
+                            scene::light_groups(*lamps_of_) == scene::light_groups(*document.scene);
+  if (lamps_of_ != document.scene && !(shapes_alone && ImGui::IsAnyMouseDown())) renew_renderer();
+  // Also where lamps changed while the light was on its way; once, so that it can be cancelled.
+  const std::pair asked(document.scene, light.live_light());
+  if (light.live() && relit_for_ != asked && !has_lamps(light.live_light()->scene(), edits)) {
+    relit_for_ = asked;
+    light_stale_ = true;
+    stale_since_ = window.seconds();
+  }
   const scene::LightingState lighting = document.lighting();
   if (renderer_->lighting() != lighting) {
     renderer_->set(lighting);
@@ -167,6 +180,20 @@ void App::apply_edits() {
     light_stale_ = false;
     rebuild_light();
   }
+}
+
+/// Lamps are built into renderers and transport. The picture has them at once, indirect light follows in the
+/// background.
+void App::renew_renderer() {
+  const Edits& edits = document.edits();
+  renderer_ = std::make_unique<realtime::Renderer>(*gl_, with_materials(*document.scene, edits),
+                                                   realtime::RendererParams{}, document.time);
+  lamps_of_ = document.scene;
+  applied_materials_ = edits.materials;
+  drawing_.reset();
+  outlined_.reset();
+  scene_dirty_ = true;
+  light.renderer_is_new();
 }
 
 void App::update_light() {
@@ -209,6 +236,23 @@ void App::draw_scene() {
   if (awaits_picture()) return;
   draw_outline();
   update_truth();
+  update_readings();
+}
+
+void App::update_readings() {
+  const image::Image& linear = picture.linear();
+  if (!settings.histogram && !settings.false_color) return histogram.reset(), truth_histogram.reset();
+  if (linear.empty()) return;
+  const bool traced = needs_truth(settings) && reference.image().color;
+  const float exposure = shown_tone(settings).exposure;
+  const std::tuple now{pictures_, traced ? reference.image().passes : 0, exposure, settings.false_color};
+  if (read_ == now) return;
+  read_ = now;
+  histogram = stop_histogram(linear, exposure);
+  truth_histogram.reset();
+  if (traced) truth_histogram = stop_histogram(*reference.image().color, exposure);
+  if (settings.false_color) picture.take_false_color(false_color(linear, exposure));
+  redraw();
 }
 
 void App::begin_picture() {
@@ -229,7 +273,7 @@ void App::begin_picture() {
 /// As many pieces as leave time for the interface, at least one; where nobody sits there, all.
 void App::continue_picture() {
   const double start = window.seconds(), patience = by_hand() ? 0.02 : 1e30;
-  const bool linear = !drawing_->smooth && (inspecting || needs_truth(drawn_->settings));
+  const bool linear = !drawing_->smooth && (wants_linear() || needs_truth(drawn_->settings));
   bool more = true;
   while ((more = picture.step(*renderer_, linear)) && window.seconds() - start < patience) {
   }
@@ -329,8 +373,7 @@ void App::update_truth() {
     redraw();
     if (window.seconds() - last_change_ < 0.25 || light_stale_) return;
     ReferenceParams params;
-    params.scene =
-        std::make_shared<const scene::Scene>(edited_scene(*document.scene, document.edits(), document.time));
+    params.scene = std::make_shared<const scene::Scene>(document.edited());
     params.geometry = geometry_;
     params.time = document.time;
     params.camera = pose_of(view);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <tuple>
 
 #include <ssphh/bake/bake.h>
 #include <ssphh/gl/context.h>
@@ -18,6 +19,7 @@
 #include "model/gestures.h"
 #include "model/inspection.h"
 #include "model/preferences.h"
+#include "model/reading.h"
 #include "model/reference.h"
 #include "outline_gl.h"
 #include "picture.h"
@@ -49,7 +51,7 @@ struct Rect2 {
 
 /// What the mouse drags.
 struct Drag {
-  enum class What { none, view, look, pan, object, axis, wipe } what = What::none;
+  enum class What { none, view, look, pan, object, axis, aim, wipe } what = What::none;
   Grip grip;                  ///< of objects
   bool moved = false;         ///< since the press
   float way = 0;              ///< of the mouse since then [pixels]
@@ -138,6 +140,14 @@ class App {
   bool keeping() const { return !keeper_.idle(); }
   /// Lets the user choose a file, at first in this folder; empty: in the scene's.
   void ask_for_file(FileDialog::For what, const std::filesystem::path& in = {});
+  /// What is kept of the window beside scenes, and taken up by the next session. Where nobody sits nothing
+  /// is.
+  WindowLook look() const;
+  void take_look();
+  /// Writes it where it has changed, once nothing is being dragged.
+  void keep_look();
+  /// As for a scene, with the name of an overlay.
+  void ask_for_overlay();
   /// What Enter does in the dialog: goes into a folder, or opens or writes the file. A file that is there is
   /// written over when it is chosen twice.
   void choose_file();
@@ -149,9 +159,9 @@ class App {
   /// file that was opened stays as it is. A bake that is not saved becomes a probe file beside it; where only
   /// that is not saved, it alone.
   void save();
-  /// As save_scene(). Throws Error for the file that was opened.
+  /// As save_scene(). Throws Error for the file that was opened and overlays that lie on it.
   void save_as(const std::string& file);
-  /// The scene, to this file, which is its own from then on.
+  /// The scene, or its edits as an overlay, to this file, which is its own from then on.
   void save_scene(const std::string& file);
   void save_probes(const std::string& file);
   void save_path(const std::string& file);
@@ -160,6 +170,8 @@ class App {
   /// Of the picture alone, now, or of the window with its panels at the end of the next turn. PNG.
   void screenshot(const std::string& file, bool panels);
   void go_to_camera(const std::string& name);
+  /// The view of now as a camera of the scene; an empty name becomes "view 1" or the next number.
+  void save_camera(const std::string& name);
   /// The view of a bookmark, and its pose of the scene.
   void go_to(const CameraKey& key);
   void add_bookmark();
@@ -181,6 +193,12 @@ class App {
   void select_on_ray(const rays::RayQuery& ray);
   /// The outline of what is selected, to lie over the picture; null: there is none.
   const gl::Texture* outline() const;
+  /// As Document::edit(), and shows it.
+  template <class Change>
+  void edit(const std::string& what, const Change& change) {
+    document.edit(what, change);
+    redraw();
+  }
   void undo();
   void redo();
   /// Probes at these places: the scene's (as edited), or found automatically, `spacing` 0 for some 150.
@@ -197,6 +215,23 @@ class App {
   void prepare_surfaces();
   void delete_selection();
   void add_sphl(const vec3& position);
+  /// A lamp off the surface in the middle of the picture, or where the view's focus is; it is selected.
+  void add_lamp(scene::LightType type);
+  /// Adds a lamp and selects it.
+  void add_lamp(LightEdit lamp);
+  /// Another lamp like the selected one beside it, which is selected then.
+  void duplicate_lamp();
+  /// Whether the selected lamp shines in a direction.
+  bool can_aim() const;
+  /// Turns the selected lamp so that it shines at a point.
+  void aim_at(const vec3& point);
+  /// The same at what the ray meets; a sun shines from where the ray goes into the sky, or straight on the
+  /// surface. False: there is nothing to aim at.
+  bool aim_on_ray(const rays::RayQuery& ray);
+  /// Turns the selected lamp in one undo step with what follows; any length but 0.
+  void turn_selected(const vec3& direction);
+  /// Where the handle begins by which the selected lamp is aimed: the lamp, or of a sun the view's focus.
+  std::optional<vec3> aim_origin() const;
   void say(const std::string& message);
   /// As say(), for what went wrong.
   void complain(const std::string& message);
@@ -237,15 +272,18 @@ class App {
   Picture picture;
   FrameTimes times;
   realtime::FrameStats last_stats;
+  std::optional<StopHistogram> histogram, truth_histogram;  ///< of the pictures that are shown
   CameraPath bookmarks;
   float path_time = 0;
   bool path_plays = false;
   bool panels = true, help = false, place_mode = false;
+  bool aim_mode = false;  ///< the next click is what the selected lamp is aimed at
   bool inspecting = false;
   std::optional<vec2> pinned;            ///< point that is inspected; none: the one under the mouse
   std::optional<Inspection> inspection;  ///< of the point that was inspected last
   bool failures_end = false;       ///< work in the background that fails ends the session with its message
   bool follows_exposure = true;    ///< with every frame; else only where follow_exposure() is called
+  int camera = -1;                 ///< chosen in the list; −1: none
   std::string open_tab = "Light";  ///< of the sidebar
   float side_width = 0;            ///< of the sidebar, in heights of the text; 0: as suits the window
   Rect2 viewport;
@@ -280,14 +318,17 @@ class App {
   /// SPHLs at these places of probes, which light has been or will be found for, in place of all there were.
   template <class Places>
   void take_places(const std::string& what, const Places& places);
-  /// The selected SPHL is the same one as among those of `before`, if it is still there.
-  void keep_selection(const std::vector<SphlEdit>& before);
+  /// The selected SPHL or lamp is the same one as in `before`, if it is still there.
+  void keep_selection(const Edits& before);
+  void delete_lamp();
   std::optional<float> suitable_exposure() const;
   bool show_exposure(float ev);
   /// Throws Error where a set is not of the scene; with options.force warns.
   void fit_to_scene(probes::ProbeSet& set, const std::string& file) const;
   void update_time(double seconds);
   void apply_edits();
+  /// A renderer with the lamps that there are now; all that it had it is given again.
+  void renew_renderer();
   void update_light();
   bool picture_stale() const;
   void draw_scene();
@@ -295,7 +336,7 @@ class App {
   void continue_picture();
   void draw_balls();
   void draw_outline();
-  bool smooths() const { return settings.antialias && !needs_truth(settings); }
+  bool smooths() const { return settings.antialias && !needs_truth(settings) && !settings.false_color; }
   void update_truth();
   void update_visible();
   void finish_frame();
@@ -306,9 +347,12 @@ class App {
   void resize_picture();
   std::optional<gl::Context> gl_;  ///< adopted with the first scene
   std::unique_ptr<realtime::Renderer> renderer_;
+  /// Scene with whose lamps live light was asked for last, and the light that did not have them.
+  std::pair<std::shared_ptr<const scene::Scene>, const LiveLight*> relit_for_{};
+  std::shared_ptr<const scene::Scene> lamps_of_;  ///< scene whose lamps the renderer has
   std::unique_ptr<BallsGl> balls_;
   std::unique_ptr<OutlineGl> outline_;
-  trace::SharedGeometry geometry_;  ///< of document.scene
+  trace::SharedGeometry geometry_;  ///< of document.opened, and of every scene with other lamps
   std::unique_ptr<trace::TransportScene> picking_;
   ExposureFollower exposure_;
   std::optional<float> suits_;          ///< EV that suits the picture, where it is to be followed
@@ -327,7 +371,14 @@ class App {
     double seconds = 0;   ///< so far
   };
   void finish_picture(const Drawing& done);
-  bool wants_linear() const { return needs_truth(settings) || inspecting; }
+  bool wants_linear() const {
+    return needs_truth(settings) || inspecting || settings.histogram || settings.false_color;
+  }
+  WindowLook kept_look_;  ///< in the preferences
+  /// Brings histograms and false colours up to date with the picture.
+  void update_readings();
+  std::optional<std::tuple<int, int, float, bool>>
+      read_;  ///< picture, passes, EV, false colours that they hold for
   bool awaits_picture() const { return drawing_ && !drawing_->smooth; }
   std::optional<Drawing> drawing_;
   int pictures_ = 0;  ///< that became whole

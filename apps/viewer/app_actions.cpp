@@ -9,6 +9,7 @@
 #include <ssphh/study/default_view.h>
 
 #include "app.h"
+#include "model/overlay_file.h"
 
 namespace ssphh::viewer {
 namespace {
@@ -41,10 +42,13 @@ void App::written(const std::string& verb, const std::string& file) {
 
 std::string App::free_file(const std::string& ending) const {
   const std::string stem =
-      std::filesystem::path(document.source.substr(document.source.rfind(':') + 1)).stem().string();
+      std::filesystem::path(document.source.substr(document.source.rfind(':') + 1)).stem().stem().string();
   for (int n = 1;; ++n) {
-    std::string name = fmt::format("{}-{:02}{}", stem.empty() ? "view" : stem, n, ending);
-    if (!std::filesystem::exists(name)) return name;
+    const std::string name = fmt::format("{}-{:02}", stem.empty() ? "view" : stem, n);
+    // An overlay would lie on the scene of its name.
+    const bool pair = ending == ".glb" || ending == overlay_ending;
+    const auto taken = [&](std::string_view e) { return std::filesystem::exists(name + std::string(e)); };
+    if (!taken(ending) && !(pair && (taken(".glb") || taken(overlay_ending)))) return name + ending;
   }
 }
 
@@ -56,8 +60,13 @@ void App::save() {
 
 void App::save_as(const std::string& file) {
   std::error_code ignored;
-  if (file != document.file && std::filesystem::equivalent(file, document.source, ignored))
-    throw Error(file, "is the scene as it was opened, which stays as it is", "save under another name");
+  const OpenedFiles files = opened_files(document.source, document.overlay);
+  std::vector<std::string> opened = files.overlays;
+  opened.push_back(files.scene);
+  for (const std::string& below : opened) {
+    if (file != document.file && std::filesystem::equivalent(file, below, ignored))
+      throw Error(file, "is the scene as it was opened, which stays as it is", "save under another name");
+  }
   save_scene(file);
 }
 
@@ -75,7 +84,7 @@ void App::save_scene(const std::string& file) {
 void App::save_probes(const std::string& file) {
   if (light.empty()) throw Error(file, "there are no probes to save", "place some, or open a probe file");
   if (light.live()) {
-    const scene::Scene scene = edited_scene(*document.scene, document.edits(), document.time);
+    const scene::Scene scene = document.edited();
     probes::ProbeSet set = light.live_light()->bake(scene);
     for (std::size_t i = 0; i < set.probes.size(); ++i) {
       // Edges are of another degree where VIZ ran with one of its own.
@@ -125,7 +134,7 @@ void App::screenshot(const std::string& file, bool with_panels) {
   if (needs_truth(settings) && settings.show != Show::wipe) {
     pixels = picture.truth_pixels();
   } else {
-    pixels = picture.pixels();
+    pixels = settings.false_color ? picture.false_color_pixels() : picture.pixels();
     if (settings.show == Show::wipe && picture.has_truth()) {
       const image::Rgba8& truth = picture.truth_pixels();
       const auto from = static_cast<int>(settings.wipe * static_cast<float>(pixels.width));
@@ -142,12 +151,12 @@ void App::screenshot(const std::string& file, bool with_panels) {
 
 std::vector<std::string> App::camera_names() const {
   std::vector<std::string> names;
-  for (const scene::Camera& camera : document.scene->cameras) names.push_back(camera.name);
+  for (const CameraEdit& camera : document.edits().cameras) names.push_back(camera.name);
   return names;
 }
 
 View App::view_from(const std::string& camera) const {
-  if (!camera.empty() || !document.scene->cameras.empty()) return start_view(document, camera);
+  if (!camera.empty() || !document.edits().cameras.empty()) return start_view(document, camera);
   const scene::CameraPose pose = study::default_view(*document.scene, *picking_, document.time);
   const float distance = glm::distance(vec3(pose.world[3]), document.bounds.center());
   return view_of(pose, document.bounds.empty() ? 3 : std::max(distance, 0.1f));
@@ -156,6 +165,16 @@ View App::view_from(const std::string& camera) const {
 void App::go_to_camera(const std::string& name) {
   view = view_from(name);
   redraw();
+}
+
+void App::save_camera(const std::string& wanted) {
+  std::string name = wanted;
+  const std::vector<std::string> names = camera_names();
+  for (int n = 1; name.empty() || (wanted.empty() && std::ranges::find(names, name) != names.end()); ++n)
+    name = fmt::format("view {}", n);
+  document.edit_at_once("save camera " + name, [&](Edits& e) { add_camera(e, name, view); });
+  camera = static_cast<int>(document.edits().cameras.size()) - 1;
+  say(fmt::format("camera \"{}\" saved; it is kept with the scene or its overlay", name));
 }
 
 void App::go_to(const CameraKey& key) {
@@ -194,27 +213,29 @@ void App::move_selected(const vec3& position) {
 
 void App::undo() {
   const std::string what = document.history.undo_name();
-  const std::vector<SphlEdit> before = document.edits().sphls;
-  if (!document.history.undo()) return;
+  const Edits before = document.edits();
+  if (!document.undo()) return;
   keep_selection(before);
   say("undone: " + what);
 }
 
 void App::redo() {
   const std::string what = document.history.redo_name();
-  const std::vector<SphlEdit> before = document.edits().sphls;
-  if (!document.history.redo()) return;
+  const Edits before = document.edits();
+  if (!document.redo()) return;
   keep_selection(before);
   say("done again: " + what);
 }
 
-void App::keep_selection(const std::vector<SphlEdit>& before) {
-  if (!selection.is(Kind::sphl)) return;
-  selection.index = same_sphl(before, selection.index, document.edits().sphls);
+void App::keep_selection(const Edits& before) {
+  const Edits& now = document.edits();
+  if (selection.is(Kind::sphl)) selection.index = same_sphl(before.sphls, selection.index, now.sphls);
+  if (selection.is(Kind::light)) selection.index = same_lamp(before.lights, selection.index, now.lights);
   if (selection.index < 0) selection = {};
 }
 
 void App::delete_selection() {
+  if (selection.is(Kind::light)) return delete_lamp();
   if (!selection.is(Kind::sphl)) return;
   const auto i = selection.index;
   document.edit_at_once("delete SPHL", [&](Edits& edits) { edits.sphls.erase(edits.sphls.begin() + i); });

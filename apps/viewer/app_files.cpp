@@ -12,6 +12,7 @@
 #include <ssphh/scene_io/load.h>
 
 #include "app.h"
+#include "model/overlay_file.h"
 
 namespace ssphh::viewer {
 namespace {
@@ -22,7 +23,8 @@ constexpr double keep_every = 60;  // seconds
 Document snapshot(const Document& document) {
   Document out;
   out.source = document.source;
-  out.scene = document.scene;
+  out.overlay = document.overlay, out.recovered = document.recovered;
+  out.opened = document.opened, out.scene = document.scene;
   out.history = History<Edits>(document.edits());
   out.time = document.time;
   return out;
@@ -94,6 +96,7 @@ void App::recover(const Kept& kept) {
     take_scene(kept.source, scene_io::load_scene(kept.with_ending(".glb").string()));
     document.saved = std::numeric_limits<std::uint64_t>::max();  // of no state
     document.file = kept.file;
+    document.recovered = true;
   } else if (!scene_open() || lasting_name(document.source) != kept.source) {
     open(kept.source);
   }
@@ -124,6 +127,37 @@ void App::remember_scene(const std::string& source, bool stays) {
   }
 }
 
+WindowLook App::look() const {
+  return {side_width, settings.histogram, settings.false_color};
+}
+
+void App::take_look() {
+  if (!by_hand()) return;
+  side_width = preferences.look.side_width;
+  settings.histogram = preferences.look.histogram;
+  settings.false_color = preferences.look.false_color;
+}
+
+void App::keep_look() {
+  const WindowLook now = look();
+  if (options.preferences.empty() || !by_hand() || now == kept_look_) return;
+  kept_look_ = now;
+  try {
+    preferences = read_preferences(options.preferences);
+    preferences.look = now;
+    write_preferences(preferences, options.preferences);
+  } catch (const std::exception& e) {
+    complain(e.what());
+  }
+}
+
+void App::ask_for_overlay() {
+  ask_for_file(FileDialog::For::scene);
+  if (document.file.ends_with(overlay_ending)) return;
+  dialog->browser = FileBrowser(dialog->browser.folder(), {".glb", std::string(overlay_ending)},
+                                free_file(std::string(overlay_ending)));
+}
+
 void App::ask_for_file(FileDialog::For what, const std::filesystem::path& in) {
   using enum FileDialog::For;
   namespace fs = std::filesystem;
@@ -140,7 +174,7 @@ void App::ask_for_file(FileDialog::For what, const std::filesystem::path& in) {
   } else if (what == scene) {
     const std::string name =
         document.file.empty() ? free_file(".glb") : fs::path(document.file).filename().string();
-    dialog = {what, FileBrowser(folder, {".glb"}, name), {}, {}};
+    dialog = {what, FileBrowser(folder, {".glb", ".ssphh.json"}, name), {}, {}};
   } else {
     dialog = {what, FileBrowser(folder, {".sphl", ".sphl.json"}, free_file(".sphl")), {}, {}};
   }
@@ -162,7 +196,9 @@ void App::choose_file() {
       return;
     }
     const std::string ending = asked.what == scene ? ".glb" : ".sphl";
-    const bool ends = asked.what == scene ? path->extension() == ".glb" : is_probe_file(path->string());
+    const bool ends = asked.what == scene
+                          ? path->extension() == ".glb" || path->string().ends_with(overlay_ending)
+                          : is_probe_file(path->string());
     if (!ends) *path += ending;
     const bool own = asked.what == scene && *path == document.file;
     if (std::filesystem::exists(*path) && !own && std::exchange(asked.replaces, *path) != *path) return;

@@ -116,8 +116,7 @@ void App::place_probes(float spacing) {
 void App::start_gen(bool viz_only) {
   const std::vector<scene::ProbePlace> places = places_of(document);
   if (places.empty()) throw Error("GEN", "there are no SPHLs", "place some first");
-  auto scene =
-      std::make_shared<const scene::Scene>(edited_scene(*document.scene, document.edits(), document.time));
+  auto scene = std::make_shared<const scene::Scene>(document.edited());
   bake::BakeParams params = bake_params;
   bake::ProbeDone on_probe;
   // HIER multiplies edges with light band by band, so they must be of one degree.
@@ -182,13 +181,13 @@ void App::take_probe_file(const std::string& file) {
 }
 
 void App::fit_to_scene(probes::ProbeSet& set, const std::string& file) const {
-  if (set.generator.scene_hash != scene::light_hash(*document.scene)) {
+  if (set.generator.scene_hash != scene::light_hash(*document.opened)) {
     const std::string problem = fmt::format("was baked in another scene (\"{}\")", set.generator.scene);
     if (!options.force) throw Error(file, problem, "open that scene, or go on with --force");
     log_warning("{}: {}", file, problem);
   }
-  const std::string modes = bake::mode_difference(set, *document.scene);
-  if (modes.empty()) return bake::adopt_modes(set, *document.scene);
+  const std::string modes = bake::mode_difference(set, *document.opened);
+  if (modes.empty()) return bake::adopt_modes(set, *document.opened);
   const std::string problem = "was baked with " + modes;
   if (!options.force) throw Error(file, problem, "bake it anew, or go on with --force as it was baked");
   log_warning("{}: {}", file, problem);

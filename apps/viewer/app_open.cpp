@@ -89,6 +89,7 @@ void App::take_scene(Loaded loaded) {
       std::make_unique<realtime::Renderer>(*gl_, *next.scene, realtime::RendererParams{}, next.time);
   take_document(std::move(loaded));
   renderer_ = std::move(renderer);
+  lamps_of_ = document.scene;
 }
 
 void App::take_document(Document next) {
@@ -100,6 +101,7 @@ void App::take_document(Loaded loaded) {
   picking_ = std::move(loaded.picking);
   geometry_ = std::move(loaded.geometry);
   document = std::move(loaded.document);
+  if (document.source == options.source) document.overlay = options.overlay;
   mended_.reset();
   watched_ = {loaded.file, loaded.file, window.seconds(), false};
   light.clear();
@@ -107,6 +109,7 @@ void App::take_document(Loaded loaded) {
   question = {};
   unsaved_since_.reset();
   selection = {};
+  camera = -1;
   view = view_from("");
   views_ = History<View>(view);
   pinned.reset(), inspection.reset();
@@ -117,6 +120,7 @@ void App::take_document(Loaded loaded) {
   exposure_.forget();
   visible_seen_.reset();
   outlined_.reset();
+  read_.reset();
   scene_dirty_ = true;
   light_stale_ = false;
   fly_speed = document.bounds.empty() ? 2 : std::max(0.2f, 0.25f * document.bounds.radius());

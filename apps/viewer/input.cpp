@@ -37,8 +37,10 @@ constexpr Shortcut all_shortcuts[] = {
     {"L", "lobes: balls bulge where light comes from"},
     {"G", "graph of the hierarchy"},
     {"N", "place an SPHL with the next click"},
-    {"Delete", "delete the selected SPHL"},
+    {"X", "aim the selected lamp at the next click"},
+    {"Ctrl+D, Delete", "duplicate the selected lamp, delete a lamp or an SPHL"},
     {"T", "ground truth: off, beside the picture, alone, difference"},
+    {"J, K", "histogram, false colours, both in stops"},
     {"1 … 8", "all, direct, indirect, albedo, normal, shadow, SPHL, leak"},
     {"[ ] \\", "darker, brighter, as suits the picture"},
     {"Ctrl+Z, Ctrl+Y", "undo, redo (also Ctrl+Shift+Z)"},
@@ -80,6 +82,7 @@ void press_setting_key(App& app, char key) {
 void handle_control_keys(App& app) {
   if (repeated(GLFW_KEY_Z)) ImGui::GetIO().KeyShift ? app.redo() : app.undo();
   if (repeated(GLFW_KEY_Y)) app.redo();
+  if (pressed(GLFW_KEY_D)) app.duplicate_lamp();
   if (pressed(GLFW_KEY_S)) ImGui::GetIO().KeyShift ? app.ask_for_file(FileDialog::For::scene) : app.save();
 }
 
@@ -98,7 +101,8 @@ void handle_keys(App& app) {
   if (pressed(GLFW_KEY_F1) || pressed(GLFW_KEY_H)) toggle(app, app.help);
   if (pressed(GLFW_KEY_TAB)) toggle(app, app.panels);
   if (pressed(GLFW_KEY_ESCAPE) && app.job.status().name.starts_with("loading")) app.job.cancel();
-  if (pressed(GLFW_KEY_ESCAPE)) app.help = app.place_mode = app.inspecting = false, app.selection = {};
+  if (pressed(GLFW_KEY_ESCAPE))
+    app.help = app.place_mode = app.aim_mode = app.inspecting = false, app.selection = {};
   if (ImGui::GetIO().KeyCtrl && pressed(GLFW_KEY_O)) return app.ask_for_file(FileDialog::For::open);
   if (!app.scene_open()) return;
   handle_view_keys(app);
@@ -110,6 +114,10 @@ void handle_keys(App& app) {
     app.say("bookmark added");
   }
   if (pressed(GLFW_KEY_N)) toggle(app, app.place_mode);
+  if (pressed('X') && app.can_aim()) {
+    toggle(app, app.aim_mode);
+    if (app.aim_mode) app.say("click what the lamp is to shine at");
+  }
   if (pressed('I')) app.toggle_inspector();
   if (pressed(GLFW_KEY_DELETE)) app.delete_selection();
   for (const char key : setting_keys) {
@@ -172,15 +180,40 @@ void place_sphl(App& app) {
   app.place_mode = ImGui::GetIO().KeyShift;
 }
 
+/// A click in aim mode.
+void aim(App& app) {
+  app.document.history.seal();
+  if (!app.aim_on_ray(mouse_ray(app))) app.say("there is no surface under the mouse");
+  app.document.history.seal();
+  app.aim_mode = false;
+}
+
+/// A drag of the selected lamp's direction: at the surface under the mouse; of a sun toward the point of a
+/// ball about its handle.
+void drag_aim(App& app) {
+  const rays::RayQuery ray = mouse_ray(app);
+  if (app.selected_position()) {
+    app.aim_on_ray(ray);
+  } else if (const auto origin = app.aim_origin()) {
+    app.turn_selected(on_ball(ray, *origin, aim_length(app)) - *origin);
+  }
+}
+
 void begin_left(App& app) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   if (app.place_mode) return place_sphl(app);
+  if (app.aim_mode) return aim(app);
   if (ImGui::GetIO().KeyShift) {
     app.drag.what = Drag::What::pan;
     return;
   }
   if (const int axis = axis_under_mouse(app, mouse.x, mouse.y); axis >= 0)
     return grab(app, Drag::What::axis, axis);
+  if (aim_under_mouse(app, mouse.x, mouse.y)) {
+    app.document.history.seal();
+    app.drag.what = Drag::What::aim;
+    return;
+  }
   if (app.settings.show == Show::wipe &&
       std::abs(mouse.x - (app.viewport.x + app.settings.wipe * app.viewport.width)) < 8) {
     app.drag.what = Drag::What::wipe;
@@ -224,6 +257,7 @@ void continue_drag(App& app) {
     const auto place = pulled(app.drag.grip, mouse_ray(app), app.view.forward());
     if (place) app.move_selected(*place);
   }
+  if (what == What::aim) drag_aim(app);
   if (what == What::wipe)
     app.settings.wipe = std::clamp(picture_point(app, ImGui::GetIO().MousePos).x, 0.0f, 1.0f);
   app.path_plays = false;

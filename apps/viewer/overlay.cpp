@@ -124,6 +124,41 @@ void draw_handles(const App& app, ImDrawList& list) {
   if (app.selection.is(Kind::sphl)) list.AddCircle(*center, 5, IM_COL32(255, 190, 80, 255), 0, 2);
 }
 
+std::optional<ImVec2> aim_handle(const App& app) {
+  const auto origin = app.aim_origin();
+  if (!origin) return {};
+  const auto i = static_cast<std::size_t>(app.selection.index);
+  const vec3 along = light_direction(app.document.lighting().lights[i].world);
+  return on_screen(app, *origin + aim_length(app) * along);
+}
+
+/// Cones, radius and range of the selected lamp, and the handle that aims it.
+void draw_lamp_shape(const App& app, ImDrawList& list) {
+  if (!app.selection.is(Kind::light)) return;
+  const auto i = static_cast<std::size_t>(app.selection.index);
+  const Lamp& lamp = app.document.edits().lights[i].lamp;
+  mat4 world = app.document.lighting().lights[i].world;
+  if (const auto origin = app.aim_origin()) world = with_position(world, *origin);
+  constexpr ImU32 color = IM_COL32(255, 190, 80, 170);
+  // Eighths of pixels are the same on every processor.
+  const auto steady = [&](const vec3& point) {
+    auto at = on_screen(app, point);
+    if (at) *at = {std::round(8 * at->x) / 8, std::round(8 * at->y) / 8};
+    return at;
+  };
+  for (const std::vector<vec3>& line : lamp_lines(lamp, world, aim_length(app))) {
+    for (std::size_t k = 1; k < line.size(); ++k) {
+      const auto a = steady(line[k - 1]), b = steady(line[k]);
+      if (a && b) list.AddLine(*a, *b, color, 1.5f);
+    }
+  }
+  if (const auto handle = aim_handle(app)) {
+    const bool active = app.drag.what == Drag::What::aim;
+    list.AddCircleFilled(*handle, active ? handle_radius + 1 : handle_radius - 1,
+                         IM_COL32(255, 190, 80, 255));
+  }
+}
+
 void draw_wipe(const App& app, ImDrawList& list) {
   const Rect2& r = app.viewport;
   const float x = std::round(r.x + app.settings.wipe * r.width);
@@ -154,6 +189,18 @@ int lamp_under_mouse(const App& app, float x, float y) {
     if (at && near(*at, x, y, lamp_radius + 3)) return static_cast<int>(i);
   }
   return -1;
+}
+
+float aim_length(const App& app) {
+  const auto origin = app.aim_origin();
+  const vec3 at = origin ? *origin : app.selected_position().value_or(app.view.center());
+  // Beyond the coloured handles
+  return 1.6f * axis_length(app, at);
+}
+
+bool aim_under_mouse(const App& app, float x, float y) {
+  const auto handle = aim_handle(app);
+  return handle && near(*handle, x, y, handle_radius + 4);
 }
 
 int axis_under_mouse(const App& app, float x, float y) {
@@ -192,6 +239,7 @@ void draw_overlay(const App& app, const std::vector<unsigned char>& visible) {
   if (app.settings.graph && !app.light.empty()) draw_graph(app, visible, list);
   if (app.settings.names && !app.light.empty()) draw_names(app, visible, list);
   draw_lamps(app, list);
+  draw_lamp_shape(app, list);
   draw_handles(app, list);
   if (app.settings.show == Show::wipe) draw_wipe(app, list);
   list.PopClipRect();

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "model/reading.h"
+
 namespace ssphh::viewer {
 
 void PictureTexture::upload(const image::Rgba8& picture) {
@@ -76,6 +78,11 @@ image::Rgba8 Picture::pixels() const {
   return out;
 }
 
+void Picture::take_false_color(image::Rgba8 picture) {
+  false_picture_ = std::move(picture);
+  false_.upload(false_picture_);
+}
+
 void Picture::update_truth(const ReferenceImage& truth, const Settings& settings) {
   if (!truth.color || truth.color->width != width_ || truth.color->height != height_) return;
   difference_.reset();
@@ -84,7 +91,9 @@ void Picture::update_truth(const ReferenceImage& truth, const Settings& settings
     difference_ = leak_picture(*truth.indirect, linear_);
     truth_picture_ = difference_->picture;
   } else if (settings.show == Show::truth || settings.show == Show::wipe) {
-    truth_picture_ = image::to_display(*truth.color, shown_tone(settings));
+    const image::ToneMap tone = shown_tone(settings);
+    truth_picture_ = settings.false_color ? false_color(*truth.color, tone.exposure)
+                                          : image::to_display(*truth.color, tone);
   } else {
     if (linear_.empty()) return;
     difference_ = difference(*truth.color, linear_, settings.show, settings.block);

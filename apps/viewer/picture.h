@@ -54,8 +54,13 @@ class Picture {
   /// What is shown, balls included. Row 0 on top.
   image::Rgba8 pixels() const;
 
-  /// Makes what the settings ask for of the truth so far: tone-mapped, or the difference. Does nothing
-  /// without a truth of the picture's size.
+  /// What shows the real-time picture's luminance.
+  void take_false_color(image::Rgba8 picture);
+  const PictureTexture& false_color_texture() const { return false_; }
+  const image::Rgba8& false_color_pixels() const { return false_picture_; }
+
+  /// Makes what the settings ask for of the truth so far: tone-mapped, in false colours, or the difference.
+  /// Does nothing without a truth of the picture's size.
   void update_truth(const ReferenceImage& truth, const Settings& settings);
   void forget_truth() { have_truth_ = false; }
   bool has_truth() const { return have_truth_; }
@@ -77,7 +82,8 @@ class Picture {
   std::unique_ptr<AverageGl> average_;
   gl::Framebuffer framebuffer_;
   image::Image linear_;
-  PictureTexture truth_;
+  PictureTexture truth_, false_;
+  image::Rgba8 false_picture_;
   image::Rgba8 truth_picture_;
   bool have_truth_ = false;
   std::optional<Difference> difference_;

@@ -1,5 +1,6 @@
 #include "probe_light.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include <ssphh/core/log.h>
@@ -73,6 +74,12 @@ void ProbeLight::clear() {
   unsaved_.clear();
 }
 
+void ProbeLight::renderer_is_new() {
+  places_new_ = surfaces_new_ = true;
+  by_records_ = false;
+  settings_.reset();
+}
+
 void ProbeLight::take_probe(std::size_t i, const probes::Probe& probe) {
   if (!set_ || i >= set_->probes.size()) return;
   set_->probes[i].groups = probe.groups;
@@ -90,15 +97,21 @@ bool ProbeLight::relight(const Document& document) {
   scene::LightingState state = document.lighting();
   if (lighting_ == state) return false;
   if (live_) {
+    // Until it is built anew for other lamps it holds still.
+    if (!has_lamps(live_->scene(), document.edits())) return false;
     report_ = live_->update(state);
     live_->refresh(*set_);
   } else {
     const std::vector<vec3>& scales = state.group_scales;
     const bool played = follow_keys(state.time);
     const bool dimmed = !lighting_ || lighting_->group_scales != scales;
-    if (scales.size() != set_->light_groups.size() || !(choose_modes(state) || dimmed || played))
-      return played;
-    for (std::size_t g = 0; g < scales.size(); ++g) set_->light_groups[g].scale = scales[g];
+    if (!(choose_modes(state) || dimmed || played)) return false;
+    // By name: lamps that came or went since the bake have groups of their own.
+    const std::vector<std::string> names = scene::light_groups(*document.scene);
+    for (probes::LightGroup& group : set_->light_groups) {
+      const auto found = std::ranges::find(names, group.name);
+      if (found != names.end()) group.scale = scales[static_cast<std::size_t>(found - names.begin())];
+    }
     probes::merge_groups(*set_);
   }
   lighting_ = std::move(state);

@@ -6,13 +6,16 @@
 #include <fmt/format.h>
 
 #include "injection.h"
+#include "model/overlay_file.h"
 #include "model/sky_edit.h"
 
 namespace ssphh::viewer {
 
 const char* const script_help =
     "set NAME VALUE | time T | camera NAME | view X Y Z TO_X TO_Y TO_Z | tab NAME | "
-    "light NAME on|off | light NAME intensity V | light NAME color R G B | light NAME position X Y Z | "
+    "add-camera NAME | add-light point|spot|directional|sphere|sphl NAME X Y Z | light NAME delete | "
+    "light NAME duplicate | light NAME aim X Y Z | light NAME on|off | light NAME color R G B | "
+    "light NAME position X Y Z | light NAME intensity V (radius, range, outer-cone, inner-cone, diameter) | "
     "group NAME FACTOR | environment DEGREES | sun ELEVATION AZIMUTH | time-of-day HH:MM | material NAME R G "
     "B | select light|sphl|material|object NAME "
     "| sphl "
@@ -56,9 +59,14 @@ void edit_light(App& app, const ScriptLine& line) {
   if (what == "on" || what == "off") {
     expect_words(line, 2, "light NAME on|off");
     edit([&](LightEdit& light) { light.on = what == "on"; });
-  } else if (what == "intensity") {
-    expect_words(line, 3, "light NAME intensity V");
-    edit([&](LightEdit& light) { light.intensity = std::max(number(line, 3), 0.0f); });
+  } else if (what == "delete" || what == "duplicate") {
+    expect_words(line, 2, "light NAME delete|duplicate");
+    app.selection = {Kind::light, static_cast<int>(i)};
+    what == "delete" ? app.delete_selection() : app.duplicate_lamp();
+  } else if (what == "aim") {
+    expect_words(line, 5, "light NAME aim X Y Z");
+    app.selection = {Kind::light, static_cast<int>(i)};
+    app.aim_at(vector(line, 3));
   } else if (what == "color") {
     expect_words(line, 5, "light NAME color R G B");
     edit([&](LightEdit& light) { light.color = glm::max(vector(line, 3), vec3(0)); });
@@ -66,9 +74,27 @@ void edit_light(App& app, const ScriptLine& line) {
     expect_words(line, 5, "light NAME position X Y Z");
     edit([&](LightEdit& light) { light.world = with_position(world, vector(line, 3)); });
   } else {
-    throw Error(line.where, fmt::format("\"{}\" is none of: on, off, intensity, color, position", what));
+    // Numbers, by their names in the panel
+    std::string name = what;
+    std::ranges::replace(name, '-', ' ');
+    std::vector<std::string> known = {"on", "off", "delete", "duplicate", "aim", "color", "position"};
+    for (const LampNumber& n : lamp_numbers(app.document.edits().lights[i])) known.emplace_back(n.name);
+    if (std::ranges::find(known, name) == known.end()) throw Error(line.where, none_of(what, known));
+    expect_words(line, 3, "light NAME intensity V");
+    edit([&](LightEdit& light) { set_lamp_number(light, name, number(line, 3)); });
   }
   app.document.history.seal();
+}
+
+void add_light(App& app, const ScriptLine& line) {
+  const auto type = enum_named<scene::LightType>(line.where, line.words[1]);
+  LightEdit lamp = new_lamp(type, new_lamp_name(app.document.edits(), "lamp"), vector(line, 3),
+                            std::max(app.view.focus, 0.1f), app.settings.exposure);
+  Edits named = app.document.edits();
+  named.lights.push_back(lamp);
+  rename_lamp(named, named.lights.size() - 1, line.words[2]);
+  lamp.lamp.name = line.words[2];
+  app.add_lamp(std::move(lamp));
 }
 
 void select(App& app, const ScriptLine& line) {
@@ -85,7 +111,7 @@ void select(App& app, const ScriptLine& line) {
 }
 
 void save(App& app, const std::string& file) {
-  if (file.ends_with(".glb")) return app.save_scene(file);
+  if (file.ends_with(".glb") || file.ends_with(overlay_ending)) return app.save_scene(file);
   if (is_probe_file(file)) return app.save_probes(file);
   if (file.ends_with(".csv") || file.ends_with(".stats.json")) return app.save_stats(file);
   app.save_path(file);
@@ -143,6 +169,12 @@ void ScriptPlayer::run(App& app, const ScriptLine& line) {
   } else if (verb == "camera") {
     expect(1, "camera NAME");
     app.go_to_camera(words[1]);
+  } else if (verb == "add-camera") {
+    expect(1, "add-camera NAME");
+    app.save_camera(words[1]);
+  } else if (verb == "add-light") {
+    expect(5, "add-light TYPE NAME X Y Z");
+    add_light(app, line);
   } else if (verb == "view") {
     expect(6, "view X Y Z TO_X TO_Y TO_Z");
     app.view = look_at(vector(line, 1), vector(line, 4), app.view.yfov);

@@ -17,11 +17,12 @@ struct ViewerOptions {
   std::string source;  ///< SCENE; empty: an empty window that waits for a file to be dropped
   /// Loads a scene as the tool's options say (overlay, environment); throws Error.
   std::function<scene::Scene(const std::string& source)> load;
-  std::string camera;  ///< by name; empty: the first
-  float time = 0;      ///< pose at the start [s]
-  std::string probes;  ///< a probe file; scene, auto, auto:METRES; off; empty: the scene's SPHLs, if any
-  bool force = false;  ///< take a probe file of another scene, with a warning
-  bool live = false;   ///< light a file's probes anew, so that they follow lamps and doors
+  std::string overlay;  ///< that `load` lays on `source`; empty: the one beside it, if there is one
+  std::string camera;   ///< by name; empty: the first
+  float time = 0;       ///< pose at the start [s]
+  std::string probes;   ///< a probe file; scene, auto, auto:METRES; off; empty: the scene's SPHLs, if any
+  bool force = false;   ///< take a probe file of another scene, with a warning
+  bool live = false;    ///< light a file's probes anew, so that they follow lamps and doors
   int records = transport::usual_records;  ///< surface points that keep light while it follows lamps, at most
   int width = 1440, height = 810;
   bool panels = true;

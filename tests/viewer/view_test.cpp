@@ -132,6 +132,23 @@ TEST_F(View, SavesWhatWasEdited) {
   EXPECT_TRUE(exists("frames/notes.txt"));
 }
 
+TEST_F(View, ALampAndACameraOfAnOverlayAreThoseOfRender) {
+  run_json(
+      joined(two_rooms, {"--probes", "off", "--script",
+                         script("camera room-b\nadd-light spot desk 2 2.3 0.5\nlight desk aim 2.5 0 0.5\n"
+                                "light desk intensity 9\nadd-camera corner\nsettle\nscreenshot " +
+                                path("view.png") + "\nsave " + path("mine.ssphh.json") + "\nquit\n")}));
+  for (const std::vector<std::string>& scene :
+       {std::vector<std::string>{path("mine.ssphh.json")},
+        {"builtin:two-rooms", "--overlay", path("mine.ssphh.json")}}) {
+    run_json(joined(joined({"render"}, scene),
+                    {"--camera", "corner", "--method", "direct", "--width", "160", "--height", "100", "--spp",
+                     "16", "--exposure", "0", "-o", path("render.png")}));
+    EXPECT_GT(brightness("view.png"), 0.01);
+    EXPECT_NEAR(brightness("render.png"), brightness("view.png"), 0.05 * brightness("view.png"));
+  }
+}
+
 TEST_F(View, FramesOfAPathGlideToWhatSuitsThemAlike) {
   const auto view = [](float time, float x) {
     return fmt::format(

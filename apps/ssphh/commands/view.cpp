@@ -47,6 +47,7 @@ void add_setting_options(Command command, ViewOptions& o) {
 viewer::ViewerReport run_view(const ViewOptions& o, const Control& control) {
   viewer::ViewerOptions v = o.viewer;
   v.source = o.scene.source;
+  v.overlay = o.scene.overlay;
   v.time = o.scene.time;
   v.panels = !o.no_panels;
   parse_size(o.size, v.width, v.height);

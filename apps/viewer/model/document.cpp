@@ -2,7 +2,14 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <ssphh/core/file.h>
 #include <ssphh/scene_io/gltf_export.h>
+#include <ssphh/scene_io/load.h>
+
+#include "overlay_file.h"
 
 namespace ssphh::viewer {
 
@@ -13,19 +20,40 @@ Document make_document(std::string source, scene::Scene scene, float time) {
   document.duration = scene::animation_duration(scene);
   document.time = time;
   document.bounds = scene::world_bounds(scene, scene::world_matrices(scene, time));
-  document.scene = std::make_shared<const scene::Scene>(std::move(scene));
+  document.opened = document.scene = std::make_shared<const scene::Scene>(std::move(scene));
   return document;
 }
 
+bool Document::follow_lamps() {
+  if (has_lamps(*scene, edits())) return true;
+  // Once all lamps are as they were, so is the scene.
+  scene = has_lamps(*opened, edits()) ? opened
+                                      : std::make_shared<const scene::Scene>(with_lamps(*opened, edits()));
+  return true;
+}
+
 View start_view(const Document& document, const std::string& camera) {
-  const scene::CameraPose pose = scene::camera_pose(*document.scene, camera, document.time);
+  const std::vector<CameraEdit>& cameras = document.edits().cameras;
+  const auto named =
+      std::ranges::find_if(cameras, [&](const CameraEdit& c) { return camera.empty() || c.name == camera; });
+  if (named == cameras.end() && !camera.empty()) {
+    std::vector<std::string> names;
+    for (const CameraEdit& c : cameras) names.push_back(c.name);
+    throw Error(document.source, fmt::format("has no camera \"{}\"", camera),
+                names.empty() ? "it has none" : fmt::format("its cameras: {}", fmt::join(names, ", ")));
+  }
+  if (named != cameras.end() && named->view) return *named->view;
+  const bool of_scene = named != cameras.end();
+  const scene::CameraPose pose = scene::camera_pose(
+      *document.opened,
+      of_scene ? document.opened->cameras[static_cast<std::size_t>(named->source)].name : "", document.time);
   const vec3 eye(pose.world[3]);
   const float distance = document.bounds.empty() ? 3 : glm::distance(eye, document.bounds.center());
   return view_of(pose, std::max(distance, 0.1f));
 }
 
 scene::Scene scene_to_save(const Document& document) {
-  scene::Scene scene = edited_scene(*document.scene, document.edits(), document.time);
+  scene::Scene scene = document.edited();
   const auto by_node = [](const auto& a, const auto& b) { return a.node < b.node; };
   std::ranges::stable_sort(scene.lights, by_node);
   std::ranges::stable_sort(scene.sphls, by_node);
@@ -33,9 +61,42 @@ scene::Scene scene_to_save(const Document& document) {
   return scene;
 }
 
+namespace {
+
+/// A scene is opened with the overlay of its name beside it: neither may appear beside a stranger.
+void check_neighbors(const Document& document, const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
+  const std::string stem = file.stem().stem().string();
+  const auto beside = [&](const std::string& ending) { return file.parent_path() / (stem + ending); };
+  const bool overlay = file.string().ends_with(overlay_ending);
+  std::error_code ignored;
+  if (!overlay && fs::exists(scene_io::overlay_beside(file.string()), ignored))
+    throw Error(file.string(),
+                "the overlay of that name beside it would change the scene whenever it is opened",
+                "choose another name");
+  for (const char* ending : {".glb", ".gltf", ".obj"}) {
+    if (!overlay || !fs::exists(beside(ending), ignored)) continue;
+    const OpenedFiles below = opened_files(document.source, document.overlay);
+    const bool own = below.overlays.empty() && fs::equivalent(beside(ending), below.scene, ignored);
+    if (!own)
+      throw Error(file.string(), fmt::format("{} beside it would be opened with these edits", stem + ending),
+                  "choose another name");
+  }
+}
+
+}  // namespace
+
 void save_document(const Document& document, const std::filesystem::path& file) {
+  check_neighbors(document, file);
+  if (file.string().ends_with(overlay_ending)) {
+    if (document.recovered)
+      throw Error(file.string(), "a recovered scene holds edits that an overlay would leave out",
+                  "save it as .glb");
+    return write_file(file, json::print(overlay_of(document, file.parent_path()), 2) + "\n");
+  }
   if (file.extension() != ".glb")
-    throw Error(file.string(), "scenes are saved as GLB", "let the name end with .glb");
+    throw Error(file.string(), "scenes are saved as GLB, edits as overlays",
+                "let the name end with .glb or .ssphh.json");
   scene_io::write_glb(file, scene_to_save(document));
 }
 

@@ -34,17 +34,58 @@ std::vector<scene::Sphl> edited_sphls(scene::Scene& scene, const Edits& edits) {
   return sphls;
 }
 
+std::vector<scene::Camera> edited_cameras(scene::Scene& scene, const Edits& edits) {
+  std::vector<scene::Camera> cameras;
+  for (const CameraEdit& edit : edits.cameras) {
+    scene::Camera camera = edit.source >= 0 ? scene.cameras[index(edit.source)] : scene::Camera{};
+    if (edit.view) {
+      const scene::CameraPose pose = pose_of(*edit.view);
+      const std::optional<float> aspect = camera.aspect;
+      camera = pose.camera;
+      camera.aspect = aspect;
+      camera.node = add_root_node(scene, edit.name, edit.view->eye);
+      scene.nodes.back().local.rotation = edit.view->orientation;
+    }
+    camera.name = edit.name;
+    cameras.push_back(camera);
+  }
+  return cameras;
+}
+
+/// Throws Error for an empty name and one that another of the list has.
+template <class List, class Name>
+void check_name(const char* what, const List& list, std::size_t own, const std::string& name,
+                const Name& name_of) {
+  if (name.empty()) throw Error(what, fmt::format("a {} needs a name", what));
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (i != own && name_of(list[i]) == name)
+      throw Error(what, fmt::format("there is a {} \"{}\" already", what, name), "choose another name");
+  }
+}
+
+template <class List, class Same>
+int same_in(const List& before, int index, const List& after, const Same& same) {
+  if (before.size() == after.size()) return index;
+  const auto found = std::ranges::find_if(
+      after, [&](const auto& other) { return same(other, before[static_cast<std::size_t>(index)]); });
+  return found == after.end() ? -1 : static_cast<int>(found - after.begin());
+}
+
 }  // namespace
 
 Edits edits_of(const scene::Scene& scene) {
   Edits edits;
-  for (const scene::Light& light : scene.lights)
-    edits.lights.push_back({{}, light.color, light.intensity, true});
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const scene::Light& light = scene.lights[i];
+    edits.lights.push_back({{}, light.color, light.intensity, true, static_cast<int>(i), lamp_of(light)});
+  }
   edits.materials = scene.materials;
   for (std::size_t i = 0; i < scene.sphls.size(); ++i) {
     const scene::Sphl& sphl = scene.sphls[i];
     edits.sphls.push_back({static_cast<int>(i), {}, sphl.name, sphl.radius, sphl.enabled});
   }
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+    edits.cameras.push_back({static_cast<int>(i), scene.cameras[i].name, {}});
   return edits;
 }
 
@@ -54,6 +95,27 @@ bool same_surface(const scene::Material& a, const scene::Material& b) {
          a.specular == b.specular && a.ior == b.ior && a.transmission == b.transmission &&
          a.thickness == b.thickness && a.attenuation_color == b.attenuation_color &&
          a.attenuation_distance == b.attenuation_distance && a.emission == b.emission;
+}
+
+scene::Scene with_lamps(scene::Scene scene, const Edits& edits) {
+  std::vector<scene::Light> lights;
+  for (const LightEdit& edit : edits.lights) {
+    scene::Light light = light_of(edit.lamp, edit.color, edit.intensity);
+    // Acceleration structures are built for these nodes; a new lamp says itself where it stands.
+    light.node = 0;
+    if (edit.source >= 0) {
+      const scene::Light& own = scene.lights[index(edit.source)];
+      light.color = own.color, light.intensity = own.intensity, light.node = own.node;
+    }
+    lights.push_back(std::move(light));
+  }
+  scene.lights = std::move(lights);
+  return scene;
+}
+
+bool has_lamps(const scene::Scene& scene, const Edits& edits) {
+  return std::ranges::equal(scene.lights, edits.lights,
+                            [](const scene::Light& a, const LightEdit& b) { return lamp_of(a) == b.lamp; });
 }
 
 scene::LightingState edited_lighting(const scene::Scene& scene, const Edits& edits, float time) {
@@ -86,10 +148,11 @@ scene::Scene with_materials(scene::Scene scene, const Edits& edits) {
 }
 
 scene::Scene edited_scene(scene::Scene scene, const Edits& edits, float time) {
-  scene = with_materials(std::move(scene), edits);
+  scene = with_lamps(with_materials(std::move(scene), edits), edits);
   const scene::LightingState lighting = edited_lighting(scene, edits, time);
   scene = scene::with_lighting(std::move(scene), lighting);
   scene.sphls = edited_sphls(scene, edits);
+  scene.cameras = edited_cameras(scene, edits);
   return scene;
 }
 
@@ -105,11 +168,15 @@ vec3 sphl_position(const scene::Scene& scene, const std::vector<mat4>& world, co
 }
 
 int same_sphl(const std::vector<SphlEdit>& before, int index, const std::vector<SphlEdit>& after) {
-  if (before.size() == after.size()) return index;
-  const SphlEdit& sphl = before[static_cast<std::size_t>(index)];
-  const auto found = std::ranges::find_if(
-      after, [&](const SphlEdit& s) { return s.source == sphl.source && s.name == sphl.name; });
-  return found == after.end() ? -1 : static_cast<int>(found - after.begin());
+  return same_in(before, index, after, [](const SphlEdit& a, const SphlEdit& b) {
+    return a.source == b.source && a.name == b.name;
+  });
+}
+
+int same_lamp(const std::vector<LightEdit>& before, int index, const std::vector<LightEdit>& after) {
+  return same_in(before, index, after, [](const LightEdit& a, const LightEdit& b) {
+    return a.source == b.source && a.lamp.name == b.lamp.name;
+  });
 }
 
 std::string new_sphl_name(const Edits& edits) {
@@ -120,23 +187,33 @@ std::string new_sphl_name(const Edits& edits) {
   }
 }
 
-vec3 light_position(const mat4& world) {
-  return vec3(world[3]);
+std::string new_lamp_name(const Edits& edits, const std::string& like) {
+  // "spot 2" goes on as "spot 3".
+  const std::size_t digits = like.find_last_not_of("0123456789");
+  const bool numbered = digits != like.npos && like[digits] == ' ' && digits + 1 < like.size();
+  const std::string stem = numbered ? like.substr(0, digits) : like;
+  for (std::size_t n = 1;; ++n) {
+    std::string name = fmt::format("{} {}", stem, n);
+    if (std::ranges::none_of(edits.lights, [&](const LightEdit& light) { return light.lamp.name == name; }))
+      return name;
+  }
 }
 
-vec3 light_direction(const mat4& world) {
-  return -glm::normalize(vec3(world[2]));
+void rename_lamp(Edits& edits, std::size_t lamp, const std::string& name) {
+  check_name("lamp", edits.lights, lamp, name, [](const LightEdit& l) { return l.lamp.name; });
+  Lamp& renamed = edits.lights[lamp].lamp;
+  if (renamed.group.empty()) renamed.group = renamed.name;
+  renamed.name = name;
 }
 
-mat4 with_position(const mat4& world, const vec3& position) {
-  mat4 out = world;
-  out[3] = vec4(position, 1);
-  return out;
+void rename_camera(Edits& edits, std::size_t camera, const std::string& name) {
+  check_name("camera", edits.cameras, camera, name, [](const CameraEdit& c) { return c.name; });
+  edits.cameras[camera].name = name;
 }
 
-mat4 with_direction(const mat4& world, const vec3& direction) {
-  const Frame frame = Frame::around(-glm::normalize(direction));
-  return {vec4(frame.x, 0), vec4(frame.y, 0), vec4(frame.z, 0), world[3]};
+void add_camera(Edits& edits, const std::string& name, const View& view) {
+  check_name("camera", edits.cameras, edits.cameras.size(), name, [](const CameraEdit& c) { return c.name; });
+  edits.cameras.push_back({-1, name, view});
 }
 
 }  // namespace ssphh::viewer

@@ -28,6 +28,7 @@ class LiveLight {
   transport::RelightReport update(const scene::LightingState& state) { return session_->update(state); }
 
   const transport::RelightSession& session() const { return *session_; }
+  const scene::Scene& scene() const { return *scene_; }
   const trace::TransportScene& source() const { return source_; }
 
   /// A set of these places that holds the reflected light as it is now, groups merged into one.

@@ -38,6 +38,14 @@ std::optional<float> along_axis(const rays::RayQuery& ray, const vec3& origin, c
          determinant;
 }
 
+vec3 on_ball(const rays::RayQuery& ray, const vec3& center, float radius) {
+  const float along = glm::dot(center - ray.origin, ray.direction);
+  const vec3 nearest = ray.origin + along * ray.direction - center;
+  const float beside = glm::dot(nearest, nearest), rest = radius * radius - beside;
+  if (rest < 0) return center + radius * glm::normalize(nearest);
+  return center + nearest - std::sqrt(rest) * ray.direction;
+}
+
 std::optional<vec3> on_plane(const rays::RayQuery& ray, const vec3& point, const vec3& normal) {
   const float slope = glm::dot(ray.direction, normal);
   if (std::abs(slope) < 1e-6f) return {};

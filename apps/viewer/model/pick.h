@@ -20,6 +20,9 @@ std::optional<rays::SurfacePoint> pick_surface(const rays::TransportSource& sour
 /// axis. None where the two are parallel.
 std::optional<float> along_axis(const rays::RayQuery& ray, const vec3& origin, const vec3& axis);
 
+/// Where the ray meets a ball first, or the point of its surface that is nearest to the ray.
+vec3 on_ball(const rays::RayQuery& ray, const vec3& center, float radius);
+
 /// Where the ray meets the plane through `point` with unit normal `normal`; none behind the origin.
 std::optional<vec3> on_plane(const rays::RayQuery& ray, const vec3& point, const vec3& normal);
 

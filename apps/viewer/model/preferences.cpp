@@ -26,19 +26,27 @@ Preferences read_preferences(const std::filesystem::path& file) {
   const json::Value value = json::parse(read_text_file(file, 1 << 20), name);
   const json::Cursor in(value, name);
   in.expect_format(preferences_format, preferences_version);
-  in.members({"format", "version"}, {"recent"});
+  in.members({"format", "version"}, {"recent", "side_width", "histogram", "false_color"});
   if (in.has("recent")) {
     for (const json::Cursor& scene : json::elements(in["recent"]))
       preferences.recent.push_back(scene.text(4096));
   }
+  WindowLook& look = preferences.look;
+  if (in.has("side_width")) look.side_width = in["side_width"].number(0, 1000);
+  look.histogram = in.boolean_or("histogram", false);
+  look.false_color = in.boolean_or("false_color", false);
   return preferences;
 }
 
 void write_preferences(const Preferences& preferences, const std::filesystem::path& file) {
   std::error_code ignored;
   std::filesystem::create_directories(file.parent_path(), ignored);
-  const json::Value out = {
-      {"format", preferences_format}, {"version", preferences_version}, {"recent", preferences.recent}};
+  const json::Value out = {{"format", preferences_format},
+                           {"version", preferences_version},
+                           {"recent", preferences.recent},
+                           {"side_width", preferences.look.side_width},
+                           {"histogram", preferences.look.histogram},
+                           {"false_color", preferences.look.false_color}};
   write_file(file, json::print(out, 2) + "\n");
 }
 

@@ -7,9 +7,18 @@
 
 namespace ssphh::viewer {
 
+/// How the window was left.
+struct WindowLook {
+  float side_width = 0;  ///< of the panels, in heights of the text; 0: as suits the window
+  bool histogram = false, false_color = false;
+
+  friend bool operator==(const WindowLook&, const WindowLook&) = default;
+};
+
 struct Preferences {
   std::vector<std::string>
       recent;  ///< scenes that were opened or saved, by lasting_name(), the last one first
+  WindowLook look{};
 
   static constexpr std::size_t most_recent = 12;
 };

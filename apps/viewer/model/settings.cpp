@@ -104,6 +104,11 @@ const std::vector<SettingName>& setting_names() {
           "A picture that stands still is drawn 16 times, moved by parts of a pixel, and shown as the mean: "
           "edges without steps. Not while it is compared with a truth",
           &Settings::antialias),
+      toggle("false-color", "Picture",
+             "Each pixel in a colour for its luminance, a band for each stop from middle grey, with a legend",
+             &Settings::false_color),
+      toggle("histogram", "Picture", "Shares of the pixels by their luminance, in stops from middle grey",
+             &Settings::histogram),
       number("scale", "Picture", "Pixels drawn per pixel of the window, along each axis", 0.1f, 2,
              &Settings::scale),
       number("indirect-scale", "Picture",

@@ -9,12 +9,55 @@
 namespace ssphh::viewer {
 namespace {
 
-void draw_cameras(App& app) {
-  heading("Cameras of the scene");
-  for (const std::string& name : app.camera_names()) {
-    if (ImGui::Selectable(name.c_str())) attempt(app, [&] { app.go_to_camera(name); });
+void draw_chosen(App& app) {
+  const auto i = static_cast<std::size_t>(app.camera);
+  const std::string now = app.document.edits().cameras[i].name;
+  row("name");
+  char text[128] = "";
+  now.copy(text, sizeof text - 1);
+  if (ImGui::InputText("##name", text, sizeof text,
+                       ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll)) {
+    attempt(app, [&] {
+      app.document.edit_at_once("rename " + now, [&](Edits& e) { rename_camera(e, i, text); });
+    });
   }
-  if (app.document.scene->cameras.empty()) note("none");
+  tip("Enter takes it");
+  if (ImGui::Button("Take this view")) {
+    app.document.edit_at_once("view of " + now, [&](Edits& e) { e.cameras[i].view = app.view; });
+    app.say(now + " has the view of now");
+  }
+  tip("the camera looks from here from now on");
+  beside("Delete");
+  if (!ImGui::Button("Delete")) return;
+  app.document.edit_at_once("delete " + now,
+                            [&](Edits& e) { e.cameras.erase(e.cameras.begin() + app.camera); });
+  app.camera = -1;
+  app.say("deleted: " + now);
+}
+
+void draw_cameras(App& app) {
+  heading("Cameras");
+  const auto count = static_cast<int>(app.document.edits().cameras.size());
+  if (app.camera >= count) app.camera = -1;
+  for (int i = 0; i < count; ++i) {
+    const std::string name = app.document.edits().cameras[static_cast<std::size_t>(i)].name;
+    ImGui::PushID(i);
+    if (ImGui::Selectable(name.empty() ? "(no name)" : name.c_str(), app.camera == i)) {
+      app.camera = i;
+      attempt(app, [&] { app.go_to_camera(name); });
+    }
+    ImGui::PopID();
+  }
+  if (count == 0) note("none");
+  if (app.camera >= 0) draw_chosen(app);
+  static char name[128] = "";
+  row("new name");
+  ImGui::InputText("##new", name, sizeof name);
+  if (!wide_button("Save this view as a camera")) return;
+  attempt(app, [&] {
+    app.save_camera(name);
+    name[0] = 0;
+  });
 }
 
 void draw_view(App& app) {

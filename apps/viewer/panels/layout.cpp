@@ -84,7 +84,11 @@ void draw_picture(const App& app) {
   const float line =
       app.settings.show == Show::wipe && app.settings.debug != DebugView::leak ? app.settings.wipe : 0;
   // OpenGL's first row is the lowest one, a file's the highest.
-  list.AddImage(texture_id(app.picture.realtime_texture()), from, to, {0, 1}, {1, 0});
+  if (app.settings.false_color && app.picture.false_color_texture().width() > 0) {
+    list.AddImage(texture_id(app.picture.false_color_texture().id()), from, to);
+  } else {
+    list.AddImage(texture_id(app.picture.realtime_texture()), from, to, {0, 1}, {1, 0});
+  }
   if (truth)
     list.AddImage(texture_id(app.picture.truth_texture()), {r.x + line * r.width, r.y}, to, {line, 0},
                   {1, 1});
@@ -106,6 +110,7 @@ void draw_panels(App& app) {
   if (!app.scene_open()) draw_welcome(app);
   if (app.panels) draw_offer(app);
   draw_message(app);
+  draw_readings(app);
   draw_inspector(app);
   draw_help(app);
   draw_file_dialog(app);

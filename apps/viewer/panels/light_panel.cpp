@@ -1,27 +1,30 @@
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
 #include <imgui.h>
 
 #include "app.h"
-#include "model/lamp_color.h"
 #include "panels.h"
 #include "widgets.h"
 
 namespace ssphh::viewer {
 namespace {
 
-/// Of the types of lamps, in their order.
-constexpr const char* type_names[] = {"point, W/sr", "spot, W/sr", "directional, W/m²", "sphere, W/(sr m²)",
-                                      "SPHL, times its emission"};
-
-/// One undo step per drag of a widget.
-template <class Change>
-void edit(App& app, const std::string& what, const Change& change) {
-  app.document.edit(what, change);
-  app.redraw();
+void draw_lamp_buttons(App& app) {
+  if (ImGui::Button("Add…")) ImGui::OpenPopup("kinds");
+  tip("a lamp off the surface in the middle of the picture");
+  if (ImGui::BeginPopup("kinds")) {
+    draw_lamp_kinds(app);
+    ImGui::EndPopup();
+  }
+  if (!app.selection.is(Kind::light)) return;
+  beside("Duplicate");
+  if (ImGui::Button("Duplicate")) app.duplicate_lamp();
+  tip("Ctrl+D");
+  beside("Delete");
+  if (ImGui::Button("Delete")) app.delete_selection();
+  tip("Delete; undo brings the lamp back");
 }
 
 void draw_lamp_list(App& app) {
@@ -31,7 +34,7 @@ void draw_lamp_list(App& app) {
     bool on = app.document.edits().lights[i].on;
     if (ImGui::Checkbox("##on", &on)) {
       app.document.history.seal();
-      edit(app, fmt::format("switch {}", lights[i].name), [&](Edits& e) { e.lights[i].on = on; });
+      app.edit(fmt::format("switch {}", lights[i].name), [&](Edits& e) { e.lights[i].on = on; });
     }
     tip("on, off");
     ImGui::SameLine();
@@ -41,83 +44,7 @@ void draw_lamp_list(App& app) {
   }
   if (lights.empty())
     note("The scene has no lamps; emissive surfaces and the environment are below, as groups.");
-}
-
-/// The same colour by its digits, and by its temperature.
-void draw_color_names(App& app, std::size_t i) {
-  const std::string what = "colour " + app.document.scene->lights[i].name;
-  const vec3 now = app.document.edits().lights[i].color;
-  row("sRGB");
-  char text[16] = "";
-  hex_of(now).copy(text, sizeof text - 1);
-  if (ImGui::InputText("##hex", text, sizeof text,
-                       ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll)) {
-    const auto color = color_of_hex(text);
-    if (!color) app.complain(fmt::format("\"{}\" is no colour like #ffe0b0", text));
-    app.document.history.seal();
-    if (color) edit(app, what, [&](Edits& e) { e.lights[i].color = *color; });
-    app.document.history.seal();
-  }
-  tip("in hexadecimal digits, as #ffe0b0; Enter takes it");
-  row("temperature");
-  // What was chosen last is kept exactly, so that a drag goes on from it.
-  static float chosen = 6500;
-  const float was = now == color_of_kelvin(chosen) ? chosen : kelvin_of(now).value_or(6500);
-  float kelvin = was;
-  ImGui::DragFloat("##kelvin", &kelvin, 20, least_kelvin, most_kelvin, "%.0f K",
-                   ImGuiSliderFlags_AlwaysClamp);
-  if (kelvin != was) {
-    chosen = kelvin;
-    edit(app, what, [&](Edits& e) { e.lights[i].color = color_of_kelvin(kelvin); });
-  }
-  seal_after_edit(app);
-  tip("of the black body whose colour is nearest; changing it takes that colour, its largest channel 1");
-}
-
-void draw_lamp(App& app, std::size_t i) {
-  const scene::Light& light = app.document.scene->lights[i];
-  const LightEdit& now = app.document.edits().lights[i];
-  const mat4 world = app.document.lighting().lights[i].world;
-  heading(light.name.c_str());
-  note(type_names[static_cast<std::size_t>(light.type)]);
-
-  row("intensity");
-  float intensity = now.intensity;
-  const float fastest = std::max(0.02f * std::abs(intensity), 1e-3f);
-  if (ImGui::DragFloat("##intensity", &intensity, fastest, 0, 1e6f, "%.3g"))
-    edit(app, "dim " + light.name, [&](Edits& e) { e.lights[i].intensity = intensity; });
-  seal_after_edit(app);
-
-  row("colour");
-  vec3 color = now.color;
-  if (ImGui::ColorEdit3("##colour", glm::value_ptr(color),
-                        ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoOptions))
-    edit(app, "colour " + light.name, [&](Edits& e) { e.lights[i].color = color; });
-  seal_after_edit(app);
-  tip("linear Rec.709");
-  draw_color_names(app, i);
-
-  if (light.type != scene::LightType::directional) {
-    row("position");
-    vec3 position = light_position(world);
-    if (ImGui::DragFloat3("##position", glm::value_ptr(position), 0.01f, 0, 0, "%.2f"))
-      edit(app, "move " + light.name, [&](Edits& e) { e.lights[i].world = with_position(world, position); });
-    seal_after_edit(app);
-  }
-  if (light.type == scene::LightType::spot || light.type == scene::LightType::directional ||
-      light.type == scene::LightType::sphl) {
-    row("direction");
-    vec3 direction = light_direction(world);
-    if (ImGui::DragFloat3("##direction", glm::value_ptr(direction), 0.01f, -1, 1, "%.2f") &&
-        glm::length(direction) > 1e-3f)
-      edit(app, "turn " + light.name,
-           [&](Edits& e) { e.lights[i].world = with_direction(world, direction); });
-    seal_after_edit(app);
-  }
-  if (now.world && ImGui::SmallButton("back to its own place")) {
-    app.document.history.seal();
-    edit(app, "put back " + light.name, [&](Edits& e) { e.lights[i].world.reset(); });
-  }
+  draw_lamp_buttons(app);
 }
 
 void draw_groups(App& app) {
@@ -129,7 +56,7 @@ void draw_groups(App& app) {
     float factor = max_component(scale);
     row(group.c_str());
     if (ImGui::SliderFloat("##factor", &factor, 0, 4, "× %.2f"))
-      edit(app, "scale " + group, [&](Edits& e) { e.groups[group] = vec3(factor); });
+      app.edit("scale " + group, [&](Edits& e) { e.groups[group] = vec3(factor); });
     seal_after_edit(app);
     ImGui::PopID();
   }
@@ -137,7 +64,7 @@ void draw_groups(App& app) {
     row("environment turned");
     float turn = app.document.edits().environment_rotation;
     if (ImGui::SliderAngle("##turn", &turn, -180, 180, "%.0f°"))
-      edit(app, "turn the environment", [&](Edits& e) { e.environment_rotation = turn; });
+      app.edit("turn the environment", [&](Edits& e) { e.environment_rotation = turn; });
     seal_after_edit(app);
     tip("about the vertical, beyond the scene's own rotation");
   }
@@ -146,10 +73,22 @@ void draw_groups(App& app) {
 
 }  // namespace
 
+void draw_lamp_kinds(App& app) {
+  constexpr std::pair<const char*, scene::LightType> kinds[] = {
+      {"Point", scene::LightType::point},
+      {"Spot, with a cone", scene::LightType::spot},
+      {"Sun", scene::LightType::directional},
+      {"Sphere", scene::LightType::sphere},
+      {"SPHL, a soft beam", scene::LightType::sphl}};
+  for (const auto& [name, type] : kinds) {
+    if (ImGui::MenuItem(name)) attempt(app, [&app, type = type] { app.add_lamp(type); });
+  }
+}
+
 void draw_light_panel(App& app) {
   heading("Lamps");
   draw_lamp_list(app);
-  if (app.selection.is(Kind::light)) draw_lamp(app, static_cast<std::size_t>(app.selection.index));
+  if (app.selection.is(Kind::light)) draw_lamp(app);
   draw_sky(app);
   draw_groups(app);
 }

@@ -56,6 +56,8 @@ void draw_file_menu(App& app) {
   if (ImGui::MenuItem("Save scene", "Ctrl+S", false, open)) attempt(app, [&] { app.save(); });
   if (ImGui::MenuItem("Save scene as…", "Ctrl+Shift+S", false, open))
     app.ask_for_file(FileDialog::For::scene);
+  if (ImGui::MenuItem("Save edits as overlay…", nullptr, false, open)) app.ask_for_overlay();
+  tip("a small file that names the scene and holds lamps, cameras, SPHLs and what else was changed in it");
   if (ImGui::MenuItem("Save probes as…", nullptr, false, open && !app.light.empty()))
     app.ask_for_file(FileDialog::For::probes);
   if (ImGui::MenuItem("Save times as times.csv", nullptr, false, open))
@@ -70,7 +72,11 @@ void draw_edit_menu(App& app) {
   if (ImGui::MenuItem(("Redo " + redo).c_str(), "Ctrl+Y", false, !redo.empty())) app.redo();
   ImGui::Separator();
   if (ImGui::MenuItem("Place an SPHL", "N", app.place_mode)) app.place_mode = !app.place_mode;
-  if (ImGui::MenuItem("Delete the SPHL", "Del", false, app.selection.is(Kind::sphl))) app.delete_selection();
+  if (ImGui::BeginMenu("Add a lamp")) draw_lamp_kinds(app), ImGui::EndMenu();
+  const bool lamp = app.selection.is(Kind::light);
+  if (ImGui::MenuItem("Duplicate the lamp", "Ctrl+D", false, lamp)) app.duplicate_lamp();
+  if (ImGui::MenuItem("Aim the lamp", "X", app.aim_mode, app.can_aim())) app.aim_mode = !app.aim_mode;
+  if (ImGui::MenuItem("Delete", "Del", false, lamp || app.selection.is(Kind::sphl))) app.delete_selection();
 }
 
 void draw_view_menu(App& app) {
@@ -92,6 +98,8 @@ void draw_view_menu(App& app) {
   ImGui::MenuItem("Probes as balls", "P", &s.balls);
   ImGui::MenuItem("Lobes", "L", &s.lobes);
   ImGui::MenuItem("Graph of the hierarchy", "G", &s.graph);
+  ImGui::MenuItem("Histogram", "J", &s.histogram);
+  ImGui::MenuItem("False colours", "K", &s.false_color);
   ImGui::MenuItem("Panels", "Tab", &app.panels);
   if (ImGui::MenuItem("Values under the mouse", "I", app.inspecting)) app.toggle_inspector();
   ImGui::Separator();

@@ -15,6 +15,10 @@ void draw_menu(App& app);
 /// From `y` on, at the window's left; its width [pixels].
 float draw_sidebar(App& app, float y, float height);
 void draw_light_panel(App& app);
+/// A part of it: the lamp that is selected.
+void draw_lamp(App& app);
+/// Entries of a menu: a lamp of each kind to add.
+void draw_lamp_kinds(App& app);
 /// A part of it, of scenes with a computed sky.
 void draw_sky(App& app);
 void draw_probe_panel(App& app);
@@ -25,6 +29,8 @@ void draw_picture_panel(App& app);
 void draw_stats_panel(App& app);
 void draw_time_bar(App& app);
 void draw_help(App& app);
+/// Over the picture: the histogram, and the legend of false colours.
+void draw_readings(App& app);
 /// What stands under the mouse, or at the pinned point, and what lights it.
 void draw_inspector(App& app);
 /// Lets the user choose the file of App::dialog, and opens or writes it.

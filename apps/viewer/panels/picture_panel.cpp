@@ -46,6 +46,8 @@ void draw_picture_panel(App& app) {
   setting_widget(app, "debug view", "debug");
   if (app.settings.debug == DebugView::leak)
     note("Looked-up indirect light on places where path tracing finds next to none, as it comes in.");
+  setting_widget(app, "histogram (J)", "histogram");
+  setting_widget(app, "false colours (K)", "false-color");
   setting_widget(app, "smooth edges", "antialias");
   setting_slider(app, "pixels", "scale", 0.25f, 2, "× %.2f");
   setting_slider(app, "probe light at", "indirect-scale", 1, 8, "1 of %.0f pixels");

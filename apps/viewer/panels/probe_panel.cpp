@@ -126,6 +126,33 @@ void draw_coefficients(const sh::RadianceSh& light) {
   }
 }
 
+/// Edges of the selected probe, the strongest first; a click selects the neighbour.
+void draw_neighbors(App& app, const probes::Probe& p) {
+  if (p.edges.empty()) return;
+  std::vector<const probes::Edge*> edges;
+  for (const probes::Edge& edge : p.edges) edges.push_back(&edge);
+  std::ranges::stable_sort(edges, std::ranges::greater{}, &probes::Edge::transfer);
+  note("P, neighbour");
+  const std::size_t shown = std::min<std::size_t>(edges.size(), 6);
+  ImGui::BeginChild("neighbors", {0, (static_cast<float>(shown) + 1) * ImGui::GetTextLineHeightWithSpacing()},
+                    true);
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(edges.size()));
+  int chosen = -1;
+  while (clipper.Step()) {
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+      const probes::Edge& edge = *edges[static_cast<std::size_t>(i)];
+      const std::string& name = app.light.set().probes[static_cast<std::size_t>(edge.from)].name;
+      ImGui::PushID(i);
+      if (ImGui::Selectable(fmt::format("{:.5f}  {}", edge.transfer, name).c_str()))
+        chosen = sphl_of_probe(app, edge.from);
+      ImGui::PopID();
+    }
+  }
+  ImGui::EndChild();
+  if (chosen >= 0) app.select({Kind::sphl, chosen});
+}
+
 void draw_selected(App& app) {
   const auto i = static_cast<std::size_t>(app.selection.index);
   const SphlEdit& sphl = app.document.edits().sphls[i];
@@ -147,6 +174,7 @@ void draw_selected(App& app) {
   const vec3 mean = p.self.empty() ? vec3(0) : p.self[0] * 0.28209479f;
   ImGui::TextWrapped("mean radiance  %.3g %.3g %.3g", mean.x, mean.y, mean.z);
   ImGui::TextWrapped("degree %d, %zu edges", p.self.degree(), p.edges.size());
+  draw_neighbors(app, p);
   if (!p.self.empty()) draw_coefficients(p.self);
   if (app.light.set().hierarchy) {
     note("with its neighbours' light:");

@@ -168,7 +168,8 @@ TEST(Edits, OfASceneAreItsOwnValues) {
   scene.lights[0].color = {0.5f, 0.25f, 1};
   scene.sphls[1].radius = 0.375f, scene.sphls[2].enabled = false;
   const Edits edits = edits_of(scene);
-  EXPECT_EQ(edits.lights, (std::vector<LightEdit>{{{}, {0.5f, 0.25f, 1}, 4, true}}));
+  EXPECT_EQ(edits.lights,
+            (std::vector<LightEdit>{{{}, {0.5f, 0.25f, 1}, 4, true, 0, lamp_of(scene.lights[0])}}));
   EXPECT_EQ(edits.materials.size(), scene.materials.size());
   EXPECT_TRUE(edits.groups.empty());
   ASSERT_EQ(edits.sphls.size(), 6u);

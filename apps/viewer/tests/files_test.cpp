@@ -34,7 +34,8 @@ TEST(Preferences, ComeBackAndBrokenOnesAreRefused) {
   const test::TempDir dir;
   const fs::path file = dir / "config" / "preferences.json";
   EXPECT_TRUE(read_preferences(file).recent.empty());
-  write_preferences({{"/a b.glb", "/ä.glb"}}, file);
+  write_preferences({{"/a b.glb", "/ä.glb"}, {21.5f, true, false}}, file);
+  EXPECT_EQ(read_preferences(file).look, (WindowLook{21.5f, true, false}));
   EXPECT_THAT(read_preferences(file).recent, ElementsAre("/a b.glb", "/ä.glb"));
   for (const char* text :
        {"{", "[]", R"({"format": "other", "version": 1})", R"({"format": "ssphh-preferences", "version": 9})",

@@ -102,7 +102,7 @@ TEST_F(Menus, MenusDoWhatTheySay) {
   choose("Edit", "Place an SPHL");
   EXPECT_TRUE(app().place_mode);
   app().selection = {Kind::sphl, 0};
-  choose("Edit", "Delete the SPHL");
+  choose("Edit", "Delete");
   EXPECT_EQ(app().document.edits().sphls.size(), 5u);
   choose("Edit", "Undo delete SPHL");
   EXPECT_EQ(app().document.edits().sphls.size(), 6u);

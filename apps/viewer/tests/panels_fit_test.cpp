@@ -109,6 +109,18 @@ TEST_F(PanelsFit, HelpQuestionsMessagesAndWork) {
   }
 }
 
+TEST_F(PanelsFit, HistogramAndLegend) {
+  for (const Screen& screen : screens) {
+    open_on(screen);
+    app().settings.histogram = app().settings.false_color = true;
+    app().histogram.emplace(), app().truth_histogram.emplace();
+    for (int i = 0; i < 3; ++i) rest();
+    expect_whole("readings");
+    EXPECT_TRUE(shows("darker") && shows("white line")) << where_;
+    EXPECT_TRUE(shows("+8")) << where_;
+  }
+}
+
 TEST_F(PanelsFit, TheEdgeOfThePanelsFollowsTheMouse) {
   rest();
   const float before = app().viewport.x;

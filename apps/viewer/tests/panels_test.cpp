@@ -88,7 +88,7 @@ TEST_F(Panels, FieldsFollowTheMouseAtTheirSpeed) {
   open("Light");
   expect_pulled(
       "intensity", [&] { return edits().lights[0].intensity; }, 0.08f, 0, 1e6f);
-  EXPECT_EQ(app().document.history.undo_name(), "dim lamp");
+  EXPECT_EQ(app().document.history.undo_name(), "intensity of lamp");
   expect_pulled(
       "position",
       [&] {
@@ -211,6 +211,24 @@ TEST_F(Panels, ProbesAreChosenSwitchedAndDeleted) {
   EXPECT_EQ(app().document.edits().sphls.size(), 5u);
   EXPECT_EQ(app().document.edits().sphls[1].name, "doorway");
   EXPECT_EQ(app().selection, Selection{});
+}
+
+TEST_F(Panels, NeighboursOfAProbeStandByTheirStrength) {
+  take_probes();
+  app().selection = {Kind::sphl, 3};
+  open("Probes");
+  const std::vector<SphlEdit>& sphls = app().document.edits().sphls;
+  const auto y = [&](std::size_t probe) {
+    const float p = std::pow(0.2f, 4.0f) * static_cast<float>(probe + 1);
+    for (const DrawnThing& thing : all_things())
+      if (thing.text.starts_with(fmt::format("{:.5f}", p))) return thing.from.y;
+    ADD_FAILURE() << "no neighbour " << probe;
+    return 0.0f;
+  };
+  EXPECT_LT(y(2), y(1));
+  EXPECT_LT(y(1), y(0));
+  click(40, y(1) + 5);
+  EXPECT_EQ(app().selection, (Selection{Kind::sphl, 1})) << sphls[1].name;
 }
 
 TEST_F(Panels, SettingsAreTickedChosenAndCounted) {

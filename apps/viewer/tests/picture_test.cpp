@@ -49,8 +49,9 @@ TEST(PictureSettings, EachDebugViewIsTheRenderersView) {
 }
 
 TEST(PictureSettings, ThoseOfTheScreenAndTheTruthLeaveThePictureAsItIs) {
-  const std::set<std::string> others = {"scale",     "show",  "wipe",  "block", "against", "truth-depth",
-                                        "truth-spp", "graph", "names", "play",  "speed"};
+  const std::set<std::string> others = {"scale",       "show",      "wipe",       "block", "against",
+                                        "truth-depth", "truth-spp", "graph",      "names", "play",
+                                        "speed",       "histogram", "false-color"};
   for (const SettingName& setting : setting_names()) {
     Settings changed;
     const std::string now = setting.get(changed);

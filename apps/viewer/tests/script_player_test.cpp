@@ -61,8 +61,8 @@ TEST_F(Script_, CommandsChangeTheState) {
   EXPECT_EQ(edits().lights[0].color, vec3(0.5f, 0, 2));
   EXPECT_EQ(light_position(*edits().lights[0].world), vec3(1, 2, 3));
   EXPECT_EQ(app().document.history.undo_name(), "position of lamp");
-  run("light lamp intensity -7");
-  EXPECT_EQ(edits().lights[0].intensity, 0);
+  EXPECT_THAT(error("light lamp intensity -7"), HasSubstr("intensity -7 W/sr is not within 0 to 1e+06 W/sr"));
+  EXPECT_EQ(edits().lights[0].intensity, 7);
   run("light lamp off");
   EXPECT_FALSE(edits().lights[0].on);
   run("light lamp off"), run("light lamp on");
@@ -73,6 +73,16 @@ TEST_F(Script_, CommandsChangeTheState) {
   EXPECT_TRUE(edits().lights[0].on);
   run("light lamp intensity 1"), run("light lamp intensity 2"), run("undo");
   EXPECT_EQ(edits().lights[0].intensity, 1) << "each command is a step";
+  run("add-light spot desk 1 2 1"), run("light desk aim 1 0 1"), run("light desk outer-cone 20");
+  EXPECT_EQ(light_position(*edits().lights[1].world), vec3(1, 2, 1));
+  EXPECT_EQ(light_direction(*edits().lights[1].world), vec3(0, -1, 0));
+  EXPECT_FLOAT_EQ(edits().lights[1].lamp.outer_cone, glm::radians(20.0f));
+  EXPECT_THAT(error("add-light spot desk 0 0 0"), HasSubstr("there is a lamp \"desk\" already"));
+  run("light desk duplicate"), run("light desk delete");
+  ASSERT_EQ(edits().lights.size(), 2u);
+  EXPECT_EQ(edits().lights[1].lamp.name, "desk 1");
+  run("add-camera corner"), run("view 0 1 0 1 1 1"), run("camera corner");
+  EXPECT_EQ(app().view, *edits().cameras.back().view);
   run("group lamp 3");
   EXPECT_EQ(edits().groups.at("lamp"), vec3(3));
   run("group lamp -3");
@@ -207,7 +217,9 @@ TEST_F(Script_, SaysWhatItDoesNotUnderstand) {
   EXPECT_THAT(error("light lamb on"), HasSubstr("there is no \"lamb\" (there are: lamp)"));
   EXPECT_THAT(error("select sphl x"), HasSubstr("there are: A west, A east, doorway"));
   EXPECT_THAT(error("select door x"), HasSubstr("\"door\" is none of: light, sphl, material"));
-  EXPECT_THAT(error("light lamp dim"), HasSubstr("\"dim\" is none of: on, off, intensity, color, position"));
+  EXPECT_THAT(
+      error("light lamp dim"),
+      HasSubstr("\"dim\" is none of: on, off, delete, duplicate, aim, color, position, intensity, range"));
   EXPECT_THAT(error("group x 1"), HasSubstr("there is no \"x\""));
   EXPECT_THAT(error("material x 1 1 1"), HasSubstr("there is no \"x\""));
   EXPECT_THAT(error("key ctrl+what"), HasSubstr("there is no key \"ctrl+what\""));

@@ -58,7 +58,8 @@ TEST(Settings, StartAtTheirDefaults) {
       {"hier", "off"},      {"lookup", "irradiance"}, {"layer", "sum"},     {"weights", "surface"},
       {"operator", "mean"}, {"neighbors", "-1"},      {"threshold", "0"},   {"balls", "off"},
       {"ball", "radiance"}, {"ball-size", "0"},       {"lobes", "off"},     {"graph", "off"},
-      {"names", "off"},     {"play", "off"},          {"speed", "0.5"},     {"antialias", "on"}};
+      {"names", "off"},     {"play", "off"},          {"speed", "0.5"},     {"antialias", "on"},
+      {"histogram", "off"}, {"false-color", "off"}};
   std::map<std::string, std::string> got;
   for (const SettingName& setting : setting_names()) got[setting.name] = setting.get(Settings{});
   EXPECT_EQ(got, wanted);
@@ -101,6 +102,8 @@ TEST(Settings, GoWhereTheirNameSays) {
       {"exposure", "2", [](Settings& s) { s.exposure = 2, s.auto_exposure = false; }},
       {"tonemap", "clip", [](Settings& s) { s.curve = image::ToneCurve::clip; }},
       {"debug", "leak", [](Settings& s) { s.debug = DebugView::leak; }},
+      {"histogram", "on", [](Settings& s) { s.histogram = true; }},
+      {"false-color", "on", [](Settings& s) { s.false_color = true; }},
       {"antialias", "off", [](Settings& s) { s.antialias = false; }},
       {"scale", "0.5", [](Settings& s) { s.scale = 0.5f; }},
       {"indirect-scale", "2", [](Settings& s) { s.indirect_scale = 2; }},

@@ -18,7 +18,7 @@ namespace ssphh::viewer {
 namespace {
 
 TEST(ViewerValues, OfWhatIsEdited) {
-  EXPECT_EQ(LightEdit(), (LightEdit{std::nullopt, vec3(1), 1, true}));
+  EXPECT_EQ(LightEdit(), (LightEdit{std::nullopt, vec3(1), 1, true, -1, {}}));
   EXPECT_EQ(SphlEdit(), (SphlEdit{-1, std::nullopt, "", 0.1f, true}));
   EXPECT_EQ(Edits().environment_rotation, 0);
   const Document document;

@@ -18,6 +18,7 @@
 #include <ssphh/scene_io/unit.h>
 
 #include "file_bytes.h"
+#include "overlay_paths.h"
 
 namespace ssphh::scene_io {
 namespace {
@@ -27,7 +28,6 @@ using scene::Scene;
 
 constexpr std::string_view builtin_prefix = "builtin:";
 constexpr std::uint64_t max_scene_bytes = std::uint64_t{4} << 30;
-constexpr std::uint64_t max_overlay_bytes = std::uint64_t{16} << 20;
 
 enum class Format { gltf, obj, overlay };
 

@@ -5,9 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/core/file.h>
 #include <ssphh/core/json_cursor.h>
 #include <ssphh/image/io.h>
 #include <ssphh/scene/sun_sky.h>
+#include <ssphh/scene/with_lighting.h>
 #include <ssphh/scene_io/overlay.h>
 #include <ssphh/scene_io/unit.h>
 
@@ -21,6 +23,7 @@ namespace {
 using scene::Scene;
 
 constexpr std::size_t max_entries = 100'000;
+constexpr int max_overlays_below = 8;  // one below the other
 
 float degrees(const json::Cursor& object, const char* key, float low, float high, float fallback) {
   const auto member = object.find(key);
@@ -69,8 +72,8 @@ int add_node(Scene& scene, const json::Cursor& entry, const std::string& name) {
 }
 
 void read_camera(Scene& scene, const json::Cursor& entry, std::size_t number) {
-  entry.only(
-      {"name", "position", "look_at", "direction", "up", "node", "yfov_degrees", "xfov_degrees", "aspect"});
+  entry.only({"name", "position", "look_at", "direction", "up", "node", "yfov_degrees", "xfov_degrees",
+              "aspect", "yheight"});
   scene::Camera camera;
   camera.name = entry.text_or("name", fmt::format("camera {}", number));
   if (const auto aspect = entry.find("aspect")) camera.aspect = positive(*aspect);
@@ -81,6 +84,10 @@ void read_camera(Scene& scene, const json::Cursor& entry, std::size_t number) {
     camera.yfov = 2 * std::atan(std::tan(glm::radians(xfov->number(0.01f, 179)) / 2) / *camera.aspect);
   } else {
     camera.yfov = degrees(entry, "yfov_degrees", 0.01f, 179, 45);
+  }
+  if (const auto height = entry.find("yheight")) {
+    camera.orthographic = true;
+    camera.yheight = positive(*height);
   }
   camera.node = add_node(scene, entry, camera.name);
   scene.cameras.push_back(std::move(camera));
@@ -222,7 +229,7 @@ scene::SunTime sun_time(const json::Cursor& entry) {
 
 void set_sun_sky(Scene& scene, const json::Cursor& entry) {
   entry.only({"model", "elevation_degrees", "azimuth_degrees", "date", "time_of_day", "place",
-              "utc_offset_hours", "north_degrees", "turbidity", "ground_albedo", "sun", "width"});
+              "utc_offset_hours", "north_degrees", "turbidity", "ground_albedo", "sun", "lamp", "width"});
   scene::SunSkyParams params;
   const bool by_time = entry.find("date") || entry.find("time_of_day") || entry.find("place");
   if (by_time) params.model = scene::SkyModel::physical;
@@ -239,9 +246,41 @@ void set_sun_sky(Scene& scene, const json::Cursor& entry) {
   if (by_time) params = scene::at_time(params, sun_time(entry));
   try {
     scene::add_sun_sky(scene, params);
+    const int lamp = scene::sun_light(scene);
+    if (!entry.boolean_or("lamp", true) && lamp >= 0) scene.lights.erase(scene.lights.begin() + lamp);
   } catch (const Error& e) {
     entry.fail(e.problem(), e.hint());
   }
+}
+
+// "without": what is below loses those of these names, if it has them.
+void leave_out(Scene& scene, const json::Cursor& without) {
+  without.only({"cameras", "lights", "sphls"});
+  const auto erase = [&](const char* key, auto& list) {
+    if (!without.find(key)) return;
+    for (const json::Cursor& name : json::elements(without[key], 0, max_entries))
+      std::erase_if(list, [&](const auto& item) { return item.name == name.text(); });
+  };
+  erase("cameras", scene.cameras);
+  erase("lights", scene.lights);
+  erase("sphls", scene.sphls);
+}
+
+// "light_factors": a factor on all that a light group emits.
+void scale_groups(Scene& scene, const json::Cursor& factors) {
+  const std::vector<std::string> groups = scene::light_groups(scene);
+  scene::LightingState state = scene::lighting_at(scene);
+  for (const auto& [group, unused] : factors.entries()) {
+    const json::Cursor factor = factors[group.c_str()];
+    const auto found = std::ranges::find(groups, group);
+    if (found == groups.end())
+      factor.fail(fmt::format("the scene has no light group \"{}\"", group),
+                  fmt::format("it has: {}", fmt::join(groups, ", ")));
+    const vec3 value = factor.vector3();
+    if (!glm::all(glm::greaterThanEqual(value, vec3(0)))) factor.fail("must not be below 0");
+    state.group_scales[static_cast<std::size_t>(found - groups.begin())] = value;
+  }
+  scene = scene::with_lighting(std::move(scene), state);
 }
 
 // A number, or a word that unit.h knows.
@@ -259,15 +298,23 @@ void for_each_entry(Scene& scene, const json::Cursor& root, const char* key, con
   for (std::size_t i = 0; i < list->size(); ++i) function(scene, (*list)[i], i + 1);
 }
 
-}  // namespace
-
-void apply_overlay(Scene& scene, std::string_view text, const std::filesystem::path& path,
-                   const std::string& unit_in_place) {
+void apply(Scene& scene, std::string_view text, const std::filesystem::path& path, std::string unit_in_place,
+           int below) {
   const std::string file = path.string();
   const json::Value json = json::parse(text, file);
   const json::Cursor root(json, file);
-  root.only({"$schema", "comment", "scene", "name", "unit", "origin", "cameras", "lights", "sphls",
-             "environment", "sun_sky", "materials", "light_modes"});
+  root.only({"$schema", "comment", "scene", "name", "unit", "origin", "overlays", "without", "cameras",
+             "lights", "sphls", "environment", "environment_turn_degrees", "sun_sky", "materials",
+             "light_factors", "light_modes"});
+  if (const auto overlays = root.find("overlays")) {
+    if (below == max_overlays_below)
+      overlays->fail(fmt::format("more than {} overlays lie on each other", below));
+    for (const json::Cursor& named : json::elements(*overlays, 0, max_entries)) {
+      const std::filesystem::path other = overlay_path(named, path);
+      apply(scene, read_text_file(other, max_overlay_bytes), other, unit_in_place, below + 1);
+      if (!unit_in_place.empty()) unit_in_place = "m";
+    }
+  }
   scene.name = root.text_or("name", scene.name);
   const auto unit = root.find("unit"), origin = root.find("origin");
   const std::string own_unit = unit ? read_unit(*unit) : "m";
@@ -275,6 +322,12 @@ void apply_overlay(Scene& scene, std::string_view text, const std::filesystem::p
     set_unit(scene, metres_per_unit(unit_in_place.empty() ? own_unit : unit_in_place, scene, file),
              origin ? origin->vector3() : vec3(0));
   }
+  if (const auto without = root.find("without")) leave_out(scene, *without);
+  const auto environment = root.find("environment"), sun_sky = root.find("sun_sky");
+  if (environment && sun_sky) root.fail("has both \"environment\" and \"sun_sky\"");
+  // The sun of a sky below goes, not one that stands among the lights here.
+  const bool sunless = sun_sky && !(sun_sky->boolean_or("sun", true) && sun_sky->boolean_or("lamp", true));
+  if (sunless) set_sun_sky(scene, *sun_sky);
   for_each_entry(scene, root, "materials", override_material);
   for_each_entry(scene, root, "cameras", read_camera);
   for_each_entry(scene, root, "lights", [&](Scene& s, const json::Cursor& entry, std::size_t number) {
@@ -283,11 +336,21 @@ void apply_overlay(Scene& scene, std::string_view text, const std::filesystem::p
   for_each_entry(scene, root, "sphls", [&](Scene& s, const json::Cursor& entry, std::size_t number) {
     read_sphl(s, entry, number, path);
   });
-  const auto environment = root.find("environment"), sun_sky = root.find("sun_sky");
-  if (environment && sun_sky) root.fail("has both \"environment\" and \"sun_sky\"");
   if (environment) set_environment(scene, *environment, path);
-  if (sun_sky) set_sun_sky(scene, *sun_sky);
+  if (sun_sky && !sunless) set_sun_sky(scene, *sun_sky);
+  if (const auto turn = root.find("environment_turn_degrees")) {
+    if (!scene.environment) turn->fail("the scene has no environment");
+    scene.environment->rotation += glm::radians(turn->number(-3600, 3600));
+  }
+  if (const auto factors = root.find("light_factors")) scale_groups(scene, *factors);
   if (const auto modes = root.find("light_modes")) read_light_modes(scene, *modes);
+}
+
+}  // namespace
+
+void apply_overlay(Scene& scene, std::string_view text, const std::filesystem::path& path,
+                   const std::string& unit) {
+  apply(scene, text, path, unit, 0);
 }
 
 }  // namespace ssphh::scene_io

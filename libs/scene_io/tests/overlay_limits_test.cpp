@@ -56,7 +56,7 @@ TEST(OverlayLimits, OfCameras) {
             "o: cameras[0].node: the scene has no node \"leg\"");
   EXPECT_EQ(said_of_overlay(camera + R"("radius": 1}]})"),
             "o: cameras[0]: unknown member \"radius\" (known: name, position, look_at, direction, up, node, "
-            "yfov_degrees, xfov_degrees, aspect)");
+            "yfov_degrees, xfov_degrees, aspect, yheight)");
 }
 
 TEST(OverlayLimits, OfLights) {

@@ -50,6 +50,7 @@ constexpr const char* rich_overlay = R"({
   "lights": [{"name": "spot", "type": "spot", "position": [0, 3, 0], "direction": [0, -1, 0], "intensity": 7,
               "inner_cone_degrees": 10, "outer_cone_degrees": 20, "light_group": "g", "color": [1, 0.5, 0.25]},
              {"type": "sphere", "radius": 0.5, "intensity": 2}],
+  "without": {"lights": ["nobody"]}, "light_factors": {"g": [1, 1, 1]}, "environment_turn_degrees": 0,
   "sphls": [{"position": [1, 2, 3], "radius": 0.2}, {"name": "on-arm", "position": [0, 1, 0], "node": "arm"}],
   "environment": {"color": [1, 2, 3], "intensity": 2, "rotation_degrees": 180},
   "materials": [{"name": "clay", "base_color": [0.1, 0.2, 0.3], "diffuse_roughness": -0.5, "emission": [1, 0, 0]}]
@@ -214,6 +215,45 @@ TEST(Overlay, FlippedBitsAreAcceptedOrGiveAnError) {
     }
   }
   EXPECT_GT(errors, 500);
+}
+
+TEST(Overlay, LiesOnOthersAndLeavesOutWhatTheyHave) {
+  const test::TempDir dir;
+  write_file(dir / "low.ssphh.json", std::string_view(R"({"unit": 2, "lights": [
+    {"name": "a", "type": "point"}, {"name": "b", "type": "point", "intensity": 3}],
+    "cameras": [{"name": "c", "yheight": 4}], "sphls": [{"name": "s", "position": [0, 0, 0]}]})"));
+  Scene scene = plain_scene();
+  apply_overlay(scene, R"({"overlays": ["low.ssphh.json"], "without": {"lights": ["a"], "sphls": ["s", "t"]},
+    "environment": {"color": [1, 1, 1]}, "environment_turn_degrees": 90,
+    "light_factors": {"b": [2, 1, 0.5], "environment": [3, 3, 3]}})",
+                dir / "high.ssphh.json");
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_EQ(scene.lights[0].name, "b");
+  EXPECT_EQ(scene.lights[0].color * scene.lights[0].intensity, vec3(6, 3, 1.5f));
+  EXPECT_TRUE(scene.sphls.empty());
+  ASSERT_EQ(scene.cameras.size(), 1u);
+  EXPECT_TRUE(scene.cameras[0].orthographic);
+  EXPECT_EQ(scene.cameras[0].yheight, 4);
+  EXPECT_EQ(scene.environment->color, vec3(3));
+  EXPECT_FLOAT_EQ(scene.environment->rotation, pi / 2);
+}
+
+TEST(Overlay, RefusesChainsAndGroupsThatAreNot) {
+  const test::TempDir dir;
+  write_file(dir / "self.ssphh.json", std::string_view(R"({"overlays": ["self.ssphh.json"]})"));
+  Scene scene = plain_scene();
+  try {
+    apply_overlay(scene, R"({"overlays": ["self.ssphh.json"]})", dir / "top.ssphh.json");
+    FAIL() << "it goes on for ever";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("more than 8 overlays"));
+  }
+  EXPECT_THAT(overlay_error(R"({"light_factors": {"x": [1, 1, 1]}})"), HasSubstr("no light group \"x\""));
+  EXPECT_THAT(
+      overlay_error(R"({"lights": [{"name": "x", "type": "point"}], "light_factors": {"x": [1, -1, 1]}})"),
+      HasSubstr("below 0"));
+  EXPECT_THAT(overlay_error(R"({"environment_turn_degrees": 3})"), HasSubstr("no environment"));
+  EXPECT_THAT(overlay_error(R"({"without": {"nodes": []}})"), HasSubstr("nodes"));
 }
 
 }  // namespace

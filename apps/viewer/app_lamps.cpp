@@ -1,0 +1,101 @@
+// Lamps that come, go and are aimed.
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "app.h"
+#include "model/pick.h"
+
+namespace ssphh::viewer {
+namespace {
+
+/// How far the handle of a lamp stands from a surface that it is added at, at most [m].
+constexpr float off_surface = 0.5f;
+
+}  // namespace
+
+void App::add_lamp(scene::LightType type) {
+  const rays::RayQuery middle = pixel_ray(view, {0.5f, 0.5f}, viewport.aspect());
+  vec3 place = view.center();
+  float distance = std::max(view.focus, 0.1f);
+  if (const auto surface = pick_surface(*picking_, document.time, middle)) {
+    const float depth = glm::distance(surface->position, view.eye);
+    const rays::RayQuery off{surface->position + 1e-3f * surface->normal, surface->normal, 1e4f};
+    const auto ceiling = pick_surface(*picking_, document.time, off);
+    const float room = ceiling ? glm::distance(ceiling->position, off.origin) : depth;
+    place = surface->position + std::min({off_surface, 0.5f * room, 0.5f * depth}) * surface->normal;
+    distance = std::min(depth, room);
+  }
+  add_lamp(new_lamp(type, new_lamp_name(document.edits(), std::string(name_of(type))), place,
+                    std::max(distance, 0.1f), settings.exposure));
+}
+
+void App::add_lamp(LightEdit lamp) {
+  const std::string name = lamp.lamp.name;
+  document.edit_at_once("add " + name, [&](Edits& e) { e.lights.push_back(std::move(lamp)); });
+  selection = {Kind::light, static_cast<int>(document.edits().lights.size()) - 1};
+  // A bake has the light of the lamps that it was made with.
+  const bool fixed = !light.empty() && !light.live();
+  say(fixed ? fmt::format("{}: direct light only. The probes of {} were lit without it; \u201cLight them "
+                          "live\u201d in the panel Probes lights them with it.",
+                          name, light.origin())
+            : name);
+}
+
+void App::duplicate_lamp() {
+  if (!selection.is(Kind::light)) return;
+  const auto i = static_cast<std::size_t>(selection.index);
+  LightEdit copy = document.edits().lights[i];
+  copy.world = document.lighting().lights[i].world;
+  if (has_place(copy.lamp.type))
+    copy.world = with_position(*copy.world, light_position(*copy.world) + 0.1f * view.focus * view.right());
+  copy.source = -1;
+  copy.lamp.name = new_lamp_name(document.edits(), copy.lamp.name);
+  copy.lamp.group.clear();
+  add_lamp(std::move(copy));
+}
+
+void App::delete_lamp() {
+  const auto i = selection.index;
+  const std::string name = document.scene->lights[static_cast<std::size_t>(i)].name;
+  document.edit_at_once("delete " + name, [&](Edits& e) { e.lights.erase(e.lights.begin() + i); });
+  selection = {};
+  say("deleted: " + name);
+}
+
+bool App::can_aim() const {
+  return selection.is(Kind::light) &&
+         has_direction(document.scene->lights[static_cast<std::size_t>(selection.index)].type);
+}
+
+std::optional<vec3> App::aim_origin() const {
+  if (!can_aim()) return {};
+  return selected_position().value_or(view.center());
+}
+
+void App::turn_selected(const vec3& direction) {
+  if (!can_aim() || !(glm::length(direction) > 1e-6f)) return;
+  const auto i = static_cast<std::size_t>(selection.index);
+  const mat4 world = document.lighting().lights[i].world;
+  document.edit("aim " + document.scene->lights[i].name,
+                [&](Edits& e) { e.lights[i].world = with_direction(world, direction); });
+  redraw();
+}
+
+void App::aim_at(const vec3& point) {
+  if (const auto from = selected_position()) turn_selected(point - *from);
+}
+
+bool App::aim_on_ray(const rays::RayQuery& ray) {
+  if (!can_aim()) return false;
+  const auto surface = pick_surface(*picking_, document.time, ray);
+  if (selected_position()) {
+    if (surface) aim_at(surface->position);
+    return surface.has_value();
+  }
+  turn_selected(surface ? -surface->normal : -ray.direction);
+  return true;
+}
+
+}  // namespace ssphh::viewer

@@ -1,0 +1,136 @@
+// Histogram and false colours as a user sees them: over the real-time and the traced picture, by keys, kept
+// for the next session.
+
+#include <chrono>
+#include <thread>
+
+#include <gmock/gmock.h>
+
+#include <ssphh/core/file.h>
+
+#include "gl_stage.h"
+#include "panel_stage.h"
+#include "script_player.h"
+
+namespace ssphh::viewer {
+namespace {
+
+class ReadPicture : public GlStage {
+ protected:
+  void prepare() override {
+    options_.records = 0;
+    options_.settings = {{"exposure", "0"}, {"truth-spp", "4"}};
+  }
+  void ready() override { window_->tick = 1.0 / 1024; }
+  void play(const std::string& text) {
+    ScriptPlayer player(parse_script(text + "\nsettle", "script"));
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!player.done() && std::chrono::steady_clock::now() < end) {
+      window_->clock += 0.05;
+      app().turn(player.next(app()));
+      if (app().reference.status().running) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_TRUE(player.done()) << text;
+  }
+  image::Rgba8 shot() {
+    app().screenshot("shot.png", false);
+    return image::decode_rgba8(read_file("shot.png"), "shot.png");
+  }
+};
+
+TEST_F(ReadPicture, IsInTheBandsOfItsLuminance) {
+  app().open("builtin:two-rooms");
+  play("camera room-a\nkey K");
+  ASSERT_TRUE(app().settings.false_color);
+  ASSERT_FALSE(app().picture.linear().empty());
+  EXPECT_EQ(shot().rgba, false_color(app().picture.linear(), 0).rgba);
+  play("set exposure 2");
+  EXPECT_EQ(shot().rgba, false_color(app().picture.linear(), 2).rgba) << "bands follow the exposure";
+  play("set show truth");
+  EXPECT_EQ(shot().rgba, false_color(*app().reference.image().color, 2).rgba);
+  play("set show wipe");
+  const image::Rgba8 both = shot();
+  const auto pixel = [](const image::Rgba8& p, int x, int y) {
+    const auto at =
+        4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(p.width) + static_cast<std::size_t>(x));
+    return std::vector<std::uint8_t>(p.rgba.begin() + static_cast<std::ptrdiff_t>(at),
+                                     p.rgba.begin() + static_cast<std::ptrdiff_t>(at) + 3);
+  };
+  EXPECT_EQ(pixel(both, 3, 20), pixel(false_color(app().picture.linear(), 2), 3, 20));
+  EXPECT_EQ(pixel(both, 60, 20), pixel(false_color(*app().reference.image().color, 2), 60, 20));
+  play("set show realtime\nkey K");
+  EXPECT_NE(shot().rgba, false_color(app().picture.linear(), 2).rgba);
+}
+
+TEST_F(ReadPicture, IsCountedAndSoIsTheTruth) {
+  app().open("builtin:two-rooms");
+  play("camera room-a");
+  EXPECT_FALSE(app().histogram);
+  play("key J");
+  ASSERT_TRUE(app().histogram);
+  EXPECT_FALSE(app().truth_histogram);
+  const auto mean = [](const StopHistogram& h) {
+    float sum = 0, shares = 0;
+    for (std::size_t i = 0; i < h.bins.size(); ++i)
+      sum += h.bins[i] * static_cast<float>(i), shares += h.bins[i];
+    return sum / shares / bins_per_stop;
+  };
+  const float dim = mean(*app().histogram);
+  play("light lamp intensity 16");
+  EXPECT_NEAR(mean(*app().histogram), dim + 2, 0.3f) << "four times the light is two stops";
+  play("set show wipe");
+  ASSERT_TRUE(app().truth_histogram);
+  play("key J");
+  EXPECT_FALSE(app().histogram);
+}
+
+class Readings : public PanelStage {};
+
+TEST_F(Readings, LegendAndHistogramSayTheirUnits) {
+  app().settings.exposure = 0, app().settings.auto_exposure = false;
+  press({'K'});
+  rest();
+  EXPECT_TRUE(shows("stops") && shows("W/(sr m"));
+  EXPECT_TRUE(shows("0.18")) << "middle grey";
+  EXPECT_TRUE(shows("1.44")) << "three stops above";
+  press({'K'});
+  app().histogram.emplace().bins[10] = 1;
+  press({'J'});
+  rest();
+  EXPECT_TRUE(shows("luminance, stops from middle grey"));
+  EXPECT_FALSE(shows("white line: traced"));
+  app().truth_histogram.emplace();
+  rest();
+  EXPECT_TRUE(shows("white line: traced"));
+}
+
+class KeptLook : public AppStage {};
+
+TEST_F(KeptLook, OfTheWindowComesBack) {
+  options_.preferences = dir_ / "config" / "preferences.json";
+  start(1280, 800);
+  app().turn({});
+  app().settings.histogram = true;
+  const float usual = app().viewport.x;
+  app().side_width = 21.5f;
+  turn();
+  EXPECT_NE(app().viewport.x, usual);
+  const float width = app().viewport.x;
+  start(1280, 800);
+  turn();
+  EXPECT_TRUE(app().settings.histogram);
+  EXPECT_FALSE(app().settings.false_color);
+  EXPECT_EQ(app().viewport.x, width);
+  app().side_width = 0;
+  turn();
+  start(1280, 800);
+  turn();
+  EXPECT_EQ(app().viewport.x, usual) << "a double click on the edge is kept, too";
+  // What is drawn without hands is as the options say.
+  options_.screenshot = "a.png";
+  start(1280, 800);
+  EXPECT_FALSE(app().settings.histogram);
+}
+
+}  // namespace
+}  // namespace ssphh::viewer
