@@ -101,7 +101,7 @@ class Lane:
         return run(["cmake", "--build", self.build, "-j", jobs, "--target", *targets], 7200, self.tree)
 
     def configure(self, targets):
-        code, output = run(["cmake", "--preset", "ci", "-DSSPHH_UNITY=OFF"], 600, self.tree)
+        code, output = run(["cmake", "--preset", "ci"], 600, self.tree)
         if code == 0:
             code, output = self.make(targets)
         if code != 0:

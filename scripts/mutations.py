@@ -134,7 +134,7 @@ def _arguments(code):
 
 
 # In whatever order their two arguments stand, they give the same bits.
-_symmetric = re.compile(r"\b(?:dot|distance|min|max)$")
+_symmetric = re.compile(r"\b(?:dot|distance|min|max|length\((?:\w+::)?cross)$")
 
 
 def _argument_faults(code, text):

@@ -5,7 +5,7 @@ import numpy as np
 import ssphh
 from support import InAFolder, error_of
 
-SMALL = dict(directions=64, surfel_size=0.5, link_rays=16, degree=2, records=256, warm_start=False)
+SMALL = dict(directions=64, surfel_size=0.8, link_rays=16, degree=2, records=128, warm_start=False)
 
 
 class Relighting(InAFolder):
@@ -50,7 +50,7 @@ class Relighting(InAFolder):
         np.testing.assert_allclose(self.light(moved), 2 * opened, rtol=2e-3, atol=1e-5)
 
     def test_follows_the_truth(self):
-        session = ssphh.RelightSession(self.scene)
+        session = ssphh.RelightSession(self.scene, records=1024, link_rays=64)
         session.time = 0.5
         session.update()
         _, indirect = session.trace_irradiance(self.points, self.normals, spp=128)

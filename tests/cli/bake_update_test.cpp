@@ -34,7 +34,8 @@ class BakeUpdate : public testing::Test {
   /// Records by a coarse network.
   const json::Value baked(const std::string& scene, const std::string& output, int records = 0,
                           std::vector<std::string> more = {}) const {
-    if (records > 0) more.insert(more.end(), {"--directions", "64", "--surfel-size", "0.2"});
+    if (records > 0)
+      more.insert(more.end(), {"--directions", "64", "--link-rays", "16", "--surfel-size", "0.4"});
     return json_here(joined(
         {"bake", scene, "-o", output, "--face", "8", "--degree", "3", "--records", std::to_string(records)},
         more));
@@ -151,8 +152,8 @@ TEST_F(BakeUpdate, RecordsAndFittedWeightsFollowToo) {
 TEST_F(BakeUpdate, LightByTransportIsFoundAnewInPlace) {
   const std::string plain = overlay("plain", ""), blue = overlay("blue", blue_wall_);
   for (const char* op : {"surfel", "bounce"}) {
-    const std::vector<std::string> more = {"--operator",   op,   "--records",     "200",
-                                           "--directions", "64", "--surfel-size", "0.2"};
+    const std::vector<std::string> more = {"--operator",  op,   "--records",     "200", "--directions", "64",
+                                           "--link-rays", "16", "--surfel-size", "0.4"};
     const auto bake = [&](const std::string& scene, const std::string& output) {
       json_here(joined({"bake", scene, "-o", output, "--degree", "3"}, more));
     };

@@ -73,7 +73,7 @@ TEST(Lint, NamesTheProbeThatHasAProblem) {
   EXPECT_EQ(text_here(command), fmt::format("inside: probe \"first\" at (0.25, 0.5, 0.125) m: {}\n"
                                             "unlit: probe \"first\" at (0.25, 0.5, 0.125) m: {}\n"
                                             "unseen-room: at ({:.6g}, {:.6g}, {:.6g}) m: {}\n"
-                                            "{}: 1 probes, 3 problems",
+                                            "{}: 1 probe, 3 problems",
                                             message(0), message(1), room[0].number(), room[1].number(),
                                             room[2].number(), message(2), file));
 }

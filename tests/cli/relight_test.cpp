@@ -26,7 +26,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::vector<std::string> relight(const std::vector<std::string>& more) {
-  return test::joined({"relight", "builtin:two-rooms", "--surfel-size", "0.4", "--link-rays", "32"}, more);
+  return test::joined({"relight", "builtin:two-rooms", "--surfel-size", "0.8", "--link-rays", "32"}, more);
 }
 
 TEST(Relight, BounceFollowsLampsAndDoorsToo) {

@@ -69,7 +69,7 @@ TEST(Texts, OfScenes) {
             fmt::format("builtin:cornell (cornell)\n"
                         "triangles    {} in {} instances of {} meshes\n"
                         "materials    {}, 0 textures\n"
-                        "lights       {}, 1 emissive instances, no environment\n"
+                        "lights       {}, 1 emissive instance, no environment\n"
                         "light groups {}\n"
                         "cameras      {}\n"
                         "SPHLs        {}: {}\n"
@@ -172,7 +172,7 @@ TEST(Texts, OfBakes) {
   const test::TempDir dir;
   const std::vector<std::string> paths = {"bake", "builtin:box", "-o", dir / "a.sphl", "--face", "1", "--spp",
                                           "1",    "--degree",    "0",  "--records",    "0"};
-  const std::string head = (dir / "a.sphl").string() + ": 5 probes of degree 0, 1 light groups, 20 edges";
+  const std::string head = (dir / "a.sphl").string() + ": 5 probes of degree 0, 1 light group, 20 edges";
   const json::Value traced = json_here(paths);
   EXPECT_THAT(text_here(paths), MatchesRegex(pattern(fmt::format("{}\nGEN @ s\nVIZ from paths @ s\n{} rays",
                                                                  head, print(traced["rays"])))));
@@ -189,6 +189,22 @@ TEST(Texts, OfBakes) {
           head, print(solved["surfels"]), print(solved["links"]), print(solved["iterations"]),
           number(solved, "contraction"), print(solved["records"]), print(solved["fitted"]),
           print(solved["rays"])))));
+}
+
+TEST(Texts, OneIsNotSeveral) {
+  const test::TempDir dir;
+  const std::string scene = dir / "one.ssphh.json", one = dir / "one.sphl", copy = dir / "copy.sphl";
+  std::ofstream(dir / "one.obj") << "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n";
+  std::ofstream(scene) << R"({"scene": "one.obj", "sphls": [{"name": "a", "position": [0.2, 0.3, 0.2]}],
+    "lights": [{"name": "l", "type": "point", "position": [0.2, 1, 0.2]}]})";
+  EXPECT_THAT(text_here({"scene", "info", scene}), testing::HasSubstr("1 in 1 instance of 1 mesh\n"));
+  EXPECT_THAT(
+      text_here({"bake", scene, "-o", one, "--degree", "0", "--face", "1", "--spp", "1", "--records", "0"}),
+      testing::StartsWith(one + ": 1 probe of degree 0, 1 light group, 0 edges\n"));
+  EXPECT_THAT(text_here({"probe", "info", one}),
+              testing::StartsWith(one + ": 1 probe of degree 0, 0 edges\n"));
+  EXPECT_THAT(text_here({"hier", one, "-o", copy}), testing::HasSubstr("0 edges between 1 probe,"));
+  EXPECT_THAT(text_here({"probe", "convert", one, "-o", copy}), testing::StartsWith(copy + ": 1 probe, "));
 }
 
 TEST(Texts, OfPictures) {

@@ -192,7 +192,7 @@ TEST(TransportBakeCli, QualityIsWhatIsNotGivenByItself) {
                      good = bake::effort_of(bake::Quality::good);
   const probes::GeneratorInfo by_word = bake({"--quality", "draft", "--operator", "surfel"}),
                               by_hand = bake({"--quality", "draft", "--operator", "surfel", "--directions",
-                                              "100", "--link-rays", "20"}),
+                                              "100", "--link-rays", "20", "--surfel-size", "0.3"}),
                               usual = bake({"--operator", "surfel"}),
                               paths = bake({"--quality", "draft", "--face", "1"}),
                               own_paths = bake({"--quality", "draft", "--face", "1", "--spp", "7"});

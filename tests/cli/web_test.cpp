@@ -41,9 +41,21 @@ class Web : public testing::Test {
     write_file(page_ + "/assets/page.js", std::string_view("export {};"));
   }
   std::vector<std::string> line(const std::string& scene, const std::vector<std::string>& more = {}) const {
-    return joined({"web", scene, "--quality", "draft", "--size", "64", "--direct-samples", "4", "--page",
-                   page_, "-o", out_},
-                  more);
+    return joined({"web", scene, "--size", "64", "--direct-samples", "4", "--page", page_, "-o", out_}, more);
+  }
+  /// The command with light that is baked once for all tests, coarse: none of them compares it with a truth.
+  std::vector<std::string> lit_line(const std::string& name,
+                                    const std::vector<std::string>& more = {}) const {
+    static const test::TempDir kept;
+    const std::string scene = "builtin:" + name, probes = kept / (name + ".sphl");
+    if (!fs::exists(probes)) bake(scene, probes);
+    return joined(line(scene, {"--probes", probes}), more);
+  }
+  static void bake(const std::string& scene, const std::string& probes,
+                   const std::vector<std::string>& more = {}) {
+    json_here(joined({"bake", scene, "-o", probes, "--operator", "surfel", "--viz", "off", "--degree", "2",
+                      "--directions", "64", "--surfel-size", "0.5", "--records", "200"},
+                     more));
   }
   json::Value manifest() const { return json::parse(read_text_file(out_ + "/scene.json"), "scene.json"); }
   void expect_files_there() const {
@@ -63,13 +75,13 @@ class Web : public testing::Test {
   }
 
   const test::TempDir dir_;
-  const std::string out_ = dir_ / "room", page_ = dir_ / "page";
+  const std::string out_ = dir_ / "room", page_ = dir_ / "page", probes_ = dir_ / "room.sphl";
 };
 
 TEST_F(Web, WritesAFolderWhoseManifestKeepsToItsSchemaAndNamesEveryFile) {
   const json::Value said =
-      json_here(line("builtin:two-rooms", {"--poses", "2", "--truth", "1", "--width", "32", "--height", "18",
-                                           "--truth-cameras", "room-a"}));
+      json_here(line("builtin:two-rooms", {"--quality", "draft", "--poses", "2", "--truth", "1", "--width",
+                                           "32", "--height", "18", "--truth-cameras", "room-a"}));
   const std::string text = read_text_file(out_ + "/scene.json");
   EXPECT_THAT(test::schema_errors(test::source_dir() / "schemas/web-scene.schema.json", text), IsEmpty());
   expect_files_there();
@@ -101,13 +113,13 @@ TEST_F(Web, WritesAFolderWhoseManifestKeepsToItsSchemaAndNamesEveryFile) {
 }
 
 TEST_F(Web, GroupsAddUpToAllLight) {
-  json_here(line("builtin:two-rooms", {"--poses", "1"}));
+  json_here(lit_line("two-rooms"));
   const json::Value whole = manifest();
   const json::Value& apart = whole["lightmap"];
   std::vector<std::vector<float>> groups;
   for (const json::Value& group : apart["groups"].elements()) groups.push_back(layer(group, 0, apart));
   ASSERT_GE(groups.size(), 1u);
-  json_here(line("builtin:two-rooms", {"--poses", "1", "--merge-groups"}));
+  json_here(lit_line("two-rooms", {"--merge-groups"}));
   const json::Value whole_merged = manifest();
   const json::Value& merged = whole_merged["lightmap"];
   ASSERT_EQ(merged["groups"].size(), 1u);
@@ -123,7 +135,7 @@ TEST_F(Web, GroupsAddUpToAllLight) {
 }
 
 TEST_F(Web, ReplacesItsOwnFolderAndNoOther) {
-  const std::vector<std::string> command = line("builtin:cornell");
+  const std::vector<std::string> command = lit_line("cornell");
   json_here(command);
   json_here(joined(command, {"--exposure", "2"}));
   EXPECT_EQ(manifest()["cameras"][0]["exposure"].number(), 2);
@@ -157,7 +169,8 @@ TEST_F(Web, SaysWhatIsWrongBeforeAnyWork) {
 
 TEST_F(Web, AbsentCamerasAndLightsAreMadeUp) {
   write_file(dir_ / "box.obj", std::string_view("v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 4 3 2 1\n"));
-  json_here(line(dir_ / "box.obj"));
+  bake(dir_ / "box.obj", probes_);
+  json_here(line(dir_ / "box.obj", {"--probes", probes_}));
   const json::Value m = manifest();
   EXPECT_EQ(m["cameras"].size(), 1u);
   ASSERT_EQ(m["lightmap"]["groups"].size(), 1u);
@@ -172,7 +185,9 @@ TEST_F(Web, SmoothMetalsDoNotHoldLightThatTheyMirrorAtOneSpot) {
                                               "radius": 0.1, "intensity": 100}]})"));
   const auto brightest = [&](std::string_view material) {
     write_file(dir_ / "floor.mtl", material);
-    json_here(line(dir_ / "floor.obj", {"--overlay", dir_ / "lamp.json"}));
+    const std::vector<std::string> lamp = {"--overlay", dir_ / "lamp.json"};
+    bake(dir_ / "floor.obj", probes_, lamp);
+    json_here(joined(line(dir_ / "floor.obj", {"--probes", probes_}), lamp));
     const json::Value m = manifest();
     return std::ranges::max(layer(m["lightmap"]["groups"][0], 0, m["lightmap"]));
   };

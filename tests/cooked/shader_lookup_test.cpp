@@ -44,7 +44,8 @@ struct Shipped {
     bake::TransportBakeParams params;
     params.transport.surfels_per_radius = 8;
     params.transport.directions = 128;
-    params.records.points = on_surfaces == OnSurfaces::records ? 600 : 0;
+    params.transport.link_rays = 16;
+    params.records = {.points = on_surfaces == OnSurfaces::records ? 600 : 0, .rays = 64};
     params.fit = on_surfaces == OnSurfaces::fitted;
     bake::TransportBakeReport report;
     const bool placed = scene::sphl_places(scene).empty();

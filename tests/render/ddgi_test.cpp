@@ -162,7 +162,7 @@ TEST(Ddgi, AnOpenedDoorTakesFrames) {
   const auto points = points_of(scene, source, open, 200);
   const auto truth = trace::PathTracer(scene, open).surface_irradiance(points, {25, 1, 256, 3}, {});
   const auto ddgi =
-      make("ddgi", scene, source, {"spacing=0.8", "rays=64", "warmup=32", "hysteresis=0.9", "change=0"});
+      make("ddgi", scene, source, {"spacing=1", "rays=64", "warmup=24", "hysteresis=0.9", "change=0"});
   ddgi->update(rays::lighting_at(source, 0), {});
   std::vector<double> errors;
   for (int frame = 0; frame < 33; ++frame) {

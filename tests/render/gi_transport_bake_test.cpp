@@ -211,7 +211,7 @@ TEST(GiTransportBake, WhatIsWrongIsNamed) {
   params.transport.directions = 64, params.transport.link_rays = 16, params.transport.surfel_size = 0.2f;
   bake::bake_transport(trace::TransportScene(cornell), buried, params, report);
   EXPECT_THAT(report.warnings,
-              testing::Contains(testing::AllOf(testing::HasSubstr("1 probes seem to lie inside a body"),
+              testing::Contains(testing::AllOf(testing::HasSubstr("1 probe seems to lie inside a body"),
                                                testing::EndsWith(": \"buried\""))));
 }
 

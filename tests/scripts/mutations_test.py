@@ -55,7 +55,7 @@ class Mutations(unittest.TestCase):
         self.assertCountEqual([before for before, _ in changes("dropped argument")], [", t", ", 0.25f", ", t"])
 
     def test_arguments_whose_order_is_all_the_same_are_not_swapped(self):
-        text = "float f() {\n  return glm::dot(a, b) * std::min(c, d) + pow(e, f);\n}\n"
+        text = "float f() {\n  return glm::dot(a, b) * std::min(c, d) * glm::length(glm::cross(g, h)) + pow(e, f);\n}\n"
         swapped = mutations.candidates(text)["swapped arguments"]
         self.assertEqual([text[m.begin:m.end] for m in swapped], ["e, f"])
 

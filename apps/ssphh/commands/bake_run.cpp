@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/farm/farm_bake.h>
 #include <ssphh/probes/probe_file.h>
 
@@ -120,27 +121,27 @@ std::string sizes_text(float finest, float coarsest) {
 }
 
 std::string to_text(const BakeResult& r, const BakeOptions& o) {
-  std::string text =
-      fmt::format("{}: {} probes of degree {}, {} light groups, {} edges", o.output, r.set.probes.size(),
-                  r.set.degree, r.set.light_groups.size(), probes::edge_count(r.set));
+  std::string text = fmt::format(
+      "{}: {} of degree {}, {}, {}", o.output, counted(r.set.probes.size(), "probe"), r.set.degree,
+      counted(r.set.light_groups.size(), "light group"), counted(probes::edge_count(r.set), "edge"));
   const bake::TransportBakeReport& t = r.transport;
   const bool path = r.set.generator.op == probes::LightOperator::path;
   if (t.surfels > 0) {
-    text += fmt::format("\n{} surfels of {}, {} links", t.surfels,
-                        sizes_text(t.finest_surfel, t.coarsest_surfel), t.links);
+    text += fmt::format("\n{} of {}, {}", counted(t.surfels, "surfel"),
+                        sizes_text(t.finest_surfel, t.coarsest_surfel), counted(t.links, "link"));
     if (!path) {
-      text += fmt::format("; {} iterations, a bounce keeps at most {:.3g} of the light; {:.2f} s",
-                          t.iterations, t.contraction, t.seconds);
+      text += fmt::format("; {}, a bounce keeps at most {:.3g} of the light; {:.2f} s",
+                          counted(t.iterations, "iteration"), t.contraction, t.seconds);
     }
   }
   if (r.set.surface && t.record_seconds > 0)
-    text += fmt::format("\nlight kept at {} surface points in {:.2f} s", r.set.surface->points.size(),
-                        t.record_seconds);
+    text += fmt::format("\nlight kept at {} in {:.2f} s",
+                        counted(r.set.surface->points.size(), "surface point"), t.record_seconds);
   if (const std::vector<std::string> baked = kept_groups(r.set); !baked.empty())
     text += fmt::format("\ndirect light kept, too, of {}", fmt::join(baked, ", "));
   if (r.set.fitted && t.fit_seconds > 0)
-    text +=
-        fmt::format("\nweights fitted at {} points in {:.2f} s", r.set.fitted->points.size(), t.fit_seconds);
+    text += fmt::format("\nweights fitted at {} in {:.2f} s", counted(r.set.fitted->points.size(), "point"),
+                        t.fit_seconds);
   if (path) text += fmt::format("\nGEN {:.2f} s", r.paths.gen_seconds);
   if (r.viz != VizMethod::none)
     text +=

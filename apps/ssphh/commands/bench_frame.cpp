@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/pipeline/live_method.h>
 #include <ssphh/scene/query.h>
 
@@ -145,8 +146,9 @@ json::Value to_json(const BenchFrameResult& r, const BenchFrameOptions& o) {
 }
 
 std::string to_text(const BenchFrameResult& r, const BenchFrameOptions& o) {
-  std::string text = fmt::format("{}: {} frames of {}×{} on {}\n{:<10} {:>10} {:>10}", o.scene.source,
-                                 o.frames, o.width, o.height, r.renderer, "", "median ms", "p99 ms");
+  std::string text =
+      fmt::format("{}: {} of {}×{} on {}\n{:<10} {:>10} {:>10}", o.scene.source, counted(o.frames, "frame"),
+                  o.width, o.height, r.renderer, "", "median ms", "p99 ms");
   const auto line = [&](const std::string& name, const std::vector<double>& times) {
     text +=
         fmt::format("\n{:<10} {:>10.2f} {:>10.2f}", name, percentile(times, 0.5), percentile(times, 0.99));

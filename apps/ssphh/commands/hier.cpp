@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/probes/probe_file.h>
@@ -91,9 +92,10 @@ std::string to_text(const HierResult& result, const HierOptions& options) {
       result.contraction
           ? fmt::format("; another application would change light by up to {:.3g}", result.contraction->upper)
           : "";
-  return fmt::format("{}: {} edges between {} probes, operator {}, {}: {:.1f} us{}", options.output,
-                     result.edges, result.set.probes.size(), name_of(options.params.op),
-                     light_of(result.set.generator), 1e6 * result.seconds, shrinks);
+  return fmt::format("{}: {} between {}, operator {}, {}: {:.1f} us{}", options.output,
+                     counted(result.edges, "edge"), counted(result.set.probes.size(), "probe"),
+                     name_of(options.params.op), light_of(result.set.generator), 1e6 * result.seconds,
+                     shrinks);
 }
 
 void add_hier_command(Command app, Context& context) {

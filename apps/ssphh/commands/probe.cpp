@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/image/io.h>
 #include <ssphh/sh/irradiance.h>
 #include <ssphh/sh/window.h>
@@ -130,9 +131,10 @@ json::Value to_json(const ProbeInfo& info, const ProbeInfoOptions& options) {
 std::string to_text(const ProbeInfo& info, const ProbeInfoOptions& options) {
   const probes::ProbeSet& set = info.set;
   const probes::GeneratorInfo& g = set.generator;
-  std::string text = fmt::format(
-      "{}: {} probes of degree {}, {} edges\nscene {} at {} s; light by {}, edges by {}\n", options.input,
-      set.probes.size(), set.degree, probes::edge_count(set), g.scene, g.time, name_of(g.op), name_of(g.viz));
+  std::string text =
+      fmt::format("{}: {} of degree {}, {}\nscene {} at {} s; light by {}, edges by {}\n", options.input,
+                  counted(set.probes.size(), "probe"), set.degree, counted(probes::edge_count(set), "edge"),
+                  g.scene, g.time, name_of(g.op), name_of(g.viz));
   const bool gen = g.op == probes::LightOperator::path, viz = g.viz == probes::VizMethod::path;
   if (gen)
     text += fmt::format("GEN {}: paths of depth {}, {} x {} samples\n", name_of(g.gen), g.max_depth, g.passes,
@@ -146,8 +148,10 @@ std::string to_text(const ProbeInfo& info, const ProbeInfoOptions& options) {
     text += fmt::format("transport: {} directions a probe, surfels of {:.3g} m, {} link rays\n", g.directions,
                         g.surfel_size, g.link_rays);
   }
-  if (set.surface) text += fmt::format("light kept at {} surface points\n", set.surface->points.size());
-  if (set.fitted) text += fmt::format("weights fitted at {} surface points\n", set.fitted->points.size());
+  if (set.surface)
+    text += fmt::format("light kept at {}\n", counted(set.surface->points.size(), "surface point"));
+  if (set.fitted)
+    text += fmt::format("weights fitted at {}\n", counted(set.fitted->points.size(), "surface point"));
   for (const probes::LightGroup& group : set.light_groups) {
     text += fmt::format("light group {}, scale {:g} {:g} {:g}, {}\n", group.name, group.scale.x,
                         group.scale.y, group.scale.z, name_of(group.mode));
@@ -205,7 +209,8 @@ json::Value to_json(const ProbeConvertResult& result, const ProbeConvertOptions&
 }
 
 std::string to_text(const ProbeConvertResult& result, const ProbeConvertOptions& options) {
-  return fmt::format("{}: {} probes, {} bytes", options.output, result.probes, result.bytes);
+  return fmt::format("{}: {}, {}", options.output, counted(result.probes, "probe"),
+                     counted(result.bytes, "byte"));
 }
 
 void add_probe_commands(Command app, Context& context) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/core/log.h>
 
 #include "commands/command.h"
@@ -40,8 +41,9 @@ json::Value to_json(const ProbeBlendResult& result, const ProbeBlendOptions& o) 
 
 std::string to_text(const ProbeBlendResult& result, const ProbeBlendOptions& o) {
   const probes::ProbeSet& set = result.blended.set;
-  return fmt::format("{}: {} probes, {} records, {:g} of the way from {} to {}", o.output, set.probes.size(),
-                     set.surface ? set.surface->points.size() : 0, o.t, o.from, o.to);
+  return fmt::format("{}: {}, {}, {:g} of the way from {} to {}", o.output,
+                     counted(set.probes.size(), "probe"),
+                     counted(set.surface ? set.surface->points.size() : 0, "record"), o.t, o.from, o.to);
 }
 
 void add_probe_blend_command(Command group, Context& context) {

@@ -1,6 +1,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/place/place.h>
 #include <ssphh/probes/probe_file.h>
 #include <ssphh/trace/transport_scene.h>
@@ -55,8 +56,8 @@ std::string to_text(const ProbeLintResult& result, const ProbeLintOptions& optio
                         p.x, p.y, p.z, problem.message);
   }
   const std::size_t count = result.problems.size();
-  return text + fmt::format("{}: {} probes, {}", options.input, result.set.probes.size(),
-                            count == 0 ? "no problems" : fmt::format("{} problems", count));
+  return text + fmt::format("{}: {}, {}", options.input, counted(result.set.probes.size(), "probe"),
+                            count == 0 ? "no problems" : counted(count, "problem"));
 }
 
 void add_probe_lint_command(Command group, Context& context) {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/stopwatch.h>
 #include <ssphh/pipeline/relit.h>
@@ -340,8 +341,9 @@ json::Value to_json(const RelightResult& result, const RelightOptions& options) 
 }
 
 std::string to_text(const RelightResult& result, const RelightOptions&) {
-  std::string text = fmt::format("{} probes, {} surfels of {:.3g} m, {} links\n{}", result.places.size(),
-                                 result.surfels, result.surfel_size, result.links, relight_text(result.run));
+  std::string text = fmt::format("{}, {} of {:.3g} m, {}\n{}", counted(result.places.size(), "probe"),
+                                 counted(result.surfels, "surfel"), result.surfel_size,
+                                 counted(result.links, "link"), relight_text(result.run));
   if (result.exposure) text += "\nframes at " + exposure_text(*result.exposure);
   return text;
 }

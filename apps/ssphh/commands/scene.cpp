@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <ssphh/core/counted.h>
+
 #include "commands/command.h"
 #include "results/json_values.h"
 
@@ -121,19 +123,20 @@ std::string to_text(const SceneInfo& info, const SceneOptions& options) {
     text += fmt::format("\n{:<13}{}", what, value);
   };
   const vec3 &min = info.bounds.min, &max = info.bounds.max;
-  line("triangles",
-       fmt::format("{} in {} instances of {} meshes", info.triangles, info.instances, info.meshes));
-  line("materials", fmt::format("{}, {} textures", info.materials, info.textures));
+  line("triangles", fmt::format("{} in {} of {}", info.triangles, counted(info.instances, "instance"),
+                                counted(info.meshes, "mesh", "meshes")));
+  line("materials", fmt::format("{}, {}", info.materials, counted(info.textures, "texture")));
   if (info.glass_sheets + info.glass_bodies > 0) {
-    line("glass", fmt::format("{} instances of thin sheets, {} of solid bodies", info.glass_sheets,
+    line("glass", fmt::format("{} of thin sheets, {} of solid bodies", counted(info.glass_sheets, "instance"),
                               info.glass_bodies));
   }
-  line("lights", fmt::format("{}, {} emissive instances, {}", info.lights, info.emissive_instances,
+  line("lights", fmt::format("{}, {}, {}", info.lights, counted(info.emissive_instances, "emissive instance"),
                              info.environment ? "environment" : "no environment"));
   line("light groups", list(info.light_groups));
   line("cameras", list(info.cameras));
   line("SPHLs", (info.sphls.empty() ? "" : fmt::format("{}: ", info.sphls.size())) + list(info.sphls));
-  line("movable", fmt::format("{} nodes; animations last {:g} s", info.movable, info.animation_seconds));
+  line("movable",
+       fmt::format("{}; animations last {:g} s", counted(info.movable, "node"), info.animation_seconds));
   line("bounds", info.bounds.empty() ? "empty"
                                      : fmt::format("{:.3f} {:.3f} {:.3f} to {:.3f} {:.3f} {:.3f} m", min.x,
                                                    min.y, min.z, max.x, max.y, max.z));

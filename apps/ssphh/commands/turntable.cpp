@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/realtime/renderer.h>
 #include <ssphh/scene/query.h>
 
@@ -49,7 +50,7 @@ json::Value to_json(const TurntableResult& result, const TurntableOptions& o) {
 }
 
 std::string to_text(const TurntableResult& result, const TurntableOptions& o) {
-  return fmt::format("{}: {} frames of {}×{} on {}, {}", o.directory, o.frames, o.width, o.height,
+  return fmt::format("{}: {} of {}×{} on {}, {}", o.directory, counted(o.frames, "frame"), o.width, o.height,
                      result.renderer, exposure_text(result.exposure));
 }
 

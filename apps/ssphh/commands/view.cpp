@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/core/user_folder.h>
 
 #include "commands/command.h"
@@ -73,8 +74,8 @@ json::Value to_json(const viewer::ViewerReport& r, const ViewOptions&) {
 
 std::string to_text(const viewer::ViewerReport& r, const ViewOptions&) {
   std::string text =
-      fmt::format("{} frames on {}, {} probes; a drawn frame took {:.1f} ms (median), {:.1f} ms (p99)",
-                  r.frames, r.renderer, r.probes, r.median_ms, r.p99_ms);
+      fmt::format("{} on {}, {}; a drawn frame took {:.1f} ms (median), {:.1f} ms (p99)",
+                  counted(r.frames, "frame"), r.renderer, counted(r.probes, "probe"), r.median_ms, r.p99_ms);
   for (const std::string& file : r.written) text += "\nwrote " + file;
   return text;
 }

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/counted.h>
+
 #include "results/json_values.h"
 
 namespace ssphh::app {
@@ -69,14 +71,14 @@ std::string place_text(const PlaceResult& result) {
   const place::Placement& p = result.placement;
   const place::PlaceCounts& c = p.counts;
   return fmt::format(
-      "placed {} probes in {:.2f} s, {:.3g} m apart: {} manual, {} near surfaces, {} in passages; {} edges\n"
-      "of {} places {} were removed: {} inside bodies, {} too close to a surface, {} in open air, {} beside "
+      "placed {} in {:.2f} s, {:.3g} m apart: {} manual, {} near surfaces, {} in passages; {}\n"
+      "of {} {} were removed: {} inside bodies, {} too close to a surface, {} in open air, {} beside "
       "others, {} in a moving part's way, {} out of sight of cameras, lamps and SPHLs, {} more than asked "
       "for; {} moved",
-      p.probes.size(), result.seconds, p.spacing, count_of(p, place::PlaceKind::manual),
-      count_of(p, place::PlaceKind::refined), count_of(p, place::PlaceKind::passage), p.edges.size(),
-      c.candidates, c.removed(), c.inside, c.too_close, c.open_air, c.redundant, c.swept, c.unreachable,
-      c.surplus, c.relocated);
+      counted(p.probes.size(), "probe"), result.seconds, p.spacing, count_of(p, place::PlaceKind::manual),
+      count_of(p, place::PlaceKind::refined), count_of(p, place::PlaceKind::passage),
+      counted(p.edges.size(), "edge"), counted(c.candidates, "place"), c.removed(), c.inside, c.too_close,
+      c.open_air, c.redundant, c.swept, c.unreachable, c.surplus, c.relocated);
 }
 
 }  // namespace ssphh::app

@@ -5,6 +5,7 @@
 #include <ssphh/bake/light_modes.h>
 #include <ssphh/bake/transport_bake.h>
 #include <ssphh/bake/update.h>
+#include <ssphh/core/counted.h>
 #include <ssphh/core/log.h>
 #include <ssphh/core/require.h>
 #include <ssphh/core/stopwatch.h>
@@ -43,14 +44,15 @@ float back_share(const transport::ProbeGBuffer& seen, std::size_t probe) {
 }
 
 /// One line, however many probes: "3 probes receive ...: "a", "b", "c"".
-void warn_of(const std::vector<std::string>& names, const char* problem, TransportBakeReport& report) {
+void warn_of(const std::vector<std::string>& names, std::string_view of_one, std::string_view of_several,
+             TransportBakeReport& report) {
   if (names.empty()) return;
   constexpr std::size_t most = 5;
   std::string list;
   for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
     list += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", names[i]);
-  report.warnings.push_back(
-      fmt::format("{} {}: {}{}", names.size(), problem, list, names.size() > most ? ", ..." : ""));
+  report.warnings.push_back(fmt::format("{}: {}{}", counted(names.size(), of_one, of_several), list,
+                                        names.size() > most ? ", ..." : ""));
 }
 
 void check_light(const transport::TransportNetwork& network, const probes::ProbeSet& set, bool converged,
@@ -64,8 +66,9 @@ void check_light(const transport::TransportNetwork& network, const probes::Probe
       dark.push_back(probe.name);
     }
   }
-  warn_of(inside, "probes seem to lie inside a body (most of what they see are back faces)", report);
-  warn_of(dark, "probes receive no light at all", report);
+  warn_of(inside, "probe seems to lie inside a body (most of what it sees are back faces)",
+          "probes seem to lie inside a body (most of what they see are back faces)", report);
+  warn_of(dark, "probe receives no light at all", "probes receive no light at all", report);
   constexpr double most_lost = 0.01;
   if (report.lost > most_lost) {
     report.warnings.push_back(fmt::format(

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <ssphh/core/error.h>
+#include <ssphh/majordomo/security.h>
 
 #include "socket.h"
 
@@ -15,6 +16,7 @@ constexpr std::size_t request_bytes = 8192, connections = 256;
 
 MetricsServer::MetricsServer(zmq::context_t& context, const std::string& bind)
     : socket_(context, zmq::socket_type::stream) {
+  require_port(bind, "--metrics");
   socket_.set(zmq::sockopt::linger, 0);
   try {
     socket_.bind(bind);

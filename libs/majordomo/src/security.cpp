@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <set>
 #include <sstream>
 
@@ -159,12 +160,26 @@ bool is_local_endpoint(std::string_view endpoint) {
   return std::ranges::all_of(host, [](char c) { return c == '.' || (c >= '0' && c <= '9'); });
 }
 
+void require_port(std::string_view endpoint, const std::string& option) {
+  const std::string_view port = endpoint.substr(endpoint.rfind(':') + 1);
+  if (!endpoint.starts_with("tcp://") || port.find_first_not_of("0123456789") != std::string_view::npos)
+    return;
+  unsigned number = 0;
+  const bool fits =
+      std::from_chars(port.data(), port.data() + port.size(), number).ec != std::errc::result_out_of_range;
+  if (!fits || number > 65535) {
+    throw Error(option + " " + std::string(endpoint), "has the port " + std::string(port),
+                "ports are 0 to 65535");
+  }
+}
+
 void require_keys(std::string_view endpoint, bool have_keys, const std::string& option) {
   const bool known =
       endpoint.starts_with("tcp://") || endpoint.starts_with("ipc://") || endpoint.starts_with("inproc://");
   if (!known)
     throw Error(option + " " + std::string(endpoint), "is no endpoint",
                 "write tcp://HOST:PORT or ipc://PATH");
+  require_port(endpoint, option);
   if (!have_keys && !is_local_endpoint(endpoint)) {
     throw Error(option + " " + std::string(endpoint), "leaves this machine, and there are no keys",
                 "make keys with `ssphh farm keygen` and give their folder with --keys");

@@ -198,6 +198,23 @@ TEST(Endpoints, AreOfThisMachineOrNeedKeys) {
     EXPECT_EQ(said("pgm://x", keys), "--to pgm://x: is no endpoint (write tcp://HOST:PORT or ipc://PATH)");
 }
 
+TEST(Endpoints, HavePortsThatThereAre) {
+  const auto said = [](const std::string& endpoint) {
+    return message_of([&] { require_keys(endpoint, true, "--to"); });
+  };
+  for (const char* good : {"tcp://127.0.0.1:0", "tcp://127.0.0.1:65535", "tcp://[::1]:1", "tcp://127.0.0.1:*",
+                           "ipc:///tmp/a:99999", "tcp://127.0.0.1:http"})
+    EXPECT_EQ(said(good), "no error");
+  for (const std::string bad : {"65536", "99999", "99999999999999999999999"}) {
+    for (const std::string host : {"127.0.0.1", "[::1]", "farm"})
+      EXPECT_EQ(said("tcp://" + host + ":" + bad),
+                "--to tcp://" + host + ":" + bad + ": has the port " + bad + " (ports are 0 to 65535)");
+  }
+  EXPECT_EQ(
+      message_of([] { Broker({.bind = "tcp://127.0.0.1:0", .metrics_bind = "tcp://127.0.0.1:65536"}); }),
+      "--metrics tcp://127.0.0.1:65536: has the port 65536 (ports are 0 to 65535)");
+}
+
 TEST(Endpoints, AndNamesOfPeersAreLookedAtFirst) {
   const std::string local = "tcp://127.0.0.1:1";
   const auto worker = [&](const std::string& name, const std::string& service, const std::string& endpoint) {

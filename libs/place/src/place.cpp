@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <ssphh/core/counted.h>
 #include <ssphh/place/place.h>
 #include <ssphh/place/sweep.h>
 #include <ssphh/probes/probe_limits.h>
@@ -46,8 +47,8 @@ void check(const PlaceParams& p) {
   }
   const auto manual = static_cast<int>(p.manual.size());
   if (p.count > 0 && p.count < manual) {
-    fail(fmt::format("{} probes were asked for, and the scene has {} SPHLs of its own, which are kept",
-                     p.count, manual),
+    fail(fmt::format("{}, and the scene has {} SPHLs of its own, which are kept",
+                     counted(p.count, "probe was asked for", "probes were asked for"), manual),
          "ask for more, or use --probes scene");
   }
   for (const scene::ProbePlace& place : p.manual) {

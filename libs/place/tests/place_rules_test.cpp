@@ -141,7 +141,7 @@ TEST(PlaceRules, LimitsAreNamedWithWhatWasGiven) {
                 p.manual = {{"one", vec3(1), 0.1f}, {"two", vec3(1.5f), 0.1f}};
                 p.count = 1;
               }),
-              HasSubstr("1 probes were asked for, and the scene has 2 SPHLs"));
+              HasSubstr("1 probe was asked for, and the scene has 2 SPHLs"));
   EXPECT_EQ(said([](PlaceParams& p) {
               p.manual = {{"one", vec3(1), 0.1f}, {"two", vec3(1.5f), 0.1f}};
               p.count = 2;

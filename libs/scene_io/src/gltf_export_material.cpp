@@ -1,6 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include <fmt/format.h>
+
+#include <ssphh/core/error.h>
 #include <ssphh/image/io.h>
 
 #include "gltf_export_parts.h"
@@ -92,7 +96,32 @@ void export_glass(GltfExport& out, const Material& m, json::Value& material) {
   if (!volume.is_null()) add_extension(out, material, "KHR_materials_volume", std::move(volume));
 }
 
+/// What validate() would clamp is no material: a file of it would be read as another one.
+void check_range(const Material& m) {
+  const auto within = [&](const char* what, std::span<const float> values, float low, float high) {
+    for (const float value : values) {
+      if (value >= low && value <= high) continue;
+      throw Error(fmt::format("material \"{}\"", m.name),
+                  fmt::format("its {} is {:g}, not from {:g} {}", what, value, low,
+                              std::isinf(high) ? "on" : fmt::format("to {:g}", high)));
+    }
+  };
+  const auto color = [](const vec3& v) { return std::span<const float>(&v.x, 3); };
+  const auto one = [](const float& v) { return std::span<const float>(&v, 1); };
+  within("base colour", color(m.base_color), 0, 1);
+  within("attenuation colour", color(m.attenuation_color), 0, 1);
+  within("emission", color(m.emission), 0, HUGE_VALF);
+  within("alpha", one(m.alpha), 0, 1);
+  within("metallic", one(m.metallic), 0, 1);
+  within("diffuse roughness", one(m.diffuse_roughness), -1, 1);
+  within("specular roughness", one(m.specular_roughness), -1, 1);
+  within("specular", one(m.specular), 0, 1);
+  within("transmission", one(m.transmission), 0, 1);
+  within("thickness", one(m.thickness), 0, HUGE_VALF);
+}
+
 json::Value export_material(GltfExport& out, const Material& m) {
+  check_range(m);
   json::Value material;
   if (!m.name.empty()) material["name"] = m.name;
   const vec4 color(m.base_color, m.alpha);

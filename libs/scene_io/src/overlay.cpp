@@ -153,6 +153,11 @@ void read_sphl(Scene& scene, const json::Cursor& entry, std::size_t number,
   scene.sphls.push_back(std::move(sphl));
 }
 
+vec3 color_up_to(const json::Cursor& member, double most) {
+  member.size(3, 3);
+  return {member[0].number(0, most), member[1].number(0, most), member[2].number(0, most)};
+}
+
 void override_material(Scene& scene, const json::Cursor& entry, std::size_t) {
   entry.only({"name", "base_color", "alpha", "metallic", "diffuse_roughness", "specular_roughness",
               "specular", "ior", "transmission", "thickness", "attenuation_color", "attenuation_distance",
@@ -165,8 +170,8 @@ void override_material(Scene& scene, const json::Cursor& entry, std::size_t) {
     const auto number = [&](const char* key, float low, float high, float& value) {
       if (const auto member = entry.find(key)) value = member->number(low, high);
     };
-    if (const auto color = entry.find("base_color")) m.base_color = color->vector3();
-    if (const auto emission = entry.find("emission")) m.emission = emission->vector3();
+    if (const auto color = entry.find("base_color")) m.base_color = color_up_to(*color, 1);
+    if (const auto emission = entry.find("emission")) m.emission = color_up_to(*emission, HUGE_VAL);
     number("alpha", 0, 1, m.alpha);
     number("metallic", 0, 1, m.metallic);
     number("diffuse_roughness", -1, 1, m.diffuse_roughness);
@@ -175,7 +180,7 @@ void override_material(Scene& scene, const json::Cursor& entry, std::size_t) {
     number("ior", 1, HUGE_VALF, m.ior);
     number("transmission", 0, 1, m.transmission);
     number("thickness", 0, HUGE_VALF, m.thickness);
-    if (const auto color = entry.find("attenuation_color")) m.attenuation_color = color->vector3();
+    if (const auto color = entry.find("attenuation_color")) m.attenuation_color = color_up_to(*color, 1);
     if (const auto distance = entry.find("attenuation_distance"))
       m.attenuation_distance = positive(*distance);
     m.double_sided = entry.boolean_or("double_sided", m.double_sided);

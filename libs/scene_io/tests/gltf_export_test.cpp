@@ -1,4 +1,5 @@
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <ostream>
 
@@ -13,6 +14,7 @@
 #include <ssphh/scene_io/gltf.h>
 #include <ssphh/scene_io/gltf_export.h>
 
+#include "error_message.h"
 #include "json_text.h"
 #include "temp_dir.h"
 
@@ -255,6 +257,30 @@ TEST(GltfExport, NumbersThatAreNotFiniteAreAnError) {
   Scene scene = full_scene();
   scene.lights[0].intensity = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THROW(export_glb(scene), Error);
+}
+
+TEST(GltfExport, MaterialsThatNothingCanBeAreAnError) {
+  const auto said = [](const std::function<void(scene::Material&)>& change) {
+    Scene scene;
+    scene.materials.resize(2);
+    scene.materials[1].name = "clay";
+    change(scene.materials[1]);
+    return test::message_of([&] { export_glb(scene); });
+  };
+  EXPECT_EQ(said([](auto&) {}), "no error");
+  EXPECT_EQ(said([](auto& m) { m.base_color = vec3(0, 1, 0), m.alpha = 0, m.diffuse_roughness = -1; }),
+            "no error");
+  EXPECT_EQ(said([](auto& m) { m.base_color = vec3(1, -1, 1); }),
+            "material \"clay\": its base colour is -1, not from 0 to 1");
+  EXPECT_EQ(said([](auto& m) { m.base_color = vec3(1, 1, 1.5f); }),
+            "material \"clay\": its base colour is 1.5, not from 0 to 1");
+  EXPECT_EQ(said([](auto& m) { m.emission = vec3(0, 0, -2); }),
+            "material \"clay\": its emission is -2, not from 0 on");
+  for (const auto member : {&scene::Material::alpha, &scene::Material::metallic, &scene::Material::specular,
+                            &scene::Material::transmission, &scene::Material::specular_roughness}) {
+    for (const float wrong : {-1.5f, 2.0f})
+      EXPECT_TRUE(said([&](auto& m) { m.*member = wrong; }).starts_with("material \"clay\": its ")) << wrong;
+  }
 }
 
 TEST(GltfExport, NamesThatAreNotUtf8DoNotStopIt) {

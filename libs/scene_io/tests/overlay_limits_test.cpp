@@ -31,6 +31,17 @@ struct Member {
   }
 };
 
+TEST(OverlayLimits, OfColours) {
+  const std::string clay = R"({"materials": [{"name": "clay", )";
+  for (const std::string name : {"base_color", "attenuation_color"}) {
+    const std::string place = "materials[0]." + name;
+    Member{clay + '"' + name + R"(": [0.5, )", ", 1]}]}"}.expect_range(place + "[1]", "0", "1", "-1", "1.5");
+  }
+  const Member emission{clay + R"("emission": [1, 1, )", "]}]}"};
+  for (const char* good : {"0", "1e6"}) EXPECT_EQ(emission.said(good), "no error");
+  EXPECT_TRUE(emission.said("-1").starts_with("o: materials[0].emission[2]: -1 must be"));
+}
+
 TEST(OverlayLimits, OfCameras) {
   const std::string camera = R"({"cameras": [{)";
   Member{camera + R"("yfov_degrees": )"}.expect_range("cameras[0].yfov_degrees", "0.01", "179", "0.005",

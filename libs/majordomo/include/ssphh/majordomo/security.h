@@ -69,7 +69,11 @@ BrokerSecurity read_broker_security(const std::filesystem::path& dir);
 
 /// Whether no other machine can reach the endpoint: ipc, inproc, or tcp on 127.0.0.0/8, ::1 or "localhost".
 bool is_local_endpoint(std::string_view endpoint);
-/// Throws Error when the endpoint is not local and there are no keys; `option` names what the user typed.
+/// Throws Error when the endpoint is of tcp and its port a number over 65535, of which ZeroMQ keeps the lower
+/// 16 bits; `option` names what the user typed.
+void require_port(std::string_view endpoint, const std::string& option);
+/// Throws Error when the endpoint is none, has no such port, or is not local and there are no keys; `option`
+/// names what the user typed.
 void require_keys(std::string_view endpoint, bool have_keys, const std::string& option);
 
 }  // namespace ssphh::majordomo
