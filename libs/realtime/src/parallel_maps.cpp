@@ -14,8 +14,8 @@
 namespace ssphh::realtime {
 namespace {
 
-/// Depths at which all cascades but the last end, which holds the whole scene: all but one in equal ratios up to
-/// where most of the picture stands, one halfway to the farthest that is seen.
+/// Depths at which all cascades but the last end, which holds the whole scene: all but one in equal ratios up
+/// to where most of the picture stands, one halfway to the farthest that is seen.
 std::array<float, Lights::sun_cascades - 1> cascade_ends(const DepthSpread& seen, float whole) {
   constexpr int fine = Lights::sun_cascades - 2;
   constexpr float least_spread = 4;  // nothing is gained by maps that hardly differ

@@ -14,7 +14,8 @@ float in_steps(float depth, float (*round)(float)) {
 
 }  // namespace
 
-ViewDepths::ViewDepths() : some_(gl::Format::r32f, width, height), target_(std::array<const gl::Texture*, 1>{&some_}, nullptr) {}
+ViewDepths::ViewDepths()
+    : some_(gl::Format::r32f, width, height), target_(std::array<const gl::Texture*, 1>{&some_}, nullptr) {}
 
 DepthSpread ViewDepths::measure(Shaders& shaders, const gl::VertexArray& no_vertices) {
   gl::bind_framebuffer(target_.id(), {0, 0, width, height});

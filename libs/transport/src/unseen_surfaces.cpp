@@ -29,8 +29,8 @@ std::vector<rays::PartPoint> spread_over(const rays::TransportSource& source, fl
   return points;
 }
 
-/// Whether half of what the point sees, or more, is the back of surfaces: where bodies touch, one shows its front
-/// within the other.
+/// Whether half of what the point sees, or more, is the back of surfaces: where bodies touch, one shows its
+/// front within the other.
 bool is_inside(const rays::TransportSource& source, const rays::SurfacePoint& point, float lift) {
   constexpr std::uint32_t count = 8;
   const Frame frame = Frame::around(point.normal);
