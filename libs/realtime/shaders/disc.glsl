@@ -31,6 +31,7 @@ struct Receiver {
 struct Spot {
   vec4 map;
   vec2 texel;    // of the receiver, in the tile
+  vec2 aside;    // by which it is lifted, in texels
   float here;    // depth of it
   float below;   // its plane, away from the light [m]
   float width;   // of a texel [m]
@@ -50,7 +51,8 @@ Spot spot_of(int first, Receiver r, float radius) {
   s.width = 2 / (inner * map.z);
   s.margin = shadow_margin(r.facing, s.width, r.range);
   float lift = grazing_lift(r.facing, s.width);
-  s.texel = 0.5 * (r.place + lift * r.across - map.xy) * map.z * inner + 0.5 * float(frame.maps.w);
+  s.aside = lift / s.width * r.across;
+  s.texel = 0.5 * (r.place - map.xy) * map.z * inner + 0.5 * float(frame.maps.w) + s.aside;
   s.here = r.here + lift * r.facing / r.range;
   s.below = lift / r.facing;
   return s;
@@ -59,9 +61,12 @@ Spot spot_of(int first, Receiver r, float radius) {
 // Share of the four texels around the place `off` texels from the receiver that nothing stands before by more
 // than `height` metres.
 float lit_at(Receiver r, Spot s, vec2 off, float height) {
-  return compare_tile(parallel_maps, frame.maps.w, frame.map_tiles.w, int(s.map.w), s.texel + off,
-                      s.here + height / r.range, s.here + (height - s.below) / r.range, r.slope * (s.width / r.range),
-                      s.margin / r.range);
+  vec2 slope = r.slope * (s.width / r.range);
+  float margin = s.margin / r.range, own = r.here + height / r.range;
+  return min(compare_tile(parallel_maps, frame.maps.w, frame.map_tiles.w, int(s.map.w), s.texel + off,
+                          s.here + height / r.range, s.here + (height - s.below) / r.range, slope, margin),
+             compare_tile(parallel_maps, frame.maps.w, frame.map_tiles.w, int(s.map.w), s.texel - s.aside + off, own, own,
+                          slope, margin));
 }
 
 // Greatest and least depth in a square of 2^level texels.

@@ -59,7 +59,8 @@ vec2 place_on(SunMap map, vec3 x) {
 }
 
 // Texels by which a receiver is lifted along its normal where light grazes it: the plane of a wall that the light
-// runs along rises within a texel by more than what stands before it, so nothing in the wall's own texels tells.
+// runs along rises within a texel by more than what stands before it, so nothing in the wall's own texels tells. Only
+// what is lit both so and where it stands is lit: a lifted place may reach out of an edge's shadow.
 const float GRAZING_LIFT = 1.5;
 float grazing_lift(float facing, float texel) { return GRAZING_LIFT * texel * (1 - facing) * (1 - facing); }
 // What may stand before a receiver and not block [m]: round things that it touches rise within a texel, too, and depths
@@ -70,16 +71,18 @@ float parallel_visibility(SunMap map, vec3 x, vec3 n) {
   float inner = float(frame.maps.w) - 2;
   float width = 2 / (inner * map.right.w), facing = max(-dot(n, map.forward.xyz), 1e-3);
   float lift = grazing_lift(facing, width);
-  vec3 lifted = x + lift * n;
-  vec2 across = place_on(map, lifted);
+  vec2 across = place_on(map, x);
   if (any(greaterThan(abs(across), vec2(1)))) return 1;
-  float here = 1 - dot(lifted - map.origin.xyz, map.forward.xyz) * map.origin.w;
+  float here = 1 - dot(x - map.origin.xyz, map.forward.xyz) * map.origin.w;
   // dz along the map's axes on the receiver's plane, in metres, then in depth per texel
   vec2 slope = -vec2(dot(n, map.right.xyz), dot(n, map.up.xyz)) / facing * (width * map.origin.w);
-  float plane = here - lift / facing * map.origin.w;
   vec2 texel = 0.5 * across * inner + 0.5 * float(frame.maps.w);
+  vec2 aside = lift / width * vec2(dot(n, map.right.xyz), dot(n, map.up.xyz));
+  float above = here + lift * facing * map.origin.w, plane = above - lift / facing * map.origin.w;
   float margin = shadow_margin(facing, width, 1 / map.origin.w) * map.origin.w;
-  return compare_tile(parallel_maps, frame.maps.w, frame.map_tiles.w, int(map.forward.w), texel, here, plane, slope, margin);
+  int tile = int(map.forward.w);
+  return min(compare_tile(parallel_maps, frame.maps.w, frame.map_tiles.w, tile, texel, here, here, slope, margin),
+             compare_tile(parallel_maps, frame.maps.w, frame.map_tiles.w, tile, texel + aside, above, plane, slope, margin));
 }
 
 // What glass leaves of light on its way to x.
