@@ -8,6 +8,7 @@
 #include <ssphh/core/file.h>
 #include <ssphh/core/json_cursor.h>
 #include <ssphh/image/io.h>
+#include <ssphh/scene/query.h>
 #include <ssphh/scene/sun_sky.h>
 #include <ssphh/scene/with_lighting.h>
 #include <ssphh/scene_io/overlay.h>
