@@ -229,6 +229,36 @@ TEST(RecordPlaces, AreAllDifferentAndTheSameEachTime) {
   EXPECT_EQ(std::ranges::adjacent_find(places), places.end());
 }
 
+TEST(RecordPlaces, AreNotWithinARoofThatRestsOnWalls) {
+  // From within the roof the tops of the walls show their fronts.
+  scene::Scene scene;
+  add_body(scene, "ground", scene::make_quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), vec3(0.5f));
+  const auto box = [&](const char* name, const vec3& low, const vec3& high, const vec3& glow = vec3(0)) {
+    add_body(scene, name, scene::make_box(low, high), vec3(0.6f), glow);
+  };
+  box("left", {-2, 0, -2}, {-1.5f, 2, 2});
+  box("right", {1.5f, 0, -2}, {2, 2, 2});
+  box("back", {-1.5f, 0, -2}, {1.5f, 2, -1.5f});
+  box("front", {-1.5f, 0, 1.5f}, {1.5f, 2, 2});
+  box("roof", {-2, 2, -2}, {2, 2.3f, 2});
+  box("lamp", {-0.2f, 1.5f, -0.2f}, {0.2f, 1.6f, 0.2f}, vec3(3));
+  add_sphl(scene, "inside", {0.5f, 0.8f, 0.4f});
+  add_sphl(scene, "outside", {3, 1, 3});
+  scene::validate(scene);
+  const SolvedScene house(std::move(scene), 0.25f);
+  const auto records = gather_where_needed(
+      house.network(), {.points = 4000, .rays = 16, .baked = {0}}, std::array{0.0f}, [&](float) {
+        return transport::PosedIrradiance{{}, house.lit, house.reflected};
+      });
+  int on_roof = 0;
+  for (const rays::SurfacePoint& p : records->points()) {
+    const bool top = std::abs(p.position.y - 2.3f) < 1e-3f;
+    on_roof += top && p.normal.y > 0;
+    EXPECT_FALSE(top && p.normal.y < 0) << p.position.x << " " << p.position.z;
+  }
+  EXPECT_GT(on_roof, 30) << "where no SPHL looks";
+}
+
 TEST(RecordPlaces, HaveAnOpennessOfTheHarmonicMeanDistance) {
   // Against as many other cosine rays as bring the mean of 1/d to 1 %.
   const SolvedScene room(coloured_room({3, 2.5f, 2}));

@@ -29,9 +29,11 @@ std::vector<rays::PartPoint> spread_over(const rays::TransportSource& source, fl
   return points;
 }
 
-/// Whether half of what the point sees, or more, is the back of surfaces: where bodies touch, one shows its
-/// front within the other.
-bool is_inside(const rays::TransportSource& source, const rays::SurfacePoint& point, float lift) {
+/// Whether half of what the point sees is the back of surfaces; or some of it, and nothing is known to be
+/// outside: where bodies touch, one shows its front within the other.
+template <class Known>
+bool is_inside(const rays::TransportSource& source, const rays::SurfacePoint& point, float lift,
+               const Known& known) {
   constexpr std::uint32_t count = 8;
   const Frame frame = Frame::around(point.normal);
   std::vector<rays::RayQuery> rays;
@@ -41,7 +43,15 @@ bool is_inside(const rays::TransportSource& source, const rays::SurfacePoint& po
                                                               static_cast<float>(i * 3 % count) / count)))});
   std::vector<rays::RayHit> hits(count);
   source.intersect(0, rays, hits);
-  return 2 * std::ranges::count_if(hits, [](const rays::RayHit& hit) { return hit.back; }) >= count;
+  const auto backs = std::ranges::count_if(hits, [](const rays::RayHit& hit) { return hit.back; });
+  if (backs == 0) return false;
+  if (2 * backs >= count) return true;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const rays::RayHit& hit = hits[i];
+    if (hit.escaped()) return false;
+    if (!hit.back && known({rays[i].origin + hit.distance * rays[i].direction, hit.normal})) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -64,7 +74,9 @@ std::vector<rays::SurfacePoint> unseen_surfaces(const TransportNetwork& network,
   }
   std::vector<std::uint8_t> inside(points.size());
   const float lift = link_lift * surfels.size();
-  parallel_for(points.size(), 256, [&](std::size_t i) { inside[i] = is_inside(source, points[i], lift); });
+  const auto known = [&](const rays::SurfacePoint& point) { return taken.contains(voxel(point)); };
+  parallel_for(points.size(), 256,
+               [&](std::size_t i) { inside[i] = is_inside(source, points[i], lift, known); });
   std::vector<rays::SurfacePoint> unseen;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!inside[i] && taken.insert(voxel(points[i])).second) unseen.push_back(points[i]);
