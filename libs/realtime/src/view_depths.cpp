@@ -26,7 +26,7 @@ DepthSpread ViewDepths::measure(Shaders& shaders, const gl::VertexArray& no_vert
   no_vertices.bind();
   gl::draw_triangles(3);
   some_.read(depths_, 1);
-  const auto seen = std::ranges::remove(depths_, 0.0f).begin();
+  const auto seen = std::remove(depths_.begin(), depths_.end(), 0.0f);
   const auto count = seen - depths_.begin();
   if (count == 0) return {};
   const auto share = [&](std::ptrdiff_t part, std::ptrdiff_t of) {
