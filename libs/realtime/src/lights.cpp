@@ -310,15 +310,6 @@ void Lights::set_colors() {
   }
 }
 
-bool Lights::is_sun(const Source& source) const {
-  return source.light >= 0 &&
-         lights_[static_cast<std::size_t>(source.light)].type == scene::LightType::directional;
-}
-
-bool Lights::any_sun() const {
-  return std::ranges::any_of(sources_, [&](const Source& s) { return is_sun(s) && s.lights(); });
-}
-
 void Lights::prepare(const scene::CameraPose& camera, float aspect, const DepthSpread& seen,
                      const scene::Bounds& bounds, FrameCounters& counters) {
   for (const Source& source : sources_) {

@@ -32,6 +32,15 @@ std::array<float, Lights::sun_cascades - 1> cascade_ends(const DepthSpread& seen
 
 }  // namespace
 
+bool Lights::is_sun(const Source& source) const {
+  return source.light >= 0 &&
+         lights_[static_cast<std::size_t>(source.light)].type == scene::LightType::directional;
+}
+
+bool Lights::any_sun() const {
+  return std::ranges::any_of(sources_, [&](const Source& s) { return is_sun(s) && s.lights(); });
+}
+
 int Lights::most_sun_parts(const scene::Scene& scene, const RendererParams& params) {
   int suns = 0, discs = 0;
   for (const scene::Light& light : scene.lights) {
