@@ -1,10 +1,14 @@
 #pragma once
 /// An App that draws, in a context without a window.
 
+#include <chrono>
 #include <optional>
+#include <string>
+#include <thread>
 
 #include "app_stage.h"
 #include "gl_context.h"
+#include "script_player.h"
 
 namespace ssphh::viewer {
 
@@ -28,6 +32,26 @@ class GlStage : public AppStage {
   virtual void prepare() = 0;
   /// After it has.
   virtual void ready() = 0;
+
+  /// Turns until `done`, however slow the machine is; a minute is too long.
+  template <class Done, class Turn>
+  bool turn_until(const Done& done, const Turn& one) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!done()) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      window_->clock += 0.05;
+      one();
+      if (app().job.running() || app().reference.status().running)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return true;
+  }
+  /// The script, until all that it asked for has settled.
+  void play(const std::string& text) {
+    ScriptPlayer player(parse_script(text + "\nsettle", "script"));
+    turn_until([&] { return player.done(); }, [&] { app().turn(player.next(app())); });
+    EXPECT_TRUE(player.done()) << text;
+  }
 
  private:
   std::optional<gl::Context> context_;

@@ -1,12 +1,8 @@
 // Lamps that come and go light the picture, its shadows, its probes and the path-traced preview.
 
-#include <chrono>
-#include <thread>
-
 #include <gmock/gmock.h>
 
 #include "gl_stage.h"
-#include "script_player.h"
 
 namespace ssphh::viewer {
 namespace {
@@ -20,15 +16,7 @@ class LampLight : public GlStage {
   void ready() override { window_->tick = 1.0 / 1024; }
 
   void play(const std::string& text) {
-    ScriptPlayer player(parse_script(text + "\nsettle", "script"));
-    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-    while (!player.done() && std::chrono::steady_clock::now() < end) {
-      window_->clock += 0.05;
-      app().turn(player.next(app()));
-      if (app().job.running() || app().reference.status().running)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    EXPECT_TRUE(player.done()) << text;
+    GlStage::play(text);
     EXPECT_FALSE(app().message_is_error) << app().message;
   }
   double brightness() {

@@ -3,8 +3,6 @@
 #include "picture.h"
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
 
 #include <gmock/gmock.h>
 
@@ -13,7 +11,6 @@
 
 #include "drawn.h"
 #include "gl_stage.h"
-#include "script_player.h"
 
 namespace ssphh::viewer {
 namespace {
@@ -75,29 +72,11 @@ class PictureTest : public GlStage {
   }
   void ready() override { window_->tick = 1.0 / 1024; }
 
-  /// Turns until `done`, however slow the machine is; a minute is too long.
-  template <class Done, class Turn>
-  bool turn_until(const Done& done, const Turn& one) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-    while (!done()) {
-      if (std::chrono::steady_clock::now() > end) return false;
-      window_->clock += 0.05;
-      one();
-      if (app().job.running() || app().reference.status().running)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return true;
-  }
   void settle() {
     turn();
     const auto done = [&] { return app().settled() || app().message_is_error; };
     ASSERT_TRUE(turn_until(done, [&] { turn(); })) << "does not settle";
     if (app().message_is_error) FAIL() << app().message;
-  }
-  void play(const std::string& text) {
-    ScriptPlayer player(parse_script(text + "\nsettle", "script"));
-    turn_until([&] { return player.done(); }, [&] { app().turn(player.next(app())); });
-    EXPECT_TRUE(player.done()) << text;
   }
   std::vector<std::uint8_t> shot(const std::string& script = "") {
     play(script);

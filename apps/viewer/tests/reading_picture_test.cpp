@@ -1,16 +1,12 @@
 // Histogram and false colours as a user sees them: over the real-time and the traced picture, by keys, kept
 // for the next session.
 
-#include <chrono>
-#include <thread>
-
 #include <gmock/gmock.h>
 
 #include <ssphh/core/file.h>
 
 #include "gl_stage.h"
 #include "panel_stage.h"
-#include "script_player.h"
 
 namespace ssphh::viewer {
 namespace {
@@ -22,16 +18,6 @@ class ReadPicture : public GlStage {
     options_.settings = {{"exposure", "0"}, {"truth-spp", "4"}};
   }
   void ready() override { window_->tick = 1.0 / 1024; }
-  void play(const std::string& text) {
-    ScriptPlayer player(parse_script(text + "\nsettle", "script"));
-    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-    while (!player.done() && std::chrono::steady_clock::now() < end) {
-      window_->clock += 0.05;
-      app().turn(player.next(app()));
-      if (app().reference.status().running) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    EXPECT_TRUE(player.done()) << text;
-  }
   image::Rgba8 shot() {
     app().screenshot("shot.png", false);
     return image::decode_rgba8(read_file("shot.png"), "shot.png");
