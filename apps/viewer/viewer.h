@@ -1,6 +1,7 @@
 #pragma once
 /// The viewer: a scene lit by probes in a window, lamps and doors moving (docs/viewer.md).
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -46,8 +47,9 @@ struct ViewerReport {
   int frames = 0;
   std::string renderer;  ///< OpenGL's name of it
   int probes = 0;
-  double median_ms = 0, p99_ms = 0;  ///< of a drawn frame
-  std::vector<std::string> written;  ///< files
+  double median_ms = 0, p99_ms = 0;   ///< of a drawn frame
+  std::uint64_t geometry_builds = 0;  ///< acceleration structures that were built, one for each opened scene
+  std::vector<std::string> written;   ///< files
 };
 
 /// Opens the window and returns when it is closed or all that the options ask for is done. Throws Error when
