@@ -55,18 +55,18 @@ viewer::ViewerReport run_view(const ViewOptions& o, const Control& control) {
   parse_size(o.size, v.width, v.height);
   v.preferences = user_folder("XDG_CONFIG_HOME", ".config") / "preferences.json";
   v.autosave = user_folder("XDG_STATE_HOME", ".local/state") / "autosave";
-  v.load = [&o](const std::string& source) {
+  for (std::size_t i = 0; i < o.values.size(); ++i) {
+    if (!o.values[i].empty()) v.settings.emplace_back(viewer::setting_names()[i].name, o.values[i]);
+  }
+  const auto load = [&o](const std::string& source) {
     SceneOptions scene = o.scene;
     // The overlay was named for the first scene; one that is dropped later has its own.
     if (source != o.scene.source) scene.overlay.clear();
     scene.source = source;
     return load_lit_scene(scene);
   };
-  for (std::size_t i = 0; i < o.values.size(); ++i) {
-    if (!o.values[i].empty()) v.settings.emplace_back(viewer::setting_names()[i].name, o.values[i]);
-  }
   const GeometryBuilds builds;
-  viewer::ViewerReport report = viewer::run_viewer(v, control);
+  viewer::ViewerReport report = viewer::run_viewer(v, load, control);
   report.geometry_builds = builds.count();
   return report;
 }
