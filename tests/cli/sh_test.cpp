@@ -183,7 +183,7 @@ TEST_F(ShTool, ConvertGoesToAConventionAndBack) {
   for (std::size_t k = 0; k < 9; ++k)
     EXPECT_NEAR(test::float_of(back["coefficients"][k][1]), light_.values[k].y, 1e-6f);
   EXPECT_THAT(problem_here({"sh", "convert", dir_ / "u.json", "--to", "three"}),
-              AllOf(HasSubstr("is in convention \"unity\", not \"ssphh\""), HasSubstr("--from CONVENTION")));
+              AllOf(HasSubstr("convention: is \"unity\", not \"ssphh\""), HasSubstr("--from CONVENTION")));
   EXPECT_THAT(problem_here(sh("convert", {"--to", "maya"})),
               HasSubstr("--to: no convention is called \"maya\""));
   EXPECT_THAT(problem_here(sh("convert", {"--from", "maya", "--to", "three"})),
